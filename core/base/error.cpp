@@ -1,0 +1,13 @@
+#include "core/base/error.hpp"
+
+#include <utility>
+
+namespace flankwright {
+
+InvalidInput::InvalidInput(std::string field, std::string value, std::string allowed)
+    : std::runtime_error(field + " = " + value + ": allowed is " + allowed),
+      field_(std::move(field)),
+      value_(std::move(value)),
+      allowed_(std::move(allowed)) {}
+
+}  // namespace flankwright

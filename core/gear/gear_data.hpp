@@ -1,0 +1,57 @@
+#pragma once
+
+#include <limits>
+
+#include "core/base/units.hpp"
+
+namespace flankwright {
+
+/// Not given by the user: the geometry derives it.
+inline constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
+/// Hand of helix. A right-hand helix turns counter-clockwise with growing z.
+enum class Hand { Right, Left };
+
+/// Index of a gear in a pair: 1 is the pinion, 2 the wheel.
+enum class Member { Pinion, Wheel };
+
+/// Flank of the pinion that carries load: right is the drive side, left the coast side.
+enum class WorkingFlank { Right, Left };
+
+/// Basic rack in normal modules [ISO 53]; defaults are Haddad's BS 436 rack.
+struct RackProfile {
+  double addendum{1.0};      ///< h_aP/m_n of the gear, > 0
+  double dedendum{1.25};     ///< h_fP/m_n of the gear, > 0
+  double root_radius{0.39};  ///< rho_fP/m_n, >= 0 and at most the full tip rounding of the tool
+};
+
+/// What defines one gear of a pair beside the common rack angles.
+struct GearData {
+  int teeth{0};                     ///< z, >= 5
+  double face_width{0.0};           ///< b [mm], > 0
+  double profile_shift{0.0};        ///< x, coefficient of the normal module [-]
+  double tip_diameter{not_given};   ///< d_a [mm]; not given: from rack and profile shift
+  RackProfile rack;
+};
+
+/// What defines an external parallel-axis involute pair [ISO 21771].
+struct PairData {
+  double normal_module{0.0};                  ///< m_n [mm], > 0
+  double pressure_angle{20 * units::deg};     ///< alpha_n, normal section [rad], 10 .. 35 deg
+  double helix_angle{0.0};                    ///< |beta| at the reference cylinder [rad], 0 .. 45 deg
+  double centre_distance{not_given};          ///< a [mm]; not given: free of backlash
+  Hand pinion_hand{Hand::Right};              ///< of the pinion, the wheel's is the opposite
+  Member driver{Member::Pinion};              ///< which gear drives
+  WorkingFlank working_flank{WorkingFlank::Right};
+  GearData pinion, wheel;
+
+  const GearData& operator[](Member m) const { return m == Member::Pinion ? pinion : wheel; }
+};
+
+/// Linear elastic material of one gear.
+struct Material {
+  double youngs_modulus{206000.0};  ///< E [MPa], > 0
+  double poissons_ratio{0.3};       ///< nu, 0 <= nu < 0.5
+};
+
+}  // namespace flankwright

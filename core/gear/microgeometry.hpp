@@ -1,0 +1,98 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "core/gear/gear_data.hpp"
+
+namespace flankwright {
+
+/// Shape of a tip or root relief between its start and the tip (or start of active profile).
+enum class ReliefShape { Linear, Parabolic };
+
+/// Relief measured radially from the tip downwards (tip) or from the start of active profile upwards (root).
+struct ProfileRelief {
+  double amount{0.0};   ///< material removed at the tip / at the start of active profile [mm]
+  double height{0.0};   ///< radial extent [mm], > 0 where amount != 0
+  ReliefShape shape{ReliefShape::Linear};
+};
+
+/// Relief from each face end inwards, linear.
+struct EndRelief {
+  double amount{0.0};  ///< material removed at the face ends [mm]
+  double length{0.0};  ///< axial extent from each end [mm], > 0 where amount != 0
+};
+
+/// Flank modification as a designer states it: material removed (positive into the tooth), measured in the
+/// transverse plane along the base tangent [ISO 21771; ISO 1328-1]. All amounts in mm.
+struct Modification {
+  double lead_crowning{0.0};      ///< C_beta, removed at both face ends, parabola over z
+  double lead_slope{0.0};         ///< C_Hbeta over the face width; + removes at z = +b/2, zero at mid face
+  double addendum_crowning{0.0};  ///< removed at the tip, parabola in radius from the pitch point up
+  double dedendum_crowning{0.0};  ///< removed at the start of active profile, parabola from the pitch point down
+  double profile_slope{0.0};      ///< C_Halpha over the active profile height; + removes at the tip, zero at the pitch point
+  ProfileRelief tip_relief;
+  ProfileRelief root_relief;
+  EndRelief end_relief;
+  double twist{0.0};              ///< removed: twist * (y / h_active) * (z / b); + removes at the tip at z = +b/2
+};
+
+/// The numbers of a Modification that a designer may vary, in the order of modification_parameters.
+enum class ModificationParameter {
+  LeadCrowning, LeadSlope, ProfileCrowning, AddendumCrowning, DedendumCrowning, ProfileSlope,
+  TipReliefAmount, TipReliefHeight, RootReliefAmount, RootReliefHeight,
+  EndReliefAmount, EndReliefLength, Twist
+};
+
+/// A parameter and the name it carries in a study file below [pinion.modification].
+struct NamedModificationParameter {
+  ModificationParameter parameter;
+  std::string_view name;
+};
+
+/// All of them. ProfileCrowning is the common value of addendum and dedendum crowning.
+inline constexpr std::array<NamedModificationParameter, 13> modification_parameters{{
+    {ModificationParameter::LeadCrowning, "lead_crowning"},
+    {ModificationParameter::LeadSlope, "lead_slope"},
+    {ModificationParameter::ProfileCrowning, "profile_crowning"},
+    {ModificationParameter::AddendumCrowning, "addendum_crowning"},
+    {ModificationParameter::DedendumCrowning, "dedendum_crowning"},
+    {ModificationParameter::ProfileSlope, "profile_slope"},
+    {ModificationParameter::TipReliefAmount, "tip_relief.amount"},
+    {ModificationParameter::TipReliefHeight, "tip_relief.height"},
+    {ModificationParameter::RootReliefAmount, "root_relief.amount"},
+    {ModificationParameter::RootReliefHeight, "root_relief.height"},
+    {ModificationParameter::EndReliefAmount, "end_relief.amount"},
+    {ModificationParameter::EndReliefLength, "end_relief.length"},
+    {ModificationParameter::Twist, "twist"},
+}};
+
+/// Value of one parameter [mm]. ProfileCrowning reads the mean of addendum and dedendum crowning.
+double get(const Modification& modification, ModificationParameter parameter);
+
+/// Sets one parameter [mm]. ProfileCrowning sets both halves.
+void set(Modification& modification, ModificationParameter parameter, double value);
+
+/// Manufacturing error of one gear [Haddad 1991, eq. 6.1]: metal *added* is positive, in the transverse plane
+/// along the base tangent, mm. Never to be mixed with Modification.
+struct ManufacturingError {
+  double helix_slope{0.0};    ///< f_Hbeta over the face width, linear, zero at mid face; + adds at z = +b/2
+  double profile_slope{0.0};  ///< f_Halpha over the active profile height, zero at the reference circle; + adds at the tip
+  double twist{0.0};          ///< f_yz: added twist * (y / h_active) * (z / b)
+  /// Cumulative pitch deviation of tooth k is pitch_step * k, or cumulative_pitch[k mod size] where the list is
+  /// not empty; k counts teeth in the order in which they come into mesh before the reference tooth.
+  double pitch_step{0.0};
+  std::vector<double> cumulative_pitch;
+};
+
+/// Radii a removal is measured against; see profile_frame() for a gear of a pair.
+struct FlankFrame {
+  double pitch_radius{not_given};       ///< working pitch radius r_w [mm]: origin of crowning and profile slope
+  double reference_radius{not_given};   ///< reference radius r [mm]: origin of error profile slope
+  double tip_radius{not_given};         ///< r_a [mm]
+  double active_root_radius{not_given}; ///< radius at the start of active profile [mm]
+  double face_width{not_given};         ///< b [mm]
+};
+
+}  // namespace flankwright

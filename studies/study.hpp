@@ -1,0 +1,126 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/contact/misalignment.hpp"
+#include "core/gear/gear_data.hpp"
+#include "core/gear/microgeometry.hpp"
+
+/// A study as pure data: what a study file says, in internal units (mm, N, rad, MPa), validated. Reading is study_file.hpp.
+namespace flankwright::studies {
+
+enum class Task { Analyse, Optimise };
+
+/// Ladder of compliance models available in this version.
+enum class ComplianceModel { Rigid, ThinSlice };
+
+/// Quadrature along a contact line.
+enum class QuadratureRule { Gauss2, Gauss3, Midpoint };
+
+struct Quadrature {
+  QuadratureRule rule{QuadratureRule::Gauss2};
+  int intervals{5};  ///< per full contact line, >= 1
+};
+
+struct Cycle {
+  int positions{32};           ///< mesh positions over one base pitch, >= 1
+  std::vector<double> phases;  ///< explicit phases of the reference tooth pair [base pitches]; empty: `positions` are used
+};
+
+struct Fidelity {
+  ComplianceModel compliance{ComplianceModel::ThinSlice};
+  Quadrature quadrature;
+  bool automatic_effects{true};
+  std::vector<std::string> effects;  ///< switched on by hand where automatic_effects is false
+};
+
+/// One working condition: base tables of the study with the scene's overrides applied.
+struct Scene {
+  std::string name{"nominal"};
+  double weight{1.0};
+  Misalignment misalignment;
+  std::vector<double> torques;  ///< on the pinion [N mm], >= 0
+  ManufacturingError pinion_error, wheel_error;
+};
+
+enum class Aggregate { Nominal, Worst, Mean, MeanPlusTwoSigma };
+
+/// A quantity of the analysis that can be minimised or bounded.
+enum class Output {
+  PeakContactStress,   ///< MPa
+  TePeakToPeak,        ///< mm, loaded, along the flank normal
+  TeHarmonic,          ///< mm, amplitude of harmonic `order`
+  LoadFactor,          ///< peak line load / mean line load [-]
+  PeakLineLoad         ///< N/mm
+};
+
+struct ObjectiveTerm {
+  Output output{Output::PeakContactStress};
+  int harmonic{0};      ///< order for TeHarmonic, 1 .. 10
+  double weight{1.0};
+  std::string name;     ///< as written: "te_harmonic_1"
+};
+
+struct DesignVariable {
+  std::string path;     ///< as written: "pinion.modification.lead_crowning"
+  Member member{Member::Pinion};
+  ModificationParameter parameter{ModificationParameter::LeadCrowning};
+  double lower{0.0}, upper{0.0};  ///< mm
+};
+
+struct OutputConstraint {
+  ObjectiveTerm output;
+  double maximum{std::numeric_limits<double>::infinity()};   ///< internal units
+};
+
+struct OptimiseTable {
+  std::vector<ObjectiveTerm> objective;
+  Aggregate over{Aggregate::Worst};
+  std::string solver{"ipopt"};
+  std::vector<DesignVariable> variables;
+  std::vector<OutputConstraint> constraints;
+  int max_evaluations{2000};
+  double max_seconds{std::numeric_limits<double>::infinity()};
+  unsigned long seed{1};
+};
+
+/// [expect]: one key of results.json and what it must be.
+struct Expectation {
+  std::string key;      ///< dotted path, array indices as numbers; "loaded.summary.x" means every entry of loaded
+  double value{std::numeric_limits<double>::quiet_NaN()};
+  double within_relative{std::numeric_limits<double>::quiet_NaN()};  ///< "2 %" -> 0.02
+  double within_absolute{std::numeric_limits<double>::quiet_NaN()};
+  double minimum{-std::numeric_limits<double>::infinity()};
+  double maximum{std::numeric_limits<double>::infinity()};
+};
+
+/// A key as it stands in the file or on the command line, for the `given` part of the results.
+struct GivenValue {
+  std::string key;    ///< dotted path
+  std::string value;  ///< as written
+};
+
+struct Study {
+  std::string title;
+  std::string file;  ///< path as given
+  Task task{Task::Analyse};
+  PairData pair;
+  Modification pinion_modification, wheel_modification;
+  ManufacturingError pinion_error, wheel_error;
+  Misalignment misalignment;
+  Material pinion_material, wheel_material;
+  std::vector<double> torques;  ///< base [load] torque list [N mm]; {0} where [load] is absent
+  Cycle cycle;
+  Fidelity fidelity;
+  std::vector<Scene> scenes;    ///< never empty: without [[scenes]] the one nominal scene of the base tables
+  OptimiseTable optimise;       ///< meaningful where task is Optimise
+  std::vector<Expectation> expect;
+  std::vector<GivenValue> given;
+};
+
+}  // namespace flankwright::studies
