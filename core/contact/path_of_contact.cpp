@@ -1,0 +1,17 @@
+#include "core/contact/path_of_contact.hpp"
+
+namespace flankwright {
+
+PathOfContact::PathOfContact(const GearPair& pair)
+    : base_pitch(pair.transverse_base_pitch),
+      roll_at_start(pair.path_start - extension * base_pitch),
+      region_length(pair.transverse_contact_ratio + 2.0 * extension),
+      slope(pair.contact_line_sense() * std::tan(pair.base_helix_angle) / base_pitch),
+      half_face(0.5 * pair.face_width) {}
+
+double PathOfContact::line_phase_at(double phi1, const GearPair& pair) const {
+  const double at_mid_face = (pair.pitch_point + pair.pinion.base_radius * phi1 - roll_at_start) / base_pitch;
+  return at_mid_face + std::abs(slope) * half_face;
+}
+
+}  // namespace flankwright

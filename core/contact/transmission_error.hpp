@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "core/contact/tooth_contact.hpp"
+
+namespace flankwright {
+
+/// Contact of one tooth pair over its run through the mesh, in order of phi1.
+struct PairCurve {
+  int tooth{0};
+  std::vector<ToothContact> positions;
+};
+
+/// Hand-over of contact from one pair to another, located to round-off.
+struct Transfer {
+  double phi1{not_given};                ///< [rad]
+  double transmission_error{not_given};  ///< [rad], wheel
+  int from_tooth{0}, to_tooth{0};
+};
+
+/// Unloaded transmission error over one pitch: the envelope of all pairs.
+struct UnloadedMesh {
+  std::vector<double> phi1;                ///< equally spaced over one pitch around phi1 = 0 [rad]
+  std::vector<double> transmission_error;  ///< delta_phi2 at each, wheel [rad]
+  std::vector<PairCurve> pairs;            ///< at the same angles, while the pair is inside the extended path of contact
+  std::vector<Transfer> transfers;
+  double peak_to_peak{not_given};          ///< over the positions and the located transfer points, wheel [rad]
+  std::vector<double> harmonics;           ///< amplitude of orders 1 .. 10 of the pitch, fewer where positions allow fewer [rad]
+  int missing{0};                          ///< positions at which no pair touches at all
+};
+
+/// Tooth contact analysis over one pitch of the pinion, phi1 = -pi/N1 .. pi/N1.
+///
+/// A pair takes the lead only when it is ahead by more than 1e-12 rad, the round-off of the angles, so that aligned pairs
+/// sharing the load do not appear to hand over.
+/// @param pair       for the extended path of contact within which a pair's own curve is reported
+/// @param positions  >= 1
+UnloadedMesh analyse_unloaded_mesh(const GearPair& pair, const MeshScene& scene, int positions);
+
+/// Amplitudes of the harmonics 1 .. 10 (at most (n - 1)/2) of n equally spaced samples of one period.
+std::vector<double> harmonic_amplitudes(const std::vector<double>& samples);
+
+}  // namespace flankwright

@@ -1,0 +1,250 @@
+#include "core/gear/gear_pair.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "core/gear/involute.hpp"
+#include "core/gear/tooth_form.hpp"
+
+namespace flankwright {
+
+namespace {
+
+std::string text(double value) {
+  std::ostringstream out;
+  out.precision(7);
+  out << value;
+  return out.str();
+}
+
+std::string gear_name(Member m) { return m == Member::Pinion ? "pinion" : "wheel"; }
+
+/// Collects what is wrong instead of stopping at the first.
+class Findings {
+ public:
+  void require(bool holds, const std::string& field, double value, const std::string& allowed) {
+    if (!holds) problems_.emplace_back(field, text(value), allowed);
+  }
+  void add(const InvalidInput& problem) { problems_.push_back(problem); }
+  bool empty() const { return problems_.empty(); }
+  std::vector<InvalidInput> take() { return std::move(problems_); }
+
+ private:
+  std::vector<InvalidInput> problems_;
+};
+
+void check_rack(const GearData& gear, const std::string& name, const PairData& pair, Findings& findings) {
+  const RackProfile& rack = gear.rack;
+  findings.require(rack.addendum > 0.0 && rack.addendum <= 2.0, name + ".rack.addendum", rack.addendum, "above 0, at most 2");
+  findings.require(rack.dedendum > 0.0 && rack.dedendum <= 2.5, name + ".rack.dedendum", rack.dedendum,
+                   "above 0, at most 2.5");
+  if (!(rack.dedendum > 0.0)) return;
+  const double largest = full_tip_rounding(rack.dedendum, pair.pressure_angle);
+  findings.require(largest > 0.0, name + ".rack.dedendum", rack.dedendum,
+                   "small enough that the rack's tooth is not pointed: dedendum * tan(alpha_n) < pi/4");
+  if (largest > 0.0) {
+    findings.require(rack.root_radius >= 0.0 && rack.root_radius <= largest, name + ".rack.root_radius", rack.root_radius,
+                     "0 .. " + text(largest) + " (full rounding of the tool's tip)");
+  }
+}
+
+/// Geometry of one gear that needs no mate.
+Gear single_gear(Member m, const PairData& pair) {
+  Gear gear;
+  gear.member = m;
+  gear.data = pair[m];
+  const bool is_right = (pair.pinion_hand == Hand::Right) == (m == Member::Pinion);
+  gear.hand = is_right ? Hand::Right : Hand::Left;
+  const double cos_beta = std::cos(pair.helix_angle);
+  const double alpha_t = std::atan(std::tan(pair.pressure_angle) / cos_beta);
+  gear.reference_radius = 0.5 * gear.data.teeth * pair.normal_module / cos_beta;
+  gear.base_radius = gear.reference_radius * std::cos(alpha_t);
+  gear.tip_radius = std::isnan(gear.data.tip_diameter)
+                        ? gear.reference_radius + pair.normal_module * (gear.data.rack.addendum + gear.data.profile_shift)
+                        : 0.5 * gear.data.tip_diameter;
+  const double tan_base_helix = std::tan(pair.helix_angle) * std::cos(alpha_t);
+  gear.helix_rate = tan_base_helix / gear.base_radius;
+  // ISO 6336-1: z_n = z / (cos^2(beta_b) cos(beta)).
+  gear.virtual_teeth = gear.data.teeth * (1.0 + tan_base_helix * tan_base_helix) / cos_beta;
+  gear.tooth_thickness =
+      pair.normal_module * (0.5 * units::pi + 2.0 * gear.data.profile_shift * std::tan(pair.pressure_angle)) / cos_beta;
+  return gear;
+}
+
+void check_gear(Member m, const PairData& pair, Findings& findings) {
+  const std::string name = gear_name(m);
+  const Gear gear = single_gear(m, pair);
+  GeneratedProfile generated;
+  try {
+    generated = generated_profile(gear.data, pair.normal_module, pair.pressure_angle, pair.helix_angle);
+  } catch (const InvalidInput& problem) {
+    findings.add(InvalidInput(name + "." + problem.field(), problem.value(), problem.allowed()));
+    return;
+  }
+  findings.require(generated.root_radius > 0.0, name + ".profile_shift", gear.data.profile_shift,
+                   "large enough to leave a root circle");
+  const bool given_tip = !std::isnan(gear.data.tip_diameter);
+  const std::string tip_field = name + (given_tip ? ".tip_diameter" : ".profile_shift");
+  const double tip_value = given_tip ? gear.data.tip_diameter : gear.data.profile_shift;
+  const double form = std::max(generated.form_radius, gear.base_radius);
+  findings.require(gear.tip_radius > form, tip_field, tip_value,
+                   "a tip circle above the form circle, diameter " + text(2.0 * form) + " mm");
+  if (gear.tip_radius > form) {
+    findings.require(gear.tooth_thickness_at(gear.tip_radius) > 0.0, tip_field, tip_value,
+                     "a tooth that is not pointed: its thickness at the tip is " +
+                         text(gear.tooth_thickness_at(gear.tip_radius)) + " mm, and must be above 0");
+  }
+}
+
+/// Fills what depends on both gears; pinion and wheel hold their own geometry already.
+void mesh(GearPair& pair) {
+  const PairData& data = pair.data;
+  const double cos_beta = std::cos(data.helix_angle);
+  Gear& g1 = pair.pinion;
+  Gear& g2 = pair.wheel;
+  pair.transverse_pressure_angle = std::atan(std::tan(data.pressure_angle) / cos_beta);
+  pair.base_helix_angle = std::atan(std::tan(data.helix_angle) * std::cos(pair.transverse_pressure_angle));
+  const double teeth = data.pinion.teeth + data.wheel.teeth;
+  const double reference_distance = g1.reference_radius + g2.reference_radius;
+  const double shift_sum = data.pinion.profile_shift + data.wheel.profile_shift;
+  // ISO 21771: inv(alpha_wt) = inv(alpha_t) + 2 tan(alpha_n) (x1 + x2) / (z1 + z2) where the flanks have no backlash.
+  const double backlash_free_angle =
+      shift_sum == 0.0 ? pair.transverse_pressure_angle
+                       : inverse_involute(involute(pair.transverse_pressure_angle) +
+                                          2.0 * std::tan(data.pressure_angle) * shift_sum / teeth);
+  pair.backlash_free_centre_distance =
+      shift_sum == 0.0 ? reference_distance
+                       : reference_distance * std::cos(pair.transverse_pressure_angle) / std::cos(backlash_free_angle);
+  pair.centre_distance = std::isnan(data.centre_distance) ? pair.backlash_free_centre_distance : data.centre_distance;
+  pair.working_transverse_pressure_angle =
+      std::isnan(data.centre_distance) ? backlash_free_angle
+                                       : std::acos((g1.base_radius + g2.base_radius) / pair.centre_distance);
+  const double alpha_wt = pair.working_transverse_pressure_angle;
+  for (Gear* gear : {&g1, &g2}) {
+    gear->working_pitch_radius = pair.centre_distance * gear->data.teeth / teeth;
+    const GeneratedProfile generated =
+        generated_profile(gear->data, data.normal_module, data.pressure_angle, data.helix_angle);
+    gear->root_radius = generated.root_radius;
+    gear->form_radius = generated.form_radius;
+    gear->undercut = generated.undercut;
+    gear->tip_thickness = gear->tooth_thickness_at(gear->tip_radius);
+  }
+  pair.working_helix_angle = std::atan(std::tan(data.helix_angle) * g1.working_pitch_radius / g1.reference_radius);
+  pair.transverse_base_pitch = 2.0 * units::pi * g1.base_radius / data.pinion.teeth;
+  const double pitch = 2.0 * units::pi * g1.working_pitch_radius / data.pinion.teeth;
+  pair.backlash = pitch - g1.tooth_thickness_at(g1.working_pitch_radius) - g2.tooth_thickness_at(g2.working_pitch_radius);
+  pair.face_width = std::min(data.pinion.face_width, data.wheel.face_width);
+
+  pair.path_length = pair.centre_distance * std::sin(alpha_wt);
+  pair.pitch_point = g1.base_radius * std::tan(alpha_wt);
+  const double at_wheel_tip = pair.path_length - g2.roll_length_at(g2.tip_radius);
+  const double at_pinion_tip = g1.roll_length_at(g1.tip_radius);
+  const double at_pinion_form = g1.roll_length_at(std::max(g1.form_radius, g1.base_radius));
+  const double at_wheel_form = pair.path_length - g2.roll_length_at(std::max(g2.form_radius, g2.base_radius));
+  // A mate's tip that reaches below the form circle by round-off only is no interference.
+  const double round_off = 1e-9 * pair.path_length;
+  g1.fillet_interference = at_wheel_tip < at_pinion_form - round_off;
+  g2.fillet_interference = at_pinion_tip > at_wheel_form + round_off;
+  pair.path_start = std::max(at_wheel_tip, at_pinion_form);
+  pair.path_end = std::min(at_pinion_tip, at_wheel_form);
+  g1.active_root_radius = std::hypot(g1.base_radius, pair.path_start);
+  g2.active_root_radius = std::hypot(g2.base_radius, pair.path_length - pair.path_end);
+  pair.transverse_contact_ratio = (pair.path_end - pair.path_start) / pair.transverse_base_pitch;
+  pair.overlap_ratio = pair.face_width * std::tan(pair.base_helix_angle) / pair.transverse_base_pitch;
+}
+
+GearPair build(const PairData& data) {
+  GearPair pair;
+  pair.data = data;
+  pair.pinion = single_gear(Member::Pinion, data);
+  pair.wheel = single_gear(Member::Wheel, data);
+  mesh(pair);
+  return pair;
+}
+
+void check_mesh(const PairData& data, Findings& findings) {
+  const GearPair pair = build(data);
+  for (Member m : {Member::Pinion, Member::Wheel}) {
+    const Gear& gear = pair[m];
+    const Gear& mate = pair[m == Member::Pinion ? Member::Wheel : Member::Pinion];
+    const double largest_tip = pair.centre_distance - mate.root_radius;
+    const bool given = !std::isnan(gear.data.tip_diameter);
+    findings.require(gear.tip_radius < largest_tip, gear_name(m) + (given ? ".tip_diameter" : ".profile_shift"),
+                     given ? gear.data.tip_diameter : gear.data.profile_shift,
+                     "a tip diameter below " + text(2.0 * largest_tip) + " mm, where it meets the mate's root circle");
+  }
+  findings.require(pair.total_contact_ratio() >= 1.0, "pair.centre_distance", pair.centre_distance,
+                   "one that leaves a total contact ratio of at least 1 (it is " + text(pair.total_contact_ratio()) + ")");
+}
+
+}  // namespace
+
+double Gear::pressure_angle_at(double radius) const { return std::acos(std::min(1.0, base_radius / radius)); }
+
+double Gear::roll_length_at(double radius) const {
+  return std::sqrt(std::max(0.0, (radius - base_radius) * (radius + base_radius)));
+}
+
+double Gear::tooth_thickness_at(double radius) const {
+  const double alpha_t = pressure_angle_at(reference_radius);
+  return 2.0 * radius *
+         (0.5 * tooth_thickness / reference_radius + involute(alpha_t) - involute(pressure_angle_at(radius)));
+}
+
+int GearPair::contact_line_sense() const {
+  if (data.helix_angle == 0.0) return 0;
+  const int hand = data.pinion_hand == Hand::Right ? 1 : -1;
+  return data.working_flank == WorkingFlank::Right ? hand : -hand;
+}
+
+FlankFrame GearPair::flank_frame(Member m) const {
+  const Gear& gear = (*this)[m];
+  return {gear.working_pitch_radius, gear.reference_radius, gear.tip_radius, gear.active_root_radius, gear.data.face_width};
+}
+
+std::vector<InvalidInput> find_problems(const PairData& data) {
+  Findings findings;
+  findings.require(data.normal_module > 0.0 && std::isfinite(data.normal_module), "pair.normal_module", data.normal_module,
+                   "above 0 mm");
+  findings.require(data.pressure_angle >= 10 * units::deg && data.pressure_angle <= 35 * units::deg, "pair.pressure_angle",
+                   data.pressure_angle / units::deg, "10 .. 35 deg");
+  findings.require(data.helix_angle >= 0.0 && data.helix_angle <= 45 * units::deg, "pair.helix_angle",
+                   data.helix_angle / units::deg, "0 .. 45 deg");
+  for (Member m : {Member::Pinion, Member::Wheel}) {
+    const std::string name = gear_name(m);
+    const GearData& gear = data[m];
+    findings.require(gear.teeth >= 5, name + ".teeth", gear.teeth, "an integer of at least 5");
+    findings.require(gear.face_width > 0.0 && std::isfinite(gear.face_width), name + ".face_width", gear.face_width,
+                     "above 0 mm");
+    findings.require(std::abs(gear.profile_shift) <= 2.0, name + ".profile_shift", gear.profile_shift, "-2 .. 2");
+    findings.require(std::isnan(gear.tip_diameter) || (gear.tip_diameter > 0.0 && std::isfinite(gear.tip_diameter)),
+                     name + ".tip_diameter", gear.tip_diameter, "above 0 mm");
+    check_rack(gear, name, data, findings);
+  }
+  if (!findings.empty()) return findings.take();
+
+  for (Member m : {Member::Pinion, Member::Wheel}) check_gear(m, data, findings);
+  const double base_radii = single_gear(Member::Pinion, data).base_radius + single_gear(Member::Wheel, data).base_radius;
+  if (!std::isnan(data.centre_distance)) {
+    findings.require(data.centre_distance > base_radii && std::isfinite(data.centre_distance), "pair.centre_distance",
+                     data.centre_distance, "above the sum of the base radii, " + text(base_radii) + " mm");
+  }
+  const double alpha_t = std::atan(std::tan(data.pressure_angle) / std::cos(data.helix_angle));
+  const double shift_sum = data.pinion.profile_shift + data.wheel.profile_shift;
+  const double working_involute = involute(alpha_t) + 2.0 * std::tan(data.pressure_angle) * shift_sum /
+                                                          (data.pinion.teeth + data.wheel.teeth);
+  findings.require(working_involute > 0.0, "pinion.profile_shift", data.pinion.profile_shift,
+                   "a sum of profile shifts that leaves a positive working pressure angle");
+  if (findings.empty()) check_mesh(data, findings);
+  return findings.take();
+}
+
+GearPair make_gear_pair(const PairData& data) {
+  const std::vector<InvalidInput> problems = find_problems(data);
+  if (!problems.empty()) throw problems.front();
+  return build(data);
+}
+
+}  // namespace flankwright

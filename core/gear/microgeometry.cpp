@@ -1,0 +1,42 @@
+#include "core/gear/microgeometry.hpp"
+
+namespace flankwright {
+
+namespace {
+
+/// The one place that knows which field a parameter is. ProfileCrowning is not a field; see get() and set().
+double& field(Modification& m, ModificationParameter parameter) {
+  switch (parameter) {
+    case ModificationParameter::LeadCrowning: return m.lead_crowning;
+    case ModificationParameter::LeadSlope: return m.lead_slope;
+    case ModificationParameter::ProfileCrowning:
+    case ModificationParameter::AddendumCrowning: return m.addendum_crowning;
+    case ModificationParameter::DedendumCrowning: return m.dedendum_crowning;
+    case ModificationParameter::ProfileSlope: return m.profile_slope;
+    case ModificationParameter::TipReliefAmount: return m.tip_relief.amount;
+    case ModificationParameter::TipReliefHeight: return m.tip_relief.height;
+    case ModificationParameter::RootReliefAmount: return m.root_relief.amount;
+    case ModificationParameter::RootReliefHeight: return m.root_relief.height;
+    case ModificationParameter::EndReliefAmount: return m.end_relief.amount;
+    case ModificationParameter::EndReliefLength: return m.end_relief.length;
+    case ModificationParameter::Twist: return m.twist;
+  }
+  __builtin_unreachable();
+}
+
+}  // namespace
+
+double get(const Modification& modification, ModificationParameter parameter) {
+  if (parameter == ModificationParameter::ProfileCrowning) {
+    return 0.5 * (modification.addendum_crowning + modification.dedendum_crowning);
+  }
+  Modification copy = modification;
+  return field(copy, parameter);
+}
+
+void set(Modification& modification, ModificationParameter parameter, double value) {
+  field(modification, parameter) = value;
+  if (parameter == ModificationParameter::ProfileCrowning) modification.dedendum_crowning = value;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,199 @@
+#include "core/gear/tooth_form.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <string>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+
+namespace flankwright {
+namespace {
+
+using units::pi;
+
+[[noreturn]] void reject(const char* field, double value, const std::string& allowed) {
+  throw InvalidInput(field, std::to_string(value), allowed);
+}
+
+/// Root of f in [a, b] where f(a) <= 0 <= f(b), b < a allowed; halves the bracket until it holds no further number.
+template <typename F>
+double bisect(F&& f, double a, double b) {
+  // A double has 53 bits: more halvings cannot narrow a bracket that spans a factor of two or so, 64 always can.
+  for (int i = 0; i < 64; ++i) {
+    const double middle = 0.5 * (a + b);
+    (f(middle) <= 0 ? a : b) = middle;
+  }
+  return 0.5 * (a + b);
+}
+
+}  // namespace
+
+double full_tip_rounding(double dedendum, double pressure_angle) {
+  return (pi / 4 - dedendum * std::tan(pressure_angle)) * std::cos(pressure_angle) / (1 - std::sin(pressure_angle));
+}
+
+ToothForm::ToothForm(NoTip, const GearData& gear, double normal_module, double pressure_angle, double helix_angle)
+    : module_(normal_module), helix_angle_(helix_angle), pressure_angle_(pressure_angle) {
+  if (gear.teeth < 5) reject("teeth", gear.teeth, "an integer of at least 5");
+  if (!(normal_module > 0) || !std::isfinite(normal_module)) reject("normal_module", normal_module, "more than 0 mm");
+  if (!(pressure_angle > 0 && pressure_angle < pi / 4)) {
+    reject("pressure_angle", pressure_angle / units::deg, "more than 0 and less than 45 deg");
+  }
+  if (!(helix_angle >= 0 && helix_angle < pi / 3)) {
+    reject("helix_angle", helix_angle / units::deg, "at least 0 and less than 60 deg");
+  }
+  if (!std::isfinite(gear.profile_shift)) reject("profile_shift", gear.profile_shift, "a finite number");
+
+  const double h = gear.rack.dedendum;
+  const double rho = gear.rack.root_radius;
+  const double largest = full_tip_rounding(h, pressure_angle);
+  if (!(h > 0 && largest >= 0)) {
+    reject("rack.dedendum", h,
+           "more than 0 and at most " + std::to_string(pi / 4 / std::tan(pressure_angle)) + ", where the tool is pointed");
+  }
+  // A full rounding is usually stated to a few digits; what is allowed beyond it is round-off.
+  constexpr double kRoundOff = 1e-12;
+  if (!(rho >= 0 && rho <= largest + kRoundOff)) {
+    reject("rack.root_radius", rho, "from 0 to the tool's full tip rounding, " + std::to_string(largest));
+  }
+
+  const double cos_beta = std::cos(helix_angle);
+  transverse_pressure_angle_ = std::atan(std::tan(pressure_angle) / cos_beta);
+  reference_radius_ = gear.teeth * module_ / (2 * cos_beta);
+  base_radius_ = reference_radius_ * std::cos(transverse_pressure_angle_);
+  const double tan_alpha_t = std::tan(transverse_pressure_angle_);
+  base_half_angle_ = (pi / 2 + 2 * gear.profile_shift * std::tan(pressure_angle)) / gear.teeth + tan_alpha_t -
+                     transverse_pressure_angle_;
+  rounding_ = rho * module_;
+  tool_depth_ = (h - gear.profile_shift) * module_;
+  rounding_centre_ =
+      (pi / 4 + h * std::tan(pressure_angle) + rho * (1 - std::sin(pressure_angle)) / std::cos(pressure_angle)) *
+      module_ / cos_beta;
+  root_radius_ = reference_radius_ - tool_depth_;
+  if (!(root_radius_ > 0)) reject("rack.dedendum", h, "less than leaves the root circle a positive radius");
+  locate_form_radius();
+}
+
+ToothForm::ToothForm(const GearData& gear, double normal_module, double pressure_angle, double helix_angle)
+    : ToothForm(NoTip{}, gear, normal_module, pressure_angle, helix_angle) {
+  tip_radius_ = std::isnan(gear.tip_diameter)
+                    ? reference_radius_ + (gear.rack.addendum + gear.profile_shift) * module_
+                    : gear.tip_diameter / 2;
+  if (!(tip_radius_ > form_radius_) || !std::isfinite(tip_radius_)) {
+    reject("tip_diameter", 2 * tip_radius_, "more than the form diameter, " + std::to_string(2 * form_radius_) + " mm");
+  }
+}
+
+GeneratedProfile generated_profile(const GearData& gear, double normal_module, double pressure_angle,
+                                   double helix_angle) {
+  const ToothForm form(ToothForm::NoTip{}, gear, normal_module, pressure_angle, helix_angle);
+  return {form.form_radius_, form.root_radius_, form.undercut_};
+}
+
+ToothForm::Trochoid ToothForm::trochoid(double lambda) const {
+  const double cos_beta = std::cos(helix_angle_);
+  // lambda_n from its sine and cosine, which stay finite at lambda = pi/2.
+  const double lambda_n = std::atan2(std::sin(lambda) * cos_beta, std::cos(lambda));
+  const double depth = tool_depth_ - rounding_ * (1 - std::sin(lambda_n));
+  const double theta =
+      (rounding_centre_ + depth * std::cos(lambda) / std::sin(lambda) - rounding_ * std::cos(lambda_n) / cos_beta) /
+      reference_radius_;
+  return {depth, theta};
+}
+
+ProfilePoint ToothForm::fillet_point(double lambda) const {
+  const auto [depth, theta] = trochoid(lambda);
+  const double distance = depth / std::sin(lambda);  // from the pitch point, along the common normal
+  return {reference_radius_ * std::sin(theta) - distance * std::cos(theta - lambda),
+          reference_radius_ * std::cos(theta) + distance * std::sin(theta - lambda), lambda - theta};
+}
+
+double ToothForm::fillet_radius(double lambda) const {
+  const double depth = trochoid(lambda).depth;
+  return std::hypot(reference_radius_ - depth, depth * std::cos(lambda) / std::sin(lambda));
+}
+
+double ToothForm::roll_length(double radius) const {
+  return std::sqrt(std::max(0.0, (radius - base_radius_) * (radius + base_radius_)));
+}
+
+double ToothForm::involute_half_angle(double roll_length) const {
+  const double roll_angle = roll_length / base_radius_;
+  return base_half_angle_ - (roll_angle - std::atan(roll_angle));
+}
+
+ProfilePoint ToothForm::involute_point(double roll_length) const {
+  const double radius = std::hypot(base_radius_, roll_length);
+  const double half_angle = involute_half_angle(roll_length);
+  return {radius * std::sin(half_angle), radius * std::cos(half_angle),
+          std::atan(roll_length / base_radius_) - half_angle};
+}
+
+void ToothForm::locate_form_radius() {
+  // The tool's flank ends at depth d: it cuts the involute down to the roll length r sin(alpha_t) - d / sin(alpha_t).
+  const double alpha_t = transverse_pressure_angle_;
+  const double start = reference_radius_ * std::sin(alpha_t) - trochoid(alpha_t).depth / std::sin(alpha_t);
+  undercut_ = start < 0;
+  fillet_start_ = alpha_t;
+  form_radius_ = std::hypot(base_radius_, start);
+  if (!undercut_) return;
+
+  // The fillet rises from inside the base circle, cuts off the foot of the involute and leaves the tooth where its half
+  // angle exceeds the involute's, which at lambda = alpha_t it does by twice the involute function.
+  const double at_base = bisect([&](double l) { return fillet_radius(l) - base_radius_; }, pi / 2, alpha_t);
+  const auto excess = [&](double lambda) {
+    const ProfilePoint p = fillet_point(lambda);
+    return std::atan2(p.x, p.y) - involute_half_angle(roll_length(std::hypot(p.x, p.y)));
+  };
+  // An undercut too slight to be resolved (excess of the order of the cube of the lost roll length) starts at the base
+  // circle to within round-off, and bisect() then returns that end.
+  fillet_start_ = bisect(excess, at_base, alpha_t);
+  form_radius_ = std::max(base_radius_, fillet_radius(fillet_start_));
+}
+
+double ToothForm::half_angle(double radius) const {
+  const ProfilePoint p = at_radius(radius);
+  return std::atan2(p.x, p.y);
+}
+
+ProfilePoint ToothForm::at_radius(double radius) const {
+  if (radius >= form_radius_) return involute_point(roll_length(radius));
+  return fillet_point(bisect([&](double lambda) { return fillet_radius(lambda) - radius; }, pi / 2, fillet_start_));
+}
+
+ProfilePoint ToothForm::at_height(double y) const {
+  const double form_roll = roll_length(form_radius_);
+  if (y >= involute_point(form_roll).y) {
+    const double tip_roll = roll_length(tip_radius_);
+    return involute_point(bisect([&](double roll) { return involute_point(roll).y - y; }, form_roll, tip_roll));
+  }
+  return fillet_point(bisect([&](double lambda) { return fillet_point(lambda).y - y; }, pi / 2, fillet_start_));
+}
+
+ProfilePoint ToothForm::root_tangent_point(double normal_tangent_angle) const {
+  const double wanted = std::atan(std::tan(normal_tangent_angle) / std::cos(helix_angle_));
+  const auto excess = [&](double lambda) { return fillet_point(lambda).tangent_angle - wanted; };
+  if (excess(fillet_start_) >= 0) return fillet_point(fillet_start_);
+  return fillet_point(bisect(excess, fillet_start_, pi / 2));
+}
+
+std::vector<ProfilePoint> ToothForm::profile(int points) const {
+  assert(points >= 4);
+  const int on_fillet = points / 2;
+  const int on_involute = points - on_fillet;
+  std::vector<ProfilePoint> result;
+  result.reserve(static_cast<std::size_t>(points));
+  for (int i = 0; i < on_fillet; ++i) {
+    result.push_back(fillet_point(pi / 2 + (fillet_start_ - pi / 2) * i / on_fillet));
+  }
+  const double first = roll_length(form_radius_);
+  const double last = roll_length(tip_radius_);
+  for (int i = 0; i < on_involute; ++i) {
+    result.push_back(involute_point(first + (last - first) * i / (on_involute - 1)));
+  }
+  return result;
+}
+
+}  // namespace flankwright
