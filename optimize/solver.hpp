@@ -11,6 +11,10 @@
 namespace flankwright {
 
 /// How a solver run ended.
+///
+/// Converged: the solver's own convergence test was met at a feasible point. EvaluationLimit, TimeLimit: stopped in
+/// order. Stalled: no more progress without meeting the test. Infeasible: it ended where no point met so far is
+/// feasible. Failed: the start cannot be evaluated, or the library gave up; the message says why.
 enum class SolverStatus { NotRun, Converged, EvaluationLimit, TimeLimit, Stalled, Infeasible, Failed };
 
 /// Lower-case words for a status ("converged", "evaluation limit", ...).
@@ -18,18 +22,22 @@ std::string to_string(SolverStatus status);
 
 /// What the engineer's study asks of a solver.
 struct SolverOptions {
-  /// "ipopt", or "nlopt:NAME" with NAME one of slsqp, mma, ccsaq, lbfgs, cobyla, bobyqa, sbplx, neldermead, crs2_lm, isres,
-  /// direct_l, esch, mlsl (see solver_names()).
+  /// "ipopt", or "nlopt:NAME" with NAME one of slsqp, mma, ccsaq, lbfgs, cobyla, bobyqa, sbplx, neldermead, crs2_lm,
+  /// isres, direct_l, esch, mlsl (see solver_names()).
   std::string name{"ipopt"};
-  /// Stop when the scaled step or first-order residual is at most this [-], > 0.
+  /// Convergence tolerance [-], > 0. Ipopt: scaled first-order residual <= tolerance. NLopt: step of variable i <=
+  /// tolerance * (upper_i - lower_i). esch and direct_l have no convergence test: they end at a limit.
   double tolerance{1e-7};
+  /// A point is feasible where max_i c_i(x) <= constraint_tolerance (unit of the constraints), > 0.
+  double constraint_tolerance{1e-6};
   /// Evaluations of the programme before an orderly stop with the best point so far, >= 1.
   int max_evaluations{2000};
-  /// Seconds before an orderly stop with the best point so far, > 0.
+  /// Seconds before an orderly stop with the best point so far, > 0. An evaluation under way is finished.
   double max_seconds{std::numeric_limits<double>::infinity()};
-  /// Seed of the stochastic solvers.
+  /// Seed of the stochastic solvers: crs2_lm, isres, esch, mlsl.
   unsigned long seed{1};
-  /// Called after each evaluation with (evaluations so far, best feasible objective so far); may be empty.
+  /// Called after each evaluation with (evaluations so far, best feasible objective so far: NaN where none); may be
+  /// empty. If it throws, the run ends in order (status Failed, best point so far).
   std::function<void(int, double)> progress;
   /// Throws InvalidInput naming the field, its value and what is allowed.
   void validate() const;
@@ -37,8 +45,8 @@ struct SolverOptions {
 
 /// One evaluation of the history.
 struct SolverStep {
-  int evaluation{-1};
-  double objective{std::numeric_limits<double>::quiet_NaN()};
+  int evaluation{-1};                                                     ///< 1, 2, 3 ...
+  double objective{std::numeric_limits<double>::quiet_NaN()};             ///< NaN where the evaluation failed
   double constraint_violation{std::numeric_limits<double>::quiet_NaN()};  ///< max(0, max c_i)
 };
 
@@ -46,26 +54,32 @@ struct SolverStep {
 struct SolverResult {
   SolverStatus status{SolverStatus::NotRun};
   std::string message{"the solver was not called"};
-  std::string solver;                   ///< the name used
-  Eigen::VectorXd x;                    ///< best point: feasible with the least objective, else the least violation
+  std::string solver;  ///< the name used
+  /// Best point met, never outside the bounds: feasible with the least objective, else the least violation. A converged
+  /// solver's own last point is preferred where it is feasible and its objective exceeds the least by no more than
+  /// 10 * constraint_tolerance * max(1, |least|), which is what a violation inside the tolerance may buy.
+  Eigen::VectorXd x;
   double objective{std::numeric_limits<double>::quiet_NaN()};
-  double constraint_violation{std::numeric_limits<double>::quiet_NaN()};
-  Eigen::VectorXd multipliers;          ///< of c(x) <= 0, >= 0; empty where the solver gives none
-  int evaluations{-1};                  ///< distinct points evaluated
-  int gradient_evaluations{-1};         ///< of these, with gradients
-  int failures{-1};                     ///< evaluations that threw or gave a value that is not finite
+  double constraint_violation{std::numeric_limits<double>::quiet_NaN()};  ///< max(0, max c_i) at x
+  Eigen::VectorXd multipliers;   ///< of c(x) <= 0 at x, >= 0, size m; empty where the solver gives none (all but Ipopt)
+  int evaluations{-1};           ///< calls of evaluate(): distinct points, but see Recorder
+  int gradient_evaluations{-1};  ///< of these, with gradients
+  int failures{-1};              ///< evaluations that threw or gave a value that is not finite
   double seconds{std::numeric_limits<double>::quiet_NaN()};
   std::vector<SolverStep> history;
 };
 
-/// Solves a programme with the solver of options.name. Throws InvalidInput for an unknown name or for a solver that cannot
-/// take the programme (an unconstrained method with constraints); everything else is a status.
+/// Solves a programme with the solver of options.name. Same input, same bits (unless the time limit cuts the run).
+///
+/// The start is always evaluated first, so the result is never worse than it. Throws InvalidInput for an unknown name,
+/// for a solver that cannot take the programme (an unconstrained method with constraints, a global one without finite
+/// bounds), and for bounds or a start that contradict each other; everything else is a status.
 SolverResult solve(NonlinearProgram& program, const SolverOptions& options);
 
-/// True where the solver uses gradients.
+/// True where the solver uses gradients. Throws InvalidInput for an unknown name.
 bool uses_gradients(const std::string& solver_name);
 
-/// True where the solver accepts c(x) <= 0.
+/// True where the solver accepts c(x) <= 0. Throws InvalidInput for an unknown name.
 bool accepts_constraints(const std::string& solver_name);
 
 /// All solver names that solve() takes.

@@ -155,14 +155,19 @@ SectionMaximum FirstContact::solve() const {
   if (far == top.z) return top;  // held by the pinion's face end
   const auto uphill = [&](double z) {
     const SectionMaximum s = section(z);
-    if (!s.exists) return -direction * std::abs(top.slope);
-    if (s.phi2 > top.phi2) top = s;
-    return s.slope;
+    return s.exists ? s.slope : -direction * std::abs(top.slope);
   };
-  const double start = top.z, slope_start = top.slope, slope_far = uphill(far);
-  if ((slope_far > 0.0) == (slope_start > 0.0) && slope_far != 0.0) return top;
-  bracketed_root(uphill, start, slope_start, far, slope_far, 1e-13 * std::max(1.0, reach));
-  return top;
+  const double slope_far = uphill(far);
+  if ((slope_far > 0.0) == (top.slope > 0.0) && slope_far != 0.0) {
+    const SectionMaximum end = section(far);
+    return end.phi2 > top.phi2 ? end : top;
+  }
+  const Root root = bracketed_root(uphill, top.z, top.slope, far, slope_far, 1e-13 * std::max(1.0, reach));
+  // Of the two ends of the last bracket the one on the flank; where both are, the higher.
+  const SectionMaximum lower = section(root.lower), upper = section(root.upper);
+  if (!upper.exists) return lower;
+  if (!lower.exists) return upper;
+  return upper.phi2 > lower.phi2 ? upper : lower;
 }
 
 bool FirstContact::is_flat_around(const SectionMaximum& best) const {
