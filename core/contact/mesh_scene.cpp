@@ -48,12 +48,11 @@ MeshScene make_mesh_scene(const GearPair& pair, const Misalignment& misalignment
   scene.wheel_teeth = pair.data.wheel.teeth;
   scene.nominal_phase_rate = scene.pinion_teeth / (2.0 * units::pi);
 
-  // F_beta_y is a tilt about the normal of the line of action: omega = (F/b) z x L, L = (sin a, cos a, 0).
-  const double tilt = misalignment.mesh_misalignment / pair.face_width;
-  const double alpha = pair.working_transverse_pressure_angle;
+  // F_beta_y is a deviation of the flank lines: it opens the mesh as removed metal on the wheel does.
+  scene.wheel.error.helix_slope -= misalignment.mesh_misalignment * scene.wheel.frame.face_width / pair.face_width;
+
   const double mirror = pair.data.working_flank == WorkingFlank::Right ? 1.0 : -1.0;
-  const Eigen::Vector3d rotation(mirror * misalignment.crossing - tilt * std::cos(alpha),
-                                 misalignment.intersecting + tilt * std::sin(alpha), 0.0);
+  const Eigen::Vector3d rotation(mirror * misalignment.crossing, misalignment.intersecting, 0.0);
   const double angle = rotation.norm();
   const Eigen::Matrix3d tilted = angle == 0.0 ? Eigen::Matrix3d::Identity()
                                               : Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();

@@ -74,6 +74,9 @@ ToothForm::ToothForm(NoTip, const GearData& gear, double normal_module, double p
   root_radius_ = reference_radius_ - tool_depth_;
   if (!(root_radius_ > 0)) reject("rack.dedendum", h, "less than leaves the root circle a positive radius");
   locate_form_radius();
+  if (undercut_ && !(waist() > 0)) {
+    reject("profile_shift", gear.profile_shift, "large enough that the undercut from both sides does not sever the tooth");
+  }
 }
 
 ToothForm::ToothForm(const GearData& gear, double normal_module, double pressure_angle, double helix_angle)
@@ -152,6 +155,8 @@ void ToothForm::locate_form_radius() {
   fillet_start_ = bisect(excess, at_base, alpha_t);
   form_radius_ = std::max(base_radius_, fillet_radius(fillet_start_));
 }
+
+double ToothForm::waist() const { return root_tangent_point(0).x; }
 
 double ToothForm::half_angle(double radius) const {
   const ProfilePoint p = at_radius(radius);

@@ -29,7 +29,8 @@ double full_tip_rounding(double dedendum, double pressure_angle);
 /// @param normal_module   m_n [mm], > 0
 /// @param pressure_angle  alpha_n, normal section [rad], 0 < alpha_n < 45 deg
 /// @param helix_angle     |beta| at the reference cylinder [rad], 0 <= beta < 60 deg
-/// @throws InvalidInput   the rack cannot exist ("rack.dedendum", "rack.root_radius") or an argument is out of range
+/// @throws InvalidInput   the rack cannot exist ("rack.dedendum", "rack.root_radius"), the undercut severs the tooth
+///                        ("profile_shift"), or an argument is out of range
 GeneratedProfile generated_profile(const GearData& gear, double normal_module, double pressure_angle,
                                    double helix_angle);
 
@@ -110,6 +111,7 @@ class ToothForm {
   double involute_half_angle(double roll_length) const;
   double roll_length(double radius) const;
   void locate_form_radius();
+  double waist() const;  ///< half the smallest thickness of the fillet [mm]
 
   double module_, helix_angle_, pressure_angle_, transverse_pressure_angle_;
   double reference_radius_, base_radius_, root_radius_;

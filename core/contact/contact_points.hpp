@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "core/contact/path_of_contact.hpp"
+#include "core/gear/gear_pair.hpp"
+
+namespace flankwright {
+
+/// Quadrature rule on the intervals of a contact line.
+enum class QuadratureRule { Midpoint, Gauss2, Gauss3 };
+
+/// How finely contact lines are resolved.
+struct Quadrature {
+  QuadratureRule rule{QuadratureRule::Gauss2};
+  int intervals{5};  ///< equal intervals over the common face width, >= 1
+};
+
+/// One quadrature point of a contact line in the plane of action, with the unmodified geometry around it. Lengths in mm.
+struct ContactPoint {
+  int tooth{0};            ///< tooth pair, k pitches ahead of the reference pair 0
+  double z{0.0};           ///< axial position, 0 at mid face
+  double phase{0.0};       ///< [base pitches] from A0
+  double weight{0.0};      ///< length of contact line it stands for, > 0: sum(weight * line load) is the normal force
+  double pinion_radius{not_given}, wheel_radius{not_given};
+  double relative_radius{not_given};  ///< rho_1 rho_2 / (rho_1 + rho_2) / cos(beta_b), normal section [Haddad 1991, eq. 2.15]
+  double pinion_depth{not_given}, wheel_depth{not_given};  ///< h = (s_yt/2) cos(beta_b) / cos(alpha_yt), flank to tooth centre
+  double pinion_tip_distance{not_given}, wheel_tip_distance{not_given};  ///< (r_a - r_y) / cos(alpha_yt)
+  double clearance{0.0};   ///< c_n of the unmodified pair, normal to the flank; 0 on the theoretical path of contact
+};
+
+/// Contact points of all teeth at one mesh position.
+///
+/// Points lie at fixed axial positions, so that a line's points do not move while modifications change. Between A and E both
+/// flanks touch in the base tangent plane. Between A0 and A the wheel's tip edge meets the pinion flank off that plane, between
+/// E and B0 the pinion's tip edge the wheel flank; clearance and contact radii there are solved exactly in the transverse
+/// section [Haddad 1991, app. 2A, 2A.2-2A.17; solved here in closed form: the tip's position is known, and the mate's flank angle at
+/// that radius is explicit]. No point is made where the path ends at a form circle instead of a tip.
+/// @param line_phase  of tooth pair 0 [base pitches], see PathOfContact
+/// @param with_extended_region  false leaves out A0 .. A and E .. B0
+std::vector<ContactPoint> contact_points(const GearPair& pair, const PathOfContact& path, const Quadrature& quadrature,
+                                         double line_phase, bool with_extended_region, double face_start, double face_end);
+
+}  // namespace flankwright

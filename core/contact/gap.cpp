@@ -1,0 +1,97 @@
+#include "core/contact/gap.hpp"
+
+#include <cmath>
+
+#include "core/contact/mesh_scene.hpp"
+#include "core/gear/involute.hpp"
+
+namespace flankwright {
+
+namespace {
+
+double radius_of(const ContactPoint& point, Member m) { return m == Member::Pinion ? point.pinion_radius : point.wheel_radius; }
+
+/// Axial position on the gear's own face: the wheel carries its flank along when it is displaced.
+double own_z(const ContactPoint& point, Member m, const Misalignment& misalignment) {
+  return m == Member::Pinion ? point.z : point.z - misalignment.axial_offset;
+}
+
+/// Displacement of the wheel along the pinion's outward normal n = (cos b_b L, -s sin b_b), L = (sin a, cos a, 0).
+class WheelDisplacement {
+ public:
+  WheelDisplacement(const GearPair& pair, const Misalignment& m)
+      : pair_(pair), misalignment_(m), alpha_(pair.working_transverse_pressure_angle) {
+    const double mirror = pair.data.working_flank == WorkingFlank::Right ? 1.0 : -1.0;
+    about_x_ = mirror * m.crossing;
+    about_y_ = m.intersecting;
+  }
+
+  double along_normal(const PathOfContact& path, const ContactPoint& point) const {
+    // Contact point relative to the wheel's centre: pitch point plus its distance s along the line of action.
+    const double s = path.roll_at(point.phase) - pair_.pitch_point;
+    const double x = -pair_.wheel.working_pitch_radius + s * std::sin(alpha_), y = s * std::cos(alpha_);
+    const double z = point.z - misalignment_.axial_offset;
+    const double dx = about_y_ * z + misalignment_.centre_distance, dy = -about_x_ * z;
+    const double dz = about_x_ * y - about_y_ * x + misalignment_.axial_offset;
+    const double beta = pair_.base_helix_angle;
+    const double opened = misalignment_.mesh_misalignment * z / pair_.face_width;
+    return std::cos(beta) * (dx * std::sin(alpha_) + dy * std::cos(alpha_) + opened) -
+           pair_.contact_line_sense() * std::sin(beta) * dz;
+  }
+
+ private:
+  const GearPair& pair_;
+  const Misalignment& misalignment_;
+  double alpha_, about_x_, about_y_;
+};
+
+/// Angle by which the changed pinion flank leads the nominal one at a point [rad].
+double pinion_lead(const InvoluteFlank& changed, const InvoluteFlank& nominal, const ContactPoint& point) {
+  const auto polar = [&](const InvoluteFlank& flank) {
+    const double cosine = std::min(1.0, flank.base_radius / point.pinion_radius);
+    return flank.origin + flank.helix_rate * point.z - involute(std::acos(cosine));
+  };
+  return polar(changed) - polar(nominal);
+}
+
+}  // namespace
+
+Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition) {
+  const int n = static_cast<int>(points.size());
+  const double cos_base_helix = std::cos(pair.base_helix_angle);
+  const PathOfContact path(pair);
+  const WheelDisplacement wheel(pair, condition.misalignment);
+  const InvoluteFlank nominal = make_flank(pair, Member::Pinion, {}, {});
+  const InvoluteFlank changed = make_mesh_scene(pair, condition.misalignment, {}, {}, {}, {}).pinion;
+  Gap gap{Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (int i = 0; i < n; ++i) {
+    const ContactPoint& point = points[i];
+    double removed = 0.0;
+    for (Member m : {Member::Pinion, Member::Wheel}) {
+      const FlankFrame frame = pair.flank_frame(m);
+      const double r = radius_of(point, m), z = own_z(point, m, condition.misalignment);
+      removed += removal(condition.modification(m), frame, r, z) - added_metal(condition.error(m), frame, r, z) -
+                 pitch_deviation(condition.error(m), point.tooth);
+    }
+    gap.error[i] = -cos_base_helix * removed - wheel.along_normal(path, point) +
+                   cos_base_helix * pair.pinion.base_radius * pinion_lead(changed, nominal, point);
+    gap.total[i] = point.clearance - gap.error[i];
+  }
+  return gap;
+}
+
+Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition,
+                               Member member, ModificationParameter parameter) {
+  const double cos_base_helix = std::cos(pair.base_helix_angle);
+  const FlankFrame frame = pair.flank_frame(member);
+  Eigen::VectorXd derivative(points.size());
+  for (Eigen::Index i = 0; i < derivative.size(); ++i) {
+    const ContactPoint& point = points[static_cast<std::size_t>(i)];
+    derivative[i] = cos_base_helix * removal_derivative(condition.modification(member), frame, parameter,
+                                                        radius_of(point, member),
+                                                        own_z(point, member, condition.misalignment));
+  }
+  return derivative;
+}
+
+}  // namespace flankwright

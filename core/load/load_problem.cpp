@@ -1,0 +1,165 @@
+#include "core/load/load_problem.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/base/root.hpp"
+#include "core/load/quadratic_program.hpp"
+
+namespace flankwright {
+
+namespace {
+
+/// The slope of the contact law is log-infinite at no load; the quadratic model uses it at this share of the mean load.
+constexpr double slope_floor = 1e-9;
+
+void check(const LoadProblem& problem, const Eigen::VectorXd& start) {
+  const Eigen::Index n = problem.gap.size();
+  const auto sizes_match = problem.weight.size() == n && problem.influence.rows() == n && problem.influence.cols() == n &&
+                           (problem.laws.empty() || static_cast<Eigen::Index>(problem.laws.size()) == n) &&
+                           (start.size() == 0 || start.size() == n);
+  if (!sizes_match) throw InvalidInput("load problem", "arrays of different size", "one entry per contact point");
+  if (!problem.gap.allFinite() || !problem.influence.allFinite() || !problem.weight.allFinite()) {
+    throw InvalidInput("load problem", "not finite", "finite gaps, influences and weights");
+  }
+  if (n > 0 && !(problem.weight.minCoeff() > 0.0)) {
+    throw InvalidInput("weight", std::to_string(problem.weight.minCoeff()), "above 0 mm");
+  }
+  if (!(problem.force >= 0.0) || !std::isfinite(problem.force)) {
+    throw InvalidInput("force", std::to_string(problem.force), "finite and >= 0 N");
+  }
+}
+
+/// State of the Newton iteration: loads and everything that follows from them.
+class Iterate {
+ public:
+  Iterate(const LoadProblem& problem, Eigen::VectorXd w) : problem_(problem), w_(std::move(w)) { update(); }
+
+  const Eigen::VectorXd& loads() const { return w_; }
+  void move_to(Eigen::VectorXd w) {
+    w_ = std::move(w);
+    update();
+  }
+
+  /// Gradient of the objective divided by the weights: the deflection plus gap at each point [mm].
+  Eigen::VectorXd approach() const { return structural_ + local_ + problem_.gap; }
+  const Eigen::VectorXd& structural() const { return structural_; }
+  const Eigen::VectorXd& local() const { return local_; }
+  const Eigen::VectorXd& local_slope() const { return local_slope_; }
+
+  /// Slope of the objective at w + t d, divided into its constant parts beforehand.
+  double directional_slope(const Eigen::VectorXd& d, const Eigen::VectorXd& structural_d, double t) const {
+    const auto& a = problem_.weight;
+    double slope = (a.array() * d.array() * (structural_ + t * structural_d + problem_.gap).array()).sum();
+    for (std::size_t i = 0; i < problem_.laws.size(); ++i) {
+      slope += a[i] * d[i] * problem_.laws[i].deflection(std::max(0.0, w_[i] + t * d[i]));
+    }
+    return slope;
+  }
+
+ private:
+  void update() {
+    const Eigen::Index n = w_.size();
+    structural_ = problem_.influence * problem_.weight.cwiseProduct(w_);
+    local_ = Eigen::VectorXd::Zero(n);
+    local_slope_ = Eigen::VectorXd::Zero(n);
+    const double floor = slope_floor * problem_.force / problem_.weight.sum();
+    for (std::size_t i = 0; i < problem_.laws.size(); ++i) {
+      local_[i] = problem_.laws[i].deflection(w_[i]);
+      local_slope_[i] = problem_.laws[i].slope(std::max(w_[i], floor));
+    }
+  }
+
+  const LoadProblem& problem_;
+  Eigen::VectorXd w_, structural_, local_, local_slope_;
+};
+
+/// f_t for given loads: the mean approach of the loaded points, weighted by the force they carry.
+double best_multiplier(const LoadProblem& problem, const Iterate& at) {
+  const Eigen::VectorXd share = problem.weight.cwiseProduct(at.loads());
+  return share.dot(at.approach()) / share.sum();
+}
+
+double kkt_residual(const LoadProblem& problem, const Iterate& at, double f) {
+  const Eigen::VectorXd remaining = at.approach().array() - f;
+  double worst = 0.0, scale = 0.0;
+  for (Eigen::Index i = 0; i < remaining.size(); ++i) {
+    const bool loaded = at.loads()[i] > 0.0;
+    worst = std::max(worst, loaded ? std::abs(remaining[i]) : -remaining[i]);
+    if (loaded) scale = std::max(scale, std::abs(f - problem.gap[i]));
+  }
+  const double balance = std::abs(problem.weight.dot(at.loads()) - problem.force) / problem.force;
+  return std::max(balance, worst / scale);
+}
+
+void fill(const LoadProblem& problem, const Iterate& at, double f, LoadDistribution& result) {
+  result.line_load = at.loads();
+  result.contact_deflection = at.local();
+  result.structural_deflection = at.structural();
+  result.transmission_error = f;
+  result.remaining_gap = at.approach().array() - f;
+  result.kkt_residual = kkt_residual(problem, at, f);
+}
+
+/// No force: the flanks just touch where the gap is least.
+LoadDistribution unloaded(const LoadProblem& problem) {
+  LoadDistribution result;
+  const Eigen::Index n = problem.gap.size();
+  result.status = LoadStatus::Converged;
+  result.message = "no force";
+  result.line_load = result.contact_deflection = result.structural_deflection = Eigen::VectorXd::Zero(n);
+  result.transmission_error = problem.gap.minCoeff();
+  result.remaining_gap = problem.gap.array() - result.transmission_error;
+  result.kkt_residual = 0.0;
+  result.iterations = result.factorisations = 0;
+  return result;
+}
+
+}  // namespace
+
+LoadDistribution solve_load_distribution(const LoadProblem& problem, const LoadOptions& options, const Eigen::VectorXd& start) {
+  check(problem, start);
+  LoadDistribution result;
+  const Eigen::Index n = problem.gap.size();
+  if (n == 0) {
+    result.status = LoadStatus::NoContactPoints;
+    result.message = "no contact point at this mesh position";
+    return result;
+  }
+  if (problem.force == 0.0) return unloaded(problem);
+
+  const Eigen::VectorXd& a = problem.weight;
+  const bool warm = start.size() == n && start.minCoeff() >= 0.0 && a.dot(start) > 0.0;
+  Iterate at(problem, warm ? Eigen::VectorXd(start * (problem.force / a.dot(start)))
+                           : Eigen::VectorXd::Constant(n, problem.force / a.sum()));
+  const Eigen::MatrixXd structural_hessian = a.asDiagonal() * problem.influence * a.asDiagonal();
+  result.factorisations = 0;
+  for (result.iterations = 0; result.iterations < options.max_iterations; ++result.iterations) {
+    const double f = best_multiplier(problem, at);
+    fill(problem, at, f, result);
+    if (result.kkt_residual <= options.tolerance) {
+      result.status = LoadStatus::Converged;
+      result.message = "converged";
+      return result;
+    }
+    Eigen::MatrixXd hessian = structural_hessian;
+    hessian.diagonal() += a.cwiseProduct(at.local_slope());
+    const Eigen::VectorXd gradient = a.cwiseProduct(at.approach());
+    const Eigen::VectorXd linear = gradient - hessian * at.loads();
+    const QuadraticMinimum model = minimise_quadratic(hessian, linear, a, problem.force, at.loads().array() > 0.0);
+    result.factorisations += model.factorisations;
+
+    const Eigen::VectorXd d = model.x - at.loads();
+    const Eigen::VectorXd structural_d = problem.influence * a.cwiseProduct(d);
+    const auto slope = [&](double t) { return at.directional_slope(d, structural_d, t); };
+    const double slope_start = slope(0.0), slope_end = slope(1.0);
+    const double t = slope_end <= 0.0 || slope_start >= 0.0 ? 1.0 : bracketed_root(slope, 0.0, slope_start, 1.0, slope_end, 1e-3).x;
+    at.move_to(t == 1.0 ? model.x : Eigen::VectorXd((at.loads() + t * d).cwiseMax(0.0)));
+  }
+  result.status = LoadStatus::IterationLimit;
+  result.message = "the load distribution did not converge within " + std::to_string(options.max_iterations) + " Newton steps";
+  return result;
+}
+
+}  // namespace flankwright

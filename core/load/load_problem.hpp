@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "core/base/units.hpp"
+#include "core/compliance/contact_law.hpp"
+#include "core/gear/gear_data.hpp"
+
+namespace flankwright {
+
+/// Loaded contact at one mesh position: the strictly convex programme
+///
+///     minimise  1/2 (aw)' K (aw) + sum a_i Psi_i(w_i) + sum a_i g_i w_i    subject to  sum a_i w_i = F,  w >= 0
+///
+/// over the line loads w; Psi' = c is the local deflection. The multiplier of the force balance is the transmission error f_t.
+struct LoadProblem {
+  Eigen::MatrixXd influence;     ///< K, symmetric positive semi-definite, n x n [mm/N]
+  Eigen::VectorXd weight;        ///< a, contact-line length of each point, > 0, n [mm]
+  Eigen::VectorXd gap;           ///< g before load, n [mm]
+  std::vector<ContactLaw> laws;  ///< c, n; empty: no local deflection (then K must be positive definite)
+  double force{0.0};             ///< F, normal to the flanks, >= 0 [N]
+};
+
+enum class LoadStatus { NotRun, Converged, NoContactPoints, IterationLimit };
+
+/// Load on the n contact points of one mesh position.
+struct LoadDistribution {
+  LoadStatus status{LoadStatus::NotRun};
+  std::string message{"solve_load_distribution() was not called"};
+  Eigen::VectorXd line_load;              ///< w_i >= 0 [N/mm]
+  Eigen::VectorXd contact_deflection;     ///< c_i(w_i) [mm]
+  Eigen::VectorXd structural_deflection;  ///< (K a w)_i [mm]
+  Eigen::VectorXd remaining_gap;          ///< under load, >= 0, 0 where loaded [mm]
+  double transmission_error{not_given};   ///< f_t: approach of the gears along the flank normal [mm]
+  /// max over i of |remaining gap| where loaded and -min(remaining gap) elsewhere, relative to the largest deflection
+  /// f_t - g_i; and |sum a w - F| / F. The larger of the two.
+  double kkt_residual{not_given};
+  int iterations{-1};      ///< Newton steps
+  int factorisations{-1};  ///< Cholesky factorisations
+
+  [[nodiscard]] bool usable() const { return status == LoadStatus::Converged; }
+};
+
+struct LoadOptions {
+  /// Stop when kkt_residual <= tolerance [-], > 0.
+  double tolerance{1e-12};
+  /// Newton steps before giving up, >= 1.
+  int max_iterations{100};
+};
+
+/// Solves the programme by Newton's method in the loads: each step minimises the quadratic model over the feasible set exactly
+/// (block pivoting, see quadratic_program.hpp), then the convex objective along the step by its monotone slope. Both parts
+/// converge from any start; the minimiser is unique, so the answer depends on neither start nor point order.
+/// @param start  line loads to start from (scaled to the force), size n, or empty
+/// @throws InvalidInput where sizes differ, a weight is not positive, the force is negative or anything is not finite
+LoadDistribution solve_load_distribution(const LoadProblem& problem, const LoadOptions& options = {},
+                                         const Eigen::VectorXd& start = {});
+
+}  // namespace flankwright

@@ -1,0 +1,127 @@
+#include "core/load/mesh_cycle.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "core/contact/transmission_error.hpp"
+#include "core/load/sensitivity.hpp"
+
+namespace flankwright {
+
+namespace {
+
+constexpr double micrometre = units::um;
+
+/// Loads of the previous position carried to the points of the next: same tooth, same axial position.
+Eigen::VectorXd warm_start(const MeshPosition& from, const Eigen::VectorXd& loads, const MeshPosition& to) {
+  Eigen::VectorXd start = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(to.points.size()));
+  std::size_t j = 0;
+  const auto before = [](const ContactPoint& a, const ContactPoint& b) {
+    return a.tooth != b.tooth ? a.tooth < b.tooth : a.z < b.z;
+  };
+  for (std::size_t i = 0; i < to.points.size(); ++i) {
+    while (j < from.points.size() && before(from.points[j], to.points[i])) ++j;
+    if (j < from.points.size() && !before(to.points[i], from.points[j])) {
+      start[static_cast<Eigen::Index>(i)] = loads[static_cast<Eigen::Index>(j)];
+    }
+  }
+  return start;
+}
+
+/// sigma_H = sqrt(w E' / (pi R)) and, from d(sigma)/dw = sigma / (2 w), its derivatives.
+void fill_stress(const MeshModel& model, const MeshPosition& at, LoadedPosition& position) {
+  const Eigen::VectorXd& w = position.load.line_load;
+  position.contact_stress = Eigen::VectorXd::Zero(w.size());
+  position.contact_stress_derivative = Eigen::MatrixXd::Zero(w.size(), position.line_load_derivative.cols());
+  for (Eigen::Index i = 0; i < w.size(); ++i) {
+    if (w[i] <= 0.0) continue;
+    const double radius = at.points[static_cast<std::size_t>(i)].relative_radius;
+    position.contact_stress[i] = std::sqrt(w[i] * model.contact_modulus / (units::pi * radius));
+    position.contact_stress_derivative.row(i) =
+        position.contact_stress[i] / (2.0 * w[i]) * position.line_load_derivative.row(i);
+  }
+}
+
+void fill_derivatives(const MeshModel& model, const MeshPosition& at, const FlankCondition& condition,
+                      const LoadProblem& problem, const std::vector<GearParameter>& parameters, LoadedPosition& position) {
+  const Eigen::Index n = problem.gap.size(), m = static_cast<Eigen::Index>(parameters.size());
+  position.line_load_derivative = Eigen::MatrixXd::Zero(n, m);
+  position.transmission_error_derivative = Eigen::RowVectorXd::Zero(m);
+  if (m == 0 || problem.force == 0.0) return;
+  const LoadSensitivity sensitivity(problem, position.load);
+  for (Eigen::Index p = 0; p < m; ++p) {
+    const GearParameter& which = parameters[static_cast<std::size_t>(p)];
+    const auto derivative =
+        sensitivity.with_gap(gap_derivative(model.pair, at.points, condition, which.member, which.parameter));
+    position.line_load_derivative.col(p) = derivative.line_load;
+    position.transmission_error_derivative[p] = derivative.transmission_error;
+  }
+}
+
+}  // namespace
+
+Eigen::VectorXd LoadedCycle::transmission_error() const {
+  Eigen::VectorXd te(static_cast<Eigen::Index>(positions.size()));
+  for (Eigen::Index i = 0; i < te.size(); ++i) te[i] = positions[static_cast<std::size_t>(i)].load.transmission_error;
+  return te;
+}
+
+LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
+                          const std::vector<GearParameter>& parameters, const LoadOptions& options) {
+  LoadedCycle cycle;
+  cycle.force = model.normal_force(pinion_torque);
+  cycle.positions.resize(model.positions.size());
+  const double cos_base_helix = std::cos(model.pair.base_helix_angle);
+  for (std::size_t i = 0; i < model.positions.size(); ++i) {
+    const MeshPosition& at = model.positions[i];
+    LoadedPosition& position = cycle.positions[i];
+    position.phase = at.phase;
+    position.gap = plane_of_action_gap(model.pair, at.points, condition);
+    const LoadProblem problem{at.influence, at.weight, position.gap.total, at.laws, cycle.force};
+    const bool has_previous = i > 0 && cycle.positions[i - 1].load.usable();
+    position.load = solve_load_distribution(
+        problem, options,
+        has_previous ? warm_start(model.positions[i - 1], cycle.positions[i - 1].load.line_load, at) : Eigen::VectorXd());
+    if (!position.load.usable()) {
+      ++cycle.failures;
+      continue;
+    }
+    fill_derivatives(model, at, condition, problem, parameters, position);
+    fill_stress(model, at, position);
+    const double approach = position.load.transmission_error - position.gap.total.minCoeff();
+    position.stiffness = cycle.force / model.face_width * cos_base_helix * cos_base_helix / (approach / micrometre);
+  }
+  return cycle;
+}
+
+CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
+  CycleSummary summary;
+  if (!cycle.usable() || cycle.positions.empty()) return summary;
+  const Eigen::VectorXd te = cycle.transmission_error();
+  summary.te_peak_to_peak = te.maxCoeff() - te.minCoeff();
+  summary.te_mean = te.mean();
+  summary.te_harmonics = harmonic_amplitudes({te.begin(), te.end()});
+  summary.peak_line_load = summary.peak_contact_stress = summary.worst_kkt_residual = 0.0;
+  double mean_approach = 0.0, mean_length = 0.0;
+  for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
+    const LoadedPosition& position = cycle.positions[i];
+    summary.peak_line_load = std::max(summary.peak_line_load, position.load.line_load.maxCoeff());
+    summary.peak_contact_stress = std::max(summary.peak_contact_stress, position.contact_stress.maxCoeff());
+    summary.worst_kkt_residual = std::max(summary.worst_kkt_residual, position.load.kkt_residual);
+    mean_approach += position.load.transmission_error - position.gap.total.minCoeff();
+    for (const ContactPoint& point : model.positions[i].points) {
+      if (point.clearance == 0.0) mean_length += point.weight;
+    }
+  }
+  const double n = static_cast<double>(cycle.positions.size());
+  mean_approach /= n;
+  mean_length /= n;
+  const double cos_base_helix = std::cos(model.pair.base_helix_angle);
+  summary.mean_stiffness = cycle.force / model.face_width * cos_base_helix * cos_base_helix / (mean_approach / micrometre);
+  summary.load_factor = summary.peak_line_load / (cycle.force / mean_length);
+  return summary;
+}
+
+}  // namespace flankwright

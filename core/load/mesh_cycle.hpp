@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/contact/gap.hpp"
+#include "core/load/load_problem.hpp"
+#include "core/load/mesh_model.hpp"
+
+namespace flankwright {
+
+/// A modification parameter of one gear, as a design variable sees it.
+struct GearParameter {
+  Member member{Member::Pinion};
+  ModificationParameter parameter{ModificationParameter::LeadCrowning};
+};
+
+/// Loaded contact at one position of the mesh cycle.
+struct LoadedPosition {
+  double phase{not_given};
+  LoadDistribution load;
+  Gap gap;                           ///< before load
+  Eigen::VectorXd contact_stress;    ///< sigma_H per point [MPa]
+  double stiffness{not_given};       ///< secant, transverse, per mm of face width [N/(mm um)]; see analyse_cycle()
+  // Derivatives with respect to the parameters asked for, column per parameter.
+  Eigen::MatrixXd line_load_derivative;       ///< dw/dp, n x m
+  Eigen::MatrixXd contact_stress_derivative;  ///< dsigma_H/dp, n x m
+  Eigen::RowVectorXd transmission_error_derivative;  ///< df_t/dp, 1 x m
+};
+
+/// Loaded contact over the positions of a MeshModel.
+struct LoadedCycle {
+  std::vector<LoadedPosition> positions;
+  double force{not_given};   ///< normal force [N]
+  int failures{0};           ///< positions without a usable load distribution
+
+  /// f_t of every position [mm]; NaN where a position failed.
+  Eigen::VectorXd transmission_error() const;
+  bool usable() const { return failures == 0; }
+};
+
+/// Solves the load distribution at every position, each warm-started from the one before, and its exact derivatives.
+///
+/// Mesh stiffness is Haddad's eq. 2.16b, (F/b) cos^2(beta_b) / f_t, with f_t counted from first touch, f_t - min(g), so that a
+/// gap common to all points (modified or displaced flanks) is not taken for compliance.
+/// @param pinion_torque  [N mm], >= 0
+/// @param parameters     derivatives are computed for these; empty: none
+LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
+                          const std::vector<GearParameter>& parameters = {}, const LoadOptions& options = {});
+
+/// What a designer reads off a cycle first.
+struct CycleSummary {
+  double te_peak_to_peak{not_given};           ///< of f_t over the positions [mm]
+  std::vector<double> te_harmonics;            ///< amplitudes of orders 1 .. 10 of the base pitch [mm]; empty for explicit phases
+  double te_mean{not_given};                   ///< [mm]
+  double peak_line_load{not_given};            ///< [N/mm]
+  double peak_contact_stress{not_given};       ///< [MPa]
+  double mean_stiffness{not_given};            ///< Haddad eq. 2.17b [N/(mm um)]
+  /// Peak line load over the mean line load F / (mean length of the contact lines on the theoretical path) [-].
+  double load_factor{not_given};
+  double worst_kkt_residual{not_given};
+};
+CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle);
+
+}  // namespace flankwright

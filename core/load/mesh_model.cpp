@@ -1,0 +1,87 @@
+#include "core/load/mesh_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/compliance/hertz_line.hpp"
+
+namespace flankwright {
+
+namespace {
+
+MeshPosition make_position(const MeshModel& model, const PathOfContact& path, const ThinSlice& slice,
+                           const Quadrature& quadrature, double phase, double face_start, double face_end) {
+  MeshPosition position;
+  position.phase = phase;
+  position.points = contact_points(model.pair, path, quadrature, phase, model.effects.extended_contact_region, face_start,
+                                   face_end);
+  const Eigen::Index n = static_cast<Eigen::Index>(position.points.size());
+  position.weight.resize(n);
+  position.influence = Eigen::MatrixXd::Zero(n, n);
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const ContactPoint& point = position.points[static_cast<std::size_t>(i)];
+    position.weight[i] = point.weight;
+    // A slice gives way under its own line load F_i / a_i only.
+    if (model.effects.bending) {
+      position.influence(i, i) = slice.compliance(point.pinion_radius, point.wheel_radius) / point.weight;
+    }
+    if (model.effects.hertzian_contact) {
+      const bool tips = model.effects.tip_corner;
+      position.laws.emplace_back(
+          ContactSide::of(model.pinion_material, point.pinion_depth, tips ? point.pinion_tip_distance : infinity),
+          ContactSide::of(model.wheel_material, point.wheel_depth, tips ? point.wheel_tip_distance : infinity),
+          point.relative_radius, model.contact_modulus);
+    }
+  }
+  return position;
+}
+
+}  // namespace
+
+std::vector<double> equally_spaced_phases(int n) {
+  std::vector<double> phases(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) phases[static_cast<std::size_t>(i)] = static_cast<double>(i) / n;
+  return phases;
+}
+
+double MeshModel::normal_force(double pinion_torque) const {
+  return pinion_torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle));
+}
+
+MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
+                          const MeshResolution& resolution, const MeshEffects& effects, double axial_offset) {
+  if (!effects.bending && !effects.hertzian_contact) {
+    throw InvalidInput("fidelity.effects", "neither bending nor hertzian_contact", "at least one of them under load");
+  }
+  if (resolution.phases.empty()) throw InvalidInput("cycle.phases", "none", "at least one phase");
+  if (resolution.quadrature.intervals < 1) {
+    throw InvalidInput("fidelity.quadrature.intervals", std::to_string(resolution.quadrature.intervals), "at least 1");
+  }
+  const double face_start = std::max(-0.5 * pair.pinion.data.face_width, axial_offset - 0.5 * pair.wheel.data.face_width);
+  const double face_end = std::min(0.5 * pair.pinion.data.face_width, axial_offset + 0.5 * pair.wheel.data.face_width);
+  if (!(face_start < face_end)) {
+    throw InvalidInput("misalignment.axial_offset", std::to_string(axial_offset), "one that leaves a common face width");
+  }
+  const ThinSlice slice(pair, pinion_material, wheel_material);
+  MeshModel model;
+  model.pair = pair;
+  model.pinion_material = pinion_material;
+  model.wheel_material = wheel_material;
+  model.effects = effects;
+  model.axial_offset = axial_offset;
+  model.face_width = face_end - face_start;
+  model.contact_modulus = contact_modulus(pinion_material, wheel_material);
+  model.calibration = slice.calibration();
+  model.iso = slice.iso();
+  const PathOfContact path(pair);
+  model.positions.reserve(resolution.phases.size());
+  for (double phase : resolution.phases) {
+    model.positions.push_back(make_position(model, path, slice, resolution.quadrature, phase, face_start, face_end));
+  }
+  return model;
+}
+
+}  // namespace flankwright
