@@ -46,32 +46,31 @@ ThinSlice::Table::Table(const ToothForm& form, const Material& material)
     : base_radius(form.base_radius()),
       first_roll(roll_length(form.form_radius(), base_radius)),
       last_roll(roll_length(form.tip_radius(), base_radius)) {
-  // Values at the Chebyshev points, then their discrete cosine transform.
-  std::array<double, kCoefficients> values;
-  const auto angle = [](int i) { return units::pi * (i + 0.5) / kCoefficients; };
-  for (int i = 0; i < kCoefficients; ++i) {
-    const double roll = 0.5 * (first_roll + last_roll) + 0.5 * (last_roll - first_roll) * std::cos(angle(i));
+  const auto& f = values;
+  for (std::size_t i = 0; i < kNodes; ++i) {
+    const double roll = first_roll + (last_roll - first_roll) * static_cast<double>(i) / (kNodes - 1);
     const double radius = std::clamp(std::hypot(base_radius, roll), form.form_radius(), form.tip_radius());
-    values[static_cast<std::size_t>(i)] =
-        tooth_compliance(form, radius, material.poissons_ratio).total() / material.youngs_modulus;
+    values[i] = tooth_compliance(form, radius, material.poissons_ratio).total() / material.youngs_modulus;
   }
-  for (int k = 0; k < kCoefficients; ++k) {
-    double sum = 0;
-    for (int i = 0; i < kCoefficients; ++i) sum += values[static_cast<std::size_t>(i)] * std::cos(k * angle(i));
-    coefficients[static_cast<std::size_t>(k)] = sum * (k == 0 ? 1.0 : 2.0) / kCoefficients;
-  }
+  // Five-point differences per interval, central but for the two nodes at each end.
+  for (std::size_t i = 2; i + 2 < kNodes; ++i) slopes[i] = (f[i - 2] - 8 * f[i - 1] + 8 * f[i + 1] - f[i + 2]) / 12;
+  const auto end = [&](std::size_t first, bool forwards) {
+    const auto at = [&](std::size_t i) { return f[forwards ? first + i : first - i]; };
+    const double sign = forwards ? 1 : -1;
+    slopes[first] = sign * (-25 * at(0) + 48 * at(1) - 36 * at(2) + 16 * at(3) - 3 * at(4)) / 12;
+    slopes[forwards ? first + 1 : first - 1] = sign * (-3 * at(0) - 10 * at(1) + 18 * at(2) - 6 * at(3) + at(4)) / 12;
+  };
+  end(0, true);
+  end(kNodes - 1, false);
 }
 
 double ThinSlice::Table::operator()(double radius) const {
   const double roll = std::clamp(roll_length(radius, base_radius), first_roll, last_roll);
-  const double t = (2 * roll - first_roll - last_roll) / (last_roll - first_roll);
-  double b1 = 0, b2 = 0;  // Clenshaw's recurrence
-  for (std::size_t k = kCoefficients - 1; k > 0; --k) {
-    const double b = coefficients[k] + 2 * t * b1 - b2;
-    b2 = b1;
-    b1 = b;
-  }
-  return coefficients[0] + t * b1 - b2;
+  const double position = (roll - first_roll) / (last_roll - first_roll) * (kNodes - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(position), kNodes - 2);
+  const double t = position - static_cast<double>(i);
+  const double u = 1 - t;
+  return u * u * ((1 + 2 * t) * values[i] + t * slopes[i]) + t * t * ((1 + 2 * u) * values[i + 1] - u * slopes[i + 1]);
 }
 
 ThinSlice::ThinSlice(const GearPair& pair, const Material& pinion, const Material& wheel)

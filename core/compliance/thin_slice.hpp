@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 #include "core/compliance/iso_stiffness.hpp"
 #include "core/gear/gear_pair.hpp"
@@ -47,11 +48,12 @@ class ThinSlice {
   double calibration_roll_length() const { return calibration_roll_length_; }  ///< rho_1 where kappa was set [mm]
 
  private:
-  static constexpr int kCoefficients = 40;  ///< of the Chebyshev series, for the interpolation error of the class comment
+  static constexpr std::size_t kNodes = 65;  ///< of the table, for the interpolation error of the class comment
 
+  /// Q/E of one gear: cubic Hermite interpolation between equal steps of roll length.
   struct Table {
     double base_radius, first_roll, last_roll;
-    std::array<double, kCoefficients> coefficients;
+    std::array<double, kNodes> values, slopes;  ///< slopes per interval
     Table(const ToothForm& form, const Material& material);
     double operator()(double radius) const;
   };

@@ -52,6 +52,10 @@ ToothCompliance slice_compliance(const std::function<double(double)>& thickness,
     // y = y_f + t^2 on the first piece takes the square root out of a fillet that ends flat.
     integrate(0, std::sqrt(heights[1] - root), [&](double t, double dt) { add(root + t * t, 2 * t * dt); });
     for (std::size_t i = 1; i + 1 < heights.size(); ++i) integrate(heights[i], heights[i + 1], add);
+  } else {
+    const double s = thickness(root);
+    height = (load - root) / s;
+    slenderness = height * height * height / 3;
   }
 
   const double nu = poissons_ratio;

@@ -31,8 +31,8 @@ struct ToothCompliance {
 /// for the parts that a half-plane leaves undetermined.
 ///
 /// @param thickness       s(y) > 0 [mm] on [y_f, y_p]; may leave y_f as a square root does (a fillet that ends flat)
-/// @param heights         ascending [mm]: y_f, any heights where s(y) is not smooth, y_p, at least two; where y_p <= y_f (two
-///                        heights only) the beam contributes nothing
+/// @param heights         ascending [mm]: y_f, any heights where s(y) is not smooth, y_p, at least two. Where the load points into the
+///                        rim, y_p < y_f (two heights only), the beam is continued down with the thickness s_f and taken off
 /// @param load_angle      a [rad], |a| < pi/2
 /// @param poissons_ratio  nu, 0 <= nu < 0.5
 ToothCompliance slice_compliance(const std::function<double(double)>& thickness, const std::vector<double>& heights,
@@ -44,7 +44,8 @@ ToothCompliance slice_compliance(const std::function<double(double)>& thickness,
 /// the rim at the lowest points of its fillets, heights and thickness taken there. Neighbouring slices do not help (no convection), and
 /// the rim is massive.
 ///
-/// Grows with the radius. Not part of it: Hertzian flattening, gear-body and shaft deflection.
+/// Grows with the radius; at the very foot of the involute (its lowest tenth) of an undercut or coarse tooth it may fall by a
+/// few per cent first. Not part of it: Hertzian flattening, gear-body and shaft deflection.
 ///
 /// @param radius  [mm], form.form_radius() <= radius <= form.tip_radius()
 ToothCompliance tooth_compliance(const ToothForm& form, double radius, double poissons_ratio);

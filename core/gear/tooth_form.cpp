@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/base/error.hpp"
+#include "core/base/root.hpp"
 #include "core/base/units.hpp"
 
 namespace flankwright {
@@ -17,15 +19,14 @@ using units::pi;
   throw InvalidInput(field, std::to_string(value), allowed);
 }
 
-/// Root of f in [a, b] where f(a) <= 0 <= f(b), b < a allowed; halves the bracket until it holds no further number.
+/// Where the increasing or decreasing f changes sign between a and b, to the last few bits; without a change of sign the end
+/// where f is nearest to zero, so that a radius that misses an end by round-off finds that end.
 template <typename F>
-double bisect(F&& f, double a, double b) {
-  // A double has 53 bits: more halvings cannot narrow a bracket that spans a factor of two or so, 64 always can.
-  for (int i = 0; i < 64; ++i) {
-    const double middle = 0.5 * (a + b);
-    (f(middle) <= 0 ? a : b) = middle;
-  }
-  return 0.5 * (a + b);
+double crossing(F&& f, double a, double b) {
+  const double fa = f(a), fb = f(b);
+  if ((fa > 0) == (fb > 0) && fa != 0 && fb != 0) return std::abs(fa) < std::abs(fb) ? a : b;
+  const double tolerance = 2 * std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b));
+  return bracketed_root(f, a, fa, b, fb, tolerance).x;
 }
 
 }  // namespace
@@ -145,14 +146,14 @@ void ToothForm::locate_form_radius() {
 
   // The fillet rises from inside the base circle, cuts off the foot of the involute and leaves the tooth where its half
   // angle exceeds the involute's, which at lambda = alpha_t it does by twice the involute function.
-  const double at_base = bisect([&](double l) { return fillet_radius(l) - base_radius_; }, pi / 2, alpha_t);
+  const double at_base = crossing([&](double l) { return fillet_radius(l) - base_radius_; }, pi / 2, alpha_t);
   const auto excess = [&](double lambda) {
     const ProfilePoint p = fillet_point(lambda);
     return std::atan2(p.x, p.y) - involute_half_angle(roll_length(std::hypot(p.x, p.y)));
   };
   // An undercut too slight to be resolved (excess of the order of the cube of the lost roll length) starts at the base
-  // circle to within round-off, and bisect() then returns that end.
-  fillet_start_ = bisect(excess, at_base, alpha_t);
+  // circle to within round-off, and any point between the two is as good.
+  fillet_start_ = crossing(excess, at_base, alpha_t);
   form_radius_ = std::max(base_radius_, fillet_radius(fillet_start_));
 }
 
@@ -165,23 +166,23 @@ double ToothForm::half_angle(double radius) const {
 
 ProfilePoint ToothForm::at_radius(double radius) const {
   if (radius >= form_radius_) return involute_point(roll_length(radius));
-  return fillet_point(bisect([&](double lambda) { return fillet_radius(lambda) - radius; }, pi / 2, fillet_start_));
+  return fillet_point(crossing([&](double lambda) { return fillet_radius(lambda) - radius; }, pi / 2, fillet_start_));
 }
 
 ProfilePoint ToothForm::at_height(double y) const {
   const double form_roll = roll_length(form_radius_);
   if (y >= involute_point(form_roll).y) {
     const double tip_roll = roll_length(tip_radius_);
-    return involute_point(bisect([&](double roll) { return involute_point(roll).y - y; }, form_roll, tip_roll));
+    return involute_point(crossing([&](double roll) { return involute_point(roll).y - y; }, form_roll, tip_roll));
   }
-  return fillet_point(bisect([&](double lambda) { return fillet_point(lambda).y - y; }, pi / 2, fillet_start_));
+  return fillet_point(crossing([&](double lambda) { return fillet_point(lambda).y - y; }, pi / 2, fillet_start_));
 }
 
 ProfilePoint ToothForm::root_tangent_point(double normal_tangent_angle) const {
   const double wanted = std::atan(std::tan(normal_tangent_angle) / std::cos(helix_angle_));
   const auto excess = [&](double lambda) { return fillet_point(lambda).tangent_angle - wanted; };
   if (excess(fillet_start_) >= 0) return fillet_point(fillet_start_);
-  return fillet_point(bisect(excess, fillet_start_, pi / 2));
+  return fillet_point(crossing(excess, fillet_start_, pi / 2));
 }
 
 std::vector<ProfilePoint> ToothForm::profile(int points) const {

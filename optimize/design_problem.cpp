@@ -1,0 +1,147 @@
+#include "optimize/design_problem.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flankwright {
+
+DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)) {
+  if (task_.scenes.empty()) throw InvalidInput("scenes", "none", "at least one scene");
+  if (task_.variables.empty()) throw InvalidInput("optimise.variables", "none", "at least one variable");
+  if (task_.objective.empty()) throw InvalidInput("optimise.objective", "none", "at least one output");
+  for (const DesignVariable& v : task_.variables) {
+    if (!(v.lower < v.upper)) throw InvalidInput("optimise.variables." + v.path, "an empty range", "lower < upper");
+    parameters_.push_back({v.member, v.parameter});
+  }
+  for (const DesignScene& scene : task_.scenes) {
+    if (!(scene.torque > 0.0)) throw InvalidInput("load.torque", std::to_string(scene.torque), "above 0 to optimise");
+    std::unique_ptr<MeshModel>& model = models_by_offset_[scene.condition.misalignment.axial_offset];
+    if (!model) {
+      model = std::make_unique<MeshModel>(make_mesh_model(task_.pair, task_.pinion_material, task_.wheel_material,
+                                                          task_.resolution, task_.effects,
+                                                          scene.condition.misalignment.axial_offset));
+    }
+    models_.push_back(model.get());
+  }
+}
+
+Eigen::VectorXd DesignProblem::start() const {
+  Eigen::VectorXd x(variables());
+  for (int i = 0; i < variables(); ++i) {
+    const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
+    const Modification& given = v.member == Member::Pinion ? task_.pinion_modification : task_.wheel_modification;
+    x[i] = std::clamp((get(given, v.parameter) - v.lower) / (v.upper - v.lower), 0.0, 1.0);
+  }
+  return x;
+}
+
+double DesignProblem::unscaled(const Eigen::VectorXd& x, int i) const {
+  const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
+  return v.lower + x[i] * (v.upper - v.lower);
+}
+
+void DesignProblem::apply(const Eigen::VectorXd& x, Modification& pinion, Modification& wheel) const {
+  pinion = task_.pinion_modification;
+  wheel = task_.wheel_modification;
+  for (int i = 0; i < variables(); ++i) {
+    const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
+    set(v.member == Member::Pinion ? pinion : wheel, v.parameter, unscaled(x, i));
+  }
+}
+
+DesignAnalysis DesignProblem::run(const Modification& pinion, const Modification& wheel, bool with_derivatives) const {
+  DesignAnalysis analysis{pinion, wheel, std::vector<LoadedCycle>(task_.scenes.size())};
+  const std::vector<GearParameter> none;
+  tbb::parallel_for(std::size_t{0}, task_.scenes.size(), [&](std::size_t s) {
+    FlankCondition condition = task_.scenes[s].condition;
+    condition.pinion_modification = pinion;
+    condition.wheel_modification = wheel;
+    analysis.cycles[s] = analyse_cycle(*models_[s], condition, task_.scenes[s].torque, with_derivatives ? parameters_ : none);
+  });
+  return analysis;
+}
+
+const DesignAnalysis& DesignProblem::analyse(const Eigen::VectorXd& x, bool with_derivatives) {
+  const bool known = last_x_.size() == x.size() && last_x_ == x && (last_has_derivatives_ || !with_derivatives);
+  if (known) return last_;
+  Modification pinion, wheel;
+  apply(x, pinion, wheel);
+  last_ = run(pinion, wheel, with_derivatives);
+  last_x_ = x;
+  last_has_derivatives_ = with_derivatives;
+  ++analyses_;
+  return last_;
+}
+
+DesignAnalysis DesignProblem::analyse_given() const {
+  return run(task_.pinion_modification, task_.wheel_modification, false);
+}
+
+double DesignProblem::scene_measure(const DesignAnalysis& analysis, int scene) const {
+  double sum = 0.0;
+  for (const ObjectiveTerm& term : task_.objective) {
+    sum += term.weight * term.outside_factor() *
+           output_value(term, model(scene), analysis.cycles[static_cast<std::size_t>(scene)]);
+  }
+  return sum;
+}
+
+double DesignProblem::objective(const DesignAnalysis& analysis) const {
+  std::vector<double> measures, weights;
+  for (int s = 0; s < scenes(); ++s) {
+    measures.push_back(scene_measure(analysis, s));
+    weights.push_back(task_.scenes[static_cast<std::size_t>(s)].weight);
+  }
+  return aggregate(task_.over, measures, weights);
+}
+
+double DesignProblem::constraint_value(const DesignAnalysis& analysis, const OutputConstraint& constraint) const {
+  double largest = -INFINITY;
+  for (int s = 0; s < scenes(); ++s) {
+    largest = std::max(largest, output_value(constraint.output, model(s), analysis.cycles[static_cast<std::size_t>(s)]));
+  }
+  return largest;
+}
+
+Eigen::VectorXd DesignProblem::scaled(const Eigen::VectorXd& gradient) const {
+  Eigen::VectorXd result = gradient;
+  for (int i = 0; i < variables(); ++i) {
+    const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
+    result[i] *= v.upper - v.lower;
+  }
+  return result;
+}
+
+std::vector<double> aggregate_weights(Aggregate over, const std::vector<double>& measures, const std::vector<double>& weights) {
+  std::vector<double> result(measures.size(), 0.0);
+  if (over == Aggregate::Nominal) {
+    result.front() = 1.0;
+    return result;
+  }
+  if (over == Aggregate::Worst) {
+    result[static_cast<std::size_t>(std::max_element(measures.begin(), measures.end()) - measures.begin())] = 1.0;
+    return result;
+  }
+  double total = 0.0, mean = 0.0, variance = 0.0;
+  for (double w : weights) total += w;
+  for (std::size_t s = 0; s < measures.size(); ++s) mean += weights[s] / total * measures[s];
+  for (std::size_t s = 0; s < measures.size(); ++s) variance += weights[s] / total * std::pow(measures[s] - mean, 2);
+  const double sigma = std::sqrt(variance);
+  for (std::size_t s = 0; s < measures.size(); ++s) {
+    result[s] = weights[s] / total;
+    if (over == Aggregate::MeanPlusTwoSigma && sigma > 0.0) result[s] *= 1.0 + 2.0 * (measures[s] - mean) / sigma;
+  }
+  return result;
+}
+
+double aggregate(Aggregate over, const std::vector<double>& measures, const std::vector<double>& weights) {
+  // All four are homogeneous of degree one: the weights of the derivative rebuild the value.
+  const std::vector<double> derivative = aggregate_weights(over, measures, weights);
+  double sum = 0.0;
+  for (std::size_t s = 0; s < measures.size(); ++s) sum += derivative[s] * measures[s];
+  return sum;
+}
+
+}  // namespace flankwright
