@@ -17,7 +17,8 @@ constexpr double kTipFactor0 = 1.627, kTipFactor1 = -0.282, kTipFactor2 = 0.0333
 // The parabola holds for y <= kBlendStart, where it still falls; M = 1 for y >= kBlendEnd.
 constexpr double kBlendStart = 3.6, kBlendEnd = 5.0;
 
-/// The bracket of eq. 1.30, g(h') = asinh(h') - k h' (S - h'), S = sqrt(1 + h'^2), and its derivative (1 - k (S - h')^2) / S.
+/// The bracket of eq. 1.30, g(h') = asinh(h') - k h' (S - h'), S = sqrt(1 + h'^2), and its derivative (1 - k (S -
+/// h')^2) / S.
 struct DepthFunction {
   double value, slope;
 };
@@ -71,7 +72,9 @@ ContactLaw::ContactLaw(const ContactSide& pinion, const ContactSide& wheel, doub
   }
 }
 
-double ContactLaw::half_width(double line_load) const { return half_width_at_unit_load_ * std::sqrt(line_load); }
+double ContactLaw::half_width(double line_load) const {
+  return half_width_at_unit_load_ * std::sqrt(line_load);
+}
 
 ContactLaw::Response ContactLaw::evaluate(double line_load) const {
   assert(line_load >= 0);

@@ -9,9 +9,9 @@ namespace flankwright {
 
 /// Factor M on the contact deflection near a free tooth tip [Haddad 1991, eq. 1.54, after Steward], and its slope.
 ///
-/// y is the distance from the tip in Hertzian half widths. The parabola 1.627 - 0.282 y + 0.03338 y^2 is used up to y = 3.6; from
-/// there a quintic of continuous value, slope and curvature falls to M = 1 at y = 5, beyond which the tip is not felt. (The
-/// published form jumps from 1.031 to 1 at its minimum, y = 4.2.) M is monotone and 1 <= M <= 1.627.
+/// y is the distance from the tip in Hertzian half widths. The parabola 1.627 - 0.282 y + 0.03338 y^2 is used up to
+/// y = 3.6; from there a quintic of continuous value, slope and curvature falls to M = 1 at y = 5, beyond which the tip
+/// is not felt. (The published form jumps from 1.031 to 1 at its minimum, y = 4.2.) M is monotone and 1 <= M <= 1.627.
 struct TipFactor {
   double value;  ///< M [-]
   double slope;  ///< dM/dy [-], <= 0
@@ -24,7 +24,7 @@ TipFactor tip_factor(double tip_distance);
 struct ContactSide {
   double coefficient{not_given};    ///< A = 2 (1 - nu^2) / (pi E) [mm^2/N], > 0
   double lateral_ratio{not_given};  ///< nu / (1 - nu) [-], 0 .. 1
-  double depth{not_given};          ///< h [mm], > 0: how far below the flank, along its normal, the deflection is referred to
+  double depth{not_given};          ///< h [mm], > 0: depth along the normal that the deflection is referred to
   /// (r_a - r) / cos(alpha_yt) [mm], distance from the tip; < 0 counts as 0, infinity switches the tip factor off.
   double tip_distance{std::numeric_limits<double>::infinity()};
 
@@ -34,16 +34,16 @@ struct ContactSide {
                         double tip_distance = std::numeric_limits<double>::infinity());
 };
 
-/// Local (Hertzian) deflection of one contact point under a line load: how far the contact line approaches the points at the
-/// depths h of both gears [Vedmar; Haddad 1991, eqs 1.30 and 1.54],
+/// Local (Hertzian) deflection of one contact point under a line load: how far the contact line approaches the points
+/// at the depths h of both gears [Vedmar; Haddad 1991, eqs 1.30 and 1.54],
 ///
 ///     c(w) = sum over both gears of  M(y) A w [asinh(h') - nu/(1 - nu) h' (sqrt(1 + h'^2) - h')],
 ///     h' = h/L,  y = tip distance/L,  L = sqrt(4 w R / (pi E')).
 ///
-/// It is the exact integral of the strain under the middle of the Hertzian pressure in plane strain. (Eq. 1.30 as printed has lost
-/// the square of the h' before the root, which 1.32 has.) The logarithm of eq. 1.34 is its limit for h much larger than L and turns
-/// back beyond that; this law increases at every load, c(0) = 0, and c ~ sqrt(w) where L exceeds h. The first slope is infinite, as
-/// -log(w). y is held fixed at 0 at the tip itself.
+/// It is the exact integral of the strain under the middle of the Hertzian pressure in plane strain. (Eq. 1.30 as
+/// printed has lost the square of the h' before the root, which 1.32 has.) The logarithm of eq. 1.34 is its limit for h
+/// much larger than L and turns back beyond that; this law increases at every load, c(0) = 0, and c ~ sqrt(w) where L
+/// exceeds h. The first slope is infinite, as -log(w). y is held fixed at 0 at the tip itself.
 ///
 /// A small value, cheap to copy: an evaluation is two asinh and a square root.
 class ContactLaw {

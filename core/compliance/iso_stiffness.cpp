@@ -17,7 +17,8 @@ double rack_factor(const RackProfile& rack, double pressure_angle) {
 
 }  // namespace
 
-double iso_flexibility(double virtual_teeth_pinion, double virtual_teeth_wheel, double shift_pinion, double shift_wheel) {
+double iso_flexibility(double virtual_teeth_pinion, double virtual_teeth_wheel, double shift_pinion,
+                       double shift_wheel) {
   const double z1 = virtual_teeth_pinion, z2 = virtual_teeth_wheel;
   const double x1 = shift_pinion, x2 = shift_wheel;
   return 0.04723 + 0.15551 / z1 + 0.25791 / z2 - 0.00635 * x1 - 0.11654 * x1 / z1 - 0.00193 * x2 - 0.24188 * x2 / z2 +

@@ -15,28 +15,34 @@ enum class ThinSliceStatus {
   HertzExceedsIso,  ///< the Hertzian part alone exceeds ISO's flexibility: used as computed, calibration() = 1
 };
 
-/// Structural compliance of a pair of teeth without coupling along the face: every mm of contact line is a slice of its own,
+/// Structural compliance of a pair of teeth without coupling along the face: every mm of contact line is a slice of its
+/// own,
 ///
 ///     q(r_1, r_2) = kappa (Q_1(r_1)/E_1 + Q_2(r_2)/E_2),
 ///
-/// Q from Weber and Banaschek (tooth_compliance()). One factor kappa brings it to ISO 6336-1, method B: at the pitch point, under
-/// 300 N per mm of contact line (which is F_bt/b = 300 N/mm of face width: normal load and contact line both carry
-/// cos(beta_b)), structure and Hertz together are ISO's flexibility 1/(c'_th C_M C_R C_B), scaled by the moduli,
+/// Q from Weber and Banaschek (tooth_compliance()). One factor kappa brings it to ISO 6336-1, method B: at the pitch
+/// point, under 300 N per mm of contact line (which is F_bt/b = 300 N/mm of face width: normal load and contact line
+/// both carry cos(beta_b)), structure and Hertz together are ISO's flexibility 1/(c'_th C_M C_R C_B), scaled by the
+/// moduli,
 ///
 ///     q(r_w1, r_w2) + c(300)/300 = 1e-3 / iso().normal_section,
 ///
-/// c being the contact law without tip factor. Where the pitch point lies outside the path of contact its middle is used instead.
-/// kappa > 0 for all steel pairs of 5 .. 500 teeth at modules 0.1 .. 50 mm (measured: 0.60 .. 1.72, 1.3 .. 1.5 for common
-/// gears), most of it ISO's C_M = 0.8 (measured stiffness over computed).
+/// c being the contact law without tip factor. Where the pitch point lies outside the path of contact its middle is
+/// used instead. kappa > 0 for every steel pair tried (3966 of 5 .. 500 teeth, modules 0.1 .. 50 mm, pressure angles from
+/// 12 to 28 deg, helix angles to 45 deg, profile shifts -1 .. 1): 1.2 .. 1.6 without profile shift, mostly ISO's C_M = 0.8
+/// (measured stiffness over computed), at most 2.13, and next to 0 only for teeth that undercut has all but severed.
+/// Should Hertz alone ever exceed ISO's flexibility, status() says so.
 ///
-/// Q is tabulated as a Chebyshev series in the roll length; the interpolation error is below 2e-5 of Q (measured).
+/// Q is tabulated over the roll length; the interpolation error stays below 2e-4 of Q for the same gears, 1e-5 for
+/// common ones.
 class ThinSlice {
  public:
   /// @throws InvalidInput where a material is out of range
   ThinSlice(const GearPair& pair, const Material& pinion, const Material& wheel);
 
   /// Compliance of the pair [mm per (N per mm of contact line)], normal to the flank.
-  /// @param pinion_radius, wheel_radius  contact radii [mm]; below a form radius or above a tip radius that end's value is used
+  /// @param pinion_radius, wheel_radius  contact radii [mm]; below a form radius or above a tip radius that end's value
+  ///                                     is used
   double compliance(double pinion_radius, double wheel_radius) const;
 
   /// The same for one gear; the pair's compliance is the sum of both.

@@ -7,8 +7,8 @@
 
 namespace flankwright {
 
-/// Compliance of one tooth slice in the direction of a load normal to its flank: deflection per line load [mm per (N/mm)]
-/// times Young's modulus [MPa], hence dimensionless and independent of the module.
+/// Compliance of one tooth slice in the direction of a load normal to its flank: deflection per line load [mm per
+/// (N/mm)] times Young's modulus [MPa], hence dimensionless and independent of the module.
 struct ToothCompliance {
   double bending{not_given};
   double shear{not_given};
@@ -18,34 +18,36 @@ struct ToothCompliance {
 };
 
 /// Weber and Banaschek's cantilever of varying thickness on an elastic half-plane [Weber, Banaschek: Formaenderung und
-/// Profilruecknahme bei gerad- und schraegverzahnten Raedern, 1953], plane strain, general Poisson's ratio. With the lever
-/// l = y_p - y_f, the root thickness s_f and the load angle a (against the normal to the centre line),
+/// Profilruecknahme bei gerad- und schraegverzahnten Raedern, 1953], plane strain, general Poisson's ratio. With the
+/// lever l = y_p - y_f, the root thickness s_f and the load angle a (against the normal to the centre line),
 ///
 ///     bending      (1 - nu^2) cos^2 a * 12 int (y_p - y)^2 / s(y)^3 dy
 ///     shear        (1 - nu^2) cos^2 a * 2.4/(1 - nu) int dy / s(y)
 ///     compression  (1 - nu^2) sin^2 a * int dy / s(y)
-///     foundation   (1 - nu^2) cos^2 a * [18/pi (l/s_f)^2 + 2 (1 - 2 nu)/(1 - nu) l/s_f + 4.8/pi (1 + (1 - nu)/2.4 tan^2 a)]
+///     foundation   (1 - nu^2) cos^2 a * [18/pi (l/s_f)^2 + 2 (1 - 2 nu)/(1 - nu) l/s_f
+///                                        + 4.8/pi (1 + (1 - nu)/2.4 tan^2 a)]
 ///
-/// both integrals from y_f to y_p; the first three are the strain energies of a beam (shear factor 1.2), 18/pi and
-/// 2 (1 - 2 nu)/(1 - nu) follow from linear normal and uniform tangential tractions on the half-plane, 4.8/pi is the authors' choice
-/// for the parts that a half-plane leaves undetermined.
+/// both integrals from y_f to y_p; the first three are the strain energies of a beam (shear factor 1.2). In the fourth,
+/// 18/pi and 2 (1 - 2 nu)/(1 - nu) follow from linear normal and uniform tangential tractions on the half-plane; 4.8/pi
+/// is the authors' choice for the parts that a half-plane leaves undetermined.
 ///
 /// @param thickness       s(y) > 0 [mm] on [y_f, y_p]; may leave y_f as a square root does (a fillet that ends flat)
-/// @param heights         ascending [mm]: y_f, any heights where s(y) is not smooth, y_p, at least two. Where the load points into the
-///                        rim, y_p < y_f (two heights only), the beam is continued down with the thickness s_f and taken off
+/// @param heights         ascending [mm]: y_f, any heights where s(y) is not smooth, y_p, at least two. Where the load
+///                        points into the rim, y_p < y_f (two heights only), the beam is continued down with the
+///                        thickness s_f and taken off
 /// @param load_angle      a [rad], |a| < pi/2
 /// @param poissons_ratio  nu, 0 <= nu < 0.5
 ToothCompliance slice_compliance(const std::function<double(double)>& thickness, const std::vector<double>& heights,
                                  double load_angle, double poissons_ratio);
 
-/// The same for the exact tooth form, loaded at a radius. The slice is taken in the normal section: the transverse form with
-/// its thickness times cos(beta) and tan a = cos(beta) tan a_t; y_p is where the load's line meets the centre line, so that the
-/// deflection is the centre line's and what lies between it and the flank belongs to the contact law. The tooth stands on
-/// the rim at the lowest points of its fillets, heights and thickness taken there. Neighbouring slices do not help (no convection), and
-/// the rim is massive.
+/// The same for the exact tooth form, loaded at a radius. The slice is taken in the normal section: the transverse form
+/// with its thickness times cos(beta) and tan a = cos(beta) tan a_t; y_p is where the load's line meets the centre
+/// line, so that the deflection is the centre line's and what lies between it and the flank belongs to the contact law.
+/// The tooth stands on the rim at the lowest points of its fillets, heights and thickness taken there. Neighbouring
+/// slices do not help (no convection), and the rim is massive.
 ///
-/// Grows with the radius; at the very foot of the involute (its lowest tenth) of an undercut or coarse tooth it may fall by a
-/// few per cent first. Not part of it: Hertzian flattening, gear-body and shaft deflection.
+/// Grows with the radius; at the very foot of the involute (its lowest tenth) of an undercut or coarse tooth it may
+/// fall by up to 8 % first. Not part of it: Hertzian flattening, gear-body and shaft deflection.
 ///
 /// @param radius  [mm], form.form_radius() <= radius <= form.tip_radius()
 ToothCompliance tooth_compliance(const ToothForm& form, double radius, double poissons_ratio);

@@ -19,8 +19,8 @@ using units::pi;
   throw InvalidInput(field, std::to_string(value), allowed);
 }
 
-/// Where the increasing or decreasing f changes sign between a and b, to the last few bits; without a change of sign the end
-/// where f is nearest to zero, so that a radius that misses an end by round-off finds that end.
+/// Where the increasing or decreasing f changes sign between a and b, to the last few bits; without a change of sign
+/// the end where f is nearest to zero, so that a radius that misses an end by round-off finds that end.
 template <typename F>
 double crossing(F&& f, double a, double b) {
   const double fa = f(a), fb = f(b);
@@ -36,7 +36,7 @@ double full_tip_rounding(double dedendum, double pressure_angle) {
 }
 
 ToothForm::ToothForm(NoTip, const GearData& gear, double normal_module, double pressure_angle, double helix_angle)
-    : module_(normal_module), helix_angle_(helix_angle), pressure_angle_(pressure_angle) {
+    : helix_angle_(helix_angle) {
   if (gear.teeth < 5) reject("teeth", gear.teeth, "an integer of at least 5");
   if (!(normal_module > 0) || !std::isfinite(normal_module)) reject("normal_module", normal_module, "more than 0 mm");
   if (!(pressure_angle > 0 && pressure_angle < pi / 4)) {
@@ -51,8 +51,9 @@ ToothForm::ToothForm(NoTip, const GearData& gear, double normal_module, double p
   const double rho = gear.rack.root_radius;
   const double largest = full_tip_rounding(h, pressure_angle);
   if (!(h > 0 && largest >= 0)) {
-    reject("rack.dedendum", h,
-           "more than 0 and at most " + std::to_string(pi / 4 / std::tan(pressure_angle)) + ", where the tool is pointed");
+    reject(
+        "rack.dedendum", h,
+        "more than 0 and at most " + std::to_string(pi / 4 / std::tan(pressure_angle)) + ", where the tool is pointed");
   }
   // A full rounding is usually stated to a few digits; what is allowed beyond it is round-off.
   constexpr double kRoundOff = 1e-12;
@@ -62,29 +63,29 @@ ToothForm::ToothForm(NoTip, const GearData& gear, double normal_module, double p
 
   const double cos_beta = std::cos(helix_angle);
   transverse_pressure_angle_ = std::atan(std::tan(pressure_angle) / cos_beta);
-  reference_radius_ = gear.teeth * module_ / (2 * cos_beta);
+  reference_radius_ = gear.teeth * normal_module / (2 * cos_beta);
   base_radius_ = reference_radius_ * std::cos(transverse_pressure_angle_);
   const double tan_alpha_t = std::tan(transverse_pressure_angle_);
   base_half_angle_ = (pi / 2 + 2 * gear.profile_shift * std::tan(pressure_angle)) / gear.teeth + tan_alpha_t -
                      transverse_pressure_angle_;
-  rounding_ = rho * module_;
-  tool_depth_ = (h - gear.profile_shift) * module_;
+  rounding_ = rho * normal_module;
+  tool_depth_ = (h - gear.profile_shift) * normal_module;
   rounding_centre_ =
       (pi / 4 + h * std::tan(pressure_angle) + rho * (1 - std::sin(pressure_angle)) / std::cos(pressure_angle)) *
-      module_ / cos_beta;
+      normal_module / cos_beta;
   root_radius_ = reference_radius_ - tool_depth_;
   if (!(root_radius_ > 0)) reject("rack.dedendum", h, "less than leaves the root circle a positive radius");
   locate_form_radius();
   if (undercut_ && !(waist() > 0)) {
-    reject("profile_shift", gear.profile_shift, "large enough that the undercut from both sides does not sever the tooth");
+    reject("profile_shift", gear.profile_shift,
+           "large enough that the undercut from both sides does not sever the tooth");
   }
 }
 
 ToothForm::ToothForm(const GearData& gear, double normal_module, double pressure_angle, double helix_angle)
     : ToothForm(NoTip{}, gear, normal_module, pressure_angle, helix_angle) {
-  tip_radius_ = std::isnan(gear.tip_diameter)
-                    ? reference_radius_ + (gear.rack.addendum + gear.profile_shift) * module_
-                    : gear.tip_diameter / 2;
+  tip_radius_ = std::isnan(gear.tip_diameter) ? reference_radius_ + (gear.rack.addendum + gear.profile_shift) * normal_module
+                                              : gear.tip_diameter / 2;
   if (!(tip_radius_ > form_radius_) || !std::isfinite(tip_radius_)) {
     reject("tip_diameter", 2 * tip_radius_, "more than the form diameter, " + std::to_string(2 * form_radius_) + " mm");
   }
@@ -157,7 +158,9 @@ void ToothForm::locate_form_radius() {
   form_radius_ = std::max(base_radius_, fillet_radius(fillet_start_));
 }
 
-double ToothForm::waist() const { return root_tangent_point(0).x; }
+double ToothForm::waist() const {
+  return root_tangent_point(0).x;
+}
 
 double ToothForm::half_angle(double radius) const {
   const ProfilePoint p = at_radius(radius);

@@ -42,20 +42,21 @@ struct ProfilePoint {
   double tangent_angle{not_given};  ///< tangent against the centre line [rad], > 0 where the tooth widens downwards
 };
 
-/// Exact transverse profile of a tooth cut by a rack with rounded tips: involute above the form radius, and below it the
-/// trochoid that the elliptical (in this section) tip rounding envelops [Haddad 1991, eqs 1A.1-1A.14, after Vedmar].
+/// Exact transverse profile of a tooth cut by a rack with rounded tips: involute above the form radius, and below it
+/// the trochoid that the elliptical (in this section) tip rounding envelops [Haddad 1991, eqs 1A.1-1A.14, after
+/// Vedmar].
 ///
 /// The fillet's parameter lambda is the angle of the tool's normal against the rolling line: alpha_t where the tip
-/// rounding joins the tool's flank, pi/2 at its tip. In the paper's eqs 1A.10-1A.13, with d the depth of the tool's point
-/// below the rolling line, r the reference radius and theta = phi_1 + phi,
+/// rounding joins the tool's flank, pi/2 at its tip. In the paper's eqs 1A.10-1A.13, with d the depth of the tool's
+/// point below the rolling line, r the reference radius and theta = phi_1 + phi,
 ///
 ///     d = (h - x - rho (1 - sin lambda_n)) m_n,       tan lambda_n = tan lambda cos beta,
 ///     theta r = e + d / tan lambda - rho m_n cos lambda_n / cos beta,
 ///     (x, y) = r (sin theta, cos theta) - d / sin lambda (cos(theta - lambda), -sin(theta - lambda)),
 ///
-/// e = (pi/4 + h tan alpha_n + rho (1 - sin alpha_n) / cos alpha_n) m_n / cos beta being the distance along the rolling line
-/// from the tooth's centre line to the centre of the rounding. The tangent there makes the angle lambda - theta with the centre
-/// line. Protuberance, grinding stock and tip chamfer are not modelled.
+/// e = (pi/4 + h tan alpha_n + rho (1 - sin alpha_n) / cos alpha_n) m_n / cos beta being the distance along the rolling
+/// line from the tooth's centre line to the centre of the rounding. The tangent there makes the angle lambda - theta
+/// with the centre line. Protuberance, grinding stock and tip chamfer are not modelled.
 class ToothForm {
  public:
   /// Arguments as for generated_profile(); the tip radius is gear.tip_diameter / 2 or, where that is not given,
@@ -71,8 +72,8 @@ class ToothForm {
   double helix_angle() const { return helix_angle_; }            ///< |beta| [rad]
   bool undercut() const { return undercut_; }
 
-  /// Half the angle that the tooth subtends at a radius [rad], root_radius() <= radius <= tip_radius(); negative above the
-  /// radius where the flanks meet.
+  /// Half the angle that the tooth subtends at a radius [rad], root_radius() <= radius <= tip_radius(); negative above
+  /// the radius where the flanks meet.
   double half_angle(double radius) const;
   /// Half the angle of the tooth tip [rad]; at most 0 for a pointed tooth.
   double tip_half_angle() const { return half_angle(tip_radius_); }
@@ -89,12 +90,12 @@ class ToothForm {
   /// The fillet at parameter lambda, fillet_start() <= lambda <= pi/2.
   ProfilePoint fillet_point(double lambda) const;
   /// Where the tangent to the fillet makes a given angle with the centre line in the *normal* section, tan(angle_t) =
-  /// tan(angle_n) / cos(beta) [Haddad 1991, fig. 1A.5]; 30 deg is the critical section of ISO 6336-3. The start of the fillet
-  /// where its tangent is already steeper, its lowest point where none is as steep.
+  /// tan(angle_n) / cos(beta) [Haddad 1991, fig. 1A.5]; 30 deg is the critical section of ISO 6336-3. The start of the
+  /// fillet where its tangent is already steeper, its lowest point where none is as steep.
   ProfilePoint root_tangent_point(double normal_tangent_angle) const;
 
-  /// Polyline of the right-hand profile from the lowest point of the fillet to the tip, for drawing; points >= 4, half of them
-  /// (rounded down) on the fillet.
+  /// Polyline of the right-hand profile from the lowest point of the fillet to the tip, for drawing; points >= 4, half
+  /// of them (rounded down) on the fillet.
   std::vector<ProfilePoint> profile(int points) const;
 
  private:
@@ -113,12 +114,12 @@ class ToothForm {
   void locate_form_radius();
   double waist() const;  ///< half the smallest thickness of the fillet [mm]
 
-  double module_, helix_angle_, pressure_angle_, transverse_pressure_angle_;
+  double helix_angle_, transverse_pressure_angle_;
   double reference_radius_, base_radius_, root_radius_;
   double tip_radius_{not_given}, form_radius_{not_given}, fillet_start_{not_given};
-  double base_half_angle_;    ///< half angle of the tooth at the base circle [rad]
+  double base_half_angle_;        ///< half angle of the tooth at the base circle [rad]
   double rounding_, tool_depth_;  ///< rho and h - x [mm]
-  double rounding_centre_;    ///< e [mm]
+  double rounding_centre_;        ///< e [mm]
   bool undercut_{false};
 };
 

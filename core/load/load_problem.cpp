@@ -13,6 +13,8 @@ namespace {
 
 /// The slope of the contact law is log-infinite at no load; the quadratic model uses it at this share of the mean load.
 constexpr double slope_floor = 1e-9;
+/// A Newton step is taken whole where slope(1) <= overshoot * |slope(0)|.
+constexpr double overshoot = 0.5;
 
 void check(const LoadProblem& problem, const Eigen::VectorXd& start) {
   const Eigen::Index n = problem.gap.size();
@@ -48,12 +50,16 @@ class Iterate {
   const Eigen::VectorXd& local() const { return local_; }
   const Eigen::VectorXd& local_slope() const { return local_slope_; }
 
-  /// Slope of the objective at w + t d, divided into its constant parts beforehand.
-  double directional_slope(const Eigen::VectorXd& d, const Eigen::VectorXd& structural_d, double t) const {
+  /// Slope of the objective at w + t d. The approach f is taken out of every term (a'd = 0 along a feasible step), so that
+  /// what is summed is as small as the residual and not as large as the deflection.
+  double directional_slope(const Eigen::VectorXd& d, const Eigen::VectorXd& structural_d, double f, double t) const {
     const auto& a = problem_.weight;
-    double slope = (a.array() * d.array() * (structural_ + t * structural_d + problem_.gap).array()).sum();
-    for (std::size_t i = 0; i < problem_.laws.size(); ++i) {
-      slope += a[i] * d[i] * problem_.laws[i].deflection(std::max(0.0, w_[i] + t * d[i]));
+    double slope = 0.0;
+    for (Eigen::Index i = 0; i < d.size(); ++i) {
+      const double local = problem_.laws.empty()
+                               ? 0.0
+                               : problem_.laws[static_cast<std::size_t>(i)].deflection(std::max(0.0, w_[i] + t * d[i]));
+      slope += a[i] * d[i] * (structural_[i] + t * structural_d[i] + local + problem_.gap[i] - f);
     }
     return slope;
   }
@@ -152,9 +158,11 @@ LoadDistribution solve_load_distribution(const LoadProblem& problem, const LoadO
 
     const Eigen::VectorXd d = model.x - at.loads();
     const Eigen::VectorXd structural_d = problem.influence * a.cwiseProduct(d);
-    const auto slope = [&](double t) { return at.directional_slope(d, structural_d, t); };
+    const auto slope = [&](double t) { return at.directional_slope(d, structural_d, f, t); };
     const double slope_start = slope(0.0), slope_end = slope(1.0);
-    const double t = slope_end <= 0.0 || slope_start >= 0.0 ? 1.0 : bracketed_root(slope, 0.0, slope_start, 1.0, slope_end, 1e-3).x;
+    // The whole step where it at least halves the slope, else to the minimum along it.
+    const bool whole = slope_end <= overshoot * std::abs(slope_start) || slope_start >= 0.0;
+    const double t = whole ? 1.0 : bracketed_root(slope, 0.0, slope_start, 1.0, slope_end, 1e-3).x;
     at.move_to(t == 1.0 ? model.x : Eigen::VectorXd((at.loads() + t * d).cwiseMax(0.0)));
   }
   result.status = LoadStatus::IterationLimit;
