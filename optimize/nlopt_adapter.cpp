@@ -22,6 +22,10 @@ constexpr double kInitialStep = 0.1;
 /// where the dual is well-conditioned, and keep an iteration below about a second for 500 constraints. >= 1.
 constexpr double kDualSteps = 2000.0;
 
+/// Populations that NLopt gives crs2_lm and isres: this many times (variables + 1).
+constexpr int kCrs2Population = 10;
+constexpr int kIsresPopulation = 20;
+
 struct Algorithm {
   std::string_view name;
   nlopt::algorithm code;
@@ -50,9 +54,21 @@ class Session {
     note(recorder.start(), recorder.at(recorder.start(), gradients));
   }
 
+  /// From now on the run is over when this many points in a row lie within `tolerances` of the best one.
+  void watch_population(int size, const Eigen::VectorXd& tolerances) {
+    population_ = size;
+    tolerances_ = tolerances;
+  }
+  bool population_collapsed() const { return population_ > 0 && close_in_a_row_ >= population_; }
+
   double objective(const Eigen::VectorXd& x, double* gradient) {
     const Recorder::Point& point = recorder_.at(x, gradient != nullptr);
     note(x, point);
+    if (population_ > 0 && recorder_.best_x().size() > 0) {
+      const bool close = ((x - recorder_.best_x()).array().abs() <= tolerances_.array()).all();
+      close_in_a_row_ = close ? close_in_a_row_ + 1 : 0;
+      if (population_collapsed()) throw StopRun{};
+    }
     if (point.usable) {
       if (gradient != nullptr) std::copy_n(point.values.objective_gradient.data(), x.size(), gradient);
       return point.values.objective;
@@ -110,6 +126,10 @@ class Session {
   Eigen::VectorXd base_x_;
   Recorder::Point base_;
   double worst_{0.0}, least_{0.0}, worst_violation_{0.0};
+
+  int population_{0};  ///< 0: not watched
+  int close_in_a_row_{0};
+  Eigen::VectorXd tolerances_;
 };
 
 double objective_callback(unsigned n, const double* x, double* gradient, void* session) {
@@ -195,11 +215,19 @@ SolverEnding solve_with_nlopt(Recorder& recorder, const SolverOptions& options) 
   }
   optimiser.set_lower_bounds(to_std(recorder.lower()));
   optimiser.set_upper_bounds(to_std(recorder.upper()));
-  optimiser.set_xtol_abs(scaled(scale, options.tolerance));
+  const std::vector<double> step_tolerances = scaled(scale, options.tolerance);
+  if (code == nlopt::GN_CRS2_LM || code == nlopt::GN_ISRES) {
+    // Their step between successive best points is small by chance now and then: no test of convergence.
+    const int factor = code == nlopt::GN_CRS2_LM ? kCrs2Population : kIsresPopulation;
+    session.watch_population(factor * static_cast<int>(n + 1),
+                             Eigen::Map<const Eigen::VectorXd>(step_tolerances.data(), n));
+  } else {
+    optimiser.set_xtol_abs(step_tolerances);
+  }
   optimiser.set_initial_step(scaled(scale, kInitialStep));
   if (code == nlopt::G_MLSL) {
     nlopt::opt local(nlopt::LD_LBFGS, n);
-    local.set_xtol_abs(scaled(scale, options.tolerance));
+    local.set_xtol_abs(step_tolerances);
     optimiser.set_local_optimizer(local);
   }
 
@@ -220,6 +248,8 @@ SolverEnding solve_with_nlopt(Recorder& recorder, const SolverOptions& options) 
     if (again) x = to_std(recorder.best_x());
   } while (again);
   if (recorder.stop_reason().status != SolverStatus::NotRun) return recorder.stop_reason();
+  if (session.population_collapsed())
+    return {SolverStatus::Converged, "the population has drawn together", recorder.best_x(), {}};
   ending.x = Eigen::Map<const Eigen::VectorXd>(x.data(), n);
   if (!ending.x.allFinite()) {
     ending.x.resize(0);

@@ -8,10 +8,12 @@ namespace flankwright {
 /// Runs the NLopt algorithm that options.name ("nlopt:NAME") asks for [Johnson, The NLopt nonlinear-optimization
 /// package].
 ///
-/// Stops when no variable moves by more than tolerance times its range. Derivative-free methods start with steps of a
-/// tenth of the range (of max(1, |start|) where a bound is infinite). mlsl starts L-BFGS runs from random points. mma
-/// and ccsaq can stop short after an infeasible start, so they are started again from the best point until that gains
-/// no more than tolerance * max(1, |objective|); they suit few constraints, slsqp and Ipopt take hundreds.
+/// Stops when no variable moves by more than tolerance times its range; crs2_lm and isres when as many points in a row
+/// as their population has lie that near to the best; esch, direct_l and mlsl at a limit only. Derivative-free methods
+/// start with steps of a tenth of the range (of max(1, |start|) where a bound is infinite). mlsl starts L-BFGS runs
+/// from random points. mma and ccsaq can stop short after an infeasible start, so they are started again from the best
+/// point until that gains no more than tolerance * max(1, |objective|); they suit few constraints, slsqp and Ipopt take
+/// hundreds.
 ///
 /// NLopt cannot be told that a point cannot be evaluated. In its place it gets, for the objective, the worst value met
 /// plus the spread of the values met (at least 1), with the gradient of a straight rise from the best usable point to

@@ -26,7 +26,7 @@ struct SolverOptions {
   /// isres, direct_l, esch, mlsl (see solver_names()).
   std::string name{"ipopt"};
   /// Convergence tolerance [-], > 0. Ipopt: scaled first-order residual <= tolerance. NLopt: step of variable i <=
-  /// tolerance * (upper_i - lower_i). esch and direct_l have no convergence test: they end at a limit.
+  /// tolerance * (upper_i - lower_i). esch, direct_l and mlsl have no convergence test: they end at a limit.
   double tolerance{1e-7};
   /// A point is feasible where max_i c_i(x) <= constraint_tolerance (unit of the constraints), > 0.
   double constraint_tolerance{1e-6};

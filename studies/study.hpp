@@ -7,11 +7,13 @@
 #include <variant>
 #include <vector>
 
+#include "core/contact/contact_points.hpp"
 #include "core/contact/misalignment.hpp"
 #include "core/gear/gear_data.hpp"
 #include "core/gear/microgeometry.hpp"
+#include "optimize/design_task.hpp"
 
-/// A study as pure data: what a study file says, in internal units (mm, N, rad, MPa), validated. Reading is study_file.hpp.
+/// A study as pure data: what a study file says, validated, in internal units (mm, N, rad, MPa); study_file.hpp reads.
 namespace flankwright::studies {
 
 enum class Task { Analyse, Optimise };
@@ -19,17 +21,9 @@ enum class Task { Analyse, Optimise };
 /// Ladder of compliance models available in this version.
 enum class ComplianceModel { Rigid, ThinSlice };
 
-/// Quadrature along a contact line.
-enum class QuadratureRule { Gauss2, Gauss3, Midpoint };
-
-struct Quadrature {
-  QuadratureRule rule{QuadratureRule::Gauss2};
-  int intervals{5};  ///< per full contact line, >= 1
-};
-
 struct Cycle {
   int positions{32};           ///< mesh positions over one base pitch, >= 1
-  std::vector<double> phases;  ///< explicit phases of the reference tooth pair [base pitches]; empty: `positions` are used
+  std::vector<double> phases;  ///< explicit phases of the reference tooth pair [base pitches]; empty: use `positions`
 };
 
 struct Fidelity {
@@ -46,36 +40,6 @@ struct Scene {
   Misalignment misalignment;
   std::vector<double> torques;  ///< on the pinion [N mm], >= 0
   ManufacturingError pinion_error, wheel_error;
-};
-
-enum class Aggregate { Nominal, Worst, Mean, MeanPlusTwoSigma };
-
-/// A quantity of the analysis that can be minimised or bounded.
-enum class Output {
-  PeakContactStress,   ///< MPa
-  TePeakToPeak,        ///< mm, loaded, along the flank normal
-  TeHarmonic,          ///< mm, amplitude of harmonic `order`
-  LoadFactor,          ///< peak line load / mean line load [-]
-  PeakLineLoad         ///< N/mm
-};
-
-struct ObjectiveTerm {
-  Output output{Output::PeakContactStress};
-  int harmonic{0};      ///< order for TeHarmonic, 1 .. 10
-  double weight{1.0};
-  std::string name;     ///< as written: "te_harmonic_1"
-};
-
-struct DesignVariable {
-  std::string path;     ///< as written: "pinion.modification.lead_crowning"
-  Member member{Member::Pinion};
-  ModificationParameter parameter{ModificationParameter::LeadCrowning};
-  double lower{0.0}, upper{0.0};  ///< mm
-};
-
-struct OutputConstraint {
-  ObjectiveTerm output;
-  double maximum{std::numeric_limits<double>::infinity()};   ///< internal units
 };
 
 struct OptimiseTable {

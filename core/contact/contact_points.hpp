@@ -8,7 +8,7 @@
 namespace flankwright {
 
 /// Quadrature rule on the intervals of a contact line.
-enum class QuadratureRule { Midpoint, Gauss2, Gauss3 };
+enum class QuadratureRule { Gauss2, Gauss3, Midpoint };
 
 /// How finely contact lines are resolved.
 struct Quadrature {

@@ -84,8 +84,9 @@ ToothForm::ToothForm(NoTip, const GearData& gear, double normal_module, double p
 
 ToothForm::ToothForm(const GearData& gear, double normal_module, double pressure_angle, double helix_angle)
     : ToothForm(NoTip{}, gear, normal_module, pressure_angle, helix_angle) {
-  tip_radius_ = std::isnan(gear.tip_diameter) ? reference_radius_ + (gear.rack.addendum + gear.profile_shift) * normal_module
-                                              : gear.tip_diameter / 2;
+  tip_radius_ = std::isnan(gear.tip_diameter)
+                    ? reference_radius_ + (gear.rack.addendum + gear.profile_shift) * normal_module
+                    : gear.tip_diameter / 2;
   if (!(tip_radius_ > form_radius_) || !std::isfinite(tip_radius_)) {
     reject("tip_diameter", 2 * tip_radius_, "more than the form diameter, " + std::to_string(2 * form_radius_) + " mm");
   }

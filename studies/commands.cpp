@@ -1,0 +1,130 @@
+#include "studies/commands.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "studies/expectations.hpp"
+#include "studies/progress.hpp"
+#include "studies/report/report.hpp"
+#include "studies/results_folder.hpp"
+#include "studies/results_json.hpp"
+#include "studies/run_study.hpp"
+#include "studies/study_template.hpp"
+#include "studies/tables.hpp"
+
+namespace flankwright::studies {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Studies named directly and all *.toml of named folders, in order of their names.
+std::vector<fs::path> collect_studies(const std::vector<std::string>& paths) {
+  std::vector<fs::path> studies;
+  for (const std::string& path : paths) {
+    if (!fs::is_directory(path)) {
+      studies.emplace_back(path);
+      continue;
+    }
+    std::vector<fs::path> inside;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+      if (entry.path().extension() == ".toml") inside.push_back(entry.path());
+    }
+    std::sort(inside.begin(), inside.end());
+    studies.insert(studies.end(), inside.begin(), inside.end());
+  }
+  return studies;
+}
+
+/// One tested study: its line, and whether everything was met.
+struct TestLine {
+  std::string text;
+  bool met{true};
+  bool bad_input{false};
+};
+
+TestLine test_study(const fs::path& path) {
+  try {
+    const Study study = read_study(path.string());
+    if (study.expect.empty()) return {fmt::format("none  {}  (no [expect] table)\n", path.string())};
+    const StudyResults results = run_study(study);
+    const std::vector<Comparison> comparisons = compare(study.expect, results_json(results));
+    const std::string different = differences(comparisons);
+    std::string text = fmt::format("{}  {}  ({} expectations, {:.1f} s)\n", different.empty() ? "met " : "DIFF", path.string(),
+                                   comparisons.size(), results.seconds);
+    return {text + different, different.empty()};
+  } catch (const InvalidInput& problem) {
+    return {fmt::format("BAD   {}\n{}\n", path.string(), problem.what()), false, true};
+  }
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  const Study study = read_study(options.study, options.overrides);
+  const fs::path folder =
+      options.folder.empty() ? fs::path("results") / fs::path(options.study).stem() : fs::path(options.folder);
+  make_folder(folder);
+  spdlog::info("{} ({})", study.title, options.study);
+
+  StudyResults results;
+  {
+    Progress progress;
+    results = run_study(study, [&](const std::string& label, int done, int total, const std::string& remark) {
+      progress.show(label, done, total, remark);
+    });
+  }
+  const std::string json = results_json(results);
+  write_whole(folder / "results.json", json);
+  for (const NamedText& table : csv_tables(results)) write_whole(folder / table.name, table.text);
+  write_whole(folder / "report.html", render_report(json));
+
+  for (const std::string& note : results.notes) spdlog::warn("{}", note);
+  std::fputs(summary_table(results).c_str(), stdout);
+  const std::string different = differences(compare(study.expect, json));
+  if (!different.empty()) fmt::print("\nnot as [expect] says:\n{}", different);
+  fmt::print("\nreport: {}\n", (folder / "report.html").string());
+  std::fflush(stdout);
+  for (const std::string& requirement : results.requirements) spdlog::error("{}", requirement);
+  return results.requirements.empty() && different.empty() ? 0 : 1;
+}
+
+int check_command(const std::string& path, const std::vector<Override>& overrides) {
+  const Study study = read_study(path, overrides);
+  fmt::print("{}: valid, task {}, {} scene{}\n", path, study.task == Task::Optimise ? "optimise" : "analyse", study.scenes.size(),
+             study.scenes.size() == 1 ? "" : "s");
+  return 0;
+}
+
+int new_command(const std::string& kind) {
+  std::fputs(study_template(kind).c_str(), stdout);
+  return 0;
+}
+
+int report_command(const std::string& folder) {
+  const fs::path page = fs::path(folder) / "report.html";
+  write_whole(page, render_report(read_whole(fs::path(folder) / "results.json")));
+  fmt::print("report: {}\n", page.string());
+  return 0;
+}
+
+int test_command(const std::vector<std::string>& paths) {
+  const std::vector<fs::path> studies = collect_studies(paths);
+  if (studies.empty()) throw InvalidInput("test", "no study", "folders with *.toml files, or study files");
+  std::vector<TestLine> lines(studies.size());
+  tbb::parallel_for(std::size_t{0}, studies.size(), [&](std::size_t i) { lines[i] = test_study(studies[i]); });
+  bool met = true, bad_input = false;
+  for (const TestLine& line : lines) {
+    std::fputs(line.text.c_str(), stdout);
+    met = met && line.met;
+    bad_input = bad_input || line.bad_input;
+  }
+  return bad_input ? 2 : met ? 0 : 1;
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/study.hpp"
+
+namespace flankwright::studies {
+
+/// One comparison of [expect] with the results.
+struct Comparison {
+  std::string key;       ///< with the index of the entry where the key stands for several: "loaded[1].summary.te_mean_um"
+  std::string expected;  ///< in words: "0.84 +- 2 %"
+  double found{not_given};
+  bool met{false};
+};
+
+/// Compares results.json with the study's [expect] table. A key is a dotted path; where it passes through an array without naming
+/// an index ("loaded.summary.te_mean_um"), every entry must meet it. A key that is not there, or is null, is not met.
+std::vector<Comparison> compare(const std::vector<Expectation>& expectations, const std::string& results_json);
+
+/// A table of those that are not met; empty where all are.
+std::string differences(const std::vector<Comparison>& comparisons);
+
+}  // namespace flankwright::studies

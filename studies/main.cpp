@@ -1,0 +1,91 @@
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+#include <tbb/global_control.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <memory>
+#include <optional>
+
+#include "studies/commands.hpp"
+#include "studies/results_json.hpp"
+
+namespace {
+
+using namespace flankwright;
+using namespace flankwright::studies;
+
+constexpr int bad_input = 2, internal_error = 3;
+
+std::vector<Override> overrides_of(const std::vector<std::string>& texts) {
+  std::vector<Override> overrides;
+  for (const std::string& text : texts) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos || equals == 0) throw InvalidInput("--set", text, "key.path=value");
+    overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
+  }
+  return overrides;
+}
+
+int dispatch(int argc, char** argv) {
+  CLI::App app{"Flankwright designs the micro-geometry of involute spur and helical gears.\n"
+               "A study file goes in; results, pictures and chosen flank modifications come out.\n\n"
+               "  flankwright new optimise > my-gear.toml     a commented study to start from\n"
+               "  flankwright check my-gear.toml              what is wrong with it, if anything\n"
+               "  flankwright run my-gear.toml                results/my-gear/report.html",
+               "flankwright"};
+  app.set_version_flag("--version", std::string("flankwright ") + version());
+  app.require_subcommand(1);
+
+  RunOptions options;
+  std::vector<std::string> settings, paths;
+  std::string study, kind, folder;
+  int threads = 0;
+  CLI::App* run = app.add_subcommand("run", "do the study's task; writes results.json, report.html and CSV tables");
+  run->add_option("study", options.study, "study file (TOML)")->required();
+  run->add_option("--out", options.folder, "folder for the results (default: results/ + the study's name)");
+  run->add_option("--threads", threads, "threads to use (default: all cores); results do not depend on it")->check(CLI::Range(1, 1024));
+  run->add_option("--set", settings, "key.path=value: overrides the study file, may be repeated")->allow_extra_args(false);
+  CLI::App* check = app.add_subcommand("check", "read and validate a study; every problem with file:line:column");
+  check->add_option("study", study, "study file")->required();
+  check->add_option("--set", settings, "key.path=value")->allow_extra_args(false);
+  CLI::App* make = app.add_subcommand("new", "print a commented study file");
+  make->add_option("kind", kind, "analyse or optimise")->required();
+  CLI::App* report = app.add_subcommand("report", "rebuild report.html from a results folder");
+  report->add_option("folder", folder, "results folder")->required();
+  CLI::App* test = app.add_subcommand("test", "run studies that have an [expect] table; exit 1 where one differs");
+  test->add_option("paths", paths, "study files or folders of them")->required();
+  test->add_option("--threads", threads, "threads to use")->check(CLI::Range(1, 1024));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : bad_input;
+  }
+
+  std::optional<tbb::global_control> limit;
+  if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  if (run->parsed()) {
+    options.overrides = overrides_of(settings);
+    return run_command(options);
+  }
+  if (check->parsed()) return check_command(study, overrides_of(settings));
+  if (make->parsed()) return new_command(kind);
+  if (report->parsed()) return report_command(folder);
+  return test_command(paths);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("flankwright"));
+  spdlog::set_pattern("%^%l%$: %v");
+  try {
+    return dispatch(argc, argv);
+  } catch (const InvalidInput& problem) {
+    std::fprintf(stderr, "%s\n", problem.what());
+    return bad_input;
+  } catch (const std::exception& error) {
+    spdlog::critical("internal error: {}", error.what());
+    return internal_error;
+  }
+}

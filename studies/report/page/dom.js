@@ -1,0 +1,168 @@
+// Elements, numbers, tables, figures. Text is always set as text, never parsed as markup.
+
+const SVG = "http://www.w3.org/2000/svg";
+
+function fill_element(node, attributes, children) {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value !== null && value !== undefined) node.setAttribute(name, value);
+  }
+  node.append(...children.filter((child) => child !== null && child !== undefined));
+  return node;
+}
+
+const el = (tag, attributes = {}, ...children) => fill_element(document.createElement(tag), attributes, children);
+const svg = (tag, attributes = {}, ...children) =>
+  fill_element(document.createElementNS(SVG, tag), attributes, children);
+
+const is_number = (x) => typeof x === "number" && Number.isFinite(x);
+const list = (x) => (Array.isArray(x) ? x : []);
+const record = (x) => (x !== null && typeof x === "object" && !Array.isArray(x) ? x : {});
+const numbers = (values) => list(values).filter(is_number);
+const maximum = (values) => numbers(values).reduce((a, b) => Math.max(a, b), -Infinity);
+const minimum = (values) => numbers(values).reduce((a, b) => Math.min(a, b), Infinity);
+const unique = (values) => [...new Set(values)];
+
+/** A number at `digits` significant digits, a true minus sign, no padding zeros; a dash for what did not run. */
+function fmt(x, digits = 4) {
+  if (typeof x === "string") return x;
+  if (typeof x === "boolean") return x ? "yes" : "no";
+  if (!is_number(x)) return "–";
+  if (x === 0) return "0";
+  const size = Math.abs(x);
+  let text = String(Number(x.toPrecision(digits)));
+  if (size >= 10 ** digits && size < 1e7) text = String(Math.round(x));
+  if (size < 1e-4) {
+    const [mantissa, power] = x.toExponential(1).split("e");
+    text = `${mantissa}·10${[...power].map((c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c])).join("")}`;
+  }
+  return text.replace(/-/g, "−");
+}
+
+/** Units as they are printed: um -> µm, Nm -> N·m. */
+const pretty_unit = (unit) =>
+  (typeof unit === "string" ? unit : "").replace(/\bum\b/g, "µm").replace(/\bNm\b/g, "N·m").replace(/^deg$/, "°");
+
+const WORDS = {
+  peak_contact_stress: "peak contact stress",
+  te_peak_to_peak: "peak-to-peak transmission error",
+  peak_root_stress: "peak root stress",
+  load_factor: "load factor",
+  peak_line_load: "peak line load",
+};
+
+/** Name of an output or a variable in words of the field. */
+function words(name) {
+  const text = typeof name === "string" ? name : "objective";
+  const harmonic = /^te_harmonic_(\d+)$/.exec(text);
+  if (harmonic) return `transmission error harmonic ${harmonic[1]}`;
+  return WORDS[text] || text.replace(/\.modification\./g, " ").replace(/[_.]/g, " ");
+}
+
+/** A label with its subscripts set: "K_Hβ at mid face" -> K, sub Hβ, at mid face. */
+const symbols = (label) => el("span", {},
+  ...label.split(/_(\p{L}+)/u).map((part, i) => (i % 2 ? el("sub", {}, part) : part)));
+
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
+/** Change from a to b in per cent with its sign, or nothing where it has no meaning. */
+function percent_change(a, b) {
+  if (!is_number(a) || !is_number(b) || a === 0) return null;
+  const percent = ((b - a) / Math.abs(a)) * 100;
+  const size = Math.abs(percent);
+  return `${percent > 0 ? "+" : percent < 0 ? "−" : "±"}${size < 10 ? fmt(size, 2) : Math.round(size)} %`;
+}
+
+// Text that a spreadsheet would take for a formula is kept as text by a leading apostrophe.
+function csv_cell(value) {
+  const text = value === null || value === undefined ? "" : String(value);
+  const safe = typeof value === "string" && /^[=+@\t\r-]/.test(text) ? `'${text}` : text;
+  return /[",\n]/.test(safe) ? `"${safe.replace(/"/g, '""')}"` : safe;
+}
+
+async function copy_text(text) {
+  try {
+    await navigator.clipboard.writeText(text);
+  } catch {
+    const area = el("textarea", { class: "offscreen" });
+    area.value = text;
+    document.body.append(area);
+    area.select();
+    document.execCommand("copy");
+    area.remove();
+  }
+}
+
+/**
+ * A titled table with a button that copies it as CSV.
+ * @param columns  [{label, unit?, digits?}]; unit goes into the heading
+ * @param rows     cells: number, string, boolean, null, or {text, value?, class?, draw?}
+ */
+function table(parent, { title, columns, rows, note }) {
+  const heading = (column) => (column.unit ? `${column.label} [${column.unit}]` : column.label);
+  const plain = (cell) => (cell !== null && typeof cell === "object" ? (cell.value ?? cell.text) : cell);
+  const is_numeric = (i) => rows.some((row) => is_number(plain(row[i]))) && !rows.some((row) => {
+    const value = plain(row[i]);
+    return typeof value === "string" && value !== "";
+  });
+  const numeric = columns.map((_, i) => is_numeric(i));
+  const csv = () => [columns.map(heading), ...rows.map((row) => row.map(plain))]
+    .map((row) => row.map(csv_cell).join(",")).join("\n");
+
+  const button = el("button", { type: "button", class: "button small no-print" }, "Copy as CSV");
+  button.addEventListener("click", async () => {
+    await copy_text(csv());
+    button.textContent = "Copied";
+    setTimeout(() => (button.textContent = "Copy as CSV"), 1500);
+  });
+  const cell_element = (cell, i) => {
+    const rich = cell !== null && typeof cell === "object" ? cell : { text: fmt(cell, columns[i].digits) };
+    const node = el("td", { class: [numeric[i] ? "number" : "", rich.class || ""].join(" ").trim() || null });
+    node.append(rich.draw ? rich.draw() : (rich.text ?? "–"));
+    return node;
+  };
+  parent.append(el("div", { class: "card table-card" },
+    el("div", { class: "card-head" }, el("h3", {}, title), button),
+    note ? el("p", { class: "caption" }, note) : null,
+    el("div", { class: "scroll" }, el("table", {},
+      el("thead", {}, el("tr", {}, ...columns.map((column, i) =>
+        el("th", { scope: "col", class: numeric[i] ? "number" : null }, symbols(column.label),
+          column.unit ? el("span", { class: "unit" }, ` [${column.unit}]`) : null)))),
+      el("tbody", {}, ...rows.map((row) => el("tr", {}, ...row.map(cell_element))))))));
+}
+
+/** Empties a plot and releases the charts in it. */
+function clear_plot(plot) {
+  for (const chart of [...live_charts]) {
+    if (!plot.contains(chart.canvas)) continue;
+    chart.destroy();
+    live_charts.delete(chart);
+  }
+  plot.replaceChildren();
+}
+
+/**
+ * A titled figure with one sentence under it. draw(plot) is called now and whenever the colours change.
+ * @return function that draws the figure anew
+ */
+function figure(parent, { title, caption, wide = false }, draw) {
+  const plot = el("div", { class: "plot" });
+  const card = el("figure", { class: wide ? "card wide" : "card" },
+    el("div", { class: "card-head" }, el("h3", {}, title)), plot, el("figcaption", { class: "caption" }, caption));
+  const redraw = () => {
+    clear_plot(plot);
+    draw(plot);
+  };
+  parent.append(card);
+  figures.push(redraw);
+  return redraw;
+}
+
+const figure_grid = (parent) => parent.appendChild(el("div", { class: "figures" }));
+
+/** A labelled choice; calls back with the value of the option taken. */
+function choice(label, options, value, on_change) {
+  const select = el("select", {}, ...options.map((option) => el("option", { value: option.value }, option.label)));
+  select.value = value;
+  select.addEventListener("change", () => on_change(select.value));
+  return { node: el("label", { class: "choice" }, `${label} `, select), select };
+}

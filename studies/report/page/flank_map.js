@@ -1,0 +1,107 @@
+// A quantity over a tooth flank: face width to the right, radius upwards.
+
+const MAP_HEIGHT = 260;
+const MAP_MARGIN = { left: 56, right: 10, top: 26, bottom: 40 };
+
+function draw_axes(pen, frame, { z, r, title, r_title }) {
+  const { left, top, width, height } = frame;
+  pen.strokeStyle = css_colour("axis");
+  pen.lineWidth = 1;
+  pen.strokeRect(left, top, width, height);
+  pen.fillStyle = css_colour("ink");
+  pen.textBaseline = "middle";
+  pen.textAlign = "left";
+  pen.font = `600 13px ${Chart.defaults.font.family}`;
+  pen.fillText(title, left, 11);
+  pen.font = `12px ${Chart.defaults.font.family}`;
+  pen.fillStyle = css_colour("muted");
+  pen.textAlign = "center";
+  for (const tick of round_ticks(z[0], z[1], width < 260 ? 4 : 6)) {
+    const x = left + (width * (tick - z[0])) / (z[1] - z[0]);
+    pen.fillRect(x - 0.5, top + height, 1, 4);
+    pen.fillText(fmt(tick), x, top + height + 13);
+  }
+  pen.fillText("face width z [mm]", left + width / 2, top + height + 31);
+  pen.textAlign = "right";
+  for (const tick of round_ticks(r[0], r[1], 5)) {
+    const y = top + height * (1 - (tick - r[0]) / (r[1] - r[0]));
+    pen.fillRect(left - 4, y - 0.5, 4, 1);
+    pen.fillText(fmt(tick, 5), left - 7, y);
+  }
+  pen.save();
+  pen.translate(9, top + height / 2);
+  pen.rotate(-Math.PI / 2);
+  pen.textAlign = "center";
+  pen.fillText(r_title, 0, 0);
+  pen.restore();
+}
+
+/** Paints raster {columns, rows, values} (row 0 = smallest radius; null = nothing there, 0 with bare_zero = bare). */
+function paint_raster(pen, frame, raster, scale, bare_zero) {
+  const image = document.createElement("canvas");
+  image.width = raster.columns;
+  image.height = raster.rows;
+  const ink = image.getContext("2d");
+  const bare = css_colour("bare");
+  for (let row = 0; row < raster.rows; ++row) {
+    for (let column = 0; column < raster.columns; ++column) {
+      const value = raster.values[row * raster.columns + column];
+      if (!is_number(value)) continue;
+      const t = (value - scale.low) / (scale.high - scale.low || 1);
+      ink.fillStyle = bare_zero && value <= 0 ? bare : `rgb(${map_colour(t).join(",")})`;
+      ink.fillRect(column, raster.rows - 1 - row, 1, 1);
+    }
+  }
+  pen.imageSmoothingEnabled = false;
+  pen.drawImage(image, frame.left, frame.top, frame.width, frame.height);
+}
+
+/**
+ * Maps of one quantity side by side on one colour scale, with a hover read-out that follows in all of them.
+ * @param maps  [{name, title, raster, read(z, r) -> text, overlay?(pen, to_x, to_y)}]
+ * @param area  {z: [low, high], r: [low, high]} in mm, common to the maps
+ */
+function flank_maps(plot, { maps, area, scale, unit, r_title, bare_zero = false }) {
+  const row = el("div", { class: "maps" });
+  const read_out = el("p", { class: "read-out", "aria-live": "off" }, "\u00a0");
+  plot.append(row, read_out);
+  const bar_width = 76, gap = 10, available = plot.clientWidth || 900;
+  const stacked = maps.length > 1 && available < 640;
+  const width = Math.max(220, stacked ? available - bar_width - gap
+    : Math.min(620, (available - bar_width) / maps.length - gap));
+  const frame = { left: MAP_MARGIN.left, top: MAP_MARGIN.top, width: width - MAP_MARGIN.left - MAP_MARGIN.right,
+    height: MAP_HEIGHT - MAP_MARGIN.top - MAP_MARGIN.bottom };
+  const to_x = (z) => frame.left + (frame.width * (z - area.z[0])) / (area.z[1] - area.z[0]);
+  const to_y = (r) => frame.top + frame.height * (1 - (r - area.r[0]) / (area.r[1] - area.r[0]));
+
+  const point_at = (event) => {
+    const box = event.currentTarget.getBoundingClientRect();
+    const across = ((event.clientX - box.left) * (width / box.width) - frame.left) / frame.width;
+    const up = 1 - ((event.clientY - box.top) * (MAP_HEIGHT / box.height) - frame.top) / frame.height;
+    if (across < 0 || across > 1 || up < 0 || up > 1) return null;
+    return { z: area.z[0] + across * (area.z[1] - area.z[0]), r: area.r[0] + up * (area.r[1] - area.r[0]) };
+  };
+  const show = (event) => {
+    const point = point_at(event);
+    read_out.textContent = point === null ? "\u00a0"
+      : `z ${fmt(point.z, 3)} mm, radius ${fmt(point.r, 5)} mm:  `
+        + maps.map((map) => (maps.length > 1 ? `${map.name} ` : "") + map.read(point.z, point.r)).join("   ·   ");
+  };
+  for (const map of maps) {
+    const { canvas, pen } = sharp_canvas(width, MAP_HEIGHT, `${map.title}, flank map in ${unit}`);
+    paint_raster(pen, frame, map.raster, scale, bare_zero);
+    if (map.overlay) {
+      pen.save();
+      pen.beginPath();
+      pen.rect(frame.left, frame.top, frame.width, frame.height);
+      pen.clip();
+      map.overlay(pen, to_x, to_y);
+      pen.restore();
+    }
+    draw_axes(pen, frame, { z: area.z, r: area.r, title: map.title, r_title });
+    canvas.addEventListener("pointermove", show);
+    canvas.addEventListener("pointerleave", () => (read_out.textContent = "\u00a0"));
+    row.append(canvas);
+  }
+  row.append(colour_bar(scale, unit, MAP_HEIGHT));
+}

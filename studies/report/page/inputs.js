@@ -1,0 +1,57 @@
+// Effects that ran, notes, and what was given and used.
+
+function build_effects(results, body) {
+  const effects = list(results.effects).map(record);
+  const longest = Math.max(0, maximum(effects.map((effect) => effect.seconds)));
+  const time = (seconds) => ({
+    value: seconds,
+    text: fmt(seconds, 3),
+    draw: () => el("span", { class: "time" }, fmt(seconds, 3),
+      el("i", { style: `width:${longest > 0 && seconds > 0 ? Math.max(1, (60 * seconds) / longest) : 0}px` })),
+  });
+  table(body, {
+    title: "Effects in this run",
+    note: "Which effects of the mesh were called for, why, and what each cost; what is off costs nothing.",
+    columns: [{ label: "Effect" }, { label: "On" }, { label: "Why" }, { label: "Time", unit: "s" }],
+    rows: effects.map((effect) => [words(effect.name),
+      { text: effect.on ? "yes" : "no", class: effect.on ? "good" : "off" }, effect.why ?? "",
+      is_number(effect.seconds) ? time(effect.seconds) : null]),
+  });
+}
+
+function build_notes(results, body) {
+  body.append(el("ul", { class: "notes" }, ...list(results.notes).map((note) =>
+    el("li", {}, typeof note === "string" ? note : JSON.stringify(note)))));
+}
+
+/** Nested tables and lists as dotted keys: [[key, value]]. */
+function flattened(value, key = "") {
+  if (Array.isArray(value) && value.every((item) => item === null || typeof item !== "object")) {
+    return [[key, value.map((item) => (is_number(item) ? fmt(item, 6) : String(item))).join(", ")]];
+  }
+  if (value === null || typeof value !== "object") return [[key, value]];
+  return Object.entries(value).flatMap(([name, child]) => flattened(child, key ? `${key}.${name}` : name));
+}
+
+function build_inputs(results, body) {
+  const columns = [{ label: "Key" }, { label: "Value", digits: 10 }];
+  const tables = el("div", { class: "tables" });
+  body.append(tables);
+  if (list(results.given).length) {
+    table(tables, {
+      title: "Given",
+      note: "What the study file and the command line say, as written.",
+      columns,
+      rows: list(results.given).map(record).map((given) => [given.key ?? "", given.value ?? null]),
+    });
+  }
+  const used = flattened(record(results.used)).filter(([key]) => key !== "");
+  if (used.length) {
+    table(tables, {
+      title: "Used",
+      note: "What the run took, defaults and derived values included.",
+      columns,
+      rows: used,
+    });
+  }
+}

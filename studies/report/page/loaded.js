@@ -1,0 +1,135 @@
+// Transmission error, its harmonics and the mesh stiffness over the mesh cycle, before and after.
+
+/**
+ * One curve a load case and design: the selected case bold, all others thin behind it.
+ * @param value_of  position of the cycle -> number
+ */
+function cycle_curves(selection, value_of, remove_mean) {
+  const curve = (load_case, design, selected) => {
+    const cycle = list(load_case.designs[design].cycle).map(record);
+    const values = cycle.map(value_of);
+    const known = numbers(values);
+    const mean = remove_mean && known.length ? known.reduce((a, b) => a + b, 0) / known.length : 0;
+    const colour = design_colour(design);
+    return {
+      label: DESIGN_LABEL[design],
+      points: cycle.map((position, i) => ({ x: position.phase, y: is_number(values[i]) ? values[i] - mean : null })),
+      colour: selected ? colour : faded(colour, 0.3),
+      width: selected ? 2.6 : 1,
+      quiet: !selected,
+      order: selected ? 0 : 1,
+    };
+  };
+  return selection.cases.flatMap((load_case) =>
+    designs_of(load_case).map((design) => curve(load_case, design, load_case === selection.current)));
+}
+
+function draw_te_cycle(plot, selection) {
+  const box = el("input", { type: "checkbox" });
+  box.checked = selection.remove_mean;
+  const area = el("div");
+  const draw = () => {
+    clear_plot(area);
+    xy_chart(area, {
+      label: "Transmission error over the mesh cycle",
+      curves: cycle_curves(selection, (position) => position.te_um, box.checked),
+      x: "phase [base pitches]",
+      y: box.checked ? "TE less its mean [µm]" : "TE [µm]",
+      read_x: (x) => `phase ${fmt(x)}`,
+      read_y: (y) => `${fmt(y, 3)} µm`,
+    });
+  };
+  box.addEventListener("change", () => {
+    selection.remove_mean = box.checked;
+    draw();
+  });
+  plot.append(el("label", { class: "choice no-print" }, box, " mean removed"), area);
+  draw();
+}
+
+function draw_te_harmonics(plot, load_case) {
+  const designs = designs_of(load_case);
+  const harmonics = designs.map((design) => list(summary_of(load_case.designs[design]).te_harmonics_um));
+  const count = Math.max(0, ...harmonics.map((values) => values.length));
+  bar_chart(plot, {
+    label: "Harmonics of the transmission error",
+    labels: Array.from({ length: count }, (_, i) => String(i + 1)),
+    series: designs.map((design, i) => ({
+      label: DESIGN_LABEL[design], values: harmonics[i], colour: design_colour(design),
+    })),
+    x: "order of the tooth-mesh frequency",
+    y: "amplitude [µm]",
+    unit: "µm",
+  });
+}
+
+function build_transmission_error(results, body, selection) {
+  selection.remove_mean = true;
+  selection.add_choice(body);
+  const grid = figure_grid(body);
+  const others = selection.cases.length > 1 ? " Thin lines are the other scenes." : "";
+  case_figure(grid, selection, {
+    title: "Transmission error over the mesh cycle",
+    caption: "Lag of the wheel along the flank normal while the mesh advances by one base pitch; what varies excites "
+      + `noise, what is constant does not.${others}`,
+  }, (plot) => draw_te_cycle(plot, selection));
+  case_figure(grid, selection, {
+    title: "Harmonics of the transmission error",
+    caption: "Amplitudes at multiples of the tooth-mesh frequency: the first orders are the ones that are heard.",
+  }, draw_te_harmonics);
+}
+
+function build_stiffness(results, body, selection) {
+  selection.add_choice(body);
+  case_figure(figure_grid(body), selection, {
+    title: "Mesh stiffness over the mesh cycle",
+    wide: true,
+    caption: "Load along the flank normal per unit of face width and of deflection, all tooth pairs together; "
+      + "its steps are teeth that enter and leave the mesh.",
+  }, (plot) => xy_chart(plot, {
+    label: "Mesh stiffness over the mesh cycle",
+    curves: cycle_curves(selection, (position) => position.stiffness_N_per_mm_um, false),
+    x: "phase [base pitches]",
+    y: "stiffness [N/(mm µm)]",
+    read_x: (x) => `phase ${fmt(x)}`,
+    read_y: (y) => `${fmt(y)} N/(mm µm)`,
+    height: 250,
+  }));
+}
+
+/** Every number of every load case; a column that nobody filled is left out. */
+function build_load_cases(results, body, { cases }) {
+  const iso = (key) => (entry) => record(summary_of(entry).iso6336)[key];
+  const plain = (key) => (entry) => summary_of(entry)[key];
+  const residual = (entry) => {
+    const worst = maximum(list(entry.cycle).map((position) => record(position).kkt_residual));
+    return is_number(worst) ? worst : null;
+  };
+  const quantities = [
+    [{ label: "TE p-p", unit: "µm" }, plain("te_peak_to_peak_um")],
+    [{ label: "TE mean", unit: "µm" }, plain("te_mean_um")],
+    [{ label: "TE 1st harm.", unit: "µm" }, (entry) => list(summary_of(entry).te_harmonics_um)[0]],
+    [{ label: "Line load", unit: "N/mm" }, plain("peak_load_N_per_mm")],
+    [{ label: "Contact stress", unit: "MPa" }, plain("peak_contact_stress_MPa")],
+    [{ label: "Root stress", unit: "MPa" }, plain("peak_root_stress_MPa")],
+    [{ label: "Load factor" }, plain("load_factor")],
+    [{ label: "Stiffness", unit: "N/(mm µm)" }, plain("mean_stiffness_N_per_mm_um")],
+    [{ label: "c′", unit: "N/(mm µm)" }, iso("c_prime")],
+    [{ label: "c_γ", unit: "N/(mm µm)" }, iso("c_gamma")],
+    [{ label: "K_Hβ" }, iso("K_Hbeta")],
+    [{ label: "K_Hα" }, iso("K_Halpha")],
+    [{ label: "KKT residual" }, residual],
+  ];
+  const rows = cases.flatMap((load_case) => designs_of(load_case).map((design) => ({ load_case, design })));
+  const filled = quantities.filter(([, value]) =>
+    rows.some((row) => is_number(value(row.load_case.designs[row.design]))));
+  table(body, {
+    title: "Peaks and means over the mesh cycle",
+    note: "Peaks are the largest values over the cycle and all teeth in contact; c′, cγ and the K factors are those of "
+      + "ISO 6336; the KKT residual is the largest error of the contact conditions.",
+    columns: [{ label: "Scene" }, { label: "Torque", unit: "N·m", digits: 6 }, { label: "Design" },
+      ...filled.map(([column]) => column)],
+    rows: rows.map(({ load_case, design }) => [load_case.scene, load_case.torque, DESIGN_LABEL[design],
+      ...filled.map(([, value]) => value(load_case.designs[design]) ?? null)]),
+  });
+}

@@ -1,0 +1,45 @@
+// Fills the sections that the page has; one that fails says so and leaves the others alone.
+
+const BUILDERS = {
+  "transmission-error": build_transmission_error,
+  scenes: build_scenes,
+  "flank-load": build_flank_load,
+  modifications: build_modifications,
+  stiffness: build_stiffness,
+  convergence: build_convergence,
+  "load-cases": build_load_cases,
+  unloaded: build_unloaded,
+  "gear-pair": build_gear_pair,
+  effects: build_effects,
+  notes: build_notes,
+  inputs: build_inputs,
+};
+
+function main() {
+  const results = JSON.parse(document.getElementById("results").textContent);
+  const cases = load_cases(results);
+  const selection = case_selection(cases, governing_case(cases, record(results.optimise)));
+  draw_summary(results, cases);
+  for (const [id, build] of Object.entries(BUILDERS)) {
+    const body = document.querySelector(`#${id} > .body`);
+    if (!body) continue;
+    try {
+      build(results, body, selection);
+    } catch (failure) {
+      body.append(el("p", { class: "banner bad" }, `This section could not be built: ${failure.message}`));
+      console.error(failure);
+    }
+  }
+  start_theme();
+
+  // Maps and drawings are as wide as the page when drawn; follow it.
+  let width = document.documentElement.clientWidth, waiting = null;
+  addEventListener("resize", () => {
+    if (document.documentElement.clientWidth === width) return;
+    width = document.documentElement.clientWidth;
+    clearTimeout(waiting);
+    waiting = setTimeout(redraw_all, 150);
+  });
+}
+
+main();

@@ -1,0 +1,74 @@
+// Modification topography of each flank, and the design variables before and after.
+
+/** The grid of a modification {z_mm, radius_mm, removal_um} where it is one, else null. */
+function topography_grid(modification) {
+  const { z_mm, radius_mm, removal_um } = modification;
+  const grid = { z: numbers(z_mm), r: numbers(radius_mm), rows: list(removal_um) };
+  return grid.z.length > 1 && grid.r.length > 1 && grid.rows.length === grid.r.length ? grid : null;
+}
+
+function draw_topography(plot, gear, entries) {
+  const grids = entries.map((entry) => entry.grid);
+  const values = numbers(grids.flatMap((grid) => grid.rows.flat()));
+  const scale = { low: Math.min(0, minimum(values)), high: maximum(values) };
+  if (!(scale.high > scale.low)) scale.high = scale.low + 1;
+  const area = {
+    z: [minimum(grids.flatMap((grid) => grid.z)), maximum(grids.flatMap((grid) => grid.z))],
+    r: [minimum(grids.flatMap((grid) => grid.r)), maximum(grids.flatMap((grid) => grid.r))],
+  };
+  const levels = round_ticks(scale.low, scale.high, 8).filter((level) => level > scale.low && level < scale.high);
+  const maps = entries.map(({ design, grid }) => {
+    const peak = maximum(grid.rows.flat());
+    return {
+      name: DESIGN_LABEL[design].toLowerCase(),
+      title: `${DESIGN_LABEL[design]}${peak > 0 ? `, up to ${fmt(peak, 3)} µm` : ", unmodified"}`,
+      raster: grid_raster(grid, area),
+      read: (z, r) => {
+        const removal = grid_value(grid, z, r);
+        return removal === null ? "outside" : `${fmt(removal, 3)} µm`;
+      },
+      overlay: (pen, to_x, to_y) => draw_contours(pen, grid, levels, to_x, to_y),
+    };
+  });
+  flank_maps(plot, { maps, area, scale, unit: "µm", r_title: `${gear} radius [mm]` });
+}
+
+function variable_table(body, optimise) {
+  const before = record(optimise.before), after = record(optimise.after);
+  const names = unique([...Object.keys(record(before.variables)), ...Object.keys(record(after.variables))]);
+  if (names.length === 0) return;
+  const units = { ...record(before.variable_units), ...record(after.variable_units) };
+  table(body, {
+    title: "Design variables",
+    note: "Amounts are material removed, positive into the tooth.",
+    columns: [{ label: "Variable" }, { label: "Before" }, { label: "After" }, { label: "Change" }, { label: "Unit" }],
+    rows: names.map((name) => {
+      const from = record(before.variables)[name], to = record(after.variables)[name];
+      return [name, from ?? null, to ?? null, is_number(from) && is_number(to) ? to - from : null,
+        pretty_unit(units[name])];
+    }),
+  });
+}
+
+function build_modifications(results, body) {
+  const grid = figure_grid(body);
+  const entries = list(results.modifications).map(record)
+    .map((entry) => ({ gear: entry.gear, design: DESIGN_LABEL[entry.design] ? entry.design : "given",
+      grid: topography_grid(entry) }))
+    .filter((entry) => entry.grid !== null);
+  for (const gear of unique(entries.map((entry) => entry.gear))) {
+    const own = entries.filter((entry) => entry.gear === gear)
+      .sort((a, b) => DESIGN_ORDER.indexOf(a.design) - DESIGN_ORDER.indexOf(b.design));
+    if (own.every((entry) => entry.grid.rows.flat().every((value) => value === 0))) {
+      body.append(el("p", { class: "remark" }, `The ${gear} flank is unmodified.`));
+      continue;
+    }
+    figure(grid, {
+      title: `Topography of the ${gear} flank`,
+      wide: own.length > 1,
+      caption: `Material removed from the involute ${gear} flank, along the base tangent, with its contour lines; `
+        + "face width to the right, tip at the top.",
+    }, (plot) => draw_topography(plot, gear, own));
+  }
+  if (results.optimise) variable_table(body, record(results.optimise));
+}

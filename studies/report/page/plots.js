@@ -1,0 +1,104 @@
+// Line, scatter and bar plots on Chart.js, with the axes and read-outs that the page uses throughout.
+
+Chart.defaults.font.family = 'system-ui, "Segoe UI", "DejaVu Sans", sans-serif';
+Chart.defaults.animation = false;
+Chart.defaults.maintainAspectRatio = false;
+// Twice the screen's resolution at least, so that the printed page stays sharp.
+Chart.defaults.devicePixelRatio = Math.max(2, window.devicePixelRatio || 1);
+
+const axis = (title, more = {}) => ({
+  title: { display: true, text: title },
+  grid: { color: css_colour("grid"), borderColor: css_colour("axis") },
+  ...more,
+  ticks: { callback: (value) => fmt(value, 5), maxRotation: 0, includeBounds: false, ...(more.ticks || {}) },
+});
+
+const legend = (show) => ({
+  display: show,
+  position: "top",
+  align: "start",
+  labels: {
+    usePointStyle: true,
+    boxWidth: 18,
+    boxHeight: 7,
+    filter: (item, data) => !data.datasets[item.datasetIndex].quiet,
+  },
+});
+
+function make_chart(plot, config, height) {
+  const canvas = el("canvas", { role: "img", "aria-label": config.label });
+  plot.append(el("div", { class: "chart", style: `height:${height}px` }, canvas));
+  live_charts.add(new Chart(canvas, config));
+}
+
+/**
+ * Curves or points over a linear axis.
+ * @param curves  [{label, points: [{x, y}], colour, width?, quiet?, dashed?, scatter?, style?, order?}];
+ *                a quiet curve is background: no legend entry, no read-out
+ */
+function xy_chart(plot, options) {
+  const { label, curves, x, y, x_range = {}, y_range = {}, read_x, read_y, nearest = "x", height = 290 } = options;
+  const datasets = curves.map((curve) => ({
+    label: curve.label,
+    quiet: curve.quiet || false,
+    data: curve.points.map((p) => ({ x: p.x, y: is_number(p.y) ? p.y : null, note: p.note })),
+    borderColor: curve.colour,
+    backgroundColor: curve.fill || curve.colour,
+    borderWidth: curve.scatter ? (curve.hollow ? 1.5 : 0) : curve.width || 2,
+    borderDash: curve.dashed ? [6, 4] : [],
+    showLine: !curve.scatter,
+    pointRadius: curve.scatter ? curve.size || 3 : 0,
+    pointHoverRadius: curve.quiet ? 0 : curve.scatter ? 5 : 3.5,
+    pointHitRadius: curve.quiet ? 0 : 8,
+    pointStyle: curve.style || (curve.scatter ? "circle" : "line"),
+    order: curve.order || 0,
+    tension: 0,
+  }));
+  const read = (item) => {
+    const note = item.raw.note ? ` (${item.raw.note})` : "";
+    return `${item.dataset.label}: ${(read_y || ((v) => fmt(v)))(item.parsed.y)}${note}`;
+  };
+  make_chart(plot, {
+    label,
+    type: "line",
+    data: { datasets },
+    options: {
+      normalized: true,
+      interaction: { mode: "nearest", axis: nearest, intersect: false },
+      scales: { x: axis(x, { type: "linear", ...x_range }), y: axis(y, y_range) },
+      plugins: {
+        legend: legend(curves.filter((curve) => !curve.quiet).length > 1),
+        tooltip: {
+          filter: (item) => !item.dataset.quiet,
+          callbacks: { title: (items) => (items.length ? (read_x || fmt)(items[0].parsed.x) : ""), label: read },
+        },
+      },
+    },
+  }, height);
+}
+
+/** Bars side by side, one group a label. @param series  [{label, values, colour}] */
+function bar_chart(plot, { label, labels, series, x, y, unit, height = 290 }) {
+  make_chart(plot, {
+    label,
+    type: "bar",
+    data: {
+      labels,
+      datasets: series.map((s) => ({
+        label: s.label, data: s.values, backgroundColor: s.colour, categoryPercentage: 0.7, barPercentage: 0.95,
+        maxBarThickness: 56,
+      })),
+    },
+    options: {
+      interaction: { mode: "index", intersect: false },
+      scales: {
+        x: axis(x, { grid: { display: false }, ticks: { callback: (_, i) => labels[i] } }),
+        y: axis(y, { beginAtZero: true }),
+      },
+      plugins: {
+        legend: { ...legend(series.length > 1), labels: { boxWidth: 12, boxHeight: 12 } },
+        tooltip: { callbacks: { label: (item) => `${item.dataset.label}: ${fmt(item.parsed.y)} ${unit}` } },
+      },
+    },
+  }, height);
+}

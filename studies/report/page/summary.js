@@ -1,0 +1,140 @@
+// The headline in plain words, the verdict, and the key numbers.
+
+const AGGREGATE = { worst: "Worst", mean: "Mean", "mean+2sigma": "Mean + 2σ of" };
+
+const plural = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
+
+function optimise_headline(optimise) {
+  const from = record(optimise.before).objective, to = record(optimise.after).objective;
+  const name = words(optimise.objective_name), unit = pretty_unit(optimise.objective_unit);
+  const aggregate = AGGREGATE[optimise.over];
+  const subject = aggregate ? `${aggregate} ${name}` : capital(name);
+  const count = list(optimise.scenes).length;
+  const over = count > 1 ? (aggregate ? ` over ${count} scenes` : " in the nominal scene") : "";
+  if (!is_number(from) || !is_number(to)) return `${subject} was not obtained${over}`;
+  const [a, b] = [fmt(from, 3), fmt(to, 3)];
+  if (a === b) return `${subject} stays at ${b} ${unit}${over}`;
+  const change = percent_change(from, to);
+  return `${subject} ${to < from ? "falls" : "rises"} from ${a} to ${b} ${unit}${change ? ` (${change})` : ""}${over}`;
+}
+
+function loaded_headline(cases) {
+  const worst = (key) => maximum(cases.map((load_case) => summary_of(final_entry(load_case))[key]));
+  const stress = worst("peak_contact_stress_MPa"), te = worst("te_peak_to_peak_um");
+  const parts = [];
+  if (is_number(stress)) parts.push(`peak contact stress ${fmt(stress, 3)} MPa`);
+  if (is_number(te)) parts.push(`peak-to-peak transmission error ${fmt(te, 3)} µm under load`);
+  if (parts.length === 0) return "The loaded contact was not obtained";
+  const torques = unique(cases.map((load_case) => load_case.torque)).filter(is_number);
+  const where = cases.length > 1 ? `, the worst of ${cases.length} load cases`
+    : torques.length === 1 ? ` at ${fmt(torques[0])} N·m` : "";
+  return capital(parts.join(" and ")) + where;
+}
+
+function unloaded_headline(unloaded) {
+  const mesh = record(unloaded.mesh);
+  if (!is_number(mesh.peak_to_peak_arcsec)) return "Unloaded tooth contact of the pair";
+  if (mesh.peak_to_peak_arcsec === 0) return "Without load the pair runs free of transmission error";
+  return `Unloaded transmission error ${fmt(mesh.peak_to_peak_arcsec, 3)} arcsec peak to peak at the wheel`;
+}
+
+/** Every constraint of the optimised design: {name, value, max, unit, met}. */
+function constraint_rows(optimise) {
+  return Object.entries(record(record(optimise.after).constraints)).map(([name, raw]) => {
+    const { value, max, unit } = record(raw);
+    // Slack for the last digit that the results store, not for the solver.
+    const met = is_number(value) && is_number(max) ? value <= max + 1e-5 * Math.abs(max) : null;
+    return { name, value, max, unit: pretty_unit(unit), met };
+  });
+}
+
+function draw_verdict(results) {
+  const verdict = document.getElementById("verdict");
+  if (!results.optimise) return;
+  const optimise = record(results.optimise);
+  const broken = constraint_rows(optimise).filter((row) => row.met === false);
+  if (broken.length > 0) {
+    verdict.append(el("p", { class: "banner bad" }, `Not met: ${broken.map((row) =>
+      `${words(row.name)} ${fmt(row.value)} ${row.unit} against at most ${fmt(row.max)} ${row.unit}`).join("; ")}.`));
+  }
+  if (optimise.status && !/converged|success|optimal/i.test(optimise.status)) {
+    verdict.append(el("p", { class: "banner" }, `The solver ended with “${words(optimise.status)}”`
+      + `${optimise.message ? `: ${optimise.message}` : ""}. The best design found is shown.`));
+  }
+}
+
+/** A tile: label, value with unit, and a small second line. before → value where before is given. */
+function tile(label, value, unit, { before, detail, digits = 3 } = {}) {
+  const has_before = is_number(before) && is_number(value);
+  const change = has_before ? percent_change(before, value) : null;
+  const second = has_before ? `from ${fmt(before, digits)}${change ? `, ${change}` : ""}` : detail;
+  return el("div", { class: "tile" },
+    el("span", { class: "label" }, symbols(label)),
+    el("span", { class: "value" }, fmt(value, digits), unit ? el("small", {}, ` ${unit}`) : ""),
+    second ? el("span", { class: "detail" }, second) : null);
+}
+
+function loaded_tiles(cases) {
+  const worst = (key, design) => {
+    const entries = cases.map((c) => (design ? c.designs[design] : final_entry(c)));
+    return maximum(entries.map((entry) => summary_of(entry)[key]));
+  };
+  const quantities = [
+    ["Peak contact stress", "peak_contact_stress_MPa", "MPa"],
+    ["Peak root stress", "peak_root_stress_MPa", "MPa"],
+    ["TE peak to peak", "te_peak_to_peak_um", "µm"],
+    ["Peak line load", "peak_load_N_per_mm", "N/mm"],
+    ["Load factor", "load_factor", ""],
+  ];
+  const detail = cases.length > 1 ? "worst load case" : null;
+  return quantities.filter(([, key]) => is_number(worst(key)))
+    .map(([label, key, unit]) => tile(label, worst(key), unit, { before: worst(key, "before"), detail }));
+}
+
+function optimise_tiles(optimise) {
+  const rows = constraint_rows(optimise);
+  const tiles = [];
+  if (rows.length > 0) {
+    tiles.push(tile("Constraints met", `${rows.filter((row) => row.met).length} of ${rows.length}`));
+  }
+  const solver = [optimise.solver, is_number(optimise.seconds) ? `${fmt(optimise.seconds, 2)} s` : null];
+  tiles.push(tile("Evaluations", optimise.evaluations, "", { detail: solver.filter(Boolean).join(", "), digits: 6 }));
+  return tiles;
+}
+
+function pair_tiles(results) {
+  const geometry = record(results.geometry), mesh = record(record(results.unloaded).mesh);
+  const tiles = [];
+  if (!list(results.loaded).length && is_number(mesh.peak_to_peak_arcsec)) {
+    tiles.push(tile("TE peak to peak", mesh.peak_to_peak_arcsec, "arcsec", { detail: "unloaded, at the wheel" }));
+    const along = numbers(mesh.te_um);
+    if (along.length) {
+      const range = maximum(along) - minimum(along);
+      tiles.push(tile("TE peak to peak", range, "µm", { detail: "along the line of action" }));
+    }
+  }
+  const add = (label, value, unit) => is_number(value) && tiles.push(tile(label, value, unit));
+  add("Contact ratio ε_γ", geometry.total_contact_ratio, "");
+  if (!list(results.loaded).length) {
+    add("Transverse ε_α", geometry.transverse_contact_ratio, "");
+    add("Overlap ε_β", geometry.overlap_ratio, "");
+    add("Backlash", geometry.backlash_um, "µm");
+  }
+  return tiles;
+}
+
+function draw_summary(results, cases) {
+  const text = results.optimise ? optimise_headline(record(results.optimise))
+    : cases.length ? loaded_headline(cases)
+    : results.unloaded ? unloaded_headline(record(results.unloaded))
+    : "No analysis is stored in these results";
+  document.getElementById("headline").textContent = text;
+  document.getElementById("task").textContent = results.task ? `· ${results.task}` : "";
+  const version = results.version ? `Flankwright ${results.version}` : null;
+  document.getElementById("origin").textContent = [results.file, version].filter(Boolean).join("  ·  ");
+  draw_verdict(results);
+  document.getElementById("tiles").append(
+    ...(cases.length ? loaded_tiles(cases) : []),
+    ...(results.optimise ? optimise_tiles(record(results.optimise)) : []),
+    ...pair_tiles(results));
+}

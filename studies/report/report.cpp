@@ -1,0 +1,123 @@
+#include "studies/report/report.hpp"
+
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "studies/report/report_assets.hpp"
+#include "studies/report/report_view.hpp"
+
+namespace flankwright::studies {
+namespace {
+
+using nlohmann::json;
+
+bool has(const json& results, const char* key) {
+  const auto found = results.find(key);
+  return found != results.end() && found->is_structured() && !found->empty();
+}
+
+bool has_loaded(const json& results) {
+  return has(results, "loaded") && results.at("loaded").is_array();
+}
+
+/// A section of the page: the script fills the element `id`; it exists only where `present` holds.
+struct Section {
+  const char* id;
+  const char* title;
+  bool (*present)(const json& results);
+};
+
+/// In the order in which a gear engineer asks.
+constexpr Section sections[] = {
+    {"transmission-error", "Transmission error under load", has_loaded},
+    {"scenes", "Scenes", [](const json& r) { return has(r, "optimise"); }},
+    {"flank-load", "Load on the flank", has_loaded},
+    {"modifications", "Flank modifications",
+     [](const json& r) { return has(r, "modifications") || has(r, "optimise"); }},
+    {"stiffness", "Mesh stiffness", has_loaded},
+    {"convergence", "Convergence",
+     [](const json& r) {
+       return has(r, "optimise") && r.at("optimise").is_object() && has(r.at("optimise"), "history");
+     }},
+    {"load-cases", "Load cases in numbers", has_loaded},
+    {"unloaded", "Unloaded contact", [](const json& r) { return has(r, "unloaded"); }},
+    {"gear-pair", "Gear pair", [](const json& r) { return has(r, "geometry"); }},
+    {"effects", "Effects", [](const json& r) { return has(r, "effects"); }},
+    {"notes", "Notes", [](const json& r) { return has(r, "notes"); }},
+    {"inputs", "Given and used", [](const json& r) { return has(r, "given") || has(r, "used"); }},
+};
+
+std::string replace_all(std::string_view text,
+                        const std::vector<std::pair<std::string_view, std::string_view>>& rules) {
+  std::string out;
+  out.reserve(text.size());
+  for (std::size_t at = 0; at < text.size();) {
+    bool replaced = false;
+    for (const auto& [from, to] : rules) {
+      if (text.substr(at, from.size()) != from) continue;
+      out += to;
+      at += from.size();
+      replaced = true;
+      break;
+    }
+    if (!replaced) out += text[at++];
+  }
+  return out;
+}
+
+std::string escape_html(std::string_view text) {
+  return replace_all(text, {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}, {"'", "&#39;"}});
+}
+
+/// JSON that may stand inside a script element: pure ASCII (which also covers U+2028 and U+2029), and without '<',
+/// so that neither "</script" nor "<!--" can occur. '<' can only be inside a JSON string, where \u003c means the same.
+std::string script_safe(const json& value) {
+  return replace_all(value.dump(-1, ' ', true, json::error_handler_t::replace), {{"<", "\\u003c"}});
+}
+
+std::string text_or(const json& results, const char* key, const char* fallback) {
+  const auto found = results.find(key);
+  return found != results.end() && found->is_string() ? found->get<std::string>() : fallback;
+}
+
+json parse(const std::string& text) {
+  json results;
+  try {
+    results = json::parse(text);
+  } catch (const json::exception& failure) {
+    throw InvalidInput("results.json", failure.what(), "well-formed JSON");
+  }
+  if (!results.is_object()) throw InvalidInput("results.json", results.type_name(), "a JSON object");
+  return results;
+}
+
+}  // namespace
+
+std::string render_report(const std::string& results_json) {
+  const json results = parse(results_json);
+
+  std::string links, bodies;
+  for (const Section& section : sections) {
+    if (!section.present(results)) continue;
+    const std::string id = section.id, title = section.title;
+    links += "<a href=\"#" + id + "\">" + title + "</a>\n";
+    bodies += "<section id=\"" + id + "\"><h2>" + title + "</h2><div class=\"body\"></div></section>\n";
+  }
+  const std::string title = escape_html(text_or(results, "title", "Untitled study"));
+  const std::string data = script_safe(report_view(results));
+
+  // One pass over the template: what is filled in is never searched for placeholders again.
+  return replace_all(assets::page_html, {{"{{title}}", title},
+                                         {"{{style}}", assets::page_css},
+                                         {"{{notices}}", assets::notices},
+                                         {"{{links}}", links},
+                                         {"{{sections}}", bodies},
+                                         {"{{results}}", data},
+                                         {"{{chart_library}}", assets::chart_library},
+                                         {"{{script}}", assets::page_script}});
+}
+
+}  // namespace flankwright::studies

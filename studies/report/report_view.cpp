@@ -1,0 +1,67 @@
+#include "studies/report/report_view.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace flankwright::studies {
+namespace {
+
+using nlohmann::json;
+
+/// The double nearest to x that six significant digits can write; its shortest text has at most these digits.
+double rounded(double x) {
+  if (!std::isfinite(x)) return x;
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.6g", x);
+  return std::strtod(text.data(), nullptr);
+}
+
+void round_numbers(json& node) {
+  if (node.is_number_float()) {
+    node = rounded(node.get<double>());
+  } else if (node.is_structured()) {
+    for (json& child : node) round_numbers(child);
+  }
+}
+
+/// List of points -> object of columns.
+json columns_of(const json& points) {
+  json columns = json::object();
+  for (const char* key : {"z_mm", "pinion_radius_mm", "load_N_per_mm", "contact_stress_MPa"}) {
+    json& column = columns[key] = json::array();
+    for (const json& point : points) column.push_back(point.is_object() ? point.value(key, json()) : json());
+  }
+  return columns;
+}
+
+/// Calls visit(child) for every element of the array node[key], where there is one.
+template <class Visitor>
+void for_each_in(json& node, const char* key, Visitor&& visit) {
+  if (!node.is_object()) return;
+  const auto found = node.find(key);
+  if (found == node.end() || !found->is_array()) return;
+  for (json& child : *found) visit(child);
+}
+
+}  // namespace
+
+nlohmann::json report_view(nlohmann::json results) {
+  for_each_in(results, "loaded", [](json& entry) {
+    for_each_in(entry, "cycle", [](json& position) {
+      for_each_in(position, "teeth", [](json& tooth) {
+        if (!tooth.is_object()) return;
+        const auto points = tooth.find("points");
+        if (points != tooth.end() && points->is_array()) *points = columns_of(*points);
+      });
+    });
+  });
+  if (!results.is_object()) return results;
+  for (auto& [key, section] : results.items()) {
+    if (key != "given" && key != "used") round_numbers(section);
+  }
+  return results;
+}
+
+}  // namespace flankwright::studies

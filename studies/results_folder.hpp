@@ -1,0 +1,18 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace flankwright::studies {
+
+/// Writes a file so that it appears whole or not at all: a temporary file in the same folder is synced to disk and renamed.
+/// @throws InvalidInput ("output folder") with the system's reason where it cannot be written
+void write_whole(const std::filesystem::path& file, const std::string& text);
+
+/// Makes the folder with its parents. @throws InvalidInput as write_whole().
+void make_folder(const std::filesystem::path& folder);
+
+/// A whole file as text. @throws InvalidInput ("file") where it cannot be read.
+std::string read_whole(const std::filesystem::path& file);
+
+}  // namespace flankwright::studies

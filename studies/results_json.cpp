@@ -1,0 +1,380 @@
+#include "studies/results_json.hpp"
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "core/compliance/thin_slice.hpp"
+#include "core/gear/tooth_form.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int topography_sections = 41;  // grid of the modification maps, radius by face width
+constexpr int profile_points = 80;       // of a drawn tooth
+
+double in_um(double mm) { return mm / units::um; }
+double in_arcsec(double rad) { return rad / units::arcsec; }
+double in_deg(double rad) { return rad / units::deg; }
+
+template <class Range, class Convert>
+Json list(const Range& values, const Convert& convert) {
+  Json array = Json::array();
+  for (const auto& value : values) array.push_back(convert(value));
+  return array;
+}
+
+Json gear_json(const GearPair& pair, Member member) {
+  const Gear& gear = pair[member];
+  Json json{{"teeth", gear.data.teeth},
+            {"hand", gear.hand == Hand::Right ? "right" : "left"},
+            {"reference_diameter_mm", 2.0 * gear.reference_radius},
+            {"base_diameter_mm", 2.0 * gear.base_radius},
+            {"tip_diameter_mm", 2.0 * gear.tip_radius},
+            {"root_diameter_mm", 2.0 * gear.root_radius},
+            {"form_diameter_mm", 2.0 * gear.form_radius},
+            {"active_root_diameter_mm", 2.0 * gear.active_root_radius},
+            {"working_pitch_diameter_mm", 2.0 * gear.working_pitch_radius},
+            {"tooth_thickness_mm", gear.tooth_thickness},
+            {"tip_thickness_mm", gear.tip_thickness},
+            {"virtual_teeth", gear.virtual_teeth},
+            {"undercut", gear.undercut}};
+  // One tooth as a continuous line: up the left flank, over the tip, down the right flank.
+  Json x = Json::array(), y = Json::array();
+  const std::vector<ProfilePoint> right = tooth_form(pair, member).profile(profile_points);
+  for (const ProfilePoint& point : right) {
+    x.push_back(-point.x);
+    y.push_back(point.y);
+  }
+  for (auto point = right.rbegin(); point != right.rend(); ++point) {
+    x.push_back(point->x);
+    y.push_back(point->y);
+  }
+  json["profile"] = {{"x_mm", x}, {"y_mm", y}};
+  return json;
+}
+
+Json geometry_json(const GearPair& pair) {
+  return {{"centre_distance_mm", pair.centre_distance},
+          {"backlash_free_centre_distance_mm", pair.backlash_free_centre_distance},
+          {"backlash_um", in_um(pair.backlash)},
+          {"transverse_pressure_angle_deg", in_deg(pair.transverse_pressure_angle)},
+          {"working_transverse_pressure_angle_deg", in_deg(pair.working_transverse_pressure_angle)},
+          {"base_helix_angle_deg", in_deg(pair.base_helix_angle)},
+          {"transverse_base_pitch_mm", pair.transverse_base_pitch},
+          {"transverse_contact_ratio", pair.transverse_contact_ratio},
+          {"overlap_ratio", pair.overlap_ratio},
+          {"total_contact_ratio", pair.total_contact_ratio()},
+          {"path_of_contact_mm",
+           {{"T1_A", pair.path_start}, {"T1_C", pair.pitch_point}, {"T1_E", pair.path_end}, {"T1_T2", pair.path_length}}},
+          {"pinion", gear_json(pair, Member::Pinion)},
+          {"wheel", gear_json(pair, Member::Wheel)}};
+}
+
+Json contact_json(const ToothContact& contact) {
+  return {{"phi1_deg", in_deg(contact.phi1)},
+          {"phi2_deg", in_deg(contact.phi2)},
+          {"te_arcsec", in_arcsec(contact.transmission_error)},
+          {"contact", to_string(contact.kind)},
+          {"pinion", {{"radius_mm", contact.pinion_radius}, {"z_mm", contact.pinion_z}}},
+          {"wheel", {{"radius_mm", contact.wheel_radius}, {"z_mm", contact.wheel_z}}}};
+}
+
+Json unloaded_json(const UnloadedResult& unloaded, const GearPair& pair) {
+  const UnloadedMesh& mesh = unloaded.mesh;
+  const double base_radius = pair.wheel.base_radius;
+  Json pairs = Json::array();
+  for (const PairCurve& curve : mesh.pairs) {
+    pairs.push_back({{"tooth", curve.tooth}, {"positions", list(curve.positions, contact_json)}});
+  }
+  return {{"scene", unloaded.scene},
+          {"pairs", pairs},
+          {"mesh",
+           {{"phi1_deg", list(mesh.phi1, in_deg)},
+            {"te_arcsec", list(mesh.transmission_error, in_arcsec)},
+            {"te_um", list(mesh.transmission_error, [&](double te) { return in_um(te * base_radius); })},
+            {"peak_to_peak_arcsec", in_arcsec(mesh.peak_to_peak)},
+            {"peak_to_peak_um", in_um(mesh.peak_to_peak * base_radius)},
+            {"harmonics_arcsec", list(mesh.harmonics, in_arcsec)},
+            {"transfers", list(mesh.transfers, [](const Transfer& t) -> Json {
+               return {{"phi1_deg", in_deg(t.phi1)},
+                       {"te_arcsec", in_arcsec(t.transmission_error)},
+                       {"from_tooth", t.from_tooth},
+                       {"to_tooth", t.to_tooth}};
+             })}}}};
+}
+
+Json point_json(const ContactPoint& point, const LoadedPosition& position, Eigen::Index i) {
+  return {{"z_mm", point.z},
+          {"phase", point.phase},
+          {"pinion_radius_mm", point.pinion_radius},
+          {"wheel_radius_mm", point.wheel_radius},
+          {"length_mm", point.weight},
+          {"load_N_per_mm", position.load.line_load[i]},
+          {"contact_stress_MPa", position.contact_stress[i]},
+          {"contact_deflection_um", in_um(position.load.contact_deflection[i])},
+          {"structural_deflection_um", in_um(position.load.structural_deflection[i])},
+          {"gap_um", in_um(position.gap.total[i])},
+          {"error_um", in_um(position.gap.error[i])}};
+}
+
+Json position_json(const MeshPosition& at, const LoadedPosition& position, double cos_base_helix) {
+  const LoadDistribution& load = position.load;
+  Json json{{"phase", position.phase},
+            {"te_um", in_um(load.transmission_error)},
+            {"te_base_tangent_um", in_um(load.transmission_error) / cos_base_helix},
+            {"stiffness_N_per_mm_um", position.stiffness},
+            {"kkt_residual", load.kkt_residual},
+            {"iterations", load.iterations},
+            {"message", load.message}};
+  std::map<int, Json> teeth;
+  if (load.usable()) {
+    for (std::size_t i = 0; i < at.points.size(); ++i) {
+      Json& points = teeth.try_emplace(at.points[i].tooth, Json::array()).first->second;
+      points.push_back(point_json(at.points[i], position, static_cast<Eigen::Index>(i)));
+    }
+  }
+  json["teeth"] = Json::array();
+  for (auto& [tooth, points] : teeth) json["teeth"].push_back({{"tooth", tooth}, {"points", std::move(points)}});
+  return json;
+}
+
+Json summary_json(const CycleSummary& summary, const MeshModel& model, bool full_cycle) {
+  const double missing = not_given;
+  return {{"te_peak_to_peak_um", in_um(summary.te_peak_to_peak)},
+          {"te_harmonics_um", full_cycle ? list(summary.te_harmonics, in_um) : Json::array()},
+          {"te_mean_um", in_um(summary.te_mean)},
+          {"peak_load_N_per_mm", summary.peak_line_load},
+          {"peak_contact_stress_MPa", summary.peak_contact_stress},
+          {"peak_root_stress_MPa", missing},
+          {"mean_stiffness_N_per_mm_um", summary.mean_stiffness},
+          {"load_factor", summary.load_factor},
+          {"worst_kkt_residual", summary.worst_kkt_residual},
+          {"iso6336",
+           {{"c_prime", model.iso.c_prime},
+            {"c_gamma", model.iso.c_gamma},
+            {"within_range", model.iso.within_range && model.iso.mean_within_range},
+            {"K_Hbeta", missing},
+            {"K_Halpha", missing}}}};
+}
+
+Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
+  const MeshModel& model = results.models[loaded.model];
+  const double cos_base_helix = std::cos(results.pair.base_helix_angle);
+  Json cycle = Json::array();
+  for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
+    cycle.push_back(position_json(model.positions[i], loaded.cycle.positions[i], cos_base_helix));
+  }
+  return {{"scene", loaded.scene},
+          {"torque_Nm", loaded.torque / units::newton_metre},
+          {"normal_force_N", loaded.cycle.force},
+          {"design", loaded.design},
+          {"summary", summary_json(loaded.summary, model, results.study.cycle.phases.empty())},
+          {"cycle", std::move(cycle)}};
+}
+
+/// The modification of one gear as a map over its flank; nothing where it is zero everywhere.
+void add_topography(const GearPair& pair, Member member, const Modification& modification, const char* design, Json& maps) {
+  const Gear& gear = pair[member];
+  const FlankFrame frame = pair.flank_frame(member);
+  Json z = Json::array(), radius = Json::array(), removal_um = Json::array();
+  bool modified = false;
+  for (int i = 0; i < topography_sections; ++i) {
+    z.push_back((static_cast<double>(i) / (topography_sections - 1) - 0.5) * gear.data.face_width);
+  }
+  for (int j = 0; j < topography_sections; ++j) {
+    const double r = gear.active_root_radius +
+                     (gear.tip_radius - gear.active_root_radius) * j / (topography_sections - 1);
+    radius.push_back(r);
+    Json row = Json::array();
+    for (const auto& position : z) {
+      const double removed = removal(modification, frame, r, position.get<double>());
+      modified = modified || removed != 0.0;
+      row.push_back(in_um(removed));
+    }
+    removal_um.push_back(std::move(row));
+  }
+  if (!modified) return;
+  maps.push_back({{"gear", member == Member::Pinion ? "pinion" : "wheel"},
+                  {"design", design},
+                  {"z_mm", std::move(z)},
+                  {"radius_mm", std::move(radius)},
+                  {"removal_um", std::move(removal_um)}});
+}
+
+Json modifications_json(const StudyResults& results) {
+  Json maps = Json::array();
+  const auto add_both = [&](const Modification& pinion, const Modification& wheel, const char* design) {
+    add_topography(results.pair, Member::Pinion, pinion, design, maps);
+    add_topography(results.pair, Member::Wheel, wheel, design, maps);
+  };
+  if (results.design) {
+    for (const auto& [report, name] : {std::pair{&results.design->before, "before"}, std::pair{&results.design->after, "after"}}) {
+      add_both(report->analysis.pinion_modification, report->analysis.wheel_modification, name);
+    }
+  } else {
+    add_both(results.study.pinion_modification, results.study.wheel_modification, "given");
+  }
+  return maps;
+}
+
+const char* aggregate_name(Aggregate over) {
+  switch (over) {
+    case Aggregate::Nominal: return "nominal";
+    case Aggregate::Worst: return "worst";
+    case Aggregate::Mean: return "mean";
+    case Aggregate::MeanPlusTwoSigma: return "mean+2sigma";
+  }
+  __builtin_unreachable();
+}
+
+Json design_report_json(const DesignReport& report, const DesignTask& task) {
+  Json variables = Json::object(), variable_units = Json::object(), constraints = Json::object();
+  for (std::size_t i = 0; i < task.variables.size(); ++i) {
+    const DesignVariable& v = task.variables[i];
+    const bool is_extent = v.parameter == ModificationParameter::TipReliefHeight ||
+                           v.parameter == ModificationParameter::RootReliefHeight ||
+                           v.parameter == ModificationParameter::EndReliefLength;
+    variables[v.path] = is_extent ? report.variables[i] : in_um(report.variables[i]);
+    variable_units[v.path] = is_extent ? "mm" : "um";
+  }
+  for (std::size_t c = 0; c < task.constraints.size(); ++c) {
+    const ObjectiveTerm& output = task.constraints[c].output;
+    constraints[output.name] = {{"value", report.constraint_values[c] * output.outside_factor()},
+                                {"max", task.constraints[c].maximum * output.outside_factor()},
+                                {"unit", output.unit()}};
+  }
+  return {{"variables", variables}, {"variable_units", variable_units}, {"objective", report.objective}, {"constraints", constraints}};
+}
+
+Json optimise_json(const StudyResults& results) {
+  const DesignResult& design = *results.design;
+  const DesignTask& task = *results.design_task;
+  const bool single = task.objective.size() == 1;
+  Json terms = Json::array(), scenes = Json::array();
+  std::string name;
+  for (const ObjectiveTerm& term : task.objective) {
+    terms.push_back({{"output", term.name}, {"weight", term.weight}, {"unit", term.unit()}});
+    name += (name.empty() ? "" : " + ") + term.name;
+  }
+  for (std::size_t s = 0; s < task.scenes.size(); ++s) {
+    scenes.push_back({{"name", task.scenes[s].name},
+                      {"torque_Nm", task.scenes[s].torque / units::newton_metre},
+                      {"weight", task.scenes[s].weight},
+                      {"before", design.before.scene_measures[s]},
+                      {"after", design.after.scene_measures[s]}});
+  }
+  return {{"objective_name", name},
+          {"objective_unit", single ? task.objective.front().unit() : "weighted sum"},
+          {"objective_terms", terms},
+          {"over", aggregate_name(task.over)},
+          {"solver", design.solver},
+          {"formulation", design.formulation},
+          {"status", to_string(design.status)},
+          {"message", design.message},
+          {"evaluations", design.evaluations},
+          {"gradient_evaluations", design.gradient_evaluations},
+          {"failures", design.failures},
+          {"rounds", design.rounds},
+          {"seconds", design.seconds},
+          {"before", design_report_json(design.before, task)},
+          {"after", design_report_json(design.after, task)},
+          {"scenes", scenes},
+          {"history", list(design.history, [](const SolverStep& step) -> Json {
+             return {{"evaluation", step.evaluation},
+                     {"objective", step.objective},
+                     {"constraint_violation", step.constraint_violation}};
+           })}};
+}
+
+const char* rule_name(QuadratureRule rule) {
+  switch (rule) {
+    case QuadratureRule::Gauss2: return "gauss2";
+    case QuadratureRule::Gauss3: return "gauss3";
+    case QuadratureRule::Midpoint: return "midpoint";
+  }
+  __builtin_unreachable();
+}
+
+Json used_gear_json(const StudyResults& results, Member member) {
+  const Gear& gear = results.pair[member];
+  const Material& material = member == Member::Pinion ? results.study.pinion_material : results.study.wheel_material;
+  return {{"teeth", gear.data.teeth},
+          {"face_width_mm", gear.data.face_width},
+          {"profile_shift", gear.data.profile_shift},
+          {"tip_diameter_mm", 2.0 * gear.tip_radius},
+          {"rack", {{"addendum", gear.data.rack.addendum}, {"dedendum", gear.data.rack.dedendum}, {"root_radius", gear.data.rack.root_radius}}},
+          {"youngs_modulus_MPa", material.youngs_modulus},
+          {"poissons_ratio", material.poissons_ratio}};
+}
+
+Json used_json(const StudyResults& results) {
+  const Study& study = results.study;
+  const PairData& data = study.pair;
+  Json used{{"pair",
+             {{"normal_module_mm", data.normal_module},
+              {"pressure_angle_deg", in_deg(data.pressure_angle)},
+              {"helix_angle_deg", in_deg(data.helix_angle)},
+              {"centre_distance_mm", results.pair.centre_distance},
+              {"driver", data.driver == Member::Pinion ? "pinion" : "wheel"},
+              {"working_flank", data.working_flank == WorkingFlank::Right ? "right" : "left"},
+              {"pinion", used_gear_json(results, Member::Pinion)},
+              {"wheel", used_gear_json(results, Member::Wheel)}}},
+            {"cycle", {{"positions", study.cycle.positions}, {"phases", study.cycle.phases}}},
+            {"fidelity",
+             {{"compliance", study.fidelity.compliance == ComplianceModel::Rigid ? "rigid" : "thin_slice"},
+              {"gap", "plane_of_action"},
+              {"quadrature", {{"rule", rule_name(study.fidelity.quadrature.rule)}, {"intervals", study.fidelity.quadrature.intervals}}},
+              {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
+  if (study.misalignment.pinion_lead_angle != 0.0) {
+    used["misalignment"] = {{"pinion_lead_angle", "lead angle changed, normal pressure angle kept: pitch radius, base radius and screw parameter follow"}};
+  }
+  if (!results.models.empty()) {
+    used["thin_slice"] = {{"calibration", results.models.front().calibration}};
+  }
+  return used;
+}
+
+Json units_json() {
+  return {{"length", "mm"},        {"modification", "um"},      {"deflection", "um"},
+          {"te_um", "along the flank normal, positive: the wheel lags"},
+          {"te_arcsec", "phi2 - (N1/N2) phi1 at the wheel, negative where material is removed"},
+          {"load", "N per mm of contact line"}, {"stress", "MPa"}, {"stiffness", "N/(mm um), transverse"}};
+}
+
+}  // namespace
+
+const char* version() { return FLANKWRIGHT_VERSION; }
+
+std::string results_json(const StudyResults& results) {
+  const Study& study = results.study;
+  Json json{{"title", study.title},
+            {"task", study.task == Task::Optimise ? "optimise" : "analyse"},
+            {"version", version()},
+            {"file", study.file},
+            {"seconds", results.seconds},
+            {"units", units_json()},
+            {"notes", results.notes},
+            {"requirements_not_met", results.requirements},
+            {"geometry", geometry_json(results.pair)}};
+  if (!results.unloaded.empty()) {
+    json["unloaded"] = unloaded_json(results.unloaded.front(), results.pair);
+    if (results.unloaded.size() > 1) {
+      json["unloaded_scenes"] = list(results.unloaded, [&](const UnloadedResult& u) { return unloaded_json(u, results.pair); });
+    }
+  }
+  json["loaded"] = list(results.loaded, [&](const LoadedResult& l) { return loaded_json(l, results); });
+  json["modifications"] = modifications_json(results);
+  json["effects"] = list(results.effects, [](const Effect& e) -> Json {
+    return {{"name", e.name}, {"on", e.on}, {"why", e.why}, {"seconds", e.seconds}};
+  });
+  if (results.design) json["optimise"] = optimise_json(results);
+  json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}}; });
+  json["used"] = used_json(results);
+  return json.dump() + "\n";
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,249 @@
+#include "studies/run_study.hpp"
+
+#include <chrono>
+#include <map>
+#include <sstream>
+
+namespace flankwright::studies {
+
+namespace {
+
+class Clock {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};
+};
+
+FlankCondition condition_of(const Study& study, const Scene& scene) {
+  return {study.pinion_modification, study.wheel_modification, scene.pinion_error, scene.wheel_error, scene.misalignment};
+}
+
+EffectFacts facts_of(const Study& study) {
+  EffectFacts facts;
+  for (const Scene& scene : study.scenes) {
+    FlankCondition condition = condition_of(study, scene);
+    for (double torque : scene.torques) {
+      const bool rigid = torque == 0.0 || study.fidelity.compliance == ComplianceModel::Rigid;
+      (rigid ? facts.unloaded : facts.loaded) = true;
+    }
+    // Variables count as modifications from the start, even where their first value is 0.
+    if (study.task == Task::Optimise) {
+      for (const DesignVariable& v : study.optimise.variables) {
+        set(v.member == Member::Pinion ? condition.pinion_modification : condition.wheel_modification, v.parameter, v.upper);
+      }
+    }
+    facts.conditions.push_back(condition);
+  }
+  return facts;
+}
+
+MeshResolution resolution_of(const Study& study) {
+  return {study.fidelity.quadrature,
+          study.cycle.phases.empty() ? equally_spaced_phases(study.cycle.positions) : study.cycle.phases};
+}
+
+std::string number(double value, int digits = 4) {
+  std::ostringstream out;
+  out.precision(digits);
+  out << value;
+  return out.str();
+}
+
+/// Runs one study; each step adds to the results.
+class Run {
+ public:
+  Run(const Study& study, const ProgressReport& progress) : progress_(progress) {
+    results_.study = study;
+    results_.pair = make_gear_pair(study.pair);
+    const EffectFacts facts = facts_of(study);
+    results_.effects = study.fidelity.automatic_effects ? decide_effects(facts) : chosen_effects(facts, study.fidelity.effects);
+    if (study.fidelity.compliance == ComplianceModel::Rigid && any_torque()) {
+      note("compliance is rigid: torques are ignored, contact is analysed without load");
+    }
+    geometry_notes();
+  }
+
+  StudyResults finish() {
+    const Clock clock;
+    if (results_.study.task == Task::Optimise) {
+      optimise();
+    } else {
+      analyse();
+    }
+    check_results();
+    results_.seconds = clock.seconds();
+    return std::move(results_);
+  }
+
+ private:
+  void note(const std::string& text) { results_.notes.push_back(text); }
+  void report(const std::string& label, int done, int total, const std::string& remark = {}) const {
+    if (progress_) progress_(label, done, total, remark);
+  }
+
+  bool any_torque() const {
+    for (const Scene& scene : results_.study.scenes) {
+      for (double torque : scene.torques) {
+        if (torque > 0.0) return true;
+      }
+    }
+    return false;
+  }
+
+  void geometry_notes() {
+    const GearPair& pair = results_.pair;
+    for (const Gear* gear : {&pair.pinion, &pair.wheel}) {
+      const std::string name = gear->member == Member::Pinion ? "pinion" : "wheel";
+      if (gear->undercut) note("the " + name + " is undercut: its involute starts at diameter " + number(2.0 * gear->form_radius, 6) + " mm");
+      if (gear->fillet_interference) {
+        note("the mate's tip reaches below the " + name + "'s form circle: contact is cut off there, fillet interference is not modelled");
+      }
+    }
+    if (pair.backlash < -units::um) {
+      note("the teeth have a backlash of " + number(pair.backlash / units::um) + " um at this centre distance: they would jam; "
+           "only the working flanks are analysed");
+    }
+  }
+
+  /// The mesh model for an axial offset, built when first needed.
+  std::size_t model_for(double axial_offset) {
+    const auto [it, is_new] = model_index_.try_emplace(axial_offset, results_.models.size());
+    if (is_new) {
+      const Study& study = results_.study;
+      results_.models.push_back(make_mesh_model(results_.pair, study.pinion_material, study.wheel_material,
+                                                resolution_of(study), mesh_effects(results_.effects), axial_offset));
+    }
+    return it->second;
+  }
+
+  void add_unloaded(const Scene& scene) {
+    const FlankCondition c = apply_effects(results_.effects, condition_of(results_.study, scene));
+    const MeshScene mesh = make_mesh_scene(results_.pair, c.misalignment, c.pinion_modification, c.wheel_modification,
+                                           c.pinion_error, c.wheel_error);
+    results_.unloaded.push_back({scene.name, analyse_unloaded_mesh(results_.pair, mesh, results_.study.cycle.positions)});
+  }
+
+  void add_loaded(const std::string& scene, double torque, const std::string& design, std::size_t model, LoadedCycle cycle) {
+    LoadedResult result{scene, torque, design, std::move(cycle), {}, model};
+    result.summary = summarise(results_.models[model], result.cycle);
+    results_.loaded.push_back(std::move(result));
+  }
+
+  void analyse() {
+    const Study& study = results_.study;
+    int total = 0, done = 0;
+    for (const Scene& scene : study.scenes) total += static_cast<int>(scene.torques.size());
+    double unloaded_seconds = 0.0, loaded_seconds = 0.0;
+    for (const Scene& scene : study.scenes) {
+      bool has_unloaded = false;
+      for (double torque : scene.torques) {
+        const Clock clock;
+        if (torque == 0.0 || study.fidelity.compliance == ComplianceModel::Rigid) {
+          if (!has_unloaded) add_unloaded(scene);
+          has_unloaded = true;
+          unloaded_seconds += clock.seconds();
+        } else {
+          const FlankCondition condition = apply_effects(results_.effects, condition_of(study, scene));
+          const std::size_t model = model_for(condition.misalignment.axial_offset);
+          add_loaded(scene.name, torque, "given", model, analyse_cycle(results_.models[model], condition, torque));
+          loaded_seconds += clock.seconds();
+        }
+        report("analysing", ++done, total, scene.name);
+      }
+    }
+    for (Effect& effect : results_.effects) {
+      if (effect.name == "unloaded_contact" && effect.on) effect.seconds = unloaded_seconds;
+    }
+    if (loaded_seconds > 0.0) {
+      results_.effects.push_back({"load_distribution", true, "some torque is above 0: all loaded effects together", loaded_seconds});
+    }
+  }
+
+  DesignTask design_task() const {
+    const Study& study = results_.study;
+    DesignTask task;
+    task.pair = results_.pair;
+    task.pinion_material = study.pinion_material;
+    task.wheel_material = study.wheel_material;
+    task.resolution = resolution_of(study);
+    task.effects = mesh_effects(results_.effects);
+    task.pinion_modification = study.pinion_modification;
+    task.wheel_modification = study.wheel_modification;
+    task.variables = study.optimise.variables;
+    task.objective = study.optimise.objective;
+    task.over = study.optimise.over;
+    task.constraints = study.optimise.constraints;
+    for (const Scene& scene : study.scenes) {
+      for (double torque : scene.torques) {
+        task.scenes.push_back(
+            {scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(study, scene))});
+      }
+    }
+    return task;
+  }
+
+  void optimise() {
+    const Study& study = results_.study;
+    results_.design_task = design_task();
+    SolverOptions options;
+    options.name = study.optimise.solver;
+    options.max_evaluations = study.optimise.max_evaluations;
+    options.max_seconds = study.optimise.max_seconds;
+    options.seed = study.optimise.seed;
+    const std::string unit = study.optimise.objective.size() == 1 ? study.optimise.objective.front().unit() : "";
+    options.progress = [&](int analyses, double best) {
+      report("optimising", analyses, 0, "best so far " + number(best, 5) + " " + unit);
+    };
+    DesignProblem problem(*results_.design_task);
+    results_.design = optimise_design(problem, options);
+    const DesignResult& design = *results_.design;
+    results_.effects.push_back({"load_distribution", true, "all analyses of the optimisation", design.seconds});
+    for (const auto& [name, report] : {std::pair{"before", &design.before}, std::pair{"after", &design.after}}) {
+      for (int s = 0; s < problem.scenes(); ++s) {
+        const DesignScene& scene = results_.design_task->scenes[static_cast<std::size_t>(s)];
+        add_loaded(scene.name, scene.torque, name, model_for(scene.condition.misalignment.axial_offset),
+                   report->analysis.cycles[static_cast<std::size_t>(s)]);
+      }
+    }
+    const bool ended_well = design.status == SolverStatus::Converged || design.status == SolverStatus::Stalled;
+    if (!ended_well) {
+      results_.requirements.push_back("the optimisation ended early (" + to_string(design.status) + "): " + design.message);
+    }
+    for (std::size_t c = 0; c < study.optimise.constraints.size(); ++c) {
+      const OutputConstraint& constraint = study.optimise.constraints[c];
+      const double value = design.after.constraint_values[c];
+      if (value > constraint.maximum * (1.0 + DesignLog::tolerance)) {
+        const double factor = constraint.output.outside_factor();
+        results_.requirements.push_back("the constraint " + constraint.output.name + " <= " + number(constraint.maximum * factor) +
+                                        " is violated: " + number(value * factor) + " " + constraint.output.unit());
+      }
+    }
+  }
+
+  void check_results() {
+    for (const UnloadedResult& unloaded : results_.unloaded) {
+      if (unloaded.mesh.missing > 0) {
+        results_.requirements.push_back("scene \"" + unloaded.scene + "\": no tooth pair touches at " +
+                                        std::to_string(unloaded.mesh.missing) + " of the mesh positions");
+      }
+    }
+    for (const LoadedResult& loaded : results_.loaded) {
+      if (!loaded.cycle.usable()) {
+        results_.requirements.push_back("scene \"" + loaded.scene + "\": the load distribution did not converge at " +
+                                        std::to_string(loaded.cycle.failures) + " mesh positions");
+      }
+    }
+  }
+
+  const ProgressReport& progress_;
+  StudyResults results_;
+  std::map<double, std::size_t> model_index_;
+};
+
+}  // namespace
+
+StudyResults run_study(const Study& study, const ProgressReport& progress) { return Run(study, progress).finish(); }
+
+}  // namespace flankwright::studies

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/contact/transmission_error.hpp"
+#include "core/effects/effects.hpp"
+#include "core/load/mesh_cycle.hpp"
+#include "optimize/design_optimiser.hpp"
+#include "studies/study.hpp"
+
+namespace flankwright::studies {
+
+/// Unloaded contact of one scene.
+struct UnloadedResult {
+  std::string scene;
+  UnloadedMesh mesh;
+};
+
+/// Loaded contact of one scene at one torque, for one design.
+struct LoadedResult {
+  std::string scene;
+  double torque{not_given};    ///< on the pinion [N mm]
+  std::string design{"given"}; ///< "given", or "before" / "after" an optimisation
+  LoadedCycle cycle;
+  CycleSummary summary;
+  std::size_t model{0};        ///< index into StudyResults::models
+};
+
+/// Everything a study produced, in internal units.
+struct StudyResults {
+  Study study;
+  GearPair pair;
+  std::vector<UnloadedResult> unloaded;
+  std::vector<LoadedResult> loaded;
+  std::vector<MeshModel> models;  ///< one per axial offset
+  std::vector<Effect> effects;
+  std::optional<DesignTask> design_task;
+  std::optional<DesignResult> design;
+  std::vector<std::string> notes;         ///< what the reader should know, one sentence each
+  std::vector<std::string> requirements;  ///< requirements that were not met (exit code 1), one line each
+  double seconds{not_given};
+};
+
+/// Progress of long work: a label, done and total steps (total 0: unknown), a remark.
+using ProgressReport = std::function<void(const std::string& label, int done, int total, const std::string& remark)>;
+
+/// Does the study's task. Never prints.
+/// @throws InvalidInput where the study cannot be analysed after all
+StudyResults run_study(const Study& study, const ProgressReport& progress = {});
+
+}  // namespace flankwright::studies

@@ -1,0 +1,154 @@
+#include "studies/study_template.hpp"
+
+#include <array>
+#include <string_view>
+
+#include "core/base/error.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+/// The pair and its flanks, the same in every template: between the title and the working conditions.
+constexpr std::string_view pair_and_flanks = R"(
+[pair]
+normal_module = 4                    # mm; or, instead of it, normal_diametral_pitch in 1/in
+pressure_angle = 20                  # deg, normal section
+helix_angle = 15                     # deg, 0 is a spur gear
+# centre_distance = 125              # mm; without it the pair has no backlash
+# driver = "wheel"                   # the pinion, unless said
+# working_flank = "left"             # of the pinion: left is the coast side
+
+[pinion]
+teeth = 20
+face_width = 40                      # mm
+# hand = "left"                      # of the helix: right, unless said; the wheel has the other
+profile_shift = 0.2                  # in normal modules, + outwards
+# tip_diameter = 92                  # mm; by default from rack and profile shift
+rack = { addendum = 1, dedendum = 1.25, root_radius = 0.39 }         # in normal modules
+
+[wheel]
+teeth = 40
+face_width = 40
+profile_shift = 0
+rack = { addendum = 1, dedendum = 1.25, root_radius = 0.39 }
+
+# Modifications: material removed, in um. Manufacturing errors have tables of their own, [pinion.error] and
+# [wheel.error], and the other sign: metal added.
+[pinion.modification]
+lead_crowning = 6                    # removed at both face ends
+# lead_slope = 5                     # over the face width; + removes at z = +b/2
+# profile_crowning = 4               # parabola about the pitch point
+# profile_slope = 3                  # + removes at the tip
+tip_relief = { amount = 10, height = 1.5 }                           # height: mm, measured down from the tip
+# root_relief = { amount = 5, height = 1 }                           # height: mm, up from the start of active profile
+# end_relief = { amount = 10, length = 4 }                           # length: mm, from each face end
+# twist = 2
+
+[wheel.modification]
+tip_relief = { amount = 10, height = 1.5 }
+
+[pinion.error]
+# helix_slope = 5                    # over the face width; + adds at z = +b/2
+# profile_slope = 3                  # + adds at the tip
+# pitch = 2                          # adjacent pitch error, adds up from tooth to tooth
+
+[material]
+youngs_modulus = 206000              # MPa; "206 GPa" is understood as well, as everywhere
+poissons_ratio = 0.3
+)";
+
+constexpr std::string_view analyse_head =
+    R"(# A loaded tooth contact analysis. Bare numbers have the unit in the comment; a text may carry its own: "0.1 mm".
+title = "My pair, as it runs"
+task = "analyse"
+)";
+
+constexpr std::string_view analyse_tail = R"(
+[misalignment]
+crossing = 1                         # arcmin, out of the plane of the axes; + closes the mesh at +z
+# intersecting = 1                   # arcmin, in the plane of the axes; + opens the mesh at +z
+# centre_distance = 0.05             # mm, + apart
+# axial_offset = 0.5                 # mm, wheel towards +z
+# mesh_misalignment = 10             # um over the face width; + opens at +z
+
+[load]
+torque = [0, 150, 300]               # N·m on the pinion; each is run, 0 is the unloaded contact
+
+[cycle]
+positions = 32                       # mesh positions over one base pitch
+
+[fidelity]
+compliance = "thin_slice"            # or "rigid": the unloaded contact only
+quadrature = { rule = "gauss2", intervals = 10 }                     # along a full contact line
+# effects = ["bending", "hertzian_contact"]                          # "auto" decides from the study
+
+# What the results must say, for `flankwright test`:
+# [expect]
+# "loaded.summary.te_peak_to_peak_um" = { max = 3 }
+)";
+
+constexpr std::string_view optimise_head = R"(# Flank modifications that hold over a set of working conditions.
+title = "My pair, as it should be"
+task = "optimise"
+)";
+
+constexpr std::string_view optimise_tail = R"(
+[load]
+torque = 300                         # N·m on the pinion
+
+[cycle]
+positions = 16                       # mesh positions over one base pitch
+
+[fidelity]
+compliance = "thin_slice"
+quadrature = { rule = "gauss2", intervals = 10 }                     # along a full contact line
+
+# Each scene overrides what it names of [misalignment], [load], [pinion.error] and [wheel.error].
+[[scenes]]
+name = "aligned"
+
+[[scenes]]
+name = "housing bends"
+misalignment.mesh_misalignment = 12  # um over the face width; + opens at +z
+weight = 2                           # its share in mean and mean+2sigma
+
+[[scenes]]
+name = "part load, other way"
+misalignment.mesh_misalignment = -8
+load.torque = 120
+
+[optimise]
+objective = "peak_contact_stress"    # or te_peak_to_peak, te_harmonic_1 .. te_harmonic_10, load_factor, peak_line_load
+over = "worst"                       # nominal | worst | mean | mean+2sigma of the scenes
+solver = "ipopt"                     # or nlopt:slsqp, nlopt:mma, nlopt:cobyla ...
+# max_evaluations = 500
+# max_seconds = "10 min"
+
+[optimise.variables]                 # the search starts from the values above
+"pinion.modification.lead_crowning" = [0, 30]                        # um
+"pinion.modification.lead_slope" = [-20, 20]
+"pinion.modification.tip_relief.amount" = [0, 40]
+
+[optimise.constraints]
+"te_peak_to_peak" = { max = 10 }     # um
+)";
+
+std::string text_of(std::string_view head, std::string_view tail) {
+  return std::string(head) + std::string(pair_and_flanks) + std::string(tail);
+}
+
+}  // namespace
+
+std::string study_template(const std::string& kind) {
+  if (kind == "analyse") return text_of(analyse_head, analyse_tail);
+  if (kind == "optimise") return text_of(optimise_head, optimise_tail);
+  constexpr std::array<std::string_view, 3> later{"sweep", "accuracy", "fit"};
+  for (const std::string_view name : later) {
+    if (kind == name)
+      throw InvalidInput("KIND", kind, "\"analyse\" or \"optimise\"; " + kind + " is not in this version");
+  }
+  throw InvalidInput("KIND", kind, "\"analyse\" or \"optimise\"");
+}
+
+}  // namespace flankwright::studies

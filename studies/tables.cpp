@@ -1,0 +1,191 @@
+#include "studies/tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flankwright::studies {
+
+namespace {
+
+double in_um(double mm) { return mm / units::um; }
+double in_arcsec(double rad) { return rad / units::arcsec; }
+double in_Nm(double torque) { return torque / units::newton_metre; }
+
+/// A CSV field: quoted where it holds a comma, a quote or a line break.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+std::string cycle_csv(const StudyResults& results) {
+  std::string csv = "scene,torque_Nm,design,phase,te_um,te_base_tangent_um,stiffness_N_per_mm_um,kkt_residual\n";
+  const double cos_base_helix = std::cos(results.pair.base_helix_angle);
+  for (const LoadedResult& loaded : results.loaded) {
+    for (const LoadedPosition& p : loaded.cycle.positions) {
+      const double te = in_um(p.load.transmission_error);
+      csv += fmt::format("{},{},{},{},{},{},{},{}\n", field(loaded.scene), in_Nm(loaded.torque), loaded.design, p.phase, te,
+                         te / cos_base_helix, p.stiffness, p.load.kkt_residual);
+    }
+  }
+  return csv;
+}
+
+std::string points_csv(const StudyResults& results) {
+  std::string csv =
+      "scene,torque_Nm,design,phase,tooth,z_mm,pinion_radius_mm,wheel_radius_mm,load_N_per_mm,contact_stress_MPa,"
+      "contact_deflection_um,structural_deflection_um,gap_um,error_um\n";
+  for (const LoadedResult& loaded : results.loaded) {
+    const MeshModel& model = results.models[loaded.model];
+    for (std::size_t k = 0; k < loaded.cycle.positions.size(); ++k) {
+      const LoadedPosition& p = loaded.cycle.positions[k];
+      if (!p.load.usable()) continue;
+      for (std::size_t j = 0; j < model.positions[k].points.size(); ++j) {
+        const ContactPoint& c = model.positions[k].points[j];
+        const auto i = static_cast<Eigen::Index>(j);
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", field(loaded.scene), in_Nm(loaded.torque),
+                           loaded.design, p.phase, c.tooth, c.z, c.pinion_radius, c.wheel_radius, p.load.line_load[i],
+                           p.contact_stress[i], in_um(p.load.contact_deflection[i]), in_um(p.load.structural_deflection[i]),
+                           in_um(p.gap.total[i]), in_um(p.gap.error[i]));
+      }
+    }
+  }
+  return csv;
+}
+
+std::string unloaded_csv(const StudyResults& results) {
+  std::string csv =
+      "scene,tooth,phi1_deg,phi2_deg,te_arcsec,contact,pinion_radius_mm,pinion_z_mm,wheel_radius_mm,wheel_z_mm\n";
+  for (const UnloadedResult& unloaded : results.unloaded) {
+    for (const PairCurve& curve : unloaded.mesh.pairs) {
+      for (const ToothContact& c : curve.positions) {
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", field(unloaded.scene), curve.tooth, c.phi1 / units::deg,
+                           c.phi2 / units::deg, in_arcsec(c.transmission_error), to_string(c.kind), c.pinion_radius,
+                           c.pinion_z, c.wheel_radius, c.wheel_z);
+      }
+    }
+  }
+  return csv;
+}
+
+std::string scenes_csv(const StudyResults& results) {
+  std::string csv = "scene,torque_Nm,weight,before,after\n";
+  for (std::size_t s = 0; s < results.design_task->scenes.size(); ++s) {
+    const DesignScene& scene = results.design_task->scenes[s];
+    csv += fmt::format("{},{},{},{},{}\n", field(scene.name), in_Nm(scene.torque), scene.weight,
+                       results.design->before.scene_measures[s], results.design->after.scene_measures[s]);
+  }
+  return csv;
+}
+
+std::string history_csv(const DesignResult& design) {
+  std::string csv = "evaluation,objective,constraint_violation\n";
+  for (const SolverStep& step : design.history) {
+    csv += fmt::format("{},{},{}\n", step.evaluation, step.objective, step.constraint_violation);
+  }
+  return csv;
+}
+
+std::size_t widest(const std::vector<std::string>& names, std::size_t least) {
+  std::size_t width = least;
+  for (const std::string& name : names) width = std::max(width, name.size());
+  return width;
+}
+
+std::string change(double before, double after) {
+  return before != 0.0 ? fmt::format("{:+.1f} %", 100.0 * (after / before - 1.0)) : std::string("-");
+}
+
+std::string design_table(const StudyResults& results) {
+  const DesignTask& task = *results.design_task;
+  const DesignResult& design = *results.design;
+  const bool single = task.objective.size() == 1;
+  const std::string unit = single ? task.objective.front().unit() : "weighted sum";
+  std::vector<std::string> names;
+  for (const DesignVariable& v : task.variables) names.push_back(v.path);
+  for (const DesignScene& s : task.scenes) names.push_back(s.name);
+  const std::size_t width = widest(names, 24);
+
+  std::string out = fmt::format("{:<{}}  {:>12}  {:>12}  {:>9}\n", "", width, "before", "after", "change");
+  for (std::size_t i = 0; i < task.variables.size(); ++i) {
+    const ModificationParameter p = task.variables[i].parameter;
+    const bool extent = p == ModificationParameter::TipReliefHeight || p == ModificationParameter::RootReliefHeight ||
+                        p == ModificationParameter::EndReliefLength;
+    const double factor = extent ? 1.0 : 1.0 / units::um;
+    out += fmt::format("{:<{}}  {:>12.2f}  {:>12.2f}  {:>9}\n", task.variables[i].path, width,
+                       design.before.variables[i] * factor, design.after.variables[i] * factor, extent ? "mm" : "um");
+  }
+  std::string objective;
+  for (const ObjectiveTerm& term : task.objective) objective += (objective.empty() ? "" : " + ") + term.name;
+  out += fmt::format("\n{} [{}]\n", objective, unit);
+  for (std::size_t s = 0; s < task.scenes.size(); ++s) {
+    const double before = design.before.scene_measures[s], after = design.after.scene_measures[s];
+    out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", task.scenes[s].name, width, before, after, change(before, after));
+  }
+  out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", "over the scenes", width, design.before.objective,
+                     design.after.objective, change(design.before.objective, design.after.objective));
+  for (std::size_t c = 0; c < task.constraints.size(); ++c) {
+    const ObjectiveTerm& output = task.constraints[c].output;
+    out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n",
+                       fmt::format("{} <= {:.5g} {}", output.name, task.constraints[c].maximum * output.outside_factor(), output.unit()),
+                       width, design.before.constraint_values[c] * output.outside_factor(),
+                       design.after.constraint_values[c] * output.outside_factor(), "");
+  }
+  return out + fmt::format("\n{}: {} after {} analyses of {} scenes in {:.1f} s\n", design.solver, to_string(design.status),
+                           design.evaluations, task.scenes.size(), design.seconds);
+}
+
+std::string analysis_table(const StudyResults& results) {
+  std::string out;
+  std::vector<std::string> names;
+  for (const LoadedResult& l : results.loaded) names.push_back(l.scene);
+  for (const UnloadedResult& u : results.unloaded) names.push_back(u.scene);
+  const std::size_t width = widest(names, 12);
+  if (!results.loaded.empty()) {
+    out += fmt::format("{:<{}}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}  {:>12}\n", "loaded", width, "torque", "TE p-p", "TE 1st",
+                       "peak load", "peak sigma", "stiffness");
+    out += fmt::format("{:<{}}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}  {:>12}\n", "", width, "N·m", "um", "um", "N/mm", "MPa",
+                       "N/(mm um)");
+  }
+  for (const LoadedResult& l : results.loaded) {
+    const double first = l.summary.te_harmonics.empty() ? not_given : l.summary.te_harmonics.front();
+    out += fmt::format("{:<{}}  {:>9.6g}  {:>10.4f}  {:>10.4f}  {:>10.2f}  {:>10.2f}  {:>12.3f}\n", l.scene, width, in_Nm(l.torque),
+                       in_um(l.summary.te_peak_to_peak), in_um(first), l.summary.peak_line_load,
+                       l.summary.peak_contact_stress, l.summary.mean_stiffness);
+  }
+  if (!results.unloaded.empty()) {
+    out += fmt::format("{:<{}}  {:>12}  {:>12}  {:>10}\n", "unloaded", width, "TE p-p", "TE 1st", "transfers");
+    out += fmt::format("{:<{}}  {:>12}  {:>12}\n", "", width, "arcsec", "arcsec");
+  }
+  for (const UnloadedResult& u : results.unloaded) {
+    const double first = u.mesh.harmonics.empty() ? not_given : u.mesh.harmonics.front();
+    out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>10}\n", u.scene, width, in_arcsec(u.mesh.peak_to_peak), in_arcsec(first),
+                       u.mesh.transfers.size());
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<NamedText> csv_tables(const StudyResults& results) {
+  std::vector<NamedText> tables;
+  if (!results.loaded.empty()) {
+    tables.push_back({"cycle.csv", cycle_csv(results)});
+    tables.push_back({"points.csv", points_csv(results)});
+  }
+  if (!results.unloaded.empty()) tables.push_back({"unloaded.csv", unloaded_csv(results)});
+  if (results.design) {
+    tables.push_back({"scenes.csv", scenes_csv(results)});
+    tables.push_back({"history.csv", history_csv(*results.design)});
+  }
+  return tables;
+}
+
+std::string summary_table(const StudyResults& results) {
+  return results.design ? design_table(results) : analysis_table(results);
+}
+
+}  // namespace flankwright::studies

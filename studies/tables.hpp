@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/run_study.hpp"
+
+namespace flankwright::studies {
+
+/// A file of the results folder: its name and its whole content.
+struct NamedText {
+  std::string name, text;
+};
+
+/// CSV tables of a study (comma separated, decimal point, a header line with units): cycle.csv and points.csv for loaded contact,
+/// unloaded.csv for tooth contact analysis, scenes.csv and history.csv for an optimisation.
+std::vector<NamedText> csv_tables(const StudyResults& results);
+
+/// What a run prints when it is done: before and after for an optimisation, one line a scene otherwise.
+std::string summary_table(const StudyResults& results);
+
+}  // namespace flankwright::studies

@@ -1,0 +1,183 @@
+#include "studies/report/report.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "core/base/error.hpp"
+#include "studies/report/report_view.hpp"
+#include "tests/studies/sample_results.hpp"
+
+namespace flankwright::studies {
+namespace {
+
+using nlohmann::json;
+
+std::size_t count(const std::string& text, const std::string& part) {
+  std::size_t n = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
+  return n;
+}
+
+/// Ids of the page's sections in their order, without the summary that every page has.
+std::vector<std::string> section_ids(const std::string& page) {
+  static const std::regex section("<section id=\"([a-z-]+)\"><h2>");
+  std::vector<std::string> ids;
+  for (std::sregex_iterator at(page.begin(), page.end(), section), end; at != end; ++at) ids.push_back((*at)[1]);
+  return ids;
+}
+
+/// The data block of the page, read back as a browser would: up to the first closing tag.
+json embedded(const std::string& page) {
+  const std::string opening = "<script type=\"application/json\" id=\"results\">";
+  const std::size_t from = page.find(opening) + opening.size();
+  return json::parse(page.substr(from, page.find("</script", from) - from));
+}
+
+json stripped_of_numbers(json value) {
+  if (value.is_number()) return nullptr;
+  if (value.is_structured()) {
+    for (json& child : value) child = stripped_of_numbers(child);
+  }
+  return value;
+}
+
+}  // namespace
+
+TEST_CASE("The report of an unloaded analysis has the sections of unloaded contact", "[studies][report]") {
+  const std::vector<std::string> expected{"unloaded", "gear-pair", "effects", "notes", "inputs"};
+  CHECK(section_ids(render_report(sample::unloaded_results().dump())) == expected);
+}
+
+TEST_CASE("The report of a loaded analysis shows pictures before tables", "[studies][report]") {
+  const std::vector<std::string> expected{
+      "transmission-error", "flank-load", "modifications", "stiffness", "load-cases",
+      "gear-pair",          "effects",    "notes",         "inputs"};
+  CHECK(section_ids(render_report(sample::loaded_results(2).dump())) == expected);
+}
+
+TEST_CASE("The report of an optimisation has every section", "[studies][report]") {
+  const std::vector<std::string> expected{"transmission-error", "scenes",      "flank-load", "modifications",
+                                          "stiffness",          "convergence", "load-cases", "unloaded",
+                                          "gear-pair",          "effects",     "notes",      "inputs"};
+  const std::string page = render_report(sample::optimise_results(2, 4).dump());
+  CHECK(section_ids(page) == expected);
+  for (const std::string& id : expected) {
+    CAPTURE(id);
+    CHECK(count(page, "href=\"#" + id + "\"") == 1);
+    // The script has a builder for it, under a quoted or a plain key.
+    CHECK((page.find("\"" + id + "\": build_") != std::string::npos ||
+           page.find("  " + id + ": build_") != std::string::npos));
+  }
+}
+
+TEST_CASE("The report opens without a network", "[studies][report]") {
+  const std::string page = render_report(sample::optimise_results(1, 2).dump());
+  const std::regex external(R"((src|href|action|srcset)\s*=\s*["']?\s*(https?:)?//)", std::regex::icase);
+  // The regular expression sees only what precedes the plot library, a minified line too long for it, and what follows.
+  const std::size_t library = page.find("/*!\n * Chart.js"), end = page.find("</script", library);
+  REQUIRE(library != std::string::npos);
+  CHECK_FALSE(std::regex_search(page.substr(0, library), external));
+  CHECK_FALSE(std::regex_search(page.substr(end), external));
+  for (const char* loader : {"<link", "@import", "url(", "<iframe", "<img", "fetch(", "XMLHttpRequest", "import("}) {
+    CAPTURE(loader);
+    CHECK(page.find(loader) == std::string::npos);
+  }
+  CHECK(page.find("default-src 'none'") != std::string::npos);
+  CHECK(page.find("{{") == std::string::npos);
+}
+
+TEST_CASE("The report keeps the licence notice of its plot library", "[studies][report]") {
+  const std::string page = render_report("{}");
+  CHECK(page.find("Released under the MIT License") != std::string::npos);
+  CHECK(page.find("The above copyright notice and this permission notice shall be included") != std::string::npos);
+}
+
+TEST_CASE("A hostile study cannot bring script into its report", "[studies][report]") {
+  const std::string attack = "</title></script><script>alert(1)</script><!-- {{results}} \" ' & \u2028 \u2029";
+  json results = sample::optimise_results(1, 2);
+  const std::size_t honest = count(render_report(results.dump()), "<script");
+  results["title"] = results["file"] = results["task"] = attack;
+  results["notes"] = {attack};
+  results["given"] = {{{"key", attack}, {"value", attack}}};
+  results["loaded"][0]["scene"] = results["optimise"]["message"] = attack;
+  results[attack] = attack;
+  const std::string page = render_report(results.dump());
+
+  CHECK(count(page, "<script") == honest);
+  CHECK(count(page, "</script") == honest);
+  CHECK(page.find("<script>alert") == std::string::npos);
+  CHECK(page.find("&lt;script&gt;alert(1)&lt;/script&gt;") != std::string::npos);
+  CHECK(page.find("<h1>&lt;/title&gt;") != std::string::npos);
+
+  const json data = embedded(page);
+  CHECK(data["title"] == attack);
+  CHECK(data["loaded"][0]["scene"] == attack);
+  const std::string inlined = page.substr(page.find("id=\"results\">"), 200);
+  CHECK(inlined.find("\u2028") == std::string::npos);
+}
+
+TEST_CASE("A report survives numbers that did not run", "[studies][report]") {
+  for (const json& results : {sample::unloaded_results(), sample::loaded_results(1), sample::optimise_results(2, 2)}) {
+    const std::string whole = render_report(results.dump());
+    const std::string nulls = render_report(stripped_of_numbers(results).dump());
+    CHECK(section_ids(nulls) == section_ids(whole));
+  }
+}
+
+TEST_CASE("A report survives sections that are missing, empty or of another shape", "[studies][report]") {
+  const json full = sample::optimise_results(1, 2);
+  for (const auto& item : full.items()) {
+    CAPTURE(item.key());
+    json less = full;
+    less.erase(item.key());
+    CHECK_NOTHROW(render_report(less.dump()));
+    for (const json& odd : {json(), json::array(), json::object(), json(3.5), json("text"), json({1, "a", nullptr}),
+                            json({{"cycle", 1}})}) {
+      less[item.key()] = odd;
+      CHECK_NOTHROW(render_report(less.dump()));
+    }
+  }
+  CHECK(section_ids(render_report("{}")).empty());
+}
+
+TEST_CASE("What is not a JSON object is refused", "[studies][report]") {
+  CHECK_THROWS_AS(render_report(""), InvalidInput);
+  CHECK_THROWS_AS(render_report("[1, 2]"), InvalidInput);
+  CHECK_THROWS_AS(render_report("{\"title\": "), InvalidInput);
+  CHECK_THROWS_AS(render_report("{\"title\": \"\xff\"}"), InvalidInput);
+  CHECK_THROWS_AS(render_report("{\"x\": 1e999}"), InvalidInput);
+}
+
+TEST_CASE("The page gets every contact point to six digits", "[studies][report]") {
+  const json results = sample::loaded_results(1);
+  const json view = report_view(results);
+  constexpr double round_off = 5.1e-6;  // half a unit of the sixth significant digit, relative
+  std::size_t seen = 0;
+  const json& cycle = results["loaded"][0]["cycle"];
+  for (std::size_t p = 0; p < cycle.size(); ++p) {
+    for (std::size_t t = 0; t < cycle[p]["teeth"].size(); ++t) {
+      const json& points = cycle[p]["teeth"][t]["points"];
+      const json& columns = view["loaded"][0]["cycle"][p]["teeth"][t]["points"];
+      for (const char* key : {"z_mm", "pinion_radius_mm", "load_N_per_mm", "contact_stress_MPa"}) {
+        REQUIRE(columns[key].size() == points.size());
+        for (std::size_t i = 0; i < points.size(); ++i, ++seen) {
+          CHECK(columns[key][i].get<double>() == Approx(points[i][key].get<double>()).epsilon(round_off).margin(0));
+        }
+      }
+    }
+  }
+  CHECK(seen > 1000);
+  CHECK(view["given"] == results["given"]);
+  CHECK(view["used"] == results["used"]);
+}
+
+TEST_CASE("The report of nine scenes at 32 positions stays below three megabytes", "[studies][report]") {
+  const std::string page = render_report(sample::optimise_results(9, 32).dump());
+  CHECK(page.size() < 3'000'000);
+  CHECK(embedded(page)["loaded"].size() == 18);
+}
+
+}  // namespace flankwright::studies

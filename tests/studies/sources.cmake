@@ -1,0 +1,5 @@
+list(APPEND FLANKWRIGHT_TEST_SOURCES
+     ${CMAKE_CURRENT_LIST_DIR}/study_file_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/study_mutation_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/study_template_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/value_with_unit_test.cpp)
