@@ -177,6 +177,7 @@ class Run {
     task.constraints = study.optimise.constraints;
     for (const Scene& scene : study.scenes) {
       for (double torque : scene.torques) {
+        if (torque == 0.0) continue;  // an unloaded scene has no stress and no loaded transmission error to choose by
         task.scenes.push_back(
             {scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(study, scene))});
       }
