@@ -7,10 +7,49 @@
 
 namespace flankwright {
 
+namespace {
+
+struct Moments {
+  double total_weight{0.0}, mean{0.0};
+  double sigma{0.0};  ///< 0 where the spread is round-off
+};
+
+Moments moments_of(const std::vector<double>& measures, const std::vector<double>& weights) {
+  Moments m;
+  double variance = 0.0;
+  for (double w : weights) m.total_weight += w;
+  for (std::size_t s = 0; s < measures.size(); ++s) m.mean += weights[s] / m.total_weight * measures[s];
+  for (std::size_t s = 0; s < measures.size(); ++s) {
+    variance += weights[s] / m.total_weight * std::pow(measures[s] - m.mean, 2);
+  }
+  // Scenes that mirror each other differ by round-off only, which has no direction to descend: sigma <= 1e-12 |mean| is none.
+  const double sigma = std::sqrt(variance);
+  m.sigma = sigma > 1e-12 * std::abs(m.mean) ? sigma : 0.0;
+  return m;
+}
+
+/// Harmonics can be told apart only where positions are equally spaced over a pitch and more than two to a period.
+void check_harmonics(const DesignTask& task) {
+  const std::vector<double>& phases = task.resolution.phases;
+  const int n = static_cast<int>(phases.size());
+  const auto check = [&](const ObjectiveTerm& term) {
+    if (term.output != Output::TeHarmonic) return;
+    if (phases != equally_spaced_phases(n)) throw InvalidInput("cycle.phases", "a list", "none for " + term.name + ": set cycle.positions");
+    if (n <= 2 * term.harmonic) {
+      throw InvalidInput("cycle.positions", std::to_string(n), "at least " + std::to_string(2 * term.harmonic + 1) + " for " + term.name);
+    }
+  };
+  for (const ObjectiveTerm& term : task.objective) check(term);
+  for (const OutputConstraint& constraint : task.constraints) check(constraint.output);
+}
+
+}  // namespace
+
 DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)) {
   if (task_.scenes.empty()) throw InvalidInput("scenes", "none", "at least one scene");
   if (task_.variables.empty()) throw InvalidInput("optimise.variables", "none", "at least one variable");
   if (task_.objective.empty()) throw InvalidInput("optimise.objective", "none", "at least one output");
+  check_harmonics(task_);
   for (const DesignVariable& v : task_.variables) {
     if (!(v.lower < v.upper)) throw InvalidInput("optimise.variables." + v.path, "an empty range", "lower < upper");
     parameters_.push_back({v.member, v.parameter});
@@ -124,24 +163,21 @@ std::vector<double> aggregate_weights(Aggregate over, const std::vector<double>&
     result[static_cast<std::size_t>(std::max_element(measures.begin(), measures.end()) - measures.begin())] = 1.0;
     return result;
   }
-  double total = 0.0, mean = 0.0, variance = 0.0;
-  for (double w : weights) total += w;
-  for (std::size_t s = 0; s < measures.size(); ++s) mean += weights[s] / total * measures[s];
-  for (std::size_t s = 0; s < measures.size(); ++s) variance += weights[s] / total * std::pow(measures[s] - mean, 2);
-  const double sigma = std::sqrt(variance);
+  const Moments moments = moments_of(measures, weights);
   for (std::size_t s = 0; s < measures.size(); ++s) {
-    result[s] = weights[s] / total;
-    if (over == Aggregate::MeanPlusTwoSigma && sigma > 0.0) result[s] *= 1.0 + 2.0 * (measures[s] - mean) / sigma;
+    result[s] = weights[s] / moments.total_weight;
+    if (over == Aggregate::MeanPlusTwoSigma && moments.sigma > 0.0) {
+      result[s] *= 1.0 + 2.0 * (measures[s] - moments.mean) / moments.sigma;
+    }
   }
   return result;
 }
 
 double aggregate(Aggregate over, const std::vector<double>& measures, const std::vector<double>& weights) {
-  // All four are homogeneous of degree one: the weights of the derivative rebuild the value.
-  const std::vector<double> derivative = aggregate_weights(over, measures, weights);
-  double sum = 0.0;
-  for (std::size_t s = 0; s < measures.size(); ++s) sum += derivative[s] * measures[s];
-  return sum;
+  if (over == Aggregate::Nominal) return measures.front();
+  if (over == Aggregate::Worst) return *std::max_element(measures.begin(), measures.end());
+  const Moments moments = moments_of(measures, weights);
+  return over == Aggregate::Mean ? moments.mean : moments.mean + 2.0 * moments.sigma;
 }
 
 }  // namespace flankwright

@@ -7,8 +7,18 @@ namespace flankwright {
 
 namespace {
 
-constexpr double candidate_margin = 0.15;        // of the peak, see EpigraphProgram
-constexpr std::size_t candidates_at_once = 60;   // per output and scene and call of add_candidates()
+/// Which candidates add_candidates() takes: within `margin` of the peak, at most `most` per output and scene.
+struct CandidateChoice {
+  double margin;
+  std::size_t most;
+};
+
+/// Stresses and loads: half the peak, which on the design problems tried is one round of solving instead of three. Differences of
+/// f_t come in pairs of positions, of which the leading ones are enough.
+CandidateChoice choice_for(Output output) {
+  return output == Output::TePeakToPeak ? CandidateChoice{0.15, 60} : CandidateChoice{0.5, 400};
+}
+
 constexpr double auxiliary_limit = 100.0;        // u <= 100 peaks of the start: no active bound at any sensible design
 
 }  // namespace
@@ -136,9 +146,10 @@ int EpigraphProgram::add_candidates(const Eigen::VectorXd& x) {
   const std::size_t before = rows_.size();
   const auto add = [&](int scene, int term) {
     const Row probe{scene, term, {}};
+    const CandidateChoice choice = choice_for(term_of(probe).output);
     for (const PeakCandidate& candidate :
          leading_candidates(term_of(probe), problem_.model(scene), analysis.cycles[static_cast<std::size_t>(scene)],
-                            candidate_margin, candidates_at_once)) {
+                            choice.margin, choice.most)) {
       rows_.insert({scene, term, candidate});
     }
   };

@@ -58,7 +58,7 @@ class DirectProgram : public NonlinearProgram {
 ///     minimise  f(u)   subject to   candidate_j(x) <= u_sk (all leading candidates j of output k in scene s),
 ///                                   sum_k w_k u_sk <= t  (worst case of several outputs),   bounded outputs likewise,
 ///
-/// so that a solver sees smooth functions only. Candidates are those within `margin` of a peak at the designs given to
+/// so that a solver sees smooth functions only. Candidates are those near a peak at the designs given to
 /// add_candidates(); optimise_design() repeats until no other candidate rises above them. Exact for Nominal, Worst and Mean, whose
 /// value grows with every u; not for mean + 2 sigma, which may fall with one.
 class EpigraphProgram : public NonlinearProgram {

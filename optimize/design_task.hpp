@@ -13,6 +13,9 @@ namespace flankwright {
 /// How the scenes are combined into one number.
 enum class Aggregate { Nominal, Worst, Mean, MeanPlusTwoSigma };
 
+/// As a study names it: "nominal", "worst", "mean", "mean+2sigma".
+const char* to_string(Aggregate over);
+
 /// A quantity of the loaded analysis that can be minimised or bounded. Units inside: MPa, mm, N/mm.
 enum class Output {
   PeakContactStress,  ///< [MPa]
@@ -42,6 +45,10 @@ struct DesignVariable {
   Member member{Member::Pinion};
   ModificationParameter parameter{ModificationParameter::LeadCrowning};
   double lower{0.0}, upper{0.0};  ///< [mm], lower < upper
+
+  /// Factor from mm to the unit of reports: um, but mm for the extent of a relief.
+  double outside_factor() const;
+  const char* unit() const;
 };
 
 /// Upper bound on an output, to hold in every scene.
@@ -70,6 +77,11 @@ struct DesignTask {
   std::vector<ObjectiveTerm> objective;
   Aggregate over{Aggregate::Worst};
   std::vector<OutputConstraint> constraints;
+
+  /// Names of the objective's outputs, "te_harmonic_1 + te_harmonic_2".
+  std::string objective_name() const;
+  /// Unit of the objective's values outside; "weighted sum" where there are several outputs.
+  const char* objective_unit() const;
 };
 
 }  // namespace flankwright

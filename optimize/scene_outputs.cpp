@@ -90,17 +90,6 @@ std::vector<Ranked> rank(const ObjectiveTerm& term, const MeshModel& model, cons
 
 }  // namespace
 
-const char* ObjectiveTerm::unit() const {
-  switch (output) {
-    case Output::PeakContactStress: return "MPa";
-    case Output::TePeakToPeak:
-    case Output::TeHarmonic: return "um";
-    case Output::LoadFactor: return "1";
-    case Output::PeakLineLoad: return "N/mm";
-  }
-  __builtin_unreachable();
-}
-
 double output_value(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle) {
   return rank(term, model, cycle, 0.0).front().value;
 }

@@ -13,6 +13,7 @@
 #include "studies/report/report.hpp"
 #include "studies/results_folder.hpp"
 #include "studies/results_json.hpp"
+#include "studies/results_store.hpp"
 #include "studies/run_study.hpp"
 #include "studies/study_template.hpp"
 #include "studies/tables.hpp"
@@ -82,6 +83,7 @@ int run_command(const RunOptions& options) {
   const std::string json = results_json(results);
   write_whole(folder / "results.json", json);
   for (const NamedText& table : csv_tables(results)) write_whole(folder / table.name, table.text);
+  if (results.design) write_results_store(folder / "results.sqlite", results);
   write_whole(folder / "report.html", render_report(json));
 
   for (const std::string& note : results.notes) spdlog::warn("{}", note);

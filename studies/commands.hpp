@@ -15,7 +15,8 @@ struct RunOptions {
   std::vector<Override> overrides;  ///< --set
 };
 
-/// Does the study's task, prints the summary on stdout and writes results.json, report.html and CSV tables.
+/// Does the study's task, prints the summary on stdout and writes results.json, report.html and CSV tables, and for an
+/// optimisation results.sqlite.
 int run_command(const RunOptions& options);
 
 /// Reads and validates only.

@@ -221,25 +221,12 @@ Json modifications_json(const StudyResults& results) {
   return maps;
 }
 
-const char* aggregate_name(Aggregate over) {
-  switch (over) {
-    case Aggregate::Nominal: return "nominal";
-    case Aggregate::Worst: return "worst";
-    case Aggregate::Mean: return "mean";
-    case Aggregate::MeanPlusTwoSigma: return "mean+2sigma";
-  }
-  __builtin_unreachable();
-}
-
 Json design_report_json(const DesignReport& report, const DesignTask& task) {
   Json variables = Json::object(), variable_units = Json::object(), constraints = Json::object();
   for (std::size_t i = 0; i < task.variables.size(); ++i) {
     const DesignVariable& v = task.variables[i];
-    const bool is_extent = v.parameter == ModificationParameter::TipReliefHeight ||
-                           v.parameter == ModificationParameter::RootReliefHeight ||
-                           v.parameter == ModificationParameter::EndReliefLength;
-    variables[v.path] = is_extent ? report.variables[i] : in_um(report.variables[i]);
-    variable_units[v.path] = is_extent ? "mm" : "um";
+    variables[v.path] = report.variables[i] * v.outside_factor();
+    variable_units[v.path] = v.unit();
   }
   for (std::size_t c = 0; c < task.constraints.size(); ++c) {
     const ObjectiveTerm& output = task.constraints[c].output;
@@ -253,12 +240,9 @@ Json design_report_json(const DesignReport& report, const DesignTask& task) {
 Json optimise_json(const StudyResults& results) {
   const DesignResult& design = *results.design;
   const DesignTask& task = *results.design_task;
-  const bool single = task.objective.size() == 1;
   Json terms = Json::array(), scenes = Json::array();
-  std::string name;
   for (const ObjectiveTerm& term : task.objective) {
     terms.push_back({{"output", term.name}, {"weight", term.weight}, {"unit", term.unit()}});
-    name += (name.empty() ? "" : " + ") + term.name;
   }
   for (std::size_t s = 0; s < task.scenes.size(); ++s) {
     scenes.push_back({{"name", task.scenes[s].name},
@@ -267,10 +251,10 @@ Json optimise_json(const StudyResults& results) {
                       {"before", design.before.scene_measures[s]},
                       {"after", design.after.scene_measures[s]}});
   }
-  return {{"objective_name", name},
-          {"objective_unit", single ? task.objective.front().unit() : "weighted sum"},
+  return {{"objective_name", task.objective_name()},
+          {"objective_unit", task.objective_unit()},
           {"objective_terms", terms},
-          {"over", aggregate_name(task.over)},
+          {"over", to_string(task.over)},
           {"solver", design.solver},
           {"formulation", design.formulation},
           {"status", to_string(design.status)},
@@ -374,7 +358,8 @@ std::string results_json(const StudyResults& results) {
   if (results.design) json["optimise"] = optimise_json(results);
   json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}}; });
   json["used"] = used_json(results);
-  return json.dump() + "\n";
+  // A file name need not be UTF-8, JSON must be: what is not becomes the replacement character.
+  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace flankwright::studies

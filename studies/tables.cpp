@@ -102,8 +102,6 @@ std::string change(double before, double after) {
 std::string design_table(const StudyResults& results) {
   const DesignTask& task = *results.design_task;
   const DesignResult& design = *results.design;
-  const bool single = task.objective.size() == 1;
-  const std::string unit = single ? task.objective.front().unit() : "weighted sum";
   std::vector<std::string> names;
   for (const DesignVariable& v : task.variables) names.push_back(v.path);
   for (const DesignScene& s : task.scenes) names.push_back(s.name);
@@ -111,16 +109,11 @@ std::string design_table(const StudyResults& results) {
 
   std::string out = fmt::format("{:<{}}  {:>12}  {:>12}  {:>9}\n", "", width, "before", "after", "change");
   for (std::size_t i = 0; i < task.variables.size(); ++i) {
-    const ModificationParameter p = task.variables[i].parameter;
-    const bool extent = p == ModificationParameter::TipReliefHeight || p == ModificationParameter::RootReliefHeight ||
-                        p == ModificationParameter::EndReliefLength;
-    const double factor = extent ? 1.0 : 1.0 / units::um;
-    out += fmt::format("{:<{}}  {:>12.2f}  {:>12.2f}  {:>9}\n", task.variables[i].path, width,
-                       design.before.variables[i] * factor, design.after.variables[i] * factor, extent ? "mm" : "um");
+    const DesignVariable& v = task.variables[i];
+    out += fmt::format("{:<{}}  {:>12.2f}  {:>12.2f}  {:>9}\n", v.path, width, design.before.variables[i] * v.outside_factor(),
+                       design.after.variables[i] * v.outside_factor(), v.unit());
   }
-  std::string objective;
-  for (const ObjectiveTerm& term : task.objective) objective += (objective.empty() ? "" : " + ") + term.name;
-  out += fmt::format("\n{} [{}]\n", objective, unit);
+  out += fmt::format("\n{} [{}]\n", task.objective_name(), task.objective_unit());
   for (std::size_t s = 0; s < task.scenes.size(); ++s) {
     const double before = design.before.scene_measures[s], after = design.after.scene_measures[s];
     out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", task.scenes[s].name, width, before, after, change(before, after));

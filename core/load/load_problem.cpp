@@ -34,18 +34,25 @@ void check(const LoadProblem& problem, const Eigen::VectorXd& start) {
 }
 
 /// State of the Newton iteration: loads and everything that follows from them.
+///
+/// Gaps and approach count from first touch, min(g): a gap common to all points, easily a million times the deflection under a
+/// light load, would leave its round-off in every sum.
 class Iterate {
  public:
-  Iterate(const LoadProblem& problem, Eigen::VectorXd w) : problem_(problem), w_(std::move(w)) { update(); }
+  Iterate(const LoadProblem& problem, Eigen::VectorXd w)
+      : problem_(problem), w_(std::move(w)), gap_(problem.gap.array() - problem.gap.minCoeff()) {
+    update();
+  }
 
   const Eigen::VectorXd& loads() const { return w_; }
+  const Eigen::VectorXd& gap() const { return gap_; }
   void move_to(Eigen::VectorXd w) {
     w_ = std::move(w);
     update();
   }
 
   /// Gradient of the objective divided by the weights: the deflection plus gap at each point [mm].
-  Eigen::VectorXd approach() const { return structural_ + local_ + problem_.gap; }
+  Eigen::VectorXd approach() const { return structural_ + local_ + gap_; }
   const Eigen::VectorXd& structural() const { return structural_; }
   const Eigen::VectorXd& local() const { return local_; }
   const Eigen::VectorXd& local_slope() const { return local_slope_; }
@@ -59,7 +66,7 @@ class Iterate {
       const double local = problem_.laws.empty()
                                ? 0.0
                                : problem_.laws[static_cast<std::size_t>(i)].deflection(std::max(0.0, w_[i] + t * d[i]));
-      slope += a[i] * d[i] * (structural_[i] + t * structural_d[i] + local + problem_.gap[i] - f);
+      slope += a[i] * d[i] * (structural_[i] + t * structural_d[i] + local + gap_[i] - f);
     }
     return slope;
   }
@@ -78,10 +85,10 @@ class Iterate {
   }
 
   const LoadProblem& problem_;
-  Eigen::VectorXd w_, structural_, local_, local_slope_;
+  Eigen::VectorXd w_, gap_, structural_, local_, local_slope_;
 };
 
-/// f_t for given loads: the mean approach of the loaded points, weighted by the force they carry.
+/// f_t from first touch for given loads: the mean approach of the loaded points, weighted by the force they carry.
 double best_multiplier(const LoadProblem& problem, const Iterate& at) {
   const Eigen::VectorXd share = problem.weight.cwiseProduct(at.loads());
   return share.dot(at.approach()) / share.sum();
@@ -93,7 +100,7 @@ double kkt_residual(const LoadProblem& problem, const Iterate& at, double f) {
   for (Eigen::Index i = 0; i < remaining.size(); ++i) {
     const bool loaded = at.loads()[i] > 0.0;
     worst = std::max(worst, loaded ? std::abs(remaining[i]) : -remaining[i]);
-    if (loaded) scale = std::max(scale, std::abs(f - problem.gap[i]));
+    if (loaded) scale = std::max(scale, std::abs(f - at.gap()[i]));
   }
   const double balance = std::abs(problem.weight.dot(at.loads()) - problem.force) / problem.force;
   return std::max(balance, worst / scale);
@@ -103,7 +110,7 @@ void fill(const LoadProblem& problem, const Iterate& at, double f, LoadDistribut
   result.line_load = at.loads();
   result.contact_deflection = at.local();
   result.structural_deflection = at.structural();
-  result.transmission_error = f;
+  result.transmission_error = problem.gap.minCoeff() + f;
   result.remaining_gap = at.approach().array() - f;
   result.kkt_residual = kkt_residual(problem, at, f);
 }

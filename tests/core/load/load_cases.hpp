@@ -1,0 +1,132 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "core/compliance/hertz_line.hpp"
+#include "core/load/load_problem.hpp"
+
+/// Load problems for tests: steel contacts, influence matrices of every kind, and what proves a solution.
+namespace flankwright::load_cases {
+
+inline const Material steel{};
+
+/// Random numbers that are the same on every machine.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+  double uniform(double from, double to) { return from + (to - from) * static_cast<double>(engine_() >> 11) * 0x1p-53; }
+  double log_uniform(double from, double to) { return std::exp(uniform(std::log(from), std::log(to))); }
+  int integer(int from, int to) { return from + static_cast<int>(uniform(0.0, to - from + 1.0)); }
+  Eigen::VectorXd vector(Eigen::Index n, double from, double to) {
+    return Eigen::VectorXd::NullaryExpr(n, [&] { return uniform(from, to); });
+  }
+  Eigen::MatrixXd matrix(Eigen::Index rows, Eigen::Index columns) {
+    return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return uniform(-1.0, 1.0); });
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+/// Contact of two steel teeth: radius R and depths in mm.
+inline ContactLaw steel_law(double relative_radius = 12.0, double depth_1 = 8.0, double depth_2 = 9.0,
+                            double tip_distance = std::numeric_limits<double>::infinity()) {
+  return {ContactSide::of(steel, depth_1, tip_distance), ContactSide::of(steel, depth_2), relative_radius,
+          contact_modulus(steel, steel)};
+}
+
+/// Structural influence, as it may come from any compliance model [mm/N].
+enum class Structure {
+  Slices,          ///< diagonal: no coupling
+  DecayingKernel,  ///< exp(-distance), positive everywhere
+  LowRank,         ///< random Gram matrix of rank max(1, n/4), entries of either sign
+  WholeBody,       ///< all points move together: rank 1
+  Rigid            ///< zero
+};
+
+inline Eigen::MatrixXd influence(Structure structure, Eigen::Index n, double compliance, Random& random) {
+  switch (structure) {
+    case Structure::Slices: return compliance * random.vector(n, 0.5, 2.0).asDiagonal().toDenseMatrix();
+    case Structure::DecayingKernel: {
+      const double reach = random.log_uniform(0.5, 50.0);
+      return Eigen::MatrixXd::NullaryExpr(n, n, [&](Eigen::Index i, Eigen::Index j) {
+        return compliance * std::exp(-std::abs(static_cast<double>(i - j)) / reach);
+      });
+    }
+    case Structure::LowRank: {
+      const Eigen::Index rank = std::max<Eigen::Index>(1, n / 4);
+      const Eigen::MatrixXd factor = random.matrix(n, rank);
+      return compliance / static_cast<double>(rank) * factor * factor.transpose();
+    }
+    case Structure::WholeBody: return Eigen::MatrixXd::Constant(n, n, compliance);
+    case Structure::Rigid: return Eigen::MatrixXd::Zero(n, n);
+  }
+  __builtin_unreachable();
+}
+
+inline std::vector<ContactLaw> random_laws(Eigen::Index n, Random& random) {
+  std::vector<ContactLaw> laws;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double tip = random.integer(0, 2) == 0 ? random.log_uniform(1e-3, 10.0) : std::numeric_limits<double>::infinity();
+    laws.push_back(
+        steel_law(random.log_uniform(1.0, 300.0), random.log_uniform(0.5, 50.0), random.log_uniform(0.5, 50.0), tip));
+  }
+  return laws;
+}
+
+/// A problem of n points anywhere between a watch and a mill: mean line load 1e-3 .. 1e6 N/mm, gaps 0 .. 1 mm, lines of
+/// 0.01 .. 10 mm a point, structure of any kind, Hertzian contact in seven of eight and a nearly singular structure in the others.
+inline LoadProblem random_problem(int n, Random& random) {
+  LoadProblem problem;
+  problem.weight = random.vector(n, 0.1, 1.0) * random.log_uniform(0.1, 10.0);
+  const auto structure = static_cast<Structure>(random.integer(0, 4));
+  problem.influence = influence(structure, n, random.log_uniform(1e-8, 1e-4), random);
+  problem.gap = random.integer(0, 5) == 0 ? Eigen::VectorXd(Eigen::VectorXd::Zero(n))
+                                          : Eigen::VectorXd(random.vector(n, 0.0, 1.0) * random.log_uniform(1e-7, 1.0));
+  if (random.integer(0, 3) == 0) problem.gap.array() += random.uniform(-1.0, 1.0);
+  if (random.integer(0, 7) != 0) {
+    problem.laws = random_laws(n, random);
+  } else if (structure == Structure::Rigid) {
+    problem.influence = influence(Structure::Slices, n, 1e-5, random);
+  } else {
+    // Without contact law K has to be definite; this makes it so by little.
+    problem.influence.diagonal().array() += random.log_uniform(1e-8, 1e-2) * problem.influence.diagonal().maxCoeff();
+  }
+  problem.force = random.log_uniform(1e-3, 1e6) * problem.weight.sum();
+  return problem;
+}
+
+/// How far given loads and approach are from optimal, computed from the statement of the problem alone, each part relative to
+/// what it stands beside: the force, and the largest deflection.
+struct Optimality {
+  double balance{0.0};   ///< |sum a w - F| / F
+  double loaded{0.0};    ///< largest |deflection + gap - f| where w > 0
+  double unloaded{0.0};  ///< largest penetration where w = 0
+  bool non_negative{true};
+  double worst() const { return non_negative ? std::max({balance, loaded, unloaded}) : not_given; }
+};
+
+inline Optimality optimality(const LoadProblem& problem, const Eigen::VectorXd& w, double f) {
+  Optimality result;
+  result.non_negative = w.minCoeff() >= 0.0;
+  result.balance = std::abs(problem.weight.dot(w) - problem.force) / problem.force;
+  const Eigen::VectorXd bent = problem.influence * problem.weight.cwiseProduct(w);
+  double deflection = 0.0;
+  for (Eigen::Index i = 0; i < w.size(); ++i) {
+    const double local = problem.laws.empty() ? 0.0 : problem.laws[static_cast<std::size_t>(i)].deflection(std::max(0.0, w[i]));
+    const double remaining = bent[i] + local + (problem.gap[i] - f);
+    (w[i] > 0.0 ? result.loaded : result.unloaded) =
+        std::max(w[i] > 0.0 ? result.loaded : result.unloaded, w[i] > 0.0 ? std::abs(remaining) : -remaining);
+    if (w[i] > 0.0) deflection = std::max(deflection, f - problem.gap[i]);
+  }
+  result.loaded /= deflection;
+  result.unloaded /= deflection;
+  return result;
+}
+
+}  // namespace flankwright::load_cases
