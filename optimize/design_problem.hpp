@@ -21,8 +21,8 @@ struct DesignAnalysis {
 /// Designs are given scaled: x_i = (value - lower) / (upper - lower), 0 .. 1.
 class DesignProblem {
  public:
-  /// @throws InvalidInput where the task has no scene, variable or objective, a bound pair is empty, a harmonic
-  /// that the mesh positions do not resolve, or the models cannot be built
+  /// @throws InvalidInput where the task has no scene, variable or objective, a bound pair is empty, the
+  /// mesh positions do not resolve a harmonic asked for, or the models cannot be built
   explicit DesignProblem(DesignTask task);
 
   const DesignTask& task() const { return task_; }

@@ -175,6 +175,9 @@ void check_mesh(const PairData& data, Findings& findings) {
                      given ? gear.data.tip_diameter : gear.data.profile_shift,
                      "a tip diameter below " + text(2.0 * largest_tip) + " mm, where it meets the mate's root circle");
   }
+  findings.require(pair.transverse_contact_ratio > 0.0, "pair.centre_distance", pair.centre_distance,
+                   "one at which the active flanks meet on the line of action, transverse contact ratio above 0 (it is " +
+                       text(pair.transverse_contact_ratio) + ")");
   findings.require(pair.total_contact_ratio() >= 1.0, "pair.centre_distance", pair.centre_distance,
                    "one that leaves a total contact ratio of at least 1 (it is " + text(pair.total_contact_ratio()) + ")");
 }

@@ -33,7 +33,8 @@ function point_spacing(points, area) {
 
 /**
  * Every raster cell carries the point nearest to it, distances counted in point spacings; cells further than `reach`
- * spacings from any point stay empty. Of points at the same place the larger value counts.
+ * spacings from any point stay empty. Of points at the same place the larger value counts. A bare point yields to a
+ * loaded one within a spacing: tip edges that hover over a flank outside the path of contact do not hide what the flank carries.
  */
 function nearest_points(points, area, columns = 240, rows = 120, reach = 1.6) {
   const { dz, dr } = point_spacing(points, area);
@@ -50,9 +51,10 @@ function nearest_points(points, area, columns = 240, rows = 120, reach = 1.6) {
       for (let column = first; column < last; ++column) {
         const across = (area.z[0] + (column + 0.5) * cell_z - point.z) / dz;
         const up = (area.r[0] + (row + 0.5) * cell_r - point.r) / dr;
-        const d = across * across + up * up;
+        const apart = across * across + up * up;
         const cell = row * columns + column;
-        if (d > reach * reach) continue;
+        if (apart > reach * reach) continue;
+        const d = point.value > 0 ? apart : apart + 1;
         // Closer than a hundredth of a spacing counts as the same place.
         const same_place = Math.abs(d - distance[cell]) < 1e-4;
         if (same_place ? point.value > owner[cell].value : d < distance[cell]) {

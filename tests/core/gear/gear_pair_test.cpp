@@ -208,7 +208,12 @@ TEST_CASE("What cannot be built is refused by the name of its field", "[core][ge
   CHECK(names(with([](PairData& d) { d.pressure_angle = 5 * deg; }), "pair.pressure_angle"));
   CHECK(names(with([](PairData& d) { d.helix_angle = 60 * deg; }), "pair.helix_angle"));
   CHECK(names(with([](PairData& d) { d.centre_distance = 100.0; }), "pair.centre_distance"));  // base radii: 101.7 mm
-  CHECK(names(with([](PairData& d) { d.centre_distance = 113.0; }), "pair.centre_distance"));  // out of mesh
+  CHECK(names(with([](PairData& d) { d.centre_distance = 114.5; }), "pair.centre_distance"));  // out of mesh
+  CHECK(names(with([](PairData& d) {  // the tip circles do not meet, whatever the overlap
+                d.centre_distance = 116.0;
+                d.pinion.face_width = d.wheel.face_width = 300.0;
+              }),
+              "pair.centre_distance"));
   CHECK(names(with([](PairData& d) { d.wheel.rack.root_radius = 0.6; }), "wheel.rack.root_radius"));
   CHECK(names(with([](PairData& d) { d.pinion.rack.addendum = 0.0; }), "pinion.rack.addendum"));
   // Pointed: 12 teeth shifted by 1.2; the mate's own thickness is fine.

@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "core/contact/mesh_scene.hpp"
+#include "core/contact/path_of_contact.hpp"
+#include "core/contact/tooth_contact.hpp"
+#include "core/contact/transmission_error.hpp"
+
+/// What the tests of unloaded contact share: pairs, scenes and an evaluation that knows nothing of the solver.
+namespace flankwright::contact_cases {
+
+/// A pair that leaves the wheel's teeth room; x1, x2 profile shifts, widths in mm.
+inline PairData pair_data(int z1, int z2, double beta, double x1 = 0.0, double x2 = 0.0, double b1 = 30.0, double b2 = 30.0) {
+  PairData data;
+  data.normal_module = 3.0;
+  data.helix_angle = beta;
+  data.pinion.teeth = z1;
+  data.wheel.teeth = z2;
+  data.pinion.profile_shift = x1;
+  data.wheel.profile_shift = x2;
+  data.pinion.face_width = b1;
+  data.wheel.face_width = b2;
+  return data;
+}
+
+inline MeshScene scene_of(const GearPair& pair, const Misalignment& misalignment = {}, const Modification& pinion = {},
+                          const Modification& wheel = {}) {
+  return make_mesh_scene(pair, misalignment, pinion, wheel, {}, {});
+}
+
+/// Wheel angle at which the wheel's flank passes through one point of the pinion's flank; -infinity where the point lies
+/// outside the wheel's flank.
+inline double wheel_angle(const MeshScene& scene, int tooth, double phi1, double rho, double z) {
+  const Point3<double> p =
+      flank_point(scene.pinion, rho, z, tooth, phi1 + tooth * 2.0 * units::pi / scene.pinion_teeth);
+  const Eigen::Vector3d q = scene.wheel_axes.transpose() * (Eigen::Vector3d(p.x, p.y, p.z) - scene.wheel_centre);
+  const double radius = q.head<2>().norm();
+  if (radius > scene.wheel.tip_radius || radius < scene.wheel.form_radius || std::abs(q.z()) > scene.wheel.half_face) {
+    return -std::numeric_limits<double>::infinity();
+  }
+  const FlankThroughPoint<double> through = rotation_through(scene.wheel, Point3<double>{q.x(), q.y(), q.z()}, tooth);
+  return -through.rotation - tooth * 2.0 * units::pi / scene.wheel_teeth;
+}
+
+/// Uniform numbers that are the same on every machine.
+class Random {
+ public:
+  explicit Random(unsigned seed) : generator_(seed) {}
+  double operator()(double from, double to) { return from + (to - from) * static_cast<double>(generator_()) / 4294967296.0; }
+  int integer(int from, int to) { return from + static_cast<int>(generator_() % static_cast<unsigned>(to - from + 1)); }
+  bool coin() { return generator_() % 2 == 1; }
+
+ private:
+  std::mt19937 generator_;
+};
+
+/// A modification whose amounts a designer might choose for teeth of 3 mm module.
+inline Modification random_modification(Random& random, const Gear& gear) {
+  Modification m;
+  const double um = units::um;
+  m.lead_crowning = random.coin() ? random(0.0, 20 * um) : 0.0;
+  m.lead_slope = random(-10 * um, 10 * um);
+  m.addendum_crowning = random(0.0, 15 * um);
+  m.dedendum_crowning = random(0.0, 15 * um);
+  m.profile_slope = random(-8 * um, 8 * um);
+  const double height = gear.tip_radius - gear.active_root_radius;
+  const auto shape = [&] { return random.coin() ? ReliefShape::Linear : ReliefShape::Parabolic; };
+  if (random.coin()) m.tip_relief = {random(0.0, 40 * um), random(0.1, 0.4) * height, shape()};
+  if (random.coin()) m.root_relief = {random(0.0, 30 * um), random(0.1, 0.3) * height, shape()};
+  if (random.coin()) m.end_relief = {random(0.0, 20 * um), random(0.05, 0.3) * gear.data.face_width};
+  m.twist = random(-10 * um, 10 * um);
+  return m;
+}
+
+inline Misalignment random_misalignment(Random& random) {
+  Misalignment m;
+  m.crossing = random(-5, 5) * units::arcmin;
+  m.intersecting = random(-5, 5) * units::arcmin;
+  m.centre_distance = random(-0.05, 0.2);
+  m.axial_offset = random(-2.0, 2.0);
+  m.pinion_lead_angle = random.coin() ? random(-3, 3) * units::arcmin : 0.0;
+  m.pinion_pressure_angle = random.coin() ? random(-3, 3) * units::arcmin : 0.0;
+  m.mesh_misalignment = random(-20, 20) * units::um;
+  return m;
+}
+
+inline PairData random_pair_data(Random& random) {
+  PairData data = pair_data(random.integer(17, 40), random.integer(25, 90), random.coin() ? random(0.0, 35 * units::deg) : 0.0,
+                            random(-0.1, 0.5), random(-0.3, 0.3), random(15.0, 45.0), random(15.0, 45.0));
+  data.pinion_hand = random.coin() ? Hand::Right : Hand::Left;
+  data.working_flank = random.coin() ? WorkingFlank::Right : WorkingFlank::Left;
+  return data;
+}
+
+}  // namespace flankwright::contact_cases

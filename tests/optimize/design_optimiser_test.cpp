@@ -1,0 +1,165 @@
+#include "optimize/design_optimiser.hpp"
+
+#include <catch2/catch.hpp>
+#include <map>
+
+#include "tests/optimize/design_tasks.hpp"
+
+using namespace flankwright;
+using namespace flankwright::design_tasks;
+
+namespace {
+
+DesignResult optimise(const DesignTask& task, const std::string& solver = "ipopt", int max_evaluations = 2000,
+                      double tolerance = 1e-7) {
+  DesignProblem problem(task);
+  SolverOptions options;
+  options.name = solver;
+  options.max_evaluations = max_evaluations;
+  options.tolerance = tolerance;
+  return optimise_design(problem, options);
+}
+
+double lead_crowning_um(const DesignReport& report) { return report.variables[0] / units::um; }
+double lead_slope_um(const DesignReport& report) { return report.variables[1] / units::um; }
+
+}  // namespace
+
+TEST_CASE("Solvers with gradients and without agree, those with need a tenth of the analyses", "[optimize][design]") {
+  std::map<std::string, DesignResult> results;
+  results["ipopt"] = optimise(helical());
+  results["nlopt:slsqp"] = optimise(helical(), "nlopt:slsqp");
+  // 1e-4 of the range is 0.004 um.
+  results["nlopt:crs2_lm"] = optimise(helical(), "nlopt:crs2_lm", 5000, 1e-4);
+  const DesignResult& reference = results["ipopt"];
+  CHECK(reference.formulation == "epigraph");
+  CHECK(results["nlopt:crs2_lm"].formulation == "direct");
+  for (const auto& [solver, result] : results) {
+    CAPTURE(solver, result.message, result.evaluations, result.after.objective, result.before.objective);
+    CHECK(result.status == SolverStatus::Converged);
+    CHECK(result.after.objective == Approx(reference.after.objective).epsilon(0.01));  // model: flat minimax optimum
+    CHECK(result.after.objective < 0.9 * result.before.objective);
+  }
+  CHECK(10 * reference.evaluations <= results["nlopt:crs2_lm"].evaluations);
+  CHECK(10 * results["nlopt:slsqp"].evaluations <= results["nlopt:crs2_lm"].evaluations);
+}
+
+TEST_CASE("A symmetric misalignment set wants crowning and no slope", "[optimize][design][physics]") {
+  const DesignResult result = optimise(spur({10.0, -10.0}));
+  REQUIRE(result.status == SolverStatus::Converged);
+  // Mirror images: the optimum of a spur pair can have no preferred end of the face. Discretisation: the optimiser's tolerance.
+  CHECK(std::abs(lead_slope_um(result.after)) < 0.01);
+  CHECK(lead_crowning_um(result.after) > 1.0);
+  CHECK(lead_crowning_um(result.after) < 39.0);
+  CHECK(result.after.objective < result.before.objective);
+}
+
+TEST_CASE("A single misaligned scene is cancelled by the lead slope", "[optimize][design][physics]") {
+  const double misalignment = GENERATE(8.0, -8.0);  // um, opens at +z where positive
+  DesignTask task = spur({misalignment});
+  task.variables.erase(task.variables.begin());  // the slope alone
+  const DesignResult result = optimise(task);
+  CAPTURE(misalignment, result.message);
+  // The wheel opens the mesh at +z by F; removing F at -z brings the flanks parallel again.
+  CHECK(result.after.variables[0] / units::um == Approx(-misalignment).margin(0.01));  // the optimiser's tolerance
+  DesignTask aligned = spur({0.0});
+  DesignProblem problem(aligned);
+  const double best = problem.objective(problem.analyse(problem.start(), false));
+  CHECK(result.after.objective == Approx(best).epsilon(1e-4));  // the optimiser's tolerance
+}
+
+TEST_CASE("The first harmonic of the transmission error almost vanishes when it alone is minimised",
+          "[optimize][design][physics]") {
+  DesignTask task = spur({0.0});
+  task.variables = {{"pinion.modification.profile_crowning", Member::Pinion, ModificationParameter::ProfileCrowning, 0.0, 0.040},
+                    {"wheel.modification.profile_crowning", Member::Wheel, ModificationParameter::ProfileCrowning, 0.0, 0.040}};
+  task.objective = {term(Output::TeHarmonic, 1)};
+  const DesignResult result = optimise(task);
+  CAPTURE(result.before.objective, result.after.objective, result.message);
+  CHECK(result.after.objective < 0.2 * result.before.objective);
+}
+
+TEST_CASE("The optimum respects a bound on the transmission error, and pays for it", "[optimize][design]") {
+  DesignTask task = spur({10.0, -10.0});
+  task.variables.push_back({"pinion.modification.profile_crowning", Member::Pinion, ModificationParameter::ProfileCrowning, 0.0, 0.040});
+  const DesignResult free = optimise(task);
+  DesignProblem problem(task);
+  OutputConstraint bound{term(Output::TePeakToPeak)};
+  const double reached = problem.constraint_value(free.after.analysis, bound);
+  bound.maximum = 0.8 * reached;
+  task.constraints = {bound};
+  for (const char* solver : {"ipopt", "nlopt:slsqp", "nlopt:cobyla"}) {
+    const DesignResult bounded = optimise(task, solver, 1000, 1e-6);
+    CAPTURE(solver, bounded.message, reached, bounded.after.objective, free.after.objective);
+    REQUIRE(bounded.after.constraint_values.size() == 1);
+    CHECK(bounded.after.constraint_values[0] <= bound.maximum * (1.0 + DesignLog::tolerance));
+    CHECK(bounded.after.objective >= free.after.objective * (1.0 - 1e-5));  // the optimiser's tolerance
+  }
+}
+
+TEST_CASE("Every way of combining the scenes finds a design that is better in its own sense", "[optimize][design]") {
+  const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean, Aggregate::MeanPlusTwoSigma);
+  CAPTURE(to_string(over));
+  DesignTask task = helical();
+  task.over = over;
+  const DesignResult result = optimise(task, over == Aggregate::MeanPlusTwoSigma ? "nlopt:slsqp" : "ipopt", 300);
+  CAPTURE(result.message, result.evaluations);
+  CHECK(result.after.objective <= result.before.objective);
+  CHECK(result.formulation == (over == Aggregate::MeanPlusTwoSigma ? "direct" : "epigraph"));
+  std::vector<double> weights;
+  for (const DesignScene& scene : task.scenes) weights.push_back(scene.weight);
+  CHECK(aggregate(over, result.after.scene_measures, weights) == result.after.objective);
+
+  // Independent route: no better design on a coarse grid of the bounds. Discretisation: the optimum is flat.
+  DesignProblem problem(task);
+  double least = INFINITY;
+  for (double crowning : {0.0, 0.1, 0.2, 0.3, 0.4}) {
+    for (double slope : {0.4, 0.5, 0.6}) {
+      for (double profile : {0.0, 0.1, 0.2}) {
+        least = std::min(least, problem.objective(problem.analyse(Eigen::Vector3d(crowning, slope, profile), false)));
+      }
+    }
+  }
+  CHECK(result.after.objective <= least * (1.0 + 1e-3));
+}
+
+TEST_CASE("A budget is kept, and the best design met so far comes back", "[optimize][design]") {
+  const std::string solver = GENERATE("ipopt", "nlopt:slsqp", "nlopt:crs2_lm", "nlopt:sbplx");
+  for (int budget : {1, 2, 5, 9}) {
+    const DesignResult result = optimise(helical(), solver, budget);
+    CAPTURE(solver, budget, result.message);
+    CHECK(result.evaluations <= budget);
+    CHECK(result.status == SolverStatus::EvaluationLimit);
+    double least = INFINITY;
+    for (const SolverStep& entry : result.history) least = std::min(least, entry.objective);
+    CHECK(result.after.objective == Approx(least).epsilon(1e-14));  // round-off
+    CHECK(result.after.objective <= result.before.objective);
+  }
+}
+
+TEST_CASE("A start outside the bounds is reported as given and optimised from inside", "[optimize][design]") {
+  DesignTask task = spur({10.0, -10.0});
+  task.pinion_modification.lead_crowning = 0.060;  // bounds 0 .. 0.040
+  const DesignResult result = optimise(task);
+  CHECK(lead_crowning_um(result.before) == Approx(60.0));
+  CHECK(lead_crowning_um(result.after) <= 40.0);
+  const DesignResult from_inside = optimise(spur({10.0, -10.0}));
+  CHECK(result.after.objective == Approx(from_inside.after.objective).epsilon(1e-3));  // the optimiser's tolerance
+}
+
+TEST_CASE("Constraints with a solver that takes none, and unknown solvers, are refused", "[optimize][design]") {
+  DesignTask task = spur({10.0});
+  CHECK_THROWS_AS(optimise(task, "nlopt:nonesuch"), InvalidInput);
+  task.constraints = {{term(Output::TePeakToPeak), 0.002}};
+  CHECK_THROWS_AS(optimise(task, "nlopt:crs2_lm"), InvalidInput);
+  CHECK_THROWS_AS(optimise(task, "nlopt:lbfgs"), InvalidInput);
+}
+
+TEST_CASE("The same task gives the same bits", "[optimize][design][determinism]") {
+  const std::string solver = GENERATE("ipopt", "nlopt:isres");
+  const DesignResult a = optimise(spur({10.0, -10.0}), solver, 60), b = optimise(spur({10.0, -10.0}), solver, 60);
+  CHECK(a.after.variables == b.after.variables);
+  CHECK(a.after.objective == b.after.objective);
+  REQUIRE(a.history.size() == b.history.size());
+  for (std::size_t i = 0; i < a.history.size(); ++i) CHECK(a.history[i].objective == b.history[i].objective);
+}

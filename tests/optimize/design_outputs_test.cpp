@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "core/contact/transmission_error.hpp"
+#include "optimize/scene_outputs.hpp"
+#include "tests/optimize/design_tasks.hpp"
+
+using namespace flankwright;
+using namespace flankwright::design_tasks;
+
+namespace {
+
+const LoadedCycle& cycle_of(const DesignAnalysis& analysis, int scene) {
+  return analysis.cycles[static_cast<std::size_t>(scene)];
+}
+
+/// Every variable that a relief offers, beside the three of the small task: also heights and a wheel parameter.
+DesignTask task_with_reliefs() {
+  DesignTask task = helical();
+  const auto add = [&](Member member, const char* path, ModificationParameter parameter, double lower, double upper) {
+    task.variables.push_back({path, member, parameter, lower, upper});
+  };
+  add(Member::Pinion, "pinion.modification.tip_relief.amount", ModificationParameter::TipReliefAmount, 0.005, 0.06);
+  add(Member::Pinion, "pinion.modification.tip_relief.height", ModificationParameter::TipReliefHeight, 1.0, 6.0);
+  add(Member::Wheel, "wheel.modification.end_relief.amount", ModificationParameter::EndReliefAmount, 0.005, 0.03);
+  add(Member::Wheel, "wheel.modification.end_relief.length", ModificationParameter::EndReliefLength, 5.0, 40.0);
+  add(Member::Wheel, "wheel.modification.twist", ModificationParameter::Twist, -0.02, 0.02);
+  return task;
+}
+
+/// Value of every candidate there is, found without ranking.
+std::vector<double> all_values(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle) {
+  std::vector<double> values;
+  const int n = static_cast<int>(cycle.positions.size());
+  for (int i = 0; i < n; ++i) {
+    const int others = term.output == Output::TePeakToPeak
+                           ? n
+                           : static_cast<int>(cycle.positions[static_cast<std::size_t>(i)].load.line_load.size());
+    for (int j = 0; j < others; ++j) values.push_back(candidate_value(term, {i, j}, model, cycle).value);
+  }
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("An output is what the cycle itself shows", "[optimize][design][outputs]") {
+  DesignProblem problem(helical());
+  std::mt19937 generator(5);
+  for (int trial = 0; trial < 5; ++trial) {
+    const DesignAnalysis analysis = problem.analyse(random_design(problem.variables(), generator), false);
+    for (int s = 0; s < problem.scenes(); ++s) {
+      const LoadedCycle& cycle = cycle_of(analysis, s);
+      const MeshModel& model = problem.model(s);
+      const CycleSummary summary = summarise(model, cycle);
+      const Eigen::VectorXd te = cycle.transmission_error();
+      double stress = 0.0, load = 0.0;
+      for (const LoadedPosition& position : cycle.positions) {
+        stress = std::max(stress, position.contact_stress.maxCoeff());
+        load = std::max(load, position.load.line_load.maxCoeff());
+      }
+      constexpr double round_off = 1e-12;
+      CHECK(output_value(term(Output::PeakContactStress), model, cycle) == stress);
+      CHECK(output_value(term(Output::PeakLineLoad), model, cycle) == load);
+      CHECK(output_value(term(Output::TePeakToPeak), model, cycle) == te.maxCoeff() - te.minCoeff());
+      CHECK(output_value(term(Output::LoadFactor), model, cycle) == Approx(summary.load_factor).epsilon(round_off));
+      const std::vector<double> harmonics = harmonic_amplitudes({te.begin(), te.end()});
+      for (int order = 1; order <= 3; ++order) {
+        CHECK(output_value(term(Output::TeHarmonic, order), model, cycle) ==
+              Approx(harmonics[static_cast<std::size_t>(order) - 1]).margin(round_off * te.cwiseAbs().maxCoeff()));
+      }
+    }
+  }
+}
+
+TEST_CASE("Leading candidates are the peak and all that come near it", "[optimize][design][outputs]") {
+  DesignProblem problem(helical());
+  std::mt19937 generator(6);
+  const DesignAnalysis analysis = problem.analyse(random_design(problem.variables(), generator), false);
+  const double margin = 0.15;
+  for (const ObjectiveTerm& output : all_outputs()) {
+    if (output.output == Output::TeHarmonic) continue;
+    for (int s = 0; s < problem.scenes(); ++s) {
+      CAPTURE(output.name, s);
+      const MeshModel& model = problem.model(s);
+      const LoadedCycle& cycle = cycle_of(analysis, s);
+      const std::vector<double> values = all_values(output, model, cycle);
+      const double peak = *std::max_element(values.begin(), values.end());
+      CHECK(output_value(output, model, cycle) == peak);
+      const auto near = std::count_if(values.begin(), values.end(), [&](double v) { return v >= (1.0 - margin) * peak; });
+
+      const std::vector<PeakCandidate> leading = leading_candidates(output, model, cycle, margin, 100000);
+      CHECK(static_cast<long>(leading.size()) == near);
+      double last = peak;
+      CHECK(candidate_value(output, leading.front(), model, cycle).value == peak);
+      for (const PeakCandidate& candidate : leading) {
+        const double value = candidate_value(output, candidate, model, cycle).value;
+        CHECK(value <= last);
+        last = value;
+      }
+      CHECK(leading_candidates(output, model, cycle, margin, 2).size() == 2);
+      CHECK(leading_candidates(output, model, cycle, 0.0, 100).front() == leading.front());
+    }
+  }
+}
+
+TEST_CASE("Gradients of every output are what central differences say", "[optimize][design][outputs][gradient]") {
+  DesignProblem problem(task_with_reliefs());
+  std::mt19937 generator(7);
+  for (int trial = 0; trial < 4; ++trial) {
+    const Eigen::VectorXd x = random_design(problem.variables(), generator);
+    const DesignAnalysis at = problem.analyse(x, true);
+    // Step of about 0.004 um on amounts: differences lose 1e-12 / 1e-4 to round-off and step^2 to curvature.
+    constexpr double step = 1e-4, discretisation = 1e-6;
+    struct Check {
+      ObjectiveTerm term;
+      int scene;
+      PeakCandidate candidate;
+      Eigen::VectorXd exact, difference;
+    };
+    std::vector<Check> checks;
+    for (const ObjectiveTerm& output : all_outputs()) {
+      for (int s = 0; s < problem.scenes(); ++s) {
+        for (const PeakCandidate& candidate : leading_candidates(output, problem.model(s), cycle_of(at, s), 0.1, 3)) {
+          const SmoothValue value = candidate_value(output, candidate, problem.model(s), cycle_of(at, s));
+          checks.push_back({output, s, candidate, problem.scaled(value.gradient), Eigen::VectorXd(problem.variables())});
+        }
+      }
+    }
+    for (int i = 0; i < problem.variables(); ++i) {
+      const Eigen::VectorXd shift = step * Eigen::VectorXd::Unit(problem.variables(), i);
+      const DesignAnalysis up = problem.analyse(x + shift, false), down = problem.analyse(x - shift, false);
+      for (Check& c : checks) {
+        const auto value = [&](const DesignAnalysis& a) {
+          return candidate_value(c.term, c.candidate, problem.model(c.scene), cycle_of(a, c.scene)).value;
+        };
+        c.difference[i] = (value(up) - value(down)) / (2.0 * step);
+      }
+    }
+    for (const Check& c : checks) {
+      CAPTURE(c.term.name, c.scene, trial, c.exact.transpose(), c.difference.transpose());
+      CHECK((c.exact - c.difference).cwiseAbs().maxCoeff() <= discretisation * c.difference.cwiseAbs().maxCoeff());
+    }
+  }
+}
+
+TEST_CASE("Without derivatives in the cycle a candidate has a value and no gradient", "[optimize][design][outputs]") {
+  DesignProblem problem(helical({0.0}));
+  const DesignAnalysis& analysis = problem.analyse(problem.start(), false);
+  for (const ObjectiveTerm& output : all_outputs()) {
+    const PeakCandidate leader = leading_candidates(output, problem.model(0), cycle_of(analysis, 0), 0.0, 1).front();
+    const SmoothValue value = candidate_value(output, leader, problem.model(0), cycle_of(analysis, 0));
+    CHECK(value.value > 0.0);
+    CHECK(value.gradient.size() == 0);
+  }
+}
+
+TEST_CASE("An output of a cycle that failed somewhere is refused", "[optimize][design][outputs]") {
+  DesignProblem problem(helical({0.0}));
+  LoadedCycle cycle = problem.analyse(problem.start(), false).cycles.front();
+  cycle.failures = 1;
+  for (const ObjectiveTerm& output : all_outputs()) {
+    CHECK_THROWS_AS(output_value(output, problem.model(0), cycle), std::runtime_error);
+    CHECK_THROWS_AS(candidate_value(output, {0, 0}, problem.model(0), cycle), std::runtime_error);
+  }
+}

@@ -1,0 +1,135 @@
+#include "optimize/design_programs.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/optimize/design_tasks.hpp"
+
+using namespace flankwright;
+using namespace flankwright::design_tasks;
+
+namespace {
+
+// Steps of 1e-4 of a range: differences lose about 1e-12 / 1e-4 to round-off and step^2 to curvature.
+constexpr double step = 1e-4, discretisation = 1e-6;
+
+void check_gradients(NonlinearProgram& program, const Eigen::VectorXd& x) {
+  const ProgramValues at = program.evaluate(x, true);
+  REQUIRE(at.constraints.size() == program.constraints());
+  const int n = program.variables();
+  Eigen::VectorXd gradient(n);
+  Eigen::MatrixXd jacobian(program.constraints(), n);
+  for (int i = 0; i < n; ++i) {
+    const Eigen::VectorXd shift = step * Eigen::VectorXd::Unit(n, i);
+    const ProgramValues up = program.evaluate(x + shift, false), down = program.evaluate(x - shift, false);
+    gradient[i] = (up.objective - down.objective) / (2.0 * step);
+    jacobian.col(i) = (up.constraints - down.constraints) / (2.0 * step);
+  }
+  CAPTURE(at.objective_gradient.transpose(), gradient.transpose());
+  CHECK((at.objective_gradient - gradient).cwiseAbs().maxCoeff() <= discretisation * gradient.cwiseAbs().maxCoeff());
+  if (program.constraints() == 0) return;
+  CHECK((at.constraint_jacobian - jacobian).cwiseAbs().maxCoeff() <= discretisation * jacobian.cwiseAbs().maxCoeff());
+}
+
+DesignTask with_two_outputs_and_a_bound(Aggregate over) {
+  DesignTask task = helical();
+  task.over = over;
+  task.scenes[1].weight = 2.0;
+  task.objective = {term(Output::PeakContactStress, 0, 0.01), term(Output::TePeakToPeak, 0, 1.0)};
+  task.constraints = {{term(Output::PeakLineLoad), 250.0}};
+  return task;
+}
+
+Eigen::VectorXd row_values(EpigraphProgram& program, const Eigen::VectorXd& y) {
+  return program.evaluate(y, false).constraints;
+}
+
+}  // namespace
+
+TEST_CASE("The direct programme's gradients are what central differences say", "[optimize][design][gradient]") {
+  const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean, Aggregate::MeanPlusTwoSigma);
+  CAPTURE(to_string(over));
+  DesignProblem problem(with_two_outputs_and_a_bound(over));
+  DesignLog log(nullptr);
+  DirectProgram program(problem, log);
+  std::mt19937 generator(8);
+  for (int trial = 0; trial < 3; ++trial) check_gradients(program, random_design(problem.variables(), generator));
+}
+
+TEST_CASE("The epigraph programme's gradients are what central differences say", "[optimize][design][gradient]") {
+  const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean);
+  const bool several_outputs = GENERATE(true, false);
+  CAPTURE(to_string(over), several_outputs);
+  DesignTask task = with_two_outputs_and_a_bound(over);
+  if (!several_outputs) task.objective.pop_back();
+  DesignProblem problem(task);
+  DesignLog log(nullptr);
+  EpigraphProgram program(problem, log);
+  std::mt19937 generator(9);
+  Eigen::VectorXd y = program.start();
+  y.head(problem.variables()) = random_design(problem.variables(), generator);
+  check_gradients(program, y);
+}
+
+TEST_CASE("The epigraph starts feasible and promises what the true outputs are", "[optimize][design]") {
+  const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean);
+  DesignTask task = with_two_outputs_and_a_bound(over);
+  task.constraints.clear();
+  CAPTURE(to_string(over));
+  DesignProblem problem(task);
+  DesignLog log(nullptr);
+  EpigraphProgram program(problem, log);
+  constexpr double round_off = 1e-12;
+  const auto check_promise = [&](const Eigen::VectorXd& x) {
+    const Eigen::VectorXd y = program.start();
+    CHECK(program.design(y) == x);
+    CHECK(row_values(program, y).maxCoeff() <= round_off);
+    const double truth = problem.objective(problem.analyse(x, true));
+    CHECK(program.evaluate(y, true).objective * program.objective_scale() == Approx(truth).epsilon(round_off));
+  };
+  check_promise(problem.start());
+  const Eigen::Vector3d elsewhere(0.4, 0.6, 0.2);
+  program.add_candidates(elsewhere);
+  CHECK(program.add_candidates(elsewhere) == 0);  // all known by now
+  program.restart_from(elsewhere);
+  check_promise(elsewhere);
+}
+
+TEST_CASE("A candidate above its bound violates the epigraph", "[optimize][design]") {
+  DesignProblem problem(helical());
+  DesignLog log(nullptr);
+  EpigraphProgram program(problem, log);
+  Eigen::VectorXd y = program.start();
+  y[y.size() - 1] *= 0.9;  // promise 10 % less stress than there is
+  CHECK(row_values(program, y).maxCoeff() == Approx(0.1).epsilon(1e-12));  // round-off
+}
+
+TEST_CASE("The log prefers the feasible, then the least objective, then the least violation", "[optimize][design]") {
+  DesignTask task = helical({0.0});
+  DesignProblem problem(task);
+  // Every design's stress is bounded by that of the unmodified start plus a little.
+  const Eigen::VectorXd start = problem.start();
+  const double stress = problem.objective(problem.analyse(start, false));
+  task.constraints = {{term(Output::PeakContactStress), 1.02 * stress}};
+  DesignProblem bounded(task);
+  std::vector<double> reported;
+  DesignLog log([&](int, double best) { reported.push_back(best); });
+  CHECK(log.best() == nullptr);
+
+  const auto record = [&](const Eigen::VectorXd& x) { log.record(bounded, x, bounded.analyse(x, false)); };
+  const Eigen::Vector3d much(1.0, 0.5, 1.0), less(0.7, 0.5, 0.7), slight(0.02, 0.5, 0.0);
+  record(much);  // much crowning on aligned gears: far above the bound
+  record(less);
+  CHECK(log.best()->x == less);
+  CHECK(log.best()->constraint_violation > DesignLog::tolerance);
+  record(start);
+  CHECK(log.best()->x == start);
+  CHECK(log.best()->constraint_violation == 0.0);
+  record(start);  // the same again is no new entry
+  CHECK(log.entries().size() == 3);
+  record(much);
+  CHECK(log.best()->x == start);
+  CHECK(log.best()->objective == Approx(stress).epsilon(1e-14));  // round-off
+  CHECK(reported.size() == 4);
+  record(slight);
+  CHECK((log.best()->x == slight) == (log.entries().back().objective < stress));
+}

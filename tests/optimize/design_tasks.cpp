@@ -1,0 +1,78 @@
+#include "tests/optimize/design_tasks.hpp"
+
+namespace flankwright::design_tasks {
+
+namespace {
+
+DesignVariable variable(const std::string& name, ModificationParameter parameter, double lower_um, double upper_um) {
+  return {"pinion.modification." + name, Member::Pinion, parameter, lower_um * units::um, upper_um * units::um};
+}
+
+void add_scenes(DesignTask& task, double torque, const std::vector<double>& misalignments_um) {
+  for (double misalignment : misalignments_um) {
+    DesignScene scene;
+    scene.name = "F = " + std::to_string(misalignment) + " um";
+    scene.torque = torque * units::newton_metre;
+    scene.condition.misalignment.mesh_misalignment = misalignment * units::um;
+    task.scenes.push_back(scene);
+  }
+}
+
+}  // namespace
+
+DesignTask helical(const std::vector<double>& misalignments_um, int positions) {
+  PairData data;
+  data.normal_module = 10.0;
+  data.helix_angle = 30.0 * units::deg;
+  data.pinion.teeth = 18;
+  data.wheel.teeth = 54;
+  data.pinion.face_width = data.wheel.face_width = 120.0;
+  DesignTask task;
+  task.pair = make_gear_pair(data);
+  task.pinion_material = task.wheel_material = {209000.0, 0.3};
+  task.resolution = {{QuadratureRule::Gauss2, 5}, equally_spaced_phases(positions)};
+  add_scenes(task, 1014.868, misalignments_um);
+  task.variables = {variable("lead_crowning", ModificationParameter::LeadCrowning, 0.0, 40.0),
+                    variable("lead_slope", ModificationParameter::LeadSlope, -20.0, 20.0),
+                    variable("profile_crowning", ModificationParameter::ProfileCrowning, 0.0, 30.0)};
+  task.objective = {term(Output::PeakContactStress)};
+  return task;
+}
+
+DesignTask spur(const std::vector<double>& misalignments_um) {
+  PairData data;
+  data.normal_module = 4.0;
+  data.pinion.teeth = 24;
+  data.wheel.teeth = 36;
+  data.pinion.face_width = data.wheel.face_width = 40.0;
+  DesignTask task;
+  task.pair = make_gear_pair(data);
+  task.resolution = {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(8)};
+  add_scenes(task, 300.0, misalignments_um);
+  task.variables = {variable("lead_crowning", ModificationParameter::LeadCrowning, 0.0, 40.0),
+                    variable("lead_slope", ModificationParameter::LeadSlope, -20.0, 20.0)};
+  task.objective = {term(Output::PeakContactStress)};
+  return task;
+}
+
+ObjectiveTerm term(Output output, int harmonic, double weight) {
+  const char* names[] = {"peak_contact_stress", "te_peak_to_peak", "te_harmonic_", "load_factor", "peak_line_load"};
+  std::string name = names[static_cast<int>(output)];
+  if (output == Output::TeHarmonic) name += std::to_string(harmonic);
+  return {output, harmonic, weight, name};
+}
+
+std::vector<ObjectiveTerm> all_outputs() {
+  return {term(Output::PeakContactStress), term(Output::TePeakToPeak),  term(Output::TeHarmonic, 1),
+          term(Output::TeHarmonic, 2),     term(Output::TeHarmonic, 3), term(Output::LoadFactor),
+          term(Output::PeakLineLoad)};
+}
+
+Eigen::VectorXd random_design(int variables, std::mt19937& generator) {
+  std::uniform_real_distribution<double> inside(0.05, 0.95);
+  Eigen::VectorXd x(variables);
+  for (double& value : x) value = inside(generator);
+  return x;
+}
+
+}  // namespace flankwright::design_tasks
