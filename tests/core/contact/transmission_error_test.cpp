@@ -1,0 +1,98 @@
+#include "core/contact/transmission_error.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/core/contact/contact_cases.hpp"
+
+using namespace flankwright;
+using namespace flankwright::contact_cases;
+using units::deg;
+using units::pi;
+
+TEST_CASE("The mesh follows the leading pair, and every hand-over is located where two pairs are equal", "[core][contact]") {
+  Random random(99);
+  int transfers = 0;
+  for (int i = 0; i < 6; ++i) {
+    PairData data = random_pair_data(random);
+    data.helix_angle = i % 2 == 0 ? 0.0 : 20 * deg;
+    if (!find_problems(data).empty()) continue;
+    const GearPair pair = make_gear_pair(data);
+    const MeshScene scene = scene_of(pair, random_misalignment(random), random_modification(random, pair.pinion),
+                                     random_modification(random, pair.wheel));
+    const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 20);
+    CAPTURE(i);
+    REQUIRE(mesh.missing == 0);
+    REQUIRE(mesh.phi1.size() == 20);
+    double highest = -INFINITY, lowest = INFINITY;
+    for (std::size_t k = 0; k < mesh.phi1.size(); ++k) {
+      double leading = -INFINITY;
+      for (int tooth = -4; tooth <= 4; ++tooth) {
+        const ToothContact contact = find_tooth_contact(scene, tooth, mesh.phi1[k]);
+        if (contact.exists()) leading = std::max(leading, contact.transmission_error);
+      }
+      CHECK(std::abs(mesh.transmission_error[k] - leading) <= 1e-12);  // round-off
+      highest = std::max(highest, leading);
+      lowest = std::min(lowest, leading);
+      CHECK(std::abs(mesh.phi1[k] - 2 * pi / data.pinion.teeth * (static_cast<double>(k) / 20 - 0.5)) <= 1e-15);
+    }
+    for (const Transfer& transfer : mesh.transfers) {
+      ++transfers;
+      const double before = find_tooth_contact(scene, transfer.from_tooth, transfer.phi1).transmission_error;
+      const double after = find_tooth_contact(scene, transfer.to_tooth, transfer.phi1).transmission_error;
+      CHECK(transfer.from_tooth != transfer.to_tooth);
+      CHECK(std::abs(before - after) <= 1e-11);  // round-off: 1e-13 rad of phi1 times the slope of a corner
+      CHECK(std::abs(transfer.transmission_error - after) <= 1e-15);
+      lowest = std::min(lowest, transfer.transmission_error);
+    }
+    CHECK(std::abs(mesh.peak_to_peak - (highest - lowest)) <= 1e-12);
+    // A pitch later the next pair does the same.
+    const double te = find_tooth_contact(scene, -1, mesh.phi1[3] + 2 * pi / data.pinion.teeth).transmission_error;
+    CHECK(std::abs(te - find_tooth_contact(scene, 0, mesh.phi1[3]).transmission_error) <= 1e-12);
+  }
+  CHECK(transfers >= 5);
+}
+
+TEST_CASE("Harmonic amplitudes of a sum of cosines are its coefficients", "[core][contact][closed-form]") {
+  const int n = GENERATE(25, 64);
+  std::vector<double> samples;
+  for (int i = 0; i < n; ++i) {
+    const double t = 2 * pi * i / n;
+    samples.push_back(3.0 + 2.0 * std::cos(t + 0.4) - 0.5 * std::sin(3 * t) + 0.01 * std::cos(10 * t - 1.0));
+  }
+  const std::vector<double> found = harmonic_amplitudes(samples);
+  REQUIRE(found.size() == 10);
+  const double expected[10] = {2.0, 0, 0.5, 0, 0, 0, 0, 0, 0, 0.01};
+  for (std::size_t i = 0; i < 10; ++i) CHECK(std::abs(found[i] - expected[i]) <= 1e-14);  // round-off
+}
+
+TEST_CASE("No more harmonics are reported than the samples can tell apart", "[core][contact]") {
+  CHECK(harmonic_amplitudes({}).empty());
+  CHECK(harmonic_amplitudes({1.0}).empty());
+  CHECK(harmonic_amplitudes({1.0, 2.0}).empty());
+  CHECK(harmonic_amplitudes({1.0, 2.0, 1.0}).size() == 1);
+  CHECK(harmonic_amplitudes(std::vector<double>(8, 1.0)).size() == 3);
+}
+
+TEST_CASE("Each pair's curve lies inside its extended path of contact, in order of the angle", "[core][contact]") {
+  const GearPair pair = make_gear_pair(pair_data(22, 51, 17 * deg));
+  Modification m;
+  m.lead_crowning = 0.01;
+  const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene_of(pair, {}, m), 24);
+  const PathOfContact path(pair);
+  std::size_t positions = 0;
+  for (const PairCurve& curve : mesh.pairs) {
+    double last = -INFINITY;
+    for (const ToothContact& contact : curve.positions) {
+      CHECK(contact.tooth == curve.tooth);
+      CHECK(contact.phi1 > last);
+      last = contact.phi1;
+      const double phase = path.line_phase_at(contact.phi1 + contact.tooth * 2 * pi / 22, pair);
+      CHECK(phase >= 0.0);
+      CHECK(phase <= path.last_line_phase());
+      ++positions;
+    }
+  }
+  // Every pair passes every position of the pitch once: as many positions as the extended path has pitches.
+  CHECK(std::abs(static_cast<double>(positions) - 24 * path.last_line_phase()) <= static_cast<double>(mesh.pairs.size()));
+}
