@@ -45,7 +45,6 @@ class Iterate {
   }
 
   const Eigen::VectorXd& loads() const { return w_; }
-  const Eigen::VectorXd& gap() const { return gap_; }
   void move_to(Eigen::VectorXd w) {
     w_ = std::move(w);
     update();
@@ -96,11 +95,12 @@ double best_multiplier(const LoadProblem& problem, const Iterate& at) {
 
 double kkt_residual(const LoadProblem& problem, const Iterate& at, double f) {
   const Eigen::VectorXd remaining = at.approach().array() - f;
+  const Eigen::VectorXd terms = problem.influence.cwiseAbs() * problem.weight.cwiseProduct(at.loads()) + at.local();
   double worst = 0.0, scale = 0.0;
   for (Eigen::Index i = 0; i < remaining.size(); ++i) {
     const bool loaded = at.loads()[i] > 0.0;
     worst = std::max(worst, loaded ? std::abs(remaining[i]) : -remaining[i]);
-    if (loaded) scale = std::max(scale, std::abs(f - at.gap()[i]));
+    if (loaded) scale = std::max(scale, terms[i]);
   }
   const double balance = std::abs(problem.weight.dot(at.loads()) - problem.force) / problem.force;
   return std::max(balance, worst / scale);

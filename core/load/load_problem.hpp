@@ -34,8 +34,8 @@ struct LoadDistribution {
   Eigen::VectorXd structural_deflection;  ///< (K a w)_i [mm]
   Eigen::VectorXd remaining_gap;          ///< under load, >= 0, 0 where loaded [mm]
   double transmission_error{not_given};   ///< f_t: approach of the gears along the flank normal [mm]
-  /// max over i of |remaining gap| where loaded and -min(remaining gap) elsewhere, relative to the largest deflection
-  /// f_t - g_i; and |sum a w - F| / F. The larger of the two.
+  /// max over i of |remaining gap| where loaded and -min(remaining gap) elsewhere, relative to the largest deflection of a loaded
+  /// point, sum_j |K_ij| a_j w_j + c_i; and |sum a w - F| / F. The larger of the two.
   double kkt_residual{not_given};
   int iterations{-1};      ///< Newton steps
   int factorisations{-1};  ///< Cholesky factorisations

@@ -125,7 +125,7 @@ TEST_CASE("Every way of combining the scenes finds a design that is better in it
 
 TEST_CASE("A budget is kept, and the best design met so far comes back", "[optimize][design]") {
   const std::string solver = GENERATE("ipopt", "nlopt:slsqp", "nlopt:crs2_lm", "nlopt:sbplx");
-  for (int budget : {1, 2, 5, 9}) {
+  for (int budget : {1, 2, 4}) {
     const DesignResult result = optimise(helical(), solver, budget);
     CAPTURE(solver, budget, result.message);
     CHECK(result.evaluations <= budget);

@@ -102,7 +102,7 @@ inline LoadProblem random_problem(int n, Random& random) {
 }
 
 /// How far given loads and approach are from optimal, computed from the statement of the problem alone, each part relative to
-/// what it stands beside: the force, and the largest deflection.
+/// what it stands beside: the force, and the largest sum of deflections of a loaded point.
 struct Optimality {
   double balance{0.0};   ///< |sum a w - F| / F
   double loaded{0.0};    ///< largest |deflection + gap - f| where w > 0
@@ -115,14 +115,17 @@ inline Optimality optimality(const LoadProblem& problem, const Eigen::VectorXd& 
   Optimality result;
   result.non_negative = w.minCoeff() >= 0.0;
   result.balance = std::abs(problem.weight.dot(w) - problem.force) / problem.force;
-  const Eigen::VectorXd bent = problem.influence * problem.weight.cwiseProduct(w);
+  const Eigen::VectorXd forces = problem.weight.cwiseProduct(w);
+  const Eigen::VectorXd bent = problem.influence * forces, terms = problem.influence.cwiseAbs() * forces;
   double deflection = 0.0;
   for (Eigen::Index i = 0; i < w.size(); ++i) {
     const double local = problem.laws.empty() ? 0.0 : problem.laws[static_cast<std::size_t>(i)].deflection(std::max(0.0, w[i]));
     const double remaining = bent[i] + local + (problem.gap[i] - f);
-    (w[i] > 0.0 ? result.loaded : result.unloaded) =
-        std::max(w[i] > 0.0 ? result.loaded : result.unloaded, w[i] > 0.0 ? std::abs(remaining) : -remaining);
-    if (w[i] > 0.0) deflection = std::max(deflection, f - problem.gap[i]);
+    // f may be known to its last digit and no better.
+    const double digits = std::numeric_limits<double>::epsilon() * std::abs(f);
+    double& part = w[i] > 0.0 ? result.loaded : result.unloaded;
+    part = std::max(part, (w[i] > 0.0 ? std::abs(remaining) : -remaining) - digits);
+    if (w[i] > 0.0) deflection = std::max(deflection, terms[i] + local);
   }
   result.loaded /= deflection;
   result.unloaded /= deflection;
