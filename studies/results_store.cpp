@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Cells of one column may differ in type only in `run`, whose values are text or numbers as they come.
+// The values of `run` have no type of their own: text and numbers stay what they are.
 constexpr const char* tables = R"(
 CREATE TABLE run (key TEXT PRIMARY KEY, value);
 CREATE TABLE variables (path TEXT PRIMARY KEY, unit TEXT, lower REAL, upper REAL, before REAL, after REAL);
@@ -72,7 +72,7 @@ class Insert {
   /// Adds a row; one argument for each question mark of the statement.
   template <class... Values>
   void row(const Values&... values) {
-    assert(sqlite3_bind_parameter_count(statement_.get()) == sizeof...(values));
+    assert(sqlite3_bind_parameter_count(statement_.get()) == static_cast<int>(sizeof...(values)));
     int column = 0;
     (bind(++column, values), ...);
     const int stepped = sqlite3_step(statement_.get());
@@ -155,7 +155,8 @@ void add_tables(Database& database, const StudyResults& results) {
 /// A file that is removed when this goes, unless it was moved to its place.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const fs::path& place) : place_(place), path_(place.string() + ".tmp" + std::to_string(::getpid())) {
+  explicit TemporaryFile(const fs::path& place)
+      : place_(place), path_(place.string() + ".tmp" + std::to_string(::getpid())) {
     remove();
   }
   ~TemporaryFile() { remove(); }

@@ -15,7 +15,7 @@ struct Root {
 /// Where a function changes sign in [a, b], given f(a) and f(b) of opposite sign (a zero counts as either).
 ///
 /// Regula falsi with the Illinois weight, safeguarded by bisection whenever the bracket has not halved in two steps, so that it
-/// needs at most twice the steps of bisection, superlinearly few where f is smooth, and also finds the place of a jump
+/// needs at most three times the steps of bisection, superlinearly few where f is smooth, and also finds the place of a jump
 /// (the slope of a flank with a linear relief has them). Stops when upper - lower <= tolerance.
 /// @param tolerance  width of the final bracket, > 0, in units of x
 template <class Function>

@@ -23,7 +23,7 @@ void apply_pinion_errors(const GearPair& pair, const Misalignment& misalignment,
   const double polar_angle = flank.origin - involute(pair.transverse_pressure_angle);
   flank.base_radius = pitch_radius * std::cos(alpha_t);
   flank.origin = polar_angle + involute(alpha_t);
-  flank.form_radius = std::max(flank.form_radius, flank.base_radius);
+  flank.form_radius = std::max(flank.form_radius, flank.base_radius * lowest_start);
   // A spur pinion with a lead error has a helix of the error's own hand: negative beta turns right-handed.
   const double sense = pair.contact_line_sense() == 0 ? 1.0 : pair.contact_line_sense();
   flank.helix_rate = sense * std::tan(beta) / pitch_radius;

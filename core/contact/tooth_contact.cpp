@@ -50,6 +50,9 @@ class FirstContact {
   bool is_flat_around(const SectionMaximum& best) const;
 
  private:
+  /// Follows the slope of the section maxima from one section to their summit before z = far, or to the flank's end.
+  SectionMaximum climb(const SectionMaximum& from, double far) const;
+
   Candidate candidate(double rho, double z) const {
     const Number r = Number::variable(rho, 0), zz = Number::variable(z, 1);
     const Point3<Number> p = flank_point(scene_.pinion, r, zz, tooth_, pinion_rotation_);
@@ -115,13 +118,22 @@ SectionMaximum FirstContact::section(double z) const {
   } else if (slope_hi >= 0.0) {
     best.rho = hi;
     best.bound = slope_hi > 0.0 ? at_hi : Bound::None;
-  } else {
-    best.rho = bracketed_root(slope, lo, slope_lo, hi, slope_hi, 1e-13 * scene_.pinion.tip_radius).x;
   }
+  const bool inside = slope_lo > 0.0 && slope_hi < 0.0;
+  const Root root = inside ? bracketed_root(slope, lo, slope_lo, hi, slope_hi, 1e-13 * scene_.pinion.tip_radius)
+                           : Root{best.rho, best.rho, best.rho};
+  best.rho = root.x;
   best.at = candidate(best.rho, z);
   best.phi2 = best.at.phi2.value;
   // Envelope theorem: an interior maximum moves freely; one on a wheel bound moves along it with z.
   best.slope = best.at.phi2.gradient[1];
+  if (root.lower < root.upper) {
+    // One on a kink (start of a linear relief, of the wheel's too) moves along it: continuity of phi2 across the kink makes the
+    // slope the mean of both sides' that also makes the slope along rho zero. Without a kink both sides agree.
+    const Number below = candidate(root.lower, z).phi2, above = candidate(root.upper, z).phi2;
+    const double share = below.gradient[0] / (below.gradient[0] - above.gradient[0]);
+    best.slope = (1.0 - share) * below.gradient[1] + share * above.gradient[1];
+  }
   const auto follow = [&](const Number& bound) {
     best.slope -= best.at.phi2.gradient[0] * bound.gradient[1] / bound.gradient[0];
   };
@@ -143,26 +155,41 @@ SectionMaximum FirstContact::solve() const {
     if (coarse[i].exists && (best < 0 || coarse[i].phi2 > coarse[best].phi2)) best = i;
   }
   if (best < 0) return {};
-  SectionMaximum top = coarse[best];
-  if (top.slope == 0.0) return top;
-  // The maximum lies uphill of the best section, before the next one; past the end of a flank counts as downhill.
-  const double direction = top.slope > 0.0 ? 1.0 : -1.0;
-  const int next = best + (top.slope > 0.0 ? 1 : -1);
+  // Hollow flanks (metal added at the ends) have several summits: climb every one, from below where both sides exist. A
+  // slope that is round-off over the span marks a summit, or a flat valley, by itself.
   const double span = (hi - lo) / (coarse_sections - 1);
-  const double far = next < 0 || next >= coarse_sections
-                         ? std::clamp(top.z + direction * span, -reach, reach)
-                         : coarse[next].z;
-  if (far == top.z) return top;  // held by the pinion's face end
+  const auto rises = [&](int i, int step) { return coarse[i].slope * step * span > 1e-15; };  // rad
+  const auto exists = [&](int i) { return i >= 0 && i < coarse_sections && coarse[i].exists; };
+  SectionMaximum top = coarse[best];
+  for (int i = 0; i < coarse_sections; ++i) {
+    if (!coarse[i].exists) continue;
+    for (const int step : {1, -1}) {
+      const int next = i + step;
+      if (!rises(i, step)) continue;
+      if (exists(next) && (rises(next, step) || (step < 0 && rises(next, 1)))) continue;  // on the same climb, or done
+      const double far = next < 0 || next >= coarse_sections ? std::clamp(coarse[i].z + step * span, -reach, reach)
+                                                             : coarse[next].z;
+      const SectionMaximum summit = climb(coarse[i], far);
+      if (summit.phi2 > top.phi2) top = summit;
+    }
+  }
+  return top;
+}
+
+SectionMaximum FirstContact::climb(const SectionMaximum& from, double far) const {
+  if (far == from.z) return from;  // held by the pinion's face end
+  // Past the end of a flank counts as downhill.
+  const double direction = from.slope > 0.0 ? 1.0 : -1.0;
   const auto uphill = [&](double z) {
     const SectionMaximum s = section(z);
-    return s.exists ? s.slope : -direction * std::abs(top.slope);
+    return s.exists ? s.slope : -direction * std::abs(from.slope);
   };
   const double slope_far = uphill(far);
-  if ((slope_far > 0.0) == (top.slope > 0.0) && slope_far != 0.0) {
+  if ((slope_far > 0.0) == (from.slope > 0.0) && slope_far != 0.0) {
     const SectionMaximum end = section(far);
-    return end.phi2 > top.phi2 ? end : top;
+    return end.phi2 > from.phi2 ? end : from;
   }
-  const Root root = bracketed_root(uphill, top.z, top.slope, far, slope_far, 1e-13 * std::max(1.0, reach));
+  const Root root = bracketed_root(uphill, from.z, from.slope, far, slope_far, 1e-13 * std::max(1.0, scene_.pinion.half_face));
   // Of the two ends of the last bracket the one on the flank; where both are, the higher.
   const SectionMaximum lower = section(root.lower), upper = section(root.upper);
   if (!upper.exists) return lower;

@@ -38,9 +38,11 @@ struct ToothContact {
 ///
 /// One solver for line, surface, edge and corner contact: in a transverse section of the pinion (fixed z1) the angle is a
 /// concave function of the roll length, maximised by a safeguarded root of its exact slope inside the section's bounds; the
-/// section maxima, a function of z1 alone with an exact slope by the envelope theorem, are searched coarsely over the face
-/// and refined by the same safeguarded root. Slope jumps (start of a linear relief) and flat valleys (aligned gears) need no
-/// special case. Tooth k runs k pitches ahead of the reference tooth 0.
+/// section maxima, a function of z1 alone with an exact slope by the envelope theorem, are searched in 17 sections over the
+/// face, and every summit between them is refined by the same safeguarded root. Slope jumps (start of a linear relief on either
+/// gear) and flat valleys (aligned gears) need no special case. Outside this are hollow flanks (metal added at the ends of a
+/// profile or face) with two maxima in one section or within 1/16 of the face: one of the two is found. Tooth k runs k pitches
+/// ahead of the reference tooth 0.
 ///
 /// A pair is said to touch along a line where the maximum stays within 1e-9 mm (along the base tangent) over 1/200 of the
 /// face width to either side that the flanks cover.

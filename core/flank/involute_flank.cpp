@@ -11,7 +11,7 @@ InvoluteFlank make_flank(const GearPair& pair, Member member, const Modification
   flank.base_radius = gear.base_radius;
   flank.helix_rate = pair.contact_line_sense() * (member == Member::Pinion ? 1 : -1) * gear.helix_rate;
   flank.origin = involute(pair.working_transverse_pressure_angle);
-  flank.form_radius = std::max(gear.form_radius, gear.base_radius);
+  flank.form_radius = std::max(gear.form_radius, gear.base_radius * lowest_start);
   flank.tip_radius = gear.tip_radius;
   flank.half_face = 0.5 * gear.data.face_width;
   flank.frame = pair.flank_frame(member);

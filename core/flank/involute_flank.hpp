@@ -8,6 +8,10 @@
 
 namespace flankwright {
 
+/// At the base circle the involute ends in a cusp without a normal, where any removal folds the flank over itself. A flank is
+/// taken to start at this multiple of r_b at least, at a roll length of r_b/100: form_radius >= r_b * lowest_start.
+inline constexpr double lowest_start = 1.0 + 5e-5;
+
 /// A working flank: involute helicoid minus a modification plus a manufacturing error, in the frame of its gear.
 ///
 /// Frame: z along the gear axis, x towards the mate, y such that the flank's outward normal at the pitch point has a positive y
@@ -23,7 +27,7 @@ struct InvoluteFlank {
   double base_radius{not_given};   ///< r_b [mm]
   double helix_rate{0.0};          ///< s/p, signed [rad/mm]
   double origin{not_given};        ///< theta of the involute's start in the section z = 0 at rotation 0 [rad]
-  double form_radius{not_given};   ///< lower end of the flank [mm], >= r_b
+  double form_radius{not_given};   ///< lower end of the flank [mm], >= r_b * lowest_start
   double tip_radius{not_given};    ///< upper end [mm]
   double half_face{not_given};     ///< b/2 [mm]
   FlankFrame frame;

@@ -18,7 +18,8 @@ constexpr double overshoot = 0.5;
 
 void check(const LoadProblem& problem, const Eigen::VectorXd& start) {
   const Eigen::Index n = problem.gap.size();
-  const auto sizes_match = problem.weight.size() == n && problem.influence.rows() == n && problem.influence.cols() == n &&
+  const auto sizes_match = problem.weight.size() == n && problem.influence.rows() == n &&
+                           problem.influence.cols() == n &&
                            (problem.laws.empty() || static_cast<Eigen::Index>(problem.laws.size()) == n) &&
                            (start.size() == 0 || start.size() == n);
   if (!sizes_match) throw InvalidInput("load problem", "arrays of different size", "one entry per contact point");
@@ -35,8 +36,8 @@ void check(const LoadProblem& problem, const Eigen::VectorXd& start) {
 
 /// State of the Newton iteration: loads and everything that follows from them.
 ///
-/// Gaps and approach count from first touch, min(g): a gap common to all points, easily a million times the deflection under a
-/// light load, would leave its round-off in every sum.
+/// Gaps and approach count from first touch, min(g): a gap common to all points, easily a million times the deflection
+/// under a light load, would leave its round-off in every sum.
 class Iterate {
  public:
   Iterate(const LoadProblem& problem, Eigen::VectorXd w)
@@ -56,8 +57,8 @@ class Iterate {
   const Eigen::VectorXd& local() const { return local_; }
   const Eigen::VectorXd& local_slope() const { return local_slope_; }
 
-  /// Slope of the objective at w + t d. The approach f is taken out of every term (a'd = 0 along a feasible step), so that
-  /// what is summed is as small as the residual and not as large as the deflection.
+  /// Slope of the objective at w + t d. The approach f is taken out of every term (a'd = 0 along a feasible step), so
+  /// that what is summed is as small as the residual and not as large as the deflection.
   double directional_slope(const Eigen::VectorXd& d, const Eigen::VectorXd& structural_d, double f, double t) const {
     const auto& a = problem_.weight;
     double slope = 0.0;
@@ -131,7 +132,8 @@ LoadDistribution unloaded(const LoadProblem& problem) {
 
 }  // namespace
 
-LoadDistribution solve_load_distribution(const LoadProblem& problem, const LoadOptions& options, const Eigen::VectorXd& start) {
+LoadDistribution solve_load_distribution(const LoadProblem& problem, const LoadOptions& options,
+                                         const Eigen::VectorXd& start) {
   check(problem, start);
   LoadDistribution result;
   const Eigen::Index n = problem.gap.size();
@@ -158,7 +160,8 @@ LoadDistribution solve_load_distribution(const LoadProblem& problem, const LoadO
     }
     Eigen::MatrixXd hessian = structural_hessian;
     hessian.diagonal() += a.cwiseProduct(at.local_slope());
-    const Eigen::VectorXd gradient = a.cwiseProduct(at.approach());
+    // Less f a, which the balance allows: what is solved for then shrinks with the residual, and so does its round-off.
+    const Eigen::VectorXd gradient = a.array() * (at.approach().array() - f);
     const Eigen::VectorXd linear = gradient - hessian * at.loads();
     const QuadraticMinimum model = minimise_quadratic(hessian, linear, a, problem.force, at.loads().array() > 0.0);
     result.factorisations += model.factorisations;
@@ -170,10 +173,13 @@ LoadDistribution solve_load_distribution(const LoadProblem& problem, const LoadO
     // The whole step where it at least halves the slope, else to the minimum along it.
     const bool whole = slope_end <= overshoot * std::abs(slope_start) || slope_start >= 0.0;
     const double t = whole ? 1.0 : bracketed_root(slope, 0.0, slope_start, 1.0, slope_end, 1e-3).x;
-    at.move_to(t == 1.0 ? model.x : Eigen::VectorXd((at.loads() + t * d).cwiseMax(0.0)));
+    Eigen::VectorXd next = t == 1.0 ? model.x : Eigen::VectorXd((at.loads() + t * d).cwiseMax(0.0));
+    next *= problem.force / a.dot(next);  // round-off: steps keep the balance they find
+    at.move_to(std::move(next));
   }
   result.status = LoadStatus::IterationLimit;
-  result.message = "the load distribution did not converge within " + std::to_string(options.max_iterations) + " Newton steps";
+  result.message =
+      "the load distribution did not converge within " + std::to_string(options.max_iterations) + " Newton steps";
   return result;
 }
 

@@ -14,7 +14,8 @@ namespace flankwright {
 ///
 ///     minimise  1/2 (aw)' K (aw) + sum a_i Psi_i(w_i) + sum a_i g_i w_i    subject to  sum a_i w_i = F,  w >= 0
 ///
-/// over the line loads w; Psi' = c is the local deflection. The multiplier of the force balance is the transmission error f_t.
+/// over the line loads w; Psi' = c is the local deflection. The multiplier of the force balance is the transmission
+/// error f_t.
 struct LoadProblem {
   Eigen::MatrixXd influence;     ///< K, symmetric positive semi-definite, n x n [mm/N]
   Eigen::VectorXd weight;        ///< a, contact-line length of each point, > 0, n [mm]
@@ -34,8 +35,8 @@ struct LoadDistribution {
   Eigen::VectorXd structural_deflection;  ///< (K a w)_i [mm]
   Eigen::VectorXd remaining_gap;          ///< under load, >= 0, 0 where loaded [mm]
   double transmission_error{not_given};   ///< f_t: approach of the gears along the flank normal [mm]
-  /// max over i of |remaining gap| where loaded and -min(remaining gap) elsewhere, relative to the largest deflection of a loaded
-  /// point, sum_j |K_ij| a_j w_j + c_i; and |sum a w - F| / F. The larger of the two.
+  /// max over i of |remaining gap| where loaded and -min(remaining gap) elsewhere, relative to the largest deflection
+  /// of a loaded point, sum_j |K_ij| a_j w_j + c_i; and |sum a w - F| / F. The larger of the two.
   double kkt_residual{not_given};
   int iterations{-1};      ///< Newton steps
   int factorisations{-1};  ///< Cholesky factorisations
@@ -50,9 +51,9 @@ struct LoadOptions {
   int max_iterations{100};
 };
 
-/// Solves the programme by Newton's method in the loads: each step minimises the quadratic model over the feasible set exactly
-/// (block pivoting, see quadratic_program.hpp), then the convex objective along the step by its monotone slope. Both parts
-/// converge from any start; the minimiser is unique, so the answer depends on neither start nor point order.
+/// Solves the programme by Newton's method in the loads: each step minimises the quadratic model over the feasible set
+/// exactly (block pivoting, see quadratic_program.hpp), then the convex objective along the step by its monotone slope.
+/// Both parts converge from any start; the minimiser is unique, so the answer depends on neither start nor point order.
 /// @param start  line loads to start from (scaled to the force), size n, or empty
 /// @throws InvalidInput where sizes differ, a weight is not positive, the force is negative or anything is not finite
 LoadDistribution solve_load_distribution(const LoadProblem& problem, const LoadOptions& options = {},

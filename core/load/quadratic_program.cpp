@@ -10,7 +10,8 @@ namespace {
 
 using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
-constexpr int block_patience = 3;  // block steps without progress before the primal method, as the authors suggest for single pivots
+constexpr int block_patience =
+    3;  // block steps without progress before the primal method, as the authors suggest for single pivots
 /// A slack counts as negative below -round_off * (sum of the magnitudes of its terms).
 constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
 
@@ -40,8 +41,9 @@ class Programme {
   }
 
  private:
-  /// From the loads of the last set, without the negative ones, down to the minimum: towards the minimiser on the loaded set up
-  /// to the first load that vanishes, which leaves the set; at the minimiser the point that would penetrate most joins it.
+  /// From the loads of the last set, without the negative ones, down to the minimum: towards the minimiser on the
+  /// loaded set up to the first load that vanishes, which leaves the set; at the minimiser the point that would
+  /// penetrate most joins it.
   QuadraticMinimum descend() {
     Eigen::VectorXd x = at_.x.cwiseMax(0.0);
     x *= force_ / a_.dot(x);
@@ -87,12 +89,22 @@ class Programme {
     for (Eigen::Index i = 0; i < size_; ++i) {
       if (loaded[i]) set.push_back(i);
     }
-    const Eigen::LLT<Eigen::MatrixXd> factor(H_(set, set));
+    const Eigen::MatrixXd H = H_(set, set);
+    const Eigen::VectorXd a = a_(set), b = b_(set);
+    const Eigen::LLT<Eigen::MatrixXd> factor(H);
     ++at_.factorisations;
-    const Eigen::VectorXd ha = factor.solve(a_(set)), hb = factor.solve(b_(set));
-    at_.multiplier = (force_ + a_(set).dot(hb)) / a_(set).dot(ha);
+    const Eigen::VectorXd ha = factor.solve(a);
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(a.size());
+    at_.multiplier = 0.0;
+    // The second pass solves for what is left: where H is nearly singular the first loses digits between large terms.
+    for (int pass = 0; pass < 2; ++pass) {
+      const Eigen::VectorXd left = factor.solve(H * x + b - at_.multiplier * a);
+      const double rise = (force_ - a.dot(x) + a.dot(left)) / a.dot(ha);
+      x += rise * ha - left;
+      at_.multiplier += rise;
+    }
     at_.x = Eigen::VectorXd::Zero(size_);
-    at_.x(set) = at_.multiplier * ha - hb;
+    at_.x(set) = x;
   }
 
   Eigen::VectorXd slacks() const { return H_ * at_.x + b_ - at_.multiplier * a_; }
@@ -119,8 +131,8 @@ class Programme {
 
 }  // namespace
 
-QuadraticMinimum minimise_quadratic(const Eigen::MatrixXd& H, const Eigen::VectorXd& b, const Eigen::VectorXd& a, double F,
-                                    const Flags& guess) {
+QuadraticMinimum minimise_quadratic(const Eigen::MatrixXd& H, const Eigen::VectorXd& b, const Eigen::VectorXd& a,
+                                    double F, const Flags& guess) {
   return Programme(H, b, a, F).pivot_blocks(guess);
 }
 

@@ -8,7 +8,8 @@ using namespace flankwright;
 
 namespace {
 
-constexpr Aggregate all_aggregates[] = {Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean, Aggregate::MeanPlusTwoSigma};
+constexpr Aggregate all_aggregates[] = {Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean,
+                                        Aggregate::MeanPlusTwoSigma};
 constexpr double round_off = 1e-14;
 
 std::vector<double> random_numbers(std::size_t n, std::mt19937& generator) {

@@ -20,8 +20,12 @@ DesignResult optimise(const DesignTask& task, const std::string& solver = "ipopt
   return optimise_design(problem, options);
 }
 
-double lead_crowning_um(const DesignReport& report) { return report.variables[0] / units::um; }
-double lead_slope_um(const DesignReport& report) { return report.variables[1] / units::um; }
+double lead_crowning_um(const DesignReport& report) {
+  return report.variables[0] / units::um;
+}
+double lead_slope_um(const DesignReport& report) {
+  return report.variables[1] / units::um;
+}
 
 }  // namespace
 
@@ -47,7 +51,8 @@ TEST_CASE("Solvers with gradients and without agree, those with need a tenth of 
 TEST_CASE("A symmetric misalignment set wants crowning and no slope", "[optimize][design][physics]") {
   const DesignResult result = optimise(spur({10.0, -10.0}));
   REQUIRE(result.status == SolverStatus::Converged);
-  // Mirror images: the optimum of a spur pair can have no preferred end of the face. Discretisation: the optimiser's tolerance.
+  // Mirror images: the optimum of a spur pair can have no preferred end of the face. Discretisation: the optimiser's
+  // tolerance.
   CHECK(std::abs(lead_slope_um(result.after)) < 0.01);
   CHECK(lead_crowning_um(result.after) > 1.0);
   CHECK(lead_crowning_um(result.after) < 39.0);
@@ -71,8 +76,9 @@ TEST_CASE("A single misaligned scene is cancelled by the lead slope", "[optimize
 TEST_CASE("The first harmonic of the transmission error almost vanishes when it alone is minimised",
           "[optimize][design][physics]") {
   DesignTask task = spur({0.0});
-  task.variables = {{"pinion.modification.profile_crowning", Member::Pinion, ModificationParameter::ProfileCrowning, 0.0, 0.040},
-                    {"wheel.modification.profile_crowning", Member::Wheel, ModificationParameter::ProfileCrowning, 0.0, 0.040}};
+  task.variables = {
+      {"pinion.modification.profile_crowning", Member::Pinion, ModificationParameter::ProfileCrowning, 0.0, 0.040},
+      {"wheel.modification.profile_crowning", Member::Wheel, ModificationParameter::ProfileCrowning, 0.0, 0.040}};
   task.objective = {term(Output::TeHarmonic, 1)};
   const DesignResult result = optimise(task);
   CAPTURE(result.before.objective, result.after.objective, result.message);
@@ -81,7 +87,8 @@ TEST_CASE("The first harmonic of the transmission error almost vanishes when it 
 
 TEST_CASE("The optimum respects a bound on the transmission error, and pays for it", "[optimize][design]") {
   DesignTask task = spur({10.0, -10.0});
-  task.variables.push_back({"pinion.modification.profile_crowning", Member::Pinion, ModificationParameter::ProfileCrowning, 0.0, 0.040});
+  task.variables.push_back(
+      {"pinion.modification.profile_crowning", Member::Pinion, ModificationParameter::ProfileCrowning, 0.0, 0.040});
   const DesignResult free = optimise(task);
   DesignProblem problem(task);
   OutputConstraint bound{term(Output::TePeakToPeak)};

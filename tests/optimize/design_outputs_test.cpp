@@ -86,7 +86,8 @@ TEST_CASE("Leading candidates are the peak and all that come near it", "[optimiz
       const std::vector<double> values = all_values(output, model, cycle);
       const double peak = *std::max_element(values.begin(), values.end());
       CHECK(output_value(output, model, cycle) == peak);
-      const auto near = std::count_if(values.begin(), values.end(), [&](double v) { return v >= (1.0 - margin) * peak; });
+      const auto near =
+          std::count_if(values.begin(), values.end(), [&](double v) { return v >= (1.0 - margin) * peak; });
 
       const std::vector<PeakCandidate> leading = leading_candidates(output, model, cycle, margin, 100000);
       CHECK(static_cast<long>(leading.size()) == near);
@@ -122,7 +123,8 @@ TEST_CASE("Gradients of every output are what central differences say", "[optimi
       for (int s = 0; s < problem.scenes(); ++s) {
         for (const PeakCandidate& candidate : leading_candidates(output, problem.model(s), cycle_of(at, s), 0.1, 3)) {
           const SmoothValue value = candidate_value(output, candidate, problem.model(s), cycle_of(at, s));
-          checks.push_back({output, s, candidate, problem.scaled(value.gradient), Eigen::VectorXd(problem.variables())});
+          checks.push_back(
+              {output, s, candidate, problem.scaled(value.gradient), Eigen::VectorXd(problem.variables())});
         }
       }
     }

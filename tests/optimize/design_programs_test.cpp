@@ -99,7 +99,7 @@ TEST_CASE("A candidate above its bound violates the epigraph", "[optimize][desig
   DesignLog log(nullptr);
   EpigraphProgram program(problem, log);
   Eigen::VectorXd y = program.start();
-  y[y.size() - 1] *= 0.9;  // promise 10 % less stress than there is
+  y[y.size() - 1] *= 0.9;                                                  // promise 10 % less stress than there is
   CHECK(row_values(program, y).maxCoeff() == Approx(0.1).epsilon(1e-12));  // round-off
 }
 

@@ -10,7 +10,8 @@
 ///
 /// Statements used as tests:
 /// - aligned gears touch along a line and transmit without error (eq. 14);
-/// - crossing of the axes by 3' and a lead-angle error of 3' cause edge contact and the same almost linear, discontinuous
+/// - crossing of the axes by 3' and a lead-angle error of 3' cause edge contact and the same almost linear,
+/// discontinuous
 ///   transmission error (figs 2 and 3);
 /// - a pressure-angle error of 3' causes none (fig. 4);
 /// - crossing by 3' with a lead-angle error of -3' causes none (fig. 9).

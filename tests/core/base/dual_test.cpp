@@ -44,12 +44,14 @@ TEST_CASE("Arithmetic of dual numbers differentiates as the complex step does", 
   check([](auto x, auto y, auto z) { return x + y * 2.0 - 3.0 * z; }, at);
   check([](auto x, auto y, auto z) { return -x * y / z; }, at);
   check([](auto x, auto y, auto z) { return 1.0 / x - y / 3.0 + 2.0 / (z * z * y); }, at);
-  check([](auto x, auto y, auto z) {
-    auto sum = x * x;
-    sum += y * z;
-    sum -= x / y;
-    return sum * sum;
-  }, at);
+  check(
+      [](auto x, auto y, auto z) {
+        auto sum = x * x;
+        sum += y * z;
+        sum -= x / y;
+        return sum * sum;
+      },
+      at);
 }
 
 TEST_CASE("Functions of dual numbers differentiate as the complex step does", "[core][base]") {

@@ -24,7 +24,8 @@ std::vector<PairData> aligned_pairs() {
 
 }  // namespace
 
-TEST_CASE("Aligned involute gears touch along a line and transmit exactly their ratio", "[core][contact][closed-form]") {
+TEST_CASE("Aligned involute gears touch along a line and transmit exactly their ratio",
+          "[core][contact][closed-form]") {
   constexpr double kRoundOff = 1e-12;  // rad
   const Hand hand = GENERATE(Hand::Right, Hand::Left);
   const WorkingFlank flank = GENERATE(WorkingFlank::Right, WorkingFlank::Left);
@@ -77,7 +78,8 @@ TEST_CASE("The mesh of aligned gears has no transmission error and no hand-over"
 TEST_CASE("Any tooth pair is the reference pair, pitches later", "[core][contact]") {
   Random random(7);
   const GearPair pair = make_gear_pair(pair_data(21, 37, 18 * deg));
-  const MeshScene scene = scene_of(pair, random_misalignment(random), random_modification(random, pair.pinion));
+  const Misalignment misalignment = random_misalignment(random);
+  const MeshScene scene = scene_of(pair, misalignment, random_modification(random, pair.pinion));
   for (int tooth = -2; tooth <= 2; ++tooth) {
     const double phi1 = 0.03;
     const ToothContact shifted = find_tooth_contact(scene, tooth, phi1 - tooth * 2 * pi / 21);
@@ -122,9 +124,11 @@ TEST_CASE("The mirror image of a gear pair has the same transmission error", "[c
     PairData data = random_pair_data(random);
     data.helix_angle = 18 * deg;
     const GearPair pair = make_gear_pair(data);
-    const Modification pinion = random_modification(random, pair.pinion), wheel = random_modification(random, pair.wheel);
+    const Modification pinion = random_modification(random, pair.pinion),
+                       wheel = random_modification(random, pair.wheel);
     const Misalignment misalignment = random_misalignment(random);
-    const auto error_at = [&](const PairData& d, const Misalignment& m, const Modification& m1, const Modification& m2) {
+    const auto error_at = [&](const PairData& d, const Misalignment& m, const Modification& m1,
+                              const Modification& m2) {
       std::vector<double> te;
       const MeshScene scene = make_mesh_scene(make_gear_pair(d), m, m1, m2, {}, {});
       for (const double phi1 : {-0.1, 0.0, 0.06}) te.push_back(find_tooth_contact(scene, 0, phi1).transmission_error);

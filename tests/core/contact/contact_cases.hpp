@@ -13,7 +13,8 @@
 namespace flankwright::contact_cases {
 
 /// A pair that leaves the wheel's teeth room; x1, x2 profile shifts, widths in mm.
-inline PairData pair_data(int z1, int z2, double beta, double x1 = 0.0, double x2 = 0.0, double b1 = 30.0, double b2 = 30.0) {
+inline PairData pair_data(int z1, int z2, double beta, double x1 = 0.0, double x2 = 0.0, double b1 = 30.0,
+                          double b2 = 30.0) {
   PairData data;
   data.normal_module = 3.0;
   data.helix_angle = beta;
@@ -31,8 +32,8 @@ inline MeshScene scene_of(const GearPair& pair, const Misalignment& misalignment
   return make_mesh_scene(pair, misalignment, pinion, wheel, {}, {});
 }
 
-/// Wheel angle at which the wheel's flank passes through one point of the pinion's flank; -infinity where the point lies
-/// outside the wheel's flank.
+/// Wheel angle at which the wheel's flank passes through one point of the pinion's flank; -infinity where the point
+/// lies outside the wheel's flank.
 inline double wheel_angle(const MeshScene& scene, int tooth, double phi1, double rho, double z) {
   const Point3<double> p =
       flank_point(scene.pinion, rho, z, tooth, phi1 + tooth * 2.0 * units::pi / scene.pinion_teeth);
@@ -49,7 +50,9 @@ inline double wheel_angle(const MeshScene& scene, int tooth, double phi1, double
 class Random {
  public:
   explicit Random(unsigned seed) : generator_(seed) {}
-  double operator()(double from, double to) { return from + (to - from) * static_cast<double>(generator_()) / 4294967296.0; }
+  double operator()(double from, double to) {
+    return from + (to - from) * static_cast<double>(generator_()) / 4294967296.0;
+  }
   int integer(int from, int to) { return from + static_cast<int>(generator_() % static_cast<unsigned>(to - from + 1)); }
   bool coin() { return generator_() % 2 == 1; }
 
@@ -88,8 +91,11 @@ inline Misalignment random_misalignment(Random& random) {
 }
 
 inline PairData random_pair_data(Random& random) {
-  PairData data = pair_data(random.integer(17, 40), random.integer(25, 90), random.coin() ? random(0.0, 35 * units::deg) : 0.0,
-                            random(-0.1, 0.5), random(-0.3, 0.3), random(15.0, 45.0), random(15.0, 45.0));
+  // One statement each: the order in which arguments are evaluated is the compiler's choice.
+  const int z1 = random.integer(17, 40), z2 = random.integer(25, 90);
+  const double beta = random.coin() ? random(0.0, 35 * units::deg) : 0.0;
+  const double x1 = random(-0.1, 0.5), x2 = random(-0.3, 0.3), b1 = random(15.0, 45.0), b2 = random(15.0, 45.0);
+  PairData data = pair_data(z1, z2, beta, x1, x2, b1, b2);
   data.pinion_hand = random.coin() ? Hand::Right : Hand::Left;
   data.working_flank = random.coin() ? WorkingFlank::Right : WorkingFlank::Left;
   return data;

@@ -10,7 +10,8 @@ using namespace flankwright::contact_cases;
 using units::deg;
 using units::pi;
 
-TEST_CASE("The mesh follows the leading pair, and every hand-over is located where two pairs are equal", "[core][contact]") {
+TEST_CASE("The mesh follows the leading pair, and every hand-over is located where two pairs are equal",
+          "[core][contact]") {
   Random random(99);
   int transfers = 0;
   for (int i = 0; i < 6; ++i) {
@@ -18,8 +19,10 @@ TEST_CASE("The mesh follows the leading pair, and every hand-over is located whe
     data.helix_angle = i % 2 == 0 ? 0.0 : 20 * deg;
     if (!find_problems(data).empty()) continue;
     const GearPair pair = make_gear_pair(data);
-    const MeshScene scene = scene_of(pair, random_misalignment(random), random_modification(random, pair.pinion),
-                                     random_modification(random, pair.wheel));
+    const Misalignment misalignment = random_misalignment(random);
+    const Modification pinion = random_modification(random, pair.pinion),
+                       wheel = random_modification(random, pair.wheel);
+    const MeshScene scene = scene_of(pair, misalignment, pinion, wheel);
     const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 20);
     CAPTURE(i);
     REQUIRE(mesh.missing == 0);
@@ -94,5 +97,6 @@ TEST_CASE("Each pair's curve lies inside its extended path of contact, in order 
     }
   }
   // Every pair passes every position of the pitch once: as many positions as the extended path has pitches.
-  CHECK(std::abs(static_cast<double>(positions) - 24 * path.last_line_phase()) <= static_cast<double>(mesh.pairs.size()));
+  CHECK(std::abs(static_cast<double>(positions) - 24 * path.last_line_phase()) <=
+        static_cast<double>(mesh.pairs.size()));
 }

@@ -35,8 +35,12 @@ Modification strong_modification(ReliefShape shape) {
   return m;
 }
 
-Eigen::Vector3d position(const Point3<Dual<2>>& p) { return {p.x.value, p.y.value, p.z.value}; }
-Eigen::Vector3d tangent(const Point3<Dual<2>>& p, int i) { return {p.x.gradient[i], p.y.gradient[i], p.z.gradient[i]}; }
+Eigen::Vector3d position(const Point3<Dual<2>>& p) {
+  return {p.x.value, p.y.value, p.z.value};
+}
+Eigen::Vector3d tangent(const Point3<Dual<2>>& p, int i) {
+  return {p.x.gradient[i], p.y.gradient[i], p.z.gradient[i]};
+}
 
 }  // namespace
 
@@ -159,9 +163,12 @@ TEST_CASE("The rotation through a point undoes the flank's own parametrisation",
 TEST_CASE("The rotation through a point has the exact gradient", "[core][flank]") {
   const GearPair pair = nasa_pair(Hand::Left, WorkingFlank::Right);
   const InvoluteFlank flank = make_flank(pair, Member::Wheel, strong_modification(ReliefShape::Parabolic), {});
-  const auto at = [&](double x, double y, double z) { return rotation_through(flank, Point3<double>{x, y, z}, 1).rotation; };
-  constexpr double kStep = 1e-3;            // mm
-  constexpr double kDiscretisation = 1e-9;  // rad/mm: step^2 times third derivatives of about 1e-5 rad/mm^3, round-off/step
+  const auto at = [&](double x, double y, double z) {
+    return rotation_through(flank, Point3<double>{x, y, z}, 1).rotation;
+  };
+  constexpr double kStep = 1e-3;  // mm
+  constexpr double kDiscretisation =
+      1e-9;  // rad/mm: step^2 times third derivatives of about 1e-5 rad/mm^3, round-off/step
   for (const double radius : {285.0, 292.3, 297.6}) {
     const double x = radius * std::cos(0.04), y = radius * std::sin(0.04), z = 5.0;
     using Number = Dual<3>;

@@ -103,7 +103,8 @@ TEST_CASE("Modifications add up and scale with their amounts", "[core][flank]") 
       double sum = 0.0;
       for (const NamedModificationParameter& p : modification_parameters) {
         const std::string name(p.name);
-        if (name == "profile_crowning" || name.find("height") != name.npos || name.find("length") != name.npos) continue;
+        if (name == "profile_crowning" || name.find("height") != name.npos || name.find("length") != name.npos)
+          continue;
         Modification one = only(p.parameter, get(all, p.parameter));
         one.tip_relief.shape = one.root_relief.shape = shape;
         sum += removal(one, frame, r, z);
@@ -161,7 +162,9 @@ TEST_CASE("Dual numbers carry the exact slope of the flank's removal", "[core][f
   constexpr double kStep = 1e-4, kDiscretisation = 1e-11;  // all parts at most quadratic: only round-off/step is left
   for (const double r : {47.5, 48.9, 51.1, 53.9}) {
     for (const double z : {-14.0, -3.0, 6.0, 13.3}) {
-      const auto net = [&](auto at_r, auto at_z) { return removal(m, frame, at_r, at_z) - added_metal(error, frame, at_r, at_z); };
+      const auto net = [&](auto at_r, auto at_z) {
+        return removal(m, frame, at_r, at_z) - added_metal(error, frame, at_r, at_z);
+      };
       const Dual<2> found = net(Dual<2>::variable(r, 0), Dual<2>::variable(z, 1));
       CAPTURE(r, z);
       CHECK(near(found.value, net(r, z)));

@@ -122,9 +122,8 @@ TEST_CASE("A wider centre distance opens the backlash by twice its involute diff
 
 TEST_CASE("The path of contact joins the tip circles, the pitch point and both base tangent points", "[core][gear]") {
   const GearPair pair = make_gear_pair(pair_of(31, 31, 2.0, 10 * deg, 0.3, 0.0));
-  CHECK(near(pair.path_length,
-             pair.pinion.base_radius * std::tan(pair.working_transverse_pressure_angle) +
-                 pair.wheel.base_radius * std::tan(pair.working_transverse_pressure_angle)));
+  CHECK(near(pair.path_length, pair.pinion.base_radius * std::tan(pair.working_transverse_pressure_angle) +
+                                   pair.wheel.base_radius * std::tan(pair.working_transverse_pressure_angle)));
   CHECK(near(std::hypot(pair.pinion.base_radius, pair.path_end), pair.pinion.tip_radius));
   CHECK(near(std::hypot(pair.wheel.base_radius, pair.path_length - pair.path_start), pair.wheel.tip_radius));
   CHECK(near(std::hypot(pair.pinion.base_radius, pair.path_start), pair.pinion.active_root_radius));
@@ -136,25 +135,27 @@ TEST_CASE("The path of contact joins the tip circles, the pitch point and both b
 TEST_CASE("Haddad's 18:54 pair has the published radii and path of contact", "[core][gear][reference]") {
   namespace published = reference::haddad_18_54;
   const GearPair pair = make_gear_pair(published::pair_data());
-  CHECK(std::abs(pair.pinion.tip_radius - published::pinion_tip_radius) <= published::half_digit_3);  // model: as printed
+  CHECK(std::abs(pair.pinion.tip_radius - published::pinion_tip_radius) <=
+        published::half_digit_3);  // model: as printed
   CHECK(std::abs(pair.wheel.tip_radius - published::wheel_tip_radius) <= published::half_digit_3);
   CHECK(std::abs(pair.transverse_base_pitch - published::transverse_base_pitch) <= published::half_digit_4);
   CHECK(std::abs(pair.path_length - published::tangent_to_tangent) <= published::half_digit_4);
   CHECK(std::abs(pair.path_start - published::roll_at_path_start) <= published::half_digit_4);
-  CHECK(std::abs(pair.transverse_contact_ratio - (published::path_end - published::path_start)) <= published::half_digit_5);
+  CHECK(std::abs(pair.transverse_contact_ratio - (published::path_end - published::path_start)) <=
+        published::half_digit_5);
 }
 
 TEST_CASE("The NASA pair keeps the relations of its report's appendix 2", "[core][gear][reference]") {
   namespace published = reference::nasa_tm_107451;
   const GearPair pair = make_gear_pair(published::pair_data());
-  const double r_p1 = 30 * units::inch / (2 * 5 * std::sin(published::lead_angle));                // A.2.5
-  const double alpha_t = std::atan(std::tan(20 * deg) / std::sin(published::lead_angle));         // A.2.1
-  const double tan_lambda_b = std::tan(published::lead_angle) / std::cos(alpha_t);                // A.2.7
+  const double r_p1 = 30 * units::inch / (2 * 5 * std::sin(published::lead_angle));        // A.2.5
+  const double alpha_t = std::atan(std::tan(20 * deg) / std::sin(published::lead_angle));  // A.2.1
+  const double tan_lambda_b = std::tan(published::lead_angle) / std::cos(alpha_t);         // A.2.7
   CHECK(near(pair.pinion.reference_radius, r_p1));
-  CHECK(near(pair.pinion.base_radius, r_p1 * std::cos(alpha_t)));                                 // A.2.6
-  CHECK(near(1 / pair.pinion.helix_rate, r_p1 * std::tan(published::lead_angle)));                // A.2.8, both forms
+  CHECK(near(pair.pinion.base_radius, r_p1 * std::cos(alpha_t)));                   // A.2.6
+  CHECK(near(1 / pair.pinion.helix_rate, r_p1 * std::tan(published::lead_angle)));  // A.2.8, both forms
   CHECK(near(1 / pair.pinion.helix_rate, pair.pinion.base_radius * tan_lambda_b));
-  CHECK(near(pair.pinion.helix_rate / pair.wheel.helix_rate, 100.0 / 30.0));                      // A.2.10
+  CHECK(near(pair.pinion.helix_rate / pair.wheel.helix_rate, 100.0 / 30.0));  // A.2.10
   CHECK(pair.overlap_ratio > 1.0);
 }
 
@@ -163,7 +164,8 @@ TEST_CASE("Tooth thickness at tip and elsewhere is where the two flanks stand", 
   const double beta = GENERATE(0.0, 25 * deg);
   const GearPair pair = make_gear_pair(pair_of(21, 40, 5.0, beta, x, 0.0));
   const Gear& gear = pair.pinion;
-  for (const double r : {gear.reference_radius * 1.001, 0.5 * (gear.reference_radius + gear.tip_radius), gear.tip_radius}) {
+  for (const double r :
+       {gear.reference_radius * 1.001, 0.5 * (gear.reference_radius + gear.tip_radius), gear.tip_radius}) {
     const double half = half_angle_by_integration(gear.tooth_thickness, gear.reference_radius, gear.base_radius, r);
     CHECK(near(gear.tooth_thickness_at(r), 2 * r * half, 1e-11));  // discretisation: Simpson
   }

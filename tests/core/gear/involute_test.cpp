@@ -24,7 +24,8 @@ TEST_CASE("The inverse involute undoes the involute", "[core][gear]") {
 }
 
 TEST_CASE("The inverse involute of a small value follows its series to round-off", "[core][gear]") {
-  // From inv(a) = a^3/3 + 2 a^5/15 + 17 a^7/315 + ..., reverted: a = q - 2 q^3/15 + 3 q^5/175 - O(q^7/800), q^3 = 3 inv.
+  // From inv(a) = a^3/3 + 2 a^5/15 + 17 a^7/315 + ..., reverted: a = q - 2 q^3/15 + 3 q^5/175 - O(q^7/800), q^3 = 3
+  // inv.
   constexpr double kRoundOff = 2e-15;  // relative; the series leaves out less than q^6/700
   for (double value = 1e-300; value < 1e-9; value *= 997.0) {
     const double q = std::cbrt(3.0 * value);

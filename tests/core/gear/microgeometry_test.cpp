@@ -20,7 +20,8 @@ TEST_CASE("Every modification parameter is read back as set and leaves the other
         return p == ModificationParameter::ProfileCrowning || p == ModificationParameter::AddendumCrowning ||
                p == ModificationParameter::DedendumCrowning;
       };
-      if (other.parameter == changed.parameter || (is_profile(other.parameter) && is_profile(changed.parameter))) continue;
+      if (other.parameter == changed.parameter || (is_profile(other.parameter) && is_profile(changed.parameter)))
+        continue;
       CAPTURE(std::string(changed.name), std::string(other.name));
       CHECK(get(m, other.parameter) == get(before, other.parameter));
     }

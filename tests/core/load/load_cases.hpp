@@ -51,7 +51,8 @@ enum class Structure {
 
 inline Eigen::MatrixXd influence(Structure structure, Eigen::Index n, double compliance, Random& random) {
   switch (structure) {
-    case Structure::Slices: return compliance * random.vector(n, 0.5, 2.0).asDiagonal().toDenseMatrix();
+    case Structure::Slices:
+      return compliance * random.vector(n, 0.5, 2.0).asDiagonal().toDenseMatrix();
     case Structure::DecayingKernel: {
       const double reach = random.log_uniform(0.5, 50.0);
       return Eigen::MatrixXd::NullaryExpr(n, n, [&](Eigen::Index i, Eigen::Index j) {
@@ -63,8 +64,10 @@ inline Eigen::MatrixXd influence(Structure structure, Eigen::Index n, double com
       const Eigen::MatrixXd factor = random.matrix(n, rank);
       return compliance / static_cast<double>(rank) * factor * factor.transpose();
     }
-    case Structure::WholeBody: return Eigen::MatrixXd::Constant(n, n, compliance);
-    case Structure::Rigid: return Eigen::MatrixXd::Zero(n, n);
+    case Structure::WholeBody:
+      return Eigen::MatrixXd::Constant(n, n, compliance);
+    case Structure::Rigid:
+      return Eigen::MatrixXd::Zero(n, n);
   }
   __builtin_unreachable();
 }
@@ -72,7 +75,8 @@ inline Eigen::MatrixXd influence(Structure structure, Eigen::Index n, double com
 inline std::vector<ContactLaw> random_laws(Eigen::Index n, Random& random) {
   std::vector<ContactLaw> laws;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double tip = random.integer(0, 2) == 0 ? random.log_uniform(1e-3, 10.0) : std::numeric_limits<double>::infinity();
+    const double tip =
+        random.integer(0, 2) == 0 ? random.log_uniform(1e-3, 10.0) : std::numeric_limits<double>::infinity();
     laws.push_back(
         steel_law(random.log_uniform(1.0, 300.0), random.log_uniform(0.5, 50.0), random.log_uniform(0.5, 50.0), tip));
   }
@@ -80,7 +84,8 @@ inline std::vector<ContactLaw> random_laws(Eigen::Index n, Random& random) {
 }
 
 /// A problem of n points anywhere between a watch and a mill: mean line load 1e-3 .. 1e6 N/mm, gaps 0 .. 1 mm, lines of
-/// 0.01 .. 10 mm a point, structure of any kind, Hertzian contact in seven of eight and a nearly singular structure in the others.
+/// 0.01 .. 10 mm a point, structure of any kind, Hertzian contact in seven of eight and a nearly singular structure in
+/// the others.
 inline LoadProblem random_problem(int n, Random& random) {
   LoadProblem problem;
   problem.weight = random.vector(n, 0.1, 1.0) * random.log_uniform(0.1, 10.0);
@@ -101,8 +106,8 @@ inline LoadProblem random_problem(int n, Random& random) {
   return problem;
 }
 
-/// How far given loads and approach are from optimal, computed from the statement of the problem alone, each part relative to
-/// what it stands beside: the force, and the largest sum of deflections of a loaded point.
+/// How far given loads and approach are from optimal, computed from the statement of the problem alone, each part
+/// relative to what it stands beside: the force, and the largest sum of deflections of a loaded point.
 struct Optimality {
   double balance{0.0};   ///< |sum a w - F| / F
   double loaded{0.0};    ///< largest |deflection + gap - f| where w > 0
@@ -119,7 +124,8 @@ inline Optimality optimality(const LoadProblem& problem, const Eigen::VectorXd& 
   const Eigen::VectorXd bent = problem.influence * forces, terms = problem.influence.cwiseAbs() * forces;
   double deflection = 0.0;
   for (Eigen::Index i = 0; i < w.size(); ++i) {
-    const double local = problem.laws.empty() ? 0.0 : problem.laws[static_cast<std::size_t>(i)].deflection(std::max(0.0, w[i]));
+    const double local =
+        problem.laws.empty() ? 0.0 : problem.laws[static_cast<std::size_t>(i)].deflection(std::max(0.0, w[i]));
     const double remaining = bent[i] + local + (problem.gap[i] - f);
     // f may be known to its last digit and no better.
     const double digits = std::numeric_limits<double>::epsilon() * std::abs(f);

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/load/mesh_cycle.hpp"
+
+/// Gear pairs and readings of a loaded cycle that several tests share.
+namespace flankwright::mesh_cases {
+
+inline const Material steel{};
+
+inline PairData pair_data(int z1, int z2, double helix_angle_deg, double module, double face_width) {
+  PairData data;
+  data.normal_module = module;
+  data.helix_angle = helix_angle_deg * units::deg;
+  data.pinion.teeth = z1;
+  data.wheel.teeth = z2;
+  data.pinion.face_width = data.wheel.face_width = face_width;
+  return data;
+}
+
+inline GearPair pair(int z1, int z2, double helix_angle_deg, double module, double face_width) {
+  return make_gear_pair(pair_data(z1, z2, helix_angle_deg, module, face_width));
+}
+
+inline MeshModel model(const GearPair& gears, const MeshResolution& resolution, const MeshEffects& effects = {}) {
+  return make_mesh_model(gears, steel, steel, resolution, effects);
+}
+
+/// Torque on the pinion that gives a mean line load over b / cos(beta_b) [N mm].
+inline double torque_for(const GearPair& gears, double line_load) {
+  return line_load * gears.face_width * gears.pinion.base_radius;
+}
+
+/// Line loads of a position by tooth pair and axial position in whole micrometres, so that positions can be compared
+/// point by point; z is mirrored and teeth counted backwards where asked.
+using Loads = std::map<std::pair<int, long>, double>;
+inline Loads loads_by_point(const MeshPosition& at, const LoadedPosition& loaded, int z_sign = 1, int tooth_sign = 1) {
+  Loads loads;
+  for (std::size_t i = 0; i < at.points.size(); ++i) {
+    loads[{tooth_sign * at.points[i].tooth, z_sign * std::lround(at.points[i].z / units::um)}] =
+        loaded.load.line_load[static_cast<Eigen::Index>(i)];
+  }
+  return loads;
+}
+
+/// Largest difference of two positions' line loads [N/mm]; a point that only one of them has counts as unloaded in the
+/// other.
+inline double largest_difference(const Loads& a, const Loads& b) {
+  double largest = 0.0;
+  for (const auto& [point, load] : a) {
+    const auto other = b.find(point);
+    largest = std::max(largest, std::abs(load - (other == b.end() ? 0.0 : other->second)));
+  }
+  for (const auto& [point, load] : b) {
+    if (a.find(point) == a.end()) largest = std::max(largest, load);
+  }
+  return largest;
+}
+
+}  // namespace flankwright::mesh_cases

@@ -1,0 +1,409 @@
+#include "core/load/mesh_cycle.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "core/compliance/hertz_line.hpp"
+#include "tests/core/load/mesh_cases.hpp"
+
+using namespace flankwright;
+using mesh_cases::largest_difference;
+using mesh_cases::loads_by_point;
+using mesh_cases::torque_for;
+
+namespace {
+
+struct NamedPair {
+  const char* name;
+  PairData data;
+};
+
+/// Haddad's helical pair, a spur pair, a narrow pair of few slender teeth and a wide double of the second.
+NamedPair named_pair(int i) {
+  switch (i) {
+    case 0:
+      return {"helical 18/54", mesh_cases::pair_data(18, 54, 30, 10, 120)};
+    case 1:
+      return {"spur 20/40", mesh_cases::pair_data(20, 40, 0, 4, 30)};
+    case 2:
+      return {"narrow 25/31, helical", mesh_cases::pair_data(25, 31, 12, 2, 3)};
+    default:
+      return {"wide 30/90, helical", mesh_cases::pair_data(30, 90, 20, 3, 200)};
+  }
+}
+
+/// A condition with something of everything.
+FlankCondition worked_condition() {
+  FlankCondition condition;
+  condition.pinion_modification.lead_crowning = 6 * units::um;
+  condition.pinion_modification.lead_slope = -4 * units::um;
+  condition.pinion_modification.tip_relief = {10 * units::um, 0.4, ReliefShape::Linear};
+  condition.pinion_modification.twist = 3 * units::um;
+  condition.wheel_modification.addendum_crowning = 5 * units::um;
+  condition.wheel_modification.end_relief = {8 * units::um, 1.0};
+  condition.pinion_error.helix_slope = 3 * units::um;
+  condition.wheel_error.profile_slope = -2 * units::um;
+  condition.misalignment.mesh_misalignment = 9 * units::um;
+  condition.misalignment.crossing = 20 * units::arcsec;
+  condition.misalignment.intersecting = -30 * units::arcsec;
+  condition.misalignment.centre_distance = 0.02;
+  return condition;
+}
+
+/// The same seen in a mirror at the mid-face plane.
+FlankCondition mirrored(FlankCondition c) {
+  for (Modification* m : {&c.pinion_modification, &c.wheel_modification}) {
+    m->lead_slope = -m->lead_slope;
+    m->twist = -m->twist;
+  }
+  for (ManufacturingError* e : {&c.pinion_error, &c.wheel_error}) {
+    e->helix_slope = -e->helix_slope;
+    e->twist = -e->twist;
+  }
+  // An axis of rotation in the mirror's plane turns the other way round.
+  c.misalignment.crossing = -c.misalignment.crossing;
+  c.misalignment.intersecting = -c.misalignment.intersecting;
+  c.misalignment.axial_offset = -c.misalignment.axial_offset;
+  c.misalignment.mesh_misalignment = -c.misalignment.mesh_misalignment;
+  return c;
+}
+
+int loaded_teeth(const MeshPosition& at, const LoadedPosition& loaded) {
+  std::set<int> teeth;
+  for (std::size_t i = 0; i < at.points.size(); ++i) {
+    if (loaded.load.line_load[static_cast<Eigen::Index>(i)] > 0.0) teeth.insert(at.points[i].tooth);
+  }
+  return static_cast<int>(teeth.size());
+}
+
+double tooth_force(const MeshPosition& at, const LoadedPosition& loaded, int tooth) {
+  double force = 0.0;
+  for (std::size_t i = 0; i < at.points.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    if (at.points[i].tooth == tooth) force += at.weight[k] * loaded.load.line_load[k];
+  }
+  return force;
+}
+
+}  // namespace
+
+TEST_CASE("At every mesh position of every pair the loads add up to the force", "[core][load]") {
+  constexpr double kRoundOff = 1e-13;
+  const NamedPair named = named_pair(GENERATE(0, 1, 2, 3));
+  CAPTURE(named.name);
+  const GearPair gears = make_gear_pair(named.data);
+  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(16)});
+  const double torque = torque_for(gears, GENERATE(1.0, 300.0));
+  const LoadedCycle cycle = analyse_cycle(model, worked_condition(), torque);
+  REQUIRE(cycle.usable());
+  CHECK(cycle.force ==
+        Approx(torque / (gears.pinion.base_radius * std::cos(gears.base_helix_angle))).epsilon(kRoundOff));
+  for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
+    const LoadedPosition& at = cycle.positions[i];
+    CHECK(model.positions[i].weight.dot(at.load.line_load) == Approx(cycle.force).epsilon(kRoundOff));
+    CHECK(at.load.line_load.minCoeff() >= 0.0);
+    CHECK(at.load.kkt_residual <= 1e-12);
+    // f_t = contact + structural deflection + gap, where loaded.
+    for (Eigen::Index k = 0; k < at.load.line_load.size(); ++k) {
+      if (at.load.line_load[k] == 0.0) continue;
+      CHECK(at.load.contact_deflection[k] + at.load.structural_deflection[k] + at.gap.total[k] ==
+            Approx(at.load.transmission_error).epsilon(1e-11));
+    }
+  }
+}
+
+TEST_CASE("Contact stress is Hertz's for the load and radius of every point", "[core][load][closed-form]") {
+  constexpr double kRoundOff = 1e-13;
+  const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
+  const MeshModel model = mesh_cases::model(gears, {{}, {0.3, 0.8}});
+  const LoadedCycle cycle = analyse_cycle(model, worked_condition(), torque_for(gears, 200.0));
+  REQUIRE(cycle.usable());
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& points = model.positions[i].points;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const double w = cycle.positions[i].load.line_load[static_cast<Eigen::Index>(k)];
+      // p_0 = 2 w / (pi L) with the half width, not the expression that the stress is computed from.
+      const double half_width = std::sqrt(4 * w * points[k].relative_radius * 2 * (1 - 0.09) / (units::pi * 206000.0));
+      const double expected = w > 0.0 ? 2 * w / (units::pi * half_width) : 0.0;
+      CHECK(cycle.positions[i].contact_stress[static_cast<Eigen::Index>(k)] == Approx(expected).epsilon(kRoundOff));
+    }
+  }
+}
+
+TEST_CASE("One pair of spur teeth carries all near the pitch point, two share elsewhere", "[core][load]") {
+  constexpr double kRoundOff = 1e-12;
+  const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
+  const double epsilon = gears.transverse_contact_ratio;
+  REQUIRE((epsilon > 1.5 && epsilon < 1.8));
+  const double load = 150.0;  // N/mm
+  const MeshModel model = mesh_cases::model(gears, {{}, equally_spaced_phases(64)});
+  const LoadedCycle cycle = analyse_cycle(model, {}, torque_for(gears, load));
+  REQUIRE(cycle.usable());
+  int single = 0;
+  for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
+    const MeshPosition& at = model.positions[i];
+    const LoadedPosition& loaded = cycle.positions[i];
+    const int teeth = loaded_teeth(at, loaded);
+    CAPTURE(at.phase, teeth);
+    CHECK((teeth == 1 || teeth == 2));
+    if (teeth == 1) ++single;
+    double sum = 0.0;
+    for (int tooth = -1; tooth <= 2; ++tooth) sum += tooth_force(at, loaded, tooth);
+    CHECK(sum == Approx(cycle.force).epsilon(kRoundOff));
+    // Aligned: every tooth's line is loaded evenly.
+    for (std::size_t k = 0; k < at.points.size(); ++k) {
+      const double w = loaded.load.line_load[static_cast<Eigen::Index>(k)];
+      CHECK(w * gears.face_width ==
+            Approx(tooth_force(at, loaded, at.points[k].tooth)).epsilon(1e-9).margin(1e-9 * cycle.force));
+    }
+  }
+  // Of a pitch, the pair is alone for 2 - epsilon, less what tips reach early and late.
+  const double share = single / 64.0;
+  CHECK(share <= 2.0 - epsilon + 1.0 / 64);
+  CHECK(share >= 0.5 * (2.0 - epsilon));
+
+  const double pitch_phase = (gears.pitch_point - gears.path_start) / gears.transverse_base_pitch + 0.35;
+  const MeshModel at_pitch = mesh_cases::model(gears, {{}, {pitch_phase}});
+  const LoadedCycle there = analyse_cycle(at_pitch, {}, torque_for(gears, load));
+  CHECK(loaded_teeth(at_pitch.positions[0], there.positions[0]) == 1);
+  CHECK(there.positions[0].load.line_load.maxCoeff() == Approx(load).epsilon(1e-9));
+}
+
+TEST_CASE("A mirrored spur pair carries mirrored loads", "[core][load]") {
+  constexpr double kRoundOff = 1e-9;  // tolerance of the solver times the condition
+  const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
+  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(8)});
+  const LoadedCycle there = analyse_cycle(model, worked_condition(), torque_for(gears, 100.0));
+  const LoadedCycle mirror = analyse_cycle(model, mirrored(worked_condition()), torque_for(gears, 100.0));
+  for (std::size_t i = 0; i < 8; ++i) {
+    CHECK(mirror.positions[i].load.transmission_error ==
+          Approx(there.positions[i].load.transmission_error).epsilon(kRoundOff));
+    CHECK(largest_difference(loads_by_point(model.positions[i], there.positions[i]),
+                             loads_by_point(model.positions[i], mirror.positions[i], -1)) <= kRoundOff * 100.0);
+  }
+}
+
+TEST_CASE("A helical pair of the other hand is the mirror image of the first", "[core][load]") {
+  constexpr double kRoundOff = 1e-9;
+  const GearPair right = mesh_cases::pair(18, 54, 30, 10, 120);
+  PairData data = right.data;
+  data.pinion_hand = Hand::Left;
+  const GearPair left = make_gear_pair(data);
+  const MeshResolution resolution{{QuadratureRule::Gauss2, 10}, equally_spaced_phases(6)};
+  const MeshModel right_model = mesh_cases::model(right, resolution), left_model = mesh_cases::model(left, resolution);
+  const double torque = torque_for(right, 100.0);
+  const LoadedCycle there = analyse_cycle(right_model, worked_condition(), torque);
+  const LoadedCycle mirror = analyse_cycle(left_model, mirrored(worked_condition()), torque);
+  const LoadedCycle same = analyse_cycle(left_model, worked_condition(), torque);
+  for (std::size_t i = 0; i < 6; ++i) {
+    CHECK(mirror.positions[i].load.transmission_error ==
+          Approx(there.positions[i].load.transmission_error).epsilon(kRoundOff));
+    const auto loads = loads_by_point(right_model.positions[i], there.positions[i]);
+    CHECK(largest_difference(loads, loads_by_point(left_model.positions[i], mirror.positions[i], -1)) <=
+          kRoundOff * 100.0);
+    // And only the mirrored condition does: the test can fail.
+    CHECK(largest_difference(loads, loads_by_point(left_model.positions[i], same.positions[i], -1)) > 1.0);
+  }
+}
+
+TEST_CASE("A helical pair driven on its other flank is the same as a pair of the other hand", "[core][load]") {
+  constexpr double kRoundOff = 1e-9;
+  // Seen in a mirror that holds both axes, the coast side of a right-hand pinion is the drive side of a left-hand one;
+  // of the misalignments only rotation about the line of centres changes its sign there.
+  PairData data = mesh_cases::pair_data(18, 54, 30, 10, 120);
+  data.working_flank = WorkingFlank::Left;
+  const GearPair coast = make_gear_pair(data);
+  data.working_flank = WorkingFlank::Right;
+  data.pinion_hand = Hand::Left;
+  const GearPair drive = make_gear_pair(data);
+  FlankCondition reflected = worked_condition();
+  reflected.misalignment.crossing = -reflected.misalignment.crossing;
+  const MeshResolution resolution{{}, {0.2, 0.6}};
+  const MeshModel coast_model = mesh_cases::model(coast, resolution),
+                  drive_model = mesh_cases::model(drive, resolution);
+  const double torque = torque_for(coast, 100.0);
+  const LoadedCycle a = analyse_cycle(coast_model, worked_condition(), torque);
+  const LoadedCycle b = analyse_cycle(drive_model, reflected, torque);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(a.positions[i].load.transmission_error == Approx(b.positions[i].load.transmission_error).epsilon(kRoundOff));
+    CHECK(largest_difference(loads_by_point(coast_model.positions[i], a.positions[i]),
+                             loads_by_point(drive_model.positions[i], b.positions[i])) <= kRoundOff * 100.0);
+  }
+}
+
+TEST_CASE("Equal gears in perfect mesh run the same forwards and backwards", "[core][load]") {
+  constexpr double kRoundOff = 1e-9;
+  const double helix = GENERATE(0.0, 25.0);
+  const GearPair gears = mesh_cases::pair(28, 28, helix, 3, 25);
+  const PathOfContact path(gears);
+  std::vector<double> forwards = {0.07, 0.31, 0.55, 0.98}, backwards;
+  for (double phase : forwards) backwards.push_back(path.last_line_phase() - phase);
+  const MeshModel there = mesh_cases::model(gears, {{QuadratureRule::Gauss2, 10}, forwards});
+  const MeshModel back = mesh_cases::model(gears, {{QuadratureRule::Gauss2, 10}, backwards});
+  const double torque = torque_for(gears, 200.0);
+  const LoadedCycle a = analyse_cycle(there, {}, torque), b = analyse_cycle(back, {}, torque);
+  for (std::size_t i = 0; i < forwards.size(); ++i) {
+    CAPTURE(helix, forwards[i]);
+    CHECK(a.positions[i].load.transmission_error == Approx(b.positions[i].load.transmission_error).epsilon(kRoundOff));
+    CHECK(largest_difference(loads_by_point(there.positions[i], a.positions[i]),
+                             loads_by_point(back.positions[i], b.positions[i], -1, -1)) <= kRoundOff * 200.0);
+  }
+}
+
+TEST_CASE("A lead slope cancels the misalignment of the mesh", "[core][load]") {
+  constexpr double kRoundOff = 1e-10;
+  // Misalignment F opens the mesh at +z by F over the face width; a slope of -F leaves as much more metal there.
+  const NamedPair named = named_pair(GENERATE(0, 1));
+  CAPTURE(named.name);
+  const GearPair gears = make_gear_pair(named.data);
+  const MeshModel model = mesh_cases::model(gears, {{}, equally_spaced_phases(8)});
+  const double misalignment = 15 * units::um, torque = torque_for(gears, 80.0);
+  FlankCondition misaligned, corrected_pinion, corrected_wheel, worse;
+  for (FlankCondition* c : {&misaligned, &corrected_pinion, &corrected_wheel, &worse}) {
+    c->misalignment.mesh_misalignment = misalignment;
+  }
+  corrected_pinion.pinion_modification.lead_slope = -misalignment;
+  corrected_wheel.wheel_modification.lead_slope = -misalignment;
+  worse.pinion_modification.lead_slope = misalignment;
+  const LoadedCycle aligned = analyse_cycle(model, {}, torque), bad = analyse_cycle(model, misaligned, torque);
+  for (const FlankCondition& corrected : {corrected_pinion, corrected_wheel}) {
+    const LoadedCycle good = analyse_cycle(model, corrected, torque);
+    for (std::size_t i = 0; i < 8; ++i) {
+      const Eigen::VectorXd& w = aligned.positions[i].load.line_load;
+      CHECK((good.positions[i].load.line_load - w).lpNorm<Eigen::Infinity>() <= kRoundOff * w.maxCoeff());
+      CHECK((bad.positions[i].load.line_load - w).lpNorm<Eigen::Infinity>() > 0.05 * w.maxCoeff());
+    }
+  }
+  const double peak = summarise(model, bad).peak_line_load;
+  CHECK(peak > summarise(model, aligned).peak_line_load);
+  CHECK(summarise(model, analyse_cycle(model, worse, torque)).peak_line_load > peak);
+}
+
+TEST_CASE("Moving the wheel away as a whole moves the transmission error and no load", "[core][load]") {
+  constexpr double kRoundOff = 1e-9;
+  const NamedPair named = named_pair(GENERATE(0, 1));
+  CAPTURE(named.name);
+  const GearPair gears = make_gear_pair(named.data);
+  const MeshModel model = mesh_cases::model(gears, {{}, equally_spaced_phases(6)});
+  FlankCondition apart, thick;
+  apart.misalignment.centre_distance = 0.05;              // to first order no more than a gap everywhere
+  thick.pinion_error.cumulative_pitch = {7 * units::um};  // every tooth is as much too thick
+  const double torque = torque_for(gears, 60.0);
+  const LoadedCycle there = analyse_cycle(model, {}, torque);
+  const double cos_base = std::cos(gears.base_helix_angle);
+  const double opened = 0.05 * std::sin(gears.working_transverse_pressure_angle) * cos_base;
+  const auto check = [&](const FlankCondition& condition, double shift) {
+    const LoadedCycle moved = analyse_cycle(model, condition, torque);
+    for (std::size_t i = 0; i < 6; ++i) {
+      const LoadDistribution &a = there.positions[i].load, &b = moved.positions[i].load;
+      CHECK((a.line_load - b.line_load).lpNorm<Eigen::Infinity>() <= kRoundOff * a.line_load.maxCoeff());
+      CHECK(b.transmission_error - a.transmission_error == Approx(shift).epsilon(kRoundOff));
+      CHECK(moved.positions[i].stiffness == Approx(there.positions[i].stiffness).epsilon(kRoundOff));
+    }
+  };
+  check(apart, opened);
+  check(thick, -7 * units::um * cos_base);
+}
+
+TEST_CASE("The way through the cycle does not change its results", "[core][load]") {
+  constexpr double kRoundOff = 1e-10;
+  const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
+  std::vector<double> phases = equally_spaced_phases(12), reversed = phases;
+  std::reverse(reversed.begin(), reversed.end());
+  const MeshModel forwards = mesh_cases::model(gears, {{}, phases}),
+                  backwards = mesh_cases::model(gears, {{}, reversed});
+  const double torque = torque_for(gears, 40.0);
+  const LoadedCycle a = analyse_cycle(forwards, worked_condition(), torque);
+  const LoadedCycle b = analyse_cycle(backwards, worked_condition(), torque);
+  for (std::size_t i = 0; i < 12; ++i) {
+    const LoadDistribution &there = a.positions[i].load, &back = b.positions[11 - i].load;
+    CHECK((there.line_load - back.line_load).lpNorm<Eigen::Infinity>() <= kRoundOff * there.line_load.maxCoeff());
+    CHECK(there.transmission_error == Approx(back.transmission_error).epsilon(kRoundOff));
+  }
+}
+
+TEST_CASE("A cycle repeats after one base pitch", "[core][load]") {
+  constexpr double kRoundOff = 1e-9;
+  const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
+  const MeshModel model = mesh_cases::model(gears, {{}, {0.37, 1.37, -0.63}});
+  const LoadedCycle cycle = analyse_cycle(model, worked_condition(), torque_for(gears, 40.0));
+  for (std::size_t i : {1U, 2U}) {
+    CHECK(cycle.positions[i].load.transmission_error ==
+          Approx(cycle.positions[0].load.transmission_error).epsilon(kRoundOff));
+    CHECK(cycle.positions[i].load.line_load.maxCoeff() ==
+          Approx(cycle.positions[0].load.line_load.maxCoeff()).epsilon(kRoundOff));
+  }
+}
+
+TEST_CASE("Bending alone makes a perfect mesh linear", "[core][load]") {
+  constexpr double kRoundOff = 1e-9;
+  const NamedPair named = named_pair(GENERATE(0, 1));
+  CAPTURE(named.name);
+  const GearPair gears = make_gear_pair(named.data);
+  // On the theoretical path all points touch at no load, so that nothing but the deflection grows with it.
+  const MeshModel model = mesh_cases::model(gears, {{}, equally_spaced_phases(6)},
+                                            {.hertzian_contact = false, .extended_contact_region = false});
+  const LoadedCycle light = analyse_cycle(model, {}, torque_for(gears, 1.0));
+  const LoadedCycle heavy = analyse_cycle(model, {}, torque_for(gears, 1000.0));
+  for (std::size_t i = 0; i < 6; ++i) {
+    CHECK(heavy.positions[i].load.transmission_error ==
+          Approx(1000.0 * light.positions[i].load.transmission_error).epsilon(kRoundOff));
+    CHECK(heavy.positions[i].stiffness == Approx(light.positions[i].stiffness).epsilon(kRoundOff));
+  }
+}
+
+TEST_CASE("The transmission error of a perfect mesh vanishes with the torque", "[core][load]") {
+  const NamedPair named = named_pair(GENERATE(0, 1, 2, 3));
+  CAPTURE(named.name);
+  const GearPair gears = make_gear_pair(named.data);
+  const MeshModel model = mesh_cases::model(gears, {{}, equally_spaced_phases(16)});
+  double previous = 1.0;
+  for (double load : {100.0, 1.0, 1e-2, 1e-4}) {
+    const CycleSummary summary = summarise(model, analyse_cycle(model, {}, torque_for(gears, load)));
+    CAPTURE(load);
+    CHECK(summary.te_peak_to_peak < 0.1 * previous);  // deflection nearly in proportion to load
+    previous = summary.te_peak_to_peak;
+  }
+  CHECK(summarise(model, analyse_cycle(model, {}, 0.0)).te_peak_to_peak == 0.0);
+}
+
+TEST_CASE("A summary reads the worst of the cycle", "[core][load]") {
+  constexpr double kRoundOff = 1e-14;
+  const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
+  const MeshModel model = mesh_cases::model(gears, {{}, equally_spaced_phases(16)});
+  const LoadedCycle cycle = analyse_cycle(model, worked_condition(), torque_for(gears, 100.0));
+  const CycleSummary summary = summarise(model, cycle);
+  double low = 1.0, high = -1.0, load = 0.0, stress = 0.0;
+  for (const LoadedPosition& at : cycle.positions) {
+    low = std::min(low, at.load.transmission_error);
+    high = std::max(high, at.load.transmission_error);
+    load = std::max(load, at.load.line_load.maxCoeff());
+    stress = std::max(stress, at.contact_stress.maxCoeff());
+  }
+  CHECK(summary.te_peak_to_peak == Approx(high - low).epsilon(kRoundOff));
+  CHECK(summary.peak_line_load == load);
+  CHECK(summary.peak_contact_stress == stress);
+  CHECK(summary.worst_kkt_residual <= 1e-12);
+  // The mean length of the contact lines of a spur pair is eps_alpha b.
+  const double mean_load = cycle.force / (gears.transverse_contact_ratio * gears.face_width);
+  CHECK(summary.load_factor ==
+        Approx(load / mean_load).epsilon(0.05));  // discretisation: 16 positions count 1/16 pitch
+}
+
+TEST_CASE("Where no point lies the cycle says so instead of inventing a load", "[core][load]") {
+  // A helical pair that depends on its overlap and has lost nearly all of it to an axial offset.
+  PairData data = mesh_cases::pair_data(12, 13, 25, 4, 20);
+  data.pinion.rack.addendum = data.wheel.rack.addendum = 0.4;
+  const GearPair gears = make_gear_pair(data);
+  REQUIRE(gears.transverse_contact_ratio < 0.9);
+  const MeshModel model = make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, {{}, equally_spaced_phases(16)},
+                                          {.extended_contact_region = false}, 19.5);
+  const LoadedCycle cycle = analyse_cycle(model, {}, torque_for(gears, 10.0));
+  CHECK(cycle.failures > 0);
+  CHECK_FALSE(cycle.usable());
+  for (const LoadedPosition& at : cycle.positions) {
+    if (!at.load.usable()) CHECK(at.load.status == LoadStatus::NoContactPoints);
+  }
+  CHECK(std::isnan(summarise(model, cycle).peak_contact_stress));
+}

@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <filesystem>
+
+#include "studies/expectations.hpp"
+#include "studies/results_json.hpp"
+#include "studies/run_study.hpp"
+#include "studies/study_file.hpp"
+#include "tests/studies/command_line.hpp"
+
+namespace flankwright::studies {
+namespace {
+
+std::vector<std::string> examples() {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(FLANKWRIGHT_SOURCE_DIR "/studies/examples")) {
+    if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+/// Coarser than the example itself, so that each takes a second at most.
+const std::vector<std::string> reduced{"--set", "fidelity.quadrature.intervals=4", "--set", "cycle.positions=8"};
+
+}  // namespace
+
+TEST_CASE("Every example is valid and runs without a complaint", "[studies][examples]") {
+  REQUIRE(examples().size() >= 3);
+  const command_line::ScratchFolder folder;
+  for (const std::string& file : examples()) {
+    CAPTURE(file);
+    CHECK(command_line::run(folder, {"check", file}).exit_code == 0);
+    std::vector<std::string> arguments{"run", file};
+    arguments.insert(arguments.end(), reduced.begin(), reduced.end());
+    const command_line::Ending ending = command_line::run(folder, arguments);
+    CAPTURE(ending.out, ending.err);
+    CHECK(ending.exit_code == 0);
+    CHECK(ending.err.find("warning") == std::string::npos);
+  }
+}
+
+TEST_CASE("The robust example beats its start in the worst scene, not in the aligned one",
+          "[studies][examples][physics]") {
+  const Study study = read_study(FLANKWRIGHT_SOURCE_DIR "/studies/examples/helical-18-54.toml",
+                                 {{"cycle.positions", "8"}, {"fidelity.quadrature.intervals", "4"}});
+  const StudyResults results = run_study(study);
+  REQUIRE(results.design);
+  const DesignReport &before = results.design->before, &after = results.design->after;
+  CHECK(after.objective < 0.9 * before.objective);
+  // Crowning concentrates the load of aligned gears: robustness has its price there.
+  CHECK(after.scene_measures[0] > before.scene_measures[0]);
+  const auto [least, most] = std::minmax_element(after.scene_measures.begin(), after.scene_measures.end());
+  const auto [least_before, most_before] =
+      std::minmax_element(before.scene_measures.begin(), before.scene_measures.end());
+  CHECK(*most - *least < 0.5 * (*most_before - *least_before));
+}
+
+TEST_CASE("The unloaded example is at its published transmission error, at any number of positions",
+          "[studies][examples]") {
+  for (const char* positions : {"16", "64"}) {
+    const Study study =
+        read_study(FLANKWRIGHT_SOURCE_DIR "/studies/examples/nasa-30-100.toml", {{"cycle.positions", positions}});
+    CHECK_FALSE(study.expect.empty());
+    CHECK(differences(compare(study.expect, results_json(run_study(study)))).empty());
+  }
+}
+
+}  // namespace flankwright::studies
