@@ -34,9 +34,12 @@ void check_harmonics(const DesignTask& task) {
   const int n = static_cast<int>(phases.size());
   const auto check = [&](const ObjectiveTerm& term) {
     if (term.output != Output::TeHarmonic) return;
-    if (phases != equally_spaced_phases(n)) throw InvalidInput("cycle.phases", "a list", "none for " + term.name + ": set cycle.positions");
-    if (n <= 2 * term.harmonic) {
-      throw InvalidInput("cycle.positions", std::to_string(n), "at least " + std::to_string(2 * term.harmonic + 1) + " for " + term.name);
+    if (phases != equally_spaced_phases(n)) {
+      throw InvalidInput("cycle.phases", "a list", "none for " + term.name + ": set cycle.positions");
+    }
+    const int least = 2 * term.harmonic + 1;
+    if (n < least) {
+      throw InvalidInput("cycle.positions", std::to_string(n), "at least " + std::to_string(least) + " for " + term.name);
     }
   };
   for (const ObjectiveTerm& term : task.objective) check(term);

@@ -160,8 +160,7 @@ LoadDistribution solve_load_distribution(const LoadProblem& problem, const LoadO
     }
     Eigen::MatrixXd hessian = structural_hessian;
     hessian.diagonal() += a.cwiseProduct(at.local_slope());
-    // Less f a, which the balance allows: what is solved for then shrinks with the residual, and so does its round-off.
-    const Eigen::VectorXd gradient = a.array() * (at.approach().array() - f);
+    const Eigen::VectorXd gradient = a.cwiseProduct(at.approach());
     const Eigen::VectorXd linear = gradient - hessian * at.loads();
     const QuadraticMinimum model = minimise_quadratic(hessian, linear, a, problem.force, at.loads().array() > 0.0);
     result.factorisations += model.factorisations;
@@ -173,9 +172,7 @@ LoadDistribution solve_load_distribution(const LoadProblem& problem, const LoadO
     // The whole step where it at least halves the slope, else to the minimum along it.
     const bool whole = slope_end <= overshoot * std::abs(slope_start) || slope_start >= 0.0;
     const double t = whole ? 1.0 : bracketed_root(slope, 0.0, slope_start, 1.0, slope_end, 1e-3).x;
-    Eigen::VectorXd next = t == 1.0 ? model.x : Eigen::VectorXd((at.loads() + t * d).cwiseMax(0.0));
-    next *= problem.force / a.dot(next);  // round-off: steps keep the balance they find
-    at.move_to(std::move(next));
+    at.move_to(t == 1.0 ? model.x : Eigen::VectorXd((at.loads() + t * d).cwiseMax(0.0)));
   }
   result.status = LoadStatus::IterationLimit;
   result.message =
