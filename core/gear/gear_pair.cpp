@@ -134,7 +134,11 @@ void mesh(GearPair& pair) {
   pair.working_helix_angle = std::atan(std::tan(data.helix_angle) * g1.working_pitch_radius / g1.reference_radius);
   pair.transverse_base_pitch = 2.0 * units::pi * g1.base_radius / data.pinion.teeth;
   const double pitch = 2.0 * units::pi * g1.working_pitch_radius / data.pinion.teeth;
-  pair.backlash = pitch - g1.tooth_thickness_at(g1.working_pitch_radius) - g2.tooth_thickness_at(g2.working_pitch_radius);
+  // Without a given centre distance the pair is free of backlash by construction, not just to round-off.
+  pair.backlash = std::isnan(data.centre_distance)
+                      ? 0.0
+                      : pitch - g1.tooth_thickness_at(g1.working_pitch_radius) -
+                            g2.tooth_thickness_at(g2.working_pitch_radius);
   pair.face_width = std::min(data.pinion.face_width, data.wheel.face_width);
 
   pair.path_length = pair.centre_distance * std::sin(alpha_wt);
