@@ -1,10 +1,7 @@
 #pragma once
 
-#include <cstddef>
 #include <limits>
-#include <map>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "core/contact/contact_points.hpp"

@@ -52,7 +52,7 @@ struct LoadOptions {
 };
 
 /// Solves the programme by Newton's method in the loads: each step minimises the quadratic model over the feasible set
-/// exactly (block pivoting, see quadratic_program.hpp), then the convex objective along the step by its monotone slope.
+/// exactly (see quadratic_program.hpp), then the convex objective along the step by its monotone slope.
 /// Both parts converge from any start; the minimiser is unique, so the answer depends on neither start nor point order.
 /// @param start  line loads to start from (scaled to the force), size n, or empty
 /// @throws InvalidInput where sizes differ, a weight is not positive, the force is negative or anything is not finite

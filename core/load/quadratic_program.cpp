@@ -10,8 +10,8 @@ namespace {
 
 using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
-constexpr int block_patience =
-    3;  // block steps without progress before the primal method, as the authors suggest for single pivots
+/// Block steps without progress before the primal method; the authors suggest as many before single pivots.
+constexpr int block_patience = 3;
 /// A slack counts as negative below -round_off * (sum of the magnitudes of its terms).
 constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
 
