@@ -32,7 +32,7 @@ class DesignProblem {
 
   /// The scaled design that the task's own modifications stand for, moved into the bounds where it lies outside.
   Eigen::VectorXd start() const;
-  /// Value of variable i in mm.
+  /// Value of variable i [mm; parabolic_te 1/rad].
   double unscaled(const Eigen::VectorXd& x, int i) const;
   /// Modifications of a scaled design.
   void apply(const Eigen::VectorXd& x, Modification& pinion, Modification& wheel) const;

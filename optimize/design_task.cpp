@@ -32,9 +32,15 @@ const char* ObjectiveTerm::unit() const {
   __builtin_unreachable();
 }
 
-double DesignVariable::outside_factor() const { return is_extent(parameter) ? 1.0 : 1.0 / units::um; }
+double DesignVariable::outside_factor() const {
+  if (parameter == ModificationParameter::ParabolicTe) return 1.0 / units::arcsec_per_square_deg;
+  return is_extent(parameter) ? 1.0 : 1.0 / units::um;
+}
 
-const char* DesignVariable::unit() const { return is_extent(parameter) ? "mm" : "um"; }
+const char* DesignVariable::unit() const {
+  if (parameter == ModificationParameter::ParabolicTe) return "arcsec/deg^2";
+  return is_extent(parameter) ? "mm" : "um";
+}
 
 std::string DesignTask::objective_name() const {
   std::string name;

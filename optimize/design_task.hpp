@@ -44,9 +44,9 @@ struct DesignVariable {
   std::string path;  ///< as the study names it: "pinion.modification.lead_crowning"
   Member member{Member::Pinion};
   ModificationParameter parameter{ModificationParameter::LeadCrowning};
-  double lower{0.0}, upper{0.0};  ///< [mm], lower < upper
+  double lower{0.0}, upper{0.0};  ///< [mm; parabolic_te 1/rad], lower < upper
 
-  /// Factor from mm to the unit of reports: um, but mm for the extent of a relief.
+  /// Factor from the inside unit to that of reports: um, but mm for the extent of a relief, arcsec/deg^2 for parabolic_te.
   double outside_factor() const;
   const char* unit() const;
 };

@@ -46,8 +46,8 @@ class WheelDisplacement {
 };
 
 /// Angle by which the changed pinion flank leads the nominal one at a point [rad].
-double pinion_lead(const InvoluteFlank& changed, const InvoluteFlank& nominal, const ContactPoint& point) {
-  const auto polar = [&](const InvoluteFlank& flank) {
+double pinion_lead(const Flank& changed, const Flank& nominal, const ContactPoint& point) {
+  const auto polar = [&](const Flank& flank) {
     const double cosine = std::min(1.0, flank.base_radius / point.pinion_radius);
     return flank.origin + flank.helix_rate * point.z - involute(std::acos(cosine));
   };
@@ -60,20 +60,20 @@ Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& p
   const int n = static_cast<int>(points.size());
   const double cos_base_helix = std::cos(pair.base_helix_angle);
   const PathOfContact path(pair);
-  const WheelDisplacement wheel(pair, condition.misalignment);
-  const InvoluteFlank nominal = make_flank(pair, Member::Pinion, {}, {});
-  const InvoluteFlank changed = make_mesh_scene(pair, condition.misalignment, {}, {}, {}, {}).pinion;
+  const WheelDisplacement displacement(pair, condition.misalignment);
+  const Flank pinion = make_flank(pair, Member::Pinion, condition.pinion_modification, condition.pinion_error);
+  const Flank wheel = make_flank(pair, Member::Wheel, condition.wheel_modification, condition.wheel_error);
+  const Flank nominal = make_flank(pair, Member::Pinion, {}, {});
+  const Flank changed = make_mesh_scene(pair, condition.misalignment, {}, {}, {}, {}).pinion;
   Gap gap{Eigen::VectorXd(n), Eigen::VectorXd(n)};
   for (int i = 0; i < n; ++i) {
     const ContactPoint& point = points[i];
     double removed = 0.0;
     for (Member m : {Member::Pinion, Member::Wheel}) {
-      const FlankFrame frame = pair.flank_frame(m);
-      const double r = radius_of(point, m), z = own_z(point, m, condition.misalignment);
-      removed += removal(condition.modification(m), frame, r, z) - added_metal(condition.error(m), frame, r, z) -
-                 pitch_deviation(condition.error(m), point.tooth);
+      const Flank& flank = m == Member::Pinion ? pinion : wheel;
+      removed += flank.deviation(flank.roll_at(radius_of(point, m)), own_z(point, m, condition.misalignment), point.tooth);
     }
-    gap.error[i] = -cos_base_helix * removed - wheel.along_normal(path, point) +
+    gap.error[i] = -cos_base_helix * removed - displacement.along_normal(path, point) +
                    cos_base_helix * pair.pinion.base_radius * pinion_lead(changed, nominal, point);
     gap.total[i] = point.clearance - gap.error[i];
   }

@@ -21,7 +21,7 @@ struct FlankCondition {
 
 /// Gap of unloaded flanks at each contact point, normal to the flank, at the angle at which the undisturbed pair would touch [mm]:
 ///
-///     g = c_n + cos(beta_b) sum over both gears of (removal - added metal) + misalignment
+///     g = c_n + cos(beta_b) sum over both gears of D (see Flank) + misalignment
 ///
 /// Contact stays where the undisturbed flanks would touch (plane of action). Misalignment is the wheel's displacement
 /// along the pinion's outward normal, first order in the angles; a changed pinion helicoid (lead or pressure-angle error) enters by the
@@ -32,7 +32,7 @@ struct Gap {
 };
 Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition);
 
-/// dg/dp at each point for one modification parameter of one gear [mm/mm], exact.
+/// dg/dp at each point for one modification parameter of one gear [mm/mm; parabolic_te mm rad], exact.
 Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition,
                                Member member, ModificationParameter parameter);
 

@@ -10,7 +10,7 @@ namespace flankwright {
 namespace {
 
 /// TM-107451, appendix 2 (A.2.1-A.2.8) with beta = pi/2 - lambda_p for the pinion as it was really made.
-void apply_pinion_errors(const GearPair& pair, const Misalignment& misalignment, InvoluteFlank& flank) {
+void apply_pinion_errors(const GearPair& pair, const Misalignment& misalignment, Flank& flank) {
   const double beta = pair.data.helix_angle - misalignment.pinion_lead_angle;
   const double alpha_n = pair.data.pressure_angle + misalignment.pinion_pressure_angle;
   if (!(std::abs(beta) < 0.5 * units::pi) || !(alpha_n > 0.0 && alpha_n < 0.5 * units::pi)) {

@@ -95,7 +95,7 @@ SectionMaximum FirstContact::section(double z) const {
   best.z = z;
   double lo = scene_.pinion.lowest_roll(), hi = scene_.pinion.highest_roll();
   Bound at_lo = Bound::PinionRoot, at_hi = Bound::PinionTip;
-  const InvoluteFlank& wheel = scene_.wheel;
+  const Flank& wheel = scene_.wheel;
   const auto wheel_point = [&](double rho) {
     const Point3<double> p = flank_point(scene_.pinion, rho, z, tooth_, pinion_rotation_);
     const Eigen::Vector3d q = wheel_rotation_ * (Eigen::Vector3d(p.x, p.y, p.z) - scene_.wheel_centre);

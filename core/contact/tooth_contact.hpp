@@ -27,6 +27,8 @@ struct ToothContact {
   double wheel_radius{not_given}, wheel_z{not_given};    ///< on the wheel [mm], its own frame
   /// delta_phi2 = phi2 - (N1/N2) phi1 [rad], wheel.
   double transmission_error{not_given};
+  /// d(delta_phi2)/d(phi1) [rad/rad], exact by the envelope theorem; where the contact changes its kind, of the side found.
+  double slope{not_given};
 
   bool exists() const { return kind != ContactKind::None; }
 };

@@ -8,8 +8,8 @@ namespace flankwright {
 namespace {
 
 bool any(const Modification& m) {
-  return std::any_of(modification_parameters.begin(), modification_parameters.end(),
-                     [&](const NamedModificationParameter& p) { return get(m, p.parameter) != 0.0; });
+  return m.topography || std::any_of(modification_parameters.begin(), modification_parameters.end(),
+                                     [&](const NamedModificationParameter& p) { return get(m, p.parameter) != 0.0; });
 }
 
 bool any(const ManufacturingError& e) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "core/base/dual.hpp"
 #include "core/gear/microgeometry.hpp"
 
@@ -14,10 +16,12 @@ namespace flankwright {
 ///     reliefs:  C_tip  t or t^2,  t = (r - (r_a - h))/h where t > 0;    root likewise from r_Nf + h downwards;
 ///               C_end (|z| - (b/2 - l))/l where that is positive
 ///     twist:    S (r - r_w)/(r_a - r_Nf) z/b
+///     parabolic TE:  r_b2 a phi1^2,  phi1 = i ((rho - rho_w)/r_b - s z/p)  with i = 1 (pinion) or -N2/N1 (wheel): the pinion angle
+///               at which the undisturbed flanks touch along the line through (rho, z); the same along that whole line
 ///
 /// Radial measure throughout, as Haddad 1991, eq. 6.1 (there with b^2 printed for (b/2)^2 in the crowning term). The function
 /// is continuous; its slope jumps where a linear relief starts. Outside the active flank the same formulas continue.
-/// Scalar is double or Dual<N>.
+/// The grid `topography` is not part of it. Scalar is double, Dual<N> or Jet.
 template <class Scalar>
 Scalar removal(const Modification& m, const FlankFrame& frame, const Scalar& r, const Scalar& z) {
   const double b = frame.face_width;
@@ -42,10 +46,16 @@ Scalar removal(const Modification& m, const FlankFrame& frame, const Scalar& r, 
           frame.active_root_radius + m.root_relief.height - r);
   relieve(m.end_relief.amount, m.end_relief.length, ReliefShape::Linear,
           (value_of(z) < 0.0 ? -z : z) - (0.5 * b - m.end_relief.length));
+  if (m.parabolic_te != 0.0) {
+    using std::sqrt;
+    const Scalar rho = sqrt((r - frame.base_radius) * (r + frame.base_radius));
+    const Scalar phi1 = frame.pinion_turn * ((rho - frame.pitch_roll) / frame.base_radius - frame.helix_rate * z);
+    c += frame.wheel_base_radius * m.parabolic_te * phi1 * phi1;
+  }
   return c;
 }
 
-/// Derivative of removal() with respect to one modification parameter [mm/mm], exact; one-sided at a relief's start.
+/// Derivative of removal() with respect to one modification parameter [mm/mm; parabolic_te mm rad], exact; one-sided at a relief's start.
 double removal_derivative(const Modification& m, const FlankFrame& frame, ModificationParameter parameter, double r, double z);
 
 /// Metal added by manufacturing errors at r, z [mm], transverse base tangent [Haddad 1991, eq. 6.1], without pitch.

@@ -208,7 +208,19 @@ int GearPair::contact_line_sense() const {
 
 FlankFrame GearPair::flank_frame(Member m) const {
   const Gear& gear = (*this)[m];
-  return {gear.working_pitch_radius, gear.reference_radius, gear.tip_radius, gear.active_root_radius, gear.data.face_width};
+  const bool is_pinion = m == Member::Pinion;
+  FlankFrame frame;
+  frame.pitch_radius = gear.working_pitch_radius;
+  frame.reference_radius = gear.reference_radius;
+  frame.tip_radius = gear.tip_radius;
+  frame.active_root_radius = gear.active_root_radius;
+  frame.face_width = gear.data.face_width;
+  frame.base_radius = gear.base_radius;
+  frame.pitch_roll = gear.roll_length_at(gear.working_pitch_radius);
+  frame.helix_rate = contact_line_sense() * (is_pinion ? 1.0 : -1.0) * gear.helix_rate;
+  frame.pinion_turn = is_pinion ? 1.0 : -gear_ratio();
+  frame.wheel_base_radius = wheel.base_radius;
+  return frame;
 }
 
 std::vector<InvalidInput> find_problems(const PairData& data) {

@@ -20,6 +20,7 @@ double& field(Modification& m, ModificationParameter parameter) {
     case ModificationParameter::EndReliefAmount: return m.end_relief.amount;
     case ModificationParameter::EndReliefLength: return m.end_relief.length;
     case ModificationParameter::Twist: return m.twist;
+    case ModificationParameter::ParabolicTe: return m.parabolic_te;
   }
   __builtin_unreachable();
 }

@@ -1,9 +1,11 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string_view>
 #include <vector>
 
+#include "core/gear/deviation_field.hpp"
 #include "core/gear/gear_data.hpp"
 
 namespace flankwright {
@@ -25,7 +27,7 @@ struct EndRelief {
 };
 
 /// Flank modification as a designer states it: material removed (positive into the tooth), measured in the
-/// transverse plane along the base tangent [ISO 21771; ISO 1328-1]. All amounts in mm.
+/// transverse plane along the base tangent [ISO 21771; ISO 1328-1]. All amounts in mm, parabolic_te in 1/rad.
 struct Modification {
   double lead_crowning{0.0};      ///< C_beta, removed at both face ends, parabola over z
   double lead_slope{0.0};         ///< C_Hbeta over the face width; + removes at z = +b/2, zero at mid face
@@ -36,13 +38,17 @@ struct Modification {
   ProfileRelief root_relief;
   EndRelief end_relief;
   double twist{0.0};              ///< removed: twist * (y / h_active) * (z / b); + removes at the tip at z = +b/2
+  /// a of the predesigned transmission error delta_phi2 = -a phi1^2 [1/rad]; removed along the line that touches at phi1: r_b2 a phi1^2.
+  double parabolic_te{0.0};
+  /// Measured or topological grid on top of the rest; none where null.
+  std::shared_ptr<const DeviationField> topography;
 };
 
 /// The numbers of a Modification that a designer may vary, in the order of modification_parameters.
 enum class ModificationParameter {
   LeadCrowning, LeadSlope, ProfileCrowning, AddendumCrowning, DedendumCrowning, ProfileSlope,
   TipReliefAmount, TipReliefHeight, RootReliefAmount, RootReliefHeight,
-  EndReliefAmount, EndReliefLength, Twist
+  EndReliefAmount, EndReliefLength, Twist, ParabolicTe
 };
 
 /// A parameter and the name it carries in a study file below [pinion.modification].
@@ -52,7 +58,7 @@ struct NamedModificationParameter {
 };
 
 /// All of them. ProfileCrowning is the common value of addendum and dedendum crowning.
-inline constexpr std::array<NamedModificationParameter, 13> modification_parameters{{
+inline constexpr std::array<NamedModificationParameter, 14> modification_parameters{{
     {ModificationParameter::LeadCrowning, "lead_crowning"},
     {ModificationParameter::LeadSlope, "lead_slope"},
     {ModificationParameter::ProfileCrowning, "profile_crowning"},
@@ -66,12 +72,13 @@ inline constexpr std::array<NamedModificationParameter, 13> modification_paramet
     {ModificationParameter::EndReliefAmount, "end_relief.amount"},
     {ModificationParameter::EndReliefLength, "end_relief.length"},
     {ModificationParameter::Twist, "twist"},
+    {ModificationParameter::ParabolicTe, "parabolic_te"},
 }};
 
-/// Value of one parameter [mm]. ProfileCrowning reads the mean of addendum and dedendum crowning.
+/// Value of one parameter [mm; parabolic_te 1/rad]. ProfileCrowning reads the mean of addendum and dedendum crowning.
 double get(const Modification& modification, ModificationParameter parameter);
 
-/// Sets one parameter [mm]. ProfileCrowning sets both halves.
+/// Sets one parameter [mm; parabolic_te 1/rad]. ProfileCrowning sets both halves.
 void set(Modification& modification, ModificationParameter parameter, double value);
 
 /// Manufacturing error of one gear [Haddad 1991, eq. 6.1]: metal *added* is positive, in the transverse plane
@@ -86,13 +93,18 @@ struct ManufacturingError {
   std::vector<double> cumulative_pitch;
 };
 
-/// Radii a removal is measured against; see profile_frame() for a gear of a pair.
+/// What a removal is measured against; see GearPair::flank_frame() for a gear of a pair.
 struct FlankFrame {
   double pitch_radius{not_given};       ///< working pitch radius r_w [mm]: origin of crowning and profile slope
   double reference_radius{not_given};   ///< reference radius r [mm]: origin of error profile slope
   double tip_radius{not_given};         ///< r_a [mm]
   double active_root_radius{not_given}; ///< radius at the start of active profile [mm]
   double face_width{not_given};         ///< b [mm]
+  double base_radius{not_given};        ///< r_b [mm]
+  double pitch_roll{not_given};         ///< roll length at the working pitch circle [mm]
+  double helix_rate{not_given};         ///< turn of the transverse section per mm of z, signed as in Flank [rad/mm]
+  double pinion_turn{not_given};        ///< turn of the pinion per turn of this gear in its own frame: 1, or -N2/N1 for the wheel
+  double wheel_base_radius{not_given};  ///< r_b2 [mm]
 };
 
 }  // namespace flankwright

@@ -16,28 +16,16 @@ namespace {
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
-/// Point and tangents of a flank in the housing.
-struct SurfacePoint {
-  Eigen::Vector3d position, along_profile, along_face;
-};
-
-SurfacePoint surface_point(const InvoluteFlank& flank, double rho, double z, int tooth, double rotation) {
-  const auto p = flank_point(flank, Dual<2>::variable(rho, 0), Dual<2>::variable(z, 1), tooth, rotation);
-  return {{p.x.value, p.y.value, p.z.value},
-          {p.x.gradient[0], p.y.gradient[0], p.z.gradient[0]},
-          {p.x.gradient[1], p.y.gradient[1], p.z.gradient[1]}};
-}
-
 /// TM-107451, eqs 1 to 3: same point, same normal. Unknowns (rho1, z1, rho2, z2, phi2). Equal unit normals are
 /// two equations: the wheel's normal is orthogonal to both tangents of the pinion.
 Vector5 tangency_residual(const MeshScene& scene, double phi1, const Vector5& x) {
   const SurfacePoint on_pinion = surface_point(scene.pinion, x[0], x[1], 0, phi1);
   const SurfacePoint on_wheel = surface_point(scene.wheel, x[2], x[3], 0, -x[4]);
   const Eigen::Vector3d apart = on_pinion.position - (scene.wheel_axes * on_wheel.position + scene.wheel_centre);
-  const Eigen::Vector3d normal = scene.wheel_axes * on_wheel.along_profile.cross(on_wheel.along_face).normalized();
+  const Eigen::Vector3d normal = scene.wheel_axes * on_wheel.normal;
   Vector5 residual;
-  residual << apart, 100.0 * normal.dot(on_pinion.along_profile.normalized()),
-      100.0 * normal.dot(on_pinion.along_face.normalized());
+  residual << apart, 100.0 * normal.dot(on_pinion.d_rho.normalized()),
+      100.0 * normal.dot(on_pinion.d_z.normalized());
   return residual;
 }
 

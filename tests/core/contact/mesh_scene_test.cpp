@@ -48,19 +48,19 @@ TEST_CASE("Pinion errors change base radius and helix by the report's equations 
   const double r_p = pair.pinion.reference_radius, r_b = pair.pinion.base_radius;
   Misalignment pressure;
   pressure.pinion_pressure_angle = small;
-  const InvoluteFlank by_pressure = scene_of(pair, pressure).pinion;
+  const Flank by_pressure = scene_of(pair, pressure).pinion;
   const double d_alpha_t = std::sin(2 * alpha_t) / std::sin(2 * alpha_n);  // eq. 15
   CHECK(std::abs((by_pressure.base_radius - r_b) / small / (-r_p * std::sin(alpha_t) * d_alpha_t) - 1) <=
         1e-4);  // eq. 17
   const double lambda_b = 90 * deg - pair.base_helix_angle;
-  const auto lambda_b_of = [](const InvoluteFlank& flank) {
+  const auto lambda_b_of = [](const Flank& flank) {
     return std::atan(1 / (std::abs(flank.helix_rate) * flank.base_radius));
   };
   const double d_lambda_b = 0.5 * std::sin(2 * lambda_b) * std::tan(alpha_t) * d_alpha_t;  // eq. 16
   CHECK(std::abs((lambda_b_of(by_pressure) - lambda_b) / small / d_lambda_b - 1) <= 1e-4);
   Misalignment lead;
   lead.pinion_lead_angle = small;
-  const InvoluteFlank by_lead = scene_of(pair, lead).pinion;
+  const Flank by_lead = scene_of(pair, lead).pinion;
   // Eq. 18 at r_p kept: dH/H = 2 d(lambda)/sin(2 lambda); here r_p follows as 1/sin(lambda), which takes cot(lambda)
   // d(lambda) off.
   const double lambda = reference::nasa_tm_107451::lead_angle;

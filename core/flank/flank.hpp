@@ -1,8 +1,11 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
+#include <memory>
 
 #include "core/base/dual.hpp"
+#include "core/base/jet.hpp"
 #include "core/flank/removal.hpp"
 #include "core/gear/gear_pair.hpp"
 
@@ -12,18 +15,20 @@ namespace flankwright {
 /// taken to start at this multiple of r_b at least, at a roll length of r_b/100: form_radius >= r_b * lowest_start.
 inline constexpr double lowest_start = 1.0 + 5e-5;
 
-/// A working flank: involute helicoid minus a modification plus a manufacturing error, in the frame of its gear.
+/// A working flank in the frame of its gear: an involute helicoid displaced along its transverse base tangents by how it was
+/// generated, modified, measured and made wrong. Every flank is of this one form.
 ///
 /// Frame: z along the gear axis, x towards the mate, y such that the flank's outward normal at the pitch point has a positive y
 /// component; z = 0 at mid face. At rotation 0 the nominal flank of tooth 0 passes through the pitch point on the x axis. With the
 /// roll length rho (transverse radius of curvature), e the radial and t the tangential unit vector at angle theta:
 ///
 ///     theta = origin + s z/p - rho/r_b,      point = r_b e(theta) + (rho - D) t(theta),
-///     D = removal - added metal at r = sqrt(r_b^2 + rho^2), z      [mm, along the base tangent]
+///     D = generation + removal + topography - added metal - pitch at r = sqrt(r_b^2 + rho^2), z      [mm, + into the tooth]
 ///
 /// with s = +1 for a right-hand helix seen in this frame, -1 for left. D = 0 is the involute helicoid, e.g. TM-107451,
-/// eq. A.1.1, with theta the negative of its theta_1 + mu_1.
-struct InvoluteFlank {
+/// eq. A.1.1, with theta the negative of its theta_1 + mu_1. The parameter rectangle is lowest_roll() .. highest_roll() by
+/// -half_face .. half_face.
+struct Flank {
   double base_radius{not_given};   ///< r_b [mm]
   double helix_rate{0.0};          ///< s/p, signed [rad/mm]
   double origin{not_given};        ///< theta of the involute's start in the section z = 0 at rotation 0 [rad]
@@ -33,6 +38,7 @@ struct InvoluteFlank {
   FlankFrame frame;
   Modification modification;
   ManufacturingError error;
+  std::shared_ptr<const DeviationField> generated;  ///< what a tool other than the straight rack leaves; null: involute
 
   double lowest_roll() const { return roll_at(form_radius); }
   double highest_roll() const { return roll_at(tip_radius); }
@@ -45,11 +51,14 @@ struct InvoluteFlank {
   Scalar deviation(const Scalar& rho, const Scalar& z, int tooth) const {
     using std::sqrt;
     const Scalar r = sqrt(rho * rho + base_radius * base_radius);
-    return removal(modification, frame, r, z) - added_metal(error, frame, r, z) - pitch_deviation(error, tooth);
+    Scalar d = removal(modification, frame, r, z) - added_metal(error, frame, r, z) - pitch_deviation(error, tooth);
+    if (generated) d += evaluate(*generated, rho, z);
+    if (modification.topography) d += evaluate(*modification.topography, rho, z);
+    return d;
   }
 };
 
-/// A point of a flank or in space, Scalar double or Dual<N> [mm].
+/// A point of a flank or in space, Scalar double, Dual<N> or Jet [mm].
 template <class Scalar>
 struct Point3 {
   Scalar x, y, z;
@@ -57,7 +66,7 @@ struct Point3 {
 
 /// Point of the flank turned by `rotation` [rad, counter-clockwise], in the gear's fixed frame [mm].
 template <class Scalar>
-Point3<Scalar> flank_point(const InvoluteFlank& flank, const Scalar& rho, const Scalar& z, int tooth, double rotation) {
+Point3<Scalar> flank_point(const Flank& flank, const Scalar& rho, const Scalar& z, int tooth, double rotation) {
   using std::cos;
   using std::sin;
   const Scalar theta = flank.origin + rotation + flank.helix_rate * z - rho / flank.base_radius;
@@ -65,6 +74,18 @@ Point3<Scalar> flank_point(const InvoluteFlank& flank, const Scalar& rho, const 
   const Scalar c = cos(theta), s = sin(theta);
   return {flank.base_radius * c - along * s, flank.base_radius * s + along * c, z};
 }
+
+/// A flank at one point of its parameter rectangle, in its gear's frame: position, unit normal out of the tooth, and first and
+/// second derivatives of the position with respect to u = rho and v = z [mm], exact.
+struct SurfacePoint {
+  Eigen::Vector3d position, normal;
+  Eigen::Vector3d d_rho, d_z;
+  Eigen::Vector3d d_rho_rho, d_rho_z, d_z_z;
+};
+
+/// The flank of tooth `tooth` at (rho, z), turned by `rotation` [rad, counter-clockwise]. Valid where the flank does not fold
+/// over itself (|dD/drho| < 1).
+SurfacePoint surface_point(const Flank& flank, double rho, double z, int tooth, double rotation);
 
 /// Rotation at which the flank passes through a given point of the gear's fixed frame, and the point's radius.
 template <class Scalar>
@@ -76,7 +97,7 @@ struct FlankThroughPoint {
 /// Inverse of flank_point(): the rotation of the gear that puts its flank through `p`. Valid for points outside the base
 /// cylinder and |dD/drho| < 1 (a flank that does not fold over itself).
 template <class Scalar>
-FlankThroughPoint<Scalar> rotation_through(const InvoluteFlank& flank, const Point3<Scalar>& p, int tooth) {
+FlankThroughPoint<Scalar> rotation_through(const Flank& flank, const Point3<Scalar>& p, int tooth) {
   using std::atan2;
   using std::sqrt;
   const double rb = flank.base_radius;
@@ -99,7 +120,7 @@ FlankThroughPoint<Scalar> rotation_through(const InvoluteFlank& flank, const Poi
 }
 
 /// Flank of one gear of the pair in the canonical sense (pinion driving in +y); a left working flank is mirrored into it.
-InvoluteFlank make_flank(const GearPair& pair, Member member, const Modification& modification,
+Flank make_flank(const GearPair& pair, Member member, const Modification& modification,
                          const ManufacturingError& error);
 
 }  // namespace flankwright

@@ -1,4 +1,4 @@
-#include "core/flank/involute_flank.hpp"
+#include "core/flank/flank.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
@@ -48,7 +48,7 @@ TEST_CASE("The unmodified flank unwinds from its base cylinder", "[core][flank][
   const Hand hand = GENERATE(Hand::Right, Hand::Left);
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const GearPair pair = nasa_pair(hand, WorkingFlank::Right);
-  const InvoluteFlank flank = make_flank(pair, member, {}, {});
+  const Flank flank = make_flank(pair, member, {}, {});
   const double rb = flank.base_radius, z = 7.0, turned = 0.3;
   const Point3<double> start = flank_point(flank, 0.0, z, 0, turned);
   CHECK(std::abs(std::hypot(start.x, start.y) - rb) <= kRoundOff);
@@ -69,7 +69,7 @@ TEST_CASE("The unmodified flank is a helicoid of the reference helix angle and t
   const Hand hand = GENERATE(Hand::Right, Hand::Left);
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const GearPair pair = nasa_pair(hand, WorkingFlank::Right);
-  const InvoluteFlank flank = make_flank(pair, member, {}, {});
+  const Flank flank = make_flank(pair, member, {}, {});
   const Gear& gear = pair[member];
   const double turn_per_mm =
       (gear.hand == Hand::Right ? 1.0 : -1.0) * std::tan(pair.data.helix_angle) / gear.reference_radius;
@@ -86,7 +86,7 @@ TEST_CASE("At rotation 0 the nominal flanks pass through the pitch point", "[cor
   PairData data = reference::nasa_tm_107451::pair_data();
   data.pinion.profile_shift = 0.3;
   const GearPair pair = make_gear_pair(data);
-  const InvoluteFlank flank = make_flank(pair, member, {}, {});
+  const Flank flank = make_flank(pair, member, {}, {});
   const double r_w = pair[member].working_pitch_radius;
   const Point3<double> p = flank_point(flank, flank.roll_at(r_w), 0.0, 0, 0.0);
   CHECK(std::abs(p.x - r_w) <= kRoundOff);
@@ -97,7 +97,7 @@ TEST_CASE("The helicoid's normal lies in the base tangent plane, tilted by the b
   const Hand hand = GENERATE(Hand::Right, Hand::Left);
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const GearPair pair = nasa_pair(hand, WorkingFlank::Right);
-  const InvoluteFlank flank = make_flank(pair, member, {}, {});
+  const Flank flank = make_flank(pair, member, {}, {});
   const double sense = pair[member].hand == Hand::Right ? 1.0 : -1.0;
   for (const double rho : {20.0, 34.0, 50.0}) {
     for (const double z : {-18.0, 0.0, 11.0}) {
@@ -119,8 +119,8 @@ TEST_CASE("A removal moves the flank along its base tangent by exactly its amoun
   const Modification m = strong_modification(ReliefShape::Linear);
   ManufacturingError error;
   error.pitch_step = 0.004;
-  const InvoluteFlank plain = make_flank(pair, Member::Pinion, {}, {});
-  const InvoluteFlank changed = make_flank(pair, Member::Pinion, m, error);
+  const Flank plain = make_flank(pair, Member::Pinion, {}, {});
+  const Flank changed = make_flank(pair, Member::Pinion, m, error);
   for (const double rho : {22.0, 35.0, 48.0}) {
     for (const double z : {-19.0, 2.0, 17.0}) {
       const double r = std::hypot(plain.base_radius, rho);
@@ -141,7 +141,7 @@ TEST_CASE("The rotation through a point undoes the flank's own parametrisation",
   error.helix_slope = 0.01;
   error.profile_slope = -0.008;
   error.cumulative_pitch = {0.0, 0.004, -0.003};
-  const InvoluteFlank flank = make_flank(pair, member, strong_modification(shape), error);
+  const Flank flank = make_flank(pair, member, strong_modification(shape), error);
   std::mt19937 generator(20250101);
   const auto uniform = [&generator](double from, double to) {
     return from + (to - from) * static_cast<double>(generator()) / 4294967296.0;
@@ -162,7 +162,7 @@ TEST_CASE("The rotation through a point undoes the flank's own parametrisation",
 
 TEST_CASE("The rotation through a point has the exact gradient", "[core][flank]") {
   const GearPair pair = nasa_pair(Hand::Left, WorkingFlank::Right);
-  const InvoluteFlank flank = make_flank(pair, Member::Wheel, strong_modification(ReliefShape::Parabolic), {});
+  const Flank flank = make_flank(pair, Member::Wheel, strong_modification(ReliefShape::Parabolic), {});
   const auto at = [&](double x, double y, double z) {
     return rotation_through(flank, Point3<double>{x, y, z}, 1).rotation;
   };

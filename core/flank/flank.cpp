@@ -1,0 +1,40 @@
+#include "core/flank/flank.hpp"
+
+#include <Eigen/Geometry>
+
+#include "core/gear/involute.hpp"
+
+namespace flankwright {
+
+SurfacePoint surface_point(const Flank& flank, double rho, double z, int tooth, double rotation) {
+  const Point3<Jet> p = flank_point(flank, Jet::variable_u(rho), Jet::variable_v(z), tooth, rotation);
+  const auto gather = [&](double Jet::* part) { return Eigen::Vector3d(p.x.*part, p.y.*part, p.z.*part); };
+  SurfacePoint point;
+  point.position = gather(&Jet::value);
+  point.d_rho = gather(&Jet::u);
+  point.d_z = gather(&Jet::v);
+  point.d_rho_rho = gather(&Jet::uu);
+  point.d_rho_z = gather(&Jet::uv);
+  point.d_z_z = gather(&Jet::vv);
+  // The involute's outward normal is +t in the transverse section; d_rho points out of the gear, d_z along it.
+  point.normal = point.d_z.cross(point.d_rho).normalized();
+  return point;
+}
+
+Flank make_flank(const GearPair& pair, Member member, const Modification& modification,
+                         const ManufacturingError& error) {
+  const Gear& gear = pair[member];
+  Flank flank;
+  flank.base_radius = gear.base_radius;
+  flank.origin = involute(pair.working_transverse_pressure_angle);
+  flank.form_radius = std::max(gear.form_radius, gear.base_radius * lowest_start);
+  flank.tip_radius = gear.tip_radius;
+  flank.half_face = 0.5 * gear.data.face_width;
+  flank.frame = pair.flank_frame(member);
+  flank.helix_rate = flank.frame.helix_rate;
+  flank.modification = modification;
+  flank.error = error;
+  return flank;
+}
+
+}  // namespace flankwright
