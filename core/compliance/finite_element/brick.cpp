@@ -1,0 +1,134 @@
+#include "core/compliance/finite_element/brick.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <Eigen/LU>
+
+namespace flankwright {
+namespace {
+
+constexpr int kBrickLocal[20][3] = {
+    {-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1},
+    {-1, 1, 1},   {0, -1, -1}, {1, 0, -1}, {0, 1, -1},  {-1, 0, -1}, {0, -1, 1}, {1, 0, 1},
+    {0, 1, 1},    {-1, 0, 1},  {-1, -1, 0}, {1, -1, 0}, {1, 1, 0},   {-1, 1, 0}};
+constexpr int kFaceLocal[8][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}};
+
+/// Factor of a node's function along one direction, and its derivative: 1 - x^2 at a mid-side, 1 + x x_i elsewhere.
+struct Factor {
+  double value, slope;
+};
+Factor factor(double x, int node) {
+  if (node == 0) return {1 - x * x, -2 * x};
+  return {1 + x * node, static_cast<double>(node)};
+}
+
+struct Lame {
+  double lambda, mu;
+  explicit Lame(const Material& material)
+      : lambda(material.youngs_modulus * material.poissons_ratio /
+               ((1 + material.poissons_ratio) * (1 - 2 * material.poissons_ratio))),
+        mu(material.youngs_modulus / (2 * (1 + material.poissons_ratio))) {}
+};
+
+}  // namespace
+
+BrickShape brick_shape(const Eigen::Vector3d& local) {
+  BrickShape shape;
+  for (int i = 0; i < 20; ++i) {
+    const int* node = kBrickLocal[i];
+    Factor f[3];
+    for (int a = 0; a < 3; ++a) f[a] = factor(local[a], node[a]);
+    const double product = f[0].value * f[1].value * f[2].value;
+    const bool corner = i < 8;
+    const double level = corner ? local[0] * node[0] + local[1] * node[1] + local[2] * node[2] - 2 : 1;
+    const double scale = corner ? 0.125 : 0.25;
+    shape.values[i] = scale * product * level;
+    for (int a = 0; a < 3; ++a) {
+      const double others = f[(a + 1) % 3].value * f[(a + 2) % 3].value;
+      shape.derivatives(i, a) = scale * (others * f[a].slope * level + (corner ? product * node[a] : 0));
+    }
+  }
+  return shape;
+}
+
+FaceShape face_shape(double xi, double eta) {
+  FaceShape shape;
+  for (int i = 0; i < 8; ++i) {
+    const int* node = kFaceLocal[i];
+    const Factor f = factor(xi, node[0]), g = factor(eta, node[1]);
+    const bool corner = i < 4;
+    const double level = corner ? xi * node[0] + eta * node[1] - 1 : 1;
+    const double scale = corner ? 0.25 : 0.5;
+    shape.values[i] = scale * f.value * g.value * level;
+    shape.derivatives(i, 0) = scale * (f.slope * g.value * level + (corner ? f.value * g.value * node[0] : 0));
+    shape.derivatives(i, 1) = scale * (f.value * g.slope * level + (corner ? f.value * g.value * node[1] : 0));
+  }
+  return shape;
+}
+
+Eigen::Matrix<double, 60, 60> brick_stiffness(const BrickNodes& nodes, const Material& material) {
+  // Columns: all derivatives g_ia = dN_i/dx_a at one integration point, times the root of its weight.
+  Eigen::Matrix<double, 60, 27> gradients;
+  int point = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      for (int k = 0; k < 3; ++k) {
+        const BrickShape shape = brick_shape({gauss3_abscissae[i], gauss3_abscissae[j], gauss3_abscissae[k]});
+        const Eigen::Matrix3d jacobian = nodes * shape.derivatives;
+        const double weight = gauss3_weights[i] * gauss3_weights[j] * gauss3_weights[k] * jacobian.determinant();
+        const Eigen::Matrix<double, 3, 20> gradient = (shape.derivatives * jacobian.inverse()).transpose();
+        gradients.col(point++) =
+            std::sqrt(std::max(0.0, weight)) * Eigen::Map<const Eigen::Matrix<double, 60, 1>>(gradient.data());
+      }
+    }
+  }
+  Eigen::Matrix<double, 60, 60> products;
+  products.noalias() = gradients * gradients.transpose();
+
+  // K_ia,jb = integral of lambda g_ia g_jb + mu g_ib g_ja + mu delta_ab g_i . g_j
+  const Lame lame(material);
+  Eigen::Matrix<double, 60, 60> stiffness;
+  for (int j = 0; j < 20; ++j) {
+    for (int i = j; i < 20; ++i) {
+      const Eigen::Matrix3d m = products.block<3, 3>(3 * i, 3 * j);
+      Eigen::Matrix3d k = lame.lambda * m + lame.mu * m.transpose();
+      k.diagonal().array() += lame.mu * m.trace();
+      if (i == j) k = (0.5 * (k + k.transpose())).eval();
+      stiffness.block<3, 3>(3 * i, 3 * j) = k;
+      stiffness.block<3, 3>(3 * j, 3 * i) = k.transpose();
+    }
+  }
+  return stiffness;
+}
+
+double brick_quality(const BrickNodes& nodes) {
+  double smallest = std::numeric_limits<double>::infinity(), largest = -smallest;
+  const auto look = [&](double x, double y, double z) {
+    const Eigen::Matrix3d jacobian = nodes * brick_shape({x, y, z}).derivatives;
+    smallest = std::min(smallest, jacobian.determinant());
+    largest = std::max(largest, jacobian.determinant());
+  };
+  for (const double x : gauss3_abscissae) {
+    for (const double y : gauss3_abscissae) {
+      for (const double z : gauss3_abscissae) look(x, y, z);
+    }
+  }
+  for (int i = 0; i < 8; ++i) look(kBrickLocal[i][0], kBrickLocal[i][1], kBrickLocal[i][2]);
+  return largest > 0 ? smallest / largest : -1;
+}
+
+Eigen::Matrix<double, 6, 1> brick_stress(const BrickNodes& nodes, const BrickNodes& displacements,
+                                         const Eigen::Vector3d& local, const Material& material) {
+  const BrickShape shape = brick_shape(local);
+  const Eigen::Matrix3d jacobian = nodes * shape.derivatives;
+  const Eigen::Matrix3d gradient = displacements * shape.derivatives * jacobian.inverse();
+  const Lame lame(material);
+  Eigen::Matrix3d stress = lame.mu * (gradient + gradient.transpose());
+  stress.diagonal().array() += lame.lambda * gradient.trace();
+  Eigen::Matrix<double, 6, 1> result;
+  result << stress(0, 0), stress(1, 1), stress(2, 2), stress(0, 1), stress(1, 2), stress(2, 0);
+  return result;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/compliance/finite_element/section_mesh.hpp"
+#include "core/compliance/finite_element/solid_model.hpp"
+#include "core/gear/gear_data.hpp"
+
+namespace flankwright {
+
+/// A gear as its finite-element model sees it: right-hand helix, loaded on the right-hand (clockwise) flanks, z = 0 at
+/// mid face, tooth 0 along +y there, teeth counted counter-clockwise. The flank's outward normal then has n_z =
+/// + sin(beta_b): the sharp end, where flank and face enclose less than a right angle, is z = -b/2. A left hand, or the
+/// left-hand flank, is a mirror image of this.
+struct GearToMesh {
+  GearData gear;
+  double normal_module{not_given};    ///< m_n [mm], > 0
+  double pressure_angle{not_given};   ///< alpha_n [rad]
+  double helix_angle{not_given};      ///< |beta| [rad], 0 .. 45 deg
+  GearBody body;
+};
+
+/// An 8-node face of the mesh: four corners, then the mid-sides between them.
+using MeshFace = std::array<int, 8>;
+
+/// Surfaces of one detailed tooth, without the shaft's overhangs.
+struct ToothSurfaces {
+  std::vector<MeshFace> centre;   ///< centre surface, from the tip to the bore
+  std::vector<MeshFace> flank;    ///< loaded flank, tip to start of fillet
+  std::vector<MeshFace> fillet;   ///< fillet below it, to its lowest point
+};
+
+/// The section swept along z with the helix, and the shaft's overhangs, held at their far ends: all of the section
+/// z < -b/2 in x and y and its bore in z as well, the other one radially [Haddad 1991, 2.5].
+struct GearMesh {
+  ToothForm form;
+  int teeth{0};
+  double normal_module{not_given}, face_width{not_given};
+  int teeth_each_side{0};
+  SolidMesh solid{};
+  std::vector<NodeSupport> supports{};
+  std::vector<double> planes{};                  ///< z of the layers' ends on the face width, ascending [mm]
+  std::vector<std::vector<int>> shaft_bricks{};  ///< of every layer between them; local z runs along the axis
+  std::vector<ToothSurfaces> tooth_surfaces{};   ///< of teeth -n .. n
+
+  const ToothSurfaces& surfaces(int tooth) const { return tooth_surfaces.at(tooth + teeth_each_side); }
+  FaceNodes face_nodes(const MeshFace& face) const;
+};
+
+/// @throws InvalidInput  as ToothForm and section_mesh(), "face_width", "body.shaft_overhang", and "options" where an
+///                       element comes out folded
+GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options = {});
+
+}  // namespace flankwright

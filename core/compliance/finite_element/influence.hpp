@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/compliance/finite_element/gear_mesh.hpp"
+#include "core/compliance/finite_element/load_functional.hpp"
+
+namespace flankwright {
+
+/// What a finite-element run took.
+struct RunStatistics {
+  Eigen::Index bricks{-1};
+  Eigen::Index unknowns{-1};
+  double factor_entries{not_given};
+  double peak_bytes{not_given};     ///< held by the factorisation at most
+  double model_seconds{not_given};  ///< wall time of mesh, assembly and factorisation
+  double solve_seconds{not_given};  ///< wall time of all loads
+};
+
+/// Influence values between flank points of one gear.
+struct InfluenceMatrix {
+  FactorStatus status{FactorStatus::NotPositiveDefinite};
+  std::vector<FlankPoint> points;
+  /// K(p, q): deflection at p along its inward normal per unit load at q along its own [mm/N], both as net_functional()
+  /// defines them; local contact deflection and the removed motion are not in it. Exactly symmetric, positive
+  /// semi-definite to round-off. Empty unless status is Factorised.
+  Eigen::MatrixXd compliance;
+  RunStatistics statistics;
+};
+
+/// Meshed and factorised gear, for any number of influence matrices.
+class InfluenceModel {
+ public:
+  /// @throws InvalidInput  as gear_mesh() and SolidModel
+  InfluenceModel(const GearToMesh& gear, const Material& material, const GearMeshOptions& options = {});
+
+  const GearMesh& mesh() const { return mesh_; }
+  const SolidModel& solid() const { return solid_; }
+  const Material& material() const { return material_; }
+
+  /// Needs 16 bytes per unknown and point beside the factor.
+  /// @throws InvalidInput  a point outside the ranges of FlankPoint
+  InfluenceMatrix influence(const std::vector<FlankPoint>& points,
+                            RemovedMotion removed = RemovedMotion::TranslationTorsionAndTilt) const;
+
+ private:
+  Material material_;
+  double started_;  ///< clock before the mesh was made [s]
+  GearMesh mesh_;
+  SolidModel solid_;
+  double model_seconds_;
+};
+
+/// Functionals of the points as columns, 3n x k.
+Eigen::SparseMatrix<double> net_functionals(const GearMesh& mesh, const std::vector<FlankPoint>& points,
+                                            RemovedMotion removed);
+
+}  // namespace flankwright

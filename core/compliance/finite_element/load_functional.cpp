@@ -1,0 +1,184 @@
+#include "core/compliance/finite_element/load_functional.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+
+namespace flankwright {
+namespace {
+
+/// 3 x 3 Gauss points of a face in n x n parts: calls use(shape, weight).
+template <typename Use>
+void integrate_face(int n, Use&& use) {
+  for (int i = 0; i < 3 * n; ++i) {
+    for (int j = 0; j < 3 * n; ++j) {
+      const double xi = -1 + (2 * (i / 3) + 1 + gauss3_abscissae[i % 3]) / n;
+      const double eta = -1 + (2 * (j / 3) + 1 + gauss3_abscissae[j % 3]) / n;
+      use(face_shape(xi, eta), gauss3_weights[i % 3] * gauss3_weights[j % 3] / (n * n));
+    }
+  }
+}
+
+/// Parts per side that the weight, which changes over the distance to p, is integrated with: four Gauss points or more
+/// per that distance.
+int parts(const FaceNodes& nodes, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d centre = nodes.leftCols<4>().rowwise().mean();
+  const double size = (nodes.leftCols<4>().colwise() - centre).colwise().norm().maxCoeff();
+  const double distance = (nodes.colwise() - p).colwise().norm().minCoeff();
+  constexpr int kMost = 8;  // faces that p all but touches, at pointed tips
+  return std::clamp(static_cast<int>(std::ceil(1.5 * size / distance)), 1, kMost);
+}
+
+[[noreturn]] void reject(const char* field, double value, double low, double high) {
+  throw InvalidInput(field, std::to_string(value), std::to_string(low) + " to " + std::to_string(high));
+}
+
+}  // namespace
+
+FlankFrame flank_frame(const GearMesh& mesh, const FlankPoint& point) {
+  const ToothForm& form = mesh.form;
+  if (std::abs(point.tooth) > mesh.teeth_each_side) {
+    reject("point.tooth", point.tooth, -mesh.teeth_each_side, mesh.teeth_each_side);
+  }
+  // Ends are reached by sums whose round-off must not matter.
+  const double round_off = 1e-9 * mesh.normal_module;
+  if (!(point.radius >= form.form_radius() - round_off && point.radius <= form.tip_radius() + round_off)) {
+    reject("point.radius", point.radius, form.form_radius(), form.tip_radius());
+  }
+  if (!(std::abs(point.z) <= mesh.face_width / 2 + round_off)) {
+    reject("point.z", point.z, -mesh.face_width / 2, mesh.face_width / 2);
+  }
+  const double r = std::clamp(point.radius, form.form_radius(), form.tip_radius());
+  const double r_b = form.base_radius();
+  const double gamma = std::tan(form.helix_angle()) / form.reference_radius();  // turn of the section per length
+  const double psi = form.half_angle(r);
+  const double alpha_yt = std::acos(std::min(1.0, r_b / r));
+  const double tan_beta_b = gamma * r_b;
+
+  const double angle = point.tooth * 2 * units::pi / mesh.teeth + gamma * point.z - psi;  // from +y
+  FlankFrame frame;
+  frame.position = {-r * std::sin(angle), r * std::cos(angle), point.z};
+  // The transverse normal leans by alpha_yt from the circle's tangent outwards.
+  frame.normal = Eigen::Vector3d(std::cos(angle + alpha_yt), std::sin(angle + alpha_yt), tan_beta_b).normalized();
+  frame.depth = r * psi / (std::cos(alpha_yt) * std::sqrt(1 + tan_beta_b * tan_beta_b));
+  return frame;
+}
+
+Eigen::SparseVector<double> centre_functional(const GearMesh& mesh, const FlankPoint& point) {
+  const FlankFrame frame = flank_frame(mesh, point);
+  const Eigen::Vector3d &p = frame.position, &n = frame.normal;
+
+  // Per node: integrals of w N and w xi N.
+  std::map<int, Eigen::Vector2d> nodal;
+  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();  // of w times (1, xi; xi, xi^2)
+  for (const MeshFace& face : mesh.surfaces(point.tooth).centre) {
+    const FaceNodes nodes = mesh.face_nodes(face);
+    Eigen::Matrix<double, 8, 2> sums = Eigen::Matrix<double, 8, 2>::Zero();
+    integrate_face(parts(nodes, p), [&](const FaceShape& shape, double weight) {
+      const Eigen::Vector3d d = nodes * shape.values - p;
+      const double a = -n.dot(d);
+      if (!(a > 0)) return;
+      const Eigen::Matrix<double, 3, 2> tangents = nodes * shape.derivatives;
+      const Eigen::Vector3d area = tangents.col(0).cross(tangents.col(1));  // nu dA
+      const double w = 1.5 / units::pi * a * a * std::abs(d.dot(area)) / std::pow(d.squaredNorm(), 2.5) * weight;
+      const double xi = (d.x() * n.y() - d.y() * n.x()) / frame.depth;
+      sums.col(0) += w * shape.values;
+      sums.col(1) += w * xi * shape.values;
+      const Eigen::Vector2d powers(1, xi);
+      moments += w * powers * powers.transpose();
+    });
+    for (int i = 0; i < 8; ++i) nodal.try_emplace(face[i], Eigen::Vector2d::Zero()).first->second += sums.row(i);
+  }
+  const Eigen::Vector2d factors = moments.inverse() * Eigen::Vector2d(1, 0);
+
+  Eigen::SparseVector<double> result(mesh.solid.nodes.size());
+  for (const auto& [node, sums] : nodal) {
+    for (int a = 0; a < 3; ++a) result.insert(3 * node + a) = -n[a] * factors.dot(sums);
+  }
+  return result;
+}
+
+SectionMotion shaft_motion(const GearMesh& mesh, double z) {
+  const auto above = std::upper_bound(mesh.planes.begin(), mesh.planes.end(), z) - mesh.planes.begin();
+  const auto layer = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - 1, 0, std::ssize(mesh.planes) - 2));
+  const double lower = mesh.planes[layer], upper = mesh.planes[layer + 1];
+  const double zeta = std::clamp(2 * (z - lower) / (upper - lower) - 1, -1.0, 1.0);
+
+  Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+  std::map<int, Eigen::Matrix<double, 6, 3>> nodal;
+  for (const int brick : mesh.shaft_bricks[layer]) {
+    const BrickNodes nodes = mesh.solid.brick_nodes(brick);
+    for (int i = 0; i < 9; ++i) {
+      const BrickShape shape = brick_shape({gauss3_abscissae[i % 3], gauss3_abscissae[i / 3], zeta});
+      const Eigen::Matrix3d jacobian = nodes * shape.derivatives;
+      const double area = gauss3_weights[i % 3] * gauss3_weights[i / 3] * jacobian.topLeftCorner<2, 2>().determinant();
+      const Eigen::Vector3d r = nodes * shape.values - Eigen::Vector3d(0, 0, z);
+      Eigen::Matrix<double, 6, 3> rigid;  // transposed: u = rigid' (t, omega)
+      rigid << Eigen::Matrix3d::Identity(), Eigen::Matrix3d{{0, -r.z(), r.y()}, {r.z(), 0, -r.x()}, {-r.y(), r.x(), 0}};
+      normal += area * rigid * rigid.transpose();
+      for (int k = 0; k < 20; ++k) {
+        nodal.try_emplace(mesh.solid.bricks(k, brick), Eigen::Matrix<double, 6, 3>::Zero()).first->second +=
+            area * shape.values[k] * rigid;
+      }
+    }
+  }
+  SectionMotion motion;
+  motion.weights.resize(6, 3 * static_cast<Eigen::Index>(nodal.size()));
+  for (const auto& [node, weights] : nodal) {
+    motion.weights.middleCols<3>(3 * static_cast<Eigen::Index>(motion.nodes.size())) = weights;
+    motion.nodes.push_back(node);
+  }
+  motion.weights = normal.ldlt().solve(motion.weights).eval();
+  return motion;
+}
+
+Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoint& point, RemovedMotion removed) {
+  const Eigen::SparseVector<double> load = centre_functional(mesh, point);
+  if (removed == RemovedMotion::None) return load;
+
+  const Eigen::Vector3d centre(0, 0, point.z);
+  Eigen::Matrix<double, 6, 1> resultant = Eigen::Matrix<double, 6, 1>::Zero();
+  for (Eigen::SparseVector<double>::InnerIterator entry(load); entry; ++entry) {
+    Eigen::Vector3d force = Eigen::Vector3d::Zero();
+    force[entry.index() % 3] = entry.value();
+    resultant.head<3>() += force;
+    resultant.tail<3>() += (mesh.solid.nodes.col(entry.index() / 3) - centre).cross(force);
+  }
+
+  std::map<Eigen::Index, double> entries;
+  for (Eigen::SparseVector<double>::InnerIterator entry(load); entry; ++entry) entries[entry.index()] = entry.value();
+  const auto take_off = [&](double z, const Eigen::Matrix<double, 6, 1>& part) {
+    const SectionMotion motion = shaft_motion(mesh, z);
+    const Eigen::RowVectorXd weights = part.transpose() * motion.weights;
+    for (std::size_t k = 0; k < motion.nodes.size(); ++k) {
+      for (int a = 0; a < 3; ++a) {
+        entries[3 * motion.nodes[k] + a] -= weights[3 * static_cast<Eigen::Index>(k) + a];
+      }
+    }
+  };
+  Eigen::Matrix<double, 6, 1> part = Eigen::Matrix<double, 6, 1>::Zero();
+  part.head<3>() = resultant.head<3>();
+  take_off(point.z, part);
+  part.setZero();
+  part[5] = resultant[5];
+  take_off(-mesh.face_width / 2, part);
+  if (removed == RemovedMotion::TranslationTorsionAndTilt) {
+    part.setZero();
+    part.segment<2>(3) = resultant.segment<2>(3);
+    take_off(0, part);
+  }
+  Eigen::SparseVector<double> result(load.size());
+  for (const auto& [index, value] : entries) result.insert(index) = value;
+  return result;
+}
+
+}  // namespace flankwright

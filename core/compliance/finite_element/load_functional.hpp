@@ -1,0 +1,87 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "core/compliance/finite_element/gear_mesh.hpp"
+
+namespace flankwright {
+
+/// A point of the loaded flank of one of the detailed teeth, in the frame of GearToMesh.
+struct FlankPoint {
+  int tooth{0};              ///< -teeth_each_side .. teeth_each_side
+  double radius{not_given};  ///< form radius .. tip radius [mm]
+  double z{not_given};       ///< -b/2 .. b/2 [mm]; the sharp end is -b/2
+};
+
+/// Position and directions at a flank point.
+struct FlankFrame {
+  Eigen::Vector3d position;  ///< [mm]
+  Eigen::Vector3d normal;    ///< outward, unit
+  double depth;              ///< h, along the inward normal to the tooth's centre surface [mm]
+};
+
+/// Depth as in the contact law: h = (s_yt/2) cos(beta_b) / cos(alpha_yt), s_yt the transverse arc thickness.
+///
+/// @throws InvalidInput  "point" outside the ranges of FlankPoint
+FlankFrame flank_frame(const GearMesh& mesh, const FlankPoint& point);
+
+/// What a load on a flank, and a deflection of it, mean to the finite-element model: one functional for both,
+///
+///     l_p(u) = integral over the tooth's centre surface of w_p(x) (-n_p) . u(x) dA,
+///     w_p ~ (3 / 2 pi) a^2 |d . nu| / R^5,   d = x - p,  R = |d|,  a = -n_p . d > 0  (0 where a <= 0),
+///
+/// the part of a half-space's stress under a point load that acts along the load (Boussinesq; radial towards p, so that
+/// its flux through every surface with unit normal nu that cuts the half-space is the load; the transverse pressure
+/// that depends on Poisson's ratio is left out). On a plane across the normal at the depth h this is
+/// 3 h^3 / (2 pi R^5). Load and deflection are along the inward normal, so that K = l_p(A^-1 l_q) is symmetric and
+/// positive semi-definite whatever mesh and weights are.
+///
+/// Only the part of the centre surface that exists carries: it ends at the tip, at both face ends and at the bore. What
+/// of w_p falls outside is made up for by a factor (1 + c xi) on the rest, xi being the lever about the gear's axis
+/// relative to p's; both constants follow from
+///
+///     integral of w_p dA = 1,   integral of w_p xi dA = 0,
+///
+/// so that force and torque are the load's. At the sharp end, where the normal leaves through the end face before it
+/// meets the centre surface, the load thus enters where the centre surface is nearest; its tilting moment is the only
+/// thing that changes.
+///
+/// The integral is taken over the mesh's faces with their own shape functions, subdivided near p.
+///
+/// @returns  size 3 n, the consistent nodal loads of a unit load [N/N]
+Eigen::SparseVector<double> centre_functional(const GearMesh& mesh, const FlankPoint& point);
+
+/// Rigid motion of the shaft's section at a height z that fits its displacements best (least squares over its area):
+/// u = t + omega x (x - (0, 0, z)). Exact for a rigid motion.
+struct SectionMotion {
+  std::vector<int> nodes;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> weights;  ///< (t, omega) = weights times the nodes' displacements, 6 x 3k
+};
+
+/// @param z  -b/2 .. b/2 [mm]
+SectionMotion shaft_motion(const GearMesh& mesh, double z);
+
+/// What of the shaft's motion is taken out of the compliance.
+enum class RemovedMotion {
+  None,
+  /// The translation of the shaft's section in the plane of the point, and the shaft's rotation about its axis at the
+  /// face end z = -b/2, where the torque leaves. The gear's own wind-up stays in.
+  TranslationAndTorsion,
+  /// And the tilt of the shaft's section at mid face. Then no load is left for the shaft's supports to carry, and
+  /// where and how the shaft is held does not matter.
+  TranslationTorsionAndTilt,
+};
+
+/// The functional with the removed motion taken off,
+///
+///     l_p - F . t(z_p) - M_z omega_z(-b/2) [- M_x omega_x(0) - M_y omega_y(0)],
+///
+/// F and M being force and moment of l_p about the axis in the plane z_p. It serves for load and deflection: the load
+/// that belongs to it has its reactions on the shaft right where the motion is measured. Hence P' K P instead of K P,
+/// symmetric and positive semi-definite again.
+Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoint& point, RemovedMotion removed);
+
+}  // namespace flankwright

@@ -1,0 +1,329 @@
+#include "core/compliance/finite_element/section_mesh.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <unordered_map>
+#include <utility>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+
+namespace flankwright {
+namespace {
+
+using units::pi;
+
+/// Polar coordinates, the angle counter-clockwise from +y.
+struct Polar {
+  double radius, angle;
+  Eigen::Vector2d point() const { return {-radius * std::sin(angle), radius * std::cos(angle)}; }
+};
+
+Polar blend(const Polar& a, const Polar& b, double t) {
+  return {a.radius + t * (b.radius - a.radius), a.angle + t * (b.angle - a.angle)};
+}
+
+/// Collects quads; points that fall together become one node.
+class Builder {
+ public:
+  /// @param tolerance  points less than this apart are one node [mm]
+  explicit Builder(double tolerance) : cell_(tolerance) {}
+
+  int node(const Eigen::Vector2d& p) {
+    const auto i = std::llround(p.x() / cell_), j = std::llround(p.y() / cell_);
+    for (auto a = i - 1; a <= i + 1; ++a) {
+      for (auto b = j - 1; b <= j + 1; ++b) {
+        const auto found = places_.find(key(a, b));
+        if (found != places_.end() && (points_[found->second] - p).norm() < cell_) return found->second;
+      }
+    }
+    const auto number = static_cast<int>(points_.size());
+    points_.push_back(p);
+    places_.emplace(key(i, j), number);
+    return number;
+  }
+
+  /// A grid of quads from points at half steps; the corner (i, j), (i + 1, j), (i + 1, j + 1) must turn
+  /// counter-clockwise. `at(i, j)`: i = 0 .. 2 columns, j = 0 .. 2 rows.
+  template <typename At>
+  void grid(int columns, int rows, bool in_shaft, At&& at) {
+    for (int i = 0; i < 2 * columns; i += 2) {
+      for (int j = 0; j < 2 * rows; j += 2) {
+        quads_.push_back({node(at(i, j)), node(at(i + 2, j)), node(at(i + 2, j + 2)), node(at(i, j + 2)),
+                          node(at(i + 1, j)), node(at(i + 2, j + 1)), node(at(i + 1, j + 2)), node(at(i, j + 1))});
+        in_shaft_.push_back(in_shaft);
+      }
+    }
+  }
+
+  SectionMesh take(std::vector<SectionTooth> teeth) {
+    SectionMesh mesh;
+    mesh.nodes.resize(2, static_cast<Eigen::Index>(points_.size()));
+    for (std::size_t i = 0; i < points_.size(); ++i) mesh.nodes.col(static_cast<Eigen::Index>(i)) = points_[i];
+    mesh.quads.resize(8, static_cast<Eigen::Index>(quads_.size()));
+    for (std::size_t i = 0; i < quads_.size(); ++i) {
+      for (int k = 0; k < 8; ++k) mesh.quads(k, static_cast<Eigen::Index>(i)) = quads_[i][k];
+    }
+    mesh.in_shaft = std::move(in_shaft_);
+    mesh.teeth = std::move(teeth);
+    return mesh;
+  }
+
+ private:
+  static std::uint64_t key(long long i, long long j) {
+    return (static_cast<std::uint64_t>(i) << 32) ^ (static_cast<std::uint64_t>(j) & 0xffffffffU);
+  }
+  double cell_;
+  std::vector<Eigen::Vector2d> points_;
+  std::vector<std::array<int, 8>> quads_;
+  std::vector<char> in_shaft_;
+  std::unordered_map<std::uint64_t, int> places_;
+};
+
+/// One half tooth at half steps from the tip to the middle of the gap; angles of the left half (> 0).
+struct HalfTooth {
+  std::vector<Polar> profile, inner;
+  int corner{0};    ///< step where the inner line turns from the centre line onto the rim's circle
+  int involute{0};  ///< step where the fillet starts
+  int fillet{0};    ///< step nearest to the fillet's lowest point, at or below it
+  int steps() const { return static_cast<int>(profile.size() - 1) / 2; }
+};
+
+/// Points of the curve from the start of the fillet to the middle of the gap, at equal steps of arc length. The
+/// junction of fillet and land is kept as a corner node unless the land is too short for an element of its own.
+class RootCurve {
+ public:
+  RootCurve(const ToothForm& form, int teeth) : form_(form), gap_(pi / teeth) {
+    constexpr int kSamples = 400;  // chords of the fillet, for their length only
+    lambda_.push_back(form.fillet_start());
+    length_.push_back(0);
+    ProfilePoint last = form.fillet_point(form.fillet_start());
+    for (int i = 1; i <= kSamples; ++i) {
+      lambda_.push_back(form.fillet_start() + (pi / 2 - form.fillet_start()) * i / kSamples);
+      const ProfilePoint p = form.fillet_point(lambda_.back());
+      length_.push_back(length_.back() + std::hypot(p.x - last.x, p.y - last.y));
+      last = p;
+    }
+    land_start_ = std::atan2(last.x, last.y);
+    land_ = std::max(0.0, form.root_radius() * (gap_ - land_start_));
+  }
+
+  double fillet_length() const { return length_.back(); }
+  double land_length() const { return land_; }
+
+  Polar at(double s) const {
+    if (s >= fillet_length()) {
+      const double t = land_ > 0 ? std::min(1.0, (s - fillet_length()) / land_) : 1;
+      return {form_.root_radius(), land_start_ + t * (gap_ - land_start_)};
+    }
+    const auto above = std::upper_bound(length_.begin(), length_.end(), s) - length_.begin();
+    const auto i = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above, 1, std::ssize(length_) - 1));
+    const double t = (s - length_[i - 1]) / (length_[i] - length_[i - 1]);
+    const ProfilePoint p = form_.fillet_point(lambda_[i - 1] + t * (lambda_[i] - lambda_[i - 1]));
+    return {std::hypot(p.x, p.y), std::atan2(p.x, p.y)};
+  }
+  double tangent_angle(double s) const {
+    if (s >= fillet_length()) return pi / 2;
+    const auto above = std::upper_bound(length_.begin(), length_.end(), s) - length_.begin();
+    return form_.fillet_point(lambda_[static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, above - 1))]).tangent_angle;
+  }
+
+ private:
+  const ToothForm& form_;
+  double gap_;
+  std::vector<double> lambda_, length_;
+  double land_start_, land_;
+};
+
+HalfTooth half_tooth(const ToothForm& form, int teeth, double rim_radius, int flank_elements, int fillet_elements) {
+  HalfTooth half;
+  for (int i = 0; i <= 2 * flank_elements; ++i) {
+    const double radius = form.tip_radius() + (form.form_radius() - form.tip_radius()) * i / (2 * flank_elements);
+    half.profile.push_back({radius, form.half_angle(std::max(radius, form.form_radius()))});
+  }
+  half.involute = flank_elements;
+
+  const RootCurve root(form, teeth);
+  const double element = root.fillet_length() / fillet_elements;
+  const bool has_land = root.land_length() > 0.3 * element;  // otherwise the last fillet element reaches across it
+  const int land_elements = has_land ? std::max(1, static_cast<int>(std::lround(root.land_length() / element))) : 0;
+  const double fillet_end = root.fillet_length() + (has_land ? 0 : root.land_length());
+  half.corner = -1;
+  const auto add = [&](double begin, double end, int elements) {
+    for (int i = 1; i <= 2 * elements; ++i) {
+      const double s = begin + (end - begin) * i / (2 * elements);
+      half.profile.push_back(root.at(s));
+      // The fan of elements around the corner of the inner line is most even where the fillet leans by 45 deg.
+      if (half.corner < 0 && i % 2 == 0 && root.tangent_angle(s) > pi / 4) half.corner = half.steps();
+    }
+  };
+  add(0, fillet_end, fillet_elements);
+  half.fillet = half.steps();
+  if (has_land) add(fillet_end, fillet_end + root.land_length(), land_elements);
+  half.profile.back().angle = pi / teeth;
+  half.corner = std::min(half.corner < 0 ? half.steps() : half.corner, half.steps() - 1);
+
+  const auto height = [&](int i) { return half.profile[i].radius * std::cos(half.profile[i].angle); };
+  const int turn = 2 * half.corner;
+  for (int i = 0; i <= turn; ++i) {
+    const double t = (height(i) - height(turn)) / (height(0) - height(turn));
+    half.inner.push_back({rim_radius + t * (form.tip_radius() - rim_radius), 0});
+  }
+  const int last = 2 * half.steps();
+  for (int i = turn + 1; i <= last; ++i) half.inner.push_back({rim_radius, pi / teeth * (i - turn) / (last - turn)});
+  return half;
+}
+
+/// Sizes that start at `first` and grow by `growth` until they fill `length`, scaled to fit; as fractions of length.
+std::vector<double> graded(double length, double first, double growth, double largest) {
+  std::vector<double> ends{0};
+  for (double size = first; ends.back() < length * (1 - 1e-12); size = std::min(size * growth, largest)) {
+    ends.push_back(ends.back() + size);
+  }
+  // The last element is dropped where more than half of it sticks out.
+  if (ends.size() > 2 && ends.back() - length > length - ends[ends.size() - 2]) ends.pop_back();
+  for (double& end : ends) end /= ends.back();
+  ends.back() = 1;
+  return ends;
+}
+
+/// Fractions at half steps.
+double at_half_step(const std::vector<double>& fractions, int i) {
+  return i % 2 == 0 ? fractions[i / 2] : 0.5 * (fractions[i / 2] + fractions[i / 2 + 1]);
+}
+
+}  // namespace
+
+void GearMeshOptions::validate() const {
+  const auto at_least = [](const char* field, int value, int least) {
+    if (value < least) throw InvalidInput(field, std::to_string(value), "at least " + std::to_string(least));
+  };
+  at_least("options.flank_elements", flank_elements, 1);
+  at_least("options.fillet_elements", fillet_elements, 2);
+  at_least("options.half_thickness_elements", half_thickness_elements, 1);
+  at_least("options.adjacent_flank_elements", adjacent_flank_elements, 1);
+  at_least("options.adjacent_fillet_elements", adjacent_fillet_elements, 2);
+  at_least("options.teeth_each_side", teeth_each_side, 1);
+  at_least("options.shaft_elements", shaft_elements, 1);
+  const auto more_than = [](const char* field, double value, double bound) {
+    if (!(value > bound)) throw InvalidInput(field, std::to_string(value), "more than " + std::to_string(bound));
+  };
+  more_than("options.end_element", end_element, 0);
+  more_than("options.axial_growth", axial_growth, 1);
+  more_than("options.body_growth", body_growth, 1);
+  if (!(largest_element >= end_element)) {
+    throw InvalidInput("options.largest_element", std::to_string(largest_element), "at least options.end_element");
+  }
+}
+
+double default_shaft_diameter(const ToothForm& form, double normal_module) {
+  return std::min({1.6 * form.reference_radius(), 25 * normal_module / std::cos(form.helix_angle()),
+                   2 * form.root_radius() - 1.2 * normal_module});
+}
+
+SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module, const GearBody& body,
+                         const GearMeshOptions& options) {
+  options.validate();
+  if (!(form.tip_half_angle() > 0)) {
+    throw InvalidInput("tip_diameter", std::to_string(2 * form.tip_radius()), "a tooth that is not pointed");
+  }
+  if (2 * options.teeth_each_side + 1 > teeth) {
+    throw InvalidInput("options.teeth_each_side", std::to_string(options.teeth_each_side),
+                       "at most half the number of teeth");
+  }
+  const double root = form.root_radius();
+  const double shaft =
+      (std::isnan(body.shaft_diameter) ? default_shaft_diameter(form, normal_module) : body.shaft_diameter) / 2;
+  const double bore = std::isnan(body.bore_diameter) ? 0.2 * shaft : body.bore_diameter / 2;
+  // Half a module of rim is the least that the blocks of the teeth can stand on.
+  if (!(shaft > 0 && shaft <= root - 0.5 * normal_module)) {
+    throw InvalidInput("body.shaft_diameter", std::to_string(2 * shaft),
+                       "more than 0 and at most " + std::to_string(2 * root - normal_module) + " mm");
+  }
+  if (!(bore > 0 && bore < 0.9 * shaft)) {
+    throw InvalidInput("body.bore_diameter", std::to_string(2 * bore), "more than 0 and less than 0.9 of the shaft");
+  }
+
+  // The teeth's blocks end on the shaft where that is near, otherwise 1.25 modules below the root.
+  const bool thin_rim = root - shaft < 1.8 * normal_module;
+  const double rim = thin_rim ? shaft : root - 1.25 * normal_module;
+  const int across = options.half_thickness_elements;
+  Builder builder(1e-7 * normal_module);
+  std::vector<SectionTooth> lines;
+  std::vector<double> angles;  // of the rim's nodes at half steps, counter-clockwise
+  const double pitch = 2 * pi / teeth;
+
+  for (int m = -options.teeth_each_side; m <= options.teeth_each_side; ++m) {
+    const HalfTooth half =
+        m == 0 ? half_tooth(form, teeth, rim, options.flank_elements, options.fillet_elements)
+               : half_tooth(form, teeth, rim, options.adjacent_flank_elements, options.adjacent_fillet_elements);
+    const auto at = [&](int side, int step, int level) {
+      const Polar p = blend(half.inner[step], half.profile[step], level / (2.0 * across));
+      return Polar{p.radius, m * pitch + side * p.angle}.point();
+    };
+    const int steps = half.steps();
+    builder.grid(steps, across, false, [&](int i, int j) { return at(1, i, 2 * across - j); });
+    builder.grid(steps, across, false, [&](int i, int j) { return at(-1, 2 * steps - i, 2 * across - j); });
+
+    SectionTooth tooth;
+    const auto edge = [&](int side, int step, int level) {
+      return SectionEdge{builder.node(at(side, 2 * step, level)), builder.node(at(side, 2 * step + 1, level)),
+                         builder.node(at(side, 2 * step + 2, level))};
+    };
+    for (int i = 0; i < half.corner; ++i) tooth.centre_line.push_back(edge(1, i, 0));
+    for (int i = 0; i < half.involute; ++i) tooth.flank.push_back(edge(-1, i, 2 * across));
+    for (int i = half.involute; i < half.fillet; ++i) tooth.fillet.push_back(edge(-1, i, 2 * across));
+    lines.push_back(std::move(tooth));
+
+    for (int i = 2 * steps; i > 2 * half.corner; --i) angles.push_back(m * pitch - half.inner[i].angle);
+    for (int i = 2 * half.corner; i < 2 * steps; ++i) angles.push_back(m * pitch + half.inner[i].angle);
+  }
+
+  // Plain ring around the rest, from the last gap on to the first one's next turn.
+  const double first = angles.front() + 2 * pi, last = (options.teeth_each_side + 0.5) * pitch;
+  if (first - last > 0.5 * pitch) {
+    constexpr double kWidest = 24 * units::deg;  // of one quadratic element around the axis
+    const double half_angle = (first - last) / 2;
+    std::vector<double> ring = graded(half_angle, std::min(pitch / 3, half_angle), options.body_growth, kWidest);
+    const auto n = static_cast<int>(ring.size()) - 1;
+    const auto angle = [&](int i) {
+      return i <= 2 * n ? last + half_angle * at_half_step(ring, i)
+                        : first - half_angle * at_half_step(ring, 4 * n - i);
+    };
+    const auto at = [&](int i, int j) {
+      return blend({rim, angle(i)}, {root, angle(i)}, 1 - j / (2.0 * across)).point();
+    };
+    builder.grid(2 * n, across, false, at);
+    for (int i = 0; i < 4 * n; ++i) angles.push_back(angle(i));
+  }
+
+  // Rings down to the bore.
+  const auto around = static_cast<int>(angles.size()) / 2;
+  const auto rings = [&](double outer, double inner, const std::vector<double>& fractions, bool in_shaft) {
+    const auto n = static_cast<int>(fractions.size()) - 1;
+    const auto radius = [&](int j) { return outer + (inner - outer) * at_half_step(fractions, j); };
+    builder.grid(around, n, in_shaft, [&](int i, int j) {
+      const auto k = static_cast<std::size_t>(i % (2 * around));
+      return Polar{radius(j), angles[k]}.point();
+    });
+    for (int m = 0; m < static_cast<int>(lines.size()); ++m) {
+      const double angle = (m - options.teeth_each_side) * pitch;
+      for (int j = 0; j < 2 * n; j += 2) {
+        lines[m].centre_line.push_back({builder.node(Polar{radius(j), angle}.point()),
+                                        builder.node(Polar{radius(j + 1), angle}.point()),
+                                        builder.node(Polar{radius(j + 2), angle}.point())});
+      }
+    }
+  };
+  if (!thin_rim) rings(rim, shaft, graded(rim - shaft, normal_module, options.body_growth, rim), false);
+  std::vector<double> equal;
+  for (int i = 0; i <= options.shaft_elements; ++i) equal.push_back(static_cast<double>(i) / options.shaft_elements);
+  rings(shaft, bore, equal, true);
+
+  return builder.take(std::move(lines));
+}
+
+}  // namespace flankwright

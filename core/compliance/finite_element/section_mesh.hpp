@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/gear/tooth_form.hpp"
+
+namespace flankwright {
+
+/// How finely a gear is meshed. Sizes in normal modules.
+struct GearMeshOptions {
+  int flank_elements{7};            ///< of the loaded tooth, tip to start of fillet, >= 1
+  int fillet_elements{6};           ///< of the loaded tooth, >= 2
+  int half_thickness_elements{3};   ///< centre surface to flank, every tooth, >= 1
+  int adjacent_flank_elements{4};   ///< of the other detailed teeth, >= 1
+  int adjacent_fillet_elements{3};  ///< of the other detailed teeth, >= 2
+  int teeth_each_side{2};           ///< detailed teeth on either side of the loaded one, >= 1
+  double end_element{0.2};          ///< axial size next to the face ends, > 0
+  double axial_growth{1.4};         ///< size ratio of neighbouring layers, > 1
+  double largest_element{0.7};      ///< axial size at mid face, >= end_element
+  double body_growth{1.7};          ///< size ratio of neighbouring elements into the body and around it, > 1
+  int shaft_elements{2};            ///< rings from the bore to the shaft's surface, >= 1
+
+  /// Throws InvalidInput with field, value and violated bound.
+  void validate() const;
+};
+
+/// What the teeth stand on: a solid disc as wide as the face, on a hollow shaft that runs through it.
+struct GearBody {
+  double shaft_diameter{not_given};  ///< d_s [mm]; not given: default_shaft_diameter()
+  double bore_diameter{not_given};   ///< [mm], > 0; not given: 0.2 d_s, which takes 0.2 % off the shaft's stiffness
+  double shaft_overhang{not_given};  ///< length of the shaft beyond each face end [mm], > 0; not given: 0.5 d_s
+};
+
+/// Steward's rule for helical gears [Haddad 1991, eq. 2.4]: d_s = 0.8 d, at most 25 m_n / cos(beta). Departure: at
+/// most the root diameter less 1.2 m_n (which matters below 18 teeth), so that a rim is left.
+double default_shaft_diameter(const ToothForm& form, double normal_module);
+
+/// An edge of a quad: corner, mid-side, corner.
+using SectionEdge = std::array<int, 3>;
+
+/// Lines of one detailed tooth in the section.
+struct SectionTooth {
+  std::vector<SectionEdge> centre_line;  ///< tip to bore
+  std::vector<SectionEdge> flank;        ///< right-hand involute, tip to start of fillet
+  std::vector<SectionEdge> fillet;       ///< right-hand fillet, down to its lowest point
+};
+
+/// Transverse section of a gear at z = 0 in quadratic 8-node quads, origin in the axis, tooth 0 along +y. Corners run
+/// counter-clockwise, mid-sides 1-2, 2-3, 3-4, 4-1. All nodes of flanks and fillets lie exactly on them.
+struct SectionMesh {
+  Eigen::Matrix2Xd nodes;                     ///< [mm]
+  Eigen::Matrix<int, 8, Eigen::Dynamic> quads;
+  std::vector<char> in_shaft;                 ///< of every quad: part of the shaft
+  std::vector<SectionTooth> teeth;            ///< -n .. n, counter-clockwise
+};
+
+/// The toothed ring has one block per half tooth, spanned between the profile (flank, fillet, half the root land) and
+/// the line that comes down the tooth's centre and turns, on a circle below the root, towards the gap's centre; where
+/// there is no detailed tooth a plain ring ends at the root circle. Rings of elements follow, down to the bore.
+///
+/// @throws InvalidInput  a tooth without a tip ("tip_diameter"), a shaft that does not fit into the root
+///                       ("body.shaft_diameter"), a bore that does not fit into the shaft ("body.bore_diameter"), an
+///                       option out of range, or fewer teeth than are to be detailed ("options.teeth_each_side")
+SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module, const GearBody& body,
+                         const GearMeshOptions& options);
+
+}  // namespace flankwright

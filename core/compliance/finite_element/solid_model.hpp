@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+#include "core/compliance/finite_element/brick.hpp"
+#include "core/compliance/finite_element/sparse_cholesky.hpp"
+
+namespace flankwright {
+
+/// A body of n nodes and m curved 20-node bricks.
+struct SolidMesh {
+  Eigen::Matrix3Xd nodes;                               ///< [mm], 3 x n
+  Eigen::Matrix<int, 20, Eigen::Dynamic> bricks;        ///< node numbers, 20 x m, in the order of BrickNodes
+
+  BrickNodes brick_nodes(Eigen::Index brick) const;
+  /// Smallest brick_quality() of the mesh.
+  double quality() const;
+};
+
+/// A node whose displacement is held at 0 along some directions.
+struct NodeSupport {
+  int node{-1};
+  std::array<bool, 3> fixed{true, true, true};          ///< along the columns of `frame`
+  Eigen::Matrix3d frame{Eigen::Matrix3d::Identity()};   ///< orthonormal
+};
+
+/// Linear elastic body, factorised once for many loads:
+///
+///     A u = f,   A = assembled brick_stiffness(),   u = 0 along the supports.
+///
+/// Displacements and loads are vectors of size 3 n, node by node (x, y, z) [mm], [N].
+class SolidModel {
+ public:
+  /// @throws InvalidInput  "material" out of range; "mesh" with a node number out of range, a node in no brick, or a
+  ///                       brick whose Jacobian is not positive; "supports" with a node out of range
+  SolidModel(const SolidMesh& mesh, const Material& material, const std::vector<NodeSupport>& supports);
+
+  /// Not Factorised where the supports leave a rigid motion free; then nothing below may be called.
+  FactorStatus status() const { return factor_.status(); }
+  Eigen::Index unknowns() const { return free_rows_.size(); }
+  const SparseCholesky& factor() const { return factor_; }
+
+  /// A^-1 F, 3n x k.
+  Eigen::MatrixXd solve(const Eigen::SparseMatrix<double>& loads) const;
+  /// F' A^-1 F, k x k, as the Gram matrix of the half-solved loads: exactly symmetric, and positive semi-definite to
+  /// round-off.
+  Eigen::MatrixXd influence(const Eigen::SparseMatrix<double>& loads) const;
+
+ private:
+  struct Assembled;
+  SolidModel(Eigen::Index size, Assembled&& assembled);
+  Eigen::MatrixXd reduce(const Eigen::SparseMatrix<double>& loads, Eigen::Index begin, Eigen::Index columns) const;
+
+  Eigen::Index size_;                   ///< 3 n
+  std::vector<NodeSupport> turned_;     ///< supports whose frame is not the axes
+  Eigen::VectorXi free_rows_;           ///< of every unknown, its place among the 3 n
+  SparseCholesky factor_;
+};
+
+}  // namespace flankwright

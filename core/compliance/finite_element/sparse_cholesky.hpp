@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+
+namespace flankwright {
+
+/// Outcome of a factorisation.
+enum class FactorStatus {
+  Factorised,
+  NotPositiveDefinite,  ///< supports leave a motion free, or an element is degenerate
+  OutOfMemory,
+};
+
+/// Supernodal Cholesky factor P A P' = L L' of a sparse matrix of 3 x 3 node blocks (SuiteSparse CHOLMOD), ordered by
+/// METIS on the graph of the nodes. Factorised once, used for any number of right-hand sides.
+///
+/// Same input, same bits: where BLAS is OpenBLAS, its own threads are switched off for the calls made here (they would
+/// split sums by the number of cores), so that the cost is that of one core. With reference BLAS the factorisation takes
+/// about ten times as long.
+class SparseCholesky {
+ public:
+  /// @param lower     n x n, lower triangle only, compressed
+  /// @param node_of   node of every row, size n, ascending: rows of one node stay together in the ordering
+  SparseCholesky(const Eigen::SparseMatrix<double>& lower, const Eigen::VectorXi& node_of);
+  ~SparseCholesky();
+  SparseCholesky(SparseCholesky&&) noexcept;
+  SparseCholesky& operator=(SparseCholesky&&) noexcept;
+
+  FactorStatus status() const { return status_; }
+  std::size_t factor_entries() const;  ///< stored entries of L, with the zeros of its dense blocks
+  std::size_t peak_bytes() const;      ///< largest memory that CHOLMOD held
+  double flops() const;                ///< of the factorisation
+
+  /// A^-1 B, n x k. Needs status() Factorised.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_sides) const;
+  /// L^-1 P B, n x k, whose Gram matrix is B' A^-1 B: half the work of solve(). Needs status() Factorised.
+  Eigen::MatrixXd half_solve(const Eigen::MatrixXd& right_sides) const;
+
+ private:
+  struct Factor;
+  std::unique_ptr<Factor> factor_;
+  FactorStatus status_;
+};
+
+}  // namespace flankwright
