@@ -1,0 +1,79 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "core/compliance/fitted/flank_compliance.hpp"
+#include "core/compliance/fitted/kernel_form.hpp"
+#include "core/compliance/fitted/residual_statistics.hpp"
+
+namespace flankwright {
+
+/// Where the influence values lay that a fit was made from.
+struct FitRange {
+  double u_min{std::numeric_limits<double>::quiet_NaN()}, u_max{std::numeric_limits<double>::quiet_NaN()};
+  double zeta_min{std::numeric_limits<double>::quiet_NaN()}, zeta_max{std::numeric_limits<double>::quiet_NaN()};
+  int teeth_apart{0};  ///< the largest |m_p - m_q| of a known pair
+
+  bool operator==(const FitRange&) const = default;
+};
+
+/// What is known about the quality of a fit.
+struct FitRecord {
+  FitRange range;
+  std::vector<ResidualStatistics> residuals;  ///< on the points fitted
+  std::vector<double> standard_errors;        ///< of the coefficients; empty where unknown
+
+  bool operator==(const FitRecord&) const = default;
+};
+
+/// Names and numbers, one for one: all that a file of fits has to hold.
+struct FitTable {
+  std::vector<std::string> names;
+  std::vector<double> values;
+};
+
+/// Tooth compliance as a KernelForm with fitted coefficients: symmetric and positive semi-definite over any points of
+/// any teeth by construction, to round-off. Between the outermost points of the sample and the edges of the flank it
+/// extrapolates smoothly; covers() tells which points that concerns.
+class FittedCompliance final : public FlankCompliance {
+ public:
+  /// @param coefficients  size form.count(), finite
+  /// @throws InvalidInput naming what does not fit or is out of range
+  FittedCompliance(KernelForm form, const GearFacts& gear, std::vector<double> coefficients, FitRecord record);
+
+  /// E m_n K [-], n x n. @throws InvalidInput for |u| > 1.05, zeta outside 0 .. B, or points more teeth apart than
+  /// range().teeth_apart
+  Eigen::MatrixXd evaluate(std::span<const FlankPlace> points) const override;
+  /// The teeth's share of evaluate(), and the gear body's; each positive semi-definite.
+  Eigen::MatrixXd tooth_part(std::span<const FlankPlace> points) const;
+  Eigen::MatrixXd body_part(std::span<const FlankPlace> points) const;
+
+  /// Whether the points lie within the range of the influence values fitted.
+  bool covers(std::span<const FlankPlace> points) const;
+
+  const KernelForm& form() const { return form_; }
+  const GearFacts& gear() const { return gear_; }
+  const std::vector<double>& coefficients() const { return coefficients_; }
+  const FitRecord& record() const { return record_; }
+
+  /// Everything, form included, as names and numbers; from_table() gives back an equal object.
+  FitTable to_table() const;
+  /// @throws InvalidInput naming the entry that is missing, unknown, double or out of range
+  static FittedCompliance from_table(const FitTable& table);
+
+  bool operator==(const FittedCompliance& other) const;
+
+ private:
+  void require_known(std::span<const FlankPlace> points) const;
+
+  KernelForm form_;
+  GearFacts gear_;
+  std::vector<double> coefficients_;
+  FitRecord record_;
+};
+
+}  // namespace flankwright

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <vector>
+
+namespace flankwright {
+
+/// A place on a flank of the gear, in coordinates that mean the same on every gear.
+struct FlankPlace {
+  int tooth{0};     ///< m: runs m pitches ahead of the reference tooth; only differences matter
+  double u{0.0};    ///< 2 (r - r_j)/(r_a - r_j) - 1 [-]: -1 where the involute starts, +1 at the tip
+  double zeta{0.0}; ///< z/m_n [-] from one end of the face, 0 .. B
+
+  bool operator==(const FlankPlace&) const = default;
+};
+
+/// What influence values of different gears are compared by.
+struct GearFacts {
+  int teeth{0};                                              ///< Z, >= 5
+  double helix_angle{std::numeric_limits<double>::quiet_NaN()};   ///< beta [rad], sign: which end of the face is sharp
+  double relative_face{std::numeric_limits<double>::quiet_NaN()};  ///< B = b/m_n [-], > 0
+  double profile_shift{0.0};                                 ///< x [-]
+
+  /// @throws InvalidInput naming the fact out of range
+  void validate() const;
+
+  bool operator==(const GearFacts&) const = default;
+};
+
+/// Influence values between points of one gear: row p, column q is the deflection at p along the flank normal under a
+/// unit force at q along its normal, times E m_n. It is dimensionless and does not depend on the size of the gear.
+struct InfluenceSample {
+  GearFacts gear;
+  std::vector<FlankPlace> points;  ///< n
+  Eigen::MatrixXd compliance;      ///< E m_n K [-], n x n; NaN where nobody computed it
+
+  /// Reciprocal value of a pair: the mean of both directions, the only one where just one is known, NaN where none is.
+  double at(Eigen::Index p, Eigen::Index q) const;
+
+  /// max |K_pq - K_qp| / |K_pq + K_qp| over the pairs known both ways; 0 for a reciprocal sample.
+  double asymmetry() const;
+
+  /// @throws InvalidInput where the matrix does not fit the points, a point is off the flank (|u| <= 1.05, zeta in
+  ///         0 .. B), a value on the diagonal is known and not positive, or a value is infinite
+  void validate() const;
+};
+
+}  // namespace flankwright

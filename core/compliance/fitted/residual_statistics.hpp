@@ -1,0 +1,30 @@
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "core/compliance/fitted/flank_compliance.hpp"
+#include "core/compliance/fitted/influence_sample.hpp"
+
+namespace flankwright {
+
+/// How far a model is from influence values, over all known pairs of points that are so many teeth apart: the
+/// distribution of |K_model - K| / |K|, relative to the local value.
+struct ResidualStatistics {
+  int teeth_apart{-1};                                        ///< |m_p - m_q|
+  int pairs{0};
+  double median{std::numeric_limits<double>::quiet_NaN()};    ///< [-]
+  double share_95{std::numeric_limits<double>::quiet_NaN()};  ///< 95 % of the pairs are at or below this [-]
+  double worst{std::numeric_limits<double>::quiet_NaN()};     ///< [-]
+
+  bool operator==(const ResidualStatistics&) const = default;
+};
+
+/// One entry per number of teeth apart that occurs, in rising order. The reciprocal value of a pair counts, once, the
+/// diagonal included.
+/// @throws InvalidInput where a sample is not valid or has a point that the model does not know
+std::vector<ResidualStatistics> residual_statistics(const FlankCompliance& model,
+                                                    std::span<const InfluenceSample> samples);
+
+}  // namespace flankwright
