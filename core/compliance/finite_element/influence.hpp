@@ -39,7 +39,7 @@ class InfluenceModel {
   const SolidModel& solid() const { return solid_; }
   const Material& material() const { return material_; }
 
-  /// Needs 16 bytes per unknown and point beside the factor.
+  /// Needs 8 bytes per unknown and point beside the factor.
   /// @throws InvalidInput  a point outside the ranges of FlankPoint
   InfluenceMatrix influence(const std::vector<FlankPoint>& points,
                             RemovedMotion removed = RemovedMotion::TranslationTorsionAndTilt) const;

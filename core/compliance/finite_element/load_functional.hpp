@@ -70,8 +70,8 @@ enum class RemovedMotion {
   /// The translation of the shaft's section in the plane of the point, and the shaft's rotation about its axis at the
   /// face end z = -b/2, where the torque leaves. The gear's own wind-up stays in.
   TranslationAndTorsion,
-  /// And the tilt of the shaft's section at mid face. Then no load is left for the shaft's supports to carry, and
-  /// where and how the shaft is held does not matter.
+  /// And the tilt of the shaft's section at mid face. Then the shaft's supports have no force or moment to carry, and
+  /// how the shaft is held matters only as far as its end sections are kept round and flat (1e-3 of K).
   TranslationTorsionAndTilt,
 };
 

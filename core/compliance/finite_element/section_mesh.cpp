@@ -190,6 +190,23 @@ std::vector<double> graded(double length, double first, double growth, double la
   return ends;
 }
 
+/// Rings from a radius down to a smaller one, as fractions of their distance: sizes grow from `first`, but stay in
+/// proportion to the radius, as the stress of a torque does that flows to the shaft.
+std::vector<double> ring_fractions(double outer, double inner, double first, double growth) {
+  constexpr double kOfRadius = 0.35;
+  std::vector<double> ends{0};
+  double size = first, radius = outer;
+  while (radius > inner * (1 + 1e-12)) {
+    radius -= std::min(size, kOfRadius * radius);
+    ends.push_back(outer - radius);
+    size *= growth;
+  }
+  if (ends.size() > 2 && ends.back() - (outer - inner) > (outer - inner) - ends[ends.size() - 2]) ends.pop_back();
+  for (double& end : ends) end /= ends.back();
+  ends.back() = 1;
+  return ends;
+}
+
 /// Fractions at half steps.
 double at_half_step(const std::vector<double>& fractions, int i) {
   return i % 2 == 0 ? fractions[i / 2] : 0.5 * (fractions[i / 2] + fractions[i / 2 + 1]);
@@ -318,7 +335,7 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
       }
     }
   };
-  if (!thin_rim) rings(rim, shaft, graded(rim - shaft, normal_module, options.body_growth, rim), false);
+  if (!thin_rim) rings(rim, shaft, ring_fractions(rim, shaft, normal_module, options.body_growth), false);
   std::vector<double> equal;
   for (int i = 0; i <= options.shaft_elements; ++i) equal.push_back(static_cast<double>(i) / options.shaft_elements);
   rings(shaft, bore, equal, true);

@@ -14,13 +14,13 @@ struct GearMeshOptions {
   int flank_elements{7};            ///< of the loaded tooth, tip to start of fillet, >= 1
   int fillet_elements{6};           ///< of the loaded tooth, >= 2
   int half_thickness_elements{3};   ///< centre surface to flank, every tooth, >= 1
-  int adjacent_flank_elements{4};   ///< of the other detailed teeth, >= 1
-  int adjacent_fillet_elements{3};  ///< of the other detailed teeth, >= 2
+  int adjacent_flank_elements{3};   ///< of the other detailed teeth, >= 1
+  int adjacent_fillet_elements{2};  ///< of the other detailed teeth, >= 2
   int teeth_each_side{2};           ///< detailed teeth on either side of the loaded one, >= 1
   double end_element{0.2};          ///< axial size next to the face ends, > 0
   double axial_growth{1.4};         ///< size ratio of neighbouring layers, > 1
   double largest_element{0.7};      ///< axial size at mid face, >= end_element
-  double body_growth{1.7};          ///< size ratio of neighbouring elements into the body and around it, > 1
+  double body_growth{2.0};          ///< size ratio of neighbouring elements into the body and around it, > 1
   int shaft_elements{2};            ///< rings from the bore to the shaft's surface, >= 1
 
   /// Throws InvalidInput with field, value and violated bound.

@@ -209,7 +209,11 @@ Eigen::MatrixXd SolidModel::solve(const Eigen::SparseMatrix<double>& loads) cons
 
 Eigen::MatrixXd SolidModel::influence(const Eigen::SparseMatrix<double>& loads) const {
   assert(loads.rows() == size_);
-  const Eigen::MatrixXd half = factor_.half_solve(reduce(loads, 0, loads.cols()));
+  Eigen::MatrixXd half(unknowns(), loads.cols());
+  for (Eigen::Index begin = 0; begin < loads.cols(); begin += kSolveBlock) {
+    const Eigen::Index columns = std::min(kSolveBlock, loads.cols() - begin);
+    half.middleCols(begin, columns) = factor_.half_solve(reduce(loads, begin, columns));
+  }
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(loads.cols(), loads.cols());
   result.selfadjointView<Eigen::Lower>().rankUpdate(half.transpose());
   result.triangularView<Eigen::StrictlyUpper>() = result.transpose();

@@ -94,11 +94,10 @@ struct SparseCholesky::Factor {
 
   /// Solves with one of CHOLMOD's systems after another, in blocks of columns.
   Eigen::MatrixXd solve(std::initializer_list<int> systems, const Eigen::MatrixXd& right_sides) const {
-    constexpr Eigen::Index kBlock = 48;  // wide enough for BLAS-3, narrow enough to keep the workspace small
     const SerialBlas serial;
     Eigen::MatrixXd result(right_sides.rows(), right_sides.cols());
-    for (Eigen::Index begin = 0; begin < right_sides.cols(); begin += kBlock) {
-      const Eigen::Index columns = std::min(kBlock, right_sides.cols() - begin);
+    for (Eigen::Index begin = 0; begin < right_sides.cols(); begin += kSolveBlock) {
+      const Eigen::Index columns = std::min(kSolveBlock, right_sides.cols() - begin);
       cholmod_dense view{};
       view.nrow = view.d = static_cast<std::size_t>(right_sides.rows());
       view.ncol = static_cast<std::size_t>(columns);
@@ -120,6 +119,10 @@ struct SparseCholesky::Factor {
     return result;
   }
 };
+
+// Pivots left by the elimination of a rigid motion are round-off, 1e-16 of the largest one times a few powers of ten;
+// those of a gear that is held stay above 1e-9.
+constexpr double kSmallestPivot = 1e-13;
 
 SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& lower, const Eigen::VectorXi& node_of)
     : factor_(std::make_unique<Factor>()) {
@@ -149,7 +152,8 @@ SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& lower, const E
   if (factor_->l) cholmod_factorize(&a, factor_->l, &common);
   if (!factor_->l || common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE) {
     status_ = FactorStatus::OutOfMemory;
-  } else if (common.status == CHOLMOD_OK && factor_->l->minor == factor_->l->n) {
+  } else if (common.status == CHOLMOD_OK && factor_->l->minor == factor_->l->n &&
+             cholmod_rcond(factor_->l, &common) > kSmallestPivot) {
     status_ = FactorStatus::Factorised;
   } else {
     status_ = FactorStatus::NotPositiveDefinite;

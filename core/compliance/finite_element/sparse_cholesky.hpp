@@ -8,10 +8,13 @@
 
 namespace flankwright {
 
+/// Right-hand sides that are solved together: enough for BLAS-3, few enough to keep the workspace small.
+inline constexpr Eigen::Index kSolveBlock = 48;
+
 /// Outcome of a factorisation.
 enum class FactorStatus {
   Factorised,
-  NotPositiveDefinite,  ///< supports leave a motion free, or an element is degenerate
+  NotPositiveDefinite,  ///< smallest over largest pivot at most 1e-13: supports leave a motion free
   OutOfMemory,
 };
 

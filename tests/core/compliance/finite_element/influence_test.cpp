@@ -1,0 +1,134 @@
+#include "core/compliance/finite_element/influence.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+
+#include "tests/core/compliance/finite_element/gears.hpp"
+
+using namespace flankwright;
+using namespace flankwright::test;
+
+namespace {
+
+const Material kUnit{1, 0.3};
+
+std::vector<FlankPoint> points(const GearMesh& mesh, int teeth = 1) {
+  std::vector<FlankPoint> result;
+  for (int tooth = -teeth; tooth <= teeth; ++tooth) {
+    for (const double u : {0.0, 0.5, 1.0}) {
+      for (const double v : {-1.0, -0.6, 0.0, 0.6, 1.0}) {
+        result.push_back({tooth, mesh.form.form_radius() + u * (mesh.form.tip_radius() - mesh.form.form_radius()),
+                          v * mesh.face_width / 2});
+      }
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("Influence values are symmetric and positive semi-definite over all teeth", "[core][compliance][fe]") {
+  const InfluenceModel model(gear_of(18, 30), kUnit, coarse());
+  const auto removed = GENERATE(RemovedMotion::None, RemovedMotion::TranslationAndTorsion,
+                                RemovedMotion::TranslationTorsionAndTilt);
+  const InfluenceMatrix result = model.influence(points(model.mesh()), removed);
+  REQUIRE(result.status == FactorStatus::Factorised);
+  CHECK(result.compliance == result.compliance.transpose());
+  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(result.compliance).eigenvalues();
+  CHECK(values.minCoeff() > -1e-13 * values.maxCoeff());  // round-off
+
+  // The same by full solutions: what one load does to the other's place.
+  const auto loads = net_functionals(model.mesh(), result.points, removed);
+  const Eigen::MatrixXd solved = loads.transpose() * model.solid().solve(loads);
+  CHECK((solved - result.compliance).cwiseAbs().maxCoeff() < 1e-10 * values.maxCoeff());  // round-off x condition
+}
+
+TEST_CASE("With the tilt taken out the supports carry nothing", "[core][compliance][fe]") {
+  const GearMesh mesh = gear_mesh(gear_of(18, 30), coarse());
+  const auto loads = net_functionals(mesh, points(mesh), RemovedMotion::TranslationTorsionAndTilt);
+  // Held at three nodes, no more than needed: the first in all directions, the second across the line to it, the third
+  // across the plane of all three.
+  const auto held_at = [&](int first, int second) {
+    const Eigen::Matrix3Xd& x = mesh.solid.nodes;
+    const Eigen::Vector3d axis = (x.col(second) - x.col(first)).normalized();
+    Eigen::Index third;
+    const Eigen::Matrix3Xd from = x.colwise() - x.col(first);
+    (from - axis * (axis.transpose() * from)).colwise().norm().maxCoeff(&third);
+    const Eigen::Vector3d normal = (x.col(third) - x.col(first)).cross(axis).normalized();
+    Eigen::Matrix3d frame;
+    frame << axis, normal, axis.cross(normal);
+    return SolidModel(mesh.solid, kUnit, {{first}, {second, {false, true, true}, frame},
+                                          {static_cast<int>(third), {false, true, false}, frame}}).influence(loads);
+  };
+  const auto last = static_cast<int>(mesh.solid.nodes.cols()) - 1;
+  const Eigen::MatrixXd a = held_at(0, last), b = held_at(last / 2, 5);
+  CHECK((a - b).norm() < 1e-9 * a.norm());  // round-off x condition
+  // The mesh's own supports keep the shaft's ends round and flat, which the gear notices a little (Saint-Venant).
+  const Eigen::MatrixXd usual = SolidModel(mesh.solid, kUnit, mesh.supports).influence(loads);
+  CHECK((a - usual).norm() < 3e-3 * a.norm());
+}
+
+TEST_CASE("Compliance scales with 1 / (E m_n)", "[core][compliance][fe]") {
+  const InfluenceModel small(gear_of(18, 20), kUnit, coarse());
+  const InfluenceModel large(gear_of(18, 20, 6, 0, 8), {206000, 0.3}, coarse());
+  const Eigen::MatrixXd a = small.influence(points(small.mesh(), 0)).compliance;
+  const Eigen::MatrixXd b = large.influence(points(large.mesh(), 0)).compliance;
+  CHECK((a - 8 * 206000 * b).norm() < 1e-10 * a.norm());  // round-off
+}
+
+TEST_CASE("The same gear gives the same bits again", "[core][compliance][fe]") {
+  const auto run = [] {
+    const InfluenceModel model(gear_of(12, 10, 3), kUnit, coarse());
+    return model.influence(points(model.mesh())).compliance;
+  };
+  CHECK(run() == run());
+}
+
+TEST_CASE("A helical tooth gives way most at the tip of its sharp end, and drags its neighbours along",
+          "[core][compliance][fe]") {
+  const InfluenceModel model(gear_of(18, 30, 8), kUnit, coarse());
+  const std::vector<FlankPoint> where = points(model.mesh());
+  const Eigen::MatrixXd k = model.influence(where).compliance;
+  const auto at = [](int tooth, int u, int v) { return 15 * (tooth + 1) + 5 * u + v; };
+  for (int tooth : {-1, 0, 1}) {
+    for (int v = 0; v < 5; ++v) {
+      CHECK(k(at(tooth, 1, v), at(tooth, 1, v)) > k(at(tooth, 0, v), at(tooth, 0, v)));
+      CHECK(k(at(tooth, 2, v), at(tooth, 2, v)) > k(at(tooth, 1, v), at(tooth, 1, v)));
+    }
+    for (int u = 0; u < 3; ++u) {
+      CHECK(k(at(tooth, u, 0), at(tooth, u, 0)) > k(at(tooth, u, 4), at(tooth, u, 4)));
+      CHECK(k(at(tooth, u, 4), at(tooth, u, 4)) > 1.3 * k(at(tooth, u, 2), at(tooth, u, 2)));
+    }
+  }
+  for (int side : {-1, 1}) {
+    CHECK(k(at(0, 1, 2), at(side, 1, 2)) > 0);
+    CHECK(k(at(0, 1, 2), at(side, 1, 2)) < 0.4 * k(at(0, 1, 2), at(0, 1, 2)));
+  }
+  // Teeth are alike: the outer ones differ from the middle one by their mesh only.
+  for (int u = 0; u < 3; ++u) {
+    CHECK(k(at(1, u, 2), at(1, u, 2)) == Approx(k(at(0, u, 2), at(0, u, 2))).epsilon(0.05));  // discretisation
+  }
+}
+
+TEST_CASE("The default mesh is converged to two percent", "[core][compliance][fe][.soak]") {
+  const GearToMesh gear = gear_of(18, 30, 12);
+  GearMeshOptions fine;
+  fine.flank_elements = 10;
+  fine.fillet_elements = 8;
+  fine.half_thickness_elements = 4;
+  fine.adjacent_flank_elements = 5;
+  fine.adjacent_fillet_elements = 5;
+  fine.end_element = 0.12;
+  fine.largest_element = 0.5;
+  fine.body_growth = 1.4;
+  const auto run = [&](const GearMeshOptions& options) {
+    const InfluenceModel model(gear, kUnit, options);
+    return model.influence(points(model.mesh(), 2)).compliance;
+  };
+  const Eigen::MatrixXd a = run({}), b = run(fine);
+  CHECK(((a - b).array() / b.array()).block(30, 30, 15, 15).abs().maxCoeff() < 0.02);  // own tooth, of the local value
+  const Eigen::VectorXd scale = b.diagonal().cwiseSqrt();
+  CHECK(((a - b).array() / (scale * scale.transpose()).array()).abs().maxCoeff() < 0.02);
+}

@@ -1,0 +1,126 @@
+#include "core/compliance/finite_element/load_functional.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include <Eigen/Geometry>
+
+#include "core/base/error.hpp"
+#include "tests/core/compliance/finite_element/gears.hpp"
+
+using namespace flankwright;
+using namespace flankwright::test;
+using units::pi;
+
+namespace {
+
+/// Points from root to tip and from end to end, on three teeth.
+std::vector<FlankPoint> points(const GearMesh& mesh) {
+  std::vector<FlankPoint> result;
+  for (const int tooth : {-1, 0, 1}) {
+    for (const double u : {0.0, 0.4, 1.0}) {
+      for (const double v : {-1.0, -0.9, 0.1, 1.0}) {
+        result.push_back({tooth, mesh.form.form_radius() + u * (mesh.form.tip_radius() - mesh.form.form_radius()),
+                          v * mesh.face_width / 2});
+      }
+    }
+  }
+  return result;
+}
+
+/// Force and moment about the origin of a nodal load.
+Eigen::Matrix<double, 6, 1> resultant(const GearMesh& mesh, const Eigen::VectorXd& load) {
+  Eigen::Matrix<double, 6, 1> sum = Eigen::Matrix<double, 6, 1>::Zero();
+  for (Eigen::Index i = 0; i < mesh.solid.nodes.cols(); ++i) {
+    sum.head<3>() += load.segment<3>(3 * i);
+    sum.tail<3>() += mesh.solid.nodes.col(i).cross(load.segment<3>(3 * i));
+  }
+  return sum;
+}
+
+}  // namespace
+
+TEST_CASE("The flank's frame: normal to the surface, and deep to the tooth's centre", "[core][compliance][fe]") {
+  const GearMesh mesh = gear_mesh(gear_of(23, GENERATE(0, 25), 5, 0.1), coarse());
+  for (const FlankPoint& point : points(mesh)) {
+    const FlankFrame frame = flank_frame(mesh, point);
+    const auto at = [&](double dr, double dz) {
+      FlankPoint moved = point;
+      moved.radius = std::clamp(point.radius, mesh.form.form_radius() + 1e-4, mesh.form.tip_radius() - 1e-4) + dr;
+      moved.z = std::clamp(point.z, -2.49, 2.49) + dz;
+      return flank_frame(mesh, moved).position;
+    };
+    const double h = 1e-5;  // central differences: 1e-10 times third derivatives
+    const Eigen::Vector3d normal = flank_frame(mesh, {point.tooth, at(0, 0).head<2>().norm(), at(0, 0).z()}).normal;
+    CHECK(std::abs(normal.dot(at(h, 0) - at(-h, 0)) / (2 * h)) < 1e-6);
+    CHECK(std::abs(normal.dot(at(0, h) - at(0, -h)) / (2 * h)) < 1e-6);
+
+    // The end of the inward normal lies on the centre surface only where the line of action is taken in the plane
+    // tangential to the base cylinder: for the spur gear it does exactly, chord against arc apart.
+    const Eigen::Vector3d end = frame.position - frame.depth * frame.normal;
+    const double angle = std::atan2(end.x(), end.y()) + std::tan(mesh.form.helix_angle()) / mesh.form.reference_radius() * end.z() +
+                         point.tooth * 2 * pi / mesh.teeth;
+    CHECK(std::abs(std::remainder(angle, 2 * pi)) * end.head<2>().norm() < 0.12 * frame.depth);  // model
+  }
+}
+
+TEST_CASE("A load on the flank keeps its force and its torque exactly", "[core][compliance][fe]") {
+  const GearMesh mesh = gear_mesh(gear_of(23, GENERATE(0, 25), 5), coarse());
+  const double cos_base = 1 / std::hypot(1, std::tan(mesh.form.helix_angle()) * mesh.form.base_radius() / mesh.form.reference_radius());
+  for (const FlankPoint& point : points(mesh)) {
+    CAPTURE(point.tooth, point.radius, point.z);
+    const FlankFrame frame = flank_frame(mesh, point);
+    const Eigen::Matrix<double, 6, 1> sum = resultant(mesh, centre_functional(mesh, point));
+    CHECK((sum.head<3>() + frame.normal).norm() < 1e-12);  // round-off
+    CHECK(sum[5] == Approx(mesh.form.base_radius() * cos_base).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("Away from the ends a load acts where its line meets the centre surface", "[core][compliance][fe]") {
+  const GearMesh mesh = gear_mesh(gear_of(30, GENERATE(0, 30), 16), coarse());
+  const FlankPoint point{0, mesh.form.reference_radius(), 0.3};
+  const FlankFrame frame = flank_frame(mesh, point);
+  const Eigen::VectorXd load = centre_functional(mesh, point);
+  double z = 0;
+  for (Eigen::Index i = 0; i < mesh.solid.nodes.cols(); ++i) {
+    z -= mesh.solid.nodes(2, i) * load.segment<3>(3 * i).dot(frame.normal);
+  }
+  // Model: the tails of the weights are cut at the tip and at the ends.
+  CHECK(std::abs(z - (frame.position - frame.depth * frame.normal).z()) < 0.1 * frame.depth);
+}
+
+TEST_CASE("The shaft's motion is exact for a rigid one", "[core][compliance][fe]") {
+  const GearMesh mesh = gear_mesh(gear_of(18, 20), coarse());
+  const Eigen::Vector3d shift(0.2, -0.4, 1), turn(0.3, 0.5, -0.7);
+  for (const double z : {-3.0, -1.234, 0.0, 3.0}) {
+    const SectionMotion motion = shaft_motion(mesh, z);
+    Eigen::VectorXd moved(3 * static_cast<Eigen::Index>(motion.nodes.size()));
+    for (std::size_t k = 0; k < motion.nodes.size(); ++k) {
+      moved.segment<3>(3 * static_cast<Eigen::Index>(k)) = shift + turn.cross(mesh.solid.nodes.col(motion.nodes[k]));
+    }
+    const Eigen::Matrix<double, 6, 1> found = motion.weights * moved;
+    CHECK((found.head<3>() - shift - turn.cross(Eigen::Vector3d(0, 0, z))).norm() < 1e-12);  // round-off
+    CHECK((found.tail<3>() - turn).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("The net functional does not feel the motions that are taken out", "[core][compliance][fe]") {
+  const GearMesh mesh = gear_mesh(gear_of(18, 30), coarse());
+  for (const FlankPoint& point : points(mesh)) {
+    const auto two = resultant(mesh, net_functional(mesh, point, RemovedMotion::TranslationAndTorsion));
+    CHECK(two.head<3>().norm() < 1e-12);  // round-off
+    CHECK(std::abs(two[5]) < 1e-11);
+    const auto three = resultant(mesh, net_functional(mesh, point, RemovedMotion::TranslationTorsionAndTilt));
+    CHECK(three.norm() < 1e-11);
+  }
+}
+
+TEST_CASE("Points that are not on a detailed flank are refused", "[core][compliance][fe]") {
+  const GearMesh mesh = gear_mesh(gear_of(18, 30), coarse());
+  const double r = mesh.form.reference_radius();
+  CHECK_THROWS_AS(flank_frame(mesh, {2, r, 0}), InvalidInput);
+  CHECK_THROWS_AS(flank_frame(mesh, {0, mesh.form.form_radius() - 0.1, 0}), InvalidInput);
+  CHECK_THROWS_AS(flank_frame(mesh, {0, mesh.form.tip_radius() + 0.1, 0}), InvalidInput);
+  CHECK_THROWS_AS(flank_frame(mesh, {0, r, 3.1}), InvalidInput);
+  CHECK_THROWS_AS(flank_frame(mesh, {0, not_given, 0}), InvalidInput);
+}
