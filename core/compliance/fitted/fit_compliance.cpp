@@ -35,6 +35,7 @@ class PairResiduals final : public ResidualFunction {
           const auto [p, q] = ahead(sample, i, j) ? std::pair{i, j} : std::pair{j, i};
           const FlankPlace &a = place(sample, p), &b = place(sample, q);
           const int apart = a.tooth - b.tooth;
+          teeth_spanned_ = std::max(teeth_spanned_, apart);
           if (std::isnan(known) || (apart > 0 && !form.couples_teeth())) continue;
           const double own = std::sqrt(sample.compliance(p, p) * sample.compliance(q, q));
           const double floor = std::isnan(own) ? 0 : options.scale_floor * own;
@@ -63,6 +64,7 @@ class PairResiduals final : public ResidualFunction {
 
   int pairs() const { return static_cast<int>(pairs_.size()); }
   int teeth_apart() const { return teeth_apart_; }
+  int teeth_spanned() const { return teeth_spanned_; }
   int residual_count() const override { return pairs() + coefficient_count(); }
   int coefficient_count() const override { return form_.count(); }
 
@@ -116,7 +118,8 @@ class PairResiduals final : public ResidualFunction {
   std::vector<double> anchor_, ridge_;
   mutable std::vector<KernelSum> sums_;  ///< hold the coefficients of the evaluation under way
   std::vector<Pair> pairs_;
-  int teeth_apart_{0};
+  int teeth_apart_{0};    ///< of known pairs
+  int teeth_spanned_{0};  ///< of all points
 };
 
 /// s^2 (J'J)^-1 with the ridge among the rows of J.
@@ -205,22 +208,29 @@ std::vector<double> flat_start(const KernelForm& form, std::span<const Influence
   }
   if (count == 0) throw InvalidInput("samples", "no known diagonal", "at least one point's own compliance");
   own /= count;
-  const double body = std::max(0.1 * own, least);
+  const double body = std::max(0.01 * own, least);
   const double tooth = (own > body ? own - body : 0.1 * own) / static_cast<double>(form.kernels.size());
 
   std::vector<double> x(static_cast<std::size_t>(form.count()), 0.0);
   auto offset = static_cast<std::size_t>(KernelForm::kWarpCoefficients);
   int near = 0, far = 0;
   for (const Kernel& kernel : form.kernels) {
-    const bool is_far = kernel.reach == Reach::Gear;
+    const bool is_far = kernel.couples_teeth();
     // Kernels that started alike would stay alike.
-    const int rank = is_far ? far++ : near++;
-    x[offset] = 0.5 * std::log(tooth);
-    x[offset + static_cast<std::size_t>(kernel.amplitude.count())] = std::log((is_far ? 3.0 : 1.0) * std::pow(2.5, rank));
+    static constexpr std::array<double, 4> kSpread{1.0, 2.0, 0.5, 1.4};
+    const double spread = kSpread[static_cast<std::size_t>(is_far ? far++ : near++) % kSpread.size()];
+    x[offset] = 0.5 * std::log(is_far ? body : tooth);
+    x[offset + static_cast<std::size_t>(kernel.amplitude.count())] = std::log((is_far ? 2.0 : 1.0) * spread);
     x[offset + static_cast<std::size_t>(kernel.amplitude.count() + kernel.axial.count())] =
-        std::log((is_far ? 3.0 : 1.0) * std::pow(1.6, rank));
+        std::log((is_far ? 4.0 : 1.0) * spread);
     offset += static_cast<std::size_t>(kernel.count());
     if (is_far) x[offset - 2] = std::log(1.5);
+  }
+  if (form.wind_up) {
+    // As much again as the body has, over ten modules.
+    x[offset] = std::log(body / 10);
+    x[offset + 1] = std::log(3.0);
+    offset += 2;
   }
   for (const BodyPart& part : form.bodies) {
     x[offset] = std::sqrt(body / static_cast<double>(form.bodies.size()));
@@ -267,7 +277,10 @@ FitResult fit_compliance(std::span<const InfluenceSample> all_samples, const Ker
     record.standard_errors.push_back(std::sqrt(std::max(0.0, result.covariance(i, i))));
   }
   const GearFacts& gear = samples.front().gear;
-  record.residuals = residual_statistics(FittedCompliance(form, gear, solved.coefficients, record), samples);
+  // Pairs that nobody computed are looked at, though not counted.
+  FitRecord everywhere;
+  everywhere.range.teeth_apart = residuals.teeth_spanned();
+  record.residuals = residual_statistics(FittedCompliance(form, gear, solved.coefficients, everywhere), samples);
   result.fit.emplace(form, gear, solved.coefficients, record);
   return result;
 }

@@ -27,8 +27,8 @@ struct FitOptions {
   double tooth_ridge{2.4e-4};  ///< of warp and kernels [-], >= 0
   double body_ridge{2.4e-4};   ///< of the body parts [-], >= 0
   /// Pairs with next to no compliance in common count relative to their own compliances instead [-], > 0.
-  double scale_floor{0.02};
-  LeastSquaresOptions solver;
+  double scale_floor{0.01};
+  LeastSquaresOptions solver{.max_iterations = 300, .cost_tolerance = 1e-7};
 
   /// Throws InvalidInput with field, value and violated bound.
   void validate(const KernelForm& form) const;

@@ -16,6 +16,7 @@ class Writer {
     table.values.push_back(value);
   }
   void operator()(const std::string& name, const int& value) { (*this)(name, static_cast<double>(value)); }
+  void operator()(const std::string& name, const bool& value) { (*this)(name, value ? 1.0 : 0.0); }
   template <class Enum>
     requires std::is_enum_v<Enum>
   void operator()(const std::string& name, const Enum& value, int) {
@@ -50,6 +51,7 @@ class Reader {
     entries_.erase(entry);
   }
   void operator()(const std::string& name, int& value) { value = whole(name, -1'000'000, 1'000'000); }
+  void operator()(const std::string& name, bool& value) { value = whole(name, 0, 1) == 1; }
   template <class Enum>
     requires std::is_enum_v<Enum>
   void operator()(const std::string& name, Enum& value, int count) {
@@ -88,11 +90,12 @@ void visit_form(Visitor& visit, Form& form) {
     const std::string name = "form.kernel_" + std::to_string(k);
     auto& kernel = form.kernels[k];
     visit(name + ".smoothness", kernel.smoothness, 2);
-    visit(name + ".reach", kernel.reach, 2);
+    visit(name + ".reach", kernel.reach, 3);
     polynomial(name + ".amplitude", kernel.amplitude);
     polynomial(name + ".axial", kernel.axial);
     polynomial(name + ".radial", kernel.radial);
   }
+  visit("form.wind_up", form.wind_up);
   visit.resize("form.bodies", form.bodies, 20);
   for (std::size_t k = 0; k < form.bodies.size(); ++k) {
     const std::string name = "form.body_" + std::to_string(k);

@@ -30,19 +30,24 @@ void validate(const EndPolynomial& polynomial, const std::string& field) {
 
 }  // namespace
 
-KernelForm KernelForm::one_tooth() { return {{Kernel{}, Kernel{}}, {BodyPart{}}}; }
+KernelForm KernelForm::one_tooth() { return {{Kernel{}, Kernel{}}, {BodyPart{}}, true}; }
 
 KernelForm KernelForm::one_tooth_accurate() {
   Kernel smooth;
   smooth.smoothness = Smoothness::Matern52;
-  return {{Kernel{}, Kernel{}, smooth}, {BodyPart{10, Coupling::Common}}};
+  return {{Kernel{}, Kernel{}, smooth}, {BodyPart{10, Coupling::Common}}, true};
 }
 
 KernelForm KernelForm::several_teeth() {
+  KernelForm form = one_tooth_accurate();
   Kernel far, smooth_far;
-  far.reach = smooth_far.reach = Reach::Gear;
+  far.reach = Reach::Turning;
+  smooth_far.reach = Reach::Gear;
   smooth_far.smoothness = Smoothness::Matern52;
-  return {{Kernel{}, Kernel{}, far, smooth_far}, {{10, Coupling::Common}, {6, Coupling::Decaying}}};
+  form.kernels.push_back(far);
+  form.kernels.push_back(smooth_far);
+  form.bodies.push_back({6, Coupling::Decaying});
+  return form;
 }
 
 int KernelForm::tooth_count() const {
@@ -52,13 +57,13 @@ int KernelForm::tooth_count() const {
 }
 
 int KernelForm::body_count() const {
-  int sum = 0;
+  int sum = wind_up ? 2 : 0;
   for (const BodyPart& body : bodies) sum += body.count();
   return sum;
 }
 
 bool KernelForm::couples_teeth() const {
-  return std::any_of(kernels.begin(), kernels.end(), [](const Kernel& kernel) { return kernel.reach == Reach::Gear; });
+  return std::any_of(kernels.begin(), kernels.end(), [](const Kernel& kernel) { return kernel.couples_teeth(); });
 }
 
 std::vector<std::string> KernelForm::coefficient_names() const {
@@ -69,10 +74,14 @@ std::vector<std::string> KernelForm::coefficient_names() const {
     append_names(names, prefix + ".log_amplitude", kernels[k].amplitude);
     append_names(names, prefix + ".log_axial", kernels[k].axial);
     append_names(names, prefix + ".log_radial", kernels[k].radial);
-    if (kernels[k].reach == Reach::Gear) {
+    if (kernels[k].couples_teeth()) {
       names.push_back(prefix + ".log_lambda");
       names.push_back(prefix + ".kappa");
     }
+  }
+  if (wind_up) {
+    names.push_back("wind_up.log_compliance");
+    names.push_back("wind_up.log_width");
   }
   for (std::size_t k = 0; k < bodies.size(); ++k) {
     const std::string prefix = "body_" + std::to_string(k);

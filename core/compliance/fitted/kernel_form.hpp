@@ -19,6 +19,7 @@ enum class Smoothness {
 enum class Reach {
   Tooth,  ///< points of one tooth
   Gear,   ///< all points: Q gains ((m_p - m_q)/lambda)^2, and the axial distance kappa (m_p - m_q)
+  Turning,  ///< the same times cos(2 pi (m_p - m_q)/Z): the flank normals turn with the teeth, what moves below does not
 };
 
 /// How a part of the gear body couples teeth.
@@ -45,8 +46,9 @@ struct Kernel {
   EndPolynomial axial{3, {2, 2, 0}};
   EndPolynomial radial{2, {1, 1, 0}};
 
-  /// Coefficients, among them log(lambda) and kappa for Reach::Gear.
-  int count() const { return amplitude.count() + axial.count() + radial.count() + (reach == Reach::Gear ? 2 : 0); }
+  bool couples_teeth() const { return reach != Reach::Tooth; }
+  /// Coefficients, among them log(lambda) and kappa where teeth are coupled.
+  int count() const { return amplitude.count() + axial.count() + radial.count() + (couples_teeth() ? 2 : 0); }
   bool operator==(const Kernel&) const = default;
 };
 
@@ -68,27 +70,34 @@ struct BodyPart {
 ///     A = (lz(p)^2 + lz(q)^2)/2,  R = (lr(p)^2 + lr(q)^2)/2,  h = g sqrt(lz lr),
 ///     Q = (s(p) - s(q))^2/A + (u(p) - u(q))^2/R,
 ///
+/// and, with wind_up, the torsion of the gear body between the end zeta = 0, where its torque leaves, and the nearer of
+/// two places, as a shaft has it, rounded off over a length w because torque spreads into a body only gradually:
+///
+///     c/2 [v(zeta_p) + v(zeta_q) - v(zeta_p - zeta_q) - w],  v(d) = sqrt(d^2 + w^2);  -> c min(zeta_p, zeta_q), w -> 0,
+///
 /// the non-stationary kernel of Paciorek and Schervish (2006), which is positive semi-definite for any positive lz and
-/// lr, as C(m) is for each Coupling; so the matrix over any points of any teeth is, whatever the coefficients. The
+/// lr, as C(m) is for each Coupling and the wind-up by Schoenberg's theorem (v is conditionally negative definite); so the
+/// matrix over any points of any teeth is, whatever the coefficients. The
 /// first five coefficients warp the axis,
 ///
 ///     s = zeta + w_0 u + tanh(w_1) e^-zeta + 0.175 tanh(w_2) e^(-zeta/0.35)
 ///              - tanh(w_3) e^-(B-zeta) - 0.175 tanh(w_4) e^(-(B-zeta)/0.35),
 ///
-/// those of the kernels follow, then those of the body parts: the tooth, which interpolates well from gear to gear, is
+/// those of the kernels follow, then log(c), log(w) of the wind-up and those of the body parts: the tooth, which interpolates well from gear to gear, is
 /// a contiguous part, and so is the body, which does not.
 struct KernelForm {
   std::vector<Kernel> kernels;
   std::vector<BodyPart> bodies;
+  bool wind_up{false};
 
   static constexpr int kWarpCoefficients = 5;
 
-  static KernelForm one_tooth();           ///< two kernels, 107 coefficients
-  static KernelForm one_tooth_accurate();  ///< three kernels, 171 coefficients
-  static KernelForm several_teeth();       ///< near and far kernels, for pairs of points on different teeth too
+  static KernelForm one_tooth();           ///< two kernels, 109 coefficients
+  static KernelForm one_tooth_accurate();  ///< three kernels, 173 coefficients
+  static KernelForm several_teeth();       ///< near and far kernels, 275 coefficients: for points on different teeth too
 
   int tooth_count() const;  ///< coefficients of warp and kernels, the first ones
-  int body_count() const;   ///< coefficients of the body parts, the last ones
+  int body_count() const;   ///< coefficients of wind-up and body parts, the last ones
   int count() const { return tooth_count() + body_count(); }
   bool couples_teeth() const;  ///< whether the form says anything about two teeth
 

@@ -90,6 +90,8 @@ KernelSum::KernelSum(const KernelForm& form, const GearFacts& gear, std::span<co
     kernels_[k].offset = offset;
     offset += form.kernels[k].count();
   }
+  wind_up_offset_ = offset;
+  if (form.wind_up) offset += 2;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     bodies_[k].offset = offset;
     offset += form.bodies[k].count();
@@ -110,6 +112,9 @@ KernelSum::KernelSum(const KernelForm& form, const GearFacts& gear, std::span<co
       fill_basis(form.kernels[k].radial, u, ends, kernels_[k].radial_basis.col(p));
     }
   }
+  if (tooth_.empty()) return;
+  const auto [lowest, highest] = std::minmax_element(tooth_.begin(), tooth_.end());
+  teeth_spanned_ = *highest - *lowest;
 }
 
 void KernelSum::set_coefficients(std::span<const double> x) {
@@ -137,10 +142,15 @@ void KernelSum::set_coefficients(std::span<const double> x) {
     at.h = (log_g + 0.5 * (log_lz + log_lr)).unaryExpr(exponential);
     at.axial_square = (2 * log_lz).unaryExpr(exponential);
     at.radial_square = (2 * log_lr).unaryExpr(exponential);
-    if (form_.kernels[k].reach == Reach::Gear) {
+    if (form_.kernels[k].couples_teeth()) {
       at.inverse_lambda_square = std::exp(-2 * c[0]);
       at.kappa = c[1];
     }
+  }
+  if (form_.wind_up) {
+    wind_up_compliance_ = std::exp(x[static_cast<std::size_t>(wind_up_offset_)]);
+    wind_up_width_ = std::exp(x[static_cast<std::size_t>(wind_up_offset_) + 1]);
+    wind_up_reach_ = (zeta_.array().square() + wind_up_width_ * wind_up_width_).sqrt();
   }
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     const BodyPart& part = form_.bodies[k];
@@ -155,7 +165,10 @@ void KernelSum::set_coefficients(std::span<const double> x) {
 
 void KernelSum::add_kernel(std::size_t k, Eigen::MatrixXd& lower) const {
   const KernelAtPoints& at = kernels_[k];
-  const bool far = form_.kernels[k].reach == Reach::Gear;
+  const bool far = form_.kernels[k].couples_teeth();
+  const bool turning = form_.kernels[k].reach == Reach::Turning;
+  std::vector<double> cosine;
+  for (int apart = 0; turning && apart <= teeth_spanned_; ++apart) cosine.push_back(turning_cosine(apart));
   const auto add = [&]<Smoothness S>() {
     const Index n = s_.size();
     for (Index q = 0; q < n; ++q) {
@@ -169,7 +182,8 @@ void KernelSum::add_kernel(std::size_t k, Eigen::MatrixXd& lower) const {
         const double inverse = 1 / (A * R), m = apart;
         const double ds = s_[p] - s + at.kappa * m, du = u_[p] - u;
         const double Q = (ds * ds * R + du * du * A) * inverse + m * m * at.inverse_lambda_square;
-        column[p] += at.h[p] * h * std::sqrt(inverse) * correlation<S>(Q).value;
+        const double value = at.h[p] * h * std::sqrt(inverse) * correlation<S>(Q).value;
+        column[p] += turning ? cosine[static_cast<std::size_t>(std::abs(apart))] * value : value;
       }
     }
   };
@@ -187,10 +201,17 @@ Eigen::MatrixXd KernelSum::tooth_matrix() const {
   return K;
 }
 
+double KernelSum::wind_up(Index p, Index q) const {
+  const double d = zeta_[p] - zeta_[q], w = wind_up_width_;
+  return 0.5 * wind_up_compliance_ * (wind_up_reach_[p] + wind_up_reach_[q] - std::sqrt(d * d + w * w) - w);
+}
+
+double KernelSum::turning_cosine(int teeth_apart) const { return std::cos(2 * units::pi * teeth_apart / teeth_); }
+
 double KernelSum::coupling(std::size_t body, int teeth_apart) const {
   switch (form_.bodies[body].coupling) {
     case Coupling::Turning:
-      return std::cos(2 * units::pi * teeth_apart / teeth_);
+      return turning_cosine(teeth_apart);
     case Coupling::Decaying:
       return std::exp(-std::abs(teeth_apart) * bodies_[body].inverse_tau);
     case Coupling::Common:
@@ -203,10 +224,14 @@ Eigen::MatrixXd KernelSum::body_matrix() const {
   const Index n = s_.size();
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);
   if (tooth_.empty()) return K;
-  const auto [lowest, highest] = std::minmax_element(tooth_.begin(), tooth_.end());
+  if (form_.wind_up) {
+    for (Index q = 0; q < n; ++q) {
+      for (Index p = q; p < n; ++p) K(p, q) = wind_up(p, q);
+    }
+  }
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     std::vector<double> factor;
-    for (int apart = 0; apart <= *highest - *lowest; ++apart) factor.push_back(coupling(k, apart));
+    for (int apart = 0; apart <= teeth_spanned_; ++apart) factor.push_back(coupling(k, apart));
     const Eigen::MatrixXd& features = bodies_[k].features;
     for (Index q = 0; q < n; ++q) {
       for (Index p = q; p < n; ++p) {
@@ -225,6 +250,14 @@ double KernelSum::with_gradient(Index p, Index q, std::span<double> gradient) co
   std::fill(gradient.begin(), gradient.end(), 0.0);
   double value = 0;
   for (std::size_t k = 0; k < kernels_.size(); ++k) value += kernel_gradient(k, p, q, gradient);
+  if (form_.wind_up) {
+    const double w = wind_up_width_, d = zeta_[p] - zeta_[q], K = wind_up(p, q);
+    const auto at = static_cast<std::size_t>(wind_up_offset_);
+    gradient[at] = K;
+    gradient[at + 1] = 0.5 * wind_up_compliance_ * w *
+                       (w / wind_up_reach_[p] + w / wind_up_reach_[q] - w / std::sqrt(d * d + w * w) - 1);
+    value += K;
+  }
   for (std::size_t k = 0; k < bodies_.size(); ++k) value += body_gradient(k, p, q, gradient);
   return value;
 }
@@ -232,7 +265,7 @@ double KernelSum::with_gradient(Index p, Index q, std::span<double> gradient) co
 double KernelSum::kernel_gradient(std::size_t k, Index p, Index q, std::span<double> gradient) const {
   const KernelAtPoints& at = kernels_[k];
   const int apart = tooth_[static_cast<std::size_t>(p)] - tooth_[static_cast<std::size_t>(q)];
-  const bool far = form_.kernels[k].reach == Reach::Gear;
+  const bool far = form_.kernels[k].couples_teeth();
   if (apart != 0 && !far) return 0;
   const double m = apart;
   const double A = 0.5 * (at.axial_square[p] + at.axial_square[q]);
@@ -240,7 +273,8 @@ double KernelSum::kernel_gradient(std::size_t k, Index p, Index q, std::span<dou
   const double ds = s_[p] - s_[q] + at.kappa * m, du = u_[p] - u_[q];
   const double Q = ds * ds / A + du * du / R + m * m * at.inverse_lambda_square;
   const Correlation rho = correlation(form_.kernels[k].smoothness, Q);
-  const double scale = at.h[p] * at.h[q] / std::sqrt(A * R);
+  const double turn = form_.kernels[k].reach == Reach::Turning ? turning_cosine(apart) : 1;
+  const double scale = turn * at.h[p] * at.h[q] / std::sqrt(A * R);
   const double K = scale * rho.value, dK_dQ = scale * rho.slope;
 
   double* out = gradient.data() + at.offset;

@@ -46,16 +46,22 @@ class KernelSum {
   void add_kernel(std::size_t k, Eigen::MatrixXd& lower) const;
   double kernel_gradient(std::size_t k, Eigen::Index p, Eigen::Index q, std::span<double> gradient) const;
   double body_gradient(std::size_t k, Eigen::Index p, Eigen::Index q, std::span<double> gradient) const;
+  double turning_cosine(int teeth_apart) const;
+  double wind_up(Eigen::Index p, Eigen::Index q) const;
   double coupling(std::size_t body, int teeth_apart) const;
 
   KernelForm form_;
   int teeth_;
+  int teeth_spanned_{0};                                            ///< the largest |m_p - m_q|
   std::vector<int> tooth_;                                          ///< n
   Eigen::VectorXd u_, zeta_;                                        ///< n
   Eigen::Matrix<double, KernelForm::kWarpCoefficients, Eigen::Dynamic> warp_basis_;  ///< of w_0 and the tanh(w_i)
   Eigen::Matrix<double, KernelForm::kWarpCoefficients, 1> warp_slope_;  ///< d(w_0 or tanh w_i)/d w_i
   Eigen::VectorXd s_;                                               ///< warped zeta, n
   Eigen::MatrixXd body_basis_;                                      ///< beta, 10 x n
+  double wind_up_compliance_{0.0}, wind_up_width_{0.0};             ///< c, w
+  Eigen::VectorXd wind_up_reach_;                                   ///< v(zeta), n; empty where the form has none
+  int wind_up_offset_{0};
   std::vector<KernelAtPoints> kernels_;
   std::vector<BodyAtPoints> bodies_;
 };

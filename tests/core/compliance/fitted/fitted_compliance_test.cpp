@@ -76,7 +76,7 @@ TEST_CASE("A table with an entry missing, unknown, double or impossible is refus
   changed.names.back() = "gear.teeth";
   CHECK(field_of(changed) == "gear.teeth");
   changed = table;
-  changed.values[index("form.kernel_0.reach")] = 2;
+  changed.values[index("form.kernel_0.reach")] = 3;
   CHECK(field_of(changed) == "form.kernel_0.reach");
   changed = table;
   changed.values[index("form.kernels")] = 1.5;

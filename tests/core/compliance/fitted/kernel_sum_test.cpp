@@ -13,6 +13,7 @@ namespace {
 /// Every kind of kernel and body part.
 KernelForm everything() {
   KernelForm form = KernelForm::several_teeth();
+  form.kernels.push_back({Smoothness::Matern52, Reach::Turning, {2, {1, 0, 0}}, {1, {}}, {1, {}}});
   form.bodies.push_back({3, Coupling::Turning});
   return form;
 }
@@ -95,6 +96,23 @@ TEST_CASE("A kernel of constant lengths without warp is its closed form", "[core
   CHECK(K(0, 0) == Approx(g * g).epsilon(kRoundOff));
   CHECK(K(0, 1) == Approx(g * g * rho).epsilon(kRoundOff));
   CHECK(K(0, 2) == 0);  // another tooth
+}
+
+TEST_CASE("The body winds up as a shaft in torsion", "[core][compliance][fitted][closed-form]") {
+  KernelForm form{{Kernel{Smoothness::Matern32, Reach::Tooth, {1, {}}, {1, {}}, {1, {}}}}, {}, true};
+  const double c = 0.02, w = GENERATE(1e-3, 2.0);
+  const std::vector<double> x{0, 0, 0, 0, 0, 0, 0, 0, std::log(c), std::log(w)};
+  REQUIRE(form.count() == 10);
+  const std::vector<FlankPlace> places{{0, 0.3, 4}, {2, -0.5, 7}, {1, 0, 0}};
+  KernelSum sum(form, helical_gear(), places);
+  sum.set_coefficients(x);
+  const Eigen::MatrixXd K = sum.body_matrix();
+  // Model: rounding off takes less than w from the length that is twisted.
+  CHECK(K(0, 1) <= c * 4);
+  CHECK(K(0, 1) >= c * (4 - w));
+  CHECK(K(0, 1) == K(1, 0));
+  CHECK(K(1, 1) >= c * (7 - w));
+  CHECK(std::abs(K(2, 0)) < 1e-15);  // nothing winds up where the torque leaves; round-off
 }
 
 TEST_CASE("The compliance is smooth where a point passes the load", "[core][compliance][fitted]") {
