@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 
 #include "core/base/error.hpp"
+#include "core/base/root.hpp"
 #include "core/base/units.hpp"
 
 namespace flankwright {
@@ -69,13 +70,23 @@ FlankFrame flank_frame(const GearMesh& mesh, const FlankPoint& point) {
   frame.position = {-r * std::sin(angle), r * std::cos(angle), point.z};
   // The transverse normal leans by alpha_yt from the circle's tangent outwards.
   frame.normal = Eigen::Vector3d(std::cos(angle + alpha_yt), std::sin(angle + alpha_yt), tan_beta_b).normalized();
-  frame.depth = r * psi / (std::cos(alpha_yt) * std::sqrt(1 + tan_beta_b * tan_beta_b));
+
+  // Along the inward normal the angle to the (endless) centre surface falls from psi through 0.
+  const auto angle_left = [&](double depth) {
+    const Eigen::Vector3d x = frame.position - depth * frame.normal;
+    const double turned = point.tooth * 2 * units::pi / mesh.teeth + gamma * x.z();
+    return std::remainder(turned - std::atan2(-x.x(), x.y()), 2 * units::pi);
+  };
+  const double eq_2_2 = r * psi / (std::cos(alpha_yt) * std::sqrt(1 + tan_beta_b * tan_beta_b));
+  const double deep = 1.5 * eq_2_2;
+  frame.depth = bracketed_root(angle_left, 0.0, angle_left(0), deep, angle_left(deep), 1e-12 * mesh.normal_module).x;
   return frame;
 }
 
 Eigen::SparseVector<double> centre_functional(const GearMesh& mesh, const FlankPoint& point) {
   const FlankFrame frame = flank_frame(mesh, point);
-  const Eigen::Vector3d &p = frame.position, &n = frame.normal;
+  const Eigen::Vector3d& n = frame.normal;
+  const Eigen::Vector3d source = frame.position - (1 - source_height) * frame.depth * n;
 
   // Per node: integrals of w N and w xi N.
   std::map<int, Eigen::Vector2d> nodal;
@@ -83,8 +94,8 @@ Eigen::SparseVector<double> centre_functional(const GearMesh& mesh, const FlankP
   for (const MeshFace& face : mesh.surfaces(point.tooth).centre) {
     const FaceNodes nodes = mesh.face_nodes(face);
     Eigen::Matrix<double, 8, 2> sums = Eigen::Matrix<double, 8, 2>::Zero();
-    integrate_face(parts(nodes, p), [&](const FaceShape& shape, double weight) {
-      const Eigen::Vector3d d = nodes * shape.values - p;
+    integrate_face(parts(nodes, source), [&](const FaceShape& shape, double weight) {
+      const Eigen::Vector3d d = nodes * shape.values - source;
       const double a = -n.dot(d);
       if (!(a > 0)) return;
       const Eigen::Matrix<double, 3, 2> tangents = nodes * shape.derivatives;

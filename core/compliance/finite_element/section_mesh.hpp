@@ -19,7 +19,7 @@ struct GearMeshOptions {
   int teeth_each_side{2};           ///< detailed teeth on either side of the loaded one, >= 1
   double end_element{0.2};          ///< axial size next to the face ends, > 0
   double axial_growth{1.4};         ///< size ratio of neighbouring layers, > 1
-  double largest_element{0.7};      ///< axial size at mid face, >= end_element
+  double largest_element{0.6};      ///< axial size at mid face, >= end_element
   double body_growth{2.0};          ///< size ratio of neighbouring elements into the body and around it, > 1
   int shaft_elements{2};            ///< rings from the bore to the shaft's surface, >= 1
 

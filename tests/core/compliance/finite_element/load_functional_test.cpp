@@ -55,12 +55,15 @@ TEST_CASE("The flank's frame: normal to the surface, and deep to the tooth's cen
     CHECK(std::abs(normal.dot(at(h, 0) - at(-h, 0)) / (2 * h)) < 1e-6);
     CHECK(std::abs(normal.dot(at(0, h) - at(0, -h)) / (2 * h)) < 1e-6);
 
-    // The end of the inward normal lies on the centre surface only where the line of action is taken in the plane
-    // tangential to the base cylinder: for the spur gear it does exactly, chord against arc apart.
     const Eigen::Vector3d end = frame.position - frame.depth * frame.normal;
-    const double angle = std::atan2(end.x(), end.y()) + std::tan(mesh.form.helix_angle()) / mesh.form.reference_radius() * end.z() +
-                         point.tooth * 2 * pi / mesh.teeth;
-    CHECK(std::abs(std::remainder(angle, 2 * pi)) * end.head<2>().norm() < 0.12 * frame.depth);  // model
+    const double turn = std::tan(mesh.form.helix_angle()) / mesh.form.reference_radius();
+    const double angle = std::atan2(end.x(), end.y()) + turn * end.z() + point.tooth * 2 * pi / mesh.teeth;
+    CHECK(std::abs(std::remainder(angle, 2 * pi)) < 1e-10);  // round-off
+
+    // Eq. 2.2 of the thesis, arc for chord.
+    const double r = point.radius, alpha_yt = std::acos(mesh.form.base_radius() / r);
+    const double cos_base = 1 / std::hypot(1, turn * mesh.form.base_radius());
+    CHECK(frame.depth == Approx(r * mesh.form.half_angle(r) * cos_base / std::cos(alpha_yt)).epsilon(0.12));  // model
   }
 }
 
