@@ -127,7 +127,8 @@ Eigen::MatrixXd covariance_at(const PairResiduals& function, std::span<const dou
   const int m = function.residual_count(), n = function.coefficient_count();
   std::vector<double> residuals(static_cast<std::size_t>(m)), jacobian(static_cast<std::size_t>(m) * x.size());
   function.evaluate(x, residuals, jacobian);
-  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> J(jacobian.data(), m, n);
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> J(jacobian.data(), m,
+                                                                                                   n);
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
   normal.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());
   // Residuals carry 1/sqrt(N) each, as J does: it cancels in (J'J)^-1 times the sum of squares.
@@ -246,7 +247,8 @@ std::vector<double> flat_start(const KernelForm& form, std::span<const Influence
   return x;
 }
 
-FitResult fit_compliance(std::span<const InfluenceSample> all_samples, const KernelForm& form, const FitOptions& options) {
+FitResult fit_compliance(std::span<const InfluenceSample> all_samples, const KernelForm& form,
+                         const FitOptions& options) {
   form.validate();
   options.validate(form);
   if (all_samples.empty()) throw InvalidInput("samples", "none", "at least one");

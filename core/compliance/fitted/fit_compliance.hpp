@@ -26,8 +26,9 @@ struct FitOptions {
   std::vector<double> anchor;  ///< empty: the start
   double tooth_ridge{2.4e-4};  ///< of warp and kernels [-], >= 0
   double body_ridge{2.4e-4};   ///< of the body parts [-], >= 0
-  /// Pairs with next to no compliance in common count relative to their own compliances instead [-], > 0.
-  double scale_floor{0.01};
+  /// Pairs with next to no compliance in common count relative to their own compliances instead [-], > 0. Where several
+  /// teeth of a small gear are fitted, 0.01 keeps pairs whose compliance passes through zero from deciding the fit.
+  double scale_floor{0.003};
   LeastSquaresOptions solver{.max_iterations = 300, .cost_tolerance = 1e-7};
 
   /// Throws InvalidInput with field, value and violated bound.
@@ -55,6 +56,7 @@ std::vector<double> flat_start(const KernelForm& form, std::span<const Influence
 /// Fits a form to influence values of one gear.
 /// @param samples  all of the same gear; where the form couples no teeth, pairs on different teeth are left out
 /// @throws InvalidInput where a sample, the form or an option is out of range, or the samples are of different gears
-FitResult fit_compliance(std::span<const InfluenceSample> samples, const KernelForm& form, const FitOptions& options = {});
+FitResult fit_compliance(std::span<const InfluenceSample> samples, const KernelForm& form,
+                         const FitOptions& options = {});
 
 }  // namespace flankwright

@@ -18,10 +18,8 @@ class Writer {
   void operator()(const std::string& name, const int& value) { (*this)(name, static_cast<double>(value)); }
   void operator()(const std::string& name, const bool& value) { (*this)(name, value ? 1.0 : 0.0); }
   template <class Enum>
-    requires std::is_enum_v<Enum>
-  void operator()(const std::string& name, const Enum& value, int) {
-    (*this)(name, static_cast<int>(value));
-  }
+  requires std::is_enum_v<Enum>
+  void operator()(const std::string& name, const Enum& value, int) { (*this)(name, static_cast<int>(value)); }
   template <class List>
   void resize(const std::string& name, const List& list, int) {
     (*this)(name, static_cast<int>(list.size()));
@@ -53,7 +51,7 @@ class Reader {
   void operator()(const std::string& name, int& value) { value = whole(name, -1'000'000, 1'000'000); }
   void operator()(const std::string& name, bool& value) { value = whole(name, 0, 1) == 1; }
   template <class Enum>
-    requires std::is_enum_v<Enum>
+  requires std::is_enum_v<Enum>
   void operator()(const std::string& name, Enum& value, int count) {
     value = static_cast<Enum>(whole(name, 0, count - 1));
   }

@@ -82,7 +82,8 @@ bool FittedCompliance::covers(std::span<const FlankPlace> points) const {
   if (points.empty()) return true;
   const FitRange& range = record_.range;
   const auto [lowest, highest] = teeth_of(points);
-  return highest - lowest <= range.teeth_apart && std::all_of(points.begin(), points.end(), [&](const FlankPlace& point) {
+  return highest - lowest <= range.teeth_apart &&
+         std::all_of(points.begin(), points.end(), [&](const FlankPlace& point) {
            return point.u >= range.u_min && point.u <= range.u_max && point.zeta >= range.zeta_min &&
                   point.zeta <= range.zeta_max;
          });

@@ -8,19 +8,19 @@ namespace flankwright {
 
 /// A place on a flank of the gear, in coordinates that mean the same on every gear.
 struct FlankPlace {
-  int tooth{0};     ///< m: runs m pitches ahead of the reference tooth; only differences matter
-  double u{0.0};    ///< 2 (r - r_j)/(r_a - r_j) - 1 [-]: -1 where the involute starts, +1 at the tip
-  double zeta{0.0}; ///< z/m_n [-] from one end of the face, 0 .. B
+  int tooth{0};      ///< m: runs m pitches ahead of the reference tooth; only differences matter
+  double u{0.0};     ///< 2 (r - r_j)/(r_a - r_j) - 1 [-]: -1 where the involute starts, +1 at the tip
+  double zeta{0.0};  ///< z/m_n [-] from one end of the face, 0 .. B
 
   bool operator==(const FlankPlace&) const = default;
 };
 
 /// What influence values of different gears are compared by.
 struct GearFacts {
-  int teeth{0};                                              ///< Z, >= 5
-  double helix_angle{std::numeric_limits<double>::quiet_NaN()};   ///< beta [rad], sign: which end of the face is sharp
+  int teeth{0};                                                    ///< Z, >= 5
+  double helix_angle{std::numeric_limits<double>::quiet_NaN()};    ///< beta [rad], sign: which end of the face is sharp
   double relative_face{std::numeric_limits<double>::quiet_NaN()};  ///< B = b/m_n [-], > 0
-  double profile_shift{0.0};                                 ///< x [-]
+  double profile_shift{0.0};                                       ///< x [-]
 
   /// @throws InvalidInput naming the fact out of range
   void validate() const;

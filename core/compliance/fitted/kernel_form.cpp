@@ -30,7 +30,9 @@ void validate(const EndPolynomial& polynomial, const std::string& field) {
 
 }  // namespace
 
-KernelForm KernelForm::one_tooth() { return {{Kernel{}, Kernel{}}, {BodyPart{}}, true}; }
+KernelForm KernelForm::one_tooth() {
+  return {{Kernel{}, Kernel{}}, {BodyPart{}}, true};
+}
 
 KernelForm KernelForm::one_tooth_accurate() {
   Kernel smooth;

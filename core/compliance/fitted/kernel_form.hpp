@@ -17,9 +17,10 @@ enum class Smoothness {
 
 /// Which pairs of points a kernel couples.
 enum class Reach {
-  Tooth,  ///< points of one tooth
-  Gear,   ///< all points: Q gains ((m_p - m_q)/lambda)^2, and the axial distance kappa (m_p - m_q)
-  Turning,  ///< the same times cos(2 pi (m_p - m_q)/Z): the flank normals turn with the teeth, what moves below does not
+  Tooth,    ///< points of one tooth
+  Gear,     ///< all points: Q gains ((m_p - m_q)/lambda)^2, and the axial distance kappa (m_p - m_q)
+  Turning,  ///< the same times cos(2 pi (m_p - m_q)/Z): the flank normals turn with the teeth, what moves below does
+            ///< not
 };
 
 /// How a part of the gear body couples teeth.
@@ -31,8 +32,8 @@ enum class Coupling {
 
 /// The numbers of powers of u in a function  sum_i c_i u^i + sum over ends and k of e_k sum_i c_i u^i.
 struct EndPolynomial {
-  int middle{0};            ///< without end effect, 1 .. 6
-  std::array<int, 3> end{}; ///< for each decay length, the same at both ends, 0 .. 6
+  int middle{0};             ///< without end effect, 1 .. 6
+  std::array<int, 3> end{};  ///< for each decay length, the same at both ends, 0 .. 6
 
   int count() const { return middle + 2 * (end[0] + end[1] + end[2]); }
   bool operator==(const EndPolynomial&) const = default;
@@ -66,25 +67,25 @@ struct BodyPart {
 
 /// The form of a fitted compliance: what the coefficients mean.
 ///
-///     K(p,q) = sum over kernels of  h(p) h(q)/sqrt(A R) rho(Q)  +  sum over body parts of  (L beta(p)).(L beta(q)) C(m),
-///     A = (lz(p)^2 + lz(q)^2)/2,  R = (lr(p)^2 + lr(q)^2)/2,  h = g sqrt(lz lr),
-///     Q = (s(p) - s(q))^2/A + (u(p) - u(q))^2/R,
+///     K(p,q) = sum over kernels of  h(p) h(q)/sqrt(A R) rho(Q)  +  sum over body parts of  (L beta(p)).(L beta(q))
+///     C(m), A = (lz(p)^2 + lz(q)^2)/2,  R = (lr(p)^2 + lr(q)^2)/2,  h = g sqrt(lz lr), Q = (s(p) - s(q))^2/A + (u(p) -
+///     u(q))^2/R,
 ///
 /// and, with wind_up, the torsion of the gear body between the end zeta = 0, where its torque leaves, and the nearer of
 /// two places, as a shaft has it, rounded off over a length w because torque spreads into a body only gradually:
 ///
-///     c/2 [v(zeta_p) + v(zeta_q) - v(zeta_p - zeta_q) - w],  v(d) = sqrt(d^2 + w^2);  -> c min(zeta_p, zeta_q), w -> 0,
+///     c/2 [v(zeta_p) + v(zeta_q) - v(zeta_p - zeta_q) - w],  v(d) = sqrt(d^2 + w^2);  -> c min(zeta_p, zeta_q), w ->
+///     0,
 ///
 /// the non-stationary kernel of Paciorek and Schervish (2006), which is positive semi-definite for any positive lz and
-/// lr, as C(m) is for each Coupling and the wind-up by Schoenberg's theorem (v is conditionally negative definite); so the
-/// matrix over any points of any teeth is, whatever the coefficients. The
-/// first five coefficients warp the axis,
+/// lr, as C(m) is for each Coupling and the wind-up by Schoenberg's theorem (v is conditionally negative definite); so
+/// the matrix over any points of any teeth is, whatever the coefficients. The first five coefficients warp the axis,
 ///
 ///     s = zeta + w_0 u + tanh(w_1) e^-zeta + 0.175 tanh(w_2) e^(-zeta/0.35)
 ///              - tanh(w_3) e^-(B-zeta) - 0.175 tanh(w_4) e^(-(B-zeta)/0.35),
 ///
-/// those of the kernels follow, then log(c), log(w) of the wind-up and those of the body parts: the tooth, which interpolates well from gear to gear, is
-/// a contiguous part, and so is the body, which does not.
+/// those of the kernels follow, then log(c), log(w) of the wind-up and those of the body parts: the tooth, which
+/// interpolates well from gear to gear, is a contiguous part, and so is the body, which does not.
 struct KernelForm {
   std::vector<Kernel> kernels;
   std::vector<BodyPart> bodies;
@@ -94,7 +95,7 @@ struct KernelForm {
 
   static KernelForm one_tooth();           ///< two kernels, 109 coefficients
   static KernelForm one_tooth_accurate();  ///< three kernels, 173 coefficients
-  static KernelForm several_teeth();       ///< near and far kernels, 275 coefficients: for points on different teeth too
+  static KernelForm several_teeth();  ///< near and far kernels, 273 coefficients: for points on different teeth too
 
   int tooth_count() const;  ///< coefficients of warp and kernels, the first ones
   int body_count() const;   ///< coefficients of wind-up and body parts, the last ones

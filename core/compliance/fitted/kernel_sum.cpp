@@ -58,7 +58,8 @@ Correlation correlation(Smoothness smoothness, double Q) {
                                             : correlation<Smoothness::Matern52>(Q);
 }
 
-/// sum_i c_i basis(i, p) for every p, each in the same order: a point's value does not depend on which others there are.
+/// sum_i c_i basis(i, p) for every p, each in the same order: a point's value does not depend on which others there
+/// are.
 template <class Basis>
 VectorXd combine(const Basis& basis, const double* c) {
   VectorXd sum(basis.cols());
@@ -206,7 +207,9 @@ double KernelSum::wind_up(Index p, Index q) const {
   return 0.5 * wind_up_compliance_ * (wind_up_reach_[p] + wind_up_reach_[q] - std::sqrt(d * d + w * w) - w);
 }
 
-double KernelSum::turning_cosine(int teeth_apart) const { return std::cos(2 * units::pi * teeth_apart / teeth_); }
+double KernelSum::turning_cosine(int teeth_apart) const {
+  return std::cos(2 * units::pi * teeth_apart / teeth_);
+}
 
 double KernelSum::coupling(std::size_t body, int teeth_apart) const {
   switch (form_.bodies[body].coupling) {

@@ -52,15 +52,15 @@ class KernelSum {
 
   KernelForm form_;
   int teeth_;
-  int teeth_spanned_{0};                                            ///< the largest |m_p - m_q|
-  std::vector<int> tooth_;                                          ///< n
-  Eigen::VectorXd u_, zeta_;                                        ///< n
+  int teeth_spanned_{0};                                                             ///< the largest |m_p - m_q|
+  std::vector<int> tooth_;                                                           ///< n
+  Eigen::VectorXd u_, zeta_;                                                         ///< n
   Eigen::Matrix<double, KernelForm::kWarpCoefficients, Eigen::Dynamic> warp_basis_;  ///< of w_0 and the tanh(w_i)
-  Eigen::Matrix<double, KernelForm::kWarpCoefficients, 1> warp_slope_;  ///< d(w_0 or tanh w_i)/d w_i
-  Eigen::VectorXd s_;                                               ///< warped zeta, n
-  Eigen::MatrixXd body_basis_;                                      ///< beta, 10 x n
-  double wind_up_compliance_{0.0}, wind_up_width_{0.0};             ///< c, w
-  Eigen::VectorXd wind_up_reach_;                                   ///< v(zeta), n; empty where the form has none
+  Eigen::Matrix<double, KernelForm::kWarpCoefficients, 1> warp_slope_;               ///< d(w_0 or tanh w_i)/d w_i
+  Eigen::VectorXd s_;                                                                ///< warped zeta, n
+  Eigen::MatrixXd body_basis_;                                                       ///< beta, 10 x n
+  double wind_up_compliance_{0.0}, wind_up_width_{0.0};                              ///< c, w
+  Eigen::VectorXd wind_up_reach_;  ///< v(zeta), n; empty where the form has none
   int wind_up_offset_{0};
   std::vector<KernelAtPoints> kernels_;
   std::vector<BodyAtPoints> bodies_;

@@ -41,10 +41,10 @@ struct LeastSquaresOptions {
 struct LeastSquaresResult {
   FitStatus status{FitStatus::NotRun};
   std::string message{"solve_least_squares() was not called"};
-  std::vector<double> coefficients;  ///< the best found; the start where it failed at once
+  std::vector<double> coefficients;                               ///< the best found; the start where it failed at once
   double initial_cost{std::numeric_limits<double>::quiet_NaN()};  ///< half the sum of squares at the start
   double cost{std::numeric_limits<double>::quiet_NaN()};          ///< half the sum of squares at the end
-  int iterations{-1};                ///< trust-region steps tried; -1: never ran
+  int iterations{-1};                                             ///< trust-region steps tried; -1: never ran
 };
 
 /// Minimises half the sum of squares by Levenberg and Marquardt's method (Ceres, normal equations by Cholesky). One

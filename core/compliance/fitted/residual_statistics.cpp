@@ -27,7 +27,8 @@ std::vector<ResidualStatistics> residual_statistics(const FlankCompliance& model
   for (auto& [apart, sorted] : errors) {
     std::sort(sorted.begin(), sorted.end());
     const auto n = sorted.size();
-    statistics.push_back({apart, static_cast<int>(n), sorted[(n - 1) / 2], sorted[(95 * n + 99) / 100 - 1], sorted.back()});
+    statistics.push_back(
+        {apart, static_cast<int>(n), sorted[(n - 1) / 2], sorted[(95 * n + 99) / 100 - 1], sorted.back()});
   }
   return statistics;
 }

@@ -12,7 +12,7 @@ namespace flankwright {
 /// How far a model is from influence values, over all known pairs of points that are so many teeth apart: the
 /// distribution of |K_model - K| / |K|, relative to the local value.
 struct ResidualStatistics {
-  int teeth_apart{-1};                                        ///< |m_p - m_q|
+  int teeth_apart{-1};  ///< |m_p - m_q|
   int pairs{0};
   double median{std::numeric_limits<double>::quiet_NaN()};    ///< [-]
   double share_95{std::numeric_limits<double>::quiet_NaN()};  ///< 95 % of the pairs are at or below this [-]

@@ -46,8 +46,8 @@ double one_way(ThesisBody body, double B, std::span<const double> c, Point where
   d[g2] = by_where * end_0(where.zeta) + by_load * end_0(load.zeta);
   d[log_g3] = -v[g2] * g3 * (by_where * end_0(where.zeta) * where.zeta + by_load * end_0(load.zeta) * load.zeta);
   d[g4] = by_where * end_1(where.zeta) + by_load * end_1(load.zeta);
-  d[log_g5] = -v[g4] * g5 *
-              (by_where * end_1(where.zeta) * (B - where.zeta) + by_load * end_1(load.zeta) * (B - load.zeta));
+  d[log_g5] =
+      -v[g4] * g5 * (by_where * end_1(where.zeta) * (B - where.zeta) + by_load * end_1(load.zeta) * (B - load.zeta));
   return inside ? root * F : root * F + gear;
 }
 
@@ -90,7 +90,8 @@ class ThesisResiduals final : public ResidualFunction {
       const auto n = static_cast<Index>(sample.points.size());
       for (Index p = 0; p < n; ++p) {
         for (Index q = 0; q <= p; ++q) {
-          const FlankPlace &a = sample.points[static_cast<std::size_t>(p)], &b = sample.points[static_cast<std::size_t>(q)];
+          const FlankPlace &a = sample.points[static_cast<std::size_t>(p)],
+                           &b = sample.points[static_cast<std::size_t>(q)];
           const double known = sample.at(p, q);
           if (std::abs(a.tooth - b.tooth) == apart && !std::isnan(known) && known != 0) {
             pairs_.push_back({{a.u, a.zeta}, {b.u, b.zeta}, known});
@@ -109,7 +110,8 @@ class ThesisResiduals final : public ResidualFunction {
     bool finite = true;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       const auto& [p, q, known] = pairs_[i];
-      const double value = apart_ == 0 ? own_tooth(body_, B_, x, p, q, gradient) : adjacent_tooth(B_, x, p, q, gradient);
+      const double value =
+          apart_ == 0 ? own_tooth(body_, B_, x, p, q, gradient) : adjacent_tooth(B_, x, p, q, gradient);
       const double scale = 1 / (std::abs(known) * std::sqrt(static_cast<double>(pairs_.size())));
       residuals[i] = scale * (value - known);
       finite = finite && std::isfinite(residuals[i]);
@@ -168,19 +170,20 @@ Eigen::MatrixXd ThesisCompliance::evaluate(std::span<const FlankPlace> points) c
   Eigen::MatrixXd K(n, n);
   for (Index p = 0; p < n; ++p) {
     const FlankPlace& a = points[static_cast<std::size_t>(p)];
-    if (!(a.zeta >= 0 && a.zeta <= B)) throw InvalidInput("point.zeta", std::to_string(a.zeta), "0 .. " + std::to_string(B));
+    if (!(a.zeta >= 0 && a.zeta <= B))
+      throw InvalidInput("point.zeta", std::to_string(a.zeta), "0 .. " + std::to_string(B));
     if (!(std::abs(a.u) <= 1.05)) throw InvalidInput("point.u", std::to_string(a.u), "-1.05 .. 1.05");
     for (Index q = 0; q <= p; ++q) {
       const FlankPlace& b = points[static_cast<std::size_t>(q)];
       const int apart = std::abs(a.tooth - b.tooth);
       if (apart > teeth_apart()) {
-        throw InvalidInput("point.tooth", std::to_string(apart) + " teeth apart", "at most " + std::to_string(teeth_apart()));
+        throw InvalidInput("point.tooth", std::to_string(apart) + " teeth apart",
+                           "at most " + std::to_string(teeth_apart()));
       }
       const Point at_p{a.u, a.zeta}, at_q{b.u, b.zeta};
       const auto first = static_cast<std::size_t>(kOwnCoefficients + (apart - 1) * kAdjacentCoefficients);
-      K(p, q) = K(q, p) = apart == 0
-                              ? own_tooth(body_, B, c.first(kOwnCoefficients), at_p, at_q, unused)
-                              : adjacent_tooth(B, c.subspan(first, kAdjacentCoefficients), at_p, at_q, unused);
+      K(p, q) = K(q, p) = apart == 0 ? own_tooth(body_, B, c.first(kOwnCoefficients), at_p, at_q, unused)
+                                     : adjacent_tooth(B, c.subspan(first, kAdjacentCoefficients), at_p, at_q, unused);
     }
   }
   return K;

@@ -24,7 +24,8 @@ enum class ThesisBody {
 ///     K = sqrt(G(z_F) G(z)) F(zbar),   G(z) = 1 + C_g2 e^(-C_g3 z) + C_g4 e^(-C_g5 (B - z)),
 ///     F = C_f1 [e^(-C_f2 |zbar| - C_f6 zbar) - C_f3 e^(-25 |zbar|)] + C_f4 + C_f5 zbar,
 ///
-/// the last two terms outside the root for ThesisBody::Separate. On teeth m apart (eq. 2.9, C_a6 = 0 as the thesis chose)
+/// the last two terms outside the root for ThesisBody::Separate. On teeth m apart (eq. 2.9, C_a6 = 0 as the thesis
+/// chose)
 ///
 ///     K = C_a1 + C_a2 e^(-C_a3 (z_F + z)) + C_a4 e^(-C_a5 (2 B - z_F - z)).
 ///

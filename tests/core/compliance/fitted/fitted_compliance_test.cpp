@@ -90,8 +90,8 @@ TEST_CASE("A fit refuses points that it knows nothing of, and tells which lie be
           "[core][compliance][fitted]") {
   std::mt19937 random(5);
   const FittedCompliance fit = any_fit(random);
-  const std::vector<FlankPlace> inside{{0, 0, 6}, {4, 0.9, 0.25}}, edge{{0, 1, 6}}, off{{0, 0, 12.01}}, above{{0, 1.1, 6}},
-      apart{{0, 0, 6}, {5, 0, 6}};
+  const std::vector<FlankPlace> inside{{0, 0, 6}, {4, 0.9, 0.25}}, edge{{0, 1, 6}}, off{{0, 0, 12.01}},
+      above{{0, 1.1, 6}}, apart{{0, 0, 6}, {5, 0, 6}};
   CHECK(fit.covers(inside));
   CHECK_FALSE(fit.covers(edge));
   CHECK_FALSE(fit.covers(apart));
@@ -113,8 +113,9 @@ TEST_CASE("Coefficients of a form have names of their own, as many as there are"
   // A form that says nothing of two teeth may not claim to.
   std::mt19937 random(6);
   const KernelForm form = KernelForm::one_tooth();
-  CHECK_THROWS_AS(FittedCompliance(form, helical_gear(), random_coefficients(form, random), {{-1, 1, 0, 12, 1}, {}, {}}),
-                  InvalidInput);
+  CHECK_THROWS_AS(
+      FittedCompliance(form, helical_gear(), random_coefficients(form, random), {{-1, 1, 0, 12, 1}, {}, {}}),
+      InvalidInput);
 }
 
 TEST_CASE("Blends of two gears' coefficients stay positive semi-definite", "[core][compliance][fitted]") {
@@ -126,7 +127,8 @@ TEST_CASE("Blends of two gears' coefficients stay positive semi-definite", "[cor
     for (std::size_t i = 0; i < a.size(); ++i) blend[i] = (1 - share) * a[i] + share * b[i];
     const FittedCompliance fit(form, helical_gear(), blend, {{-1, 1, 0, 12, 4}, {}, {}});
     const Eigen::MatrixXd K = fit.evaluate(random_places(150, 12, -2, 2, random));
-    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
+    const Eigen::VectorXd values =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
     CHECK(values[0] >= -1e-12 * values[149]);  // round-off
   }
 }

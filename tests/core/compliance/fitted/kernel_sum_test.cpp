@@ -19,7 +19,8 @@ KernelForm everything() {
 }
 
 double smallest_over_largest(const Eigen::MatrixXd& K) {
-  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd values =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
   return values[0] / values[values.size() - 1];
 }
 

@@ -35,7 +35,8 @@ class Misra final : public ResidualFunction {
 
 }  // namespace
 
-TEST_CASE("Least squares meet NIST's certified values from both of its starts", "[core][compliance][fitted][reference]") {
+TEST_CASE("Least squares meet NIST's certified values from both of its starts",
+          "[core][compliance][fitted][reference]") {
   const auto start = GENERATE(std::array<double, 2>{500, 0.0001}, std::array<double, 2>{250, 0.0005});
   const LeastSquaresResult result = solve_least_squares(Misra{}, start, {200, 1e-14});
   CHECK(result.status == FitStatus::Converged);

@@ -12,8 +12,8 @@ namespace flankwright::testing {
 
 /// Influence values of a gear that can be had in milliseconds and know nothing of kernels: each tooth a tapered Mindlin
 /// plate, clamped at its root, with ends cut obliquely (one sharp, one blunt), solved by Ritz' method with Legendre
-/// polynomials; under all teeth an elastic base, k/sqrt(1 + d^2) between places a distance d apart; and a body that winds
-/// up and tilts. E = m_n = 1. Each part is symmetric and positive semi-definite.
+/// polynomials; under all teeth an elastic base, k/sqrt(1 + d^2) between places a distance d apart; and a body that
+/// winds up and tilts. E = m_n = 1. Each part is symmetric and positive semi-definite.
 class SyntheticGear {
  public:
   explicit SyntheticGear(GearFacts facts, double skew = 0.25) : facts_(facts) {
@@ -80,7 +80,8 @@ class SyntheticGear {
       for (int i = 0; i < radial; ++i) {
         for (int j = 0; j < axial; ++j) {
           const double x = -std::cos(units::pi * (j + 0.5) / axial);
-          points.push_back({m, radial == 1 ? 0.0 : -0.95 + 1.9 * i / (radial - 1), facts_.relative_face * 0.5 * (1 + x)});
+          points.push_back(
+              {m, radial == 1 ? 0.0 : -0.95 + 1.9 * i / (radial - 1), facts_.relative_face * 0.5 * (1 + x)});
         }
       }
     }
