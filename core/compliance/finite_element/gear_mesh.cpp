@@ -56,8 +56,8 @@ class Sweep {
       number = static_cast<int>(points_.size());
       const double turn = twist_ * std::clamp(z, -half_face_, half_face_);
       const Eigen::Vector2d p = section_.nodes.col(section_node);
-      points_.push_back({p.x() * std::cos(turn) - p.y() * std::sin(turn),
-                         p.x() * std::sin(turn) + p.y() * std::cos(turn), z});
+      points_.push_back(
+          {p.x() * std::cos(turn) - p.y() * std::sin(turn), p.x() * std::sin(turn) + p.y() * std::cos(turn), z});
     }
     return number;
   }

@@ -15,9 +15,9 @@ namespace flankwright {
 /// left-hand flank, is a mirror image of this.
 struct GearToMesh {
   GearData gear;
-  double normal_module{not_given};    ///< m_n [mm], > 0
-  double pressure_angle{not_given};   ///< alpha_n [rad]
-  double helix_angle{not_given};      ///< |beta| [rad], 0 .. 45 deg
+  double normal_module{not_given};   ///< m_n [mm], > 0
+  double pressure_angle{not_given};  ///< alpha_n [rad]
+  double helix_angle{not_given};     ///< |beta| [rad], 0 .. 45 deg
   GearBody body;
 };
 
@@ -26,9 +26,9 @@ using MeshFace = std::array<int, 8>;
 
 /// Surfaces of one detailed tooth, without the shaft's overhangs.
 struct ToothSurfaces {
-  std::vector<MeshFace> centre;   ///< centre surface, from the tip to the bore
-  std::vector<MeshFace> flank;    ///< loaded flank, tip to start of fillet
-  std::vector<MeshFace> fillet;   ///< fillet below it, to its lowest point
+  std::vector<MeshFace> centre;  ///< centre surface, from the tip to the bore
+  std::vector<MeshFace> flank;   ///< loaded flank, tip to start of fillet
+  std::vector<MeshFace> fillet;  ///< fillet below it, to its lowest point
 };
 
 /// The section swept along z with the helix, and the shaft's overhangs, held at their far ends: all of the section

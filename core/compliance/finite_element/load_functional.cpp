@@ -1,14 +1,13 @@
 #include "core/compliance/finite_element/load_functional.hpp"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <map>
 #include <string>
-
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include "core/base/error.hpp"
 #include "core/base/root.hpp"

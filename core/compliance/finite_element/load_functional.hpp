@@ -1,9 +1,8 @@
 #pragma once
 
-#include <vector>
-
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <vector>
 
 #include "core/compliance/finite_element/gear_mesh.hpp"
 
@@ -37,27 +36,26 @@ inline constexpr double source_height = 0.5;
 ///     l_p(u) = integral over the tooth's centre surface of w_p(x) (-n_p) . u(x) dA,
 ///     w_p ~ (3 / 2 pi) a^2 |d . nu| / R^5,   d = x - s,  R = |d|,  a = -n_p . d > 0  (0 where a <= 0),
 ///
-/// the part of a half-space's stress under a point load that acts along the load at s (Boussinesq; radial towards s, so that
-/// its flux through every surface with unit normal nu that cuts the half-space is the load; the transverse pressure
-/// that depends on Poisson's ratio is left out). On a plane across the normal at the depth h this is
-/// 3 h^3 / (2 pi R^5), h being s's distance. Load and deflection are along the inward normal, so that K = l_p(A^-1 l_q) is symmetric and
+/// the part of a half-space's stress under a point load at s that acts along the load (Boussinesq; radial towards s, so
+/// that its flux through every surface with unit normal nu that cuts the half-space is the load; the transverse
+/// pressure that depends on Poisson's ratio is left out). On a plane across the normal, h away from s, this is
+/// 3 h^3 / (2 pi R^5). Load and deflection are along the inward normal, so that K = l_p(A^-1 l_q) is symmetric and
 /// positive semi-definite whatever mesh and weights are.
 ///
+/// s lies on the line of action through p, source_height of p's depth above the centre surface. With s = p the weights
+/// would be those of the load itself; but then load and deflection are both means over the same area, while the contact
+/// law counts down to the point below the load. Under a line load across a spur tooth's face (18 and 40 teeth) that is
+/// 2 to 3 % too little at half height and 6 to 11 % at the tip, against the load on the flank and the deflection of the
+/// centre right below it [Haddad 1991, 2.5]. Half the height about halves this; less would need a finer mesh.
+///
 /// Only the part of the centre surface that exists carries: it ends at the tip, at both face ends and at the bore. What
-/// of w_p falls outside is made up for by a factor (1 + c xi) on the rest, xi being the lever about the gear's axis
+/// of w_p falls outside is made up for by a factor (c_0 + c_1 xi) on the rest, xi being the lever about the gear's axis
 /// relative to that of the line of action; both constants follow from
 ///
 ///     integral of w_p dA = 1,   integral of w_p xi dA = 0,
 ///
 /// so that force and torque are the load's. At the sharp end, where the normal leaves through the end face before it
-/// meets the centre surface, the load thus enters where the centre surface is nearest; its tilting moment is the only
-/// thing that changes.
-///
-/// s lies on the line of action through p, source_height of p's depth above the centre surface. With s = p the weights
-/// would be those of the load itself; but then both load and deflection are means over the same area, while the
-/// contact law counts down to the point below the load. Under a line load across a spur tooth's face that is 2 to 3 %
-/// too little at half height and 7 to 10 % at the tip, against the load on the flank and the deflection of the centre
-/// right below it [Haddad 1991, 2.5]. Half the height halves this; less would need a finer mesh.
+/// meets the centre surface, the load thus enters where the centre surface is nearest; only its tilting moment changes.
 ///
 /// The integral is taken over the mesh's faces with their own shape functions, subdivided near s.
 ///

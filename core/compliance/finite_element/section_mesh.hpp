@@ -1,9 +1,8 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include "core/gear/tooth_form.hpp"
 
@@ -51,10 +50,10 @@ struct SectionTooth {
 /// Transverse section of a gear at z = 0 in quadratic 8-node quads, origin in the axis, tooth 0 along +y. Corners run
 /// counter-clockwise, mid-sides 1-2, 2-3, 3-4, 4-1. All nodes of flanks and fillets lie exactly on them.
 struct SectionMesh {
-  Eigen::Matrix2Xd nodes;                     ///< [mm]
+  Eigen::Matrix2Xd nodes;  ///< [mm]
   Eigen::Matrix<int, 8, Eigen::Dynamic> quads;
-  std::vector<char> in_shaft;                 ///< of every quad: part of the shaft
-  std::vector<SectionTooth> teeth;            ///< -n .. n, counter-clockwise
+  std::vector<char> in_shaft;       ///< of every quad: part of the shaft
+  std::vector<SectionTooth> teeth;  ///< -n .. n, counter-clockwise
 };
 
 /// The toothed ring has one block per half tooth, spanned between the profile (flank, fillet, half the root land) and

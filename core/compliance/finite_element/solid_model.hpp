@@ -1,11 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <array>
 #include <cstddef>
 #include <vector>
-
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
 
 #include "core/compliance/finite_element/brick.hpp"
 #include "core/compliance/finite_element/sparse_cholesky.hpp"
@@ -14,8 +13,8 @@ namespace flankwright {
 
 /// A body of n nodes and m curved 20-node bricks.
 struct SolidMesh {
-  Eigen::Matrix3Xd nodes;                               ///< [mm], 3 x n
-  Eigen::Matrix<int, 20, Eigen::Dynamic> bricks;        ///< node numbers, 20 x m, in the order of BrickNodes
+  Eigen::Matrix3Xd nodes;                         ///< [mm], 3 x n
+  Eigen::Matrix<int, 20, Eigen::Dynamic> bricks;  ///< node numbers, 20 x m, in the order of BrickNodes
 
   BrickNodes brick_nodes(Eigen::Index brick) const;
   /// Smallest brick_quality() of the mesh.
@@ -25,8 +24,8 @@ struct SolidMesh {
 /// A node whose displacement is held at 0 along some directions.
 struct NodeSupport {
   int node{-1};
-  std::array<bool, 3> fixed{true, true, true};          ///< along the columns of `frame`
-  Eigen::Matrix3d frame{Eigen::Matrix3d::Identity()};   ///< orthonormal
+  std::array<bool, 3> fixed{true, true, true};         ///< along the columns of `frame`
+  Eigen::Matrix3d frame{Eigen::Matrix3d::Identity()};  ///< orthonormal
 };
 
 /// Linear elastic body, factorised once for many loads:
@@ -56,9 +55,9 @@ class SolidModel {
   SolidModel(Eigen::Index size, Assembled&& assembled);
   Eigen::MatrixXd reduce(const Eigen::SparseMatrix<double>& loads, Eigen::Index begin, Eigen::Index columns) const;
 
-  Eigen::Index size_;                   ///< 3 n
-  std::vector<NodeSupport> turned_;     ///< supports whose frame is not the axes
-  Eigen::VectorXi free_rows_;           ///< of every unknown, its place among the 3 n
+  Eigen::Index size_;                ///< 3 n
+  std::vector<NodeSupport> turned_;  ///< supports whose frame is not the axes
+  Eigen::VectorXi free_rows_;        ///< of every unknown, its place among the 3 n
   SparseCholesky factor_;
 };
 

@@ -1,13 +1,13 @@
 #include "core/compliance/finite_element/sparse_cholesky.hpp"
 
+#include <cholmod.h>
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <cassert>
 #include <initializer_list>
 #include <new>
 #include <vector>
-
-#include <cholmod.h>
-#include <dlfcn.h>
 
 namespace flankwright {
 namespace {
@@ -164,9 +164,15 @@ SparseCholesky::~SparseCholesky() = default;
 SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
-std::size_t SparseCholesky::factor_entries() const { return factor_->l ? factor_->l->xsize : 0; }
-std::size_t SparseCholesky::peak_bytes() const { return factor_->common.memory_usage; }
-double SparseCholesky::flops() const { return factor_->common.fl; }
+std::size_t SparseCholesky::factor_entries() const {
+  return factor_->l ? factor_->l->xsize : 0;
+}
+std::size_t SparseCholesky::peak_bytes() const {
+  return factor_->common.memory_usage;
+}
+double SparseCholesky::flops() const {
+  return factor_->common.fl;
+}
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& right_sides) const {
   assert(status_ == FactorStatus::Factorised);

@@ -1,11 +1,10 @@
 #pragma once
 
+#include <Eigen/LU>
 #include <array>
 #include <functional>
 #include <map>
 #include <vector>
-
-#include <Eigen/LU>
 
 #include "core/compliance/finite_element/solid_model.hpp"
 

@@ -28,7 +28,8 @@ void write_deck(std::ostream& out, const SolidMesh& mesh, const Material& materi
     for (int i = 0; i < 20; ++i) out << (i == 10 ? ",\n" : ", ") << mesh.bricks(i, e) + 1;
     out << '\n';
   }
-  out << "*MATERIAL, NAME=STEEL\n*ELASTIC\n" << material.youngs_modulus << ", " << material.poissons_ratio << '\n'
+  out << "*MATERIAL, NAME=STEEL\n*ELASTIC\n"
+      << material.youngs_modulus << ", " << material.poissons_ratio << '\n'
       << "*SOLID SECTION, ELSET=EALL, MATERIAL=STEEL\n*BOUNDARY\n";
   for (const int node : clamped) out << node + 1 << ", 1, 3\n";
   out << "*STEP\n*STATIC\n*CLOAD\n";

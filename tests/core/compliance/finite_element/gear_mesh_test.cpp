@@ -66,7 +66,8 @@ TEST_CASE("Gears of all shapes can be meshed without a folded element", "[core][
   const double shift = GENERATE(-0.3, 0.0, 0.6);
   CAPTURE(teeth, helix, shift);
   GearToMesh gear = gear_of(teeth, helix, 3, shift);
-  if (teeth == 10 && shift > 0) gear.gear.tip_diameter = 2 * ToothForm(gear.gear, 1, gear.pressure_angle, gear.helix_angle).tip_radius() - 0.5;
+  if (teeth == 10 && shift > 0)
+    gear.gear.tip_diameter = 2 * ToothForm(gear.gear, 1, gear.pressure_angle, gear.helix_angle).tip_radius() - 0.5;
   CHECK(gear_mesh(gear, coarse()).solid.quality() > 0.02);
 }
 
@@ -75,13 +76,21 @@ TEST_CASE("Racks, faces and bodies of all kinds can be meshed", "[core][complian
   SECTION("full tip rounding") {
     gear.gear.rack.root_radius = full_tip_rounding(gear.gear.rack.dedendum, gear.pressure_angle);
   }
-  SECTION("sharp tool") { gear.gear.rack.root_radius = 0; }
+  SECTION("sharp tool") {
+    gear.gear.rack.root_radius = 0;
+  }
   SECTION("high teeth") {
     gear.gear.rack = {1.3, 1.55, 0.2};
   }
-  SECTION("wide bore") { gear.body.bore_diameter = 0.8 * 20; }
-  SECTION("thin shaft") { gear.body.shaft_diameter = 5; }
-  SECTION("15 deg") { gear.pressure_angle = 15 * units::deg; }
+  SECTION("wide bore") {
+    gear.body.bore_diameter = 0.8 * 20;
+  }
+  SECTION("thin shaft") {
+    gear.body.shaft_diameter = 5;
+  }
+  SECTION("15 deg") {
+    gear.pressure_angle = 15 * units::deg;
+  }
   SECTION("25 deg") {
     gear.pressure_angle = 25 * units::deg;
     gear.gear.rack.root_radius = 0.3;

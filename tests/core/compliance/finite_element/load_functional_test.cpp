@@ -1,9 +1,8 @@
 #include "core/compliance/finite_element/load_functional.hpp"
 
+#include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 #include <cmath>
-
-#include <Eigen/Geometry>
 
 #include "core/base/error.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
@@ -69,7 +68,8 @@ TEST_CASE("The flank's frame: normal to the surface, and deep to the tooth's cen
 
 TEST_CASE("A load on the flank keeps its force and its torque exactly", "[core][compliance][fe]") {
   const GearMesh mesh = gear_mesh(gear_of(23, GENERATE(0, 25), 5), coarse());
-  const double cos_base = 1 / std::hypot(1, std::tan(mesh.form.helix_angle()) * mesh.form.base_radius() / mesh.form.reference_radius());
+  const double cos_base =
+      1 / std::hypot(1, std::tan(mesh.form.helix_angle()) * mesh.form.base_radius() / mesh.form.reference_radius());
   for (const FlankPoint& point : points(mesh)) {
     CAPTURE(point.tooth, point.radius, point.z);
     const FlankFrame frame = flank_frame(mesh, point);

@@ -1,11 +1,10 @@
 #include "core/compliance/finite_element/solid_model.hpp"
 
-#include <catch2/catch.hpp>
-#include <cmath>
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <catch2/catch.hpp>
+#include <cmath>
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
@@ -25,15 +24,18 @@ Eigen::Vector3d bulge(const Eigen::Vector3d& p) {
   return p + 0.08 * s * Eigen::Vector3d(1, -0.7, 0.4);
 }
 
-Eigen::SparseMatrix<double> sparse(const Eigen::MatrixXd& dense) { return dense.sparseView(); }
+Eigen::SparseMatrix<double> sparse(const Eigen::MatrixXd& dense) {
+  return dense.sparseView();
+}
 
 /// Nodal loads of the traction that the uniform stress S puts on the surface of a body whose bricks fill it: what the
 /// stress does to the shape functions.
 Eigen::MatrixXd loads_of_uniform_stress(const SolidMesh& mesh, const Eigen::Matrix3d& stress) {
   Eigen::MatrixXd load = Eigen::MatrixXd::Zero(mesh.nodes.size(), 1);
   // The surface of the unit cube: faces of bricks whose four corners lie on it, flat and with mid-sides half way.
-  constexpr int kFaces[6][8] = {{0, 3, 2, 1, 11, 10, 9, 8},   {4, 5, 6, 7, 12, 13, 14, 15}, {0, 1, 5, 4, 8, 17, 12, 16},
-                                {1, 2, 6, 5, 9, 18, 13, 17},  {2, 3, 7, 6, 10, 19, 14, 18}, {3, 0, 4, 7, 11, 16, 15, 19}};
+  constexpr int kFaces[6][8] = {{0, 3, 2, 1, 11, 10, 9, 8},   {4, 5, 6, 7, 12, 13, 14, 15},
+                                {0, 1, 5, 4, 8, 17, 12, 16},  {1, 2, 6, 5, 9, 18, 13, 17},
+                                {2, 3, 7, 6, 10, 19, 14, 18}, {3, 0, 4, 7, 11, 16, 15, 19}};
   for (Eigen::Index e = 0; e < mesh.bricks.cols(); ++e) {
     for (const auto& face : kFaces) {
       FaceNodes nodes;
@@ -120,7 +122,8 @@ TEST_CASE("A cantilever of bricks converges to the beam with shear", "[core][com
   const auto tip = [&](int n) {
     Eigen::Matrix3Xd cube;
     const SolidMesh mesh = block_mesh(
-        n, 2, 1, [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(length * p.x(), height * p.y(), width * p.z()); },
+        n, 2, 1,
+        [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(length * p.x(), height * p.y(), width * p.z()); },
         &cube);
     const SolidModel model(mesh, straight, hold(cube, [](const Eigen::Vector3d& p) { return p.x() == 0; }));
     // Shear spread over the end's area; the same functional is the end's mean deflection.
@@ -143,8 +146,8 @@ TEST_CASE("A cantilever of bricks converges to the beam with shear", "[core][com
   const double beam = force * std::pow(length, 3) / (3 * straight.youngs_modulus * inertia) +
                       force * length / (5.0 / 6 * straight.youngs_modulus / 2 * area);
   const double coarse = std::abs(tip(3) / beam - 1), fine = std::abs(tip(12) / beam - 1);
-  CHECK(coarse < 0.05);    // discretisation
-  CHECK(fine < 5e-4);      // discretisation, and the corners' singularity at the clamped end
+  CHECK(coarse < 0.05);  // discretisation
+  CHECK(fine < 5e-4);    // discretisation, and the corners' singularity at the clamped end
   CHECK(fine < coarse / 30);
 }
 
@@ -157,7 +160,9 @@ TEST_CASE("Displacements converge with the third power of the size, stresses wit
     double product = 1;
     for (int i = 0; i < 3; ++i) {
       const int order = (a == i) + (b == i);
-      product *= order == 0 ? std::sin(pi * p[i]) : order == 1 ? pi * std::cos(pi * p[i]) : -pi * pi * std::sin(pi * p[i]);
+      product *= order == 0   ? std::sin(pi * p[i])
+                 : order == 1 ? pi * std::cos(pi * p[i])
+                              : -pi * pi * std::sin(pi * p[i]);
     }
     return product;
   };
