@@ -56,6 +56,8 @@ inline constexpr double source_height = 0.5;
 ///
 /// so that force and torque are the load's. At the sharp end, where the normal leaves through the end face before it
 /// meets the centre surface, the load thus enters where the centre surface is nearest; only its tilting moment changes.
+/// A limit of this: over the last 0.3 modules before that end a point's own deflection under its own load falls, to
+/// about half of what a load on the flank gives there (18 and 40 teeth, 30 deg).
 ///
 /// The integral is taken over the mesh's faces with their own shape functions, subdivided near s.
 ///
