@@ -94,8 +94,11 @@ function hand_over_words(scene, speed_ratio) {
 function parabola_words(parabola) {
   const { wanted_arcsec_per_deg2: wanted, found_arcsec_per_deg2: found, shift_deg: shift, residual_arcsec: residual } = parabola;
   if (!parabola.holds) return `The designed parabola does not hold: ${parabola.why || "no reason is stored"}.`;
+  const centred = Math.abs(shift) < 0.001;  // deg: less is nothing on any machine
+  const vertex = centred ? "in" : `${fmt(Math.abs(shift), 2)}° ${shift < 0 ? "before" : "after"}`;
+  const kept = residual < 0.001 ? "below 0.001" : fmt(residual, 2);  // arcsec
   return `The designed parabola holds: a = ${fmt(found, 3)} arcsec/deg² of ${fmt(wanted, 3)} wanted, its vertex `
-    + `${fmt(Math.abs(shift), 2)}° ${shift < 0 ? "before" : "after"} the middle of the mesh, kept to ${fmt(residual, 2)} arcsec.`;
+    + `${vertex} the middle of the mesh, kept to ${kept} arcsec.`;
 }
 
 function draw_words(plot, scene, speed_ratio) {

@@ -106,7 +106,6 @@ TEST_CASE("The separation is the smallest that a sweep through the mesh finds", 
   Modification pinion, wheel;
   pinion.lead_crowning = 0.010;
   pinion.tip_relief = {0.012, 1.2, ReliefShape::Parabolic};
-  pinion.parabolic_te = 3e-4;
   wheel.lead_slope = 0.006;
   wheel.addendum_crowning = 0.004;
   Misalignment misalignment;
@@ -115,6 +114,7 @@ TEST_CASE("The separation is the smallest that a sweep through the mesh finds", 
     misalignment.intersecting = -1 * arcmin;
   }
   const MeshScene scene = scene_of(pair, misalignment, pinion, wheel);
+  const ToothContactSolver solver(scene);
   const double pitch = 2 * pi / 23;
   // The envelope of all pairs on a fine grid of pinion angles, without linear interpolation.
   const int steps = 400;
@@ -123,7 +123,7 @@ TEST_CASE("The separation is the smallest that a sweep through the mesh finds", 
     angle.push_back(pitch * (static_cast<double>(i) / steps - 0.5));
     double lead = -INFINITY;
     for (int tooth = -2; tooth <= 2; ++tooth) {
-      const ToothContact contact = find_tooth_contact(scene, tooth, angle.back());
+      const ToothContact contact = solver.find(tooth, angle.back());
       if (contact.exists()) lead = std::max(lead, contact.phi2);
     }
     envelope.push_back(lead);

@@ -229,10 +229,10 @@ TEST_CASE("Misalignment of 3 minutes shifts the parabola of a crowned pair and l
 
 TEST_CASE("The parabola holds until its vertex has moved by (eps_alpha - 1)/2 of a pitch, and not far beyond",
           "[core][flank][closed-form]") {
-  const double a = GENERATE(1e-3, 2e-3), crown = GENERATE(0.020, 0.040), sign = GENERATE(1.0, -1.0);
+  const double a = GENERATE(1e-3, 2e-3), crown = a == 1e-3 ? 0.020 : 0.040, sign = GENERATE(1.0, -1.0);
   const GearPair pair = make_gear_pair(reference::nasa_tm_107451::pair_data());
   double holds_to = 0.0, fails_from = 10.0;
-  for (double minutes = 0.25; minutes <= 8.0; minutes += 0.25) {
+  for (double minutes = 0.5; minutes <= 8.0; minutes += 0.5) {
     Misalignment misalignment;
     misalignment.crossing = sign * minutes * arcmin;
     const ParabolaCheck found = check(pair, misalignment, parabola(a, crown), {}, a);
