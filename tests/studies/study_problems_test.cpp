@@ -85,6 +85,7 @@ TEST_CASE("A value outside its range is refused at its line with what is allowed
       Row{"[wheel]\n", "redefine"},
       Row{"[sweep]\nsamples = 3\n", "not in this version"},
       Row{"[pinion.modification]\nparabolic_te = -0.1\n", "0 .. 1000 arcsec/deg^2"},
+      Row{"[pinion.modification]\nparabolic_te = 100\n", "over a whole pitch"},
       Row{"[unloaded]\nmarking_thickness = 0\n", "above 0"},
   }));
   const StudyProblem problem = problem_of(more);
