@@ -12,6 +12,7 @@ namespace {
 using Json = nlohmann::json;
 
 std::string in_words(const Expectation& e) {
+  if (!e.is.empty()) return e.is;
   std::string words;
   if (!std::isnan(e.value)) {
     words = fmt::format("{:.6g}", e.value);
@@ -35,13 +36,18 @@ bool is_met(const Expectation& e, double found) {
 /// Follows the rest of a dotted path from a node; adds a comparison for every leaf it reaches.
 void follow(const Json* node, const std::string& path, const std::string& rest, const Expectation& e,
             std::vector<Comparison>& found) {
+  if (node && rest.empty() && (node->is_string() || node->is_boolean())) {
+    const std::string text = node->is_string() ? node->get<std::string>() : node->dump();
+    found.push_back({path, in_words(e), not_given, text, !e.is.empty() && text == e.is});
+    return;
+  }
   if (!node || (rest.empty() && !node->is_number())) {
-    found.push_back({path + (rest.empty() ? "" : "." + rest), in_words(e)});
+    found.push_back({path + (rest.empty() ? "" : "." + rest), in_words(e), not_given, {}, false});
     return;
   }
   if (rest.empty()) {
     const double value = node->get<double>();
-    found.push_back({path, in_words(e), value, is_met(e, value)});
+    found.push_back({path, in_words(e), value, {}, e.is.empty() && is_met(e, value)});
     return;
   }
   const std::size_t dot = rest.find('.');
@@ -74,8 +80,8 @@ std::string differences(const std::vector<Comparison>& comparisons) {
   std::string table;
   for (const Comparison& c : comparisons) {
     if (c.met) continue;
-    table += fmt::format("  {}: expected {}, found {}\n", c.key, c.expected,
-                         std::isnan(c.found) ? std::string("nothing") : fmt::format("{:.6g}", c.found));
+    const std::string number = std::isnan(c.found) ? std::string("nothing") : fmt::format("{:.6g}", c.found);
+    table += fmt::format("  {}: expected {}, found {}\n", c.key, c.expected, c.found_text.empty() ? number : c.found_text);
   }
   return table;
 }

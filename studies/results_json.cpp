@@ -2,30 +2,19 @@
 
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 
 #include "core/compliance/thin_slice.hpp"
 #include "core/gear/tooth_form.hpp"
+#include "studies/json_format.hpp"
+#include "studies/unloaded_json.hpp"
+#include "studies/used_json.hpp"
 
 namespace flankwright::studies {
 
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr int topography_sections = 41;  // grid of the modification maps, radius by face width
 constexpr int profile_points = 80;       // of a drawn tooth
-
-double in_um(double mm) { return mm / units::um; }
-double in_arcsec(double rad) { return rad / units::arcsec; }
-double in_deg(double rad) { return rad / units::deg; }
-
-template <class Range, class Convert>
-Json list(const Range& values, const Convert& convert) {
-  Json array = Json::array();
-  for (const auto& value : values) array.push_back(convert(value));
-  return array;
-}
 
 Json gear_json(const GearPair& pair, Member member) {
   const Gear& gear = pair[member];
@@ -72,39 +61,6 @@ Json geometry_json(const GearPair& pair) {
            {{"T1_A", pair.path_start}, {"T1_C", pair.pitch_point}, {"T1_E", pair.path_end}, {"T1_T2", pair.path_length}}},
           {"pinion", gear_json(pair, Member::Pinion)},
           {"wheel", gear_json(pair, Member::Wheel)}};
-}
-
-Json contact_json(const ToothContact& contact) {
-  return {{"phi1_deg", in_deg(contact.phi1)},
-          {"phi2_deg", in_deg(contact.phi2)},
-          {"te_arcsec", in_arcsec(contact.transmission_error)},
-          {"contact", to_string(contact.kind)},
-          {"pinion", {{"radius_mm", contact.pinion_radius}, {"z_mm", contact.pinion_z}}},
-          {"wheel", {{"radius_mm", contact.wheel_radius}, {"z_mm", contact.wheel_z}}}};
-}
-
-Json unloaded_json(const UnloadedResult& unloaded, const GearPair& pair) {
-  const UnloadedMesh& mesh = unloaded.mesh;
-  const double base_radius = pair.wheel.base_radius;
-  Json pairs = Json::array();
-  for (const PairCurve& curve : mesh.pairs) {
-    pairs.push_back({{"tooth", curve.tooth}, {"positions", list(curve.positions, contact_json)}});
-  }
-  return {{"scene", unloaded.scene},
-          {"pairs", pairs},
-          {"mesh",
-           {{"phi1_deg", list(mesh.phi1, in_deg)},
-            {"te_arcsec", list(mesh.transmission_error, in_arcsec)},
-            {"te_um", list(mesh.transmission_error, [&](double te) { return in_um(te * base_radius); })},
-            {"peak_to_peak_arcsec", in_arcsec(mesh.peak_to_peak)},
-            {"peak_to_peak_um", in_um(mesh.peak_to_peak * base_radius)},
-            {"harmonics_arcsec", list(mesh.harmonics, in_arcsec)},
-            {"transfers", list(mesh.transfers, [](const Transfer& t) -> Json {
-               return {{"phi1_deg", in_deg(t.phi1)},
-                       {"te_arcsec", in_arcsec(t.transmission_error)},
-                       {"from_tooth", t.from_tooth},
-                       {"to_tooth", t.to_tooth}};
-             })}}}};
 }
 
 Json point_json(const ContactPoint& point, const LoadedPosition& position, Eigen::Index i) {
@@ -176,10 +132,10 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
           {"cycle", std::move(cycle)}};
 }
 
-/// The modification of one gear as a map over its flank; nothing where it is zero everywhere.
+/// How one flank differs from the involute by generation, modification and grid, as a map; nothing where it does not.
 void add_topography(const GearPair& pair, Member member, const Modification& modification, const char* design, Json& maps) {
   const Gear& gear = pair[member];
-  const FlankFrame frame = pair.flank_frame(member);
+  const Flank flank = make_flank(pair, member, modification, {});
   Json z = Json::array(), radius = Json::array(), removal_um = Json::array();
   bool modified = false;
   for (int i = 0; i < topography_sections; ++i) {
@@ -191,7 +147,7 @@ void add_topography(const GearPair& pair, Member member, const Modification& mod
     radius.push_back(r);
     Json row = Json::array();
     for (const auto& position : z) {
-      const double removed = removal(modification, frame, r, position.get<double>());
+      const double removed = flank.deviation(flank.roll_at(r), position.get<double>(), 0);
       modified = modified || removed != 0.0;
       row.push_back(in_um(removed));
     }
@@ -272,54 +228,6 @@ Json optimise_json(const StudyResults& results) {
                      {"objective", step.objective},
                      {"constraint_violation", step.constraint_violation}};
            })}};
-}
-
-const char* rule_name(QuadratureRule rule) {
-  switch (rule) {
-    case QuadratureRule::Gauss2: return "gauss2";
-    case QuadratureRule::Gauss3: return "gauss3";
-    case QuadratureRule::Midpoint: return "midpoint";
-  }
-  __builtin_unreachable();
-}
-
-Json used_gear_json(const StudyResults& results, Member member) {
-  const Gear& gear = results.pair[member];
-  const Material& material = member == Member::Pinion ? results.study.pinion_material : results.study.wheel_material;
-  return {{"teeth", gear.data.teeth},
-          {"face_width_mm", gear.data.face_width},
-          {"profile_shift", gear.data.profile_shift},
-          {"tip_diameter_mm", 2.0 * gear.tip_radius},
-          {"rack", {{"addendum", gear.data.rack.addendum}, {"dedendum", gear.data.rack.dedendum}, {"root_radius", gear.data.rack.root_radius}}},
-          {"youngs_modulus_MPa", material.youngs_modulus},
-          {"poissons_ratio", material.poissons_ratio}};
-}
-
-Json used_json(const StudyResults& results) {
-  const Study& study = results.study;
-  const PairData& data = study.pair;
-  Json used{{"pair",
-             {{"normal_module_mm", data.normal_module},
-              {"pressure_angle_deg", in_deg(data.pressure_angle)},
-              {"helix_angle_deg", in_deg(data.helix_angle)},
-              {"centre_distance_mm", results.pair.centre_distance},
-              {"driver", data.driver == Member::Pinion ? "pinion" : "wheel"},
-              {"working_flank", data.working_flank == WorkingFlank::Right ? "right" : "left"},
-              {"pinion", used_gear_json(results, Member::Pinion)},
-              {"wheel", used_gear_json(results, Member::Wheel)}}},
-            {"cycle", {{"positions", study.cycle.positions}, {"phases", study.cycle.phases}}},
-            {"fidelity",
-             {{"compliance", study.fidelity.compliance == ComplianceModel::Rigid ? "rigid" : "thin_slice"},
-              {"gap", "plane_of_action"},
-              {"quadrature", {{"rule", rule_name(study.fidelity.quadrature.rule)}, {"intervals", study.fidelity.quadrature.intervals}}},
-              {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
-  if (study.misalignment.pinion_lead_angle != 0.0) {
-    used["misalignment"] = {{"pinion_lead_angle", "lead angle changed, normal pressure angle kept: pitch radius, base radius and screw parameter follow"}};
-  }
-  if (!results.models.empty()) {
-    used["thin_slice"] = {{"calibration", results.models.front().calibration}};
-  }
-  return used;
 }
 
 Json units_json() {

@@ -119,10 +119,13 @@ class Run {
   }
 
   void add_unloaded(const Scene& scene) {
-    const FlankCondition c = apply_effects(results_.effects, condition_of(results_.study, scene));
-    const MeshScene mesh = make_mesh_scene(results_.pair, c.misalignment, c.pinion_modification, c.wheel_modification,
-                                           c.pinion_error, c.wheel_error);
-    results_.unloaded.push_back({scene.name, analyse_unloaded_mesh(results_.pair, mesh, results_.study.cycle.positions)});
+    const FlankCondition condition = apply_effects(results_.effects, condition_of(results_.study, scene));
+    results_.unloaded.push_back(analyse_unloaded(results_.pair, scene.name, condition, results_.study.cycle.positions,
+                                                 results_.study.marking_thickness));
+    const std::optional<ParabolaCheck>& parabola = results_.unloaded.back().parabola;
+    if (parabola && !parabola->holds) {
+      note("scene \"" + scene.name + "\": the designed parabola of the transmission error does not hold: " + parabola->why);
+    }
   }
 
   void add_loaded(const std::string& scene, double torque, const std::string& design, std::size_t model, LoadedCycle cycle) {

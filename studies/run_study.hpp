@@ -5,19 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/transmission_error.hpp"
 #include "core/effects/effects.hpp"
 #include "core/load/mesh_cycle.hpp"
 #include "optimize/design_optimiser.hpp"
 #include "studies/study.hpp"
+#include "studies/unloaded_result.hpp"
 
 namespace flankwright::studies {
-
-/// Unloaded contact of one scene.
-struct UnloadedResult {
-  std::string scene;
-  UnloadedMesh mesh;
-};
 
 /// Loaded contact of one scene at one torque, for one design.
 struct LoadedResult {

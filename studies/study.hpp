@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,16 @@ struct Scene {
   ManufacturingError pinion_error, wheel_error;
 };
 
+/// A measured or topological flank: the file that the study names and what was read from it.
+struct FlankGrid {
+  std::string file;              ///< as written; empty: none
+  std::optional<int> profile_pieces, face_pieces;  ///< of a smoothed surface; empty: it passes through every point
+  int rows{0}, columns{0};       ///< radii and axial positions
+  double lowest_radius{not_given}, highest_radius{not_given};  ///< [mm]
+  double lowest_z{not_given}, highest_z{not_given};            ///< [mm]
+  double rms{not_given}, largest{not_given};                   ///< distance of the fitted surface from the points [mm]
+};
+
 struct OptimiseTable {
   std::vector<ObjectiveTerm> objective;
   Aggregate over{Aggregate::Worst};
@@ -58,6 +69,7 @@ struct Expectation {
   double within_absolute{std::numeric_limits<double>::quiet_NaN()};
   double minimum{-std::numeric_limits<double>::infinity()};
   double maximum{std::numeric_limits<double>::infinity()};
+  std::string is{};  ///< text as it is, or "true" / "false"; empty: a number is expected
 };
 
 /// A key as it stands in the file or on the command line, for the `given` part of the results.
@@ -71,11 +83,13 @@ struct Study {
   std::string file;  ///< path as given
   Task task{Task::Analyse};
   PairData pair;
-  Modification pinion_modification, wheel_modification;
+  Modification pinion_modification, wheel_modification;  ///< with the field of the grid below
+  FlankGrid pinion_grid, wheel_grid;
   ManufacturingError pinion_error, wheel_error;
   Misalignment misalignment;
   Material pinion_material, wheel_material;
   std::vector<double> torques;  ///< base [load] torque list [N mm]; {0} where [load] is absent
+  double marking_thickness{6.35e-3};  ///< of the compound that shows the bearing pattern [mm], > 0
   Cycle cycle;
   Fidelity fidelity;
   std::vector<Scene> scenes;    ///< never empty: without [[scenes]] the one nominal scene of the base tables

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/flank/conjugate_field.hpp"
 #include "core/gear/gear_pair.hpp"
 #include "optimize/solver.hpp"
 
@@ -96,6 +97,25 @@ void check_relief(StudyReading& reading, Member m, const ReliefKeys& keys) {
                  "set " + path + " above 0 mm: the relief's amount is spread over it");
 }
 
+/// A predesigned parabola, given or at the upper end of a variable, must have a flank.
+void check_parabola(StudyReading& reading, Member m) {
+  const Study& study = reading.draft.study;
+  if (!reading.problems.empty()) return;  // the pair may not exist
+  const std::string path = gear_name(m) + ".modification.parabolic_te";
+  const auto check = [&](const std::string& key, double coefficient) {
+    if (coefficient == 0.0) return;
+    try {
+      make_conjugate_field(make_gear_pair(study.pair), m, coefficient);
+    } catch (const InvalidInput& problem) {
+      refuse_key(reading, key, "allowed is " + problem.allowed());
+    }
+  };
+  check(path, (m == Member::Pinion ? study.pinion_modification : study.wheel_modification).parabolic_te);
+  if (const DesignVariable* variable = find_variable(study, m, MP::ParabolicTe)) {
+    check("optimise.variables." + path, variable->upper);
+  }
+}
+
 void check_variables(StudyReading& reading) {
   const OptimiseTable& optimise = reading.draft.study.optimise;
   const auto is_variable = [&](const std::string& path) {
@@ -166,6 +186,7 @@ void check_task(StudyReading& reading) {
       ReliefKeys{"end_relief.amount", "end_relief.length", MP::EndReliefAmount, MP::EndReliefLength}};
   for (const Member m : members) {
     for (const ReliefKeys& keys : reliefs) check_relief(reading, m, keys);
+    check_parabola(reading, m);
   }
   check_variables(reading);
   if (reading.draft.study.task == Task::Optimise) check_optimise(reading);

@@ -9,6 +9,7 @@
 
 #include "studies/study_checks.hpp"
 #include "studies/study_document.hpp"
+#include "studies/study_flanks.hpp"
 #include "studies/study_reading.hpp"
 #include "studies/study_schema.hpp"
 #include "studies/study_tables.hpp"
@@ -72,11 +73,13 @@ Study parse_study(std::string_view text, const std::string& name, const std::vec
   read_keys(reading);
   settle_base(reading.draft);
   check_presence(reading);
+  read_generation(reading);
   read_scenes(reading);
   read_optimise(reading);
   read_expectations(reading);
   check_pair(reading);
   check_task(reading);
+  read_grids(reading);
   if (!problems.empty()) {
     sort_by_line(problems);
     throw StudyErrors(std::move(problems));

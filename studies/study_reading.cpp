@@ -74,21 +74,6 @@ Value read_word_list(const SchemaKey& key, const toml::node& node) {
   return value;
 }
 
-/// A key of a later version may be written with its default, which changes nothing.
-Value read_later(const SchemaKey& key, const toml::node& node) {
-  const toml::table fallback = is_described_fallback(key) ? toml::table{} : toml::parse("value = " + key.fallback);
-  const toml::node* allowed = fallback.get("value");
-  const bool is_same_text = allowed != nullptr && allowed->is_string() && node.is_string() &&
-                            node.as_string()->get() == allowed->as_string()->get();
-  const bool is_same_number = allowed != nullptr && allowed->is_number() && node.is_number() &&
-                              node.value<double>() == allowed->value<double>();
-  if (!is_same_text && !is_same_number) {
-    refuse_value(is_described_fallback(key) ? "nothing: the key is not in this version"
-                                            : key.fallback + "; anything else is not in this version");
-  }
-  return {};
-}
-
 }  // namespace
 
 void StudyReading::refuse(const Position& at, const std::string& key, const toml::node* node,
@@ -128,6 +113,7 @@ std::map<std::string, Match> match_keys(StudyReading& reading, const toml::table
       if (const auto known = keys.find(path); known != keys.end()) {
         const bool is_first = matches.emplace(path, Match{known->second, &node, position, prefix + path}).second;
         if (!is_first) reading.refuse(position, prefix + path, &node, "the key is given twice");
+        if (known->second->kind == ValueKind::WordOrTable && node.is_table()) self(self, *node.as_table(), path + ".");
       } else if (is_table(keys, path)) {
         if (const toml::table* inner = node.as_table()) {
           self(self, *inner, path + ".");
@@ -172,6 +158,9 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
     case ValueKind::Text:
       if (!node.is_string()) refuse_value(allowed_values(key));
       return {.text = node.as_string()->get()};
+    case ValueKind::WordOrTable:
+      if (node.is_table()) return {};  // its keys have rows of their own
+      [[fallthrough]];
     case ValueKind::Word: {
       const std::size_t index = read_word(key, node);
       return {.integer = static_cast<long long>(index), .text = key.words[index]};
@@ -179,7 +168,7 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
     case ValueKind::WordList:
       return read_word_list(key, node);
     case ValueKind::Later:
-      return read_later(key, node);
+      refuse_value("nothing: the key is not in this version");
     case ValueKind::Scenes:
     case ValueKind::Objective:
     case ValueKind::Variables:

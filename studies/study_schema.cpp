@@ -153,6 +153,8 @@ std::string allowed_values(const SchemaKey& key) {
       return "a text";
     case ValueKind::Word:
       return quoted_list(key.words);
+    case ValueKind::WordOrTable:
+      return quoted_list(key.words) + ", or a table of the keys below it";
     case ValueKind::WordList:
       return "\"auto\", or a list of " + quoted_list(key.words);
     case ValueKind::Scenes:
@@ -164,9 +166,9 @@ std::string allowed_values(const SchemaKey& key) {
     case ValueKind::Constraints:
       return "a table of outputs, each with { max = ... }";
     case ValueKind::Expectations:
-      return "a table of keys of results.json, each with { value, within } or { min, max }";
+      return "a table of keys of results.json, each with { value, within }, { min, max } or { is }";
     case ValueKind::Later:
-      return is_described_fallback(key) ? "not in this version" : key.fallback + " in this version";
+      return "not in this version";
   }
   return "";
 }

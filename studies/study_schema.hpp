@@ -30,13 +30,14 @@ enum class ValueKind {
   Integer,
   Text,          ///< any text
   Word,          ///< one of `words`
+  WordOrTable,   ///< one of `words`, or a table of the keys below it
   WordList,      ///< "auto", or a list of `words`
   Scenes,        ///< array of tables, each with scene_keys()
   Objective,     ///< an output, or a table of outputs and weights
   Variables,     ///< table: modification key = [low, high]
   Constraints,   ///< table: output = { max = ... }
   Expectations,  ///< table: key of results.json = { value, within, min, max }
-  Later          ///< known, but only its default is accepted in this version
+  Later          ///< known, but not in this version
 };
 
 /// What the reader found for a key, converted. Which members mean something depends on the kind.
@@ -49,11 +50,18 @@ struct Value {
   std::vector<std::string> words{};  ///< empty with is_list false: "auto"
 };
 
+/// How a gear's flank is generated, as its keys say.
+struct GenerationKeys {
+  std::string kind;  ///< "rack", "parabolic_rack" or "revolution"; empty where a table does not say
+  double coefficient{not_given}, half_apex{not_given}, distance{not_given}, arc_radius{not_given};
+};
+
 /// A study while it is being read.
 struct Draft {
   Study study;
   Scene base;  ///< what [misalignment], [load] and the errors say, before any scene
   std::optional<Hand> wheel_hand;
+  GenerationKeys pinion_generation, wheel_generation;
 };
 
 using StoreInDraft = void (*)(Draft&, Member, const Value&);

@@ -151,6 +151,18 @@ void read_expected(StudyReading& reading, const Item& item, const std::string& n
   value = number_of(reading, item.position, "expect." + item.name + "." + name, *node, SchemaKey{});
 }
 
+/// { is = "text" } or { is = true }, on its own.
+void read_expected_word(StudyReading& reading, const Item& item, const toml::node& node) {
+  Expectation expectation{.key = item.name};
+  if (const auto* text = node.as_string()) expectation.is = text->get();
+  if (const auto* truth = node.as_boolean()) expectation.is = truth->get() ? "true" : "false";
+  if (expectation.is.empty() || item.node->as_table()->size() != 1) {
+    return reading.refuse(item.position, "expect." + item.name, item.node,
+                          "allowed is { is = ... } with a text that is not empty, or true or false, and nothing else");
+  }
+  reading.draft.study.expect.push_back(expectation);
+}
+
 void read_within(StudyReading& reading, const Item& item, Expectation& expectation) {
   const toml::node* within = item.node->as_table()->get("within");
   if (within == nullptr) return;
@@ -176,14 +188,15 @@ void read_expectation(StudyReading& reading, const Item& item) {
   const std::string shown = "expect." + item.name;
   const toml::table* table = item.node->as_table();
   const std::string allowed =
-      "allowed is { value = ..., within = ... }, { min = ... }, { max = ... } or { min = ..., max = ... }";
+      "allowed is { value = ..., within = ... }, { min = ... }, { max = ... }, { min = ..., max = ... } or { is = ... }";
   if (table == nullptr) return reading.refuse(item.position, shown, item.node, allowed);
   for (const auto& [name, value] : *table) {
-    if (name != "value" && name != "within" && name != "min" && name != "max") {
+    if (name != "value" && name != "within" && name != "min" && name != "max" && name != "is") {
       return reading.refuse(item.position, shown + "." + std::string(name.str()), &value, "unknown key; " + allowed);
     }
   }
   const bool has_bound = table->contains("min") || table->contains("max");
+  if (const toml::node* is = table->get("is")) return read_expected_word(reading, item, *is);
   if (table->contains("value") != table->contains("within") || table->contains("value") == has_bound) {
     return reading.refuse(item.position, shown, item.node, allowed);
   }

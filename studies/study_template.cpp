@@ -25,6 +25,8 @@ face_width = 40                      # mm
 # hand = "left"                      # of the helix: right, unless said; the wheel has the other
 profile_shift = 0.2                  # in normal modules, + outwards
 # tip_diameter = 92                  # mm; by default from rack and profile shift
+# generation = { kind = "parabolic_rack", coefficient = 0.0005 }     # 1/mm; by default "rack", the straight one: an involute
+# For a spur pair also: { kind = "revolution", half_apex = 80, distance = 4.5, arc_radius = 12700 }   (deg, mm, mm)
 rack = { addendum = 1, dedendum = 1.25, root_radius = 0.39 }         # in normal modules
 
 [wheel]
@@ -44,6 +46,8 @@ tip_relief = { amount = 10, height = 1.5 }                           # height: m
 # root_relief = { amount = 5, height = 1 }                           # height: mm, up from the start of active profile
 # end_relief = { amount = 10, length = 4 }                           # length: mm, from each face end
 # twist = 2
+# parabolic_te = 0.5                 # arcsec/deg^2: a of a transmission error -a phi1^2 that is designed in, one arc a pitch
+# A measured or topological flank: grid = "flank.csv", columns radius_mm, z_mm, deviation_um (+ = metal added)
 
 [wheel.modification]
 tip_relief = { amount = 10, height = 1.5 }
@@ -74,6 +78,9 @@ crossing = 1                         # arcmin, out of the plane of the axes; + c
 
 [load]
 torque = [0, 150, 300]               # N·m on the pinion; each is run, 0 is the unloaded contact
+
+[unloaded]
+# marking_thickness = 6.35           # um: of the compound that shows the bearing pattern
 
 [cycle]
 positions = 32                       # mesh positions over one base pitch

@@ -5,21 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/json_format.hpp"
+#include "studies/unloaded_tables.hpp"
+
 namespace flankwright::studies {
 
 namespace {
 
-double in_um(double mm) { return mm / units::um; }
-double in_arcsec(double rad) { return rad / units::arcsec; }
 double in_Nm(double torque) { return torque / units::newton_metre; }
-
-/// A CSV field: quoted where it holds a comma, a quote or a line break.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
 
 std::string cycle_csv(const StudyResults& results) {
   std::string csv = "scene,torque_Nm,design,phase,te_um,te_base_tangent_um,stiffness_N_per_mm_um,kkt_residual\n";
@@ -27,7 +20,7 @@ std::string cycle_csv(const StudyResults& results) {
   for (const LoadedResult& loaded : results.loaded) {
     for (const LoadedPosition& p : loaded.cycle.positions) {
       const double te = in_um(p.load.transmission_error);
-      csv += fmt::format("{},{},{},{},{},{},{},{}\n", field(loaded.scene), in_Nm(loaded.torque), loaded.design, p.phase, te,
+      csv += fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, p.phase, te,
                          te / cos_base_helix, p.stiffness, p.load.kkt_residual);
     }
   }
@@ -46,25 +39,10 @@ std::string points_csv(const StudyResults& results) {
       for (std::size_t j = 0; j < model.positions[k].points.size(); ++j) {
         const ContactPoint& c = model.positions[k].points[j];
         const auto i = static_cast<Eigen::Index>(j);
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", field(loaded.scene), in_Nm(loaded.torque),
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque),
                            loaded.design, p.phase, c.tooth, c.z, c.pinion_radius, c.wheel_radius, p.load.line_load[i],
                            p.contact_stress[i], in_um(p.load.contact_deflection[i]), in_um(p.load.structural_deflection[i]),
                            in_um(p.gap.total[i]), in_um(p.gap.error[i]));
-      }
-    }
-  }
-  return csv;
-}
-
-std::string unloaded_csv(const StudyResults& results) {
-  std::string csv =
-      "scene,tooth,phi1_deg,phi2_deg,te_arcsec,contact,pinion_radius_mm,pinion_z_mm,wheel_radius_mm,wheel_z_mm\n";
-  for (const UnloadedResult& unloaded : results.unloaded) {
-    for (const PairCurve& curve : unloaded.mesh.pairs) {
-      for (const ToothContact& c : curve.positions) {
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", field(unloaded.scene), curve.tooth, c.phi1 / units::deg,
-                           c.phi2 / units::deg, in_arcsec(c.transmission_error), to_string(c.kind), c.pinion_radius,
-                           c.pinion_z, c.wheel_radius, c.wheel_z);
       }
     }
   }
@@ -75,7 +53,7 @@ std::string scenes_csv(const StudyResults& results) {
   std::string csv = "scene,torque_Nm,weight,before,after\n";
   for (std::size_t s = 0; s < results.design_task->scenes.size(); ++s) {
     const DesignScene& scene = results.design_task->scenes[s];
-    csv += fmt::format("{},{},{},{},{}\n", field(scene.name), in_Nm(scene.torque), scene.weight,
+    csv += fmt::format("{},{},{},{},{}\n", csv_field(scene.name), in_Nm(scene.torque), scene.weight,
                        results.design->before.scene_measures[s], results.design->after.scene_measures[s]);
   }
   return csv;
@@ -149,16 +127,7 @@ std::string analysis_table(const StudyResults& results) {
                        in_um(l.summary.te_peak_to_peak), in_um(first), l.summary.peak_line_load,
                        l.summary.peak_contact_stress, l.summary.mean_stiffness);
   }
-  if (!results.unloaded.empty()) {
-    out += fmt::format("{:<{}}  {:>12}  {:>12}  {:>10}\n", "unloaded", width, "TE p-p", "TE 1st", "transfers");
-    out += fmt::format("{:<{}}  {:>12}  {:>12}\n", "", width, "arcsec", "arcsec");
-  }
-  for (const UnloadedResult& u : results.unloaded) {
-    const double first = u.mesh.harmonics.empty() ? not_given : u.mesh.harmonics.front();
-    out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>10}\n", u.scene, width, in_arcsec(u.mesh.peak_to_peak), in_arcsec(first),
-                       u.mesh.transfers.size());
-  }
-  return out;
+  return out + unloaded_summary(results, width);
 }
 
 }  // namespace
@@ -169,7 +138,11 @@ std::vector<NamedText> csv_tables(const StudyResults& results) {
     tables.push_back({"cycle.csv", cycle_csv(results)});
     tables.push_back({"points.csv", points_csv(results)});
   }
-  if (!results.unloaded.empty()) tables.push_back({"unloaded.csv", unloaded_csv(results)});
+  if (!results.unloaded.empty()) {
+    tables.push_back({"unloaded.csv", unloaded_csv(results)});
+    tables.push_back({"transfers.csv", transfers_csv(results)});
+    tables.push_back({"bearing_pattern.csv", bearing_pattern_csv(results)});
+  }
   if (results.design) {
     tables.push_back({"scenes.csv", scenes_csv(results)});
     tables.push_back({"history.csv", history_csv(*results.design)});

@@ -15,7 +15,7 @@ namespace flankwright::studies {
 
 namespace {
 
-enum class Dimension { None, Length, Angle, Torque, Stress, LineLoad, InverseLength, Time };
+enum class Dimension { None, Length, Angle, Torque, Stress, LineLoad, InverseLength, InverseAngle, Time };
 
 constexpr double pound_force = 4.4482216152605;  // N, exact by definition
 constexpr double foot = 12.0 * units::inch;      // mm
@@ -64,6 +64,10 @@ constexpr std::array known_units{
     Unit{"/in", Dimension::InverseLength, 1.0 / units::inch},
     Unit{"1/mm", Dimension::InverseLength, 1.0},
     Unit{"/mm", Dimension::InverseLength, 1.0},
+    Unit{"arcsec/deg^2", Dimension::InverseAngle, units::arcsec_per_square_deg},
+    Unit{"arcsec/deg2", Dimension::InverseAngle, units::arcsec_per_square_deg},
+    Unit{"1/rad", Dimension::InverseAngle, 1.0},
+    Unit{"/rad", Dimension::InverseAngle, 1.0},
     Unit{"s", Dimension::Time, 1.0},
     Unit{"min", Dimension::Time, 60.0},
     Unit{"h", Dimension::Time, 3600.0},
@@ -97,6 +101,10 @@ constexpr Convention convention(Quantity quantity) {
       return {Dimension::LineLoad, "N/mm", "N/mm", "N/mm, kN/m, lbf/in"};
     case Quantity::DiametralPitch:
       return {Dimension::InverseLength, "1/in", "1/in", "1/in, 1/mm"};
+    case Quantity::Curvature:
+      return {Dimension::InverseLength, "1/mm", "1/mm", "1/mm, 1/in"};
+    case Quantity::ParabolicTe:
+      return {Dimension::InverseAngle, "arcsec/deg^2", "arcsec/deg^2", "arcsec/deg^2, 1/rad"};
     case Quantity::Time:
       return {Dimension::Time, "s", "s", "s, min, h"};
   }

@@ -45,6 +45,15 @@ class WheelDisplacement {
   double alpha_, about_x_, about_y_;
 };
 
+/// The flank with its predesigned parabola as the lag that it gives in the plane of action, see removal().
+Flank flank_in_plane_of_action(const GearPair& pair, Member m, const FlankCondition& condition) {
+  Modification modification = condition.modification(m);
+  modification.parabolic_te = 0.0;
+  Flank flank = make_flank(pair, m, modification, condition.error(m));
+  flank.modification.parabolic_te = condition.modification(m).parabolic_te;
+  return flank;
+}
+
 /// Angle by which the changed pinion flank leads the nominal one at a point [rad].
 double pinion_lead(const Flank& changed, const Flank& nominal, const ContactPoint& point) {
   const auto polar = [&](const Flank& flank) {
@@ -61,8 +70,8 @@ Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& p
   const double cos_base_helix = std::cos(pair.base_helix_angle);
   const PathOfContact path(pair);
   const WheelDisplacement displacement(pair, condition.misalignment);
-  const Flank pinion = make_flank(pair, Member::Pinion, condition.pinion_modification, condition.pinion_error);
-  const Flank wheel = make_flank(pair, Member::Wheel, condition.wheel_modification, condition.wheel_error);
+  const Flank pinion = flank_in_plane_of_action(pair, Member::Pinion, condition);
+  const Flank wheel = flank_in_plane_of_action(pair, Member::Wheel, condition);
   const Flank nominal = make_flank(pair, Member::Pinion, {}, {});
   const Flank changed = make_mesh_scene(pair, condition.misalignment, {}, {}, {}, {}).pinion;
   Gap gap{Eigen::VectorXd(n), Eigen::VectorXd(n)};

@@ -1,208 +1,204 @@
 #include "core/contact/tooth_contact.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <vector>
 
-#include "core/base/root.hpp"
+#include "core/base/peak.hpp"
+#include "core/contact/section_maximum.hpp"
 
 namespace flankwright {
 
 namespace {
 
-constexpr int coarse_sections = 17;       // over the face; each is a concave problem of its own
-constexpr double flat_tolerance = 1e-9;   // mm along the base tangent, see find_tooth_contact()
+constexpr double flat_tolerance = 1e-9;  // mm along the base tangent, see ToothContactSolver
 constexpr double flat_fraction = 1.0 / 200.0;
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double coarse_error = 1e-12;     // rad: bound on what SectionAccuracy::Coarse leaves
+constexpr double announced_share = 1.0 / 4.0;  // of an interval of the face with a summit: halved to this, hollow flanks only
+constexpr double hidden_share = 1.0 / 64.0;    // of an interval of the face that hides a summit: halved to this
+constexpr double angle_round_off = 1e-15;  // rad: wheel angles closer than this are the same
+// Along the face [mm], [rad], [mm]; see profile_tolerance.
+constexpr PeakTolerance face_tolerance{1e-7, 1e-16, 1e-6};
 
-using Number = Dual<2>;  // derivatives with respect to (rho1, z1)
-
-/// The wheel angle for one pinion point, with derivatives, and where the point lies on the wheel.
-struct Candidate {
-  Number phi2, wheel_radius, wheel_z;
-};
-
-/// Which bound of a section is active at its maximum.
-enum class Bound { None, PinionRoot, PinionTip, WheelRoot, WheelTip, WheelFace };
-
-struct SectionMaximum {
-  bool exists{false};
-  double rho{0.0}, z{0.0};
-  double phi2{-infinity};
-  double slope{0.0};  ///< d(section maximum)/dz [rad/mm], bounds moving with z included
-  Bound bound{Bound::None};
-  Candidate at;
-};
-
-/// The maximisation for one tooth pair and pinion angle.
-class FirstContact {
+/// The maximisation over the face for one tooth pair and pinion angle.
+class FaceSearch {
  public:
-  FirstContact(const MeshScene& scene, int tooth, double phi1)
-      : scene_(scene),
-        tooth_(tooth),
-        pinion_rotation_(phi1 + tooth * 2.0 * units::pi / scene.pinion_teeth),
-        wheel_advance_(tooth * 2.0 * units::pi / scene.wheel_teeth),
-        wheel_rotation_(scene.wheel_axes.transpose()) {}
+  FaceSearch(const MeshScene& scene, const SearchDensity& density, int tooth, double phi1)
+      : scene_(scene), density_(density), meeting_(scene, tooth, phi1), search_(meeting_, density.cells) {}
 
   SectionMaximum solve() const;
-  SectionMaximum section(double z) const;
-  double highest_z() const { return scene_.pinion.half_face; }
-  bool is_flat_around(const SectionMaximum& best) const;
+  ContactKind kind_of(const SectionMaximum& best) const;
 
  private:
-  /// Follows the slope of the section maxima from one section to their summit before z = far, or to the flank's end.
-  SectionMaximum climb(const SectionMaximum& from, double far) const;
-
-  Candidate candidate(double rho, double z) const {
-    const Number r = Number::variable(rho, 0), zz = Number::variable(z, 1);
-    const Point3<Number> p = flank_point(scene_.pinion, r, zz, tooth_, pinion_rotation_);
-    const Number dx = p.x - scene_.wheel_centre.x(), dy = p.y - scene_.wheel_centre.y(), dz = p.z - scene_.wheel_centre.z();
-    const auto component = [&](int row) {
-      return wheel_rotation_(row, 0) * dx + wheel_rotation_(row, 1) * dy + wheel_rotation_(row, 2) * dz;
-    };
-    const Point3<Number> q{component(0), component(1), component(2)};
-    const double radius = std::hypot(q.x.value, q.y.value);
-    if (radius <= scene_.wheel.base_radius) return {Number(-infinity), Number(radius), q.z};
-    const auto through = rotation_through(scene_.wheel, q, tooth_);
-    return {-through.rotation - wheel_advance_, through.radius, q.z};
+  std::vector<double> section_heights() const;
+  void reveal_hidden_summits(std::vector<SectionMaximum>& sections, double highest) const;
+  SectionMaximum climb(const SectionMaximum& from, const SectionMaximum& next) const;
+  SectionMaximum off_the_edge(const SectionMaximum& edge) const;
+  bool is_flat_around(const SectionMaximum& best) const;
+  double flat_step() const { return 2.0 * flat_fraction * scene_.pinion.half_face; }
+  /// The angle still rises beyond a face end; a flat valley that merely reaches the end is no edge contact.
+  bool is_held_by_face_end(const SectionMaximum& s) const {
+    const bool on_pinion_end = scene_.pinion.half_face - std::abs(s.at.z) <= end_round_off * scene_.pinion.half_face;
+    return s.held_by_wheel_end || (on_pinion_end && s.slope_z * s.z > 0.0);
   }
 
-  /// Shrinks [lo, hi] to where `excess` (monotone in rho, <= 0 allowed) holds; false where nothing is left.
-  template <class Excess>
-  bool clip(const Excess& excess, double& lo, double& hi, Bound bound, Bound& at_lo, Bound& at_hi) const {
-    const double e_lo = excess(lo), e_hi = excess(hi);
-    if (e_lo <= 0.0 && e_hi <= 0.0) return true;
-    if (e_lo > 0.0 && e_hi > 0.0) return false;
-    const Root root = bracketed_root(excess, lo, e_lo, hi, e_hi, 1e-13 * scene_.pinion.tip_radius);
-    if (e_lo > 0.0) {
-      lo = root.upper;
-      at_lo = bound;
-    } else {
-      hi = root.lower;
-      at_hi = bound;
-    }
-    return lo <= hi;
-  }
+  static constexpr double end_round_off = 1e-9;  // half face widths within which a point is on the end
 
   const MeshScene& scene_;
-  int tooth_;
-  double pinion_rotation_, wheel_advance_;
-  Eigen::Matrix3d wheel_rotation_;
+  const SearchDensity& density_;
+  FlankMeeting meeting_;
+  SectionSearch search_;
 };
 
-SectionMaximum FirstContact::section(double z) const {
-  SectionMaximum best;
-  best.z = z;
-  double lo = scene_.pinion.lowest_roll(), hi = scene_.pinion.highest_roll();
-  Bound at_lo = Bound::PinionRoot, at_hi = Bound::PinionTip;
-  const Flank& wheel = scene_.wheel;
-  const auto wheel_point = [&](double rho) {
-    const Point3<double> p = flank_point(scene_.pinion, rho, z, tooth_, pinion_rotation_);
-    const Eigen::Vector3d q = wheel_rotation_ * (Eigen::Vector3d(p.x, p.y, p.z) - scene_.wheel_centre);
-    return q;
+/// Sections over the face that both gears cover: density_.sections where undisturbed flanks would touch inside both profiles, and a
+/// third as many on either side of that, where edges may touch.
+std::vector<double> FaceSearch::section_heights() const {
+  // A tilted wheel reaches a little beyond its width.
+  const double tilt = scene_.wheel_axes.col(2).head<2>().norm();
+  const double reach = scene_.pinion.half_face, centre = scene_.wheel_centre.z();
+  const double wheel_reach = scene_.wheel.half_face + tilt * (scene_.wheel_centre.head<2>().norm() + scene_.pinion.tip_radius);
+  const double lo = std::max(-reach, centre - wheel_reach), hi = std::min(reach, centre + wheel_reach);
+  if (!(lo < hi)) return {};
+  double first = lo, last = hi;  // of the line of contact
+  const double rate = meeting_.roll_rate();
+  if (rate != 0.0) {
+    const double start = (meeting_.lowest_undisturbed_roll() - meeting_.undisturbed_roll(0.0)) / rate;
+    const double end = (meeting_.highest_undisturbed_roll() - meeting_.undisturbed_roll(0.0)) / rate;
+    first = std::clamp(std::min(start, end), lo, hi);
+    last = std::clamp(std::max(start, end), lo, hi);
+  }
+  const int beside = (density_.sections + 1) / 3;
+  std::vector<double> heights;
+  const auto append = [&](double from, double to, int intervals) {
+    for (int i = 0; i < intervals; ++i) heights.push_back(from + i * (to - from) / intervals);
   };
-  const auto radius = [&](double rho) { return wheel_point(rho).head<2>().norm(); };
-  // Towards the pinion's tip the point approaches the wheel's axis: the radius is monotone in rho.
-  if (!clip([&](double rho) { return radius(rho) - wheel.tip_radius; }, lo, hi, Bound::WheelTip, at_lo, at_hi) ||
-      !clip([&](double rho) { return wheel.form_radius - radius(rho); }, lo, hi, Bound::WheelRoot, at_lo, at_hi) ||
-      !clip([&](double rho) { return std::abs(wheel_point(rho).z()) - wheel.half_face; }, lo, hi, Bound::WheelFace, at_lo,
-            at_hi)) {
-    return best;
-  }
-  best.exists = true;
-  const auto slope = [&](double rho) { return candidate(rho, z).phi2.gradient[0]; };
-  const double slope_lo = slope(lo), slope_hi = slope(hi);
-  if (slope_lo <= 0.0) {
-    best.rho = lo;
-    best.bound = slope_lo < 0.0 ? at_lo : Bound::None;
-  } else if (slope_hi >= 0.0) {
-    best.rho = hi;
-    best.bound = slope_hi > 0.0 ? at_hi : Bound::None;
-  }
-  const bool inside = slope_lo > 0.0 && slope_hi < 0.0;
-  const Root root = inside ? bracketed_root(slope, lo, slope_lo, hi, slope_hi, 1e-13 * scene_.pinion.tip_radius)
-                           : Root{best.rho, best.rho, best.rho};
-  best.rho = root.x;
-  best.at = candidate(best.rho, z);
-  best.phi2 = best.at.phi2.value;
-  // Envelope theorem: an interior maximum moves freely; one on a wheel bound moves along it with z.
-  best.slope = best.at.phi2.gradient[1];
-  if (root.lower < root.upper) {
-    // One on a kink (start of a linear relief, of the wheel's too) moves along it: continuity of phi2 across the kink makes the
-    // slope the mean of both sides' that also makes the slope along rho zero. Without a kink both sides agree.
-    const Number below = candidate(root.lower, z).phi2, above = candidate(root.upper, z).phi2;
-    const double share = below.gradient[0] / (below.gradient[0] - above.gradient[0]);
-    best.slope = (1.0 - share) * below.gradient[1] + share * above.gradient[1];
-  }
-  const auto follow = [&](const Number& bound) {
-    best.slope -= best.at.phi2.gradient[0] * bound.gradient[1] / bound.gradient[0];
-  };
-  if (best.bound == Bound::WheelTip || best.bound == Bound::WheelRoot) follow(best.at.wheel_radius);
-  if (best.bound == Bound::WheelFace) follow(best.at.wheel_z);
-  return best;
+  if (lo < first) append(lo, first, beside);
+  if (first < last) append(first, last, density_.sections - 1);
+  if (last < hi) append(last, hi, beside);
+  heights.push_back(hi);
+  return heights;
 }
 
-SectionMaximum FirstContact::solve() const {
-  // Sections over the face that both gears cover; tilted ends are found by the refinement.
-  const double reach = scene_.pinion.half_face;
-  const double lo = std::max(-reach, scene_.wheel_centre.z() - scene_.wheel.half_face);
-  const double hi = std::min(reach, scene_.wheel_centre.z() + scene_.wheel.half_face);
-  if (!(lo < hi)) return {};
-  std::array<SectionMaximum, coarse_sections> coarse;
-  int best = -1;
-  for (int i = 0; i < coarse_sections; ++i) {
-    coarse[i] = section(i + 1 == coarse_sections ? hi : lo + i * (hi - lo) / (coarse_sections - 1));
-    if (coarse[i].exists && (best < 0 || coarse[i].phi2 > coarse[best].phi2)) best = i;
+SectionMaximum FaceSearch::solve() const {
+  std::vector<SectionMaximum> coarse;
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const double z : section_heights()) {
+    coarse.push_back(search_.at(z, coarse.empty() ? SectionMaximum{} : coarse.back(), SectionAccuracy::Coarse));
+    highest = std::max(highest, coarse.back().phi2);
   }
-  if (best < 0) return {};
+  reveal_hidden_summits(coarse, highest);
+  const int count = static_cast<int>(coarse.size());
+  // In a flat valley the middle one of those that are equally high stands for all.
+  std::vector<const SectionMaximum*> level;
+  for (const SectionMaximum& s : coarse) {
+    if (s.exists && s.phi2 >= highest - angle_round_off) level.push_back(&s);
+  }
+  if (level.empty()) return {};
+  SectionMaximum top;
   // Hollow flanks (metal added at the ends) have several summits: climb every one, from below where both sides exist. A
   // slope that is round-off over the span marks a summit, or a flat valley, by itself.
-  const double span = (hi - lo) / (coarse_sections - 1);
-  const auto rises = [&](int i, int step) { return coarse[i].slope * step * span > 1e-15; };  // rad
-  const auto exists = [&](int i) { return i >= 0 && i < coarse_sections && coarse[i].exists; };
-  SectionMaximum top = coarse[best];
-  for (int i = 0; i < coarse_sections; ++i) {
+  const auto inside = [&](int i) { return i >= 0 && i < count; };
+  const auto exists = [&](int i) { return inside(i) && coarse[i].exists; };
+  const auto rises = [&](int i, int step) {
+    return inside(i + step) && coarse[i].slope_z * (coarse[i + step].z - coarse[i].z) > angle_round_off;
+  };
+  for (int i = 0; i < count; ++i) {
     if (!coarse[i].exists) continue;
     for (const int step : {1, -1}) {
       const int next = i + step;
       if (!rises(i, step)) continue;
-      if (exists(next) && (rises(next, step) || (step < 0 && rises(next, 1)))) continue;  // on the same climb, or done
-      const double far = next < 0 || next >= coarse_sections ? std::clamp(coarse[i].z + step * span, -reach, reach)
-                                                             : coarse[next].z;
-      const SectionMaximum summit = climb(coarse[i], far);
+      if (exists(next) && (coarse[next].slope_z * step > 0.0 || (step < 0 && rises(next, 1)))) continue;  // same climb, or done
+      const SectionMaximum summit = climb(coarse[i], coarse[next]);
       if (summit.phi2 > top.phi2) top = summit;
     }
   }
-  return top;
-}
-
-SectionMaximum FirstContact::climb(const SectionMaximum& from, double far) const {
-  if (far == from.z) return from;  // held by the pinion's face end
-  // Past the end of a flank counts as downhill.
-  const double direction = from.slope > 0.0 ? 1.0 : -1.0;
-  const auto uphill = [&](double z) {
-    const SectionMaximum s = section(z);
-    return s.exists ? s.slope : -direction * std::abs(from.slope);
-  };
-  const double slope_far = uphill(far);
-  if ((slope_far > 0.0) == (from.slope > 0.0) && slope_far != 0.0) {
-    const SectionMaximum end = section(far);
-    return end.phi2 > from.phi2 ? end : from;
+  const SectionMaximum& middle = *level[level.size() / 2];
+  if (!top.exists || middle.phi2 >= top.phi2 - angle_round_off) {
+    const SectionMaximum settled = search_.at(middle.z, middle, SectionAccuracy::Full);
+    if (!top.exists || settled.phi2 >= top.phi2 - angle_round_off) top = settled;
   }
-  const Root root = bracketed_root(uphill, from.z, from.slope, far, slope_far, 1e-13 * std::max(1.0, scene_.pinion.half_face));
-  // Of the two ends of the last bracket the one on the flank; where both are, the higher.
-  const SectionMaximum lower = section(root.lower), upper = section(root.upper);
-  if (!upper.exists) return lower;
-  if (!lower.exists) return upper;
-  return upper.phi2 > lower.phi2 ? upper : lower;
+  return top.bound == SectionBound::None ? top : off_the_edge(top);
 }
 
-bool FirstContact::is_flat_around(const SectionMaximum& best) const {
-  const double step = 2.0 * flat_fraction * scene_.pinion.half_face;
+/// Where a flat valley begins at an edge, a point inside stands for it.
+SectionMaximum FaceSearch::off_the_edge(const SectionMaximum& edge) const {
   for (const double side : {-1.0, 1.0}) {
-    const double z = best.z + side * step;
+    const double z = edge.at.z + side * flat_step();
     if (std::abs(z) > scene_.pinion.half_face) continue;
-    const SectionMaximum neighbour = section(z);
+    SectionMaximum inside = search_.at(z, edge, SectionAccuracy::Coarse);
+    if (!inside.exists || inside.phi2 < edge.phi2 - coarse_error) continue;
+    inside = search_.at(z, inside, SectionAccuracy::Full);
+    if (inside.exists && inside.bound == SectionBound::None && inside.phi2 >= edge.phi2 - angle_round_off) return inside;
+  }
+  return edge;
+}
+
+/// Halves intervals of the face in which a summit not announced by the slopes at both ends, or a second one, could exceed the
+/// highest angle known. Kinks only bend the section maxima downwards, so with hollow curvature c they stay below
+///
+///     f(a) + f'(a) x + c x^2/2     and     f(b) - f'(b)(h - x) + c (h - x)^2/2,      x from a to b = a + h
+void FaceSearch::reveal_hidden_summits(std::vector<SectionMaximum>& sections, double highest) const {
+  const double longest = 2.0 * scene_.pinion.half_face / (density_.sections - 1);
+  const double c = density_.hollow_curvature / scene_.wheel.base_radius;
+  for (std::size_t i = 0; i + 1 < sections.size(); ++i) {
+    while (true) {
+      const SectionMaximum &a = sections[i], &b = sections[i + 1];
+      const double h = b.z - a.z;
+      const bool announced = a.slope_z > 0.0 && b.slope_z < 0.0;
+      if (!a.exists || !b.exists || (announced && c == 0.0)) break;
+      if (!(h > longest * (announced ? announced_share : hidden_share))) break;
+      // The bounds differ by a straight line: where they meet, the lower of them is highest.
+      const double meet = (b.phi2 - a.phi2 - b.slope_z * h + 0.5 * c * h * h) / (a.slope_z - b.slope_z + c * h);
+      if (!(meet > 0.0 && meet < h)) break;
+      if (a.phi2 + a.slope_z * meet + 0.5 * c * meet * meet <= highest + coarse_error) break;
+      const SectionMaximum middle = search_.at(0.5 * (a.z + b.z), a, SectionAccuracy::Coarse);
+      highest = std::max(highest, middle.phi2);
+      sections.insert(sections.begin() + static_cast<std::ptrdiff_t>(i) + 1, middle);
+    }
+  }
+}
+
+/// The summit between a section and the next one uphill, or the end of the flank before that.
+SectionMaximum FaceSearch::climb(const SectionMaximum& from, const SectionMaximum& next) const {
+  // Past the end of a flank counts as downhill.
+  const auto downhill = [&](SectionMaximum s) {
+    if (!s.exists) s.slope_z = -from.slope_z;
+    return s;
+  };
+  const auto evaluate = [&](double z, const SectionMaximum* last) {
+    return downhill(search_.at(z, last && last->exists ? *last : from, SectionAccuracy::Full));
+  };
+  const bool upwards = from.slope_z > 0.0;
+  const SectionMaximum end = downhill(next);
+  const SectionMaximum &rising = upwards ? from : end, &falling = upwards ? end : from;
+  const double fall = rising.slope_z - falling.slope_z;
+  double guess = rising.z + (falling.z - rising.z) * rising.slope_z / fall;
+  if (end.exists && from.bound != end.bound && meeting_.roll_rate() != 0.0) {
+    // Up to where the free maximum runs into the bound the slope changes little, from there on fast.
+    const SectionMaximum &free = from.bound == SectionBound::None ? from : end, &held = &free == &from ? end : from;
+    guess = std::clamp(free.z + (held.at.rho - free.at.rho) / meeting_.roll_rate(), rising.z, falling.z);
+  }
+  const Peak<SectionMaximum> peak = find_peak<SectionMaximum>(
+      evaluate, rising.z, falling.z, guess, fall / (falling.z - rising.z), face_tolerance, rising, falling);
+  SectionMaximum top = peak.top;
+  if (top.z == from.z || top.z == end.z) top = evaluate(top.z, &top);  // those were coarse
+  if (peak.rising->exists && peak.falling->exists) {
+    // On a kink along the face (start of an end relief) both sides hold their share, as in a section.
+    if (const auto share = peak.share_of_falling()) {
+      top.slope_phi1 = (1.0 - *share) * peak.rising->slope_phi1 + *share * peak.falling->slope_phi1;
+    }
+  }
+  if (top.phi2 >= from.phi2) return top;
+  // A summit all but on the section it started from, or one that merely looked lower there.
+  const SectionMaximum start = search_.at(from.z, from, SectionAccuracy::Full);
+  return top.phi2 >= start.phi2 ? top : start;
+}
+
+bool FaceSearch::is_flat_around(const SectionMaximum& best) const {
+  for (const double side : {-1.0, 1.0}) {
+    const double z = best.at.z + side * flat_step();
+    if (std::abs(z) > scene_.pinion.half_face) continue;
+    const SectionMaximum neighbour = search_.at(z, best, SectionAccuracy::Coarse);
     if (neighbour.exists && neighbour.bound == best.bound &&
         (best.phi2 - neighbour.phi2) * scene_.wheel.base_radius <= flat_tolerance) {
       return true;
@@ -211,22 +207,16 @@ bool FirstContact::is_flat_around(const SectionMaximum& best) const {
   return false;
 }
 
-ContactKind kind_of(const FirstContact& problem, const SectionMaximum& best, const MeshScene& scene) {
-  const bool flat = problem.is_flat_around(best);
-  // At a face end the angle still rises outwards; a flat valley that merely reaches the end is no edge contact.
-  const double end_gap = 1e-9 * scene.pinion.half_face;
-  const bool on_pinion_end = scene.pinion.half_face - std::abs(best.z) <= end_gap;
-  const bool on_wheel_end = scene.wheel.half_face - std::abs(best.at.wheel_z.value) <= end_gap;
-  const bool on_face_end = !flat && (on_pinion_end || on_wheel_end) && best.slope * best.z > 0.0;
-  const bool on_profile_end = best.bound != Bound::None && best.bound != Bound::WheelFace;
-  if (on_profile_end && (on_face_end || best.bound == Bound::WheelFace)) return ContactKind::Corner;
+ContactKind FaceSearch::kind_of(const SectionMaximum& best) const {
+  const bool flat = is_flat_around(best);
+  const bool on_face_end = !flat && is_held_by_face_end(best);
+  if (best.bound != SectionBound::None && on_face_end) return ContactKind::Corner;
   switch (best.bound) {
-    case Bound::PinionRoot: return ContactKind::PinionRoot;
-    case Bound::PinionTip: return ContactKind::PinionTip;
-    case Bound::WheelRoot: return ContactKind::WheelRoot;
-    case Bound::WheelTip: return ContactKind::WheelTip;
-    case Bound::WheelFace: return ContactKind::FaceEnd;
-    case Bound::None: break;
+    case SectionBound::PinionRoot: return ContactKind::PinionRoot;
+    case SectionBound::PinionTip: return ContactKind::PinionTip;
+    case SectionBound::WheelRoot: return ContactKind::WheelRoot;
+    case SectionBound::WheelTip: return ContactKind::WheelTip;
+    case SectionBound::None: break;
   }
   if (flat) return ContactKind::Line;
   return on_face_end ? ContactKind::FaceEnd : ContactKind::Surface;
@@ -234,21 +224,26 @@ ContactKind kind_of(const FirstContact& problem, const SectionMaximum& best, con
 
 }  // namespace
 
-ToothContact find_tooth_contact(const MeshScene& scene, int tooth, double phi1) {
+ToothContact ToothContactSolver::find(int tooth, double phi1) const {
   ToothContact contact;
   contact.tooth = tooth;
   contact.phi1 = phi1;
-  const FirstContact problem(scene, tooth, phi1);
+  const FaceSearch problem(scene_, density_, tooth, phi1);
   const SectionMaximum best = problem.solve();
   if (!best.exists) return contact;
-  contact.kind = kind_of(problem, best, scene);
+  contact.kind = problem.kind_of(best);
   contact.phi2 = best.phi2;
-  contact.transmission_error = best.phi2 - scene.speed_ratio() * phi1;
-  contact.pinion_radius = std::hypot(scene.pinion.base_radius, best.rho);
-  contact.pinion_z = best.z;
-  contact.wheel_radius = best.at.wheel_radius.value;
-  contact.wheel_z = best.at.wheel_z.value;
+  contact.transmission_error = best.phi2 - scene_.speed_ratio() * phi1;
+  contact.slope = best.slope_phi1 - scene_.speed_ratio();
+  contact.pinion_radius = std::hypot(scene_.pinion.base_radius, best.at.rho);
+  contact.pinion_z = best.at.z;
+  contact.wheel_radius = best.at.wheel_radius;
+  contact.wheel_z = best.at.wheel_z;
   return contact;
+}
+
+ToothContact find_tooth_contact(const MeshScene& scene, int tooth, double phi1) {
+  return ToothContactSolver(scene).find(tooth, phi1);
 }
 
 const char* to_string(ContactKind kind) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "core/contact/mesh_scene.hpp"
+#include "core/contact/search_density.hpp"
 
 namespace flankwright {
 
@@ -33,21 +34,39 @@ struct ToothContact {
   bool exists() const { return kind != ContactKind::None; }
 };
 
-/// Unloaded contact of tooth pair `tooth` at pinion angle phi1: the bounded problem
+/// Unloaded contact of tooth pairs:
 ///
 ///     phi2(phi1) = max over (rho1, z1) of the wheel angle that puts the wheel's flank through the pinion's point,
 ///     subject to form..tip and face ends of *both* flanks.
 ///
-/// One solver for line, surface, edge and corner contact: in a transverse section of the pinion (fixed z1) the angle is a
-/// concave function of the roll length, maximised by a safeguarded root of its exact slope inside the section's bounds; the
-/// section maxima, a function of z1 alone with an exact slope by the envelope theorem, are searched in 17 sections over the
-/// face, and every summit between them is refined by the same safeguarded root. Slope jumps (start of a linear relief on either
-/// gear) and flat valleys (aligned gears) need no special case. Outside this are hollow flanks (metal added at the ends of a
-/// profile or face) with two maxima in one section or within 1/16 of the face: one of the two is found. Tooth k runs k pitches
-/// ahead of the reference tooth 0.
+/// One solver for line, surface, edge and corner contact, without an initial guess from outside. In a transverse section of the
+/// pinion (fixed z1) the angle is maximised over the roll length, from where undisturbed flanks would touch, by secant steps on its
+/// exact slope inside the section's bounds. The section maxima, a function of z1 alone with an exact slope by the envelope
+/// theorem, are looked at in sections over the face, and every summit between two of them is refined in the same way. Slope jumps
+/// (start of a linear relief on either gear) and flat valleys (aligned gears) need no special case.
+///
+/// Global within a resolution: search_density() judges once per scene whether a section can have several summits (hollow or wavy
+/// flanks) and how many sections the line of contact needs. Between sections the hollow curvature of the flanks bounds how high
+/// an unseen summit could be; where that exceeds what is known the interval is halved. Summits in different pieces of a
+/// profile (of several summits: none longer than 1/32 of it) and in different intervals of a hollow face (1/32 of it) are told
+/// apart; of two in one, one is found.
 ///
 /// A pair is said to touch along a line where the maximum stays within 1e-9 mm (along the base tangent) over 1/200 of the
-/// face width to either side that the flanks cover.
+/// face width to either side that the flanks cover; the point given is then the middle of the sections that lie on it.
+class ToothContactSolver {
+ public:
+  /// @param scene  must outlive the solver
+  explicit ToothContactSolver(const MeshScene& scene) : scene_(scene), density_(search_density(scene)) {}
+
+  /// First contact of tooth pair `tooth`, which runs k pitches ahead of the reference pair 0, at pinion angle phi1 [rad].
+  ToothContact find(int tooth, double phi1) const;
+
+ private:
+  const MeshScene& scene_;
+  SearchDensity density_;
+};
+
+/// One first contact of one scene; for many of the same scene a ToothContactSolver saves the judgement of the flanks.
 ToothContact find_tooth_contact(const MeshScene& scene, int tooth, double phi1);
 
 /// Lower-case name of the kind as results.json has it ("pinion_tip").

@@ -5,106 +5,53 @@
 #include <complex>
 #include <map>
 
-#include "core/contact/path_of_contact.hpp"
+#include "core/contact/mesh_envelope.hpp"
 
 namespace flankwright {
 
 namespace {
 
-constexpr double lead_tolerance = 1e-12;  // rad, see analyse_unloaded_mesh()
 constexpr int highest_harmonic = 10;
-
-/// All pairs that may touch at one pinion angle, and which of them leads.
-class MeshAtAngle {
- public:
-  MeshAtAngle(const MeshScene& scene, int reach, double phi1, int preferred) {
-    for (int k = -reach; k <= reach; ++k) {
-      const ToothContact contact = find_tooth_contact(scene, k, phi1);
-      if (contact.exists()) contacts_.push_back(contact);
-    }
-    for (const ToothContact& c : contacts_) {
-      const bool leads = !leader_ || c.transmission_error > leader_->transmission_error + lead_tolerance;
-      const bool stays = leader_ && c.tooth == preferred &&
-                         c.transmission_error >= leader_->transmission_error - lead_tolerance;
-      if (leads || stays) leader_ = &c;
-    }
-  }
-  MeshAtAngle(const MeshAtAngle&) = delete;
-  MeshAtAngle& operator=(const MeshAtAngle&) = delete;
-
-  const std::vector<ToothContact>& contacts() const { return contacts_; }
-  const ToothContact* leader() const { return leader_; }
-
- private:
-  std::vector<ToothContact> contacts_;
-  const ToothContact* leader_{nullptr};
-};
-
-/// Halves (from, to] until the hand-over from `tooth` is located to round-off of the angle.
-Transfer locate_transfer(const MeshScene& scene, int reach, int tooth, double from, double to) {
-  Transfer transfer;
-  transfer.from_tooth = tooth;
-  while (true) {
-    const double middle = 0.5 * (from + to);
-    if (middle <= from || middle >= to || to - from <= 1e-13) break;
-    const MeshAtAngle mesh(scene, reach, middle, tooth);
-    const bool same = mesh.leader() && mesh.leader()->tooth == tooth;
-    (same ? from : to) = middle;
-  }
-  const MeshAtAngle mesh(scene, reach, to, tooth);
-  transfer.phi1 = to;
-  if (mesh.leader()) {
-    transfer.to_tooth = mesh.leader()->tooth;
-    transfer.transmission_error = mesh.leader()->transmission_error;
-  }
-  return transfer;
-}
 
 }  // namespace
 
 UnloadedMesh analyse_unloaded_mesh(const GearPair& pair, const MeshScene& scene, int positions) {
   const PathOfContact path(pair);
+  const MeshEnvelope envelope(pair, scene);
   const double pitch = 2.0 * units::pi / scene.pinion_teeth;
-  const int reach = static_cast<int>(std::ceil(path.last_line_phase())) + 1;
   UnloadedMesh mesh;
   std::map<int, PairCurve> curves;
-  int leader = 0;
+  MeshState last;
   double largest = -INFINITY, smallest = INFINITY;
-  const auto note = [&](double te) {
-    largest = std::max(largest, te);
-    smallest = std::min(smallest, te);
-  };
-  // One position more than asked closes the cycle, so that a hand-over in its last interval is found too.
+  // One position more than asked closes the cycle, so that what happens in its last interval is found too.
   for (int i = 0; i <= positions; ++i) {
-    const double phi1 = pitch * (static_cast<double>(i) / positions - 0.5);
-    const MeshAtAngle now(scene, reach, phi1, leader);
-    if (!now.leader()) {
+    MeshState now = envelope.at(pitch * (static_cast<double>(i) / positions - 0.5), last.exists() ? last.leading().tooth : 0);
+    if (i == 0 || i == positions) envelope.look_ahead(now, pitch / positions);
+    const double te = now.exists() ? now.leading().transmission_error : not_given;
+    if (now.exists()) {
+      largest = std::max(largest, te);
+      smallest = std::min(smallest, te);
+    } else {
       ++mesh.missing;
-      if (i < positions) {
-        mesh.phi1.push_back(phi1);
-        mesh.transmission_error.push_back(not_given);
+    }
+    envelope.follow(last, now, mesh.transfers, smallest, largest);
+    if (i < positions) {
+      mesh.phi1.push_back(now.phi1);
+      mesh.transmission_error.push_back(te);
+      for (const ToothContact& c : now.contacts) {
+        const double phase = path.line_phase_at(now.phi1 + c.tooth * pitch, pair);
+        if (phase < 0.0 || phase > path.last_line_phase()) continue;
+        PairCurve& curve = curves[c.tooth];
+        curve.tooth = c.tooth;
+        curve.positions.push_back(c);
       }
-      continue;
     }
-    if (i > 0 && now.leader()->tooth != leader) {
-      mesh.transfers.push_back(locate_transfer(scene, reach, leader, phi1 - pitch / positions, phi1));
-      note(mesh.transfers.back().transmission_error);
-    }
-    leader = now.leader()->tooth;
-    if (i == positions) break;
-    mesh.phi1.push_back(phi1);
-    mesh.transmission_error.push_back(now.leader()->transmission_error);
-    note(now.leader()->transmission_error);
-    for (const ToothContact& c : now.contacts()) {
-      const double phase = path.line_phase_at(phi1 + c.tooth * pitch, pair);
-      if (phase < 0.0 || phase > path.last_line_phase()) continue;
-      PairCurve& curve = curves[c.tooth];
-      curve.tooth = c.tooth;
-      curve.positions.push_back(c);
-    }
+    last = std::move(now);
   }
   for (auto& [tooth, curve] : curves) mesh.pairs.push_back(std::move(curve));
   if (mesh.missing == 0) {
+    mesh.largest = largest;
+    mesh.smallest = smallest;
     mesh.peak_to_peak = largest - smallest;
     mesh.harmonics = harmonic_amplitudes(mesh.transmission_error);
   }

@@ -29,12 +29,20 @@ struct UnloadedMesh {
   std::vector<double> transmission_error;  ///< delta_phi2 at each, wheel [rad]
   std::vector<PairCurve> pairs;            ///< at the same angles, while the pair is inside the extended path of contact
   std::vector<Transfer> transfers;
-  double peak_to_peak{not_given};          ///< over the positions and the located transfer points, wheel [rad]
+  /// Extremes of the envelope over the pitch, both its ends included: hand-overs, crests and troughs between positions are
+  /// located, so they hardly depend on how many positions there are. Wheel [rad]; not given where `missing` > 0.
+  double largest{not_given}, smallest{not_given};
+  double peak_to_peak{not_given};          ///< largest - smallest [rad]
   std::vector<double> harmonics;           ///< amplitude of orders 1 .. 10 of the pitch, fewer where positions allow fewer [rad]
   int missing{0};                          ///< positions at which no pair touches at all
 };
 
-/// Tooth contact analysis over one pitch of the pinion, phi1 = -pi/N1 .. pi/N1.
+/// Tooth contact analysis over one pitch of the pinion, phi1 = -pi/N1 .. pi/N1. A hand-over at the very end of the pitch counts
+/// there, and not at its start.
+///
+/// With cumulative pitch errors the next pitch may differ: then everything here is about this pitch alone, the hand-overs
+/// those inside it, and the harmonics those of its repetition. Two hand-overs between neighbouring positions are both found where
+/// either three pairs are involved or the one that leads in between has its crest there.
 ///
 /// A pair takes the lead only when it is ahead by more than 1e-12 rad, the round-off of the angles, so that aligned pairs
 /// sharing the load do not appear to hand over.

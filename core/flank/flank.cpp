@@ -2,6 +2,8 @@
 
 #include <Eigen/Geometry>
 
+#include "core/flank/conjugate_field.hpp"
+#include "core/flank/generated_field.hpp"
 #include "core/gear/involute.hpp"
 
 namespace flankwright {
@@ -22,7 +24,7 @@ SurfacePoint surface_point(const Flank& flank, double rho, double z, int tooth, 
 }
 
 Flank make_flank(const GearPair& pair, Member member, const Modification& modification,
-                         const ManufacturingError& error) {
+                 const ManufacturingError& error) {
   const Gear& gear = pair[member];
   Flank flank;
   flank.base_radius = gear.base_radius;
@@ -34,6 +36,11 @@ Flank make_flank(const GearPair& pair, Member member, const Modification& modifi
   flank.helix_rate = flank.frame.helix_rate;
   flank.modification = modification;
   flank.error = error;
+  flank.modification.parabolic_te = 0.0;
+  flank.modification.topography = nullptr;
+  if (auto generated = make_generated_field(pair, member)) flank.fields.push_back(std::move(generated));
+  if (modification.parabolic_te != 0.0) flank.fields.push_back(make_conjugate_field(pair, member, modification.parabolic_te));
+  if (modification.topography) flank.fields.push_back(modification.topography);
   return flank;
 }
 

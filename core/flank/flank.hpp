@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <memory>
+#include <vector>
 
 #include "core/base/dual.hpp"
 #include "core/base/jet.hpp"
@@ -23,7 +24,7 @@ inline constexpr double lowest_start = 1.0 + 5e-5;
 /// roll length rho (transverse radius of curvature), e the radial and t the tangential unit vector at angle theta:
 ///
 ///     theta = origin + s z/p - rho/r_b,      point = r_b e(theta) + (rho - D) t(theta),
-///     D = generation + removal + topography - added metal - pitch at r = sqrt(r_b^2 + rho^2), z      [mm, + into the tooth]
+///     D = generation + removal + parabola + topography - added metal - pitch at r = sqrt(r_b^2 + rho^2), z      [mm, + into the tooth]
 ///
 /// with s = +1 for a right-hand helix seen in this frame, -1 for left. D = 0 is the involute helicoid, e.g. TM-107451,
 /// eq. A.1.1, with theta the negative of its theta_1 + mu_1. The parameter rectangle is lowest_roll() .. highest_roll() by
@@ -36,9 +37,10 @@ struct Flank {
   double tip_radius{not_given};    ///< upper end [mm]
   double half_face{not_given};     ///< b/2 [mm]
   FlankFrame frame;
-  Modification modification;
+  Modification modification;  ///< without what became a field
   ManufacturingError error;
-  std::shared_ptr<const DeviationField> generated;  ///< what a tool other than the straight rack leaves; null: involute
+  /// What is not written in closed form: the generated flank, the predesigned parabola, the measured grid; summed.
+  std::vector<std::shared_ptr<const DeviationField>> fields;
 
   double lowest_roll() const { return roll_at(form_radius); }
   double highest_roll() const { return roll_at(tip_radius); }
@@ -52,8 +54,7 @@ struct Flank {
     using std::sqrt;
     const Scalar r = sqrt(rho * rho + base_radius * base_radius);
     Scalar d = removal(modification, frame, r, z) - added_metal(error, frame, r, z) - pitch_deviation(error, tooth);
-    if (generated) d += evaluate(*generated, rho, z);
-    if (modification.topography) d += evaluate(*modification.topography, rho, z);
+    for (const auto& field : fields) d += evaluate(*field, rho, z);
     return d;
   }
 };
@@ -120,6 +121,8 @@ FlankThroughPoint<Scalar> rotation_through(const Flank& flank, const Point3<Scal
 }
 
 /// Flank of one gear of the pair in the canonical sense (pinion driving in +y); a left working flank is mirrored into it.
+/// The predesigned parabola becomes the flank that has it exactly (make_conjugate_field).
+/// @throws InvalidInput "parabolic_te" where no flank has that parabola
 Flank make_flank(const GearPair& pair, Member member, const Modification& modification,
                          const ManufacturingError& error);
 

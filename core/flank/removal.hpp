@@ -17,7 +17,8 @@ namespace flankwright {
 ///               C_end (|z| - (b/2 - l))/l where that is positive
 ///     twist:    S (r - r_w)/(r_a - r_Nf) z/b
 ///     parabolic TE:  r_b2 a phi1^2,  phi1 = i ((rho - rho_w)/r_b - s z/p)  with i = 1 (pinion) or -N2/N1 (wheel): the pinion angle
-///               at which the undisturbed flanks touch along the line through (rho, z); the same along that whole line
+///               at which the undisturbed flanks touch along the line through (rho, z), the same along that whole line. It is how
+///               far the mesh lags there; the flank that makes it do so is make_conjugate_field()
 ///
 /// Radial measure throughout, as Haddad 1991, eq. 6.1 (there with b^2 printed for (b/2)^2 in the crowning term). The function
 /// is continuous; its slope jumps where a linear relief starts. Outside the active flank the same formulas continue.

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/base/units.hpp"
+#include "core/gear/generation.hpp"
 
 namespace flankwright {
 
@@ -32,6 +33,7 @@ struct GearData {
   double profile_shift{0.0};        ///< x, coefficient of the normal module [-]
   double tip_diameter{not_given};   ///< d_a [mm]; not given: from rack and profile shift
   RackProfile rack;
+  Generation generation;            ///< what cuts the flanks
 };
 
 /// What defines an external parallel-axis involute pair [ISO 21771].

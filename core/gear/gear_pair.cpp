@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "core/gear/generation_check.hpp"
 #include "core/gear/involute.hpp"
 #include "core/gear/tooth_form.hpp"
 
@@ -28,6 +29,7 @@ class Findings {
     if (!holds) problems_.emplace_back(field, text(value), allowed);
   }
   void add(const InvalidInput& problem) { problems_.push_back(problem); }
+  void add(const std::vector<InvalidInput>& problems) { problems_.insert(problems_.end(), problems.begin(), problems.end()); }
   bool empty() const { return problems_.empty(); }
   std::vector<InvalidInput> take() { return std::move(problems_); }
 
@@ -178,6 +180,7 @@ void check_mesh(const PairData& data, Findings& findings) {
     findings.require(gear.tip_radius < largest_tip, gear_name(m) + (given ? ".tip_diameter" : ".profile_shift"),
                      given ? gear.data.tip_diameter : gear.data.profile_shift,
                      "a tip diameter below " + text(2.0 * largest_tip) + " mm, where it meets the mate's root circle");
+    findings.add(find_generation_problems(gear, data));
   }
   findings.require(pair.transverse_contact_ratio > 0.0, "pair.centre_distance", pair.centre_distance,
                    "one at which the active flanks meet on the line of action, transverse contact ratio above 0 (it is " +
@@ -241,6 +244,7 @@ std::vector<InvalidInput> find_problems(const PairData& data) {
     findings.require(std::isnan(gear.tip_diameter) || (gear.tip_diameter > 0.0 && std::isfinite(gear.tip_diameter)),
                      name + ".tip_diameter", gear.tip_diameter, "above 0 mm");
     check_rack(gear, name, data, findings);
+    findings.add(find_tool_problems(data, m));
   }
   if (!findings.empty()) return findings.take();
 

@@ -10,19 +10,25 @@ namespace {
 
 using nlohmann::json;
 
-/// The double nearest to x that six significant digits can write; its shortest text has at most these digits.
-double rounded(double x) {
+constexpr int significant_digits = 6;
+/// Of the unloaded transmission error: backlash may lift it by a thousand arcsec, and a thousandth is of interest.
+constexpr int te_digits = 10;
+
+/// The double nearest to x that this many significant digits can write; its shortest text has at most these digits.
+double rounded(double x, int digits) {
   if (!std::isfinite(x)) return x;
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.6g", x);
+  std::snprintf(text.data(), text.size(), "%.*g", digits, x);
   return std::strtod(text.data(), nullptr);
 }
 
-void round_numbers(json& node) {
+void round_numbers(json& node, int digits) {
   if (node.is_number_float()) {
-    node = rounded(node.get<double>());
-  } else if (node.is_structured()) {
-    for (json& child : node) round_numbers(child);
+    node = rounded(node.get<double>(), digits);
+  } else if (node.is_object()) {
+    for (auto& [key, child] : node.items()) round_numbers(child, key == "te_arcsec" ? te_digits : digits);
+  } else if (node.is_array()) {
+    for (json& child : node) round_numbers(child, digits);
   }
 }
 
@@ -59,7 +65,7 @@ nlohmann::json report_view(nlohmann::json results) {
   });
   if (!results.is_object()) return results;
   for (auto& [key, section] : results.items()) {
-    if (key != "given" && key != "used") round_numbers(section);
+    if (key != "given" && key != "used") round_numbers(section, significant_digits);
   }
   return results;
 }

@@ -24,7 +24,8 @@ TEST_CASE("A run leaves its files in the folder it was given, a table on stdout 
   CHECK(ending.exit_code == 0);
   CHECK(folder.names() == Names{"here", "small.toml"});
   CHECK(folder.names("here/and there") ==
-        Names{"cycle.csv", "points.csv", "report.html", "results.json", "unloaded.csv"});
+        Names{"bearing_pattern.csv", "cycle.csv", "points.csv", "report.html", "results.json", "transfers.csv",
+              "unloaded.csv"});
   CHECK_THAT(ending.out, Contains("aligned") && Contains("bent") && Contains("report: here/and there/report.html"));
   CHECK(ending.out.find("analysing") == std::string::npos);
   CHECK_THAT(ending.err, Contains("small analysis"));

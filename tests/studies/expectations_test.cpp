@@ -7,7 +7,7 @@ namespace flankwright::studies {
 namespace {
 
 const std::string results = R"({
-  "a": {"b": 2.0, "nothing": null, "text": "two", "list": [1, 2, 3]},
+  "a": {"b": 2.0, "nothing": null, "text": "two", "truth": true, "list": [1, 2, 3]},
   "loaded": [{"summary": {"te": 1.0}}, {"summary": {"te": 2.0}}, {"summary": {}}],
   "empty": []})";
 
@@ -73,6 +73,22 @@ TEST_CASE("What is missing, null or no number is not met", "[studies][expect]") 
   const std::vector<Comparison> comparisons = compare({range(key, -INFINITY, INFINITY)}, results);
   CHECK_FALSE(comparisons.empty());
   for (const Comparison& c : comparisons) CHECK_FALSE(c.met);
+}
+
+TEST_CASE("A text or a truth value is met by itself only", "[studies][expect]") {
+  const auto word = [](const std::string& key, const std::string& is) {
+    Expectation e;
+    e.key = key;
+    e.is = is;
+    return e;
+  };
+  CHECK(met(word("a.text", "two")));
+  CHECK_FALSE(met(word("a.text", "tw")));
+  CHECK(met(word("a.truth", "true")));
+  CHECK_FALSE(met(word("a.truth", "false")));
+  CHECK_FALSE(met(word("a.b", "2")));  // a number is no text
+  CHECK_FALSE(met(word("a.nothing", "null")));
+  CHECK(differences(compare({word("a.text", "three")}, results)) == "  a.text: expected three, found two\n");
 }
 
 TEST_CASE("The table of differences names key, wanted and found, and only what differs", "[studies][expect]") {

@@ -51,6 +51,27 @@ TEST_CASE("The report of an unloaded analysis has the sections of unloaded conta
   CHECK(section_ids(render_report(sample::unloaded_results().dump())) == expected);
 }
 
+TEST_CASE("The page of an unloaded analysis has its pictures' data in every scene and the scripts that draw them",
+          "[studies][report]") {
+  const json results = sample::unloaded_results();
+  const std::string page = render_report(results.dump());
+  for (const char* script : {"function draw_contact_paths(", "function draw_unloaded_te(", "function draw_pattern(",
+                             "function draw_words(", "function scene_table("}) {
+    CAPTURE(script);
+    CHECK(count(page, script) == 1);
+  }
+  const json data = embedded(page);
+  REQUIRE(data["unloaded_scenes"].size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const json &shown = data["unloaded_scenes"][i], &stored = results["unloaded_scenes"][i];
+    CHECK(shown["sequence"] == stored["sequence"]);
+    CHECK(shown["parabolic_te"]["why"] == stored["parabolic_te"]["why"]);
+    CHECK(shown["bearing_pattern"]["pinion"]["separation_um"].size() == stored["bearing_pattern"]["pinion"]["radius_mm"].size());
+    CHECK(shown["bearing_pattern"]["pinion"]["separation_um"][0].back().is_null());
+    CHECK(shown["pairs"][1]["positions"].size() == stored["pairs"][1]["positions"].size());
+  }
+}
+
 TEST_CASE("The report of a loaded analysis shows pictures before tables", "[studies][report]") {
   const std::vector<std::string> expected{
       "transmission-error", "flank-load", "modifications", "stiffness", "load-cases",
@@ -172,6 +193,13 @@ TEST_CASE("The page gets every contact point to six digits", "[studies][report]"
   CHECK(seen > 1000);
   CHECK(view["given"] == results["given"]);
   CHECK(view["used"] == results["used"]);
+}
+
+TEST_CASE("The page sees a small transmission error on top of a large backlash", "[studies][report]") {
+  json results = sample::unloaded_results();
+  results["unloaded"]["mesh"]["te_arcsec"] = {-1167.23456, -1167.23321};
+  const json shown = report_view(results)["unloaded"]["mesh"]["te_arcsec"];
+  CHECK(shown[1].get<double>() - shown[0].get<double>() == Approx(0.00135).epsilon(1e-3));  // of ten digits, 1e-6 arcsec
 }
 
 TEST_CASE("The report of nine scenes at 32 positions stays below three megabytes", "[studies][report]") {

@@ -182,6 +182,30 @@ json topography(const char* gear, const Gear& g, const char* design, double crow
   return {{"gear", gear}, {"design", design}, {"z_mm", z}, {"radius_mm", radius}, {"removal_um", removal}};
 }
 
+/// Separation of crowned flanks over a grid, in um: none along a line that tilts across the flank.
+json pattern(const Gear& gear, double covered) {
+  json radius = json::array(), z = json::array(), separation = json::array();
+  for (int i = 0; i <= 16; ++i) z.push_back(face_width * (i / 16.0 - 0.5));
+  for (int j = 0; j <= 8; ++j) {
+    radius.push_back(gear.r_b + 1 + (gear.r_a - gear.r_b - 1) * j / 8.0);
+    json row = json::array();
+    for (int i = 0; i <= 16; ++i) {
+      const double off = i / 8.0 - 1 - 0.3 * (j / 4.0 - 1);
+      row.push_back(i == 16 && j == 0 ? json() : json(14 * off * off));  // one place that never faces the mate
+    }
+    separation.push_back(row);
+  }
+  return {{"radius_mm", radius}, {"z_mm", z}, {"separation_um", separation}, {"covered_percent", covered}};
+}
+
+json ellipse(const char* contact) {
+  if (std::string(contact) != "surface") return nullptr;
+  const auto axis = [](double up, double along) {
+    return json{{"pinion", {{"radius", up}, {"z", along}}}, {"wheel", {{"radius", -up}, {"z", along}}}};
+  };
+  return {{"semi_major_mm", 30.0}, {"semi_minor_mm", 0.6}, {"major", axis(0.1, 0.97)}, {"minor", axis(0.9, -0.1)}};
+}
+
 json unloaded_part() {
   const double pitch_angle = 360.0 / pinion.teeth;
   json pairs = json::array(), phi = json::array(), te = json::array(), te_um = json::array(), transfers = json::array();
@@ -196,11 +220,14 @@ json unloaded_part() {
           {{"phi1_deg", x + tooth * pitch_angle},
            {"phi2_deg", (x + tooth * pitch_angle) / 3},
            {"te_arcsec", pair_te(x)},
+           {"te_slope_arcsec_per_deg", -0.11 * x},
            {"contact", kind},
+           {"carries", std::abs(x) <= pitch_angle / 2},
            {"pinion", {{"radius_mm", pinion.r + (s > 0 ? 10 : 5.5) * s}, {"z_mm", 2 * s + (x - 14 * s) * 4}}},
-           {"wheel", {{"radius_mm", wheel.r - 9 * s}, {"z_mm", 2 * s + (x - 14 * s) * 4}}}});
+           {"wheel", {{"radius_mm", wheel.r - 9 * s}, {"z_mm", 2 * s + (x - 14 * s) * 4}}},
+           {"ellipse", ellipse(kind)}});
     }
-    pairs.push_back({{"tooth", tooth}, {"positions", positions}});
+    pairs.push_back({{"tooth", tooth}, {"sequence", "wheel_tip, surface, pinion_tip"}, {"positions", positions}});
   }
   for (int i = 0; i <= 120; ++i) {
     const double x = 1.5 * pitch_angle * (i / 60.0 - 1);
@@ -213,14 +240,30 @@ json unloaded_part() {
     transfers.push_back({{"phi1_deg", (k + 0.5) * pitch_angle},
                          {"te_arcsec", pair_te(pitch_angle / 2)},
                          {"from_tooth", k},
-                         {"to_tooth", k + 1}});
+                         {"to_tooth", k + 1},
+                         {"slope_before_arcsec_per_deg", -1.1},
+                         {"slope_after_arcsec_per_deg", 1.1},
+                         {"slope_jump_arcsec_per_deg", 2.2}});
   }
-  return {{"pairs", pairs},
+  return {{"scene", "aligned"},
+          {"sequence", "wheel_tip, surface, pinion_tip"},
+          {"carrying_sequence", "surface"},
+          {"pairs", pairs},
+          {"bearing_pattern",
+           {{"marking_thickness_um", 6.35}, {"pinion", pattern(pinion, 71.0)}, {"wheel", pattern(wheel, 70.0)}}},
+          {"parabolic_te",
+           {{"wanted_arcsec_per_deg2", 0.055},
+            {"found_arcsec_per_deg2", 0.0551},
+            {"shift_deg", 0.2},
+            {"residual_arcsec", 0.003},
+            {"holds", true},
+            {"why", ""}}},
           {"mesh",
            {{"phi1_deg", phi},
             {"te_arcsec", te},
             {"te_um", te_um},
             {"peak_to_peak_arcsec", -pair_te(pitch_angle / 2)},
+            {"peak_to_peak_um", -pair_te(pitch_angle / 2) * units::arcsec * wheel.r_b * 1e3},
             {"harmonics_arcsec", {2.2, 0.56, 0.25, 0.14, 0.09}},
             {"transfers", transfers}}}};
 }
@@ -257,6 +300,11 @@ json frame(const char* task) {
 json unloaded_results() {
   json results = frame("analyse");
   results["unloaded"] = unloaded_part();
+  json broken = unloaded_part();
+  broken["scene"] = "crossed";
+  broken["parabolic_te"]["holds"] = false;
+  broken["parabolic_te"]["why"] = "contact runs on a face end";
+  results["unloaded_scenes"] = {results["unloaded"], broken};
   return results;
 }
 

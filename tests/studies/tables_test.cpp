@@ -57,13 +57,21 @@ TEST_CASE("CSV tables read back whole, whatever a scene is called", "[studies][t
   results.loaded.front().scene = awkward;
   results.unloaded.front().scene = awkward;
   const auto tables = tables_of(results);
-  CHECK(tables.size() == 3);
+  CHECK(tables.size() == 5);
   for (const auto& [name, rows] : tables) {
     CAPTURE(name);
     REQUIRE(rows.size() > 1);
     for (const Row& row : rows) CHECK(row.size() == rows.front().size());
     CHECK(rows[1].front() == awkward);
   }
+  // One line a hand-over, and one for each grid point of both flanks in both scenes.
+  std::size_t transfers = 0, grid_points = 0;
+  for (const UnloadedResult& unloaded : results.unloaded) {
+    transfers += unloaded.mesh.transfers.size();
+    grid_points += static_cast<std::size_t>(unloaded.pinion_pattern.separation.size() + unloaded.wheel_pattern.separation.size());
+  }
+  CHECK(tables.at("transfers.csv").size() == 1 + transfers);
+  CHECK(tables.at("bearing_pattern.csv").size() == 1 + grid_points);
   // One line for each position of both scenes, and for each contact point of them.
   CHECK(tables.at("cycle.csv").size() == 1 + 2 * 6);
   std::size_t points = 0;

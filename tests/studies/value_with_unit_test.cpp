@@ -48,6 +48,12 @@ TEST_CASE("A text with a unit gives the same quantity as its definition", "[stud
       Row{"206 GPa", Quantity::Stress, 206000.0},
       Row{"30e6 psi", Quantity::Stress, 30e6 * 0.45359237 * 9.80665 / (25.4 * 25.4)},
       Row{"10 min", Quantity::Time, 600.0},
+      Row{"2 1/mm", Quantity::Curvature, 2.0},
+      Row{"25.4 1/in", Quantity::Curvature, 1.0},
+      // (full_turn/1296000) / (full_turn/360)^2
+      Row{"1 arcsec/deg^2", Quantity::ParabolicTe, 1.0 / (10.0 * full_turn)},
+      Row{"1 arcsec/deg²", Quantity::ParabolicTe, 1.0 / (10.0 * full_turn)},
+      Row{"0.5 1/rad", Quantity::ParabolicTe, 0.5},
   }));
   CAPTURE(text);
   CHECK(parse_value_with_unit(text, quantity) == Approx(expected).epsilon(round_off));
@@ -56,7 +62,8 @@ TEST_CASE("A text with a unit gives the same quantity as its definition", "[stud
 TEST_CASE("A bare number and the same number with its default unit are one value", "[studies][units]") {
   const Quantity quantity =
       GENERATE(Quantity::Length, Quantity::Deviation, Quantity::Angle, Quantity::SmallAngle, Quantity::Torque,
-               Quantity::Stress, Quantity::LineLoad, Quantity::DiametralPitch, Quantity::Time);
+               Quantity::Stress, Quantity::LineLoad, Quantity::DiametralPitch, Quantity::Curvature,
+               Quantity::ParabolicTe, Quantity::Time);
   const std::string text = "7.25 " + std::string(default_unit(quantity));
   CAPTURE(text);
   CHECK(internal_value(7.25, quantity) == parse_value_with_unit(text, quantity));
@@ -82,6 +89,8 @@ TEST_CASE("A unit of another dimension is refused, and so is a number without on
       Row{"1e308 m", Quantity::Length},
       Row{"0x10 mm", Quantity::Length},
       Row{"0.3 m", Quantity::Number},
+      Row{"0.3 mm", Quantity::Curvature},
+      Row{"0.3 arcsec", Quantity::ParabolicTe},
   }));
   CAPTURE(text);
   CHECK_THROWS_AS(parse_value_with_unit(text, quantity), InvalidInput);

@@ -39,12 +39,15 @@ function governing_case(cases, optimise) {
   }, null);
 }
 
-/** The one load case that all figures under load show; every choice on the page sets it for all. */
-function case_selection(cases, governing) {
-  const selection = { cases, current: governing, listeners: [], selects: [] };
+/**
+ * The one case that a group of figures shows; every choice on the page sets it for all of the group.
+ * @param remark  added to the label of the case that is shown first
+ */
+function case_selection(cases, first, remark = " (governs)") {
+  const selection = { cases, current: first, listeners: [], selects: [] };
   const options = cases.map((load_case) => ({
     value: load_case.key,
-    label: load_case.label + (cases.length > 1 && load_case === governing ? " (governs)" : ""),
+    label: load_case.label + (cases.length > 1 && load_case === first ? remark : ""),
   }));
   selection.add_choice = (parent) => {
     if (cases.length < 2) return;
@@ -60,7 +63,7 @@ function case_selection(cases, governing) {
   return selection;
 }
 
-/** A figure that shows the selected load case and follows the selection. */
+/** A figure that shows the selected case and follows the selection. */
 function case_figure(parent, selection, options, draw) {
   selection.listeners.push(figure(parent, options, (plot) => {
     if (selection.cases.length > 1) plot.append(el("p", { class: "shown" }, `Scene: ${selection.current.label}`));

@@ -25,6 +25,36 @@ const legend = (show) => ({
   },
 });
 
+/** Plugin that writes texts beside points, on the side that has room; of texts that would overlap the first one stays. */
+const point_labels = (labels) => ({
+  id: "point_labels",
+  afterDatasetsDraw: ({ ctx: pen, scales, chartArea: area }) => {
+    pen.save();
+    pen.font = `12px ${Chart.defaults.font.family}`;
+    pen.textAlign = "left";
+    pen.textBaseline = "middle";
+    pen.lineWidth = 4;
+    pen.lineJoin = "round";
+    pen.strokeStyle = css_colour("surface");
+    pen.fillStyle = css_colour("ink");
+    const taken = [];
+    for (const { x, y, text } of labels) {
+      const at_x = scales.x.getPixelForValue(x), at_y = scales.y.getPixelForValue(y);
+      if (at_x < area.left || at_x > area.right || at_y < area.top || at_y > area.bottom) continue;
+      const width = pen.measureText(text).width;
+      const left = at_x + 12 + width < area.right ? at_x + 11 : at_x - 11 - width;
+      const place = [left, Math.min(at_y + 18, area.bottom - 10)];
+      if (taken.some((other) => Math.abs(other.y - place[1]) < 15 && left < other.right + 8 && other.left < left + width + 8)) {
+        continue;
+      }
+      taken.push({ left, right: left + width, y: place[1] });
+      pen.strokeText(text, ...place);
+      pen.fillText(text, ...place);
+    }
+    pen.restore();
+  },
+});
+
 function make_chart(plot, config, height) {
   const canvas = el("canvas", { role: "img", "aria-label": config.label });
   plot.append(el("div", { class: "chart", style: `height:${height}px` }, canvas));
@@ -35,9 +65,10 @@ function make_chart(plot, config, height) {
  * Curves or points over a linear axis.
  * @param curves  [{label, points: [{x, y}], colour, width?, quiet?, dashed?, scatter?, style?, order?}];
  *                a quiet curve is background: no legend entry, no read-out
+ * @param labels  [{x, y, text}] written beside their points
  */
 function xy_chart(plot, options) {
-  const { label, curves, x, y, x_range = {}, y_range = {}, read_x, read_y, nearest = "x", height = 290 } = options;
+  const { label, curves, x, y, x_range = {}, y_range = {}, read_x, read_y, nearest = "x", height = 290, labels = [] } = options;
   const datasets = curves.map((curve) => ({
     label: curve.label,
     quiet: curve.quiet || false,
@@ -62,6 +93,7 @@ function xy_chart(plot, options) {
     label,
     type: "line",
     data: { datasets },
+    plugins: [point_labels(labels)],
     options: {
       normalized: true,
       interaction: { mode: "nearest", axis: nearest, intersect: false },

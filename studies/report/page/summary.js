@@ -31,11 +31,19 @@ function loaded_headline(cases) {
   return capital(parts.join(" and ")) + where;
 }
 
-function unloaded_headline(unloaded) {
-  const mesh = record(unloaded.mesh);
-  if (!is_number(mesh.peak_to_peak_arcsec)) return "Unloaded tooth contact of the pair";
-  if (mesh.peak_to_peak_arcsec === 0) return "Without load the pair runs free of transmission error";
-  return `Unloaded transmission error ${fmt(mesh.peak_to_peak_arcsec, 3)} arcsec peak to peak at the wheel`;
+/** The scene of the unloaded contact with the largest transmission error. */
+function worst_unloaded(results) {
+  const size = ({ data }) => record(data.mesh).peak_to_peak_arcsec ?? -Infinity;
+  return unloaded_scenes(results).reduce((worst, scene) => (size(scene) > size(worst) ? scene : worst));
+}
+
+function unloaded_headline(results) {
+  const te = record(worst_unloaded(results).data.mesh).peak_to_peak_arcsec;
+  const count = unloaded_scenes(results).length;
+  if (!is_number(te)) return "Unloaded tooth contact of the pair";
+  // Below a millionth of an arcsec there is nothing but round-off.
+  if (te < 1e-6) return "Without load the pair runs free of transmission error";
+  return `Unloaded transmission error ${fmt(te, 3)} arcsec peak to peak at the wheel${count > 1 ? `, the worst of ${count} scenes` : ""}`;
 }
 
 /** Every constraint of the optimised design: {name, value, max, unit, met}. */
@@ -103,14 +111,12 @@ function optimise_tiles(optimise) {
 }
 
 function pair_tiles(results) {
-  const geometry = record(results.geometry), mesh = record(record(results.unloaded).mesh);
+  const geometry = record(results.geometry), mesh = record(worst_unloaded(results).data.mesh);
   const tiles = [];
   if (!list(results.loaded).length && is_number(mesh.peak_to_peak_arcsec)) {
     tiles.push(tile("TE peak to peak", mesh.peak_to_peak_arcsec, "arcsec", { detail: "unloaded, at the wheel" }));
-    const along = numbers(mesh.te_um);
-    if (along.length) {
-      const range = maximum(along) - minimum(along);
-      tiles.push(tile("TE peak to peak", range, "µm", { detail: "along the line of action" }));
+    if (is_number(mesh.peak_to_peak_um)) {
+      tiles.push(tile("TE peak to peak", mesh.peak_to_peak_um, "µm", { detail: "along the line of action" }));
     }
   }
   const add = (label, value, unit) => is_number(value) && tiles.push(tile(label, value, unit));
@@ -126,7 +132,7 @@ function pair_tiles(results) {
 function draw_summary(results, cases) {
   const text = results.optimise ? optimise_headline(record(results.optimise))
     : cases.length ? loaded_headline(cases)
-    : results.unloaded ? unloaded_headline(record(results.unloaded))
+    : results.unloaded ? unloaded_headline(results)
     : "No analysis is stored in these results";
   document.getElementById("headline").textContent = text;
   document.getElementById("task").textContent = results.task ? `· ${results.task}` : "";

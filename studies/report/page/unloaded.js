@@ -1,16 +1,4 @@
-// Unloaded tooth contact: transmission error of single pairs and of the mesh, and where the flanks touch.
-
-/** Kind of contact -> words, colour and mark; the mark tells the kinds apart without colour. */
-const CONTACT_KINDS = {
-  line: { label: "line contact", colour: 0, style: "rect" },
-  surface: { label: "surface contact", colour: 2, style: "circle" },
-  pinion_tip: { label: "pinion tip edge", colour: 1, style: "triangle" },
-  wheel_tip: { label: "wheel tip edge", colour: 5, style: "rectRot" },
-  pinion_root: { label: "pinion root boundary", colour: 3, style: "cross" },
-  wheel_root: { label: "wheel root boundary", colour: 4, style: "crossRot" },
-  face_end: { label: "face end", colour: 6, style: "star" },
-  corner: { label: "corner", colour: 6, style: "rectRounded" },
-};
+// Unloaded tooth contact: transmission error of single pairs and of the mesh, hand-overs, and what it all says in words.
 
 const pair_points = (pair, y_of) => list(pair.positions).map(record).map((position) => ({
   x: position.phi1_deg, y: y_of(position), note: CONTACT_KINDS[position.contact]?.label,
@@ -21,7 +9,8 @@ function te_range(mesh_values, pair_values) {
   const low = minimum(mesh_values), high = maximum(mesh_values);
   const full = Math.max(high, maximum(pair_values)) - Math.min(low, minimum(pair_values));
   if (!is_number(low) || !is_number(full) || full === 0) return {};
-  const room = Math.max(2 * (high - low), 0.1 * full);
+  // A mesh without transmission error, but for round-off, is seen against its pairs.
+  const room = high - low > 1e-6 * full ? 2 * (high - low) : 0.1 * full;
   const clip = (bound, value) => (value === undefined || !is_number(value) ? bound : value);
   return {
     min: clip(low - room, Math.max(low - room, minimum(pair_values) - 0.02 * full)),
@@ -29,65 +18,53 @@ function te_range(mesh_values, pair_values) {
   };
 }
 
-function draw_unloaded_te(plot, pairs, mesh) {
+/** Where the curves are counted from: 0, or their highest point where backlash lifts them far off their own variation. */
+function te_datum(values) {
+  const low = minimum(values), high = maximum(values);
+  return high - low > 0 && Math.abs(high) > 20 * (high - low) && Math.abs(high) > 1 ? high : 0;
+}
+
+/** Hand-overs as points with what the pairs do there. */
+const transfer_points = (mesh) => list(mesh.transfers).map(record).map((transfer) => {
+  const jump = transfer.slope_jump_arcsec_per_deg;
+  const slopes = is_number(jump) ? `, slope ${fmt(transfer.slope_before_arcsec_per_deg, 3)} to `
+    + `${fmt(transfer.slope_after_arcsec_per_deg, 3)} arcsec/deg` : "";
+  return {
+    x: transfer.phi1_deg, y: transfer.te_arcsec, jump,
+    note: `from pair ${fmt(transfer.from_tooth)} to pair ${fmt(transfer.to_tooth)}${slopes}`,
+  };
+});
+
+function draw_unloaded_te(plot, scene) {
+  const pairs = list(scene.pairs).map(record), mesh = record(scene.mesh);
+  const datum = te_datum(list(mesh.te_arcsec));
+  const from_datum = (te) => (is_number(te) ? te - datum : null);
   const curves = pairs.map((pair, i) => ({
     label: `pair ${fmt(pair.tooth)}`,
-    points: pair_points(pair, (position) => position.te_arcsec),
+    points: pair_points(pair, (position) => from_datum(position.te_arcsec)),
     colour: sequence_colour(i),
     width: 1.6,
     dashed: i >= SEQUENCES.light.length,
     order: 2,
   }));
-  const phi = list(mesh.phi1_deg), te = list(mesh.te_arcsec);
-  const points = phi.map((x, i) => ({ x, y: te[i] }));
-  curves.push({ label: "mesh", points, colour: css_colour("ink"), width: 3, order: 1 });
-  const transfers = list(mesh.transfers).map(record).map((transfer) => ({
-    x: transfer.phi1_deg, y: transfer.te_arcsec,
-    note: `from pair ${fmt(transfer.from_tooth)} to pair ${fmt(transfer.to_tooth)}`,
-  }));
+  const phi = list(mesh.phi1_deg), te = list(mesh.te_arcsec).map(from_datum);
+  const transfers = transfer_points(mesh).map((transfer) => ({ ...transfer, y: from_datum(transfer.y) }));
+  const margin = 0.02 * (maximum(phi) - minimum(phi));
+  const points = [...phi.map((x, i) => ({ x, y: te[i] })), ...transfers].filter((p) => is_number(p.x)).sort((a, b) => a.x - b.x);
+  curves.push({ label: "mesh", points: points.map(({ x, y }) => ({ x, y })), colour: css_colour("ink"), width: 3, order: 1 });
   if (transfers.length) {
-    curves.push({ label: "transfer", points: transfers, colour: css_colour("ink"), fill: css_colour("surface"),
+    curves.push({ label: "hand-over", points: transfers, colour: css_colour("ink"), fill: css_colour("surface"),
       scatter: true, hollow: true, size: 5, order: 0 });
   }
   xy_chart(plot, {
     label: "Unloaded transmission error",
     curves,
-    x: "pinion rotation φ₁ [deg]", y: "TE at the wheel [arcsec]",
+    x: "pinion rotation φ₁ [deg]", y: datum === 0 ? "TE at the wheel [arcsec]" : `TE from ${fmt(datum, 6)} arcsec [arcsec]`,
+    x_range: points.length > 1 ? { min: points[0].x - margin, max: points[points.length - 1].x + margin } : {},
     y_range: te_range(te, curves.slice(0, pairs.length).flatMap((curve) => curve.points.map((p) => p.y))),
     read_x: (x) => `φ₁ ${fmt(x)}°`, read_y: (y) => `${fmt(y, 3)} arcsec`, nearest: "xy", height: 320,
-  });
-}
-
-function draw_contact_path(plot, pairs, gear, geometry) {
-  const positions = pairs.flatMap((pair) => list(pair.positions).map(record));
-  const kinds = unique(positions.map((position) => position.contact)).filter((kind) => CONTACT_KINDS[kind]);
-  const curves = kinds.map((kind) => ({
-    label: CONTACT_KINDS[kind].label,
-    points: positions.filter((position) => position.contact === kind).map((position) => ({
-      x: record(position[gear]).z_mm, y: record(position[gear]).radius_mm, note: `φ₁ ${fmt(position.phi1_deg)}°`,
-    })).filter((point) => is_number(point.x) && is_number(point.y)),
-    colour: sequence_colour(CONTACT_KINDS[kind].colour),
-    scatter: true,
-    hollow: /cross|star/i.test(CONTACT_KINDS[kind].style),
-    style: CONTACT_KINDS[kind].style,
-    size: 4,
-  })).filter((curve) => curve.points.length > 0);
-  const half = record(geometry.faces)[gear] / 2;
-  const z = numbers(curves.flatMap((curve) => curve.points.map((p) => p.x)));
-  const reach = is_number(half) ? half : Math.max(1, ...z.map(Math.abs)) * 1.05;
-  const bounds = [["tip", "tip_diameter_mm"], ["active root", "active_root_diameter_mm"]];
-  for (const [name, key] of bounds) {
-    const diameter = record(geometry[gear])[key];
-    if (!is_number(diameter)) continue;
-    curves.push({ label: name, quiet: true, colour: css_colour("muted"), width: 1, dashed: true, order: 2,
-      points: [{ x: -reach, y: diameter / 2 }, { x: reach, y: diameter / 2 }] });
-  }
-  xy_chart(plot, {
-    label: `Contact path on the ${gear} flank`,
-    curves,
-    x: "face width z [mm]", y: `${gear} radius [mm]`,
-    x_range: { min: -reach, max: reach },
-    read_x: (x) => `z ${fmt(x, 3)} mm`, read_y: (y) => `radius ${fmt(y, 5)} mm`, nearest: "xy",
+    labels: transfers.filter((transfer) => is_number(transfer.jump)).sort((a, b) => b.jump - a.jump)
+      .map((transfer) => ({ x: transfer.x, y: transfer.y, text: `slope jumps by ${fmt(transfer.jump, 3)} arcsec/deg` })),
   });
 }
 
@@ -101,33 +78,101 @@ function mesh_harmonics(plot, mesh) {
   });
 }
 
+const largest_jump = (scene) => maximum(list(record(scene.mesh).transfers).map((t) => record(t).slope_jump_arcsec_per_deg));
+
+function hand_over_words(scene, speed_ratio) {
+  const count = list(record(scene.mesh).transfers).length;
+  if (count === 0) return "One pair hands over to the next without a step: no slope jump.";
+  const jump = largest_jump(scene);
+  if (!is_number(jump)) return `${plural(count, "hand-over")} a pitch.`;
+  // arcsec of the wheel per degree of the pinion against the wheel's mean speed.
+  const step = is_number(speed_ratio) ? ` The wheel's speed steps up by ${fmt((100 * jump) / 3600 / speed_ratio, 2)} % there.` : "";
+  return `${plural(count, "hand-over")} a pitch, the slope of the transmission error jumping by up to `
+    + `${fmt(jump, 3)} arcsec/deg.${step}`;
+}
+
+function parabola_words(parabola) {
+  const { wanted_arcsec_per_deg2: wanted, found_arcsec_per_deg2: found, shift_deg: shift, residual_arcsec: residual } = parabola;
+  if (!parabola.holds) return `The designed parabola does not hold: ${parabola.why || "no reason is stored"}.`;
+  const centred = Math.abs(shift) < 0.001;  // deg: less is nothing on any machine
+  const vertex = centred ? "in" : `${fmt(Math.abs(shift), 2)}° ${shift < 0 ? "before" : "after"}`;
+  const kept = residual < 0.001 ? "below 0.001" : fmt(residual, 2);  // arcsec
+  return `The designed parabola holds: a = ${fmt(found, 3)} arcsec/deg² of ${fmt(wanted, 3)} wanted, its vertex `
+    + `${vertex} the middle of the mesh, kept to ${kept} arcsec.`;
+}
+
+function draw_words(plot, scene, speed_ratio) {
+  const say = (label, text, name) => el("li", { class: name }, el("strong", {}, `${label}: `), text);
+  const parabola = scene.parabolic_te ? record(scene.parabolic_te) : null;
+  plot.append(el("ul", { class: "notes" },
+    say("A pair on its way", sequence_words(scene.sequence)),
+    say("While it carries", sequence_words(scene.carrying_sequence)),
+    say("Hand-over", hand_over_words(scene, speed_ratio)),
+    parabola ? say("Parabola", parabola_words(parabola), parabola.holds ? "good" : "bad") : null));
+}
+
+function scene_table(body, scenes) {
+  const has_parabola = scenes.some(({ data }) => data.parabolic_te);
+  table(body, {
+    title: "Unloaded contact in numbers",
+    columns: [{ label: "Scene" }, { label: "TE peak to peak", unit: "arcsec" }, { label: "1st harmonic", unit: "arcsec" },
+      { label: "Hand-overs" }, { label: "Slope jump", unit: "arcsec/deg", digits: 3 },
+      { label: "Pinion marked", unit: "%", digits: 3 }, { label: "Wheel marked", unit: "%", digits: 3 },
+      ...(has_parabola ? [{ label: "Parabola" }] : []), { label: "A pair carries on" }],
+    rows: scenes.map(({ label, data }) => {
+      const mesh = record(data.mesh), pattern = record(data.bearing_pattern), parabola = record(data.parabolic_te);
+      const jump = largest_jump(data);
+      const verdict = { text: parabola.holds ? "holds" : data.parabolic_te ? "does not hold" : "–",
+        class: parabola.holds ? "good" : data.parabolic_te ? "bad" : "off" };
+      return [label, mesh.peak_to_peak_arcsec ?? null, list(mesh.harmonics_arcsec)[0] ?? null, list(mesh.transfers).length,
+        is_number(jump) ? jump : null, record(pattern.pinion).covered_percent ?? null,
+        record(pattern.wheel).covered_percent ?? null, ...(has_parabola ? [verdict] : []),
+        sequence_words(data.carrying_sequence)];
+    }),
+  });
+}
+
 function build_unloaded(results, body) {
-  const unloaded = record(results.unloaded);
-  const pairs = list(unloaded.pairs).map(record), mesh = record(unloaded.mesh);
-  const used = record(record(results.used).pair);
-  const face = (gear) => record(used[gear]).face_width_mm ?? record(used[gear]).face_width;
-  const geometry = { ...record(results.geometry), faces: { pinion: face("pinion"), wheel: face("wheel") } };
+  const scenes = unloaded_scenes(results);
+  const selection = case_selection(scenes, scenes[0], "");
+  const teeth = (gear) => record(record(results.geometry)[gear]).teeth;
+  const speed_ratio = teeth("pinion") / teeth("wheel");
+  selection.add_choice(body);
   const grid = figure_grid(body);
-  const harmonics = numbers(mesh.harmonics_arcsec);
-  const has_harmonics = harmonics.length > 0 && maximum(harmonics) > 0;
-  figure(grid, {
+  case_figure(grid, selection, {
+    title: "What the contact does",
+    wide: true,
+    caption: "Kinds of contact in the order in which a tooth pair meets them, how the mesh passes from pair to pair, and what "
+      + "became of a parabolic transmission error that was designed in.",
+  }, (plot, { data }) => draw_words(plot, data, speed_ratio));
+  case_figure(grid, selection, {
+    title: "Path of contact",
+    wide: true,
+    caption: "The way of one tooth pair over both flanks, tip at the top, arrows in the direction of motion; bold where the pair "
+      + "carries the mesh. Marks on the outline are edge contact. Each axis has its own scale.",
+  }, (plot, { data }) => draw_contact_paths(plot, results, data));
+  case_figure(grid, selection, {
     title: "Unloaded transmission error",
     wide: true,
     caption: "Each tooth pair alone, and the pair that leads at every instant as the bold line of the mesh; where two "
-      + "pairs cross, the contact is handed over. Negative where material is removed.",
-  }, (plot) => draw_unloaded_te(plot, pairs, mesh));
-  for (const gear of ["pinion", "wheel"]) {
-    figure(grid, {
-      title: `Contact path on the ${gear} flank`,
-      caption: `Where the ${gear} flank is touched in the course of the mesh, and by what: points on the dashed lines `
-        + "of tip and active root are edge contact.",
-    }, (plot) => draw_contact_path(plot, pairs, gear, geometry));
+      + "pairs cross, the contact is handed over and the slope jumps. Negative where material is removed.",
+  }, (plot, { data }) => draw_unloaded_te(plot, data));
+  if (scenes.some(({ data }) => data.bearing_pattern)) {
+    for (const gear of ["pinion", "wheel"]) {
+      case_figure(grid, selection, {
+        title: `Bearing pattern of the ${gear}`,
+        caption: "How close the flanks come on a run through the mesh; the contour line is the edge of what the marking "
+          + "compound shows. Outlined: contact ellipses of the same thickness along the path, dots for edge contact. Blank: "
+          + "further apart than three times the thickness.",
+      }, (plot, { data }) => draw_pattern(plot, results, data, gear));
+    }
   }
-  if (has_harmonics) {
-    figure(grid, {
+  if (scenes.some(({ data }) => maximum(list(record(data.mesh).harmonics_arcsec)) > 0)) {
+    case_figure(grid, selection, {
       title: "Harmonics of the unloaded transmission error",
       wide: true,
       caption: "Amplitudes of the mesh curve at multiples of the tooth-mesh frequency, at the wheel.",
-    }, (plot) => mesh_harmonics(plot, mesh));
+    }, (plot, { data }) => mesh_harmonics(plot, record(data.mesh)));
   }
+  scene_table(body, scenes);
 }

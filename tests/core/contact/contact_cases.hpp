@@ -46,6 +46,20 @@ inline double wheel_angle(const MeshScene& scene, int tooth, double phi1, double
   return -through.rotation - tooth * 2.0 * units::pi / scene.wheel_teeth;
 }
 
+/// The largest wheel angle that any point of a grid over the pinion's flank asks for; -infinity where none meets the
+/// wheel's flank.
+inline double highest_on_grid(const MeshScene& scene, double phi1, int intervals) {
+  double highest = -std::numeric_limits<double>::infinity();
+  const double lo = scene.pinion.lowest_roll(), hi = scene.pinion.highest_roll();
+  for (int i = 0; i <= intervals; ++i) {
+    for (int j = 0; j <= intervals; ++j) {
+      const double z = scene.pinion.half_face * (2.0 * j / intervals - 1.0);
+      highest = std::max(highest, wheel_angle(scene, 0, phi1, lo + (hi - lo) * i / intervals, z));
+    }
+  }
+  return highest;
+}
+
 /// Uniform numbers that are the same on every machine.
 class Random {
  public:

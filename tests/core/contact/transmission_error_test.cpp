@@ -46,9 +46,15 @@ TEST_CASE("The mesh follows the leading pair, and every hand-over is located whe
       CHECK(transfer.from_tooth != transfer.to_tooth);
       CHECK(std::abs(before - after) <= 1e-11);  // round-off: 1e-13 rad of phi1 times the slope of a corner
       CHECK(std::abs(transfer.transmission_error - after) <= 1e-15);
+      CHECK(transfer.slope_before == find_tooth_contact(scene, transfer.from_tooth, transfer.phi1).slope);
+      CHECK(transfer.slope_after == find_tooth_contact(scene, transfer.to_tooth, transfer.phi1).slope);
+      CHECK(transfer.slope_jump() >= 0.0);
       lowest = std::min(lowest, transfer.transmission_error);
     }
-    CHECK(std::abs(mesh.peak_to_peak - (highest - lowest)) <= 1e-12);
+    // Crests and troughs between positions are located beyond these.
+    CHECK(mesh.largest >= highest - 1e-15);
+    CHECK(mesh.smallest <= lowest + 1e-15);
+    CHECK(mesh.peak_to_peak == mesh.largest - mesh.smallest);
     // A pitch later the next pair does the same.
     const double te = find_tooth_contact(scene, -1, mesh.phi1[3] + 2 * pi / data.pinion.teeth).transmission_error;
     CHECK(std::abs(te - find_tooth_contact(scene, 0, mesh.phi1[3]).transmission_error) <= 1e-12);
@@ -99,4 +105,83 @@ TEST_CASE("Each pair's curve lies inside its extended path of contact, in order 
   // Every pair passes every position of the pitch once: as many positions as the extended path has pitches.
   CHECK(std::abs(static_cast<double>(positions) - 24 * path.last_line_phase()) <=
         static_cast<double>(mesh.pairs.size()));
+}
+
+namespace {
+
+struct ModifiedMesh {
+  GearPair pair;
+  MeshScene scene;
+};
+
+/// Crowned and misaligned, with linear reliefs.
+ModifiedMesh modified_mesh(double beta, double crossing) {
+  const GearPair pair = make_gear_pair(pair_data(22, 51, beta, 0.1, 0.0));
+  Modification pinion, wheel;
+  pinion.lead_crowning = 0.008;
+  pinion.addendum_crowning = 0.006;
+  pinion.twist = 0.003;
+  wheel.dedendum_crowning = 0.004;
+  wheel.tip_relief = {0.015, 1.2, ReliefShape::Linear};
+  Misalignment misalignment;
+  misalignment.crossing = crossing;
+  return {pair, scene_of(pair, misalignment, pinion, wheel)};
+}
+
+}  // namespace
+
+TEST_CASE("The slope of the transmission error is that of differences, whatever touches", "[core][contact][independent]") {
+  const double beta = GENERATE(0.0, 17.0) * deg, crossing = GENERATE(0.0, 3.0, -20.0) * units::arcmin;
+  const ModifiedMesh mesh = modified_mesh(beta, crossing);
+  const double h = 1e-6;
+  int compared = 0;
+  for (double phi1 = -0.35; phi1 < 0.35; phi1 += 0.0071) {
+    const ToothContact here = find_tooth_contact(mesh.scene, 0, phi1), before = find_tooth_contact(mesh.scene, 0, phi1 - h),
+                       after = find_tooth_contact(mesh.scene, 0, phi1 + h);
+    if (before.kind != after.kind || !here.exists()) continue;
+    CAPTURE(beta / deg, crossing / units::arcmin, phi1, to_string(here.kind));
+    // discretisation: h times the second derivative where a kink lies between, round-off 1e-15/h
+    CHECK(std::abs((after.transmission_error - before.transmission_error) / (2 * h) - here.slope) <= 2e-8);
+    ++compared;
+  }
+  CHECK(compared >= 60);
+}
+
+TEST_CASE("Located crests and troughs do not depend on the number of positions", "[core][contact]") {
+  const double beta = GENERATE(0.0, 17.0) * deg, crossing = GENERATE(0.0, 1.0, 4.0) * units::arcmin;
+  const ModifiedMesh mesh = modified_mesh(beta, crossing);
+  const UnloadedMesh fine = analyse_unloaded_mesh(mesh.pair, mesh.scene, 97);
+  REQUIRE(fine.missing == 0);
+  for (const int positions : {16, 33, 64}) {
+    const UnloadedMesh coarse = analyse_unloaded_mesh(mesh.pair, mesh.scene, positions);
+    CAPTURE(beta / deg, crossing / units::arcmin, positions);
+    CHECK(std::abs(coarse.largest - fine.largest) <= 1e-13);  // round-off of the located extremes
+    CHECK(std::abs(coarse.smallest - fine.smallest) <= 1e-12);  // hand-overs lag by the tolerance of the lead
+    CHECK(coarse.transfers.size() == fine.transfers.size());
+  }
+}
+
+TEST_CASE("With cumulative pitch errors the hand-over moves to where the pairs really meet", "[core][contact]") {
+  const ModifiedMesh nominal = modified_mesh(0.0, 0.0);
+  MeshScene scene = nominal.scene;
+  scene.pinion.error.cumulative_pitch = {0.0, 0.002, -0.001, 0.0, 0.001};
+  const UnloadedMesh mesh = analyse_unloaded_mesh(nominal.pair, scene, 32);
+  REQUIRE(mesh.missing == 0);
+  REQUIRE_FALSE(mesh.transfers.empty());
+  for (const Transfer& t : mesh.transfers) {
+    const double before = find_tooth_contact(scene, t.from_tooth, t.phi1).transmission_error;
+    const double after = find_tooth_contact(scene, t.to_tooth, t.phi1).transmission_error;
+    CHECK(std::abs(before - after) <= 1e-11);
+    CHECK(t.slope_jump() >= 0.0);
+  }
+  // Not periodic: the next pitch starts where other teeth are.
+  const double pitch = 2 * pi / 22;
+  double first = -INFINITY, next = -INFINITY;
+  for (int tooth = -3; tooth <= 3; ++tooth) {
+    const ToothContact a = find_tooth_contact(scene, tooth, -0.5 * pitch), b = find_tooth_contact(scene, tooth, 0.5 * pitch);
+    if (a.exists()) first = std::max(first, a.transmission_error);
+    if (b.exists()) next = std::max(next, b.transmission_error);
+  }
+  CHECK(std::abs(first - next) > 1e-7);
+  CHECK(mesh.largest >= std::max(first, next) - 1e-15);
 }

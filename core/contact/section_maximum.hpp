@@ -1,0 +1,64 @@
+#pragma once
+
+#include <limits>
+
+#include "core/base/peak.hpp"
+#include "core/contact/flank_meeting.hpp"
+
+namespace flankwright {
+
+/// Which bound of a transverse section holds its maximum.
+enum class SectionBound { None, PinionRoot, PinionTip, WheelRoot, WheelTip };
+
+/// First contact in one transverse section of the pinion: the largest wheel angle over its roll length, inside both flanks. Where
+/// the wheel's face ends before the section does, that end is the rest of it, see FlankMeeting.
+struct SectionMaximum {
+  bool exists{false};  ///< false where no point of the section lies on both flanks
+  double z{0.0};       ///< height of the section [mm]; the point's own is at.z
+  double phi2{-std::numeric_limits<double>::infinity()};  ///< [rad]
+  /// d(phi2)/dz [rad/mm], exact, bounds that move with z included; 0 where the wheel's end holds the point, and what leads
+  /// back into the face where the section runs along that end to no avail.
+  double slope_z{0.0};
+  double slope_phi1{0.0};  ///< d(phi2)/d(phi1) [rad/rad], likewise
+  SectionBound bound{SectionBound::None};
+  bool held_by_wheel_end{false};  ///< a wider wheel would touch earlier
+  Meeting at;
+
+  // What find_peak() asks of a sample.
+  double position() const { return z; }
+  double value() const { return phi2; }
+  double slope() const { return slope_z; }
+};
+
+/// Coarse: the point is a tenth of a micrometre off, so the angle, completed by its known curvature, is at round-off all but on
+/// kinks, and the slopes are good for their signs. Full: round-off.
+enum class SectionAccuracy { Coarse, Full };
+
+/// Maximises over sections z = const of the pinion's flank.
+class SectionSearch {
+ public:
+  /// @param cells  pieces into which the profile is cut, each searched for a summit of its own; 1: there is but one
+  SectionSearch(const FlankMeeting& meeting, int cells) : meeting_(meeting), cells_(cells) {}
+
+  /// @param neighbour  the maximum of a section nearby, to start from, or one that does not exist; decides how fast, and not
+  ///                   what, is found
+  SectionMaximum at(double z, const SectionMaximum& neighbour, SectionAccuracy accuracy) const;
+
+ private:
+  struct Range;
+  struct Sample;
+  struct Tolerance;
+
+  SectionMaximum only_summit(double z, const SectionMaximum& neighbour, const Tolerance& tolerance) const;
+  SectionMaximum highest_summit(double z, const Tolerance& tolerance) const;
+  SectionMaximum settle(double z, const Range& range, const Tolerance& tolerance, const Peak<Sample>& peak) const;
+  SectionMaximum finish(double z, const Meeting& meeting, SectionBound bound) const;
+  bool move_onto_wheel(double z, const Range& range, const Tolerance& tolerance, Meeting& meeting, SectionBound& bound) const;
+  bool move_to_radius(double z, const Range& range, const Tolerance& tolerance, double radius, Meeting& meeting) const;
+  double radius_of(SectionBound bound) const;
+
+  const FlankMeeting& meeting_;
+  int cells_;
+};
+
+}  // namespace flankwright

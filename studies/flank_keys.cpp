@@ -1,0 +1,108 @@
+#include "studies/key_rows.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+Modification& modification(Draft& draft, Member m) {
+  return m == Member::Pinion ? draft.study.pinion_modification : draft.study.wheel_modification;
+}
+FlankGrid& grid(Draft& draft, Member m) {
+  return m == Member::Pinion ? draft.study.pinion_grid : draft.study.wheel_grid;
+}
+ManufacturingError& error(Scene& scene, Member m) {
+  return m == Member::Pinion ? scene.pinion_error : scene.wheel_error;
+}
+
+constexpr Range relief_extent = from_zero(10000.0);  // mm; 0 is "not given"
+
+using enum ValueKind;
+using MP = ModificationParameter;
+
+}  // namespace
+
+// A row is read as a row:
+// clang-format off
+
+std::vector<SchemaKey> flank_rows() {
+  return {
+      {.path = "gear.modification.lead_crowning", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
+       .meaning = "C_beta, removed at both face ends, parabola over z", .store = MP::LeadCrowning},
+      {.path = "gear.modification.lead_slope", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
+       .meaning = "C_Hbeta over the face width; + removes at z = +b/2, zero at mid face", .store = MP::LeadSlope},
+      {.path = "gear.modification.profile_crowning", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
+       .meaning = "C_alpha: addendum and dedendum crowning at once", .store = MP::ProfileCrowning},
+      {.path = "gear.modification.addendum_crowning", .quantity = Quantity::Deviation, .range = removal_range,
+       .fallback = "0", .meaning = "removed at the tip, parabola from the pitch point up",
+       .store = MP::AddendumCrowning},
+      {.path = "gear.modification.dedendum_crowning", .quantity = Quantity::Deviation, .range = removal_range,
+       .fallback = "0", .meaning = "removed at the start of active profile, parabola from the pitch point down",
+       .store = MP::DedendumCrowning},
+      {.path = "gear.modification.profile_slope", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
+       .meaning = "C_Halpha over the active profile height; + removes at the tip, zero at the pitch point",
+       .store = MP::ProfileSlope},
+      {.path = "gear.modification.tip_relief.amount", .quantity = Quantity::Deviation, .range = removal_range,
+       .fallback = "0", .meaning = "C_alpha_a, removed at the tip", .store = MP::TipReliefAmount},
+      {.path = "gear.modification.tip_relief.height", .quantity = Quantity::Length, .range = relief_extent,
+       .fallback = "0", .meaning = "radial, from the tip down; above 0 where there is an amount",
+       .store = MP::TipReliefHeight},
+      {.path = "gear.modification.tip_relief.shape", .kind = Word, .words = {"linear", "parabolic"},
+       .fallback = "\"linear\"", .meaning = "between its start and the tip",
+       .store = [](Draft& d, Member m, const Value& v) {
+         modification(d, m).tip_relief.shape = static_cast<ReliefShape>(v.integer);
+       }},
+      {.path = "gear.modification.root_relief.amount", .quantity = Quantity::Deviation, .range = removal_range,
+       .fallback = "0", .meaning = "C_alpha_f, removed at the start of active profile", .store = MP::RootReliefAmount},
+      {.path = "gear.modification.root_relief.height", .quantity = Quantity::Length, .range = relief_extent,
+       .fallback = "0", .meaning = "radial, from the start of active profile up; above 0 where there is an amount",
+       .store = MP::RootReliefHeight},
+      {.path = "gear.modification.root_relief.shape", .kind = Word, .words = {"linear", "parabolic"},
+       .fallback = "\"linear\"", .meaning = "between its start and the start of active profile",
+       .store = [](Draft& d, Member m, const Value& v) {
+         modification(d, m).root_relief.shape = static_cast<ReliefShape>(v.integer);
+       }},
+      {.path = "gear.modification.end_relief.amount", .quantity = Quantity::Deviation, .range = removal_range,
+       .fallback = "0", .meaning = "removed at both face ends, linear", .store = MP::EndReliefAmount},
+      {.path = "gear.modification.end_relief.length", .quantity = Quantity::Length, .range = relief_extent,
+       .fallback = "0", .meaning = "axial, from each face end; above 0 where there is an amount",
+       .store = MP::EndReliefLength},
+      {.path = "gear.modification.twist", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
+       .meaning = "removed twist * (y / h_active) * (z / b); + removes at the tip at z = +b/2", .store = MP::Twist},
+      {.path = "gear.modification.parabolic_te", .quantity = Quantity::ParabolicTe, .range = from_zero(1000.0),
+       .fallback = "0",
+       .meaning = "a of the predesigned transmission error -a phi1^2: removed along the contact line of pinion angle phi1",
+       .store = MP::ParabolicTe},
+      {.path = "gear.modification.grid", .kind = Text, .fallback = "(none)",
+       .meaning = "CSV file, beside the study unless its path says otherwise: measured or topological deviation, "
+                  "columns radius_mm, z_mm, deviation_um (+ = metal added, normal to the flank)",
+       .store = [](Draft& d, Member m, const Value& v) { grid(d, m).file = v.text; }},
+      {.path = "gear.modification.grid_smoothing.profile_pieces", .kind = Integer, .range = {.low = 1, .high = 1000},
+       .fallback = "(through every point)",
+       .meaning = "cubic pieces of the surface along the profile; the fewer, the smoother, fitted by least squares",
+       .store = [](Draft& d, Member m, const Value& v) { grid(d, m).profile_pieces = static_cast<int>(v.integer); }},
+      {.path = "gear.modification.grid_smoothing.face_pieces", .kind = Integer, .range = {.low = 1, .high = 1000},
+       .fallback = "(through every point)", .meaning = "the same along the face",
+       .store = [](Draft& d, Member m, const Value& v) { grid(d, m).face_pieces = static_cast<int>(v.integer); }},
+
+      {.path = "gear.error.helix_slope", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
+       .meaning = "f_Hbeta over the face width, metal added; + adds at z = +b/2, zero at mid face",
+       .store = [](Scene& s, Member m, const Value& v) { error(s, m).helix_slope = v.number; }},
+      {.path = "gear.error.profile_slope", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
+       .meaning = "f_Halpha, metal added; + adds at the tip, zero at the reference circle",
+       .store = [](Scene& s, Member m, const Value& v) { error(s, m).profile_slope = v.number; }},
+      {.path = "gear.error.pitch", .kind = NumberOrList, .quantity = Quantity::Deviation, .range = removal_range,
+       .fallback = "0",
+       .meaning = "adjacent pitch error, adds up from tooth to tooth; a list: cumulative deviation of each tooth",
+       .store = [](Scene& s, Member m, const Value& v) {
+         error(s, m).pitch_step = v.is_list ? 0.0 : v.numbers.front();
+         error(s, m).cumulative_pitch = v.is_list ? v.numbers : std::vector<double>{};
+       }},
+      {.path = "gear.error.twist", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
+       .meaning = "added twist * (y / h_active) * (z / b); + adds at the tip at z = +b/2",
+       .store = [](Scene& s, Member m, const Value& v) { error(s, m).twist = v.number; }},
+  };
+}
+
+// clang-format on
+
+}  // namespace flankwright::studies

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/flank/measured_grid.hpp"
+
+/// A measured or topological flank as a table of its points (CSV):
+///
+///     # 17/44, pinion
+///     radius_mm, z_mm, deviation_um
+///     52.8, -42, -3.5
+///
+/// Axial positions count from mid face; deviations are normal to the flank, + = metal added. Columns stand in any
+/// order, named by the first line; the first separator there, comma, semicolon or tab, separates cells throughout;
+/// decimal points; # starts a comment; blank lines are skipped. The points stand in any order and fill a rectangular
+/// grid: every radius with every z, the same numbers in each line that shares them.
+namespace flankwright::studies {
+
+/// Reads a grid file. Nothing is checked here that needs the gear: see validate() and check_coverage() in
+/// measured_grid.hpp.
+///
+/// @param path  as the system finds it
+/// @throws StudyErrors with the first problem: file, line, column of the character, name of the column and what is
+/// written there; a file that cannot be read is a problem without a line
+MeasuredGrid read_grid(const std::string& path);
+
+/// The same for a text.
+///
+/// @param name  stands for the file in messages
+MeasuredGrid parse_grid(std::string_view text, const std::string& name);
+
+}  // namespace flankwright::studies

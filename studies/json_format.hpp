@@ -1,0 +1,26 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "core/base/units.hpp"
+
+/// What the sections of results.json share: units as their keys name them, and lists.
+namespace flankwright::studies {
+
+using Json = nlohmann::ordered_json;
+
+inline double in_um(double mm) { return mm / units::um; }
+inline double in_arcsec(double rad) { return rad / units::arcsec; }
+inline double in_deg(double rad) { return rad / units::deg; }
+/// Slope of the transmission error: arcsec of the wheel per degree of the pinion.
+inline double in_arcsec_per_deg(double slope) { return slope * units::deg / units::arcsec; }
+inline double in_arcsec_per_deg2(double a) { return a / units::arcsec_per_square_deg; }
+
+template <class Range, class Convert>
+Json list(const Range& values, const Convert& convert) {
+  Json array = Json::array();
+  for (const auto& value : values) array.push_back(convert(value));
+  return array;
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,91 @@
+#include "studies/used_json.hpp"
+
+#include <cmath>
+
+namespace flankwright::studies {
+
+namespace {
+
+const char* rule_name(QuadratureRule rule) {
+  switch (rule) {
+    case QuadratureRule::Gauss2: return "gauss2";
+    case QuadratureRule::Gauss3: return "gauss3";
+    case QuadratureRule::Midpoint: return "midpoint";
+  }
+  __builtin_unreachable();
+}
+
+Json generation_json(const Generation& generation) {
+  if (const auto* rack = std::get_if<ParabolicRack>(&generation)) {
+    return {{"kind", "parabolic_rack"}, {"coefficient_per_mm", rack->coefficient}};
+  }
+  if (const auto* tool = std::get_if<RevolutionTool>(&generation)) {
+    return {{"kind", "revolution"},
+            {"half_apex_deg", in_deg(tool->half_apex)},
+            {"distance_mm", tool->distance},
+            {"arc_radius_mm", std::isfinite(tool->arc_radius) ? Json(tool->arc_radius) : Json("infinite: a cone")}};
+  }
+  return {{"kind", "rack"}};
+}
+
+Json pieces_json(const std::optional<int>& pieces) { return pieces ? Json(*pieces) : Json("through every point"); }
+
+/// False where the gear has no grid.
+Json grid_json(const FlankGrid& grid) {
+  if (grid.file.empty()) return false;
+  return {{"file", grid.file},
+          {"radii", grid.rows},
+          {"axial_positions", grid.columns},
+          {"radius_mm", {grid.lowest_radius, grid.highest_radius}},
+          {"z_mm", {grid.lowest_z, grid.highest_z}},
+          {"profile_pieces", pieces_json(grid.profile_pieces)},
+          {"face_pieces", pieces_json(grid.face_pieces)},
+          {"residual_rms_um", in_um(grid.rms)},
+          {"residual_largest_um", in_um(grid.largest)}};
+}
+
+Json used_gear_json(const StudyResults& results, Member member) {
+  const Gear& gear = results.pair[member];
+  const Material& material = member == Member::Pinion ? results.study.pinion_material : results.study.wheel_material;
+  return {{"teeth", gear.data.teeth},
+          {"face_width_mm", gear.data.face_width},
+          {"profile_shift", gear.data.profile_shift},
+          {"tip_diameter_mm", 2.0 * gear.tip_radius},
+          {"rack", {{"addendum", gear.data.rack.addendum}, {"dedendum", gear.data.rack.dedendum}, {"root_radius", gear.data.rack.root_radius}}},
+          {"generation", generation_json(gear.data.generation)},
+          {"grid", grid_json(member == Member::Pinion ? results.study.pinion_grid : results.study.wheel_grid)},
+          {"youngs_modulus_MPa", material.youngs_modulus},
+          {"poissons_ratio", material.poissons_ratio}};
+}
+
+}  // namespace
+
+Json used_json(const StudyResults& results) {
+  const Study& study = results.study;
+  const PairData& data = study.pair;
+  Json used{{"pair",
+             {{"normal_module_mm", data.normal_module},
+              {"pressure_angle_deg", in_deg(data.pressure_angle)},
+              {"helix_angle_deg", in_deg(data.helix_angle)},
+              {"centre_distance_mm", results.pair.centre_distance},
+              {"driver", data.driver == Member::Pinion ? "pinion" : "wheel"},
+              {"working_flank", data.working_flank == WorkingFlank::Right ? "right" : "left"},
+              {"pinion", used_gear_json(results, Member::Pinion)},
+              {"wheel", used_gear_json(results, Member::Wheel)}}},
+            {"unloaded", {{"marking_thickness_um", in_um(study.marking_thickness)}}},
+            {"cycle", {{"positions", study.cycle.positions}, {"phases", study.cycle.phases}}},
+            {"fidelity",
+             {{"compliance", study.fidelity.compliance == ComplianceModel::Rigid ? "rigid" : "thin_slice"},
+              {"gap", "plane_of_action"},
+              {"quadrature", {{"rule", rule_name(study.fidelity.quadrature.rule)}, {"intervals", study.fidelity.quadrature.intervals}}},
+              {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
+  if (study.misalignment.pinion_lead_angle != 0.0) {
+    used["misalignment"] = {{"pinion_lead_angle", "lead angle changed, normal pressure angle kept: pitch radius, base radius and screw parameter follow"}};
+  }
+  if (!results.models.empty()) {
+    used["thin_slice"] = {{"calibration", results.models.front().calibration}};
+  }
+  return used;
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,176 @@
+#include "studies/grid_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "core/base/units.hpp"
+#include "core/flank/measured_grid.hpp"
+#include "studies/study_file.hpp"
+
+using namespace flankwright;
+using namespace flankwright::studies;
+
+namespace {
+
+const std::string header = "radius_mm,z_mm,deviation_um\n";
+
+/// What is said about a file that is refused.
+std::string refusal(const std::string& text) {
+  try {
+    parse_grid(text, "flank.csv");
+  } catch (const StudyErrors& errors) {
+    return errors.what();
+  }
+  return "";
+}
+
+void check_small(const MeasuredGrid& grid) {
+  CHECK(grid.radii == std::vector<double>{50.0, 52.5});
+  CHECK(grid.z == std::vector<double>{-10.0, 0.0, 10.0});
+  REQUIRE(grid.deviation.rows() == 2);
+  REQUIRE(grid.deviation.cols() == 3);
+  constexpr double round_off = 1e-18;  // um to mm
+  const std::array<double, 6> um{-1.0, 0.0, 2.0, 3.5, 4.0, -50.0};
+  for (int i = 0; i < 6; ++i)
+    CHECK(std::abs(grid.deviation(i / 3, i % 3) - 1e-3 * um[static_cast<std::size_t>(i)]) <= round_off);
+}
+
+const std::vector<std::string> small_rows{"50,-10,-1", "50,0,0", "50,10,2", "52.5,-10,3.5", "52.5,0,4", "52.5,10,-50"};
+
+std::string joined(const std::vector<std::string>& rows) {
+  std::string text;
+  for (const std::string& row : rows) text += row + "\n";
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("A grid file is read whatever its order, separator, comments and line ends", "[studies][grid-file]") {
+  check_small(parse_grid(header + joined(small_rows), "a"));
+  check_small(
+      parse_grid("\xef\xbb\xbf# a flank\r\n\r\n deviation_um ; radius_mm ; z_mm\r\n"
+                 "-1;50;-10\r\n 0;50;0\r\n2;50;1e1 # at the end\r\n\r\n+3.5;52.5;-10\r\n4;52.50;0\r\n-50;5.25e1;10",
+                 "b"));
+  check_small(
+      parse_grid("z_mm\tradius_mm\tdeviation_um\n-10\t50\t-1\n0\t50\t0\n10\t50\t2\n"
+                 "-10\t52.5\t3.5\n0\t52.5\t4\n  \n10\t52.5\t-50\n",
+                 "c"));
+}
+
+TEST_CASE("The order of the rows changes no bit", "[studies][grid-file][determinism]") {
+  std::vector<std::string> rows = small_rows;
+  rows[1] = "50,-0,-0";
+  const MeasuredGrid grid = parse_grid(header + joined(rows), "a");
+  std::mt19937 random(5);
+  for (int run = 0; run < 10; ++run) {
+    std::shuffle(rows.begin(), rows.end(), random);
+    const MeasuredGrid other = parse_grid(header + joined(rows), "a");
+    CHECK(other.radii == grid.radii);
+    CHECK(other.z == grid.z);
+    CHECK(!std::signbit(other.z[1]));
+    CHECK(other.deviation == grid.deviation);
+  }
+}
+
+TEST_CASE("What is wrong with a grid file is said in one line with its place", "[studies][grid-file][errors]") {
+  const std::string names = "allowed is once each, radius_mm, z_mm, deviation_um";
+  const std::string number = "allowed is a number -1000 .. 1000 with a decimal point";
+  CHECK(refusal("") ==
+        "flank.csv: file = without content: allowed is a line of column names, then a line for each point");
+  CHECK(refusal("# only this\n") == refusal(""));
+  CHECK(refusal("radius_mm,z,deviation_um\n") == "flank.csv:1:11: column = z: " + names);
+  CHECK(refusal("\nradius_mm,z_mm,z_mm\n") == "flank.csv:2:16: column = z_mm: " + names);
+  CHECK(refusal("radius_mm,z_mm\n") == "flank.csv:1:1: columns = radius_mm,z_mm: " + names);
+  CHECK(refusal("50,-10,-1\n") == "flank.csv:1:1: column = 50: " + names);
+  CHECK(refusal(header + "50,-10\n") ==
+        "flank.csv:2:1: line = 50,-10: allowed is 3 numbers with the separator of the first line");
+  CHECK(refusal(header + "50,-10,1,\n") ==
+        "flank.csv:2:1: line = 50,-10,1,: allowed is 3 numbers with the separator of the first line");
+  for (const std::string bad : {"", "nan", "inf", "-inf", "3 um", "1e999", "0x3", "--3", "+-3", "1001", "-1e6"}) {
+    CHECK(refusal(header + "50,-10,2\n50,0, " + bad + "\n") == "flank.csv:3:7: deviation_um = " + bad + ": " + number);
+  }
+  CHECK(refusal("radius_mm;z_mm;deviation_um\n50;-10;1,5\n") == "flank.csv:2:8: deviation_um = 1,5: " + number);
+  CHECK(refusal(header + "5e4,-10,1\n") ==
+        "flank.csv:2:1: radius_mm = 5e4: allowed is a number -10000 .. 10000 with a decimal point");
+  CHECK(refusal("deviation_um,z_mm,radius_mm\n2e3,0,50\n") == "flank.csv:2:1: deviation_um = 2e3: " + number);
+  CHECK(refusal(header + joined(small_rows) + "50,0,0\n") ==
+        "flank.csv:8:1: point = radius_mm 50, z_mm 0: allowed is each point once; line 3 has this one");
+  CHECK(refusal(header) == "flank.csv: grid = 0 radii with 0 axial positions: allowed is at least 2 x 2");
+  CHECK(refusal(header + "50,0,0\n50,1,0\n") ==
+        "flank.csv: grid = 1 radii with 2 axial positions: allowed is at least 2 x 2");
+  CHECK(refusal(header + std::string(500, 'x') + "\n").size() < 200);
+}
+
+TEST_CASE("A point that is missing is named, wherever it is", "[studies][grid-file][errors]") {
+  const std::array<std::string, 6> missing{"radius_mm 50, z_mm -10", "radius_mm 50, z_mm 0",
+                                           "radius_mm 50, z_mm 10",  "radius_mm 52.5, z_mm -10",
+                                           "radius_mm 52.5, z_mm 0", "radius_mm 52.5, z_mm 10"};
+  for (std::size_t i = 0; i < missing.size(); ++i) {
+    std::vector<std::string> rows = small_rows;
+    rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(i));
+    CHECK_THAT(refusal(header + joined(rows)),
+               Catch::Contains(": point = none at " + missing[i] + ": allowed is every radius"));
+  }
+  // A radius that is not written alike is one more radius.
+  std::vector<std::string> rows = small_rows;
+  rows[1] = "50.001,0,0";
+  CHECK_THAT(refusal(header + joined(rows)), Catch::StartsWith("flank.csv:2:1: point = none at radius_mm 50, z_mm 0:"));
+}
+
+TEST_CASE("A grid file that cannot be read is one clear line", "[studies][grid-file][errors]") {
+  CHECK_THROWS_WITH(read_grid("no/such/grid.csv"), "no/such/grid.csv: the file cannot be read");
+  CHECK_THROWS_WITH(read_grid(std::filesystem::temp_directory_path().string()),
+                    Catch::EndsWith(": the file cannot be read"));
+}
+
+TEST_CASE("No damage to a grid file makes the reader fail otherwise than with errors", "[studies][grid-file][fuzz]") {
+  std::mt19937 random(20261121);
+  const auto below = [&random](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+  const std::vector<std::string> pieces{",",     ";",   "\t", "\n",           "\r",   "#",   "-",
+                                        "1e308", "nan", "0",  "\xef\xbb\xbf", "\xc3", "z_mm"};
+  int valid = 0;
+  for (int run = 0; run < 3000; ++run) {
+    std::string text = header + joined(small_rows);
+    for (std::size_t changes = below(4); changes > 0; --changes) {
+      text.replace(below(text.size()), below(3), pieces[below(pieces.size())]);
+    }
+    try {
+      const MeasuredGrid grid = parse_grid(text, "mutated.csv");
+      CHECK_NOTHROW(validate(grid, -2.0 * largest_grid_length));
+      ++valid;
+    } catch (const StudyErrors& errors) {
+      CHECK(errors.problems().size() == 1);
+    }
+  }
+  CHECK(valid > 0);
+  CHECK(valid < 3000);
+}
+
+TEST_CASE("The example grids hold what their formulas say", "[studies][grid-file][examples]") {
+  const auto beyond = [](double x, double start) { return std::pow(std::max(0.0, x / start - 1.0), 2); };
+  const auto longitudinal = [&](double, double z) { return -50.0 * beyond(std::abs(z), 23.0); };
+  const auto three_dimensional = [&](double r, double z) {
+    return -25.0 * (beyond(std::abs(z), 23.0) + beyond(std::abs(r - 57.20165), 2.406775));
+  };
+  const auto one_sided = [](double, double z) { return -50.0 * std::pow((z + 23.0) / 69.0, 2); };
+  const auto check = [](const std::string& name, const auto& formula) {
+    const MeasuredGrid grid = read_grid(FLANKWRIGHT_SOURCE_DIR "/studies/examples/grids/17-44-" + name + ".csv");
+    CAPTURE(name);
+    REQUIRE(grid.radii.size() == 9);
+    REQUIRE(grid.z.size() == 15);
+    constexpr double written = 0.5001e-4 * units::um;  // four decimals of a micrometre
+    for (int k = 0; k < 135; ++k) {
+      const double r = grid.radii[static_cast<std::size_t>(k / 15)], z = grid.z[static_cast<std::size_t>(k % 15)];
+      CHECK(std::abs(grid.deviation(k / 15, k % 15) - formula(r, z) * units::um) <= written);
+    }
+  };
+  check("longitudinal", longitudinal);
+  check("three-dimensional", three_dimensional);
+  check("one-sided-helix", one_sided);
+}

@@ -1,0 +1,149 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "tests/studies/study_texts.hpp"
+
+namespace flankwright::studies {
+
+using study_texts::problem_of;
+using study_texts::problems_of;
+using study_texts::read;
+using study_texts::replaced;
+using study_texts::small_study;
+
+namespace {
+
+const std::string optimise = R"([load]
+torque = 100
+[optimise]
+)";
+
+}  // namespace
+
+TEST_CASE("An optimisation that cannot be run is refused with what to do", "[studies][study-file]") {
+  using Row = std::tuple<std::string, std::string, std::string>;
+  const auto [more, key, advice] = GENERATE(table<std::string, std::string, std::string>({
+      Row{"solver = \"snopt\"\n", "optimise.solver", "ipopt"},
+      Row{"solver = \"nlopt:lbfgs\"\n[optimise.variables]\npinion.modification.twist = [0, 1]\n[optimise.constraints]\n"
+          "load_factor = { max = 2 }\n",
+          "optimise.solver", "no constraints"},
+      Row{"objective = \"peak_root_stress\"\n", "optimise.objective", "not in this version"},
+      Row{"objective = \"te_harmonic_11\"\n", "optimise.objective", "te_harmonic_1"},
+      Row{"[optimise.variables]\n", "optimise.variables", "at least one variable"},
+      Row{"[optimise.variables]\npinion.modification.lead_crownin = [0, 1]\n",
+          "optimise.variables.pinion.modification.lead_crownin", "lead_crowning"},
+      Row{"[optimise.variables]\npinion.modification.lead_crowning = [3, 3]\n",
+          "optimise.variables.pinion.modification.lead_crowning", "low below high"},
+      Row{"[optimise.variables]\npinion.teeth = [5, 10]\n", "optimise.variables.pinion.teeth", "modification"},
+      Row{"[optimise.variables]\npinion.modification.profile_crowning = [0, 3]\n"
+          "pinion.modification.addendum_crowning = [0, 3]\n",
+          "optimise.variables.pinion.modification.addendum_crowning", "overlaps"},
+      Row{"[optimise.variables]\npinion.modification.tip_relief.amount = [0, 3]\n",
+          "pinion.modification.tip_relief.height", "set pinion.modification.tip_relief.height"},
+      Row{"[optimise.variables]\nwheel.modification.end_relief.amount = [0, 3]\n",
+          "wheel.modification.end_relief.length", "set wheel.modification.end_relief.length"},
+      Row{"[optimise.variables]\npinion.modification.tip_relief.height = [1, 3]\n",
+          "optimise.variables.pinion.modification.tip_relief.height", "no effect"},
+  }));
+  // These two are judged when the task is to optimise.
+  const bool is_about_task = key == "optimise.variables" || advice == "no constraints";
+  const StudyProblem problem = problem_of(
+      optimise + more, is_about_task ? std::vector<Override>{{"task", "optimise"}} : std::vector<Override>{});
+  CHECK(problem.key == key);
+  CHECK_THAT(problem.allowed, Catch::Contains(advice));
+}
+
+TEST_CASE("A relief with an amount needs its height", "[studies][study-file]") {
+  const StudyProblem problem = problem_of("[pinion.modification]\nroot_relief = { amount = 8 }\n");
+  CHECK(problem.key == "pinion.modification.root_relief.height");
+  CHECK(problem.line == 14);
+  CHECK_NOTHROW(read("[pinion.modification]\nroot_relief = { amount = 0, height = 0 }\n"));
+}
+
+TEST_CASE("A value outside its range is refused at its line with what is allowed", "[studies][study-file]") {
+  using Row = std::tuple<std::string, std::string>;
+  const auto [more, allowed] = GENERATE(table<std::string, std::string>({
+      Row{"[load]\ntorque = -5\n", "working_flank = \"left\""},
+      Row{"[load]\ntorque = []\n", "not empty"},
+      Row{"[load]\ntorque = inf\n", "N·m"},
+      Row{"[load]\ntorque = true\n", "N·m"},
+      Row{"[misalignment]\ncrossing = \"90 arcmin\"\n", "-60 .. 60 arcmin"},
+      Row{"[misalignment]\ncrossing = \"3 mm\"\n", "arcmin"},
+      Row{"[pinion.modification]\nlead_crowning = 2000\n", "-1000 .. 1000 um"},
+      Row{"[pinion.modification]\nlead_crowning = nan\n", "-1000 .. 1000 um"},
+      Row{"[material]\npoissons_ratio = 0.5\n", "below 0.5"},
+      Row{"[material]\nyoungs_modulus = 0\n", "above 0"},
+      Row{"[cycle]\npositions = 4097\n", "4096"},
+      Row{"[cycle]\npositions = 8.0\n", "integer"},
+      Row{"[fidelity]\ncompliance = \"fe\"\n", "not in this version"},
+      Row{"[fidelity]\ngap = \"whole_surface\"\n", "not in this version"},
+      Row{"[fidelity]\neffects = [\"bendig\"]\n", "bending"},
+      Row{"[fidelity]\nquadrature = 3\n", "table"},
+      Row{"[wheel]\n", "redefine"},
+      Row{"[sweep]\nsamples = 3\n", "not in this version"},
+      Row{"[pinion.modification]\nparabolic_te = -0.1\n", "0 .. 1000 arcsec/deg^2"},
+      Row{"[pinion.modification]\nparabolic_te = 100\n", "over a whole pitch"},
+      Row{"[unloaded]\nmarking_thickness = 0\n", "above 0"},
+  }));
+  const StudyProblem problem = problem_of(more);
+  CHECK(problem.line >= 13);
+  CHECK_THAT(problem.allowed, Catch::Contains(allowed));
+}
+
+TEST_CASE("All problems come at once, in the order of the lines, as file:line:column", "[studies][study-file]") {
+  const std::string text = R"(task = "sweep"
+[pair]
+normal_module = 0
+helix_angel = 30
+[pinion]
+  teeth = 2
+[wheel]
+teeth = "many"
+)";
+  const std::vector<StudyProblem> problems = problems_of(text, {{"load.torque", "3 parsec"}});
+  REQUIRE(problems.size() == 8);
+  const auto by_line = [](const StudyProblem& a, const StudyProblem& b) { return a.line < b.line; };
+  CHECK(std::is_sorted(problems.begin(), problems.end() - 1, by_line));
+  CHECK(problems[2].key == "pair.helix_angel");
+  CHECK_THAT(problems[2].allowed, Catch::Contains("did you mean helix_angle?"));
+  CHECK(problems.back().file == "--set");
+  CHECK(problems.back().key == "load.torque");
+  CHECK(std::ranges::count_if(problems, [](const auto& p) { return p.key.ends_with("face_width"); }) == 2);
+  CHECK(to_string(problems[4]) == "small.toml:6:3: pinion.teeth = 2: allowed is an integer 5 .. 1000");
+  CHECK_THROWS_WITH(parse_study(text, "small.toml"),
+                    Catch::Contains("small.toml:8:1: wheel.teeth = \"many\": allowed"));
+}
+
+TEST_CASE("A misspelt key names the key that was meant", "[studies][study-file]") {
+  using Row = std::tuple<std::string, std::string>;
+  const auto [more, meant] = GENERATE(table<std::string, std::string>({
+      Row{"[pinion.modification]\nled_crowning = 3\n", "lead_crowning"},
+      Row{"[misalignment]\ncenter_distance = 0.1\n", "centre_distance"},
+      Row{"[pinon]\nx = 1\n", "pinion"},
+      Row{"[optimize]\nx = 1\n", "optimise"},
+      Row{"[fidelity]\npositions = 3\n", "cycle.positions"},
+      Row{"[[scenes]]\nmisalignment.crosing = 3\n", "crossing"},
+  }));
+  CHECK_THAT(problem_of(more).allowed, Catch::Contains("did you mean " + meant + "?"));
+}
+
+TEST_CASE("Geometry that cannot be built is reported where its key stands", "[studies][study-file]") {
+  const std::vector<StudyProblem> problems =
+      problems_of(replaced(small_study, "helix_angle = 20", "helix_angle = 20\ncentre_distance = 50"));
+  REQUIRE(problems.size() == 1);
+  CHECK(problems.front().key == "pair.centre_distance");
+  CHECK(problems.front().line == 5);
+}
+
+TEST_CASE("What is not TOML is one problem with line and column and no key", "[studies][study-file]") {
+  const std::vector<StudyProblem> problems = problems_of("title = \"x\"\n[pair\n");
+  REQUIRE(problems.size() == 1);
+  CHECK(problems.front().line == 2);
+  CHECK(problems.front().column > 1);
+  CHECK(problems.front().key.empty());
+}
+
+}  // namespace flankwright::studies
