@@ -25,9 +25,9 @@ struct Peak {
 
   /// Share of the falling side in that mean of both sides' slopes which vanishes: what else the samples carry, weighted alike, is
   /// what it is at the summit. On a kink these are Lagrange's multipliers, on a smooth summit it is linear interpolation.
-  /// Nothing where a side was not looked at.
+  /// Nothing where a side was not looked at or the top itself is level.
   std::optional<double> share_of_falling() const {
-    if (at_end || !rising || !falling) return std::nullopt;
+    if (at_end || !rising || !falling || top.slope() == 0.0) return std::nullopt;
     return rising->slope() / (rising->slope() - falling->slope());
   }
 };

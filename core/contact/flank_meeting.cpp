@@ -6,27 +6,21 @@
 
 namespace flankwright {
 
-namespace {
-
-/// No modification, generation, grid or error that varies over the flank.
-bool is_plain(const Flank& flank) {
-  if (!flank.fields.empty()) return false;
-  const ManufacturingError& e = flank.error;
-  if (e.helix_slope != 0.0 || e.profile_slope != 0.0 || e.twist != 0.0) return false;
-  const Modification& m = flank.modification;
-  return std::none_of(modification_parameters.begin(), modification_parameters.end(), [&](const auto& named) {
-    return named.parameter != ModificationParameter::ProfileCrowning && get(m, named.parameter) != 0.0;
-  });
-}
-
-}  // namespace
-
-FlankMeeting::Deviation::Deviation(const Flank& of, int number)
-    : flank(of), tooth(number), plain(is_plain(of)), level(-pitch_deviation(of.error, number)) {}
+FlankMeeting::Deviation::Deviation(const Flank& of, int tooth)
+    : flank(of),
+      formula(of.modification, of.error, of.frame),
+      pitch(pitch_deviation(of.error, tooth)),
+      per_base_radius(1.0 / of.base_radius) {}
 
 inline Dual<2> FlankMeeting::Deviation::at(double rho, double z) const {
-  if (plain) return level;
-  return flank.deviation(Dual<2>::variable(rho, 0), Dual<2>::variable(z, 1), tooth);
+  const double r = std::sqrt(rho * rho + flank.base_radius * flank.base_radius);
+  const Jet of_formula = formula.at(r, z);
+  Dual<2> d{of_formula.value - pitch, {of_formula.u * (rho / r), of_formula.v}};
+  for (const auto& field : flank.fields) {
+    const Jet of_field = field->at(rho, z);
+    d += Dual<2>{of_field.value, {of_field.u, of_field.v}};
+  }
+  return d;
 }
 
 FlankMeeting::FlankMeeting(const MeshScene& scene, int tooth, double phi1)
@@ -43,21 +37,20 @@ FlankMeeting::FlankMeeting(const MeshScene& scene, int tooth, double phi1)
 }
 
 double FlankMeeting::undisturbed_curvature(double rho1) const {
-  const double rb1 = scene_.pinion.base_radius;
   const double rho2 = std::max(path_length_ - rho1, 0.01 * std::max(path_length_, rho1));
-  return rho1 / (rb1 * rb1) * (1.0 + rho1 / rho2) / scene_.wheel.base_radius;
+  return rho1 * (1.0 + rho1 / rho2) * pinion_.per_base_radius * pinion_.per_base_radius * wheel_.per_base_radius;
 }
 
 void FlankMeeting::place_point(Meeting& m) const {
   const Flank& pinion = scene_.pinion;
   const double rb = pinion.base_radius, turn = pinion.helix_rate;
   const Dual<2> removed = pinion_.at(m.rho, m.z);
-  const double theta = pinion_origin_ + turn * m.z - m.rho / rb;
+  const double theta = pinion_origin_ + turn * m.z - m.rho * pinion_.per_base_radius;
   const double c = std::cos(theta), s = std::sin(theta);
   const double along = m.rho - removed.value;
   const Eigen::Vector3d point(rb * c - along * s, rb * s + along * c, m.z);
   // Components along the radial (c, s) and the tangential (-s, c) direction.
-  const double rho_t = -removed.gradient[0], rho_e = along / rb;
+  const double rho_t = -removed.gradient[0], rho_e = along * pinion_.per_base_radius;
   const double z_t = rb * turn - removed.gradient[1], z_e = -along * turn;
   m.along_rho = {rho_e * c - rho_t * s, rho_e * s + rho_t * c, 0.0};
   m.along_z = {z_e * c - z_t * s, z_e * s + z_t * c, 1.0};
@@ -101,21 +94,23 @@ Meeting FlankMeeting::at(double rho, double z, const Meeting* near) const {
     rho2 = std::max(rho2, lowest);
   }
   Dual<2> d;
+  double pace = 1.0;  // d(rho2)/d(sqrt(r^2 - r_b^2))
   for (int i = 0; i < 100; ++i) {
     d = wheel_.at(rho2, m.wheel_z);
+    pace = 1.0 / (1.0 - d.gradient[0]);
     double step = rho2 - d.value - m.wheel_roll;
-    if (std::abs(step) < 0.5 * last_step) step /= 1.0 - d.gradient[0];
+    if (std::abs(step) < 0.5 * last_step) step *= pace;
     rho2 = std::max(rho2 - step, lowest);
     last_step = std::abs(step);
     if (last_step <= negligible) break;
   }
   m.wheel_deviation = rho2 - m.wheel_roll;
-  m.deviation_slope = d.gradient[0] / (1.0 - d.gradient[0]);
+  m.deviation_slope = d.gradient[0] * pace;
 
   // Gradient of the wheel's rotation with respect to the point, wheel frame; phi2 turns the other way.
-  const double stretch = 1.0 / (rb2 * (1.0 - d.gradient[0]));
-  const double radial = (stretch - rb2 / (radius * radius)) / m.wheel_roll, square = radius * radius;
-  const Eigen::Vector3d rotation(-y / square + radial * x, x / square + radial * y,
+  const double stretch = pace * wheel_.per_base_radius, per_square = 1.0 / (radius * radius);
+  const double radial = (stretch - rb2 * per_square) / m.wheel_roll;
+  const Eigen::Vector3d rotation(radial * x - per_square * y, radial * y + per_square * x,
                                  -wheel.helix_rate + d.gradient[1] * stretch);
   const Eigen::Vector3d in_housing = scene_.wheel_axes * rotation;
   if (m.on_wheel_end) {

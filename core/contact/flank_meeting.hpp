@@ -31,8 +31,9 @@ struct Meeting {
 ///
 /// written out for a displaced involute. A section z = const of the pinion is followed only to where the wheel's face ends, and
 /// from there on along that end: rho and the height of the section name a point that lies on both faces. Derivatives with respect
-/// to rho and phi1 are along that path; there the one with respect to z says what a wider wheel would do. Same angle as rotation_through() to round-off, at a fraction of the cost: the gradient
-/// needs no trigonometric function of the wheel, the angle itself one.
+/// to rho and phi1 are along that path; there the one with respect to z says what a wider wheel would do. Same angle as
+/// rotation_through() to round-off, at a fraction of the cost: the gradient needs no trigonometric function of the wheel, the
+/// angle itself one.
 class FlankMeeting {
  public:
   /// @param scene  must outlive this
@@ -68,15 +69,15 @@ class FlankMeeting {
   const MeshScene& scene() const { return scene_; }
 
  private:
-  /// A flank's D, with what can be known in advance.
+  /// Flank::deviation() of one tooth with its gradient, and what is constant over the flank.
   struct Deviation {
     Deviation(const Flank& of, int tooth);
     Dual<2> at(double rho, double z) const;
 
     const Flank& flank;
-    int tooth;
-    bool plain;    ///< D is constant over the flank
-    double level;  ///< of a plain flank [mm]
+    DeviationFormula formula;
+    double pitch;            ///< [mm]
+    double per_base_radius;  ///< 1/r_b [1/mm]
   };
 
   /// Point of the pinion's flank and its derivatives, in the housing and in the wheel's frame.

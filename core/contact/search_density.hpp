@@ -13,13 +13,15 @@ struct SearchDensity {
 
 /// Judged from the two flanks' deviations D = D1(rho1, z) + D2(rho2, z) along the path on which undisturbed flanks touch,
 /// rho1 + rho2 constant, by their exact second derivatives on a grid: 7 x 3 points, 33 x 33 where one of them is a field
-/// (generated, measured).
+/// (generated, predesigned, measured).
 ///
 /// - Profile: a stationary point of the wheel angle is a maximum where the relative curvature, 1/rho1 + 1/rho2 = kappa, outweighs
 ///   that of D over the arc length of the flanks, -D_ss < kappa. Where -D_ss <= kappa/2 on the whole grid, a section
-///   has one summit and is searched once. Elsewhere it is cut into eight cells for every stretch of one sign of curvature that a
-///   profile of the grid shows, into 32 at least and 64 at most.
-/// - Face: 9 sections over the line of contact of analytic flanks; with fields four for every stretch of one sign of D's
+///   has one summit and is searched once; the grid reaches as far as either flank, and beyond the end of one that end stands for
+///   it. Elsewhere a section is cut into eight cells for every stretch of one sign of curvature that a profile of the grid
+///   shows, into 32 at least and 64 at most; the one in which the wheel's form circle ends it into eight more, as near the base
+///   circle the wheel's roll length changes fast.
+/// - Face: 5 sections over the line of contact of analytic flanks; with fields four for every stretch of one sign of D's
 ///   curvature along it, 17 at least; twice as many, 33 at least, where a section has several summits; 129 at most. What
 ///   hollow curvature can hide between two of them is for the search to look into; hollow_curvature is three times the
 ///   largest value on the grid.

@@ -31,6 +31,7 @@ struct SectionSearch::Sample {
 namespace {
 
 constexpr double bound_tolerance = 1e-12;  // mm: where a circle of the wheel crosses the section, if bracketed
+constexpr int pieces_at_root = 8;          // into which the cell of the profile with the wheel's form circle is cut
 constexpr double end_round_off = 1e-12;    // half face widths that a point may lie beyond the pinion's face end
 
 SectionMaximum missing(double z) {
@@ -48,7 +49,7 @@ bool is_on_wheel_circle(SectionBound bound) { return bound == SectionBound::Whee
 
 SectionMaximum SectionSearch::at(double z, const SectionMaximum& neighbour, SectionAccuracy accuracy) const {
   const Tolerance tolerance = accuracy == SectionAccuracy::Full ? Tolerance{{1e-8, 1e-16, 1e-6}, 1e-7}
-                                                                : Tolerance{{1e-4, 1e-10, 1e-3}, 1e-3};
+                                                                : Tolerance{{1e-3, 1e-10, 1e-3}, 1e-3};
   return cells_ == 1 ? only_summit(z, neighbour, tolerance) : highest_summit(z, tolerance);
 }
 
@@ -66,9 +67,9 @@ SectionMaximum SectionSearch::only_summit(double z, const SectionMaximum& neighb
   } else if (neighbour.exists && is_on_wheel_circle(neighbour.bound)) {
     // Held by the same circle again? With one summit, the slope there says on which side that lies.
     Meeting m = meeting_.at(neighbour.at.rho, z, &neighbour.at);
-    if (move_to_radius(z, range, tolerance, radius_of(neighbour.bound), m) &&
-        (neighbour.bound == SectionBound::WheelTip ? m.angle.rho < 0.0 : m.angle.rho > 0.0)) {
-      return finish(z, m, neighbour.bound);
+    if (move_to_radius(z, range, tolerance, radius_of(neighbour.bound), m)) {
+      if (neighbour.bound == SectionBound::WheelTip ? m.angle.rho < 0.0 : m.angle.rho > 0.0) return finish(z, m, neighbour.bound);
+      guess = m.rho + m.angle.rho / meeting_.undisturbed_curvature(m.rho);
     }
   }
   const auto evaluate = [&](double rho, const Sample* previous) {
@@ -93,25 +94,36 @@ SectionMaximum SectionSearch::highest_summit(double z, const Tolerance& toleranc
   const auto consider = [&](const SectionMaximum& other) {
     if (other.exists && other.phi2 > best.phi2) best = other;
   };
+  const auto search = [&](const Meeting& from, const Meeting& to, const Range& range, bool first, bool last) {
+    const Sample lower{from, &meeting_}, upper{to, &meeting_};
+    if (first && lower.slope() <= 0.0) consider(finish(z, from, range.at_lo));
+    if (last && upper.slope() >= 0.0) consider(finish(z, to, range.at_hi));
+    if (!(lower.slope() > 0.0 && upper.slope() < 0.0)) return;
+    const auto evaluate = [&](double rho, const Sample* previous) {
+      return Sample{meeting_.at(rho, z, previous ? &previous->at : &from), &meeting_};
+    };
+    const double curvature = (lower.slope() - upper.slope()) / (range.hi - range.lo);
+    const double guess = std::clamp(range.lo + lower.slope() / curvature, range.lo, range.hi);
+    consider(settle(z, range, tolerance,
+                    find_peak<Sample>(evaluate, range.lo, range.hi, guess, curvature, tolerance.peak, lower, upper)));
+  };
   for (int i = 0; i < cells_; ++i) {
     Range range{samples[i].position(), samples[i + 1].position()};
     Meeting a = samples[i].at, b = samples[i + 1].at;
     if (!move_onto_wheel(z, range, tolerance, a, range.at_lo) || !move_onto_wheel(z, range, tolerance, b, range.at_hi)) continue;
     if (!(a.rho < b.rho)) continue;
     const bool first = i == 0 || a.rho > range.lo, last = i + 1 == cells_ || b.rho < range.hi;
-    range.lo = a.rho;
-    range.hi = b.rho;
-    const Sample lower{a, &meeting_}, upper{b, &meeting_};
-    if (first && lower.slope() <= 0.0) consider(finish(z, a, range.at_lo));
-    if (last && upper.slope() >= 0.0) consider(finish(z, b, range.at_hi));
-    if (!(lower.slope() > 0.0 && upper.slope() < 0.0)) continue;
-    const auto evaluate = [&](double rho, const Sample* previous) {
-      return Sample{meeting_.at(rho, z, previous ? &previous->at : &a), &meeting_};
-    };
-    const double curvature = (lower.slope() - upper.slope()) / (range.hi - range.lo);
-    const double guess = std::clamp(range.lo + lower.slope() / curvature, range.lo, range.hi);
-    consider(settle(z, range, tolerance,
-                    find_peak<Sample>(evaluate, range.lo, range.hi, guess, curvature, tolerance.peak, lower, upper)));
+    // Towards the wheel's base circle its roll length changes as the root of the distance.
+    const int pieces = range.at_hi == SectionBound::WheelRoot ? pieces_at_root : 1;
+    const double length = b.rho - a.rho;
+    for (int piece = 1; piece <= pieces; ++piece) {
+      const double left = 1.0 - static_cast<double>(piece) / pieces;
+      const Meeting end = piece == pieces ? b : meeting_.at(b.rho - left * left * length, z, &a);
+      range.lo = a.rho;
+      range.hi = end.rho;
+      search(a, end, range, first && piece == 1, last && piece == pieces);
+      a = end;
+    }
   }
   return best;
 }

@@ -199,6 +199,7 @@ bool FaceSearch::is_flat_around(const SectionMaximum& best) const {
     const double z = best.at.z + side * flat_step();
     if (std::abs(z) > scene_.pinion.half_face) continue;
     const SectionMaximum neighbour = search_.at(z, best, SectionAccuracy::Coarse);
+    if (neighbour.at.on_wheel_end) continue;  // beyond the wheel's face it is the end's point again
     if (neighbour.exists && neighbour.bound == best.bound &&
         (best.phi2 - neighbour.phi2) * scene_.wheel.base_radius <= flat_tolerance) {
       return true;

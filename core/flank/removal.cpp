@@ -2,6 +2,57 @@
 
 namespace flankwright {
 
+namespace {
+
+/// amount/extent^power, 0 for no amount, whose extent may be missing.
+double per_extent(double amount, double extent, int power) {
+  if (amount == 0.0) return 0.0;
+  return power == 1 ? amount / extent : amount / (extent * extent);
+}
+
+}  // namespace
+
+DeviationFormula::DeviationFormula(const Modification& m, const ManufacturingError& e, const FlankFrame& frame)
+    : pitch_radius_(frame.pitch_radius),
+      above_(per_extent(m.addendum_crowning, frame.tip_radius - frame.pitch_radius, 2)),
+      below_(per_extent(m.dedendum_crowning, frame.pitch_radius - frame.active_root_radius, 2)),
+      tip_(relief(m.tip_relief.amount, m.tip_relief.height, m.tip_relief.shape, frame.tip_radius - m.tip_relief.height)),
+      root_(relief(m.root_relief.amount, m.root_relief.height, m.root_relief.shape,
+                   frame.active_root_radius + m.root_relief.height)),
+      end_(relief(m.end_relief.amount, m.end_relief.length, ReliefShape::Linear,
+                  0.5 * frame.face_width - m.end_relief.length)),
+      parabola_(m.parabolic_te == 0.0
+                    ? 0.0 : frame.wheel_base_radius * m.parabolic_te * frame.pinion_turn * frame.pinion_turn),
+      base_radius_(frame.base_radius),
+      pitch_roll_(frame.pitch_roll),
+      helix_rate_(frame.helix_rate) {
+  const double per_width = 1.0 / frame.face_width, per_height = 1.0 / (frame.tip_radius - frame.active_root_radius);
+  const double up = frame.pitch_radius - frame.reference_radius;  // from the origin of the errors' profile slope to y = 0
+  const double error_slope = e.profile_slope * per_height, error_twist = e.twist * per_height * per_width;
+  level_ = error_slope == 0.0 ? 0.0 : -error_slope * up;
+  y_ = m.profile_slope * per_height - error_slope;
+  z_ = (m.lead_slope - e.helix_slope) * per_width - (error_twist == 0.0 ? 0.0 : error_twist * up);
+  yz_ = m.twist * per_height * per_width - error_twist;
+  zz_ = 4.0 * m.lead_crowning * per_width * per_width;
+}
+
+DeviationFormula::Relief DeviationFormula::relief(double amount, double extent, ReliefShape shape, double start) {
+  return shape == ReliefShape::Linear ? Relief{start, per_extent(amount, extent, 1), 0.0}
+                                      : Relief{start, 0.0, per_extent(amount, extent, 2)};
+}
+
+void DeviationFormula::add_parabola(double r, double z, Jet& d) const {
+  const double rho = std::sqrt((r - base_radius_) * (r + base_radius_)), k = parabola_;
+  const double turn = (rho - pitch_roll_) / base_radius_ - helix_rate_ * z;  // of the gear itself
+  const double turn_r = r / (rho * base_radius_), turn_rr = -base_radius_ / (rho * rho * rho);
+  d.value += k * turn * turn;
+  d.u += 2.0 * k * turn * turn_r;
+  d.v -= 2.0 * k * turn * helix_rate_;
+  d.uu += 2.0 * k * (turn_r * turn_r + turn * turn_rr);
+  d.uv -= 2.0 * k * turn_r * helix_rate_;
+  d.vv += 2.0 * k * helix_rate_ * helix_rate_;
+}
+
 double removal_derivative(const Modification& m, const FlankFrame& frame, ModificationParameter parameter, double r,
                           double z) {
   // Amounts enter linearly: the derivative is the removal of a unit amount with the same extents.

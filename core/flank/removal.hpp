@@ -3,12 +3,14 @@
 #include <cmath>
 
 #include "core/base/dual.hpp"
+#include "core/base/jet.hpp"
 #include "core/gear/microgeometry.hpp"
 
 namespace flankwright {
 
-/// Material removed from a flank at radius r and axial position z [mm], transverse base tangent, positive into the tooth:
-/// the sum of all parts of the modification.
+/// What of a flank's deviation is a formula, all that is constant over the flank worked out once: metal removed by the modification
+/// (its grid `topography` not included) less metal added by manufacturing errors, without pitch. At radius r and axial
+/// position z [mm], transverse base tangent, positive into the tooth:
 ///
 ///     lead:     C_beta (2z/b)^2 + C_Hbeta z/b
 ///     profile:  C_a ((r - r_w)/(r_a - r_w))^2 above, C_f ((r_w - r)/(r_w - r_Nf))^2 below the pitch circle r_w,
@@ -19,54 +21,64 @@ namespace flankwright {
 ///     parabolic TE:  r_b2 a phi1^2,  phi1 = i ((rho - rho_w)/r_b - s z/p)  with i = 1 (pinion) or -N2/N1 (wheel): the pinion angle
 ///               at which the undisturbed flanks touch along the line through (rho, z), the same along that whole line. It is how
 ///               far the mesh lags there; the flank that makes it do so is make_conjugate_field()
+///     errors:   -(f_Hbeta z/b + f_Halpha y/h_active + f_yz (y/h_active)(z/b)),   y = r - reference radius, h_active = r_a - r_Nf
 ///
 /// Radial measure throughout, as Haddad 1991, eq. 6.1 (there with b^2 printed for (b/2)^2 in the crowning term). The function
 /// is continuous; its slope jumps where a linear relief starts. Outside the active flank the same formulas continue.
-/// The grid `topography` is not part of it. Scalar is double, Dual<N> or Jet.
+class DeviationFormula {
+ public:
+  DeviationFormula(const Modification& modification, const ManufacturingError& error, const FlankFrame& frame);
+
+  /// Value, first and second derivatives, u = r and v = z; at a relief's start those of the side without it.
+  Jet at(double r, double z) const {
+    const double y = r - pitch_radius_, crown = y > 0.0 ? above_ : below_;
+    Jet d{level_ + (y_ + yz_ * z + crown * y) * y + (z_ + zz_ * z) * z,
+          y_ + yz_ * z + 2.0 * crown * y, z_ + 2.0 * zz_ * z + yz_ * y, 2.0 * crown, yz_, 2.0 * zz_};
+    tip_.add(r - tip_.start, 1.0, d.value, d.u, d.uu);
+    root_.add(root_.start - r, -1.0, d.value, d.u, d.uu);
+    end_.add(std::abs(z) - end_.start, z < 0.0 ? -1.0 : 1.0, d.value, d.v, d.vv);
+    if (parabola_ != 0.0) add_parabola(r, z, d);
+    return d;
+  }
+
+ private:
+  /// amount t or t^2 from `start` on, in one direction.
+  struct Relief {
+    double start{0.0}, linear{0.0}, quadratic{0.0};  ///< [mm], [mm/mm], [mm/mm^2]
+
+    void add(double beyond, double sense, double& value, double& first, double& second) const {
+      if (!(beyond > 0.0) || (linear == 0.0 && quadratic == 0.0)) return;
+      value += (linear + quadratic * beyond) * beyond;
+      first += sense * (linear + 2.0 * quadratic * beyond);
+      second += 2.0 * quadratic;
+    }
+  };
+
+  static Relief relief(double amount, double extent, ReliefShape shape, double start);
+  void add_parabola(double r, double z, Jet& d) const;
+
+  double pitch_radius_;
+  double level_, y_, z_, yz_, zz_;  ///< coefficients of 1, y, z, yz, z^2 with y = r - r_w
+  double above_, below_;            ///< of y^2 above and below the pitch circle
+  Relief tip_, root_, end_;
+  double parabola_;  ///< r_b2 a i^2, see above [mm]
+  double base_radius_, pitch_roll_, helix_rate_;
+};
+
+/// Material removed by a modification at r, z [mm]: DeviationFormula without errors. Scalar is double, Dual<N> or Jet.
 template <class Scalar>
 Scalar removal(const Modification& m, const FlankFrame& frame, const Scalar& r, const Scalar& z) {
-  const double b = frame.face_width;
-  const double h_active = frame.tip_radius - frame.active_root_radius;
-  const Scalar y = r - frame.pitch_radius;
-  const Scalar along = z / b;
-  Scalar c = 4.0 * m.lead_crowning * along * along + m.lead_slope * along +
-             (m.profile_slope + m.twist * along) * y / h_active;
-  const bool above = value_of(y) > 0.0;
-  const double crowning = above ? m.addendum_crowning : m.dedendum_crowning;
-  if (crowning != 0.0) {
-    const double h = above ? frame.tip_radius - frame.pitch_radius : frame.pitch_radius - frame.active_root_radius;
-    c += crowning * (y / h) * (y / h);
-  }
-  const auto relieve = [&c](double amount, double extent, ReliefShape shape, const Scalar& beyond_start) {
-    if (amount == 0.0 || value_of(beyond_start) <= 0.0) return;
-    const Scalar t = beyond_start / extent;
-    c += amount * (shape == ReliefShape::Linear ? t : t * t);
-  };
-  relieve(m.tip_relief.amount, m.tip_relief.height, m.tip_relief.shape, r - (frame.tip_radius - m.tip_relief.height));
-  relieve(m.root_relief.amount, m.root_relief.height, m.root_relief.shape,
-          frame.active_root_radius + m.root_relief.height - r);
-  relieve(m.end_relief.amount, m.end_relief.length, ReliefShape::Linear,
-          (value_of(z) < 0.0 ? -z : z) - (0.5 * b - m.end_relief.length));
-  if (m.parabolic_te != 0.0) {
-    using std::sqrt;
-    const Scalar rho = sqrt((r - frame.base_radius) * (r + frame.base_radius));
-    const Scalar phi1 = frame.pinion_turn * ((rho - frame.pitch_roll) / frame.base_radius - frame.helix_rate * z);
-    c += frame.wheel_base_radius * m.parabolic_te * phi1 * phi1;
-  }
-  return c;
+  return chain(DeviationFormula(m, {}, frame).at(value_of(r), value_of(z)), r, z);
 }
 
 /// Derivative of removal() with respect to one modification parameter [mm/mm; parabolic_te mm rad], exact; one-sided at a relief's start.
 double removal_derivative(const Modification& m, const FlankFrame& frame, ModificationParameter parameter, double r, double z);
 
-/// Metal added by manufacturing errors at r, z [mm], transverse base tangent [Haddad 1991, eq. 6.1], without pitch.
-///
-///     f_Hbeta z/b + f_Halpha y/h_active + f_yz (y/h_active)(z/b),   y = r - reference radius
+/// Metal added by manufacturing errors at r, z [mm], transverse base tangent [Haddad 1991, eq. 6.1], without pitch: the errors'
+/// part of DeviationFormula with its sign turned.
 template <class Scalar>
 Scalar added_metal(const ManufacturingError& e, const FlankFrame& frame, const Scalar& r, const Scalar& z) {
-  const Scalar along = z / frame.face_width;
-  const Scalar up = (r - frame.reference_radius) / (frame.tip_radius - frame.active_root_radius);
-  return e.helix_slope * along + e.profile_slope * up + e.twist * up * along;
+  return -chain(DeviationFormula({}, e, frame).at(value_of(r), value_of(z)), r, z);
 }
 
 /// Cumulative pitch deviation of tooth k [mm], see ManufacturingError.
