@@ -44,13 +44,12 @@ class ConjugateField final : public DeviationField {
     const double end = std::clamp(rho, lowest_, highest_);
     const std::optional<Root> root = touching_angle(end, z);
     if (!root) return {not_given, not_given, not_given, not_given, not_given, not_given};
-    // Each Newton step with the rate at the root makes one more order of the angle's derivatives exact.
-    const Jet along_face = Jet::variable_v(z), rho_jet = Jet::variable_u(rho), wanted = rho == end ? rho_jet : Jet(end);
-    Jet angle = root->angle;
-    for (int order = 1; order <= 2; ++order) angle -= (touch(angle, along_face).roll - wanted) / root->rate;
-    const Touch<Jet> mark = touch(angle, along_face);
-    const Jet deviation = wanted - mark.along;
-    return rho == end ? deviation : deviation + (rho_jet - end) * mark.d_roll;
+    // The touch as a function of (phi1, z), and phi1 as a function of (rho, z), past the end of z alone.
+    const Jet profile = Jet::variable_u(rho), face = Jet::variable_v(z);
+    const Touch<Jet> mark = touch(Jet::variable_u(root->angle), face);
+    const Jet angle = implicit_angle(mark.roll, root->angle, rho == end ? 1.0 : 0.0);
+    if (rho == end) return profile - chain(mark.along, angle, face);
+    return end - chain(mark.along, angle, face) + (profile - end) * chain(mark.d_roll, angle, face);
   }
 
   /// Whether the flank gives the parabola over the pitch in which its pair leads, at mid face.
@@ -63,6 +62,15 @@ class ConjugateField final : public DeviationField {
   struct Root {
     double angle, rate;  ///< phi1 [rad] and d(roll)/d(phi1) [mm/rad]
   };
+
+  /// t(u, v) where f(t, v) = rate u + constant, from the derivatives of f: those of an implicit function.
+  static Jet implicit_angle(const Jet& f, double t, double rate) {
+    const double t_u = rate / f.u, t_v = -f.v / f.u;
+    const double t_uu = -f.uu * t_u * t_u / f.u;
+    const double t_uv = -(f.uu * t_v + f.uv) * t_u / f.u;
+    const double t_vv = -(f.uu * t_v * t_v + 2.0 * f.uv * t_v + f.vv) / f.u;
+    return {t, t_u, t_v, t_uu, t_uv, t_vv};
+  }
 
   template <class Scalar>
   Touch<Scalar> touch(const Scalar& phi1, const Scalar& z) const {

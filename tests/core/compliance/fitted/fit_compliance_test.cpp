@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "core/compliance/fitted/random_gear.hpp"
-#include "core/compliance/fitted/synthetic_gear.hpp"
+#include "tests/core/compliance/fitted/random_gear.hpp"
+#include "tests/core/compliance/fitted/synthetic_gear.hpp"
 #include "core/compliance/fitted/thesis_form.hpp"
 
 using namespace flankwright;

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "core/base/error.hpp"
-#include "core/compliance/fitted/random_gear.hpp"
+#include "tests/core/compliance/fitted/random_gear.hpp"
 
 using namespace flankwright;
 using namespace flankwright::testing;

@@ -3,7 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
-#include "core/compliance/fitted/random_gear.hpp"
+#include "tests/core/compliance/fitted/random_gear.hpp"
 
 using namespace flankwright;
 using namespace flankwright::testing;

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
-#include "core/compliance/fitted/random_gear.hpp"
+#include "tests/core/compliance/fitted/random_gear.hpp"
 #include "core/compliance/fitted/residual_statistics.hpp"
-#include "core/compliance/fitted/synthetic_gear.hpp"
+#include "tests/core/compliance/fitted/synthetic_gear.hpp"
 
 using namespace flankwright;
 using namespace flankwright::testing;
