@@ -101,7 +101,7 @@ SearchDensity search_density(const MeshScene& scene) {
   density.cells = hollow ? std::clamp(2 * pieces_per_stretch * along_profile, 32, 64) : 1;
   density.sections = hollow ? std::clamp(2 * pieces_per_stretch * along_face + 1, 33, 129)
                      : fields ? std::clamp(pieces_per_stretch * along_face + 1, 17, 129)
-                              : 5;
+                              : 9;
   return density;
 }
 

@@ -21,7 +21,7 @@ struct SearchDensity {
 ///   it. Elsewhere a section is cut into eight cells for every stretch of one sign of curvature that a profile of the grid
 ///   shows, into 32 at least and 64 at most; the one in which the wheel's form circle ends it into eight more, as near the base
 ///   circle the wheel's roll length changes fast.
-/// - Face: 5 sections over the line of contact of analytic flanks; with fields four for every stretch of one sign of D's
+/// - Face: 9 sections over the line of contact of analytic flanks; with fields four for every stretch of one sign of D's
 ///   curvature along it, 17 at least; twice as many, 33 at least, where a section has several summits; 129 at most. What
 ///   hollow curvature can hide between two of them is for the search to look into; hollow_curvature is three times the
 ///   largest value on the grid.
