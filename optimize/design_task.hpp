@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,7 @@ struct DesignTask {
   Material pinion_material, wheel_material;
   MeshResolution resolution;
   MeshEffects effects;
+  std::shared_ptr<const PairCompliance> structure;       ///< null: thin slices
   Modification pinion_modification, wheel_modification;  ///< values of what is not varied, and the start of what is
   std::vector<DesignScene> scenes;                       ///< the first is the nominal one
   std::vector<DesignVariable> variables;

@@ -4,6 +4,8 @@
 #include <map>
 #include <sstream>
 
+#include "studies/gear_structures.hpp"
+
 namespace flankwright::studies {
 
 namespace {
@@ -22,6 +24,7 @@ FlankCondition condition_of(const Study& study, const Scene& scene) {
 
 EffectFacts facts_of(const Study& study) {
   EffectFacts facts;
+  facts.coupled_teeth = couples_teeth(study.fidelity.compliance);
   for (const Scene& scene : study.scenes) {
     FlankCondition condition = condition_of(study, scene);
     for (double torque : scene.torques) {
@@ -113,9 +116,15 @@ class Run {
     if (is_new) {
       const Study& study = results_.study;
       results_.models.push_back(make_mesh_model(results_.pair, study.pinion_material, study.wheel_material,
-                                                resolution_of(study), mesh_effects(results_.effects), axial_offset));
+                                                resolution_of(study), mesh_effects(results_.effects), axial_offset, structure().get()));
     }
     return it->second;
+  }
+
+  /// Both gears' structure, made when first needed.
+  const std::shared_ptr<const PairCompliance>& structure() {
+    if (!structure_) structure_ = gear_structures(results_.study, results_.pair, progress_);
+    return *structure_;
   }
 
   void add_unloaded(const Scene& scene) {
@@ -164,7 +173,7 @@ class Run {
     }
   }
 
-  DesignTask design_task() const {
+  DesignTask design_task() {
     const Study& study = results_.study;
     DesignTask task;
     task.pair = results_.pair;
@@ -172,6 +181,7 @@ class Run {
     task.wheel_material = study.wheel_material;
     task.resolution = resolution_of(study);
     task.effects = mesh_effects(results_.effects);
+    task.structure = structure();
     task.pinion_modification = study.pinion_modification;
     task.wheel_modification = study.wheel_modification;
     task.variables = study.optimise.variables;
@@ -244,6 +254,7 @@ class Run {
   const ProgressReport& progress_;
   StudyResults results_;
   std::map<double, std::size_t> model_index_;
+  std::optional<std::shared_ptr<const PairCompliance>> structure_;
 };
 
 }  // namespace

@@ -16,8 +16,16 @@ namespace flankwright::studies {
 
 enum class Task { Analyse, Optimise };
 
-/// Ladder of compliance models available in this version.
-enum class ComplianceModel { Rigid, ThinSlice };
+/// Ladder of compliance models.
+enum class ComplianceModel { Rigid, ThinSlice, Fitted, Fe };
+
+/// As a study names it: "rigid", "thin_slice", "fitted", "fe".
+const char* to_string(ComplianceModel model);
+
+/// Whether the model knows how a load on one tooth moves another.
+inline bool couples_teeth(ComplianceModel model) {
+  return model == ComplianceModel::Fitted || model == ComplianceModel::Fe;
+}
 
 struct Cycle {
   int positions{32};           ///< mesh positions over one base pitch, >= 1

@@ -94,9 +94,9 @@ std::vector<SchemaKey> working_condition_rows() {
          d.study.fidelity.quadrature.intervals = static_cast<int>(v.integer);
        }},
       {.path = "fidelity.effects", .kind = WordList,
-       .words = {"bending", "hertzian_contact", "tip_corner", "extended_contact_region", "misalignment",
+       .words = {"bending", "adjacent_teeth", "hertzian_contact", "tip_corner", "extended_contact_region", "misalignment",
                  "modifications", "manufacturing_errors"},
-       .later = {"gear_body_compliance", "adjacent_teeth", "shaft_deflection"}, .fallback = "\"auto\"",
+       .later = {"gear_body_compliance", "shaft_deflection"}, .fallback = "\"auto\"",
        .meaning = "what enters the run; auto decides from the study, a list switches by hand",
        .store = [](Draft& d, Member, const Value& v) {
          d.study.fidelity.automatic_effects = !v.is_list;

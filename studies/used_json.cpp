@@ -75,7 +75,7 @@ Json used_json(const StudyResults& results) {
             {"unloaded", {{"marking_thickness_um", in_um(study.marking_thickness)}}},
             {"cycle", {{"positions", study.cycle.positions}, {"phases", study.cycle.phases}}},
             {"fidelity",
-             {{"compliance", study.fidelity.compliance == ComplianceModel::Rigid ? "rigid" : "thin_slice"},
+             {{"compliance", to_string(study.fidelity.compliance)},
               {"gap", "plane_of_action"},
               {"quadrature", {{"rule", rule_name(study.fidelity.quadrature.rule)}, {"intervals", study.fidelity.quadrature.intervals}}},
               {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};

@@ -36,7 +36,7 @@ bool in_some_scene(const EffectFacts& facts, bool (*holds)(const FlankCondition&
   return std::any_of(facts.conditions.begin(), facts.conditions.end(), holds);
 }
 
-constexpr std::array<Rule, 8> rules{{
+constexpr std::array<Rule, 9> rules{{
     {"unloaded_contact", [](const EffectFacts& f) { return f.unloaded; }, "a torque of 0 asks for tooth contact analysis",
      "every torque is above 0"},
     {"misalignment",
@@ -53,6 +53,8 @@ constexpr std::array<Rule, 8> rules{{
      },
      "a gear has manufacturing errors", "no manufacturing errors are given"},
     {"bending", under_load, "teeth bend under load", "no load"},
+    {"adjacent_teeth", [](const EffectFacts& f) { return f.loaded && f.coupled_teeth; },
+     "a loaded tooth moves its neighbours", "no load, or a compliance of teeth that do not know of each other"},
     {"hertzian_contact", under_load, "flanks flatten under load", "no load"},
     {"tip_corner", under_load, "contact softens near the tips", "no load"},
     {"extended_contact_region", under_load, "loaded teeth touch before and after the theoretical path", "no load"},
@@ -96,7 +98,7 @@ bool is_on(const std::vector<Effect>& effects, std::string_view name) {
 }
 
 MeshEffects mesh_effects(const std::vector<Effect>& effects) {
-  return {is_on(effects, "bending"), is_on(effects, "hertzian_contact"), is_on(effects, "tip_corner"),
+  return {is_on(effects, "bending"), is_on(effects, "adjacent_teeth"), is_on(effects, "hertzian_contact"), is_on(effects, "tip_corner"),
           is_on(effects, "extended_contact_region")};
 }
 

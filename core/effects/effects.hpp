@@ -21,7 +21,8 @@ struct Effect {
 struct EffectFacts {
   bool loaded{false};       ///< some torque is above zero
   bool unloaded{false};     ///< some torque is zero
-  std::vector<FlankCondition> conditions;  ///< of all scenes
+  std::vector<FlankCondition> conditions{};  ///< of all scenes
+  bool coupled_teeth{false};  ///< the compliance model knows how one tooth moves another
 };
 
 /// Names of all effects, in the order of the flow.

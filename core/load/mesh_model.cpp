@@ -11,7 +11,16 @@ namespace flankwright {
 
 namespace {
 
-MeshPosition make_position(const MeshModel& model, const PathOfContact& path, const ThinSlice& slice,
+/// Leaves of an influence matrix what lies on one tooth; its blocks stay positive semi-definite.
+void uncouple_teeth(const std::vector<ContactPoint>& points, Eigen::MatrixXd& influence) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      if (points[i].tooth != points[j].tooth) influence(i, j) = 0.0;
+    }
+  }
+}
+
+MeshPosition make_position(const MeshModel& model, const PathOfContact& path, const PairCompliance& structure,
                            const Quadrature& quadrature, double phase, double face_start, double face_end) {
   MeshPosition position;
   position.phase = phase;
@@ -19,15 +28,13 @@ MeshPosition make_position(const MeshModel& model, const PathOfContact& path, co
                                    face_end);
   const Eigen::Index n = static_cast<Eigen::Index>(position.points.size());
   position.weight.resize(n);
-  position.influence = Eigen::MatrixXd::Zero(n, n);
+  position.influence = model.effects.bending ? structure.influence(position.points, model.axial_offset)
+                                             : Eigen::MatrixXd::Zero(n, n);
+  if (!model.effects.adjacent_teeth) uncouple_teeth(position.points, position.influence);
   const double infinity = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < n; ++i) {
     const ContactPoint& point = position.points[static_cast<std::size_t>(i)];
     position.weight[i] = point.weight;
-    // A slice gives way under its own line load F_i / a_i only.
-    if (model.effects.bending) {
-      position.influence(i, i) = slice.compliance(point.pinion_radius, point.wheel_radius) / point.weight;
-    }
     if (model.effects.hertzian_contact) {
       const bool tips = model.effects.tip_corner;
       position.laws.emplace_back(
@@ -52,7 +59,8 @@ double MeshModel::normal_force(double pinion_torque) const {
 }
 
 MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
-                          const MeshResolution& resolution, const MeshEffects& effects, double axial_offset) {
+                          const MeshResolution& resolution, const MeshEffects& effects, double axial_offset,
+                          const PairCompliance* structure) {
   if (!effects.bending && !effects.hertzian_contact) {
     throw InvalidInput("fidelity.effects", "neither bending nor hertzian_contact", "at least one of them under load");
   }
@@ -65,7 +73,7 @@ MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material,
   if (!(face_start < face_end)) {
     throw InvalidInput("misalignment.axial_offset", std::to_string(axial_offset), "one that leaves a common face width");
   }
-  const ThinSlice slice(pair, pinion_material, wheel_material);
+  const ThinSlicePair slices(ThinSlice(pair, pinion_material, wheel_material));
   MeshModel model;
   model.pair = pair;
   model.pinion_material = pinion_material;
@@ -74,12 +82,12 @@ MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material,
   model.axial_offset = axial_offset;
   model.face_width = face_end - face_start;
   model.contact_modulus = contact_modulus(pinion_material, wheel_material);
-  model.calibration = slice.calibration();
-  model.iso = slice.iso();
+  model.calibration = slices.slice().calibration();
+  model.iso = slices.slice().iso();
   const PathOfContact path(pair);
   model.positions.reserve(resolution.phases.size());
   for (double phase : resolution.phases) {
-    model.positions.push_back(make_position(model, path, slice, resolution.quadrature, phase, face_start, face_end));
+    model.positions.push_back(make_position(model, path, structure != nullptr ? *structure : slices, resolution.quadrature, phase, face_start, face_end));
   }
   return model;
 }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/compliance/contact_law.hpp"
-#include "core/compliance/thin_slice.hpp"
+#include "core/compliance/pair_compliance.hpp"
 #include "core/contact/contact_points.hpp"
 #include "core/contact/path_of_contact.hpp"
 #include "core/gear/gear_pair.hpp"
@@ -13,7 +13,8 @@ namespace flankwright {
 
 /// Physical effects of the loaded mesh that may be left out.
 struct MeshEffects {
-  bool bending{true};                  ///< tooth and foundation compliance (thin slice)
+  bool bending{true};                  ///< structural compliance of teeth and gear bodies
+  bool adjacent_teeth{true};           ///< a load on one tooth moves the others (thin slices do not know of it)
   bool hertzian_contact{true};         ///< local contact deflection
   bool tip_corner{true};               ///< Steward's factor M near the tips
   bool extended_contact_region{true};  ///< tip edges before A and after E
@@ -53,10 +54,12 @@ struct MeshModel {
   double normal_force(double pinion_torque) const;
 };
 
-/// Builds points, thin-slice influence matrix and contact laws at every phase.
+/// Builds points, influence matrix and contact laws at every phase.
+/// @param structure  what yields structurally; null: thin slices
 /// @throws InvalidInput where bending and Hertzian contact are both off (nothing would yield), no phase is given, or the gears do
 ///         not overlap axially
 MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
-                          const MeshResolution& resolution, const MeshEffects& effects = {}, double axial_offset = 0.0);
+                          const MeshResolution& resolution, const MeshEffects& effects = {}, double axial_offset = 0.0,
+                          const PairCompliance* structure = nullptr);
 
 }  // namespace flankwright

@@ -44,7 +44,7 @@ int parts(const FaceNodes& nodes, const Eigen::Vector3d& p) {
 
 }  // namespace
 
-FlankFrame flank_frame(const GearMesh& mesh, const FlankPoint& point) {
+LoadFrame load_frame(const GearMesh& mesh, const FlankPoint& point) {
   const ToothForm& form = mesh.form;
   if (std::abs(point.tooth) > mesh.teeth_each_side) {
     reject("point.tooth", point.tooth, -mesh.teeth_each_side, mesh.teeth_each_side);
@@ -65,7 +65,7 @@ FlankFrame flank_frame(const GearMesh& mesh, const FlankPoint& point) {
   const double tan_beta_b = gamma * r_b;
 
   const double angle = point.tooth * 2 * units::pi / mesh.teeth + gamma * point.z - psi;  // from +y
-  FlankFrame frame;
+  LoadFrame frame;
   frame.position = {-r * std::sin(angle), r * std::cos(angle), point.z};
   // The transverse normal leans by alpha_yt from the circle's tangent outwards.
   frame.normal = Eigen::Vector3d(std::cos(angle + alpha_yt), std::sin(angle + alpha_yt), tan_beta_b).normalized();
@@ -83,7 +83,7 @@ FlankFrame flank_frame(const GearMesh& mesh, const FlankPoint& point) {
 }
 
 Eigen::SparseVector<double> centre_functional(const GearMesh& mesh, const FlankPoint& point) {
-  const FlankFrame frame = flank_frame(mesh, point);
+  const LoadFrame frame = load_frame(mesh, point);
   const Eigen::Vector3d& n = frame.normal;
   const Eigen::Vector3d source = frame.position - (1 - source_height) * frame.depth * n;
 

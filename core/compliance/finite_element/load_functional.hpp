@@ -16,7 +16,7 @@ struct FlankPoint {
 };
 
 /// Position and directions at a flank point.
-struct FlankFrame {
+struct LoadFrame {
   Eigen::Vector3d position;  ///< [mm]
   Eigen::Vector3d normal;    ///< outward, unit
   double depth;              ///< along the inward normal to the tooth's centre surface, continued past the ends [mm]
@@ -26,7 +26,7 @@ struct FlankFrame {
 /// chord and no account of the tooth's taper: 1 to 10 % more.
 ///
 /// @throws InvalidInput  "point" outside the ranges of FlankPoint
-FlankFrame flank_frame(const GearMesh& mesh, const FlankPoint& point);
+LoadFrame load_frame(const GearMesh& mesh, const FlankPoint& point);
 
 /// Height of the weights' source above the centre surface, of the depth of the centre surface below the flank.
 inline constexpr double source_height = 0.5;

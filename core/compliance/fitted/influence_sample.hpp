@@ -4,16 +4,9 @@
 #include <limits>
 #include <vector>
 
+#include "core/compliance/flank_compliance.hpp"
+
 namespace flankwright {
-
-/// A place on a flank of the gear, in coordinates that mean the same on every gear.
-struct FlankPlace {
-  int tooth{0};      ///< m: runs m pitches ahead of the reference tooth; only differences matter
-  double u{0.0};     ///< 2 (r - r_j)/(r_a - r_j) - 1 [-]: -1 where the involute starts, +1 at the tip
-  double zeta{0.0};  ///< z/m_n [-] from one end of the face, 0 .. B
-
-  bool operator==(const FlankPlace&) const = default;
-};
 
 /// What influence values of different gears are compared by.
 struct GearFacts {

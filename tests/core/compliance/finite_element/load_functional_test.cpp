@@ -42,15 +42,15 @@ Eigen::Matrix<double, 6, 1> resultant(const GearMesh& mesh, const Eigen::VectorX
 TEST_CASE("The flank's frame: normal to the surface, and deep to the tooth's centre", "[core][compliance][fe]") {
   const GearMesh mesh = gear_mesh(gear_of(23, GENERATE(0, 25), 5, 0.1), coarse());
   for (const FlankPoint& point : points(mesh)) {
-    const FlankFrame frame = flank_frame(mesh, point);
+    const LoadFrame frame = load_frame(mesh, point);
     const auto at = [&](double dr, double dz) {
       FlankPoint moved = point;
       moved.radius = std::clamp(point.radius, mesh.form.form_radius() + 1e-4, mesh.form.tip_radius() - 1e-4) + dr;
       moved.z = std::clamp(point.z, -2.49, 2.49) + dz;
-      return flank_frame(mesh, moved).position;
+      return load_frame(mesh, moved).position;
     };
     const double h = 1e-5;  // central differences: 1e-10 times third derivatives
-    const Eigen::Vector3d normal = flank_frame(mesh, {point.tooth, at(0, 0).head<2>().norm(), at(0, 0).z()}).normal;
+    const Eigen::Vector3d normal = load_frame(mesh, {point.tooth, at(0, 0).head<2>().norm(), at(0, 0).z()}).normal;
     CHECK(std::abs(normal.dot(at(h, 0) - at(-h, 0)) / (2 * h)) < 1e-6);
     CHECK(std::abs(normal.dot(at(0, h) - at(0, -h)) / (2 * h)) < 1e-6);
 
@@ -72,7 +72,7 @@ TEST_CASE("A load on the flank keeps its force and its torque exactly", "[core][
       1 / std::hypot(1, std::tan(mesh.form.helix_angle()) * mesh.form.base_radius() / mesh.form.reference_radius());
   for (const FlankPoint& point : points(mesh)) {
     CAPTURE(point.tooth, point.radius, point.z);
-    const FlankFrame frame = flank_frame(mesh, point);
+    const LoadFrame frame = load_frame(mesh, point);
     const Eigen::Matrix<double, 6, 1> sum = resultant(mesh, centre_functional(mesh, point));
     CHECK((sum.head<3>() + frame.normal).norm() < 1e-12);  // round-off
     CHECK(sum[5] == Approx(mesh.form.base_radius() * cos_base).epsilon(1e-12));
@@ -82,7 +82,7 @@ TEST_CASE("A load on the flank keeps its force and its torque exactly", "[core][
 TEST_CASE("Away from the ends a load acts where its line meets the centre surface", "[core][compliance][fe]") {
   const GearMesh mesh = gear_mesh(gear_of(30, GENERATE(0, 30), 16), coarse());
   const FlankPoint point{0, mesh.form.reference_radius(), 0.3};
-  const FlankFrame frame = flank_frame(mesh, point);
+  const LoadFrame frame = load_frame(mesh, point);
   const Eigen::VectorXd load = centre_functional(mesh, point);
   double z = 0;
   for (Eigen::Index i = 0; i < mesh.solid.nodes.cols(); ++i) {
@@ -121,9 +121,9 @@ TEST_CASE("The net functional does not feel the motions that are taken out", "[c
 TEST_CASE("Points that are not on a detailed flank are refused", "[core][compliance][fe]") {
   const GearMesh mesh = gear_mesh(gear_of(18, 30), coarse());
   const double r = mesh.form.reference_radius();
-  CHECK_THROWS_AS(flank_frame(mesh, {2, r, 0}), InvalidInput);
-  CHECK_THROWS_AS(flank_frame(mesh, {0, mesh.form.form_radius() - 0.1, 0}), InvalidInput);
-  CHECK_THROWS_AS(flank_frame(mesh, {0, mesh.form.tip_radius() + 0.1, 0}), InvalidInput);
-  CHECK_THROWS_AS(flank_frame(mesh, {0, r, 3.1}), InvalidInput);
-  CHECK_THROWS_AS(flank_frame(mesh, {0, not_given, 0}), InvalidInput);
+  CHECK_THROWS_AS(load_frame(mesh, {2, r, 0}), InvalidInput);
+  CHECK_THROWS_AS(load_frame(mesh, {0, mesh.form.form_radius() - 0.1, 0}), InvalidInput);
+  CHECK_THROWS_AS(load_frame(mesh, {0, mesh.form.tip_radius() + 0.1, 0}), InvalidInput);
+  CHECK_THROWS_AS(load_frame(mesh, {0, r, 3.1}), InvalidInput);
+  CHECK_THROWS_AS(load_frame(mesh, {0, not_given, 0}), InvalidInput);
 }

@@ -1,0 +1,42 @@
+#include "core/compliance/pair_compliance.hpp"
+
+#include <algorithm>
+#include <cassert>
+
+namespace flankwright {
+
+Eigen::MatrixXd ThinSlicePair::influence(const std::vector<ContactPoint>& points, double) const {
+  const Eigen::Index n = static_cast<Eigen::Index>(points.size());
+  Eigen::VectorXd diagonal(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const ContactPoint& point = points[static_cast<std::size_t>(i)];
+    diagonal[i] = slice_.compliance(point.pinion_radius, point.wheel_radius) / point.weight;
+  }
+  return diagonal.asDiagonal();
+}
+
+FlankPlace flank_place(const GearPair& pair, Member member, const ContactPoint& point, double axial_offset) {
+  const Gear& gear = pair[member];
+  const bool pinion = member == Member::Pinion;
+  const double radius = pinion ? point.pinion_radius : point.wheel_radius;
+  const double u = 2.0 * (radius - gear.form_radius) / (gear.tip_radius - gear.form_radius) - 1.0;
+  const double z = pinion ? point.z : point.z - axial_offset;
+  const double sharp_end = (pinion ? 1.0 : -1.0) * (pair.contact_line_sense() >= 0 ? 1.0 : -1.0);
+  return {pinion ? -point.tooth : point.tooth, std::clamp(u, -1.0, 1.0),
+          (0.5 * gear.data.face_width - sharp_end * z) / pair.data.normal_module};
+}
+
+Eigen::MatrixXd StructuralPair::influence(const std::vector<ContactPoint>& points, double axial_offset) const {
+  const Eigen::Index n = static_cast<Eigen::Index>(points.size());
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
+  std::vector<FlankPlace> places(points.size());
+  for (Member member : {Member::Pinion, Member::Wheel}) {
+    const GearStructure& gear = (*this)[member];
+    assert(gear.compliance);
+    for (std::size_t i = 0; i < points.size(); ++i) places[i] = flank_place(pair_, member, points[i], axial_offset);
+    sum += gear.compliance->evaluate(places) / (gear.youngs_modulus * pair_.data.normal_module);
+  }
+  return sum;
+}
+
+}  // namespace flankwright

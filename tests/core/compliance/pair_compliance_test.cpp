@@ -1,0 +1,100 @@
+#include "core/compliance/pair_compliance.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/compliance/finite_element/load_functional.hpp"
+#include "core/gear/involute.hpp"
+#include "tests/core/compliance/finite_element/gears.hpp"
+
+using namespace flankwright;
+
+namespace {
+
+constexpr double kModule = 10, kFace = 60;
+
+GearPair pair_of(Hand hand, WorkingFlank flank) {
+  PairData data;
+  data.normal_module = kModule;
+  data.helix_angle = 30 * units::deg;
+  data.pinion_hand = hand;
+  data.working_flank = flank;
+  data.pinion.teeth = 18;
+  data.wheel.teeth = 27;
+  data.pinion.face_width = kFace;
+  data.wheel.face_width = kFace + 20;
+  return make_gear_pair(data);
+}
+
+GearMesh mesh_of(const GearPair& pair, Member member) {
+  GearToMesh gear;
+  gear.gear = pair.data[member];
+  gear.normal_module = kModule;
+  gear.pressure_angle = pair.data.pressure_angle;
+  gear.helix_angle = pair.data.helix_angle;
+  GearMeshOptions options = test::coarse();
+  options.teeth_each_side = 2;
+  return gear_mesh(gear, options);
+}
+
+/// Where a contact point on the theoretical path lies in the housing, drawn from nothing but the line of action: the
+/// pinion's base tangent, inclined by the working pressure angle, at the roll length of the point's radius.
+Eigen::Vector3d in_housing(const GearPair& pair, const ContactPoint& point) {
+  const double alpha = pair.working_transverse_pressure_angle;
+  const double s = pair.pinion.roll_length_at(point.pinion_radius) - pair.pitch_point;
+  return {pair.pinion.working_pitch_radius + s * std::sin(alpha), s * std::cos(alpha), point.z};
+}
+
+}  // namespace
+
+TEST_CASE("Contact points lie on the finite-element gears as in the housing: same radii and distances",
+          "[core][compliance]") {
+  const auto [hand, flank] = GENERATE(std::pair{Hand::Right, WorkingFlank::Right}, std::pair{Hand::Left, WorkingFlank::Right},
+                                      std::pair{Hand::Right, WorkingFlank::Left});
+  const double axial_offset = 5;
+  const GearPair pair = pair_of(hand, flank);
+  const PathOfContact path(pair);
+  const std::vector<ContactPoint> points =
+      contact_points(pair, path, {QuadratureRule::Gauss2, 4}, 0.7, false, -0.5 * kFace, 0.5 * kFace);
+  int teeth = 0;
+  for (Member member : {Member::Pinion, Member::Wheel}) {
+    const GearMesh mesh = mesh_of(pair, member);
+    const Gear& gear = pair[member];
+    int middle = 0;
+    for (const ContactPoint& p : points) middle += flank_place(pair, member, p, axial_offset).tooth;
+    middle = static_cast<int>(std::lround(static_cast<double>(middle) / static_cast<double>(points.size())));
+    std::vector<LoadFrame> frames;
+    for (const ContactPoint& p : points) {
+      const FlankPlace place = flank_place(pair, member, p, axial_offset);
+      const double radius = gear.form_radius + (place.u + 1) / 2 * (gear.tip_radius - gear.form_radius);
+      const double own = member == Member::Pinion ? p.pinion_radius : p.wheel_radius;
+      CHECK(radius == Approx(own).epsilon(1e-12));
+      frames.push_back(load_frame(mesh, {place.tooth - middle, radius, place.zeta * kModule - 0.5 * gear.data.face_width}));
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        // Common normals are parallel all over the plane of action, and distances are those of the housing. Round-off.
+        const double apart = (in_housing(pair, points[i]) - in_housing(pair, points[j])).norm();
+        CHECK((frames[i].position - frames[j].position).norm() == Approx(apart).margin(1e-9 * kModule));
+        CHECK(frames[i].normal.dot(frames[j].normal) == Approx(1.0).margin(1e-12));
+        if (points[i].tooth != points[j].tooth) ++teeth;
+      }
+    }
+  }
+  CHECK(teeth > 0);  // the case has points on different teeth
+}
+
+TEST_CASE("A thin slice's influence is its own: diagonal, and by the length it stands for", "[core][compliance]") {
+  const GearPair pair = pair_of(Hand::Right, WorkingFlank::Right);
+  const ThinSlicePair slices{ThinSlice(pair, {}, {})};
+  const std::vector<ContactPoint> points =
+      contact_points(pair, PathOfContact(pair), {QuadratureRule::Gauss2, 4}, 0.7, false, -0.5 * kFace, 0.5 * kFace);
+  const Eigen::MatrixXd influence = slices.influence(points, 0.0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      const double expected =
+          i == j ? slices.slice().compliance(points[i].pinion_radius, points[i].wheel_radius) / points[i].weight : 0.0;
+      CHECK(influence(i, j) == expected);
+    }
+  }
+}
