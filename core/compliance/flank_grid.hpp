@@ -60,7 +60,7 @@ class FlankGrid {
 ///
 ///     h(d) = min(0.15 + 0.35 d, 0.85) modules at the distance d from the nearer face end,
 ///
-/// so that there are about 6 + 1.2 B axial positions for B >= 4, nine for B = 2.
+/// so that there are about 6 + 1.2 B axial positions for B >= 4, eight for B = 2.
 ///
 /// @param face_width  B = b/m_n [-], finite and > 0
 /// @param radii       >= 4
