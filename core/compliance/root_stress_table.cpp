@@ -1,0 +1,65 @@
+#include "core/compliance/root_stress_table.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdlib>
+
+#include "core/base/units.hpp"
+
+namespace flankwright {
+namespace {
+
+FlankPoint point_of(const GearMesh& mesh, const FlankPlace& place) {
+  const double root = mesh.form.form_radius(), tip = mesh.form.tip_radius();
+  return {place.tooth, root + (place.u + 1) / 2 * (tip - root), place.zeta * mesh.normal_module - mesh.face_width / 2};
+}
+
+}  // namespace
+
+Eigen::MatrixXd RootStressTable::evaluate(int tooth, std::span<const FlankPlace> forces) const {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * fillet.size(), static_cast<Eigen::Index>(forces.size()));
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    const int apart = forces[i].tooth - tooth;
+    if (std::abs(apart) > teeth_each_side()) continue;
+    const Eigen::MatrixXd& table = stress[static_cast<std::size_t>(apart + teeth_each_side())];
+    result.col(static_cast<Eigen::Index>(i)) = table * grid.weights(forces[i]);
+  }
+  return result;
+}
+
+FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet) {
+  const double tangent = fillet.along(mesh.form.root_tangent_point(30 * units::deg));
+  FilletGrid grid;
+  grid.along = {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
+  // The nearest of the even places gives way to the tangent point.
+  const auto nearest = std::ranges::min_element(grid.along, {}, [&](double s) { return std::abs(s - tangent); });
+  *nearest = tangent;
+  grid.tangent = static_cast<std::size_t>(nearest - grid.along.begin());
+  grid.zetas = flank_grid(mesh.face_width / mesh.normal_module).zetas();
+  return grid;
+}
+
+RootStressTable make_root_stress_table(const InfluenceModel& model, const FlankGrid& grid) {
+  const GearMesh& mesh = model.mesh();
+  const FilletStress fillet(mesh, model.material());
+  RootStressTable table{grid, fillet_grid(mesh, fillet), {}};
+  if (model.solid().status() != FactorStatus::Factorised) return table;
+
+  std::vector<FilletPlace> places;
+  for (const double along : table.fillet.along) {
+    for (const double zeta : table.fillet.zetas) {
+      places.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
+    }
+  }
+  const Eigen::SparseMatrix<double> readings = fillet.functionals(places);
+  const double scale = mesh.normal_module * mesh.normal_module;
+  for (int tooth = -mesh.teeth_each_side; tooth <= mesh.teeth_each_side; ++tooth) {
+    std::vector<FlankPoint> points;
+    for (const FlankPlace& place : grid.places(tooth)) points.push_back(point_of(mesh, place));
+    const auto forces = net_functionals(mesh, points, RemovedMotion::TranslationTorsionAndTilt);
+    table.stress.push_back(scale * model.solid().readings(readings, forces));
+  }
+  return table;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "core/compliance/finite_element/fillet_stress.hpp"
+#include "core/compliance/finite_element/influence.hpp"
+#include "core/compliance/flank_grid.hpp"
+
+namespace flankwright {
+
+/// Places on the fillet below the loaded flank of a tooth, the same on every tooth; zeta runs fastest.
+struct FilletGrid {
+  std::vector<double> along;  ///< arc length from the fillet's start over the fillet's, ascending [-]
+  std::size_t tangent{0};     ///< index in `along` of the 30 deg tangent (normal section)
+  std::vector<double> zetas;  ///< z/m_n from the sharp end of the face, ascending [-]
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(along.size() * zetas.size()); }
+};
+
+/// Stress along the fillets of one gear under forces on its flanks [Haddad 1991, eq. 1.71, as three components instead
+/// of one, so that loads add up exactly before the principal stress is taken].
+///
+/// Tension side only: the fillet below the flank that carries. Finite elements of the linear elastic gear; forces enter
+/// as net_functional() has it, so that the shaft's bending and torsion outside the loaded plane are not in it.
+struct RootStressTable {
+  FlankGrid grid;     ///< places of forces
+  FilletGrid fillet;  ///< places of stress
+  /// (s_tt, s_aa, s_ta) m_n^2 / F of every fillet place on tooth 0, three rows each, under a force at every place of
+  /// the grid on tooth m, for m = -M .. M, teeth counted as in GearToMesh; 3 P x grid.size().
+  std::vector<Eigen::MatrixXd> stress;
+  RunStatistics statistics{};
+
+  int teeth_each_side() const { return static_cast<int>(stress.size() / 2); }
+
+  /// The same under unit forces at n places, of the fillet on a given tooth, 3 P x n. A force on a tooth further away
+  /// than teeth_each_side() counts as none there.
+  /// @throws InvalidInput  as FlankGrid::weights()
+  Eigen::MatrixXd evaluate(int tooth, std::span<const FlankPlace> forces) const;
+};
+
+/// Places where the stress is read: seven along the fillet where its maximum lies, the 30 deg tangent among them, and
+/// axial steps as of flank_grid().
+FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet);
+
+/// One run over all detailed teeth. Status other than Factorised of the model: no stress, `stress` is empty.
+/// @param grid  its face width is that of the gear
+RootStressTable make_root_stress_table(const InfluenceModel& model, const FlankGrid& grid);
+
+}  // namespace flankwright
