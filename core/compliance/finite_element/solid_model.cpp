@@ -207,17 +207,6 @@ Eigen::MatrixXd SolidModel::solve(const Eigen::SparseMatrix<double>& loads) cons
   return result;
 }
 
-Eigen::MatrixXd SolidModel::readings(const Eigen::SparseMatrix<double>& readings,
-                                     const Eigen::SparseMatrix<double>& loads) const {
-  assert(readings.rows() == size_);
-  Eigen::MatrixXd result(readings.cols(), loads.cols());
-  for (Eigen::Index begin = 0; begin < loads.cols(); begin += kSolveBlock) {
-    const Eigen::Index columns = std::min(kSolveBlock, loads.cols() - begin);
-    result.middleCols(begin, columns) = readings.transpose() * solve(loads.middleCols(begin, columns));
-  }
-  return result;
-}
-
 Eigen::MatrixXd SolidModel::influence(const Eigen::SparseMatrix<double>& loads) const {
   assert(loads.rows() == size_);
   Eigen::MatrixXd half(unknowns(), loads.cols());

@@ -49,9 +49,6 @@ class SolidModel {
   /// F' A^-1 F, k x k, as the Gram matrix of the half-solved loads: exactly symmetric, and positive semi-definite to
   /// round-off.
   Eigen::MatrixXd influence(const Eigen::SparseMatrix<double>& loads) const;
-  /// R' A^-1 F, r x k: linear readings R, 3n x r, of the displacements under every load; no more than a block of
-  /// displacements is held at a time.
-  Eigen::MatrixXd readings(const Eigen::SparseMatrix<double>& readings, const Eigen::SparseMatrix<double>& loads) const;
 
  private:
   struct Assembled;

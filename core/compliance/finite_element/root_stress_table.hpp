@@ -1,11 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "core/compliance/finite_element/fillet_stress.hpp"
-#include "core/compliance/finite_element/influence.hpp"
+#include "core/compliance/finite_element/solid_model.hpp"
 #include "core/compliance/flank_grid.hpp"
 
 namespace flankwright {
@@ -30,7 +31,6 @@ struct RootStressTable {
   /// (s_tt, s_aa, s_ta) m_n^2 / F of every fillet place on tooth 0, three rows each, under a force at every place of
   /// the grid on tooth m, for m = -M .. M, teeth counted as in GearToMesh; 3 P x grid.size().
   std::vector<Eigen::MatrixXd> stress;
-  RunStatistics statistics{};
 
   int teeth_each_side() const { return static_cast<int>(stress.size() / 2); }
 
@@ -40,12 +40,19 @@ struct RootStressTable {
   Eigen::MatrixXd evaluate(int tooth, std::span<const FlankPlace> forces) const;
 };
 
-/// Places where the stress is read: seven along the fillet where its maximum lies, the 30 deg tangent among them, and
+/// Places where the stress is read: seven along the fillet, where its maximum lies, the 30 deg tangent among them, and
 /// axial steps as of flank_grid().
 FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet);
 
-/// One run over all detailed teeth. Status other than Factorised of the model: no stress, `stress` is empty.
-/// @param grid  its face width is that of the gear
-RootStressTable make_root_stress_table(const InfluenceModel& model, const FlankGrid& grid);
+/// Reads a gear's table off its finite elements: by reciprocity a solution per component of stress, read by the forces
+/// on all detailed teeth, needs fewer of them than one per force.
+///
+/// @param solid     of the mesh, Factorised
+/// @param material  of the solid model
+/// @param progress  called with the number of solutions done and of all
+/// @throws InvalidInput  "grid" where it is not as wide as the face
+RootStressTable solve_root_stress_table(const GearMesh& mesh, const SolidModel& solid, const Material& material,
+                                        const FlankGrid& grid,
+                                        const std::function<void(Eigen::Index, Eigen::Index)>& progress = {});
 
 }  // namespace flankwright

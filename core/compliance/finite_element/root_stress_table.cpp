@@ -1,10 +1,13 @@
-#include "core/compliance/root_stress_table.hpp"
+#include "core/compliance/finite_element/root_stress_table.hpp"
 
 #include <algorithm>
-#include <cassert>
+#include <cmath>
 #include <cstdlib>
+#include <string>
 
+#include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "core/compliance/finite_element/influence.hpp"
 
 namespace flankwright {
 namespace {
@@ -39,25 +42,35 @@ FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet) {
   return grid;
 }
 
-RootStressTable make_root_stress_table(const InfluenceModel& model, const FlankGrid& grid) {
-  const GearMesh& mesh = model.mesh();
-  const FilletStress fillet(mesh, model.material());
+RootStressTable solve_root_stress_table(const GearMesh& mesh, const SolidModel& solid, const Material& material,
+                                        const FlankGrid& grid,
+                                        const std::function<void(Eigen::Index, Eigen::Index)>& progress) {
+  const double width = mesh.face_width / mesh.normal_module;
+  if (!(std::abs(grid.face_width() - width) <= 1e-9 * width)) {  // round-off of the division
+    throw InvalidInput("grid", std::to_string(grid.face_width()) + " modules", std::to_string(width));
+  }
+  const FilletStress fillet(mesh, material);
   RootStressTable table{grid, fillet_grid(mesh, fillet), {}};
-  if (model.solid().status() != FactorStatus::Factorised) return table;
-
   std::vector<FilletPlace> places;
   for (const double along : table.fillet.along) {
-    for (const double zeta : table.fillet.zetas) {
-      places.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
-    }
+    for (const double zeta : table.fillet.zetas) places.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
   }
+  std::vector<FlankPoint> points;
+  for (int tooth = -mesh.teeth_each_side; tooth <= mesh.teeth_each_side; ++tooth) {
+    for (const FlankPlace& place : grid.places(tooth)) points.push_back(point_of(mesh, place));
+  }
+  const auto forces = net_functionals(mesh, points, RemovedMotion::TranslationTorsionAndTilt);
   const Eigen::SparseMatrix<double> readings = fillet.functionals(places);
   const double scale = mesh.normal_module * mesh.normal_module;
-  for (int tooth = -mesh.teeth_each_side; tooth <= mesh.teeth_each_side; ++tooth) {
-    std::vector<FlankPoint> points;
-    for (const FlankPlace& place : grid.places(tooth)) points.push_back(point_of(mesh, place));
-    const auto forces = net_functionals(mesh, points, RemovedMotion::TranslationTorsionAndTilt);
-    table.stress.push_back(scale * model.solid().readings(readings, forces));
+  Eigen::MatrixXd stress(readings.cols(), forces.cols());
+  for (Eigen::Index begin = 0; begin < readings.cols(); begin += kSolveBlock) {
+    const Eigen::Index rows = std::min(kSolveBlock, readings.cols() - begin);
+    stress.middleRows(begin, rows) =
+        scale * (forces.transpose() * solid.solve(readings.middleCols(begin, rows))).transpose();
+    if (progress) progress(begin + rows, readings.cols());
+  }
+  for (Eigen::Index begin = 0; begin < forces.cols(); begin += grid.size()) {
+    table.stress.push_back(stress.middleCols(begin, grid.size()));
   }
   return table;
 }
