@@ -33,7 +33,7 @@ Eigen::MatrixXd RootStressTable::evaluate(int tooth, std::span<const FlankPlace>
 FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet) {
   const double tangent = fillet.along(mesh.form.root_tangent_point(30 * units::deg));
   FilletGrid grid;
-  grid.along = {0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
+  grid.along = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
   // The nearest of the even places gives way to the tangent point.
   const auto nearest = std::ranges::min_element(grid.along, {}, [&](double s) { return std::abs(s - tangent); });
   *nearest = tangent;
@@ -59,7 +59,8 @@ RootStressTable solve_root_stress_table(const GearMesh& mesh, const SolidModel& 
   for (int tooth = -mesh.teeth_each_side; tooth <= mesh.teeth_each_side; ++tooth) {
     for (const FlankPlace& place : grid.places(tooth)) points.push_back(point_of(mesh, place));
   }
-  const auto forces = net_functionals(mesh, points, RemovedMotion::TranslationTorsionAndTilt);
+  const Eigen::SparseMatrix<double> forces =
+      net_functionals(mesh, points, RemovedMotion::TranslationTorsionAndTilt);
   const Eigen::SparseMatrix<double> readings = fillet.functionals(places);
   const double scale = mesh.normal_module * mesh.normal_module;
   Eigen::MatrixXd stress(readings.cols(), forces.cols());
