@@ -48,46 +48,55 @@ double arc(const Eigen::Matrix<double, 2, 3>& nodes, double to) {
 
 }  // namespace
 
+/// The fillet's faces: layer by layer, from its start down.
+struct FilletStress::Layout {
+  std::size_t layers, elements;
+  Eigen::Matrix2Xd profile;
+  std::vector<double> ends, stations, heights;  ///< stations: along the fillet; both of Gauss points
+
+  explicit Layout(const GearMesh& mesh)
+      : layers(mesh.planes.size() - 1),
+        elements(mesh.surfaces(0).fillet.size() / layers),
+        profile(2, 2 * static_cast<Eigen::Index>(elements) + 1),
+        ends{0} {
+    const std::vector<MeshFace>& faces = mesh.surfaces(0).fillet;
+    const double turn = std::tan(mesh.form.helix_angle()) / mesh.form.reference_radius() * mesh.face_width / 2;
+    const Eigen::Rotation2Dd back(turn);
+    for (std::size_t i = 0; i < elements; ++i) {
+      const auto first = 2 * static_cast<Eigen::Index>(i);
+      const int edge[] = {faces[i][0], faces[i][4], faces[i][1]};
+      for (int k = 0; k < 3; ++k) profile.col(first + k) = back * mesh.solid.nodes.col(edge[k]).head<2>();
+      for (const double xi : {-kGauss2, kGauss2}) stations.push_back(ends.back() + arc(profile.middleCols<3>(first), xi));
+      ends.push_back(ends.back() + arc(profile.middleCols<3>(first), 1));
+    }
+    for (double& station : stations) station /= ends.back();
+    for (std::size_t layer = 0; layer < layers; ++layer) {
+      const double middle = (mesh.planes[layer] + mesh.planes[layer + 1]) / 2;
+      const double half = (mesh.planes[layer + 1] - mesh.planes[layer]) / 2;
+      heights.insert(heights.end(), {middle - kGauss2 * half, middle + kGauss2 * half});
+    }
+  }
+};
+
 FilletStress::FilletStress(const GearMesh& mesh, const Material& material)
-    : half_width_(mesh.face_width / 2), along_({0, 1, 2, 3}), z_({0, 1, 2, 3}) {
+    : FilletStress(mesh, material, Layout(mesh)) {}
+
+FilletStress::FilletStress(const GearMesh& mesh, const Material& material, const Layout& layout)
+    : half_width_(mesh.face_width / 2),
+      profile_(layout.profile),
+      ends_(layout.ends),
+      along_(layout.stations),
+      z_(layout.heights) {
   if (!(material.youngs_modulus > 0)) {
     throw InvalidInput("material.youngs_modulus", std::to_string(material.youngs_modulus), "more than 0 MPa");
   }
   if (!(material.poissons_ratio >= 0 && material.poissons_ratio < 0.5)) {
     throw InvalidInput("material.poissons_ratio", std::to_string(material.poissons_ratio), "0 <= nu < 0.5");
   }
-  // Layer by layer, from the start of the fillet down.
   const std::vector<MeshFace>& faces = mesh.surfaces(0).fillet;
-  const std::size_t layers = mesh.planes.size() - 1, elements = faces.size() / layers;
-
-  const double turn = std::tan(mesh.form.helix_angle()) / mesh.form.reference_radius() * half_width_;
-  const Eigen::Rotation2Dd back(turn);
-  profile_.resize(2, 2 * static_cast<Eigen::Index>(elements) + 1);
-  std::vector<double> stations;
-  ends_ = {0};
-  for (std::size_t i = 0; i < elements; ++i) {
-    const auto column = 2 * static_cast<Eigen::Index>(i);
-    const MeshFace& face = faces[i];
-    profile_.col(column) = back * mesh.solid.nodes.col(face[0]).head<2>();
-    profile_.col(column + 1) = back * mesh.solid.nodes.col(face[4]).head<2>();
-    profile_.col(column + 2) = back * mesh.solid.nodes.col(face[1]).head<2>();
-    const Eigen::Matrix<double, 2, 3> edge = profile_.middleCols<3>(column);
-    for (const double xi : {-kGauss2, kGauss2}) stations.push_back(ends_.back() + arc(edge, xi));
-    ends_.push_back(ends_.back() + arc(edge, 1));
-  }
-  for (double& s : stations) s /= length();
-  along_ = SplineAxis(std::move(stations));
-
-  std::vector<double> heights;
-  for (std::size_t layer = 0; layer < layers; ++layer) {
-    const double middle = (mesh.planes[layer] + mesh.planes[layer + 1]) / 2;
-    const double half = (mesh.planes[layer + 1] - mesh.planes[layer]) / 2;
-    heights.insert(heights.end(), {middle - kGauss2 * half, middle + kGauss2 * half});
-  }
-  z_ = SplineAxis(std::move(heights));
-
+  const std::size_t elements = layout.elements;
   std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t layer = 0; layer < layers; ++layer) {
+  for (std::size_t layer = 0; layer < layout.layers; ++layer) {
     for (std::size_t i = 0; i < elements; ++i) {
       const MeshFace& face = faces[layer * elements + i];
       const FaceNodes nodes = mesh.face_nodes(face);

@@ -41,11 +41,14 @@ class FilletStress {
   Eigen::SparseMatrix<double> functionals(const std::vector<FilletPlace>& places) const;
 
  private:
+  struct Layout;
+  FilletStress(const GearMesh& mesh, const Material& material, const Layout& layout);
+
   double half_width_;
-  std::vector<double> ends_;             ///< arc length at the ends of the elements along the fillet, from 0 [mm]
-  Eigen::Matrix2Xd profile_;             ///< edge nodes turned back to the tooth's own section: start, mid, end ... [mm]
-  SplineAxis along_, z_;                 ///< Gauss points
-  Eigen::SparseMatrix<double> at_gauss_; ///< functionals there, along the fillet fastest
+  Eigen::Matrix2Xd profile_;              ///< edge nodes in the tooth's own section: start, mid, end, mid ... [mm]
+  std::vector<double> ends_;              ///< arc length at the ends of the elements along the fillet, from 0 [mm]
+  SplineAxis along_, z_;                  ///< Gauss points
+  Eigen::SparseMatrix<double> at_gauss_;  ///< functionals there, along the fillet fastest
 };
 
 /// Largest principal value of a symmetric 2 x 2 tensor and its unit direction (cos, sin).
