@@ -8,13 +8,13 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "core/compliance/finite_element/influence.hpp"
+#include "core/compliance/tooth_places.hpp"
 
 namespace flankwright {
 namespace {
 
 FlankPoint point_of(const GearMesh& mesh, const FlankPlace& place) {
-  const double root = mesh.form.form_radius(), tip = mesh.form.tip_radius();
-  return {place.tooth, root + (place.u + 1) / 2 * (tip - root), place.zeta * mesh.normal_module - mesh.face_width / 2};
+  return {place.tooth, flank_radius(mesh.form, place.u), place.zeta * mesh.normal_module - mesh.face_width / 2};
 }
 
 }  // namespace
@@ -30,15 +30,14 @@ Eigen::MatrixXd RootStressTable::evaluate(int tooth, std::span<const FlankPlace>
   return result;
 }
 
-FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet) {
+FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet, std::vector<double> zetas) {
   const double tangent = fillet.along(mesh.form.root_tangent_point(30 * units::deg));
   FilletGrid grid;
-  grid.along = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
-  // The nearest of the even places gives way to the tangent point.
+  for (int i = 1; i <= fillet_stations; ++i) grid.along.push_back(0.1 * i);
   const auto nearest = std::ranges::min_element(grid.along, {}, [&](double s) { return std::abs(s - tangent); });
   *nearest = tangent;
   grid.tangent = static_cast<std::size_t>(nearest - grid.along.begin());
-  grid.zetas = flank_grid(mesh.face_width / mesh.normal_module).zetas();
+  grid.zetas = std::move(zetas);
   return grid;
 }
 
@@ -50,7 +49,7 @@ RootStressTable solve_root_stress_table(const GearMesh& mesh, const SolidModel& 
     throw InvalidInput("grid", std::to_string(grid.face_width()) + " modules", std::to_string(width));
   }
   const FilletStress fillet(mesh, material);
-  RootStressTable table{grid, fillet_grid(mesh, fillet), {}};
+  RootStressTable table{grid, fillet_grid(mesh, fillet, grid.zetas()), {}};
   std::vector<FilletPlace> places;
   for (const double along : table.fillet.along) {
     for (const double zeta : table.fillet.zetas) places.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});

@@ -44,12 +44,15 @@ struct RootStressTable {
   Eigen::MatrixXd evaluate(int tooth, std::span<const FlankPlace> forces) const;
 };
 
-/// Places where the stress is read: eight along the fillet, where its maximum lies, the 30 deg tangent among them, and
-/// axial steps as of flank_grid().
-FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet);
+/// Places along the fillet where the stress is read: eight from 0.1 to 0.8, where its maximum lies, the nearest of them
+/// moved to the 30 deg tangent.
+inline constexpr int fillet_stations = 8;
+FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet, std::vector<double> zetas);
 
 /// Reads a gear's table off its finite elements: by reciprocity a solution per component of stress, read by the forces
 /// on all detailed teeth, needs fewer of them than one per force.
+///
+/// The fillet's axial places are those of the grid.
 ///
 /// @param solid     of the mesh, Factorised
 /// @param material  of the solid model

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -32,6 +33,66 @@ Eigen::VectorXd field(const GearMesh& mesh, const Eigen::Matrix3d& gradient, con
     u.segment<3>(3 * i) = gradient * mesh.solid.nodes.col(i) + shift;
   }
   return u;
+}
+
+/// Stress of the solid elements at the middle of the fillet's faces, half way along the face, over the largest there.
+struct SurfaceCheck {
+  double difference{0};  ///< of s_tt from the fillet's
+  double traction{0};    ///< across the surface
+};
+
+SurfaceCheck check_surface(int half_thickness_elements) {
+  GearMeshOptions options = coarse();
+  options.fillet_elements = 8;
+  options.half_thickness_elements = half_thickness_elements;
+  const GearMesh mesh = gear_mesh(gear_of(18, 0, 2.5), options);
+  const SolidModel solid(mesh.solid, kSteel, mesh.supports);
+  Eigen::SparseMatrix<double> force(mesh.solid.nodes.size(), 1);
+  force.col(0) = net_functional(mesh, {0, mesh.form.tip_radius(), 0}, RemovedMotion::TranslationTorsionAndTilt);
+  const Eigen::VectorXd u = solid.solve(force);
+  const FilletStress fillet(mesh, kSteel);
+
+  const std::vector<MeshFace>& faces = mesh.surfaces(0).fillet;
+  const std::size_t layer = (mesh.planes.size() - 1) / 2;
+  double largest = 0;
+  SurfaceCheck result;
+  for (std::size_t i = 1; i + 1 < 8; ++i) {  // without the ends, which corners of other surfaces share
+    const MeshFace& face = faces[layer * 8 + i];
+    for (Eigen::Index e = 0; e < mesh.solid.bricks.cols(); ++e) {
+      std::array<Eigen::Vector3d, 4> corners;
+      int found = 0;
+      for (int k = 0; k < 4; ++k) {
+        for (int c = 0; c < 8; ++c) {
+          if (mesh.solid.bricks(c, e) != face[k]) continue;
+          const int x[] = {-1, 1, 1, -1};
+          corners[k] = {static_cast<double>(x[c % 4]), c % 4 < 2 ? -1.0 : 1.0, c < 4 ? -1.0 : 1.0};
+          ++found;
+        }
+      }
+      if (found < 4) continue;
+      // Middle of the face, where both kinds of derivatives are taken.
+      const Eigen::Vector3d local = (corners[0] + corners[1] + corners[2] + corners[3]) / 4;
+      const BrickNodes nodes = mesh.solid.brick_nodes(e);
+      BrickNodes moved;
+      for (int c = 0; c < 20; ++c) moved.col(c) = u.segment<3>(3 * mesh.solid.bricks(c, e));
+      const auto s = brick_stress(nodes, moved, local, kSteel);
+      Eigen::Matrix3d stress;
+      stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+      const FaceNodes on_face = mesh.face_nodes(face);
+      const Eigen::Matrix<double, 3, 2> tangents = on_face * face_shape(0, 0).derivatives;
+      const Eigen::Vector3d t = tangents.col(0).normalized();
+      const Eigen::Vector3d n = tangents.col(0).cross(tangents.col(1)).normalized();
+      const Eigen::Vector3d at = on_face * face_shape(0, 0).values;
+      const double along = fillet.along({at.x(), at.y(), 0});
+      const Eigen::VectorXd surface = fillet.functionals({{along, at.z()}}).transpose() * u;
+      largest = std::max(largest, std::abs(surface[0]));
+      result.difference = std::max(result.difference, std::abs(surface[0] - t.dot(stress * t)));
+      result.traction = std::max(result.traction, (stress * n).norm());
+    }
+  }
+  result.difference /= largest;
+  result.traction /= largest;
+  return result;
 }
 
 }  // namespace
@@ -102,57 +163,12 @@ TEST_CASE("Places along a fillet: arc length of the exact profile", "[core][comp
 
 TEST_CASE("The surface is free of traction: stress of the solid elements there is the fillet's",
           "[core][compliance][fe][root-stress]") {
-  GearMeshOptions options = coarse();
-  options.fillet_elements = 8;
-  options.half_thickness_elements = 3;
-  const GearMesh mesh = gear_mesh(gear_of(18, 0, 3), options);
-  const SolidModel solid(mesh.solid, kSteel, mesh.supports);
-  Eigen::SparseMatrix<double> force(mesh.solid.nodes.size(), 1);
-  force.col(0) = net_functional(mesh, {0, mesh.form.tip_radius(), 0}, RemovedMotion::TranslationTorsionAndTilt);
-  const Eigen::VectorXd u = solid.solve(force);
-  const FilletStress fillet(mesh, kSteel);
-
-  const std::vector<MeshFace>& faces = mesh.surfaces(0).fillet;
-  const std::size_t layer = (mesh.planes.size() - 1) / 2;
-  double largest = 0, difference = 0, traction = 0;
-  for (std::size_t i = 1; i + 1 < 8; ++i) {  // without the ends, which corners of other surfaces share
-    const MeshFace& face = faces[layer * 8 + i];
-    for (Eigen::Index e = 0; e < mesh.solid.bricks.cols(); ++e) {
-      std::array<Eigen::Vector3d, 4> corners;
-      int found = 0;
-      for (int k = 0; k < 4; ++k) {
-        for (int c = 0; c < 8; ++c) {
-          if (mesh.solid.bricks(c, e) != face[k]) continue;
-          const int x[] = {-1, 1, 1, -1};
-          corners[k] = {static_cast<double>(x[c % 4]), c % 4 < 2 ? -1.0 : 1.0, c < 4 ? -1.0 : 1.0};
-          ++found;
-        }
-      }
-      if (found < 4) continue;
-      // Middle of the face, where both kinds of derivatives are taken.
-      const Eigen::Vector3d local = (corners[0] + corners[1] + corners[2] + corners[3]) / 4;
-      const BrickNodes nodes = mesh.solid.brick_nodes(e);
-      BrickNodes moved;
-      for (int c = 0; c < 20; ++c) moved.col(c) = u.segment<3>(3 * mesh.solid.bricks(c, e));
-      const auto s = brick_stress(nodes, moved, local, kSteel);
-      Eigen::Matrix3d stress;
-      stress << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
-      const FaceNodes on_face = mesh.face_nodes(face);
-      const Eigen::Matrix<double, 3, 2> tangents = on_face * face_shape(0, 0).derivatives;
-      const Eigen::Vector3d t = tangents.col(0).normalized();
-      const Eigen::Vector3d n = tangents.col(0).cross(tangents.col(1)).normalized();
-      const Eigen::Vector3d at = on_face * face_shape(0, 0).values;
-      const double along = fillet.along({at.x(), at.y(), 0});
-      const Eigen::VectorXd surface = fillet.functionals({{along, at.z()}}).transpose() * u;
-      largest = std::max(largest, std::abs(surface[0]));
-      difference = std::max(difference, std::abs(surface[0] - t.dot(stress * t)));
-      traction = std::max(traction, (stress * n).norm());
-    }
-  }
-  CAPTURE(largest, difference, traction);
-  REQUIRE(largest > 0);
-  CHECK(difference < 0.06 * largest);  // discretisation of the solid's stress, which a face's middle is not best for
-  CHECK(traction < 0.12 * largest);
+  const SurfaceCheck coarse = check_surface(2), fine = check_surface(4);
+  CAPTURE(coarse.difference, coarse.traction, fine.difference, fine.traction);
+  // Discretisation: the solid's stress, which changes fast below the surface, is not best at the middle of a face.
+  CHECK(fine.difference < 0.05);
+  CHECK(fine.traction < 0.12);
+  CHECK(fine.traction < 0.7 * coarse.traction);
 }
 
 TEST_CASE("The largest principal stress and how it follows its components", "[core][compliance][root-stress]") {
