@@ -177,21 +177,30 @@ std::vector<Job> jobs_of(const Study& study, const GearPair& pair) {
   return jobs;
 }
 
-/// True where the job's run could be taken from the cache.
+/// True where the job's run could be taken from the cache; one that tells more than is wanted will do.
 bool take(Job& job, const RunCache& cache, std::vector<std::string>& notes) {
   const Clock clock;
-  const auto stored = cache.find(job.key, notes);
-  if (!stored) return false;
-  job.file = cache.file_of(job.key).string();
-  try {
-    job.run = from_store(job.task, *stored);
-  } catch (const std::exception& problem) {
-    notes.push_back("the stored finite-element run " + job.file + " is not used: " + problem.what());
-    return false;
+  std::vector<Json> keys{job.key};
+  if (!job.task.root_stress) {
+    InfluenceTableTask with_root_stress = job.task;
+    with_root_stress.root_stress = true;
+    keys.push_back(cache_key(with_root_stress));
   }
-  job.from_cache = true;
-  job.seconds = clock.seconds();
-  return true;
+  for (const Json& key : keys) {
+    const auto stored = cache.find(key, notes);
+    if (!stored) continue;
+    job.file = cache.file_of(key).string();
+    try {
+      job.run = from_store(job.task, *stored);
+    } catch (const std::exception& problem) {
+      notes.push_back("the stored finite-element run " + job.file + " is not used: " + problem.what());
+      continue;
+    }
+    job.from_cache = true;
+    job.seconds = clock.seconds();
+    return true;
+  }
+  return false;
 }
 
 /// Progress of several jobs as one.

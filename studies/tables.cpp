@@ -14,14 +14,24 @@ namespace {
 
 double in_Nm(double torque) { return torque / units::newton_metre; }
 
+/// Empty where there is no root stress.
+std::string root_field(const RootStressPeak& peak) {
+  return std::isnan(peak.stress) ? std::string() : fmt::format("{}", peak.stress);
+}
+
 std::string cycle_csv(const StudyResults& results) {
-  std::string csv = "scene,torque_Nm,design,phase,te_um,te_base_tangent_um,stiffness_N_per_mm_um,kkt_residual\n";
+  std::string csv = "scene,torque_Nm,design,phase,te_um,te_base_tangent_um,stiffness_N_per_mm_um,kkt_residual,"
+                    "pinion_root_stress_MPa,wheel_root_stress_MPa\n";
   const double cos_base_helix = std::cos(results.pair.base_helix_angle);
   for (const LoadedResult& loaded : results.loaded) {
-    for (const LoadedPosition& p : loaded.cycle.positions) {
+    const MeshModel& model = results.models[loaded.model];
+    for (std::size_t k = 0; k < loaded.cycle.positions.size(); ++k) {
+      const LoadedPosition& p = loaded.cycle.positions[k];
       const double te = in_um(p.load.transmission_error);
-      csv += fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, p.phase, te,
-                         te / cos_base_helix, p.stiffness, p.load.kkt_residual);
+      csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design,
+                         p.phase, te, te / cos_base_helix, p.stiffness, p.load.kkt_residual,
+                         root_field(root_stress_peak(model.positions[k], p, Member::Pinion)),
+                         root_field(root_stress_peak(model.positions[k], p, Member::Wheel)));
     }
   }
   return csv;

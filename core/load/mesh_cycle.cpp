@@ -60,18 +60,10 @@ void fill_root_stress(const MeshPosition& at, LoadedPosition& position) {
   }
 }
 
-void add_root_stress(const MeshPosition& at, const LoadedPosition& position, CycleSummary& summary) {
-  for (Eigen::Index i = 0; i < position.root_stress.size(); ++i) {
-    const RootPlace& place = at.root_stress.places[static_cast<std::size_t>(i)];
-    const double stress = position.root_stress[i];
-    RootStressPeak& peak = place.member == Member::Pinion ? summary.pinion_root_stress : summary.wheel_root_stress;
-    if (place.tangent) peak.tangent_stress = std::fmax(peak.tangent_stress, stress);
-    summary.peak_root_stress = std::fmax(summary.peak_root_stress, stress);
-    if (peak.stress >= stress) continue;
-    peak.stress = stress;
-    peak.place = place;
-    peak.phase = position.phase;
-  }
+void raise(RootStressPeak& peak, const RootStressPeak& other) {
+  const double tangent = std::fmax(peak.tangent_stress, other.tangent_stress);
+  if (other.stress > peak.stress || std::isnan(peak.stress)) peak = other;
+  peak.tangent_stress = tangent;
 }
 
 void fill_derivatives(const MeshModel& model, const MeshPosition& at, const FlankCondition& condition,
@@ -127,6 +119,21 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
   return cycle;
 }
 
+RootStressPeak root_stress_peak(const MeshPosition& at, const LoadedPosition& position, Member member) {
+  RootStressPeak peak;
+  for (Eigen::Index i = 0; i < position.root_stress.size(); ++i) {
+    const RootPlace& place = at.root_stress.places[static_cast<std::size_t>(i)];
+    const double stress = position.root_stress[i];
+    if (place.member != member) continue;
+    if (place.tangent) peak.tangent_stress = std::fmax(peak.tangent_stress, stress);
+    if (peak.stress >= stress) continue;
+    peak.stress = stress;
+    peak.place = place;
+    peak.phase = position.phase;
+  }
+  return peak;
+}
+
 CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
   CycleSummary summary;
   if (!cycle.usable() || cycle.positions.empty()) return summary;
@@ -141,12 +148,14 @@ CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
     summary.peak_line_load = std::max(summary.peak_line_load, position.load.line_load.maxCoeff());
     summary.peak_contact_stress = std::max(summary.peak_contact_stress, position.contact_stress.maxCoeff());
     summary.worst_kkt_residual = std::max(summary.worst_kkt_residual, position.load.kkt_residual);
-    add_root_stress(model.positions[i], position, summary);
+    raise(summary.pinion_root_stress, root_stress_peak(model.positions[i], position, Member::Pinion));
+    raise(summary.wheel_root_stress, root_stress_peak(model.positions[i], position, Member::Wheel));
     mean_approach += position.load.transmission_error - position.gap.total.minCoeff();
     for (const ContactPoint& point : model.positions[i].points) {
       if (point.clearance == 0.0) mean_length += point.weight;
     }
   }
+  summary.peak_root_stress = std::fmax(summary.pinion_root_stress.stress, summary.wheel_root_stress.stress);
   const double n = static_cast<double>(cycle.positions.size());
   mean_approach /= n;
   mean_length /= n;

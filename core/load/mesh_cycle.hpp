@@ -51,13 +51,16 @@ struct LoadedCycle {
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
                           const std::vector<GearParameter>& parameters = {}, const LoadOptions& options = {});
 
-/// Where one gear's root is stressed most over a cycle: tension side, largest principal stress at the surface.
+/// Where one gear's root is stressed most: tension side, largest principal stress at the surface.
 struct RootStressPeak {
-  double stress{not_given};          ///< over all places and positions [MPa]
+  double stress{not_given};          ///< over all teeth and places [MPa]
   RootPlace place{};                 ///< where; the pair's tooth and z
   double phase{not_given};           ///< of the position [base pitches]
   double tangent_stress{not_given};  ///< the same over the places at the 30 deg tangent only [MPa]
 };
+
+/// Of one gear at one mesh position; NaN where there is none.
+RootStressPeak root_stress_peak(const MeshPosition& at, const LoadedPosition& position, Member member);
 
 /// What a designer reads off a cycle first.
 struct CycleSummary {
@@ -70,7 +73,7 @@ struct CycleSummary {
   /// Peak line load over the mean line load F / (mean length of the contact lines on the theoretical path) [-].
   double load_factor{not_given};
   double worst_kkt_residual{not_given};
-  RootStressPeak pinion_root_stress, wheel_root_stress;  ///< NaN where the model has none
+  RootStressPeak pinion_root_stress, wheel_root_stress;  ///< over the positions; NaN where the model has none
   double peak_root_stress{not_given};                    ///< the larger of both [MPa]
 };
 CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle);
