@@ -17,9 +17,9 @@ struct Iso6336Root {
   double stress;      ///< sigma_F0 b m / F [-], F the force normal to the flank, F_t = F cos(alpha)
 };
 
-/// The trochoid that the rack's tip rounding, its centre at the depth G below the rolling line, leaves behind: the angle
-/// theta between the tooth's centre line and the line to that centre when the tangent is at 30 deg solves
-/// theta = 2 G tan(theta)/z - H.
+/// The trochoid that the rack's tip rounding, its centre at the depth G below the rolling line, leaves behind: the
+/// angle theta between the tooth's centre line and the line to that centre when the tangent is at 30 deg solves theta =
+/// 2 G tan(theta)/z - H.
 inline Iso6336Root iso_6336_root(const GearData& gear, double alpha) {
   const double z = gear.teeth, x = gear.profile_shift;
   const double rho = gear.rack.root_radius, depth = gear.rack.dedendum, addendum = gear.rack.addendum;

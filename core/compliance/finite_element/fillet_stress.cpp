@@ -66,7 +66,8 @@ struct FilletStress::Layout {
       const auto first = 2 * static_cast<Eigen::Index>(i);
       const int edge[] = {faces[i][0], faces[i][4], faces[i][1]};
       for (int k = 0; k < 3; ++k) profile.col(first + k) = back * mesh.solid.nodes.col(edge[k]).head<2>();
-      for (const double xi : {-kGauss2, kGauss2}) stations.push_back(ends.back() + arc(profile.middleCols<3>(first), xi));
+      for (const double xi : {-kGauss2, kGauss2})
+        stations.push_back(ends.back() + arc(profile.middleCols<3>(first), xi));
       ends.push_back(ends.back() + arc(profile.middleCols<3>(first), 1));
     }
     for (double& station : stations) station /= ends.back();
@@ -105,7 +106,8 @@ FilletStress::FilletStress(const GearMesh& mesh, const Material& material, const
         const auto station = static_cast<int>((2 * layer + point / 2) * 2 * elements + 2 * i + point % 2);
         const Eigen::Matrix<double, 24, 3> stress = face_stress(nodes, xi, eta, material);
         for (int row = 0; row < 24; ++row) {
-          for (int c = 0; c < 3; ++c) entries.emplace_back(3 * face[row / 3] + row % 3, 3 * station + c, stress(row, c));
+          for (int c = 0; c < 3; ++c)
+            entries.emplace_back(3 * face[row / 3] + row % 3, 3 * station + c, stress(row, c));
         }
       }
     }

@@ -52,14 +52,14 @@ RootStressTable solve_root_stress_table(const GearMesh& mesh, const SolidModel& 
   RootStressTable table{grid, fillet_grid(mesh, fillet, grid.zetas()), {}};
   std::vector<FilletPlace> places;
   for (const double along : table.fillet.along) {
-    for (const double zeta : table.fillet.zetas) places.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
+    for (const double zeta : table.fillet.zetas)
+      places.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
   }
   std::vector<FlankPoint> points;
   for (int tooth = -mesh.teeth_each_side; tooth <= mesh.teeth_each_side; ++tooth) {
     for (const FlankPlace& place : grid.places(tooth)) points.push_back(point_of(mesh, place));
   }
-  const Eigen::SparseMatrix<double> forces =
-      net_functionals(mesh, points, RemovedMotion::TranslationTorsionAndTilt);
+  const Eigen::SparseMatrix<double> forces = net_functionals(mesh, points, RemovedMotion::TranslationTorsionAndTilt);
   const Eigen::SparseMatrix<double> readings = fillet.functionals(places);
   const double scale = mesh.normal_module * mesh.normal_module;
   Eigen::MatrixXd stress(readings.cols(), forces.cols());

@@ -32,8 +32,9 @@ std::shared_ptr<const RootStressTable> telltale(double face_width) {
 }  // namespace
 
 TEST_CASE("Fillets of both gears feel forces where these are in the housing", "[core][compliance][root-stress]") {
-  const auto [hand, flank] = GENERATE(std::pair{Hand::Right, WorkingFlank::Right}, std::pair{Hand::Left, WorkingFlank::Right},
-                                      std::pair{Hand::Right, WorkingFlank::Left});
+  const auto [hand, flank] =
+      GENERATE(std::pair{Hand::Right, WorkingFlank::Right}, std::pair{Hand::Left, WorkingFlank::Right},
+               std::pair{Hand::Right, WorkingFlank::Left});
   PairData data;
   data.normal_module = kModule;
   data.helix_angle = 25 * units::deg;
@@ -61,12 +62,15 @@ TEST_CASE("Fillets of both gears feel forces where these are in the housing", "[
     CHECK(std::abs(place.z - (pinion ? 0 : offset)) <= half * (1 + 1e-12));
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Eigen::Vector3d s =
-          found.components.block<3, 1>(3 * static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(i)) * kModule * kModule;
+          found.components.block<3, 1>(3 * static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(i)) * kModule *
+          kModule;
       // The same number of teeth apart, in the mesh's own sense of counting on either gear; round-off of splines.
       CHECK(s[0] == Approx((pinion ? -1 : 1) * (points[i].tooth - place.tooth)).margin(1e-11));
       const double radius = pinion ? points[i].pinion_radius : points[i].wheel_radius;
       CHECK(s[1] == Approx(2 * (radius - pair[place.member].form_radius) /
-                               (pair[place.member].tip_radius - pair[place.member].form_radius) - 1).margin(1e-11));
+                               (pair[place.member].tip_radius - pair[place.member].form_radius) -
+                           1)
+                        .margin(1e-11));
       // zeta runs from the sharp end, opposite ends on both gears: with z on one, against it on the other.
       const double along_z = (points[i].z - place.z) / kModule;
       const double sense = (pinion ? -1 : 1) * (pair.contact_line_sense() >= 0 ? 1.0 : -1.0);

@@ -9,7 +9,8 @@ using namespace flankwright;
 
 namespace {
 
-MeshModel model_with_root_stress(const GearPair& gears, const MeshResolution& resolution, const MeshEffects& effects = {}) {
+MeshModel model_with_root_stress(const GearPair& gears, const MeshResolution& resolution,
+                                 const MeshEffects& effects = {}) {
   const mesh_cases::SyntheticRootStress root_stress(gears);
   return make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, resolution, effects, 0.0, nullptr, &root_stress);
 }
@@ -53,7 +54,8 @@ TEST_CASE("Root stress is the principal stress of what all forces do together", 
 
 TEST_CASE("Twice the torque is twice the root stress where nothing else is nonlinear", "[core][load][root-stress]") {
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
-  const MeshModel model = model_with_root_stress(gears, {{}, equally_spaced_phases(4)}, {.hertzian_contact = false, .extended_contact_region = false});
+  const MeshModel model = model_with_root_stress(gears, {{}, equally_spaced_phases(4)},
+                                                 {.hertzian_contact = false, .extended_contact_region = false});
   const auto peak = [&](double load) {
     return summarise(model, analyse_cycle(model, {}, mesh_cases::torque_for(gears, load))).peak_root_stress;
   };

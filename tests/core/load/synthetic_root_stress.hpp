@@ -26,7 +26,8 @@ class SyntheticRootStress final : public PairRootStress {
         }
       }
     }
-    result.components.resize(3 * static_cast<Eigen::Index>(result.places.size()), static_cast<Eigen::Index>(points.size()));
+    result.components.resize(3 * static_cast<Eigen::Index>(result.places.size()),
+                             static_cast<Eigen::Index>(points.size()));
     for (std::size_t p = 0; p < result.places.size(); ++p) {
       const RootPlace& place = result.places[p];
       for (std::size_t i = 0; i < points.size(); ++i) {
@@ -37,8 +38,8 @@ class SyntheticRootStress final : public PairRootStress {
         const double share = point.tooth == place.tooth ? 1.0 : 0.1;
         const double tension =
             share * height * (1 - std::pow(place.along - 0.45, 2)) * std::exp(-apart * apart) / (module * module);
-        result.components.block<3, 1>(3 * static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(i))
-            << tension, 0.3 * tension, 0.4 * apart * tension;
+        result.components.block<3, 1>(3 * static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(i)) << tension,
+            0.3 * tension, 0.4 * apart * tension;
       }
     }
     return result;

@@ -106,7 +106,8 @@ TEST_CASE("A rigid motion leaves no stress in a fillet", "[core][compliance][fe]
   CHECK(stress.cwiseAbs().maxCoeff() < 1e-11 * kSteel.youngs_modulus);  // round-off x module over element size
 }
 
-TEST_CASE("Even stretch gives the same tension in all directions of a fillet's surface", "[core][compliance][fe][root-stress]") {
+TEST_CASE("Even stretch gives the same tension in all directions of a fillet's surface",
+          "[core][compliance][fe][root-stress]") {
   const GearMesh mesh = gear_mesh(gear_of(18, GENERATE(0, 30), 4, 0, GENERATE(1, 5)), coarse());
   const auto where = places(mesh);
   const double strain = 1e-3, tension = kSteel.youngs_modulus / (1 - kSteel.poissons_ratio) * strain;
@@ -152,8 +153,7 @@ TEST_CASE("Places along a fillet: arc length of the exact profile", "[core][comp
   ProfilePoint last = form.fillet_point(form.fillet_start());
   CHECK(fillet.along(last) == Approx(0).margin(1e-6));
   for (int i = 1; i <= kChords; ++i) {
-    const ProfilePoint p =
-        form.fillet_point(form.fillet_start() + (units::pi / 2 - form.fillet_start()) * i / kChords);
+    const ProfilePoint p = form.fillet_point(form.fillet_start() + (units::pi / 2 - form.fillet_start()) * i / kChords);
     arc += std::hypot(p.x - last.x, p.y - last.y);
     last = p;
     // Discretisation: three quadratic edges for the whole fillet.

@@ -27,7 +27,8 @@ struct Gear {
 
   FlankPoint point(const FlankPlace& place) const {
     const double root = mesh.form.form_radius(), tip = mesh.form.tip_radius();
-    return {place.tooth, root + (place.u + 1) / 2 * (tip - root), place.zeta * mesh.normal_module - mesh.face_width / 2};
+    return {place.tooth, root + (place.u + 1) / 2 * (tip - root),
+            place.zeta * mesh.normal_module - mesh.face_width / 2};
   }
   /// Stress of the fillet's places under forces, by a solution per force.
   Eigen::MatrixXd solved(const std::vector<FlankPlace>& forces, RemovedMotion removed) const {
@@ -35,7 +36,8 @@ struct Gear {
     for (const FlankPlace& force : forces) points.push_back(point(force));
     std::vector<FilletPlace> places;
     for (const double along : table.fillet.along) {
-      for (const double zeta : table.fillet.zetas) places.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
+      for (const double zeta : table.fillet.zetas)
+        places.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
     }
     return std::pow(mesh.normal_module, 2) * FilletStress(mesh, kUnit).functionals(places).transpose() *
            solid.solve(net_functionals(mesh, points, removed));
@@ -83,7 +85,8 @@ TEST_CASE("A root stress table holds what a solution per force gives", "[core][c
   CHECK((held - solved).cwiseAbs().maxCoeff() < 0.02 * solved.cwiseAbs().maxCoeff());
 }
 
-TEST_CASE("Teeth are alike to a root stress table, and far ones do not matter to it", "[core][compliance][fe][root-stress]") {
+TEST_CASE("Teeth are alike to a root stress table, and far ones do not matter to it",
+          "[core][compliance][fe][root-stress]") {
   const Gear gear(gear_of(18, 0, 3), coarse());
   const std::vector<FlankPlace> near{{0, 0.5, 1}, {1, 0.2, 2}}, turned{{7, 0.5, 1}, {8, 0.2, 2}};
   CHECK(gear.table.evaluate(0, near) == gear.table.evaluate(7, turned));
@@ -131,12 +134,14 @@ TEST_CASE("A root is stressed most below the force, more by a higher one, and li
   CHECK(peak({-1, 0, 3}).first < 0.3 * peak({0, 0, 3}).first);
 }
 
-TEST_CASE("Method B of ISO 6336-3 as written here: its critical section is the profile's", "[core][compliance][root-stress]") {
+TEST_CASE("Method B of ISO 6336-3 as written here: its critical section is the profile's",
+          "[core][compliance][root-stress]") {
   for (const int teeth : {18, 40, 100}) {
     const GearToMesh gear = gear_of(teeth, 0);
     const ToothForm form(gear.gear, 1, gear.pressure_angle, 0);
     const Iso6336Root root = iso_6336_root(gear.gear, gear.pressure_angle);
-    CHECK(root.chord == Approx(2 * form.root_tangent_point(30 * units::deg).x).epsilon(1e-6));  // round-off of iterations
+    CHECK(root.chord ==
+          Approx(2 * form.root_tangent_point(30 * units::deg).x).epsilon(1e-6));  // round-off of iterations
   }
 }
 
