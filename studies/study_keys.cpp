@@ -109,7 +109,7 @@ std::vector<SchemaKey> working_condition_rows() {
        }},
       {.path = "fidelity.effects", .kind = WordList,
        .words = {"bending", "adjacent_teeth", "hertzian_contact", "tip_corner", "extended_contact_region", "misalignment",
-                 "modifications", "manufacturing_errors"},
+                 "modifications", "manufacturing_errors", "root_stress"},
        .later = {"gear_body_compliance", "shaft_deflection"}, .fallback = "\"auto\"",
        .meaning = "what enters the run; auto decides from the study, a list switches by hand",
        .store = [](Draft& d, Member, const Value& v) {
