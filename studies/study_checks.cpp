@@ -121,7 +121,7 @@ void check_parabola(StudyReading& reading, Member m) {
 /// What the finite elements of a gear refuse, before anything is solved.
 void check_finite_elements(StudyReading& reading, Member m) {
   const Study& study = reading.draft.study;
-  if (!reading.problems.empty() || study.fidelity.compliance != ComplianceModel::Fe) return;
+  if (!reading.problems.empty() || (study.fidelity.compliance != ComplianceModel::Fe && study.task != Task::Fit)) return;
   try {
     influence_table_task(study, make_gear_pair(study.pair), m);
   } catch (const InvalidInput& problem) {

@@ -81,6 +81,7 @@ class GearFitRun {
     result_.gear = {gear.gear.teeth, gear.helix_angle, gear.gear.face_width / gear.normal_module,
                     gear.gear.profile_shift};
     result_.body = gear.body;
+    result_.removed = task.removed;
   }
 
   GearFitResult finish() {
@@ -154,7 +155,7 @@ class GearFitRun {
     const GearToMesh& gear = task_.gear;
     const double nu = task_.material.poissons_ratio;
     const auto& fit = result_.fit.fit;
-    add_residuals("fitted", result_.fit.status, fit ? &*fit : nullptr, apart_);
+    add_residuals("kernels", result_.fit.status, fit ? &*fit : nullptr, apart_);
     std::optional<ThesisCompliance> thesis;
     for (const ThesisBody body : {ThesisBody::InMasterFunction, ThesisBody::Separate}) {
       ThesisFitResult other = fit_thesis_form(fitted_, body);
