@@ -18,6 +18,7 @@ Json distribution_json(const ResidualDistribution& d) {
           {"median_percent", percent * d.median()},
           {"share_95_percent", percent * d.share_95()},
           {"worst_percent", percent * d.worst()},
+          {"worst_percent_of_own", percent * d.worst_of_own},
           {"residual_percent", list(d.residual, [](double residual) { return percent * residual; })}};
 }
 

@@ -25,11 +25,12 @@ void for_each_distribution(const GearFitResult& result, Visit&& visit) {
 }
 
 std::string residuals_csv(const std::vector<GearFit>& fits) {
-  std::string csv = "gear,form,points,teeth_apart,pairs,median_percent,share_95_percent,worst_percent\n";
+  std::string csv = "gear,form,points,teeth_apart,pairs,median_percent,share_95_percent,worst_percent,worst_percent_of_own\n";
   for (const GearFit& fit : fits) {
     for_each_distribution(fit.result, [&](const std::string& form, const char* points, const ResidualDistribution& d) {
-      csv += fmt::format("{},{},{},{},{},{},{},{}\n", name_of(fit.member), form, points, d.teeth_apart, d.pairs,
-                         percent * d.median(), percent * d.share_95(), percent * d.worst());
+      csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", name_of(fit.member), form, points, d.teeth_apart, d.pairs,
+                         percent * d.median(), percent * d.share_95(), percent * d.worst(),
+                         percent * d.worst_of_own);
     });
   }
   return csv;
@@ -69,11 +70,11 @@ std::string fit_summary(const std::vector<GearFit>& fits) {
     out += fmt::format("{}: {} after {} steps, {} pairs; {} unknowns, {} loads, {:.0f} s\n", name_of(fit.member),
                        to_string(result.fit.status), result.fit.iterations, result.fit.pairs,
                        result.finite_elements.unknowns, result.loads, fit.seconds);
-    out += fmt::format("{:<18}  {:<7}  {:>11}  {:>8}  {:>9}  {:>9}  {:>9}\n", "residuals", "points", "teeth apart", "pairs",
-                       "median", "95 %", "worst");
+    out += fmt::format("{:<18}  {:<7}  {:>11}  {:>8}  {:>9}  {:>9}  {:>9}  {:>9}\n", "residuals", "points", "teeth apart", "pairs",
+                       "median", "95 %", "worst", "of own");
     for_each_distribution(result, [&](const std::string& form, const char* points, const ResidualDistribution& d) {
-      out += fmt::format("{:<18}  {:<7}  {:>11}  {:>8}  {:>7.2f} %  {:>7.2f} %  {:>7.2f} %\n", form, points, d.teeth_apart,
-                         d.pairs, percent * d.median(), percent * d.share_95(), percent * d.worst());
+      out += fmt::format("{:<18}  {:<7}  {:>11}  {:>8}  {:>7.2f} %  {:>7.2f} %  {:>7.2f} %  {:>7.2f} %\n", form, points, d.teeth_apart,
+                         d.pairs, percent * d.median(), percent * d.share_95(), percent * d.worst(), percent * d.worst_of_own);
     });
     out += fmt::format("lowest eigenvalue over {} teeth: {:.2g} of the largest\n", result.eigenvalue_teeth,
                        result.lowest_eigenvalue);
