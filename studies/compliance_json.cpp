@@ -4,15 +4,6 @@ namespace flankwright::studies {
 
 namespace {
 
-const char* name_of(RemovedMotion removed) {
-  switch (removed) {
-    case RemovedMotion::None: return "none";
-    case RemovedMotion::TranslationAndTorsion: return "translation and torsion";
-    case RemovedMotion::TranslationTorsionAndTilt: return "translation, torsion and tilt";
-  }
-  __builtin_unreachable();
-}
-
 Json gear_run_json(const GearRun& run, const Material& material) {
   const RunStatistics& statistics = run.statistics;
   const InfluenceTable& table = *run.table;
@@ -37,6 +28,15 @@ Json gear_run_json(const GearRun& run, const Material& material) {
 }
 
 }  // namespace
+
+const char* name_of(RemovedMotion removed) {
+  switch (removed) {
+    case RemovedMotion::None: return "none";
+    case RemovedMotion::TranslationAndTorsion: return "translation and torsion";
+    case RemovedMotion::TranslationTorsionAndTilt: return "translation, torsion and tilt";
+  }
+  __builtin_unreachable();
+}
 
 Json compliance_json(const FiniteElementRuns& runs, const Study& study) {
   return {{"model", to_string(study.fidelity.compliance)},

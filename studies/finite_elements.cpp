@@ -272,6 +272,10 @@ bool wants_root_stress(const Study& study) {
          std::ranges::any_of(study.expect, [](const Expectation& e) { return e.key.find("root_stress") != std::string::npos; });
 }
 
+bool solves_finite_elements(const Study& study) {
+  return study.fidelity.compliance == ComplianceModel::Fe || study.task == Task::Fit || wants_root_stress(study);
+}
+
 InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair, Member member) {
   const bool pinion = member == Member::Pinion;
   const Gear& gear = pair[member];

@@ -35,6 +35,9 @@ struct FiniteElementRuns {
 /// or expectation names it, and the study's own list of effects, if it has one, does not leave it out.
 bool wants_root_stress(const Study& study);
 
+/// Whether the study solves finite elements of its gears at all: for its compliance, root stress or task.
+bool solves_finite_elements(const Study& study);
+
 /// What is to be solved for one gear: its own face width, body and tip, teeth apart as the pair needs them (two at
 /// least, so that the loaded tooth's neighbours stand on what they stand on), the grid of flank_grid().
 /// @throws InvalidInput  under the study's keys, where body and teeth cannot be meshed

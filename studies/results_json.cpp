@@ -6,6 +6,7 @@
 #include "core/compliance/thin_slice.hpp"
 #include "core/gear/tooth_form.hpp"
 #include "studies/compliance_json.hpp"
+#include "studies/fit_json.hpp"
 #include "studies/json_format.hpp"
 #include "studies/unloaded_json.hpp"
 #include "studies/used_json.hpp"
@@ -276,7 +277,7 @@ const char* version() { return FLANKWRIGHT_VERSION; }
 std::string results_json(const StudyResults& results) {
   const Study& study = results.study;
   Json json{{"title", study.title},
-            {"task", study.task == Task::Optimise ? "optimise" : "analyse"},
+            {"task", to_string(study.task)},
             {"version", version()},
             {"file", study.file},
             {"seconds", results.seconds},
@@ -297,6 +298,7 @@ std::string results_json(const StudyResults& results) {
     return {{"name", e.name}, {"on", e.on}, {"why", e.why}, {"seconds", e.seconds}};
   });
   if (results.design) json["optimise"] = optimise_json(results);
+  if (!results.fits.empty()) json["fit"] = list(results.fits, fit_json);
   json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}}; });
   json["used"] = used_json(results);
   // A file name need not be UTF-8, JSON must be: what is not becomes the replacement character.

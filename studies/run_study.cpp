@@ -63,11 +63,11 @@ class Run {
     results_.pair = make_gear_pair(study.pair);
     const EffectFacts facts = facts_of(study);
     results_.effects = study.fidelity.automatic_effects ? decide_effects(facts) : chosen_effects(facts, study.fidelity.effects);
-    if (study.fidelity.compliance == ComplianceModel::Rigid && any_torque()) {
+    if (study.fidelity.compliance == ComplianceModel::Rigid && any_torque() && study.task != Task::Fit) {
       note("compliance is rigid: torques are ignored, contact is analysed without load");
     }
     const bool has_body = std::ranges::any_of(study.given, [](const GivenValue& g) { return g.key.find(".body.") != std::string::npos; });
-    if (has_body && study.fidelity.compliance != ComplianceModel::Fe && !wants_root_stress(study)) {
+    if (has_body && !solves_finite_elements(study)) {
       note(std::string("a gear's body is given, but the compliance \"") + to_string(study.fidelity.compliance) + "\" does not know of it");
     }
     geometry_notes();
@@ -75,10 +75,10 @@ class Run {
 
   StudyResults finish() {
     const Clock clock;
-    if (results_.study.task == Task::Optimise) {
-      optimise();
-    } else {
-      analyse();
+    switch (results_.study.task) {
+      case Task::Analyse: analyse(); break;
+      case Task::Optimise: optimise(); break;
+      case Task::Fit: fit(); break;
     }
     check_results();
     results_.seconds = clock.seconds();
@@ -251,6 +251,15 @@ class Run {
         results_.requirements.push_back("the constraint " + constraint.output.name + " <= " + number(constraint.maximum * factor) +
                                         " is violated: " + number(value * factor) + " " + constraint.output.unit());
       }
+    }
+  }
+
+  void fit() {
+    results_.effects.clear();  // none of them concerns a single gear
+    results_.fits = fit_gears(results_.study, results_.pair, progress_);
+    for (const GearFit& fit : results_.fits) {
+      const std::string unmet = unmet_requirement(fit);
+      if (!unmet.empty()) results_.requirements.push_back(unmet);
     }
   }
 

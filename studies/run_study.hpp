@@ -7,6 +7,7 @@
 #include "core/effects/effects.hpp"
 #include "core/load/mesh_cycle.hpp"
 #include "optimize/design_optimiser.hpp"
+#include "studies/fit_task.hpp"
 #include "studies/gear_structures.hpp"
 #include "studies/study.hpp"
 #include "studies/unloaded_result.hpp"
@@ -34,6 +35,7 @@ struct StudyResults {
   std::vector<Effect> effects;
   std::optional<DesignTask> design_task;
   std::optional<DesignResult> design;
+  std::vector<GearFit> fits;              ///< of the task "fit", one a gear
   std::vector<std::string> notes;         ///< what the reader should know, one sentence each
   std::vector<std::string> requirements;  ///< requirements that were not met (exit code 1), one line each
   double seconds{not_given};

@@ -121,8 +121,7 @@ void check_parabola(StudyReading& reading, Member m) {
 /// What the finite elements of a gear refuse, before anything is solved.
 void check_finite_elements(StudyReading& reading, Member m) {
   const Study& study = reading.draft.study;
-  if (!reading.problems.empty()) return;
-  if (study.fidelity.compliance != ComplianceModel::Fe && !wants_root_stress(study)) return;
+  if (!reading.problems.empty() || !solves_finite_elements(study)) return;
   try {
     influence_table_task(study, make_gear_pair(study.pair), m);
   } catch (const InvalidInput& problem) {

@@ -158,6 +158,22 @@ std::vector<SchemaKey> task_rows() {
          d.study.optimise.seed = static_cast<unsigned long>(v.integer);
        }},
 
+      {.path = "fit.gear", .kind = Word, .words = {"both", "pinion", "wheel"}, .fallback = "\"both\"",
+       .meaning = "whose compliance is fitted",
+       .store = [](Draft& d, Member, const Value& v) {
+         d.study.fit.pinion = v.text != "wheel";
+         d.study.fit.wheel = v.text != "pinion";
+       }},
+      {.path = "fit.form", .kind = Word, .words = {"several_teeth", "one_tooth_accurate"},
+       .fallback = "\"several_teeth\"", .meaning = "sum of kernels that is fitted: teeth coupled, or one tooth closer",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fit.several_teeth = v.text == "several_teeth"; }},
+      {.path = "fit.test_grid", .kind = Word, .words = {"on", "off"}, .fallback = "\"on\"",
+       .meaning = "on: compared with finite elements on places that the fit has not seen as well",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fit.test_grid = v.text == "on"; }},
+      {.path = "fit.max_iterations", .kind = Integer, .range = {.low = 1, .high = 100'000}, .fallback = "300",
+       .meaning = "steps of the least squares, then it ends unconverged with the best so far",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fit.max_iterations = static_cast<int>(v.integer); }},
+
       {.path = "expect", .kind = Expectations, .fallback = "(none)",
        .meaning = "\"loaded.summary.te_peak_to_peak_um\" = { max = 3 }: what results.json must say"},
       {.path = "sweep", .kind = Later, .fallback = "(none)", .meaning = "samples of a parameter space"},

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/fit_tables.hpp"
 #include "studies/json_format.hpp"
 #include "studies/unloaded_tables.hpp"
 
@@ -161,10 +162,12 @@ std::vector<NamedText> csv_tables(const StudyResults& results) {
     tables.push_back({"scenes.csv", scenes_csv(results)});
     tables.push_back({"history.csv", history_csv(*results.design)});
   }
+  for (NamedText& table : fit_tables(results.fits)) tables.push_back(std::move(table));
   return tables;
 }
 
 std::string summary_table(const StudyResults& results) {
+  if (!results.fits.empty()) return fit_summary(results.fits);
   return results.design ? design_table(results) : analysis_table(results);
 }
 

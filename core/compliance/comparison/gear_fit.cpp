@@ -46,6 +46,19 @@ std::vector<double> centres(const std::vector<double>& nodes) {
   return between;
 }
 
+/// The nodes and places between them, at most kCurveStep apart: a curve to be drawn, mid face among its places.
+std::vector<double> subdivided(const std::vector<double>& nodes) {
+  constexpr double kCurveStep = 0.25;  // [m_n]
+  std::vector<double> places;
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const double step = nodes[i + 1] - nodes[i];
+    const int pieces = 2 * static_cast<int>(std::ceil(0.5 * step / kCurveStep));
+    for (int k = 0; k < pieces; ++k) places.push_back(nodes[i] + step * k / pieces);
+  }
+  places.push_back(nodes.back());
+  return places;
+}
+
 Places cells_of(const Places& grid) {
   return {centres(grid.us), centres(grid.zetas)};
 }
@@ -81,6 +94,7 @@ class GearFitRun {
     result_.gear = {gear.gear.teeth, gear.helix_angle, gear.gear.face_width / gear.normal_module,
                     gear.gear.profile_shift};
     result_.body = gear.body;
+    result_.removed = task.removed;
   }
 
   GearFitResult finish() {
@@ -134,10 +148,7 @@ class GearFitRun {
     if (task_.test_grid) total_loads_ += own_cells.count() + (apart_ > 0 ? adjacent_cells.count() : 0);
     fitted_ = samples(model, own, adjacent_);
     if (task_.test_grid) unseen_ = samples(model, own_cells, adjacent_cells);
-    // Curves need more places than the grid has, as finite elements are smooth between them.
-    curve_zetas_ = own.zetas;
-    curve_zetas_.insert(curve_zetas_.end(), own_cells.zetas.begin(), own_cells.zetas.end());
-    std::sort(curve_zetas_.begin(), curve_zetas_.end());
+    curve_zetas_ = subdivided(own.zetas);
   }
 
   void add_residuals(const std::string& form, FitStatus status, const FlankCompliance* model, int known_apart) {
@@ -154,7 +165,7 @@ class GearFitRun {
     const GearToMesh& gear = task_.gear;
     const double nu = task_.material.poissons_ratio;
     const auto& fit = result_.fit.fit;
-    add_residuals("fitted", result_.fit.status, fit ? &*fit : nullptr, apart_);
+    add_residuals("kernels", result_.fit.status, fit ? &*fit : nullptr, apart_);
     std::optional<ThesisCompliance> thesis;
     for (const ThesisBody body : {ThesisBody::InMasterFunction, ThesisBody::Separate}) {
       ThesisFitResult other = fit_thesis_form(fitted_, body);

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "studies/fit_task.hpp"
+#include "studies/json_format.hpp"
+
+namespace flankwright::studies {
+
+/// One entry of fit[] of results.json; README.md describes it.
+Json fit_json(const GearFit& fit);
+
+}  // namespace flankwright::studies
