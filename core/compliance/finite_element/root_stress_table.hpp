@@ -47,12 +47,14 @@ struct RootStressTable {
 /// Places along the fillet where the stress is read: eight from 0.1 to 0.8, where its maximum lies, the nearest of them
 /// moved to the 30 deg tangent.
 inline constexpr int fillet_stations = 8;
-FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet, std::vector<double> zetas);
+
+/// Axial places there: steps from 0.25 modules at the ends to 1.2, over which stress changes little more than 1 %.
+std::vector<double> fillet_zetas(double face_width);
+
+FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet);
 
 /// Reads a gear's table off its finite elements: by reciprocity a solution per component of stress, read by the forces
 /// on all detailed teeth, needs fewer of them than one per force.
-///
-/// The fillet's axial places are those of the grid.
 ///
 /// @param solid     of the mesh, Factorised
 /// @param material  of the solid model
