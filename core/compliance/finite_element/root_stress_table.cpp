@@ -31,13 +31,13 @@ Eigen::MatrixXd RootStressTable::evaluate(int tooth, std::span<const FlankPlace>
 }
 
 std::vector<double> fillet_zetas(double face_width) {
-  return axial_places(face_width, {0.25, 0.4, 1.2});
+  return axial_places(face_width, {0.25, 0.4, 0.6});
 }
 
 FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet) {
   const double tangent = fillet.along(mesh.form.root_tangent_point(30 * units::deg));
   FilletGrid grid;
-  for (int i = 1; i <= fillet_stations; ++i) grid.along.push_back(0.1 * i);
+  for (int i = 1; i <= fillet_stations; ++i) grid.along.push_back(0.1 * (i + 1));
   const auto nearest = std::ranges::min_element(grid.along, {}, [&](double s) { return std::abs(s - tangent); });
   *nearest = tangent;
   grid.tangent = static_cast<std::size_t>(nearest - grid.along.begin());

@@ -44,11 +44,12 @@ struct RootStressTable {
   Eigen::MatrixXd evaluate(int tooth, std::span<const FlankPlace> forces) const;
 };
 
-/// Places along the fillet where the stress is read: eight from 0.1 to 0.8, where its maximum lies, the nearest of them
+/// Places along the fillet where the stress is read: seven from 0.2 to 0.8, where its maximum lies, the nearest of them
 /// moved to the 30 deg tangent.
-inline constexpr int fillet_stations = 8;
+inline constexpr int fillet_stations = 7;
 
-/// Axial places there: steps from 0.25 modules at the ends to 1.2, over which stress changes little more than 1 %.
+/// Axial places there: steps from 0.25 modules at the ends to 0.6. Between all these places the stress of a line load
+/// rises by up to 2.5 % above the largest of them (18 and 24 teeth, helix 30 and 0 deg).
 std::vector<double> fillet_zetas(double face_width);
 
 FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet);
