@@ -90,7 +90,7 @@ TEST_CASE("A fit is stored whole: results, tables, summary and report", "[studie
     const std::vector<NamedText> tables = fit_tables(results.fits);
     REQUIRE(tables.size() == 3);
     CHECK(tables[0].name == "fit_pinion.csv");
-    flankwright::FitTable table;
+    FitTable table;
     const auto lines = lines_of(tables[0].text);
     for (std::size_t i = 1; i < lines.size(); ++i) {
       REQUIRE(lines[i].size() == 2);

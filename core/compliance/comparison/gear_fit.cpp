@@ -59,6 +59,22 @@ std::vector<double> subdivided(const std::vector<double>& nodes) {
   return places;
 }
 
+/// Without the pairs that have next to nothing in common, K near zero beside sqrt(K_pp K_qq): the thesis' forms cannot
+/// pass through zero as the values do, and relative residuals would have nothing else decide their fit.
+std::vector<InfluenceSample> without_faint_pairs(std::vector<InfluenceSample> samples) {
+  constexpr double kFaint = 0.01;
+  for (InfluenceSample& sample : samples) {
+    const Eigen::VectorXd own = sample.compliance.diagonal();
+    for (Index p = 0; p < own.size(); ++p) {
+      for (Index q = 0; q < own.size(); ++q) {
+        double& K = sample.compliance(p, q);
+        if (std::abs(K) < kFaint * std::sqrt(own[p] * own[q])) K = std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+  }
+  return samples;
+}
+
 Places cells_of(const Places& grid) {
   return {centres(grid.us), centres(grid.zetas)};
 }
@@ -167,8 +183,9 @@ class GearFitRun {
     const auto& fit = result_.fit.fit;
     add_residuals("kernels", result_.fit.status, fit ? &*fit : nullptr, apart_);
     std::optional<ThesisCompliance> thesis;
+    const std::vector<InfluenceSample> for_thesis = without_faint_pairs(fitted_);
     for (const ThesisBody body : {ThesisBody::InMasterFunction, ThesisBody::Separate}) {
-      ThesisFitResult other = fit_thesis_form(fitted_, body);
+      ThesisFitResult other = fit_thesis_form(for_thesis, body);
       add_residuals(body == ThesisBody::Separate ? "thesis_separate" : "thesis_in_master", other.status,
                     other.fit ? &*other.fit : nullptr, apart_);
       thesis = std::move(other.fit);
