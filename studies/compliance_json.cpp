@@ -17,6 +17,7 @@ Json gear_run_json(const GearRun& run, const Material& material) {
           {"model_seconds", statistics.model_seconds},
           {"loads_seconds", statistics.solve_seconds},
           {"teeth_apart", table.teeth_apart()},
+          {"root_stress", run.root_stress != nullptr},
           {"grid", {{"radii", table.grid().us().size()}, {"axial_positions", table.grid().zetas().size()}}},
           {"removed_shaft_motion", name_of(run.removed)},
           {"lowest_eigenvalue", table.projection().lowest_eigenvalue},
@@ -38,7 +39,7 @@ const char* name_of(RemovedMotion removed) {
 }
 
 Json compliance_json(const FiniteElementRuns& runs, const Study& study) {
-  return {{"model", "fe"},
+  return {{"model", to_string(study.fidelity.compliance)},
           {"seconds", runs.seconds},
           {"pinion", gear_run_json(runs[Member::Pinion], study.pinion_material)},
           {"wheel", gear_run_json(runs[Member::Wheel], study.wheel_material)}};

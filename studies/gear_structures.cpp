@@ -20,19 +20,21 @@ ComplianceModel compliance_model(std::string_view name) {
 }
 
 GearStructures gear_structures(const Study& study, const GearPair& pair, const ProgressReport& progress) {
-  switch (study.fidelity.compliance) {
-    case ComplianceModel::Rigid:
-    case ComplianceModel::ThinSlice:
-    case ComplianceModel::Fitted: return {};
-    case ComplianceModel::Fe: {
-      FiniteElementRuns runs = solve_finite_elements(study, pair, progress);
-      auto structure = std::make_shared<const StructuralPair>(
-          pair, GearStructure{runs[Member::Pinion].table, study.pinion_material.youngs_modulus},
-          GearStructure{runs[Member::Wheel].table, study.wheel_material.youngs_modulus});
-      return {std::move(structure), std::move(runs)};
-    }
+  GearStructures structures;
+  const bool is_fe = study.fidelity.compliance == ComplianceModel::Fe;
+  if (!is_fe && !wants_root_stress(study)) return structures;
+  structures.finite_elements = solve_finite_elements(study, pair, progress);
+  const GearRun& pinion = (*structures.finite_elements)[Member::Pinion];
+  const GearRun& wheel = (*structures.finite_elements)[Member::Wheel];
+  if (is_fe) {
+    structures.pair = std::make_shared<const StructuralPair>(
+        pair, GearStructure{pinion.table, study.pinion_material.youngs_modulus},
+        GearStructure{wheel.table, study.wheel_material.youngs_modulus});
   }
-  __builtin_unreachable();
+  if (pinion.root_stress) {
+    structures.root_stress = std::make_shared<const TabulatedRootStress>(pair, pinion.root_stress, wheel.root_stress);
+  }
+  return structures;
 }
 
 }  // namespace flankwright::studies

@@ -79,6 +79,16 @@ Json point_json(const ContactPoint& point, const LoadedPosition& position, Eigen
           {"error_um", in_um(position.gap.error[i])}};
 }
 
+/// Largest over a tooth's fillet [MPa]; NaN without.
+double root_stress_of_tooth(const MeshPosition& at, const LoadedPosition& position, Member member, int tooth) {
+  double largest = not_given;
+  for (Eigen::Index i = 0; i < position.root_stress.size(); ++i) {
+    const RootPlace& place = at.root_stress.places[static_cast<std::size_t>(i)];
+    if (place.member == member && place.tooth == tooth) largest = std::fmax(largest, position.root_stress[i]);
+  }
+  return largest;
+}
+
 Json position_json(const MeshPosition& at, const LoadedPosition& position, double cos_base_helix) {
   const LoadDistribution& load = position.load;
   Json json{{"phase", position.phase},
@@ -96,8 +106,25 @@ Json position_json(const MeshPosition& at, const LoadedPosition& position, doubl
     }
   }
   json["teeth"] = Json::array();
-  for (auto& [tooth, points] : teeth) json["teeth"].push_back({{"tooth", tooth}, {"points", std::move(points)}});
+  for (auto& [tooth, points] : teeth) {
+    Json entry{{"tooth", tooth}, {"points", std::move(points)}};
+    for (const Member member : {Member::Pinion, Member::Wheel}) {
+      const char* key = member == Member::Pinion ? "pinion_root_stress_MPa" : "wheel_root_stress_MPa";
+      entry[key] = root_stress_of_tooth(at, position, member, tooth);
+    }
+    json["teeth"].push_back(std::move(entry));
+  }
   return json;
+}
+
+/// Null where there is no root stress.
+Json root_stress_json(const RootStressPeak& peak) {
+  if (std::isnan(peak.stress)) return nullptr;
+  return {{"tooth", peak.place.tooth},
+          {"z_mm", peak.place.z},
+          {"along_fillet", peak.place.along},
+          {"phase", peak.phase},
+          {"at_30_deg_tangent_MPa", peak.tangent_stress}};
 }
 
 Json summary_json(const CycleSummary& summary, const MeshModel& model, bool full_cycle) {
@@ -107,7 +134,11 @@ Json summary_json(const CycleSummary& summary, const MeshModel& model, bool full
           {"te_mean_um", in_um(summary.te_mean)},
           {"peak_load_N_per_mm", summary.peak_line_load},
           {"peak_contact_stress_MPa", summary.peak_contact_stress},
-          {"peak_root_stress_MPa", missing},
+          {"peak_root_stress_MPa", summary.peak_root_stress},
+          {"pinion_root_stress_MPa", summary.pinion_root_stress.stress},
+          {"wheel_root_stress_MPa", summary.wheel_root_stress.stress},
+          {"pinion_root_stress", root_stress_json(summary.pinion_root_stress)},
+          {"wheel_root_stress", root_stress_json(summary.wheel_root_stress)},
           {"mean_stiffness_N_per_mm_um", summary.mean_stiffness},
           {"load_factor", summary.load_factor},
           {"worst_kkt_residual", summary.worst_kkt_residual},

@@ -25,6 +25,7 @@ FlankCondition condition_of(const Study& study, const Scene& scene) {
 EffectFacts facts_of(const Study& study) {
   EffectFacts facts;
   facts.coupled_teeth = couples_teeth(study.fidelity.compliance);
+  facts.root_stress = wants_root_stress(study);
   for (const Scene& scene : study.scenes) {
     FlankCondition condition = condition_of(study, scene);
     for (double torque : scene.torques) {
@@ -66,7 +67,7 @@ class Run {
       note("compliance is rigid: torques are ignored, contact is analysed without load");
     }
     const bool has_body = std::ranges::any_of(study.given, [](const GivenValue& g) { return g.key.find(".body.") != std::string::npos; });
-    if (has_body && study.fidelity.compliance != ComplianceModel::Fe && study.task != Task::Fit) {
+    if (has_body && !solves_finite_elements(study)) {
       note(std::string("a gear's body is given, but the compliance \"") + to_string(study.fidelity.compliance) + "\" does not know of it");
     }
     geometry_notes();
@@ -120,22 +121,26 @@ class Run {
     if (is_new) {
       const Study& study = results_.study;
       results_.models.push_back(make_mesh_model(results_.pair, study.pinion_material, study.wheel_material,
-                                                resolution_of(study), mesh_effects(results_.effects), axial_offset, structure().get()));
+                                                resolution_of(study), mesh_effects(results_.effects), axial_offset,
+                                                structures().pair.get(), structures().root_stress.get()));
     }
     return it->second;
   }
 
-  /// Both gears' structure, made when first needed.
-  const std::shared_ptr<const PairCompliance>& structure() {
+  /// Both gears' structure and root stress, made when first needed.
+  const GearStructures& structures() {
     if (!has_structure_) {
       results_.structures = gear_structures(results_.study, results_.pair, progress_);
       has_structure_ = true;
       if (const auto& runs = results_.structures.finite_elements) {
-        results_.effects.push_back({"finite_elements", true, "compliance is fe: influence values of both gears", runs->seconds});
+        const bool is_fe = results_.study.fidelity.compliance == ComplianceModel::Fe;
+        results_.effects.push_back({"finite_elements", true,
+                                    is_fe ? "compliance is fe: influence values of both gears" : "root stress of both gears",
+                                    runs->seconds});
         results_.notes.insert(results_.notes.end(), runs->notes.begin(), runs->notes.end());
       }
     }
-    return results_.structures.pair;
+    return results_.structures;
   }
 
   void add_unloaded(const Scene& scene) {
@@ -159,7 +164,7 @@ class Run {
     int total = 0, done = 0;
     for (const Scene& scene : study.scenes) total += static_cast<int>(scene.torques.size());
     double unloaded_seconds = 0.0, loaded_seconds = 0.0;
-    if (study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) structure();  // its time is its own
+    if (study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) structures();  // its time is its own
     for (const Scene& scene : study.scenes) {
       bool has_unloaded = false;
       for (double torque : scene.torques) {
@@ -193,7 +198,8 @@ class Run {
     task.wheel_material = study.wheel_material;
     task.resolution = resolution_of(study);
     task.effects = mesh_effects(results_.effects);
-    task.structure = structure();
+    task.structure = structures().pair;
+    task.root_stress = structures().root_stress;
     task.pinion_modification = study.pinion_modification;
     task.wheel_modification = study.wheel_modification;
     task.variables = study.optimise.variables;

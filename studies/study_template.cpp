@@ -86,7 +86,7 @@ torque = [0, 150, 300]               # N·m on the pinion; each is run, 0 is the
 positions = 32                       # mesh positions over one base pitch
 
 [fidelity]
-compliance = "thin_slice"            # or "rigid": the unloaded contact only
+compliance = "thin_slice"            # "fe": finite elements of both gears; "rigid": the unloaded contact only
 quadrature = { rule = "gauss2", intervals = 10 }                     # along a full contact line
 # effects = ["bending", "hertzian_contact"]                          # "auto" decides from the study
 
@@ -126,7 +126,7 @@ misalignment.mesh_misalignment = -8
 load.torque = 120
 
 [optimise]
-objective = "peak_contact_stress"    # or te_peak_to_peak, te_harmonic_1 .. te_harmonic_10, load_factor, peak_line_load
+objective = "peak_contact_stress"    # or te_peak_to_peak, te_harmonic_1 .. te_harmonic_10, load_factor, peak_line_load, peak_root_stress
 over = "worst"                       # nominal | worst | mean | mean+2sigma of the scenes
 solver = "ipopt"                     # or nlopt:slsqp, nlopt:mma, nlopt:cobyla ...
 # max_evaluations = 500
