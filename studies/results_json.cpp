@@ -298,6 +298,7 @@ std::string results_json(const StudyResults& results) {
     return {{"name", e.name}, {"on", e.on}, {"why", e.why}, {"seconds", e.seconds}};
   });
   if (results.design) json["optimise"] = optimise_json(results);
+  if (!results.deflections.empty()) json["deflections"] = list(results.deflections, deflections_json);
   if (!results.fits.empty()) json["fit"] = list(results.fits, fit_json);
   json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}}; });
   json["used"] = used_json(results);
