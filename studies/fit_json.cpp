@@ -63,6 +63,12 @@ Json curve_json(const DeflectionCurve& curve) {
 
 }  // namespace
 
+Json deflections_json(const GearDeflections& deflections) {
+  return {{"gear", name_of(deflections.member)},
+          {"teeth", deflections.teeth},
+          {"curves", list(deflections.curves, curve_json)}};
+}
+
 Json fit_json(const GearFit& fit) {
   const GearFitResult& result = fit.result;
   const RunStatistics& run = result.finite_elements;

@@ -9,7 +9,7 @@ namespace {
 constexpr double percent = 100.0;
 
 std::string coefficients_csv(const FittedCompliance& fit) {
-  const flankwright::FitTable table = fit.to_table();
+  const FitTable table = fit.to_table();
   std::string csv = "name,value\n";
   for (std::size_t i = 0; i < table.names.size(); ++i) csv += fmt::format("{},{}\n", table.names[i], table.values[i]);
   return csv;

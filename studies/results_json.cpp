@@ -108,9 +108,9 @@ Json position_json(const MeshPosition& at, const LoadedPosition& position, doubl
   json["teeth"] = Json::array();
   for (auto& [tooth, points] : teeth) {
     Json entry{{"tooth", tooth}, {"points", std::move(points)}};
-    for (const Member member : {Member::Pinion, Member::Wheel}) {
-      const char* key = member == Member::Pinion ? "pinion_root_stress_MPa" : "wheel_root_stress_MPa";
-      entry[key] = root_stress_of_tooth(at, position, member, tooth);
+    if (position.root_stress.size() > 0) {
+      entry["pinion_root_stress_MPa"] = root_stress_of_tooth(at, position, Member::Pinion, tooth);
+      entry["wheel_root_stress_MPa"] = root_stress_of_tooth(at, position, Member::Wheel, tooth);
     }
     json["teeth"].push_back(std::move(entry));
   }
@@ -298,6 +298,7 @@ std::string results_json(const StudyResults& results) {
     return {{"name", e.name}, {"on", e.on}, {"why", e.why}, {"seconds", e.seconds}};
   });
   if (results.design) json["optimise"] = optimise_json(results);
+  if (!results.deflections.empty()) json["deflections"] = list(results.deflections, deflections_json);
   if (!results.fits.empty()) json["fit"] = list(results.fits, fit_json);
   json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}}; });
   json["used"] = used_json(results);

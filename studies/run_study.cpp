@@ -131,6 +131,7 @@ class Run {
   const GearStructures& structures() {
     if (!has_structure_) {
       results_.structures = gear_structures(results_.study, results_.pair, progress_);
+      results_.deflections = gear_deflections(results_.study, results_.pair, results_.structures);
       has_structure_ = true;
       if (const auto& runs = results_.structures.finite_elements) {
         const bool is_fe = results_.study.fidelity.compliance == ComplianceModel::Fe;

@@ -8,6 +8,7 @@
 #include "studies/results_json.hpp"
 #include "studies/study_file.hpp"
 #include "studies/study_template.hpp"
+#include "tests/core/compliance/comparison/distance_compliance.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
 
 namespace flankwright::studies {
@@ -90,7 +91,7 @@ TEST_CASE("A fit is stored whole: results, tables, summary and report", "[studie
     const std::vector<NamedText> tables = fit_tables(results.fits);
     REQUIRE(tables.size() == 3);
     CHECK(tables[0].name == "fit_pinion.csv");
-    flankwright::FitTable table;
+    FitTable table;
     const auto lines = lines_of(tables[0].text);
     for (std::size_t i = 1; i < lines.size(); ++i) {
       REQUIRE(lines[i].size() == 2);
@@ -118,6 +119,30 @@ TEST_CASE("A fit is stored whole: results, tables, summary and report", "[studie
       CHECK_THAT(page, Contains(part));
     }
   }
+}
+
+TEST_CASE("An analysis with the compliance of single gears stores and shows their deflection curves",
+          "[studies][results]") {
+  StudyResults results;
+  results.study = parse_study(study_template("analyse"), "analyse.toml", {{"fidelity.compliance", "fe"}});
+  results.pair = make_gear_pair(results.study.pair);
+  const auto compliance = std::make_shared<const flankwright::testing::DistanceCompliance>();
+  GearStructures structures;
+  CHECK(gear_deflections(results.study, results.pair, structures).empty());
+  structures.pair = std::make_shared<const StructuralPair>(results.pair, GearStructure{compliance, 1.0},
+                                                           GearStructure{compliance, 1.0});
+  results.deflections = gear_deflections(results.study, results.pair, structures);
+  REQUIRE(results.deflections.size() == 2);
+  CHECK(results.deflections[1].member == Member::Wheel);
+  const std::string text = results_json(results);
+  const json stored = json::parse(text)["deflections"];
+  REQUIRE(stored.size() == 2);
+  CHECK(stored[0]["gear"] == "pinion");
+  CHECK(stored[0]["teeth"] == 20);
+  // Nine loads: three teeth by the model, one each by plate and slices.
+  CHECK(stored[0]["curves"].size() == 9 * (3 + 1 + 1));
+  CHECK(stored[0]["curves"][0]["model"] == "finite elements");
+  CHECK_THAT(render_report(text), Contains("<section id=\"deflections\">") && !Contains("<section id=\"residuals\">"));
 }
 
 TEST_CASE("Gears that could not be solved leave results without a fit", "[studies][fit][results]") {

@@ -46,17 +46,20 @@ std::vector<double> centres(const std::vector<double>& nodes) {
   return between;
 }
 
-/// The nodes and places between them, at most kCurveStep apart: a curve to be drawn, mid face among its places.
-std::vector<double> subdivided(const std::vector<double>& nodes) {
-  constexpr double kCurveStep = 0.25;  // [m_n]
-  std::vector<double> places;
-  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
-    const double step = nodes[i + 1] - nodes[i];
-    const int pieces = 2 * static_cast<int>(std::ceil(0.5 * step / kCurveStep));
-    for (int k = 0; k < pieces; ++k) places.push_back(nodes[i] + step * k / pieces);
+/// Without the pairs that have next to nothing in common, K near zero beside sqrt(K_pp K_qq): the thesis' forms cannot
+/// pass through zero as the values do, and relative residuals would have nothing else decide their fit.
+std::vector<InfluenceSample> without_faint_pairs(std::vector<InfluenceSample> samples) {
+  constexpr double kFaint = 0.01;
+  for (InfluenceSample& sample : samples) {
+    const Eigen::VectorXd own = sample.compliance.diagonal();
+    for (Index p = 0; p < own.size(); ++p) {
+      for (Index q = 0; q < own.size(); ++q) {
+        double& K = sample.compliance(p, q);
+        if (std::abs(K) < kFaint * std::sqrt(own[p] * own[q])) K = std::numeric_limits<double>::quiet_NaN();
+      }
+    }
   }
-  places.push_back(nodes.back());
-  return places;
+  return samples;
 }
 
 Places cells_of(const Places& grid) {
@@ -148,7 +151,6 @@ class GearFitRun {
     if (task_.test_grid) total_loads_ += own_cells.count() + (apart_ > 0 ? adjacent_cells.count() : 0);
     fitted_ = samples(model, own, adjacent_);
     if (task_.test_grid) unseen_ = samples(model, own_cells, adjacent_cells);
-    curve_zetas_ = subdivided(own.zetas);
   }
 
   void add_residuals(const std::string& form, FitStatus status, const FlankCompliance* model, int known_apart) {
@@ -167,8 +169,9 @@ class GearFitRun {
     const auto& fit = result_.fit.fit;
     add_residuals("kernels", result_.fit.status, fit ? &*fit : nullptr, apart_);
     std::optional<ThesisCompliance> thesis;
+    const std::vector<InfluenceSample> for_thesis = without_faint_pairs(fitted_);
     for (const ThesisBody body : {ThesisBody::InMasterFunction, ThesisBody::Separate}) {
-      ThesisFitResult other = fit_thesis_form(fitted_, body);
+      ThesisFitResult other = fit_thesis_form(for_thesis, body);
       add_residuals(body == ThesisBody::Separate ? "thesis_separate" : "thesis_in_master", other.status,
                     other.fit ? &*other.fit : nullptr, apart_);
       thesis = std::move(other.fit);
@@ -184,8 +187,7 @@ class GearFitRun {
     if (thesis) models.push_back(named_model("thesis", apart_, *thesis));
     models.push_back(named_model("plate", 0, plate));
     models.push_back(named_model("thin slices", 0, slices));
-    const double face = result_.gear.relative_face;
-    result_.curves = deflection_curves(models, {1, 0, -1}, {0, face / 2, face}, curve_zetas_, task_.teeth_apart);
+    result_.curves = gear_deflection_curves(models, result_.gear.relative_face, task_.teeth_apart);
     report("comparing", 2, 3);
     if (fit) find_lowest_eigenvalue(*fit);
     report("comparing", 3, 3);
@@ -213,7 +215,6 @@ class GearFitRun {
   int apart_{0};  ///< pitches over which the form couples teeth
   int total_loads_{0};
   Places adjacent_;
-  std::vector<double> curve_zetas_;
   std::vector<InfluenceSample> fitted_, unseen_;
 };
 

@@ -51,6 +51,7 @@ struct GearFitResult {
   RunStatistics finite_elements;
   int loads{0};   ///< solved for
   FitResult fit;  ///< NotRun unless status is Factorised
+  /// Of all pairs. The thesis' forms were fitted to those with more than 1 % of their own compliances in common.
   std::vector<FormResiduals> residuals;
   std::vector<DeflectionCurve> curves;  ///< of models "finite elements", "fitted", "thesis", "plate", "thin slices"
   /// Lowest eigenvalue of the fitted block matrix over five teeth (forms for one tooth: over one) on the adjacent

@@ -173,7 +173,7 @@ function fit_facts(body, fit) {
 }
 
 function build_deflections(results, body) {
-  for (const fit of list(results.fit).map(record)) {
+  for (const fit of [...list(results.fit), ...list(results.deflections)].map(record)) {
     const curves = list(fit.curves).map(record);
     if (curves.length === 0) continue;
     const zetas = unique(curves.map((curve) => record(curve.load).zeta)).sort((a, b) => a - b);
