@@ -111,6 +111,7 @@ StoredRun to_store(const InfluenceTableRun& run) {
     const RootStressTable& root = *run.root_stress;
     stored.facts["fillet_along"] = root.fillet.along;
     stored.facts["fillet_tangent"] = root.fillet.tangent;
+    stored.facts["fillet_zetas"] = root.fillet.zetas;
     for (int m = -root.teeth_each_side(); m <= root.teeth_each_side(); ++m) {
       stored.matrices.emplace_back(root_stress_name(m), root.stress[static_cast<std::size_t>(m + root.teeth_each_side())]);
     }
@@ -126,7 +127,7 @@ const Eigen::MatrixXd& stored_matrix(const StoredRun& stored, const std::string&
 
 RootStressTable root_stress_from_store(const InfluenceTableTask& task, const StoredRun& stored) {
   const Json& facts = stored.facts;
-  RootStressTable root{task.grid, {facts.at("fillet_along"), facts.at("fillet_tangent"), task.grid.zetas()}, {}};
+  RootStressTable root{task.grid, {facts.at("fillet_along"), facts.at("fillet_tangent"), facts.at("fillet_zetas")}, {}};
   for (int m = -task.teeth_apart; m <= task.teeth_apart; ++m) {
     root.stress.push_back(stored_matrix(stored, root_stress_name(m)));
     const Eigen::MatrixXd& stress = root.stress.back();

@@ -108,9 +108,9 @@ Json position_json(const MeshPosition& at, const LoadedPosition& position, doubl
   json["teeth"] = Json::array();
   for (auto& [tooth, points] : teeth) {
     Json entry{{"tooth", tooth}, {"points", std::move(points)}};
-    for (const Member member : {Member::Pinion, Member::Wheel}) {
-      const char* key = member == Member::Pinion ? "pinion_root_stress_MPa" : "wheel_root_stress_MPa";
-      entry[key] = root_stress_of_tooth(at, position, member, tooth);
+    if (position.root_stress.size() > 0) {
+      entry["pinion_root_stress_MPa"] = root_stress_of_tooth(at, position, Member::Pinion, tooth);
+      entry["wheel_root_stress_MPa"] = root_stress_of_tooth(at, position, Member::Wheel, tooth);
     }
     json["teeth"].push_back(std::move(entry));
   }

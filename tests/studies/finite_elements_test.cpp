@@ -73,7 +73,7 @@ TEST_CASE("A study by finite elements: equal gears are solved once, kept, and ba
   CHECK(compliance["pinion"]["file"] == compliance["wheel"]["file"]);
   CHECK(cache.files().size() == 1);
   CHECK(compliance["pinion"]["unknowns"] > 1000);
-  CHECK(compliance["pinion"]["projection"] == 0);
+  CHECK(compliance["pinion"]["projection"] < 1e-12);  // round-off
   CHECK(results["used"]["pair"]["wheel"]["body"]["shaft_diameter_mm"] > 0);
   CHECK(results["notes"].empty());
   bool told = false;

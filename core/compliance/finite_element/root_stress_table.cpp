@@ -30,14 +30,18 @@ Eigen::MatrixXd RootStressTable::evaluate(int tooth, std::span<const FlankPlace>
   return result;
 }
 
-FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet, std::vector<double> zetas) {
+std::vector<double> fillet_zetas(double face_width) {
+  return axial_places(face_width, {0.25, 0.4, 0.6});
+}
+
+FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet) {
   const double tangent = fillet.along(mesh.form.root_tangent_point(30 * units::deg));
   FilletGrid grid;
-  for (int i = 1; i <= fillet_stations; ++i) grid.along.push_back(0.1 * i);
+  for (int i = 1; i <= fillet_stations; ++i) grid.along.push_back(0.1 * (i + 1));
   const auto nearest = std::ranges::min_element(grid.along, {}, [&](double s) { return std::abs(s - tangent); });
   *nearest = tangent;
   grid.tangent = static_cast<std::size_t>(nearest - grid.along.begin());
-  grid.zetas = std::move(zetas);
+  grid.zetas = fillet_zetas(mesh.face_width / mesh.normal_module);
   return grid;
 }
 
@@ -49,7 +53,7 @@ RootStressTable solve_root_stress_table(const GearMesh& mesh, const SolidModel& 
     throw InvalidInput("grid", std::to_string(grid.face_width()) + " modules", std::to_string(width));
   }
   const FilletStress fillet(mesh, material);
-  RootStressTable table{grid, fillet_grid(mesh, fillet, grid.zetas()), {}};
+  RootStressTable table{grid, fillet_grid(mesh, fillet), {}};
   std::vector<FilletPlace> places;
   for (const double along : table.fillet.along) {
     for (const double zeta : table.fillet.zetas)

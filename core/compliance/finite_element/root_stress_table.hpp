@@ -44,15 +44,18 @@ struct RootStressTable {
   Eigen::MatrixXd evaluate(int tooth, std::span<const FlankPlace> forces) const;
 };
 
-/// Places along the fillet where the stress is read: eight from 0.1 to 0.8, where its maximum lies, the nearest of them
+/// Places along the fillet where the stress is read: seven from 0.2 to 0.8, where its maximum lies, the nearest of them
 /// moved to the 30 deg tangent.
-inline constexpr int fillet_stations = 8;
-FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet, std::vector<double> zetas);
+inline constexpr int fillet_stations = 7;
+
+/// Axial places there: steps from 0.25 modules at the ends to 0.6. Between all these places the stress of a line load
+/// rises by up to 2.5 % above the largest of them (18 and 24 teeth, helix 30 and 0 deg).
+std::vector<double> fillet_zetas(double face_width);
+
+FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet);
 
 /// Reads a gear's table off its finite elements: by reciprocity a solution per component of stress, read by the forces
 /// on all detailed teeth, needs fewer of them than one per force.
-///
-/// The fillet's axial places are those of the grid.
 ///
 /// @param solid     of the mesh, Factorised
 /// @param material  of the solid model

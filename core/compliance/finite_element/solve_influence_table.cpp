@@ -63,7 +63,7 @@ class TableSolver {
         progress_(progress),
         run_(run),
         blocks_(blocks_of(task.grid.size())),
-        stress_blocks_(task.root_stress ? blocks_of(3 * fillet_stations * std::ssize(task.grid.zetas())) : 0) {}
+        stress_blocks_(task.root_stress ? blocks_of(3 * fillet_stations * std::ssize(fillet_zetas(task.grid.face_width()))) : 0) {}
 
   void solve(double memory_limit) {
     report(0);
