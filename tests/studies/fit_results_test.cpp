@@ -20,8 +20,8 @@ using nlohmann::json;
 /// A study whose pinion has been fitted with a coarse mesh, a narrow face and hardly any steps.
 StudyResults fitted_results() {
   StudyResults results;
-  results.study =
-      parse_study(study_template("fit"), "fit.toml", {{"pinion.face_width", "12"}, {"wheel.face_width", "12"}});
+  results.study = parse_study(study_template("fit"), "fit.toml",
+                              {{"pinion.face_width", "12"}, {"wheel.face_width", "12"}, {"fit.form", "several_teeth"}});
   results.pair = make_gear_pair(results.study.pair);
   GearFitTask task = gear_fit_task(results.study, results.pair, Member::Pinion);
   task.mesh = test::coarse();
