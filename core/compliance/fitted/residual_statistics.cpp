@@ -19,7 +19,7 @@ std::vector<ResidualStatistics> residual_statistics(const FlankCompliance& model
         if (std::isnan(known)) continue;
         const int apart = std::abs(sample.points[static_cast<std::size_t>(p)].tooth -
                                    sample.points[static_cast<std::size_t>(q)].tooth);
-        errors[apart].push_back(std::abs(K(p, q) - known) / std::abs(known));
+        errors[apart].push_back(std::abs(K(p, q) + sample.given_at(p, q) - known) / std::abs(known));
       }
     }
   }
