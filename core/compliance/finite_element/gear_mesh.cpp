@@ -117,6 +117,14 @@ FaceNodes GearMesh::face_nodes(const MeshFace& face) const {
   return result;
 }
 
+GearBody complete_body(const GearBody& body, const ToothForm& form, double normal_module) {
+  GearBody complete = body;
+  if (std::isnan(body.shaft_diameter)) complete.shaft_diameter = default_shaft_diameter(form, normal_module);
+  if (std::isnan(body.bore_diameter)) complete.bore_diameter = 0.2 * complete.shaft_diameter;
+  if (std::isnan(body.shaft_overhang)) complete.shaft_overhang = 0.5 * complete.shaft_diameter;
+  return complete;
+}
+
 GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options) {
   GearMesh mesh{ToothForm(gear.gear, gear.normal_module, gear.pressure_angle, gear.helix_angle)};
   const double width = gear.gear.face_width;
@@ -125,11 +133,9 @@ GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options) {
   mesh.normal_module = gear.normal_module;
   mesh.face_width = width;
   mesh.teeth_each_side = options.teeth_each_side;
-  const SectionMesh section = section_mesh(mesh.form, mesh.teeth, mesh.normal_module, gear.body, options);
-
-  const double shaft = std::isnan(gear.body.shaft_diameter) ? default_shaft_diameter(mesh.form, gear.normal_module)
-                                                            : gear.body.shaft_diameter;
-  const double overhang = std::isnan(gear.body.shaft_overhang) ? 0.5 * shaft : gear.body.shaft_overhang;
+  const GearBody body = complete_body(gear.body, mesh.form, gear.normal_module);
+  const SectionMesh section = section_mesh(mesh.form, mesh.teeth, mesh.normal_module, body, options);
+  const double overhang = body.shaft_overhang;
   if (!(overhang > 0) || !std::isfinite(overhang)) {
     throw InvalidInput("body.shaft_overhang", std::to_string(overhang), "more than 0 mm");
   }

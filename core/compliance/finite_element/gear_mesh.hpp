@@ -21,6 +21,9 @@ struct GearToMesh {
   GearBody body;
 };
 
+/// The body with its defaults in place of what is not given.
+GearBody complete_body(const GearBody& body, const ToothForm& form, double normal_module);
+
 /// An 8-node face of the mesh: four corners, then the mid-sides between them.
 using MeshFace = std::array<int, 8>;
 

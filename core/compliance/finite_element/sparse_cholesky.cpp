@@ -6,25 +6,26 @@
 #include <algorithm>
 #include <cassert>
 #include <initializer_list>
+#include <mutex>
 #include <new>
 #include <vector>
 
 namespace flankwright {
 namespace {
 
-/// Keeps OpenBLAS on one thread for its lifetime. Which BLAS runs is known only when the program is loaded, so its
-/// switch is looked for there; other implementations do not have it.
+/// Keeps OpenBLAS on one thread while any of them lives, in whatever thread of ours. Which BLAS runs is known only when
+/// the program is loaded, so its switch is looked for there; other implementations do not have it.
 class SerialBlas {
  public:
-  SerialBlas()
-      : get_(reinterpret_cast<Get>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"))),
-        set_(reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))) {
-    if (!get_ || !set_) return;
+  SerialBlas() {
+    const std::lock_guard lock(mutex_);
+    if (users_++ > 0 || !get_ || !set_) return;
     threads_ = get_();
     set_(1);
   }
   ~SerialBlas() {
-    if (threads_ > 0) set_(threads_);
+    const std::lock_guard lock(mutex_);
+    if (--users_ == 0 && get_ && set_) set_(threads_);
   }
   SerialBlas(const SerialBlas&) = delete;
   SerialBlas& operator=(const SerialBlas&) = delete;
@@ -32,9 +33,10 @@ class SerialBlas {
  private:
   using Get = int (*)();
   using Set = void (*)(int);
-  Get get_;
-  Set set_;
-  int threads_{0};
+  static inline const Get get_{reinterpret_cast<Get>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"))};
+  static inline const Set set_{reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))};
+  static inline std::mutex mutex_;
+  static inline int users_{0}, threads_{0};
 };
 
 /// METIS' nested dissection of the node graph, as an ordering of the rows.
@@ -69,6 +71,9 @@ std::vector<int> order_rows(const Eigen::SparseMatrix<double>& lower, const Eige
   graph.dtype = CHOLMOD_DOUBLE;
   graph.sorted = graph.packed = 1;
 
+  // METIS draws its random numbers from the one generator of the process, seeded at every call: calls take turns.
+  static std::mutex turns;
+  const std::lock_guard lock(turns);
   std::vector<int> node_order(groups), order;
   if (!cholmod_metis(&graph, nullptr, 0, 0, node_order.data(), &common)) return {};
   order.reserve(n);

@@ -1,0 +1,143 @@
+#include "core/compliance/finite_element/solve_influence_table.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <new>
+#include <string>
+
+#include "core/base/error.hpp"
+#include "core/contact/path_of_contact.hpp"
+
+namespace flankwright {
+namespace {
+
+class Clock {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};
+};
+
+std::vector<FlankPoint> flank_points(const GearMesh& mesh, const FlankGrid& grid) {
+  const ToothForm& form = mesh.form;
+  std::vector<FlankPoint> points;
+  for (int tooth = -mesh.teeth_each_side; tooth <= mesh.teeth_each_side; ++tooth) {
+    for (const FlankPlace& place : grid.places(tooth)) {
+      points.push_back({tooth, form.form_radius() + (place.u + 1) / 2 * (form.tip_radius() - form.form_radius()),
+                        place.zeta - mesh.face_width / 2});
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+InfluenceTableTask in_modules(InfluenceTableTask task) {
+  GearToMesh& gear = task.gear;
+  const double module = gear.normal_module;
+  for (double* length : {&gear.gear.face_width, &gear.gear.tip_diameter, &gear.body.shaft_diameter,
+                         &gear.body.bore_diameter, &gear.body.shaft_overhang, &gear.normal_module}) {
+    *length /= module;
+  }
+  return task;
+}
+
+int teeth_apart_in_contact(const GearPair& pair) {
+  return static_cast<int>(std::floor(PathOfContact(pair).last_line_phase()));
+}
+
+double expected_bytes(Eigen::Index unknowns) {
+  return 24 * std::pow(static_cast<double>(unknowns), 1.315);
+}
+
+namespace {
+
+/// Solves into a run, which holds what was done before an allocation fails.
+class TableSolver {
+ public:
+  TableSolver(const InfluenceTableTask& task, const TableProgress& progress, InfluenceTableRun& run)
+      : task_(task),
+        progress_(progress),
+        run_(run),
+        blocks_(static_cast<int>((task.grid.size() + kSolveBlock - 1) / kSolveBlock)) {}
+
+  void solve(double memory_limit) {
+    report(0);
+    const Clock clock;
+    GearMeshOptions options = task_.mesh;
+    options.teeth_each_side = task_.teeth_apart;
+    const GearMesh mesh = gear_mesh(in_modules(task_).gear, options);
+    RunStatistics& statistics = run_.statistics;
+    statistics.bricks = mesh.solid.bricks.cols();
+    statistics.unknowns = mesh.solid.nodes.size();  // the supports' among them, until they are told apart
+    if (expected_bytes(statistics.unknowns) > memory_limit) {
+      run_.status = FactorStatus::OutOfMemory;
+      return;
+    }
+    const SolidModel solid(mesh.solid, {1, task_.poissons_ratio}, mesh.supports);
+    run_.status = solid.status();
+    statistics.unknowns = solid.unknowns();
+    statistics.factor_entries = static_cast<double>(solid.factor().factor_entries());
+    statistics.peak_bytes = static_cast<double>(solid.factor().peak_bytes());
+    statistics.model_seconds = clock.seconds();
+    if (run_.status != FactorStatus::Factorised) return;
+    report(1);
+    const Clock loads;
+    run_.table.emplace(task_.grid, tables(deflections(mesh, solid)));
+    statistics.solve_seconds = loads.seconds();
+  }
+
+ private:
+  void report(int done) const {
+    if (progress_) progress_(done, blocks_ + 1);
+  }
+
+  /// Of all places on teeth -M .. M, by loads on tooth 0.
+  Eigen::MatrixXd deflections(const GearMesh& mesh, const SolidModel& solid) const {
+    const Eigen::SparseMatrix<double> functionals = net_functionals(mesh, flank_points(mesh, task_.grid), task_.removed);
+    const Eigen::Index n = task_.grid.size();
+    Eigen::MatrixXd result(functionals.cols(), n);
+    for (int block = 0; block < blocks_; ++block) {
+      const Eigen::Index begin = block * kSolveBlock, columns = std::min(kSolveBlock, n - begin);
+      const Eigen::SparseMatrix<double> loads = functionals.middleCols(task_.teeth_apart * n + begin, columns);
+      result.middleCols(begin, columns) = functionals.transpose() * solid.solve(loads);
+      report(block + 2);
+    }
+    return result;
+  }
+
+  std::vector<Eigen::MatrixXd> tables(const Eigen::MatrixXd& deflections) const {
+    const Eigen::Index n = task_.grid.size();
+    const auto of_tooth = [&](int m) { return deflections.middleRows((task_.teeth_apart + m) * n, n); };
+    std::vector<Eigen::MatrixXd> result;
+    for (int m = 0; m <= task_.teeth_apart; ++m) result.push_back(0.5 * (of_tooth(-m) + of_tooth(m).transpose()));
+    return result;
+  }
+
+  const InfluenceTableTask& task_;
+  const TableProgress& progress_;
+  InfluenceTableRun& run_;
+  int blocks_;
+};
+
+}  // namespace
+
+InfluenceTableRun solve_influence_table(const InfluenceTableTask& task, double memory_limit,
+                                        const TableProgress& progress) {
+  const double face_width = task.gear.gear.face_width / task.gear.normal_module;
+  if (!(std::abs(task.grid.face_width() - face_width) <= 1e-9 * face_width)) {  // round-off of the division
+    throw InvalidInput("grid", std::to_string(task.grid.face_width()) + " modules", std::to_string(face_width));
+  }
+  InfluenceTableRun run;
+  try {
+    TableSolver(task, progress, run).solve(memory_limit);
+  } catch (const std::bad_alloc&) {
+    run.status = FactorStatus::OutOfMemory;
+    run.table.reset();
+  }
+  return run;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "core/compliance/finite_element/influence.hpp"
+#include "core/compliance/finite_element/influence_table.hpp"
+#include "core/gear/gear_pair.hpp"
+
+namespace flankwright {
+
+/// What defines a gear's influence table.
+struct InfluenceTableTask {
+  GearToMesh gear;
+  double poissons_ratio{0.3};
+  int teeth_apart{2};    ///< M, 1 .. (teeth - 1)/2: so many teeth on either side are meshed in detail
+  GearMeshOptions mesh{};  ///< its teeth_each_side is replaced by teeth_apart
+  RemovedMotion removed{RemovedMotion::TranslationTorsionAndTilt};
+  FlankGrid grid;        ///< as wide as the face
+};
+
+/// The task with lengths in normal modules: m_n = 1. Gears that differ in size only become the same.
+InfluenceTableTask in_modules(InfluenceTableTask task);
+
+/// Most teeth apart that two points of a pair in contact at once can be, the extended region included.
+int teeth_apart_in_contact(const GearPair& pair);
+
+/// A table and what it took.
+struct InfluenceTableRun {
+  FactorStatus status{FactorStatus::NotPositiveDefinite};
+  std::optional<InfluenceTable> table;  ///< empty unless status is Factorised
+  RunStatistics statistics;
+};
+
+/// Memory that a run with so many unknowns takes at most [bytes], 24 n^1.315: the factorisation and the solutions of
+/// one block of loads. Measured on gears of 12 to 100 teeth and faces of 3 to 30 modules (48,000 to 420,000 unknowns).
+double expected_bytes(Eigen::Index unknowns);
+
+/// Steps of a run: the model, then blocks of loads.
+using TableProgress = std::function<void(int done, int total)>;
+
+/// Solves a gear's finite elements for a load at every place of the grid on tooth 0, the one that is meshed finely, and
+/// reads the deflections of its neighbours. T_m is the mean of what two reciprocal pairs give, deflection on tooth -m
+/// and, transposed, on tooth m: these differ by the neighbours' coarser mesh only.
+///
+/// Runs on one thread, E = m_n = 1: same input, same bits.
+/// @param memory_limit  OutOfMemory where expected_bytes() > memory_limit, before anything large is allocated, and where an
+///                      allocation fails after all
+/// @throws InvalidInput  as gear_mesh(), and "grid" where it is not as wide as the face
+InfluenceTableRun solve_influence_table(const InfluenceTableTask& task, double memory_limit,
+                                        const TableProgress& progress = {});
+
+}  // namespace flankwright

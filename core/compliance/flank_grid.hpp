@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/compliance/flank_compliance.hpp"
+
+namespace flankwright {
+
+/// Cardinal functions of the cubic spline through nodes on a line: s(x) = weights(x) . f for any values f at the nodes.
+///
+/// The spline is the not-a-knot one: its third derivative does not jump at the second and the second last node either.
+/// Unlike the natural spline, whose curvature is 0 at the ends, it reproduces every cubic and keeps its order up to
+/// the ends, where the values that it is used for change most.
+class SplineAxis {
+ public:
+  /// @param nodes  finite, strictly increasing, at least 4
+  /// @throws InvalidInput  "nodes" otherwise
+  explicit SplineAxis(std::vector<double> nodes);
+
+  const std::vector<double>& nodes() const { return nodes_; }
+  Eigen::Index size() const { return static_cast<Eigen::Index>(nodes_.size()); }
+
+  /// Of the values at the nodes in s(x); they sum to 1, and at a node all but its own are 0 to the last bit.
+  /// @param x  clamped to the range of the nodes
+  Eigen::VectorXd weights(double x) const;
+
+ private:
+  std::vector<double> nodes_;
+  Eigen::MatrixXd curvatures_;  ///< s'' at the nodes = curvatures_ f
+};
+
+/// A tensor grid of places on one tooth's flank, and interpolation between them by cubic splines along u and zeta:
+/// f(p) = weights(p) . f for a table f of values at the places.
+class FlankGrid {
+ public:
+  /// @param us     -1 .. 1, both ends included, strictly increasing, at least 4
+  /// @param zetas  0 .. B, likewise
+  /// @throws InvalidInput  "us", "zetas" or "nodes" otherwise
+  FlankGrid(std::vector<double> us, std::vector<double> zetas);
+
+  Eigen::Index size() const { return u_.size() * zeta_.size(); }
+  const std::vector<double>& us() const { return u_.nodes(); }
+  const std::vector<double>& zetas() const { return zeta_.nodes(); }
+  double face_width() const { return zeta_.nodes().back(); }  ///< B [m_n]
+
+  /// The places on a tooth in the order of tables: zeta runs fastest.
+  std::vector<FlankPlace> places(int tooth = 0) const;
+
+  /// Of a table's values in the one at (u, zeta), size(); the tooth does not matter.
+  /// @throws InvalidInput  "place.u" or "place.zeta" off the flank, by more than round-off (1e-9)
+  Eigen::VectorXd weights(const FlankPlace& place) const;
+
+ private:
+  SplineAxis u_, zeta_;
+};
+
+/// A grid for influence values and stresses of a gear: radii equally far apart, and axial steps in proportion to the
+/// distance over which values change,
+///
+///     h(d) = min(0.15 + 0.35 d, 0.85) modules at the distance d from the nearer face end,
+///
+/// so that there are about 6 + 1.2 B axial positions for B >= 4, eight for B = 2.
+///
+/// @param face_width  B = b/m_n [-], finite and > 0
+/// @param radii       >= 4
+/// @throws InvalidInput  "face_width", "radii"
+FlankGrid flank_grid(double face_width, int radii = 7);
+
+}  // namespace flankwright

@@ -1,0 +1,159 @@
+#include "core/compliance/finite_element/solve_influence_table.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "core/base/error.hpp"
+#include "core/contact/contact_points.hpp"
+#include "tests/core/compliance/finite_element/gears.hpp"
+
+using namespace flankwright;
+using namespace flankwright::test;
+
+namespace {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+InfluenceTableTask task_of(const GearToMesh& gear, FlankGrid grid, const GearMeshOptions& options = coarse()) {
+  return {.gear = gear, .teeth_apart = 2, .mesh = options, .grid = std::move(grid)};
+}
+
+FlankGrid coarse_grid(double width) {
+  return {{-1, -0.3, 0.4, 1}, {0, 0.2 * width, 0.5 * width, 0.8 * width, width}};
+}
+
+std::vector<FlankPoint> flank_points(const GearMesh& mesh, const std::vector<FlankPlace>& places) {
+  std::vector<FlankPoint> points;
+  for (const FlankPlace& p : places) {
+    const double radius =
+        mesh.form.form_radius() + (p.u + 1) / 2 * (mesh.form.tip_radius() - mesh.form.form_radius());
+    points.push_back({p.tooth, radius, p.zeta * mesh.normal_module - mesh.face_width / 2});
+  }
+  return points;
+}
+
+/// A pair of gears with its common face width in modules.
+GearPair pair_of(int pinion, int wheel, double helix_deg, double width) {
+  PairData data;
+  data.normal_module = 1;
+  data.helix_angle = helix_deg * units::deg;
+  data.pinion.teeth = pinion;
+  data.wheel.teeth = wheel;
+  data.pinion.face_width = data.wheel.face_width = width;
+  return make_gear_pair(data);
+}
+
+}  // namespace
+
+TEST_CASE("A solved table is the gear's influence matrix at the places of its grid", "[core][compliance][fe]") {
+  const double module = 3, modulus = 206000;
+  const GearToMesh gear = gear_of(14, 20, 3, 0, module);
+  const FlankGrid grid = coarse_grid(3);
+  std::vector<int> steps;
+  const InfluenceTableRun run = solve_influence_table(task_of(gear, grid), kNoLimit, [&](int done, int total) {
+    CHECK(total == 2);
+    steps.push_back(done);
+  });
+  REQUIRE(run.status == FactorStatus::Factorised);
+  CHECK(steps == std::vector<int>{0, 1, 2});
+  CHECK(run.statistics.peak_bytes < expected_bytes(run.statistics.unknowns));
+
+  GearMeshOptions options = coarse();
+  options.teeth_each_side = 2;
+  const InfluenceModel model(gear, {modulus, 0.3}, options);
+  std::vector<FlankPlace> places;
+  for (int tooth = -2; tooth <= 2; ++tooth) {
+    for (const FlankPlace& p : grid.places(tooth)) places.push_back(p);
+  }
+  const Eigen::MatrixXd direct = modulus * module * model.influence(flank_points(model.mesh(), places)).compliance;
+  const Eigen::Index n = grid.size();
+  const double scale = direct.maxCoeff();
+  for (int m = 0; m <= 2; ++m) {
+    const Eigen::MatrixXd forward = direct.block(2 * n, (2 + m) * n, n, n);
+    const Eigen::MatrixXd backward = direct.block((2 - m) * n, 2 * n, n, n);
+    Eigen::MatrixXd table = run.table->tables()[static_cast<std::size_t>(m)];
+    if (m == 0) table.diagonal() /= 1 + run.table->projection().added;
+    CHECK((table - 0.5 * (forward + backward)).cwiseAbs().maxCoeff() < 1e-9 * scale);  // round-off x condition
+  }
+}
+
+TEST_CASE("The same gear gives the same table again, whatever else is being solved", "[core][compliance][fe]") {
+  const InfluenceTableTask task = task_of(gear_of(12, 10, 3), coarse_grid(3));
+  const auto run = [&] { return solve_influence_table(task, kNoLimit).table->tables(); };
+  CHECK(run() == run());
+}
+
+TEST_CASE("Gears that differ in size only have the same task in modules", "[core][compliance][fe]") {
+  GearToMesh large = gear_of(14, 20, 4, 0, 8);
+  large.gear.tip_diameter = 8 * 16.5;
+  large.body = {8 * 10.0, 8 * 2.0, 8 * 5.0};
+  const GearToMesh small = in_modules(task_of(large, coarse_grid(4))).gear;
+  CHECK(small.normal_module == 1);
+  CHECK(small.gear.face_width == 4);
+  CHECK(small.gear.tip_diameter == 16.5);
+  CHECK(small.body.shaft_diameter == 10);
+  CHECK(small.body.bore_diameter == 2);
+  CHECK(small.body.shaft_overhang == 5);
+}
+
+TEST_CASE("A run that does not fit into memory says so before it starts, and a grid must fit the face",
+          "[core][compliance][fe]") {
+  const InfluenceTableTask task = task_of(gear_of(14, 20, 3), coarse_grid(3));
+  const InfluenceTableRun run = solve_influence_table(task, 1e6);
+  CHECK(run.status == FactorStatus::OutOfMemory);
+  CHECK(!run.table);
+  CHECK(run.statistics.unknowns > 1000);
+  CHECK(std::isnan(run.statistics.peak_bytes));
+  CHECK_THROWS_AS(solve_influence_table(task_of(gear_of(14, 20, 3), coarse_grid(3.1)), kNoLimit), InvalidInput);
+}
+
+TEST_CASE("No two contact points of a mesh position lie further apart than said", "[core][compliance][fe]") {
+  const auto [helix, width] = GENERATE(std::pair{0.0, 8.0}, std::pair{15.0, 6.0}, std::pair{30.0, 12.0}, std::pair{40.0, 20.0});
+  const GearPair pair = pair_of(20, 33, helix, width);
+  const PathOfContact path(pair);
+  int most = 0;
+  for (int i = 0; i < 200; ++i) {
+    const auto points = contact_points(pair, path, {QuadratureRule::Gauss3, 40}, i / 200.0, true, -width / 2, width / 2);
+    const auto [first, last] =
+        std::ranges::minmax(points, {}, [](const ContactPoint& point) { return point.tooth; });
+    most = std::max(most, last.tooth - first.tooth);
+  }
+  CAPTURE(helix, width);
+  CHECK(most == teeth_apart_in_contact(pair));
+}
+
+TEST_CASE("Influence between grid places is near the finite elements' own", "[.soak][core][compliance][fe]") {
+  const int teeth = GENERATE(18, 40);
+  const double width = 12;
+  const GearToMesh gear = gear_of(teeth, 30, width);
+  const InfluenceTableRun run = solve_influence_table(task_of(gear, flank_grid(width), {}), kNoLimit);
+  REQUIRE(run.table);
+
+  const InfluenceModel model(gear, {1, 0.3});
+  std::vector<FlankPlace> unseen;
+  for (const int tooth : {0, 1, 2}) {
+    for (const double u : {-0.9, -0.5, -0.15, 0.3, 0.75, 0.97}) {
+      for (const double zeta : {0.08, 0.3, 0.57, 1.0, 1.6, 2.3, 3.1, 4.8, 6.3, 8.0, 9.9, 10.5, 11.1, 11.45, 11.72, 11.93}) {
+        unseen.push_back({tooth, u, zeta});
+      }
+    }
+  }
+  const Eigen::MatrixXd direct = model.influence(flank_points(model.mesh(), unseen)).compliance;
+  const Eigen::MatrixXd ours = run.table->evaluate(unseen);
+  const Eigen::Index n = std::ssize(unseen) / 3;
+  for (int m = 0; m <= 2; ++m) {
+    // On tooth 0 by a load on tooth m: where the finite elements are finest.
+    const Eigen::ArrayXXd theirs = direct.block(0, m * n, n, n).array();
+    Eigen::ArrayXXd error = ((ours.block(0, m * n, n, n).array() - theirs) / theirs).abs();
+    std::vector<double> sorted(error.data(), error.data() + error.size());
+    std::ranges::sort(sorted);
+    const double median = sorted[sorted.size() / 2], share_95 = sorted[sorted.size() * 95 / 100], worst = sorted.back();
+    WARN(teeth << " teeth, " << m << " apart: " << median << " " << share_95 << " " << worst << ", lowest eigenvalue "
+               << run.table->projection().lowest_eigenvalue);
+    CHECK(median < 0.005);
+    CHECK(share_95 < 0.025);
+    CHECK(worst < 0.08);
+  }
+}
