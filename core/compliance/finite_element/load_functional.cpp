@@ -38,6 +38,15 @@ int parts(const FaceNodes& nodes, const Eigen::Vector3d& p) {
   return std::clamp(static_cast<int>(std::ceil(1.5 * size / distance)), 1, kMost);
 }
 
+/// A point beyond a face end is turned back onto it along the helix.
+Eigen::Vector3d on_face_width(const GearMesh& mesh, const Eigen::Vector3d& x) {
+  const double z = std::clamp(x.z(), -mesh.face_width / 2, mesh.face_width / 2);
+  const double turn = std::tan(mesh.form.helix_angle()) / mesh.form.reference_radius() * (z - x.z());
+  Eigen::Vector3d result = Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()) * x;
+  result.z() = z;
+  return result;
+}
+
 [[noreturn]] void reject(const char* field, double value, double low, double high) {
   throw InvalidInput(field, std::to_string(value), std::to_string(low) + " to " + std::to_string(high));
 }
@@ -85,30 +94,33 @@ LoadFrame load_frame(const GearMesh& mesh, const FlankPoint& point) {
 Eigen::SparseVector<double> centre_functional(const GearMesh& mesh, const FlankPoint& point) {
   const LoadFrame frame = load_frame(mesh, point);
   const Eigen::Vector3d& n = frame.normal;
-  const Eigen::Vector3d source = frame.position - (1 - source_height) * frame.depth * n;
+  const Eigen::Vector3d foot = on_face_width(mesh, frame.position - frame.depth * n);
+  const Eigen::Vector3d source = foot + source_height * frame.depth * n;
+  Eigen::Matrix<double, 2, 3> across;  // rows: directions across the line of action
+  across.row(0) = Eigen::Vector3d(n.y(), -n.x(), 0).normalized();
+  across.row(1) = n.cross(across.row(0).transpose());
 
-  // Per node: integrals of w N and w xi N.
-  std::map<int, Eigen::Vector2d> nodal;
-  Eigen::Matrix2d moments = Eigen::Matrix2d::Zero();  // of w times (1, xi; xi, xi^2)
+  // Per node: integrals of w N times (1, xi, eta).
+  std::map<int, Eigen::Vector3d> nodal;
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();  // of w times (1, xi, eta) and itself
   for (const MeshFace& face : mesh.surfaces(point.tooth).centre) {
     const FaceNodes nodes = mesh.face_nodes(face);
-    Eigen::Matrix<double, 8, 2> sums = Eigen::Matrix<double, 8, 2>::Zero();
+    Eigen::Matrix<double, 8, 3> sums = Eigen::Matrix<double, 8, 3>::Zero();
     integrate_face(parts(nodes, source), [&](const FaceShape& shape, double weight) {
-      const Eigen::Vector3d d = nodes * shape.values - source;
+      const Eigen::Vector3d x = nodes * shape.values, d = x - source;
       const double a = -n.dot(d);
       if (!(a > 0)) return;
       const Eigen::Matrix<double, 3, 2> tangents = nodes * shape.derivatives;
       const Eigen::Vector3d area = tangents.col(0).cross(tangents.col(1));  // nu dA
       const double w = 1.5 / units::pi * a * a * std::abs(d.dot(area)) / std::pow(d.squaredNorm(), 2.5) * weight;
-      const double xi = (d.x() * n.y() - d.y() * n.x()) / frame.depth;
-      sums.col(0) += w * shape.values;
-      sums.col(1) += w * xi * shape.values;
-      const Eigen::Vector2d powers(1, xi);
+      Eigen::Vector3d powers;
+      powers << 1, across * (x - frame.position) / frame.depth;
+      sums += w * shape.values * powers.transpose();
       moments += w * powers * powers.transpose();
     });
-    for (int i = 0; i < 8; ++i) nodal.try_emplace(face[i], Eigen::Vector2d::Zero()).first->second += sums.row(i);
+    for (int i = 0; i < 8; ++i) nodal.try_emplace(face[i], Eigen::Vector3d::Zero()).first->second += sums.row(i);
   }
-  const Eigen::Vector2d factors = moments.inverse() * Eigen::Vector2d(1, 0);
+  const Eigen::Vector3d factors = moments.inverse() * Eigen::Vector3d(1, 0, 0);
 
   Eigen::SparseVector<double> result(mesh.solid.nodes.size());
   for (const auto& [node, sums] : nodal) {

@@ -66,16 +66,31 @@ TEST_CASE("The flank's frame: normal to the surface, and deep to the tooth's cen
   }
 }
 
-TEST_CASE("A load on the flank keeps its force and its torque exactly", "[core][compliance][fe]") {
+TEST_CASE("A load on the flank keeps its force and its moments exactly", "[core][compliance][fe]") {
   const GearMesh mesh = gear_mesh(gear_of(23, GENERATE(0, 25), 5), coarse());
-  const double cos_base =
-      1 / std::hypot(1, std::tan(mesh.form.helix_angle()) * mesh.form.base_radius() / mesh.form.reference_radius());
   for (const FlankPoint& point : points(mesh)) {
     CAPTURE(point.tooth, point.radius, point.z);
     const LoadFrame frame = load_frame(mesh, point);
     const Eigen::Matrix<double, 6, 1> sum = resultant(mesh, centre_functional(mesh, point));
     CHECK((sum.head<3>() + frame.normal).norm() < 1e-12);  // round-off
-    CHECK(sum[5] == Approx(mesh.form.base_radius() * cos_base).epsilon(1e-12));
+    CHECK((sum.tail<3>() + frame.position.cross(frame.normal)).norm() < 1e-11);
+  }
+}
+
+TEST_CASE("The functional is continuous where the line of action begins to leave through the end face",
+          "[core][compliance][fe]") {
+  const GearMesh mesh = gear_mesh(gear_of(18, 30), coarse());
+  for (const double radius : {mesh.form.form_radius(), mesh.form.reference_radius(), mesh.form.tip_radius()}) {
+    const LoadFrame frame = load_frame(mesh, {0, radius, 0});
+    const double border = -mesh.face_width / 2 + frame.depth * frame.normal.z();
+    REQUIRE(border > -mesh.face_width / 2 + 0.1);
+    for (const double z : {border, -mesh.face_width / 2 + 0.05}) {
+      const Eigen::VectorXd here = centre_functional(mesh, {0, radius, z});
+      const double close = (Eigen::VectorXd(centre_functional(mesh, {0, radius, z + 1e-5})) - here).norm();
+      const double far = (Eigen::VectorXd(centre_functional(mesh, {0, radius, z + 1e-3})) - here).norm();
+      CHECK(far < 1e-2 * here.norm());
+      CHECK(close < 0.02 * far);  // proportional to the distance, twice over
+    }
   }
 }
 
