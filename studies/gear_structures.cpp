@@ -12,12 +12,25 @@ const char* to_string(ComplianceModel model) {
   __builtin_unreachable();
 }
 
-std::shared_ptr<const PairCompliance> gear_structures(const Study& study, const GearPair&, const ProgressReport&) {
+ComplianceModel compliance_model(std::string_view name) {
+  for (const ComplianceModel model : {ComplianceModel::Rigid, ComplianceModel::ThinSlice, ComplianceModel::Fitted}) {
+    if (name == to_string(model)) return model;
+  }
+  return ComplianceModel::Fe;
+}
+
+GearStructures gear_structures(const Study& study, const GearPair& pair, const ProgressReport& progress) {
   switch (study.fidelity.compliance) {
     case ComplianceModel::Rigid:
     case ComplianceModel::ThinSlice:
-    case ComplianceModel::Fitted:
-    case ComplianceModel::Fe: return nullptr;
+    case ComplianceModel::Fitted: return {};
+    case ComplianceModel::Fe: {
+      FiniteElementRuns runs = solve_finite_elements(study, pair, progress);
+      auto structure = std::make_shared<const StructuralPair>(
+          pair, GearStructure{runs[Member::Pinion].table, study.pinion_material.youngs_modulus},
+          GearStructure{runs[Member::Wheel].table, study.wheel_material.youngs_modulus});
+      return {std::move(structure), std::move(runs)};
+    }
   }
   __builtin_unreachable();
 }

@@ -1,14 +1,23 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "core/compliance/pair_compliance.hpp"
-#include "studies/run_study.hpp"
+#include "studies/finite_elements.hpp"
+#include "studies/progress.hpp"
+#include "studies/study.hpp"
 
 namespace flankwright::studies {
 
-/// The structure that a study's compliance model asks for; null for "rigid" and "thin_slice", which need none.
-std::shared_ptr<const PairCompliance> gear_structures(const Study& study, const GearPair& pair,
-                                                      const ProgressReport& progress);
+/// Both gears' structure and what it was made from.
+struct GearStructures {
+  std::shared_ptr<const PairCompliance> pair;  ///< null for "rigid" and "thin_slice", which need none
+  std::optional<FiniteElementRuns> finite_elements;
+};
+
+/// The structure that a study's compliance model asks for.
+/// @throws InvalidInput  as solve_finite_elements()
+GearStructures gear_structures(const Study& study, const GearPair& pair, const ProgressReport& progress);
 
 }  // namespace flankwright::studies

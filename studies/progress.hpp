@@ -1,9 +1,13 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 
 namespace flankwright::studies {
+
+/// Progress of long work: a label, done and total steps (total 0: unknown), a remark.
+using ProgressReport = std::function<void(const std::string& label, int done, int total, const std::string& remark)>;
 
 /// Progress of long work on stderr: a bar that redraws itself on a terminal, a line every few seconds elsewhere.
 class Progress {

@@ -5,6 +5,7 @@
 
 #include "core/compliance/thin_slice.hpp"
 #include "core/gear/tooth_form.hpp"
+#include "studies/compliance_json.hpp"
 #include "studies/json_format.hpp"
 #include "studies/unloaded_json.hpp"
 #include "studies/used_json.hpp"
@@ -259,6 +260,7 @@ std::string results_json(const StudyResults& results) {
     }
   }
   json["loaded"] = list(results.loaded, [&](const LoadedResult& l) { return loaded_json(l, results); });
+  if (results.structures.finite_elements) json["compliance"] = compliance_json(*results.structures.finite_elements, study);
   json["modifications"] = modifications_json(results);
   json["effects"] = list(results.effects, [](const Effect& e) -> Json {
     return {{"name", e.name}, {"on", e.on}, {"why", e.why}, {"seconds", e.seconds}};

@@ -1,10 +1,10 @@
 #include "studies/run_study.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <sstream>
 
-#include "studies/gear_structures.hpp"
 
 namespace flankwright::studies {
 
@@ -65,6 +65,10 @@ class Run {
     if (study.fidelity.compliance == ComplianceModel::Rigid && any_torque()) {
       note("compliance is rigid: torques are ignored, contact is analysed without load");
     }
+    const bool has_body = std::ranges::any_of(study.given, [](const GivenValue& g) { return g.key.find(".body.") != std::string::npos; });
+    if (has_body && study.fidelity.compliance != ComplianceModel::Fe) {
+      note(std::string("a gear's body is given, but the compliance \"") + to_string(study.fidelity.compliance) + "\" does not know of it");
+    }
     geometry_notes();
   }
 
@@ -123,8 +127,15 @@ class Run {
 
   /// Both gears' structure, made when first needed.
   const std::shared_ptr<const PairCompliance>& structure() {
-    if (!structure_) structure_ = gear_structures(results_.study, results_.pair, progress_);
-    return *structure_;
+    if (!has_structure_) {
+      results_.structures = gear_structures(results_.study, results_.pair, progress_);
+      has_structure_ = true;
+      if (const auto& runs = results_.structures.finite_elements) {
+        results_.effects.push_back({"finite_elements", true, "compliance is fe: influence values of both gears", runs->seconds});
+        results_.notes.insert(results_.notes.end(), runs->notes.begin(), runs->notes.end());
+      }
+    }
+    return results_.structures.pair;
   }
 
   void add_unloaded(const Scene& scene) {
@@ -148,6 +159,7 @@ class Run {
     int total = 0, done = 0;
     for (const Scene& scene : study.scenes) total += static_cast<int>(scene.torques.size());
     double unloaded_seconds = 0.0, loaded_seconds = 0.0;
+    if (study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) structure();  // its time is its own
     for (const Scene& scene : study.scenes) {
       bool has_unloaded = false;
       for (double torque : scene.torques) {
@@ -254,7 +266,7 @@ class Run {
   const ProgressReport& progress_;
   StudyResults results_;
   std::map<double, std::size_t> model_index_;
-  std::optional<std::shared_ptr<const PairCompliance>> structure_;
+  bool has_structure_{false};
 };
 
 }  // namespace

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +7,7 @@
 #include "core/effects/effects.hpp"
 #include "core/load/mesh_cycle.hpp"
 #include "optimize/design_optimiser.hpp"
+#include "studies/gear_structures.hpp"
 #include "studies/study.hpp"
 #include "studies/unloaded_result.hpp"
 
@@ -30,6 +30,7 @@ struct StudyResults {
   std::vector<UnloadedResult> unloaded;
   std::vector<LoadedResult> loaded;
   std::vector<MeshModel> models;  ///< one per axial offset
+  GearStructures structures;      ///< empty where no structure was asked for, or none needed
   std::vector<Effect> effects;
   std::optional<DesignTask> design_task;
   std::optional<DesignResult> design;
@@ -37,9 +38,6 @@ struct StudyResults {
   std::vector<std::string> requirements;  ///< requirements that were not met (exit code 1), one line each
   double seconds{not_given};
 };
-
-/// Progress of long work: a label, done and total steps (total 0: unknown), a remark.
-using ProgressReport = std::function<void(const std::string& label, int done, int total, const std::string& remark)>;
 
 /// Does the study's task. Never prints.
 /// @throws InvalidInput where the study cannot be analysed after all

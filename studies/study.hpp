@@ -3,8 +3,10 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/compliance/finite_element/section_mesh.hpp"
 #include "core/contact/contact_points.hpp"
 #include "core/contact/misalignment.hpp"
 #include "core/gear/gear_data.hpp"
@@ -21,6 +23,8 @@ enum class ComplianceModel { Rigid, ThinSlice, Fitted, Fe };
 
 /// As a study names it: "rigid", "thin_slice", "fitted", "fe".
 const char* to_string(ComplianceModel model);
+/// The model of one of these names.
+ComplianceModel compliance_model(std::string_view name);
 
 /// Whether the model knows how a load on one tooth moves another.
 inline bool couples_teeth(ComplianceModel model) {
@@ -96,6 +100,7 @@ struct Study {
   ManufacturingError pinion_error, wheel_error;
   Misalignment misalignment;
   Material pinion_material, wheel_material;
+  GearBody pinion_body, wheel_body;  ///< that the finite elements' teeth stand on
   std::vector<double> torques;  ///< base [load] torque list [N mm]; {0} where [load] is absent
   double marking_thickness{6.35e-3};  ///< of the compound that shows the bearing pattern [mm], > 0
   Cycle cycle;

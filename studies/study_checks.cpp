@@ -6,6 +6,7 @@
 #include "core/flank/conjugate_field.hpp"
 #include "core/gear/gear_pair.hpp"
 #include "optimize/solver.hpp"
+#include "studies/finite_elements.hpp"
 
 namespace flankwright::studies {
 
@@ -29,7 +30,8 @@ bool is_geometry(const std::string& path) {
   const std::string table = path.substr(0, path.find('.'));
   if (table == "pair") return true;
   const std::string rest = path.substr(std::min(path.size(), table.size() + 1));
-  const bool is_micro = rest.starts_with("modification") || rest.starts_with("error") || rest.starts_with("material");
+  const bool is_micro = rest.starts_with("modification") || rest.starts_with("error") || rest.starts_with("material") ||
+                        rest.starts_with("body");
   return (table == "pinion" || table == "wheel") && !is_micro;
 }
 
@@ -116,6 +118,17 @@ void check_parabola(StudyReading& reading, Member m) {
   }
 }
 
+/// What the finite elements of a gear refuse, before anything is solved.
+void check_finite_elements(StudyReading& reading, Member m) {
+  const Study& study = reading.draft.study;
+  if (!reading.problems.empty() || study.fidelity.compliance != ComplianceModel::Fe) return;
+  try {
+    influence_table_task(study, make_gear_pair(study.pair), m);
+  } catch (const InvalidInput& problem) {
+    refuse_key(reading, problem.field(), "allowed is " + problem.allowed());
+  }
+}
+
 void check_variables(StudyReading& reading) {
   const OptimiseTable& optimise = reading.draft.study.optimise;
   const auto is_variable = [&](const std::string& path) {
@@ -138,7 +151,7 @@ void check_optimise(StudyReading& reading) {
     refuse_key(reading, "optimise.solver", "this solver takes no constraints; one that does: \"ipopt\"");
   }
   if (study.fidelity.compliance == ComplianceModel::Rigid) {
-    refuse_key(reading, "fidelity.compliance", "task \"optimise\" needs a compliance: allowed is \"thin_slice\"");
+    refuse_key(reading, "fidelity.compliance", "task \"optimise\" needs a compliance: allowed is \"thin_slice\" or \"fe\"");
   }
   for (const Scene& scene : study.scenes) {
     if (std::ranges::any_of(scene.torques, [](double torque) { return torque > 0.0; })) continue;
@@ -187,6 +200,7 @@ void check_task(StudyReading& reading) {
   for (const Member m : members) {
     for (const ReliefKeys& keys : reliefs) check_relief(reading, m, keys);
     check_parabola(reading, m);
+    check_finite_elements(reading, m);
   }
   check_variables(reading);
   if (reading.draft.study.task == Task::Optimise) check_optimise(reading);

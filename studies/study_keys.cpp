@@ -8,6 +8,9 @@ namespace flankwright::studies {
 
 namespace {
 
+GearBody& body(Draft& draft, Member m) {
+  return m == Member::Pinion ? draft.study.pinion_body : draft.study.wheel_body;
+}
 Material& material(Draft& draft, Member m) {
   return m == Member::Pinion ? draft.study.pinion_material : draft.study.wheel_material;
 }
@@ -62,6 +65,17 @@ std::vector<SchemaKey> working_condition_rows() {
        .fallback = "(as [material])", .meaning = "nu of this gear",
        .store = [](Draft& d, Member m, const Value& v) { material(d, m).poissons_ratio = v.number; }},
 
+      {.path = "gear.body.shaft_diameter", .quantity = Quantity::Length, .range = any_length,
+       .fallback = "(0.8 d, at most 25 m_n/cos(beta) and d_f - 1.2 m_n)",
+       .meaning = "of the shaft that the gear, a solid disc, is one with; at most d_f - m_n; compliance \"fe\"",
+       .store = [](Draft& d, Member m, const Value& v) { body(d, m).shaft_diameter = v.number; }},
+      {.path = "gear.body.bore_diameter", .quantity = Quantity::Length, .range = any_length,
+       .fallback = "(0.2 of the shaft)", .meaning = "of the shaft; below 0.9 of it; compliance \"fe\"",
+       .store = [](Draft& d, Member m, const Value& v) { body(d, m).bore_diameter = v.number; }},
+      {.path = "gear.body.shaft_overhang", .quantity = Quantity::Length, .range = any_length,
+       .fallback = "(0.5 of the shaft)", .meaning = "length of the shaft beyond each face end; compliance \"fe\"",
+       .store = [](Draft& d, Member m, const Value& v) { body(d, m).shaft_overhang = v.number; }},
+
       {.path = "load.torque", .kind = NumberOrList, .quantity = Quantity::Torque, .range = from_zero(1e9),
        .fallback = "0", .meaning = "on the pinion; a list runs each, 0 is unloaded",
        .hint = "for torque the other way round write pair.working_flank = \"left\"",
@@ -76,10 +90,10 @@ std::vector<SchemaKey> working_condition_rows() {
        .meaning = "explicit phases of the reference tooth pair, in base pitches; 0 where its contact line enters",
        .store = [](Draft& d, Member, const Value& v) { d.study.cycle.phases = v.numbers; }},
 
-      {.path = "fidelity.compliance", .kind = Word, .words = {"rigid", "thin_slice"}, .later = {"fitted", "fe"},
+      {.path = "fidelity.compliance", .kind = Word, .words = {"rigid", "thin_slice", "fe"}, .later = {"fitted"},
        .fallback = "\"thin_slice\"", .meaning = "rung of the ladder of compliance models",
        .store = [](Draft& d, Member, const Value& v) {
-         d.study.fidelity.compliance = static_cast<ComplianceModel>(v.integer);
+         d.study.fidelity.compliance = compliance_model(v.text);
        }},
       {.path = "fidelity.gap", .kind = Word, .words = {"plane_of_action"}, .later = {"whole_surface"},
        .fallback = "\"plane_of_action\"", .meaning = "where contact is sought"},

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "studies/compliance_json.hpp"
+
 namespace flankwright::studies {
 
 namespace {
@@ -44,7 +46,7 @@ Json grid_json(const FlankGrid& grid) {
           {"residual_largest_um", in_um(grid.largest)}};
 }
 
-Json used_gear_json(const StudyResults& results, Member member) {
+Json macro_json(const StudyResults& results, Member member) {
   const Gear& gear = results.pair[member];
   const Material& material = member == Member::Pinion ? results.study.pinion_material : results.study.wheel_material;
   return {{"teeth", gear.data.teeth},
@@ -56,6 +58,12 @@ Json used_gear_json(const StudyResults& results, Member member) {
           {"grid", grid_json(member == Member::Pinion ? results.study.pinion_grid : results.study.wheel_grid)},
           {"youngs_modulus_MPa", material.youngs_modulus},
           {"poissons_ratio", material.poissons_ratio}};
+}
+
+Json used_gear_json(const StudyResults& results, Member member) {
+  Json json = macro_json(results, member);
+  if (const auto& runs = results.structures.finite_elements) json["body"] = body_json((*runs)[member].body);
+  return json;
 }
 
 }  // namespace
@@ -82,7 +90,7 @@ Json used_json(const StudyResults& results) {
   if (study.misalignment.pinion_lead_angle != 0.0) {
     used["misalignment"] = {{"pinion_lead_angle", "lead angle changed, normal pressure angle kept: pitch radius, base radius and screw parameter follow"}};
   }
-  if (!results.models.empty()) {
+  if (!results.models.empty() && results.structures.pair == nullptr) {
     used["thin_slice"] = {{"calibration", results.models.front().calibration}};
   }
   return used;

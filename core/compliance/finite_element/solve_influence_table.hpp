@@ -32,8 +32,9 @@ struct InfluenceTableRun {
   RunStatistics statistics;
 };
 
-/// Memory that a run with so many unknowns takes at most [bytes], 24 n^1.315: the factorisation and the solutions of
-/// one block of loads. Measured on gears of 12 to 100 teeth and faces of 3 to 30 modules (48,000 to 420,000 unknowns).
+/// Memory that a run with n unknowns takes at most [bytes], 56 n^1.469 + 4000 n: the factorisation, and the matrix or the
+/// solutions of one block of loads beside it. The first term was measured on gears of 12 to 100 teeth and faces of 3 to
+/// 12 modules (36,000 to 225,000 unknowns) as 42 to 48 n^1.469.
 double expected_bytes(Eigen::Index unknowns);
 
 /// Steps of a run: the model, then blocks of loads.

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "studies/finite_elements.hpp"
+#include "studies/json_format.hpp"
+
+namespace flankwright::studies {
+
+/// The section `compliance` of results.json: what the finite elements of both gears are and took.
+Json compliance_json(const FiniteElementRuns& runs, const Study& study);
+
+/// A gear's body as used, of `used` in results.json.
+Json body_json(const GearBody& body);
+
+}  // namespace flankwright::studies

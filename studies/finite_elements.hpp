@@ -1,0 +1,44 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/compliance/finite_element/solve_influence_table.hpp"
+#include "studies/progress.hpp"
+#include "studies/study.hpp"
+
+namespace flankwright::studies {
+
+/// Influence values of one gear of a study and where they came from.
+struct GearRun {
+  std::shared_ptr<const InfluenceTable> table;
+  RunStatistics statistics;    ///< of the run, whenever it was made
+  GearBody body;               ///< used [mm]
+  RemovedMotion removed{RemovedMotion::TranslationTorsionAndTilt};
+  bool from_cache{false};
+  std::string file;            ///< where it is kept; empty: nowhere
+  double seconds{not_given};   ///< wall time in this study
+};
+
+struct FiniteElementRuns {
+  std::array<GearRun, 2> gears;  ///< pinion, wheel
+  std::vector<std::string> notes;
+  double seconds{not_given};     ///< wall time in this study
+
+  const GearRun& operator[](Member m) const { return gears[m == Member::Pinion ? 0 : 1]; }
+};
+
+/// What is to be solved for one gear: its own face width, body and tip, teeth apart as the pair needs them (two at
+/// least, so that the loaded tooth's neighbours stand on what they stand on), the grid of flank_grid().
+/// @throws InvalidInput  under the study's keys, where body and teeth cannot be meshed
+InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair, Member member);
+
+/// Solves both gears or takes them from the cache. Gears that are alike but for their size are solved once; two that
+/// are not are solved side by side where memory suffices for both, one after the other where it does not.
+/// @throws InvalidInput  "fidelity.compliance" where a gear does not fit into the machine's memory, and as
+///                       influence_table_task()
+FiniteElementRuns solve_finite_elements(const Study& study, const GearPair& pair, const ProgressReport& progress);
+
+}  // namespace flankwright::studies

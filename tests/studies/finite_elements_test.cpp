@@ -1,0 +1,123 @@
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "studies/results_json.hpp"
+#include "studies/run_study.hpp"
+#include "studies/study_file.hpp"
+#include "tests/studies/command_line.hpp"
+
+namespace flankwright::studies {
+namespace {
+
+using nlohmann::json;
+
+/// Keeps runs in a folder of its own while it lives, never in the user's.
+class ScratchCache {
+ public:
+  ScratchCache() { ::setenv("FLANKWRIGHT_CACHE", folder_.path().c_str(), 1); }
+  ~ScratchCache() { ::unsetenv("FLANKWRIGHT_CACHE"); }
+  ScratchCache(const ScratchCache&) = delete;
+  ScratchCache& operator=(const ScratchCache&) = delete;
+  std::vector<std::string> files() const { return folder_.names(); }
+
+ private:
+  command_line::ScratchFolder folder_;
+};
+
+/// Two equal narrow spur gears: one small finite-element run.
+const std::string twins = R"(
+[pair]
+normal_module = 4
+[pinion]
+teeth = 12
+profile_shift = 0.3
+face_width = 4
+[wheel]
+teeth = 12
+profile_shift = 0.3
+face_width = 4
+[load]
+torque = 20
+[cycle]
+positions = 8
+[fidelity]
+compliance = "fe"
+)";
+
+StudyResults run(const std::string& text, const std::vector<Override>& overrides = {}) {
+  return run_study(parse_study(text, "twins.toml", overrides));
+}
+
+std::string refusal(const std::vector<Override>& overrides) {
+  try {
+    parse_study(twins, "twins.toml", overrides);
+  } catch (const InvalidInput& problem) {
+    return problem.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("A study by finite elements: equal gears are solved once, kept, and balance the load", "[studies][fe]") {
+  const ScratchCache cache;
+  const StudyResults solved = run(twins);
+  const json results = json::parse(results_json(solved));
+  const json& compliance = results["compliance"];
+  CHECK(compliance["pinion"]["source"] == "solved");
+  CHECK(compliance["pinion"]["file"] == compliance["wheel"]["file"]);
+  CHECK(cache.files().size() == 1);
+  CHECK(compliance["pinion"]["unknowns"] > 1000);
+  CHECK(compliance["pinion"]["projection"] == 0);
+  CHECK(results["used"]["pair"]["wheel"]["body"]["shaft_diameter_mm"] > 0);
+  CHECK(results["notes"].empty());
+  bool told = false;
+  for (const json& effect : results["effects"]) told = told || (effect["name"] == "finite_elements" && effect["seconds"] > 0);
+  CHECK(told);
+
+  // What acts is what is passed on, at every position; and no load does negative work.
+  for (std::size_t i = 0; i < solved.models[0].positions.size(); ++i) {
+    const MeshPosition& at = solved.models[0].positions[i];
+    const LoadDistribution& load = solved.loaded[0].cycle.positions[i].load;
+    CHECK(at.weight.dot(load.line_load) == Approx(solved.loaded[0].cycle.force).epsilon(1e-10));  // round-off
+    CHECK(at.influence == at.influence.transpose());
+    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(at.influence).eigenvalues();
+    CHECK(values[0] > -1e-13 * values[values.size() - 1]);  // round-off
+  }
+
+  // The next study finds the run; gears of another size and modulus are the same in modules.
+  const StudyResults kept = run(twins);
+  const json kept_results = json::parse(results_json(kept));
+  CHECK(kept_results["compliance"]["wheel"]["source"] == "cache");
+  CHECK(kept_results["loaded"] == results["loaded"]);
+  const StudyResults doubled = run(twins, {{"pair.normal_module", "8"}, {"pinion.face_width", "8"}, {"wheel.face_width", "8"},
+                                           {"load.torque", "160"}, {"material.youngs_modulus", "206000"}});
+  CHECK(doubled.structures.finite_elements->gears[0].from_cache);
+  CHECK(doubled.loaded[0].summary.te_mean == Approx(2 * kept.loaded[0].summary.te_mean).epsilon(1e-9));  // same stress
+
+  // Teeth that do not know of each other give way less: their loads push on their neighbours' flanks.
+  const StudyResults alone = run(twins, {{"fidelity.effects", R"(["bending", "hertzian_contact", "tip_corner", "extended_contact_region"])"}});
+  CHECK(alone.loaded[0].summary.te_mean < kept.loaded[0].summary.te_mean);
+}
+
+TEST_CASE("What a gear's finite elements refuse is refused when the study is read, under its key", "[studies][fe]") {
+  CHECK(refusal({}).empty());
+  CHECK(refusal({{"pinion.body.shaft_diameter", "30"}, {"wheel.body.bore_diameter", "5"}}).empty());
+  CHECK_THAT(refusal({{"pinion.body.shaft_diameter", "40"}}), Catch::Contains("pinion.body.shaft_diameter"));
+  CHECK_THAT(refusal({{"wheel.body.shaft_diameter", "20"}, {"wheel.body.bore_diameter", "19"}}),
+             Catch::Contains("wheel.body.bore_diameter"));
+  CHECK_THAT(refusal({{"wheel.body.shaft_overhang", "-1"}}), Catch::Contains("wheel.body.shaft_overhang"));
+  CHECK_THAT(refusal({{"pair.helix_angle", "40"}, {"pinion.face_width", "120"}, {"wheel.face_width", "120"}}),
+             Catch::Contains("pitches apart touch at once"));
+}
+
+TEST_CASE("A gear's body that the compliance does not know of is said to be left out", "[studies][fe]") {
+  const StudyResults results = run(twins, {{"fidelity.compliance", "thin_slice"}, {"pinion.body.shaft_diameter", "20"}});
+  REQUIRE(results.notes.size() == 1);
+  CHECK_THAT(results.notes[0], Catch::Contains("does not know of it"));
+  CHECK(!results.structures.finite_elements);
+}
+
+}  // namespace flankwright::studies
