@@ -1,5 +1,8 @@
 #include "studies/gear_structures.hpp"
 
+#include "core/compliance/fitted/refined_compliance.hpp"
+#include "core/compliance/fitted/refinement_library.hpp"
+
 namespace flankwright::studies {
 
 const char* to_string(ComplianceModel model) {
@@ -19,16 +22,32 @@ ComplianceModel compliance_model(std::string_view name) {
   return ComplianceModel::Fe;
 }
 
+namespace {
+
+/// A coarse table, completed from the library of fits.
+std::shared_ptr<const FlankCompliance> refined_by_fits(const InfluenceTableTask& task,
+                                                       std::shared_ptr<const InfluenceTable> coarse) {
+  const GearFacts facts = facts_of(task.gear);
+  return std::make_shared<const RefinedCompliance>(std::move(coarse), facts,
+                                                   RefinementLibrary::shipped().coefficients(facts));
+}
+
+}  // namespace
+
 GearStructures gear_structures(const Study& study, const GearPair& pair, const ProgressReport& progress) {
   switch (study.fidelity.compliance) {
     case ComplianceModel::Rigid:
-    case ComplianceModel::ThinSlice:
-    case ComplianceModel::Fitted: return {};
+    case ComplianceModel::ThinSlice: return {};
+    case ComplianceModel::Fitted:
     case ComplianceModel::Fe: {
       FiniteElementRuns runs = solve_finite_elements(study, pair, progress);
+      const auto compliance = [&](Member member) -> std::shared_ptr<const FlankCompliance> {
+        if (study.fidelity.compliance == ComplianceModel::Fe) return runs[member].table;
+        return refined_by_fits(influence_table_task(study, pair, member), runs[member].table);
+      };
       auto structure = std::make_shared<const StructuralPair>(
-          pair, GearStructure{runs[Member::Pinion].table, study.pinion_material.youngs_modulus},
-          GearStructure{runs[Member::Wheel].table, study.wheel_material.youngs_modulus});
+          pair, GearStructure{compliance(Member::Pinion), study.pinion_material.youngs_modulus},
+          GearStructure{compliance(Member::Wheel), study.wheel_material.youngs_modulus});
       return {std::move(structure), std::move(runs)};
     }
   }

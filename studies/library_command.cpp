@@ -32,10 +32,11 @@ struct Step {
 /// From the middle outwards: each gear starts from its neighbour towards the middle, a helical one from the same gear
 /// with less helix.
 std::vector<Step> steps() {
-  constexpr std::array<int, 4> kTeeth{36, 18, 12, 150};
+  constexpr std::array<int, 4> kTeeth{45, 20, 12, 150};
   constexpr std::array<int, 4> kTeethFrom{-1, 0, 1, 0};
-  constexpr std::array<double, 3> kShifts{0.1, -0.4, 0.6}, kAngles{0, 17.5, 35};
-  constexpr double kFace = 12;
+  constexpr std::array<double, 3> kShifts{0.1, -0.4, 0.6};
+  constexpr std::array<double, 2> kAngles{0, 35};
+  constexpr double kFace = 8;
   constexpr int kTeethCount = std::ssize(kTeeth), kRow = kTeethCount * std::ssize(kShifts);
   std::vector<Step> list;
   for (std::size_t b = 0; b < kAngles.size(); ++b) {

@@ -121,7 +121,7 @@ void check_parabola(StudyReading& reading, Member m) {
 /// What the finite elements of a gear refuse, before anything is solved.
 void check_finite_elements(StudyReading& reading, Member m) {
   const Study& study = reading.draft.study;
-  if (!reading.problems.empty() || study.fidelity.compliance != ComplianceModel::Fe) return;
+  if (!reading.problems.empty() || !couples_teeth(study.fidelity.compliance)) return;
   try {
     influence_table_task(study, make_gear_pair(study.pair), m);
   } catch (const InvalidInput& problem) {
@@ -151,7 +151,7 @@ void check_optimise(StudyReading& reading) {
     refuse_key(reading, "optimise.solver", "this solver takes no constraints; one that does: \"ipopt\"");
   }
   if (study.fidelity.compliance == ComplianceModel::Rigid) {
-    refuse_key(reading, "fidelity.compliance", "task \"optimise\" needs a compliance: allowed is \"thin_slice\" or \"fe\"");
+    refuse_key(reading, "fidelity.compliance", "task \"optimise\" needs a compliance: allowed is \"thin_slice\", \"fitted\" or \"fe\"");
   }
   for (const Scene& scene : study.scenes) {
     if (std::ranges::any_of(scene.torques, [](double torque) { return torque > 0.0; })) continue;

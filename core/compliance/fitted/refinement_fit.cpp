@@ -82,8 +82,8 @@ std::vector<FlankPlace> places_on(const std::vector<double>& us, const std::vect
 }
 
 RefinementSamples refinement_samples(const GearFacts& gear, const GearMeshOptions& fine) {
-  if (!(gear.relative_face >= 4)) {
-    throw InvalidInput("gear.relative_face", std::to_string(gear.relative_face), "at least 4 modules");
+  if (!(gear.relative_face >= 7)) {
+    throw InvalidInput("gear.relative_face", std::to_string(gear.relative_face), "at least 7 modules");
   }
   const std::vector<FlankPlace> fitted = fitted_places(gear.relative_face), unseen = unseen_places(gear.relative_face);
   std::vector<FlankPlace> all = fitted;
@@ -102,6 +102,7 @@ RefinementEntry fit_refinement(const RefinementSamples& samples, const std::vect
   FitOptions options;
   options.start = start;
   options.tooth_ridge = start.empty() ? 2.4e-4 : 1e-3;
+  options.scale_floor = kScaleFloor;
   const FitResult result = fit_compliance({&samples.fitted, 1}, KernelForm::refinement(), options);
   RefinementEntry entry;
   entry.gear = samples.fitted.gear;
@@ -110,8 +111,8 @@ RefinementEntry fit_refinement(const RefinementSamples& samples, const std::vect
   entry.pairs = result.pairs;
   if (!result.fit) return entry;
   entry.coefficients = result.fit->coefficients();
-  entry.fitted = result.fit->record().residuals.front();
-  entry.unseen = residual_statistics(*result.fit, {&samples.unseen, 1}).front();
+  entry.fitted = residual_statistics(*result.fit, {&samples.fitted, 1}, kScaleFloor).front();
+  entry.unseen = residual_statistics(*result.fit, {&samples.unseen, 1}, kScaleFloor).front();
   return entry;
 }
 

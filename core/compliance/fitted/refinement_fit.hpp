@@ -29,9 +29,12 @@ struct RefinementSamples {
   InfluenceSample unseen;  ///< 5 x 10 others, for the residuals alone
 };
 
-/// @param gear   relative_face >= 4: the places' distances from the ends are fixed up to a quarter of 12 modules
+/// @param gear   relative_face >= 7: the outer 3.2 modules at both ends have places at fixed distances from the end
 /// @param fine   the mesh whose values are to be met
 RefinementSamples refinement_samples(const GearFacts& gear, const GearMeshOptions& fine);
+
+/// Pairs count relative to max(|K|, kScaleFloor sqrt(K_pp K_qq)), in the fit and in its residuals.
+inline constexpr double kScaleFloor = 0.01;
 
 /// Fits KernelForm::refinement(). For a spur gear the samples and the start are alike at both ends, and so is the fit.
 /// @param start  coefficients of a neighbouring entry, which the fit is drawn towards; empty: flat_start()

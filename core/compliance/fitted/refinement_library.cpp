@@ -41,6 +41,10 @@ void require_within(const std::string& field, double value, double low, double h
 
 }  // namespace
 
+GearFacts facts_of(const GearToMesh& gear) {
+  return {gear.gear.teeth, gear.helix_angle, gear.gear.face_width / gear.normal_module, gear.gear.profile_shift};
+}
+
 std::vector<double> mirrored(const KernelForm& form, const std::vector<double>& coefficients) {
   std::vector<double> result = coefficients;
   // The warp of the axis, counted from the other end.

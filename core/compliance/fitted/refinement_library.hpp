@@ -29,6 +29,9 @@ std::string to_text(const RefinementEntry& entry);
 /// @throws InvalidInput "library" with the number of the line that is no entry
 std::vector<RefinementEntry> entries_in(std::string_view text);
 
+/// What the library goes by.
+GearFacts facts_of(const GearToMesh& gear);
+
 /// Coefficients of the same fit with the ends of the face exchanged.
 std::vector<double> mirrored(const KernelForm& form, const std::vector<double>& coefficients);
 
