@@ -98,7 +98,7 @@ FlankGrid flank_grid(double face_width, int radii) {
   }
   if (radii < 4) throw InvalidInput("radii", std::to_string(radii), "at least 4");
   // Steps counted from an end, the integral of dd / h(d), and its inverse.
-  constexpr double kFirst = 0.15, kGrowth = 0.35, kLargest = 0.85;
+  constexpr double kFirst = 0.1, kGrowth = 0.3, kLargest = 0.6;
   constexpr double kGraded = (kLargest - kFirst) / kGrowth;  // modules over which steps grow
   const double graded_steps = std::log(kLargest / kFirst) / kGrowth;
   const auto steps_to = [&](double d) {

@@ -61,9 +61,11 @@ class FlankGrid {
 /// A grid for influence values and stresses of a gear: radii equally far apart, and axial steps in proportion to the
 /// distance over which values change,
 ///
-///     h(d) = min(0.15 + 0.35 d, 0.85) modules at the distance d from the nearer face end,
+///     h(d) = min(0.1 + 0.3 d, 0.6) modules at the distance d from the nearer face end,
 ///
-/// so that there are about 6 + 1.2 B axial positions for B >= 4, eight for B = 2.
+/// so that there are about 8 + 1.7 B axial positions for B >= 4, eleven for B = 2. The influence of a load on what lies
+/// near it changes over the depth of the tooth's centre below it, at the tip less than half a module: steps of 0.85
+/// modules at mid face left six times the error on 95 % of the influence values, two more radii took off a tenth.
 ///
 /// @param face_width  B = b/m_n [-], finite and > 0
 /// @param radii       >= 4

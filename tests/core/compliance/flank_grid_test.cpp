@@ -73,12 +73,12 @@ TEST_CASE("The steps of a gear's grid grow from both ends alike", "[core][compli
   CAPTURE(width, zetas.size());
   CHECK(zetas.front() == 0);
   CHECK(zetas.back() == width);
-  CHECK(static_cast<double>(zetas.size()) <= 7.2 + 1.2 * width);
+  CHECK(static_cast<double>(zetas.size()) <= 9 + 1.67 * width);
   const std::size_t n = zetas.size();
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const double step = zetas[i + 1] - zetas[i], distance = std::min(zetas[i], width - zetas[i + 1]);
     // No longer than asked for at its far end; the last step of the mesh width may be shared with the other end's.
-    CHECK(step <= std::min(0.15 + 0.35 * (distance + step), 0.85) + 1e-12);
+    CHECK(step <= std::min(0.1 + 0.3 * (distance + step), 0.6) + 1e-12);
     CHECK(zetas[i] + zetas[n - 1 - i] == Approx(width));
   }
 }

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
+#include <thread>
 
 #include "core/base/error.hpp"
 #include "core/contact/contact_points.hpp"
@@ -81,8 +82,15 @@ TEST_CASE("A solved table is the gear's influence matrix at the places of its gr
 
 TEST_CASE("The same gear gives the same table again, whatever else is being solved", "[core][compliance][fe]") {
   const InfluenceTableTask task = task_of(gear_of(12, 10, 3), coarse_grid(3));
-  const auto run = [&] { return solve_influence_table(task, kNoLimit).table->tables(); };
-  CHECK(run() == run());
+  const InfluenceTableTask other = task_of(gear_of(15, 0, 3), coarse_grid(3));
+  const auto tables = [](const InfluenceTableTask& t) { return solve_influence_table(t, kNoLimit).table->tables(); };
+  const auto alone = tables(task);
+  std::vector<Eigen::MatrixXd> beside, others;
+  std::thread second([&] { others = tables(other); });
+  beside = tables(task);
+  second.join();
+  CHECK(alone == beside);
+  CHECK(others == tables(other));
 }
 
 TEST_CASE("Gears that differ in size only have the same task in modules", "[core][compliance][fe]") {
@@ -130,10 +138,11 @@ TEST_CASE("Influence between grid places is near the finite elements' own", "[.s
   const GearToMesh gear = gear_of(teeth, 30, width);
   const InfluenceTableRun run = solve_influence_table(task_of(gear, flank_grid(width), {}), kNoLimit);
   REQUIRE(run.table);
+  CHECK(run.table->projection().added == 0);
 
   const InfluenceModel model(gear, {1, 0.3});
   std::vector<FlankPlace> unseen;
-  for (const int tooth : {0, 1, 2}) {
+  for (const int tooth : {0, 1, 2, -1, -2}) {
     for (const double u : {-0.9, -0.5, -0.15, 0.3, 0.75, 0.97}) {
       for (const double zeta : {0.08, 0.3, 0.57, 1.0, 1.6, 2.3, 3.1, 4.8, 6.3, 8.0, 9.9, 10.5, 11.1, 11.45, 11.72, 11.93}) {
         unseen.push_back({tooth, u, zeta});
@@ -141,19 +150,21 @@ TEST_CASE("Influence between grid places is near the finite elements' own", "[.s
     }
   }
   const Eigen::MatrixXd direct = model.influence(flank_points(model.mesh(), unseen)).compliance;
-  const Eigen::MatrixXd ours = run.table->evaluate(unseen);
-  const Eigen::Index n = std::ssize(unseen) / 3;
+  const Eigen::Index n = std::ssize(unseen) / 5;
+  const Eigen::MatrixXd ours = run.table->evaluate({unseen.data(), static_cast<std::size_t>(3 * n)});
   for (int m = 0; m <= 2; ++m) {
-    // On tooth 0 by a load on tooth m: where the finite elements are finest.
-    const Eigen::ArrayXXd theirs = direct.block(0, m * n, n, n).array();
+    // The mean of two reciprocal pairs, as the table has it: what is left is interpolation.
+    const Eigen::Index before = m == 0 ? 0 : m + 2;
+    const Eigen::ArrayXXd theirs = 0.5 * (direct.block(0, m * n, n, n) + direct.block(before * n, 0, n, n)).array();
     Eigen::ArrayXXd error = ((ours.block(0, m * n, n, n).array() - theirs) / theirs).abs();
     std::vector<double> sorted(error.data(), error.data() + error.size());
     std::ranges::sort(sorted);
     const double median = sorted[sorted.size() / 2], share_95 = sorted[sorted.size() * 95 / 100], worst = sorted.back();
-    WARN(teeth << " teeth, " << m << " apart: " << median << " " << share_95 << " " << worst << ", lowest eigenvalue "
-               << run.table->projection().lowest_eigenvalue);
-    CHECK(median < 0.005);
-    CHECK(share_95 < 0.025);
+    CAPTURE(teeth, m, median, share_95, worst);
+    // Discretisation. The worst are own values at the tip, where the finite elements' own values waver by as much with
+    // the place of the load in its element.
+    CHECK(median < 0.001);
+    CHECK(share_95 < 0.005);
     CHECK(worst < 0.08);
   }
 }

@@ -1,0 +1,54 @@
+#include "core/compliance/comparison/deflection_curves.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace flankwright {
+
+NamedModel named_model(std::string name, int teeth_apart, const FlankCompliance& compliance) {
+  return {std::move(name), teeth_apart,
+          [&compliance](std::span<const FlankPlace> places, std::span<const FlankPlace> loads) {
+            const auto columns = static_cast<Eigen::Index>(loads.size());
+            Eigen::MatrixXd result(static_cast<Eigen::Index>(places.size()), columns);
+            // Tooth by tooth: those on either side of the load are further apart than a model need know.
+            for (auto first = places.begin(); first != places.end();) {
+              const auto last = std::find_if(first, places.end(),
+                                             [&](const FlankPlace& place) { return place.tooth != first->tooth; });
+              std::vector<FlankPlace> all(first, last);
+              all.insert(all.end(), loads.begin(), loads.end());
+              const Eigen::Index rows = last - first;
+              result.middleRows(first - places.begin(), rows) = compliance.evaluate(all).topRightCorner(rows, columns);
+              first = last;
+            }
+            return result;
+          }};
+}
+
+std::vector<DeflectionCurve> deflection_curves(std::span<const NamedModel> models, const std::vector<double>& us,
+                                               const std::vector<double>& load_zetas, const std::vector<double>& zetas,
+                                               int teeth_apart) {
+  std::vector<DeflectionCurve> curves;
+  for (const double u : us) {
+    std::vector<FlankPlace> loads;
+    for (const double zeta : load_zetas) loads.push_back({0, u, zeta});
+    std::vector<std::vector<DeflectionCurve>> by_load(loads.size());
+    for (const NamedModel& model : models) {
+      const int reach = std::min(teeth_apart, model.teeth_apart);
+      std::vector<FlankPlace> places;
+      for (int tooth = -reach; tooth <= reach; ++tooth) {
+        for (const double zeta : zetas) places.push_back({tooth, u, zeta});
+      }
+      const Eigen::MatrixXd K = model.deflections(places, loads);
+      for (std::size_t q = 0; q < loads.size(); ++q) {
+        const double* value = K.col(static_cast<Eigen::Index>(q)).data();
+        for (int tooth = -reach; tooth <= reach; ++tooth, value += zetas.size()) {
+          by_load[q].push_back({model.name, loads[q], tooth, zetas, {value, value + zetas.size()}});
+        }
+      }
+    }
+    for (auto& some : by_load) std::move(some.begin(), some.end(), std::back_inserter(curves));
+  }
+  return curves;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/compliance/comparison/deflection_curves.hpp"
+#include "core/compliance/comparison/residual_shares.hpp"
+#include "core/compliance/finite_element/influence.hpp"
+#include "core/compliance/fitted/fit_compliance.hpp"
+#include "core/compliance/fitted/thesis_form.hpp"
+
+namespace flankwright {
+
+/// One gear whose compliance is to be fitted, and what the fit is to be made and judged from.
+struct GearFitTask {
+  GearToMesh gear;
+  Material material;
+  GearMeshOptions mesh{};
+  RemovedMotion removed{RemovedMotion::TranslationTorsionAndTilt};
+  KernelForm form{KernelForm::one_tooth_accurate()};
+  FitOptions fit{};
+  int radii{6};           ///< of the places fitted, >= 4; axially they are those of flank_grid()
+  int adjacent_radii{5};  ///< of those on several teeth, >= 4; axially every second one
+  int teeth_apart{2};     ///< pitches over which teeth are coupled, 1 .. mesh.teeth_each_side; forms for one tooth: 0
+  bool test_grid{true};   ///< judged on places that the fit has not seen: the centres of the grids' cells
+};
+
+/// How far one form is from finite elements.
+struct FormResiduals {
+  std::string form;  ///< "fitted", "thesis_separate", "thesis_in_master"
+  FitStatus status{FitStatus::NotRun};
+  std::vector<ResidualDistribution> fitted;  ///< on the places fitted, by teeth apart
+  std::vector<ResidualDistribution> unseen;  ///< on those of the test grid; empty without one
+};
+
+/// Wall times [s].
+struct GearFitTimes {
+  double model{not_given};   ///< mesh, assembly, factorisation
+  double loads{not_given};   ///< all loads of grids and curves
+  double fit{not_given};     ///< of the task's form
+  double others{not_given};  ///< fits of the thesis' forms, plate, curves
+};
+
+struct GearFitResult {
+  GearFacts gear;
+  GearBody body;  ///< as given; what of it was left open follows GearBody
+  FactorStatus status{FactorStatus::NotPositiveDefinite};
+  RunStatistics finite_elements;
+  int loads{0};   ///< solved for
+  FitResult fit;  ///< NotRun unless status is Factorised
+  std::vector<FormResiduals> residuals;
+  std::vector<DeflectionCurve> curves;  ///< of models "finite elements", "fitted", "thesis", "plate", "thin slices"
+  /// Lowest eigenvalue of the fitted block matrix over five teeth (forms for one tooth: over one) on the adjacent
+  /// teeth's grid, relative to the largest [-]; >= 0 but for round-off.
+  double lowest_eigenvalue{not_given};
+  int eigenvalue_teeth{0};  ///< teeth in that matrix
+  GearFitTimes times;
+};
+
+/// A label of what is being done, steps done and in all.
+using FitProgress = std::function<void(const std::string& label, int done, int total)>;
+
+/// Runs a gear's finite elements, fits the form to the influence values, compares it and the forms of the thesis on a
+/// grid that no fit has seen, and draws every model's deflection curves under loads at root, middle and tip of both
+/// ends and mid face. One thread: same input, same result.
+/// @throws InvalidInput  as gear_mesh(), "fit.radii", "fit.teeth_apart"
+GearFitResult fit_gear(const GearFitTask& task, const FitProgress& progress = {});
+
+/// Influence values between the places us x zetas on tooth 0, and, for each m = 1 .. teeth_apart, between those of
+/// teeth 0 and m: load on tooth 0, which is meshed finely, deflection on both neighbours m pitches away; being alike
+/// but for their mesh, they count as each other's reciprocal.
+std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model, const GearFacts& gear,
+                                                    const std::vector<double>& us, const std::vector<double>& zetas,
+                                                    int teeth_apart, RemovedMotion removed,
+                                                    const std::function<void(int done, int total)>& progress = {});
+
+}  // namespace flankwright

@@ -1,0 +1,52 @@
+#include "core/compliance/comparison/residual_shares.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+
+namespace flankwright {
+
+double ResidualDistribution::at(double share) const {
+  const auto found = std::find(kResidualShares.begin(), kResidualShares.end(), share);
+  assert(found != kResidualShares.end());
+  return residual[static_cast<std::size_t>(found - kResidualShares.begin())];
+}
+
+std::vector<ResidualDistribution> residual_distributions(const FlankCompliance& model, int teeth_apart,
+                                                         std::span<const InfluenceSample> samples) {
+  std::map<int, std::vector<double>> residuals;
+  for (const InfluenceSample& sample : samples) {
+    std::vector<FlankPlace> places;
+    std::vector<Eigen::Index> rows;
+    for (std::size_t p = 0; p < sample.points.size(); ++p) {
+      if (std::abs(sample.points[p].tooth) > teeth_apart) continue;
+      places.push_back(sample.points[p]);
+      rows.push_back(static_cast<Eigen::Index>(p));
+    }
+    // Between neighbours on either side the model may be asked for more than it knows; those pairs nobody computed.
+    const Eigen::MatrixXd K = model.evaluate(places);
+    for (std::size_t p = 0; p < places.size(); ++p) {
+      for (std::size_t q = 0; q <= p; ++q) {
+        const double known = sample.at(rows[p], rows[q]);
+        if (std::isnan(known)) continue;
+        const double fitted = K(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q));
+        residuals[std::abs(places[p].tooth - places[q].tooth)].push_back(std::abs(fitted - known) / std::abs(known));
+      }
+    }
+  }
+  std::vector<ResidualDistribution> distributions;
+  for (auto& [apart, sorted] : residuals) {
+    std::sort(sorted.begin(), sorted.end());
+    ResidualDistribution distribution{apart, static_cast<int>(sorted.size())};
+    for (std::size_t i = 0; i < kResidualShares.size(); ++i) {
+      const double rank = std::ceil(kResidualShares[i] * static_cast<double>(sorted.size()) - 1e-9);
+      distribution.residual[i] = sorted[static_cast<std::size_t>(std::max(1.0, rank)) - 1];
+    }
+    distributions.push_back(distribution);
+  }
+  return distributions;
+}
+
+}  // namespace flankwright

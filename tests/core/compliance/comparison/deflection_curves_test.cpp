@@ -1,0 +1,33 @@
+#include "core/compliance/comparison/deflection_curves.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/core/compliance/comparison/distance_compliance.hpp"
+
+using namespace flankwright;
+using flankwright::testing::DistanceCompliance;
+
+TEST_CASE("Deflection curves are the models' own values, over the teeth that each of them couples",
+          "[core][compliance][comparison]") {
+  const DistanceCompliance compliance;
+  const std::vector<NamedModel> models{named_model("all teeth", 2, compliance),
+                                       named_model("one tooth", 0, compliance)};
+  const std::vector<double> zetas{0, 1.5, 3, 6};
+  const std::vector<DeflectionCurve> curves = deflection_curves(models, {-1, 0.5}, {0, 6}, zetas, 1);
+  // Two heights, two places, three teeth by the first model and one by the second.
+  REQUIRE(curves.size() == 2 * 2 * (3 + 1));
+  int of_one_tooth = 0;
+  for (const DeflectionCurve& curve : curves) {
+    CAPTURE(curve.model, curve.load.u, curve.load.zeta, curve.tooth);
+    of_one_tooth += curve.model == "one tooth" ? 1 : 0;
+    CHECK(curve.load.tooth == 0);
+    REQUIRE(curve.value.size() == zetas.size());
+    for (std::size_t i = 0; i < zetas.size(); ++i) {
+      CHECK(curve.value[i] == DistanceCompliance::between({curve.tooth, curve.load.u, zetas[i]}, curve.load));
+    }
+  }
+  CHECK(of_one_tooth == 4);
+  CHECK(curves.front().load == FlankPlace{0, -1, 0});
+  CHECK(curves.front().tooth == -1);
+  CHECK(curves.back().load == FlankPlace{0, 0.5, 6});
+}

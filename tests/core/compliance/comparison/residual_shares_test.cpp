@@ -1,0 +1,58 @@
+#include "core/compliance/comparison/residual_shares.hpp"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "core/compliance/fitted/residual_statistics.hpp"
+#include "tests/core/compliance/comparison/distance_compliance.hpp"
+
+using namespace flankwright;
+using flankwright::testing::DistanceCompliance;
+
+namespace {
+
+/// Places of teeth 0 and 1 with values that a model misses by known amounts.
+InfluenceSample missed_sample() {
+  InfluenceSample sample{{20, 0, 10, 0}, {}, {}};
+  for (int tooth : {0, 1}) {
+    for (int i = 0; i < 10; ++i) sample.points.push_back({tooth, 0.1 * i, 0.9 * i});
+  }
+  sample.compliance = DistanceCompliance().evaluate(sample.points);
+  double miss = 0;
+  for (Eigen::Index p = 0; p < 20; ++p) {
+    for (Eigen::Index q = 0; q <= p; ++q) {
+      miss += 1e-4;
+      sample.compliance(p, q) = sample.compliance(q, p) = sample.compliance(p, q) / (1 + miss);
+    }
+  }
+  return sample;
+}
+
+}  // namespace
+
+TEST_CASE("Shares of residuals are those of the known pairs, told apart by teeth", "[core][compliance][comparison]") {
+  InfluenceSample sample = missed_sample();
+  sample.compliance(3, 2) = sample.compliance(2, 3) = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<ResidualDistribution> shares = residual_distributions(DistanceCompliance(), 1, {&sample, 1});
+  const std::vector<ResidualStatistics> statistics = residual_statistics(DistanceCompliance(), {&sample, 1});
+  REQUIRE(shares.size() == 2);
+  for (std::size_t m : {0U, 1U}) {
+    CHECK(shares[m].teeth_apart == static_cast<int>(m));
+    CHECK(shares[m].pairs == statistics[m].pairs);
+    CHECK(shares[m].median() == statistics[m].median);
+    CHECK(shares[m].share_95() == statistics[m].share_95);
+    CHECK(shares[m].worst() == statistics[m].worst);
+    CHECK(std::is_sorted(shares[m].residual.begin(), shares[m].residual.end()));
+  }
+  // 210 pairs, the last ones on one tooth: their residuals rise by 1e-4 each.
+  CHECK(shares[0].worst() == Approx(0.021));
+  CHECK(shares[1].pairs == 100);
+}
+
+TEST_CASE("A model of one tooth is judged on one tooth", "[core][compliance][comparison]") {
+  const InfluenceSample sample = missed_sample();
+  const std::vector<ResidualDistribution> shares = residual_distributions(DistanceCompliance(), 0, {&sample, 1});
+  REQUIRE(shares.size() == 1);
+  CHECK(shares[0].pairs == 55);
+  CHECK(shares[0].worst() == Approx(0.0055));
+}
