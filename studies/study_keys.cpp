@@ -97,8 +97,8 @@ std::vector<SchemaKey> working_condition_rows() {
        }},
       {.path = "fidelity.gap", .kind = Word, .words = {"plane_of_action"}, .later = {"whole_surface"},
        .fallback = "\"plane_of_action\"", .meaning = "where contact is sought"},
-      {.path = "fidelity.quadrature.rule", .kind = Word, .words = {"gauss2", "gauss3", "midpoint"},
-       .fallback = "\"gauss2\"", .meaning = "points in each interval of a contact line",
+      {.path = "fidelity.quadrature.rule", .kind = Word, .words = {"gauss2", "gauss3", "midpoint", "graded"},
+       .fallback = "\"gauss2\"", .meaning = "points in each interval of a contact line; graded: two Gauss points on intervals that end where the line does",
        .store = [](Draft& d, Member, const Value& v) {
          d.study.fidelity.quadrature.rule = static_cast<QuadratureRule>(v.integer);
        }},

@@ -13,6 +13,7 @@ const char* rule_name(QuadratureRule rule) {
     case QuadratureRule::Gauss2: return "gauss2";
     case QuadratureRule::Gauss3: return "gauss3";
     case QuadratureRule::Midpoint: return "midpoint";
+    case QuadratureRule::Graded: return "graded";
   }
   __builtin_unreachable();
 }

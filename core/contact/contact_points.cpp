@@ -1,5 +1,6 @@
 #include "core/contact/contact_points.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -18,7 +19,8 @@ struct Node {
 std::vector<Node> nodes(QuadratureRule rule) {
   switch (rule) {
     case QuadratureRule::Midpoint: return {{0.5, 1.0}};
-    case QuadratureRule::Gauss2: {
+    case QuadratureRule::Gauss2:
+    case QuadratureRule::Graded: {
       const double d = 0.5 / std::sqrt(3.0);
       return {{0.5 - d, 0.5}, {0.5 + d, 0.5}};
     }
@@ -28,6 +30,37 @@ std::vector<Node> nodes(QuadratureRule rule) {
     }
   }
   __builtin_unreachable();
+}
+
+/// Cuts [begin, end] at begin + (end - begin) cut(j/n).
+template <typename Cut>
+void divide(double begin, double end, int n, Cut cut, std::vector<LineInterval>& intervals) {
+  for (int j = 0; j < n; ++j) {
+    const double a = begin + (end - begin) * cut(static_cast<double>(j) / n);
+    const double b = begin + (end - begin) * cut(static_cast<double>(j + 1) / n);
+    if (a < b) intervals.push_back({a, b});
+  }
+}
+
+std::vector<LineInterval> graded_intervals(const PathOfContact& path, int n, double line_phase, double face_start,
+                                           double face_end) {
+  const auto towards_both_ends = [](double t) { return 0.5 * (1.0 - std::cos(units::pi * t)); };
+  std::vector<LineInterval> intervals;
+  if (path.slope == 0.0) {
+    divide(face_start, face_end, n, towards_both_ends, intervals);
+    return intervals;
+  }
+  const auto z_at = [&](double phase) {
+    return std::clamp((phase - path.phase_at(line_phase, 0.0)) / path.slope, face_start, face_end);
+  };
+  std::array<double, 4> cuts{z_at(0.0), z_at(PathOfContact::extension), z_at(path.region_length - PathOfContact::extension),
+                             z_at(path.region_length)};
+  std::sort(cuts.begin(), cuts.end());  // either sense of the lines
+  const int extended = std::max(2, n / 2);
+  if (cuts[0] < cuts[1]) divide(cuts[0], cuts[1], extended, [](double t) { return t * (2.0 - t); }, intervals);
+  if (cuts[1] < cuts[2]) divide(cuts[1], cuts[2], n, towards_both_ends, intervals);
+  if (cuts[2] < cuts[3]) divide(cuts[2], cuts[3], extended, [](double t) { return t * t; }, intervals);
+  return intervals;
 }
 
 /// Where a tip edge meets the mate's flank, transverse section.
@@ -94,22 +127,33 @@ bool locate(const GearPair& pair, const PathOfContact& path, bool with_extended_
 
 }  // namespace
 
+std::vector<LineInterval> line_intervals(const PathOfContact& path, const Quadrature& quadrature, double line_phase,
+                                         double face_start, double face_end) {
+  if (quadrature.rule == QuadratureRule::Graded) {
+    return graded_intervals(path, quadrature.intervals, line_phase, face_start, face_end);
+  }
+  std::vector<LineInterval> intervals;
+  const double width = (face_end - face_start) / quadrature.intervals;
+  for (int i = 0; i < quadrature.intervals; ++i) intervals.push_back({face_start + i * width, face_start + (i + 1) * width});
+  return intervals;
+}
+
 std::vector<ContactPoint> contact_points(const GearPair& pair, const PathOfContact& path, const Quadrature& quadrature,
                                          double line_phase, bool with_extended_region, double face_start, double face_end) {
   const std::vector<Node> rule = nodes(quadrature.rule);
-  const double interval = (face_end - face_start) / quadrature.intervals;
   const double cos_base_helix = std::cos(pair.base_helix_angle);
   const int first = static_cast<int>(std::floor(-line_phase));
   const int last = static_cast<int>(std::ceil(path.last_line_phase() - line_phase));
   std::vector<ContactPoint> points;
   for (int tooth = first; tooth <= last; ++tooth) {
-    for (int i = 0; i < quadrature.intervals; ++i) {
+    for (const LineInterval& part : line_intervals(path, quadrature, line_phase + tooth, face_start, face_end)) {
       for (const Node& node : rule) {
+        const double width = part.end - part.begin;
         ContactPoint point;
         point.tooth = tooth;
-        point.z = face_start + (i + node.position) * interval;
+        point.z = part.begin + node.position * width;
         point.phase = path.phase_at(line_phase + tooth, point.z);
-        point.weight = node.weight * interval / cos_base_helix;
+        point.weight = node.weight * width / cos_base_helix;
         if (point.phase < 0.0 || point.phase > path.region_length) continue;
         if (locate(pair, path, with_extended_region, point)) points.push_back(point);
       }

@@ -8,13 +8,35 @@
 namespace flankwright {
 
 /// Quadrature rule on the intervals of a contact line.
-enum class QuadratureRule { Gauss2, Gauss3, Midpoint };
+enum class QuadratureRule {
+  Gauss2, Gauss3, Midpoint,  ///< on equal intervals at fixed axial positions: points enter and leave as the line passes them
+  Graded,                    ///< two Gauss points on intervals that end where the line does, see line_intervals()
+};
 
 /// How finely contact lines are resolved.
 struct Quadrature {
   QuadratureRule rule{QuadratureRule::Gauss2};
-  int intervals{5};  ///< equal intervals over the common face width, >= 1
+  int intervals{5};  ///< over the common face width; Graded: over the part of a line between A and E, >= 1
 };
+
+/// Part of a contact line, along the axis.
+struct LineInterval {
+  double begin, end;  ///< z [mm], begin < end
+};
+
+/// The intervals of one line, by rising z.
+///
+/// Fixed rules: equal ones over the common face width, whatever the line's phase. Graded: the line is cut where it
+/// enters and leaves the extended region (A0, B0) and the theoretical path (A, E), so that points move with the line
+/// and integrals over it are smooth functions of the phase. Between A and E
+///
+///     z_j = z_A + (z_E - z_A) (1 - cos(pi j/n))/2,   j = 0 .. n,
+///
+/// narrow at the ends, where the load rises or falls within a few tenths of a module; on either extended part, where
+/// load falls to 0 a little way beyond A or E, max(2, n/2) intervals that grow as the square of the distance from there.
+/// @param line_phase  of the line's leading end [base pitches]
+std::vector<LineInterval> line_intervals(const PathOfContact& path, const Quadrature& quadrature, double line_phase,
+                                         double face_start, double face_end);
 
 /// One quadrature point of a contact line in the plane of action, with the unmodified geometry around it. Lengths in mm.
 struct ContactPoint {
@@ -31,7 +53,7 @@ struct ContactPoint {
 
 /// Contact points of all teeth at one mesh position.
 ///
-/// Points lie at fixed axial positions, so that a line's points do not move while modifications change. Between A and E both
+/// No point moves while modifications change. Between A and E both
 /// flanks touch in the base tangent plane. Between A0 and A the wheel's tip edge meets the pinion flank off that plane, between
 /// E and B0 the pinion's tip edge the wheel flank; clearance and contact radii there are solved exactly in the transverse
 /// section [Haddad 1991, app. 2A, 2A.2-2A.17; solved here in closed form: the tip's position is known, and the mate's flank angle at

@@ -14,18 +14,25 @@ namespace {
 
 constexpr double micrometre = units::um;
 
-/// Loads of the previous position carried to the points of the next: same tooth, same axial position.
+/// Line loads of the previous position carried to the points of the next: those of the same tooth, linear between its
+/// points, 0 beyond them.
 Eigen::VectorXd warm_start(const MeshPosition& from, const Eigen::VectorXd& loads, const MeshPosition& to) {
   Eigen::VectorXd start = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(to.points.size()));
-  std::size_t j = 0;
   const auto before = [](const ContactPoint& a, const ContactPoint& b) {
     return a.tooth != b.tooth ? a.tooth < b.tooth : a.z < b.z;
   };
   for (std::size_t i = 0; i < to.points.size(); ++i) {
-    while (j < from.points.size() && before(from.points[j], to.points[i])) ++j;
-    if (j < from.points.size() && !before(to.points[i], from.points[j])) {
-      start[static_cast<Eigen::Index>(i)] = loads[static_cast<Eigen::Index>(j)];
+    const ContactPoint& here = to.points[i];
+    const auto above = std::lower_bound(from.points.begin(), from.points.end(), here, before);
+    if (above == from.points.end() || above->tooth != here.tooth) continue;
+    const Eigen::Index j = above - from.points.begin();
+    const bool inside = above != from.points.begin() && (above - 1)->tooth == here.tooth;
+    if (above->z == here.z || !inside) {
+      start[static_cast<Eigen::Index>(i)] = above->z == here.z ? loads[j] : 0.0;
+      continue;
     }
+    const double share = (here.z - (above - 1)->z) / (above->z - (above - 1)->z);
+    start[static_cast<Eigen::Index>(i)] = (1.0 - share) * loads[j - 1] + share * loads[j];
   }
   return start;
 }

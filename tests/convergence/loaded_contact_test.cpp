@@ -84,6 +84,22 @@ TEST_CASE("Ends of contact inside the face leave the quadrature with an order of
   CHECK(load.back() < load.front());
 }
 
+TEST_CASE("Intervals that end where lines do take the ripple off the transmission error", "[convergence][load]") {
+  // At fixed places a point's share of load enters and leaves at once, once every interval: the transmission error of an
+  // aligned helical pair ripples by it. With located ends it is smooth, and a few intervals do.
+  const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
+  const auto peak_to_peak = [&](QuadratureRule rule, int intervals) {
+    const MeshModel model = mesh_cases::model(gears, {{rule, intervals}, equally_spaced_phases(40)});
+    return summarise(model, analyse_cycle(model, {}, mesh_cases::torque_for(gears, 80))).te_peak_to_peak;
+  };
+  const double exact = peak_to_peak(QuadratureRule::Graded, 40);
+  CHECK(peak_to_peak(QuadratureRule::Gauss2, 160) == Approx(exact).epsilon(0.05));
+  const double fixed = std::abs(peak_to_peak(QuadratureRule::Gauss2, 5) / exact - 1.0);
+  const double graded = std::abs(peak_to_peak(QuadratureRule::Graded, 5) / exact - 1.0);
+  CAPTURE(exact, fixed, graded);
+  CHECK(graded < 0.1 * fixed);
+}
+
 TEST_CASE("Mean and first harmonic of the transmission error settle with the number of positions",
           "[convergence][load]") {
   // The first slope of f_t jumps where teeth gain and lose contact: second order for integrals over the pitch.

@@ -94,6 +94,40 @@ TEST_CASE("The weights of the contact points add up to the length of the contact
   }
 }
 
+TEST_CASE("Graded intervals end where a line does: weights add up to its length exactly, points move with it",
+          "[core][contact][closed-form]") {
+  const double beta = GENERATE(12 * deg, -31 * deg);
+  const bool extended = GENERATE(true, false);
+  PairData data = pair_data(24, 60, std::abs(beta), 0.1);
+  if (beta < 0.0) data.pinion_hand = Hand::Left;
+  const GearPair pair = make_gear_pair(data);
+  const PathOfContact path(pair);
+  const double margin = extended ? 0.0 : PathOfContact::extension;
+  constexpr double kRoundOff = 1e-12;
+  for (double line_phase = 0.013; line_phase < 1.0; line_phase += 0.09) {
+    double found = 0.0, expected = 0.0;
+    const auto points = points_at(pair, line_phase, 4, extended, QuadratureRule::Graded);
+    for (const ContactPoint& point : points) found += point.weight;
+    for (int k = -6; k <= 6; ++k) {
+      const double a = path.phase_at(line_phase + k, -path.half_face), b = path.phase_at(line_phase + k, path.half_face);
+      const double low = std::max(std::min(a, b), margin), high = std::min(std::max(a, b), path.region_length - margin);
+      expected += std::max(0.0, high - low) / std::abs(a - b) * pair.face_width / std::cos(pair.base_helix_angle);
+    }
+    CHECK(found == Approx(expected).epsilon(kRoundOff));
+    CHECK(std::is_sorted(points.begin(), points.end(), [](const ContactPoint& p, const ContactPoint& q) {
+      return p.tooth != q.tooth ? p.tooth < q.tooth : p.z < q.z;
+    }));
+    // A line that turns with the gear keeps its points' places on the path wherever both its ends are the path's.
+    const double step = 1e-3;
+    const auto later = points_at(pair, line_phase + step, 4, extended, QuadratureRule::Graded);
+    if (later.size() != points.size()) continue;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      CHECK(std::abs(later[i].phase - points[i].phase) <= step * (1.0 + kRoundOff));
+      CHECK(std::abs(later[i].z - points[i].z) <= step / std::abs(path.slope) * (1.0 + kRoundOff));
+    }
+  }
+}
+
 TEST_CASE("Next to the theoretical path the clearance is the parabola of the relative curvature",
           "[core][contact][closed-form]") {
   // A tip that meets the mate a distance d off the end of the path is the point of the (undisturbed, touching) flank at
