@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "core/compliance/tooth_places.hpp"
 
 namespace flankwright {
 namespace {
@@ -66,9 +67,7 @@ InfluenceSample element_sample(const GearFacts& gear, const GearMeshOptions& mes
   const ToothForm& form = model.mesh().form;
   std::vector<FlankPoint> points;
   for (const FlankPlace& place : places) {
-    points.push_back({place.tooth,
-                      form.form_radius() + (place.u + 1) / 2 * (form.tip_radius() - form.form_radius()),
-                      place.zeta - gear.relative_face / 2});
+    points.push_back({place.tooth, flank_radius(form, place.u), place.zeta - gear.relative_face / 2});
   }
   return {gear, places, model.influence(points).compliance};
 }
