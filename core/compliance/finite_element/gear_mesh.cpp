@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -10,20 +11,29 @@
 namespace flankwright {
 namespace {
 
-/// Ends of the layers over the face: fine at both ends, coarse in between, symmetric about z = 0.
-std::vector<double> face_planes(double face_width, double module, const GearMeshOptions& options) {
+/// Sizes from a face end to mid face that start at `first` and grow up to `largest`; their sum is about `half`.
+std::vector<double> layer_sizes(double half, double first, double growth, double largest) {
   std::vector<double> sizes;
-  double size = options.end_element * module, length = 0;
-  const double half = face_width / 2, largest = options.largest_element * module;
-  while (length < half) {
+  double length = 0;
+  for (double size = first; length < half; size = std::min(size * growth, largest)) {
     sizes.push_back(size);
     length += size;
-    size = std::min(size * options.axial_growth, largest);
   }
-  if (sizes.size() > 1 && length - half > half - (length - sizes.back())) {
-    length -= sizes.back();
-    sizes.pop_back();
+  if (sizes.size() > 1 && length - half > half - (length - sizes.back())) sizes.pop_back();
+  return sizes;
+}
+
+/// Ends of the layers over the face: fine at both ends, coarse in between, symmetric about z = 0.
+std::vector<double> face_planes(double face_width, double module, const GearMeshOptions& options) {
+  const double half = face_width / 2, first = options.end_element * module;
+  double largest = options.largest_element * module, growth = options.axial_growth;
+  std::vector<double> sizes = layer_sizes(half, first, growth, largest);
+  while (2 * std::ssize(sizes) > options.most_layers) {
+    largest *= 1.02;
+    growth = std::max(growth, 1 + largest / half);  // where growing alone takes more layers
+    sizes = layer_sizes(half, first, growth, largest);
   }
+  const double length = std::accumulate(sizes.begin(), sizes.end(), 0.0);
   std::vector<double> planes{-half};
   for (const double s : sizes) planes.push_back(planes.back() + s * half / length);
   planes.back() = 0;

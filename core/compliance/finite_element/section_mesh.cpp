@@ -139,9 +139,11 @@ class RootCurve {
 };
 
 HalfTooth half_tooth(const ToothForm& form, int teeth, double rim_radius, int flank_elements, int fillet_elements) {
+  constexpr double kAtTip = 0.6;  // size at the tip over the mean one: loads are felt over a distance as the thickness is
   HalfTooth half;
   for (int i = 0; i <= 2 * flank_elements; ++i) {
-    const double radius = form.tip_radius() + (form.form_radius() - form.tip_radius()) * i / (2 * flank_elements);
+    const double t = i / (2.0 * flank_elements), drop = t * (kAtTip + (1 - kAtTip) * t);
+    const double radius = form.tip_radius() + (form.form_radius() - form.tip_radius()) * drop;
     half.profile.push_back({radius, form.half_angle(std::max(radius, form.form_radius()))});
   }
   half.involute = flank_elements;
@@ -156,8 +158,9 @@ HalfTooth half_tooth(const ToothForm& form, int teeth, double rim_radius, int fl
     for (int i = 1; i <= 2 * elements; ++i) {
       const double s = begin + (end - begin) * i / (2 * elements);
       half.profile.push_back(root.at(s));
-      // The fan of elements around the corner of the inner line is most even where the fillet leans by 45 deg.
-      if (half.corner < 0 && i % 2 == 0 && root.tangent_angle(s) > pi / 4) half.corner = half.steps();
+      // The fan of elements around the corner of the inner line is most even where the fillet leans by 45 deg; later
+      // corners leave fewer elements around the body.
+      if (half.corner < 0 && i % 2 == 0 && root.tangent_angle(s) > 70 * units::deg) half.corner = half.steps();
     }
   };
   add(0, fillet_end, fillet_elements);
@@ -207,6 +210,14 @@ std::vector<double> ring_fractions(double outer, double inner, double first, dou
   return ends;
 }
 
+/// Rings from the shaft's surface to the bore, as fractions of their distance, each twice as thick as the one before:
+/// the stress that body and shaft exchange stays near the surface between them.
+std::vector<double> shaft_fractions(int rings) {
+  std::vector<double> ends;
+  for (int i = 0; i <= rings; ++i) ends.push_back((std::exp2(i) - 1) / (std::exp2(rings) - 1));
+  return ends;
+}
+
 /// Fractions at half steps.
 double at_half_step(const std::vector<double>& fractions, int i) {
   return i % 2 == 0 ? fractions[i / 2] : 0.5 * (fractions[i / 2] + fractions[i / 2 + 1]);
@@ -224,6 +235,7 @@ void GearMeshOptions::validate() const {
   at_least("options.adjacent_flank_elements", adjacent_flank_elements, 1);
   at_least("options.adjacent_fillet_elements", adjacent_fillet_elements, 2);
   at_least("options.teeth_each_side", teeth_each_side, 1);
+  at_least("options.most_layers", most_layers, 4);
   at_least("options.shaft_elements", shaft_elements, 1);
   const auto more_than = [](const char* field, double value, double bound) {
     if (!(value > bound)) throw InvalidInput(field, std::to_string(value), "more than " + std::to_string(bound));
@@ -336,9 +348,7 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
     }
   };
   if (!thin_rim) rings(rim, shaft, ring_fractions(rim, shaft, normal_module, options.body_growth), false);
-  std::vector<double> equal;
-  for (int i = 0; i <= options.shaft_elements; ++i) equal.push_back(static_cast<double>(i) / options.shaft_elements);
-  rings(shaft, bore, equal, true);
+  rings(shaft, bore, shaft_fractions(options.shaft_elements), true);
 
   return builder.take(std::move(lines));
 }

@@ -10,16 +10,17 @@ namespace flankwright {
 
 /// How finely a gear is meshed. Sizes in normal modules.
 struct GearMeshOptions {
-  int flank_elements{7};            ///< of the loaded tooth, tip to start of fillet, >= 1
+  int flank_elements{8};            ///< of the loaded tooth, tip to start of fillet, >= 1
   int fillet_elements{6};           ///< of the loaded tooth, >= 2
   int half_thickness_elements{3};   ///< centre surface to flank, every tooth, >= 1
-  int adjacent_flank_elements{3};   ///< of the other detailed teeth, >= 1
+  int adjacent_flank_elements{2};   ///< of the other detailed teeth, >= 1
   int adjacent_fillet_elements{2};  ///< of the other detailed teeth, >= 2
   int teeth_each_side{2};           ///< detailed teeth on either side of the loaded one, >= 1
-  double end_element{0.2};          ///< axial size next to the face ends, > 0
+  double end_element{0.15};         ///< axial size next to the face ends, > 0
   double axial_growth{1.4};         ///< size ratio of neighbouring layers, > 1
-  double largest_element{0.6};      ///< axial size at mid face, >= end_element
-  double body_growth{2.0};          ///< size ratio of neighbouring elements into the body and around it, > 1
+  double largest_element{0.4};      ///< axial size at mid face, >= end_element
+  int most_layers{48};              ///< over the face; a wider face has longer layers at mid face, >= 4
+  double body_growth{3.0};          ///< size ratio of neighbouring elements into the body and around it, > 1
   int shaft_elements{2};            ///< rings from the bore to the shaft's surface, >= 1
 
   /// Throws InvalidInput with field, value and violated bound.
