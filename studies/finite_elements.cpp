@@ -18,7 +18,7 @@ namespace flankwright::studies {
 namespace {
 
 /// To be raised whenever the same task comes to mean other numbers: mesh, load functional, removed motion, solution.
-constexpr int model_version = 1;
+constexpr int model_version = 2;
 
 /// Share of the machine's memory that runs may take.
 constexpr double share_of_memory = 0.8;
@@ -55,9 +55,9 @@ double machine_memory() {
 /// A field that is added to these structs must be added to the key: the bindings then no longer compile.
 Json mesh_key(const GearMeshOptions& options) {
   const auto& [flank, fillet, half_thickness, adjacent_flank, adjacent_fillet, teeth_each_side, end, axial_growth, largest,
-               body_growth, shaft] = options;
+               most_layers, body_growth, shaft] = options;
   static_cast<void>(teeth_each_side);  // teeth_apart says it
-  return {flank, fillet, half_thickness, adjacent_flank, adjacent_fillet, end, axial_growth, largest, body_growth, shaft};
+  return {flank, fillet, half_thickness, adjacent_flank, adjacent_fillet, end, axial_growth, largest, most_layers, body_growth, shaft};
 }
 // clang-format on
 
