@@ -35,7 +35,10 @@ auto with_study_keys(ComplianceModel model, Member member, Work&& work) {
       throw InvalidInput("fidelity.compliance", to_string(model),
                          fmt::format("another compliance: the {} cannot be meshed ({})", name_of(member), problem.value()));
     }
-    throw InvalidInput(fmt::format("{}.{}", name_of(member), problem.field()), problem.value(), problem.allowed());
+    const bool of_pair = problem.field() == "helix_angle" || problem.field() == "pressure_angle";
+    const char* of_gear = problem.field() == "poissons_ratio" ? "material." : "";
+    const std::string key = of_pair ? "pair." + problem.field() : fmt::format("{}.{}{}", name_of(member), of_gear, problem.field());
+    throw InvalidInput(key, problem.value(), problem.allowed());
   }
 }
 

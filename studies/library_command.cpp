@@ -32,9 +32,8 @@ struct Step {
 /// From the middle outwards: each gear starts from its neighbour towards the middle, a helical one from the same gear
 /// with less helix.
 std::vector<Step> steps() {
-  constexpr std::array<int, 4> kTeeth{45, 20, 12, 150};
-  constexpr std::array<int, 4> kTeethFrom{-1, 0, 1, 0};
-  constexpr std::array<double, 3> kShifts{0.1, -0.4, 0.6};
+  constexpr std::array<int, 3> kTeeth{30, 12, 150}, kTeethFrom{-1, 0, 0};
+  constexpr std::array<double, 2> kShifts{0.6, -0.4};
   constexpr std::array<double, 2> kAngles{0, 35};
   constexpr double kFace = 8;
   constexpr int kTeethCount = std::ssize(kTeeth), kRow = kTeethCount * std::ssize(kShifts);

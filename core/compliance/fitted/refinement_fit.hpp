@@ -26,7 +26,7 @@ std::vector<FlankPlace> places_on(const std::vector<double>& us, const std::vect
 /// share that is `given`.
 struct RefinementSamples {
   InfluenceSample fitted;  ///< 6 radii x 20 axial positions, symmetric about mid face
-  InfluenceSample unseen;  ///< 5 x 10 others, for the residuals alone
+  InfluenceSample unseen;  ///< 5 x 7 others, for the residuals alone
 };
 
 /// @param gear   relative_face >= 7: the outer 3.2 modules at both ends have places at fixed distances from the end

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <sstream>
 #include <tuple>
 
 #include "core/base/error.hpp"
@@ -29,14 +30,15 @@ void sort_unique(std::vector<Value>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-[[noreturn]] void reject(const std::string& field, double value, const std::string& allowed) {
-  throw InvalidInput(field, std::to_string(value), allowed + " of the library of fits; compliance = \"fe\" has no such limit");
-}
+constexpr double kRoundOff = 1e-9;  // of ranges' ends computed from degrees or millimetres
 
-void require_within(const std::string& field, double value, double low, double high, double slack) {
-  if (!(value >= low - slack && value <= high + slack)) {
-    reject(field, value, std::to_string(low) + " .. " + std::to_string(high));
-  }
+void require_within(const std::string& field, double value, double low, double high, const std::string& unit = "") {
+  if (value >= low - kRoundOff && value <= high + kRoundOff) return;
+  std::ostringstream range;
+  range << low;
+  if (high > low) range << " .. " << high;
+  throw InvalidInput(field, std::to_string(value),
+                     range.str() + unit + " in the library of fits; compliance \"fe\" has no such limit");
 }
 
 }  // namespace
@@ -101,19 +103,18 @@ const RefinementLibrary& RefinementLibrary::shipped() {
 void RefinementLibrary::require_known(const GearToMesh& gear, double poissons_ratio) const {
   const GearData& data = gear.gear;
   const double module = gear.normal_module;
-  constexpr double kRoundOff = 1e-9;  // of ranges' ends computed from degrees or millimetres
-  require_within("teeth", data.teeth, teeth_.front(), teeth_.back(), 0);
-  require_within("helix_angle", gear.helix_angle / units::deg, 0, helix_angles_.back() / units::deg, kRoundOff);
-  require_within("profile_shift", data.profile_shift, profile_shifts_.front(), profile_shifts_.back(), kRoundOff);
-  require_within("face_width in modules", data.face_width / module, 2, 30, kRoundOff);
-  require_within("pressure_angle", gear.pressure_angle / units::deg, 20, 20, kRoundOff);
-  require_within("rack.addendum", data.rack.addendum, 1, 1, kRoundOff);
-  require_within("rack.dedendum", data.rack.dedendum, 1.25, 1.25, kRoundOff);
-  require_within("rack.root_radius", data.rack.root_radius, 0.38, 0.39, kRoundOff);
-  require_within("poissons_ratio", poissons_ratio, 0.25, 0.35, kRoundOff);
+  require_within("pressure_angle", gear.pressure_angle / units::deg, 20, 20, " deg");
+  require_within("helix_angle", gear.helix_angle / units::deg, 0, helix_angles_.back() / units::deg, " deg");
+  require_within("teeth", data.teeth, teeth_.front(), teeth_.back());
+  require_within("profile_shift", data.profile_shift, profile_shifts_.front(), profile_shifts_.back());
+  require_within("face_width", data.face_width / module, 2, 30, " normal modules");
+  require_within("rack.addendum", data.rack.addendum, 1, 1);
+  require_within("rack.dedendum", data.rack.dedendum, 1.25, 1.25);
+  require_within("rack.root_radius", data.rack.root_radius, 0.38, 0.39);
+  require_within("poissons_ratio", poissons_ratio, 0.25, 0.35);
   if (!std::isnan(data.tip_diameter)) {
-    const double standard = data.teeth / std::cos(gear.helix_angle) + 2 * (data.rack.addendum + data.profile_shift);
-    require_within("tip_diameter in modules", data.tip_diameter / module, standard - 0.2, standard + 0.02, kRoundOff);
+    const double rack = data.teeth / std::cos(gear.helix_angle) + 2 * (data.rack.addendum + data.profile_shift);
+    require_within("tip_diameter", data.tip_diameter / module, rack - 0.2, rack + 0.02, " normal modules");
   }
 }
 
