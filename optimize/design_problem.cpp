@@ -46,6 +46,16 @@ void check_harmonics(const DesignTask& task) {
   for (const OutputConstraint& constraint : task.constraints) check(constraint.output);
 }
 
+void check_root_stress(const DesignTask& task) {
+  const auto wants = [](const ObjectiveTerm& term) { return term.output == Output::PeakRootStress; };
+  const bool wanted = std::any_of(task.objective.begin(), task.objective.end(), wants) ||
+                      std::any_of(task.constraints.begin(), task.constraints.end(),
+                                  [&](const OutputConstraint& constraint) { return wants(constraint.output); });
+  if (wanted && !task.root_stress) {
+    throw InvalidInput("peak_root_stress", "no model of root stress", "the effect root_stress");
+  }
+}
+
 }  // namespace
 
 DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)) {
@@ -53,6 +63,7 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)) {
   if (task_.variables.empty()) throw InvalidInput("optimise.variables", "none", "at least one variable");
   if (task_.objective.empty()) throw InvalidInput("optimise.objective", "none", "at least one output");
   check_harmonics(task_);
+  check_root_stress(task_);
   for (const DesignVariable& v : task_.variables) {
     if (!(v.lower < v.upper)) throw InvalidInput("optimise.variables." + v.path, "an empty range", "lower < upper");
     parameters_.push_back({v.member, v.parameter});
@@ -63,7 +74,8 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)) {
     if (!model) {
       model = std::make_unique<MeshModel>(make_mesh_model(task_.pair, task_.pinion_material, task_.wheel_material,
                                                           task_.resolution, task_.effects,
-                                                          scene.condition.misalignment.axial_offset, task_.structure.get()));
+                                                          scene.condition.misalignment.axial_offset, task_.structure.get(),
+                                                          task_.root_stress.get()));
     }
     models_.push_back(model.get());
   }

@@ -22,7 +22,8 @@ struct DesignAnalysis {
 class DesignProblem {
  public:
   /// @throws InvalidInput where the task has no scene, variable or objective, a bound pair is empty, the
-  /// mesh positions do not resolve a harmonic asked for, or the models cannot be built
+  /// mesh positions do not resolve a harmonic asked for, root stress is asked for without a model of it, or the models
+  /// cannot be built
   explicit DesignProblem(DesignTask task);
 
   const DesignTask& task() const { return task_; }

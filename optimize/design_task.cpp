@@ -23,7 +23,8 @@ const char* to_string(Aggregate over) {
 
 const char* ObjectiveTerm::unit() const {
   switch (output) {
-    case Output::PeakContactStress: return "MPa";
+    case Output::PeakContactStress:
+    case Output::PeakRootStress: return "MPa";
     case Output::TePeakToPeak:
     case Output::TeHarmonic: return "um";
     case Output::LoadFactor: return "1";

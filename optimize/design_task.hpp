@@ -23,7 +23,8 @@ enum class Output {
   TePeakToPeak,       ///< of f_t, along the flank normal [mm]
   TeHarmonic,         ///< amplitude of one order of f_t [mm]
   LoadFactor,         ///< peak line load / mean line load [-]
-  PeakLineLoad        ///< [N/mm]
+  PeakLineLoad,       ///< [N/mm]
+  PeakRootStress      ///< of both gears' fillets; needs DesignTask::root_stress [MPa]
 };
 
 /// One output with its place in a weighted objective.
@@ -73,6 +74,7 @@ struct DesignTask {
   MeshResolution resolution;
   MeshEffects effects;
   std::shared_ptr<const PairCompliance> structure;       ///< null: thin slices
+  std::shared_ptr<const PairRootStress> root_stress;     ///< null: none
   Modification pinion_modification, wheel_modification;  ///< values of what is not varied, and the start of what is
   std::vector<DesignScene> scenes;                       ///< the first is the nominal one
   std::vector<DesignVariable> variables;

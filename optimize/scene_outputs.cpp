@@ -43,12 +43,14 @@ SmoothValue harmonic(const LoadedCycle& cycle, int order) {
 }
 
 bool is_pointwise(Output output) {
-  return output == Output::PeakContactStress || output == Output::LoadFactor || output == Output::PeakLineLoad;
+  return output == Output::PeakContactStress || output == Output::LoadFactor || output == Output::PeakLineLoad ||
+         output == Output::PeakRootStress;
 }
 
-/// Value of every contact point of a position for a pointwise output.
+/// Value at every contact point, or place on the fillets, of a position for a pointwise output.
 Eigen::VectorXd point_values(Output output, const LoadedPosition& position, double mean_load) {
   if (output == Output::PeakContactStress) return position.contact_stress;
+  if (output == Output::PeakRootStress) return position.root_stress;
   return output == Output::LoadFactor ? Eigen::VectorXd(position.load.line_load / mean_load) : position.load.line_load;
 }
 
@@ -115,8 +117,9 @@ SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& cand
     const double mean_load = term.output == Output::LoadFactor ? mean_line_load(model, cycle) : 1.0;
     result.value = point_values(term.output, position, mean_load)[candidate.other];
     if (has_derivatives(cycle)) {
-      const bool stress = term.output == Output::PeakContactStress;
-      const Eigen::MatrixXd& derivative = stress ? position.contact_stress_derivative : position.line_load_derivative;
+      const Eigen::MatrixXd& derivative = term.output == Output::PeakContactStress ? position.contact_stress_derivative
+                                          : term.output == Output::PeakRootStress  ? position.root_stress_derivative
+                                                                                   : position.line_load_derivative;
       result.gradient = derivative.row(candidate.other).transpose() / mean_load;
     }
     return result;

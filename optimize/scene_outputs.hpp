@@ -13,11 +13,12 @@ struct SmoothValue {
   Eigen::VectorXd gradient;
 };
 
-/// A smooth function whose maximum over all candidates is an output: the stress at one contact point of one position, the
-/// difference of f_t between two positions, or a harmonic itself. Smooth while the point keeps its contact.
+/// A smooth function whose maximum over all candidates is an output: the stress at one contact point or one place of a
+/// fillet at one position, the difference of f_t between two positions, or a harmonic itself. Smooth while the points keep
+/// their contact.
 struct PeakCandidate {
   int position{-1};  ///< index into the cycle; -1 for a harmonic
-  int other{-1};     ///< contact point, or the second position of a difference
+  int other{-1};     ///< contact point, place of a fillet, or the second position of a difference
 
   auto operator<=>(const PeakCandidate&) const = default;
 };

@@ -98,7 +98,7 @@ int run_command(const RunOptions& options) {
 
 int check_command(const std::string& path, const std::vector<Override>& overrides) {
   const Study study = read_study(path, overrides);
-  fmt::print("{}: valid, task {}, {} scene{}\n", path, study.task == Task::Optimise ? "optimise" : "analyse", study.scenes.size(),
+  fmt::print("{}: valid, task {}, {} scene{}\n", path, to_string(study.task), study.scenes.size(),
              study.scenes.size() == 1 ? "" : "s");
   return 0;
 }

@@ -9,15 +9,6 @@ namespace flankwright::studies {
 
 namespace {
 
-const char* name_of(RemovedMotion removed) {
-  switch (removed) {
-    case RemovedMotion::None: return "none";
-    case RemovedMotion::TranslationAndTorsion: return "translation and torsion";
-    case RemovedMotion::TranslationTorsionAndTilt: return "translation, torsion and tilt";
-  }
-  __builtin_unreachable();
-}
-
 Json gear_run_json(const GearRun& run, const Material& material) {
   const RunStatistics& statistics = run.statistics;
   const InfluenceTable& table = *run.table;
@@ -31,6 +22,7 @@ Json gear_run_json(const GearRun& run, const Material& material) {
           {"model_seconds", statistics.model_seconds},
           {"loads_seconds", statistics.solve_seconds},
           {"teeth_apart", table.teeth_apart()},
+          {"root_stress", run.root_stress != nullptr},
           {"grid", {{"radii", table.grid().us().size()}, {"axial_positions", table.grid().zetas().size()}}},
           {"removed_shaft_motion", name_of(run.removed)},
           {"lowest_eigenvalue", table.projection().lowest_eigenvalue},
@@ -60,6 +52,15 @@ Json fits_json(const RefinementLibrary& library) {
 }
 
 }  // namespace
+
+const char* name_of(RemovedMotion removed) {
+  switch (removed) {
+    case RemovedMotion::None: return "none";
+    case RemovedMotion::TranslationAndTorsion: return "translation and torsion";
+    case RemovedMotion::TranslationTorsionAndTilt: return "translation, torsion and tilt";
+  }
+  __builtin_unreachable();
+}
 
 Json compliance_json(const FiniteElementRuns& runs, const Study& study) {
   Json json{{"model", to_string(study.fidelity.compliance)},

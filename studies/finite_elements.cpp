@@ -89,11 +89,13 @@ Json cache_key(const InfluenceTableTask& task) {
           {"teeth_apart", task.teeth_apart},
           {"mesh", mesh_key(task.mesh)},
           {"removed_motion", static_cast<int>(task.removed)},
+          {"root_stress", task.root_stress},
           {"us", task.grid.us()},
           {"zetas", task.grid.zetas()}};
 }
 
 std::string table_name(int teeth_apart) { return fmt::format("influence {} apart", teeth_apart); }
+std::string root_stress_name(int tooth) { return fmt::format("root stress by tooth {}", tooth); }
 
 StoredRun to_store(const InfluenceTableRun& run) {
   const InfluenceTable& table = *run.table;
@@ -109,23 +111,49 @@ StoredRun to_store(const InfluenceTableRun& run) {
   for (int m = 0; m <= table.teeth_apart(); ++m) {
     stored.matrices.emplace_back(table_name(m), table.tables()[static_cast<std::size_t>(m)]);
   }
+  if (run.root_stress) {
+    const RootStressTable& root = *run.root_stress;
+    stored.facts["fillet_along"] = root.fillet.along;
+    stored.facts["fillet_tangent"] = root.fillet.tangent;
+    stored.facts["fillet_zetas"] = root.fillet.zetas;
+    for (int m = -root.teeth_each_side(); m <= root.teeth_each_side(); ++m) {
+      stored.matrices.emplace_back(root_stress_name(m), root.stress[static_cast<std::size_t>(m + root.teeth_each_side())]);
+    }
+  }
   return stored;
+}
+
+const Eigen::MatrixXd& stored_matrix(const StoredRun& stored, const std::string& name) {
+  const Eigen::MatrixXd* matrix = stored.find(name);
+  if (matrix == nullptr) throw InvalidInput("run", name, "there");
+  return *matrix;
+}
+
+RootStressTable root_stress_from_store(const InfluenceTableTask& task, const StoredRun& stored) {
+  const Json& facts = stored.facts;
+  RootStressTable root{task.grid, {facts.at("fillet_along"), facts.at("fillet_tangent"), facts.at("fillet_zetas")}, {}};
+  for (int m = -task.teeth_apart; m <= task.teeth_apart; ++m) {
+    root.stress.push_back(stored_matrix(stored, root_stress_name(m)));
+    const Eigen::MatrixXd& stress = root.stress.back();
+    if (stress.rows() != 3 * root.fillet.size() || stress.cols() != task.grid.size() ||
+        root.fillet.tangent >= root.fillet.along.size()) {
+      throw InvalidInput("run", root_stress_name(m), "as large as its grids");
+    }
+  }
+  return root;
 }
 
 /// A run as to_store() writes it.
 /// @throws Json::exception, InvalidInput where something is missing
 InfluenceTableRun from_store(const InfluenceTableTask& task, const StoredRun& stored) {
-  InfluenceTableRun run{FactorStatus::Factorised, std::nullopt, {}};
+  InfluenceTableRun run{FactorStatus::Factorised, std::nullopt, std::nullopt, {}};
   const Json& facts = stored.facts;
   run.statistics = {facts.at("bricks"),     facts.at("unknowns"),      facts.at("factor_entries"),
                     facts.at("peak_bytes"), facts.at("model_seconds"), facts.at("solve_seconds")};
   std::vector<Eigen::MatrixXd> tables;
-  for (int m = 0; m <= task.teeth_apart; ++m) {
-    const Eigen::MatrixXd* table = stored.find(table_name(m));
-    if (table == nullptr) throw InvalidInput("run", table_name(m), "there");
-    tables.push_back(*table);
-  }
+  for (int m = 0; m <= task.teeth_apart; ++m) tables.push_back(stored_matrix(stored, table_name(m)));
   run.table.emplace(task.grid, std::move(tables), TableProjection{facts.at("lowest_eigenvalue"), facts.at("added")});
+  if (task.root_stress) run.root_stress = root_stress_from_store(task, stored);
   return run;
 }
 
@@ -154,21 +182,30 @@ std::vector<Job> jobs_of(const Study& study, const GearPair& pair) {
   return jobs;
 }
 
-/// True where the job's run could be taken from the cache.
+/// True where the job's run could be taken from the cache; one that tells more than is wanted will do.
 bool take(Job& job, const RunCache& cache, std::vector<std::string>& notes) {
   const Clock clock;
-  const auto stored = cache.find(job.key, notes);
-  if (!stored) return false;
-  job.file = cache.file_of(job.key).string();
-  try {
-    job.run = from_store(job.task, *stored);
-  } catch (const std::exception& problem) {
-    notes.push_back("the stored finite-element run " + job.file + " is not used: " + problem.what());
-    return false;
+  std::vector<Json> keys{job.key};
+  if (!job.task.root_stress) {
+    InfluenceTableTask with_root_stress = job.task;
+    with_root_stress.root_stress = true;
+    keys.push_back(cache_key(with_root_stress));
   }
-  job.from_cache = true;
-  job.seconds = clock.seconds();
-  return true;
+  for (const Json& key : keys) {
+    const auto stored = cache.find(key, notes);
+    if (!stored) continue;
+    job.file = cache.file_of(key).string();
+    try {
+      job.run = from_store(job.task, *stored);
+    } catch (const std::exception& problem) {
+      notes.push_back("the stored finite-element run " + job.file + " is not used: " + problem.what());
+      continue;
+    }
+    job.from_cache = true;
+    job.seconds = clock.seconds();
+    return true;
+  }
+  return false;
 }
 
 /// Progress of several jobs as one.
@@ -227,6 +264,23 @@ void refuse_unsolved(const Job& job, ComplianceModel model) {
 
 }  // namespace
 
+bool wants_root_stress(const Study& study) {
+  const Fidelity& fidelity = study.fidelity;
+  if (fidelity.compliance == ComplianceModel::Rigid) return false;
+  if (!fidelity.automatic_effects) return std::ranges::find(fidelity.effects, "root_stress") != fidelity.effects.end();
+  const auto is_root_stress = [](const ObjectiveTerm& term) { return term.output == Output::PeakRootStress; };
+  const bool optimised =
+      study.task == Task::Optimise &&
+      (std::ranges::any_of(study.optimise.objective, is_root_stress) ||
+       std::ranges::any_of(study.optimise.constraints, is_root_stress, &OutputConstraint::output));
+  return fidelity.compliance == ComplianceModel::Fe || optimised ||
+         std::ranges::any_of(study.expect, [](const Expectation& e) { return e.key.find("root_stress") != std::string::npos; });
+}
+
+bool solves_finite_elements(const Study& study) {
+  return couples_teeth(study.fidelity.compliance) || study.task == Task::Fit || wants_root_stress(study);
+}
+
 InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair, Member member) {
   const bool pinion = member == Member::Pinion;
   const Gear& gear = pair[member];
@@ -239,17 +293,17 @@ InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair
   InfluenceTableTask task{.gear = to_mesh,
                           .poissons_ratio = (pinion ? study.pinion_material : study.wheel_material).poissons_ratio,
                           .teeth_apart = std::max(2, teeth_apart_in_contact(pair)),
-                          .grid = flank_grid(gear.data.face_width / pair.data.normal_module)};
+                          .grid = flank_grid(gear.data.face_width / pair.data.normal_module),
+                          .root_stress = wants_root_stress(study)};
   if (2 * task.teeth_apart + 1 > gear.data.teeth) {
     throw InvalidInput("fidelity.compliance", to_string(study.fidelity.compliance),
                        fmt::format("another compliance: teeth {} pitches apart touch at once, too many for the {}'s {}",
                                    task.teeth_apart, name_of(member), gear.data.teeth));
   }
-  if (study.fidelity.compliance == ComplianceModel::Fitted) task.mesh = coarse_mesh();
+  const bool by_fits = study.fidelity.compliance == ComplianceModel::Fitted && study.task != Task::Fit;
+  if (by_fits) task.mesh = coarse_mesh();
   with_study_keys(study.fidelity.compliance, member, [&] {
-    if (study.fidelity.compliance == ComplianceModel::Fitted) {
-      RefinementLibrary::shipped().require_known(task.gear, task.poissons_ratio);
-    }
+    if (by_fits) RefinementLibrary::shipped().require_known(task.gear, task.poissons_ratio);
     const ToothForm form(to_mesh.gear, to_mesh.normal_module, to_mesh.pressure_angle, to_mesh.helix_angle);
     task.gear.body = complete_body(pinion ? study.pinion_body : study.wheel_body, form, to_mesh.normal_module);
     GearMeshOptions options = task.mesh;
@@ -278,9 +332,11 @@ FiniteElementRuns solve_finite_elements(const Study& study, const GearPair& pair
   }
   for (Job& job : jobs) {
     const auto table = std::make_shared<const InfluenceTable>(std::move(*job.run.table));
+    std::shared_ptr<const RootStressTable> root_stress;
+    if (job.run.root_stress) root_stress = std::make_shared<const RootStressTable>(std::move(*job.run.root_stress));
     for (const Member member : job.members) {
       GearRun& run = runs.gears[member == Member::Pinion ? 0 : 1];
-      run = {table, job.run.statistics, influence_table_task(study, pair, member).gear.body, job.task.removed,
+      run = {table, root_stress, job.run.statistics, influence_table_task(study, pair, member).gear.body, job.task.removed,
              job.from_cache, job.file, job.seconds};
     }
   }

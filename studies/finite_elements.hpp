@@ -14,6 +14,7 @@ namespace flankwright::studies {
 /// Influence values of one gear of a study and where they came from.
 struct GearRun {
   std::shared_ptr<const InfluenceTable> table;
+  std::shared_ptr<const RootStressTable> root_stress;  ///< null where the study does not want it
   RunStatistics statistics;    ///< of the run, whenever it was made
   GearBody body;               ///< used [mm]
   RemovedMotion removed{RemovedMotion::TranslationTorsionAndTilt};
@@ -29,6 +30,13 @@ struct FiniteElementRuns {
 
   const GearRun& operator[](Member m) const { return gears[m == Member::Pinion ? 0 : 1]; }
 };
+
+/// Whether the study's finite elements shall tell root stress: where its compliance is "fe" or an objective, constraint
+/// or expectation names it, and the study's own list of effects, if it has one, does not leave it out.
+bool wants_root_stress(const Study& study);
+
+/// Whether the study solves finite elements of its gears at all: for its compliance, root stress or task.
+bool solves_finite_elements(const Study& study);
 
 /// What is to be solved for one gear: its own face width, body and tip, teeth apart as the pair needs them (two at
 /// least, so that the loaded tooth's neighbours stand on what they stand on), the grid of flank_grid().

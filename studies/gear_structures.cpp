@@ -35,23 +35,25 @@ std::shared_ptr<const FlankCompliance> refined_by_fits(const InfluenceTableTask&
 }  // namespace
 
 GearStructures gear_structures(const Study& study, const GearPair& pair, const ProgressReport& progress) {
-  switch (study.fidelity.compliance) {
-    case ComplianceModel::Rigid:
-    case ComplianceModel::ThinSlice: return {};
-    case ComplianceModel::Fitted:
-    case ComplianceModel::Fe: {
-      FiniteElementRuns runs = solve_finite_elements(study, pair, progress);
-      const auto compliance = [&](Member member) -> std::shared_ptr<const FlankCompliance> {
-        if (study.fidelity.compliance == ComplianceModel::Fe) return runs[member].table;
-        return refined_by_fits(influence_table_task(study, pair, member), runs[member].table);
-      };
-      auto structure = std::make_shared<const StructuralPair>(
-          pair, GearStructure{compliance(Member::Pinion), study.pinion_material.youngs_modulus},
-          GearStructure{compliance(Member::Wheel), study.wheel_material.youngs_modulus});
-      return {std::move(structure), std::move(runs)};
-    }
+  GearStructures structures;
+  const bool is_structural = couples_teeth(study.fidelity.compliance);
+  if (!is_structural && !wants_root_stress(study)) return structures;
+  structures.finite_elements = solve_finite_elements(study, pair, progress);
+  const GearRun& pinion = (*structures.finite_elements)[Member::Pinion];
+  const GearRun& wheel = (*structures.finite_elements)[Member::Wheel];
+  if (is_structural) {
+    const auto compliance = [&](Member member, const GearRun& run) -> std::shared_ptr<const FlankCompliance> {
+      if (study.fidelity.compliance == ComplianceModel::Fe) return run.table;
+      return refined_by_fits(influence_table_task(study, pair, member), run.table);
+    };
+    structures.pair = std::make_shared<const StructuralPair>(
+        pair, GearStructure{compliance(Member::Pinion, pinion), study.pinion_material.youngs_modulus},
+        GearStructure{compliance(Member::Wheel, wheel), study.wheel_material.youngs_modulus});
   }
-  __builtin_unreachable();
+  if (pinion.root_stress) {
+    structures.root_stress = std::make_shared<const TabulatedRootStress>(pair, pinion.root_stress, wheel.root_stress);
+  }
+  return structures;
 }
 
 }  // namespace flankwright::studies

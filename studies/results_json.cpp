@@ -6,6 +6,7 @@
 #include "core/compliance/thin_slice.hpp"
 #include "core/gear/tooth_form.hpp"
 #include "studies/compliance_json.hpp"
+#include "studies/fit_json.hpp"
 #include "studies/json_format.hpp"
 #include "studies/unloaded_json.hpp"
 #include "studies/used_json.hpp"
@@ -78,6 +79,16 @@ Json point_json(const ContactPoint& point, const LoadedPosition& position, Eigen
           {"error_um", in_um(position.gap.error[i])}};
 }
 
+/// Largest over a tooth's fillet [MPa]; NaN without.
+double root_stress_of_tooth(const MeshPosition& at, const LoadedPosition& position, Member member, int tooth) {
+  double largest = not_given;
+  for (Eigen::Index i = 0; i < position.root_stress.size(); ++i) {
+    const RootPlace& place = at.root_stress.places[static_cast<std::size_t>(i)];
+    if (place.member == member && place.tooth == tooth) largest = std::fmax(largest, position.root_stress[i]);
+  }
+  return largest;
+}
+
 Json position_json(const MeshPosition& at, const LoadedPosition& position, double cos_base_helix) {
   const LoadDistribution& load = position.load;
   Json json{{"phase", position.phase},
@@ -95,8 +106,25 @@ Json position_json(const MeshPosition& at, const LoadedPosition& position, doubl
     }
   }
   json["teeth"] = Json::array();
-  for (auto& [tooth, points] : teeth) json["teeth"].push_back({{"tooth", tooth}, {"points", std::move(points)}});
+  for (auto& [tooth, points] : teeth) {
+    Json entry{{"tooth", tooth}, {"points", std::move(points)}};
+    if (position.root_stress.size() > 0) {
+      entry["pinion_root_stress_MPa"] = root_stress_of_tooth(at, position, Member::Pinion, tooth);
+      entry["wheel_root_stress_MPa"] = root_stress_of_tooth(at, position, Member::Wheel, tooth);
+    }
+    json["teeth"].push_back(std::move(entry));
+  }
   return json;
+}
+
+/// Null where there is no root stress.
+Json root_stress_json(const RootStressPeak& peak) {
+  if (std::isnan(peak.stress)) return nullptr;
+  return {{"tooth", peak.place.tooth},
+          {"z_mm", peak.place.z},
+          {"along_fillet", peak.place.along},
+          {"phase", peak.phase},
+          {"at_30_deg_tangent_MPa", peak.tangent_stress}};
 }
 
 Json summary_json(const CycleSummary& summary, const MeshModel& model, bool full_cycle) {
@@ -106,7 +134,11 @@ Json summary_json(const CycleSummary& summary, const MeshModel& model, bool full
           {"te_mean_um", in_um(summary.te_mean)},
           {"peak_load_N_per_mm", summary.peak_line_load},
           {"peak_contact_stress_MPa", summary.peak_contact_stress},
-          {"peak_root_stress_MPa", missing},
+          {"peak_root_stress_MPa", summary.peak_root_stress},
+          {"pinion_root_stress_MPa", summary.pinion_root_stress.stress},
+          {"wheel_root_stress_MPa", summary.wheel_root_stress.stress},
+          {"pinion_root_stress", root_stress_json(summary.pinion_root_stress)},
+          {"wheel_root_stress", root_stress_json(summary.wheel_root_stress)},
           {"mean_stiffness_N_per_mm_um", summary.mean_stiffness},
           {"load_factor", summary.load_factor},
           {"worst_kkt_residual", summary.worst_kkt_residual},
@@ -245,7 +277,7 @@ const char* version() { return FLANKWRIGHT_VERSION; }
 std::string results_json(const StudyResults& results) {
   const Study& study = results.study;
   Json json{{"title", study.title},
-            {"task", study.task == Task::Optimise ? "optimise" : "analyse"},
+            {"task", to_string(study.task)},
             {"version", version()},
             {"file", study.file},
             {"seconds", results.seconds},
@@ -266,6 +298,8 @@ std::string results_json(const StudyResults& results) {
     return {{"name", e.name}, {"on", e.on}, {"why", e.why}, {"seconds", e.seconds}};
   });
   if (results.design) json["optimise"] = optimise_json(results);
+  if (!results.deflections.empty()) json["deflections"] = list(results.deflections, deflections_json);
+  if (!results.fits.empty()) json["fit"] = list(results.fits, fit_json);
   json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}}; });
   json["used"] = used_json(results);
   // A file name need not be UTF-8, JSON must be: what is not becomes the replacement character.

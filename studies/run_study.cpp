@@ -25,6 +25,7 @@ FlankCondition condition_of(const Study& study, const Scene& scene) {
 EffectFacts facts_of(const Study& study) {
   EffectFacts facts;
   facts.coupled_teeth = couples_teeth(study.fidelity.compliance);
+  facts.root_stress = wants_root_stress(study);
   for (const Scene& scene : study.scenes) {
     FlankCondition condition = condition_of(study, scene);
     for (double torque : scene.torques) {
@@ -62,11 +63,11 @@ class Run {
     results_.pair = make_gear_pair(study.pair);
     const EffectFacts facts = facts_of(study);
     results_.effects = study.fidelity.automatic_effects ? decide_effects(facts) : chosen_effects(facts, study.fidelity.effects);
-    if (study.fidelity.compliance == ComplianceModel::Rigid && any_torque()) {
+    if (study.fidelity.compliance == ComplianceModel::Rigid && any_torque() && study.task != Task::Fit) {
       note("compliance is rigid: torques are ignored, contact is analysed without load");
     }
     const bool has_body = std::ranges::any_of(study.given, [](const GivenValue& g) { return g.key.find(".body.") != std::string::npos; });
-    if (has_body && !couples_teeth(study.fidelity.compliance)) {
+    if (has_body && !solves_finite_elements(study)) {
       note(std::string("a gear's body is given, but the compliance \"") + to_string(study.fidelity.compliance) + "\" does not know of it");
     }
     geometry_notes();
@@ -74,10 +75,10 @@ class Run {
 
   StudyResults finish() {
     const Clock clock;
-    if (results_.study.task == Task::Optimise) {
-      optimise();
-    } else {
-      analyse();
+    switch (results_.study.task) {
+      case Task::Analyse: analyse(); break;
+      case Task::Optimise: optimise(); break;
+      case Task::Fit: fit(); break;
     }
     check_results();
     results_.seconds = clock.seconds();
@@ -120,22 +121,27 @@ class Run {
     if (is_new) {
       const Study& study = results_.study;
       results_.models.push_back(make_mesh_model(results_.pair, study.pinion_material, study.wheel_material,
-                                                resolution_of(study), mesh_effects(results_.effects), axial_offset, structure().get()));
+                                                resolution_of(study), mesh_effects(results_.effects), axial_offset,
+                                                structures().pair.get(), structures().root_stress.get()));
     }
     return it->second;
   }
 
-  /// Both gears' structure, made when first needed.
-  const std::shared_ptr<const PairCompliance>& structure() {
+  /// Both gears' structure and root stress, made when first needed.
+  const GearStructures& structures() {
     if (!has_structure_) {
       results_.structures = gear_structures(results_.study, results_.pair, progress_);
+      results_.deflections = gear_deflections(results_.study, results_.pair, results_.structures);
       has_structure_ = true;
       if (const auto& runs = results_.structures.finite_elements) {
-        results_.effects.push_back({"finite_elements", true, "compliance is fe: influence values of both gears", runs->seconds});
+        const bool is_fe = results_.study.fidelity.compliance == ComplianceModel::Fe;
+        results_.effects.push_back({"finite_elements", true,
+                                    is_fe ? "compliance is fe: influence values of both gears" : "root stress of both gears",
+                                    runs->seconds});
         results_.notes.insert(results_.notes.end(), runs->notes.begin(), runs->notes.end());
       }
     }
-    return results_.structures.pair;
+    return results_.structures;
   }
 
   void add_unloaded(const Scene& scene) {
@@ -159,7 +165,7 @@ class Run {
     int total = 0, done = 0;
     for (const Scene& scene : study.scenes) total += static_cast<int>(scene.torques.size());
     double unloaded_seconds = 0.0, loaded_seconds = 0.0;
-    if (study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) structure();  // its time is its own
+    if (study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) structures();  // its time is its own
     for (const Scene& scene : study.scenes) {
       bool has_unloaded = false;
       for (double torque : scene.torques) {
@@ -193,7 +199,8 @@ class Run {
     task.wheel_material = study.wheel_material;
     task.resolution = resolution_of(study);
     task.effects = mesh_effects(results_.effects);
-    task.structure = structure();
+    task.structure = structures().pair;
+    task.root_stress = structures().root_stress;
     task.pinion_modification = study.pinion_modification;
     task.wheel_modification = study.wheel_modification;
     task.variables = study.optimise.variables;
@@ -245,6 +252,15 @@ class Run {
         results_.requirements.push_back("the constraint " + constraint.output.name + " <= " + number(constraint.maximum * factor) +
                                         " is violated: " + number(value * factor) + " " + constraint.output.unit());
       }
+    }
+  }
+
+  void fit() {
+    results_.effects.clear();  // none of them concerns a single gear
+    results_.fits = fit_gears(results_.study, results_.pair, progress_);
+    for (const GearFit& fit : results_.fits) {
+      const std::string unmet = unmet_requirement(fit);
+      if (!unmet.empty()) results_.requirements.push_back(unmet);
     }
   }
 

@@ -7,6 +7,8 @@
 #include "core/effects/effects.hpp"
 #include "core/load/mesh_cycle.hpp"
 #include "optimize/design_optimiser.hpp"
+#include "studies/fit_task.hpp"
+#include "studies/gear_deflections.hpp"
 #include "studies/gear_structures.hpp"
 #include "studies/study.hpp"
 #include "studies/unloaded_result.hpp"
@@ -34,6 +36,8 @@ struct StudyResults {
   std::vector<Effect> effects;
   std::optional<DesignTask> design_task;
   std::optional<DesignResult> design;
+  std::vector<GearDeflections> deflections;  ///< of both gears, where the compliance is of single gears
+  std::vector<GearFit> fits;              ///< of the task "fit", one a gear
   std::vector<std::string> notes;         ///< what the reader should know, one sentence each
   std::vector<std::string> requirements;  ///< requirements that were not met (exit code 1), one line each
   double seconds{not_given};

@@ -16,7 +16,17 @@
 /// A study as pure data: what a study file says, validated, in internal units (mm, N, rad, MPa); study_file.hpp reads.
 namespace flankwright::studies {
 
-enum class Task { Analyse, Optimise };
+enum class Task { Analyse, Optimise, Fit };
+
+/// As a study names it: "analyse", "optimise", "fit".
+inline const char* to_string(Task task) {
+  switch (task) {
+    case Task::Analyse: return "analyse";
+    case Task::Optimise: return "optimise";
+    case Task::Fit: return "fit";
+  }
+  __builtin_unreachable();
+}
 
 /// Ladder of compliance models.
 enum class ComplianceModel { Rigid, ThinSlice, Fitted, Fe };
@@ -73,6 +83,14 @@ struct OptimiseTable {
   unsigned long seed{1};
 };
 
+/// [fit]: which gears' compliance is fitted, and how.
+struct FitChoice {
+  bool pinion{true}, wheel{true};
+  bool several_teeth{true};  ///< KernelForm::several_teeth(), else one_tooth_accurate()
+  bool test_grid{true};      ///< compared on places that the fit has not seen
+  int max_iterations{300};   ///< trust-region steps
+};
+
 /// [expect]: one key of results.json and what it must be.
 struct Expectation {
   std::string key;      ///< dotted path, array indices as numbers; "loaded.summary.x" means every entry of loaded
@@ -107,6 +125,7 @@ struct Study {
   Fidelity fidelity;
   std::vector<Scene> scenes;    ///< never empty: without [[scenes]] the one nominal scene of the base tables
   OptimiseTable optimise;       ///< meaningful where task is Optimise
+  FitChoice fit;                ///< meaningful where task is Fit
   std::vector<Expectation> expect;
   std::vector<GivenValue> given;
 };

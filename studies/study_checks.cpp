@@ -121,7 +121,10 @@ void check_parabola(StudyReading& reading, Member m) {
 /// What the finite elements of a gear refuse, before anything is solved.
 void check_finite_elements(StudyReading& reading, Member m) {
   const Study& study = reading.draft.study;
-  if (!reading.problems.empty() || !couples_teeth(study.fidelity.compliance)) return;
+  if (!reading.problems.empty() || !solves_finite_elements(study)) return;
+  if (study.fidelity.compliance == ComplianceModel::Fitted && wants_root_stress(study)) {
+    return refuse_key(reading, "fidelity.compliance", "root stress takes a fine mesh: allowed is \"thin_slice\" or \"fe\"");
+  }
   try {
     influence_table_task(study, make_gear_pair(study.pair), m);
   } catch (const InvalidInput& problem) {
@@ -141,6 +144,17 @@ void check_variables(StudyReading& reading) {
   }
 }
 
+/// What is to be minimised or bounded must not be switched off.
+void check_root_stress(StudyReading& reading) {
+  const Study& study = reading.draft.study;
+  const auto is_root_stress = [](const ObjectiveTerm& term) { return term.output == Output::PeakRootStress; };
+  const bool asked = std::ranges::any_of(study.optimise.objective, is_root_stress) ||
+                     std::ranges::any_of(study.optimise.constraints, is_root_stress, &OutputConstraint::output);
+  if (asked && !wants_root_stress(study)) {
+    refuse_key(reading, "fidelity.effects", "peak_root_stress is asked for: allowed is \"auto\" or a list with \"root_stress\"");
+  }
+}
+
 void check_optimise(StudyReading& reading) {
   const Study& study = reading.draft.study;
   const Match* variables = reading.find("optimise.variables");
@@ -153,6 +167,7 @@ void check_optimise(StudyReading& reading) {
   if (study.fidelity.compliance == ComplianceModel::Rigid) {
     refuse_key(reading, "fidelity.compliance", "task \"optimise\" needs a compliance: allowed is \"thin_slice\", \"fitted\" or \"fe\"");
   }
+  check_root_stress(reading);
   for (const Scene& scene : study.scenes) {
     if (std::ranges::any_of(scene.torques, [](double torque) { return torque > 0.0; })) continue;
     return refuse_key(reading, "load.torque", "task \"optimise\" needs a torque above 0 in every scene: " + scene.name);

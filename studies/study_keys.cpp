@@ -67,13 +67,13 @@ std::vector<SchemaKey> working_condition_rows() {
 
       {.path = "gear.body.shaft_diameter", .quantity = Quantity::Length, .range = any_length,
        .fallback = "(0.8 d, at most 25 m_n/cos(beta) and d_f - 1.2 m_n)",
-       .meaning = "of the shaft that the gear, a solid disc, is one with; at most d_f - m_n; compliance \"fitted\" and \"fe\"",
+       .meaning = "of the shaft that the gear, a solid disc, is one with; at most d_f - m_n; compliances \"fitted\" and \"fe\" and task \"fit\"",
        .store = [](Draft& d, Member m, const Value& v) { body(d, m).shaft_diameter = v.number; }},
       {.path = "gear.body.bore_diameter", .quantity = Quantity::Length, .range = any_length,
-       .fallback = "(0.2 of the shaft)", .meaning = "of the shaft; below 0.9 of it; compliance \"fitted\" and \"fe\"",
+       .fallback = "(0.2 of the shaft)", .meaning = "of the shaft; below 0.9 of it; compliances \"fitted\" and \"fe\" and task \"fit\"",
        .store = [](Draft& d, Member m, const Value& v) { body(d, m).bore_diameter = v.number; }},
       {.path = "gear.body.shaft_overhang", .quantity = Quantity::Length, .range = any_length,
-       .fallback = "(0.5 of the shaft)", .meaning = "length of the shaft beyond each face end; compliance \"fitted\" and \"fe\"",
+       .fallback = "(0.5 of the shaft)", .meaning = "length of the shaft beyond each face end; compliances \"fitted\" and \"fe\" and task \"fit\"",
        .store = [](Draft& d, Member m, const Value& v) { body(d, m).shaft_overhang = v.number; }},
 
       {.path = "load.torque", .kind = NumberOrList, .quantity = Quantity::Torque, .range = from_zero(1e9),
@@ -109,7 +109,7 @@ std::vector<SchemaKey> working_condition_rows() {
        }},
       {.path = "fidelity.effects", .kind = WordList,
        .words = {"bending", "adjacent_teeth", "hertzian_contact", "tip_corner", "extended_contact_region", "misalignment",
-                 "modifications", "manufacturing_errors"},
+                 "modifications", "manufacturing_errors", "root_stress"},
        .later = {"gear_body_compliance", "shaft_deflection"}, .fallback = "\"auto\"",
        .meaning = "what enters the run; auto decides from the study, a list switches by hand",
        .store = [](Draft& d, Member, const Value& v) {
@@ -157,6 +157,22 @@ std::vector<SchemaKey> task_rows() {
        .store = [](Draft& d, Member, const Value& v) {
          d.study.optimise.seed = static_cast<unsigned long>(v.integer);
        }},
+
+      {.path = "fit.gear", .kind = Word, .words = {"both", "pinion", "wheel"}, .fallback = "\"both\"",
+       .meaning = "whose compliance is fitted",
+       .store = [](Draft& d, Member, const Value& v) {
+         d.study.fit.pinion = v.text != "wheel";
+         d.study.fit.wheel = v.text != "pinion";
+       }},
+      {.path = "fit.form", .kind = Word, .words = {"several_teeth", "one_tooth_accurate"},
+       .fallback = "\"several_teeth\"", .meaning = "sum of kernels that is fitted: teeth coupled, or one tooth closer",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fit.several_teeth = v.text == "several_teeth"; }},
+      {.path = "fit.test_grid", .kind = Word, .words = {"on", "off"}, .fallback = "\"on\"",
+       .meaning = "on: compared with finite elements on places that the fit has not seen as well",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fit.test_grid = v.text == "on"; }},
+      {.path = "fit.max_iterations", .kind = Integer, .range = {.low = 1, .high = 100'000}, .fallback = "300",
+       .meaning = "steps of the least squares, then it ends unconverged with the best so far",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fit.max_iterations = static_cast<int>(v.integer); }},
 
       {.path = "expect", .kind = Expectations, .fallback = "(none)",
        .meaning = "\"loaded.summary.te_peak_to_peak_um\" = { max = 3 }: what results.json must say"},

@@ -194,6 +194,7 @@ std::optional<NamedOutput> find_output(const std::string& name) {
   if (name == "te_peak_to_peak") return found(Output::TePeakToPeak, Quantity::Deviation);
   if (name == "load_factor") return found(Output::LoadFactor, Quantity::Number);
   if (name == "peak_line_load") return found(Output::PeakLineLoad, Quantity::LineLoad);
+  if (name == "peak_root_stress") return found(Output::PeakRootStress, Quantity::Stress);
   for (int order = 1; order <= highest_te_harmonic; ++order) {
     if (name == "te_harmonic_" + std::to_string(order)) return found(Output::TeHarmonic, Quantity::Deviation, order);
   }
@@ -201,7 +202,8 @@ std::optional<NamedOutput> find_output(const std::string& name) {
 }
 
 std::vector<std::string> output_names() {
-  std::vector<std::string> names{"peak_contact_stress", "te_peak_to_peak", "load_factor", "peak_line_load"};
+  std::vector<std::string> names{"peak_contact_stress", "te_peak_to_peak", "load_factor", "peak_line_load",
+                                 "peak_root_stress"};
   for (int order = 1; order <= highest_te_harmonic; ++order) names.push_back("te_harmonic_" + std::to_string(order));
   return names;
 }

@@ -60,7 +60,6 @@ std::vector<Item> items_of(StudyReading& reading, const std::string& key, const 
 }
 
 std::string unknown_output(const std::string& name) {
-  if (name == "peak_root_stress") return "peak_root_stress is not in this version";
   const std::string near = nearest_word(name, output_names());
   return "unknown output" + (near.empty() ? "" : ", did you mean " + near + "?");
 }

@@ -126,7 +126,7 @@ misalignment.mesh_misalignment = -8
 load.torque = 120
 
 [optimise]
-objective = "peak_contact_stress"    # or te_peak_to_peak, te_harmonic_1 .. te_harmonic_10, load_factor, peak_line_load
+objective = "peak_contact_stress"    # or te_peak_to_peak, te_harmonic_1 .. te_harmonic_10, load_factor, peak_line_load, peak_root_stress
 over = "worst"                       # nominal | worst | mean | mean+2sigma of the scenes
 solver = "ipopt"                     # or nlopt:slsqp, nlopt:mma, nlopt:cobyla ...
 # max_evaluations = 500
@@ -141,6 +141,46 @@ solver = "ipopt"                     # or nlopt:slsqp, nlopt:mma, nlopt:cobyla .
 "te_peak_to_peak" = { max = 10 }     # um
 )";
 
+constexpr std::string_view fit_text = R"(# Compliance of each gear by finite elements, fitted by a sum of kernels and shown beside other models. Flank
+# modifications, loads and misalignment play no part in it.
+title = "My gears, how far they give way"
+task = "fit"
+
+[pair]
+normal_module = 4                    # mm
+pressure_angle = 20                  # deg, normal section
+helix_angle = 15                     # deg, 0 is a spur gear
+
+[pinion]
+teeth = 20
+face_width = 40                      # mm
+profile_shift = 0.2                  # in normal modules, + outwards
+rack = { addendum = 1, dedendum = 1.25, root_radius = 0.39 }         # in normal modules
+
+[wheel]
+teeth = 40
+face_width = 40
+
+[pinion.body]                        # what the teeth stand on; [wheel.body] alike
+# shaft_diameter = 40                # mm; by default 0.8 d, at most 25 m_n/cos(beta)
+# bore_diameter = 8                  # mm; by default 0.2 of the shaft
+# shaft_overhang = 20                # mm beyond each face end; by default half the shaft's diameter
+
+[material]
+youngs_modulus = 206000              # MPa
+poissons_ratio = 0.3
+
+[fit]
+gear = "both"                        # or "pinion", "wheel"
+form = "several_teeth"               # couples teeth; "one_tooth_accurate" knows the loaded tooth alone, but closer
+# test_grid = "off"                  # leaves out the comparison on places that the fit has not seen
+# max_iterations = 600               # steps of the least squares
+
+# What the fit must reach, for `flankwright test`:
+# [expect]
+# "fit.residuals.kernels.unseen.0.median_percent" = { max = 1 }      # 0: the loaded tooth, 1: one pitch away ...
+)";
+
 std::string text_of(std::string_view head, std::string_view tail) {
   return std::string(head) + std::string(pair_and_flanks) + std::string(tail);
 }
@@ -150,12 +190,13 @@ std::string text_of(std::string_view head, std::string_view tail) {
 std::string study_template(const std::string& kind) {
   if (kind == "analyse") return text_of(analyse_head, analyse_tail);
   if (kind == "optimise") return text_of(optimise_head, optimise_tail);
-  constexpr std::array<std::string_view, 3> later{"sweep", "accuracy", "fit"};
+  if (kind == "fit") return std::string(fit_text);
+  constexpr std::array<std::string_view, 2> later{"sweep", "accuracy"};
   for (const std::string_view name : later) {
     if (kind == name)
-      throw InvalidInput("KIND", kind, "\"analyse\" or \"optimise\"; " + kind + " is not in this version");
+      throw InvalidInput("KIND", kind, "\"analyse\", \"optimise\" or \"fit\"; " + kind + " is not in this version");
   }
-  throw InvalidInput("KIND", kind, "\"analyse\" or \"optimise\"");
+  throw InvalidInput("KIND", kind, "\"analyse\", \"optimise\" or \"fit\"");
 }
 
 }  // namespace flankwright::studies

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/fit_tables.hpp"
 #include "studies/json_format.hpp"
 #include "studies/unloaded_tables.hpp"
 
@@ -14,14 +15,24 @@ namespace {
 
 double in_Nm(double torque) { return torque / units::newton_metre; }
 
+/// Empty where there is no root stress.
+std::string root_field(const RootStressPeak& peak) {
+  return std::isnan(peak.stress) ? std::string() : fmt::format("{}", peak.stress);
+}
+
 std::string cycle_csv(const StudyResults& results) {
-  std::string csv = "scene,torque_Nm,design,phase,te_um,te_base_tangent_um,stiffness_N_per_mm_um,kkt_residual\n";
+  std::string csv = "scene,torque_Nm,design,phase,te_um,te_base_tangent_um,stiffness_N_per_mm_um,kkt_residual,"
+                    "pinion_root_stress_MPa,wheel_root_stress_MPa\n";
   const double cos_base_helix = std::cos(results.pair.base_helix_angle);
   for (const LoadedResult& loaded : results.loaded) {
-    for (const LoadedPosition& p : loaded.cycle.positions) {
+    const MeshModel& model = results.models[loaded.model];
+    for (std::size_t k = 0; k < loaded.cycle.positions.size(); ++k) {
+      const LoadedPosition& p = loaded.cycle.positions[k];
       const double te = in_um(p.load.transmission_error);
-      csv += fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, p.phase, te,
-                         te / cos_base_helix, p.stiffness, p.load.kkt_residual);
+      csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design,
+                         p.phase, te, te / cos_base_helix, p.stiffness, p.load.kkt_residual,
+                         root_field(root_stress_peak(model.positions[k], p, Member::Pinion)),
+                         root_field(root_stress_peak(model.positions[k], p, Member::Wheel)));
     }
   }
   return csv;
@@ -115,17 +126,21 @@ std::string analysis_table(const StudyResults& results) {
   for (const LoadedResult& l : results.loaded) names.push_back(l.scene);
   for (const UnloadedResult& u : results.unloaded) names.push_back(u.scene);
   const std::size_t width = widest(names, 12);
+  // A column of its own where there is any.
+  const bool roots = std::ranges::any_of(results.loaded, [](const LoadedResult& l) { return !std::isnan(l.summary.peak_root_stress); });
+  const auto root_column = [&](const std::string& text) { return roots ? fmt::format("  {:>10}", text) : std::string(); };
   if (!results.loaded.empty()) {
-    out += fmt::format("{:<{}}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}  {:>12}\n", "loaded", width, "torque", "TE p-p", "TE 1st",
-                       "peak load", "peak sigma", "stiffness");
-    out += fmt::format("{:<{}}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}  {:>12}\n", "", width, "N·m", "um", "um", "N/mm", "MPa",
-                       "N/(mm um)");
+    out += fmt::format("{:<{}}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}{}  {:>12}\n", "loaded", width, "torque", "TE p-p", "TE 1st",
+                       "peak load", "peak sigma", root_column("root sigma"), "stiffness");
+    out += fmt::format("{:<{}}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}{}  {:>12}\n", "", width, "N·m", "um", "um", "N/mm", "MPa",
+                       root_column("MPa"), "N/(mm um)");
   }
   for (const LoadedResult& l : results.loaded) {
     const double first = l.summary.te_harmonics.empty() ? not_given : l.summary.te_harmonics.front();
-    out += fmt::format("{:<{}}  {:>9.6g}  {:>10.4f}  {:>10.4f}  {:>10.2f}  {:>10.2f}  {:>12.3f}\n", l.scene, width, in_Nm(l.torque),
+    out += fmt::format("{:<{}}  {:>9.6g}  {:>10.4f}  {:>10.4f}  {:>10.2f}  {:>10.2f}{}  {:>12.3f}\n", l.scene, width, in_Nm(l.torque),
                        in_um(l.summary.te_peak_to_peak), in_um(first), l.summary.peak_line_load,
-                       l.summary.peak_contact_stress, l.summary.mean_stiffness);
+                       l.summary.peak_contact_stress, root_column(fmt::format("{:.2f}", l.summary.peak_root_stress)),
+                       l.summary.mean_stiffness);
   }
   return out + unloaded_summary(results, width);
 }
@@ -147,10 +162,12 @@ std::vector<NamedText> csv_tables(const StudyResults& results) {
     tables.push_back({"scenes.csv", scenes_csv(results)});
     tables.push_back({"history.csv", history_csv(*results.design)});
   }
+  for (NamedText& table : fit_tables(results.fits)) tables.push_back(std::move(table));
   return tables;
 }
 
 std::string summary_table(const StudyResults& results) {
+  if (!results.fits.empty()) return fit_summary(results.fits);
   return results.design ? design_table(results) : analysis_table(results);
 }
 

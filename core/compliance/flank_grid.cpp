@@ -92,21 +92,20 @@ Eigen::VectorXd FlankGrid::weights(const FlankPlace& place) const {
   return (along_zeta * along_u.transpose()).reshaped();
 }
 
-FlankGrid flank_grid(double face_width, int radii) {
+std::vector<double> axial_places(double face_width, const AxialSteps& steps) {
   if (!(face_width > 0) || !std::isfinite(face_width)) {
     throw InvalidInput("face_width", std::to_string(face_width), "more than 0 modules");
   }
-  if (radii < 4) throw InvalidInput("radii", std::to_string(radii), "at least 4");
   // Steps counted from an end, the integral of dd / h(d), and its inverse.
-  constexpr double kFirst = 0.1, kGrowth = 0.3, kLargest = 0.6;
-  constexpr double kGraded = (kLargest - kFirst) / kGrowth;  // modules over which steps grow
-  const double graded_steps = std::log(kLargest / kFirst) / kGrowth;
+  const double first = steps.first, growth = steps.growth, largest = steps.largest;
+  const double graded = (largest - first) / growth;  // modules over which steps grow
+  const double graded_steps = std::log(largest / first) / growth;
   const auto steps_to = [&](double d) {
-    return d < kGraded ? std::log1p(kGrowth * d / kFirst) / kGrowth : graded_steps + (d - kGraded) / kLargest;
+    return d < graded ? std::log1p(growth * d / first) / growth : graded_steps + (d - graded) / largest;
   };
-  const auto distance_at = [&](double steps) {
-    return steps < graded_steps ? kFirst / kGrowth * std::expm1(kGrowth * steps)
-                                : kGraded + (steps - graded_steps) * kLargest;
+  const auto distance_at = [&](double count) {
+    return count < graded_steps ? first / growth * std::expm1(growth * count)
+                                : graded + (count - graded_steps) * largest;
   };
   const double half = steps_to(0.5 * face_width);
   const int intervals = std::max(3, static_cast<int>(std::ceil(2 * half)));
@@ -116,9 +115,14 @@ FlankGrid flank_grid(double face_width, int radii) {
     zetas[static_cast<std::size_t>(i)] = d;
     zetas[static_cast<std::size_t>(intervals - i)] = face_width - d;
   }
+  return zetas;
+}
+
+FlankGrid flank_grid(double face_width, int radii) {
+  if (radii < 4) throw InvalidInput("radii", std::to_string(radii), "at least 4");
   std::vector<double> us(static_cast<std::size_t>(radii));
   for (int i = 0; i < radii; ++i) us[static_cast<std::size_t>(i)] = (2.0 * i - (radii - 1)) / (radii - 1);
-  return {std::move(us), std::move(zetas)};
+  return {std::move(us), axial_places(face_width)};
 }
 
 }  // namespace flankwright

@@ -15,15 +15,30 @@ Eigen::MatrixXd ThinSlicePair::influence(const std::vector<ContactPoint>& points
   return diagonal.asDiagonal();
 }
 
+namespace {
+
+/// The end of the face on which the sharp end lies: +1 for z = +b/2.
+double sharp_end(const GearPair& pair, Member member) {
+  return (member == Member::Pinion ? 1.0 : -1.0) * (pair.contact_line_sense() >= 0 ? 1.0 : -1.0);
+}
+
+}  // namespace
+
+int gear_tooth(Member member, int tooth_pair) { return member == Member::Pinion ? -tooth_pair : tooth_pair; }
+
+double axial_position(const GearPair& pair, Member member, double zeta, double axial_offset) {
+  const double z = sharp_end(pair, member) * (0.5 * pair[member].data.face_width - zeta * pair.data.normal_module);
+  return member == Member::Pinion ? z : z + axial_offset;
+}
+
 FlankPlace flank_place(const GearPair& pair, Member member, const ContactPoint& point, double axial_offset) {
   const Gear& gear = pair[member];
   const bool pinion = member == Member::Pinion;
   const double radius = pinion ? point.pinion_radius : point.wheel_radius;
   const double u = 2.0 * (radius - gear.form_radius) / (gear.tip_radius - gear.form_radius) - 1.0;
   const double z = pinion ? point.z : point.z - axial_offset;
-  const double sharp_end = (pinion ? 1.0 : -1.0) * (pair.contact_line_sense() >= 0 ? 1.0 : -1.0);
-  return {pinion ? -point.tooth : point.tooth, std::clamp(u, -1.0, 1.0),
-          (0.5 * gear.data.face_width - sharp_end * z) / pair.data.normal_module};
+  return {gear_tooth(member, point.tooth), std::clamp(u, -1.0, 1.0),
+          (0.5 * gear.data.face_width - sharp_end(pair, member) * z) / pair.data.normal_module};
 }
 
 Eigen::MatrixXd StructuralPair::influence(const std::vector<ContactPoint>& points, double axial_offset) const {

@@ -70,4 +70,10 @@ class StructuralPair final : public PairCompliance {
 /// u is clamped to the flank: a tip edge that touches beyond it, by round-off, counts as on it.
 FlankPlace flank_place(const GearPair& pair, Member member, const ContactPoint& point, double axial_offset);
 
+/// The same of its tooth alone: where the mesh counts the gear's tooth of pair k.
+int gear_tooth(Member member, int tooth_pair);
+
+/// Back from zeta [m_n] to z in the pair's frame [mm].
+double axial_position(const GearPair& pair, Member member, double zeta, double axial_offset);
+
 }  // namespace flankwright

@@ -36,7 +36,7 @@ bool in_some_scene(const EffectFacts& facts, bool (*holds)(const FlankCondition&
   return std::any_of(facts.conditions.begin(), facts.conditions.end(), holds);
 }
 
-constexpr std::array<Rule, 9> rules{{
+constexpr std::array<Rule, 10> rules{{
     {"unloaded_contact", [](const EffectFacts& f) { return f.unloaded; }, "a torque of 0 asks for tooth contact analysis",
      "every torque is above 0"},
     {"misalignment",
@@ -58,6 +58,8 @@ constexpr std::array<Rule, 9> rules{{
     {"hertzian_contact", under_load, "flanks flatten under load", "no load"},
     {"tip_corner", under_load, "contact softens near the tips", "no load"},
     {"extended_contact_region", under_load, "loaded teeth touch before and after the theoretical path", "no load"},
+    {"root_stress", [](const EffectFacts& f) { return f.loaded && f.root_stress; },
+     "finite elements tell the stress of the roots", "no load, or no finite elements and nothing asks for peak_root_stress"},
 }};
 
 }  // namespace

@@ -51,6 +51,28 @@ void fill_stress(const MeshModel& model, const MeshPosition& at, LoadedPosition&
   }
 }
 
+/// Components are linear in the forces a w; principal stresses follow their largest component, with the direction held
+/// at its optimum.
+void fill_root_stress(const MeshPosition& at, LoadedPosition& position) {
+  const Eigen::MatrixXd& influence = at.root_stress.components;
+  const auto places = static_cast<Eigen::Index>(at.root_stress.places.size());
+  const Eigen::VectorXd components = influence * at.weight.cwiseProduct(position.load.line_load);
+  const Eigen::MatrixXd derivatives = influence * at.weight.asDiagonal() * position.line_load_derivative;
+  position.root_stress.resize(places);
+  position.root_stress_derivative.resize(places, derivatives.cols());
+  for (Eigen::Index i = 0; i < places; ++i) {
+    const PrincipalStress principal = largest_principal(components.segment<3>(3 * i));
+    position.root_stress[i] = principal.value;
+    position.root_stress_derivative.row(i) = principal_slope(principal) * derivatives.middleRows<3>(3 * i);
+  }
+}
+
+void raise(RootStressPeak& peak, const RootStressPeak& other) {
+  const double tangent = std::fmax(peak.tangent_stress, other.tangent_stress);
+  if (other.stress > peak.stress || std::isnan(peak.stress)) peak = other;
+  peak.tangent_stress = tangent;
+}
+
 void fill_derivatives(const MeshModel& model, const MeshPosition& at, const FlankCondition& condition,
                       const LoadProblem& problem, const std::vector<GearParameter>& parameters, LoadedPosition& position) {
   const Eigen::Index n = problem.gap.size(), m = static_cast<Eigen::Index>(parameters.size());
@@ -97,10 +119,26 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     }
     fill_derivatives(model, at, condition, problem, parameters, position);
     fill_stress(model, at, position);
+    if (!at.root_stress.places.empty()) fill_root_stress(at, position);
     const double approach = position.load.transmission_error - position.gap.total.minCoeff();
     position.stiffness = cycle.force / model.face_width * cos_base_helix * cos_base_helix / (approach / micrometre);
   }
   return cycle;
+}
+
+RootStressPeak root_stress_peak(const MeshPosition& at, const LoadedPosition& position, Member member) {
+  RootStressPeak peak;
+  for (Eigen::Index i = 0; i < position.root_stress.size(); ++i) {
+    const RootPlace& place = at.root_stress.places[static_cast<std::size_t>(i)];
+    const double stress = position.root_stress[i];
+    if (place.member != member) continue;
+    if (place.tangent) peak.tangent_stress = std::fmax(peak.tangent_stress, stress);
+    if (peak.stress >= stress) continue;
+    peak.stress = stress;
+    peak.place = place;
+    peak.phase = position.phase;
+  }
+  return peak;
 }
 
 CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
@@ -117,11 +155,14 @@ CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
     summary.peak_line_load = std::max(summary.peak_line_load, position.load.line_load.maxCoeff());
     summary.peak_contact_stress = std::max(summary.peak_contact_stress, position.contact_stress.maxCoeff());
     summary.worst_kkt_residual = std::max(summary.worst_kkt_residual, position.load.kkt_residual);
+    raise(summary.pinion_root_stress, root_stress_peak(model.positions[i], position, Member::Pinion));
+    raise(summary.wheel_root_stress, root_stress_peak(model.positions[i], position, Member::Wheel));
     mean_approach += position.load.transmission_error - position.gap.total.minCoeff();
     for (const ContactPoint& point : model.positions[i].points) {
       if (point.clearance == 0.0) mean_length += point.weight;
     }
   }
+  summary.peak_root_stress = std::fmax(summary.pinion_root_stress.stress, summary.wheel_root_stress.stress);
   const double n = static_cast<double>(cycle.positions.size());
   mean_approach /= n;
   mean_length /= n;

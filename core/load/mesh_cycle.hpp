@@ -21,10 +21,13 @@ struct LoadedPosition {
   LoadDistribution load;
   Gap gap;                           ///< before load
   Eigen::VectorXd contact_stress;    ///< sigma_H per point [MPa]
+  /// Largest principal stress at every place of MeshPosition::root_stress [MPa]; empty without.
+  Eigen::VectorXd root_stress;
   double stiffness{not_given};       ///< secant, transverse, per mm of face width [N/(mm um)]; see analyse_cycle()
   // Derivatives with respect to the parameters asked for, column per parameter.
   Eigen::MatrixXd line_load_derivative;       ///< dw/dp, n x m
   Eigen::MatrixXd contact_stress_derivative;  ///< dsigma_H/dp, n x m
+  Eigen::MatrixXd root_stress_derivative;     ///< of root_stress, places x m
   Eigen::RowVectorXd transmission_error_derivative;  ///< df_t/dp, 1 x m
 };
 
@@ -48,6 +51,17 @@ struct LoadedCycle {
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
                           const std::vector<GearParameter>& parameters = {}, const LoadOptions& options = {});
 
+/// Where one gear's root is stressed most: tension side, largest principal stress at the surface.
+struct RootStressPeak {
+  double stress{not_given};          ///< over all teeth and places [MPa]
+  RootPlace place{};                 ///< where; the pair's tooth and z
+  double phase{not_given};           ///< of the position [base pitches]
+  double tangent_stress{not_given};  ///< the same over the places at the 30 deg tangent only [MPa]
+};
+
+/// Of one gear at one mesh position; NaN where there is none.
+RootStressPeak root_stress_peak(const MeshPosition& at, const LoadedPosition& position, Member member);
+
 /// What a designer reads off a cycle first.
 struct CycleSummary {
   double te_peak_to_peak{not_given};           ///< of f_t over the positions [mm]
@@ -59,6 +73,8 @@ struct CycleSummary {
   /// Peak line load over the mean line load F / (mean length of the contact lines on the theoretical path) [-].
   double load_factor{not_given};
   double worst_kkt_residual{not_given};
+  RootStressPeak pinion_root_stress, wheel_root_stress;  ///< over the positions; NaN where the model has none
+  double peak_root_stress{not_given};                    ///< the larger of both [MPa]
 };
 CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle);
 

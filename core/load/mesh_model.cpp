@@ -60,7 +60,7 @@ double MeshModel::normal_force(double pinion_torque) const {
 
 MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
                           const MeshResolution& resolution, const MeshEffects& effects, double axial_offset,
-                          const PairCompliance* structure) {
+                          const PairCompliance* structure, const PairRootStress* root_stress) {
   if (!effects.bending && !effects.hertzian_contact) {
     throw InvalidInput("fidelity.effects", "neither bending nor hertzian_contact", "at least one of them under load");
   }
@@ -88,6 +88,8 @@ MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material,
   model.positions.reserve(resolution.phases.size());
   for (double phase : resolution.phases) {
     model.positions.push_back(make_position(model, path, structure != nullptr ? *structure : slices, resolution.quadrature, phase, face_start, face_end));
+    MeshPosition& position = model.positions.back();
+    if (root_stress) position.root_stress = root_stress->influence(position.points, axial_offset);
   }
   return model;
 }

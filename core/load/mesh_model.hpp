@@ -5,6 +5,7 @@
 
 #include "core/compliance/contact_law.hpp"
 #include "core/compliance/pair_compliance.hpp"
+#include "core/compliance/pair_root_stress.hpp"
 #include "core/contact/contact_points.hpp"
 #include "core/contact/path_of_contact.hpp"
 #include "core/gear/gear_pair.hpp"
@@ -37,6 +38,7 @@ struct MeshPosition {
   Eigen::VectorXd weight;
   Eigen::MatrixXd influence;
   std::vector<ContactLaw> laws;
+  RootStressInfluence root_stress{};  ///< no places: not asked for
 };
 
 struct MeshModel {
@@ -55,11 +57,12 @@ struct MeshModel {
 };
 
 /// Builds points, influence matrix and contact laws at every phase.
-/// @param structure  what yields structurally; null: thin slices
+/// @param structure    what yields structurally; null: thin slices
+/// @param root_stress  null: none
 /// @throws InvalidInput where bending and Hertzian contact are both off (nothing would yield), no phase is given, or the gears do
 ///         not overlap axially
 MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
                           const MeshResolution& resolution, const MeshEffects& effects = {}, double axial_offset = 0.0,
-                          const PairCompliance* structure = nullptr);
+                          const PairCompliance* structure = nullptr, const PairRootStress* root_stress = nullptr);
 
 }  // namespace flankwright

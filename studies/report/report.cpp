@@ -44,6 +44,8 @@ constexpr Section sections[] = {
      }},
     {"load-cases", "Load cases in numbers", has_loaded},
     {"unloaded", "Unloaded contact", [](const json& r) { return has(r, "unloaded"); }},
+    {"deflections", "Deflection of a tooth under load", [](const json& r) { return has(r, "fit") || has(r, "deflections"); }},
+    {"residuals", "Fits beside finite elements", [](const json& r) { return has(r, "fit"); }},
     {"gear-pair", "Gear pair", [](const json& r) { return has(r, "geometry"); }},
     {"effects", "Effects", [](const json& r) { return has(r, "effects"); }},
     {"notes", "Notes", [](const json& r) { return has(r, "notes"); }},

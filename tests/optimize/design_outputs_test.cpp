@@ -33,9 +33,10 @@ std::vector<double> all_values(const ObjectiveTerm& term, const MeshModel& model
   std::vector<double> values;
   const int n = static_cast<int>(cycle.positions.size());
   for (int i = 0; i < n; ++i) {
-    const int others = term.output == Output::TePeakToPeak
-                           ? n
-                           : static_cast<int>(cycle.positions[static_cast<std::size_t>(i)].load.line_load.size());
+    const LoadedPosition& position = cycle.positions[static_cast<std::size_t>(i)];
+    const int others = term.output == Output::TePeakToPeak     ? n
+                       : term.output == Output::PeakRootStress ? static_cast<int>(position.root_stress.size())
+                                                               : static_cast<int>(position.load.line_load.size());
     for (int j = 0; j < others; ++j) values.push_back(candidate_value(term, {i, j}, model, cycle).value);
   }
   return values;
@@ -61,6 +62,7 @@ TEST_CASE("An output is what the cycle itself shows", "[optimize][design][output
       constexpr double round_off = 1e-12;
       CHECK(output_value(term(Output::PeakContactStress), model, cycle) == stress);
       CHECK(output_value(term(Output::PeakLineLoad), model, cycle) == load);
+      CHECK(output_value(term(Output::PeakRootStress), model, cycle) == summary.peak_root_stress);
       CHECK(output_value(term(Output::TePeakToPeak), model, cycle) == te.maxCoeff() - te.minCoeff());
       CHECK(output_value(term(Output::LoadFactor), model, cycle) == Approx(summary.load_factor).epsilon(round_off));
       const std::vector<double> harmonics = harmonic_amplitudes({te.begin(), te.end()});

@@ -103,6 +103,18 @@ TEST_CASE("A task that cannot be done is refused by name", "[optimize][design]")
   CHECK(field(task) == "load.torque");
 }
 
+TEST_CASE("Root stress without a model of it is refused", "[optimize][design][root-stress]") {
+  DesignTask task = helical({0.0}, 4);
+  task.objective = {term(Output::PeakRootStress)};
+  CHECK_NOTHROW(DesignProblem(task));
+  task.root_stress = nullptr;
+  CHECK_THROWS_AS(DesignProblem(task), InvalidInput);
+  task.objective = {term(Output::PeakContactStress)};
+  CHECK_NOTHROW(DesignProblem(task));
+  task.constraints = {{term(Output::PeakRootStress), 400.0}};
+  CHECK_THROWS_AS(DesignProblem(task), InvalidInput);
+}
+
 TEST_CASE("A harmonic that the mesh positions do not resolve is refused", "[optimize][design]") {
   DesignTask task = helical({0.0}, 8);
   task.objective = {term(Output::TeHarmonic, 3)};

@@ -1,5 +1,7 @@
 #include "tests/optimize/design_tasks.hpp"
 
+#include "tests/core/load/synthetic_root_stress.hpp"
+
 namespace flankwright::design_tasks {
 
 namespace {
@@ -31,6 +33,7 @@ DesignTask helical(const std::vector<double>& misalignments_um, int positions) {
   task.pair = make_gear_pair(data);
   task.pinion_material = task.wheel_material = {209000.0, 0.3};
   task.resolution = {{QuadratureRule::Gauss2, 5}, equally_spaced_phases(positions)};
+  task.root_stress = std::make_shared<const mesh_cases::SyntheticRootStress>(task.pair);
   add_scenes(task, 1014.868, misalignments_um);
   task.variables = {variable("lead_crowning", ModificationParameter::LeadCrowning, 0.0, 40.0),
                     variable("lead_slope", ModificationParameter::LeadSlope, -20.0, 20.0),
@@ -56,7 +59,8 @@ DesignTask spur(const std::vector<double>& misalignments_um) {
 }
 
 ObjectiveTerm term(Output output, int harmonic, double weight) {
-  const char* names[] = {"peak_contact_stress", "te_peak_to_peak", "te_harmonic_", "load_factor", "peak_line_load"};
+  const char* names[] = {"peak_contact_stress", "te_peak_to_peak", "te_harmonic_",
+                         "load_factor",         "peak_line_load",  "peak_root_stress"};
   std::string name = names[static_cast<int>(output)];
   if (output == Output::TeHarmonic) name += std::to_string(harmonic);
   return {output, harmonic, weight, name};
@@ -65,7 +69,7 @@ ObjectiveTerm term(Output output, int harmonic, double weight) {
 std::vector<ObjectiveTerm> all_outputs() {
   return {term(Output::PeakContactStress), term(Output::TePeakToPeak),  term(Output::TeHarmonic, 1),
           term(Output::TeHarmonic, 2),     term(Output::TeHarmonic, 3), term(Output::LoadFactor),
-          term(Output::PeakLineLoad)};
+          term(Output::PeakLineLoad),      term(Output::PeakRootStress)};
 }
 
 Eigen::VectorXd random_design(int variables, std::mt19937& generator) {

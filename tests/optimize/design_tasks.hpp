@@ -11,7 +11,7 @@ namespace flankwright::design_tasks {
 
 /// Haddad's helical pair 18:54 [thesis 1991, table 4.1] at 1014.868 N·m, one scene for each mesh misalignment [um].
 /// Variables: lead crowning 0 .. 40, lead slope -20 .. 20 and profile crowning 0 .. 30 um, of the pinion, all 0 at the
-/// start.
+/// start. Root stress is synthetic_root_stress.hpp's.
 DesignTask helical(const std::vector<double>& misalignments_um = {0.0, 12.0, -12.0}, int positions = 8);
 
 /// A spur pair 24:36 of module 4 at 300 N·m; variables: lead crowning 0 .. 40 and lead slope -20 .. 20 um of the

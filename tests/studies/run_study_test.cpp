@@ -44,10 +44,12 @@ void check_keys(const json& results, const std::string& prefix, const std::strin
   }
 }
 
-/// Nulls that are meant: not computed in this version, or not told apart.
+/// Nulls that are meant: not computed in this version, not asked for, or not told apart.
 void check_nulls(const json& results) {
-  const std::set<std::string> meant{"loaded[].summary.peak_root_stress_MPa", "loaded[].summary.iso6336.K_Hbeta",
-                                    "loaded[].summary.iso6336.K_Halpha", "effects[].seconds"};
+  const std::set<std::string> meant{"loaded[].summary.peak_root_stress_MPa",   "loaded[].summary.pinion_root_stress_MPa",
+                                    "loaded[].summary.wheel_root_stress_MPa",  "loaded[].summary.pinion_root_stress",
+                                    "loaded[].summary.wheel_root_stress",      "loaded[].summary.iso6336.K_Hbeta",
+                                    "loaded[].summary.iso6336.K_Halpha",       "effects[].seconds"};
   // Edges have no ellipse, lines one without end; not every point of a flank meets the mate.
   const std::set<std::string> meant_unloaded{"pairs[].positions[].ellipse", "pairs[].positions[].ellipse.semi_major_mm",
                                              "bearing_pattern.pinion.separation_um[][]",

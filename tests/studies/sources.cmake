@@ -1,4 +1,5 @@
 list(APPEND FLANKWRIGHT_TEST_SOURCES
+     ${CMAKE_CURRENT_LIST_DIR}/fit_keys_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_file_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_flanks_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_mutation_test.cpp

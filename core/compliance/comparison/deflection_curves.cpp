@@ -1,9 +1,28 @@
 #include "core/compliance/comparison/deflection_curves.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "core/compliance/flank_grid.hpp"
+
 namespace flankwright {
+namespace {
+
+/// The nodes and places between them, at most kCurveStep apart: a curve to be drawn, mid face among its places.
+std::vector<double> subdivided(const std::vector<double>& nodes) {
+  constexpr double kCurveStep = 0.25;  // [m_n]
+  std::vector<double> places;
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
+    const double step = nodes[i + 1] - nodes[i];
+    const int pieces = 2 * static_cast<int>(std::ceil(0.5 * step / kCurveStep));
+    for (int k = 0; k < pieces; ++k) places.push_back(nodes[i] + step * k / pieces);
+  }
+  places.push_back(nodes.back());
+  return places;
+}
+
+}  // namespace
 
 NamedModel named_model(std::string name, int teeth_apart, const FlankCompliance& compliance) {
   return {std::move(name), teeth_apart,
@@ -49,6 +68,12 @@ std::vector<DeflectionCurve> deflection_curves(std::span<const NamedModel> model
     for (auto& some : by_load) std::move(some.begin(), some.end(), std::back_inserter(curves));
   }
   return curves;
+}
+
+std::vector<DeflectionCurve> gear_deflection_curves(std::span<const NamedModel> models, double face_width,
+                                                    int teeth_apart) {
+  return deflection_curves(models, {1, 0, -1}, {0, face_width / 2, face_width},
+                           subdivided(flank_grid(face_width).zetas()), teeth_apart);
 }
 
 }  // namespace flankwright

@@ -42,4 +42,10 @@ std::vector<DeflectionCurve> deflection_curves(std::span<const NamedModel> model
                                                const std::vector<double>& load_zetas, const std::vector<double>& zetas,
                                                int teeth_apart);
 
+/// The curves that say most of a gear: loads at tip, middle and root of the sharp end, mid face and the blunt end,
+/// deflections at most a quarter of a module apart, and closer near the ends.
+/// @param face_width  B = b/m_n [-], > 0
+std::vector<DeflectionCurve> gear_deflection_curves(std::span<const NamedModel> models, double face_width,
+                                                    int teeth_apart);
+
 }  // namespace flankwright

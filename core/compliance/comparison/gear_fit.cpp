@@ -46,6 +46,22 @@ std::vector<double> centres(const std::vector<double>& nodes) {
   return between;
 }
 
+/// Without the pairs that have next to nothing in common, K near zero beside sqrt(K_pp K_qq): the thesis' forms cannot
+/// pass through zero as the values do, and relative residuals would have nothing else decide their fit.
+std::vector<InfluenceSample> without_faint_pairs(std::vector<InfluenceSample> samples) {
+  constexpr double kFaint = 0.01;
+  for (InfluenceSample& sample : samples) {
+    const Eigen::VectorXd own = sample.compliance.diagonal();
+    for (Index p = 0; p < own.size(); ++p) {
+      for (Index q = 0; q < own.size(); ++q) {
+        double& K = sample.compliance(p, q);
+        if (std::abs(K) < kFaint * std::sqrt(own[p] * own[q])) K = std::numeric_limits<double>::quiet_NaN();
+      }
+    }
+  }
+  return samples;
+}
+
 Places cells_of(const Places& grid) {
   return {centres(grid.us), centres(grid.zetas)};
 }
@@ -81,6 +97,7 @@ class GearFitRun {
     result_.gear = {gear.gear.teeth, gear.helix_angle, gear.gear.face_width / gear.normal_module,
                     gear.gear.profile_shift};
     result_.body = gear.body;
+    result_.removed = task.removed;
   }
 
   GearFitResult finish() {
@@ -134,10 +151,6 @@ class GearFitRun {
     if (task_.test_grid) total_loads_ += own_cells.count() + (apart_ > 0 ? adjacent_cells.count() : 0);
     fitted_ = samples(model, own, adjacent_);
     if (task_.test_grid) unseen_ = samples(model, own_cells, adjacent_cells);
-    // Curves need more places than the grid has, as finite elements are smooth between them.
-    curve_zetas_ = own.zetas;
-    curve_zetas_.insert(curve_zetas_.end(), own_cells.zetas.begin(), own_cells.zetas.end());
-    std::sort(curve_zetas_.begin(), curve_zetas_.end());
   }
 
   void add_residuals(const std::string& form, FitStatus status, const FlankCompliance* model, int known_apart) {
@@ -154,10 +167,11 @@ class GearFitRun {
     const GearToMesh& gear = task_.gear;
     const double nu = task_.material.poissons_ratio;
     const auto& fit = result_.fit.fit;
-    add_residuals("fitted", result_.fit.status, fit ? &*fit : nullptr, apart_);
+    add_residuals("kernels", result_.fit.status, fit ? &*fit : nullptr, apart_);
     std::optional<ThesisCompliance> thesis;
+    const std::vector<InfluenceSample> for_thesis = without_faint_pairs(fitted_);
     for (const ThesisBody body : {ThesisBody::InMasterFunction, ThesisBody::Separate}) {
-      ThesisFitResult other = fit_thesis_form(fitted_, body);
+      ThesisFitResult other = fit_thesis_form(for_thesis, body);
       add_residuals(body == ThesisBody::Separate ? "thesis_separate" : "thesis_in_master", other.status,
                     other.fit ? &*other.fit : nullptr, apart_);
       thesis = std::move(other.fit);
@@ -173,8 +187,7 @@ class GearFitRun {
     if (thesis) models.push_back(named_model("thesis", apart_, *thesis));
     models.push_back(named_model("plate", 0, plate));
     models.push_back(named_model("thin slices", 0, slices));
-    const double face = result_.gear.relative_face;
-    result_.curves = deflection_curves(models, {1, 0, -1}, {0, face / 2, face}, curve_zetas_, task_.teeth_apart);
+    result_.curves = gear_deflection_curves(models, result_.gear.relative_face, task_.teeth_apart);
     report("comparing", 2, 3);
     if (fit) find_lowest_eigenvalue(*fit);
     report("comparing", 3, 3);
@@ -202,7 +215,6 @@ class GearFitRun {
   int apart_{0};  ///< pitches over which the form couples teeth
   int total_loads_{0};
   Places adjacent_;
-  std::vector<double> curve_zetas_;
   std::vector<InfluenceSample> fitted_, unseen_;
 };
 

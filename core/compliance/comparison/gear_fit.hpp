@@ -29,7 +29,7 @@ struct GearFitTask {
 
 /// How far one form is from finite elements.
 struct FormResiduals {
-  std::string form;  ///< "fitted", "thesis_separate", "thesis_in_master"
+  std::string form;  ///< "kernels", the task's; "thesis_in_master", "thesis_separate"
   FitStatus status{FitStatus::NotRun};
   std::vector<ResidualDistribution> fitted;  ///< on the places fitted, by teeth apart
   std::vector<ResidualDistribution> unseen;  ///< on those of the test grid; empty without one
@@ -45,11 +45,13 @@ struct GearFitTimes {
 
 struct GearFitResult {
   GearFacts gear;
-  GearBody body;  ///< as given; what of it was left open follows GearBody
+  GearBody body;  ///< as given to the task
   FactorStatus status{FactorStatus::NotPositiveDefinite};
+  RemovedMotion removed{RemovedMotion::TranslationTorsionAndTilt};
   RunStatistics finite_elements;
   int loads{0};   ///< solved for
   FitResult fit;  ///< NotRun unless status is Factorised
+  /// Of all pairs. The thesis' forms were fitted to those with more than 1 % of their own compliances in common.
   std::vector<FormResiduals> residuals;
   std::vector<DeflectionCurve> curves;  ///< of models "finite elements", "fitted", "thesis", "plate", "thin slices"
   /// Lowest eigenvalue of the fitted block matrix over five teeth (forms for one tooth: over one) on the adjacent

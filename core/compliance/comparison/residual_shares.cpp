@@ -17,6 +17,7 @@ double ResidualDistribution::at(double share) const {
 std::vector<ResidualDistribution> residual_distributions(const FlankCompliance& model, int teeth_apart,
                                                          std::span<const InfluenceSample> samples) {
   std::map<int, std::vector<double>> residuals;
+  std::map<int, double> worst_of_own;
   for (const InfluenceSample& sample : samples) {
     std::vector<FlankPlace> places;
     std::vector<Eigen::Index> rows;
@@ -31,8 +32,11 @@ std::vector<ResidualDistribution> residual_distributions(const FlankCompliance& 
       for (std::size_t q = 0; q <= p; ++q) {
         const double known = sample.at(rows[p], rows[q]);
         if (std::isnan(known)) continue;
-        const double fitted = K(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q));
-        residuals[std::abs(places[p].tooth - places[q].tooth)].push_back(std::abs(fitted - known) / std::abs(known));
+        const double error = std::abs(K(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q)) - known);
+        const int apart = std::abs(places[p].tooth - places[q].tooth);
+        residuals[apart].push_back(error / std::abs(known));
+        const double own = sample.compliance(rows[p], rows[p]) * sample.compliance(rows[q], rows[q]);
+        worst_of_own[apart] = std::max(worst_of_own[apart], error / std::sqrt(own));
       }
     }
   }
@@ -44,6 +48,7 @@ std::vector<ResidualDistribution> residual_distributions(const FlankCompliance& 
       const double rank = std::ceil(kResidualShares[i] * static_cast<double>(sorted.size()) - 1e-9);
       distribution.residual[i] = sorted[static_cast<std::size_t>(std::max(1.0, rank)) - 1];
     }
+    distribution.worst_of_own = worst_of_own[apart];
     distributions.push_back(distribution);
   }
   return distributions;

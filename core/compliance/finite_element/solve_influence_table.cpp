@@ -62,7 +62,8 @@ class TableSolver {
       : task_(task),
         progress_(progress),
         run_(run),
-        blocks_(static_cast<int>((task.grid.size() + kSolveBlock - 1) / kSolveBlock)) {}
+        blocks_(blocks_of(task.grid.size())),
+        stress_blocks_(task.root_stress ? blocks_of(3 * fillet_stations * std::ssize(fillet_zetas(task.grid.face_width()))) : 0) {}
 
   void solve(double memory_limit) {
     report(0);
@@ -87,12 +88,19 @@ class TableSolver {
     report(1);
     const Clock loads;
     run_.table.emplace(task_.grid, tables(deflections(mesh, solid)));
+    if (task_.root_stress) {
+      run_.root_stress = solve_root_stress_table(
+          mesh, solid, {1, task_.poissons_ratio}, task_.grid,
+          [&](Eigen::Index done, Eigen::Index) { report(blocks_ + 1 + blocks_of(done)); });
+    }
     statistics.solve_seconds = loads.seconds();
   }
 
  private:
+  static int blocks_of(Eigen::Index columns) { return static_cast<int>((columns + kSolveBlock - 1) / kSolveBlock); }
+
   void report(int done) const {
-    if (progress_) progress_(done, blocks_ + 1);
+    if (progress_) progress_(done, blocks_ + stress_blocks_ + 1);
   }
 
   /// Of all places on teeth -M .. M, by loads on tooth 0.
@@ -120,7 +128,7 @@ class TableSolver {
   const InfluenceTableTask& task_;
   const TableProgress& progress_;
   InfluenceTableRun& run_;
-  int blocks_;
+  int blocks_, stress_blocks_;
 };
 
 }  // namespace
@@ -137,6 +145,7 @@ InfluenceTableRun solve_influence_table(const InfluenceTableTask& task, double m
   } catch (const std::bad_alloc&) {
     run.status = FactorStatus::OutOfMemory;
     run.table.reset();
+    run.root_stress.reset();
   }
   return run;
 }

@@ -5,6 +5,7 @@
 
 #include "core/compliance/finite_element/influence.hpp"
 #include "core/compliance/finite_element/influence_table.hpp"
+#include "core/compliance/finite_element/root_stress_table.hpp"
 #include "core/gear/gear_pair.hpp"
 
 namespace flankwright {
@@ -17,6 +18,7 @@ struct InfluenceTableTask {
   GearMeshOptions mesh{};  ///< its teeth_each_side is replaced by teeth_apart
   RemovedMotion removed{RemovedMotion::TranslationTorsionAndTilt};
   FlankGrid grid;        ///< as wide as the face
+  bool root_stress{false};  ///< the same finite elements shall tell it, too
 };
 
 /// The task with lengths in normal modules: m_n = 1. Gears that differ in size only become the same.
@@ -29,6 +31,7 @@ int teeth_apart_in_contact(const GearPair& pair);
 struct InfluenceTableRun {
   FactorStatus status{FactorStatus::NotPositiveDefinite};
   std::optional<InfluenceTable> table;  ///< empty unless status is Factorised
+  std::optional<RootStressTable> root_stress;  ///< empty unless asked for and status is Factorised
   RunStatistics statistics;
 };
 

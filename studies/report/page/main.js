@@ -12,6 +12,8 @@ const BUILDERS = {
   "gear-pair": build_gear_pair,
   effects: build_effects,
   notes: build_notes,
+  deflections: build_deflections,
+  residuals: build_residuals,
   inputs: build_inputs,
 };
 

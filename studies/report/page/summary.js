@@ -58,6 +58,7 @@ function constraint_rows(optimise) {
 
 function draw_verdict(results) {
   const verdict = document.getElementById("verdict");
+  if (results.fit) fit_verdict(results, verdict);
   if (!results.optimise) return;
   const optimise = record(results.optimise);
   const broken = constraint_rows(optimise).filter((row) => row.met === false);
@@ -133,6 +134,7 @@ function draw_summary(results, cases) {
   const text = results.optimise ? optimise_headline(record(results.optimise))
     : cases.length ? loaded_headline(cases)
     : results.unloaded ? unloaded_headline(results)
+    : list(results.fit).length ? fit_headline(list(results.fit).map(record))
     : "No analysis is stored in these results";
   document.getElementById("headline").textContent = text;
   document.getElementById("task").textContent = results.task ? `· ${results.task}` : "";
@@ -142,5 +144,6 @@ function draw_summary(results, cases) {
   document.getElementById("tiles").append(
     ...(cases.length ? loaded_tiles(cases) : []),
     ...(results.optimise ? optimise_tiles(record(results.optimise)) : []),
-    ...pair_tiles(results));
+    ...fit_tiles(list(results.fit).map(record)),
+    ...(results.fit ? [] : pair_tiles(results)));
 }

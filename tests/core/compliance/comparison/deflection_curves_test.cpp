@@ -1,6 +1,8 @@
 #include "core/compliance/comparison/deflection_curves.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 
 #include "tests/core/compliance/comparison/distance_compliance.hpp"
 
@@ -30,4 +32,26 @@ TEST_CASE("Deflection curves are the models' own values, over the teeth that eac
   CHECK(curves.front().load == FlankPlace{0, -1, 0});
   CHECK(curves.front().tooth == -1);
   CHECK(curves.back().load == FlankPlace{0, 0.5, 6});
+}
+
+TEST_CASE(
+    "A gear's curves have loads at tip, middle and root of both ends and mid face, each among the places looked at",
+    "[core][compliance][comparison]") {
+  const DistanceCompliance compliance;
+  const std::vector<NamedModel> models{named_model("one tooth", 0, compliance)};
+  const double face = GENERATE(2.0, 7.3, 12.0, 30.0);
+  const std::vector<DeflectionCurve> curves = gear_deflection_curves(models, face, 2);
+  REQUIRE(curves.size() == 9);
+  for (const DeflectionCurve& curve : curves) {
+    CAPTURE(face, curve.load.u, curve.load.zeta);
+    double nearest = face, widest = 0;
+    for (std::size_t i = 0; i < curve.zeta.size(); ++i) {
+      nearest = std::min(nearest, std::abs(curve.zeta[i] - curve.load.zeta));
+      if (i > 0) widest = std::max(widest, curve.zeta[i] - curve.zeta[i - 1]);
+    }
+    CHECK(nearest < 1e-12 * face);  // round-off
+    CHECK(widest < 0.25 + 1e-12);
+    CHECK(curve.zeta.front() == 0);
+    CHECK(curve.zeta.back() == face);
+  }
 }

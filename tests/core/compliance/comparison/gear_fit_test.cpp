@@ -47,7 +47,7 @@ TEST_CASE("A gear's fit is judged on places that it has not seen and drawn besid
   CHECK(result.eigenvalue_teeth == 1);
   CHECK(result.lowest_eigenvalue > -1e-12);  // round-off
 
-  const FormResiduals &ours = residuals_of(result, "fitted"), &theirs = residuals_of(result, "thesis_separate");
+  const FormResiduals &ours = residuals_of(result, "kernels"), &theirs = residuals_of(result, "thesis_separate");
   REQUIRE(ours.unseen.size() == 1);
   CHECK(ours.fitted[0].median() == result.fit.fit->record().residuals.front().median);
   // Model. Kernels come within a few percent where the fit has not looked, the thesis' curves do not.
@@ -80,7 +80,7 @@ TEST_CASE("Several teeth are fitted at once, and the block matrix over five of t
   CHECK(result.fit.fit->record().range.teeth_apart == 1);
   CHECK(result.eigenvalue_teeth == 5);
   CHECK(result.lowest_eigenvalue > -1e-12);  // round-off
-  const FormResiduals& ours = residuals_of(result, "fitted");
+  const FormResiduals& ours = residuals_of(result, "kernels");
   CHECK(ours.fitted.size() == 2);
   CHECK(ours.unseen.empty());
   // A load moves the neighbours, in the finite elements and in the fit; not in a plate or in slices.

@@ -47,6 +47,9 @@ TEST_CASE("Shares of residuals are those of the known pairs, told apart by teeth
   // 210 pairs, the last ones on one tooth: their residuals rise by 1e-4 each.
   CHECK(shares[0].worst() == Approx(0.021));
   CHECK(shares[1].pairs == 100);
+  // Between teeth the own compliances are at least four times as large as what both have in common.
+  CHECK(shares[0].worst_of_own < 0.022);
+  CHECK(shares[1].worst_of_own < 0.3 * shares[1].worst());
 }
 
 TEST_CASE("A model of one tooth is judged on one tooth", "[core][compliance][comparison]") {

@@ -138,7 +138,7 @@ TEST_CASE("Influence between grid places is near the finite elements' own", "[.s
   const GearToMesh gear = gear_of(teeth, 30, width);
   const InfluenceTableRun run = solve_influence_table(task_of(gear, flank_grid(width), {}), kNoLimit);
   REQUIRE(run.table);
-  CHECK(run.table->projection().added == 0);
+  CHECK(run.table->projection().added < 1e-12);  // round-off: steps near the ends are finer than the elements
 
   const InfluenceModel model(gear, {1, 0.3});
   std::vector<FlankPlace> unseen;

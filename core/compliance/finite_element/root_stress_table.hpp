@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "core/compliance/finite_element/fillet_stress.hpp"
+#include "core/compliance/finite_element/solid_model.hpp"
+#include "core/compliance/flank_grid.hpp"
+
+namespace flankwright {
+
+/// Places on the fillet below the loaded flank of a tooth, the same on every tooth; zeta runs fastest.
+struct FilletGrid {
+  std::vector<double> along;  ///< arc length from the fillet's start over the fillet's, ascending [-]
+  std::size_t tangent{0};     ///< index in `along` of the 30 deg tangent (normal section)
+  std::vector<double> zetas;  ///< z/m_n from the sharp end of the face, ascending [-]
+
+  Eigen::Index size() const { return static_cast<Eigen::Index>(along.size() * zetas.size()); }
+};
+
+/// Stress along the fillets of one gear under forces on its flanks [Haddad 1991, eq. 1.71, as three components instead
+/// of one, so that loads add up exactly before the principal stress is taken].
+///
+/// Tension side only: the fillet below the flank that carries. Forces are those of net_functional(): they enter over
+/// the tooth's centre surface and are held by the shaft right where they act, so that the stress of the shaft's own
+/// bending and torsion is not in it (5e-4 of the whole with the default shaft; a rigid motion leaves no stress behind).
+/// A force on the flank itself stresses the fillet 1 to 2 % more from the upper half of the flank, 5 % from 0.6 modules
+/// above the fillet (18 teeth), but its near field is narrower than the points of a contact line are apart: these would
+/// be felt one by one.
+struct RootStressTable {
+  FlankGrid grid;     ///< places of forces
+  FilletGrid fillet;  ///< places of stress
+  /// (s_tt, s_aa, s_ta) m_n^2 / F of every fillet place on tooth 0, three rows each, under a force at every place of
+  /// the grid on tooth m, for m = -M .. M, teeth counted as in GearToMesh; 3 P x grid.size().
+  std::vector<Eigen::MatrixXd> stress;
+
+  int teeth_each_side() const { return static_cast<int>(stress.size() / 2); }
+
+  /// The same under unit forces at n places, of the fillet on a given tooth, 3 P x n. A force on a tooth further away
+  /// than teeth_each_side() counts as none there.
+  /// @throws InvalidInput  as FlankGrid::weights()
+  Eigen::MatrixXd evaluate(int tooth, std::span<const FlankPlace> forces) const;
+};
+
+/// Places along the fillet where the stress is read: seven from 0.2 to 0.8, where its maximum lies, the nearest of them
+/// moved to the 30 deg tangent.
+inline constexpr int fillet_stations = 7;
+
+/// Axial places there: steps from 0.25 modules at the ends to 0.6. Between all these places the stress of a line load
+/// rises by up to 2.5 % above the largest of them (18 and 24 teeth, helix 30 and 0 deg).
+std::vector<double> fillet_zetas(double face_width);
+
+FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet);
+
+/// Reads a gear's table off its finite elements: by reciprocity a solution per component of stress, read by the forces
+/// on all detailed teeth, needs fewer of them than one per force.
+///
+/// @param solid     of the mesh, Factorised
+/// @param material  of the solid model
+/// @param progress  called with the number of solutions done and of all
+/// @throws InvalidInput  "grid" where it is not as wide as the face
+RootStressTable solve_root_stress_table(const GearMesh& mesh, const SolidModel& solid, const Material& material,
+                                        const FlankGrid& grid,
+                                        const std::function<void(Eigen::Index, Eigen::Index)>& progress = {});
+
+}  // namespace flankwright

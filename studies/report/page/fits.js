@@ -1,0 +1,206 @@
+// Compliance of single gears: how far the fit and the other models are from finite elements, and deflection curves.
+
+const FORM_LABEL = {
+  kernels: "Sum of kernels (ours)",
+  thesis_in_master: "Haddad's curves, body inside",
+  thesis_separate: "Haddad's curves, body apart",
+};
+const MODEL_LABEL = {
+  "finite elements": "finite elements",
+  fitted: "fitted kernels",
+  thesis: "Haddad's curves, body apart",
+  plate: "cantilever plate",
+  "thin slices": "thin slices",
+};
+const HEIGHT_LABEL = { 1: "tip", 0: "middle", "-1": "root" };
+
+const apart_label = (m) => (m === 0 ? "loaded tooth" : m === 1 ? "one pitch away" : `${m} pitches away`);
+
+/** [{form, points, ...distribution}] of one gear, in the order of the results. */
+function residual_rows(fit) {
+  const residuals = record(fit.residuals);
+  return Object.keys(FORM_LABEL).filter((form) => residuals[form]).flatMap((form) =>
+    ["fitted", "unseen"].flatMap((points) =>
+      list(record(residuals[form])[points]).map((d) => ({ form, points, ...record(d) }))));
+}
+
+const fit_title = (fit) => `${capital(fit.gear || "gear")}, ${fmt(fit.teeth)} teeth`;
+
+function fit_headline(fits) {
+  const closest = fits.map((fit) => {
+    const own = residual_rows(fit).filter((row) => row.form === "kernels" && row.teeth_apart === 0);
+    return own.find((row) => row.points === "unseen") || own[0];
+  });
+  const parts = fits.flatMap((fit, i) => (closest[i] ? [`${fit.gear}: half of all pairs of places within `
+    + `${fmt(closest[i].median_percent, 2)} % of finite elements, 95 % within ${fmt(closest[i].share_95_percent, 2)} %`] : []));
+  return parts.length ? capital(parts.join("; ")) : "No gear could be fitted";
+}
+
+function fit_tiles(fits) {
+  return fits.flatMap((fit) => {
+    const elements = record(fit.finite_elements);
+    return [
+      tile(`Fit, ${fit.gear}`, fit.status, "", { detail: `${fmt(fit.iterations, 6)} steps, ${fmt(fit.coefficients)} coefficients` }),
+      tile(`Unknowns, ${fit.gear}`, elements.unknowns, "", { digits: 7, detail: `${fmt(elements.peak_memory_bytes / 1e9, 2)} GB, `
+        + `${fmt(elements.model_seconds + elements.loads_seconds, 2)} s for ${fmt(elements.loads)} loads` }),
+    ];
+  });
+}
+
+function fit_verdict(results, verdict) {
+  for (const line of list(results.requirements_not_met)) verdict.append(el("p", { class: "banner" }, `${capital(String(line))}`));
+}
+
+/** A choice of one of a few things that redraws a figure. */
+function add_choice(parent, label, options, state, key, redraw) {
+  if (options.length < 2) return;
+  const { node } = choice(label, options, String(state[key]), (value) => {
+    state[key] = value;
+    redraw();
+  });
+  node.classList.add("no-print");
+  parent.append(node);
+}
+
+function draw_deflections(plot, fit, state) {
+  const curves = list(fit.curves).map(record);
+  const loads = unique(curves.map((curve) => record(curve.load).u));
+  const places = unique(curves.map((curve) => record(curve.load).zeta)).sort((a, b) => a - b);
+  const teeth = unique(curves.map((curve) => curve.tooth)).sort((a, b) => a - b);
+  const ends = ["sharp end", "mid face", "blunt end"];
+  const area = el("div");
+  const draw = () => {
+    clear_plot(area);
+    const shown = curves.filter((curve) => String(curve.load.u) === state.u && String(curve.load.zeta) === state.zeta
+      && String(curve.tooth) === state.tooth);
+    const models = Object.keys(MODEL_LABEL);
+    const width = { "finite elements": 3.4 };
+    xy_chart(area, {
+      label: "Deflection along the tooth under a point load",
+      curves: shown.map((curve) => ({
+        label: MODEL_LABEL[curve.model] || curve.model,
+        points: list(curve.zeta).map((zeta, i) => ({ x: zeta, y: curve.value[i] })),
+        colour: curve.model === "finite elements" ? css_colour("ink") : sequence_colour(models.indexOf(curve.model) - 1),
+        width: width[curve.model] || 1.8,
+        dashed: curve.model === "thin slices" || curve.model === "thesis",
+        order: curve.model === "finite elements" ? 1 : 0,
+      })),
+      x: "from the sharp end [modules]", y: "deflection · E mₙ / F",
+      read_x: (x) => `${fmt(x, 3)} modules from the sharp end`, read_y: (y) => fmt(y, 3), height: 340,
+    });
+  };
+  const choices = el("div");
+  const option = (value, label) => ({ value: String(value), label });
+  add_choice(choices, "Load at the", loads.map((u) => option(u, HEIGHT_LABEL[u] || `u = ${fmt(u, 2)}`)), state, "u", draw);
+  add_choice(choices, "of the", places.map((zeta, i) => option(zeta, places.length === 3 ? ends[i] : fmt(zeta, 3))),
+    state, "zeta", draw);
+  const tooth_name = (tooth) => (tooth === 0 ? "the loaded one" : `${fmt(Math.abs(tooth))} ${tooth > 0 ? "after" : "before"} it`);
+  add_choice(choices, "Tooth", teeth.map((tooth) => option(tooth, tooth_name(tooth))), state, "tooth", draw);
+  plot.append(choices, area);
+  draw();
+}
+
+function draw_residual_shares(plot, fit) {
+  const shares = list(record(fit.residuals).share_percent);
+  const rows = residual_rows(fit)
+    .filter((row) => row.form === "kernels" || (row.form === "thesis_separate" && row.teeth_apart === 0));
+  const apart = unique(rows.map((row) => row.teeth_apart));
+  const curves = rows.map((row) => ({
+    label: `${row.form === "kernels" ? apart_label(row.teeth_apart) : "Haddad's curves, loaded tooth"}, ${row.points}`,
+    points: list(row.residual_percent).map((residual, i) => ({ x: Math.max(residual, 1e-3), y: shares[i] })),
+    colour: row.form === "kernels" ? sequence_colour(apart.indexOf(row.teeth_apart)) : css_colour("muted"),
+    dashed: row.points === "fitted",
+  }));
+  xy_chart(plot, {
+    label: "Share of the pairs of places within a residual",
+    curves,
+    x: "|model − finite elements| / finite elements [%]", y: "pairs within it [%]",
+    x_range: { type: "logarithmic", min: 0.01, ticks: { callback: (value) => (Number.isInteger(Math.log10(value)) ? fmt(value) : "") } },
+    y_range: { min: 0, max: 100 },
+    read_x: (x) => `within ${fmt(x, 2)} %`, read_y: (y) => `${fmt(y, 3)} % of the pairs`, nearest: "xy", height: 340,
+  });
+}
+
+function residual_table(body, fit) {
+  table(body, {
+    title: `Residuals of the ${fit.gear}'s fits`,
+    note: "|model − finite elements| / |finite elements| over all pairs of places so many pitches apart; unseen places lie "
+      + "between those fitted. Where a compliance passes through zero that says little: the last column has the largest error "
+      + "relative to the places' own compliances, √(K_pp K_qq).",
+    columns: [{ label: "Form" }, { label: "Status" }, { label: "Teeth" }, { label: "Places" }, { label: "Pairs", digits: 7 },
+      { label: "Median", unit: "%", digits: 3 }, { label: "95 %", unit: "%", digits: 3 }, { label: "Worst", unit: "%", digits: 3 }, { label: "Worst of own", unit: "%", digits: 3 }],
+    rows: residual_rows(fit).map((row) => [FORM_LABEL[row.form], record(fit.residuals[row.form]).status ?? null,
+      apart_label(row.teeth_apart), row.points, row.pairs ?? null, row.median_percent ?? null, row.share_95_percent ?? null,
+      row.worst_percent ?? null, row.worst_percent_of_own ?? null]),
+  });
+}
+
+function fit_facts(body, fit) {
+  const elements = record(fit.finite_elements), range = record(fit.range), gear_body = record(fit.body);
+  const between = (pair) => (list(pair).length === 2 ? `${fmt(pair[0], 3)} … ${fmt(pair[1], 3)}` : null);
+  const rows = [
+    ["form", fit.form ? words(fit.form) : null, ""],
+    ["status", fit.status ?? null, ""],
+    ["steps", fit.iterations ?? null, ""],
+    ["coefficients", fit.coefficients ?? null, ""],
+    ["pairs fitted", fit.pairs ?? null, ""],
+    ["valid for u", between(range.u), "−1 root, 1 tip"],
+    ["valid for distances from the sharp end", between(range.zeta), "modules"],
+    ["valid for teeth apart", range.teeth_apart ?? null, "pitches"],
+    ["lowest eigenvalue, of the largest", fit.lowest_eigenvalue ?? null, `over ${plural(fit.eigenvalue_teeth, "tooth").replace("tooths", "teeth")}`],
+    ["median standard error of a coefficient", record(fit.uncertainty).median_standard_error ?? null, ""],
+    ["shaft motion taken out", elements.removed_shaft_motion ?? null, ""],
+    ["shaft diameter", gear_body.shaft_diameter_mm ?? null, "mm"],
+    ["bore diameter", gear_body.bore_diameter_mm ?? null, "mm"],
+    ["unknowns", elements.unknowns ?? null, ""],
+    ["mesh, assembly and factorisation", elements.model_seconds ?? null, "s"],
+    ["loads solved", elements.loads_seconds ?? null, "s"],
+    ["fit", fit.fit_seconds ?? null, "s"],
+  ];
+  table(body, {
+    title: `What the ${fit.gear}'s fit is and took`,
+    columns: [{ label: "Quantity" }, { label: "Value", digits: 7 }, { label: "Unit" }],
+    rows: rows.filter(([, value]) => value !== null)
+      .map(([name, value, unit]) => [name, { text: is_number(value) ? fmt(value, value > 1e4 ? 7 : 4) : value, value }, unit]),
+  });
+  const uncertain = list(record(fit.uncertainty).least_certain).map(record);
+  if (uncertain.length === 0) return;
+  table(body, {
+    title: `Least certain coefficients of the ${fit.gear}`,
+    columns: [{ label: "Coefficient" }, { label: "Value" }, { label: "Standard error" }],
+    rows: uncertain.map((c) => [c.coefficient ?? "", c.value ?? null, c.standard_error ?? null]),
+  });
+}
+
+function build_deflections(results, body) {
+  for (const fit of [...list(results.fit), ...list(results.deflections)].map(record)) {
+    const curves = list(fit.curves).map(record);
+    if (curves.length === 0) continue;
+    const zetas = unique(curves.map((curve) => record(curve.load).zeta)).sort((a, b) => a - b);
+    const state = { u: "1", zeta: String(zetas[Math.floor(zetas.length / 2)]), tooth: "0" };
+    figure(figure_grid(body), {
+      title: `${fit_title(fit)}: deflection along a tooth under a point load`,
+      wide: true,
+      caption: "Deflection of the tooth's centre surface along the flank normal at the height of the load, times E mₙ / F, "
+        + "without local contact and shaft motion. A plate and slices know of neither the gear body nor other teeth; the "
+        + "slices' load is spread over one module of the contact line.",
+    }, (plot) => draw_deflections(plot, fit, state));
+  }
+}
+
+function build_residuals(results, body) {
+  for (const fit of list(results.fit).map(record)) {
+    if (residual_rows(fit).length === 0) continue;
+    const grid = figure_grid(body);
+    figure(grid, {
+      title: `${fit_title(fit)}: residuals on places fitted and unseen`,
+      wide: true,
+      caption: "Share of all pairs of places that a fit meets within a relative residual: the further left, the closer. "
+        + "Dashed: places fitted; full: places that the fit has not seen.",
+    }, (plot) => draw_residual_shares(plot, fit));
+    residual_table(body, fit);
+    const tables = el("div", { class: "tables" });
+    body.append(tables);
+    fit_facts(tables, fit);
+  }
+}

@@ -1,0 +1,179 @@
+#include "core/compliance/finite_element/root_stress_table.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/compliance/finite_element/influence.hpp"
+#include "tests/core/compliance/finite_element/gears.hpp"
+#include "tests/reference/iso_6336_root_stress.hpp"
+
+using namespace flankwright;
+using namespace flankwright::test;
+
+namespace {
+
+const Material kUnit{1, 0.3};
+
+struct Gear {
+  GearMesh mesh;
+  SolidModel solid;
+  RootStressTable table;
+
+  Gear(const GearToMesh& gear, const GearMeshOptions& options)
+      : mesh(gear_mesh(gear, options)),
+        solid(mesh.solid, kUnit, mesh.supports),
+        table(solve_root_stress_table(mesh, solid, kUnit, flank_grid(gear.gear.face_width / gear.normal_module, 5))) {}
+
+  FlankPoint point(const FlankPlace& place) const {
+    const double root = mesh.form.form_radius(), tip = mesh.form.tip_radius();
+    return {place.tooth, root + (place.u + 1) / 2 * (tip - root),
+            place.zeta * mesh.normal_module - mesh.face_width / 2};
+  }
+  /// Stress of the fillet's places under forces, by a solution per force.
+  Eigen::MatrixXd solved(const std::vector<FlankPlace>& forces, RemovedMotion removed) const {
+    std::vector<FlankPoint> points;
+    for (const FlankPlace& force : forces) points.push_back(point(force));
+    std::vector<FilletPlace> places;
+    for (const double along : table.fillet.along) {
+      for (const double zeta : table.fillet.zetas)
+        places.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
+    }
+    return std::pow(mesh.normal_module, 2) * FilletStress(mesh, kUnit).functionals(places).transpose() *
+           solid.solve(net_functionals(mesh, points, removed));
+  }
+};
+
+constexpr auto kNet = RemovedMotion::TranslationTorsionAndTilt;
+
+/// Largest principal stress m_n b / F of a line load spread evenly along a spur tooth at u, at mid face: the 30 deg
+/// tangent's, and the largest along the fillet.
+std::pair<double, double> under_line_load(const RootStressTable& table, double u) {
+  constexpr int kForces = 60;
+  const double width = table.grid.face_width();
+  std::vector<FlankPlace> forces;
+  for (int i = 0; i < kForces; ++i) forces.push_back({0, u, width * (i + 0.5) / kForces});
+  const Eigen::VectorXd stress = width * table.evaluate(0, forces).rowwise().mean();
+  const std::size_t n = table.fillet.zetas.size();
+  const auto at = [&](std::size_t along) {
+    return largest_principal(stress.segment<3>(3 * static_cast<Eigen::Index>(along * n + n / 2))).value;
+  };
+  double largest = 0;
+  for (std::size_t i = 0; i < table.fillet.along.size(); ++i) largest = std::max(largest, at(i));
+  return {at(table.fillet.tangent), largest};
+}
+
+}  // namespace
+
+TEST_CASE("A root stress table holds what a solution per force gives", "[core][compliance][fe][root-stress]") {
+  const Gear gear(gear_of(18, 20, 3, 0, 4), coarse());
+  for (const int tooth : {-1, 0, 1}) {
+    CAPTURE(tooth);
+    std::vector<FlankPlace> on_grid{gear.table.grid.places(tooth)[3], gear.table.grid.places(tooth)[21]};
+    const Eigen::MatrixXd solved = gear.solved(on_grid, kNet);
+    const Eigen::MatrixXd table = gear.table.evaluate(0, on_grid);
+    CHECK((table - solved).cwiseAbs().maxCoeff() < 1e-9 * solved.cwiseAbs().maxCoeff());  // round-off x condition
+  }
+  const std::vector<FlankPlace> unseen{{0, 0.7, 1.3}, {0, 0.1, 0.4}, {0, -0.4, 2.2}};
+  const Eigen::MatrixXd solved = gear.solved(unseen, kNet), table = gear.table.evaluate(0, unseen);
+  for (int i = 0; i < 3; ++i) {
+    const double largest = solved.col(i).cwiseAbs().maxCoeff();
+    CHECK((table - solved).col(i).cwiseAbs().maxCoeff() < 0.03 * largest);  // discretisation of the grid
+  }
+  // How the shaft is held, and with it the motion taken out, hardly reaches the root (model).
+  const Eigen::MatrixXd held = gear.solved(unseen, RemovedMotion::None);
+  CHECK((held - solved).cwiseAbs().maxCoeff() < 0.02 * solved.cwiseAbs().maxCoeff());
+}
+
+TEST_CASE("Teeth are alike to a root stress table, and far ones do not matter to it",
+          "[core][compliance][fe][root-stress]") {
+  const Gear gear(gear_of(18, 0, 3), coarse());
+  const std::vector<FlankPlace> near{{0, 0.5, 1}, {1, 0.2, 2}}, turned{{7, 0.5, 1}, {8, 0.2, 2}};
+  CHECK(gear.table.evaluate(0, near) == gear.table.evaluate(7, turned));
+  CHECK(gear.table.evaluate(-2, near).isZero(0));
+  CHECK_FALSE(gear.table.evaluate(2, near).col(1).isZero(0));
+  CHECK_THROWS_AS(gear.table.evaluate(0, std::vector<FlankPlace>{{0, 1.2, 1}}), InvalidInput);
+  CHECK_THROWS_AS(solve_root_stress_table(gear.mesh, gear.solid, kUnit, flank_grid(4)), InvalidInput);
+}
+
+TEST_CASE("A spur gear's root stress mirrors with its load", "[core][compliance][fe][root-stress]") {
+  const double width = 4;
+  const Gear gear(gear_of(24, 0, width), coarse());
+  const std::size_t n = gear.table.fillet.zetas.size();
+  for (const double zeta : {0.2, 1.0, 1.7}) {
+    const Eigen::VectorXd a = gear.table.evaluate(0, std::vector<FlankPlace>{{0, 0.6, zeta}});
+    const Eigen::VectorXd b = gear.table.evaluate(0, std::vector<FlankPlace>{{0, 0.6, width - zeta}});
+    Eigen::VectorXd mirrored(b.size());
+    for (std::size_t i = 0; i < gear.table.fillet.along.size(); ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        mirrored.segment<3>(3 * static_cast<Eigen::Index>(i * n + j)) =
+            b.segment<3>(3 * static_cast<Eigen::Index>(i * n + n - 1 - j)).cwiseProduct(Eigen::Vector3d(1, 1, -1));
+      }
+    }
+    // Model: the torque leaves at one end of the face only.
+    CHECK((a - mirrored).cwiseAbs().maxCoeff() < 0.03 * a.cwiseAbs().maxCoeff());
+  }
+}
+
+TEST_CASE("A root is stressed most below the force, more by a higher one, and little by one on the next tooth",
+          "[core][compliance][fe][root-stress]") {
+  const Gear gear(gear_of(20, 0, 6), coarse());
+  const auto peak = [&](const FlankPlace& force) {
+    const Eigen::VectorXd stress = gear.table.evaluate(0, std::vector{force});
+    std::pair<double, double> found{0, -1};
+    for (Eigen::Index i = 0; i < gear.table.fillet.size(); ++i) {
+      const double value = largest_principal(stress.segment<3>(3 * i)).value;
+      if (value > found.first) found = {value, gear.table.fillet.zetas[i % gear.table.fillet.zetas.size()]};
+    }
+    return found;
+  };
+  for (const double zeta : {1.0, 3.0, 4.5}) CHECK(std::abs(peak({0, 0.8, zeta}).second - zeta) < 1);
+  CHECK(peak({0, 1, 3}).first > 1.2 * peak({0, 0, 3}).first);
+  CHECK(peak({0, 1, 0.3}).first > 1.2 * peak({0, 1, 3}).first);  // less tooth beside it
+  CHECK(peak({1, 0, 3}).first < 0.3 * peak({0, 0, 3}).first);
+  CHECK(peak({-1, 0, 3}).first < 0.3 * peak({0, 0, 3}).first);
+}
+
+TEST_CASE("Method B of ISO 6336-3 as written here: its critical section is the profile's",
+          "[core][compliance][root-stress]") {
+  for (const int teeth : {18, 40, 100}) {
+    const GearToMesh gear = gear_of(teeth, 0);
+    const ToothForm form(gear.gear, 1, gear.pressure_angle, 0);
+    const Iso6336Root root = iso_6336_root(gear.gear, gear.pressure_angle);
+    CHECK(root.chord ==
+          Approx(2 * form.root_tangent_point(30 * units::deg).x).epsilon(1e-6));  // round-off of iterations
+  }
+}
+
+TEST_CASE("Root stress of spur gears under a load line at the tip is near ISO 6336-3, method B",
+          "[core][compliance][fe][root-stress][.soak]") {
+  GearMeshOptions options;
+  options.teeth_each_side = 1;
+  options.fillet_elements = 9;
+  for (const int teeth : {18, 40, 100}) {
+    const GearToMesh gear = gear_of(teeth, 0, 8);
+    const auto [tangent, largest] = under_line_load(Gear(gear, options).table, 1);
+    const double iso = iso_6336_root(gear.gear, gear.pressure_angle).stress;
+    CAPTURE(teeth, iso, tangent, largest);
+    // Model: Y_S is a formula through scattered results for the maximum, whose place it does not tell; ours spreads
+    // the load over the tooth's depth, 1.5 % less. Found 7, 6 and 10 % below.
+    CHECK(std::abs(tangent / iso - 1) < 0.12);
+    CHECK(tangent < iso);
+    CHECK(largest >= tangent);
+    CHECK(largest < 1.04 * tangent);
+  }
+}
+
+TEST_CASE("Root stress converges with the elements along the fillet", "[core][compliance][fe][root-stress][.soak]") {
+  const auto largest = [](int elements) {
+    GearMeshOptions options;
+    options.teeth_each_side = 1;
+    options.fillet_elements = elements;
+    return under_line_load(Gear(gear_of(18, 0, 4), options).table, 1).second;
+  };
+  const double finest = largest(16);
+  CHECK(std::abs(largest(3) / finest - 1) < 0.04);
+  CHECK(std::abs(largest(6) / finest - 1) < 0.02);
+  CHECK(std::abs(largest(9) / finest - 1) < 0.01);
+  CHECK(std::abs(largest(12) / finest - 1) < 0.005);
+}

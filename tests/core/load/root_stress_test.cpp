@@ -1,0 +1,105 @@
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/core/load/mesh_cases.hpp"
+#include "tests/core/load/synthetic_root_stress.hpp"
+
+using namespace flankwright;
+
+namespace {
+
+MeshModel model_with_root_stress(const GearPair& gears, const MeshResolution& resolution,
+                                 const MeshEffects& effects = {}) {
+  const mesh_cases::SyntheticRootStress root_stress(gears);
+  return make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, resolution, effects, 0.0, nullptr, &root_stress);
+}
+
+}  // namespace
+
+TEST_CASE("Root stress is the principal stress of what all forces do together", "[core][load][root-stress]") {
+  const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
+  const MeshModel model = model_with_root_stress(gears, {{}, equally_spaced_phases(6)});
+  const LoadedCycle cycle = analyse_cycle(model, {}, mesh_cases::torque_for(gears, 100));
+  double pinion = 0, wheel = 0, tangent = 0;
+  for (std::size_t k = 0; k < cycle.positions.size(); ++k) {
+    const MeshPosition& at = model.positions[k];
+    const LoadedPosition& position = cycle.positions[k];
+    REQUIRE(position.root_stress.size() == static_cast<Eigen::Index>(at.root_stress.places.size()));
+    for (std::size_t p = 0; p < at.root_stress.places.size(); ++p) {
+      const auto row = static_cast<Eigen::Index>(p);
+      Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+      for (Eigen::Index i = 0; i < at.weight.size(); ++i) {
+        sum += at.root_stress.components.block<3, 1>(3 * row, i) * at.weight[i] * position.load.line_load[i];
+      }
+      Eigen::Matrix2d tensor;
+      tensor << sum[0], sum[2], sum[2], sum[1];
+      const double largest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(tensor).eigenvalues()[1];
+      CHECK(position.root_stress[row] == Approx(largest).epsilon(1e-12));  // round-off
+      const RootPlace& place = at.root_stress.places[p];
+      double& peak = place.member == Member::Pinion ? pinion : wheel;
+      peak = std::max(peak, position.root_stress[row]);
+      if (place.tangent && place.member == Member::Pinion) tangent = std::max(tangent, position.root_stress[row]);
+    }
+  }
+  const CycleSummary summary = summarise(model, cycle);
+  CHECK(summary.pinion_root_stress.stress == pinion);
+  CHECK(summary.wheel_root_stress.stress == wheel);
+  CHECK(summary.peak_root_stress == std::max(pinion, wheel));
+  CHECK(summary.pinion_root_stress.tangent_stress == tangent);
+  CHECK(summary.pinion_root_stress.place.member == Member::Pinion);
+  CHECK(summary.wheel_root_stress.place.member == Member::Wheel);
+  CHECK(pinion > 0);
+}
+
+TEST_CASE("Twice the torque is twice the root stress where nothing else is nonlinear", "[core][load][root-stress]") {
+  const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
+  const MeshModel model = model_with_root_stress(gears, {{}, equally_spaced_phases(4)},
+                                                 {.hertzian_contact = false, .extended_contact_region = false});
+  const auto peak = [&](double load) {
+    return summarise(model, analyse_cycle(model, {}, mesh_cases::torque_for(gears, load))).peak_root_stress;
+  };
+  CHECK(peak(200) == Approx(2 * peak(100)).epsilon(1e-11));  // round-off
+}
+
+TEST_CASE("Derivatives of root stress are what central differences say", "[core][load][root-stress][gradient]") {
+  const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
+  const MeshModel model = model_with_root_stress(gears, {{}, {0.1, 1.1, 1.7}});
+  const std::vector<GearParameter> parameters{{Member::Pinion, ModificationParameter::LeadCrowning},
+                                              {Member::Pinion, ModificationParameter::LeadSlope},
+                                              {Member::Wheel, ModificationParameter::ProfileCrowning}};
+  FlankCondition condition;
+  condition.pinion_modification.lead_crowning = 0.008;
+  condition.pinion_modification.lead_slope = 0.003;
+  set(condition.wheel_modification, ModificationParameter::ProfileCrowning, 0.005);
+  const double torque = mesh_cases::torque_for(gears, 300);
+  const LoadedCycle at = analyse_cycle(model, condition, torque, parameters);
+  constexpr double step = 1e-6;  // mm
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const auto shifted = [&](double by) {
+      FlankCondition moved = condition;
+      Modification& modification =
+          parameters[p].member == Member::Pinion ? moved.pinion_modification : moved.wheel_modification;
+      set(modification, parameters[p].parameter, get(modification, parameters[p].parameter) + by);
+      return analyse_cycle(model, moved, torque);
+    };
+    const LoadedCycle up = shifted(step), down = shifted(-step);
+    for (std::size_t k = 0; k < at.positions.size(); ++k) {
+      const Eigen::VectorXd difference = (up.positions[k].root_stress - down.positions[k].root_stress) / (2 * step);
+      const Eigen::VectorXd exact = at.positions[k].root_stress_derivative.col(static_cast<Eigen::Index>(p));
+      // Discretisation: step^2 times curvature, and round-off over the step.
+      CHECK((exact - difference).cwiseAbs().maxCoeff() < 1e-6 * difference.cwiseAbs().maxCoeff());
+    }
+  }
+}
+
+TEST_CASE("Without a model of it there is no root stress", "[core][load][root-stress]") {
+  const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
+  const MeshModel model = mesh_cases::model(gears, {{}, {1.0}});
+  const LoadedCycle cycle = analyse_cycle(model, {}, mesh_cases::torque_for(gears, 100));
+  CHECK(cycle.positions[0].root_stress.size() == 0);
+  const CycleSummary summary = summarise(model, cycle);
+  CHECK(std::isnan(summary.peak_root_stress));
+  CHECK(std::isnan(summary.pinion_root_stress.stress));
+  CHECK(std::isnan(summary.wheel_root_stress.tangent_stress));
+}
