@@ -1,5 +1,10 @@
 #include "studies/compliance_json.hpp"
 
+#include <algorithm>
+
+#include "core/base/units.hpp"
+#include "core/compliance/fitted/refinement_library.hpp"
+
 namespace flankwright::studies {
 
 namespace {
@@ -27,6 +32,25 @@ Json gear_run_json(const GearRun& run, const Material& material) {
           {"body", body_json(run.body)}};
 }
 
+/// The library that completes the coarse values, and how close its own gears come, the least close of each figure.
+Json fits_json(const RefinementLibrary& library) {
+  ResidualStatistics worst{0, 0, 0, 0, 0};
+  for (const RefinementEntry& entry : library.entries()) {
+    worst.pairs += entry.unseen.pairs;
+    worst.median = std::max(worst.median, entry.unseen.median);
+    worst.share_95 = std::max(worst.share_95, entry.unseen.share_95);
+    worst.worst = std::max(worst.worst, entry.unseen.worst);
+  }
+  const auto ends = [](const auto& values) { return Json{values.front(), values.back()}; };
+  return {{"gears", library.entries().size()},
+          {"teeth", ends(library.teeth())},
+          {"helix_angle_deg", {library.helix_angles().front() / units::deg, library.helix_angles().back() / units::deg}},
+          {"profile_shift", ends(library.profile_shifts())},
+          {"interpolation", "polynomials through all gears in 1/z, helix angle and profile shift"},
+          {"largest_residual_percent",
+           {{"pairs", worst.pairs}, {"median", 100 * worst.median}, {"share_95", 100 * worst.share_95}, {"worst", 100 * worst.worst}}}};
+}
+
 }  // namespace
 
 const char* name_of(RemovedMotion removed) {
@@ -39,10 +63,12 @@ const char* name_of(RemovedMotion removed) {
 }
 
 Json compliance_json(const FiniteElementRuns& runs, const Study& study) {
-  return {{"model", to_string(study.fidelity.compliance)},
-          {"seconds", runs.seconds},
-          {"pinion", gear_run_json(runs[Member::Pinion], study.pinion_material)},
-          {"wheel", gear_run_json(runs[Member::Wheel], study.wheel_material)}};
+  Json json{{"model", to_string(study.fidelity.compliance)},
+            {"seconds", runs.seconds},
+            {"pinion", gear_run_json(runs[Member::Pinion], study.pinion_material)},
+            {"wheel", gear_run_json(runs[Member::Wheel], study.wheel_material)}};
+  if (study.fidelity.compliance == ComplianceModel::Fitted) json["fits"] = fits_json(RefinementLibrary::shipped());
+  return json;
 }
 
 Json body_json(const GearBody& body) {

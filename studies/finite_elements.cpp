@@ -10,6 +10,7 @@
 #include <mutex>
 #include <optional>
 
+#include "core/compliance/fitted/refinement_fit.hpp"
 #include "studies/run_cache.hpp"
 
 namespace flankwright::studies {
@@ -17,7 +18,7 @@ namespace flankwright::studies {
 namespace {
 
 /// To be raised whenever the same task comes to mean other numbers: mesh, load functional, removed motion, solution.
-constexpr int model_version = 1;
+constexpr int model_version = 2;
 
 /// Share of the machine's memory that runs may take.
 constexpr double share_of_memory = 0.8;
@@ -26,15 +27,18 @@ const char* name_of(Member m) { return m == Member::Pinion ? "pinion" : "wheel";
 
 /// Does something with one gear; what it refuses is said under the study's keys.
 template <typename Work>
-auto with_study_keys(Member member, Work&& work) {
+auto with_study_keys(ComplianceModel model, Member member, Work&& work) {
   try {
     return work();
   } catch (const InvalidInput& problem) {
     if (problem.field().starts_with("options")) {
-      throw InvalidInput("fidelity.compliance", "fe",
+      throw InvalidInput("fidelity.compliance", to_string(model),
                          fmt::format("another compliance: the {} cannot be meshed ({})", name_of(member), problem.value()));
     }
-    throw InvalidInput(fmt::format("{}.{}", name_of(member), problem.field()), problem.value(), problem.allowed());
+    const bool of_pair = problem.field() == "helix_angle" || problem.field() == "pressure_angle";
+    const char* of_gear = problem.field() == "poissons_ratio" ? "material." : "";
+    const std::string key = of_pair ? "pair." + problem.field() : fmt::format("{}.{}{}", name_of(member), of_gear, problem.field());
+    throw InvalidInput(key, problem.value(), problem.allowed());
   }
 }
 
@@ -233,20 +237,20 @@ class JointProgress {
 };
 
 /// Solves jobs side by side, each within its share of the memory.
-void solve_side_by_side(const std::vector<Job*>& jobs, const ProgressReport& report) {
+void solve_side_by_side(const std::vector<Job*>& jobs, ComplianceModel model, const ProgressReport& report) {
   JointProgress progress(jobs, report);
   const double limit = share_of_memory * machine_memory() / static_cast<double>(jobs.size());
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
     const Clock clock;
     Job& job = *jobs[i];
-    job.run = with_study_keys(job.members.front(), [&] {
+    job.run = with_study_keys(model, job.members.front(), [&] {
       return solve_influence_table(job.task, limit, [&](int done, int total) { progress.at(i, done, total); });
     });
     job.seconds = clock.seconds();
   });
 }
 
-void refuse_unsolved(const Job& job) {
+void refuse_unsolved(const Job& job, ComplianceModel model) {
   if (job.run.status == FactorStatus::Factorised) return;
   const bool memory = job.run.status == FactorStatus::OutOfMemory;
   const auto unknowns = job.run.statistics.unknowns;
@@ -254,7 +258,7 @@ void refuse_unsolved(const Job& job) {
       memory ? fmt::format("{} unknowns need about {:.1f} GB, this machine has {:.1f}", unknowns,
                            expected_bytes(unknowns) / 1e9, machine_memory() / 1e9)
              : "its stiffness matrix is singular to round-off";
-  throw InvalidInput("fidelity.compliance", "fe",
+  throw InvalidInput("fidelity.compliance", to_string(model),
                      fmt::format("another compliance: the {}'s finite elements cannot be solved: {}",
                                  name_of(job.members.front()), why));
 }
@@ -275,7 +279,7 @@ bool wants_root_stress(const Study& study) {
 }
 
 bool solves_finite_elements(const Study& study) {
-  return study.fidelity.compliance == ComplianceModel::Fe || study.task == Task::Fit || wants_root_stress(study);
+  return couples_teeth(study.fidelity.compliance) || study.task == Task::Fit || wants_root_stress(study);
 }
 
 InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair, Member member) {
@@ -293,11 +297,14 @@ InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair
                           .grid = flank_grid(gear.data.face_width / pair.data.normal_module),
                           .root_stress = wants_root_stress(study)};
   if (2 * task.teeth_apart + 1 > gear.data.teeth) {
-    throw InvalidInput("fidelity.compliance", "fe",
+    throw InvalidInput("fidelity.compliance", to_string(study.fidelity.compliance),
                        fmt::format("another compliance: teeth {} pitches apart touch at once, too many for the {}'s {}",
                                    task.teeth_apart, name_of(member), gear.data.teeth));
   }
-  with_study_keys(member, [&] {
+  const bool by_fits = study.fidelity.compliance == ComplianceModel::Fitted && study.task != Task::Fit;
+  if (by_fits) task.mesh = coarse_mesh();
+  with_study_keys(study.fidelity.compliance, member, [&] {
+    if (by_fits) RefinementLibrary::shipped().require_known(task.gear, task.poissons_ratio);
     const ToothForm form(to_mesh.gear, to_mesh.normal_module, to_mesh.pressure_angle, to_mesh.helix_angle);
     task.gear.body = complete_body(pinion ? study.pinion_body : study.wheel_body, form, to_mesh.normal_module);
     GearMeshOptions options = task.mesh;
@@ -316,11 +323,11 @@ FiniteElementRuns solve_finite_elements(const Study& study, const GearPair& pair
   for (Job& job : jobs) {
     if (!take(job, cache, runs.notes)) missing.push_back(&job);
   }
-  if (!missing.empty()) solve_side_by_side(missing, progress);
+  if (!missing.empty()) solve_side_by_side(missing, study.fidelity.compliance, progress);
   for (Job* job : missing) {
     // What did not fit beside the other gear may fit alone.
-    if (job->run.status == FactorStatus::OutOfMemory && missing.size() > 1) solve_side_by_side({job}, progress);
-    refuse_unsolved(*job);
+    if (job->run.status == FactorStatus::OutOfMemory && missing.size() > 1) solve_side_by_side({job}, study.fidelity.compliance, progress);
+    refuse_unsolved(*job, study.fidelity.compliance);
     const bool kept = cache.store(job->key, to_store(job->run), runs.notes);
     job->file = kept ? cache.file_of(job->key).string() : "";
   }

@@ -1,5 +1,8 @@
 #include "studies/gear_structures.hpp"
 
+#include "core/compliance/fitted/refined_compliance.hpp"
+#include "core/compliance/fitted/refinement_library.hpp"
+
 namespace flankwright::studies {
 
 const char* to_string(ComplianceModel model) {
@@ -19,17 +22,33 @@ ComplianceModel compliance_model(std::string_view name) {
   return ComplianceModel::Fe;
 }
 
+namespace {
+
+/// A coarse table, completed from the library of fits.
+std::shared_ptr<const FlankCompliance> refined_by_fits(const InfluenceTableTask& task,
+                                                       std::shared_ptr<const InfluenceTable> coarse) {
+  const GearFacts facts = facts_of(task.gear);
+  return std::make_shared<const RefinedCompliance>(std::move(coarse), facts,
+                                                   RefinementLibrary::shipped().coefficients(facts));
+}
+
+}  // namespace
+
 GearStructures gear_structures(const Study& study, const GearPair& pair, const ProgressReport& progress) {
   GearStructures structures;
-  const bool is_fe = study.fidelity.compliance == ComplianceModel::Fe;
-  if (!is_fe && !wants_root_stress(study)) return structures;
+  const bool is_structural = couples_teeth(study.fidelity.compliance);
+  if (!is_structural && !wants_root_stress(study)) return structures;
   structures.finite_elements = solve_finite_elements(study, pair, progress);
   const GearRun& pinion = (*structures.finite_elements)[Member::Pinion];
   const GearRun& wheel = (*structures.finite_elements)[Member::Wheel];
-  if (is_fe) {
+  if (is_structural) {
+    const auto compliance = [&](Member member, const GearRun& run) -> std::shared_ptr<const FlankCompliance> {
+      if (study.fidelity.compliance == ComplianceModel::Fe) return run.table;
+      return refined_by_fits(influence_table_task(study, pair, member), run.table);
+    };
     structures.pair = std::make_shared<const StructuralPair>(
-        pair, GearStructure{pinion.table, study.pinion_material.youngs_modulus},
-        GearStructure{wheel.table, study.wheel_material.youngs_modulus});
+        pair, GearStructure{compliance(Member::Pinion, pinion), study.pinion_material.youngs_modulus},
+        GearStructure{compliance(Member::Wheel, wheel), study.wheel_material.youngs_modulus});
   }
   if (pinion.root_stress) {
     structures.root_stress = std::make_shared<const TabulatedRootStress>(pair, pinion.root_stress, wheel.root_stress);

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "studies/commands.hpp"
+#include "studies/library_command.hpp"
 #include "studies/results_json.hpp"
 
 namespace {
@@ -56,6 +57,9 @@ int dispatch(int argc, char** argv) {
   CLI::App* test = app.add_subcommand("test", "run studies that have an [expect] table; exit 1 where one differs");
   test->add_option("paths", paths, "study files or folders of them")->required();
   test->add_option("--threads", threads, "threads to use")->check(CLI::Range(1, 1024));
+  CLI::App* library = app.add_subcommand("library", "make the library of tooth compliance fits anew; goes on where FILE ends");
+  library->add_option("file", study, "file to write")->required();
+  library->add_option("--threads", threads, "finite-element runs abreast")->check(CLI::Range(1, 1024));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -71,6 +75,7 @@ int dispatch(int argc, char** argv) {
   if (check->parsed()) return check_command(study, overrides_of(settings));
   if (make->parsed()) return new_command(kind);
   if (report->parsed()) return report_command(folder);
+  if (library->parsed()) return library_command(study);
   return test_command(paths);
 }
 

@@ -67,13 +67,13 @@ std::vector<SchemaKey> working_condition_rows() {
 
       {.path = "gear.body.shaft_diameter", .quantity = Quantity::Length, .range = any_length,
        .fallback = "(0.8 d, at most 25 m_n/cos(beta) and d_f - 1.2 m_n)",
-       .meaning = "of the shaft that the gear, a solid disc, is one with; at most d_f - m_n; compliance \"fe\" and task \"fit\"",
+       .meaning = "of the shaft that the gear, a solid disc, is one with; at most d_f - m_n; compliances \"fitted\" and \"fe\" and task \"fit\"",
        .store = [](Draft& d, Member m, const Value& v) { body(d, m).shaft_diameter = v.number; }},
       {.path = "gear.body.bore_diameter", .quantity = Quantity::Length, .range = any_length,
-       .fallback = "(0.2 of the shaft)", .meaning = "of the shaft; below 0.9 of it; compliance \"fe\" and task \"fit\"",
+       .fallback = "(0.2 of the shaft)", .meaning = "of the shaft; below 0.9 of it; compliances \"fitted\" and \"fe\" and task \"fit\"",
        .store = [](Draft& d, Member m, const Value& v) { body(d, m).bore_diameter = v.number; }},
       {.path = "gear.body.shaft_overhang", .quantity = Quantity::Length, .range = any_length,
-       .fallback = "(0.5 of the shaft)", .meaning = "length of the shaft beyond each face end; compliance \"fe\" and task \"fit\"",
+       .fallback = "(0.5 of the shaft)", .meaning = "length of the shaft beyond each face end; compliances \"fitted\" and \"fe\" and task \"fit\"",
        .store = [](Draft& d, Member m, const Value& v) { body(d, m).shaft_overhang = v.number; }},
 
       {.path = "load.torque", .kind = NumberOrList, .quantity = Quantity::Torque, .range = from_zero(1e9),
@@ -90,7 +90,7 @@ std::vector<SchemaKey> working_condition_rows() {
        .meaning = "explicit phases of the reference tooth pair, in base pitches; 0 where its contact line enters",
        .store = [](Draft& d, Member, const Value& v) { d.study.cycle.phases = v.numbers; }},
 
-      {.path = "fidelity.compliance", .kind = Word, .words = {"rigid", "thin_slice", "fe"}, .later = {"fitted"},
+      {.path = "fidelity.compliance", .kind = Word, .words = {"rigid", "thin_slice", "fitted", "fe"},
        .fallback = "\"thin_slice\"", .meaning = "rung of the ladder of compliance models",
        .store = [](Draft& d, Member, const Value& v) {
          d.study.fidelity.compliance = compliance_model(v.text);

@@ -86,7 +86,7 @@ torque = [0, 150, 300]               # N·m on the pinion; each is run, 0 is the
 positions = 32                       # mesh positions over one base pitch
 
 [fidelity]
-compliance = "thin_slice"            # "fe": finite elements of both gears; "rigid": the unloaded contact only
+compliance = "thin_slice"            # "fitted", "fe": finite elements of both gears; "rigid": the unloaded contact only
 quadrature = { rule = "gauss2", intervals = 10 }                     # along a full contact line
 # effects = ["bending", "hertzian_contact"]                          # "auto" decides from the study
 

@@ -81,6 +81,11 @@ std::vector<FlankPlace> FlankGrid::places(int tooth) const {
   return result;
 }
 
+void FlankGrid::require_on_flank(const FlankPlace& place) const {
+  within("place.u", place.u, -1, 1);
+  within("place.zeta", place.zeta, 0, face_width());
+}
+
 Eigen::VectorXd FlankGrid::weights(const FlankPlace& place) const {
   const Eigen::VectorXd along_u = u_.weights(within("place.u", place.u, -1, 1));
   const Eigen::VectorXd along_zeta = zeta_.weights(within("place.zeta", place.zeta, 0, face_width()));

@@ -47,6 +47,9 @@ class FlankGrid {
   /// The places on a tooth in the order of tables: zeta runs fastest.
   std::vector<FlankPlace> places(int tooth = 0) const;
 
+  /// @throws InvalidInput  "place.u" or "place.zeta" off the flank, by more than round-off (1e-9)
+  void require_on_flank(const FlankPlace& place) const;
+
   /// Of a table's values in the one at (u, zeta), size(); the tooth does not matter.
   /// @throws InvalidInput  "place.u" or "place.zeta" off the flank, by more than round-off (1e-9)
   Eigen::VectorXd weights(const FlankPlace& place) const;

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
+#include "core/compliance/fitted/refinement_library.hpp"
 #include "studies/results_json.hpp"
 #include "studies/run_study.hpp"
 #include "studies/study_file.hpp"
@@ -179,6 +180,47 @@ TEST_CASE("A gear's body that the compliance does not know of is said to be left
   REQUIRE(results.notes.size() == 1);
   CHECK_THAT(results.notes[0], Catch::Contains("does not know of it"));
   CHECK(!results.structures.finite_elements);
+}
+
+TEST_CASE("A study by fitted compliance: a coarse mesh of its gears and the library of fits come close to fe", "[studies][fitted]") {
+  const ScratchCache cache;
+  const std::vector<Override> wider{{"pinion.face_width", "8"}, {"wheel.face_width", "8"}, {"pair.helix_angle", "15"}};
+  auto fitted = wider;
+  fitted.push_back({"fidelity.compliance", "fitted"});
+  const StudyResults ours = run(twins, fitted);
+  const json results = json::parse(results_json(ours));
+  const json& compliance = results["compliance"];
+  CHECK(compliance["model"] == "fitted");
+  CHECK(compliance["fits"]["gears"] == RefinementLibrary::shipped().entries().size());
+  CHECK(compliance["fits"]["largest_residual_percent"]["median"] < 0.5);
+  CHECK(compliance["pinion"]["source"] == "solved");
+  CHECK(compliance["pinion"]["file"] == compliance["wheel"]["file"]);
+
+  for (std::size_t i = 0; i < ours.models[0].positions.size(); ++i) {
+    const MeshPosition& at = ours.models[0].positions[i];
+    CHECK(at.influence == at.influence.transpose());
+    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(at.influence).eigenvalues();
+    CHECK(values[0] > -1e-13 * values[values.size() - 1]);  // round-off
+  }
+
+  const StudyResults fe = run(twins, wider);
+  CHECK(json::parse(results_json(fe))["compliance"]["pinion"]["unknowns"] > 1.5 * compliance["pinion"]["unknowns"].get<double>());
+  CHECK(cache.files().size() == 2);  // coarse and fine runs are not taken for each other
+  CHECK(ours.loaded[0].summary.te_mean == Approx(fe.loaded[0].summary.te_mean).epsilon(0.005));  // model, as asked of the fits
+}
+
+TEST_CASE("A gear that the library of fits does not know is refused when the study is read, and fe offered", "[studies][fitted]") {
+  const auto refused = [](const std::string& key, const std::string& value) {
+    return refusal({{"pinion.face_width", "8"}, {"wheel.face_width", "8"}, {"fidelity.compliance", "fitted"}, {key, value}});
+  };
+  CHECK(refused("pinion.profile_shift", "0.2").empty());
+  for (const auto& [key, value] : {std::pair{"wheel.face_width", "7"}, std::pair{"pinion.rack.dedendum", "1.4"},
+                                   std::pair{"pinion.teeth", "11"}, std::pair{"pinion.profile_shift", "0.65"}}) {
+    CAPTURE(key, refused(key, value));
+    CHECK_THAT(refused(key, value), Catch::Contains(key));
+    CHECK_THAT(refused(key, value), Catch::Contains("fe"));
+  }
+  CHECK_THAT(refused("pair.pressure_angle", "25"), Catch::Contains("pressure_angle"));
 }
 
 }  // namespace flankwright::studies

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string>
 
@@ -27,7 +28,11 @@ double lowest_eigenvalue(const std::vector<Eigen::MatrixXd>& tables) {
 }  // namespace
 
 InfluenceTable::InfluenceTable(FlankGrid grid, std::vector<Eigen::MatrixXd> tables, TableProjection projection)
-    : grid_(std::move(grid)), tables_(std::move(tables)), projection_(projection) {
+    : grid_(std::move(grid)),
+      tables_(std::move(tables)),
+      along_u_(grid_.us()),
+      along_zeta_(grid_.zetas()),
+      projection_(projection) {
   const auto fits = [&](const Eigen::MatrixXd& t) {
     return t.rows() == grid_.size() && t.cols() == grid_.size() && t.allFinite();
   };
@@ -35,6 +40,7 @@ InfluenceTable::InfluenceTable(FlankGrid grid, std::vector<Eigen::MatrixXd> tabl
     throw InvalidInput("tables", std::to_string(tables_.size()) + " tables",
                        "finite square ones of the grid's size, the first with a positive diagonal");
   }
+  make_coefficients();
 }
 
 InfluenceTable::InfluenceTable(FlankGrid grid, std::vector<Eigen::MatrixXd> tables)
@@ -44,30 +50,73 @@ InfluenceTable::InfluenceTable(FlankGrid grid, std::vector<Eigen::MatrixXd> tabl
   projection_.lowest_eigenvalue = lowest_eigenvalue(tables_);
   projection_.added = std::max(0.0, -projection_.lowest_eigenvalue);
   own.diagonal() *= 1 + projection_.added;
+  make_coefficients();
+}
+
+void InfluenceTable::make_coefficients() {
+  const Eigen::MatrixXd &u = along_u_.coefficients(), &zeta = along_zeta_.coefficients();
+  Eigen::MatrixXd both(grid_.size(), grid_.size());
+  for (Eigen::Index i = 0; i < u.rows(); ++i) {
+    for (Eigen::Index j = 0; j < u.cols(); ++j) {
+      both.block(i * zeta.rows(), j * zeta.cols(), zeta.rows(), zeta.cols()) = u(i, j) * zeta;
+    }
+  }
+  coefficients_.clear();
+  for (const Eigen::MatrixXd& table : tables_) coefficients_.push_back(both * table * both.transpose());
+}
+
+/// Where a place's B-splines stand in a table, and their values.
+struct InfluenceTable::LocalPlace {
+  std::array<Eigen::Index, 4> rows;  ///< the first of four in a row, for each B-spline along u
+  Eigen::Vector4d along_u, along_zeta;
+};
+
+InfluenceTable::LocalPlace InfluenceTable::local_place(const FlankPlace& place) const {
+  grid_.require_on_flank(place);
+  const LocalSpline::Weights u = along_u_.at(place.u), zeta = along_zeta_.at(place.zeta);
+  LocalPlace local{{}, Eigen::Vector4d(u.values.data()), Eigen::Vector4d(zeta.values.data())};
+  for (std::size_t k = 0; k < 4; ++k) {
+    local.rows[k] = (u.first + static_cast<Eigen::Index>(k)) * std::ssize(grid_.zetas()) + zeta.first;
+  }
+  return local;
 }
 
 Eigen::MatrixXd InfluenceTable::evaluate(std::span<const FlankPlace> points) const {
-  std::map<int, std::vector<Eigen::Index>> of_tooth;
-  Eigen::MatrixXd weights(grid_.size(), std::ssize(points));
+  std::vector<LocalPlace> places;
+  std::map<int, std::vector<std::size_t>> of_tooth;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const auto column = static_cast<Eigen::Index>(i);
-    weights.col(column) = grid_.weights(points[i]);
-    of_tooth[points[i].tooth].push_back(column);
+    places.push_back(local_place(points[i]));
+    of_tooth[points[i].tooth].push_back(i);
   }
   Eigen::MatrixXd result(std::ssize(points), std::ssize(points));
+  Eigen::VectorXd deflection(grid_.size());
   for (const auto& [loaded, columns] : of_tooth) {
-    const Eigen::MatrixXd forces = weights(Eigen::all, columns);
     for (const auto& [tooth, rows] : of_tooth) {
       if (tooth > loaded) break;
       if (loaded - tooth > teeth_apart()) {
         throw InvalidInput("place.tooth", std::to_string(loaded - tooth) + " pitches apart",
                            "at most " + std::to_string(teeth_apart()));
       }
-      const Eigen::MatrixXd& table = tables_[static_cast<std::size_t>(loaded - tooth)];
-      Eigen::MatrixXd block = weights(Eigen::all, rows).transpose() * (table * forces);
-      if (tooth == loaded) block = (0.5 * (block + block.transpose())).eval();
-      result(rows, columns) = block;
-      result(columns, rows) = block.transpose();
+      const Eigen::MatrixXd& table = coefficients_[static_cast<std::size_t>(loaded - tooth)];
+      for (const std::size_t q : columns) {
+        const LocalPlace& force = places[q];
+        deflection.setZero();
+        for (int k = 0; k < 4; ++k) {
+          deflection.noalias() += table.middleCols<4>(force.rows[static_cast<std::size_t>(k)]) *
+                                  (force.along_u[k] * force.along_zeta);
+        }
+        for (const std::size_t p : rows) {
+          if (tooth == loaded && p > q) break;
+          const LocalPlace& place = places[p];
+          double value = 0;
+          for (int k = 0; k < 4; ++k) {
+            value += place.along_u[k] *
+                     place.along_zeta.dot(deflection.segment<4>(place.rows[static_cast<std::size_t>(k)]));
+          }
+          const auto i = static_cast<Eigen::Index>(p), j = static_cast<Eigen::Index>(q);
+          result(i, j) = result(j, i) = value;
+        }
+      }
     }
   }
   return result;

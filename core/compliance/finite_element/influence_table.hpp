@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/compliance/flank_grid.hpp"
+#include "core/compliance/local_spline.hpp"
 #include "core/gear/gear_data.hpp"
 
 namespace flankwright {
@@ -47,8 +48,14 @@ class InfluenceTable final : public FlankCompliance {
   const TableProjection& projection() const { return projection_; }
 
  private:
+  struct LocalPlace;
+  LocalPlace local_place(const FlankPlace& place) const;
+  void make_coefficients();
+
   FlankGrid grid_;
   std::vector<Eigen::MatrixXd> tables_;
+  LocalSpline along_u_, along_zeta_;
+  std::vector<Eigen::MatrixXd> coefficients_;  ///< of the tables' splines in B-splines, 16 of which a place needs
   TableProjection projection_;
 };
 

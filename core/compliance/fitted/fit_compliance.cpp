@@ -45,7 +45,7 @@ class PairResiduals final : public ResidualFunction {
             pairs_.push_back({sums_.size() - 1, p, q, 0, 0});
             count.push_back(0);
           }
-          pairs_[entry->second].known += known;
+          pairs_[entry->second].known += known - sample.given_at(i, j);
           pairs_[entry->second].scale += std::max(std::abs(known), floor);
           ++count[entry->second - first];
           teeth_apart_ = std::max(teeth_apart_, apart);
@@ -170,6 +170,7 @@ std::vector<InfluenceSample> known_to(const KernelForm& form, std::span<const In
         own.points.push_back(sample.points[i]);
       }
       own.compliance = sample.compliance(chosen, chosen);
+      if (sample.given.size() != 0) own.given = sample.given(chosen, chosen);
       by_tooth.push_back(std::move(own));
     }
   }
@@ -197,7 +198,7 @@ std::vector<double> flat_start(const KernelForm& form, std::span<const Influence
   for (const InfluenceSample& sample : samples) {
     for (Index p = 0; p < sample.compliance.rows(); ++p) {
       for (Index q = 0; q <= p; ++q) {
-        const double known = sample.at(p, q);
+        const double known = sample.at(p, q) - sample.given_at(p, q);
         if (std::isnan(known)) continue;
         least = std::min(least, known);
         if (p == q) {

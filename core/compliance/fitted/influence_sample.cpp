@@ -50,6 +50,10 @@ void InfluenceSample::validate() const {
                        std::to_string(compliance.rows()) + " x " + std::to_string(compliance.cols()),
                        "as many rows and columns as points, " + std::to_string(n));
   }
+  if (given.size() != 0 && (given.rows() != n || given.cols() != n || !given.allFinite())) {
+    throw InvalidInput("sample.given", std::to_string(given.rows()) + " x " + std::to_string(given.cols()),
+                       "nothing, or finite values as many as the compliance has");
+  }
   for (const FlankPlace& point : points) {
     if (!(std::abs(point.u) <= 1.05)) throw InvalidInput("sample.u", std::to_string(point.u), "-1.05 .. 1.05");
     if (!(point.zeta >= 0 && point.zeta <= gear.relative_face)) {

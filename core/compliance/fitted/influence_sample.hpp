@@ -27,6 +27,12 @@ struct InfluenceSample {
   GearFacts gear;
   std::vector<FlankPlace> points;  ///< n
   Eigen::MatrixXd compliance;      ///< E m_n K [-], n x n; NaN where nobody computed it
+  /// The share of it that is known otherwise, n x n, symmetric; empty: none. A fit is made of the rest, to errors
+  /// relative to the whole.
+  Eigen::MatrixXd given{};
+
+  /// `given` of a pair, 0 where there is none.
+  double given_at(Eigen::Index p, Eigen::Index q) const { return given.size() == 0 ? 0.0 : given(p, q); }
 
   /// Reciprocal value of a pair: the mean of both directions, the only one where just one is known, NaN where none is.
   double at(Eigen::Index p, Eigen::Index q) const;
@@ -35,7 +41,8 @@ struct InfluenceSample {
   double asymmetry() const;
 
   /// @throws InvalidInput where the matrix does not fit the points, a point is off the flank (|u| <= 1.05, zeta in
-  ///         0 .. B), a value on the diagonal is known and not positive, or a value is infinite
+  ///         0 .. B), a value on the diagonal is known and not positive, a value is infinite, or `given` is neither
+  ///         empty nor finite and as large as the matrix
   void validate() const;
 };
 

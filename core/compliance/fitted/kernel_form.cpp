@@ -52,6 +52,10 @@ KernelForm KernelForm::several_teeth() {
   return form;
 }
 
+KernelForm KernelForm::refinement() {
+  return {{Kernel{}, Kernel{}}, {}, false};
+}
+
 int KernelForm::tooth_count() const {
   int sum = kWarpCoefficients;
   for (const Kernel& kernel : kernels) sum += kernel.count();

@@ -8,7 +8,7 @@
 namespace flankwright {
 
 std::vector<ResidualStatistics> residual_statistics(const FlankCompliance& model,
-                                                    std::span<const InfluenceSample> samples) {
+                                                    std::span<const InfluenceSample> samples, double floor) {
   std::map<int, std::vector<double>> errors;
   for (const InfluenceSample& sample : samples) {
     sample.validate();
@@ -19,7 +19,9 @@ std::vector<ResidualStatistics> residual_statistics(const FlankCompliance& model
         if (std::isnan(known)) continue;
         const int apart = std::abs(sample.points[static_cast<std::size_t>(p)].tooth -
                                    sample.points[static_cast<std::size_t>(q)].tooth);
-        errors[apart].push_back(std::abs(K(p, q) - known) / std::abs(known));
+        const double own = std::sqrt(sample.compliance(p, p) * sample.compliance(q, q));
+        const double scale = std::isnan(own) ? std::abs(known) : std::max(std::abs(known), floor * own);
+        errors[apart].push_back(std::abs(K(p, q) + sample.given_at(p, q) - known) / scale);
       }
     }
   }

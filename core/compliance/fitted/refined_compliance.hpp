@@ -1,0 +1,38 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/compliance/fitted/influence_sample.hpp"
+#include "core/compliance/fitted/kernel_form.hpp"
+
+namespace flankwright {
+
+/// A gear's compliance by a coarse mesh, completed by fitted kernels:
+///
+///     K(p, q) = K_coarse(p, q) + sum over kernels h(p) h(q)/sqrt(A R) rho(Q)   [KernelForm, the kernels of one tooth]
+///
+/// positive semi-definite as both parts are. The gear body, neighbouring teeth and the tooth as a whole come from the
+/// coarse mesh; the kernels, what the tooth gives way around the load beyond that.
+class RefinedCompliance final : public FlankCompliance {
+ public:
+  /// @param coarse        of the same gear by coarse_mesh()
+  /// @param coefficients  of KernelForm::refinement(), finite
+  /// @throws InvalidInput "coarse", "gear" or "coefficients"
+  RefinedCompliance(std::shared_ptr<const FlankCompliance> coarse, const GearFacts& gear,
+                    std::vector<double> coefficients);
+
+  /// @throws InvalidInput as the coarse compliance
+  Eigen::MatrixXd evaluate(std::span<const FlankPlace> points) const override;
+
+  const FlankCompliance& coarse() const { return *coarse_; }
+  const std::vector<double>& coefficients() const { return coefficients_; }
+
+ private:
+  std::shared_ptr<const FlankCompliance> coarse_;
+  GearFacts gear_;
+  KernelForm form_;
+  std::vector<double> coefficients_;
+};
+
+}  // namespace flankwright

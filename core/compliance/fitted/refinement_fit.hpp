@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include "core/compliance/finite_element/influence.hpp"
+#include "core/compliance/fitted/fit_compliance.hpp"
+#include "core/compliance/fitted/refinement_library.hpp"
+
+namespace flankwright {
+
+/// The mesh that `fitted` solves of every gear, in a second or two: enough for the gear body, the neighbouring teeth
+/// and whatever is a module or more away from the load. How it compares is in the folder's README.
+GearMeshOptions coarse_mesh();
+
+/// The gear that a library's entry is made from: standard rack, 20 deg, m_n = 1, the body of GearBody's defaults.
+GearToMesh standard_gear(const GearFacts& gear);
+
+/// Influence values between places of one tooth by the mesh given, E = 1, nu = 0.3.
+InfluenceSample element_sample(const GearFacts& gear, const GearMeshOptions& mesh,
+                               const std::vector<FlankPlace>& places);
+
+/// A tensor grid of places on a tooth.
+std::vector<FlankPlace> places_on(const std::vector<double>& us, const std::vector<double>& zetas);
+
+/// What a refinement is made from: a gear's influence values by the fine mesh, with those by the coarse one as the
+/// share that is `given`.
+struct RefinementSamples {
+  InfluenceSample fitted;  ///< 6 radii x 20 axial positions, symmetric about mid face
+  InfluenceSample unseen;  ///< 5 x 7 others, for the residuals alone
+};
+
+/// @param gear   relative_face >= 7: the outer 3.2 modules at both ends have places at fixed distances from the end
+/// @param fine   the mesh whose values are to be met
+RefinementSamples refinement_samples(const GearFacts& gear, const GearMeshOptions& fine);
+
+/// Pairs count relative to max(|K|, kScaleFloor sqrt(K_pp K_qq)), in the fit and in its residuals.
+inline constexpr double kScaleFloor = 0.01;
+
+/// Fits KernelForm::refinement(). For a spur gear the samples and the start are alike at both ends, and so is the fit.
+/// @param start  coefficients of a neighbouring entry, which the fit is drawn towards; empty: flat_start()
+RefinementEntry fit_refinement(const RefinementSamples& samples, const std::vector<double>& start);
+
+}  // namespace flankwright

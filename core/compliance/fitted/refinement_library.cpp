@@ -1,0 +1,151 @@
+#include "core/compliance/fitted/refinement_library.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <sstream>
+#include <tuple>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+#include "core/compliance/fitted/shipped_refinements.hpp"
+
+namespace flankwright {
+namespace {
+
+/// Lagrange's polynomials through the nodes, at x.
+std::vector<double> cardinal_polynomials(const std::vector<double>& nodes, double x) {
+  std::vector<double> weights(nodes.size(), 1.0);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    for (std::size_t j = 0; j < nodes.size(); ++j) {
+      if (j != i) weights[i] *= (x - nodes[j]) / (nodes[i] - nodes[j]);
+    }
+  }
+  return weights;
+}
+
+template <class Value>
+void sort_unique(std::vector<Value>& values) {
+  std::ranges::sort(values);
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+constexpr double kRoundOff = 1e-9;  // of ranges' ends computed from degrees or millimetres
+
+void require_within(const std::string& field, double value, double low, double high, const std::string& unit = "") {
+  if (value >= low - kRoundOff && value <= high + kRoundOff) return;
+  std::ostringstream range;
+  range << low;
+  if (high > low) range << " .. " << high;
+  throw InvalidInput(field, std::to_string(value),
+                     range.str() + unit + " in the library of fits; compliance \"fe\" has no such limit");
+}
+
+}  // namespace
+
+GearFacts facts_of(const GearToMesh& gear) {
+  return {gear.gear.teeth, gear.helix_angle, gear.gear.face_width / gear.normal_module, gear.gear.profile_shift};
+}
+
+std::vector<double> mirrored(const KernelForm& form, const std::vector<double>& coefficients) {
+  std::vector<double> result = coefficients;
+  // The warp of the axis, counted from the other end.
+  result[0] = -coefficients[0];
+  std::swap(result[1], result[3]);
+  std::swap(result[2], result[4]);
+  auto at = result.begin() + KernelForm::kWarpCoefficients;
+  for (const Kernel& kernel : form.kernels) {
+    for (const EndPolynomial* polynomial : {&kernel.amplitude, &kernel.axial, &kernel.radial}) {
+      at += polynomial->middle;
+      for (const int powers : polynomial->end) {
+        std::swap_ranges(at, at + powers, at + powers);
+        at += 2 * powers;
+      }
+    }
+    if (kernel.couples_teeth()) {
+      ++at;
+      *at = -*at;
+      ++at;
+    }
+  }
+  return result;
+}
+
+RefinementLibrary::RefinementLibrary(std::vector<RefinementEntry> entries) : entries_(std::move(entries)) {
+  const auto wrong = [](const std::string& what) {
+    throw InvalidInput("library", what, "an entry for each combination of its teeth, helix angles from 0 and profile shifts");
+  };
+  if (entries_.empty()) wrong("no entries");
+  for (const RefinementEntry& entry : entries_) {
+    entry.gear.validate();
+    if (static_cast<int>(entry.coefficients.size()) != KernelForm::refinement().count()) wrong("coefficients of another form");
+    teeth_.push_back(entry.gear.teeth);
+    helix_angles_.push_back(entry.gear.helix_angle);
+    profile_shifts_.push_back(entry.gear.profile_shift);
+  }
+  sort_unique(teeth_);
+  sort_unique(helix_angles_);
+  sort_unique(profile_shifts_);
+  const auto key = [](const RefinementEntry& entry) {
+    return std::tuple(entry.gear.teeth, entry.gear.helix_angle, entry.gear.profile_shift);
+  };
+  std::ranges::sort(entries_, {}, key);
+  if (std::ranges::adjacent_find(entries_, {}, key) != entries_.end()) wrong("an entry twice");
+  if (entries_.size() != teeth_.size() * helix_angles_.size() * profile_shifts_.size()) wrong("an entry missing");
+  if (helix_angles_.front() != 0) wrong("no spur gears");
+}
+
+const RefinementLibrary& RefinementLibrary::shipped() {
+  static const RefinementLibrary library(entries_in(shipped_refinements));
+  return library;
+}
+
+void RefinementLibrary::require_known(const GearToMesh& gear, double poissons_ratio) const {
+  const GearData& data = gear.gear;
+  const double module = gear.normal_module;
+  require_within("pressure_angle", gear.pressure_angle / units::deg, 20, 20, " deg");
+  require_within("helix_angle", gear.helix_angle / units::deg, 0, helix_angles_.back() / units::deg, " deg");
+  require_within("teeth", data.teeth, teeth_.front(), teeth_.back());
+  require_within("profile_shift", data.profile_shift, profile_shifts_.front(), profile_shifts_.back());
+  require_within("face_width", data.face_width / module, 2, 30, " normal modules");
+  require_within("rack.addendum", data.rack.addendum, 1, 1);
+  require_within("rack.dedendum", data.rack.dedendum, 1.25, 1.25);
+  require_within("rack.root_radius", data.rack.root_radius, 0.38, 0.39);
+  require_within("poissons_ratio", poissons_ratio, 0.25, 0.35);
+  if (!std::isnan(data.tip_diameter)) {
+    const double rack = data.teeth / std::cos(gear.helix_angle) + 2 * (data.rack.addendum + data.profile_shift);
+    require_within("tip_diameter", data.tip_diameter / module, rack - 0.2, rack + 0.02, " normal modules");
+  }
+}
+
+std::vector<double> RefinementLibrary::coefficients(const GearFacts& gear) const {
+  std::vector<double> inverse_teeth, angles;
+  for (const int z : teeth_) inverse_teeth.push_back(1.0 / z);
+  for (std::size_t i = helix_angles_.size(); i-- > 1;) angles.push_back(-helix_angles_[i]);
+  angles.insert(angles.end(), helix_angles_.begin(), helix_angles_.end());
+  const std::vector<double> of_teeth = cardinal_polynomials(inverse_teeth, 1.0 / gear.teeth),
+                            of_angle = cardinal_polynomials(angles, gear.helix_angle),
+                            of_shift = cardinal_polynomials(profile_shifts_, gear.profile_shift);
+  const KernelForm form = KernelForm::refinement();
+  const std::size_t centre = helix_angles_.size() - 1;
+  std::vector<double> sum(static_cast<std::size_t>(form.count()), 0.0);
+  const auto add = [&sum](double weight, const std::vector<double>& values) {
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * values[i];
+  };
+  auto entry = entries_.begin();
+  for (const double z : of_teeth) {
+    for (std::size_t b = 0; b <= centre; ++b) {
+      // beta = 0 stands for both of its halves.
+      const double here = b == 0 ? 0.5 * of_angle[centre] : of_angle[centre + b];
+      const double there = b == 0 ? 0.5 * of_angle[centre] : of_angle[centre - b];
+      for (const double x : of_shift) {
+        add(z * x * here, entry->coefficients);
+        add(z * x * there, mirrored(form, entry->coefficients));
+        ++entry;
+      }
+    }
+  }
+  return sum;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,94 @@
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <sstream>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+#include "core/compliance/fitted/refinement_library.hpp"
+
+namespace flankwright {
+namespace {
+
+/// The shortest text that reads back as the same number.
+void append(std::string& text, double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  if (!text.empty()) text += ' ';
+  text.append(buffer, end);
+}
+
+/// Numbers of a line, empty where one of its words is none.
+std::vector<double> numbers_in(const std::string& line) {
+  std::istringstream words(line);
+  std::vector<double> numbers;
+  for (std::string word; words >> word;) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size()) return {};
+    numbers.push_back(value);
+  }
+  return numbers;
+}
+
+void append(std::string& text, const ResidualStatistics& residuals) {
+  for (const double value : {static_cast<double>(residuals.pairs), residuals.median, residuals.share_95, residuals.worst}) {
+    append(text, value);
+  }
+}
+
+constexpr std::size_t kBeforeCoefficients = 16;
+
+std::optional<RefinementEntry> entry_in(const std::string& line) {
+  const std::vector<double> x = numbers_in(line);
+  if (x.size() != kBeforeCoefficients + static_cast<std::size_t>(KernelForm::refinement().count())) return std::nullopt;
+  const auto residuals = [&](std::size_t at) {
+    return ResidualStatistics{0, static_cast<int>(x[at]), x[at + 1], x[at + 2], x[at + 3]};
+  };
+  RefinementEntry entry;
+  entry.gear = {static_cast<int>(x[0]), x[1] * units::deg, x[3], x[2]};
+  if (x[4] != 0 && x[4] != 1) return std::nullopt;
+  entry.status = x[4] == 1 ? FitStatus::Converged : FitStatus::IterationLimit;
+  entry.iterations = static_cast<int>(x[5]);
+  entry.pairs = static_cast<int>(x[6]);
+  entry.seconds = x[7];
+  entry.fitted = residuals(8);
+  entry.unseen = residuals(12);
+  entry.coefficients.assign(x.begin() + kBeforeCoefficients, x.end());
+  return entry;
+}
+
+}  // namespace
+
+std::string to_text(const RefinementEntry& entry) {
+  std::string text;
+  // Angles are whole tenths of a degree; the radians' last bits must not show.
+  append(text, entry.gear.teeth);
+  append(text, std::round(entry.gear.helix_angle / units::deg * 1e9) / 1e9);
+  append(text, entry.gear.profile_shift);
+  append(text, entry.gear.relative_face);
+  append(text, entry.status == FitStatus::Converged ? 1.0 : 0.0);
+  append(text, entry.iterations);
+  append(text, entry.pairs);
+  append(text, std::round(entry.seconds * 10) / 10);
+  append(text, entry.fitted);
+  append(text, entry.unseen);
+  for (const double coefficient : entry.coefficients) append(text, coefficient);
+  return text + '\n';
+}
+
+std::vector<RefinementEntry> entries_in(std::string_view text) {
+  std::istringstream lines{std::string(text)};
+  std::vector<RefinementEntry> entries;
+  int number = 0;
+  for (std::string line; std::getline(lines, line);) {
+    ++number;
+    if (line.empty() || line.front() == '#') continue;
+    const std::optional<RefinementEntry> entry = entry_in(line);
+    if (!entry) throw InvalidInput("library", "line " + std::to_string(number), "an entry of a library of fits");
+    entries.push_back(*entry);
+  }
+  return entries;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,128 @@
+#include "studies/library_command.hpp"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <ranges>
+#include <stdexcept>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+#include "core/compliance/fitted/refinement_fit.hpp"
+#include "studies/progress.hpp"
+#include "studies/results_folder.hpp"
+#include "studies/results_json.hpp"
+
+namespace flankwright::studies {
+namespace {
+
+/// A gear of the library and the one whose fit it starts from, -1: none.
+struct Step {
+  GearFacts gear;
+  int start{-1};
+};
+
+/// From the middle outwards: each gear starts from its neighbour towards the middle, a helical one from the same gear
+/// with less helix.
+std::vector<Step> steps() {
+  constexpr std::array<int, 3> kTeeth{30, 12, 150}, kTeethFrom{-1, 0, 0};
+  constexpr std::array<double, 2> kShifts{0.6, -0.4};
+  constexpr std::array<double, 2> kAngles{0, 35};
+  constexpr double kFace = 8;
+  constexpr int kTeethCount = std::ssize(kTeeth), kRow = kTeethCount * std::ssize(kShifts);
+  std::vector<Step> list;
+  for (std::size_t b = 0; b < kAngles.size(); ++b) {
+    for (std::size_t x = 0; x < kShifts.size(); ++x) {
+      for (std::size_t z = 0; z < kTeeth.size(); ++z) {
+        const int here = static_cast<int>(list.size());
+        const int start = b > 0 ? here - kRow : x > 0 ? static_cast<int>(z) : kTeethFrom[z];
+        list.push_back({{kTeeth[z], kAngles[b] * units::deg, kFace, kShifts[x]}, start});
+      }
+    }
+  }
+  return list;
+}
+
+std::string mesh_line(const char* name, const GearMeshOptions& mesh) {
+  return fmt::format(
+      "# {} mesh: flank {} fillet {} half_thickness {} adjacent_flank {} adjacent_fillet {} end {} growth {} largest {} "
+      "most_layers {} body_growth {} shaft {}\n",
+      name, mesh.flank_elements, mesh.fillet_elements, mesh.half_thickness_elements, mesh.adjacent_flank_elements,
+      mesh.adjacent_fillet_elements, mesh.end_element, mesh.axial_growth, mesh.largest_element,
+      mesh.most_layers, mesh.body_growth, mesh.shaft_elements);
+}
+
+/// What a file must have been made with to be gone on with.
+std::string settings_text() {
+  return fmt::format(
+      "# What a fine mesh adds to the tooth compliance E m_n K by a coarse one, fitted: coefficients of gears of the\n"
+      "# standard rack (1 / 1.25 / 0.39, 20 deg), nu = 0.3. Made by `flankwright library`, version {}.\n"
+      "{}{}"
+      "# columns: teeth, helix angle [deg], x, b/m_n, converged, steps, pairs, seconds, then pairs and median, 95 % and\n"
+      "# worst relative residual [-] of the places fitted and of others, then the coefficients of KernelForm::refinement().\n",
+      version(), mesh_line("fine", {}), mesh_line("coarse", coarse_mesh()));
+}
+
+std::vector<RefinementEntry> entries_so_far(const std::filesystem::path& path, const std::vector<Step>& list) {
+  if (!std::filesystem::exists(path)) return {};
+  const std::string text = read_whole(path);
+  std::vector<RefinementEntry> entries = entries_in(text);
+  const bool same = std::ranges::equal(entries, list | std::views::take(std::ssize(entries)), {}, &RefinementEntry::gear,
+                                       &Step::gear);
+  if (!text.starts_with(settings_text()) || !same) {
+    throw InvalidInput("library", path.string(), "a file that this program began with the same gears and meshes, or none");
+  }
+  return entries;
+}
+
+RefinementEntry fit(const RefinementSamples& samples, const Step& step, const std::vector<RefinementEntry>& entries) {
+  return fit_refinement(samples, step.start < 0 ? std::vector<double>{}
+                                                : entries[static_cast<std::size_t>(step.start)].coefficients);
+}
+
+}  // namespace
+
+int library_command(const std::string& path) {
+  const std::vector<Step> list = steps();
+  std::vector<RefinementEntry> entries = entries_so_far(path, list);
+  Progress progress;
+  const auto show = [&] {
+    progress.show("library of fits", static_cast<int>(entries.size()), static_cast<int>(list.size()), {});
+  };
+  show();
+  const auto abreast = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  while (entries.size() < list.size()) {
+    const std::size_t begin = entries.size(), count = std::min(abreast, list.size() - begin);
+    std::vector<RefinementSamples> samples(count);
+    std::vector<double> seconds(count);
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      const auto start = std::chrono::steady_clock::now();
+      samples[i] = refinement_samples(list[begin + i].gear, {});
+      seconds[i] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto start = std::chrono::steady_clock::now();
+      RefinementEntry entry = fit(samples[i], list[begin + i], entries);
+      entry.seconds = seconds[i] + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      if (entry.coefficients.empty()) throw std::runtime_error("a fit of the library has failed");
+      entries.push_back(std::move(entry));
+    }
+    std::string text = settings_text();
+    for (const RefinementEntry& entry : entries) text += to_text(entry);
+    write_whole(path, text);
+    show();
+  }
+  const auto missed = std::ranges::count_if(
+      entries, [](const RefinementEntry& entry) { return entry.status != FitStatus::Converged; });
+  fmt::print("{}: {} gears, {} fits that did not converge\n", path, entries.size(), missed);
+  return missed == 0 ? 0 : 1;
+}
+
+}  // namespace flankwright::studies

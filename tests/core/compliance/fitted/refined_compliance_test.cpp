@@ -1,0 +1,49 @@
+#include "core/compliance/fitted/refined_compliance.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <memory>
+
+#include "core/base/error.hpp"
+#include "core/compliance/fitted/fitted_compliance.hpp"
+#include "core/compliance/fitted/refinement_library.hpp"
+#include "tests/core/compliance/fitted/random_gear.hpp"
+
+using namespace flankwright;
+using namespace flankwright::testing;
+
+TEST_CASE("A refined compliance adds to a tooth, not between teeth, and does no negative work", "[core][compliance][fitted]") {
+  std::mt19937 random(11);
+  const GearFacts gear = helical_gear();
+  const KernelForm form = KernelForm::several_teeth();
+  FitRecord record;
+  record.range.teeth_apart = 4;
+  const auto coarse = std::make_shared<FittedCompliance>(form, gear, random_coefficients(form, random, 0.2), record);
+  const RefinedCompliance refined(coarse, gear, RefinementLibrary::shipped().coefficients(gear));
+  const std::vector<FlankPlace> places = random_places(100, gear.relative_face, -2, 2, random);
+  const Eigen::MatrixXd before = coarse->evaluate(places), after = refined.evaluate(places);
+  CHECK(after == after.transpose());
+  for (std::size_t p = 0; p < places.size(); ++p) {
+    const auto i = static_cast<Eigen::Index>(p);
+    CHECK(after(i, i) > before(i, i));
+    for (std::size_t q = 0; q < p; ++q) {
+      const auto j = static_cast<Eigen::Index>(q);
+      if (places[p].tooth != places[q].tooth) CHECK(after(i, j) == before(i, j));
+    }
+  }
+  const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(after).eigenvalues();
+  CHECK(values[0] > -1e-13 * values[values.size() - 1]);  // round-off
+}
+
+TEST_CASE("A refined compliance needs a coarse one and coefficients of its form", "[core][compliance][fitted]") {
+  const GearFacts gear = helical_gear();
+  std::vector<double> coefficients = RefinementLibrary::shipped().coefficients(gear);
+  CHECK_THROWS_AS(RefinedCompliance(nullptr, gear, coefficients), InvalidInput);
+  const KernelForm form = KernelForm::one_tooth();
+  const auto coarse = std::make_shared<FittedCompliance>(
+      form, gear, std::vector<double>(static_cast<std::size_t>(form.count()), 0.0), FitRecord{});
+  CHECK_THROWS_AS(RefinedCompliance(coarse, gear, {1, 2}), InvalidInput);
+  coefficients[3] = NAN;
+  CHECK_THROWS_AS(RefinedCompliance(coarse, gear, coefficients), InvalidInput);
+}

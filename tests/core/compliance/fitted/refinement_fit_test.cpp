@@ -1,0 +1,110 @@
+#include "core/compliance/fitted/refinement_fit.hpp"
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+#include "core/compliance/finite_element/solve_influence_table.hpp"
+#include "core/compliance/fitted/refined_compliance.hpp"
+#include "tests/core/compliance/fitted/random_gear.hpp"
+#include "tests/core/compliance/fitted/synthetic_gear.hpp"
+
+using namespace flankwright;
+using namespace flankwright::testing;
+using units::deg;
+
+namespace {
+
+std::shared_ptr<const RefinedCompliance> refined(const GearFacts& gear) {
+  InfluenceTableTask task{.gear = standard_gear(gear), .mesh = coarse_mesh(), .grid = flank_grid(gear.relative_face)};
+  const InfluenceTableRun run = solve_influence_table(task, std::numeric_limits<double>::infinity());
+  REQUIRE(run.table);
+  CHECK(run.table->projection().added < 1e-4);  // discretisation: unlike meshes of neighbouring teeth
+  return std::make_shared<const RefinedCompliance>(std::make_shared<const InfluenceTable>(*run.table), gear,
+                                                   RefinementLibrary::shipped().coefficients(gear));
+}
+
+/// Places that neither the grid of the table nor the library has.
+std::vector<FlankPlace> test_places(double face) {
+  std::vector<FlankPlace> places;
+  for (int tooth = 0; tooth <= 2; ++tooth) {
+    for (const double u : tooth == 0 ? std::vector{-0.9, -0.55, -0.15, 0.2, 0.55, 0.95} : std::vector{-0.8, 0.1, 0.9}) {
+      for (const double from_end : {0.07, 0.2, 0.5, 0.95, 1.7}) {
+        places.push_back({tooth, u, from_end});
+        places.push_back({tooth, u, face - from_end - 0.04});
+      }
+      for (const double share : {0.41, 0.5, 0.63}) places.push_back({tooth, u, share * face});
+    }
+  }
+  return places;
+}
+
+}  // namespace
+
+TEST_CASE("What a fit adds to given values is what they lack", "[core][compliance][fitted]") {
+  const GearFacts gear = helical_gear();
+  const SyntheticGear truth(gear);
+  const KernelForm form = KernelForm::refinement();
+  std::mt19937 random(5);
+  std::vector<double> missing = random_coefficients(form, random, 0.1);
+  RefinementSamples samples{truth.sample(truth.grid(4, 9)), truth.sample(truth.grid(3, 7))};
+  for (InfluenceSample* sample : {&samples.fitted, &samples.unseen}) {
+    sample->given = sample->compliance;
+    sample->compliance += 0.1 * FittedCompliance(form, gear, missing, {}).evaluate(sample->points);
+  }
+  const RefinementEntry entry = fit_refinement(samples, {});
+  REQUIRE(!entry.coefficients.empty());
+  CHECK(entry.gear == gear);
+  // Discretisation: how far the solver has come against the ridge; without a fit 95 % are up to some percent off.
+  CHECK(entry.fitted.share_95 < 1e-3);
+  CHECK(entry.unseen.share_95 < 2e-3);
+  CHECK(entry.unseen.worst < 1e-2);
+}
+
+TEST_CASE("Samples of a refinement need a face wider than both ends", "[core][compliance][fitted]") {
+  CHECK_THROWS_AS(refinement_samples({20, 0, 6, 0}, {}), InvalidInput);
+}
+
+TEST_CASE("Fitted gears that the library has not seen come close to finite elements", "[.soak][core][compliance][fitted]") {
+  const GearFacts gear = GENERATE(GearFacts{24, 25 * deg, 12, 0.2}, GearFacts{43, 10 * deg, 12, -0.2},
+                                  GearFacts{90, 30 * deg, 12, 0}, GearFacts{15, 20 * deg, 12, 0.4},
+                                  GearFacts{30, 20 * deg, 6, 0}, GearFacts{30, 20 * deg, 25, 0}, GearFacts{18, 30 * deg, 12, 0},
+                                  GearFacts{20, 15 * deg, 3, 0}, GearFacts{12, 5 * deg, 10, -0.3});
+  const auto places = test_places(gear.relative_face);
+  const InfluenceSample fine = element_sample(gear, {}, places);
+  const auto model = refined(gear);
+  const auto errors = residual_statistics(*model, {&fine, 1}, kScaleFloor);
+  const auto coarse = residual_statistics(model->coarse(), {&fine, 1}, kScaleFloor);
+  for (std::size_t m = 0; m < errors.size(); ++m) {
+    WARN("Z " << gear.teeth << " beta " << gear.helix_angle / deg << " x " << gear.profile_shift << " b " << gear.relative_face
+              << ", " << m << " apart: " << 100 * errors[m].median << " / " << 100 * errors[m].share_95 << " / "
+              << 100 * errors[m].worst << " %, coarse alone " << 100 * coarse[m].median << " / " << 100 * coarse[m].share_95
+              << " / " << 100 * coarse[m].worst);
+  }
+  REQUIRE(errors.size() == 3);
+  // Model, as asked of gears between the library's.
+  CHECK(errors[0].median < 0.01);
+  CHECK(errors[0].share_95 < 0.04);
+  for (const std::size_t apart : {1, 2}) {
+    CHECK(errors[apart].median < 0.015);
+    CHECK(errors[apart].share_95 < 0.07);
+  }
+}
+
+TEST_CASE("What evaluating a fitted gear costs", "[.soak][core][compliance][fitted]") {
+  const GearFacts gear{24, 20 * deg, 12, 0};
+  const auto model = refined(gear);
+  std::mt19937 random(2);
+  const auto places = random_places(100, gear.relative_face, 0, 2, random);
+  constexpr int kRepeats = 200;
+  const auto start = std::chrono::steady_clock::now();
+  double sum = 0;
+  for (int i = 0; i < kRepeats; ++i) sum += model->evaluate(places)(0, 0);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  WARN("100 places: " << 1e3 * seconds / kRepeats << " ms");
+  CHECK(sum > 0);
+}

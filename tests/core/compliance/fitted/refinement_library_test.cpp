@@ -1,0 +1,154 @@
+#include "core/compliance/fitted/refinement_library.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+#include "core/compliance/fitted/kernel_sum.hpp"
+#include "core/compliance/fitted/refinement_fit.hpp"
+#include "tests/core/compliance/fitted/random_gear.hpp"
+
+using namespace flankwright;
+using namespace flankwright::testing;
+using units::deg;
+
+namespace {
+
+Eigen::MatrixXd kernels_between(const GearFacts& gear, const std::vector<double>& coefficients,
+                                const std::vector<FlankPlace>& places) {
+  KernelSum sum(KernelForm::refinement(), gear, places);
+  sum.set_coefficients(coefficients);
+  return sum.tooth_matrix();
+}
+
+std::string refusal(const GearToMesh& gear, double poissons_ratio = 0.3) {
+  try {
+    RefinementLibrary::shipped().require_known(gear, poissons_ratio);
+  } catch (const InvalidInput& problem) {
+    return problem.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("Every fit of the shipped library converged and meets what is asked of unseen places", "[core][compliance][fitted]") {
+  for (const RefinementEntry& entry : RefinementLibrary::shipped().entries()) {
+    CAPTURE(entry.gear.teeth, entry.gear.helix_angle / deg, entry.gear.profile_shift);
+    CHECK(entry.status == FitStatus::Converged);
+    // Model: how far coarse values and fit are from fine ones.
+    CHECK(entry.unseen.pairs > 600);
+    CHECK(entry.unseen.median < 0.005);
+    CHECK(entry.unseen.share_95 < 0.025);
+    CHECK(entry.unseen.worst < 0.08);
+  }
+}
+
+TEST_CASE("The library gives its own entries back, spur gears alike at both ends", "[core][compliance][fitted]") {
+  const RefinementLibrary& library = RefinementLibrary::shipped();
+  const auto places = places_on({-1, 0, 1}, {0, 0.3, 2, 4, 6, 7.7, 8});
+  for (const RefinementEntry& entry : library.entries()) {
+    CAPTURE(entry.gear.teeth, entry.gear.helix_angle / deg, entry.gear.profile_shift);
+    const std::vector<double> found = library.coefficients(entry.gear);
+    if (entry.gear.helix_angle != 0) {
+      for (std::size_t i = 0; i < found.size(); ++i) CHECK(found[i] == Approx(entry.coefficients[i]).margin(1e-12));
+    }
+    const Eigen::MatrixXd here = kernels_between(entry.gear, found, places),
+                          fitted = kernels_between(entry.gear, entry.coefficients, places);
+    CHECK((here - fitted).norm() < 1e-3 * fitted.norm());  // spur: the fit is as symmetric as its solver's steps are
+    if (entry.gear.helix_angle == 0) {
+      auto turned = places;
+      for (FlankPlace& place : turned) place.zeta = entry.gear.relative_face - place.zeta;
+      CHECK((kernels_between(entry.gear, found, turned) - here).norm() < 1e-12 * here.norm());  // round-off
+    }
+  }
+}
+
+TEST_CASE("Mirrored coefficients are the same kernels seen from the other end", "[core][compliance][fitted]") {
+  const KernelForm form = GENERATE(KernelForm::refinement(), KernelForm::several_teeth());
+  std::mt19937 random(3);
+  const GearFacts gear = helical_gear();
+  const std::vector<double> x = random_coefficients(form, random);
+  const std::vector<FlankPlace> places = random_places(20, gear.relative_face, -1, 1, random);
+  auto turned = places;
+  for (FlankPlace& place : turned) place.zeta = gear.relative_face - place.zeta;
+  KernelSum here(form, gear, places), there(form, gear, turned);
+  here.set_coefficients(x);
+  there.set_coefficients(mirrored(form, x));
+  const Eigen::MatrixXd K = here.tooth_matrix();
+  CHECK((there.tooth_matrix() - K).norm() < 1e-12 * K.norm());  // round-off
+}
+
+TEST_CASE("Between its entries the library neither overshoots nor does negative work", "[core][compliance][fitted]") {
+  const RefinementLibrary& library = RefinementLibrary::shipped();
+  double least = INFINITY, most = 0;
+  const auto middle_of = [&](const GearFacts& gear) {
+    const auto places = places_on({0}, {gear.relative_face / 2});
+    return kernels_between(gear, library.coefficients(gear), places)(0, 0);
+  };
+  for (const RefinementEntry& entry : library.entries()) {
+    least = std::min(least, middle_of(entry.gear));
+    most = std::max(most, middle_of(entry.gear));
+  }
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> share(0, 1);
+  for (int i = 0; i < 40; ++i) {
+    const GearFacts gear{static_cast<int>(1 / (1.0 / 12 + (1.0 / 150 - 1.0 / 12) * share(random))), 35 * deg * share(random),
+                         2 + 28 * share(random), -0.4 + share(random)};
+    CAPTURE(gear.teeth, gear.helix_angle / deg, gear.relative_face, gear.profile_shift);
+    // A smooth quantity stays near the range of its nodes.
+    CHECK(middle_of(gear) > 0.5 * least);
+    CHECK(middle_of(gear) < 1.5 * most);
+    const auto places = random_places(60, gear.relative_face, -2, 2, random);
+    const Eigen::MatrixXd K = kernels_between(gear, library.coefficients(gear), places);
+    CHECK(K == K.transpose());
+    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues();
+    CHECK(values[0] > -1e-13 * values[values.size() - 1]);  // round-off
+  }
+}
+
+TEST_CASE("What the library does not know is refused by name, and fe offered", "[core][compliance][fitted]") {
+  GearToMesh gear = standard_gear({24, 20 * deg, 10, 0.2});
+  CHECK(refusal(gear).empty());
+  gear.gear.rack.root_radius = 0.38;  // ISO 53, profile A
+  CHECK(refusal(gear).empty());
+  for (const GearFacts& end : {GearFacts{12, 0, 2, -0.4}, GearFacts{150, 35 * deg, 30, 0.6}}) CHECK(refusal(standard_gear(end)).empty());
+  const auto refused = [](auto&& change) {
+    GearToMesh changed = standard_gear({24, 20 * deg, 10, 0.2});
+    change(changed);
+    const std::string text = refusal(changed);
+    CHECK_THAT(text, Catch::Contains("fe"));
+    return text;
+  };
+  CHECK_THAT(refused([](GearToMesh& g) { g.gear.teeth = 11; }), Catch::StartsWith("teeth"));
+  CHECK_THAT(refused([](GearToMesh& g) { g.helix_angle = 36 * deg; }), Catch::StartsWith("helix_angle"));
+  CHECK_THAT(refused([](GearToMesh& g) { g.gear.profile_shift = 0.7; }), Catch::StartsWith("profile_shift"));
+  CHECK_THAT(refused([](GearToMesh& g) { g.gear.face_width = 1.9; }), Catch::StartsWith("face_width"));
+  CHECK_THAT(refused([](GearToMesh& g) { g.pressure_angle = 25 * deg; }), Catch::StartsWith("pressure_angle"));
+  CHECK_THAT(refused([](GearToMesh& g) { g.gear.rack.dedendum = 1.4; }), Catch::StartsWith("rack.dedendum"));
+  CHECK_THAT(refused([](GearToMesh& g) { g.gear.tip_diameter = 20; }), Catch::StartsWith("tip_diameter"));
+  CHECK_THAT(refusal(gear, 0.4), Catch::StartsWith("poissons_ratio"));
+}
+
+TEST_CASE("A library is read as it was written, and refused where an entry is missing", "[core][compliance][fitted]") {
+  const RefinementLibrary& library = RefinementLibrary::shipped();
+  std::string text = "# a remark\n";
+  for (const RefinementEntry& entry : library.entries()) text += to_text(entry);
+  const std::vector<RefinementEntry> read = entries_in(text);
+  REQUIRE(read.size() == library.entries().size());
+  for (std::size_t i = 0; i < read.size(); ++i) {
+    CHECK(read[i].gear == library.entries()[i].gear);
+    CHECK(read[i].coefficients == library.entries()[i].coefficients);
+    CHECK(read[i].unseen == library.entries()[i].unseen);
+  }
+  auto incomplete = read;
+  incomplete.pop_back();
+  CHECK_THROWS_AS(RefinementLibrary(incomplete), InvalidInput);
+  auto twice = read;
+  twice.back() = twice.front();
+  CHECK_THROWS_AS(RefinementLibrary(twice), InvalidInput);
+  CHECK_THROWS_AS(RefinementLibrary({}), InvalidInput);
+  CHECK_THROWS_WITH(entries_in("# remark\n1 2 3\n"), Catch::Contains("line 2"));
+}
