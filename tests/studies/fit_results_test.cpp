@@ -47,7 +47,7 @@ std::vector<std::vector<std::string>> lines_of(const std::string& csv) {
 }  // namespace
 
 TEST_CASE("A fit is stored whole: results, tables, summary and report", "[studies][fit][results]") {
-  const StudyResults results = fitted_results();
+  static const StudyResults results = fitted_results();  // two seconds, once for all sections
   const GearFitResult& fit = results.fits.front().result;
   REQUIRE(fit.fit.fit);
 
