@@ -36,7 +36,8 @@ RefinementSamples refinement_samples(const GearFacts& gear, const GearMeshOption
 /// Pairs count relative to max(|K|, kScaleFloor sqrt(K_pp K_qq)), in the fit and in its residuals.
 inline constexpr double kScaleFloor = 0.01;
 
-/// Fits KernelForm::refinement(). For a spur gear the samples and the start are alike at both ends, and so is the fit.
+/// Fits KernelForm::refinement(). For a spur gear the fit is nearly alike at both ends, as the samples are: the torque
+/// leaves at one of them.
 /// @param start  coefficients of a neighbouring entry, which the fit is drawn towards; empty: flat_start()
 RefinementEntry fit_refinement(const RefinementSamples& samples, const std::vector<double>& start);
 

