@@ -60,7 +60,8 @@ Json mesh_key(const GearMeshOptions& options) {
   const auto& [flank, fillet, half_thickness, adjacent_flank, adjacent_fillet, teeth_each_side, end, axial_growth, largest,
                most_layers, body_growth, shaft] = options;
   static_cast<void>(teeth_each_side);  // teeth_apart says it
-  return {flank, fillet, half_thickness, adjacent_flank, adjacent_fillet, end, axial_growth, largest, most_layers, body_growth, shaft};
+  return {flank, fillet, half_thickness, adjacent_flank, adjacent_fillet, end, axial_growth, largest, most_layers,
+          body_growth, shaft};
 }
 // clang-format on
 

@@ -13,9 +13,9 @@ namespace {
 /// Where several teeth are fitted: pairs whose compliance passes through zero must not decide the fit.
 constexpr double several_teeth_floor = 0.01;
 
-/// Of all coefficients: without a strong ridge the over-complete sum creeps along flat valleys for a thousand steps, and is
-/// no closer to unseen values for it.
-constexpr double ridge = 2e-3;
+/// Of all coefficients of one tooth: without a strong ridge the over-complete sum creeps along flat valleys for a thousand
+/// steps, and is no closer to unseen values for it. Several teeth come closer with FitOptions' own.
+constexpr double one_tooth_ridge = 2e-3;
 /// Converged when a step changes the cost by less than this share of it: residuals by less than half of that.
 constexpr double cost_tolerance = 1e-5;
 
@@ -27,8 +27,11 @@ GearFitTask gear_fit_task(const Study& study, const GearPair& pair, Member membe
   task.gear = influence_table_task(study, pair, member).gear;
   task.material = member == Member::Pinion ? study.pinion_material : study.wheel_material;
   task.form = choice.several_teeth ? KernelForm::several_teeth() : KernelForm::one_tooth_accurate();
-  if (choice.several_teeth) task.fit.scale_floor = several_teeth_floor;
-  task.fit.tooth_ridge = task.fit.body_ridge = ridge;
+  if (choice.several_teeth) {
+    task.fit.scale_floor = several_teeth_floor;
+  } else {
+    task.fit.tooth_ridge = task.fit.body_ridge = one_tooth_ridge;
+  }
   task.fit.solver = {.max_iterations = choice.max_iterations, .cost_tolerance = cost_tolerance};
   task.teeth_apart = task.mesh.teeth_each_side;
   task.test_grid = choice.test_grid;

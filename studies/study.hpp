@@ -86,7 +86,7 @@ struct OptimiseTable {
 /// [fit]: which gears' compliance is fitted, and how.
 struct FitChoice {
   bool pinion{true}, wheel{true};
-  bool several_teeth{true};  ///< KernelForm::several_teeth(), else one_tooth_accurate()
+  bool several_teeth{false};  ///< KernelForm::several_teeth(), else one_tooth_accurate()
   bool test_grid{true};      ///< compared on places that the fit has not seen
   int max_iterations{300};   ///< trust-region steps
 };

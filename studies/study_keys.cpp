@@ -164,8 +164,8 @@ std::vector<SchemaKey> task_rows() {
          d.study.fit.pinion = v.text != "wheel";
          d.study.fit.wheel = v.text != "pinion";
        }},
-      {.path = "fit.form", .kind = Word, .words = {"several_teeth", "one_tooth_accurate"},
-       .fallback = "\"several_teeth\"", .meaning = "sum of kernels that is fitted: teeth coupled, or one tooth closer",
+      {.path = "fit.form", .kind = Word, .words = {"one_tooth_accurate", "several_teeth"},
+       .fallback = "\"one_tooth_accurate\"", .meaning = "sum of kernels that is fitted: one tooth, or several that are coupled",
        .store = [](Draft& d, Member, const Value& v) { d.study.fit.several_teeth = v.text == "several_teeth"; }},
       {.path = "fit.test_grid", .kind = Word, .words = {"on", "off"}, .fallback = "\"on\"",
        .meaning = "on: compared with finite elements on places that the fit has not seen as well",

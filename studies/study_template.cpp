@@ -172,7 +172,7 @@ poissons_ratio = 0.3
 
 [fit]
 gear = "both"                        # or "pinion", "wheel"
-form = "several_teeth"               # couples teeth; "one_tooth_accurate" knows the loaded tooth alone, but closer
+form = "one_tooth_accurate"          # the loaded tooth alone; "several_teeth" couples its neighbours, less closely
 # test_grid = "off"                  # leaves out the comparison on places that the fit has not seen
 # max_iterations = 600               # steps of the least squares
 

@@ -16,16 +16,15 @@ Study fit_study(const std::vector<Override>& overrides = {}) {
 
 }  // namespace
 
-TEST_CASE("The task fit takes both gears, several teeth and a test grid unless told otherwise", "[studies][fit]") {
+TEST_CASE("The task fit takes both gears, one tooth and a test grid unless told otherwise", "[studies][fit]") {
   const FitChoice usual = study_texts::read("", {{"task", "fit"}}).fit;
-  CHECK((usual.pinion && usual.wheel && usual.several_teeth && usual.test_grid));
+  CHECK((usual.pinion && usual.wheel && !usual.several_teeth && usual.test_grid));
   CHECK(usual.max_iterations == 300);
-  const FitChoice other = fit_study({{"fit.gear", "wheel"},
-                                     {"fit.form", "one_tooth_accurate"},
-                                     {"fit.test_grid", "off"},
-                                     {"fit.max_iterations", "7"}})
-                              .fit;
-  CHECK((!other.pinion && other.wheel && !other.several_teeth && !other.test_grid));
+  const FitChoice other =
+      fit_study(
+          {{"fit.gear", "wheel"}, {"fit.form", "several_teeth"}, {"fit.test_grid", "off"}, {"fit.max_iterations", "7"}})
+          .fit;
+  CHECK((!other.pinion && other.wheel && other.several_teeth && !other.test_grid));
   CHECK(other.max_iterations == 7);
 }
 

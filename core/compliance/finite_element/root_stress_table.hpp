@@ -49,7 +49,7 @@ struct RootStressTable {
 inline constexpr int fillet_stations = 7;
 
 /// Axial places there: steps from 0.25 modules at the ends to 0.6. Between all these places the stress of a line load
-/// rises by up to 2.5 % above the largest of them (18 and 24 teeth, helix 30 and 0 deg).
+/// rises by up to 3 % above the largest of them (18 and 24 teeth, helix 30 and 0 deg).
 std::vector<double> fillet_zetas(double face_width);
 
 FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet);

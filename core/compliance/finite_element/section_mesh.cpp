@@ -139,7 +139,8 @@ class RootCurve {
 };
 
 HalfTooth half_tooth(const ToothForm& form, int teeth, double rim_radius, int flank_elements, int fillet_elements) {
-  constexpr double kAtTip = 0.6;  // size at the tip over the mean one: loads are felt over a distance as the thickness is
+  constexpr double kAtTip =
+      0.6;  // size at the tip over the mean one: loads are felt over a distance as the thickness is
   HalfTooth half;
   for (int i = 0; i <= 2 * flank_elements; ++i) {
     const double t = i / (2.0 * flank_elements), drop = t * (kAtTip + (1 - kAtTip) * t);

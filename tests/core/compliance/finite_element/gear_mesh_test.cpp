@@ -98,6 +98,23 @@ TEST_CASE("Racks, faces and bodies of all kinds can be meshed", "[core][complian
   CHECK(gear_mesh(gear, coarse()).solid.quality() > 0.02);
 }
 
+TEST_CASE("A wide face has longer layers in the middle and no more of them", "[core][compliance][fe]") {
+  GearMeshOptions options = coarse();
+  options.end_element = 0.2;
+  options.largest_element = 0.5;
+  options.most_layers = 20;
+  const GearMesh narrow = gear_mesh(gear_of(18, 30, 6), options), wide = gear_mesh(gear_of(18, 30, 30), options);
+  CHECK(narrow.planes.size() < 21);
+  CHECK(wide.planes.size() == 21);
+  for (const GearMesh* mesh : {&narrow, &wide}) {
+    const std::vector<double>& z = mesh->planes;
+    CHECK(z.front() == -mesh->face_width / 2);
+    CHECK(z.back() == mesh->face_width / 2);
+    CHECK(z[1] - z[0] == Approx(0.2).epsilon(0.25));  // sizes are scaled to fill the face
+    for (std::size_t i = 1; i + 1 < z.size() / 2; ++i) CHECK(z[i + 1] - z[i] > z[i] - z[i - 1] - 1e-12);
+  }
+}
+
 TEST_CASE("What cannot be meshed is refused by the name of what is wrong", "[core][compliance][fe]") {
   const auto field = [](const GearToMesh& gear, const GearMeshOptions& options = coarse()) {
     try {
@@ -124,6 +141,9 @@ TEST_CASE("What cannot be meshed is refused by the name of what is wrong", "[cor
   GearMeshOptions options = coarse();
   options.axial_growth = 1;
   CHECK(field(gear_of(20, 10), options) == "options.axial_growth");
+  options = coarse();
+  options.most_layers = 3;
+  CHECK(field(gear_of(20, 10), options) == "options.most_layers");
   options = coarse();
   options.teeth_each_side = 10;
   CHECK(field(gear_of(20, 10), options) == "options.teeth_each_side");
