@@ -220,7 +220,7 @@ TEST_CASE("A gear that the library of fits does not know is refused when the stu
     CHECK_THAT(refused(key, value), Catch::Contains(key));
     CHECK_THAT(refused(key, value), Catch::Contains("fe"));
   }
-  CHECK_THAT(refused("pair.pressure_angle", "18"), Catch::Contains("pressure_angle"));
+  CHECK_THAT(refused("pair.pressure_angle", "22"), Catch::Contains("pressure_angle"));
 }
 
 }  // namespace flankwright::studies
