@@ -39,6 +39,35 @@ class SerialBlas {
   static inline int users_{0}, threads_{0};
 };
 
+/// Keeps OpenMP, with which CHOLMOD assembles and solves, on the calling thread while it lives: its workers would spin
+/// against those of the other gear. The switch is the calling thread's own, and looked for as OpenBLAS' is.
+class SerialOpenMp {
+ public:
+  SerialOpenMp() {
+    if (!get_ || !set_) return;
+    levels_ = get_();
+    set_(0);
+  }
+  ~SerialOpenMp() {
+    if (get_ && set_) set_(levels_);
+  }
+  SerialOpenMp(const SerialOpenMp&) = delete;
+  SerialOpenMp& operator=(const SerialOpenMp&) = delete;
+
+ private:
+  using Get = int (*)();
+  using Set = void (*)(int);
+  static inline const Get get_{reinterpret_cast<Get>(dlsym(RTLD_DEFAULT, "omp_get_max_active_levels"))};
+  static inline const Set set_{reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"))};
+  int levels_{1};
+};
+
+/// What CHOLMOD's calls need to stay on one core.
+struct OneCore {
+  SerialBlas blas;
+  SerialOpenMp open_mp;
+};
+
 /// METIS' nested dissection of the node graph, as an ordering of the rows.
 std::vector<int> order_rows(const Eigen::SparseMatrix<double>& lower, const Eigen::VectorXi& node_of,
                             cholmod_common& common) {
@@ -99,7 +128,7 @@ struct SparseCholesky::Factor {
 
   /// Solves with one of CHOLMOD's systems after another, in blocks of columns.
   Eigen::MatrixXd solve(std::initializer_list<int> systems, const Eigen::MatrixXd& right_sides) const {
-    const SerialBlas serial;
+    const OneCore serial;
     Eigen::MatrixXd result(right_sides.rows(), right_sides.cols());
     for (Eigen::Index begin = 0; begin < right_sides.cols(); begin += kSolveBlock) {
       const Eigen::Index columns = std::min(kSolveBlock, right_sides.cols() - begin);
@@ -151,7 +180,7 @@ SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& lower, const E
   a.dtype = CHOLMOD_DOUBLE;
   a.sorted = a.packed = 1;
 
-  const SerialBlas serial;
+  const OneCore serial;
   std::vector<int> order = order_rows(lower, node_of, common);
   if (!order.empty()) factor_->l = cholmod_analyze_p(&a, order.data(), nullptr, 0, &common);
   if (factor_->l) cholmod_factorize(&a, factor_->l, &common);

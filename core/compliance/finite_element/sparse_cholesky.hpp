@@ -21,7 +21,7 @@ enum class FactorStatus {
 /// METIS on the graph of the nodes. Factorised once, used for any number of right-hand sides.
 ///
 /// Same input, same bits: where BLAS is OpenBLAS, its own threads are switched off for the calls made here (they would
-/// split sums by the number of cores), so that the cost is that of one core. With reference BLAS a model took five
+/// split sums by the number of cores), and so are CHOLMOD's by OpenMP, so that the cost is that of one core. With reference BLAS a model took five
 /// times as long at 50,000 unknowns.
 class SparseCholesky {
  public:
