@@ -32,7 +32,8 @@ std::vector<ResidualDistribution> residual_distributions(const FlankCompliance& 
       for (std::size_t q = 0; q <= p; ++q) {
         const double known = sample.at(rows[p], rows[q]);
         if (std::isnan(known)) continue;
-        const double error = std::abs(K(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q)) - known);
+        const double found = K(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q));
+        const double error = std::isnan(found) ? INFINITY : std::abs(found - known);
         const int apart = std::abs(places[p].tooth - places[q].tooth);
         residuals[apart].push_back(error / std::abs(known));
         const double own = sample.compliance(rows[p], rows[p]) * sample.compliance(rows[q], rows[q]);

@@ -13,7 +13,8 @@ inline constexpr std::array<double, 17> kResidualShares{0.01, 0.05, 0.1,  0.2,  
                                                         0.8,  0.9,  0.95, 0.97, 0.98, 0.99, 0.995, 1};
 
 /// Distribution of the relative residuals |K_model - K| / |K| over all known pairs of points so many teeth apart, each
-/// once, the diagonal included: the residual that a share of the pairs does not exceed, for kResidualShares.
+/// once, the diagonal included: the residual that a share of the pairs does not exceed, for kResidualShares. Where a
+/// model has no value (the thesis' form under a negative root) its residual is infinite.
 struct ResidualDistribution {
   int teeth_apart{-1};
   int pairs{0};

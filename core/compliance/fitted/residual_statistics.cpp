@@ -21,7 +21,8 @@ std::vector<ResidualStatistics> residual_statistics(const FlankCompliance& model
                                    sample.points[static_cast<std::size_t>(q)].tooth);
         const double own = std::sqrt(sample.compliance(p, p) * sample.compliance(q, q));
         const double scale = std::isnan(own) ? std::abs(known) : std::max(std::abs(known), floor * own);
-        errors[apart].push_back(std::abs(K(p, q) + sample.given_at(p, q) - known) / scale);
+        const double error = std::abs(K(p, q) + sample.given_at(p, q) - known);
+        errors[apart].push_back(std::isnan(error) ? INFINITY : error / scale);
       }
     }
   }

@@ -22,7 +22,7 @@ struct ResidualStatistics {
 };
 
 /// One entry per number of teeth apart that occurs, in rising order. The reciprocal value of a pair counts, once, the
-/// diagonal included.
+/// diagonal included; where the model has no value the residual is infinite.
 /// @param floor  [-], >= 0: on gears of few teeth the compliance between a far corner's points passes through zero, where
 ///               a relative figure says nothing; with 0.01 such pairs count relative to a hundredth of their own values
 /// @throws InvalidInput where a sample is not valid or has a point that the model does not know

@@ -107,7 +107,8 @@ function draw_residual_shares(plot, fit) {
   const apart = unique(rows.map((row) => row.teeth_apart));
   const curves = rows.map((row) => ({
     label: `${row.form === "kernels" ? apart_label(row.teeth_apart) : "Haddad's curves, loaded tooth"}, ${row.points}`,
-    points: list(row.residual_percent).map((residual, i) => ({ x: Math.max(residual, 1e-3), y: shares[i] })),
+    points: list(row.residual_percent).map((residual, i) => ({ residual, y: shares[i] }))
+      .filter((point) => point.residual !== null).map(({ residual, y }) => ({ x: Math.max(residual, 1e-3), y })),
     colour: row.form === "kernels" ? sequence_colour(apart.indexOf(row.teeth_apart)) : css_colour("muted"),
     dashed: row.points === "fitted",
   }));

@@ -1,6 +1,7 @@
 #include "core/compliance/comparison/residual_shares.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <limits>
 
 #include "core/compliance/fitted/residual_statistics.hpp"
@@ -50,6 +51,26 @@ TEST_CASE("Shares of residuals are those of the known pairs, told apart by teeth
   // Between teeth the own compliances are at least four times as large as what both have in common.
   CHECK(shares[0].worst_of_own < 0.022);
   CHECK(shares[1].worst_of_own < 0.3 * shares[1].worst());
+}
+
+TEST_CASE("Where a model has no value it is infinitely far off, and the other pairs are judged as they are",
+          "[core][compliance][comparison]") {
+  struct Partial final : FlankCompliance {
+    Eigen::MatrixXd evaluate(std::span<const FlankPlace> points) const override {
+      Eigen::MatrixXd K = DistanceCompliance().evaluate(points);
+      K(3, 2) = K(2, 3) = std::numeric_limits<double>::quiet_NaN();
+      return K;
+    }
+  };
+  const InfluenceSample sample = missed_sample();
+  const ResidualDistribution partial = residual_distributions(Partial(), 1, {&sample, 1})[0];
+  const ResidualDistribution whole = residual_distributions(DistanceCompliance(), 1, {&sample, 1})[0];
+  CHECK(std::is_sorted(partial.residual.begin(), partial.residual.end()));
+  CHECK(std::isinf(partial.worst()));
+  CHECK(std::isinf(partial.worst_of_own));
+  CHECK(partial.pairs == whole.pairs);
+  CHECK(partial.at(0.2) == Approx(whole.at(0.2)).margin(1.01e-4));  // one pair further, a step of this sample
+  CHECK(std::isinf(residual_statistics(Partial(), {&sample, 1})[0].worst));
 }
 
 TEST_CASE("A model of one tooth is judged on one tooth", "[core][compliance][comparison]") {
