@@ -5,11 +5,11 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 #include <mutex>
 #include <optional>
 
+#include "core/base/stopwatch.hpp"
 #include "core/compliance/fitted/refinement_fit.hpp"
 #include "studies/run_cache.hpp"
 
@@ -41,14 +41,6 @@ auto with_study_keys(ComplianceModel model, Member member, Work&& work) {
     throw InvalidInput(key, problem.value(), problem.allowed());
   }
 }
-
-class Clock {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};
-};
 
 double machine_memory() {
   return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
@@ -185,7 +177,7 @@ std::vector<Job> jobs_of(const Study& study, const GearPair& pair) {
 
 /// True where the job's run could be taken from the cache; one that tells more than is wanted will do.
 bool take(Job& job, const RunCache& cache, std::vector<std::string>& notes) {
-  const Clock clock;
+  const Stopwatch clock;
   std::vector<Json> keys{job.key};
   if (!job.task.root_stress) {
     InfluenceTableTask with_root_stress = job.task;
@@ -241,7 +233,7 @@ void solve_side_by_side(const std::vector<Job*>& jobs, ComplianceModel model, co
   JointProgress progress(jobs, report);
   const double limit = share_of_memory * machine_memory() / static_cast<double>(jobs.size());
   tbb::parallel_for(std::size_t{0}, jobs.size(), [&](std::size_t i) {
-    const Clock clock;
+    const Stopwatch clock;
     Job& job = *jobs[i];
     job.run = with_study_keys(model, job.members.front(), [&] {
       return solve_influence_table(job.task, limit, [&](int done, int total) { progress.at(i, done, total); });
@@ -315,7 +307,7 @@ InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair
 }
 
 FiniteElementRuns solve_finite_elements(const Study& study, const GearPair& pair, const ProgressReport& progress) {
-  const Clock clock;
+  const Stopwatch clock;
   FiniteElementRuns runs;
   const RunCache cache(RunCache::default_folder());
   std::vector<Job> jobs = jobs_of(study, pair);

@@ -1,22 +1,14 @@
 #include "studies/run_study.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 #include <sstream>
 
+#include "core/base/stopwatch.hpp"
 
 namespace flankwright::studies {
 
 namespace {
-
-class Clock {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};
-};
 
 FlankCondition condition_of(const Study& study, const Scene& scene) {
   return {study.pinion_modification, study.wheel_modification, scene.pinion_error, scene.wheel_error, scene.misalignment};
@@ -74,7 +66,7 @@ class Run {
   }
 
   StudyResults finish() {
-    const Clock clock;
+    const Stopwatch clock;
     switch (results_.study.task) {
       case Task::Analyse: analyse(); break;
       case Task::Optimise: optimise(); break;
@@ -169,7 +161,7 @@ class Run {
     for (const Scene& scene : study.scenes) {
       bool has_unloaded = false;
       for (double torque : scene.torques) {
-        const Clock clock;
+        const Stopwatch clock;
         if (torque == 0.0 || study.fidelity.compliance == ComplianceModel::Rigid) {
           if (!has_unloaded) add_unloaded(scene);
           has_unloaded = true;

@@ -2,11 +2,11 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/compliance/comparison/finite_element_deflections.hpp"
 #include "core/compliance/flank_grid.hpp"
 #include "core/compliance/plate/cantilever_plate.hpp"
@@ -17,14 +17,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-
-class Clock {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};
-};
 
 /// us x zetas; zetas run fastest.
 struct Places {
@@ -109,15 +101,15 @@ class GearFitRun {
     result_.times.model = result_.finite_elements.model_seconds;
     if (result_.status != FactorStatus::Factorised) return std::move(result_);
 
-    const Clock loads;
+    const Stopwatch loads;
     solve(model);
     result_.times.loads = result_.finite_elements.solve_seconds = loads.seconds();
-    const Clock fit;
+    const Stopwatch fit;
     report("fitting", 0, 1);
     result_.fit = fit_compliance(fitted_, task_.form, task_.fit);
     report("fitting", 1, 1);
     result_.times.fit = fit.seconds();
-    const Clock others;
+    const Stopwatch others;
     compare(model);
     result_.times.others = others.seconds();
     return std::move(result_);

@@ -1,24 +1,16 @@
 #include "core/compliance/finite_element/solve_influence_table.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <new>
 #include <string>
 
 #include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
 #include "core/contact/path_of_contact.hpp"
 
 namespace flankwright {
 namespace {
-
-class Clock {
- public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-
- private:
-  std::chrono::steady_clock::time_point start_{std::chrono::steady_clock::now()};
-};
 
 std::vector<FlankPoint> flank_points(const GearMesh& mesh, const FlankGrid& grid) {
   const ToothForm& form = mesh.form;
@@ -67,7 +59,7 @@ class TableSolver {
 
   void solve(double memory_limit) {
     report(0);
-    const Clock clock;
+    const Stopwatch clock;
     GearMeshOptions options = task_.mesh;
     options.teeth_each_side = task_.teeth_apart;
     const GearMesh mesh = gear_mesh(in_modules(task_).gear, options);
@@ -86,7 +78,7 @@ class TableSolver {
     statistics.model_seconds = clock.seconds();
     if (run_.status != FactorStatus::Factorised) return;
     report(1);
-    const Clock loads;
+    const Stopwatch loads;
     run_.table.emplace(task_.grid, tables(deflections(mesh, solid)));
     if (task_.root_stress) {
       run_.root_stress = solve_root_stress_table(
