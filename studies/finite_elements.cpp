@@ -18,7 +18,7 @@ namespace flankwright::studies {
 namespace {
 
 /// To be raised whenever the same task comes to mean other numbers: mesh, load functional, removed motion, solution.
-constexpr int model_version = 2;
+constexpr int model_version = 3;
 
 /// Share of the machine's memory that runs may take.
 constexpr double share_of_memory = 0.8;
@@ -61,7 +61,7 @@ Json gear_key(const GearToMesh& gear) {
   const auto& [data, module, pressure_angle, helix_angle, body] = gear;
   const auto& [teeth, face_width, profile_shift, tip_diameter, rack, generation] = data;
   const auto& [addendum, dedendum, root_radius] = rack;
-  const auto& [shaft_diameter, bore_diameter, shaft_overhang] = body;
+  const auto& [shaft_diameter, bore_diameter, shaft_overhang, torque_end] = body;
   static_cast<void>(module);      // 1
   static_cast<void>(generation);  // amounts of micrometres, which the mesh does not know
   return {{"teeth", teeth},
@@ -71,7 +71,7 @@ Json gear_key(const GearToMesh& gear) {
           {"rack", {addendum, dedendum, root_radius}},
           {"pressure_angle", pressure_angle},
           {"helix_angle", helix_angle},
-          {"body", {shaft_diameter, bore_diameter, shaft_overhang}}};
+          {"body", {shaft_diameter, bore_diameter, shaft_overhang, torque_end == FaceEnd::Blunt ? "blunt" : "sharp"}}};
 }
 
 /// Everything that defines the outcome of a task, in modules, as the key of its stored run.

@@ -188,11 +188,11 @@ Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoin
     }
   };
   Eigen::Matrix<double, 6, 1> part = Eigen::Matrix<double, 6, 1>::Zero();
-  part.head<3>() = resultant.head<3>();
+  part.head<2>() = resultant.head<2>();
   take_off(point.z, part);
   part.setZero();
   part[5] = resultant[5];
-  take_off(-mesh.face_width / 2, part);
+  take_off(mesh.torque_end, part);
   if (removed == RemovedMotion::TranslationTorsionAndTilt) {
     part.setZero();
     part.segment<2>(3) = resultant.segment<2>(3);
