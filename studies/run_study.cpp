@@ -55,6 +55,9 @@ class Run {
     results_.pair = make_gear_pair(study.pair);
     const EffectFacts facts = facts_of(study);
     results_.effects = study.fidelity.automatic_effects ? decide_effects(facts) : chosen_effects(facts, study.fidelity.effects);
+    if (study.fidelity.gap == GapModel::WholeSurface && study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) {
+      results_.effects.push_back({"whole_surface_gap", true, "fidelity.gap seeks contact over the whole flanks"});
+    }
     if (study.fidelity.compliance == ComplianceModel::Rigid && any_torque() && study.task != Task::Fit) {
       note("compliance is rigid: torques are ignored, contact is analysed without load");
     }

@@ -12,8 +12,7 @@ SurfaceGap::SurfaceGap(const GearPair& pair, const FlankCondition& condition)
                              condition.pinion_error, condition.wheel_error)),
       density_(search_density(scene_)) {
   for (Member m : {Member::Pinion, Member::Wheel}) {
-    const double coefficient = condition.modification(m).parabolic_te;
-    if (coefficient != 0.0) parabola_[static_cast<std::size_t>(m)] = make_conjugate_field(pair, m, coefficient);
+    parabola_[static_cast<std::size_t>(m)] = make_conjugate_field(pair, m, condition.modification(m).parabolic_te);
   }
 }
 
@@ -57,7 +56,7 @@ NearestPlace SurfaceGap::nearest_place(const SectionMaximum& found, int tooth) c
   place.sides[0] = side(touch_at(found.at), 1.0 - found.share_beyond);
   if (found.share_beyond != 0.0) place.sides[1] = side(found.beyond, found.share_beyond);
   place.pinion_radius = place.sides[0].pinion_radius;
-  place.wheel_radius = place.sides[0].wheel_radius;
+  place.wheel_radius = found.at.wheel_radius;
   return place;
 }
 
@@ -79,10 +78,11 @@ Gap SurfaceGap::at(const std::vector<ContactPoint>& points, double line_phase) c
 
 Eigen::VectorXd SurfaceGap::derivative(const Gap& gap, Member member, ModificationParameter parameter) const {
   const Flank& flank = member == Member::Pinion ? scene_.pinion : scene_.wheel;
-  const auto& parabola = parabola_[static_cast<std::size_t>(member)];
+  const PredesignedField& parabola = *parabola_[static_cast<std::size_t>(member)];
   const auto by_parameter = [&](double radius, double z) {
-    if (parameter == ModificationParameter::ParabolicTe && parabola) return parabola->coefficient_slope(flank.roll_at(radius), z);
-    return removal_derivative(condition_.modification(member), flank.frame, parameter, radius, z);
+    return parameter == ModificationParameter::ParabolicTe
+               ? parabola.coefficient_slope(flank.roll_at(radius), z)
+               : removal_derivative(condition_.modification(member), flank.frame, parameter, radius, z);
   };
   Eigen::VectorXd derivative = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gap.nearest.size()));
   for (std::size_t i = 0; i < gap.nearest.size(); ++i) {

@@ -29,7 +29,7 @@ class PredesignedField : public DeviationField {
 /// N1/N2)^2 for rho_1^2 on the wheel), and the flank would fold over itself at 2 a = K, first near the base circle. Exact with its
 /// derivatives from the start of the active profile to the tip circle and a little beyond (GeneratedRange) as far as that factor is at
 /// least 1/2; from there it continues with the value and slope it has (C1), where the pair's own curve lags less than the parabola.
-/// @param coefficient  a [1/rad], not 0
+/// @param coefficient  a [1/rad]; 0 gives the involute
 /// @throws InvalidInput "parabolic_te" where that end lies inside the pitch in which an aligned pair leads, |phi1| <= pi/N1 at mid face
 std::shared_ptr<const PredesignedField> make_conjugate_field(const GearPair& pair, Member member, double coefficient);
 
