@@ -6,6 +6,7 @@
 
 #include "core/contact/contact_points.hpp"
 #include "core/contact/misalignment.hpp"
+#include "core/contact/section_maximum.hpp"
 #include "core/flank/removal.hpp"
 
 namespace flankwright {
@@ -36,9 +37,11 @@ struct NearestPlace {
   struct Side {
     double pinion_radius{not_given}, pinion_z{not_given};  ///< of the involute's point, what D is a function of [mm]
     double wheel_radius{not_given}, wheel_z{not_given};
-    double by_pinion{0.0}, by_wheel{0.0};  ///< d(gap)/dD of either flank, times the share [-]
+    double by_pinion{0.0}, by_wheel{0.0};  ///< d(gap)/dD of either flank [-]
+    double share{0.0};                     ///< of the derivative [-]; both sides' add up to 1
   };
   std::array<Side, 2> sides;
+  SectionBound bound{SectionBound::None};  ///< what holds it in its section
 };
 
 /// Gap of unloaded flanks at each contact point, normal to the flank, before load.

@@ -4,9 +4,8 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
-#include <optional>
 
-#include "core/contact/surface_gap.hpp"
+#include "core/contact/condition_gap.hpp"
 #include "core/contact/transmission_error.hpp"
 #include "core/load/sensitivity.hpp"
 
@@ -75,27 +74,6 @@ void raise(RootStressPeak& peak, const RootStressPeak& other) {
   peak.tangent_stress = tangent;
 }
 
-/// The gap of a condition by the model's choice of where it is sought.
-class ConditionGap {
- public:
-  ConditionGap(const MeshModel& model, const FlankCondition& condition) : pair_(model.pair), condition_(condition) {
-    if (model.placement.gap == GapModel::WholeSurface) surfaces_.emplace(model.pair, condition);
-  }
-
-  Gap at(const MeshPosition& position) const {
-    return surfaces_ ? surfaces_->at(position.points, position.phase) : plane_of_action_gap(pair_, position.points, condition_);
-  }
-  Eigen::VectorXd derivative(const MeshPosition& position, const Gap& gap, const GearParameter& by) const {
-    return surfaces_ ? surfaces_->derivative(gap, by.member, by.parameter)
-                     : gap_derivative(pair_, position.points, condition_, by.member, by.parameter);
-  }
-
- private:
-  const GearPair& pair_;
-  const FlankCondition& condition_;
-  std::optional<SurfaceGap> surfaces_;
-};
-
 void fill_derivatives(const MeshPosition& at, const ConditionGap& gaps, const LoadProblem& problem,
                       const std::vector<GearParameter>& parameters, LoadedPosition& position) {
   const Eigen::Index n = problem.gap.size(), m = static_cast<Eigen::Index>(parameters.size());
@@ -105,8 +83,7 @@ void fill_derivatives(const MeshPosition& at, const ConditionGap& gaps, const Lo
   const LoadSensitivity sensitivity(problem, position.load);
   for (Eigen::Index p = 0; p < m; ++p) {
     const GearParameter& which = parameters[static_cast<std::size_t>(p)];
-    const auto derivative =
-        sensitivity.with_gap(gaps.derivative(at, position.gap, which));
+    const auto derivative = sensitivity.with_gap(gaps.derivative(at.points, position.gap, which.member, which.parameter));
     position.line_load_derivative.col(p) = derivative.line_load;
     position.transmission_error_derivative[p] = derivative.transmission_error;
   }
@@ -126,12 +103,12 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
   cycle.force = model.normal_force(pinion_torque);
   cycle.positions.resize(model.positions.size());
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
-  const ConditionGap gaps(model, condition);
+  const ConditionGap gaps(model.pair, model.placement.gap, condition);
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const MeshPosition& at = model.positions[i];
     LoadedPosition& position = cycle.positions[i];
     position.phase = at.phase;
-    position.gap = gaps.at(at);
+    position.gap = gaps.at(at.points, at.phase);
     const LoadProblem problem{at.influence, at.weight, position.gap.total, at.laws, cycle.force};
     const bool has_previous = i > 0 && cycle.positions[i - 1].load.usable();
     position.load = solve_load_distribution(
