@@ -66,17 +66,22 @@ Json geometry_json(const GearPair& pair) {
 }
 
 Json point_json(const ContactPoint& point, const LoadedPosition& position, Eigen::Index i) {
-  return {{"z_mm", point.z},
-          {"phase", point.phase},
-          {"pinion_radius_mm", point.pinion_radius},
-          {"wheel_radius_mm", point.wheel_radius},
-          {"length_mm", point.weight},
-          {"load_N_per_mm", position.load.line_load[i]},
-          {"contact_stress_MPa", position.contact_stress[i]},
-          {"contact_deflection_um", in_um(position.load.contact_deflection[i])},
-          {"structural_deflection_um", in_um(position.load.structural_deflection[i])},
-          {"gap_um", in_um(position.gap.total[i])},
-          {"error_um", in_um(position.gap.error[i])}};
+  Json json{{"z_mm", point.z},
+            {"phase", point.phase},
+            {"pinion_radius_mm", point.pinion_radius},
+            {"wheel_radius_mm", point.wheel_radius},
+            {"length_mm", point.weight},
+            {"load_N_per_mm", position.load.line_load[i]},
+            {"contact_stress_MPa", position.contact_stress[i]},
+            {"contact_deflection_um", in_um(position.load.contact_deflection[i])},
+            {"structural_deflection_um", in_um(position.load.structural_deflection[i])},
+            {"gap_um", in_um(position.gap.total[i])},
+            {"error_um", in_um(position.gap.error[i])}};
+  if (!position.gap.nearest.empty()) {
+    const NearestPlace& nearest = position.gap.nearest[static_cast<std::size_t>(i)];
+    json["nearest"] = {{"pinion_radius_mm", nearest.pinion_radius}, {"wheel_radius_mm", nearest.wheel_radius}};
+  }
+  return json;
 }
 
 /// Largest over a tooth's fillet [MPa]; NaN without.

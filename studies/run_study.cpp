@@ -55,6 +55,9 @@ class Run {
     results_.pair = make_gear_pair(study.pair);
     const EffectFacts facts = facts_of(study);
     results_.effects = study.fidelity.automatic_effects ? decide_effects(facts) : chosen_effects(facts, study.fidelity.effects);
+    if (study.fidelity.gap == GapModel::WholeSurface && study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) {
+      results_.effects.push_back({"whole_surface_gap", true, "fidelity.gap seeks contact over the whole flanks"});
+    }
     if (study.fidelity.compliance == ComplianceModel::Rigid && any_torque() && study.task != Task::Fit) {
       note("compliance is rigid: torques are ignored, contact is analysed without load");
     }
@@ -107,13 +110,14 @@ class Run {
     }
   }
 
-  /// The mesh model for an axial offset, built when first needed.
-  std::size_t model_for(double axial_offset) {
-    const auto [it, is_new] = model_index_.try_emplace(axial_offset, results_.models.size());
+  /// The mesh model for a misalignment, built when first needed.
+  std::size_t model_for(const Misalignment& misalignment) {
+    const MeshPlacement placement = MeshPlacement::of(results_.study.fidelity.gap, misalignment);
+    const auto [it, is_new] = model_index_.try_emplace(placement, results_.models.size());
     if (is_new) {
       const Study& study = results_.study;
       results_.models.push_back(make_mesh_model(results_.pair, study.pinion_material, study.wheel_material,
-                                                resolution_of(study), mesh_effects(results_.effects), axial_offset,
+                                                resolution_of(study), mesh_effects(results_.effects), placement,
                                                 structures().pair.get(), structures().root_stress.get()));
     }
     return it->second;
@@ -168,7 +172,7 @@ class Run {
           unloaded_seconds += clock.seconds();
         } else {
           const FlankCondition condition = apply_effects(results_.effects, condition_of(study, scene));
-          const std::size_t model = model_for(condition.misalignment.axial_offset);
+          const std::size_t model = model_for(condition.misalignment);
           add_loaded(scene.name, torque, "given", model, analyse_cycle(results_.models[model], condition, torque));
           loaded_seconds += clock.seconds();
         }
@@ -190,6 +194,7 @@ class Run {
     task.pinion_material = study.pinion_material;
     task.wheel_material = study.wheel_material;
     task.resolution = resolution_of(study);
+    task.gap = study.fidelity.gap;
     task.effects = mesh_effects(results_.effects);
     task.structure = structures().pair;
     task.root_stress = structures().root_stress;
@@ -228,7 +233,7 @@ class Run {
     for (const auto& [name, report] : {std::pair{"before", &design.before}, std::pair{"after", &design.after}}) {
       for (int s = 0; s < problem.scenes(); ++s) {
         const DesignScene& scene = results_.design_task->scenes[static_cast<std::size_t>(s)];
-        add_loaded(scene.name, scene.torque, name, model_for(scene.condition.misalignment.axial_offset),
+        add_loaded(scene.name, scene.torque, name, model_for(scene.condition.misalignment),
                    report->analysis.cycles[static_cast<std::size_t>(s)]);
       }
     }
@@ -273,7 +278,7 @@ class Run {
 
   const ProgressReport& progress_;
   StudyResults results_;
-  std::map<double, std::size_t> model_index_;
+  std::map<MeshPlacement, std::size_t> model_index_;
   bool has_structure_{false};
 };
 

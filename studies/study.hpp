@@ -48,6 +48,7 @@ struct Cycle {
 
 struct Fidelity {
   ComplianceModel compliance{ComplianceModel::ThinSlice};
+  GapModel gap{GapModel::PlaneOfAction};
   Quadrature quadrature;
   bool automatic_effects{true};
   std::vector<std::string> effects;  ///< switched on by hand where automatic_effects is false

@@ -95,8 +95,10 @@ std::vector<SchemaKey> working_condition_rows() {
        .store = [](Draft& d, Member, const Value& v) {
          d.study.fidelity.compliance = compliance_model(v.text);
        }},
-      {.path = "fidelity.gap", .kind = Word, .words = {"plane_of_action"}, .later = {"whole_surface"},
-       .fallback = "\"plane_of_action\"", .meaning = "where contact is sought"},
+      {.path = "fidelity.gap", .kind = Word, .words = {"plane_of_action", "whole_surface"},
+       .fallback = "\"plane_of_action\"",
+       .meaning = "where contact is sought: where undisturbed flanks would touch, or over the whole flanks as they stand and are modified",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fidelity.gap = static_cast<GapModel>(v.integer); }},
       {.path = "fidelity.quadrature.rule", .kind = Word, .words = {"gauss2", "gauss3", "midpoint", "graded"},
        .fallback = "\"gauss2\"", .meaning = "points in each interval of a contact line; graded: two Gauss points on intervals that end where the line does",
        .store = [](Draft& d, Member, const Value& v) {

@@ -88,6 +88,7 @@ positions = 32                       # mesh positions over one base pitch
 [fidelity]
 compliance = "thin_slice"            # "fitted", "fe": finite elements of both gears; "rigid": the unloaded contact only
 quadrature = { rule = "gauss2", intervals = 10 }                     # along a full contact line
+# gap = "whole_surface"              # contact sought over the whole flanks, not only where undisturbed ones would touch
 # effects = ["bending", "hertzian_contact"]                          # "auto" decides from the study
 
 # What the results must say, for `flankwright test`:

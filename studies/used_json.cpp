@@ -85,7 +85,7 @@ Json used_json(const StudyResults& results) {
             {"cycle", {{"positions", study.cycle.positions}, {"phases", study.cycle.phases}}},
             {"fidelity",
              {{"compliance", to_string(study.fidelity.compliance)},
-              {"gap", "plane_of_action"},
+              {"gap", to_string(study.fidelity.gap)},
               {"quadrature", {{"rule", rule_name(study.fidelity.quadrature.rule)}, {"intervals", study.fidelity.quadrature.intervals}}},
               {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
   if (study.misalignment.pinion_lead_angle != 0.0) {

@@ -51,6 +51,9 @@ struct ContactPoint {
   double clearance{0.0};   ///< c_n of the unmodified pair, normal to the flank; 0 on the theoretical path of contact
 };
 
+/// Fills radii, curvature, depths and tip distances of a point from its roll lengths on both gears [mm], both > 0.
+void set_rolls(const GearPair& pair, double pinion_roll, double wheel_roll, ContactPoint& point);
+
 /// Contact points of all teeth at one mesh position.
 ///
 /// No point moves while modifications change. Between A and E both

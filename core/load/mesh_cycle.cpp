@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/contact/condition_gap.hpp"
 #include "core/contact/transmission_error.hpp"
 #include "core/load/sensitivity.hpp"
 
@@ -73,8 +74,8 @@ void raise(RootStressPeak& peak, const RootStressPeak& other) {
   peak.tangent_stress = tangent;
 }
 
-void fill_derivatives(const MeshModel& model, const MeshPosition& at, const FlankCondition& condition,
-                      const LoadProblem& problem, const std::vector<GearParameter>& parameters, LoadedPosition& position) {
+void fill_derivatives(const MeshPosition& at, const ConditionGap& gaps, const LoadProblem& problem,
+                      const std::vector<GearParameter>& parameters, LoadedPosition& position) {
   const Eigen::Index n = problem.gap.size(), m = static_cast<Eigen::Index>(parameters.size());
   position.line_load_derivative = Eigen::MatrixXd::Zero(n, m);
   position.transmission_error_derivative = Eigen::RowVectorXd::Zero(m);
@@ -82,8 +83,7 @@ void fill_derivatives(const MeshModel& model, const MeshPosition& at, const Flan
   const LoadSensitivity sensitivity(problem, position.load);
   for (Eigen::Index p = 0; p < m; ++p) {
     const GearParameter& which = parameters[static_cast<std::size_t>(p)];
-    const auto derivative =
-        sensitivity.with_gap(gap_derivative(model.pair, at.points, condition, which.member, which.parameter));
+    const auto derivative = sensitivity.with_gap(gaps.derivative(at.points, position.gap, which.member, which.parameter));
     position.line_load_derivative.col(p) = derivative.line_load;
     position.transmission_error_derivative[p] = derivative.transmission_error;
   }
@@ -103,11 +103,12 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
   cycle.force = model.normal_force(pinion_torque);
   cycle.positions.resize(model.positions.size());
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
+  const ConditionGap gaps(model.pair, model.placement.gap, condition);
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const MeshPosition& at = model.positions[i];
     LoadedPosition& position = cycle.positions[i];
     position.phase = at.phase;
-    position.gap = plane_of_action_gap(model.pair, at.points, condition);
+    position.gap = gaps.at(at.points, at.phase);
     const LoadProblem problem{at.influence, at.weight, position.gap.total, at.laws, cycle.force};
     const bool has_previous = i > 0 && cycle.positions[i - 1].load.usable();
     position.load = solve_load_distribution(
@@ -117,7 +118,7 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
       ++cycle.failures;
       continue;
     }
-    fill_derivatives(model, at, condition, problem, parameters, position);
+    fill_derivatives(at, gaps, problem, parameters, position);
     fill_stress(model, at, position);
     if (!at.root_stress.places.empty()) fill_root_stress(at, position);
     const double approach = position.load.transmission_error - position.gap.total.minCoeff();

@@ -46,6 +46,7 @@ struct LoadedCycle {
 ///
 /// Mesh stiffness is Haddad's eq. 2.16b, (F/b) cos^2(beta_b) / f_t, with f_t counted from first touch, f_t - min(g), so that a
 /// gap common to all points (modified or displaced flanks) is not taken for compliance.
+/// @param condition      GapModel::WholeSurface: with the misalignment that the model was placed for
 /// @param pinion_torque  [N mm], >= 0
 /// @param parameters     derivatives are computed for these; empty: none
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/compliance/hertz_line.hpp"
+#include "core/contact/surface_gap.hpp"
 
 namespace flankwright {
 
@@ -26,6 +27,11 @@ MeshPosition make_position(const MeshModel& model, const PathOfContact& path, co
   position.phase = phase;
   position.points = contact_points(model.pair, path, quadrature, phase, model.effects.extended_contact_region, face_start,
                                    face_end);
+  if (model.placement.gap == GapModel::WholeSurface) {
+    FlankCondition unmodified;
+    unmodified.misalignment = model.placement.misalignment;
+    position.points = SurfaceGap(model.pair, unmodified).place(position.points, phase);
+  }
   const Eigen::Index n = static_cast<Eigen::Index>(position.points.size());
   position.weight.resize(n);
   position.influence = model.effects.bending ? structure.influence(position.points, model.axial_offset)
@@ -54,12 +60,19 @@ std::vector<double> equally_spaced_phases(int n) {
   return phases;
 }
 
+MeshPlacement MeshPlacement::of(GapModel gap, const Misalignment& misalignment) {
+  MeshPlacement placement{gap, {}};
+  placement.misalignment.axial_offset = misalignment.axial_offset;
+  if (gap == GapModel::WholeSurface) placement.misalignment = misalignment;
+  return placement;
+}
+
 double MeshModel::normal_force(double pinion_torque) const {
   return pinion_torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle));
 }
 
 MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
-                          const MeshResolution& resolution, const MeshEffects& effects, double axial_offset,
+                          const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
                           const PairCompliance* structure, const PairRootStress* root_stress) {
   if (!effects.bending && !effects.hertzian_contact) {
     throw InvalidInput("fidelity.effects", "neither bending nor hertzian_contact", "at least one of them under load");
@@ -68,6 +81,7 @@ MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material,
   if (resolution.quadrature.intervals < 1) {
     throw InvalidInput("fidelity.quadrature.intervals", std::to_string(resolution.quadrature.intervals), "at least 1");
   }
+  const double axial_offset = placement.misalignment.axial_offset;
   const double face_start = std::max(-0.5 * pair.pinion.data.face_width, axial_offset - 0.5 * pair.wheel.data.face_width);
   const double face_end = std::min(0.5 * pair.pinion.data.face_width, axial_offset + 0.5 * pair.wheel.data.face_width);
   if (!(face_start < face_end)) {
@@ -79,6 +93,7 @@ MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material,
   model.pinion_material = pinion_material;
   model.wheel_material = wheel_material;
   model.effects = effects;
+  model.placement = placement;
   model.axial_offset = axial_offset;
   model.face_width = face_end - face_start;
   model.contact_modulus = contact_modulus(pinion_material, wheel_material);
