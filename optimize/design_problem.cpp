@@ -75,7 +75,7 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)) {
       model = std::make_unique<MeshModel>(make_mesh_model(task_.pair, task_.pinion_material, task_.wheel_material,
                                                           task_.resolution, task_.effects,
                                                           scene.condition.misalignment.axial_offset, task_.structure.get(),
-                                                          task_.root_stress.get()));
+                                                          task_.root_stress.get(), task_.shafts.get()));
     }
     models_.push_back(model.get());
   }

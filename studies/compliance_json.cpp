@@ -58,6 +58,7 @@ const char* name_of(RemovedMotion removed) {
     case RemovedMotion::None: return "none";
     case RemovedMotion::TranslationAndTorsion: return "translation and torsion";
     case RemovedMotion::TranslationTorsionAndTilt: return "translation, torsion and tilt";
+    case RemovedMotion::TranslationUpperTorsionAndTilt: return "translation, torsion at the blunt end and tilt";
   }
   __builtin_unreachable();
 }

@@ -11,6 +11,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "core/compliance/fitted/refinement_fit.hpp"
+#include "core/compliance/pair_compliance.hpp"
 #include "studies/run_cache.hpp"
 
 namespace flankwright::studies {
@@ -288,6 +289,9 @@ InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair
                           .teeth_apart = std::max(2, teeth_apart_in_contact(pair)),
                           .grid = flank_grid(gear.data.face_width / pair.data.normal_module),
                           .root_stress = wants_root_stress(study)};
+  // The gear's wind-up starts where the torque leaves it; the mesh's lower end is the sharp one.
+  const std::optional<ShaftData>& shaft = pinion ? study.pinion_shaft : study.wheel_shaft;
+  if (study.task != Task::Fit && shaft && shaft->torque_side() != sharp_end(pair, member)) task.removed = RemovedMotion::TranslationUpperTorsionAndTilt;
   if (2 * task.teeth_apart + 1 > gear.data.teeth) {
     throw InvalidInput("fidelity.compliance", to_string(study.fidelity.compliance),
                        fmt::format("another compliance: teeth {} pitches apart touch at once, too many for the {}'s {}",

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/base/stopwatch.hpp"
+#include "studies/study_shafts.hpp"
 
 namespace flankwright::studies {
 
@@ -18,6 +19,7 @@ EffectFacts facts_of(const Study& study) {
   EffectFacts facts;
   facts.coupled_teeth = couples_teeth(study.fidelity.compliance);
   facts.root_stress = wants_root_stress(study);
+  facts.shafts = study.pinion_shaft || study.wheel_shaft;
   for (const Scene& scene : study.scenes) {
     FlankCondition condition = condition_of(study, scene);
     for (double torque : scene.torques) {
@@ -63,6 +65,7 @@ class Run {
       note(std::string("a gear's body is given, but the compliance \"") + to_string(study.fidelity.compliance) + "\" does not know of it");
     }
     geometry_notes();
+    if (is_on(results_.effects, "shafts")) results_.shafts = make_shafts(study, results_.pair);
   }
 
   StudyResults finish() {
@@ -114,7 +117,7 @@ class Run {
       const Study& study = results_.study;
       results_.models.push_back(make_mesh_model(results_.pair, study.pinion_material, study.wheel_material,
                                                 resolution_of(study), mesh_effects(results_.effects), axial_offset,
-                                                structures().pair.get(), structures().root_stress.get()));
+                                                structures().pair.get(), structures().root_stress.get(), results_.shafts.get()));
     }
     return it->second;
   }
@@ -193,6 +196,7 @@ class Run {
     task.effects = mesh_effects(results_.effects);
     task.structure = structures().pair;
     task.root_stress = structures().root_stress;
+    task.shafts = results_.shafts;
     task.pinion_modification = study.pinion_modification;
     task.wheel_modification = study.wheel_modification;
     task.variables = study.optimise.variables;

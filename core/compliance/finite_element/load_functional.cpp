@@ -192,8 +192,9 @@ Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoin
   take_off(point.z, part);
   part.setZero();
   part[5] = resultant[5];
-  take_off(-mesh.face_width / 2, part);
-  if (removed == RemovedMotion::TranslationTorsionAndTilt) {
+  const bool upper = removed == RemovedMotion::TranslationUpperTorsionAndTilt;
+  take_off((upper ? 0.5 : -0.5) * mesh.face_width, part);
+  if (removed != RemovedMotion::TranslationAndTorsion) {
     part.setZero();
     part.segment<2>(3) = resultant.segment<2>(3);
     take_off(0, part);

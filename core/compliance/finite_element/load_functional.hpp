@@ -96,11 +96,13 @@ enum class RemovedMotion {
   /// And the tilt of the shaft's section at mid face. Then the shaft's supports have no force or moment to carry, and
   /// how the shaft is held matters only as far as its end sections are kept round and flat (1e-3 of K).
   TranslationTorsionAndTilt,
+  /// The same with the torque leaving at the other face end, z = +b/2, where the rotation is taken instead.
+  TranslationUpperTorsionAndTilt,
 };
 
 /// The functional with the removed motion taken off,
 ///
-///     l_p - F . t(z_p) - M_z omega_z(-b/2) [- M_x omega_x(0) - M_y omega_y(0)],
+///     l_p - F . t(z_p) - M_z omega_z(-b/2 or +b/2) [- M_x omega_x(0) - M_y omega_y(0)],
 ///
 /// F and M being force and moment of l_p about the axis in the plane z_p. It serves for load and deflection: the load
 /// that belongs to it has its reactions on the shaft right where the motion is measured. Hence P' K P instead of K P,
