@@ -164,7 +164,7 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
           {"design", loaded.design},
           {"summary", summary_json(loaded.summary, model, results.study.cycle.phases.empty())},
           {"cycle", std::move(cycle)}};
-  if (results.shafts) json["shafts"] = shaft_motion_json(loaded, results);
+  if (results.shafts) add_shaft_motion(loaded, results, json);
   return json;
 }
 

@@ -65,7 +65,10 @@ class Run {
       note(std::string("a gear's body is given, but the compliance \"") + to_string(study.fidelity.compliance) + "\" does not know of it");
     }
     geometry_notes();
-    if (is_on(results_.effects, "shafts")) results_.shafts = make_shafts(study, results_.pair);
+    if (is_on(results_.effects, "shafts")) {
+      results_.shafts = make_shafts(study, results_.pair);
+      timed_shafts_ = std::make_shared<const TimedCompliance>(results_.shafts);
+    }
   }
 
   StudyResults finish() {
@@ -74,6 +77,9 @@ class Run {
       case Task::Analyse: analyse(); break;
       case Task::Optimise: optimise(); break;
       case Task::Fit: fit(); break;
+    }
+    for (Effect& effect : results_.effects) {
+      if (effect.name == "shafts" && timed_shafts_) effect.seconds = timed_shafts_->seconds();
     }
     check_results();
     results_.seconds = clock.seconds();
@@ -117,7 +123,7 @@ class Run {
       const Study& study = results_.study;
       results_.models.push_back(make_mesh_model(results_.pair, study.pinion_material, study.wheel_material,
                                                 resolution_of(study), mesh_effects(results_.effects), axial_offset,
-                                                structures().pair.get(), structures().root_stress.get(), results_.shafts.get()));
+                                                structures().pair.get(), structures().root_stress.get(), timed_shafts_.get()));
     }
     return it->second;
   }
@@ -196,7 +202,7 @@ class Run {
     task.effects = mesh_effects(results_.effects);
     task.structure = structures().pair;
     task.root_stress = structures().root_stress;
-    task.shafts = results_.shafts;
+    task.shafts = timed_shafts_;
     task.pinion_modification = study.pinion_modification;
     task.wheel_modification = study.wheel_modification;
     task.variables = study.optimise.variables;
@@ -278,6 +284,7 @@ class Run {
   const ProgressReport& progress_;
   StudyResults results_;
   std::map<double, std::size_t> model_index_;
+  std::shared_ptr<const TimedCompliance> timed_shafts_;  ///< results_.shafts; null where they are rigid
   bool has_structure_{false};
 };
 

@@ -10,11 +10,6 @@ constexpr double newton_per_micrometre = 1000.0;  // N/mm
 
 Json stiffness_json(double stiffness, double unit) { return std::isinf(stiffness) ? Json("rigid") : Json(stiffness / unit); }
 
-Json motion_json(const ShaftMotion& motion) {
-  if (std::isnan(motion.displacement)) return nullptr;
-  return {{"displacement_um", in_um(motion.displacement)}, {"misalignment_um", in_um(motion.misalignment)}};
-}
-
 }  // namespace
 
 Json shaft_json(const std::optional<ShaftData>& shaft) {
@@ -37,28 +32,33 @@ Json shaft_json(const std::optional<ShaftData>& shaft) {
           {"poissons_ratio", shaft->material.poissons_ratio}};
 }
 
-Json shaft_motion_json(const LoadedResult& loaded, const StudyResults& results) {
-  if (!results.shafts) return nullptr;
+void add_shaft_motion(const LoadedResult& loaded, const StudyResults& results, Json& json) {
   const MeshModel& model = results.models[loaded.model];
-  Json json = Json::array();
+  double sum = 0.0;  // of the positions' misalignment; NaN where one has no load distribution
+  json["shafts"] = Json::array();
   for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
     const MeshPosition& at = model.positions[i];
     const LoadDistribution& load = loaded.cycle.positions[i].load;
     if (!load.usable()) {
-      json.push_back(nullptr);
+      json["shafts"].push_back(nullptr);
+      sum = not_given;
       continue;
     }
     const Eigen::VectorXd forces = at.weight.cwiseProduct(load.line_load);
-    const auto motion = [&](Member m) { return results.shafts->motion(m, at.points, forces, model.axial_offset); };
-    const ShaftMotion pinion = motion(Member::Pinion), wheel = motion(Member::Wheel);
+    Json entry{{"phase", at.phase}};
     double together = 0.0;
-    for (const ShaftMotion& one : {pinion, wheel}) together += std::isnan(one.misalignment) ? 0.0 : one.misalignment;
-    json.push_back({{"phase", at.phase},
-                    {"pinion", motion_json(pinion)},
-                    {"wheel", motion_json(wheel)},
-                    {"mesh_misalignment_um", in_um(together)}});
+    for (const auto& [member, name] : {std::pair{Member::Pinion, "pinion"}, std::pair{Member::Wheel, "wheel"}}) {
+      entry[name] = nullptr;
+      if (!results.shafts->has_shaft(member)) continue;
+      const ShaftMotion motion = results.shafts->motion(member, at.points, forces, model.axial_offset);
+      entry[name] = {{"displacement_um", in_um(motion.displacement)}, {"misalignment_um", in_um(motion.misalignment)}};
+      together += motion.misalignment;
+    }
+    entry["mesh_misalignment_um"] = in_um(together);
+    json["shafts"].push_back(std::move(entry));
+    sum += together;
   }
-  return json;
+  json["summary"]["shaft_misalignment_um"] = in_um(sum / static_cast<double>(loaded.cycle.positions.size()));
 }
 
 }  // namespace flankwright::studies
