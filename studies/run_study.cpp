@@ -65,8 +65,8 @@ class Run {
       note(std::string("a gear's body is given, but the compliance \"") + to_string(study.fidelity.compliance) + "\" does not know of it");
     }
     geometry_notes();
-    if (is_on(results_.effects, "shafts")) {
-      results_.shafts = make_shafts(study, results_.pair);
+    if (is_on(results_.effects, "shafts")) results_.shafts = make_shafts(study, results_.pair);
+    if (results_.shafts) {
       timed_shafts_ = std::make_shared<const TimedCompliance>(results_.shafts);
     }
   }
