@@ -58,6 +58,7 @@ const char* name_of(RemovedMotion removed) {
     case RemovedMotion::None: return "none";
     case RemovedMotion::TranslationAndTorsion: return "transverse translation and torsion";
     case RemovedMotion::TranslationTorsionAndTilt: return "transverse translation, torsion and tilt";
+    case RemovedMotion::WholeTranslationTorsionAndTilt: return "translation, torsion and tilt";
   }
   __builtin_unreachable();
 }

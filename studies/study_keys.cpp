@@ -111,8 +111,8 @@ std::vector<SchemaKey> working_condition_rows() {
        }},
       {.path = "fidelity.effects", .kind = WordList,
        .words = {"bending", "adjacent_teeth", "hertzian_contact", "tip_corner", "extended_contact_region", "misalignment",
-                 "modifications", "manufacturing_errors", "root_stress"},
-       .later = {"gear_body_compliance", "shaft_deflection"}, .fallback = "\"auto\"",
+                 "modifications", "manufacturing_errors", "root_stress", "shafts"},
+       .later = {"gear_body_compliance"}, .fallback = "\"auto\"",
        .meaning = "what enters the run; auto decides from the study, a list switches by hand",
        .store = [](Draft& d, Member, const Value& v) {
          d.study.fidelity.automatic_effects = !v.is_list;
@@ -204,7 +204,7 @@ void append(std::vector<SchemaKey>& schema, const std::vector<SchemaKey>& rows) 
 
 std::vector<SchemaKey> make_schema() {
   std::vector<SchemaKey> schema;
-  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), task_rows()}) append(schema, rows);
+  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), shaft_rows(), task_rows()}) append(schema, rows);
   return schema;
 }
 
