@@ -17,6 +17,7 @@ struct FlankCondition {
 
   const Modification& modification(Member m) const { return m == Member::Pinion ? pinion_modification : wheel_modification; }
   const ManufacturingError& error(Member m) const { return m == Member::Pinion ? pinion_error : wheel_error; }
+  bool operator==(const FlankCondition&) const = default;
 };
 
 /// Gap of unloaded flanks at each contact point, normal to the flank, at the angle at which the undisturbed pair would touch [mm]:
