@@ -53,7 +53,7 @@ ContactPeaks peaks_at(const MeshModel& model, const MeshPosition& at, const Load
 using MeshAt = std::function<MeshModel(const std::vector<double>& phases)>;
 
 struct PeakSearch {
-  SpikeRule spikes;
+  SpikeRule spikes{};
   /// First positions are at most this far apart, in addition to all at which a line begins or ends at A0, A, E or B0 or passes the
   /// length of the spike rule [base pitches], > 0.
   double step{1.0 / 32};

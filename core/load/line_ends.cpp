@@ -27,6 +27,7 @@ double line_load_for(const ContactLaw& law, double deflection) {
   const auto excess = [&](double load) { return law.deflection(load) - deflection; };
   double high = 1.0;
   while (excess(high) < 0.0) high *= 2.0;
+  while (excess(0.5 * high) > 0.0) high *= 0.5;
   return bracketed_root(excess, 0.0, -deflection, high, excess(high), 1e-12 * high).x;
 }
 
