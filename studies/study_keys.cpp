@@ -83,9 +83,15 @@ std::vector<SchemaKey> working_condition_rows() {
       {.path = "unloaded.marking_thickness", .quantity = Quantity::Deviation, .range = above_zero(1000.0),
        .fallback = "6.35", .meaning = "of the compound that shows the bearing pattern; 6.35 um is 0.00025 in",
        .store = [](Draft& d, Member, const Value& v) { d.study.marking_thickness = v.number; }},
-      {.path = "cycle.positions", .kind = Integer, .range = {.low = 1, .high = 4096}, .fallback = "32",
-       .meaning = "mesh positions over one base pitch",
-       .store = [](Draft& d, Member, const Value& v) { d.study.cycle.positions = static_cast<int>(v.integer); }},
+      {.path = "cycle.positions", .kind = IntegerOrAuto, .range = {.low = 1, .high = 4096}, .fallback = "32",
+       .meaning = "mesh positions over one base pitch; auto doubles them, 32 .. 1024, until the harmonics of every loaded transmission error have converged",
+       .store = [](Draft& d, Member, const Value& v) {
+         d.study.cycle.automatic_positions = v.text == "auto";
+         if (v.text != "auto") d.study.cycle.positions = static_cast<int>(v.integer);
+       }},
+      {.path = "cycle.peaks", .kind = Word, .words = {"located", "sampled"}, .fallback = "\"located\"",
+       .meaning = "located: peaks with and without spikes, sought between the positions, and the load distribution factors K_H that follow; sampled: those of the positions only",
+       .store = [](Draft& d, Member, const Value& v) { d.study.cycle.locate_peaks = v.text == "located"; }},
       {.path = "cycle.phases", .kind = NumberList, .range = within(100.0), .fallback = "(evenly spaced positions)",
        .meaning = "explicit phases of the reference tooth pair, in base pitches; 0 where its contact line enters",
        .store = [](Draft& d, Member, const Value& v) { d.study.cycle.phases = v.numbers; }},

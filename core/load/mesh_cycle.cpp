@@ -158,6 +158,8 @@ CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
     summary.worst_kkt_residual = std::max(summary.worst_kkt_residual, position.load.kkt_residual);
     raise(summary.pinion_root_stress, root_stress_peak(model.positions[i], position, Member::Pinion));
     raise(summary.wheel_root_stress, root_stress_peak(model.positions[i], position, Member::Wheel));
+    summary.least_stiffness = std::fmin(summary.least_stiffness, position.stiffness);
+    summary.largest_stiffness = std::fmax(summary.largest_stiffness, position.stiffness);
     mean_approach += position.load.transmission_error - position.gap.total.minCoeff();
     for (const ContactPoint& point : model.positions[i].points) {
       if (point.clearance == 0.0) mean_length += point.weight;

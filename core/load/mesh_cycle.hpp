@@ -71,6 +71,7 @@ struct CycleSummary {
   double peak_line_load{not_given};            ///< [N/mm]
   double peak_contact_stress{not_given};       ///< [MPa]
   double mean_stiffness{not_given};            ///< Haddad eq. 2.17b [N/(mm um)]
+  double least_stiffness{not_given}, largest_stiffness{not_given};  ///< eq. 2.16b over the positions [N/(mm um)]
   /// Peak line load over the mean line load F / (mean length of the contact lines on the theoretical path) [-].
   double load_factor{not_given};
   double worst_kkt_residual{not_given};

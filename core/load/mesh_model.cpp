@@ -38,17 +38,10 @@ MeshPosition make_position(const MeshModel& model, const PathOfContact& path, co
                                              : Eigen::MatrixXd::Zero(n, n);
   if (!model.effects.adjacent_teeth) uncouple_teeth(position.points, position.influence);
   if (shafts) position.influence += shafts->influence(position.points, model.axial_offset);
-  const double infinity = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < n; ++i) {
     const ContactPoint& point = position.points[static_cast<std::size_t>(i)];
     position.weight[i] = point.weight;
-    if (model.effects.hertzian_contact) {
-      const bool tips = model.effects.tip_corner;
-      position.laws.emplace_back(
-          ContactSide::of(model.pinion_material, point.pinion_depth, tips ? point.pinion_tip_distance : infinity),
-          ContactSide::of(model.wheel_material, point.wheel_depth, tips ? point.wheel_tip_distance : infinity),
-          point.relative_radius, model.contact_modulus);
-    }
+    if (model.effects.hertzian_contact) position.laws.push_back(model.contact_law(point));
   }
   return position;
 }
@@ -66,6 +59,13 @@ MeshPlacement MeshPlacement::of(GapModel gap, const Misalignment& misalignment) 
   placement.misalignment.axial_offset = misalignment.axial_offset;
   if (gap == GapModel::WholeSurface) placement.misalignment = misalignment;
   return placement;
+}
+
+ContactLaw MeshModel::contact_law(const ContactPoint& point) const {
+  const double no_tip = std::numeric_limits<double>::infinity();
+  return {ContactSide::of(pinion_material, point.pinion_depth, effects.tip_corner ? point.pinion_tip_distance : no_tip),
+          ContactSide::of(wheel_material, point.wheel_depth, effects.tip_corner ? point.wheel_tip_distance : no_tip),
+          point.relative_radius, contact_modulus};
 }
 
 double MeshModel::normal_force(double pinion_torque) const {
