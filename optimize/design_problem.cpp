@@ -74,8 +74,8 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)) {
     std::unique_ptr<MeshModel>& model = models_by_placement_[placement];
     if (!model) {
       model = std::make_unique<MeshModel>(make_mesh_model(task_.pair, task_.pinion_material, task_.wheel_material,
-                                                          task_.resolution, task_.effects, placement,
-                                                          task_.structure.get(), task_.root_stress.get()));
+                                                          task_.resolution, task_.effects, placement, task_.structure.get(),
+                                                          task_.root_stress.get(), task_.shafts.get()));
     }
     models_.push_back(model.get());
   }

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/base/stopwatch.hpp"
+#include "studies/study_shafts.hpp"
 
 namespace flankwright::studies {
 
@@ -18,6 +19,7 @@ EffectFacts facts_of(const Study& study) {
   EffectFacts facts;
   facts.coupled_teeth = couples_teeth(study.fidelity.compliance);
   facts.root_stress = wants_root_stress(study);
+  facts.shafts = study.pinion_shaft || study.wheel_shaft;
   for (const Scene& scene : study.scenes) {
     FlankCondition condition = condition_of(study, scene);
     for (double torque : scene.torques) {
@@ -66,6 +68,10 @@ class Run {
       note(std::string("a gear's body is given, but the compliance \"") + to_string(study.fidelity.compliance) + "\" does not know of it");
     }
     geometry_notes();
+    if (is_on(results_.effects, "shafts")) results_.shafts = make_shafts(study, results_.pair);
+    if (results_.shafts) {
+      timed_shafts_ = std::make_shared<const TimedCompliance>(results_.shafts);
+    }
   }
 
   StudyResults finish() {
@@ -74,6 +80,9 @@ class Run {
       case Task::Analyse: analyse(); break;
       case Task::Optimise: optimise(); break;
       case Task::Fit: fit(); break;
+    }
+    for (Effect& effect : results_.effects) {
+      if (effect.name == "shafts" && timed_shafts_) effect.seconds = timed_shafts_->seconds();
     }
     check_results();
     results_.seconds = clock.seconds();
@@ -118,7 +127,7 @@ class Run {
       const Study& study = results_.study;
       results_.models.push_back(make_mesh_model(results_.pair, study.pinion_material, study.wheel_material,
                                                 resolution_of(study), mesh_effects(results_.effects), placement,
-                                                structures().pair.get(), structures().root_stress.get()));
+                                                structures().pair.get(), structures().root_stress.get(), timed_shafts_.get()));
     }
     return it->second;
   }
@@ -198,6 +207,7 @@ class Run {
     task.effects = mesh_effects(results_.effects);
     task.structure = structures().pair;
     task.root_stress = structures().root_stress;
+    task.shafts = timed_shafts_;
     task.pinion_modification = study.pinion_modification;
     task.wheel_modification = study.wheel_modification;
     task.variables = study.optimise.variables;
@@ -279,6 +289,7 @@ class Run {
   const ProgressReport& progress_;
   StudyResults results_;
   std::map<MeshPlacement, std::size_t> model_index_;
+  std::shared_ptr<const TimedCompliance> timed_shafts_;  ///< results_.shafts; null where they are rigid
   bool has_structure_{false};
 };
 

@@ -9,6 +9,7 @@
 #include "optimize/design_optimiser.hpp"
 #include "studies/fit_task.hpp"
 #include "studies/gear_deflections.hpp"
+#include "core/compliance/shaft/shaft_pair.hpp"
 #include "studies/gear_structures.hpp"
 #include "studies/study.hpp"
 #include "studies/unloaded_result.hpp"
@@ -33,6 +34,7 @@ struct StudyResults {
   std::vector<LoadedResult> loaded;
   std::vector<MeshModel> models;  ///< one per axial offset
   GearStructures structures;      ///< empty where no structure was asked for, or none needed
+  std::shared_ptr<const ShaftPair> shafts;  ///< null where they are rigid
   std::vector<Effect> effects;
   std::optional<DesignTask> design_task;
   std::optional<DesignResult> design;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "studies/compliance_json.hpp"
+#include "studies/shafts_json.hpp"
 
 namespace flankwright::studies {
 
@@ -64,6 +65,7 @@ Json macro_json(const StudyResults& results, Member member) {
 Json used_gear_json(const StudyResults& results, Member member) {
   Json json = macro_json(results, member);
   if (const auto& runs = results.structures.finite_elements) json["body"] = body_json((*runs)[member].body);
+  json["shaft"] = shaft_json(member == Member::Pinion ? results.study.pinion_shaft : results.study.wheel_shaft);
   return json;
 }
 

@@ -8,7 +8,7 @@ namespace flankwright {
 
 FlankMeeting::Deviation::Deviation(const Flank& of, int tooth)
     : flank(of),
-      formula(of.modification, of.error, of.frame),
+      formula(of.modification, tooth_error(of.error, tooth), of.frame),
       pitch(pitch_deviation(of.error, tooth)),
       per_base_radius(1.0 / of.base_radius) {}
 

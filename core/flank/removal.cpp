@@ -12,7 +12,7 @@ double per_extent(double amount, double extent, int power) {
 
 }  // namespace
 
-DeviationFormula::DeviationFormula(const Modification& m, const ManufacturingError& e, const FlankFrame& frame)
+DeviationFormula::DeviationFormula(const Modification& m, const ToothError& e, const FlankFrame& frame)
     : pitch_radius_(frame.pitch_radius),
       above_(per_extent(m.addendum_crowning, frame.tip_radius - frame.pitch_radius, 2)),
       below_(per_extent(m.dedendum_crowning, frame.pitch_radius - frame.active_root_radius, 2)),
@@ -82,12 +82,6 @@ double removal_derivative(const Modification& m, const FlankFrame& frame, Modifi
   }
   set(unit, parameter, 1.0);
   return removal(unit, frame, r, z);
-}
-
-double pitch_deviation(const ManufacturingError& error, int tooth) {
-  if (error.cumulative_pitch.empty()) return error.pitch_step * tooth;
-  const int size = static_cast<int>(error.cumulative_pitch.size());
-  return error.cumulative_pitch[static_cast<std::size_t>(((tooth % size) + size) % size)];
 }
 
 }  // namespace flankwright

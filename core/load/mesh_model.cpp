@@ -22,7 +22,7 @@ void uncouple_teeth(const std::vector<ContactPoint>& points, Eigen::MatrixXd& in
 }
 
 MeshPosition make_position(const MeshModel& model, const PathOfContact& path, const PairCompliance& structure,
-                           const Quadrature& quadrature, double phase, double face_start, double face_end) {
+                           const PairCompliance* shafts, const Quadrature& quadrature, double phase, double face_start, double face_end) {
   MeshPosition position;
   position.phase = phase;
   position.points = contact_points(model.pair, path, quadrature, phase, model.effects.extended_contact_region, face_start,
@@ -37,6 +37,7 @@ MeshPosition make_position(const MeshModel& model, const PathOfContact& path, co
   position.influence = model.effects.bending ? structure.influence(position.points, model.axial_offset)
                                              : Eigen::MatrixXd::Zero(n, n);
   if (!model.effects.adjacent_teeth) uncouple_teeth(position.points, position.influence);
+  if (shafts) position.influence += shafts->influence(position.points, model.axial_offset);
   const double infinity = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < n; ++i) {
     const ContactPoint& point = position.points[static_cast<std::size_t>(i)];
@@ -73,7 +74,8 @@ double MeshModel::normal_force(double pinion_torque) const {
 
 MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
                           const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
-                          const PairCompliance* structure, const PairRootStress* root_stress) {
+                          const PairCompliance* structure, const PairRootStress* root_stress,
+                          const PairCompliance* shafts) {
   if (!effects.bending && !effects.hertzian_contact) {
     throw InvalidInput("fidelity.effects", "neither bending nor hertzian_contact", "at least one of them under load");
   }
@@ -102,7 +104,7 @@ MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material,
   const PathOfContact path(pair);
   model.positions.reserve(resolution.phases.size());
   for (double phase : resolution.phases) {
-    model.positions.push_back(make_position(model, path, structure != nullptr ? *structure : slices, resolution.quadrature, phase, face_start, face_end));
+    model.positions.push_back(make_position(model, path, structure != nullptr ? *structure : slices, shafts, resolution.quadrature, phase, face_start, face_end));
     MeshPosition& position = model.positions.back();
     if (root_stress) position.root_stress = root_stress->influence(position.points, axial_offset);
   }

@@ -79,10 +79,12 @@ struct MeshModel {
 /// @param placement    as MeshPlacement::of() makes it
 /// @param structure    what yields structurally; null: thin slices
 /// @param root_stress  null: none
+/// @param shafts       added to it, coupling all points; null: rigid shafts
 /// @throws InvalidInput where bending and Hertzian contact are both off (nothing would yield), no phase is given, or the gears do
 ///         not overlap axially
 MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
                           const MeshResolution& resolution, const MeshEffects& effects = {}, const MeshPlacement& placement = {},
-                          const PairCompliance* structure = nullptr, const PairRootStress* root_stress = nullptr);
+                          const PairCompliance* structure = nullptr, const PairRootStress* root_stress = nullptr,
+                          const PairCompliance* shafts = nullptr);
 
 }  // namespace flankwright
