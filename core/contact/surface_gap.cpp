@@ -164,13 +164,16 @@ Eigen::VectorXd SurfaceGap::derivative(const std::vector<ContactPoint>& points, 
 
 std::vector<ContactPoint> SurfaceGap::place(const std::vector<ContactPoint>& points, double line_phase) const {
   const std::vector<SectionMaximum> found = maxima(points, line_phase);
+  const Gap aligned = SurfaceGap(pair_, {}).at(points, line_phase);
   std::vector<ContactPoint> placed;
   placed.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!found[i].exists) continue;
     const NearestPlace place = nearest_place(found[i], points[i].tooth);
-    placed.push_back(points[i]);
-    set_rolls(pair_, pair_.pinion.roll_length_at(place.pinion_radius), pair_.wheel.roll_length_at(place.wheel_radius), placed.back());
+    ContactPoint point = points[i];
+    if (point.clearance > 0.0) point.clearance = aligned.total[static_cast<Eigen::Index>(i)];
+    set_rolls(pair_, pair_.pinion.roll_length_at(place.pinion_radius), pair_.wheel.roll_length_at(place.wheel_radius), point);
+    placed.push_back(point);
   }
   return placed;
 }

@@ -49,7 +49,7 @@ class SurfaceGap {
                              double Misalignment::* parameter) const;
 
   /// The points, each moved along its section to where the flanks are nearest, radii, curvature, depths and tip distances with
-  /// it; without those whose section misses the mate. The clearance stays that of the aligned pair.
+  /// it; without those whose section misses the mate. Clearances outside A .. E become those of the aligned pair sought likewise.
   std::vector<ContactPoint> place(const std::vector<ContactPoint>& points, double line_phase) const;
 
  private:

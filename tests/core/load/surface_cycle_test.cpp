@@ -91,6 +91,19 @@ TEST_CASE("Aligned and unmodified flanks carry load alike by either gap", "[core
   }
 }
 
+TEST_CASE("Aligned and unmodified flanks have no error, on the tip edges neither", "[core][load]") {
+  const GearPair gears = mesh_cases::pair(23, 41, 20, 4, 30);
+  const MeshModel model = surface_model(gears, {{QuadratureRule::Gauss2, 6}, equally_spaced_phases(4)});
+  const LoadedCycle cycle = analyse_cycle(model, {}, torque_for(gears, 150));
+  int on_edges = 0;
+  for (std::size_t i = 0; i < model.positions.size(); ++i) {
+    constexpr double kRoundOff = 1e-12;  // mm
+    CHECK(cycle.positions[i].gap.error.cwiseAbs().maxCoeff() <= kRoundOff);
+    for (const ContactPoint& point : model.positions[i].points) on_edges += point.clearance > 0.0 ? 1 : 0;
+  }
+  CHECK(on_edges > 10);
+}
+
 TEST_CASE("Points of the whole surface follow the misalignment and stay while modifications change", "[core][load]") {
   const GearPair gears = mesh_cases::pair(23, 41, 20, 4, 30);
   const Misalignment apart{.centre_distance = 0.3};
