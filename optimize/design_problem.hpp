@@ -62,7 +62,7 @@ class DesignProblem {
   DesignTask task_;
   std::map<double, std::unique_ptr<MeshModel>> models_by_offset_;  ///< axial offset of the wheel -> model
   std::vector<const MeshModel*> models_;                           ///< per scene
-  std::vector<GearParameter> parameters_;
+  std::vector<MeshParameter> parameters_;
   Eigen::VectorXd last_x_;
   bool last_has_derivatives_{false};
   DesignAnalysis last_;

@@ -54,6 +54,8 @@ struct MeshModel {
 
   /// Force normal to the flanks for a torque on the pinion [N]; torque in N mm.
   double normal_force(double pinion_torque) const;
+  /// Force over the mean length of the contact lines on the theoretical path [N/mm].
+  double mean_line_load(double force) const;
 };
 
 /// Builds points, influence matrix and contact laws at every phase.
