@@ -72,6 +72,14 @@ double MeshModel::normal_force(double pinion_torque) const {
   return pinion_torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle));
 }
 
+double MeshModel::mean_line_load(double force) const {
+  double length = 0.0;
+  for (const MeshPosition& position : positions) {
+    for (const ContactPoint& point : position.points) length += point.clearance == 0.0 ? point.weight : 0.0;
+  }
+  return force * static_cast<double>(positions.size()) / length;
+}
+
 MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
                           const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
                           const PairCompliance* structure, const PairRootStress* root_stress,

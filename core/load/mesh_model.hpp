@@ -74,6 +74,8 @@ struct MeshModel {
 
   /// Force normal to the flanks for a torque on the pinion [N]; torque in N mm.
   double normal_force(double pinion_torque) const;
+  /// Force over the mean length of the contact lines on the theoretical path [N/mm].
+  double mean_line_load(double force) const;
   /// How a place of a contact line gives way locally, with the effects that are on.
   ContactLaw contact_law(const ContactPoint& point) const;
   /// The common face, z [mm].
