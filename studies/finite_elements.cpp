@@ -13,6 +13,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/compliance/fitted/refinement_fit.hpp"
 #include "core/compliance/fitted/refinement_library.hpp"
+#include "core/compliance/pair_compliance.hpp"
 #include "studies/stored_table.hpp"
 
 namespace flankwright::studies {
@@ -215,6 +216,12 @@ InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair
   with_study_keys(study.fidelity.compliance, member, [&] {
     const ToothForm form(to_mesh.gear, to_mesh.normal_module, to_mesh.pressure_angle, to_mesh.helix_angle);
     task.gear.body = complete_body(pinion ? study.pinion_body : study.wheel_body, form, to_mesh.normal_module);
+    // The gear's wind-up starts where the torque leaves it, and the shaft's own bearings hold it axially.
+    const std::optional<ShaftData>& shaft = pinion ? study.pinion_shaft : study.wheel_shaft;
+    if (study.task != Task::Fit && shaft) {
+      task.removed = RemovedMotion::WholeTranslationTorsionAndTilt;
+      task.gear.body.torque_end = shaft->torque_side() == sharp_end(pair, member) ? FaceEnd::Sharp : FaceEnd::Blunt;
+    }
     GearMeshOptions options = task.mesh;
     options.teeth_each_side = task.teeth_apart;
     section_mesh(form, to_mesh.gear.teeth, to_mesh.normal_module, task.gear.body, options);  // only for what it refuses

@@ -9,7 +9,7 @@ namespace flankwright::studies {
 namespace {
 
 /// To be raised whenever the same task comes to mean other numbers: mesh, load functional, removed motion, solution.
-constexpr int model_version = 2;
+constexpr int model_version = 3;
 
 // clang-format off
 /// A field that is added to these structs must be added to the key: the bindings then no longer compile.
@@ -26,7 +26,7 @@ Json gear_key(const GearToMesh& gear) {
   const auto& [data, module, pressure_angle, helix_angle, body] = gear;
   const auto& [teeth, face_width, profile_shift, tip_diameter, rack, generation] = data;
   const auto& [addendum, dedendum, root_radius] = rack;
-  const auto& [shaft_diameter, bore_diameter, shaft_overhang] = body;
+  const auto& [shaft_diameter, bore_diameter, shaft_overhang, torque_end] = body;
   static_cast<void>(module);      // 1
   static_cast<void>(generation);  // amounts of micrometres, which the mesh does not know
   return {{"teeth", teeth},
@@ -36,7 +36,7 @@ Json gear_key(const GearToMesh& gear) {
           {"rack", {addendum, dedendum, root_radius}},
           {"pressure_angle", pressure_angle},
           {"helix_angle", helix_angle},
-          {"body", {shaft_diameter, bore_diameter, shaft_overhang}}};
+          {"body", {shaft_diameter, bore_diameter, shaft_overhang, torque_end == FaceEnd::Blunt ? "blunt" : "sharp"}}};
 }
 
 std::string table_name(int teeth_apart) { return fmt::format("influence {} apart", teeth_apart); }
