@@ -9,6 +9,7 @@
 #include "studies/fit_json.hpp"
 #include "studies/json_format.hpp"
 #include "studies/load_rating_json.hpp"
+#include "studies/shafts_json.hpp"
 #include "studies/unloaded_json.hpp"
 #include "studies/used_json.hpp"
 
@@ -67,17 +68,22 @@ Json geometry_json(const GearPair& pair) {
 }
 
 Json point_json(const ContactPoint& point, const LoadedPosition& position, Eigen::Index i) {
-  return {{"z_mm", point.z},
-          {"phase", point.phase},
-          {"pinion_radius_mm", point.pinion_radius},
-          {"wheel_radius_mm", point.wheel_radius},
-          {"length_mm", point.weight},
-          {"load_N_per_mm", position.load.line_load[i]},
-          {"contact_stress_MPa", position.contact_stress[i]},
-          {"contact_deflection_um", in_um(position.load.contact_deflection[i])},
-          {"structural_deflection_um", in_um(position.load.structural_deflection[i])},
-          {"gap_um", in_um(position.gap.total[i])},
-          {"error_um", in_um(position.gap.error[i])}};
+  Json json{{"z_mm", point.z},
+            {"phase", point.phase},
+            {"pinion_radius_mm", point.pinion_radius},
+            {"wheel_radius_mm", point.wheel_radius},
+            {"length_mm", point.weight},
+            {"load_N_per_mm", position.load.line_load[i]},
+            {"contact_stress_MPa", position.contact_stress[i]},
+            {"contact_deflection_um", in_um(position.load.contact_deflection[i])},
+            {"structural_deflection_um", in_um(position.load.structural_deflection[i])},
+            {"gap_um", in_um(position.gap.total[i])},
+            {"error_um", in_um(position.gap.error[i])}};
+  if (!position.gap.nearest.empty()) {
+    const NearestPlace& nearest = position.gap.nearest[static_cast<std::size_t>(i)];
+    json["nearest"] = {{"pinion_radius_mm", nearest.pinion_radius}, {"wheel_radius_mm", nearest.wheel_radius}};
+  }
+  return json;
 }
 
 /// Largest over a tooth's fillet [MPa]; NaN without.
@@ -163,12 +169,14 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
   for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
     cycle.push_back(position_json(model, model.positions[i], loaded.cycle.positions[i], loaded.condition));
   }
-  return {{"scene", loaded.scene},
+  Json json{{"scene", loaded.scene},
           {"torque_Nm", loaded.torque / units::newton_metre},
           {"normal_force_N", loaded.cycle.force},
           {"design", loaded.design},
           {"summary", summary_json(loaded, model, results.study.cycle.phases.empty())},
           {"cycle", std::move(cycle)}};
+  if (results.shafts) add_shaft_motion(loaded, results, json);
+  return json;
 }
 
 /// How one flank differs from the involute by generation, modification and grid, as a map; nothing where it does not.

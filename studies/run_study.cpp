@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/base/stopwatch.hpp"
+#include "studies/study_shafts.hpp"
 
 namespace flankwright::studies {
 
@@ -18,6 +19,7 @@ EffectFacts facts_of(const Study& study) {
   EffectFacts facts;
   facts.coupled_teeth = couples_teeth(study.fidelity.compliance);
   facts.root_stress = wants_root_stress(study);
+  facts.shafts = study.pinion_shaft || study.wheel_shaft;
   for (const Scene& scene : study.scenes) {
     FlankCondition condition = condition_of(study, scene);
     for (double torque : scene.torques) {
@@ -50,6 +52,9 @@ class Run {
     results_.pair = make_gear_pair(study.pair);
     const EffectFacts facts = facts_of(study);
     results_.effects = study.fidelity.automatic_effects ? decide_effects(facts) : chosen_effects(facts, study.fidelity.effects);
+    if (study.fidelity.gap == GapModel::WholeSurface && study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) {
+      results_.effects.push_back({"whole_surface_gap", true, "fidelity.gap seeks contact over the whole flanks"});
+    }
     if (study.fidelity.compliance == ComplianceModel::Rigid && any_torque() && study.task != Task::Fit) {
       note("compliance is rigid: torques are ignored, contact is analysed without load");
     }
@@ -58,6 +63,10 @@ class Run {
       note(std::string("a gear's body is given, but the compliance \"") + to_string(study.fidelity.compliance) + "\" does not know of it");
     }
     geometry_notes();
+    if (is_on(results_.effects, "shafts")) results_.shafts = make_shafts(study, results_.pair);
+    if (results_.shafts) {
+      timed_shafts_ = std::make_shared<const TimedCompliance>(results_.shafts);
+    }
   }
 
   StudyResults finish() {
@@ -66,6 +75,9 @@ class Run {
       case Task::Analyse: analyse(); break;
       case Task::Optimise: optimise(); break;
       case Task::Fit: fit(); break;
+    }
+    for (Effect& effect : results_.effects) {
+      if (effect.name == "shafts" && timed_shafts_) effect.seconds = timed_shafts_->seconds();
     }
     check_results();
     results_.seconds = clock.seconds();
@@ -102,12 +114,13 @@ class Run {
     }
   }
 
-  /// The mesh at phases of one's choice, without root stress.
-  MeshAt mesh_at(double axial_offset) {
-    return [this, axial_offset, structure = structures().pair](const std::vector<double>& phases) {
+  /// The mesh for a misalignment, at phases of one's choice and without root stress.
+  MeshAt mesh_at(const Misalignment& misalignment) {
+    return [this, placement = MeshPlacement::of(results_.study.fidelity.gap, misalignment),
+            structure = structures().pair](const std::vector<double>& phases) {
       const Study& study = results_.study;
       return make_mesh_model(results_.pair, study.pinion_material, study.wheel_material, {study.fidelity.quadrature, phases},
-                             mesh_effects(results_.effects), axial_offset, structure.get());
+                             mesh_effects(results_.effects), placement, structure.get(), nullptr, timed_shafts_.get());
     };
   }
 
@@ -130,7 +143,7 @@ class Run {
     if (cycle.automatic_positions) {
       for (const DesignScene& scene : loaded_scenes()) {
         const ResolutionChoice choice =
-            choose_positions(mesh_at(scene.condition.misalignment.axial_offset), scene.condition, scene.torque);
+            choose_positions(mesh_at(scene.condition.misalignment), scene.condition, scene.torque);
         std::optional<ResolutionChoice>& most = results_.resolution;
         if (!most || choice.convergence.positions > most->convergence.positions) most = choice;
       }
@@ -144,14 +157,16 @@ class Run {
     results_.phases = cycle.phases.empty() ? equally_spaced_phases(positions) : cycle.phases;
   }
 
-  /// The mesh model for an axial offset, built when first needed.
-  std::size_t model_for(double axial_offset) {
-    const auto [it, is_new] = model_index_.try_emplace(axial_offset, results_.models.size());
+  /// The mesh model for a misalignment, built when first needed.
+  std::size_t model_for(const Misalignment& misalignment) {
+    const MeshPlacement placement = MeshPlacement::of(results_.study.fidelity.gap, misalignment);
+    const auto [it, is_new] = model_index_.try_emplace(placement, results_.models.size());
     if (is_new) {
       const Study& study = results_.study;
       results_.models.push_back(make_mesh_model(results_.pair, study.pinion_material, study.wheel_material,
-                                                {study.fidelity.quadrature, results_.phases}, mesh_effects(results_.effects), axial_offset,
-                                                structures().pair.get(), structures().root_stress.get()));
+                                                {study.fidelity.quadrature, results_.phases}, mesh_effects(results_.effects),
+                                                placement, structures().pair.get(), structures().root_stress.get(),
+                                                timed_shafts_.get()));
     }
     return it->second;
   }
@@ -185,14 +200,14 @@ class Run {
 
   void add_loaded(const DesignScene& scene, const std::string& design, LoadedCycle cycle) {
     const FlankCondition& condition = scene.condition;
-    const std::size_t index = model_for(condition.misalignment.axial_offset);
+    const std::size_t index = model_for(condition.misalignment);
     const MeshModel& model = results_.models[index];
     LoadedResult result{scene.name, scene.torque, design, std::move(cycle), {}, index, condition,
                         iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, condition), scene.torque, model.face_width)};
     result.summary = summarise(model, result.cycle);
     const Cycle& asked = results_.study.cycle;
     if (asked.locate_peaks && asked.phases.empty() && result.cycle.usable()) {
-      result.rating = rater_.rate(mesh_at(condition.misalignment.axial_offset), condition, scene.torque);
+      result.rating = rater_.rate(mesh_at(condition.misalignment), condition, scene.torque);
     }
     results_.loaded.push_back(std::move(result));
   }
@@ -218,7 +233,7 @@ class Run {
           unloaded_seconds += clock.seconds();
         } else {
           const DesignScene loaded{scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(study, scene))};
-          const std::size_t model = model_for(loaded.condition.misalignment.axial_offset);
+          const std::size_t model = model_for(loaded.condition.misalignment);
           add_loaded(loaded, "given", analyse_cycle(results_.models[model], loaded.condition, torque));
           loaded_seconds += clock.seconds();
         }
@@ -240,9 +255,11 @@ class Run {
     task.pinion_material = study.pinion_material;
     task.wheel_material = study.wheel_material;
     task.resolution = {study.fidelity.quadrature, results_.phases};
+    task.gap = study.fidelity.gap;
     task.effects = mesh_effects(results_.effects);
     task.structure = structures().pair;
     task.root_stress = structures().root_stress;
+    task.shafts = timed_shafts_;
     task.pinion_modification = study.pinion_modification;
     task.wheel_modification = study.wheel_modification;
     task.variables = study.optimise.variables;
@@ -319,7 +336,8 @@ class Run {
 
   const ProgressReport& progress_;
   StudyResults results_;
-  std::map<double, std::size_t> model_index_;
+  std::map<MeshPlacement, std::size_t> model_index_;
+  std::shared_ptr<const TimedCompliance> timed_shafts_;  ///< results_.shafts; null where they are rigid
   LoadRater rater_;
   bool has_structure_{false};
 };

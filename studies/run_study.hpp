@@ -11,6 +11,7 @@
 #include "optimize/design_optimiser.hpp"
 #include "studies/fit_task.hpp"
 #include "studies/gear_deflections.hpp"
+#include "core/compliance/shaft/shaft_pair.hpp"
 #include "studies/gear_structures.hpp"
 #include "studies/load_rating.hpp"
 #include "studies/study.hpp"
@@ -41,6 +42,7 @@ struct StudyResults {
   std::vector<double> phases;     ///< of the loaded mesh positions [base pitches]
   std::optional<ResolutionChoice> resolution;  ///< of the load case that needed most positions, where they were chosen automatically
   GearStructures structures;      ///< empty where no structure was asked for, or none needed
+  std::shared_ptr<const ShaftPair> shafts;  ///< null where they are rigid
   std::vector<Effect> effects;
   std::optional<DesignTask> design_task;
   std::optional<DesignResult> design;

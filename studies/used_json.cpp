@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "studies/compliance_json.hpp"
+#include "studies/shafts_json.hpp"
 
 namespace flankwright::studies {
 
@@ -64,6 +65,7 @@ Json macro_json(const StudyResults& results, Member member) {
 Json used_gear_json(const StudyResults& results, Member member) {
   Json json = macro_json(results, member);
   if (const auto& runs = results.structures.finite_elements) json["body"] = body_json((*runs)[member].body);
+  json["shaft"] = shaft_json(member == Member::Pinion ? results.study.pinion_shaft : results.study.wheel_shaft);
   return json;
 }
 
@@ -96,7 +98,7 @@ Json used_json(const StudyResults& results) {
             {"cycle", cycle_json(results)},
             {"fidelity",
              {{"compliance", to_string(study.fidelity.compliance)},
-              {"gap", "plane_of_action"},
+              {"gap", to_string(study.fidelity.gap)},
               {"quadrature", {{"rule", rule_name(study.fidelity.quadrature.rule)}, {"intervals", study.fidelity.quadrature.intervals}}},
               {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
   if (study.misalignment.pinion_lead_angle != 0.0) {

@@ -86,8 +86,34 @@ std::optional<TipContact> tip_contact(const GearPair& pair, const Gear& tip, con
   return TipContact{rho, mate.base_radius * (std::atan2(y, x) - polar_angle(mate, mate_roll, rho))};
 }
 
-/// Fills radii, curvature and clearance of a point from its roll lengths on both gears.
-void place(const GearPair& pair, double pinion_roll, double wheel_roll, ContactPoint& point) {
+/// Geometry at a phase; false where no contact can be.
+bool locate(const GearPair& pair, const PathOfContact& path, bool with_extended_region, ContactPoint& point) {
+  const double rho1 = path.roll_at(point.phase), rho2 = pair.path_length - rho1;
+  if (rho1 >= pair.path_start && rho1 <= pair.path_end) {
+    set_rolls(pair, rho1, rho2, point);
+    return point.relative_radius > 0.0;
+  }
+  if (!with_extended_region) return false;
+  const double cos_base_helix = std::cos(pair.base_helix_angle);
+  if (rho1 < pair.path_start) {
+    if (pair.pinion.fillet_interference) return false;
+    const auto contact = tip_contact(pair, pair.wheel, pair.pinion, rho2, rho1);
+    if (!contact) return false;
+    set_rolls(pair, contact->mate_roll, pair.wheel.roll_length_at(pair.wheel.tip_radius), point);
+    point.clearance = contact->clearance * cos_base_helix;
+  } else {
+    if (pair.wheel.fillet_interference) return false;
+    const auto contact = tip_contact(pair, pair.pinion, pair.wheel, rho1, rho2);
+    if (!contact) return false;
+    set_rolls(pair, pair.pinion.roll_length_at(pair.pinion.tip_radius), contact->mate_roll, point);
+    point.clearance = contact->clearance * cos_base_helix;
+  }
+  return true;
+}
+
+}  // namespace
+
+void set_rolls(const GearPair& pair, double pinion_roll, double wheel_roll, ContactPoint& point) {
   const double cos_base_helix = std::cos(pair.base_helix_angle);
   const auto side = [&](const Gear& gear, double rho, double& radius, double& depth, double& tip_distance) {
     radius = std::hypot(gear.base_radius, rho);
@@ -99,33 +125,6 @@ void place(const GearPair& pair, double pinion_roll, double wheel_roll, ContactP
   side(pair.wheel, wheel_roll, point.wheel_radius, point.wheel_depth, point.wheel_tip_distance);
   point.relative_radius = pinion_roll * wheel_roll / (pinion_roll + wheel_roll) / cos_base_helix;
 }
-
-/// Geometry at a phase; false where no contact can be.
-bool locate(const GearPair& pair, const PathOfContact& path, bool with_extended_region, ContactPoint& point) {
-  const double rho1 = path.roll_at(point.phase), rho2 = pair.path_length - rho1;
-  if (rho1 >= pair.path_start && rho1 <= pair.path_end) {
-    place(pair, rho1, rho2, point);
-    return point.relative_radius > 0.0;
-  }
-  if (!with_extended_region) return false;
-  const double cos_base_helix = std::cos(pair.base_helix_angle);
-  if (rho1 < pair.path_start) {
-    if (pair.pinion.fillet_interference) return false;
-    const auto contact = tip_contact(pair, pair.wheel, pair.pinion, rho2, rho1);
-    if (!contact) return false;
-    place(pair, contact->mate_roll, pair.wheel.roll_length_at(pair.wheel.tip_radius), point);
-    point.clearance = contact->clearance * cos_base_helix;
-  } else {
-    if (pair.wheel.fillet_interference) return false;
-    const auto contact = tip_contact(pair, pair.pinion, pair.wheel, rho1, rho2);
-    if (!contact) return false;
-    place(pair, pair.pinion.roll_length_at(pair.pinion.tip_radius), contact->mate_roll, point);
-    point.clearance = contact->clearance * cos_base_helix;
-  }
-  return true;
-}
-
-}  // namespace
 
 std::vector<LineInterval> line_intervals(const PathOfContact& path, const Quadrature& quadrature, double line_phase,
                                          double face_start, double face_end) {

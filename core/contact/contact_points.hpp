@@ -52,6 +52,8 @@ struct ContactPoint {
   double clearance{0.0};   ///< c_n of the unmodified pair, normal to the flank; 0 on the theoretical path of contact
 };
 
+/// Fills radii, curvature, depths and tip distances of a point from its roll lengths on both gears [mm], both > 0.
+void set_rolls(const GearPair& pair, double pinion_roll, double wheel_roll, ContactPoint& point);
 /// The place of one line at an axial position, without a weight; nothing where no contact can be.
 /// @param line_phase, with_extended_region  as in contact_points()
 std::optional<ContactPoint> contact_point(const GearPair& pair, const PathOfContact& path, double line_phase, int tooth, double z,

@@ -27,7 +27,7 @@ namespace flankwright {
 /// is continuous; its slope jumps where a linear relief starts. Outside the active flank the same formulas continue.
 class DeviationFormula {
  public:
-  DeviationFormula(const Modification& modification, const ManufacturingError& error, const FlankFrame& frame);
+  DeviationFormula(const Modification& modification, const ToothError& error, const FlankFrame& frame);
 
   /// Value, first and second derivatives, u = r and v = z; at a relief's start those of the side without it.
   Jet at(double r, double z) const {
@@ -71,17 +71,30 @@ Scalar removal(const Modification& m, const FlankFrame& frame, const Scalar& r, 
   return chain(DeviationFormula(m, {}, frame).at(value_of(r), value_of(z)), r, z);
 }
 
-/// Derivative of removal() with respect to one modification parameter [mm/mm; parabolic_te mm rad], exact; one-sided at a relief's start.
-double removal_derivative(const Modification& m, const FlankFrame& frame, ModificationParameter parameter, double r, double z);
+/// Derivative of removal() with respect to one modification parameter [mm/mm; parabolic_te mm rad], exact; one-sided at a relief's
+/// start. What does not depend on the place is worked out once.
+class RemovalDerivative {
+ public:
+  RemovalDerivative(const Modification& m, const FlankFrame& frame, ModificationParameter parameter);
+  double at(double r, double z) const;
 
-/// Metal added by manufacturing errors at r, z [mm], transverse base tangent [Haddad 1991, eq. 6.1], without pitch: the errors'
-/// part of DeviationFormula with its sign turned.
-template <class Scalar>
-Scalar added_metal(const ManufacturingError& e, const FlankFrame& frame, const Scalar& r, const Scalar& z) {
-  return -chain(DeviationFormula({}, e, frame).at(value_of(r), value_of(z)), r, z);
+ private:
+  DeviationFormula unit_;  ///< amounts enter linearly: the removal of a unit amount with the same extents
+  ModificationParameter parameter_;
+  ProfileRelief tip_, root_;
+  EndRelief end_;
+  FlankFrame frame_;
+};
+/// The same at one place.
+inline double removal_derivative(const Modification& m, const FlankFrame& frame, ModificationParameter parameter, double r, double z) {
+  return RemovalDerivative(m, frame, parameter).at(r, z);
 }
 
-/// Cumulative pitch deviation of tooth k [mm], see ManufacturingError.
-double pitch_deviation(const ManufacturingError& error, int tooth);
+/// Metal added by one tooth's errors at r, z [mm], transverse base tangent [Haddad 1991, eq. 6.1], without pitch: the errors'
+/// part of DeviationFormula with its sign turned.
+template <class Scalar>
+Scalar added_metal(const ToothError& e, const FlankFrame& frame, const Scalar& r, const Scalar& z) {
+  return -chain(DeviationFormula({}, e, frame).at(value_of(r), value_of(z)), r, z);
+}
 
 }  // namespace flankwright

@@ -90,12 +90,25 @@ struct ManufacturingError {
   double helix_slope{0.0};    ///< f_Hbeta over the face width, linear, zero at mid face; + adds at z = +b/2
   double profile_slope{0.0};  ///< f_Halpha over the active profile height, zero at the reference circle; + adds at the tip
   double twist{0.0};          ///< f_yz: added twist * (y / h_active) * (z / b)
+  /// What single teeth have beyond that, the same quantities: tooth k has entry k mod size; empty: all teeth are alike. k
+  /// counts teeth as for the pitch.
+  std::vector<double> helix_slopes{}, profile_slopes{}, twists{};
   /// Cumulative pitch deviation of tooth k is pitch_step * k, or cumulative_pitch[k mod size] where the list is
   /// not empty; k counts teeth in the order in which they come into mesh before the reference tooth.
   double pitch_step{0.0};
-  std::vector<double> cumulative_pitch;
+  std::vector<double> cumulative_pitch{};
+
   bool operator==(const ManufacturingError&) const = default;
 };
+
+/// The slopes and the twist of one tooth's flank [mm], see ManufacturingError.
+struct ToothError {
+  double helix_slope{0.0}, profile_slope{0.0}, twist{0.0};
+};
+ToothError tooth_error(const ManufacturingError& error, int tooth);
+
+/// Cumulative pitch deviation of tooth k [mm], see ManufacturingError.
+double pitch_deviation(const ManufacturingError& error, int tooth);
 
 /// What a removal is measured against; see GearPair::flank_frame() for a gear of a pair.
 struct FlankFrame {

@@ -171,6 +171,7 @@ function build_load_cases(results, body, { cases }) {
     [{ label: "Load factor" }, plain("load_factor")],
     [{ label: "Stiffness", unit: "N/(mm µm)" }, plain("mean_stiffness_N_per_mm_um")],
     [{ label: "Variation of stiffness", unit: "%" }, (entry) => percent(summary_of(entry).stiffness_variation)],
+    [{ label: "f_sh", unit: "µm" }, plain("shaft_misalignment_um")],
     [{ label: "c′, ISO", unit: "N/(mm µm)" }, iso("c_prime")],
     [{ label: "c_γ, ISO", unit: "N/(mm µm)" }, iso("c_gamma")],
     [{ label: "TE harm. change", unit: "µm" }, (entry) => record(summary_of(entry).te_convergence).harmonic_change_um],
@@ -181,8 +182,9 @@ function build_load_cases(results, body, { cases }) {
     rows.some((row) => is_number(value(row.load_case.designs[row.design]))));
   table(body, {
     title: "Peaks and means over the mesh cycle",
-    note: "Peaks are the largest values over the positions and all teeth in contact; c′ and cγ are those of ISO 6336; the change of "
-      + "the harmonics is what the last doubling of positions brought; the KKT residual is the largest error of the contact conditions.",
+    note: "Peaks are the largest values over the positions and all teeth in contact; c′ and cγ are those of ISO 6336; f_sh is the "
+      + "misalignment by the shafts, its mean; the change of the harmonics is what the last doubling of positions brought; "
+      + "the KKT residual is the largest error of the contact conditions.",
     columns: [{ label: "Scene" }, { label: "Torque", unit: "N·m", digits: 6 }, { label: "Design" },
       ...filled.map(([column]) => column)],
     rows: rows.map(({ load_case, design }) => [load_case.scene, load_case.torque, DESIGN_LABEL[design],
