@@ -4,6 +4,7 @@
 
 #include "core/base/natural_spline.hpp"
 #include "core/base/root.hpp"
+#include "core/contact/condition_gap.hpp"
 #include "core/load/line_region.hpp"
 
 namespace flankwright {
@@ -50,7 +51,7 @@ std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, c
       ends.push_back({tooth, z, structural(z)});
     }
   }
-  const Eigen::VectorXd gap = plane_of_action_gap(model.pair, points, condition).total;
+  const Eigen::VectorXd gap = ConditionGap(model.pair, model.placement.gap, condition).at(points, at.phase).total;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     LineEnd& end = ends[i];
     const double left = loaded.load.transmission_error - gap[static_cast<Eigen::Index>(i)] - end.structural_deflection;
