@@ -66,7 +66,7 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)) {
   check_root_stress(task_);
   for (const DesignVariable& v : task_.variables) {
     if (!(v.lower < v.upper)) throw InvalidInput("optimise.variables." + v.path, "an empty range", "lower < upper");
-    parameters_.push_back({v.member, v.parameter});
+    parameters_.push_back(GearParameter{v.member, v.parameter});
   }
   for (const DesignScene& scene : task_.scenes) {
     if (!(scene.torque > 0.0)) throw InvalidInput("load.torque", std::to_string(scene.torque), "above 0 to optimise");
@@ -107,7 +107,7 @@ void DesignProblem::apply(const Eigen::VectorXd& x, Modification& pinion, Modifi
 
 DesignAnalysis DesignProblem::run(const Modification& pinion, const Modification& wheel, bool with_derivatives) const {
   DesignAnalysis analysis{pinion, wheel, std::vector<LoadedCycle>(task_.scenes.size())};
-  const std::vector<GearParameter> none;
+  const std::vector<MeshParameter> none;
   tbb::parallel_for(std::size_t{0}, task_.scenes.size(), [&](std::size_t s) {
     FlankCondition condition = task_.scenes[s].condition;
     condition.pinion_modification = pinion;

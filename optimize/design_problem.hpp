@@ -62,7 +62,7 @@ class DesignProblem {
   DesignTask task_;
   std::map<MeshPlacement, std::unique_ptr<MeshModel>> models_by_placement_;
   std::vector<const MeshModel*> models_;  ///< per scene
-  std::vector<GearParameter> parameters_;
+  std::vector<MeshParameter> parameters_;
   Eigen::VectorXd last_x_;
   bool last_has_derivatives_{false};
   DesignAnalysis last_;

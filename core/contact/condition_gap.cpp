@@ -16,4 +16,10 @@ Eigen::VectorXd ConditionGap::derivative(const std::vector<ContactPoint>& points
   return surfaces_ ? surfaces_->derivative(gap, member, parameter) : gap_derivative(pair_, points, condition_, member, parameter);
 }
 
+Eigen::VectorXd ConditionGap::derivative(const std::vector<ContactPoint>& points, double line_phase, const Gap& gap,
+                                         MisalignmentParameter parameter) const {
+  return surfaces_ ? surfaces_->derivative(points, line_phase, gap, parameter)
+                   : gap_derivative(pair_, points, condition_.misalignment, parameter);
+}
+
 }  // namespace flankwright

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/contact/misalignment_gap.hpp"
 #include "core/contact/surface_gap.hpp"
 
 namespace flankwright {
@@ -21,6 +22,11 @@ class ConditionGap {
   /// @param gap  as at() gave it for these points
   Eigen::VectorXd derivative(const std::vector<ContactPoint>& points, const Gap& gap, Member member,
                              ModificationParameter parameter) const;
+
+  /// dg/dp at each point for one number of the misalignment [mm/rad or mm/mm], exact, the points held.
+  /// @throws InvalidInput  for the axial offset, see misalignment_parameters
+  Eigen::VectorXd derivative(const std::vector<ContactPoint>& points, double line_phase, const Gap& gap,
+                             MisalignmentParameter parameter) const;
 
  private:
   const GearPair& pair_;

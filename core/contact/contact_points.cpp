@@ -137,6 +137,17 @@ std::vector<LineInterval> line_intervals(const PathOfContact& path, const Quadra
   return intervals;
 }
 
+std::optional<ContactPoint> contact_point(const GearPair& pair, const PathOfContact& path, double line_phase, int tooth, double z,
+                                          bool with_extended_region) {
+  ContactPoint point;
+  point.tooth = tooth;
+  point.z = z;
+  point.phase = path.phase_at(line_phase + tooth, z);
+  const bool inside = point.phase >= 0.0 && point.phase <= path.region_length;
+  if (!inside || !locate(pair, path, with_extended_region, point)) return std::nullopt;
+  return point;
+}
+
 std::vector<ContactPoint> contact_points(const GearPair& pair, const PathOfContact& path, const Quadrature& quadrature,
                                          double line_phase, bool with_extended_region, double face_start, double face_end) {
   const std::vector<Node> rule = nodes(quadrature.rule);
@@ -148,13 +159,10 @@ std::vector<ContactPoint> contact_points(const GearPair& pair, const PathOfConta
     for (const LineInterval& part : line_intervals(path, quadrature, line_phase + tooth, face_start, face_end)) {
       for (const Node& node : rule) {
         const double width = part.end - part.begin;
-        ContactPoint point;
-        point.tooth = tooth;
-        point.z = part.begin + node.position * width;
-        point.phase = path.phase_at(line_phase + tooth, point.z);
-        point.weight = node.weight * width / cos_base_helix;
-        if (point.phase < 0.0 || point.phase > path.region_length) continue;
-        if (locate(pair, path, with_extended_region, point)) points.push_back(point);
+        auto point = contact_point(pair, path, line_phase, tooth, part.begin + node.position * width, with_extended_region);
+        if (!point) continue;
+        point->weight = node.weight * width / cos_base_helix;
+        points.push_back(*point);
       }
     }
   }

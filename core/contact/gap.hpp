@@ -19,6 +19,7 @@ struct FlankCondition {
 
   const Modification& modification(Member m) const { return m == Member::Pinion ? pinion_modification : wheel_modification; }
   const ManufacturingError& error(Member m) const { return m == Member::Pinion ? pinion_error : wheel_error; }
+  bool operator==(const FlankCondition&) const = default;
 };
 
 /// Where the gap between the flanks is sought.

@@ -38,17 +38,10 @@ MeshPosition make_position(const MeshModel& model, const PathOfContact& path, co
                                              : Eigen::MatrixXd::Zero(n, n);
   if (!model.effects.adjacent_teeth) uncouple_teeth(position.points, position.influence);
   if (shafts) position.influence += shafts->influence(position.points, model.axial_offset);
-  const double infinity = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < n; ++i) {
     const ContactPoint& point = position.points[static_cast<std::size_t>(i)];
     position.weight[i] = point.weight;
-    if (model.effects.hertzian_contact) {
-      const bool tips = model.effects.tip_corner;
-      position.laws.emplace_back(
-          ContactSide::of(model.pinion_material, point.pinion_depth, tips ? point.pinion_tip_distance : infinity),
-          ContactSide::of(model.wheel_material, point.wheel_depth, tips ? point.wheel_tip_distance : infinity),
-          point.relative_radius, model.contact_modulus);
-    }
+    if (model.effects.hertzian_contact) position.laws.push_back(model.contact_law(point));
   }
   return position;
 }
@@ -68,8 +61,23 @@ MeshPlacement MeshPlacement::of(GapModel gap, const Misalignment& misalignment) 
   return placement;
 }
 
+ContactLaw MeshModel::contact_law(const ContactPoint& point) const {
+  const double no_tip = std::numeric_limits<double>::infinity();
+  return {ContactSide::of(pinion_material, point.pinion_depth, effects.tip_corner ? point.pinion_tip_distance : no_tip),
+          ContactSide::of(wheel_material, point.wheel_depth, effects.tip_corner ? point.wheel_tip_distance : no_tip),
+          point.relative_radius, contact_modulus};
+}
+
 double MeshModel::normal_force(double pinion_torque) const {
   return pinion_torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle));
+}
+
+double MeshModel::mean_line_load(double force) const {
+  double length = 0.0;
+  for (const MeshPosition& position : positions) {
+    for (const ContactPoint& point : position.points) length += point.clearance == 0.0 ? point.weight : 0.0;
+  }
+  return force * static_cast<double>(positions.size()) / length;
 }
 
 MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "core/compliance/contact_law.hpp"
@@ -73,6 +74,13 @@ struct MeshModel {
 
   /// Force normal to the flanks for a torque on the pinion [N]; torque in N mm.
   double normal_force(double pinion_torque) const;
+  /// Force over the mean length of the contact lines on the theoretical path [N/mm].
+  double mean_line_load(double force) const;
+  /// How a place of a contact line gives way locally, with the effects that are on.
+  ContactLaw contact_law(const ContactPoint& point) const;
+  /// The common face, z [mm].
+  double face_start() const { return std::max(-0.5 * pair.pinion.data.face_width, axial_offset - 0.5 * pair.wheel.data.face_width); }
+  double face_end() const { return face_start() + face_width; }
 };
 
 /// Builds points, influence matrix and contact laws at every phase.

@@ -171,7 +171,7 @@ TEST_CASE("Finite elements leave their wind-up to start where the study's torque
   // The sharp end of a right-hand pinion is at +b/2, its mate's at -b/2.
   CHECK(end(pair_text, Member::Pinion) == FaceEnd::Blunt);
   CHECK(end(pair_text + shaft_text, Member::Pinion) == FaceEnd::Blunt);
-  CHECK(end(pair_text + shaft_text, Member::Wheel) == FaceEnd::Sharp);
+  CHECK(end(pair_text + shaft_text, Member::Wheel) == FaceEnd::Blunt);
   CHECK(end(pair_text + shaft_text, Member::Pinion, Overrides{{"pinion.shaft.torque_position", "180"}}) == FaceEnd::Sharp);
   CHECK(end(pair_text + shaft_text, Member::Pinion, Overrides{{"pair.working_flank", "left"}}) == FaceEnd::Sharp);
   // Its bearings hold it axially.

@@ -94,7 +94,7 @@ TEST_CASE("Derivatives with shafts are those of central differences", "[core][lo
   condition.pinion_modification.lead_crowning = 4 * units::um;
   const std::vector<GearParameter> parameters{{Member::Pinion, ModificationParameter::LeadSlope},
                                               {Member::Wheel, ModificationParameter::LeadCrowning}};
-  const LoadedCycle cycle = analyse_cycle(model, condition, torque, parameters);
+  const LoadedCycle cycle = analyse_cycle(model, condition, torque, {parameters.begin(), parameters.end()});
   const double step = 0.002 * units::um;
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     const auto moved = [&](double by) {

@@ -135,7 +135,7 @@ TEST_CASE("Gradients over the whole surface agree with central differences", "[c
                                               {Member::Pinion, ModificationParameter::ParabolicTe},
                                               {Member::Wheel, ModificationParameter::AddendumCrowning},
                                               {Member::Wheel, ModificationParameter::ProfileSlope}};
-  const LoadedCycle cycle = analyse_cycle(model, condition, torque, parameters);
+  const LoadedCycle cycle = analyse_cycle(model, condition, torque, {parameters.begin(), parameters.end()});
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     const bool parabola = parameters[p].parameter == ModificationParameter::ParabolicTe;
     const double step = parabola ? 1e-6 : 2e-5;  // 1/rad or mm
