@@ -1,8 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/contact/surface_gap.hpp"
+#include "core/contact/gap.hpp"
 #include "core/contact/tooth_contact.hpp"
+#include "core/load/line_ends.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;
@@ -121,6 +122,33 @@ TEST_CASE("Points of the whole surface follow the misalignment and stay while mo
   // Two conditions that differ in modifications share a placement; in the plane of action, whatever moves no point.
   CHECK(MeshPlacement::of(GapModel::PlaneOfAction, apart) == MeshPlacement{});
   CHECK(MeshPlacement::of(GapModel::WholeSurface, apart) != MeshPlacement::of(GapModel::WholeSurface, {}));
+}
+
+TEST_CASE("The ends of lines carry what the whole surface leaves there", "[core][load][line-ends]") {
+  // Far apart and skewed both gaps differ by micrometres: only the one that the points have continues their loads to the end.
+  const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
+  FlankCondition condition;
+  condition.misalignment.crossing = 2 * arcmin;
+  condition.misalignment.centre_distance = 1.2;
+  const double phase = (gears.pitch_point - gears.path_start) / gears.transverse_base_pitch + PathOfContact::extension;
+  const MeshModel model = surface_model(gears, {{QuadratureRule::Midpoint, 40}, {phase}}, condition.misalignment);
+  const LoadedPosition loaded = analyse_cycle(model, condition, torque_for(gears, 300)).positions[0];
+  const std::vector<ContactPoint>& points = model.positions[0].points;
+  const Eigen::VectorXd &w = loaded.load.line_load, plane = plane_of_action_gap(gears, points, condition).total;
+  CHECK((loaded.gap.total - plane).cwiseAbs().minCoeff() > 2 * um);
+  int compared = 0;
+  for (const LineEnd& end : line_ends(model, model.positions[0], loaded, condition)) {
+    for (Eigen::Index i = 0; i < w.size(); ++i) {
+      const std::size_t k = static_cast<std::size_t>(i);
+      const bool is_last = std::abs(points[k].z - end.z) < 0.4 && points[k].tooth == end.tooth;  // half an interval: 0.375 mm
+      if (!is_last) continue;
+      const double onwards = 1.5 * w[i] - 0.5 * w[end.z < 0.0 ? i + 1 : i - 1];
+      CAPTURE(end.tooth, end.z, w[i], end.line_load);
+      CHECK(std::abs(end.line_load - onwards) <= 0.01 * w.maxCoeff());  // discretisation: curvature of w over an interval
+      ++compared;
+    }
+  }
+  CHECK(compared > 0);
 }
 
 TEST_CASE("Gradients over the whole surface agree with central differences", "[core][load]") {
