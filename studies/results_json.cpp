@@ -7,6 +7,7 @@
 #include "core/gear/tooth_form.hpp"
 #include "studies/compliance_json.hpp"
 #include "studies/fit_json.hpp"
+#include "studies/gradients_json.hpp"
 #include "studies/json_format.hpp"
 #include "studies/unloaded_json.hpp"
 #include "studies/used_json.hpp"
@@ -157,12 +158,15 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
   for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
     cycle.push_back(position_json(model.positions[i], loaded.cycle.positions[i], cos_base_helix));
   }
-  return {{"scene", loaded.scene},
-          {"torque_Nm", loaded.torque / units::newton_metre},
-          {"normal_force_N", loaded.cycle.force},
-          {"design", loaded.design},
-          {"summary", summary_json(loaded.summary, model, results.study.cycle.phases.empty())},
-          {"cycle", std::move(cycle)}};
+  Json json{{"scene", loaded.scene},
+            {"torque_Nm", loaded.torque / units::newton_metre},
+            {"normal_force_N", loaded.cycle.force},
+            {"design", loaded.design},
+            {"summary", summary_json(loaded.summary, model, results.study.cycle.phases.empty())},
+            {"cycle", std::move(cycle)}};
+  const bool asked = results.study.task == Task::Analyse && !results.study.gradients.empty();
+  if (asked && loaded.cycle.usable()) json["gradients"] = gradients_json(loaded, model, results.study);
+  return json;
 }
 
 /// How one flank differs from the involute by generation, modification and grid, as a map; nothing where it does not.

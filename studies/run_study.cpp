@@ -157,6 +157,8 @@ class Run {
     int total = 0, done = 0;
     for (const Scene& scene : study.scenes) total += static_cast<int>(scene.torques.size());
     double unloaded_seconds = 0.0, loaded_seconds = 0.0;
+    std::vector<MeshParameter> parameters;
+    for (const GradientParameter& p : study.gradients) parameters.push_back(p.parameter);
     if (study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) structures();  // its time is its own
     for (const Scene& scene : study.scenes) {
       bool has_unloaded = false;
@@ -169,7 +171,7 @@ class Run {
         } else {
           const FlankCondition condition = apply_effects(results_.effects, condition_of(study, scene));
           const std::size_t model = model_for(condition.misalignment.axial_offset);
-          add_loaded(scene.name, torque, "given", model, analyse_cycle(results_.models[model], condition, torque));
+          add_loaded(scene.name, torque, "given", model, analyse_cycle(results_.models[model], condition, torque, parameters));
           loaded_seconds += clock.seconds();
         }
         report("analysing", ++done, total, scene.name);
