@@ -70,12 +70,12 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)) {
   }
   for (const DesignScene& scene : task_.scenes) {
     if (!(scene.torque > 0.0)) throw InvalidInput("load.torque", std::to_string(scene.torque), "above 0 to optimise");
-    std::unique_ptr<MeshModel>& model = models_by_offset_[scene.condition.misalignment.axial_offset];
+    const MeshPlacement placement = MeshPlacement::of(task_.gap, scene.condition.misalignment);
+    std::unique_ptr<MeshModel>& model = models_by_placement_[placement];
     if (!model) {
       model = std::make_unique<MeshModel>(make_mesh_model(task_.pair, task_.pinion_material, task_.wheel_material,
-                                                          task_.resolution, task_.effects,
-                                                          scene.condition.misalignment.axial_offset, task_.structure.get(),
-                                                          task_.root_stress.get()));
+                                                          task_.resolution, task_.effects, placement, task_.structure.get(),
+                                                          task_.root_stress.get(), task_.shafts.get()));
     }
     models_.push_back(model.get());
   }

@@ -73,8 +73,10 @@ struct DesignTask {
   Material pinion_material, wheel_material;
   MeshResolution resolution;
   MeshEffects effects;
+  GapModel gap{GapModel::PlaneOfAction};
   std::shared_ptr<const PairCompliance> structure;       ///< null: thin slices
   std::shared_ptr<const PairRootStress> root_stress;     ///< null: none
+  std::shared_ptr<const PairCompliance> shafts;          ///< null: rigid
   Modification pinion_modification, wheel_modification;  ///< values of what is not varied, and the start of what is
   std::vector<DesignScene> scenes;                       ///< the first is the nominal one
   std::vector<DesignVariable> variables;

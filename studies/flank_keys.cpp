@@ -14,6 +14,12 @@ ManufacturingError& error(Scene& scene, Member m) {
   return m == Member::Pinion ? scene.pinion_error : scene.wheel_error;
 }
 
+/// One number for all teeth, or one for each.
+void store(const Value& v, double& of_all, std::vector<double>& of_each) {
+  of_all = v.is_list ? 0.0 : v.numbers.front();
+  of_each = v.is_list ? v.numbers : std::vector<double>{};
+}
+
 constexpr Range relief_extent = from_zero(10000.0);  // mm; 0 is "not given"
 
 using enum ValueKind;
@@ -84,22 +90,21 @@ std::vector<SchemaKey> flank_rows() {
        .fallback = "(through every point)", .meaning = "the same along the face",
        .store = [](Draft& d, Member m, const Value& v) { grid(d, m).face_pieces = static_cast<int>(v.integer); }},
 
-      {.path = "gear.error.helix_slope", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "f_Hbeta over the face width, metal added; + adds at z = +b/2, zero at mid face",
-       .store = [](Scene& s, Member m, const Value& v) { error(s, m).helix_slope = v.number; }},
-      {.path = "gear.error.profile_slope", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "f_Halpha, metal added; + adds at the tip, zero at the reference circle",
-       .store = [](Scene& s, Member m, const Value& v) { error(s, m).profile_slope = v.number; }},
+      {.path = "gear.error.helix_slope", .kind = NumberOrList, .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
+       .meaning = "f_Hbeta over the face width, metal added; + adds at z = +b/2, zero at mid face; a list: of each tooth",
+       .store = [](Scene& s, Member m, const Value& v) { store(v, error(s, m).helix_slope, error(s, m).helix_slopes); }},
+      {.path = "gear.error.profile_slope", .kind = NumberOrList, .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
+       .meaning = "f_Halpha, metal added; + adds at the tip, zero at the reference circle; a list: of each tooth",
+       .store = [](Scene& s, Member m, const Value& v) { store(v, error(s, m).profile_slope, error(s, m).profile_slopes); }},
       {.path = "gear.error.pitch", .kind = NumberOrList, .quantity = Quantity::Deviation, .range = removal_range,
        .fallback = "0",
        .meaning = "adjacent pitch error, adds up from tooth to tooth; a list: cumulative deviation of each tooth",
        .store = [](Scene& s, Member m, const Value& v) {
-         error(s, m).pitch_step = v.is_list ? 0.0 : v.numbers.front();
-         error(s, m).cumulative_pitch = v.is_list ? v.numbers : std::vector<double>{};
+         store(v, error(s, m).pitch_step, error(s, m).cumulative_pitch);
        }},
-      {.path = "gear.error.twist", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "added twist * (y / h_active) * (z / b); + adds at the tip at z = +b/2",
-       .store = [](Scene& s, Member m, const Value& v) { error(s, m).twist = v.number; }},
+      {.path = "gear.error.twist", .kind = NumberOrList, .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
+       .meaning = "added twist * (y / h_active) * (z / b); + adds at the tip at z = +b/2; a list: of each tooth",
+       .store = [](Scene& s, Member m, const Value& v) { store(v, error(s, m).twist, error(s, m).twists); }},
   };
 }
 

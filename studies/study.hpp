@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/compliance/finite_element/section_mesh.hpp"
+#include "core/compliance/shaft/shaft_data.hpp"
 #include "core/contact/contact_points.hpp"
 #include "core/contact/misalignment.hpp"
 #include "core/gear/gear_data.hpp"
@@ -44,11 +45,14 @@ inline bool couples_teeth(ComplianceModel model) {
 
 struct Cycle {
   int positions{32};           ///< mesh positions over one base pitch, >= 1
+  bool automatic_positions{false};  ///< as many as the harmonics of the loaded transmission error need; `positions` without load
+  bool locate_peaks{true};     ///< peaks between the positions, and load distribution factors; not with explicit phases
   std::vector<double> phases;  ///< explicit phases of the reference tooth pair [base pitches]; empty: use `positions`
 };
 
 struct Fidelity {
   ComplianceModel compliance{ComplianceModel::ThinSlice};
+  GapModel gap{GapModel::PlaneOfAction};
   Quadrature quadrature;
   bool automatic_effects{true};
   std::vector<std::string> effects;  ///< switched on by hand where automatic_effects is false
@@ -128,6 +132,7 @@ struct Study {
   Misalignment misalignment;
   Material pinion_material, wheel_material;
   GearBody pinion_body, wheel_body;  ///< that the finite elements' teeth stand on
+  std::optional<ShaftData> pinion_shaft, wheel_shaft;  ///< empty: rigid
   std::vector<double> torques;  ///< base [load] torque list [N mm]; {0} where [load] is absent
   double marking_thickness{6.35e-3};  ///< of the compound that shows the bearing pattern [mm], > 0
   Cycle cycle;

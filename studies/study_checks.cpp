@@ -31,11 +31,11 @@ bool is_geometry(const std::string& path) {
   if (table == "pair") return true;
   const std::string rest = path.substr(std::min(path.size(), table.size() + 1));
   const bool is_micro = rest.starts_with("modification") || rest.starts_with("error") || rest.starts_with("material") ||
-                        rest.starts_with("body");
+                        rest.starts_with("body") || rest.starts_with("shaft");
   return (table == "pinion" || table == "wheel") && !is_micro;
 }
 
-void check_pitch_list(StudyReading& reading, const std::string& path, const std::vector<double>& deviations,
+void check_tooth_list(StudyReading& reading, const std::string& path, const std::vector<double>& deviations,
                       int teeth) {
   if (!reading.positions.contains(path) || deviations.empty() || static_cast<int>(deviations.size()) == teeth) return;
   const Position at = reading.where(path);
@@ -43,18 +43,25 @@ void check_pitch_list(StudyReading& reading, const std::string& path, const std:
                               "allowed is one number, or a list of " + std::to_string(teeth) + ", one for each tooth"});
 }
 
-void check_pitch_lists(StudyReading& reading) {
+void check_tooth_lists(StudyReading& reading, const std::string& prefix, const ManufacturingError& error, int teeth) {
+  check_tooth_list(reading, prefix + "pitch", error.cumulative_pitch, teeth);
+  check_tooth_list(reading, prefix + "helix_slope", error.helix_slopes, teeth);
+  check_tooth_list(reading, prefix + "profile_slope", error.profile_slopes, teeth);
+  check_tooth_list(reading, prefix + "twist", error.twists, teeth);
+}
+
+void check_tooth_lists(StudyReading& reading) {
   const Draft& draft = reading.draft;
   for (const Member m : members) {
-    const auto list_of = [m](const Scene& scene) {
-      return m == Member::Pinion ? scene.pinion_error.cumulative_pitch : scene.wheel_error.cumulative_pitch;
+    const auto error_of = [m](const Scene& scene) -> const ManufacturingError& {
+      return m == Member::Pinion ? scene.pinion_error : scene.wheel_error;
     };
-    const std::string key = gear_name(m) + ".error.pitch";
+    const std::string prefix = gear_name(m) + ".error.";
     const int teeth = draft.study.pair[m].teeth;
-    check_pitch_list(reading, key, list_of(draft.base), teeth);
+    check_tooth_lists(reading, prefix, error_of(draft.base), teeth);
     if (reading.find("scenes") == nullptr) continue;
     for (std::size_t i = 0; i < draft.study.scenes.size(); ++i) {
-      check_pitch_list(reading, "scenes." + std::to_string(i) + "." + key, list_of(draft.study.scenes[i]), teeth);
+      check_tooth_lists(reading, "scenes." + std::to_string(i) + "." + prefix, error_of(draft.study.scenes[i]), teeth);
     }
   }
 }
@@ -190,7 +197,8 @@ void check_presence(StudyReading& reading) {
     refuse_key(reading, keys.second, "allowed is this or " + keys.first + ", not both");
   }
   for (const SchemaKey& key : study_schema()) {
-    if (!is_required(key) || reading.find(key.path) != nullptr) continue;
+    const bool in_list = key.path.find("[].") != std::string::npos;  // checked where the list is read
+    if (in_list || !is_required(key) || reading.find(key.path) != nullptr) continue;
     const bool is_replaced = std::ranges::any_of(exclusive_keys(), [&](const ExclusiveKeys& keys) {
       return keys.first == key.path && reading.find(keys.second) != nullptr;
     });
@@ -206,7 +214,7 @@ void check_pair(StudyReading& reading) {
   if (reading.find("wheel.hand") != nullptr && reading.draft.wheel_hand == pair.pinion_hand) {
     refuse_key(reading, "wheel.hand", "allowed is the opposite of pinion.hand");
   }
-  check_pitch_lists(reading);
+  check_tooth_lists(reading);
   for (const InvalidInput& problem : find_problems(pair)) {
     const bool is_pitch = problem.field() == "pair.normal_module" && reading.find(problem.field()) == nullptr;
     const Position at = reading.where(is_pitch ? "pair.normal_diametral_pitch" : problem.field());

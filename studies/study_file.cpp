@@ -12,6 +12,7 @@
 #include "studies/study_flanks.hpp"
 #include "studies/study_reading.hpp"
 #include "studies/study_schema.hpp"
+#include "studies/study_shafts.hpp"
 #include "studies/study_tables.hpp"
 
 namespace flankwright::studies {
@@ -79,6 +80,7 @@ Study parse_study(std::string_view text, const std::string& name, const std::vec
   read_optimise(reading);
   read_expectations(reading);
   check_pair(reading);
+  read_shafts(reading);
   check_task(reading);
   read_grids(reading);
   if (!problems.empty()) {

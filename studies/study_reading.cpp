@@ -155,6 +155,9 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
       return read_numbers(key, node);
     case ValueKind::Integer:
       return read_integer(key, node);
+    case ValueKind::IntegerOrAuto:
+      if (node.is_string() && node.as_string()->get() == "auto") return {.text = "auto"};
+      return read_integer(key, node);
     case ValueKind::Text:
       if (!node.is_string()) refuse_value(allowed_values(key));
       return {.text = node.as_string()->get()};
@@ -169,6 +172,7 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
       return read_word_list(key, node);
     case ValueKind::Later:
       refuse_value("nothing: the key is not in this version");
+    case ValueKind::TableList:  // its tables' keys have rows of their own
     case ValueKind::Scenes:
     case ValueKind::Objective:
     case ValueKind::Variables:
@@ -191,9 +195,32 @@ void store(const SchemaKey& key, const Value& value, Draft& draft, Scene& scene)
   }
 }
 
+void read_table_list(StudyReading& reading, const Match& match, Scene& scene) {
+  const toml::array* tables = match.node->as_array();
+  if (tables == nullptr || tables->empty() || !tables->is_homogeneous(toml::node_type::table)) {
+    return reading.refuse(match.position, match.path, match.node, "allowed is " + allowed_values(*match.key));
+  }
+  const KeyIndex keys = element_keys(match.key->path);
+  for (std::size_t i = 0; i < tables->size(); ++i) {
+    const std::string path = match.path + "." + std::to_string(i);
+    reading.positions.emplace(path, reading.document.position(*tables->get(i), match.position));
+    store(*match.key, {}, reading.draft, scene);
+    const std::size_t problems = reading.problems.size();
+    for (const auto& [name, of_table] : match_keys(reading, *tables->get(i)->as_table(), keys, path + ".")) {
+      read_into(reading, of_table, scene);
+    }
+    if (reading.problems.size() > problems) continue;
+    for (const auto& [name, key] : keys) {
+      if (!is_required(*key) || reading.positions.contains(path + "." + name)) continue;
+      reading.refuse(reading.where(path), path + "." + name, nullptr, "required: allowed is " + allowed_values(*key));
+    }
+  }
+}
+
 }  // namespace
 
 void read_into(StudyReading& reading, const Match& match, Scene& scene) {
+  if (match.key->kind == ValueKind::TableList) return read_table_list(reading, match, scene);
   try {
     store(*match.key, read_value(*match.key, *match.node), reading.draft, scene);
   } catch (const InvalidInput& problem) {

@@ -49,7 +49,7 @@ std::string parent_of(const std::string& path) {
 KeyIndex make_study_keys() {
   KeyIndex keys;
   for (const SchemaKey& key : study_schema()) {
-    if (!key.path.starts_with(scene_prefix)) keys.emplace(key.path, &key);
+    if (key.path.find("[].") == std::string::npos) keys.emplace(key.path, &key);
   }
   return keys;
 }
@@ -73,6 +73,15 @@ const KeyIndex& study_keys() {
 
 const KeyIndex& scene_keys() {
   static const KeyIndex keys = make_scene_keys();
+  return keys;
+}
+
+KeyIndex element_keys(const std::string& list) {
+  const std::string prefix = list + "[].";
+  KeyIndex keys;
+  for (const SchemaKey& key : study_schema()) {
+    if (key.path.starts_with(prefix)) keys.emplace(key.path.substr(prefix.size()), &key);
+  }
   return keys;
 }
 
@@ -149,6 +158,8 @@ std::string allowed_values(const SchemaKey& key) {
       return "a list of numbers" + range;
     case ValueKind::Integer:
       return "an integer" + range;
+    case ValueKind::IntegerOrAuto:
+      return "an integer" + range + ", or \"auto\"";
     case ValueKind::Text:
       return "a text";
     case ValueKind::Word:
@@ -157,6 +168,8 @@ std::string allowed_values(const SchemaKey& key) {
       return quoted_list(key.words) + ", or a table of the keys below it";
     case ValueKind::WordList:
       return "\"auto\", or a list of " + quoted_list(key.words);
+    case ValueKind::TableList:
+      return "a list of tables of the keys below it, at least one";
     case ValueKind::Scenes:
       return "[[scenes]] tables";
     case ValueKind::Objective:

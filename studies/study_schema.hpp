@@ -28,10 +28,12 @@ enum class ValueKind {
   NumberOrList,  ///< one number, or a list of at least one
   NumberList,    ///< a list of at least one number
   Integer,
+  IntegerOrAuto, ///< an integer, or "auto"
   Text,          ///< any text
   Word,          ///< one of `words`
   WordOrTable,   ///< one of `words`, or a table of the keys below it
   WordList,      ///< "auto", or a list of `words`
+  TableList,     ///< array of tables, each with the keys of element_keys()
   Scenes,        ///< array of tables, each with scene_keys()
   Objective,     ///< an output, or a table of outputs and weights
   Variables,     ///< table: modification key = [low, high]
@@ -95,6 +97,10 @@ const KeyIndex& study_keys();
 
 /// The keys of one [[scenes]] table: name, weight and what a scene may override.
 const KeyIndex& scene_keys();
+
+/// The keys of one table of a TableList, "pinion.shaft.sections": "length" ... . Storing the list's own key adds an
+/// element to it, storing these fills the last one.
+KeyIndex element_keys(const std::string& list);
 
 /// True where keys lie below this path: "pinion.rack".
 bool is_table(const KeyIndex& keys, const std::string& path);

@@ -57,6 +57,13 @@ tip_relief = { amount = 10, height = 1.5 }
 # profile_slope = 3                  # + adds at the tip
 # pitch = 2                          # adjacent pitch error, adds up from tooth to tooth
 
+# Shafts, where their bending and torsion shall enter; also [wheel.shaft]. Positions count along z from one end of the shaft, in mm:
+#    [pinion.shaft]
+#    sections = [{ length = 40, outer_diameter = 45 }, { length = 100, outer_diameter = 55, inner_diameter = 20 }]
+#    bearings = [{ position = 15, radial_stiffness = 500 }, { position = 125 }]      # N/um; rigid, unless said
+#    gear_position = 80              # of its mid face
+#    torque_position = 0             # where the torque enters
+
 [material]
 youngs_modulus = 206000              # MPa; "206 GPa" is understood as well, as everywhere
 poissons_ratio = 0.3
@@ -88,6 +95,7 @@ positions = 32                       # mesh positions over one base pitch
 [fidelity]
 compliance = "thin_slice"            # "fitted", "fe": finite elements of both gears; "rigid": the unloaded contact only
 quadrature = { rule = "gauss2", intervals = 10 }                     # along a full contact line
+# gap = "whole_surface"              # contact sought over the whole flanks, not only where undisturbed ones would touch
 # effects = ["bending", "hertzian_contact"]                          # "auto" decides from the study
 
 # What the results must say, for `flankwright test`:
@@ -163,7 +171,7 @@ face_width = 40
 
 [pinion.body]                        # what the teeth stand on; [wheel.body] alike
 # shaft_diameter = 40                # mm; by default 0.8 d, at most 25 m_n/cos(beta)
-# bore_diameter = 8                  # mm; by default 0.2 of the shaft
+# bore_diameter = 2                  # mm; by default 0.05 of the shaft
 # shaft_overhang = 20                # mm beyond each face end; by default half the shaft's diameter
 
 [material]

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "studies/compliance_json.hpp"
+#include "studies/shafts_json.hpp"
 
 namespace flankwright::studies {
 
@@ -64,7 +65,19 @@ Json macro_json(const StudyResults& results, Member member) {
 Json used_gear_json(const StudyResults& results, Member member) {
   Json json = macro_json(results, member);
   if (const auto& runs = results.structures.finite_elements) json["body"] = body_json((*runs)[member].body);
+  json["shaft"] = shaft_json(member == Member::Pinion ? results.study.pinion_shaft : results.study.wheel_shaft);
   return json;
+}
+
+Json cycle_json(const StudyResults& results) {
+  const Cycle& cycle = results.study.cycle;
+  const auto& chosen = results.resolution;
+  return {{"positions", chosen ? chosen->convergence.positions : cycle.positions},
+          {"phases", cycle.phases},
+          {"peaks", cycle.locate_peaks && cycle.phases.empty() ? "located" : "sampled"},
+          {"automatic", chosen ? Json{{"converged", chosen->converged},
+                                      {"harmonic_change_um", in_um(chosen->convergence.harmonic_change)}}
+                               : Json(false)}};
 }
 
 }  // namespace
@@ -82,10 +95,10 @@ Json used_json(const StudyResults& results) {
               {"pinion", used_gear_json(results, Member::Pinion)},
               {"wheel", used_gear_json(results, Member::Wheel)}}},
             {"unloaded", {{"marking_thickness_um", in_um(study.marking_thickness)}}},
-            {"cycle", {{"positions", study.cycle.positions}, {"phases", study.cycle.phases}}},
+            {"cycle", cycle_json(results)},
             {"fidelity",
              {{"compliance", to_string(study.fidelity.compliance)},
-              {"gap", "plane_of_action"},
+              {"gap", to_string(study.fidelity.gap)},
               {"quadrature", {{"rule", rule_name(study.fidelity.quadrature.rule)}, {"intervals", study.fidelity.quadrature.intervals}}},
               {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
   if (study.misalignment.pinion_lead_angle != 0.0) {

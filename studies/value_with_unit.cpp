@@ -59,6 +59,8 @@ constexpr std::array known_units{
     Unit{"N/mm", Dimension::LineLoad, 1.0},
     Unit{"N/m", Dimension::LineLoad, 1e-3},
     Unit{"kN/m", Dimension::LineLoad, 1.0},
+    Unit{"N/um", Dimension::LineLoad, 1.0 / units::um},
+    Unit{"kN/mm", Dimension::LineLoad, 1e3},
     Unit{"lbf/in", Dimension::LineLoad, pound_force / units::inch},
     Unit{"1/in", Dimension::InverseLength, 1.0 / units::inch},
     Unit{"/in", Dimension::InverseLength, 1.0 / units::inch},
@@ -99,6 +101,8 @@ constexpr Convention convention(Quantity quantity) {
       return {Dimension::Stress, "MPa", "MPa", "MPa, GPa, Pa, N/mm2, psi, ksi"};
     case Quantity::LineLoad:
       return {Dimension::LineLoad, "N/mm", "N/mm", "N/mm, kN/m, lbf/in"};
+    case Quantity::Stiffness:
+      return {Dimension::LineLoad, "N/um", "N/um", "N/um, N/mm, kN/mm, lbf/in"};
     case Quantity::DiametralPitch:
       return {Dimension::InverseLength, "1/in", "1/in", "1/in, 1/mm"};
     case Quantity::Curvature:

@@ -15,14 +15,9 @@ Eigen::MatrixXd ThinSlicePair::influence(const std::vector<ContactPoint>& points
   return diagonal.asDiagonal();
 }
 
-namespace {
-
-/// The end of the face on which the sharp end lies: +1 for z = +b/2.
-double sharp_end(const GearPair& pair, Member member) {
-  return (member == Member::Pinion ? 1.0 : -1.0) * (pair.contact_line_sense() >= 0 ? 1.0 : -1.0);
+int sharp_end(const GearPair& pair, Member member) {
+  return (member == Member::Pinion ? 1 : -1) * (pair.contact_line_sense() >= 0 ? 1 : -1);
 }
-
-}  // namespace
 
 int gear_tooth(Member member, int tooth_pair) { return member == Member::Pinion ? -tooth_pair : tooth_pair; }
 

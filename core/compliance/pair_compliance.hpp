@@ -70,6 +70,9 @@ class StructuralPair final : public PairCompliance {
 /// u is clamped to the flank: a tip edge that touches beyond it, by round-off, counts as on it.
 FlankPlace flank_place(const GearPair& pair, Member member, const ContactPoint& point, double axial_offset);
 
+/// The end of the face on which the sharp end lies: +1 for z = +b/2, -1 for the other; of a spur gear as if its sense were +1.
+int sharp_end(const GearPair& pair, Member member);
+
 /// The same of its tooth alone: where the mesh counts the gear's tooth of pair k.
 int gear_tooth(Member member, int tooth_pair);
 

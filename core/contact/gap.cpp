@@ -37,6 +37,8 @@ double pinion_lead(const Flank& changed, const Flank& nominal, const ContactPoin
 
 }  // namespace
 
+const char* to_string(GapModel model) { return model == GapModel::PlaneOfAction ? "plane_of_action" : "whole_surface"; }
+
 Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition) {
   const int n = static_cast<int>(points.size());
   const double cos_base_helix = std::cos(pair.base_helix_angle);

@@ -13,8 +13,9 @@ bool any(const Modification& m) {
 }
 
 bool any(const ManufacturingError& e) {
-  return e.helix_slope != 0.0 || e.profile_slope != 0.0 || e.twist != 0.0 || e.pitch_step != 0.0 ||
-         std::any_of(e.cumulative_pitch.begin(), e.cumulative_pitch.end(), [](double f) { return f != 0.0; });
+  const auto some = [](const std::vector<double>& list) { return std::ranges::any_of(list, [](double f) { return f != 0.0; }); };
+  return e.helix_slope != 0.0 || e.profile_slope != 0.0 || e.twist != 0.0 || e.pitch_step != 0.0 || some(e.cumulative_pitch) ||
+         some(e.helix_slopes) || some(e.profile_slopes) || some(e.twists);
 }
 
 bool any(const Misalignment& m) {
@@ -36,7 +37,7 @@ bool in_some_scene(const EffectFacts& facts, bool (*holds)(const FlankCondition&
   return std::any_of(facts.conditions.begin(), facts.conditions.end(), holds);
 }
 
-constexpr std::array<Rule, 10> rules{{
+constexpr std::array<Rule, 11> rules{{
     {"unloaded_contact", [](const EffectFacts& f) { return f.unloaded; }, "a torque of 0 asks for tooth contact analysis",
      "every torque is above 0"},
     {"misalignment",
@@ -55,6 +56,8 @@ constexpr std::array<Rule, 10> rules{{
     {"bending", under_load, "teeth bend under load", "no load"},
     {"adjacent_teeth", [](const EffectFacts& f) { return f.loaded && f.coupled_teeth; },
      "a loaded tooth moves its neighbours", "no load, or a compliance of teeth that do not know of each other"},
+    {"shafts", [](const EffectFacts& f) { return f.loaded && f.shafts; }, "a gear's shaft is described",
+     "no load, or no shaft is described: they are rigid"},
     {"hertzian_contact", under_load, "flanks flatten under load", "no load"},
     {"tip_corner", under_load, "contact softens near the tips", "no load"},
     {"extended_contact_region", under_load, "loaded teeth touch before and after the theoretical path", "no load"},

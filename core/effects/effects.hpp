@@ -23,6 +23,7 @@ struct EffectFacts {
   bool unloaded{false};     ///< some torque is zero
   std::vector<FlankCondition> conditions{};  ///< of all scenes
   bool coupled_teeth{false};  ///< the compliance model knows how one tooth moves another
+  bool shafts{false};         ///< a gear's shaft is described
   bool root_stress{false};    ///< finite elements are made anyway, or something asks for peak_root_stress
 };
 

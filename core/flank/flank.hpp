@@ -53,7 +53,7 @@ struct Flank {
   Scalar deviation(const Scalar& rho, const Scalar& z, int tooth) const {
     using std::sqrt;
     const Scalar r = sqrt(rho * rho + base_radius * base_radius);
-    Scalar d = chain(DeviationFormula(modification, error, frame).at(value_of(r), value_of(z)), r, z) -
+    Scalar d = chain(DeviationFormula(modification, tooth_error(error, tooth), frame).at(value_of(r), value_of(z)), r, z) -
                pitch_deviation(error, tooth);
     for (const auto& field : fields) d += evaluate(*field, rho, z);
     return d;

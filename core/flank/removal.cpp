@@ -24,7 +24,7 @@ Modification unit_amount(const Modification& m, ModificationParameter parameter)
 
 }  // namespace
 
-DeviationFormula::DeviationFormula(const Modification& m, const ManufacturingError& e, const FlankFrame& frame)
+DeviationFormula::DeviationFormula(const Modification& m, const ToothError& e, const FlankFrame& frame)
     : pitch_radius_(frame.pitch_radius),
       above_(per_extent(m.addendum_crowning, frame.tip_radius - frame.pitch_radius, 2)),
       below_(per_extent(m.dedendum_crowning, frame.pitch_radius - frame.active_root_radius, 2)),
@@ -86,12 +86,6 @@ double RemovalDerivative::at(double r, double z) const {
       return extent(end_.amount, end_.length, ReliefShape::Linear, std::abs(z) - (0.5 * frame_.face_width - end_.length));
     default: return unit_.at(r, z).value;
   }
-}
-
-double pitch_deviation(const ManufacturingError& error, int tooth) {
-  if (error.cumulative_pitch.empty()) return error.pitch_step * tooth;
-  const int size = static_cast<int>(error.cumulative_pitch.size());
-  return error.cumulative_pitch[static_cast<std::size_t>(((tooth % size) + size) % size)];
 }
 
 }  // namespace flankwright

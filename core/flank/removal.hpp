@@ -27,7 +27,7 @@ namespace flankwright {
 /// is continuous; its slope jumps where a linear relief starts. Outside the active flank the same formulas continue.
 class DeviationFormula {
  public:
-  DeviationFormula(const Modification& modification, const ManufacturingError& error, const FlankFrame& frame);
+  DeviationFormula(const Modification& modification, const ToothError& error, const FlankFrame& frame);
 
   /// Value, first and second derivatives, u = r and v = z; at a relief's start those of the side without it.
   Jet at(double r, double z) const {
@@ -90,14 +90,11 @@ inline double removal_derivative(const Modification& m, const FlankFrame& frame,
   return RemovalDerivative(m, frame, parameter).at(r, z);
 }
 
-/// Metal added by manufacturing errors at r, z [mm], transverse base tangent [Haddad 1991, eq. 6.1], without pitch: the errors'
+/// Metal added by one tooth's errors at r, z [mm], transverse base tangent [Haddad 1991, eq. 6.1], without pitch: the errors'
 /// part of DeviationFormula with its sign turned.
 template <class Scalar>
-Scalar added_metal(const ManufacturingError& e, const FlankFrame& frame, const Scalar& r, const Scalar& z) {
+Scalar added_metal(const ToothError& e, const FlankFrame& frame, const Scalar& r, const Scalar& z) {
   return -chain(DeviationFormula({}, e, frame).at(value_of(r), value_of(z)), r, z);
 }
-
-/// Cumulative pitch deviation of tooth k [mm], see ManufacturingError.
-double pitch_deviation(const ManufacturingError& error, int tooth);
 
 }  // namespace flankwright

@@ -25,6 +25,13 @@ double& field(Modification& m, ModificationParameter parameter) {
   __builtin_unreachable();
 }
 
+/// Entry k mod size; 0 of an empty list.
+double of_tooth(const std::vector<double>& list, int tooth) {
+  if (list.empty()) return 0.0;
+  const int size = static_cast<int>(list.size());
+  return list[static_cast<std::size_t>(((tooth % size) + size) % size)];
+}
+
 }  // namespace
 
 double get(const Modification& modification, ModificationParameter parameter) {
@@ -38,6 +45,15 @@ double get(const Modification& modification, ModificationParameter parameter) {
 void set(Modification& modification, ModificationParameter parameter, double value) {
   field(modification, parameter) = value;
   if (parameter == ModificationParameter::ProfileCrowning) modification.dedendum_crowning = value;
+}
+
+ToothError tooth_error(const ManufacturingError& error, int tooth) {
+  return {error.helix_slope + of_tooth(error.helix_slopes, tooth), error.profile_slope + of_tooth(error.profile_slopes, tooth),
+          error.twist + of_tooth(error.twists, tooth)};
+}
+
+double pitch_deviation(const ManufacturingError& error, int tooth) {
+  return error.cumulative_pitch.empty() ? error.pitch_step * tooth : of_tooth(error.cumulative_pitch, tooth);
 }
 
 }  // namespace flankwright

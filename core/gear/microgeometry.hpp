@@ -18,12 +18,14 @@ struct ProfileRelief {
   double amount{0.0};   ///< material removed at the tip / at the start of active profile [mm]
   double height{0.0};   ///< radial extent [mm], > 0 where amount != 0
   ReliefShape shape{ReliefShape::Linear};
+  bool operator==(const ProfileRelief&) const = default;
 };
 
 /// Relief from each face end inwards, linear.
 struct EndRelief {
   double amount{0.0};  ///< material removed at the face ends [mm]
   double length{0.0};  ///< axial extent from each end [mm], > 0 where amount != 0
+  bool operator==(const EndRelief&) const = default;
 };
 
 /// Flank modification as a designer states it: material removed (positive into the tooth), measured in the
@@ -42,6 +44,7 @@ struct Modification {
   double parabolic_te{0.0};
   /// Measured or topological grid on top of the rest; none where null.
   std::shared_ptr<const DeviationField> topography;
+  bool operator==(const Modification&) const = default;  ///< of grids: the same object
 };
 
 /// The numbers of a Modification that a designer may vary, in the order of modification_parameters.
@@ -87,11 +90,25 @@ struct ManufacturingError {
   double helix_slope{0.0};    ///< f_Hbeta over the face width, linear, zero at mid face; + adds at z = +b/2
   double profile_slope{0.0};  ///< f_Halpha over the active profile height, zero at the reference circle; + adds at the tip
   double twist{0.0};          ///< f_yz: added twist * (y / h_active) * (z / b)
+  /// What single teeth have beyond that, the same quantities: tooth k has entry k mod size; empty: all teeth are alike. k
+  /// counts teeth as for the pitch.
+  std::vector<double> helix_slopes{}, profile_slopes{}, twists{};
   /// Cumulative pitch deviation of tooth k is pitch_step * k, or cumulative_pitch[k mod size] where the list is
   /// not empty; k counts teeth in the order in which they come into mesh before the reference tooth.
   double pitch_step{0.0};
-  std::vector<double> cumulative_pitch;
+  std::vector<double> cumulative_pitch{};
+
+  bool operator==(const ManufacturingError&) const = default;
 };
+
+/// The slopes and the twist of one tooth's flank [mm], see ManufacturingError.
+struct ToothError {
+  double helix_slope{0.0}, profile_slope{0.0}, twist{0.0};
+};
+ToothError tooth_error(const ManufacturingError& error, int tooth);
+
+/// Cumulative pitch deviation of tooth k [mm], see ManufacturingError.
+double pitch_deviation(const ManufacturingError& error, int tooth);
 
 /// What a removal is measured against; see GearPair::flank_frame() for a gear of a pair.
 struct FlankFrame {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/contact/condition_gap.hpp"
 #include "core/contact/transmission_error.hpp"
 #include "core/load/sensitivity.hpp"
 
@@ -94,11 +95,12 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
   cycle.force = model.normal_force(pinion_torque);
   cycle.positions.resize(model.positions.size());
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
+  const ConditionGap gaps(model.pair, model.placement.gap, condition);
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const MeshPosition& at = model.positions[i];
     LoadedPosition& position = cycle.positions[i];
     position.phase = at.phase;
-    position.gap = plane_of_action_gap(model.pair, at.points, condition);
+    position.gap = gaps.at(at.points, at.phase);
     const LoadProblem problem{at.influence, at.weight, position.gap.total, at.laws, cycle.force};
     const bool has_previous = i > 0 && cycle.positions[i - 1].load.usable();
     position.load = solve_load_distribution(
@@ -108,7 +110,7 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
       ++cycle.failures;
       continue;
     }
-    const ParameterSlopes slopes = parameter_slopes(model, at, condition, parameters);
+    const ParameterSlopes slopes = parameter_slopes(model, at, gaps, position.gap, parameters);
     cycle.force_derivative = slopes.force;
     fill_derivatives(problem, slopes, position);
     fill_stress(model, at, position);
@@ -157,6 +159,8 @@ CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
     summary.worst_kkt_residual = std::max(summary.worst_kkt_residual, position.load.kkt_residual);
     raise(summary.pinion_root_stress, root_stress_peak(model.positions[i], position, Member::Pinion));
     raise(summary.wheel_root_stress, root_stress_peak(model.positions[i], position, Member::Wheel));
+    summary.least_stiffness = std::fmin(summary.least_stiffness, position.stiffness);
+    summary.largest_stiffness = std::fmax(summary.largest_stiffness, position.stiffness);
     mean_approach += position.load.transmission_error - position.gap.total.minCoeff();
   }
   summary.peak_root_stress = std::fmax(summary.pinion_root_stress.stress, summary.wheel_root_stress.stress);

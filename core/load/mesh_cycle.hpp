@@ -42,6 +42,7 @@ struct LoadedCycle {
 ///
 /// Mesh stiffness is Haddad's eq. 2.16b, (F/b) cos^2(beta_b) / f_t, with f_t counted from first touch, f_t - min(g), so that a
 /// gap common to all points (modified or displaced flanks) is not taken for compliance.
+/// @param condition      GapModel::WholeSurface: with the misalignment that the model was placed for
 /// @param pinion_torque  [N mm], >= 0
 /// @param parameters     derivatives are computed for these; empty: none. Without torque there is none with respect to it: what
 ///                       the flanks yield first is infinite per unit load, and 0 stands in its place
@@ -70,6 +71,7 @@ struct CycleSummary {
   double peak_line_load{not_given};            ///< [N/mm]
   double peak_contact_stress{not_given};       ///< [MPa]
   double mean_stiffness{not_given};            ///< Haddad eq. 2.17b [N/(mm um)]
+  double least_stiffness{not_given}, largest_stiffness{not_given};  ///< eq. 2.16b over the positions [N/(mm um)]
   /// Peak line load over the mean line load F / (mean length of the contact lines on the theoretical path) [-].
   double load_factor{not_given};
   double worst_kkt_residual{not_given};

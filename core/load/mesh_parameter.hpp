@@ -4,8 +4,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/contact/gap.hpp"
-#include "core/contact/misalignment_gap.hpp"
+#include "core/contact/condition_gap.hpp"
 #include "core/load/mesh_model.hpp"
 
 namespace flankwright {
@@ -27,8 +26,9 @@ struct ParameterSlopes {
   Eigen::MatrixXd gap;       ///< dg/dp, points x parameters
   Eigen::RowVectorXd force;  ///< dF/dp
 };
+/// @param gap  as gaps has it at this position
 /// @throws InvalidInput for the axial offset, see misalignment_parameters
-ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at, const FlankCondition& condition,
+ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at, const ConditionGap& gaps, const Gap& gap,
                                  const std::vector<MeshParameter>& parameters);
 
 }  // namespace flankwright

@@ -23,6 +23,7 @@ mesh_misalignment = 4
 torque = 300
 [cycle]
 positions = 7
+peaks = "sampled"
 [fidelity]
 compliance = "thin_slice"
 quadrature = { rule = "gauss2", intervals = 4 }

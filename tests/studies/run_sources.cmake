@@ -12,5 +12,6 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/run_cache_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/run_study_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/small_studies.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/study_shafts_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/tables_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/unloaded_results_test.cpp)

@@ -125,6 +125,35 @@ TEST_CASE("Each of two gears and both sides of a ledger make the same gap", "[co
   }
 }
 
+TEST_CASE("Every tooth pair in mesh has the errors of its own two teeth", "[core][contact]") {
+  const GearPair pair = make_gear_pair(pair_data(23, 46, 15 * deg));
+  const PathOfContact path(pair);
+  const std::vector<ContactPoint> points = contact_points(pair, path, {}, 1.4, true, -path.half_face, path.half_face);
+  FlankCondition listed;
+  listed.pinion_error.helix_slopes.resize(23);
+  listed.wheel_error.profile_slopes.resize(46);
+  listed.wheel_error.twists.resize(46);
+  const auto slope = [](int tooth) { return (2.0 + 3 * tooth) * um; };
+  for (int tooth = -2; tooth < 4; ++tooth) {
+    listed.pinion_error.helix_slopes[static_cast<std::size_t>((tooth + 23) % 23)] = slope(tooth);
+    listed.wheel_error.profile_slopes[static_cast<std::size_t>((tooth + 46) % 46)] = 0.5 * slope(tooth);
+    listed.wheel_error.twists[static_cast<std::size_t>((tooth + 46) % 46)] = -slope(tooth);
+  }
+  const Gap gap = plane_of_action_gap(pair, points, listed);
+  int teeth = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const int tooth = points[i].tooth;
+    if (i == 0 || tooth != points[i - 1].tooth) ++teeth;
+    FlankCondition alike;  // all teeth as this pair's
+    alike.pinion_error.helix_slope = slope(tooth);
+    alike.wheel_error.profile_slope = 0.5 * slope(tooth);
+    alike.wheel_error.twist = -slope(tooth);
+    const Eigen::Index k = static_cast<Eigen::Index>(i);
+    CHECK(std::abs(gap.total[k] - plane_of_action_gap(pair, points, alike).total[k]) <= 1e-15);
+  }
+  CHECK(teeth >= 3);
+}
+
 TEST_CASE("The gap's derivative for every parameter agrees with central differences", "[core][contact]") {
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const GearPair pair = make_gear_pair(pair_data(23, 46, 15 * deg, 0.2));

@@ -164,7 +164,7 @@ TEST_CASE("The derivative for every parameter agrees with central differences aw
 TEST_CASE("Dual numbers carry the exact slope of the flank's removal", "[core][flank]") {
   const ReliefShape shape = GENERATE(ReliefShape::Linear, ReliefShape::Parabolic);
   const Modification m = everything(shape);
-  ManufacturingError error;
+  ToothError error;
   error.helix_slope = 0.004;
   error.profile_slope = -0.006;
   error.twist = 0.002;
@@ -184,7 +184,7 @@ TEST_CASE("Dual numbers carry the exact slope of the flank's removal", "[core][f
 }
 
 TEST_CASE("Manufacturing errors add metal as Haddad's equation 6.1 has it", "[core][flank][reference]") {
-  ManufacturingError error;
+  ToothError error;
   error.helix_slope = 0.008;
   CHECK(near(added_metal(error, frame, 51.0, 15.0), 0.004));
   CHECK(near(added_metal(error, frame, 51.0, -15.0), -0.004));

@@ -127,13 +127,15 @@ TEST_CASE("Every output's derivative by modification, misalignment and torque is
   std::string worst_output;
   for (int trial = 0; trial < 3; ++trial) {
     const Scene scene = random_scene(gears, random);
+    const ConditionGap gaps(model.pair, model.placement.gap, scene.condition);
     const Outputs here = outputs(model, scene, parameters);
     for (std::size_t p = 0; p < parameters.size(); ++p) {
       const auto column = static_cast<Eigen::Index>(p);
       // A step that moves the gap by about 2 nm, or the torque by 1e-4 of itself.
       double change = 0.0;
       for (const MeshPosition& at : model.positions) {
-        change = std::max(change, parameter_slopes(model, at, scene.condition, {parameters[p]}).gap.cwiseAbs().maxCoeff());
+        const Gap gap = gaps.at(at.points, at.phase);
+        change = std::max(change, parameter_slopes(model, at, gaps, gap, {parameters[p]}).gap.cwiseAbs().maxCoeff());
       }
       const double step = change > 0.0 ? 2e-6 / change : 1e-4 * scene.torque;
       const auto values = [&](double by) {

@@ -12,7 +12,7 @@ namespace {
 MeshModel model_with_root_stress(const GearPair& gears, const MeshResolution& resolution,
                                  const MeshEffects& effects = {}) {
   const mesh_cases::SyntheticRootStress root_stress(gears);
-  return make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, resolution, effects, 0.0, nullptr, &root_stress);
+  return make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, resolution, effects, {}, nullptr, &root_stress);
 }
 
 }  // namespace

@@ -1,0 +1,89 @@
+#include "core/compliance/shaft/shaft_data.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace flankwright {
+
+namespace {
+
+class Findings {
+ public:
+  void require(bool holds, const std::string& field, double value, const std::string& allowed) {
+    if (!holds) found_.emplace_back(field, std::isnan(value) ? "(not given)" : std::to_string(value), allowed);
+  }
+  void require(bool holds, const std::string& field, const std::string& value, const std::string& allowed) {
+    if (!holds) found_.emplace_back(field, value, allowed);
+  }
+  bool empty() const { return found_.empty(); }
+  std::vector<InvalidInput> take() { return std::move(found_); }
+
+ private:
+  std::vector<InvalidInput> found_;
+};
+
+std::string element(const char* list, std::size_t i) { return std::string(list) + "." + std::to_string(i) + "."; }
+
+void check_sections(const ShaftData& shaft, Findings& findings) {
+  findings.require(!shaft.sections.empty(), "sections", "none", "at least one section");
+  for (std::size_t i = 0; i < shaft.sections.size(); ++i) {
+    const ShaftSection& section = shaft.sections[i];
+    const std::string name = element("sections", i);
+    findings.require(section.length > 0.0, name + "length", section.length, "above 0 mm");
+    findings.require(section.outer_diameter > 0.0, name + "outer_diameter", section.outer_diameter, "above 0 mm");
+    findings.require(section.inner_diameter >= 0.0 && !(section.inner_diameter >= section.outer_diameter),
+                     name + "inner_diameter", section.inner_diameter, "0 mm or more, and below the outer diameter");
+  }
+}
+
+void check_bearings(const ShaftData& shaft, Findings& findings) {
+  bool holds_axially = false, holds_tilt = false;
+  std::vector<double> places;
+  for (std::size_t i = 0; i < shaft.bearings.size(); ++i) {
+    const ShaftBearing& bearing = shaft.bearings[i];
+    const std::string name = element("bearings", i);
+    findings.require(bearing.position >= 0.0 && bearing.position <= shaft.length(), name + "position", bearing.position,
+                     "on the shaft, 0 .. " + std::to_string(shaft.length()) + " mm");
+    findings.require(std::ranges::find(places, bearing.position) == places.end(), name + "position", bearing.position,
+                     "a place of its own");
+    findings.require(bearing.radial_stiffness > 0.0, name + "radial_stiffness", bearing.radial_stiffness, "above 0");
+    findings.require(bearing.axial_stiffness >= 0.0, name + "axial_stiffness", bearing.axial_stiffness, "0 or more");
+    findings.require(bearing.tilting_stiffness >= 0.0, name + "tilting_stiffness", bearing.tilting_stiffness, "0 or more");
+    places.push_back(bearing.position);
+    holds_axially = holds_axially || bearing.axial_stiffness > 0.0;
+    holds_tilt = holds_tilt || bearing.tilting_stiffness > 0.0;
+  }
+  findings.require(places.size() >= 2 || (places.size() == 1 && holds_tilt), "bearings", std::to_string(places.size()),
+                   "at least two, or one that holds against tilting");
+  findings.require(holds_axially, "bearings", "no axial_stiffness", "at least one that holds the shaft axially");
+}
+
+}  // namespace
+
+double ShaftData::length() const {
+  double sum = 0.0;
+  for (const ShaftSection& section : sections) sum += section.length;
+  return sum;
+}
+
+std::vector<InvalidInput> find_problems(const ShaftData& shaft, double face_width) {
+  Findings findings;
+  findings.require(shaft.material.youngs_modulus > 0.0, "material.youngs_modulus", shaft.material.youngs_modulus, "above 0 MPa");
+  findings.require(shaft.material.poissons_ratio >= 0.0 && shaft.material.poissons_ratio < 0.5, "material.poissons_ratio",
+                   shaft.material.poissons_ratio, "0 .. below 0.5");
+  check_sections(shaft, findings);
+  if (!findings.empty()) return findings.take();
+  check_bearings(shaft, findings);
+  const double length = shaft.length(), half = 0.5 * face_width;
+  const double round_off = 1e-9 * length;  // ends are sums of lengths: a place within it of an end is on the shaft
+  findings.require(shaft.gear_position >= half - round_off && shaft.gear_position <= length - half + round_off,
+                   "gear_position", shaft.gear_position,
+                   "one that has the whole face on the shaft, " + std::to_string(half) + " .. " + std::to_string(length - half) + " mm");
+  findings.require(shaft.torque_position >= 0.0 && shaft.torque_position <= length + round_off &&
+                       !(std::abs(shaft.torque_position - shaft.gear_position) < half - round_off),
+                   "torque_position", shaft.torque_position, "on the shaft and not within the gear's face");
+  return findings.take();
+}
+
+}  // namespace flankwright

@@ -1,0 +1,156 @@
+#include "core/compliance/shaft/shaft_beam.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+using namespace flankwright;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kRoundOff = 1e-12;  // of the clamped beam's values, of which some closed forms are a fiftieth
+
+const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ(), none = Vector3d::Zero();
+
+// 1/(E I), 1/(kappa G A), 1/(G I_p), 1/(E A) of a shaft of about 40 mm.
+constexpr double EI = 2.6e10, kGA = 9e7, GJ = 2e10, EA = 2.6e8, L = 300;
+BeamPiece piece(double length, double shear = 1 / kGA) { return {length, 1 / EI, shear, 1 / GJ, 1 / EA}; }
+BeamPiece slender(double length) { return piece(length, 0.0); }
+
+void hold(std::vector<BeamSupport>& supports, double at, std::initializer_list<Vector3d> forces,
+          std::initializer_list<Vector3d> moments = {}, double compliance = 0.0) {
+  for (const Vector3d& f : forces) supports.push_back({{at, f, none}, compliance});
+  for (const Vector3d& m : moments) supports.push_back({{at, none, m}, compliance});
+}
+
+std::vector<BeamSupport> clamp(double at = 0.0) {
+  std::vector<BeamSupport> supports;
+  hold(supports, at, {x, y, z}, {x, y, z});
+  return supports;
+}
+
+/// Held radially at both places, axially and against turning at the first.
+std::vector<BeamSupport> two_bearings(double first = 0.0, double second = L) {
+  std::vector<BeamSupport> supports;
+  hold(supports, first, {x, y, z}, {z});
+  hold(supports, second, {x, y});
+  return supports;
+}
+
+double between(const ShaftBeam& beam, const BeamLoad& a, const BeamLoad& b) {
+  return beam.flexibility(std::vector{a}, std::vector{b})(0, 0);
+}
+
+Approx near(double value) { return Approx(value).epsilon(kRoundOff).margin(1e-20); }
+
+}  // namespace
+
+TEST_CASE("A clamped shaft bends, shears, twists and stretches as textbooks say", "[core][compliance][shaft][closed-form]") {
+  const ShaftBeam beam({piece(L)}, clamp(GENERATE(0.0, L)));
+  const bool from_start = between(beam, {0, x, none}, {0, x, none}) < 1e-15;
+  const double free = from_start ? L : 0.0, along = from_start ? 1.0 : -1.0;  // z away from the clamp
+  CHECK(between(beam, {free, x, none}, {free, x, none}) == near(L * L * L / (3 * EI) + L / kGA));
+  CHECK(between(beam, {free, none, y}, {free, none, y}) == near(L / EI));
+  // A force along x turns the end about +y where z leads away from the clamp.
+  CHECK(between(beam, {free, none, y}, {free, x, none}) == near(along * L * L / (2 * EI)));
+  CHECK(between(beam, {free, none, x}, {free, y, none}) == near(-along * L * L / (2 * EI)));
+  CHECK(between(beam, {free, none, z}, {free, none, z}) == near(L / GJ));
+  CHECK(between(beam, {free, z, none}, {free, z, none}) == near(L / EA));
+  // Half way, by the load at the end, and nothing across.
+  CHECK(between(beam, {L / 2, y, none}, {free, y, none}) == near(5 * L * L * L / (48 * EI) + L / (2 * kGA)));
+  CHECK(between(beam, {L / 2, none, z}, {free, none, z}) == near(L / (2 * GJ)));
+  CHECK(between(beam, {free, x, none}, {free, y, none}) == 0.0);
+}
+
+TEST_CASE("A shaft on two bearings sags as a simply supported beam, overhangs included", "[core][compliance][shaft][closed-form]") {
+  const ShaftBeam beam({piece(L)}, two_bearings());
+  for (const double a : {20.0, 150.0, 220.0}) {
+    const double b = L - a;
+    CAPTURE(a);
+    CHECK(between(beam, {a, x, none}, {a, x, none}) == near(a * a * b * b / (3 * EI * L) + a * b / (L * kGA)));
+  }
+  CHECK(between(beam, {0, x, none}, {100, x, none}) == Approx(0.0).margin(kRoundOff * L * L * L / EI));
+  // A moment in the middle turns it by M L/(12 E I) and shears both halves by M/L.
+  CHECK(between(beam, {L / 2, none, y}, {L / 2, none, y}) == near(L / (12 * EI) + 1 / (L * kGA)));
+
+  // Overhang c beyond bearings a distance l apart: P c^2 (l + c)/(3 E I).
+  const double c = 80, l = L - c;
+  const ShaftBeam overhung({slender(L)}, two_bearings(0, l));
+  CHECK(between(overhung, {L, y, none}, {L, y, none}) == near(c * c * (l + c) / (3 * EI)));
+}
+
+TEST_CASE("Supports in excess share the load by their stiffness", "[core][compliance][shaft][closed-form]") {
+  SECTION("two equal spans, load in the middle of one") {
+    std::vector<BeamSupport> three = two_bearings();
+    hold(three, L / 2, {x, y});
+    const double span = L / 2;
+    const ShaftBeam beam({slender(L)}, three);
+    CHECK(between(beam, {span / 2, x, none}, {span / 2, x, none}) == near(23 * span * span * span / (1536 * EI)));
+  }
+  SECTION("both ends clamped") {
+    std::vector<BeamSupport> both = clamp();
+    hold(both, L, {x, y}, {x, y});
+    const ShaftBeam beam({slender(L)}, both);
+    CHECK(between(beam, {L / 2, x, none}, {L / 2, x, none}) == near(L * L * L / (192 * EI)));
+  }
+  SECTION("a rigid shaft on springs tips over as a lever") {
+    const double k = 5e5;
+    std::vector<BeamSupport> springs;
+    hold(springs, 50, {x, y}, {}, 1 / k);
+    hold(springs, 250, {x, y}, {}, 1 / k);
+    hold(springs, 50, {z}, {z});
+    const ShaftBeam beam({{L, 0, 0, 0, 0}}, springs);
+    // At 200: reactions 1/4 and 3/4.
+    CHECK(between(beam, {200, y, none}, {200, y, none}) == near((1.0 / 16 + 9.0 / 16) / k));
+    CHECK(between(beam, {50, y, none}, {200, y, none}) == near(0.25 / k));
+  }
+}
+
+TEST_CASE("Loads that act together are the sum of their parts", "[core][compliance][shaft]") {
+  const ShaftBeam beam({piece(100), slender(80), piece(120)}, two_bearings(30, 280));
+  const std::vector<BeamLoad> parts{{40, {1, -2, 0.3}, none}, {90, none, {20, 5, 0}}, {150, none, {0, 0, 8}},
+                                    {200, {0.2, 1, 1}, none}, {90, none, {-7, 2, 0}}, {150, none, {0, 0, -3}}};
+  const Eigen::MatrixXd each = beam.flexibility(parts), together = beam.flexibility(parts, 3);
+  for (int i = 0; i < 2; ++i) {
+    for (int j = 0; j < 2; ++j) CHECK(together(i, j) == near(each.block<3, 3>(3 * i, 3 * j).sum()));
+  }
+}
+
+TEST_CASE("Any shaft's flexibility is symmetric, does no negative work and does not depend on where it is cut",
+          "[core][compliance][shaft]") {
+  std::mt19937 random(7);
+  const auto between_ = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
+  for (int trial = 0; trial < 50; ++trial) {
+    std::vector<BeamPiece> pieces, cut;
+    double length = 0.0;
+    for (int i = 0; i < 4; ++i) {
+      const double s = std::pow(10.0, between_(-1.0, 1.0));
+      const BeamPiece one{between_(10, 120), s * s / EI, s / kGA, s * s / GJ, s / EA};
+      pieces.push_back(one);
+      for (double share : {0.3, 0.7}) {
+        cut.push_back(one);
+        cut.back().length *= share;
+      }
+      length += one.length;
+    }
+    std::vector<BeamSupport> supports;
+    hold(supports, between_(0, 0.3 * length), {x, y}, {}, between_(0, 1e-6));
+    hold(supports, between_(0.35 * length, 0.6 * length), {x, y, z}, {x, y}, between_(1e-9, 1e-6));
+    hold(supports, between_(0.65 * length, length), {x, y}, {z});
+    const ShaftBeam beam(pieces, supports), same(cut, supports);
+    std::vector<BeamLoad> loads;
+    for (int i = 0; i < 20; ++i) {
+      const auto any = [&](double size) { return Vector3d(between_(-size, size), between_(-size, size), between_(-size, size)); };
+      loads.push_back({between_(0, length), any(1), any(100)});
+    }
+    const Eigen::MatrixXd K = beam.flexibility(loads);
+    CHECK(K == K.transpose());
+    const Eigen::MatrixXd raw = beam.flexibility(loads, loads);
+    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K).eigenvalues();
+    CHECK((raw - raw.transpose()).norm() < 1e-11 * K.norm());  // round-off
+    CHECK(values.minCoeff() > -1e-11 * values.maxCoeff());     // round-off
+    CHECK((same.flexibility(loads) - K).norm() < 1e-11 * K.norm());  // round-off
+  }
+}
