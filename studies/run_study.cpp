@@ -217,6 +217,8 @@ class Run {
     int total = 0, done = 0;
     for (const Scene& scene : study.scenes) total += static_cast<int>(scene.torques.size());
     double unloaded_seconds = 0.0, loaded_seconds = 0.0;
+    std::vector<MeshParameter> parameters;
+    for (const GradientParameter& p : study.gradients) parameters.push_back(p.parameter);
     if (study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) {
       structures();  // its time is its own
       const Stopwatch clock;
@@ -234,7 +236,7 @@ class Run {
         } else {
           const DesignScene loaded{scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(study, scene))};
           const std::size_t model = model_for(loaded.condition.misalignment);
-          add_loaded(loaded, "given", analyse_cycle(results_.models[model], loaded.condition, torque));
+          add_loaded(loaded, "given", analyse_cycle(results_.models[model], loaded.condition, torque, parameters));
           loaded_seconds += clock.seconds();
         }
         report("analysing", ++done, total, scene.name);
