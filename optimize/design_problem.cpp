@@ -66,15 +66,15 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)) {
   check_root_stress(task_);
   for (const DesignVariable& v : task_.variables) {
     if (!(v.lower < v.upper)) throw InvalidInput("optimise.variables." + v.path, "an empty range", "lower < upper");
-    parameters_.push_back({v.member, v.parameter});
+    parameters_.push_back(GearParameter{v.member, v.parameter});
   }
   for (const DesignScene& scene : task_.scenes) {
     if (!(scene.torque > 0.0)) throw InvalidInput("load.torque", std::to_string(scene.torque), "above 0 to optimise");
-    std::unique_ptr<MeshModel>& model = models_by_offset_[scene.condition.misalignment.axial_offset];
+    const MeshPlacement placement = MeshPlacement::of(task_.gap, scene.condition.misalignment);
+    std::unique_ptr<MeshModel>& model = models_by_placement_[placement];
     if (!model) {
       model = std::make_unique<MeshModel>(make_mesh_model(task_.pair, task_.pinion_material, task_.wheel_material,
-                                                          task_.resolution, task_.effects,
-                                                          scene.condition.misalignment.axial_offset, task_.structure.get(),
+                                                          task_.resolution, task_.effects, placement, task_.structure.get(),
                                                           task_.root_stress.get(), task_.shafts.get()));
     }
     models_.push_back(model.get());
@@ -107,7 +107,7 @@ void DesignProblem::apply(const Eigen::VectorXd& x, Modification& pinion, Modifi
 
 DesignAnalysis DesignProblem::run(const Modification& pinion, const Modification& wheel, bool with_derivatives) const {
   DesignAnalysis analysis{pinion, wheel, std::vector<LoadedCycle>(task_.scenes.size())};
-  const std::vector<GearParameter> none;
+  const std::vector<MeshParameter> none;
   tbb::parallel_for(std::size_t{0}, task_.scenes.size(), [&](std::size_t s) {
     FlankCondition condition = task_.scenes[s].condition;
     condition.pinion_modification = pinion;

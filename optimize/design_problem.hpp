@@ -60,9 +60,9 @@ class DesignProblem {
   DesignAnalysis run(const Modification& pinion, const Modification& wheel, bool with_derivatives) const;
 
   DesignTask task_;
-  std::map<double, std::unique_ptr<MeshModel>> models_by_offset_;  ///< axial offset of the wheel -> model
-  std::vector<const MeshModel*> models_;                           ///< per scene
-  std::vector<GearParameter> parameters_;
+  std::map<MeshPlacement, std::unique_ptr<MeshModel>> models_by_placement_;
+  std::vector<const MeshModel*> models_;  ///< per scene
+  std::vector<MeshParameter> parameters_;
   Eigen::VectorXd last_x_;
   bool last_has_derivatives_{false};
   DesignAnalysis last_;

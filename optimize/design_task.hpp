@@ -73,6 +73,7 @@ struct DesignTask {
   Material pinion_material, wheel_material;
   MeshResolution resolution;
   MeshEffects effects;
+  GapModel gap{GapModel::PlaneOfAction};
   std::shared_ptr<const PairCompliance> structure;       ///< null: thin slices
   std::shared_ptr<const PairRootStress> root_stress;     ///< null: none
   std::shared_ptr<const PairCompliance> shafts;          ///< null: rigid

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <stdexcept>
+
+#include "core/load/cycle_gradient.hpp"
 
 namespace flankwright {
 
@@ -13,33 +14,22 @@ const LoadedPosition& at(const LoadedCycle& cycle, int position) { return cycle.
 
 bool has_derivatives(const LoadedCycle& cycle) { return cycle.positions.front().transmission_error_derivative.size() > 0; }
 
-/// Mean line load the load factor refers to; the same for every design.
-double mean_line_load(const MeshModel& model, const LoadedCycle& cycle) {
-  double length = 0.0;
-  for (const MeshPosition& position : model.positions) {
-    for (const ContactPoint& point : position.points) length += point.clearance == 0.0 ? point.weight : 0.0;
-  }
-  return cycle.force * static_cast<double>(model.positions.size()) / length;
+SmoothValue harmonic(const LoadedCycle& cycle, int order) {
+  const TeHarmonic found = te_harmonic(cycle, order);
+  return {found.amplitude, found.derivative.transpose()};
 }
 
-SmoothValue harmonic(const LoadedCycle& cycle, int order) {
-  const int n = static_cast<int>(cycle.positions.size());
-  std::complex<double> sum = 0.0;
-  Eigen::VectorXcd derivative;
-  const bool derivatives = has_derivatives(cycle);
-  if (derivatives) derivative = Eigen::VectorXcd::Zero(cycle.positions.front().transmission_error_derivative.size());
-  for (int i = 0; i < n; ++i) {
-    const std::complex<double> factor = std::polar(2.0 / n, -2.0 * units::pi * order * i / n);
-    sum += factor * at(cycle, i).load.transmission_error;
-    if (derivatives) derivative += factor * at(cycle, i).transmission_error_derivative.transpose();
+/// Derivatives of point_values() at one point.
+Eigen::RowVectorXd point_derivative(const ObjectiveTerm& term, const PeakCandidate& candidate, const MeshModel& model,
+                                    const LoadedCycle& cycle) {
+  const LoadedPosition& position = at(cycle, candidate.position);
+  switch (term.output) {
+    case Output::PeakContactStress: return position.contact_stress_derivative.row(candidate.other);
+    case Output::PeakRootStress:
+      return root_stress_derivative(model.positions[static_cast<std::size_t>(candidate.position)], position, candidate.other);
+    case Output::LoadFactor: return load_factor_derivative(model, cycle, candidate.position, candidate.other);
+    default: return position.line_load_derivative.row(candidate.other);
   }
-  SmoothValue result;
-  result.value = std::abs(sum);
-  if (derivatives) {
-    const std::complex<double> direction = result.value > 0.0 ? std::conj(sum) / result.value : 0.0;
-    result.gradient = (direction * derivative).real();
-  }
-  return result;
 }
 
 bool is_pointwise(Output output) {
@@ -68,7 +58,7 @@ std::vector<Ranked> rank(const ObjectiveTerm& term, const MeshModel& model, cons
     return ranked;
   }
   if (is_pointwise(term.output)) {
-    const double mean_load = mean_line_load(model, cycle);
+    const double mean_load = model.mean_line_load(cycle.force);
     for (int i = 0; i < positions; ++i) {
       const Eigen::VectorXd values = point_values(term.output, at(cycle, i), mean_load);
       for (int j = 0; j < values.size(); ++j) ranked.push_back({values[j], {i, j}});
@@ -114,14 +104,9 @@ SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& cand
   const LoadedPosition& position = at(cycle, candidate.position);
   SmoothValue result;
   if (is_pointwise(term.output)) {
-    const double mean_load = term.output == Output::LoadFactor ? mean_line_load(model, cycle) : 1.0;
+    const double mean_load = term.output == Output::LoadFactor ? model.mean_line_load(cycle.force) : 1.0;
     result.value = point_values(term.output, position, mean_load)[candidate.other];
-    if (has_derivatives(cycle)) {
-      const Eigen::MatrixXd& derivative = term.output == Output::PeakContactStress ? position.contact_stress_derivative
-                                          : term.output == Output::PeakRootStress  ? position.root_stress_derivative
-                                                                                   : position.line_load_derivative;
-      result.gradient = derivative.row(candidate.other).transpose() / mean_load;
-    }
+    if (has_derivatives(cycle)) result.gradient = point_derivative(term, candidate, model, cycle).transpose();
     return result;
   }
   const LoadedPosition& other = at(cycle, candidate.other);

@@ -56,9 +56,9 @@ Json fits_json(const RefinementLibrary& library) {
 const char* name_of(RemovedMotion removed) {
   switch (removed) {
     case RemovedMotion::None: return "none";
-    case RemovedMotion::TranslationAndTorsion: return "translation and torsion";
-    case RemovedMotion::TranslationTorsionAndTilt: return "translation, torsion and tilt";
-    case RemovedMotion::TranslationUpperTorsionAndTilt: return "translation, torsion at the blunt end and tilt";
+    case RemovedMotion::TranslationAndTorsion: return "transverse translation and torsion";
+    case RemovedMotion::TranslationTorsionAndTilt: return "transverse translation, torsion and tilt";
+    case RemovedMotion::WholeTranslationTorsionAndTilt: return "translation, torsion and tilt";
   }
   __builtin_unreachable();
 }
@@ -75,7 +75,8 @@ Json compliance_json(const FiniteElementRuns& runs, const Study& study) {
 Json body_json(const GearBody& body) {
   return {{"shaft_diameter_mm", body.shaft_diameter},
           {"bore_diameter_mm", body.bore_diameter},
-          {"shaft_overhang_mm", body.shaft_overhang}};
+          {"shaft_overhang_mm", body.shaft_overhang},
+          {"torque_end", body.torque_end == FaceEnd::Blunt ? "blunt" : "sharp"}};
 }
 
 }  // namespace flankwright::studies

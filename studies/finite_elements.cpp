@@ -19,7 +19,7 @@ namespace flankwright::studies {
 namespace {
 
 /// To be raised whenever the same task comes to mean other numbers: mesh, load functional, removed motion, solution.
-constexpr int model_version = 2;
+constexpr int model_version = 3;
 
 /// Share of the machine's memory that runs may take.
 constexpr double share_of_memory = 0.8;
@@ -62,7 +62,7 @@ Json gear_key(const GearToMesh& gear) {
   const auto& [data, module, pressure_angle, helix_angle, body] = gear;
   const auto& [teeth, face_width, profile_shift, tip_diameter, rack, generation] = data;
   const auto& [addendum, dedendum, root_radius] = rack;
-  const auto& [shaft_diameter, bore_diameter, shaft_overhang] = body;
+  const auto& [shaft_diameter, bore_diameter, shaft_overhang, torque_end] = body;
   static_cast<void>(module);      // 1
   static_cast<void>(generation);  // amounts of micrometres, which the mesh does not know
   return {{"teeth", teeth},
@@ -72,7 +72,7 @@ Json gear_key(const GearToMesh& gear) {
           {"rack", {addendum, dedendum, root_radius}},
           {"pressure_angle", pressure_angle},
           {"helix_angle", helix_angle},
-          {"body", {shaft_diameter, bore_diameter, shaft_overhang}}};
+          {"body", {shaft_diameter, bore_diameter, shaft_overhang, torque_end == FaceEnd::Blunt ? "blunt" : "sharp"}}};
 }
 
 /// Everything that defines the outcome of a task, in modules, as the key of its stored run.
@@ -289,9 +289,6 @@ InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair
                           .teeth_apart = std::max(2, teeth_apart_in_contact(pair)),
                           .grid = flank_grid(gear.data.face_width / pair.data.normal_module),
                           .root_stress = wants_root_stress(study)};
-  // The gear's wind-up starts where the torque leaves it; the mesh's lower end is the sharp one.
-  const std::optional<ShaftData>& shaft = pinion ? study.pinion_shaft : study.wheel_shaft;
-  if (study.task != Task::Fit && shaft && shaft->torque_side() != sharp_end(pair, member)) task.removed = RemovedMotion::TranslationUpperTorsionAndTilt;
   if (2 * task.teeth_apart + 1 > gear.data.teeth) {
     throw InvalidInput("fidelity.compliance", to_string(study.fidelity.compliance),
                        fmt::format("another compliance: teeth {} pitches apart touch at once, too many for the {}'s {}",
@@ -303,6 +300,12 @@ InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair
     if (by_fits) RefinementLibrary::shipped().require_known(task.gear, task.poissons_ratio);
     const ToothForm form(to_mesh.gear, to_mesh.normal_module, to_mesh.pressure_angle, to_mesh.helix_angle);
     task.gear.body = complete_body(pinion ? study.pinion_body : study.wheel_body, form, to_mesh.normal_module);
+    // The gear's wind-up starts where the torque leaves it, and the shaft's own bearings hold it axially.
+    const std::optional<ShaftData>& shaft = pinion ? study.pinion_shaft : study.wheel_shaft;
+    if (study.task != Task::Fit && shaft) {
+      task.removed = RemovedMotion::WholeTranslationTorsionAndTilt;
+      task.gear.body.torque_end = shaft->torque_side() == sharp_end(pair, member) ? FaceEnd::Sharp : FaceEnd::Blunt;
+    }
     GearMeshOptions options = task.mesh;
     options.teeth_each_side = task.teeth_apart;
     section_mesh(form, to_mesh.gear.teeth, to_mesh.normal_module, task.gear.body, options);  // only for what it refuses

@@ -8,6 +8,7 @@
 #include "studies/compliance_json.hpp"
 #include "studies/fit_json.hpp"
 #include "studies/json_format.hpp"
+#include "studies/load_rating_json.hpp"
 #include "studies/shafts_json.hpp"
 #include "studies/unloaded_json.hpp"
 #include "studies/used_json.hpp"
@@ -67,17 +68,22 @@ Json geometry_json(const GearPair& pair) {
 }
 
 Json point_json(const ContactPoint& point, const LoadedPosition& position, Eigen::Index i) {
-  return {{"z_mm", point.z},
-          {"phase", point.phase},
-          {"pinion_radius_mm", point.pinion_radius},
-          {"wheel_radius_mm", point.wheel_radius},
-          {"length_mm", point.weight},
-          {"load_N_per_mm", position.load.line_load[i]},
-          {"contact_stress_MPa", position.contact_stress[i]},
-          {"contact_deflection_um", in_um(position.load.contact_deflection[i])},
-          {"structural_deflection_um", in_um(position.load.structural_deflection[i])},
-          {"gap_um", in_um(position.gap.total[i])},
-          {"error_um", in_um(position.gap.error[i])}};
+  Json json{{"z_mm", point.z},
+            {"phase", point.phase},
+            {"pinion_radius_mm", point.pinion_radius},
+            {"wheel_radius_mm", point.wheel_radius},
+            {"length_mm", point.weight},
+            {"load_N_per_mm", position.load.line_load[i]},
+            {"contact_stress_MPa", position.contact_stress[i]},
+            {"contact_deflection_um", in_um(position.load.contact_deflection[i])},
+            {"structural_deflection_um", in_um(position.load.structural_deflection[i])},
+            {"gap_um", in_um(position.gap.total[i])},
+            {"error_um", in_um(position.gap.error[i])}};
+  if (!position.gap.nearest.empty()) {
+    const NearestPlace& nearest = position.gap.nearest[static_cast<std::size_t>(i)];
+    json["nearest"] = {{"pinion_radius_mm", nearest.pinion_radius}, {"wheel_radius_mm", nearest.wheel_radius}};
+  }
+  return json;
 }
 
 /// Largest over a tooth's fillet [MPa]; NaN without.
@@ -90,7 +96,8 @@ double root_stress_of_tooth(const MeshPosition& at, const LoadedPosition& positi
   return largest;
 }
 
-Json position_json(const MeshPosition& at, const LoadedPosition& position, double cos_base_helix) {
+Json position_json(const MeshModel& model, const MeshPosition& at, const LoadedPosition& position, const FlankCondition& condition) {
+  const double cos_base_helix = std::cos(model.pair.base_helix_angle);
   const LoadDistribution& load = position.load;
   Json json{{"phase", position.phase},
             {"te_um", in_um(load.transmission_error)},
@@ -106,9 +113,13 @@ Json position_json(const MeshPosition& at, const LoadedPosition& position, doubl
       points.push_back(point_json(at.points[i], position, static_cast<Eigen::Index>(i)));
     }
   }
+  const std::map<int, double> shares = shares_by_tooth(at, position);
+  std::map<int, Json> ends = line_ends_json(line_ends(model, at, position, condition));
   json["teeth"] = Json::array();
   for (auto& [tooth, points] : teeth) {
-    Json entry{{"tooth", tooth}, {"points", std::move(points)}};
+    Json entry{{"tooth", tooth}, {"points", std::move(points)}, {"line_ends", Json::array()}};
+    if (ends.contains(tooth)) entry["line_ends"] = std::move(ends.at(tooth));
+    entry["share"] = shares.contains(tooth) ? Json(shares.at(tooth)) : Json();
     if (position.root_stress.size() > 0) {
       entry["pinion_root_stress_MPa"] = root_stress_of_tooth(at, position, Member::Pinion, tooth);
       entry["wheel_root_stress_MPa"] = root_stress_of_tooth(at, position, Member::Wheel, tooth);
@@ -128,10 +139,11 @@ Json root_stress_json(const RootStressPeak& peak) {
           {"at_30_deg_tangent_MPa", peak.tangent_stress}};
 }
 
-Json summary_json(const CycleSummary& summary, const MeshModel& model, bool full_cycle) {
-  const double missing = not_given;
+Json summary_json(const LoadedResult& loaded, const MeshModel& model, bool full_cycle) {
+  const CycleSummary& summary = loaded.summary;
   return {{"te_peak_to_peak_um", in_um(summary.te_peak_to_peak)},
           {"te_harmonics_um", full_cycle ? list(summary.te_harmonics, in_um) : Json::array()},
+          {"te_convergence", full_cycle ? te_convergence_json(loaded.cycle) : Json()},
           {"te_mean_um", in_um(summary.te_mean)},
           {"peak_load_N_per_mm", summary.peak_line_load},
           {"peak_contact_stress_MPa", summary.peak_contact_stress},
@@ -141,28 +153,27 @@ Json summary_json(const CycleSummary& summary, const MeshModel& model, bool full
           {"pinion_root_stress", root_stress_json(summary.pinion_root_stress)},
           {"wheel_root_stress", root_stress_json(summary.wheel_root_stress)},
           {"mean_stiffness_N_per_mm_um", summary.mean_stiffness},
+          {"least_stiffness_N_per_mm_um", summary.least_stiffness},
+          {"largest_stiffness_N_per_mm_um", summary.largest_stiffness},
+          {"stiffness_variation", (summary.largest_stiffness - summary.least_stiffness) / summary.mean_stiffness},
           {"load_factor", summary.load_factor},
           {"worst_kkt_residual", summary.worst_kkt_residual},
-          {"iso6336",
-           {{"c_prime", model.iso.c_prime},
-            {"c_gamma", model.iso.c_gamma},
-            {"within_range", model.iso.within_range && model.iso.mean_within_range},
-            {"K_Hbeta", missing},
-            {"K_Halpha", missing}}}};
+          {"peaks", loaded.rating ? peaks_json(*loaded.rating, model) : Json()},
+          {"load_factors", loaded.rating ? load_factors_json(*loaded.rating) : Json()},
+          {"iso6336", iso_json(model.iso, loaded.iso)}};
 }
 
 Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
   const MeshModel& model = results.models[loaded.model];
-  const double cos_base_helix = std::cos(results.pair.base_helix_angle);
   Json cycle = Json::array();
   for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
-    cycle.push_back(position_json(model.positions[i], loaded.cycle.positions[i], cos_base_helix));
+    cycle.push_back(position_json(model, model.positions[i], loaded.cycle.positions[i], loaded.condition));
   }
   Json json{{"scene", loaded.scene},
           {"torque_Nm", loaded.torque / units::newton_metre},
           {"normal_force_N", loaded.cycle.force},
           {"design", loaded.design},
-          {"summary", summary_json(loaded.summary, model, results.study.cycle.phases.empty())},
+          {"summary", summary_json(loaded, model, results.study.cycle.phases.empty())},
           {"cycle", std::move(cycle)}};
   if (results.shafts) add_shaft_motion(loaded, results, json);
   return json;

@@ -37,11 +37,6 @@ EffectFacts facts_of(const Study& study) {
   return facts;
 }
 
-MeshResolution resolution_of(const Study& study) {
-  return {study.fidelity.quadrature,
-          study.cycle.phases.empty() ? equally_spaced_phases(study.cycle.positions) : study.cycle.phases};
-}
-
 std::string number(double value, int digits = 4) {
   std::ostringstream out;
   out.precision(digits);
@@ -57,6 +52,9 @@ class Run {
     results_.pair = make_gear_pair(study.pair);
     const EffectFacts facts = facts_of(study);
     results_.effects = study.fidelity.automatic_effects ? decide_effects(facts) : chosen_effects(facts, study.fidelity.effects);
+    if (study.fidelity.gap == GapModel::WholeSurface && study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) {
+      results_.effects.push_back({"whole_surface_gap", true, "fidelity.gap seeks contact over the whole flanks"});
+    }
     if (study.fidelity.compliance == ComplianceModel::Rigid && any_torque() && study.task != Task::Fit) {
       note("compliance is rigid: torques are ignored, contact is analysed without load");
     }
@@ -116,14 +114,59 @@ class Run {
     }
   }
 
-  /// The mesh model for an axial offset, built when first needed.
-  std::size_t model_for(double axial_offset) {
-    const auto [it, is_new] = model_index_.try_emplace(axial_offset, results_.models.size());
+  /// The mesh for a misalignment, at phases of one's choice and without root stress.
+  MeshAt mesh_at(const Misalignment& misalignment) {
+    return [this, placement = MeshPlacement::of(results_.study.fidelity.gap, misalignment),
+            structure = structures().pair](const std::vector<double>& phases) {
+      const Study& study = results_.study;
+      return make_mesh_model(results_.pair, study.pinion_material, study.wheel_material, {study.fidelity.quadrature, phases},
+                             mesh_effects(results_.effects), placement, structure.get(), nullptr, timed_shafts_.get());
+    };
+  }
+
+  /// Working conditions under load, as far as their effects are on.
+  std::vector<DesignScene> loaded_scenes() const {
+    std::vector<DesignScene> scenes;
+    for (const Scene& scene : results_.study.scenes) {
+      for (double torque : scene.torques) {
+        if (torque == 0.0) continue;
+        scenes.push_back({scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(results_.study, scene))});
+      }
+    }
+    return scenes;
+  }
+
+  /// Phases of the loaded mesh positions: as given, or as many as the load case asks for that needs most.
+  void choose_phases() {
+    const Cycle& cycle = results_.study.cycle;
+    int positions = cycle.positions;
+    if (cycle.automatic_positions) {
+      for (const DesignScene& scene : loaded_scenes()) {
+        const ResolutionChoice choice =
+            choose_positions(mesh_at(scene.condition.misalignment), scene.condition, scene.torque);
+        std::optional<ResolutionChoice>& most = results_.resolution;
+        if (!most || choice.convergence.positions > most->convergence.positions) most = choice;
+      }
+      positions = results_.resolution->convergence.positions;
+      if (!results_.resolution->converged) {
+        note("the harmonics of the transmission error still change by " +
+             number(results_.resolution->convergence.harmonic_change / units::um) + " um from " + std::to_string(positions / 2) +
+             " to " + std::to_string(positions) + " mesh positions");
+      }
+    }
+    results_.phases = cycle.phases.empty() ? equally_spaced_phases(positions) : cycle.phases;
+  }
+
+  /// The mesh model for a misalignment, built when first needed.
+  std::size_t model_for(const Misalignment& misalignment) {
+    const MeshPlacement placement = MeshPlacement::of(results_.study.fidelity.gap, misalignment);
+    const auto [it, is_new] = model_index_.try_emplace(placement, results_.models.size());
     if (is_new) {
       const Study& study = results_.study;
       results_.models.push_back(make_mesh_model(results_.pair, study.pinion_material, study.wheel_material,
-                                                resolution_of(study), mesh_effects(results_.effects), axial_offset,
-                                                structures().pair.get(), structures().root_stress.get(), timed_shafts_.get()));
+                                                {study.fidelity.quadrature, results_.phases}, mesh_effects(results_.effects),
+                                                placement, structures().pair.get(), structures().root_stress.get(),
+                                                timed_shafts_.get()));
     }
     return it->second;
   }
@@ -155,9 +198,17 @@ class Run {
     }
   }
 
-  void add_loaded(const std::string& scene, double torque, const std::string& design, std::size_t model, LoadedCycle cycle) {
-    LoadedResult result{scene, torque, design, std::move(cycle), {}, model};
-    result.summary = summarise(results_.models[model], result.cycle);
+  void add_loaded(const DesignScene& scene, const std::string& design, LoadedCycle cycle) {
+    const FlankCondition& condition = scene.condition;
+    const std::size_t index = model_for(condition.misalignment);
+    const MeshModel& model = results_.models[index];
+    LoadedResult result{scene.name, scene.torque, design, std::move(cycle), {}, index, condition,
+                        iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, condition), scene.torque, model.face_width)};
+    result.summary = summarise(model, result.cycle);
+    const Cycle& asked = results_.study.cycle;
+    if (asked.locate_peaks && asked.phases.empty() && result.cycle.usable()) {
+      result.rating = rater_.rate(mesh_at(condition.misalignment), condition, scene.torque);
+    }
     results_.loaded.push_back(std::move(result));
   }
 
@@ -166,7 +217,12 @@ class Run {
     int total = 0, done = 0;
     for (const Scene& scene : study.scenes) total += static_cast<int>(scene.torques.size());
     double unloaded_seconds = 0.0, loaded_seconds = 0.0;
-    if (study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) structures();  // its time is its own
+    if (study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) {
+      structures();  // its time is its own
+      const Stopwatch clock;
+      choose_phases();
+      loaded_seconds += clock.seconds();
+    }
     for (const Scene& scene : study.scenes) {
       bool has_unloaded = false;
       for (double torque : scene.torques) {
@@ -176,9 +232,9 @@ class Run {
           has_unloaded = true;
           unloaded_seconds += clock.seconds();
         } else {
-          const FlankCondition condition = apply_effects(results_.effects, condition_of(study, scene));
-          const std::size_t model = model_for(condition.misalignment.axial_offset);
-          add_loaded(scene.name, torque, "given", model, analyse_cycle(results_.models[model], condition, torque));
+          const DesignScene loaded{scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(study, scene))};
+          const std::size_t model = model_for(loaded.condition.misalignment);
+          add_loaded(loaded, "given", analyse_cycle(results_.models[model], loaded.condition, torque));
           loaded_seconds += clock.seconds();
         }
         report("analysing", ++done, total, scene.name);
@@ -198,7 +254,8 @@ class Run {
     task.pair = results_.pair;
     task.pinion_material = study.pinion_material;
     task.wheel_material = study.wheel_material;
-    task.resolution = resolution_of(study);
+    task.resolution = {study.fidelity.quadrature, results_.phases};
+    task.gap = study.fidelity.gap;
     task.effects = mesh_effects(results_.effects);
     task.structure = structures().pair;
     task.root_stress = structures().root_stress;
@@ -209,18 +266,13 @@ class Run {
     task.objective = study.optimise.objective;
     task.over = study.optimise.over;
     task.constraints = study.optimise.constraints;
-    for (const Scene& scene : study.scenes) {
-      for (double torque : scene.torques) {
-        if (torque == 0.0) continue;  // an unloaded scene has no stress and no loaded transmission error to choose by
-        task.scenes.push_back(
-            {scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(study, scene))});
-      }
-    }
+    task.scenes = loaded_scenes();  // an unloaded scene has no stress and no loaded transmission error to choose by
     return task;
   }
 
   void optimise() {
     const Study& study = results_.study;
+    choose_phases();
     results_.design_task = design_task();
     SolverOptions options;
     options.name = study.optimise.solver;
@@ -237,9 +289,10 @@ class Run {
     results_.effects.push_back({"load_distribution", true, "all analyses of the optimisation", design.seconds});
     for (const auto& [name, report] : {std::pair{"before", &design.before}, std::pair{"after", &design.after}}) {
       for (int s = 0; s < problem.scenes(); ++s) {
-        const DesignScene& scene = results_.design_task->scenes[static_cast<std::size_t>(s)];
-        add_loaded(scene.name, scene.torque, name, model_for(scene.condition.misalignment.axial_offset),
-                   report->analysis.cycles[static_cast<std::size_t>(s)]);
+        DesignScene scene = results_.design_task->scenes[static_cast<std::size_t>(s)];
+        scene.condition.pinion_modification = report->analysis.pinion_modification;
+        scene.condition.wheel_modification = report->analysis.wheel_modification;
+        add_loaded(scene, name, report->analysis.cycles[static_cast<std::size_t>(s)]);
       }
     }
     const bool ended_well = design.status == SolverStatus::Converged || design.status == SolverStatus::Stalled;
@@ -283,8 +336,9 @@ class Run {
 
   const ProgressReport& progress_;
   StudyResults results_;
-  std::map<double, std::size_t> model_index_;
+  std::map<MeshPlacement, std::size_t> model_index_;
   std::shared_ptr<const TimedCompliance> timed_shafts_;  ///< results_.shafts; null where they are rigid
+  LoadRater rater_;
   bool has_structure_{false};
 };
 

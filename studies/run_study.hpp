@@ -5,12 +5,15 @@
 #include <vector>
 
 #include "core/effects/effects.hpp"
+#include "core/load/cycle_resolution.hpp"
+#include "core/load/iso_load_factors.hpp"
 #include "core/load/mesh_cycle.hpp"
 #include "optimize/design_optimiser.hpp"
 #include "studies/fit_task.hpp"
 #include "studies/gear_deflections.hpp"
 #include "core/compliance/shaft/shaft_pair.hpp"
 #include "studies/gear_structures.hpp"
+#include "studies/load_rating.hpp"
 #include "studies/study.hpp"
 #include "studies/unloaded_result.hpp"
 
@@ -24,6 +27,9 @@ struct LoadedResult {
   LoadedCycle cycle;
   CycleSummary summary;
   std::size_t model{0};        ///< index into StudyResults::models
+  FlankCondition condition;    ///< that it was solved for
+  IsoLoadFactors iso;
+  std::optional<LoadRating> rating{};  ///< none where peaks are sampled, or phases were given
 };
 
 /// Everything a study produced, in internal units.
@@ -33,6 +39,8 @@ struct StudyResults {
   std::vector<UnloadedResult> unloaded;
   std::vector<LoadedResult> loaded;
   std::vector<MeshModel> models;  ///< one per axial offset
+  std::vector<double> phases;     ///< of the loaded mesh positions [base pitches]
+  std::optional<ResolutionChoice> resolution;  ///< of the load case that needed most positions, where they were chosen automatically
   GearStructures structures;      ///< empty where no structure was asked for, or none needed
   std::shared_ptr<const ShaftPair> shafts;  ///< null where they are rigid
   std::vector<Effect> effects;

@@ -44,11 +44,14 @@ inline bool couples_teeth(ComplianceModel model) {
 
 struct Cycle {
   int positions{32};           ///< mesh positions over one base pitch, >= 1
+  bool automatic_positions{false};  ///< as many as the harmonics of the loaded transmission error need; `positions` without load
+  bool locate_peaks{true};     ///< peaks between the positions, and load distribution factors; not with explicit phases
   std::vector<double> phases;  ///< explicit phases of the reference tooth pair [base pitches]; empty: use `positions`
 };
 
 struct Fidelity {
   ComplianceModel compliance{ComplianceModel::ThinSlice};
+  GapModel gap{GapModel::PlaneOfAction};
   Quadrature quadrature;
   bool automatic_effects{true};
   std::vector<std::string> effects;  ///< switched on by hand where automatic_effects is false

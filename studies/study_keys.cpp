@@ -70,7 +70,7 @@ std::vector<SchemaKey> working_condition_rows() {
        .meaning = "of the shaft that the gear, a solid disc, is one with; at most d_f - m_n; compliances \"fitted\" and \"fe\" and task \"fit\"",
        .store = [](Draft& d, Member m, const Value& v) { body(d, m).shaft_diameter = v.number; }},
       {.path = "gear.body.bore_diameter", .quantity = Quantity::Length, .range = any_length,
-       .fallback = "(0.2 of the shaft)", .meaning = "of the shaft; below 0.9 of it; compliances \"fitted\" and \"fe\" and task \"fit\"",
+       .fallback = "(0.05 of the shaft)", .meaning = "of the shaft; below 0.9 of it; compliances \"fitted\" and \"fe\" and task \"fit\"",
        .store = [](Draft& d, Member m, const Value& v) { body(d, m).bore_diameter = v.number; }},
       {.path = "gear.body.shaft_overhang", .quantity = Quantity::Length, .range = any_length,
        .fallback = "(0.5 of the shaft)", .meaning = "length of the shaft beyond each face end; compliances \"fitted\" and \"fe\" and task \"fit\"",
@@ -83,9 +83,15 @@ std::vector<SchemaKey> working_condition_rows() {
       {.path = "unloaded.marking_thickness", .quantity = Quantity::Deviation, .range = above_zero(1000.0),
        .fallback = "6.35", .meaning = "of the compound that shows the bearing pattern; 6.35 um is 0.00025 in",
        .store = [](Draft& d, Member, const Value& v) { d.study.marking_thickness = v.number; }},
-      {.path = "cycle.positions", .kind = Integer, .range = {.low = 1, .high = 4096}, .fallback = "32",
-       .meaning = "mesh positions over one base pitch",
-       .store = [](Draft& d, Member, const Value& v) { d.study.cycle.positions = static_cast<int>(v.integer); }},
+      {.path = "cycle.positions", .kind = IntegerOrAuto, .range = {.low = 1, .high = 4096}, .fallback = "32",
+       .meaning = "mesh positions over one base pitch; auto doubles them, 32 .. 1024, until the harmonics of every loaded transmission error have converged",
+       .store = [](Draft& d, Member, const Value& v) {
+         d.study.cycle.automatic_positions = v.text == "auto";
+         if (v.text != "auto") d.study.cycle.positions = static_cast<int>(v.integer);
+       }},
+      {.path = "cycle.peaks", .kind = Word, .words = {"located", "sampled"}, .fallback = "\"located\"",
+       .meaning = "located: peaks with and without spikes, sought between the positions, and the load distribution factors K_H that follow; sampled: those of the positions only",
+       .store = [](Draft& d, Member, const Value& v) { d.study.cycle.locate_peaks = v.text == "located"; }},
       {.path = "cycle.phases", .kind = NumberList, .range = within(100.0), .fallback = "(evenly spaced positions)",
        .meaning = "explicit phases of the reference tooth pair, in base pitches; 0 where its contact line enters",
        .store = [](Draft& d, Member, const Value& v) { d.study.cycle.phases = v.numbers; }},
@@ -95,8 +101,10 @@ std::vector<SchemaKey> working_condition_rows() {
        .store = [](Draft& d, Member, const Value& v) {
          d.study.fidelity.compliance = compliance_model(v.text);
        }},
-      {.path = "fidelity.gap", .kind = Word, .words = {"plane_of_action"}, .later = {"whole_surface"},
-       .fallback = "\"plane_of_action\"", .meaning = "where contact is sought"},
+      {.path = "fidelity.gap", .kind = Word, .words = {"plane_of_action", "whole_surface"},
+       .fallback = "\"plane_of_action\"",
+       .meaning = "where contact is sought: where undisturbed flanks would touch, or over the whole flanks as they stand and are modified",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fidelity.gap = static_cast<GapModel>(v.integer); }},
       {.path = "fidelity.quadrature.rule", .kind = Word, .words = {"gauss2", "gauss3", "midpoint", "graded"},
        .fallback = "\"gauss2\"", .meaning = "points in each interval of a contact line; graded: two Gauss points on intervals that end where the line does",
        .store = [](Draft& d, Member, const Value& v) {

@@ -166,6 +166,9 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
       return read_numbers(key, node);
     case ValueKind::Integer:
       return read_integer(key, node);
+    case ValueKind::IntegerOrAuto:
+      if (node.is_string() && node.as_string()->get() == "auto") return {.text = "auto"};
+      return read_integer(key, node);
     case ValueKind::Text:
       if (!node.is_string()) refuse_value(allowed_values(key));
       return {.text = node.as_string()->get()};

@@ -158,6 +158,8 @@ std::string allowed_values(const SchemaKey& key) {
       return "a list of numbers" + range;
     case ValueKind::Integer:
       return "an integer" + range;
+    case ValueKind::IntegerOrAuto:
+      return "an integer" + range + ", or \"auto\"";
     case ValueKind::Text:
       return "a text";
     case ValueKind::TextList:

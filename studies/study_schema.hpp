@@ -28,6 +28,7 @@ enum class ValueKind {
   NumberOrList,  ///< one number, or a list of at least one
   NumberList,    ///< a list of at least one number
   Integer,
+  IntegerOrAuto, ///< an integer, or "auto"
   Text,          ///< any text
   TextList,      ///< a list of at least one text
   Word,          ///< one of `words`

@@ -95,6 +95,7 @@ positions = 32                       # mesh positions over one base pitch
 [fidelity]
 compliance = "thin_slice"            # "fitted", "fe": finite elements of both gears; "rigid": the unloaded contact only
 quadrature = { rule = "gauss2", intervals = 10 }                     # along a full contact line
+# gap = "whole_surface"              # contact sought over the whole flanks, not only where undisturbed ones would touch
 # effects = ["bending", "hertzian_contact"]                          # "auto" decides from the study
 
 # What the results must say, for `flankwright test`:
@@ -170,7 +171,7 @@ face_width = 40
 
 [pinion.body]                        # what the teeth stand on; [wheel.body] alike
 # shaft_diameter = 40                # mm; by default 0.8 d, at most 25 m_n/cos(beta)
-# bore_diameter = 8                  # mm; by default 0.2 of the shaft
+# bore_diameter = 2                  # mm; by default 0.05 of the shaft
 # shaft_overhang = 20                # mm beyond each face end; by default half the shaft's diameter
 
 [material]

@@ -7,6 +7,7 @@
 
 #include "studies/fit_tables.hpp"
 #include "studies/json_format.hpp"
+#include "studies/load_rating_tables.hpp"
 #include "studies/unloaded_tables.hpp"
 
 namespace flankwright::studies {
@@ -142,7 +143,7 @@ std::string analysis_table(const StudyResults& results) {
                        l.summary.peak_contact_stress, root_column(fmt::format("{:.2f}", l.summary.peak_root_stress)),
                        l.summary.mean_stiffness);
   }
-  return out + unloaded_summary(results, width);
+  return out + load_factors_table(results, width) + unloaded_summary(results, width);
 }
 
 }  // namespace
@@ -152,6 +153,8 @@ std::vector<NamedText> csv_tables(const StudyResults& results) {
   if (!results.loaded.empty()) {
     tables.push_back({"cycle.csv", cycle_csv(results)});
     tables.push_back({"points.csv", points_csv(results)});
+    tables.push_back({"load_factors.csv", load_factors_csv(results)});
+    tables.push_back({"load_sharing.csv", load_sharing_csv(results)});
   }
   if (!results.unloaded.empty()) {
     tables.push_back({"unloaded.csv", unloaded_csv(results)});

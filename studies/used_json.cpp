@@ -69,6 +69,17 @@ Json used_gear_json(const StudyResults& results, Member member) {
   return json;
 }
 
+Json cycle_json(const StudyResults& results) {
+  const Cycle& cycle = results.study.cycle;
+  const auto& chosen = results.resolution;
+  return {{"positions", chosen ? chosen->convergence.positions : cycle.positions},
+          {"phases", cycle.phases},
+          {"peaks", cycle.locate_peaks && cycle.phases.empty() ? "located" : "sampled"},
+          {"automatic", chosen ? Json{{"converged", chosen->converged},
+                                      {"harmonic_change_um", in_um(chosen->convergence.harmonic_change)}}
+                               : Json(false)}};
+}
+
 }  // namespace
 
 Json used_json(const StudyResults& results) {
@@ -84,10 +95,10 @@ Json used_json(const StudyResults& results) {
               {"pinion", used_gear_json(results, Member::Pinion)},
               {"wheel", used_gear_json(results, Member::Wheel)}}},
             {"unloaded", {{"marking_thickness_um", in_um(study.marking_thickness)}}},
-            {"cycle", {{"positions", study.cycle.positions}, {"phases", study.cycle.phases}}},
+            {"cycle", cycle_json(results)},
             {"fidelity",
              {{"compliance", to_string(study.fidelity.compliance)},
-              {"gap", "plane_of_action"},
+              {"gap", to_string(study.fidelity.gap)},
               {"quadrature", {{"rule", rule_name(study.fidelity.quadrature.rule)}, {"intervals", study.fidelity.quadrature.intervals}}},
               {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
   if (study.misalignment.pinion_lead_angle != 0.0) {

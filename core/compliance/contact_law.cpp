@@ -29,7 +29,9 @@ DepthFunction depth_function(double depth, double k) {
   if (depth > kDeep) return {std::log(2 * depth) - k / 2, 1 / depth};
   const double s = std::sqrt(1 + depth * depth);
   const double gap = 1 / (s + depth);  // S - h' without cancellation
-  return {std::asinh(depth) - k * depth * gap, (1 - k * gap * gap) / s};
+  // asinh from the root at hand, where that costs no digits.
+  const double inverse_sine = depth > 0.5 ? std::log(s + depth) : std::asinh(depth);
+  return {inverse_sine - k * depth * gap, (1 - k * gap * gap) / s};
 }
 
 }  // namespace

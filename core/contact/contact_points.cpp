@@ -86,8 +86,34 @@ std::optional<TipContact> tip_contact(const GearPair& pair, const Gear& tip, con
   return TipContact{rho, mate.base_radius * (std::atan2(y, x) - polar_angle(mate, mate_roll, rho))};
 }
 
-/// Fills radii, curvature and clearance of a point from its roll lengths on both gears.
-void place(const GearPair& pair, double pinion_roll, double wheel_roll, ContactPoint& point) {
+/// Geometry at a phase; false where no contact can be.
+bool locate(const GearPair& pair, const PathOfContact& path, bool with_extended_region, ContactPoint& point) {
+  const double rho1 = path.roll_at(point.phase), rho2 = pair.path_length - rho1;
+  if (rho1 >= pair.path_start && rho1 <= pair.path_end) {
+    set_rolls(pair, rho1, rho2, point);
+    return point.relative_radius > 0.0;
+  }
+  if (!with_extended_region) return false;
+  const double cos_base_helix = std::cos(pair.base_helix_angle);
+  if (rho1 < pair.path_start) {
+    if (pair.pinion.fillet_interference) return false;
+    const auto contact = tip_contact(pair, pair.wheel, pair.pinion, rho2, rho1);
+    if (!contact) return false;
+    set_rolls(pair, contact->mate_roll, pair.wheel.roll_length_at(pair.wheel.tip_radius), point);
+    point.clearance = contact->clearance * cos_base_helix;
+  } else {
+    if (pair.wheel.fillet_interference) return false;
+    const auto contact = tip_contact(pair, pair.pinion, pair.wheel, rho1, rho2);
+    if (!contact) return false;
+    set_rolls(pair, pair.pinion.roll_length_at(pair.pinion.tip_radius), contact->mate_roll, point);
+    point.clearance = contact->clearance * cos_base_helix;
+  }
+  return true;
+}
+
+}  // namespace
+
+void set_rolls(const GearPair& pair, double pinion_roll, double wheel_roll, ContactPoint& point) {
   const double cos_base_helix = std::cos(pair.base_helix_angle);
   const auto side = [&](const Gear& gear, double rho, double& radius, double& depth, double& tip_distance) {
     radius = std::hypot(gear.base_radius, rho);
@@ -100,33 +126,6 @@ void place(const GearPair& pair, double pinion_roll, double wheel_roll, ContactP
   point.relative_radius = pinion_roll * wheel_roll / (pinion_roll + wheel_roll) / cos_base_helix;
 }
 
-/// Geometry at a phase; false where no contact can be.
-bool locate(const GearPair& pair, const PathOfContact& path, bool with_extended_region, ContactPoint& point) {
-  const double rho1 = path.roll_at(point.phase), rho2 = pair.path_length - rho1;
-  if (rho1 >= pair.path_start && rho1 <= pair.path_end) {
-    place(pair, rho1, rho2, point);
-    return point.relative_radius > 0.0;
-  }
-  if (!with_extended_region) return false;
-  const double cos_base_helix = std::cos(pair.base_helix_angle);
-  if (rho1 < pair.path_start) {
-    if (pair.pinion.fillet_interference) return false;
-    const auto contact = tip_contact(pair, pair.wheel, pair.pinion, rho2, rho1);
-    if (!contact) return false;
-    place(pair, contact->mate_roll, pair.wheel.roll_length_at(pair.wheel.tip_radius), point);
-    point.clearance = contact->clearance * cos_base_helix;
-  } else {
-    if (pair.wheel.fillet_interference) return false;
-    const auto contact = tip_contact(pair, pair.pinion, pair.wheel, rho1, rho2);
-    if (!contact) return false;
-    place(pair, pair.pinion.roll_length_at(pair.pinion.tip_radius), contact->mate_roll, point);
-    point.clearance = contact->clearance * cos_base_helix;
-  }
-  return true;
-}
-
-}  // namespace
-
 std::vector<LineInterval> line_intervals(const PathOfContact& path, const Quadrature& quadrature, double line_phase,
                                          double face_start, double face_end) {
   if (quadrature.rule == QuadratureRule::Graded) {
@@ -136,6 +135,17 @@ std::vector<LineInterval> line_intervals(const PathOfContact& path, const Quadra
   const double width = (face_end - face_start) / quadrature.intervals;
   for (int i = 0; i < quadrature.intervals; ++i) intervals.push_back({face_start + i * width, face_start + (i + 1) * width});
   return intervals;
+}
+
+std::optional<ContactPoint> contact_point(const GearPair& pair, const PathOfContact& path, double line_phase, int tooth, double z,
+                                          bool with_extended_region) {
+  ContactPoint point;
+  point.tooth = tooth;
+  point.z = z;
+  point.phase = path.phase_at(line_phase + tooth, z);
+  const bool inside = point.phase >= 0.0 && point.phase <= path.region_length;
+  if (!inside || !locate(pair, path, with_extended_region, point)) return std::nullopt;
+  return point;
 }
 
 std::vector<ContactPoint> contact_points(const GearPair& pair, const PathOfContact& path, const Quadrature& quadrature,
@@ -149,13 +159,10 @@ std::vector<ContactPoint> contact_points(const GearPair& pair, const PathOfConta
     for (const LineInterval& part : line_intervals(path, quadrature, line_phase + tooth, face_start, face_end)) {
       for (const Node& node : rule) {
         const double width = part.end - part.begin;
-        ContactPoint point;
-        point.tooth = tooth;
-        point.z = part.begin + node.position * width;
-        point.phase = path.phase_at(line_phase + tooth, point.z);
-        point.weight = node.weight * width / cos_base_helix;
-        if (point.phase < 0.0 || point.phase > path.region_length) continue;
-        if (locate(pair, path, with_extended_region, point)) points.push_back(point);
+        auto point = contact_point(pair, path, line_phase, tooth, part.begin + node.position * width, with_extended_region);
+        if (!point) continue;
+        point->weight = node.weight * width / cos_base_helix;
+        points.push_back(*point);
       }
     }
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/contact/path_of_contact.hpp"
@@ -50,6 +51,13 @@ struct ContactPoint {
   double pinion_tip_distance{not_given}, wheel_tip_distance{not_given};  ///< (r_a - r_y) / cos(alpha_yt)
   double clearance{0.0};   ///< c_n of the unmodified pair, normal to the flank; 0 on the theoretical path of contact
 };
+
+/// Fills radii, curvature, depths and tip distances of a point from its roll lengths on both gears [mm], both > 0.
+void set_rolls(const GearPair& pair, double pinion_roll, double wheel_roll, ContactPoint& point);
+/// The place of one line at an axial position, without a weight; nothing where no contact can be.
+/// @param line_phase, with_extended_region  as in contact_points()
+std::optional<ContactPoint> contact_point(const GearPair& pair, const PathOfContact& path, double line_phase, int tooth, double z,
+                                          bool with_extended_region);
 
 /// Contact points of all teeth at one mesh position.
 ///

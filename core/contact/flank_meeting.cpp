@@ -115,13 +115,13 @@ Meeting FlankMeeting::at(double rho, double z, const Meeting* near) const {
   const double radial = (stretch - rb2 * per_square) / m.wheel_roll;
   const Eigen::Vector3d rotation(radial * x - per_square * y, radial * y + per_square * x,
                                  -wheel.helix_rate + d.gradient[1] * stretch);
-  const Eigen::Vector3d in_housing = scene_.wheel_axes * rotation;
+  m.turn = -(scene_.wheel_axes * rotation);
   if (m.on_wheel_end) {
     const MeetingGradient axial = axial_gradient(m);
     m.along_rho -= m.along_z * (axial.rho / axial.z);
     m.along_phi1 -= m.along_z * (axial.phi1 / axial.z);
   }
-  m.angle = {-in_housing.dot(m.along_rho), -in_housing.dot(m.along_z), -in_housing.dot(m.along_phi1)};
+  m.angle = {m.turn.dot(m.along_rho), m.turn.dot(m.along_z), m.turn.dot(m.along_phi1)};
   return m;
 }
 

@@ -22,6 +22,7 @@ struct Meeting {
   Eigen::Vector3d place{Eigen::Vector3d::Zero()};      ///< in the wheel's frame [mm]
   Eigen::Vector3d along_rho{Eigen::Vector3d::Zero()}, along_z{Eigen::Vector3d::Zero()},
       along_phi1{Eigen::Vector3d::Zero()};             ///< derivatives of the point, housing
+  Eigen::Vector3d turn{Eigen::Vector3d::Zero()};       ///< d(phi2)/d(point), housing, wherever the point moves [rad/mm]
 };
 
 /// One tooth pair at one pinion angle: the wheel angle phi2 that puts the wheel's flank through a point of the pinion's, with its

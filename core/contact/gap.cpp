@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/contact/mesh_scene.hpp"
+#include "core/contact/wheel_displacement.hpp"
 #include "core/gear/involute.hpp"
 
 namespace flankwright {
@@ -15,35 +16,6 @@ double radius_of(const ContactPoint& point, Member m) { return m == Member::Pini
 double own_z(const ContactPoint& point, Member m, const Misalignment& misalignment) {
   return m == Member::Pinion ? point.z : point.z - misalignment.axial_offset;
 }
-
-/// Displacement of the wheel along the pinion's outward normal n = (cos b_b L, -s sin b_b), L = (sin a, cos a, 0).
-class WheelDisplacement {
- public:
-  WheelDisplacement(const GearPair& pair, const Misalignment& m)
-      : pair_(pair), misalignment_(m), alpha_(pair.working_transverse_pressure_angle) {
-    const double mirror = pair.data.working_flank == WorkingFlank::Right ? 1.0 : -1.0;
-    about_x_ = mirror * m.crossing;
-    about_y_ = m.intersecting;
-  }
-
-  double along_normal(const PathOfContact& path, const ContactPoint& point) const {
-    // Contact point relative to the wheel's centre: pitch point plus its distance s along the line of action.
-    const double s = path.roll_at(point.phase) - pair_.pitch_point;
-    const double x = -pair_.wheel.working_pitch_radius + s * std::sin(alpha_), y = s * std::cos(alpha_);
-    const double z = point.z - misalignment_.axial_offset;
-    const double dx = about_y_ * z + misalignment_.centre_distance, dy = -about_x_ * z;
-    const double dz = about_x_ * y - about_y_ * x + misalignment_.axial_offset;
-    const double beta = pair_.base_helix_angle;
-    const double opened = misalignment_.mesh_misalignment * z / pair_.face_width;
-    return std::cos(beta) * (dx * std::sin(alpha_) + dy * std::cos(alpha_) + opened) -
-           pair_.contact_line_sense() * std::sin(beta) * dz;
-  }
-
- private:
-  const GearPair& pair_;
-  const Misalignment& misalignment_;
-  double alpha_, about_x_, about_y_;
-};
 
 /// The flank with its predesigned parabola as the lag that it gives in the plane of action, see removal().
 Flank flank_in_plane_of_action(const GearPair& pair, Member m, const FlankCondition& condition) {
@@ -65,10 +37,11 @@ double pinion_lead(const Flank& changed, const Flank& nominal, const ContactPoin
 
 }  // namespace
 
+const char* to_string(GapModel model) { return model == GapModel::PlaneOfAction ? "plane_of_action" : "whole_surface"; }
+
 Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition) {
   const int n = static_cast<int>(points.size());
   const double cos_base_helix = std::cos(pair.base_helix_angle);
-  const PathOfContact path(pair);
   const WheelDisplacement displacement(pair, condition.misalignment);
   const Flank pinion = flank_in_plane_of_action(pair, Member::Pinion, condition);
   const Flank wheel = flank_in_plane_of_action(pair, Member::Wheel, condition);
@@ -82,7 +55,7 @@ Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& p
       const Flank& flank = m == Member::Pinion ? pinion : wheel;
       removed += flank.deviation(flank.roll_at(radius_of(point, m)), own_z(point, m, condition.misalignment), point.tooth);
     }
-    gap.error[i] = -cos_base_helix * removed - displacement.along_normal(path, point) +
+    gap.error[i] = -cos_base_helix * removed - displacement.along_normal(point) +
                    cos_base_helix * pair.pinion.base_radius * pinion_lead(changed, nominal, point);
     gap.total[i] = point.clearance - gap.error[i];
   }
@@ -92,13 +65,11 @@ Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& p
 Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition,
                                Member member, ModificationParameter parameter) {
   const double cos_base_helix = std::cos(pair.base_helix_angle);
-  const FlankFrame frame = pair.flank_frame(member);
+  const RemovalDerivative removed(condition.modification(member), pair.flank_frame(member), parameter);
   Eigen::VectorXd derivative(points.size());
   for (Eigen::Index i = 0; i < derivative.size(); ++i) {
     const ContactPoint& point = points[static_cast<std::size_t>(i)];
-    derivative[i] = cos_base_helix * removal_derivative(condition.modification(member), frame, parameter,
-                                                        radius_of(point, member),
-                                                        own_z(point, member, condition.misalignment));
+    derivative[i] = cos_base_helix * removed.at(radius_of(point, member), own_z(point, member, condition.misalignment));
   }
   return derivative;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <compare>
+
 namespace flankwright {
 
 /// How the wheel really stands to the pinion. Axes: x from pinion to wheel along the line of centres, z along the
@@ -14,6 +16,8 @@ struct Misalignment {
   double pinion_pressure_angle{0.0}; ///< delta alpha_n1 [rad], TM-107451 eqs 15-17
   double mesh_misalignment{0.0};     ///< F_beta_y [mm]: deviation of the flank lines over the common face width, transverse base
                                      ///< tangent, linear, zero at the wheel's mid face; + opens at +z
+
+  auto operator<=>(const Misalignment&) const = default;
 };
 
 }  // namespace flankwright

@@ -14,4 +14,9 @@ double PathOfContact::line_phase_at(double phi1, const GearPair& pair) const {
   return at_mid_face + std::abs(slope) * half_face;
 }
 
+double PathOfContact::pinion_angle_at(double line_phase, const GearPair& pair) const {
+  const double at_mid_face = line_phase - std::abs(slope) * half_face;
+  return (roll_at_start + at_mid_face * base_pitch - pair.pitch_point) / pair.pinion.base_radius;
+}
+
 }  // namespace flankwright

@@ -28,6 +28,8 @@ struct PathOfContact {
   double roll_at(double phase) const { return roll_at_start + phase * base_pitch; }
   /// Line phase of tooth pair 0 when the pinion is at phi1 (phi1 = 0: mid-face pitch point).
   double line_phase_at(double phi1, const GearPair& pair) const;
+  /// Its inverse: the pinion angle at which pair 0 has that line phase [rad].
+  double pinion_angle_at(double line_phase, const GearPair& pair) const;
   /// Largest line phase at which the line still touches the extended region.
   double last_line_phase() const { return region_length + 2.0 * std::abs(slope) * half_face; }
 };

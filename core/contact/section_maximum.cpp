@@ -47,6 +47,10 @@ bool is_on_wheel_circle(SectionBound bound) { return bound == SectionBound::Whee
 
 }  // namespace
 
+Touch touch_at(const Meeting& m) {
+  return {m.rho, m.z, m.wheel_roll + m.wheel_deviation, m.wheel_z, m.angle.rho, m.angle.phi1, 1.0 + m.deviation_slope};
+}
+
 SectionMaximum SectionSearch::at(double z, const SectionMaximum& neighbour, SectionAccuracy accuracy) const {
   const Tolerance tolerance = accuracy == SectionAccuracy::Full ? Tolerance{{1e-8, 1e-16, 1e-6}, 1e-7}
                                                                 : Tolerance{{1e-3, 1e-10, 1e-3}, 1e-3};
@@ -145,6 +149,9 @@ SectionMaximum SectionSearch::settle(double z, const Range& range, const Toleran
     const MeetingGradient &below = peak.rising->at.angle, &above = peak.falling->at.angle;
     best.slope_z = (1.0 - *share) * slope_inwards(peak.rising->at, below.z) + *share * slope_inwards(peak.falling->at, above.z);
     best.slope_phi1 = (1.0 - *share) * below.phi1 + *share * above.phi1;
+    const bool top_is_below = peak.rising->at.rho == m.rho;
+    best.beyond = touch_at(top_is_below ? peak.falling->at : peak.rising->at);
+    best.share_beyond = top_is_below ? *share : 1.0 - *share;
   }
   return best;
 }

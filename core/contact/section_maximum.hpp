@@ -10,6 +10,14 @@ namespace flankwright {
 /// Which bound of a transverse section holds its maximum.
 enum class SectionBound { None, PinionRoot, PinionTip, WheelRoot, WheelTip };
 
+/// A point of contact at a fixed place on both flanks, and how the wheel angle there follows what is removed from either.
+struct Touch {
+  double rho{not_given}, z{not_given};              ///< on the pinion [mm]
+  double wheel_rho{not_given}, wheel_z{not_given};  ///< on the wheel: roll length of the point's involute, own frame [mm]
+  double slope_rho{0.0}, slope_phi1{0.0};           ///< of phi2, see Meeting [rad/mm, rad/rad]
+  double wheel_pace{1.0};                           ///< 1/(1 - dD/drho) of the wheel there
+};
+
 /// First contact in one transverse section of the pinion: the largest wheel angle over its roll length, inside both flanks. Where
 /// the wheel's face ends before the section does, that end is the rest of it, see FlankMeeting.
 struct SectionMaximum {
@@ -23,12 +31,18 @@ struct SectionMaximum {
   SectionBound bound{SectionBound::None};
   bool held_by_wheel_end{false};  ///< a wider wheel would touch earlier
   Meeting at;
+  /// On a kink (start of a linear relief, of either gear) the maximum is the mean of both its sides, Lagrange's multipliers the
+  /// weights: what lies beyond it from `at`, and its share, 0 where there is no kink.
+  Touch beyond;
+  double share_beyond{0.0};
 
   // What find_peak() asks of a sample.
   double position() const { return z; }
   double value() const { return phi2; }
   double slope() const { return slope_z; }
 };
+
+Touch touch_at(const Meeting& meeting);
 
 /// Coarse: the point is a tenth of a micrometre off, so the angle, completed by its known curvature, is at round-off all but on
 /// kinks, and the slopes are good for their signs. Full: round-off.

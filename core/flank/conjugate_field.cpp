@@ -23,7 +23,7 @@ struct Touch {
   Scalar d_roll;  ///< dD/drho
 };
 
-class ConjugateField final : public DeviationField {
+class ConjugateField final : public PredesignedField {
  public:
   ConjugateField(const GearPair& pair, Member member, double coefficient)
       : frame_(pair.flank_frame(member)),
@@ -52,6 +52,18 @@ class ConjugateField final : public DeviationField {
     return end - chain(mark.along, angle, face) + (profile - end) * chain(mark.d_roll, angle, face);
   }
 
+  double coefficient_slope(double rho, double z) const override {
+    using Number = Dual<2>;  // by phi1 and the coefficient
+    const double end = std::clamp(rho, lowest_, highest_);
+    const std::optional<Root> root = touching_angle(end, z);
+    if (!root) return not_given;
+    const Touch<Number> mark = touch(Number::variable(root->angle, 0), Number(z), Number::variable(a_, 1));
+    const auto at_fixed_roll = [&](const Number& f) {
+      return f.gradient[1] - f.gradient[0] * mark.roll.gradient[1] / mark.roll.gradient[0];
+    };
+    return -at_fixed_roll(mark.along) + (rho - end) * at_fixed_roll(mark.d_roll);
+  }
+
   /// Whether the flank gives the parabola over the pitch in which its pair leads, at mid face.
   bool carries_a_pitch(int pinion_teeth) const {
     const double half = units::pi / pinion_teeth * std::abs(frame_.base_radius / frame_.pinion_turn);
@@ -74,13 +86,19 @@ class ConjugateField final : public DeviationField {
 
   template <class Scalar>
   Touch<Scalar> touch(const Scalar& phi1, const Scalar& z) const {
+    return touch(phi1, z, a_);
+  }
+
+  /// @param a  the coefficient, a number or Scalar
+  template <class Scalar, class Coefficient>
+  Touch<Scalar> touch(const Scalar& phi1, const Scalar& z, const Coefficient& a) const {
     using std::atan2;
     using std::cos;
     using std::sin;
     using std::sqrt;
     const double rb = frame_.base_radius;
-    const Scalar phi2 = phi1 * (speed_ratio_ - a_ * phi1);
-    const Scalar to_wheel = centre_distance_ / (1.0 + speed_ratio_ - 2.0 * a_ * phi1);  // from the pitch point to the wheel's axis
+    const Scalar phi2 = phi1 * (speed_ratio_ - a * phi1);
+    const Scalar to_wheel = centre_distance_ / (1.0 + speed_ratio_ - 2.0 * a * phi1);  // from the pitch point to the wheel's axis
     const Scalar to_mate = on_pinion_ ? to_wheel : centre_distance_ - to_wheel;
     const Scalar own = on_pinion_ ? phi1 : -phi2, mate = on_pinion_ ? -phi2 : phi1;  // rotations, each in its own frame
     const Scalar tangent = sqrt(to_mate * to_mate - mate_base_radius_ * mate_base_radius_);
@@ -141,7 +159,7 @@ class ConjugateField final : public DeviationField {
 
 }  // namespace
 
-std::shared_ptr<const DeviationField> make_conjugate_field(const GearPair& pair, Member member, double coefficient) {
+std::shared_ptr<const PredesignedField> make_conjugate_field(const GearPair& pair, Member member, double coefficient) {
   auto field = std::make_shared<ConjugateField>(pair, member, coefficient);
   const int teeth = pair.data.pinion.teeth;
   if (field->carries_a_pitch(teeth)) return field;

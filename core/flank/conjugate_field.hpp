@@ -7,6 +7,13 @@
 
 namespace flankwright {
 
+/// A deviation field with one coefficient that a designer may vary.
+class PredesignedField : public DeviationField {
+ public:
+  /// dD/d(coefficient) at fixed rho and z, exact; past the ends between which the field is exact, with those ends held.
+  virtual double coefficient_slope(double rho, double z) const = 0;
+};
+
 /// The flank whose unloaded transmission error is the predesigned parabola delta_phi2 = -a phi1^2 exactly (Modification::parabolic_te),
 /// as a deviation from the involute: what the mate's involute flank envelops while the wheel turns by
 ///
@@ -22,8 +29,8 @@ namespace flankwright {
 /// N1/N2)^2 for rho_1^2 on the wheel), and the flank would fold over itself at 2 a = K, first near the base circle. Exact with its
 /// derivatives from the start of the active profile to the tip circle and a little beyond (GeneratedRange) as far as that factor is at
 /// least 1/2; from there it continues with the value and slope it has (C1), where the pair's own curve lags less than the parabola.
-/// @param coefficient  a [1/rad], not 0
+/// @param coefficient  a [1/rad]; 0 gives the involute
 /// @throws InvalidInput "parabolic_te" where that end lies inside the pitch in which an aligned pair leads, |phi1| <= pi/N1 at mid face
-std::shared_ptr<const DeviationField> make_conjugate_field(const GearPair& pair, Member member, double coefficient);
+std::shared_ptr<const PredesignedField> make_conjugate_field(const GearPair& pair, Member member, double coefficient);
 
 }  // namespace flankwright

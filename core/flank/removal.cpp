@@ -10,6 +10,18 @@ double per_extent(double amount, double extent, int power) {
   return power == 1 ? amount / extent : amount / (extent * extent);
 }
 
+/// A unit amount of one parameter with the extents of a modification; nothing for an extent.
+Modification unit_amount(const Modification& m, ModificationParameter parameter) {
+  Modification unit;
+  unit.tip_relief = {0.0, m.tip_relief.height, m.tip_relief.shape};
+  unit.root_relief = {0.0, m.root_relief.height, m.root_relief.shape};
+  unit.end_relief = {0.0, m.end_relief.length};
+  const bool extent = parameter == ModificationParameter::TipReliefHeight || parameter == ModificationParameter::RootReliefHeight ||
+                      parameter == ModificationParameter::EndReliefLength;
+  if (!extent) set(unit, parameter, 1.0);
+  return unit;
+}
+
 }  // namespace
 
 DeviationFormula::DeviationFormula(const Modification& m, const ToothError& e, const FlankFrame& frame)
@@ -53,14 +65,11 @@ void DeviationFormula::add_parabola(double r, double z, Jet& d) const {
   d.vv += 2.0 * k * helix_rate_ * helix_rate_;
 }
 
-double removal_derivative(const Modification& m, const FlankFrame& frame, ModificationParameter parameter, double r,
-                          double z) {
-  // Amounts enter linearly: the derivative is the removal of a unit amount with the same extents.
-  Modification unit;
-  unit.tip_relief = {0.0, m.tip_relief.height, m.tip_relief.shape};
-  unit.root_relief = {0.0, m.root_relief.height, m.root_relief.shape};
-  unit.end_relief = {0.0, m.end_relief.length};
+RemovalDerivative::RemovalDerivative(const Modification& m, const FlankFrame& frame, ModificationParameter parameter)
+    : unit_(unit_amount(m, parameter), {}, frame), parameter_(parameter), tip_(m.tip_relief), root_(m.root_relief),
+      end_(m.end_relief), frame_(frame) {}
 
+double RemovalDerivative::at(double r, double z) const {
   const auto extent = [](double amount, double height, ReliefShape shape, double beyond_start) {
     // t = 1 - d/h with d the distance from the end of the relief: dt/dh = d/h^2 = (1 - t)/h.
     if (amount == 0.0 || beyond_start <= 0.0) return 0.0;
@@ -68,20 +77,15 @@ double removal_derivative(const Modification& m, const FlankFrame& frame, Modifi
     const double slope = amount * (1.0 - t) / height;
     return shape == ReliefShape::Linear ? slope : 2.0 * t * slope;
   };
-  switch (parameter) {
+  switch (parameter_) {
     case ModificationParameter::TipReliefHeight:
-      return extent(m.tip_relief.amount, m.tip_relief.height, m.tip_relief.shape,
-                    r - (frame.tip_radius - m.tip_relief.height));
+      return extent(tip_.amount, tip_.height, tip_.shape, r - (frame_.tip_radius - tip_.height));
     case ModificationParameter::RootReliefHeight:
-      return extent(m.root_relief.amount, m.root_relief.height, m.root_relief.shape,
-                    frame.active_root_radius + m.root_relief.height - r);
+      return extent(root_.amount, root_.height, root_.shape, frame_.active_root_radius + root_.height - r);
     case ModificationParameter::EndReliefLength:
-      return extent(m.end_relief.amount, m.end_relief.length, ReliefShape::Linear,
-                    std::abs(z) - (0.5 * frame.face_width - m.end_relief.length));
-    default: break;
+      return extent(end_.amount, end_.length, ReliefShape::Linear, std::abs(z) - (0.5 * frame_.face_width - end_.length));
+    default: return unit_.at(r, z).value;
   }
-  set(unit, parameter, 1.0);
-  return removal(unit, frame, r, z);
 }
 
 }  // namespace flankwright

@@ -71,8 +71,24 @@ Scalar removal(const Modification& m, const FlankFrame& frame, const Scalar& r, 
   return chain(DeviationFormula(m, {}, frame).at(value_of(r), value_of(z)), r, z);
 }
 
-/// Derivative of removal() with respect to one modification parameter [mm/mm; parabolic_te mm rad], exact; one-sided at a relief's start.
-double removal_derivative(const Modification& m, const FlankFrame& frame, ModificationParameter parameter, double r, double z);
+/// Derivative of removal() with respect to one modification parameter [mm/mm; parabolic_te mm rad], exact; one-sided at a relief's
+/// start. What does not depend on the place is worked out once.
+class RemovalDerivative {
+ public:
+  RemovalDerivative(const Modification& m, const FlankFrame& frame, ModificationParameter parameter);
+  double at(double r, double z) const;
+
+ private:
+  DeviationFormula unit_;  ///< amounts enter linearly: the removal of a unit amount with the same extents
+  ModificationParameter parameter_;
+  ProfileRelief tip_, root_;
+  EndRelief end_;
+  FlankFrame frame_;
+};
+/// The same at one place.
+inline double removal_derivative(const Modification& m, const FlankFrame& frame, ModificationParameter parameter, double r, double z) {
+  return RemovalDerivative(m, frame, parameter).at(r, z);
+}
 
 /// Metal added by one tooth's errors at r, z [mm], transverse base tangent [Haddad 1991, eq. 6.1], without pitch: the errors'
 /// part of DeviationFormula with its sign turned.

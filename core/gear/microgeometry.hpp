@@ -18,12 +18,14 @@ struct ProfileRelief {
   double amount{0.0};   ///< material removed at the tip / at the start of active profile [mm]
   double height{0.0};   ///< radial extent [mm], > 0 where amount != 0
   ReliefShape shape{ReliefShape::Linear};
+  bool operator==(const ProfileRelief&) const = default;
 };
 
 /// Relief from each face end inwards, linear.
 struct EndRelief {
   double amount{0.0};  ///< material removed at the face ends [mm]
   double length{0.0};  ///< axial extent from each end [mm], > 0 where amount != 0
+  bool operator==(const EndRelief&) const = default;
 };
 
 /// Flank modification as a designer states it: material removed (positive into the tooth), measured in the
@@ -42,6 +44,7 @@ struct Modification {
   double parabolic_te{0.0};
   /// Measured or topological grid on top of the rest; none where null.
   std::shared_ptr<const DeviationField> topography;
+  bool operator==(const Modification&) const = default;  ///< of grids: the same object
 };
 
 /// The numbers of a Modification that a designer may vary, in the order of modification_parameters.
@@ -96,6 +99,8 @@ struct ManufacturingError {
   std::vector<double> cumulative_pitch{};
   /// Measured deviation of single teeth [mm, + into the tooth as every DeviationField]: entry k mod size, none where null; empty: none.
   std::vector<std::shared_ptr<const DeviationField>> topographies{};
+
+  bool operator==(const ManufacturingError&) const = default;
 };
 
 /// The slopes and the twist of one tooth's flank [mm], see ManufacturingError.

@@ -34,58 +34,72 @@ void check(const LoadProblem& problem, const Eigen::VectorXd& start) {
   }
 }
 
-/// State of the Newton iteration: loads and everything that follows from them.
+/// State of the Newton iteration: loads and everything that follows from them, each contact law evaluated once.
 ///
 /// Gaps and approach count from first touch, min(g): a gap common to all points, easily a million times the deflection
 /// under a light load, would leave its round-off in every sum.
 class Iterate {
  public:
   Iterate(const LoadProblem& problem, Eigen::VectorXd w)
-      : problem_(problem), w_(std::move(w)), gap_(problem.gap.array() - problem.gap.minCoeff()) {
-    update();
+      : w_(std::move(w)), structural_(problem.influence * problem.weight.cwiseProduct(w_)),
+        local_(Eigen::VectorXd::Zero(w_.size())), local_slope_(Eigen::VectorXd::Zero(w_.size())),
+        approach_(structural_ + (problem.gap.array() - problem.gap.minCoeff()).matrix()) {
+    const double floor = slope_floor * problem.force / problem.weight.sum();
+    for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(problem.laws.size()); ++i) {
+      const ContactLaw& law = problem.laws[static_cast<std::size_t>(i)];
+      if (w_[i] > floor) {
+        const ContactLaw::Response response = law.evaluate(w_[i]);
+        local_[i] = response.deflection;
+        local_slope_[i] = response.slope;
+      } else {
+        local_[i] = law.deflection(w_[i]);
+        local_slope_[i] = law.slope(floor);
+      }
+    }
+    approach_ += local_;
   }
 
   const Eigen::VectorXd& loads() const { return w_; }
-  void move_to(Eigen::VectorXd w) {
-    w_ = std::move(w);
-    update();
-  }
-
   /// Gradient of the objective divided by the weights: the deflection plus gap at each point [mm].
-  Eigen::VectorXd approach() const { return structural_ + local_ + gap_; }
+  const Eigen::VectorXd& approach() const { return approach_; }
   const Eigen::VectorXd& structural() const { return structural_; }
   const Eigen::VectorXd& local() const { return local_; }
   const Eigen::VectorXd& local_slope() const { return local_slope_; }
 
-  /// Slope of the objective at w + t d. The approach f is taken out of every term (a'd = 0 along a feasible step), so
-  /// that what is summed is as small as the residual and not as large as the deflection.
-  double directional_slope(const Eigen::VectorXd& d, const Eigen::VectorXd& structural_d, double f, double t) const {
-    const auto& a = problem_.weight;
-    double slope = 0.0;
-    for (Eigen::Index i = 0; i < d.size(); ++i) {
-      const double local = problem_.laws.empty()
-                               ? 0.0
-                               : problem_.laws[static_cast<std::size_t>(i)].deflection(std::max(0.0, w_[i] + t * d[i]));
-      slope += a[i] * d[i] * (structural_[i] + t * structural_d[i] + local + gap_[i] - f);
+ private:
+  Eigen::VectorXd w_, structural_, local_, local_slope_, approach_;
+};
+
+/// A Newton step's objective along the straight line from one iterate to the next.
+class Step {
+ public:
+  /// @param f  approach, taken out of every term (a'd = 0 along a feasible step), so that what is summed is as small as the residual
+  ///           and not as large as the deflection
+  Step(const LoadProblem& problem, const Iterate& from, const Iterate& to, double f)
+      : problem_(problem), from_(from), to_(to), f_(f), forces_(problem.weight.cwiseProduct(to.loads() - from.loads())) {}
+
+  double slope_at_start() const { return forces_.dot((from_.approach().array() - f_).matrix()); }
+  double slope_at_end() const { return forces_.dot((to_.approach().array() - f_).matrix()); }
+  double slope(double t) const {
+    double sum = 0.0;
+    for (Eigen::Index i = 0; i < forces_.size(); ++i) {
+      // All but the contact law is linear in t.
+      const double linear = between(from_.approach()[i] - from_.local()[i], to_.approach()[i] - to_.local()[i], t);
+      const double load = std::max(0.0, between(from_.loads()[i], to_.loads()[i], t));
+      const double local = problem_.laws.empty() ? 0.0 : problem_.laws[static_cast<std::size_t>(i)].deflection(load);
+      sum += forces_[i] * (linear + local - f_);
     }
-    return slope;
+    return sum;
   }
+  Eigen::VectorXd loads(double t) const { return (from_.loads() + t * (to_.loads() - from_.loads())).cwiseMax(0.0); }
 
  private:
-  void update() {
-    const Eigen::Index n = w_.size();
-    structural_ = problem_.influence * problem_.weight.cwiseProduct(w_);
-    local_ = Eigen::VectorXd::Zero(n);
-    local_slope_ = Eigen::VectorXd::Zero(n);
-    const double floor = slope_floor * problem_.force / problem_.weight.sum();
-    for (std::size_t i = 0; i < problem_.laws.size(); ++i) {
-      local_[i] = problem_.laws[i].deflection(w_[i]);
-      local_slope_[i] = problem_.laws[i].slope(std::max(w_[i], floor));
-    }
-  }
+  static double between(double start, double end, double t) { return start + t * (end - start); }
 
   const LoadProblem& problem_;
-  Eigen::VectorXd w_, gap_, structural_, local_, local_slope_;
+  const Iterate &from_, &to_;
+  double f_;
+  Eigen::VectorXd forces_;
 };
 
 /// f_t from first touch for given loads: the mean approach of the loaded points, weighted by the force they carry.
@@ -113,7 +127,6 @@ void fill(const LoadProblem& problem, const Iterate& at, double f, LoadDistribut
   result.structural_deflection = at.structural();
   result.transmission_error = problem.gap.minCoeff() + f;
   result.remaining_gap = at.approach().array() - f;
-  result.kkt_residual = kkt_residual(problem, at, f);
 }
 
 /// No force: the flanks just touch where the gap is least.
@@ -149,35 +162,35 @@ LoadDistribution solve_load_distribution(const LoadProblem& problem, const LoadO
   Iterate at(problem, warm ? Eigen::VectorXd(start * (problem.force / a.dot(start)))
                            : Eigen::VectorXd::Constant(n, problem.force / a.sum()));
   const Eigen::MatrixXd structural_hessian = a.asDiagonal() * problem.influence * a.asDiagonal();
+  Eigen::MatrixXd hessian = structural_hessian;
   result.factorisations = 0;
-  for (result.iterations = 0; result.iterations < options.max_iterations; ++result.iterations) {
+  for (result.iterations = 0;; ++result.iterations) {
     const double f = best_multiplier(problem, at);
-    fill(problem, at, f, result);
-    if (result.kkt_residual <= options.tolerance) {
-      result.status = LoadStatus::Converged;
-      result.message = "converged";
+    result.kkt_residual = kkt_residual(problem, at, f);
+    const bool converged = result.kkt_residual <= options.tolerance;
+    if (converged || result.iterations == options.max_iterations) {
+      fill(problem, at, f, result);
+      result.status = converged ? LoadStatus::Converged : LoadStatus::IterationLimit;
+      result.message = converged ? "converged"
+                                 : "the load distribution did not converge within " +
+                                       std::to_string(options.max_iterations) + " Newton steps";
       return result;
     }
-    Eigen::MatrixXd hessian = structural_hessian;
-    hessian.diagonal() += a.cwiseProduct(at.local_slope());
-    const Eigen::VectorXd gradient = a.cwiseProduct(at.approach());
-    const Eigen::VectorXd linear = gradient - hessian * at.loads();
+    hessian.diagonal() = structural_hessian.diagonal() + a.cwiseProduct(at.local_slope());
+    const Eigen::VectorXd linear = a.cwiseProduct(at.approach()) - hessian * at.loads();
     const QuadraticMinimum model = minimise_quadratic(hessian, linear, a, problem.force, at.loads().array() > 0.0);
     result.factorisations += model.factorisations;
 
-    const Eigen::VectorXd d = model.x - at.loads();
-    const Eigen::VectorXd structural_d = problem.influence * a.cwiseProduct(d);
-    const auto slope = [&](double t) { return at.directional_slope(d, structural_d, f, t); };
-    const double slope_start = slope(0.0), slope_end = slope(1.0);
+    Iterate next(problem, model.x);
+    const Step step(problem, at, next, f);
+    const double slope_start = step.slope_at_start(), slope_end = step.slope_at_end();
     // The whole step where it at least halves the slope, else to the minimum along it.
-    const bool whole = slope_end <= overshoot * std::abs(slope_start) || slope_start >= 0.0;
-    const double t = whole ? 1.0 : bracketed_root(slope, 0.0, slope_start, 1.0, slope_end, 1e-3).x;
-    at.move_to(t == 1.0 ? model.x : Eigen::VectorXd((at.loads() + t * d).cwiseMax(0.0)));
+    if (slope_end > overshoot * std::abs(slope_start) && slope_start < 0.0) {
+      const double t = bracketed_root([&](double s) { return step.slope(s); }, 0.0, slope_start, 1.0, slope_end, 1e-3).x;
+      next = Iterate(problem, step.loads(t));
+    }
+    at = std::move(next);
   }
-  result.status = LoadStatus::IterationLimit;
-  result.message =
-      "the load distribution did not converge within " + std::to_string(options.max_iterations) + " Newton steps";
-  return result;
 }
 
 }  // namespace flankwright

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/contact/condition_gap.hpp"
 #include "core/contact/transmission_error.hpp"
 #include "core/load/sensitivity.hpp"
 
@@ -51,20 +52,12 @@ void fill_stress(const MeshModel& model, const MeshPosition& at, LoadedPosition&
   }
 }
 
-/// Components are linear in the forces a w; principal stresses follow their largest component, with the direction held
-/// at its optimum.
+/// Components are linear in the forces a w; principal stresses are their largest component.
 void fill_root_stress(const MeshPosition& at, LoadedPosition& position) {
-  const Eigen::MatrixXd& influence = at.root_stress.components;
   const auto places = static_cast<Eigen::Index>(at.root_stress.places.size());
-  const Eigen::VectorXd components = influence * at.weight.cwiseProduct(position.load.line_load);
-  const Eigen::MatrixXd derivatives = influence * at.weight.asDiagonal() * position.line_load_derivative;
+  const Eigen::VectorXd components = at.root_stress.components * at.weight.cwiseProduct(position.load.line_load);
   position.root_stress.resize(places);
-  position.root_stress_derivative.resize(places, derivatives.cols());
-  for (Eigen::Index i = 0; i < places; ++i) {
-    const PrincipalStress principal = largest_principal(components.segment<3>(3 * i));
-    position.root_stress[i] = principal.value;
-    position.root_stress_derivative.row(i) = principal_slope(principal) * derivatives.middleRows<3>(3 * i);
-  }
+  for (Eigen::Index i = 0; i < places; ++i) position.root_stress[i] = largest_principal(components.segment<3>(3 * i)).value;
 }
 
 void raise(RootStressPeak& peak, const RootStressPeak& other) {
@@ -73,20 +66,19 @@ void raise(RootStressPeak& peak, const RootStressPeak& other) {
   peak.tangent_stress = tangent;
 }
 
-void fill_derivatives(const MeshModel& model, const MeshPosition& at, const FlankCondition& condition,
-                      const LoadProblem& problem, const std::vector<GearParameter>& parameters, LoadedPosition& position) {
-  const Eigen::Index n = problem.gap.size(), m = static_cast<Eigen::Index>(parameters.size());
+/// Without force flanks touch at the nearest point, and move with it.
+void fill_derivatives(const LoadProblem& problem, const ParameterSlopes& slopes, LoadedPosition& position) {
+  const Eigen::Index n = problem.gap.size(), m = slopes.gap.cols();
   position.line_load_derivative = Eigen::MatrixXd::Zero(n, m);
-  position.transmission_error_derivative = Eigen::RowVectorXd::Zero(m);
+  position.approach_derivative = Eigen::RowVectorXd::Zero(m);
+  Eigen::Index nearest = 0;
+  problem.gap.minCoeff(&nearest);
+  position.transmission_error_derivative = slopes.gap.row(nearest);
   if (m == 0 || problem.force == 0.0) return;
-  const LoadSensitivity sensitivity(problem, position.load);
-  for (Eigen::Index p = 0; p < m; ++p) {
-    const GearParameter& which = parameters[static_cast<std::size_t>(p)];
-    const auto derivative =
-        sensitivity.with_gap(gap_derivative(model.pair, at.points, condition, which.member, which.parameter));
-    position.line_load_derivative.col(p) = derivative.line_load;
-    position.transmission_error_derivative[p] = derivative.transmission_error;
-  }
+  const auto derivatives = LoadSensitivity(problem, position.load).with(slopes.gap, slopes.force);
+  position.line_load_derivative = derivatives.line_load;
+  position.transmission_error_derivative = derivatives.transmission_error;
+  position.approach_derivative = derivatives.transmission_error - slopes.gap.row(nearest);
 }
 
 }  // namespace
@@ -98,16 +90,17 @@ Eigen::VectorXd LoadedCycle::transmission_error() const {
 }
 
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
-                          const std::vector<GearParameter>& parameters, const LoadOptions& options) {
+                          const std::vector<MeshParameter>& parameters, const LoadOptions& options) {
   LoadedCycle cycle;
   cycle.force = model.normal_force(pinion_torque);
   cycle.positions.resize(model.positions.size());
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
+  const ConditionGap gaps(model.pair, model.placement.gap, condition);
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const MeshPosition& at = model.positions[i];
     LoadedPosition& position = cycle.positions[i];
     position.phase = at.phase;
-    position.gap = plane_of_action_gap(model.pair, at.points, condition);
+    position.gap = gaps.at(at.points, at.phase);
     const LoadProblem problem{at.influence, at.weight, position.gap.total, at.laws, cycle.force};
     const bool has_previous = i > 0 && cycle.positions[i - 1].load.usable();
     position.load = solve_load_distribution(
@@ -117,13 +110,22 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
       ++cycle.failures;
       continue;
     }
-    fill_derivatives(model, at, condition, problem, parameters, position);
+    const ParameterSlopes slopes = parameter_slopes(model, at, gaps, position.gap, parameters);
+    cycle.force_derivative = slopes.force;
+    fill_derivatives(problem, slopes, position);
     fill_stress(model, at, position);
     if (!at.root_stress.places.empty()) fill_root_stress(at, position);
     const double approach = position.load.transmission_error - position.gap.total.minCoeff();
     position.stiffness = cycle.force / model.face_width * cos_base_helix * cos_base_helix / (approach / micrometre);
   }
   return cycle;
+}
+
+Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPosition& position, Eigen::Index place) {
+  // The direction of a principal stress is held at its optimum.
+  const auto influence = at.root_stress.components.middleRows<3>(3 * place);
+  const PrincipalStress principal = largest_principal(influence * at.weight.cwiseProduct(position.load.line_load));
+  return principal_slope(principal) * influence * at.weight.asDiagonal() * position.line_load_derivative;
 }
 
 RootStressPeak root_stress_peak(const MeshPosition& at, const LoadedPosition& position, Member member) {
@@ -149,7 +151,7 @@ CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
   summary.te_mean = te.mean();
   summary.te_harmonics = harmonic_amplitudes({te.begin(), te.end()});
   summary.peak_line_load = summary.peak_contact_stress = summary.worst_kkt_residual = 0.0;
-  double mean_approach = 0.0, mean_length = 0.0;
+  double mean_approach = 0.0;
   for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
     const LoadedPosition& position = cycle.positions[i];
     summary.peak_line_load = std::max(summary.peak_line_load, position.load.line_load.maxCoeff());
@@ -157,18 +159,16 @@ CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
     summary.worst_kkt_residual = std::max(summary.worst_kkt_residual, position.load.kkt_residual);
     raise(summary.pinion_root_stress, root_stress_peak(model.positions[i], position, Member::Pinion));
     raise(summary.wheel_root_stress, root_stress_peak(model.positions[i], position, Member::Wheel));
+    summary.least_stiffness = std::fmin(summary.least_stiffness, position.stiffness);
+    summary.largest_stiffness = std::fmax(summary.largest_stiffness, position.stiffness);
     mean_approach += position.load.transmission_error - position.gap.total.minCoeff();
-    for (const ContactPoint& point : model.positions[i].points) {
-      if (point.clearance == 0.0) mean_length += point.weight;
-    }
   }
   summary.peak_root_stress = std::fmax(summary.pinion_root_stress.stress, summary.wheel_root_stress.stress);
   const double n = static_cast<double>(cycle.positions.size());
   mean_approach /= n;
-  mean_length /= n;
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
   summary.mean_stiffness = cycle.force / model.face_width * cos_base_helix * cos_base_helix / (mean_approach / micrometre);
-  summary.load_factor = summary.peak_line_load / (cycle.force / mean_length);
+  summary.load_factor = summary.peak_line_load / model.mean_line_load(cycle.force);
   return summary;
 }
 

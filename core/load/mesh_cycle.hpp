@@ -6,14 +6,9 @@
 #include "core/contact/gap.hpp"
 #include "core/load/load_problem.hpp"
 #include "core/load/mesh_model.hpp"
+#include "core/load/mesh_parameter.hpp"
 
 namespace flankwright {
-
-/// A modification parameter of one gear, as a design variable sees it.
-struct GearParameter {
-  Member member{Member::Pinion};
-  ModificationParameter parameter{ModificationParameter::LeadCrowning};
-};
 
 /// Loaded contact at one position of the mesh cycle.
 struct LoadedPosition {
@@ -24,17 +19,18 @@ struct LoadedPosition {
   /// Largest principal stress at every place of MeshPosition::root_stress [MPa]; empty without.
   Eigen::VectorXd root_stress;
   double stiffness{not_given};       ///< secant, transverse, per mm of face width [N/(mm um)]; see analyse_cycle()
-  // Derivatives with respect to the parameters asked for, column per parameter.
+  // Derivatives with respect to the parameters asked for, column per parameter; those of root_stress: see root_stress_derivative().
   Eigen::MatrixXd line_load_derivative;       ///< dw/dp, n x m
   Eigen::MatrixXd contact_stress_derivative;  ///< dsigma_H/dp, n x m
-  Eigen::MatrixXd root_stress_derivative;     ///< of root_stress, places x m
   Eigen::RowVectorXd transmission_error_derivative;  ///< df_t/dp, 1 x m
+  Eigen::RowVectorXd approach_derivative;            ///< of f_t - min(g), one point's where several are nearest, 1 x m
 };
 
 /// Loaded contact over the positions of a MeshModel.
 struct LoadedCycle {
   std::vector<LoadedPosition> positions;
   double force{not_given};   ///< normal force [N]
+  Eigen::RowVectorXd force_derivative;  ///< dF/dp, 1 x m
   int failures{0};           ///< positions without a usable load distribution
 
   /// f_t of every position [mm]; NaN where a position failed.
@@ -46,10 +42,15 @@ struct LoadedCycle {
 ///
 /// Mesh stiffness is Haddad's eq. 2.16b, (F/b) cos^2(beta_b) / f_t, with f_t counted from first touch, f_t - min(g), so that a
 /// gap common to all points (modified or displaced flanks) is not taken for compliance.
+/// @param condition      GapModel::WholeSurface: with the misalignment that the model was placed for
 /// @param pinion_torque  [N mm], >= 0
-/// @param parameters     derivatives are computed for these; empty: none
+/// @param parameters     derivatives are computed for these; empty: none. Without torque there is none with respect to it: what
+///                       the flanks yield first is infinite per unit load, and 0 stands in its place
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
-                          const std::vector<GearParameter>& parameters = {}, const LoadOptions& options = {});
+                          const std::vector<MeshParameter>& parameters = {}, const LoadOptions& options = {});
+
+/// d(root_stress[place])/dp of one position, 1 x m. Worked out when asked for: places are many, those that matter few.
+Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPosition& position, Eigen::Index place);
 
 /// Where one gear's root is stressed most: tension side, largest principal stress at the surface.
 struct RootStressPeak {
@@ -70,6 +71,7 @@ struct CycleSummary {
   double peak_line_load{not_given};            ///< [N/mm]
   double peak_contact_stress{not_given};       ///< [MPa]
   double mean_stiffness{not_given};            ///< Haddad eq. 2.17b [N/(mm um)]
+  double least_stiffness{not_given}, largest_stiffness{not_given};  ///< eq. 2.16b over the positions [N/(mm um)]
   /// Peak line load over the mean line load F / (mean length of the contact lines on the theoretical path) [-].
   double load_factor{not_given};
   double worst_kkt_residual{not_given};

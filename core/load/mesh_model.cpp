@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/compliance/hertz_line.hpp"
+#include "core/contact/surface_gap.hpp"
 
 namespace flankwright {
 
@@ -26,23 +27,21 @@ MeshPosition make_position(const MeshModel& model, const PathOfContact& path, co
   position.phase = phase;
   position.points = contact_points(model.pair, path, quadrature, phase, model.effects.extended_contact_region, face_start,
                                    face_end);
+  if (model.placement.gap == GapModel::WholeSurface) {
+    FlankCondition unmodified;
+    unmodified.misalignment = model.placement.misalignment;
+    position.points = SurfaceGap(model.pair, unmodified).place(position.points, phase);
+  }
   const Eigen::Index n = static_cast<Eigen::Index>(position.points.size());
   position.weight.resize(n);
   position.influence = model.effects.bending ? structure.influence(position.points, model.axial_offset)
                                              : Eigen::MatrixXd::Zero(n, n);
   if (!model.effects.adjacent_teeth) uncouple_teeth(position.points, position.influence);
   if (shafts) position.influence += shafts->influence(position.points, model.axial_offset);
-  const double infinity = std::numeric_limits<double>::infinity();
   for (Eigen::Index i = 0; i < n; ++i) {
     const ContactPoint& point = position.points[static_cast<std::size_t>(i)];
     position.weight[i] = point.weight;
-    if (model.effects.hertzian_contact) {
-      const bool tips = model.effects.tip_corner;
-      position.laws.emplace_back(
-          ContactSide::of(model.pinion_material, point.pinion_depth, tips ? point.pinion_tip_distance : infinity),
-          ContactSide::of(model.wheel_material, point.wheel_depth, tips ? point.wheel_tip_distance : infinity),
-          point.relative_radius, model.contact_modulus);
-    }
+    if (model.effects.hertzian_contact) position.laws.push_back(model.contact_law(point));
   }
   return position;
 }
@@ -55,12 +54,34 @@ std::vector<double> equally_spaced_phases(int n) {
   return phases;
 }
 
+MeshPlacement MeshPlacement::of(GapModel gap, const Misalignment& misalignment) {
+  MeshPlacement placement{gap, {}};
+  placement.misalignment.axial_offset = misalignment.axial_offset;
+  if (gap == GapModel::WholeSurface) placement.misalignment = misalignment;
+  return placement;
+}
+
+ContactLaw MeshModel::contact_law(const ContactPoint& point) const {
+  const double no_tip = std::numeric_limits<double>::infinity();
+  return {ContactSide::of(pinion_material, point.pinion_depth, effects.tip_corner ? point.pinion_tip_distance : no_tip),
+          ContactSide::of(wheel_material, point.wheel_depth, effects.tip_corner ? point.wheel_tip_distance : no_tip),
+          point.relative_radius, contact_modulus};
+}
+
 double MeshModel::normal_force(double pinion_torque) const {
   return pinion_torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle));
 }
 
+double MeshModel::mean_line_load(double force) const {
+  double length = 0.0;
+  for (const MeshPosition& position : positions) {
+    for (const ContactPoint& point : position.points) length += point.clearance == 0.0 ? point.weight : 0.0;
+  }
+  return force * static_cast<double>(positions.size()) / length;
+}
+
 MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
-                          const MeshResolution& resolution, const MeshEffects& effects, double axial_offset,
+                          const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
                           const PairCompliance* structure, const PairRootStress* root_stress,
                           const PairCompliance* shafts) {
   if (!effects.bending && !effects.hertzian_contact) {
@@ -70,6 +91,7 @@ MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material,
   if (resolution.quadrature.intervals < 1) {
     throw InvalidInput("fidelity.quadrature.intervals", std::to_string(resolution.quadrature.intervals), "at least 1");
   }
+  const double axial_offset = placement.misalignment.axial_offset;
   const double face_start = std::max(-0.5 * pair.pinion.data.face_width, axial_offset - 0.5 * pair.wheel.data.face_width);
   const double face_end = std::min(0.5 * pair.pinion.data.face_width, axial_offset + 0.5 * pair.wheel.data.face_width);
   if (!(face_start < face_end)) {
@@ -81,6 +103,7 @@ MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material,
   model.pinion_material = pinion_material;
   model.wheel_material = wheel_material;
   model.effects = effects;
+  model.placement = placement;
   model.axial_offset = axial_offset;
   model.face_width = face_end - face_start;
   model.contact_modulus = contact_modulus(pinion_material, wheel_material);

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "core/compliance/contact_law.hpp"
 #include "core/compliance/pair_compliance.hpp"
 #include "core/compliance/pair_root_stress.hpp"
 #include "core/contact/contact_points.hpp"
+#include "core/contact/gap.hpp"
 #include "core/contact/path_of_contact.hpp"
 #include "core/gear/gear_pair.hpp"
 
@@ -31,7 +33,24 @@ struct MeshResolution {
 /// n phases of the reference pair over one base pitch, from 0 (its leading end enters at A0): 0, 1/n, ...
 std::vector<double> equally_spaced_phases(int n);
 
-/// What does not change while modifications, misalignment and torque vary: points, influence and contact laws per position.
+/// Where the gap is sought, and what of the misalignment decides where the points lie for that: two conditions with the same
+/// placement share a model.
+struct MeshPlacement {
+  GapModel gap{GapModel::PlaneOfAction};
+  Misalignment misalignment{};  ///< PlaneOfAction: the axial offset, which shortens the common face; WholeSurface: all of it
+
+  static MeshPlacement of(GapModel gap, const Misalignment& misalignment);
+  auto operator<=>(const MeshPlacement&) const = default;
+};
+
+/// What does not change while modifications, torque and, with GapModel::PlaneOfAction, misalignment vary: points, influence and
+/// contact laws per position.
+///
+/// With GapModel::WholeSurface points lie where the flanks of the misaligned, unmodified pair are nearest (SurfaceGap::place), and
+/// stay there while modifications change: the gap is that of the modified flanks at their own nearest places, while curvature,
+/// depths and influence are kept. A modification moves the place along the profile by D'/kappa, with D' the slope of D over the
+/// arc and kappa the relative curvature: they are wrong by first order in the slope of a modification, as in the plane
+/// of action, the gap and its derivatives by nothing.
 struct MeshPosition {
   double phase{not_given};
   std::vector<ContactPoint> points;
@@ -45,6 +64,7 @@ struct MeshModel {
   GearPair pair;
   Material pinion_material, wheel_material;
   MeshEffects effects;
+  MeshPlacement placement;
   double axial_offset{0.0};      ///< of the wheel, which shortens the common face [mm]
   double face_width{not_given};  ///< in contact [mm]
   double contact_modulus{not_given};  ///< E' [MPa]
@@ -54,16 +74,24 @@ struct MeshModel {
 
   /// Force normal to the flanks for a torque on the pinion [N]; torque in N mm.
   double normal_force(double pinion_torque) const;
+  /// Force over the mean length of the contact lines on the theoretical path [N/mm].
+  double mean_line_load(double force) const;
+  /// How a place of a contact line gives way locally, with the effects that are on.
+  ContactLaw contact_law(const ContactPoint& point) const;
+  /// The common face, z [mm].
+  double face_start() const { return std::max(-0.5 * pair.pinion.data.face_width, axial_offset - 0.5 * pair.wheel.data.face_width); }
+  double face_end() const { return face_start() + face_width; }
 };
 
 /// Builds points, influence matrix and contact laws at every phase.
+/// @param placement    as MeshPlacement::of() makes it
 /// @param structure    what yields structurally; null: thin slices
 /// @param root_stress  null: none
 /// @param shafts       added to it, coupling all points; null: rigid shafts
 /// @throws InvalidInput where bending and Hertzian contact are both off (nothing would yield), no phase is given, or the gears do
 ///         not overlap axially
 MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
-                          const MeshResolution& resolution, const MeshEffects& effects = {}, double axial_offset = 0.0,
+                          const MeshResolution& resolution, const MeshEffects& effects = {}, const MeshPlacement& placement = {},
                           const PairCompliance* structure = nullptr, const PairRootStress* root_stress = nullptr,
                           const PairCompliance* shafts = nullptr);
 

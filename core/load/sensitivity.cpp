@@ -25,22 +25,12 @@ LoadSensitivity::LoadSensitivity(const LoadProblem& problem, const LoadDistribut
   stiffness_ = weight_.dot(response_);
 }
 
-LoadSensitivity::Derivative LoadSensitivity::spread(const Eigen::VectorXd& loads, double f) const {
-  Derivative derivative{Eigen::VectorXd::Zero(size_), f};
-  derivative.line_load(loaded_) = loads;
-  return derivative;
-}
-
-LoadSensitivity::Derivative LoadSensitivity::with_gap(const Eigen::VectorXd& gap_derivative) const {
-  const Eigen::VectorXd given = gap_derivative(loaded_);
-  // response' (a dg) is the change of force at fixed f_t; f_t rises until the force is back.
-  const double f = response_.dot(weight_.cwiseProduct(given)) / stiffness_;
-  const Eigen::VectorXd right = weight_.cwiseProduct(given);
-  return spread(f * response_ - factor_.solve(right), f);
-}
-
-LoadSensitivity::Derivative LoadSensitivity::with_force() const {
-  return spread(response_ / stiffness_, 1.0 / stiffness_);
+LoadSensitivity::Derivatives LoadSensitivity::with(const Eigen::MatrixXd& gap, const Eigen::RowVectorXd& force) const {
+  const Eigen::MatrixXd receding = weight_.asDiagonal() * gap(loaded_, Eigen::all);
+  // response' (a dg) is the force lost at fixed f_t; f_t rises until the force is there again.
+  Derivatives derivatives{Eigen::MatrixXd::Zero(size_, gap.cols()), (force + response_.transpose() * receding) / stiffness_};
+  derivatives.line_load(loaded_, Eigen::all) = response_ * derivatives.transmission_error - factor_.solve(receding);
+  return derivatives;
 }
 
 }  // namespace flankwright

@@ -10,27 +10,30 @@ namespace flankwright {
 
 /// Exact derivatives of a converged load distribution while its set of loaded points stays the same.
 ///
-/// On the loaded set the optimality conditions are  (aKa + a c')dw - a df = -a dg,  a'dw = dF: one factorisation serves every
-/// parameter. Where a point is about to gain or lose contact the derivative is one-sided: that of the present set.
+/// On the loaded set the optimality conditions are  (aKa + a c')dw - a df = -a dg,  a'dw = dF: one factorisation, over the loaded
+/// points alone, serves every parameter. Where a point is about to gain or lose contact the derivative is one-sided: that of the
+/// present set.
 class LoadSensitivity {
  public:
   /// @param distribution  usable() and with at least one loaded point
   LoadSensitivity(const LoadProblem& problem, const LoadDistribution& distribution);
 
-  struct Derivative {
-    Eigen::VectorXd line_load;       ///< dw/dp, n; 0 where unloaded
-    double transmission_error{0.0};  ///< df_t/dp
+  /// With respect to m parameters.
+  struct Derivatives {
+    Eigen::MatrixXd line_load;              ///< dw/dp, n x m; 0 where unloaded
+    Eigen::RowVectorXd transmission_error;  ///< df_t/dp, m
   };
-  /// With respect to a parameter p that changes the gap by dg/dp.
-  Derivative with_gap(const Eigen::VectorXd& gap_derivative) const;
+  /// @param gap    dg/dp, n x m
+  /// @param force  dF/dp, m
+  Derivatives with(const Eigen::MatrixXd& gap, const Eigen::RowVectorXd& force) const;
+  /// With respect to parameters that leave the force alone.
+  Derivatives with_gap(const Eigen::MatrixXd& gap) const { return with(gap, Eigen::RowVectorXd::Zero(gap.cols())); }
   /// With respect to the force [per N].
-  Derivative with_force() const;
+  Derivatives with_force() const { return with(Eigen::VectorXd::Zero(size_), Eigen::RowVectorXd::Ones(1)); }
   /// Tangent mesh stiffness dF/df_t, normal to the flank [N/mm].
   double tangent_stiffness() const { return stiffness_; }
 
  private:
-  Derivative spread(const Eigen::VectorXd& loads, double f) const;
-
   Eigen::Index size_;
   std::vector<Eigen::Index> loaded_;
   Eigen::VectorXd weight_;                 ///< of the loaded points

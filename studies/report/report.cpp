@@ -37,7 +37,7 @@ constexpr Section sections[] = {
     {"flank-load", "Load on the flank", has_loaded},
     {"modifications", "Flank modifications",
      [](const json& r) { return has(r, "modifications") || has(r, "optimise"); }},
-    {"stiffness", "Mesh stiffness", has_loaded},
+    {"stiffness", "Load sharing and mesh stiffness", has_loaded},
     {"convergence", "Convergence",
      [](const json& r) {
        return has(r, "optimise") && r.at("optimise").is_object() && has(r.at("optimise"), "history");

@@ -60,6 +60,7 @@ nlohmann::json report_view(nlohmann::json results) {
         if (!tooth.is_object()) return;
         const auto points = tooth.find("points");
         if (points != tooth.end() && points->is_array()) *points = columns_of(*points);
+        tooth.erase("line_ends");  // no picture draws them
       });
     });
   });

@@ -136,15 +136,13 @@ TEST_CASE("Deflections along a line of contact from the tip's sharp corner fall 
   for (const auto& row : thesis::table_2b_1) {
     points.push_back(point_of_contact(mesh, mesh.form.tip_radius(), 0.25, 0, row.z_fitting));
   }
-  const auto removed = GENERATE(RemovedMotion::TranslationAndTorsion, RemovedMotion::TranslationTorsionAndTilt);
-  const Eigen::MatrixXd k = model.influence(points, removed).compliance;
+  // The printed values still hold the shaft's motion: without it about 0.3 less remains far away.
+  const Eigen::MatrixXd k = model.influence(points, RemovedMotion::None).compliance;
   CAPTURE(k.col(0).transpose());
-  // Model: load and response are one functional here, a patch of 0.5 m_n and a point there. Beyond 3 m_n the thesis'
-  // values keep about 0.3 more, what its shaft motion leaves in.
-  for (int i = 0; i < 4; ++i)
+  // Model: load and response are one functional here, a patch of 0.5 m_n and a point there.
+  for (int i = 0; i < 7; ++i)
     CHECK(k(i, 0) == Approx(thesis::table_2b_1[i].centre * thesis::table_2b_1_unit).epsilon(0.16));
-  for (int i = 4; i < 7; ++i) {
-    CHECK(std::abs(k(i, 0) - thesis::table_2b_1[i].centre * thesis::table_2b_1_unit) < 0.4);
-    CHECK(k(i, 0) < k(i - 1, 0));
-  }
+  const Eigen::MatrixXd net = model.influence(points, RemovedMotion::TranslationTorsionAndTilt).compliance;
+  CAPTURE(net.col(0).transpose());
+  CHECK(std::abs(k(6, 0) - net(6, 0) - 0.3) < 0.1);
 }

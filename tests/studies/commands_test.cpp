@@ -24,7 +24,7 @@ TEST_CASE("A run leaves its files in the folder it was given, a table on stdout 
   CHECK(ending.exit_code == 0);
   CHECK(folder.names() == Names{"here", "small.toml"});
   CHECK(folder.names("here/and there") ==
-        Names{"bearing_pattern.csv", "cycle.csv", "points.csv", "report.html", "results.json", "transfers.csv",
+        Names{"bearing_pattern.csv", "cycle.csv", "load_factors.csv", "load_sharing.csv", "points.csv", "report.html", "results.json", "transfers.csv",
               "unloaded.csv"});
   CHECK_THAT(ending.out, Contains("aligned") && Contains("bent") && Contains("report: here/and there/report.html"));
   CHECK(ending.out.find("analysing") == std::string::npos);
@@ -38,7 +38,7 @@ TEST_CASE("An optimisation also leaves its store; the default folder carries the
   CAPTURE(ending.err);
   CHECK(ending.exit_code == 0);
   CHECK(folder.names("results/small") ==
-        Names{"cycle.csv", "history.csv", "points.csv", "report.html", "results.json", "results.sqlite", "scenes.csv"});
+        Names{"cycle.csv", "history.csv", "load_factors.csv", "load_sharing.csv", "points.csv", "report.html", "results.json", "results.sqlite", "scenes.csv"});
 }
 
 TEST_CASE("Settings of the command line replace those of the file", "[studies][cli]") {
@@ -61,7 +61,7 @@ TEST_CASE("The results do not depend on the number of threads", "[studies][cli][
   folder.file("small.toml", small::optimisation());
   REQUIRE(run(folder, {"run", "small.toml", "--out", "one", "--threads", "1"}).exit_code == 0);
   REQUIRE(run(folder, {"run", "small.toml", "--out", "two", "--threads", "2"}).exit_code == 0);
-  for (const char* table : {"cycle.csv", "history.csv", "points.csv", "scenes.csv"}) {
+  for (const char* table : {"cycle.csv", "history.csv", "load_factors.csv", "load_sharing.csv", "points.csv", "scenes.csv"}) {
     CAPTURE(table);
     CHECK(text_of(folder.path() / "one" / table) == text_of(folder.path() / "two" / table));
   }

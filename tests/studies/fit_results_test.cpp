@@ -66,7 +66,7 @@ TEST_CASE("A fit is stored whole: results, tables, summary and report", "[studie
     CHECK(gear["eigenvalue_teeth"] == 5);
     CHECK(gear["lowest_eigenvalue"] == fit.lowest_eigenvalue);
     CHECK(gear["finite_elements"]["unknowns"] == fit.finite_elements.unknowns);
-    CHECK(gear["finite_elements"]["removed_shaft_motion"] == "translation, torsion and tilt");
+    CHECK(gear["finite_elements"]["removed_shaft_motion"] == "transverse translation, torsion and tilt");
     CHECK(gear["uncertainty"]["least_certain"].size() == 5);
     for (const char* form : {"kernels", "thesis_in_master", "thesis_separate"}) {
       for (const char* points : {"fitted", "unseen"}) {

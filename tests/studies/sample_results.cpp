@@ -135,7 +135,7 @@ json loaded_entry(const std::string& scene, double torque, const char* design, d
                           {"gap_um", load > 0 ? 0.0 : 1.3},
                           {"error_um", tilt * z / 10}});
       }
-      if (!points.empty()) teeth.push_back({{"tooth", tooth}, {"points", points}});
+      if (!points.empty()) teeth.push_back({{"tooth", tooth}, {"points", points}, {"share", static_cast<double>(points.size()) / 20}});
     }
     const double wave = (1 - 0.7 * relief) * (std::sin(2 * pi * phase) + 0.4 * std::sin(4 * pi * phase + 1));
     const double te = 14 + 3 * relief + 0.01 * torque / 10 + (1 + tilt) * 0.6 * wave;
@@ -163,6 +163,10 @@ json loaded_entry(const std::string& scene, double torque, const char* design, d
             {"peak_root_stress_MPa", nullptr},
             {"mean_stiffness_N_per_mm_um", 19 - 2 * relief},
             {"load_factor", peak_load / mean_load},
+            {"peaks", {{"without_spikes", {{"contact_stress_MPa", 0.9 * peak_stress}}}, {"with_spikes", {{"contact_stress_MPa", peak_stress}}}}},
+            {"load_factors",
+             {{"without_spikes", {{"K_Hbeta", 1 + tilt / 3}, {"K_Halpha", 1.02}, {"K_H", 1.01 + tilt / 3}, {"K_Hbeta_times_K_Halpha", 1.02 + tilt / 3}}},
+              {"with_spikes", {{"K_Hbeta", 1 + tilt / 2}, {"K_Halpha", nullptr}, {"K_H", nullptr}, {"K_Hbeta_times_K_Halpha", nullptr}}}}},
             {"iso6336", {{"c_prime", 13.9}, {"c_gamma", 20.1}, {"K_Hbeta", 1 + tilt / 2}, {"K_Halpha", nullptr}}}}}};
 }
 

@@ -78,7 +78,7 @@ TEST_CASE("A value outside its range is refused at its line with what is allowed
       Row{"[material]\nyoungs_modulus = 0\n", "above 0"},
       Row{"[cycle]\npositions = 4097\n", "4096"},
       Row{"[cycle]\npositions = 8.0\n", "integer"},
-      Row{"[fidelity]\ngap = \"whole_surface\"\n", "not in this version"},
+      Row{"[fidelity]\ngap = \"whole_plane\"\n", "whole_surface"},
       Row{"[fidelity]\neffects = [\"bendig\"]\n", "bending"},
       Row{"[fidelity]\nquadrature = 3\n", "table"},
       Row{"[wheel]\n", "redefine"},

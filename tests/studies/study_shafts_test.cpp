@@ -160,18 +160,23 @@ TEST_CASE("The best lead slope takes back what the shafts do", "[studies][shaft]
 }
 
 TEST_CASE("Finite elements leave their wind-up to start where the study's torque leaves the gear", "[studies][shaft][fe]") {
-  const auto removed = [](const std::string& text, Member member, const std::vector<Override>& overrides = {}) {
+  const auto task = [](const std::string& text, Member member, const std::vector<Override>& overrides = {}) {
     std::vector<Override> all = overrides;
     all.push_back({"fidelity.compliance", "fe"});
     const Study study = read(text, all);
-    return influence_table_task(study, make_gear_pair(study.pair), member).removed;
+    return influence_table_task(study, make_gear_pair(study.pair), member);
   };
+  const auto end = [&](auto&&... of) { return task(of...).gear.body.torque_end; };
+  using Overrides = std::vector<Override>;
   // The sharp end of a right-hand pinion is at +b/2, its mate's at -b/2.
-  CHECK(removed(pair_text, Member::Pinion) == RemovedMotion::TranslationTorsionAndTilt);
-  CHECK(removed(pair_text + shaft_text, Member::Pinion) == RemovedMotion::TranslationUpperTorsionAndTilt);
-  CHECK(removed(pair_text + shaft_text, Member::Wheel) == RemovedMotion::TranslationTorsionAndTilt);
-  CHECK(removed(pair_text + shaft_text, Member::Pinion, {{"pinion.shaft.torque_position", "180"}}) == RemovedMotion::TranslationTorsionAndTilt);
-  CHECK(removed(pair_text + shaft_text, Member::Pinion, {{"pair.working_flank", "left"}}) == RemovedMotion::TranslationTorsionAndTilt);
+  CHECK(end(pair_text, Member::Pinion) == FaceEnd::Blunt);
+  CHECK(end(pair_text + shaft_text, Member::Pinion) == FaceEnd::Blunt);
+  CHECK(end(pair_text + shaft_text, Member::Wheel) == FaceEnd::Blunt);
+  CHECK(end(pair_text + shaft_text, Member::Pinion, Overrides{{"pinion.shaft.torque_position", "180"}}) == FaceEnd::Sharp);
+  CHECK(end(pair_text + shaft_text, Member::Pinion, Overrides{{"pair.working_flank", "left"}}) == FaceEnd::Sharp);
+  // Its bearings hold it axially.
+  CHECK(task(pair_text, Member::Pinion).removed == RemovedMotion::TranslationTorsionAndTilt);
+  CHECK(task(pair_text + shaft_text, Member::Pinion).removed == RemovedMotion::WholeTranslationTorsionAndTilt);
 }
 
 TEST_CASE("Errors of single teeth are read as lists, one value a tooth", "[studies][shaft]") {

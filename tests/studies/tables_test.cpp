@@ -57,7 +57,7 @@ TEST_CASE("CSV tables read back whole, whatever a scene is called", "[studies][t
   results.loaded.front().scene = awkward;
   results.unloaded.front().scene = awkward;
   const auto tables = tables_of(results);
-  CHECK(tables.size() == 5);
+  CHECK(tables.size() == 7);
   for (const auto& [name, rows] : tables) {
     CAPTURE(name);
     REQUIRE(rows.size() > 1);
@@ -78,6 +78,16 @@ TEST_CASE("CSV tables read back whole, whatever a scene is called", "[studies][t
   for (const LoadedPosition& position : results.loaded[0].cycle.positions)
     points += static_cast<std::size_t>(position.contact_stress.size());
   CHECK(tables.at("points.csv").size() == 1 + 2 * points);
+  // Load distribution factors three ways.
+  CHECK(tables.at("load_factors.csv").size() == 1 + 2 * 3);
+  // Every tooth pair's share, 1 in all.
+  std::map<std::string, double> sums;
+  for (std::size_t i = 1; i < tables.at("load_sharing.csv").size(); ++i) {
+    const Row& row = tables.at("load_sharing.csv")[i];
+    sums[row[0] + row[3]] += std::stod(row[6]);
+  }
+  CHECK(sums.size() == 2 * 6);
+  for (const auto& [position, sum] : sums) CHECK(sum == Approx(1).epsilon(1e-11));
 }
 
 TEST_CASE("CSV numbers carry every digit", "[studies][tables]") {

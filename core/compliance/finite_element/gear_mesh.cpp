@@ -130,7 +130,7 @@ FaceNodes GearMesh::face_nodes(const MeshFace& face) const {
 GearBody complete_body(const GearBody& body, const ToothForm& form, double normal_module) {
   GearBody complete = body;
   if (std::isnan(body.shaft_diameter)) complete.shaft_diameter = default_shaft_diameter(form, normal_module);
-  if (std::isnan(body.bore_diameter)) complete.bore_diameter = 0.2 * complete.shaft_diameter;
+  if (std::isnan(body.bore_diameter)) complete.bore_diameter = 0.05 * complete.shaft_diameter;
   if (std::isnan(body.shaft_overhang)) complete.shaft_overhang = 0.5 * complete.shaft_diameter;
   return complete;
 }
@@ -144,6 +144,7 @@ GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options) {
   mesh.face_width = width;
   mesh.teeth_each_side = options.teeth_each_side;
   const GearBody body = complete_body(gear.body, mesh.form, gear.normal_module);
+  mesh.torque_end = (body.torque_end == FaceEnd::Sharp ? -0.5 : 0.5) * width;
   const SectionMesh section = section_mesh(mesh.form, mesh.teeth, mesh.normal_module, body, options);
   const double overhang = body.shaft_overhang;
   if (!(overhang > 0) || !std::isfinite(overhang)) {
@@ -186,11 +187,13 @@ GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options) {
   }
 
   const double bore = section.nodes.colwise().norm().minCoeff();
-  sweep.for_each_at(0, [&](int node, const Eigen::Vector3d& p) {
+  const int last_level = 2 * (static_cast<int>(all.size()) - 1);
+  const bool at_sharp_end = body.torque_end == FaceEnd::Sharp;
+  sweep.for_each_at(at_sharp_end ? 0 : last_level, [&](int node, const Eigen::Vector3d& p) {
     const bool at_bore = p.head<2>().norm() < bore * (1 + 1e-9);  // round-off of the rotation
     mesh.supports.push_back({node, {true, true, at_bore}, Eigen::Matrix3d::Identity()});
   });
-  sweep.for_each_at(2 * (static_cast<int>(all.size()) - 1), [&](int node, const Eigen::Vector3d& p) {
+  sweep.for_each_at(at_sharp_end ? last_level : 0, [&](int node, const Eigen::Vector3d& p) {
     const Eigen::Vector2d out = p.head<2>().normalized();
     Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
     frame.topLeftCorner<2, 2>() << out.x(), -out.y(), out.y(), out.x();

@@ -188,12 +188,12 @@ Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoin
     }
   };
   Eigen::Matrix<double, 6, 1> part = Eigen::Matrix<double, 6, 1>::Zero();
-  part.head<3>() = resultant.head<3>();
+  part.head<2>() = resultant.head<2>();
+  if (removed == RemovedMotion::WholeTranslationTorsionAndTilt) part[2] = resultant[2];
   take_off(point.z, part);
   part.setZero();
   part[5] = resultant[5];
-  const bool upper = removed == RemovedMotion::TranslationUpperTorsionAndTilt;
-  take_off((upper ? 0.5 : -0.5) * mesh.face_width, part);
+  take_off(mesh.torque_end, part);
   if (removed != RemovedMotion::TranslationAndTorsion) {
     part.setZero();
     part.segment<2>(3) = resultant.segment<2>(3);

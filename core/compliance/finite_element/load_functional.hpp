@@ -90,19 +90,22 @@ SectionMotion shaft_motion(const GearMesh& mesh, double z);
 /// What of the shaft's motion is taken out of the compliance.
 enum class RemovedMotion {
   None,
-  /// The translation of the shaft's section in the plane of the point, and the shaft's rotation about its axis at the
-  /// face end z = -b/2, where the torque leaves. The gear's own wind-up stays in.
+  /// The transverse translation of the shaft's section in the plane of the point, and the shaft's rotation about its
+  /// axis at the face end where the torque leaves: what app. 2C takes off. The gear's own wind-up stays in, and so does
+  /// its axial motion.
   TranslationAndTorsion,
-  /// And the tilt of the shaft's section at mid face. Then the shaft's supports have no force or moment to carry, and
-  /// how the shaft is held matters only as far as its end sections are kept round and flat (1e-3 of K).
+  /// And the tilt of the shaft's section at mid face. Then the shaft's supports have an axial force to carry and nothing
+  /// else.
   TranslationTorsionAndTilt,
-  /// The same with the torque leaving at the other face end, z = +b/2, where the rotation is taken instead.
-  TranslationUpperTorsionAndTilt,
+  /// And the axial translation of the shaft's section in the plane of the point: for a shaft that is described apart,
+  /// whose bearings hold it. Then the supports have nothing to carry, and how the shaft is held matters only as far as
+  /// its end sections are kept round and flat (1e-3 of K).
+  WholeTranslationTorsionAndTilt,
 };
 
 /// The functional with the removed motion taken off,
 ///
-///     l_p - F . t(z_p) - M_z omega_z(-b/2 or +b/2) [- M_x omega_x(0) - M_y omega_y(0)],
+///     l_p - F_x t_x(z_p) - F_y t_y(z_p) - M_z omega_z(torque end) [- M_x omega_x(0) - M_y omega_y(0)] [- F_z t_z(z_p)],
 ///
 /// F and M being force and moment of l_p about the axis in the plane z_p. It serves for load and deflection: the load
 /// that belongs to it has its reactions on the shaft right where the motion is measured. Hence P' K P instead of K P,

@@ -27,11 +27,20 @@ struct GearMeshOptions {
   void validate() const;
 };
 
+/// A face end of a helical tooth by the angle between loaded flank and face there: less than a right angle, or more. Of
+/// a spur gear the sharp end is that at z = -b/2 of GearToMesh.
+enum class FaceEnd { Sharp, Blunt };
+
 /// What the teeth stand on: a solid disc as wide as the face, on a hollow shaft that runs through it.
 struct GearBody {
   double shaft_diameter{not_given};  ///< d_s [mm]; not given: default_shaft_diameter()
-  double bore_diameter{not_given};   ///< [mm], > 0; not given: 0.2 d_s, which takes 0.2 % off the shaft's stiffness
+  /// [mm], > 0; not given: 0.05 d_s, as near to a solid shaft as elements go. At its edge the shaft is held axially, see
+  /// GearMesh.
+  double bore_diameter{not_given};
   double shaft_overhang{not_given};  ///< length of the shaft beyond each face end [mm], > 0; not given: 0.5 d_s
+  /// Where torque and axial force leave the gear. What lies between there and a load winds up under it. The default is
+  /// what Haddad's sample outputs show: pinion loads that fall towards the other, sharp end.
+  FaceEnd torque_end{FaceEnd::Blunt};
 };
 
 /// Steward's rule for helical gears [Haddad 1991, eq. 2.4]: d_s = 0.8 d, at most 25 m_n / cos(beta). Departure: at

@@ -1,4 +1,4 @@
-// Transmission error, its harmonics and the mesh stiffness over the mesh cycle, before and after.
+// Transmission error, its harmonics, load sharing and mesh stiffness over the mesh cycle, before and after; load cases in numbers.
 
 /**
  * One curve a load case and design: the selected case bold, all others thin behind it.
@@ -79,11 +79,38 @@ function build_transmission_error(results, body, selection) {
   }, draw_te_harmonics);
 }
 
+/** Share of the force that one tooth pair carries on its way through the mesh: the teeth of all positions, side by side. */
+function sharing_curve(entry) {
+  const points = list(entry.cycle).map(record).flatMap((position) => list(position.teeth).map(record)
+    .map((tooth) => ({ x: position.phase + tooth.tooth, y: is_number(tooth.share) ? 100 * tooth.share : null })));
+  return points.filter((point) => is_number(point.x)).sort((a, b) => a.x - b.x);
+}
+
+function draw_sharing(plot, load_case) {
+  xy_chart(plot, {
+    label: "Load sharing of a tooth pair on its way through the mesh",
+    curves: designs_of(load_case).map((design) => ({
+      label: DESIGN_LABEL[design], points: sharing_curve(load_case.designs[design]), colour: design_colour(design), width: 2.6,
+    })),
+    x: "phase of the tooth pair's line [base pitches]",
+    y: "share of the force [%]",
+    read_x: (x) => `line phase ${fmt(x)}`,
+    read_y: (y) => `${fmt(y, 3)} %`,
+    y_range: { beginAtZero: true },
+    height: 250,
+  });
+}
+
 function build_stiffness(results, body, selection) {
   selection.add_choice(body);
-  case_figure(figure_grid(body), selection, {
+  const grid = figure_grid(body);
+  case_figure(grid, selection, {
+    title: "Load sharing",
+    caption: "Share of the whole force that one tooth pair carries while its contact line travels from the first touch to the last. "
+      + "With errors that differ from tooth to tooth the curve has one branch a pair.",
+  }, draw_sharing);
+  case_figure(grid, selection, {
     title: "Mesh stiffness over the mesh cycle",
-    wide: true,
     caption: "Load along the flank normal per unit of face width and of deflection, all tooth pairs together; "
       + "its steps are teeth that enter and leave the mesh.",
   }, (plot) => xy_chart(plot, {
@@ -95,6 +122,35 @@ function build_stiffness(results, body, selection) {
     read_y: (y) => `${fmt(y)} N/(mm µm)`,
     height: 250,
   }));
+}
+
+const percent = (share) => (is_number(share) ? 100 * share : null);
+
+/** Load distribution factors by calculated stress, without and with spikes, beside those of ISO 6336. */
+function load_factor_table(body, rows) {
+  const factors = (entry, key) => record(record(summary_of(entry).load_factors)[key]);
+  const peak = (entry, key) => record(record(summary_of(entry).peaks)[key]).contact_stress_MPa;
+  const rated = rows.filter((row) => summary_of(row.load_case.designs[row.design]).load_factors);
+  if (rated.length === 0) return;
+  const lines = ({ load_case, design }) => {
+    const entry = load_case.designs[design], iso = record(summary_of(entry).iso6336);
+    const calculated = [["without spikes", "without_spikes"], ["with spikes", "with_spikes"]].map(([label, key]) => {
+      const k = factors(entry, key);
+      return [label, k.K_Hbeta, k.K_Halpha, k.K_Hbeta_times_K_Halpha, k.K_H, peak(entry, key)];
+    });
+    return [...calculated, ["ISO 6336", iso.K_Hbeta, iso.K_Halpha, iso.K_H, iso.K_H, null]].map((values) =>
+      [load_case.scene, load_case.torque, DESIGN_LABEL[design], ...values.map((value) => value ?? null)]);
+  };
+  table(body, {
+    title: "Load distribution factors",
+    note: "Squares of ratios of peak contact stress to the perfect pair's: of what changes along the face alone (K_Hβ), along the "
+      + "profile and from tooth to tooth alone (K_Hα), and of everything (K_H), which is not their product. Peaks are sought between the "
+      + "positions too; without spikes leaves out short contact lines and what lies near their ends on tip edges. ISO 6336, method C, "
+      + "from its own stiffness.",
+    columns: [{ label: "Scene" }, { label: "Torque", unit: "N·m", digits: 6 }, { label: "Design" }, { label: "By" },
+      { label: "K_Hβ" }, { label: "K_Hα" }, { label: "K_Hβ·K_Hα" }, { label: "K_H" }, { label: "Peak stress", unit: "MPa" }],
+    rows: rated.flatMap(lines),
+  });
 }
 
 /** Every number of every load case; a column that nobody filled is left out. */
@@ -114,11 +170,11 @@ function build_load_cases(results, body, { cases }) {
     [{ label: "Root stress", unit: "MPa" }, plain("peak_root_stress_MPa")],
     [{ label: "Load factor" }, plain("load_factor")],
     [{ label: "Stiffness", unit: "N/(mm µm)" }, plain("mean_stiffness_N_per_mm_um")],
+    [{ label: "Variation of stiffness", unit: "%" }, (entry) => percent(summary_of(entry).stiffness_variation)],
     [{ label: "f_sh", unit: "µm" }, plain("shaft_misalignment_um")],
-    [{ label: "c′", unit: "N/(mm µm)" }, iso("c_prime")],
-    [{ label: "c_γ", unit: "N/(mm µm)" }, iso("c_gamma")],
-    [{ label: "K_Hβ" }, iso("K_Hbeta")],
-    [{ label: "K_Hα" }, iso("K_Halpha")],
+    [{ label: "c′, ISO", unit: "N/(mm µm)" }, iso("c_prime")],
+    [{ label: "c_γ, ISO", unit: "N/(mm µm)" }, iso("c_gamma")],
+    [{ label: "TE harm. change", unit: "µm" }, (entry) => record(summary_of(entry).te_convergence).harmonic_change_um],
     [{ label: "KKT residual" }, residual],
   ];
   const rows = cases.flatMap((load_case) => designs_of(load_case).map((design) => ({ load_case, design })));
@@ -126,11 +182,13 @@ function build_load_cases(results, body, { cases }) {
     rows.some((row) => is_number(value(row.load_case.designs[row.design]))));
   table(body, {
     title: "Peaks and means over the mesh cycle",
-    note: "Peaks are the largest values over the cycle and all teeth in contact; c′, cγ and the K factors are those of "
-      + "ISO 6336; f_sh is the misalignment by the shafts, its mean; the KKT residual is the largest error of the contact conditions.",
+    note: "Peaks are the largest values over the positions and all teeth in contact; c′ and cγ are those of ISO 6336; f_sh is the "
+      + "misalignment by the shafts, its mean; the change of the harmonics is what the last doubling of positions brought; "
+      + "the KKT residual is the largest error of the contact conditions.",
     columns: [{ label: "Scene" }, { label: "Torque", unit: "N·m", digits: 6 }, { label: "Design" },
       ...filled.map(([column]) => column)],
     rows: rows.map(({ load_case, design }) => [load_case.scene, load_case.torque, DESIGN_LABEL[design],
       ...filled.map(([, value]) => value(load_case.designs[design]) ?? null)]),
   });
+  load_factor_table(body, rows);
 }

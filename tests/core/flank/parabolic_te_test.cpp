@@ -130,6 +130,29 @@ TEST_CASE("The flank gives way by as much more than the lag as contact would sli
   }
 }
 
+TEST_CASE("The conjugate flank's derivative by its coefficient is the lag's at the involute and that of differences elsewhere",
+          "[core][flank]") {
+  const double beta = GENERATE(0.0, 20.0) * deg;
+  const Member member = GENERATE(Member::Pinion, Member::Wheel);
+  const GearPair pair = make_gear_pair(pair_data(30, 100, beta, 0.2, -0.1));
+  const FlankFrame frame = pair.flank_frame(member);
+  const double lowest = pair[member].roll_length_at(pair[member].active_root_radius);
+  const double highest = pair[member].roll_length_at(pair[member].tip_radius);
+  for (const double share : {0.1, 0.5, 0.9}) {
+    const double rho = lowest + share * (highest - lowest), z = 7.0;
+    const double lag = removal_derivative({}, frame, ModificationParameter::ParabolicTe, std::hypot(frame.base_radius, rho), z);
+    constexpr double kRoundOff = 1e-12;  // mm rad
+    CHECK(std::abs(make_conjugate_field(pair, member, 0.0)->coefficient_slope(rho, z) - lag) <= kRoundOff);
+    const double a = 1e-3, step = 1e-5;
+    const auto at = [&](double coefficient) { return make_conjugate_field(pair, member, coefficient)->at(rho, z).value; };
+    const double slope = make_conjugate_field(pair, member, a)->coefficient_slope(rho, z);
+    CAPTURE(share, slope, lag);
+    // discretisation: third derivative times the step's square; round-off: 1e-14 mm over the step
+    CHECK(std::abs(slope - (at(a + step) - at(a - step)) / (2 * step)) <= 1e-4 * std::abs(slope) + 1e-8);
+    CHECK(std::abs(slope - lag) > 1e-3 * std::abs(lag));  // beyond first order
+  }
+}
+
 TEST_CASE("Derivatives of the conjugate flank agree with differences, across the ends of its exact range too",
           "[core][flank]") {
   const double beta = GENERATE(0.0, 20.0) * deg;

@@ -398,7 +398,7 @@ TEST_CASE("Where no point lies the cycle says so instead of inventing a load", "
   const GearPair gears = make_gear_pair(data);
   REQUIRE(gears.transverse_contact_ratio < 0.9);
   const MeshModel model = make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, {{}, equally_spaced_phases(16)},
-                                          {.extended_contact_region = false}, 19.5);
+                                          {.extended_contact_region = false}, MeshPlacement::of(GapModel::PlaneOfAction, {.axial_offset = 19.5}));
   const LoadedCycle cycle = analyse_cycle(model, {}, torque_for(gears, 10.0));
   CHECK(cycle.failures > 0);
   CHECK_FALSE(cycle.usable());

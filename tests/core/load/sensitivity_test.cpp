@@ -84,11 +84,11 @@ TEST_CASE("The derivatives of loads and transmission error are those of central 
     // The mean load per mm stands for the scale where a single loaded point has no choice and a derivative of nought.
     const double scale = gap.line_load.lpNorm<Eigen::Infinity>() + found.line_load.mean();
     CHECK((gap.line_load - by_gap.head(n)).lpNorm<Eigen::Infinity>() <= kDiscretisation * scale);
-    CHECK(std::abs(gap.transmission_error - by_gap[n]) <= kDiscretisation);
+    CHECK(std::abs(gap.transmission_error[0] - by_gap[n]) <= kDiscretisation);
     const auto force = sensitivity.with_force();
     CHECK((force.line_load - by_force.head(n)).lpNorm<Eigen::Infinity>() <=
           kDiscretisation * force.line_load.lpNorm<Eigen::Infinity>());
-    CHECK(force.transmission_error == Approx(by_force[n]).epsilon(kDiscretisation));
+    CHECK(force.transmission_error[0] == Approx(by_force[n]).epsilon(kDiscretisation));
   }
   CHECK(compared >= 40);
 }
@@ -111,23 +111,24 @@ TEST_CASE("Loads answer to gaps as gaps answer to loads", "[core][load][gradient
     for (Eigen::Index j = 0; j < n; ++j) {
       const auto derivative = sensitivity.with_gap(Eigen::VectorXd::Unit(n, j));
       response.col(j) = problem.weight.cwiseProduct(derivative.line_load);
-      approach[j] = derivative.transmission_error;
+      approach[j] = derivative.transmission_error[0];
     }
-    const double scale = response.cwiseAbs().maxCoeff();
+    // A single loaded point has no choice: its response is round-off of the stiffness.
+    const double scale = response.cwiseAbs().maxCoeff() + sensitivity.tangent_stiffness();
     CHECK((response - response.transpose()).cwiseAbs().maxCoeff() <= kRoundOff * scale);
     CHECK(response.colwise().sum().cwiseAbs().maxCoeff() <= kRoundOff * scale);  // the force stays
-    CHECK(response.diagonal().maxCoeff() <= 0.0);                                // a point that withdraws is relieved
+    CHECK(response.diagonal().maxCoeff() <= kRoundOff * scale);                  // a point that withdraws is relieved
     CHECK(approach.sum() == Approx(1.0).epsilon(kRoundOff));
 
     const auto common = sensitivity.with_gap(Eigen::VectorXd::Ones(n));
-    CHECK(common.transmission_error == Approx(1.0).epsilon(kRoundOff));
+    CHECK(common.transmission_error[0] == Approx(1.0).epsilon(kRoundOff));
     CHECK(common.line_load.norm() <= kRoundOff * scale);
 
     // dw/dF at constant gaps and df/dg are the same numbers, read across: the force's share of every point.
     const auto force = sensitivity.with_force();
     CHECK((problem.weight.cwiseProduct(force.line_load) - approach).norm() <= kRoundOff);
-    CHECK(problem.weight.dot(force.line_load) == Approx(1.0).epsilon(kRoundOff));
-    CHECK(sensitivity.tangent_stiffness() == Approx(1.0 / force.transmission_error).epsilon(kRoundOff));
+    CHECK(problem.weight.dot(force.line_load.col(0)) == Approx(1.0).epsilon(kRoundOff));
+    CHECK(sensitivity.tangent_stiffness() == Approx(1.0 / force.transmission_error[0]).epsilon(kRoundOff));
   }
 }
 
@@ -143,7 +144,7 @@ TEST_CASE("Where a second spring is just reached the derivative is that of one s
     problem.force = force;
     const LoadDistribution found = solve_load_distribution(problem);
     REQUIRE(found.usable());
-    return LoadSensitivity(problem, found).with_force().transmission_error;
+    return LoadSensitivity(problem, found).with_force().transmission_error[0];
   };
   const double alone = 2e-6, together = 1.0 / (1.0 / 2e-6 + 1.0 / 3e-6);
   CHECK(slope_at(touch - 1e-6) == Approx(alone).epsilon(kRoundOff));
@@ -190,7 +191,7 @@ TEST_CASE("Derivatives with respect to every modification are those of central d
     for (Member member : {Member::Pinion, Member::Wheel}) {
       for (const NamedModificationParameter& p : modification_parameters) parameters.push_back({member, p.parameter});
     }
-    const LoadedCycle cycle = analyse_cycle(model, condition, torque, parameters);
+    const LoadedCycle cycle = analyse_cycle(model, condition, torque, {parameters.begin(), parameters.end()});
     REQUIRE(cycle.usable());
     for (std::size_t p = 0; p < parameters.size(); ++p) {
       for (std::size_t k = 0; k < cycle.positions.size(); ++k) {

@@ -22,7 +22,7 @@ ShaftData shaft(double diameter, bool torque_at_first_end = true) {
 
 MeshModel model_with(const GearPair& gears, const PairCompliance* shafts, int positions = 4) {
   return make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(positions)}, {},
-                         0.0, nullptr, nullptr, shafts);
+                         {}, nullptr, nullptr, shafts);
 }
 
 /// Where the load of a position has its centre [mm].
@@ -94,7 +94,7 @@ TEST_CASE("Derivatives with shafts are those of central differences", "[core][lo
   condition.pinion_modification.lead_crowning = 4 * units::um;
   const std::vector<GearParameter> parameters{{Member::Pinion, ModificationParameter::LeadSlope},
                                               {Member::Wheel, ModificationParameter::LeadCrowning}};
-  const LoadedCycle cycle = analyse_cycle(model, condition, torque, parameters);
+  const LoadedCycle cycle = analyse_cycle(model, condition, torque, {parameters.begin(), parameters.end()});
   const double step = 0.002 * units::um;
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     const auto moved = [&](double by) {

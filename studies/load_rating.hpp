@@ -1,0 +1,33 @@
+#pragma once
+
+#include <vector>
+
+#include "core/load/load_factors.hpp"
+
+namespace flankwright::studies {
+
+/// Located peaks of one load case, and what load distribution factors compare them with.
+struct LoadRating {
+  SpikeRule spikes;
+  ContactPeaks perfect, lead, profile, combined;  ///< of the parts of the condition, see load_factors.hpp
+  LoadFactors factors;
+};
+
+/// Rates load cases of one pair. Peaks of a condition are sought once: the perfect pair's serve every scene at the same torque.
+class LoadRater {
+ public:
+  /// @param mesh_at  the mesh of the condition's axial offset
+  LoadRating rate(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque);
+
+ private:
+  const ContactPeaks& peaks_of(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque);
+
+  struct Known {
+    FlankCondition condition;
+    double torque;
+    ContactPeaks peaks;
+  };
+  std::vector<Known> known_;
+};
+
+}  // namespace flankwright::studies

@@ -1,0 +1,61 @@
+#include "core/contact/misalignment_gap.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "core/base/error.hpp"
+#include "core/contact/gap.hpp"
+#include "tests/core/load/load_cases.hpp"
+#include "tests/core/load/mesh_cases.hpp"
+
+using namespace flankwright;
+
+namespace {
+
+/// Misalignment of every kind as a poor housing has it.
+Misalignment random_misalignment(load_cases::Random& random) {
+  Misalignment m;
+  for (const NamedMisalignmentParameter& p : misalignment_parameters) m.*p.parameter = random.uniform(-1.0, 1.0) * units::arcmin;
+  m.centre_distance = random.uniform(-0.1, 0.1);
+  m.mesh_misalignment = random.uniform(-0.02, 0.02);
+  m.axial_offset = random.uniform(-2.0, 2.0);
+  return m;
+}
+
+}  // namespace
+
+TEST_CASE("Gaps change with misalignment as central differences say", "[core][contact][gap][gradient]") {
+  // Discretisation, step^2 times a third derivative of the order of the radius, and round-off of gaps below 1 mm over the step;
+  // relative to the largest derivative.
+  constexpr double kDifference = 1e-8, step = 1e-5;
+  const double helix = GENERATE(0.0, 12.0, 30.0);
+  const bool left = GENERATE(false, true);
+  load_cases::Random random(71);
+  PairData data = mesh_cases::pair_data(19, 41, helix, 5, 60);
+  data.working_flank = left ? WorkingFlank::Left : WorkingFlank::Right;
+  const GearPair pair = make_gear_pair(data);
+  const MeshModel model = mesh_cases::model(pair, {{}, {0.2, 0.9}});
+  for (int trial = 0; trial < 10; ++trial) {
+    FlankCondition condition;
+    condition.misalignment = random_misalignment(random);
+    for (const MeshPosition& at : model.positions) {
+      for (const NamedMisalignmentParameter& p : misalignment_parameters) {
+        CAPTURE(helix, left, trial, std::string(p.name));
+        const auto gap = [&](double by) {
+          FlankCondition moved = condition;
+          moved.misalignment.*p.parameter += by;
+          return plane_of_action_gap(pair, at.points, moved).total;
+        };
+        const Eigen::VectorXd difference = (gap(step) - gap(-step)) / (2 * step);
+        const Eigen::VectorXd exact = gap_derivative(pair, at.points, condition.misalignment, p.parameter);
+        CHECK((exact - difference).cwiseAbs().maxCoeff() <= kDifference * exact.cwiseAbs().maxCoeff() + kDifference);
+        CHECK(exact.cwiseAbs().maxCoeff() > 0.1);  // mm/rad or mm/mm
+      }
+    }
+  }
+}
+
+TEST_CASE("There is no derivative with respect to an axial offset, which moves the contact points", "[core][contact][gap][input]") {
+  const GearPair pair = mesh_cases::pair(20, 40, 0, 4, 30);
+  const MeshModel model = mesh_cases::model(pair, {{}, {0.5}});
+  CHECK_THROWS_AS(gap_derivative(pair, model.positions[0].points, {}, &Misalignment::axial_offset), InvalidInput);
+}

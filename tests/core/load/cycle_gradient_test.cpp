@@ -1,0 +1,198 @@
+#include "core/load/cycle_gradient.hpp"
+
+#include <catch2/catch.hpp>
+#include <functional>
+
+#include "tests/core/load/load_cases.hpp"
+#include "tests/core/load/mesh_cases.hpp"
+#include "tests/core/load/synthetic_root_stress.hpp"
+
+using namespace flankwright;
+using load_cases::Random;
+
+namespace {
+
+/// A mesh with every kind of modification, error and misalignment, and its torque.
+struct Scene {
+  FlankCondition condition;
+  double torque;
+};
+
+Scene random_scene(const GearPair& gears, Random& random) {
+  Scene scene;
+  for (Modification* m : {&scene.condition.pinion_modification, &scene.condition.wheel_modification}) {
+    m->lead_crowning = random.uniform(1.0, 8.0) * units::um;
+    m->lead_slope = random.uniform(-3.0, 3.0) * units::um;
+    m->addendum_crowning = m->dedendum_crowning = random.uniform(0.5, 4.0) * units::um;
+    m->tip_relief = {random.uniform(2.0, 8.0) * units::um, random.uniform(0.3, 0.6) * gears.data.normal_module, ReliefShape::Parabolic};
+    m->twist = random.uniform(-2.0, 2.0) * units::um;
+  }
+  Misalignment& misalignment = scene.condition.misalignment;
+  misalignment.crossing = random.uniform(-0.2, 0.2) * units::arcmin;
+  misalignment.intersecting = random.uniform(-0.2, 0.2) * units::arcmin;
+  misalignment.centre_distance = random.uniform(-0.02, 0.02);
+  misalignment.pinion_lead_angle = random.uniform(-0.1, 0.1) * units::arcmin;
+  misalignment.pinion_pressure_angle = random.uniform(-0.1, 0.1) * units::arcmin;
+  misalignment.mesh_misalignment = random.uniform(-5.0, 5.0) * units::um;
+  scene.torque = mesh_cases::torque_for(gears, random.log_uniform(150.0, 600.0));
+  return scene;
+}
+
+void shift(Scene& scene, const MeshParameter& parameter, double by) {
+  if (const auto* gear = std::get_if<GearParameter>(&parameter)) {
+    FlankCondition& c = scene.condition;
+    Modification& m = gear->member == Member::Pinion ? c.pinion_modification : c.wheel_modification;
+    set(m, gear->parameter, get(m, gear->parameter) + by);
+  } else if (const auto* misalignment = std::get_if<MisalignmentParameter>(&parameter)) {
+    scene.condition.misalignment.*(*misalignment) += by;
+  } else {
+    scene.torque += by;
+  }
+}
+
+std::vector<MeshParameter> all_kinds() {
+  std::vector<MeshParameter> parameters{GearParameter{Member::Pinion, ModificationParameter::LeadCrowning},
+                                        GearParameter{Member::Pinion, ModificationParameter::TipReliefAmount},
+                                        GearParameter{Member::Wheel, ModificationParameter::ProfileCrowning},
+                                        GearParameter{Member::Wheel, ModificationParameter::Twist}};
+  for (const NamedMisalignmentParameter& p : misalignment_parameters) parameters.push_back(p.parameter);
+  parameters.push_back(PinionTorque{});
+  return parameters;
+}
+
+/// Every output of a cycle in one list, and what derivatives say of it.
+struct Outputs {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd derivatives;
+  std::vector<std::string> names;
+
+  void add(const std::string& name, const Eigen::VectorXd& more, const Eigen::MatrixXd& slopes) {
+    const Eigen::Index n = values.size();
+    values.conservativeResize(n + more.size());
+    values.tail(more.size()) = more;
+    if (slopes.cols() > 0) {
+      derivatives.conservativeResize(n + more.size(), slopes.cols());
+      derivatives.bottomRows(more.size()) = slopes;
+    }
+    names.insert(names.end(), static_cast<std::size_t>(more.size()), name);
+  }
+  void add(const std::string& name, double value, const Eigen::RowVectorXd& slope) {
+    add(name, Eigen::VectorXd(Eigen::VectorXd::Constant(1, value)), Eigen::MatrixXd(slope));
+  }
+};
+
+Outputs outputs(const MeshModel& model, const Scene& scene, const std::vector<MeshParameter>& parameters) {
+  const LoadedCycle cycle = analyse_cycle(model, scene.condition, scene.torque, parameters);
+  REQUIRE(cycle.usable());
+  Outputs all;
+  for (std::size_t k = 0; k < cycle.positions.size(); ++k) {
+    const LoadedPosition& p = cycle.positions[k];
+    all.add("line load", p.load.line_load, p.line_load_derivative);
+    all.add("contact stress", p.contact_stress, p.contact_stress_derivative);
+    all.add("f_t", p.load.transmission_error, p.transmission_error_derivative);
+    all.add("stiffness", p.stiffness, stiffness_derivative(cycle, p));
+    Eigen::MatrixXd root(p.root_stress.size(), p.transmission_error_derivative.size());
+    for (Eigen::Index i = 0; i < root.rows(); ++i) root.row(i) = root_stress_derivative(model.positions[k], p, i);
+    all.add("root stress", p.root_stress, root);
+  }
+  const CycleSummary summary = summarise(model, cycle);
+  const CycleGradient gradient = summary_gradient(model, cycle, summary);
+  all.add("te_peak_to_peak", summary.te_peak_to_peak, gradient.te_peak_to_peak);
+  all.add("te_mean", summary.te_mean, gradient.te_mean);
+  all.add("te_harmonics", Eigen::Map<const Eigen::VectorXd>(summary.te_harmonics.data(), std::ssize(summary.te_harmonics)),
+          gradient.te_harmonics);
+  all.add("peak_line_load", summary.peak_line_load, gradient.peak_line_load);
+  all.add("peak_contact_stress", summary.peak_contact_stress, gradient.peak_contact_stress);
+  all.add("load_factor", summary.load_factor, gradient.load_factor);
+  all.add("mean_stiffness", summary.mean_stiffness, gradient.mean_stiffness);
+  all.add("peak_root_stress", summary.peak_root_stress, gradient.peak_root_stress);
+  return all;
+}
+
+}  // namespace
+
+TEST_CASE("Every output's derivative by modification, misalignment and torque is that of central differences",
+          "[core][load][gradient]") {
+  // Of the difference quotients, extrapolated from two steps, relative to the output's change over what moves it appreciably; points
+  // that gain or lose contact within the step leave a kink, and are told apart by the quotients of the two steps, which differ.
+  constexpr double kDiscretisation = 2e-6;
+  const bool helical = GENERATE(false, true);
+  const GearPair gears = helical ? mesh_cases::pair(18, 54, 30, 10, 120) : mesh_cases::pair(20, 40, 0, 4, 30);
+  const mesh_cases::SyntheticRootStress fillets(gears);
+  const MeshModel model = make_mesh_model(gears, {}, {}, {{QuadratureRule::Gauss2, 4}, equally_spaced_phases(7)}, {}, 0.0, nullptr, &fillets);
+  const std::vector<MeshParameter> parameters = all_kinds();
+  Random random(helical ? 61 : 62);
+  int compared = 0, kinks = 0;
+  double worst = 0.0;
+  std::string worst_output;
+  for (int trial = 0; trial < 3; ++trial) {
+    const Scene scene = random_scene(gears, random);
+    const ConditionGap gaps(model.pair, model.placement.gap, scene.condition);
+    const Outputs here = outputs(model, scene, parameters);
+    for (std::size_t p = 0; p < parameters.size(); ++p) {
+      const auto column = static_cast<Eigen::Index>(p);
+      // A step that moves the gap by about 2 nm, or the torque by 1e-4 of itself.
+      double change = 0.0;
+      for (const MeshPosition& at : model.positions) {
+        const Gap gap = gaps.at(at.points, at.phase);
+        change = std::max(change, parameter_slopes(model, at, gaps, gap, {parameters[p]}).gap.cwiseAbs().maxCoeff());
+      }
+      const double step = change > 0.0 ? 2e-6 / change : 1e-4 * scene.torque;
+      const auto values = [&](double by) {
+        Scene moved = scene;
+        shift(moved, parameters[p], by);
+        return outputs(model, moved, {}).values;
+      };
+      const Eigen::VectorXd once = (values(step) - values(-step)) / (2 * step);
+      const Eigen::VectorXd twice = (values(2 * step) - values(-2 * step)) / (4 * step);
+      const Eigen::VectorXd difference = (4.0 * once - twice) / 3.0;
+      for (Eigen::Index i = 0; i < difference.size(); ++i) {
+        const double exact = here.derivatives(i, column);
+        const double scale = std::max(std::abs(exact), 1e-3 * std::abs(here.values[i]) / step);
+        if (std::abs(once[i] - twice[i]) > 3e-5 * scale) {
+          ++kinks;
+          continue;
+        }
+        ++compared;
+        if (std::abs(exact - difference[i]) / scale > worst) {
+          worst = std::abs(exact - difference[i]) / scale;
+          worst_output = here.names[static_cast<std::size_t>(i)] + " by parameter " + std::to_string(p);
+        }
+      }
+    }
+  }
+  CAPTURE(helical, compared, kinks, worst_output);
+  CHECK(worst <= kDiscretisation);
+  CHECK(compared >= 10000);
+  CHECK(10 * kinks <= compared);
+}
+
+TEST_CASE("Twice the torque on a perfect pair without Hertzian contact doubles loads, and derivatives know", "[core][load][gradient][closed-form]") {
+  constexpr double kRoundOff = 1e-10;
+  // Linear slices that all touch from the start: w = T dw/dT, f_t = T df_t/dT; load factor and stiffness stay.
+  const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
+  const MeshModel model = mesh_cases::model(gears, {{}, equally_spaced_phases(5)}, {.hertzian_contact = false, .extended_contact_region = false});
+  const double torque = mesh_cases::torque_for(gears, 200);
+  const LoadedCycle cycle = analyse_cycle(model, {}, torque, {PinionTorque{}});
+  const CycleSummary summary = summarise(model, cycle);
+  const CycleGradient gradient = summary_gradient(model, cycle, summary);
+  CHECK(gradient.peak_line_load[0] * torque == Approx(summary.peak_line_load).epsilon(kRoundOff));
+  CHECK(gradient.te_mean[0] * torque == Approx(summary.te_mean).epsilon(kRoundOff));
+  CHECK(gradient.te_peak_to_peak[0] * torque == Approx(summary.te_peak_to_peak).epsilon(kRoundOff));
+  CHECK(gradient.peak_contact_stress[0] * torque == Approx(0.5 * summary.peak_contact_stress).epsilon(kRoundOff));
+  CHECK(std::abs(gradient.load_factor[0] * torque) <= kRoundOff * summary.load_factor);
+  CHECK(std::abs(gradient.mean_stiffness[0] * torque) <= kRoundOff * summary.mean_stiffness);
+  CHECK(gradient.peak_root_stress.size() == 0);  // the model has none
+}
+
+TEST_CASE("Without torque the flanks follow the nearest point", "[core][load][gradient]") {
+  const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
+  const MeshModel model = mesh_cases::model(gears, {{}, {0.3}});
+  FlankCondition condition;
+  condition.misalignment.mesh_misalignment = 0.01;
+  const std::vector<MeshParameter> parameters{&Misalignment::mesh_misalignment, PinionTorque{}};
+  const LoadedCycle cycle = analyse_cycle(model, condition, 0.0, parameters);
+  // f_t = min(g), and g is proportional to the misalignment.
+  CHECK(cycle.positions[0].transmission_error_derivative[0] * 0.01 == Approx(cycle.positions[0].load.transmission_error).epsilon(1e-12));
+  CHECK(cycle.positions[0].line_load_derivative.isZero(0.0));
+}

@@ -1,0 +1,106 @@
+#include "core/load/iso_load_factors.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/core/load/mesh_cases.hpp"
+
+using namespace flankwright;
+
+namespace {
+
+const GearPair& haddad() {
+  static const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
+  return gears;
+}
+
+IsoLoadFactors factors_for(const IsoDeviations& deviations, double torque = 1014.868e3) {
+  return iso_load_factors(haddad(), iso_stiffness(haddad(), {}, {}), deviations, torque, 120);
+}
+
+}  // namespace
+
+TEST_CASE("ISO's misalignment is the linear part of the gap along the face", "[core][load][iso]") {
+  constexpr double kRoundOff = 1e-12;
+  const GearPair& gears = haddad();
+  FlankCondition c;
+  CHECK(iso_deviations(gears, c).misalignment == Approx(0).margin(1e-15));
+  c.misalignment.mesh_misalignment = -7 * units::um;
+  CHECK(iso_deviations(gears, c).misalignment == Approx(7 * units::um).epsilon(kRoundOff));
+  // Crowning, reliefs and profiles are not linear along the face.
+  c.pinion_modification.lead_crowning = 20 * units::um;
+  c.wheel_modification.end_relief = {10 * units::um, 20};
+  c.pinion_error.profile_slope = 9 * units::um;
+  CHECK(iso_deviations(gears, c).misalignment == Approx(7 * units::um).epsilon(kRoundOff));
+  // A lead slope that removes where the misalignment closes takes it back, an error that adds there takes it on.
+  c.pinion_modification.lead_slope = -7 * units::um;  // removes at -z, where the mesh is closed
+  c.misalignment.mesh_misalignment = 7 * units::um;   // opens at +z
+  CHECK(iso_deviations(gears, c).misalignment == Approx(0).margin(1e-15));
+  c.wheel_error.helix_slope = -3 * units::um;
+  CHECK(iso_deviations(gears, c).misalignment == Approx(3 * units::um).epsilon(kRoundOff));
+  // Crossing axes: an angle in the plane of action, by cos(alpha_wt), over the face.
+  FlankCondition crossed;
+  crossed.misalignment.crossing = 1 * units::arcmin;
+  // Model: displacements along the axis, tan(beta_b) times as large as the tilt allows, do not change along it.
+  CHECK(iso_deviations(gears, crossed).misalignment ==
+        Approx(units::arcmin * 120 * std::cos(gears.working_transverse_pressure_angle)).epsilon(1e-6));
+}
+
+TEST_CASE("ISO's pitch deviation is the largest single step or profile deviation", "[core][load][iso]") {
+  constexpr double kRoundOff = 1e-12;
+  const GearPair& gears = haddad();
+  FlankCondition c;
+  c.pinion_error.pitch_step = -4 * units::um;
+  CHECK(iso_deviations(gears, c).base_pitch == Approx(4 * units::um).epsilon(kRoundOff));
+  c.wheel_error.cumulative_pitch = {0, 3 * units::um, 9 * units::um, 1 * units::um};  // steps 3, 6, -8, and -1 back to the first
+  CHECK(iso_deviations(gears, c).base_pitch == Approx(8 * units::um).epsilon(kRoundOff));
+  // A profile slope over the active profile of the pinion; both gears' active profiles are those of A to E.
+  c.pinion_error.profile_slope = 12 * units::um;
+  CHECK(iso_deviations(gears, c).base_pitch == Approx(12 * units::um).epsilon(kRoundOff));
+  // Modifications are meant, not deviations.
+  c.pinion_modification.tip_relief = {40 * units::um, 5, ReliefShape::Linear};
+  CHECK(iso_deviations(gears, c).base_pitch == Approx(12 * units::um).epsilon(kRoundOff));
+}
+
+TEST_CASE("ISO's factors are 1 without deviations and join where their branches meet", "[core][load][iso]") {
+  constexpr double kRoundOff = 1e-12;
+  const IsoLoadFactors none = factors_for({0, 0});
+  CHECK(none.lead == 1);
+  CHECK(none.profile == 1);
+  CHECK(none.specific_load == Approx(1014.868e3 / haddad().pinion.reference_radius / 120).epsilon(kRoundOff));
+  // q = 2: the load reaches just over the face width, the load at one end is twice the mean.
+  const double c = iso_stiffness(haddad(), {}, {}).c_gamma / units::um;
+  const double meeting = 2 * none.specific_load / c;
+  CHECK(factors_for({meeting, 0}).lead == Approx(2).epsilon(kRoundOff));
+  CHECK(factors_for({meeting * (1 + 1e-9), 0}).lead == Approx(2).epsilon(1e-8));
+  CHECK(factors_for({meeting / 2, 0}).lead == Approx(1.5).epsilon(kRoundOff));
+  CHECK(factors_for({meeting * 8, 0}).lead == Approx(std::sqrt(32.0)).epsilon(kRoundOff));
+}
+
+TEST_CASE("ISO's K_Halpha ends at the thesis' limit and falls with K_Hbeta", "[core][load][iso]") {
+  // Haddad, section 4.3.2: the limit is 3.26 for this pair.
+  const IsoLoadFactors large = factors_for({0, 200 * units::um});
+  CHECK(large.profile == large.profile_limit);
+  CHECK(large.profile_limit == Approx(3.26).margin(0.005));
+  CHECK(large.running_in == 3 * units::um);
+  // F_tH grows with K_Hbeta, so that the factors are not independent (section 1.2.2).
+  const IsoLoadFactors pitch = factors_for({0, 15 * units::um}), both = factors_for({10 * units::um, 15 * units::um});
+  CHECK(pitch.profile > 1.5);
+  CHECK(both.profile < pitch.profile);
+  CHECK(both.combined() < both.lead * pitch.profile);
+  // Twice the load halves what a deviation adds.
+  const double heavy = factors_for({0, 15 * units::um}, 2 * 1014.868e3).profile;
+  CHECK(heavy - 0.9 == Approx((pitch.profile - 0.9) / 2).epsilon(1e-12));
+}
+
+TEST_CASE("ISO's K_Halpha of a spur pair uses the load sharing of less than two pairs", "[core][load][iso]") {
+  const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
+  REQUIRE(gears.total_contact_ratio() < 2);
+  const IsoStiffness stiffness = iso_stiffness(gears, {}, {});
+  const double torque = mesh_cases::torque_for(gears, 200);
+  const IsoLoadFactors factors = iso_load_factors(gears, stiffness, {0, 10 * units::um}, torque, 30);
+  const double f = 9.25;  // um, run in
+  const double expected = gears.total_contact_ratio() / 2 * (0.9 + 0.4 * stiffness.c_gamma * f / factors.specific_load);
+  CHECK(factors.profile == Approx(expected).epsilon(1e-12));
+  CHECK(factors.profile_limit == Approx(3 / (4 - gears.transverse_contact_ratio)).epsilon(1e-12));  // Z_eps of a spur pair
+}
