@@ -70,7 +70,7 @@ std::vector<SchemaKey> working_condition_rows() {
        .meaning = "of the shaft that the gear, a solid disc, is one with; at most d_f - m_n; compliances \"fitted\" and \"fe\" and task \"fit\"",
        .store = [](Draft& d, Member m, const Value& v) { body(d, m).shaft_diameter = v.number; }},
       {.path = "gear.body.bore_diameter", .quantity = Quantity::Length, .range = any_length,
-       .fallback = "(0.1 of the shaft)", .meaning = "of the shaft; below 0.9 of it; compliances \"fitted\" and \"fe\" and task \"fit\"",
+       .fallback = "(0.05 of the shaft)", .meaning = "of the shaft; below 0.9 of it; compliances \"fitted\" and \"fe\" and task \"fit\"",
        .store = [](Draft& d, Member m, const Value& v) { body(d, m).bore_diameter = v.number; }},
       {.path = "gear.body.shaft_overhang", .quantity = Quantity::Length, .range = any_length,
        .fallback = "(0.5 of the shaft)", .meaning = "length of the shaft beyond each face end; compliances \"fitted\" and \"fe\" and task \"fit\"",
@@ -139,6 +139,9 @@ std::vector<SchemaKey> task_rows() {
       {.path = "scenes[].weight", .range = above_zero(1e9), .fallback = "1",
        .meaning = "its share in mean and mean+2sigma",
        .store = [](Scene& s, Member, const Value& v) { s.weight = v.number; }},
+
+      {.path = "analyse.gradients", .kind = Parameters, .fallback = "(none)",
+       .meaning = "derivatives of every loaded output by these keys, each per its unit: `loaded[].gradients`; task \"analyse\""},
 
       {.path = "optimise.objective", .kind = Objective, .fallback = "\"peak_contact_stress\"",
        .meaning = "minimised; a table of names and weights minimises the sum of weight * value (um, MPa, N/mm)"},

@@ -171,7 +171,7 @@ face_width = 40
 
 [pinion.body]                        # what the teeth stand on; [wheel.body] alike
 # shaft_diameter = 40                # mm; by default 0.8 d, at most 25 m_n/cos(beta)
-# bore_diameter = 8                  # mm; by default 0.1 of the shaft
+# bore_diameter = 2                  # mm; by default 0.05 of the shaft
 # shaft_overhang = 20                # mm beyond each face end; by default half the shaft's diameter
 
 [material]

@@ -6,6 +6,7 @@
 #include "core/base/root.hpp"
 #include "core/contact/condition_gap.hpp"
 #include "core/load/line_region.hpp"
+#include "core/load/placed_points.hpp"
 
 namespace flankwright {
 
@@ -47,7 +48,9 @@ std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, c
     for (const double z : {line.begin, line.end}) {
       const auto point = contact_point(model.pair, region.path, at.phase, tooth, z, model.effects.extended_contact_region);
       if (!point) continue;
-      points.push_back(*point);
+      const std::vector<ContactPoint> placed = placed_points(model.pair, model.placement, {*point}, at.phase);
+      if (placed.empty()) continue;
+      points.push_back(placed.front());
       ends.push_back({tooth, z, structural(z)});
     }
   }

@@ -36,7 +36,8 @@ struct ToothSurfaces {
 
 /// The section swept along z with the helix, and the shaft's overhangs, held at their far ends: that beyond the torque
 /// end in x and y and the edge of its bore in z as well, the other one radially. Haddad holds the central node in z
-/// [1991, 2.5].
+/// [1991, 2.5]. How far such a hold gives depends on the size of what is held, and adds the same to K at all places: it moves
+/// the mean transmission error and nothing else, by 0.13 um of 8 from a bore of 0.1 to one of 0.05 d_s (his 18:54 pair).
 struct GearMesh {
   ToothForm form;
   int teeth{0};

@@ -267,7 +267,7 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
   const double root = form.root_radius();
   const double shaft =
       (std::isnan(body.shaft_diameter) ? default_shaft_diameter(form, normal_module) : body.shaft_diameter) / 2;
-  const double bore = std::isnan(body.bore_diameter) ? 0.1 * shaft : body.bore_diameter / 2;
+  const double bore = std::isnan(body.bore_diameter) ? 0.05 * shaft : body.bore_diameter / 2;
   // Half a module of rim is the least that the blocks of the teeth can stand on.
   if (!(shaft > 0 && shaft <= root - 0.5 * normal_module)) {
     throw InvalidInput("body.shaft_diameter", std::to_string(2 * shaft),

@@ -34,8 +34,8 @@ enum class FaceEnd { Sharp, Blunt };
 /// What the teeth stand on: a solid disc as wide as the face, on a hollow shaft that runs through it.
 struct GearBody {
   double shaft_diameter{not_given};  ///< d_s [mm]; not given: default_shaft_diameter()
-  /// [mm], > 0; not given: 0.1 d_s, a centre hole at whose edge the shaft is held axially, see GearMesh. Half of it adds
-  /// about as much again to what the hold gives, the same for all places.
+  /// [mm], > 0; not given: 0.05 d_s, as near to a solid shaft as elements go. At its edge the shaft is held axially, see
+  /// GearMesh.
   double bore_diameter{not_given};
   double shaft_overhang{not_given};  ///< length of the shaft beyond each face end [mm], > 0; not given: 0.5 d_s
   /// Where torque and axial force leave the gear. What lies between there and a load winds up under it. The default is
