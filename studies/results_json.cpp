@@ -309,7 +309,7 @@ std::string results_json(const StudyResults& results) {
     }
   }
   json["loaded"] = list(results.loaded, [&](const LoadedResult& l) { return loaded_json(l, results); });
-  if (results.structures.finite_elements) json["compliance"] = compliance_json(*results.structures.finite_elements, study);
+  if (results.structures.finite_elements) json["compliance"] = compliance_json(results.structures, study);
   json["modifications"] = modifications_json(results);
   json["effects"] = list(results.effects, [](const Effect& e) -> Json {
     return {{"name", e.name}, {"on", e.on}, {"why", e.why}, {"seconds", e.seconds}};

@@ -128,6 +128,7 @@ struct Study {
   PairData pair;
   Modification pinion_modification, wheel_modification;  ///< with the field of the grid below
   FlankGrid pinion_grid, wheel_grid;
+  std::vector<std::string> pinion_tooth_grids, wheel_tooth_grids;  ///< files of single teeth's errors, empty: none of this tooth
   ManufacturingError pinion_error, wheel_error;
   Misalignment misalignment;
   Material pinion_material, wheel_material;

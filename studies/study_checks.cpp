@@ -137,9 +137,6 @@ void check_parabola(StudyReading& reading, Member m) {
 void check_finite_elements(StudyReading& reading, Member m) {
   const Study& study = reading.draft.study;
   if (!reading.problems.empty() || !solves_finite_elements(study)) return;
-  if (study.fidelity.compliance == ComplianceModel::Fitted && wants_root_stress(study)) {
-    return refuse_key(reading, "fidelity.compliance", "root stress takes a fine mesh: allowed is \"thin_slice\" or \"fe\"");
-  }
   try {
     influence_table_task(study, make_gear_pair(study.pair), m);
   } catch (const InvalidInput& problem) {

@@ -162,6 +162,8 @@ std::string allowed_values(const SchemaKey& key) {
       return "an integer" + range + ", or \"auto\"";
     case ValueKind::Text:
       return "a text";
+    case ValueKind::TextList:
+      return "a list of texts";
     case ValueKind::Word:
       return quoted_list(key.words);
     case ValueKind::WordOrTable:

@@ -30,6 +30,7 @@ enum class ValueKind {
   Integer,
   IntegerOrAuto, ///< an integer, or "auto"
   Text,          ///< any text
+  TextList,      ///< a list of at least one text
   Word,          ///< one of `words`
   WordOrTable,   ///< one of `words`, or a table of the keys below it
   WordList,      ///< "auto", or a list of `words`
@@ -50,7 +51,7 @@ struct Value {
   std::string text{};
   bool is_list{false};
   std::vector<double> numbers{};     ///< internal units; one entry where is_list is false
-  std::vector<std::string> words{};  ///< empty with is_list false: "auto"
+  std::vector<std::string> words{};  ///< of a TextList its texts; empty with is_list false: "auto"
 };
 
 /// How a gear's flank is generated, as its keys say.

@@ -37,8 +37,11 @@ double largest_pitch_step(const ManufacturingError& error) {
 double profile_deviation(const GearPair& pair, const FlankCondition& condition) {
   constexpr int sections = 16;  // the errors' profiles are straight in the radius, curved a little in the roll length
   FlankCondition errors = perfect_part({});
-  errors.pinion_error.profile_slope = condition.pinion_error.profile_slope;
-  errors.wheel_error.profile_slope = condition.wheel_error.profile_slope;
+  const auto profile_only = [](const ManufacturingError& e) {
+    return ManufacturingError{.profile_slope = e.profile_slope, .profile_slopes = e.profile_slopes};
+  };
+  errors.pinion_error = profile_only(condition.pinion_error);
+  errors.wheel_error = profile_only(condition.wheel_error);
   std::vector<std::pair<double, double>> places;
   for (int i = 0; i <= sections; ++i) {
     places.emplace_back(pair.path_start + (pair.path_end - pair.path_start) * i / sections, 0.0);

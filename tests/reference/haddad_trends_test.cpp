@@ -23,7 +23,7 @@ struct Mesh {
   double torque() const { return 100 * pair.face_width * pair.pinion.base_radius * std::cos(pair.base_helix_angle); }
   ContactPeaks peaks(const FlankCondition& condition) const {
     const MeshAt mesh_at = [this](const std::vector<double>& phases) {
-      return make_mesh_model(pair, mesh_cases::steel, mesh_cases::steel, {quadrature, phases}, effects, 0, structure.get());
+      return make_mesh_model(pair, mesh_cases::steel, mesh_cases::steel, {quadrature, phases}, effects, {}, structure.get());
     };
     return locate_peaks(mesh_at, condition, torque());
   }
@@ -83,7 +83,7 @@ TEST_CASE("The load along a spur tooth turns two modules from its ends, by Poiss
   const double phase = (pair.pitch_point - pair.path_start) / pair.transverse_base_pitch + PathOfContact::extension;
   const auto along_face = [&](double poissons_ratio) {  // of the pair that carries all, by distance from the end [m_n]
     const auto structure = plates(pair, poissons_ratio);
-    const MeshModel model = make_mesh_model(pair, mesh_cases::steel, mesh_cases::steel, {{QuadratureRule::Graded, 16}, {phase}}, {}, 0,
+    const MeshModel model = make_mesh_model(pair, mesh_cases::steel, mesh_cases::steel, {{QuadratureRule::Graded, 16}, {phase}}, {}, {},
                                             structure.get());
     const LoadedCycle cycle = analyse_cycle(model, {}, Mesh{pair}.torque());
     std::map<double, double> loads;
