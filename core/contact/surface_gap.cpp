@@ -12,7 +12,8 @@ SurfaceGap::SurfaceGap(const GearPair& pair, const FlankCondition& condition)
                              condition.pinion_error, condition.wheel_error)),
       density_(search_density(scene_)) {
   for (Member m : {Member::Pinion, Member::Wheel}) {
-    parabola_[static_cast<std::size_t>(m)] = make_conjugate_field(pair, m, condition.modification(m).parabolic_te);
+    const double coefficient = condition.modification(m).parabolic_te;
+    if (coefficient != 0.0) parabola_[static_cast<std::size_t>(m)] = make_conjugate_field(pair, m, coefficient);
   }
 }
 
@@ -79,11 +80,13 @@ Gap SurfaceGap::at(const std::vector<ContactPoint>& points, double line_phase) c
 
 Eigen::VectorXd SurfaceGap::derivative(const Gap& gap, Member member, ModificationParameter parameter) const {
   const Flank& flank = member == Member::Pinion ? scene_.pinion : scene_.wheel;
-  const PredesignedField& parabola = *parabola_[static_cast<std::size_t>(member)];
+  const bool of_parabola = parameter == ModificationParameter::ParabolicTe;  // a field of the roll length, see Flank
+  const auto& parabola = parabola_[static_cast<std::size_t>(member)];
   const auto by_parameter = [&](double radius, double z) {
-    return parameter == ModificationParameter::ParabolicTe
-               ? parabola.coefficient_slope(flank.roll_at(radius), z)
-               : removal_derivative(condition_.modification(member), flank.frame, parameter, radius, z);
+    const double roll = flank.roll_at(radius);
+    if (of_parabola && parabola) return parabola->coefficient_slope(roll, z);
+    return removal_derivative(condition_.modification(member), flank.frame, parameter,
+                              of_parabola ? std::hypot(flank.frame.base_radius, roll) : radius, z);
   };
   Eigen::VectorXd derivative = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gap.nearest.size()));
   for (std::size_t i = 0; i < gap.nearest.size(); ++i) {
