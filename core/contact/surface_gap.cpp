@@ -123,6 +123,7 @@ double SurfaceGap::angle_derivative(const FlankMeeting& meeting, const NearestPl
     // point = r_b e + along t, turned = r_b t - along e; D depends on r_b through the radius only.
     Dual<1> removed = pinion.deviation(Dual<1>::variable(rho, 0), Dual<1>(m.z), section.tooth);
     for (const auto& field : pinion.fields) removed.gradient[0] -= field->at(rho, m.z).u;
+    if (const DeviationField* measured = tooth_topography(pinion.error, section.tooth)) removed.gradient[0] -= measured->at(rho, m.z).u;
     const double square = point.head<2>().squaredNorm(), along = std::sqrt(std::max(0.0, square - rb * rb));
     const Eigen::Vector3d radial(point.x(), point.y(), 0.0);
     const Eigen::Vector3d e = (rb * radial - along * turned) / square, t = (along * radial + rb * turned) / square;

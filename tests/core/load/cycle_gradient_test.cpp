@@ -115,7 +115,7 @@ TEST_CASE("Every output's derivative by modification, misalignment and torque is
           "[core][load][gradient]") {
   // Of the difference quotients, extrapolated from two steps, relative to the output's change over what moves it appreciably; points
   // that gain or lose contact within the step leave a kink, and are told apart by the quotients of the two steps, which differ.
-  constexpr double kDiscretisation = 2e-6;
+  constexpr double kDiscretisation = 2e-7;
   const bool helical = GENERATE(false, true);
   const GearPair gears = helical ? mesh_cases::pair(18, 54, 30, 10, 120) : mesh_cases::pair(20, 40, 0, 4, 30);
   const mesh_cases::SyntheticRootStress fillets(gears);
