@@ -43,7 +43,8 @@ struct FiniteElementRuns {
 /// or expectation names it, and the study's own list of effects, if it has one, does not leave it out.
 bool wants_root_stress(const Study& study);
 
-/// Whether the study solves finite elements of its gears at all: for its compliance, root stress or task.
+/// Whether the study solves finite elements of its gears at all: for its task, or, where there is a torque, its compliance
+/// or root stress.
 bool solves_finite_elements(const Study& study);
 
 /// What is to be solved for one gear, by a coarse mesh where the compliance is "fitted": its own face width, body and tip, teeth apart as the pair needs them (two at

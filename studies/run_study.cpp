@@ -59,7 +59,7 @@ class Run {
       note("compliance is rigid: torques are ignored, contact is analysed without load");
     }
     const bool has_body = std::ranges::any_of(study.given, [](const GivenValue& g) { return g.key.find(".body.") != std::string::npos; });
-    if (has_body && !solves_finite_elements(study)) {
+    if (has_body && any_torque() && !solves_finite_elements(study)) {
       note(std::string("a gear's body is given, but the compliance \"") + to_string(study.fidelity.compliance) + "\" does not know of it");
     }
     geometry_notes();

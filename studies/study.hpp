@@ -51,7 +51,7 @@ struct Cycle {
 };
 
 struct Fidelity {
-  ComplianceModel compliance{ComplianceModel::ThinSlice};
+  ComplianceModel compliance{ComplianceModel::Fitted};
   GapModel gap{GapModel::PlaneOfAction};
   Quadrature quadrature;
   bool automatic_effects{true};

@@ -93,7 +93,7 @@ torque = [0, 150, 300]               # N·m on the pinion; each is run, 0 is the
 positions = 32                       # mesh positions over one base pitch
 
 [fidelity]
-compliance = "thin_slice"            # "fitted", "fe": finite elements of both gears; "rigid": the unloaded contact only
+compliance = "fitted"                # finite elements of both gears, solved once; "fe": finer ones; "thin_slice": none, at once
 quadrature = { rule = "gauss2", intervals = 10 }                     # along a full contact line
 # gap = "whole_surface"              # contact sought over the whole flanks, not only where undisturbed ones would touch
 # effects = ["bending", "hertzian_contact"]                          # "auto" decides from the study
@@ -116,7 +116,7 @@ torque = 300                         # N·m on the pinion
 positions = 16                       # mesh positions over one base pitch
 
 [fidelity]
-compliance = "thin_slice"
+compliance = "fitted"                # finite elements of both gears, solved once; "thin_slice": none, at once
 quadrature = { rule = "gauss2", intervals = 10 }                     # along a full contact line
 
 # Each scene overrides what it names of [misalignment], [load], [pinion.error] and [wheel.error].

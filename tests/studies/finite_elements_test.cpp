@@ -208,8 +208,8 @@ TEST_CASE("A study by fitted compliance: a coarse mesh of its gears and the libr
   CHECK(json::parse(results_json(fe))["compliance"]["pinion"]["unknowns"] > 1.5 * compliance["pinion"]["unknowns"].get<double>());
   CHECK(cache.files().size() == 2);  // coarse and fine runs are not taken for each other
   CHECK(ours.loaded[0].summary.te_mean == Approx(fe.loaded[0].summary.te_mean).epsilon(0.005));  // model, as asked of the fits
-  // Discretisation: the coarse mesh has half as many elements along the fillet.
-  CHECK(ours.loaded[0].summary.peak_root_stress == Approx(fe.loaded[0].summary.peak_root_stress).epsilon(0.12));
+  // Discretisation: fewer elements across the tooth and along the face.
+  CHECK(ours.loaded[0].summary.peak_root_stress == Approx(fe.loaded[0].summary.peak_root_stress).epsilon(0.06));
 }
 
 TEST_CASE("A gear that the library of fits does not know has a fit of its own, to the run that fe takes", "[studies][fitted]") {

@@ -18,6 +18,8 @@ face_width = 120
 youngs_modulus = 209000
 [cycle]
 positions = 6
+[fidelity]
+compliance = "thin_slice"
 )";
 
 }  // namespace

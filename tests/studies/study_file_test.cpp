@@ -65,7 +65,7 @@ TEST_CASE("A study without a key has the defaults of the data types", "[studies]
   CHECK(study.torques == std::vector<double>{0.0});
   CHECK(study.cycle.positions == Cycle{}.positions);
   CHECK(study.cycle.phases.empty());
-  CHECK(study.fidelity.compliance == ComplianceModel::ThinSlice);
+  CHECK(study.fidelity.compliance == ComplianceModel::Fitted);
   CHECK(study.fidelity.automatic_effects);
   CHECK(study.fidelity.quadrature.intervals == Quadrature{}.intervals);
   REQUIRE(study.scenes.size() == 1);

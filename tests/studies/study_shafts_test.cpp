@@ -29,6 +29,8 @@ face_width = 40
 torque = 300
 [cycle]
 positions = 4
+[fidelity]
+compliance = "thin_slice"
 )";
 
 const std::string shaft_text = R"([pinion.shaft]

@@ -9,14 +9,12 @@ namespace flankwright {
 GearMeshOptions coarse_mesh() {
   GearMeshOptions options;
   options.flank_elements = 3;
-  options.fillet_elements = 3;
   options.half_thickness_elements = 2;
   options.adjacent_flank_elements = 2;
   options.adjacent_fillet_elements = 2;
   options.end_element = 0.4;
   options.axial_growth = 1.6;
   options.largest_element = 1.2;
-  options.body_growth = 2.5;
   return options;
 }
 

@@ -8,8 +8,10 @@
 
 namespace flankwright {
 
-/// The mesh that `fitted` solves of every gear, in a second or two: enough for the gear body, the neighbouring teeth
-/// and whatever is a module or more away from the load. How it compares is in the folder's README.
+/// The mesh that `fitted` solves of every gear: enough for the gear body, the neighbouring teeth and whatever is a module
+/// or more away from the load. The body has the elements of the default mesh, so that both are equally stiff there: what
+/// they differ by would otherwise be shared out to the kernels of the tooth. So has the fillet, for root stress. How it
+/// compares is in the folder's README.
 GearMeshOptions coarse_mesh();
 
 /// The gear that a library's entry is made from: standard rack, 20 deg, m_n = 1, the body of GearBody's defaults.
@@ -25,7 +27,7 @@ std::vector<FlankPlace> places_on(const std::vector<double>& us, const std::vect
 /// What a refinement is made from: a gear's influence values by the fine mesh, with those by the coarse one as the
 /// share that is `given`.
 struct RefinementSamples {
-  InfluenceSample fitted;  ///< 6 radii x about 7 + 1.1 B axial positions, symmetric about mid face
+  InfluenceSample fitted;  ///< 6 radii x about 9 + 0.9 B axial positions, symmetric about mid face
   InfluenceSample unseen;  ///< 5 radii x the positions midway between those, for the residuals alone
 };
 
