@@ -218,8 +218,7 @@ class Run {
     LoadedResult result{scene.name, scene.torque, design, std::move(cycle), {}, index, condition,
                         iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, condition), scene.torque, model.face_width)};
     result.summary = summarise(model, result.cycle);
-    const Cycle& asked = results_.study.cycle;
-    if (asked.locate_peaks && asked.phases.empty() && result.cycle.usable()) {
+    if (locates_peaks(results_.study) && result.cycle.usable()) {
       result.rating = rater_.rate([this](const Misalignment& m) { return mesh_at(m); }, condition, scene.torque);
     }
     results_.loaded.push_back(std::move(result));

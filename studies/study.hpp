@@ -46,7 +46,7 @@ inline bool couples_teeth(ComplianceModel model) {
 struct Cycle {
   int positions{32};           ///< mesh positions over one base pitch, >= 1
   bool automatic_positions{false};  ///< as many as the harmonics of the loaded transmission error need; `positions` without load
-  bool locate_peaks{true};     ///< peaks between the positions, and load distribution factors; not with explicit phases
+  std::optional<bool> locate_peaks;  ///< as the study says; see locates_peaks()
   std::vector<double> phases;  ///< explicit phases of the reference tooth pair [base pitches]; empty: use `positions`
 };
 
@@ -145,5 +145,11 @@ struct Study {
   std::vector<Expectation> expect;
   std::vector<GivenValue> given;
 };
+
+/// Whether peaks between the positions, and the load distribution factors that follow, belong to the results: unless the study says
+/// otherwise in an analysis, not beside an optimisation's many scenes; never where explicit phases are asked for.
+inline bool locates_peaks(const Study& study) {
+  return study.cycle.phases.empty() && study.cycle.locate_peaks.value_or(study.task == Task::Analyse);
+}
 
 }  // namespace flankwright::studies
