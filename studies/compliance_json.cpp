@@ -4,6 +4,7 @@
 
 #include "core/base/units.hpp"
 #include "core/compliance/fitted/refinement_library.hpp"
+#include "studies/fit_task.hpp"
 
 namespace flankwright::studies {
 
@@ -32,6 +33,33 @@ Json gear_run_json(const GearRun& run, const Material& material) {
           {"body", body_json(run.body)}};
 }
 
+Json residuals_json(const ResidualStatistics& residuals) {
+  return {{"teeth_apart", residuals.teeth_apart},
+          {"pairs", residuals.pairs},
+          {"median", 100 * residuals.median},
+          {"share_95", 100 * residuals.share_95},
+          {"worst", 100 * residuals.worst}};
+}
+
+/// Where the kernels of one gear come from, and how close its own fit comes.
+Json refinement_json(const GearRefinement& refinement) {
+  Json json{{"source", refinement.source()}};
+  if (refinement.unknown.empty()) return json;
+  json["why"] = refinement.unknown;
+  json["file"] = refinement.file;
+  json["from_cache"] = refinement.from_cache;
+  json["seconds"] = refinement.seconds;
+  json["status"] = to_string(refinement.fit.status);
+  json["steps"] = refinement.fit.iterations;
+  json["fit_seconds"] = refinement.fit.seconds;
+  json["range"] = {{"u", {-1, 1}}, {"zeta", {0, refinement.fit.gear.relative_face}}};
+  json["residual_percent"] = {{"fitted", residuals_json(refinement.fit.fitted)}, {"unseen", Json::array()}};
+  for (const ResidualStatistics& residuals : refinement.residuals) {
+    json["residual_percent"]["unseen"].push_back(residuals_json(residuals));
+  }
+  return json;
+}
+
 /// The library that completes the coarse values, and how close its own gears come, the least close of each figure.
 Json fits_json(const RefinementLibrary& library) {
   ResidualStatistics worst{0, 0, 0, 0, 0};
@@ -47,8 +75,7 @@ Json fits_json(const RefinementLibrary& library) {
           {"helix_angle_deg", {library.helix_angles().front() / units::deg, library.helix_angles().back() / units::deg}},
           {"profile_shift", ends(library.profile_shifts())},
           {"interpolation", "polynomials through all gears in 1/z, helix angle and profile shift"},
-          {"largest_residual_percent",
-           {{"pairs", worst.pairs}, {"median", 100 * worst.median}, {"share_95", 100 * worst.share_95}, {"worst", 100 * worst.worst}}}};
+          {"largest_residual_percent", residuals_json(worst)}};
 }
 
 }  // namespace
@@ -63,12 +90,19 @@ const char* name_of(RemovedMotion removed) {
   __builtin_unreachable();
 }
 
-Json compliance_json(const FiniteElementRuns& runs, const Study& study) {
+Json compliance_json(const GearStructures& structures, const Study& study) {
+  const FiniteElementRuns& runs = *structures.finite_elements;
+  const auto gear = [&](Member member, const Material& material) {
+    Json json = gear_run_json(runs[member], material);
+    if (const auto& fine = runs.fine_run(member)) json["fine_mesh"] = gear_run_json(*fine, material);
+    if (const auto& refinement = structures.refinement(member)) json["fit"] = refinement_json(*refinement);
+    return json;
+  };
   Json json{{"model", to_string(study.fidelity.compliance)},
             {"seconds", runs.seconds},
-            {"pinion", gear_run_json(runs[Member::Pinion], study.pinion_material)},
-            {"wheel", gear_run_json(runs[Member::Wheel], study.wheel_material)}};
-  if (study.fidelity.compliance == ComplianceModel::Fitted) json["fits"] = fits_json(RefinementLibrary::shipped());
+            {"pinion", gear(Member::Pinion, study.pinion_material)},
+            {"wheel", gear(Member::Wheel, study.wheel_material)}};
+  if (structures.refinement(Member::Pinion)) json["fits"] = fits_json(RefinementLibrary::shipped());
   return json;
 }
 

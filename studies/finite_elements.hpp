@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,24 +25,35 @@ struct GearRun {
 };
 
 struct FiniteElementRuns {
-  std::array<GearRun, 2> gears;  ///< pinion, wheel
+  std::array<GearRun, 2> gears;  ///< pinion, wheel; by coarse_mesh() where the compliance is "fitted"
+  /// By the default mesh, for a fit of its own, beside that of `gears`: those that the library of fits does not know.
+  std::array<std::optional<GearRun>, 2> fine;
   std::vector<std::string> notes;
   double seconds{not_given};     ///< wall time in this study
 
   const GearRun& operator[](Member m) const { return gears[m == Member::Pinion ? 0 : 1]; }
+  const std::optional<GearRun>& fine_run(Member m) const { return fine[m == Member::Pinion ? 0 : 1]; }
+  /// Of the finest run; null where the study does not want it.
+  const std::shared_ptr<const RootStressTable>& root_stress(Member m) const {
+    return fine_run(m) ? fine_run(m)->root_stress : (*this)[m].root_stress;
+  }
 };
 
-/// Whether the study's finite elements shall tell root stress: where its compliance is "fe" or an objective, constraint
+/// Whether the study's finite elements shall tell root stress: where its compliance is "fitted" or "fe", or an objective, constraint
 /// or expectation names it, and the study's own list of effects, if it has one, does not leave it out.
 bool wants_root_stress(const Study& study);
 
 /// Whether the study solves finite elements of its gears at all: for its compliance, root stress or task.
 bool solves_finite_elements(const Study& study);
 
-/// What is to be solved for one gear: its own face width, body and tip, teeth apart as the pair needs them (two at
+/// What is to be solved for one gear, by a coarse mesh where the compliance is "fitted": its own face width, body and tip, teeth apart as the pair needs them (two at
 /// least, so that the loaded tooth's neighbours stand on what they stand on), the grid of flank_grid().
 /// @throws InvalidInput  under the study's keys, where body and teeth cannot be meshed
 InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair, Member member);
+
+/// What of a gear the library of fits does not know, RefinementLibrary::unknown(), where the study's compliance would use
+/// it: the gear then needs a fit of its own. Empty otherwise.
+std::string unknown_to_library(const Study& study, const InfluenceTableTask& task);
 
 /// Solves both gears or takes them from the cache. Gears that are alike but for their size are solved once; two that
 /// are not are solved side by side where memory suffices for both, one after the other where it does not.

@@ -1,8 +1,5 @@
 #include "studies/gear_structures.hpp"
 
-#include "core/compliance/fitted/refined_compliance.hpp"
-#include "core/compliance/fitted/refinement_library.hpp"
-
 namespace flankwright::studies {
 
 const char* to_string(ComplianceModel model) {
@@ -22,36 +19,28 @@ ComplianceModel compliance_model(std::string_view name) {
   return ComplianceModel::Fe;
 }
 
-namespace {
-
-/// A coarse table, completed from the library of fits.
-std::shared_ptr<const FlankCompliance> refined_by_fits(const InfluenceTableTask& task,
-                                                       std::shared_ptr<const InfluenceTable> coarse) {
-  const GearFacts facts = facts_of(task.gear);
-  return std::make_shared<const RefinedCompliance>(std::move(coarse), facts,
-                                                   RefinementLibrary::shipped().coefficients(facts));
-}
-
-}  // namespace
-
 GearStructures gear_structures(const Study& study, const GearPair& pair, const ProgressReport& progress) {
   GearStructures structures;
   const bool is_structural = couples_teeth(study.fidelity.compliance);
   if (!is_structural && !wants_root_stress(study)) return structures;
   structures.finite_elements = solve_finite_elements(study, pair, progress);
-  const GearRun& pinion = (*structures.finite_elements)[Member::Pinion];
-  const GearRun& wheel = (*structures.finite_elements)[Member::Wheel];
+  FiniteElementRuns& runs = *structures.finite_elements;
   if (is_structural) {
-    const auto compliance = [&](Member member, const GearRun& run) -> std::shared_ptr<const FlankCompliance> {
-      if (study.fidelity.compliance == ComplianceModel::Fe) return run.table;
-      return refined_by_fits(influence_table_task(study, pair, member), run.table);
+    const auto structure = [&](Member member, const Material& material) {
+      GearStructure result{runs[member].table, material.youngs_modulus};
+      if (study.fidelity.compliance == ComplianceModel::Fitted) {
+        auto& refinement = structures.refinements[member == Member::Pinion ? 0 : 1];
+        refinement = gear_refinement(study, influence_table_task(study, pair, member), runs, member, runs.notes, progress);
+        result.compliance = refinement->compliance;
+      }
+      return result;
     };
-    structures.pair = std::make_shared<const StructuralPair>(
-        pair, GearStructure{compliance(Member::Pinion, pinion), study.pinion_material.youngs_modulus},
-        GearStructure{compliance(Member::Wheel, wheel), study.wheel_material.youngs_modulus});
+    const GearStructure pinion = structure(Member::Pinion, study.pinion_material);
+    const GearStructure wheel = structure(Member::Wheel, study.wheel_material);
+    structures.pair = std::make_shared<const StructuralPair>(pair, pinion, wheel);
   }
-  if (pinion.root_stress) {
-    structures.root_stress = std::make_shared<const TabulatedRootStress>(pair, pinion.root_stress, wheel.root_stress);
+  if (const auto& pinion = runs.root_stress(Member::Pinion)) {
+    structures.root_stress = std::make_shared<const TabulatedRootStress>(pair, pinion, runs.root_stress(Member::Wheel));
   }
   return structures;
 }

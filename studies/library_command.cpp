@@ -10,11 +10,13 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <ranges>
 #include <stdexcept>
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "core/compliance/finite_element/solve_influence_table.hpp"
 #include "core/compliance/fitted/refinement_fit.hpp"
 #include "studies/progress.hpp"
 #include "studies/results_folder.hpp"
@@ -33,7 +35,7 @@ struct Step {
 /// with less helix.
 std::vector<Step> steps() {
   constexpr std::array<int, 3> kTeeth{30, 12, 150}, kTeethFrom{-1, 0, 0};
-  constexpr std::array<double, 2> kShifts{0.6, -0.4};
+  constexpr std::array<double, 3> kShifts{0.1, 0.6, -0.4};
   constexpr std::array<double, 2> kAngles{0, 35};
   constexpr double kFace = 8;
   constexpr int kTeethCount = std::ssize(kTeeth), kRow = kTeethCount * std::ssize(kShifts);
@@ -82,6 +84,15 @@ std::vector<RefinementEntry> entries_so_far(const std::filesystem::path& path, c
   return entries;
 }
 
+/// What a finer mesh adds to a tooth does not reach its neighbours: one on either side will do.
+InfluenceTable table_by(const GearMeshOptions& mesh, const GearFacts& gear) {
+  const InfluenceTableTask task{
+      .gear = standard_gear(gear), .teeth_apart = 1, .mesh = mesh, .grid = flank_grid(gear.relative_face)};
+  InfluenceTableRun run = solve_influence_table(task, std::numeric_limits<double>::infinity());
+  if (!run.table) throw std::runtime_error("finite elements of the library could not be solved");
+  return std::move(*run.table);
+}
+
 RefinementEntry fit(const RefinementSamples& samples, const Step& step, const std::vector<RefinementEntry>& entries) {
   return fit_refinement(samples, step.start < 0 ? std::vector<double>{}
                                                 : entries[static_cast<std::size_t>(step.start)].coefficients);
@@ -104,7 +115,8 @@ int library_command(const std::string& path) {
     std::vector<double> seconds(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
       const auto start = std::chrono::steady_clock::now();
-      samples[i] = refinement_samples(list[begin + i].gear, {});
+      const GearFacts& gear = list[begin + i].gear;
+      samples[i] = refinement_samples(gear, table_by({}, gear), table_by(coarse_mesh(), gear));
       seconds[i] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     });
     for (std::size_t i = 0; i < count; ++i) {

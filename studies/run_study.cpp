@@ -178,14 +178,27 @@ class Run {
       results_.deflections = gear_deflections(results_.study, results_.pair, results_.structures);
       has_structure_ = true;
       if (const auto& runs = results_.structures.finite_elements) {
-        const bool is_fe = results_.study.fidelity.compliance == ComplianceModel::Fe;
+        const bool is_structural = couples_teeth(results_.study.fidelity.compliance);
         results_.effects.push_back({"finite_elements", true,
-                                    is_fe ? "compliance is fe: influence values of both gears" : "root stress of both gears",
+                                    is_structural ? std::string("compliance is ") + to_string(results_.study.fidelity.compliance) +
+                                                        ": influence values of both gears"
+                                                  : "root stress of both gears",
                                     runs->seconds});
+        fit_effects();
         results_.notes.insert(results_.notes.end(), runs->notes.begin(), runs->notes.end());
       }
     }
     return results_.structures;
+  }
+
+  /// Says of both gears where the kernels of compliance "fitted" come from.
+  void fit_effects() {
+    for (const Member member : {Member::Pinion, Member::Wheel}) {
+      const auto& refinement = results_.structures.refinement(member);
+      if (!refinement) continue;
+      const std::string why = refinement->unknown.empty() ? "" : ": " + refinement->unknown;
+      results_.effects.push_back({std::string("fit_of_") + name_of(member), true, refinement->source() + why, refinement->seconds});
+    }
   }
 
   void add_unloaded(const Scene& scene) {
@@ -207,7 +220,7 @@ class Run {
     result.summary = summarise(model, result.cycle);
     const Cycle& asked = results_.study.cycle;
     if (asked.locate_peaks && asked.phases.empty() && result.cycle.usable()) {
-      result.rating = rater_.rate(mesh_at(condition.misalignment), condition, scene.torque);
+      result.rating = rater_.rate([this](const Misalignment& m) { return mesh_at(m); }, condition, scene.torque);
     }
     results_.loaded.push_back(std::move(result));
   }
@@ -217,6 +230,8 @@ class Run {
     int total = 0, done = 0;
     for (const Scene& scene : study.scenes) total += static_cast<int>(scene.torques.size());
     double unloaded_seconds = 0.0, loaded_seconds = 0.0;
+    std::vector<MeshParameter> parameters;
+    for (const GradientParameter& p : study.gradients) parameters.push_back(p.parameter);
     if (study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) {
       structures();  // its time is its own
       const Stopwatch clock;
@@ -234,7 +249,7 @@ class Run {
         } else {
           const DesignScene loaded{scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(study, scene))};
           const std::size_t model = model_for(loaded.condition.misalignment);
-          add_loaded(loaded, "given", analyse_cycle(results_.models[model], loaded.condition, torque));
+          add_loaded(loaded, "given", analyse_cycle(results_.models[model], loaded.condition, torque, parameters));
           loaded_seconds += clock.seconds();
         }
         report("analysing", ++done, total, scene.name);

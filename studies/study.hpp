@@ -12,6 +12,7 @@
 #include "core/contact/misalignment.hpp"
 #include "core/gear/gear_data.hpp"
 #include "core/gear/microgeometry.hpp"
+#include "core/load/mesh_parameter.hpp"
 #include "optimize/design_task.hpp"
 
 /// A study as pure data: what a study file says, validated, in internal units (mm, N, rad, MPa); study_file.hpp reads.
@@ -87,6 +88,14 @@ struct OptimiseTable {
   unsigned long seed{1};
 };
 
+/// One parameter of analyse.gradients.
+struct GradientParameter {
+  std::string path;         ///< as the study names it: "misalignment.crossing"
+  MeshParameter parameter;
+  std::string unit;         ///< of a bare number of that key
+  double unit_size{1.0};    ///< one such unit in internal ones
+};
+
 /// [fit]: which gears' compliance is fitted, and how.
 struct FitChoice {
   bool pinion{true}, wheel{true};
@@ -130,6 +139,7 @@ struct Study {
   Cycle cycle;
   Fidelity fidelity;
   std::vector<Scene> scenes;    ///< never empty: without [[scenes]] the one nominal scene of the base tables
+  std::vector<GradientParameter> gradients;  ///< derivatives asked for; meaningful where task is Analyse
   OptimiseTable optimise;       ///< meaningful where task is Optimise
   FitChoice fit;                ///< meaningful where task is Fit
   std::vector<Expectation> expect;

@@ -140,6 +140,9 @@ std::vector<SchemaKey> task_rows() {
        .meaning = "its share in mean and mean+2sigma",
        .store = [](Scene& s, Member, const Value& v) { s.weight = v.number; }},
 
+      {.path = "analyse.gradients", .kind = Parameters, .fallback = "(none)",
+       .meaning = "derivatives of every loaded output by these keys, each per its unit: `loaded[].gradients`; task \"analyse\""},
+
       {.path = "optimise.objective", .kind = Objective, .fallback = "\"peak_contact_stress\"",
        .meaning = "minimised; a table of names and weights minimises the sum of weight * value (um, MPa, N/mm)"},
       {.path = "optimise.over", .kind = Word, .words = {"nominal", "worst", "mean", "mean+2sigma"},

@@ -189,6 +189,7 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
     case ValueKind::Scenes:
     case ValueKind::Objective:
     case ValueKind::Variables:
+    case ValueKind::Parameters:
     case ValueKind::Constraints:
     case ValueKind::Expectations:
       return {};  // read by study_tables

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "studies/compliance_json.hpp"
+#include "studies/fit_task.hpp"
 #include "studies/shafts_json.hpp"
 
 namespace flankwright::studies {
@@ -103,6 +104,11 @@ Json used_json(const StudyResults& results) {
               {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
   if (study.misalignment.pinion_lead_angle != 0.0) {
     used["misalignment"] = {{"pinion_lead_angle", "lead angle changed, normal pressure angle kept: pitch radius, base radius and screw parameter follow"}};
+  }
+  for (const Member member : {Member::Pinion, Member::Wheel}) {
+    if (const auto& refinement = results.structures.refinement(member)) {
+      used["fidelity"]["fits"][name_of(member)] = refinement->source();
+    }
   }
   if (!results.models.empty() && results.structures.pair == nullptr) {
     used["thin_slice"] = {{"calibration", results.models.front().calibration}};

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "core/compliance/fitted/refinement_library.hpp"
@@ -207,20 +208,71 @@ TEST_CASE("A study by fitted compliance: a coarse mesh of its gears and the libr
   CHECK(json::parse(results_json(fe))["compliance"]["pinion"]["unknowns"] > 1.5 * compliance["pinion"]["unknowns"].get<double>());
   CHECK(cache.files().size() == 2);  // coarse and fine runs are not taken for each other
   CHECK(ours.loaded[0].summary.te_mean == Approx(fe.loaded[0].summary.te_mean).epsilon(0.005));  // model, as asked of the fits
+  // Discretisation: the coarse mesh has half as many elements along the fillet.
+  CHECK(ours.loaded[0].summary.peak_root_stress == Approx(fe.loaded[0].summary.peak_root_stress).epsilon(0.12));
 }
 
-TEST_CASE("A gear that the library of fits does not know is refused when the study is read, and fe offered", "[studies][fitted]") {
-  const auto refused = [](const std::string& key, const std::string& value) {
-    return refusal({{"pinion.face_width", "8"}, {"wheel.face_width", "8"}, {"fidelity.compliance", "fitted"}, {key, value}});
-  };
-  CHECK(refused("pinion.profile_shift", "0.2").empty());
-  for (const auto& [key, value] : {std::pair{"wheel.face_width", "7"}, std::pair{"pinion.rack.dedendum", "1.4"},
-                                   std::pair{"pinion.teeth", "11"}, std::pair{"pinion.profile_shift", "0.65"}}) {
-    CAPTURE(key, refused(key, value));
-    CHECK_THAT(refused(key, value), Catch::Contains(key));
-    CHECK_THAT(refused(key, value), Catch::Contains("fe"));
+TEST_CASE("A gear that the library of fits does not know has a fit of its own, to the run that fe takes", "[studies][fitted]") {
+  const ScratchCache cache;
+  const std::vector<Override> by_fit{{"fidelity.compliance", "fitted"}, {"pair.pressure_angle", "22"}};
+  const StudyResults ours = run(twins, by_fit);
+  const json results = json::parse(results_json(ours));
+  CHECK(results["compliance"].count("fits") == 1);
+  CHECK(results["used"]["fidelity"]["fits"]["wheel"] == "own fit");
+  const json& fit = results["compliance"]["pinion"]["fit"];
+  CHECK(fit["source"] == "own fit");
+  CHECK(fit["why"] == "pressure_angle 22 deg, in the library 20 deg");
+  CHECK(fit["status"] == "converged");
+  CHECK(results["notes"].empty());
+  bool told = false;
+  for (const json& effect : results["effects"]) told = told || (effect["name"] == "fit_of_pinion" && effect["why"] == "own fit: pressure_angle 22 deg, in the library 20 deg");
+  CHECK(told);
+  // Model, as asked of a gear's own fit; own tooth first, then its neighbours by the coarse mesh.
+  const json& unseen = fit["residual_percent"]["unseen"];
+  REQUIRE(unseen.size() == 3);
+  CHECK(unseen[0]["median"] < 0.5);
+  CHECK(unseen[0]["share_95"] < 2.5);
+  CHECK(unseen[0]["worst"] < 8);
+  for (const std::size_t apart : {1, 2}) {
+    CHECK(unseen[apart]["teeth_apart"] == apart);
+    CHECK(unseen[apart]["median"] < 1.5);
+    CHECK(unseen[apart]["share_95"] < 7);
   }
-  CHECK_THAT(refused("pair.pressure_angle", "22"), Catch::Contains("pressure_angle"));
+  CHECK(cache.files().size() == 3);  // coarse, fine, fit; the gears are equal
+
+  const json again = json::parse(results_json(run(twins, by_fit)));
+  CHECK(again["compliance"]["wheel"]["fit"]["from_cache"] == true);
+  CHECK(again["compliance"]["wheel"]["fine_mesh"]["source"] == "cache");
+  CHECK(again["loaded"] == results["loaded"]);
+  CHECK(cache.files().size() == 3);
+
+  const StudyResults fe = run(twins, {{"pair.pressure_angle", "22"}});
+  CHECK(fe.structures.finite_elements->gears[0].from_cache);
+  CHECK(ours.loaded[0].summary.te_mean == Approx(fe.loaded[0].summary.te_mean).epsilon(0.005));             // model
+  CHECK(ours.loaded[0].summary.peak_root_stress == Approx(fe.loaded[0].summary.peak_root_stress).epsilon(0.005));  // by its loads
+}
+
+TEST_CASE("A damaged fit is made anew from the runs that are kept", "[studies][fitted]") {
+  const ScratchCache cache;
+  const std::vector<Override> by_fit{{"fidelity.compliance", "fitted"}, {"pair.pressure_angle", "22"}};
+  const StudyResults first = run(twins, by_fit);
+  const std::string file = first.structures.refinement(Member::Pinion)->file;
+  std::ofstream(file, std::ios::app) << "more";
+  const StudyResults second = run(twins, by_fit);
+  CHECK(!second.structures.refinement(Member::Pinion)->from_cache);
+  CHECK(second.structures.finite_elements->gears[0].from_cache);
+  CHECK(second.structures.refinement(Member::Pinion)->fit.coefficients == first.structures.refinement(Member::Pinion)->fit.coefficients);
+  REQUIRE(second.structures.finite_elements->notes.size() == 1);
+  CHECK_THAT(second.structures.finite_elements->notes[0], Catch::Contains("is not used"));
+}
+
+TEST_CASE("What cannot be meshed is refused by fitted compliance under the study's key", "[studies][fitted]") {
+  const auto refused = [](const std::string& key, const std::string& value) {
+    return refusal({{"fidelity.compliance", "fitted"}, {key, value}});
+  };
+  CHECK(refused("pair.pressure_angle", "22").empty());
+  CHECK_THAT(refused("pinion.body.shaft_diameter", "50"), Catch::Contains("pinion.body.shaft_diameter"));
+  CHECK_THAT(refused("pinion.profile_shift", "1.2"), Catch::Contains("pinion"));
 }
 
 }  // namespace flankwright::studies

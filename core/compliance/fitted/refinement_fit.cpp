@@ -1,40 +1,10 @@
 #include "core/compliance/fitted/refinement_fit.hpp"
 
-#include <algorithm>
-
-#include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "core/compliance/flank_grid.hpp"
 #include "core/compliance/tooth_places.hpp"
 
 namespace flankwright {
-namespace {
-
-/// Axial positions on a face of 12 modules: the ends' as they are, the middle stretched to another face.
-std::vector<double> on_face(std::vector<double> zetas, double face) {
-  constexpr double kEnd = 3.2, kFace = 12;
-  for (double& zeta : zetas) {
-    if (zeta > kFace - kEnd) {
-      zeta += face - kFace;
-    } else if (zeta > kEnd) {
-      zeta = kEnd + (zeta - kEnd) * (face - 2 * kEnd) / (kFace - 2 * kEnd);
-    }
-  }
-  return zetas;
-}
-
-std::vector<FlankPlace> fitted_places(double face) {
-  return places_on({-1, -0.6, -0.2, 0.2, 0.6, 1},
-                   on_face({0,   0.15, 0.35, 0.65, 1.05, 1.6,  2.3,   3.2,   4.3,   5.4,
-                            6.6, 7.7,  8.8,  9.7,  10.4, 10.95, 11.35, 11.65, 11.85, 12},
-                           face));
-}
-
-std::vector<FlankPlace> unseen_places(double face) {
-  return places_on({-0.9, -0.45, 0.05, 0.5, 0.95},
-                   on_face({0.08, 0.5, 2, 6.2, 9.6, 11.45, 11.85}, face));
-}
-
-}  // namespace
 
 GearMeshOptions coarse_mesh() {
   GearMeshOptions options;
@@ -80,21 +50,16 @@ std::vector<FlankPlace> places_on(const std::vector<double>& us, const std::vect
   return places;
 }
 
-RefinementSamples refinement_samples(const GearFacts& gear, const GearMeshOptions& fine) {
-  if (!(gear.relative_face >= 7)) {
-    throw InvalidInput("gear.relative_face", std::to_string(gear.relative_face), "at least 7 modules");
-  }
-  const std::vector<FlankPlace> fitted = fitted_places(gear.relative_face), unseen = unseen_places(gear.relative_face);
-  std::vector<FlankPlace> all = fitted;
-  all.insert(all.end(), unseen.begin(), unseen.end());
-  // What a finer mesh adds to a tooth does not reach its neighbours: one on either side will do.
-  GearMeshOptions finely = fine, coarsely = coarse_mesh();
-  finely.teeth_each_side = coarsely.teeth_each_side = 1;
-  const InfluenceSample values = element_sample(gear, finely, all), coarse = element_sample(gear, coarsely, all);
-  const auto n = static_cast<Eigen::Index>(fitted.size()), rest = static_cast<Eigen::Index>(unseen.size());
-  return {{gear, fitted, values.compliance.topLeftCorner(n, n), coarse.compliance.topLeftCorner(n, n)},
-          {gear, unseen, values.compliance.bottomRightCorner(rest, rest),
-           coarse.compliance.bottomRightCorner(rest, rest)}};
+RefinementSamples refinement_samples(const GearFacts& gear, const FlankCompliance& fine, const FlankCompliance& coarse) {
+  // Fewer than flank_grid() has: kernels are smooth, and what they add changes fastest next to the ends.
+  const std::vector<double> zetas = axial_places(gear.relative_face, {.first = 0.15, .growth = 0.28, .largest = 1.15});
+  std::vector<double> midways;
+  for (std::size_t i = 1; i < zetas.size(); ++i) midways.push_back(0.5 * (zetas[i - 1] + zetas[i]));
+  const auto sample = [&](const std::vector<double>& us, const std::vector<double>& at) {
+    const std::vector<FlankPlace> places = places_on(us, at);
+    return InfluenceSample{gear, places, fine.evaluate(places), coarse.evaluate(places)};
+  };
+  return {sample({-1, -0.6, -0.2, 0.2, 0.6, 1}, zetas), sample({-0.9, -0.45, 0.05, 0.5, 0.95}, midways)};
 }
 
 RefinementEntry fit_refinement(const RefinementSamples& samples, const std::vector<double>& start) {

@@ -25,13 +25,12 @@ std::vector<FlankPlace> places_on(const std::vector<double>& us, const std::vect
 /// What a refinement is made from: a gear's influence values by the fine mesh, with those by the coarse one as the
 /// share that is `given`.
 struct RefinementSamples {
-  InfluenceSample fitted;  ///< 6 radii x 20 axial positions, symmetric about mid face
-  InfluenceSample unseen;  ///< 5 x 7 others, for the residuals alone
+  InfluenceSample fitted;  ///< 6 radii x about 7 + 1.1 B axial positions, symmetric about mid face
+  InfluenceSample unseen;  ///< 5 radii x the positions midway between those, for the residuals alone
 };
 
-/// @param gear   relative_face >= 7: the outer 3.2 modules at both ends have places at fixed distances from the end
-/// @param fine   the mesh whose values are to be met
-RefinementSamples refinement_samples(const GearFacts& gear, const GearMeshOptions& fine);
+/// @param fine, coarse  of that gear, E m_n K; what the fit shall meet, and what it is added to
+RefinementSamples refinement_samples(const GearFacts& gear, const FlankCompliance& fine, const FlankCompliance& coarse);
 
 /// Pairs count relative to max(|K|, kScaleFloor sqrt(K_pp K_qq)), in the fit and in its residuals.
 inline constexpr double kScaleFloor = 0.01;

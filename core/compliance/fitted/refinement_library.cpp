@@ -1,6 +1,7 @@
 #include "core/compliance/fitted/refinement_library.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <sstream>
@@ -32,14 +33,21 @@ void sort_unique(std::vector<Value>& values) {
 
 constexpr double kRoundOff = 1e-9;  // of ranges' ends computed from degrees or millimetres
 
-void require_within(const std::string& field, double value, double low, double high, const std::string& unit = "") {
-  if (value >= low - kRoundOff && value <= high + kRoundOff) return;
-  std::ostringstream range;
-  range << low;
-  if (high > low) range << " .. " << high;
-  throw InvalidInput(field, std::to_string(value),
-                     range.str() + unit + " in the library of fits; compliance \"fe\" has no such limit");
-}
+/// A property's value and the range that it has in the library.
+struct Property {
+  std::string name;
+  double value, low, high;
+  std::string unit{};
+
+  bool is_inside() const { return value >= low - kRoundOff && value <= high + kRoundOff; }
+  std::string text() const {
+    std::ostringstream text;
+    text << name << ' ' << value << unit << ", in the library " << low;
+    if (high > low) text << " .. " << high;
+    text << unit;
+    return text.str();
+  }
+};
 
 }  // namespace
 
@@ -100,22 +108,31 @@ const RefinementLibrary& RefinementLibrary::shipped() {
   return library;
 }
 
-void RefinementLibrary::require_known(const GearToMesh& gear, double poissons_ratio) const {
+std::string RefinementLibrary::unknown(const GearToMesh& gear, double poissons_ratio) const {
   const GearData& data = gear.gear;
-  const double module = gear.normal_module;
-  require_within("pressure_angle", gear.pressure_angle / units::deg, 20, 20, " deg");
-  require_within("helix_angle", gear.helix_angle / units::deg, 0, helix_angles_.back() / units::deg, " deg");
-  require_within("teeth", data.teeth, teeth_.front(), teeth_.back());
-  require_within("profile_shift", data.profile_shift, profile_shifts_.front(), profile_shifts_.back());
-  require_within("face_width", data.face_width / module, 2, 30, " normal modules");
-  require_within("rack.addendum", data.rack.addendum, 1, 1);
-  require_within("rack.dedendum", data.rack.dedendum, 1.25, 1.25);
-  require_within("rack.root_radius", data.rack.root_radius, 0.38, 0.39);
-  require_within("poissons_ratio", poissons_ratio, 0.25, 0.35);
-  if (!std::isnan(data.tip_diameter)) {
-    const double rack = data.teeth / std::cos(gear.helix_angle) + 2 * (data.rack.addendum + data.profile_shift);
-    require_within("tip_diameter", data.tip_diameter / module, rack - 0.2, rack + 0.02, " normal modules");
-  }
+  const double module = gear.normal_module, radians = 1 / units::deg;
+  const double tip = data.teeth / std::cos(gear.helix_angle) + 2 * (data.rack.addendum + data.profile_shift);
+  const std::array<Property, 10> properties{{
+      {"pressure_angle", gear.pressure_angle * radians, 20, 20, " deg"},
+      {"helix_angle", gear.helix_angle * radians, 0, helix_angles_.back() * radians, " deg"},
+      {"teeth", static_cast<double>(data.teeth), static_cast<double>(teeth_.front()), static_cast<double>(teeth_.back())},
+      {"profile_shift", data.profile_shift, profile_shifts_.front(), profile_shifts_.back()},
+      {"face_width", data.face_width / module, 2, 30, " m_n"},
+      {"rack.addendum", data.rack.addendum, 1, 1},
+      {"rack.dedendum", data.rack.dedendum, 1.25, 1.25},
+      {"rack.root_radius", data.rack.root_radius, 0.38, 0.39},
+      {"poissons_ratio", poissons_ratio, 0.25, 0.35},
+      {"tip_diameter", std::isnan(data.tip_diameter) ? tip : data.tip_diameter / module, tip - 0.2, tip + 0.02, " m_n"},
+  }};
+  const auto outside = std::ranges::find_if_not(properties, &Property::is_inside);
+  return outside == properties.end() ? "" : outside->text();
+}
+
+GearFacts RefinementLibrary::nearest(GearFacts gear) const {
+  gear.teeth = std::clamp(gear.teeth, teeth_.front(), teeth_.back());
+  gear.helix_angle = std::clamp(gear.helix_angle, -helix_angles_.back(), helix_angles_.back());
+  gear.profile_shift = std::clamp(gear.profile_shift, profile_shifts_.front(), profile_shifts_.back());
+  return gear;
 }
 
 std::vector<double> RefinementLibrary::coefficients(const GearFacts& gear) const {

@@ -54,10 +54,13 @@ class RefinementLibrary {
   const std::vector<double>& helix_angles() const { return helix_angles_; }     ///< ascending [rad]
   const std::vector<double>& profile_shifts() const { return profile_shifts_; }  ///< ascending
 
-  /// What the library knows is met by gears of its own rack, pressure angle and tip, within the ranges of its entries,
-  /// of material with nu = 0.25 .. 0.35 and faces of 2 to 30 modules.
-  /// @throws InvalidInput naming what of the gear is outside
-  void require_known(const GearToMesh& gear, double poissons_ratio) const;
+  /// What of a gear, or of its material, lies outside of what the library knows, as "helix_angle 38 deg, in the library 0 .. 35
+  /// deg"; empty where nothing does. It knows gears of its own rack, pressure angle and tip, within the ranges of its
+  /// entries, of material with nu = 0.25 .. 0.35 and faces of 2 to 30 modules.
+  std::string unknown(const GearToMesh& gear, double poissons_ratio) const;
+
+  /// The gear itself, or what within the ranges of the entries is nearest in each fact.
+  GearFacts nearest(GearFacts gear) const;
 
   /// Coefficients for a gear within the ranges.
   std::vector<double> coefficients(const GearFacts& gear) const;

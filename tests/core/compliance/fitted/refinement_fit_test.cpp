@@ -1,5 +1,6 @@
 #include "core/compliance/fitted/refinement_fit.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
@@ -65,8 +66,26 @@ TEST_CASE("What a fit adds to given values is what they lack", "[core][complianc
   CHECK(entry.unseen.worst < 1e-2);
 }
 
-TEST_CASE("Samples of a refinement need a face wider than both ends", "[core][compliance][fitted]") {
-  CHECK_THROWS_AS(refinement_samples({20, 0, 6, 0}, {}), InvalidInput);
+TEST_CASE("A refinement's samples lie on the whole flank of any face, and are what two compliances make of it", "[core][compliance][fitted]") {
+  for (const double face : {2.0, 8.0, 12.0, 30.0}) {
+    CAPTURE(face);
+    const GearFacts gear{20, 0, face, 0};
+    const KernelForm form = KernelForm::one_tooth();
+    std::mt19937 random(5);
+    const FittedCompliance fine(form, gear, random_coefficients(form, random, 0.1), {}),
+        coarse(form, gear, random_coefficients(form, random, 0.1), {});
+    const RefinementSamples samples = refinement_samples(gear, fine, coarse);
+    const auto& places = samples.fitted.points;
+    const std::size_t axial = places.size() / 6;
+    CHECK(std::abs(static_cast<double>(axial) - (7 + 1.1 * face)) < 3);  // as the header says
+    CHECK(places.front().zeta == 0);
+    CHECK(places.back().zeta == Approx(face));
+    for (std::size_t i = 0; i < axial; ++i) CHECK(places[i].zeta + places[axial - 1 - i].zeta == Approx(face));
+    for (const FlankPlace& unseen : samples.unseen.points) CHECK(std::ranges::find(places, unseen) == places.end());
+    CHECK(samples.fitted.compliance == fine.evaluate(places));
+    CHECK(samples.fitted.given == coarse.evaluate(places));
+    CHECK_NOTHROW(samples.unseen.validate());
+  }
 }
 
 TEST_CASE("Fitted gears that the library has not seen come close to finite elements", "[.soak][core][compliance][fitted]") {

@@ -23,15 +23,6 @@ Eigen::MatrixXd kernels_between(const GearFacts& gear, const std::vector<double>
   return sum.tooth_matrix();
 }
 
-std::string refusal(const GearToMesh& gear, double poissons_ratio = 0.3) {
-  try {
-    RefinementLibrary::shipped().require_known(gear, poissons_ratio);
-  } catch (const InvalidInput& problem) {
-    return problem.what();
-  }
-  return "";
-}
-
 }  // namespace
 
 TEST_CASE("The shipped library's fits have converged and meet what is asked of unseen places", "[core][compliance][fitted]") {
@@ -113,27 +104,36 @@ TEST_CASE("Between its entries the library neither overshoots nor does negative 
   }
 }
 
-TEST_CASE("What the library does not know is refused by name, and fe offered", "[core][compliance][fitted]") {
+TEST_CASE("What the library does not know is said by name, with its range", "[core][compliance][fitted]") {
+  const RefinementLibrary& library = RefinementLibrary::shipped();
   GearToMesh gear = standard_gear({24, 20 * deg, 10, 0.2});
-  CHECK(refusal(gear).empty());
+  CHECK(library.unknown(gear, 0.3).empty());
   gear.gear.rack.root_radius = 0.38;  // ISO 53, profile A
-  CHECK(refusal(gear).empty());
-  for (const GearFacts& end : {GearFacts{12, 0, 2, -0.4}, GearFacts{150, 35 * deg, 30, 0.6}}) CHECK(refusal(standard_gear(end)).empty());
-  const auto refused = [](auto&& change) {
+  CHECK(library.unknown(gear, 0.3).empty());
+  for (const GearFacts& end : {GearFacts{12, 0, 2, -0.4}, GearFacts{150, 35 * deg, 30, 0.6}}) {
+    CHECK(library.unknown(standard_gear(end), 0.3).empty());
+  }
+  const auto unknown = [&](auto&& change) {
     GearToMesh changed = standard_gear({24, 20 * deg, 10, 0.2});
     change(changed);
-    const std::string text = refusal(changed);
-    CHECK_THAT(text, Catch::Contains("fe"));
-    return text;
+    return library.unknown(changed, 0.3);
   };
-  CHECK_THAT(refused([](GearToMesh& g) { g.gear.teeth = 11; }), Catch::StartsWith("teeth"));
-  CHECK_THAT(refused([](GearToMesh& g) { g.helix_angle = 36 * deg; }), Catch::StartsWith("helix_angle"));
-  CHECK_THAT(refused([](GearToMesh& g) { g.gear.profile_shift = 0.7; }), Catch::StartsWith("profile_shift"));
-  CHECK_THAT(refused([](GearToMesh& g) { g.gear.face_width = 1.9; }), Catch::StartsWith("face_width"));
-  CHECK_THAT(refused([](GearToMesh& g) { g.pressure_angle = 25 * deg; }), Catch::StartsWith("pressure_angle"));
-  CHECK_THAT(refused([](GearToMesh& g) { g.gear.rack.dedendum = 1.4; }), Catch::StartsWith("rack.dedendum"));
-  CHECK_THAT(refused([](GearToMesh& g) { g.gear.tip_diameter = 20; }), Catch::StartsWith("tip_diameter"));
-  CHECK_THAT(refusal(gear, 0.4), Catch::StartsWith("poissons_ratio"));
+  CHECK(unknown([](GearToMesh& g) { g.gear.teeth = 11; }) == "teeth 11, in the library 12 .. 150");
+  CHECK(unknown([](GearToMesh& g) { g.helix_angle = 36 * deg; }) == "helix_angle 36 deg, in the library 0 .. 35 deg");
+  CHECK(unknown([](GearToMesh& g) { g.pressure_angle = 25 * deg; }) == "pressure_angle 25 deg, in the library 20 deg");
+  CHECK_THAT(unknown([](GearToMesh& g) { g.gear.profile_shift = 0.7; }), Catch::StartsWith("profile_shift"));
+  CHECK_THAT(unknown([](GearToMesh& g) { g.gear.face_width = 1.9; }), Catch::StartsWith("face_width"));
+  CHECK_THAT(unknown([](GearToMesh& g) { g.gear.rack.dedendum = 1.4; }), Catch::StartsWith("rack.dedendum"));
+  CHECK_THAT(unknown([](GearToMesh& g) { g.gear.tip_diameter = 20; }), Catch::StartsWith("tip_diameter"));
+  CHECK_THAT(library.unknown(gear, 0.4), Catch::StartsWith("poissons_ratio"));
+}
+
+TEST_CASE("The nearest gear of the library is the gear itself within its ranges, and else at their ends", "[core][compliance][fitted]") {
+  const RefinementLibrary& library = RefinementLibrary::shipped();
+  const GearFacts inside{24, 20 * deg, 10, 0.2};
+  CHECK(library.nearest(inside) == inside);
+  CHECK(library.nearest({10, 40 * deg, 3, 0.8}) == GearFacts{12, library.helix_angles().back(), 3, 0.6});
+  CHECK(library.nearest({200, -40 * deg, 3, -0.5}) == GearFacts{150, -library.helix_angles().back(), 3, -0.4});
 }
 
 TEST_CASE("A library is read as it was written, and refused where an entry is missing", "[core][compliance][fitted]") {
