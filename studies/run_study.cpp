@@ -220,7 +220,7 @@ class Run {
     result.summary = summarise(model, result.cycle);
     const Cycle& asked = results_.study.cycle;
     if (asked.locate_peaks && asked.phases.empty() && result.cycle.usable()) {
-      result.rating = rater_.rate(mesh_at(condition.misalignment), condition, scene.torque);
+      result.rating = rater_.rate([this](const Misalignment& m) { return mesh_at(m); }, condition, scene.torque);
     }
     results_.loaded.push_back(std::move(result));
   }

@@ -77,10 +77,10 @@ FlankCondition profile_part(const FlankCondition& condition) {
 }
 
 bool has_other_part(const FlankCondition& condition) {
-  const auto other = [](const Modification& m) { return m.twist != 0.0 || m.parabolic_te != 0.0 || m.topography != nullptr; };
-  const auto uneven = [](const ManufacturingError& e) { return e.twist != 0.0 || !e.twists.empty() || !e.topographies.empty(); };
-  return other(condition.pinion_modification) || other(condition.wheel_modification) || uneven(condition.pinion_error) ||
-         uneven(condition.wheel_error) || condition.misalignment.centre_distance != 0.0;
+  const auto shaped = [](const Modification& m) { return m.twist != 0.0 || m.parabolic_te != 0.0 || m.topography != nullptr; };
+  const auto twisted = [](const ManufacturingError& e) { return e.twist != 0.0 || !e.twists.empty(); };
+  return shaped(condition.pinion_modification) || shaped(condition.wheel_modification) || twisted(condition.pinion_error) ||
+         twisted(condition.wheel_error) || condition.misalignment.centre_distance != 0.0;
 }
 
 LoadFactors load_factors(const ContactPeaks& perfect, const ContactPeaks& lead, const ContactPeaks& profile,

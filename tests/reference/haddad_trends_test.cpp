@@ -5,6 +5,8 @@
 
 #include "core/compliance/plate/cantilever_plate.hpp"
 #include "core/load/load_factors.hpp"
+#include "studies/run_study.hpp"
+#include "studies/study_file.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 /// What chapters 3 and 4 of C. D. Haddad's thesis (1991) say about loads and load distribution factors in words, where teeth as slices
@@ -167,4 +169,23 @@ TEST_CASE("ISO's mesh stiffness knows neither the face width nor the wheel's bod
   CHECK(c_gamma(18, 120) < c_gamma(54, 120));
   CHECK(c_gamma(54, 120) < c_gamma(100, 120));
   CHECK(c_gamma(54, 20) == c_gamma(54, 120));
+}
+
+TEST_CASE("Finite elements give way more the larger the wheel is and the wider a spur pair", "[.soak][reference][haddad][fe]") {
+  // Section 3.3; the same specific load throughout. A helical pair's narrow disc tilts under the axial load: haddad_trends.md.
+  const auto stiffness = [](double helix_angle, int wheel_teeth, double face_width) {
+    const auto text = [](const auto& value) { return std::to_string(value); };
+    const std::string study = "[pair]\nnormal_module = 10\nhelix_angle = " + text(helix_angle) +
+                              "\n[pinion]\nteeth = 18\nface_width = " + text(face_width) + "\n[wheel]\nteeth = " + text(wheel_teeth) +
+                              "\nface_width = " + text(face_width) + "\n[load]\ntorque = " + text(8.457 * face_width) +
+                              "\n[cycle]\npositions = 16\npeaks = \"sampled\"\n[fidelity]\ncompliance = \"fitted\"\n";
+    return studies::run_study(studies::parse_study(study, "trend.toml")).loaded.front().summary.mean_stiffness;
+  };
+  const double small = stiffness(30, 18, 120), middle = stiffness(30, 54, 120), large = stiffness(30, 100, 120);
+  CAPTURE(small, middle, large);
+  CHECK(middle < 0.9 * small);
+  CHECK(large < 0.6 * middle);
+  const double narrow = stiffness(0, 54, 20), wide = stiffness(0, 54, 120);
+  CAPTURE(narrow, wide);
+  CHECK(wide < 0.9 * narrow);
 }
