@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <functional>
 
 #include "core/load/cycle_gradient.hpp"
-#include "studies/run_study.hpp"
 #include "studies/study_file.hpp"
 
 using namespace flankwright;

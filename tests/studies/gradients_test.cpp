@@ -70,7 +70,7 @@ TEST_CASE("Results give derivatives of every output by the keys asked for, in th
     }
     for (std::size_t order = 0; order < result.at("summary").at("te_harmonics_um").size(); ++order) {
       check(gradients.at("summary").at("te_harmonics_um").at(order).at(p), up.at("summary").at("te_harmonics_um").at(order),
-            down.at("summary").at("te_harmonics_um").at(order), 0.01);
+            down.at("summary").at("te_harmonics_um").at(order), 0.1);
     }
     for (std::size_t k = 0; k < result.at("cycle").size(); ++k) {
       for (const char* output : {"te_um", "stiffness_N_per_mm_um"}) {
@@ -96,7 +96,7 @@ TEST_CASE("Results give derivatives of every output by the keys asked for, in th
 TEST_CASE("What has no derivative is refused", "[studies][gradient][input]") {
   CHECK(problem_of("[analyse]\ngradients = [\"misalignment.axial_offset\"]").key == "analyse.gradients");
   CHECK(problem_of("[analyse]\ngradients = [\"pair.helix_angle\"]").key == "analyse.gradients");
-  CHECK_THAT(problem_of("[analyse]\ngradients = [\"misalignment.crosing\"]").allowed, Catch::Contains("misalignment.crossing"));
+  CHECK_THAT(problem_of("[analyse]\ngradients = [\"misalignment.crosing\"]").allowed, Catch::Contains("did you mean crossing?"));
   CHECK(problem_of("[analyse]\ngradients = \"misalignment.crossing\"").key == "analyse.gradients");
   CHECK(problem_of("[analyse]\ngradients = [3]").key == "analyse.gradients");
   // A relief is spread over its height, which must be known.

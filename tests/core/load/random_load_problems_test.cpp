@@ -114,7 +114,7 @@ TEST_CASE("The number of threads does not change a bit of random load problems",
     });
     return found;
   };
-  const auto alone = solve_all(1), together = solve_all(4);
+  const auto alone = solve_all(1), together = solve_all(2);
   for (std::size_t i = 0; i < problems.size(); ++i) {
     CAPTURE(i);
     CHECK(alone[i].line_load == together[i].line_load);
