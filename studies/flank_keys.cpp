@@ -10,6 +10,9 @@ Modification& modification(Draft& draft, Member m) {
 FlankGrid& grid(Draft& draft, Member m) {
   return m == Member::Pinion ? draft.study.pinion_grid : draft.study.wheel_grid;
 }
+std::vector<std::string>& tooth_grids(Draft& draft, Member m) {
+  return m == Member::Pinion ? draft.study.pinion_tooth_grids : draft.study.wheel_tooth_grids;
+}
 ManufacturingError& error(Scene& scene, Member m) {
   return m == Member::Pinion ? scene.pinion_error : scene.wheel_error;
 }
@@ -102,6 +105,9 @@ std::vector<SchemaKey> flank_rows() {
        .store = [](Scene& s, Member m, const Value& v) {
          store(v, error(s, m).pitch_step, error(s, m).cumulative_pitch);
        }},
+      {.path = "gear.error.grids", .kind = TextList, .fallback = "(none)",
+       .meaning = "CSV files as modification.grid, one for each tooth, \"\" for none; on top of all else",
+       .store = [](Draft& d, Member m, const Value& v) { tooth_grids(d, m) = v.words; }},
       {.path = "gear.error.twist", .kind = NumberOrList, .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
        .meaning = "added twist * (y / h_active) * (z / b); + adds at the tip at z = +b/2; a list: of each tooth",
        .store = [](Scene& s, Member m, const Value& v) { store(v, error(s, m).twist, error(s, m).twists); }},

@@ -4,20 +4,20 @@
 
 namespace flankwright::studies {
 
-const ContactPeaks& LoadRater::peaks_of(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque) {
+const ContactPeaks& LoadRater::peaks_of(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque) {
   const auto found = std::ranges::find_if(
       known_, [&](const Known& k) { return k.torque == pinion_torque && k.condition == condition; });
   if (found != known_.end()) return found->peaks;
-  known_.push_back({condition, pinion_torque, locate_peaks(mesh_at, condition, pinion_torque)});
+  known_.push_back({condition, pinion_torque, locate_peaks(mesh_for(condition.misalignment), condition, pinion_torque)});
   return known_.back().peaks;
 }
 
-LoadRating LoadRater::rate(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque) {
+LoadRating LoadRater::rate(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque) {
   LoadRating rating;
-  rating.perfect = peaks_of(mesh_at, perfect_part(condition), pinion_torque);
-  rating.lead = peaks_of(mesh_at, lead_part(condition), pinion_torque);
-  rating.profile = peaks_of(mesh_at, profile_part(condition), pinion_torque);
-  rating.combined = peaks_of(mesh_at, condition, pinion_torque);
+  rating.perfect = peaks_of(mesh_for, perfect_part(condition), pinion_torque);
+  rating.lead = peaks_of(mesh_for, lead_part(condition), pinion_torque);
+  rating.profile = peaks_of(mesh_for, profile_part(condition), pinion_torque);
+  rating.combined = peaks_of(mesh_for, condition, pinion_torque);
   rating.factors = load_factors(rating.perfect, rating.lead, rating.profile, rating.combined);
   return rating;
 }

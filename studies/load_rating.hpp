@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/load/load_factors.hpp"
@@ -13,14 +14,16 @@ struct LoadRating {
   LoadFactors factors;
 };
 
+/// The mesh for a misalignment, see MeshPlacement.
+using MeshFor = std::function<MeshAt(const Misalignment& misalignment)>;
+
 /// Rates load cases of one pair. Peaks of a condition are sought once: the perfect pair's serve every scene at the same torque.
 class LoadRater {
  public:
-  /// @param mesh_at  the mesh of the condition's axial offset
-  LoadRating rate(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque);
+  LoadRating rate(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque);
 
  private:
-  const ContactPeaks& peaks_of(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque);
+  const ContactPeaks& peaks_of(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque);
 
   struct Known {
     FlankCondition condition;

@@ -7,6 +7,7 @@
 #include "core/gear/tooth_form.hpp"
 #include "studies/compliance_json.hpp"
 #include "studies/fit_json.hpp"
+#include "studies/gradients_json.hpp"
 #include "studies/json_format.hpp"
 #include "studies/load_rating_json.hpp"
 #include "studies/shafts_json.hpp"
@@ -170,12 +171,14 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
     cycle.push_back(position_json(model, model.positions[i], loaded.cycle.positions[i], loaded.condition));
   }
   Json json{{"scene", loaded.scene},
-          {"torque_Nm", loaded.torque / units::newton_metre},
-          {"normal_force_N", loaded.cycle.force},
-          {"design", loaded.design},
-          {"summary", summary_json(loaded, model, results.study.cycle.phases.empty())},
-          {"cycle", std::move(cycle)}};
+            {"torque_Nm", loaded.torque / units::newton_metre},
+            {"normal_force_N", loaded.cycle.force},
+            {"design", loaded.design},
+            {"summary", summary_json(loaded, model, results.study.cycle.phases.empty())},
+            {"cycle", std::move(cycle)}};
   if (results.shafts) add_shaft_motion(loaded, results, json);
+  const bool asked = results.study.task == Task::Analyse && !results.study.gradients.empty();
+  if (asked && loaded.cycle.usable()) json["gradients"] = gradients_json(loaded, model, results.study);
   return json;
 }
 

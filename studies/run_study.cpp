@@ -218,9 +218,8 @@ class Run {
     LoadedResult result{scene.name, scene.torque, design, std::move(cycle), {}, index, condition,
                         iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, condition), scene.torque, model.face_width)};
     result.summary = summarise(model, result.cycle);
-    const Cycle& asked = results_.study.cycle;
-    if (asked.locate_peaks && asked.phases.empty() && result.cycle.usable()) {
-      result.rating = rater_.rate(mesh_at(condition.misalignment), condition, scene.torque);
+    if (locates_peaks(results_.study) && result.cycle.usable()) {
+      result.rating = rater_.rate([this](const Misalignment& m) { return mesh_at(m); }, condition, scene.torque);
     }
     results_.loaded.push_back(std::move(result));
   }
@@ -230,6 +229,8 @@ class Run {
     int total = 0, done = 0;
     for (const Scene& scene : study.scenes) total += static_cast<int>(scene.torques.size());
     double unloaded_seconds = 0.0, loaded_seconds = 0.0;
+    std::vector<MeshParameter> parameters;
+    for (const GradientParameter& p : study.gradients) parameters.push_back(p.parameter);
     if (study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) {
       structures();  // its time is its own
       const Stopwatch clock;
@@ -247,7 +248,7 @@ class Run {
         } else {
           const DesignScene loaded{scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(study, scene))};
           const std::size_t model = model_for(loaded.condition.misalignment);
-          add_loaded(loaded, "given", analyse_cycle(results_.models[model], loaded.condition, torque));
+          add_loaded(loaded, "given", analyse_cycle(results_.models[model], loaded.condition, torque, parameters));
           loaded_seconds += clock.seconds();
         }
         report("analysing", ++done, total, scene.name);

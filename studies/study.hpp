@@ -12,6 +12,7 @@
 #include "core/contact/misalignment.hpp"
 #include "core/gear/gear_data.hpp"
 #include "core/gear/microgeometry.hpp"
+#include "core/load/mesh_parameter.hpp"
 #include "optimize/design_task.hpp"
 
 /// A study as pure data: what a study file says, validated, in internal units (mm, N, rad, MPa); study_file.hpp reads.
@@ -45,7 +46,7 @@ inline bool couples_teeth(ComplianceModel model) {
 struct Cycle {
   int positions{32};           ///< mesh positions over one base pitch, >= 1
   bool automatic_positions{false};  ///< as many as the harmonics of the loaded transmission error need; `positions` without load
-  bool locate_peaks{true};     ///< peaks between the positions, and load distribution factors; not with explicit phases
+  std::optional<bool> locate_peaks;  ///< as the study says; see locates_peaks()
   std::vector<double> phases;  ///< explicit phases of the reference tooth pair [base pitches]; empty: use `positions`
 };
 
@@ -87,6 +88,14 @@ struct OptimiseTable {
   unsigned long seed{1};
 };
 
+/// One parameter of analyse.gradients.
+struct GradientParameter {
+  std::string path;         ///< as the study names it: "misalignment.crossing"
+  MeshParameter parameter;
+  std::string unit;         ///< of a bare number of that key
+  double unit_size{1.0};    ///< one such unit in internal ones
+};
+
 /// [fit]: which gears' compliance is fitted, and how.
 struct FitChoice {
   bool pinion{true}, wheel{true};
@@ -119,6 +128,7 @@ struct Study {
   PairData pair;
   Modification pinion_modification, wheel_modification;  ///< with the field of the grid below
   FlankGrid pinion_grid, wheel_grid;
+  std::vector<std::string> pinion_tooth_grids, wheel_tooth_grids;  ///< files of single teeth's errors, empty: none of this tooth
   ManufacturingError pinion_error, wheel_error;
   Misalignment misalignment;
   Material pinion_material, wheel_material;
@@ -129,10 +139,17 @@ struct Study {
   Cycle cycle;
   Fidelity fidelity;
   std::vector<Scene> scenes;    ///< never empty: without [[scenes]] the one nominal scene of the base tables
+  std::vector<GradientParameter> gradients;  ///< derivatives asked for; meaningful where task is Analyse
   OptimiseTable optimise;       ///< meaningful where task is Optimise
   FitChoice fit;                ///< meaningful where task is Fit
   std::vector<Expectation> expect;
   std::vector<GivenValue> given;
 };
+
+/// Whether peaks between the positions, and the load distribution factors that follow, belong to the results: unless the study says
+/// otherwise in an analysis, not beside an optimisation's many scenes; never where explicit phases are asked for.
+inline bool locates_peaks(const Study& study) {
+  return study.cycle.phases.empty() && study.cycle.locate_peaks.value_or(study.task == Task::Analyse);
+}
 
 }  // namespace flankwright::studies

@@ -73,6 +73,13 @@ const DesignVariable* find_variable(const Study& study, Member m, MP parameter) 
   return found == variables.end() ? nullptr : &*found;
 }
 
+bool asks_derivative(const Study& study, Member m, MP parameter) {
+  return std::ranges::any_of(study.gradients, [&](const GradientParameter& p) {
+    const auto* gear = std::get_if<GearParameter>(&p.parameter);
+    return gear != nullptr && gear->member == m && gear->parameter == parameter;
+  });
+}
+
 /// A relief's amount and the height or length over which it is spread.
 struct ReliefKeys {
   std::string amount_name, extent_name;
@@ -92,14 +99,15 @@ void check_relief(StudyReading& reading, Member m, const ReliefKeys& keys) {
         reading, "optimise.variables." + prefix + keys.extent_name,
         "has no effect while " + prefix + keys.amount_name + " is 0: give it a value or make it a variable");
   }
-  if (!has_amount) return;
+  const bool has_derivative = asks_derivative(study, m, keys.amount);
+  if (!has_amount && !has_derivative) return;
   if (extent != nullptr && extent->lower <= 0.0) {
     return refuse_key(reading, "optimise.variables." + prefix + keys.extent_name,
                       "allowed is a lower bound above 0 mm: the relief is spread over it");
   }
   if (extent != nullptr || get(modification, keys.extent) > 0.0) return;
   const std::string path = prefix + keys.extent_name;
-  const std::string of_amount = (amount != nullptr ? "optimise.variables." : "") + prefix + keys.amount_name;
+  const std::string of_amount = has_amount ? (amount != nullptr ? "optimise.variables." : "") + prefix + keys.amount_name : "analyse.gradients";
   const bool is_given = reading.find(path) != nullptr;
   const Position at = reading.where(is_given ? path : of_amount);
   reading.refuse(at, path, is_given ? reading.find(path)->node : nullptr,

@@ -76,6 +76,7 @@ Study parse_study(std::string_view text, const std::string& name, const std::vec
   check_presence(reading);
   read_generation(reading);
   read_scenes(reading);
+  read_gradients(reading);
   read_optimise(reading);
   read_expectations(reading);
   check_pair(reading);

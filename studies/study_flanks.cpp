@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <memory>
 #include <utility>
 
 #include "core/flank/measured_grid.hpp"
@@ -89,14 +91,7 @@ class GridReading {
   void read(Modification& modification, FlankGrid& grid) const {
     const Match* match = reading_.find(prefix_ + "grid");
     if (match == nullptr) return check_smoothing_alone();
-    // Relative to the study; on the command line, too, a study means the same wherever it is run from.
-    const std::string path = (std::filesystem::path(reading_.document.name()).parent_path() / grid.file).string();
-    try {
-      const MeasuredGrid points = read_grid(path);
-      validate(points, pair_[member_].base_radius);
-      check_coverage(points, pair_.flank_frame(member_));
-      const GridFit fit = make_grid_field(points, pair_[member_].base_radius, pair_.base_helix_angle,
-                                          {grid.profile_pieces, grid.face_pieces});
+    read(*match, grid.file, {grid.profile_pieces, grid.face_pieces}, [&](const MeasuredGrid& points, const GridFit& fit) {
       modification.topography = fit.field;
       grid.rows = static_cast<int>(points.radii.size());
       grid.columns = static_cast<int>(points.z.size());
@@ -106,14 +101,48 @@ class GridReading {
       grid.highest_z = points.z.back();
       grid.rms = fit.rms;
       grid.largest = fit.largest;
-    } catch (const StudyErrors& errors) {
-      for (const StudyProblem& problem : errors.problems()) refuse_file(*match, path, problem);
-    } catch (const InvalidInput& problem) {
-      refuse_grid(*match, path, problem);
+    });
+  }
+
+  /// The fields of single teeth, one a file; null for "".
+  std::vector<std::shared_ptr<const DeviationField>> read_teeth(const std::vector<std::string>& files) const {
+    const std::string key = (member_ == Member::Pinion ? "pinion" : "wheel") + std::string(".error.grids");
+    const Match* match = reading_.find(key);
+    if (match == nullptr) return {};
+    const int teeth = pair_[member_].data.teeth;
+    if (static_cast<int>(files.size()) != teeth) {
+      const std::string allowed = "allowed is a list of " + std::to_string(teeth) + ", one for each tooth";
+      reading_.refuse(match->position, key, match->node, allowed);
+      return {};
     }
+    std::map<std::string, std::shared_ptr<const DeviationField>> fields{{"", nullptr}};
+    for (const std::string& file : files) {
+      if (!fields.try_emplace(file).second) continue;
+      read(*match, file, {}, [&](const MeasuredGrid&, const GridFit& fit) { fields[file] = fit.field; });
+    }
+    std::vector<std::shared_ptr<const DeviationField>> of_teeth;
+    for (const std::string& file : files) of_teeth.push_back(fields.at(file));
+    return of_teeth;
   }
 
  private:
+  /// Reads and fits a file and hands on what came out; problems go to the reading, at the key that names it.
+  template <typename Use>
+  void read(const Match& match, const std::string& file, const GridFitOptions& smoothing, Use&& use) const {
+    // Relative to the study; on the command line, too, a study means the same wherever it is run from.
+    const std::string path = (std::filesystem::path(reading_.document.name()).parent_path() / file).string();
+    try {
+      const MeasuredGrid points = read_grid(path);
+      validate(points, pair_[member_].base_radius);
+      check_coverage(points, pair_.flank_frame(member_));
+      use(points, make_grid_field(points, pair_[member_].base_radius, pair_.base_helix_angle, smoothing));
+    } catch (const StudyErrors& errors) {
+      for (const StudyProblem& problem : errors.problems()) refuse_file(match, path, problem);
+    } catch (const InvalidInput& problem) {
+      refuse_grid(match, path, problem);
+    }
+  }
+
   /// A line of the grid file keeps its place there; a file that cannot be read has none.
   void refuse_file(const Match& match, const std::string& path, const StudyProblem& problem) const {
     if (problem.line > 0) {
@@ -155,6 +184,14 @@ void read_grids(StudyReading& reading) {
   const GearPair pair = make_gear_pair(study.pair);
   GridReading(reading, pair, Member::Pinion).read(study.pinion_modification, study.pinion_grid);
   GridReading(reading, pair, Member::Wheel).read(study.wheel_modification, study.wheel_grid);
+  const auto pinion_teeth = GridReading(reading, pair, Member::Pinion).read_teeth(study.pinion_tooth_grids);
+  const auto wheel_teeth = GridReading(reading, pair, Member::Wheel).read_teeth(study.wheel_tooth_grids);
+  study.pinion_error.topographies = pinion_teeth;
+  study.wheel_error.topographies = wheel_teeth;
+  for (Scene& scene : study.scenes) {
+    scene.pinion_error.topographies = pinion_teeth;
+    scene.wheel_error.topographies = wheel_teeth;
+  }
 }
 
 void read_generation(StudyReading& reading) {

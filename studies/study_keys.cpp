@@ -89,7 +89,7 @@ std::vector<SchemaKey> working_condition_rows() {
          d.study.cycle.automatic_positions = v.text == "auto";
          if (v.text != "auto") d.study.cycle.positions = static_cast<int>(v.integer);
        }},
-      {.path = "cycle.peaks", .kind = Word, .words = {"located", "sampled"}, .fallback = "\"located\"",
+      {.path = "cycle.peaks", .kind = Word, .words = {"located", "sampled"}, .fallback = "(located; sampled where the task is to optimise)",
        .meaning = "located: peaks with and without spikes, sought between the positions, and the load distribution factors K_H that follow; sampled: those of the positions only",
        .store = [](Draft& d, Member, const Value& v) { d.study.cycle.locate_peaks = v.text == "located"; }},
       {.path = "cycle.phases", .kind = NumberList, .range = within(100.0), .fallback = "(evenly spaced positions)",
@@ -139,6 +139,9 @@ std::vector<SchemaKey> task_rows() {
       {.path = "scenes[].weight", .range = above_zero(1e9), .fallback = "1",
        .meaning = "its share in mean and mean+2sigma",
        .store = [](Scene& s, Member, const Value& v) { s.weight = v.number; }},
+
+      {.path = "analyse.gradients", .kind = Parameters, .fallback = "(none)",
+       .meaning = "derivatives of every loaded output by these keys, each per its unit: `loaded[].gradients`; task \"analyse\""},
 
       {.path = "optimise.objective", .kind = Objective, .fallback = "\"peak_contact_stress\"",
        .meaning = "minimised; a table of names and weights minimises the sum of weight * value (um, MPa, N/mm)"},

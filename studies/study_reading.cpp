@@ -64,6 +64,17 @@ std::size_t read_word(const SchemaKey& key, const toml::node& node) {
   return static_cast<std::size_t>(found - key.words.begin());
 }
 
+Value read_text_list(const SchemaKey& key, const toml::node& node) {
+  const toml::array* list = node.as_array();
+  if (list == nullptr || list->empty()) refuse_value(allowed_values(key) + ", at least one");
+  Value value{.is_list = true};
+  for (const toml::node& element : *list) {
+    if (!element.is_string()) refuse_value(allowed_values(key));
+    value.words.push_back(element.as_string()->get());
+  }
+  return value;
+}
+
 Value read_word_list(const SchemaKey& key, const toml::node& node) {
   const auto* word = node.as_string();
   if (word != nullptr && word->get() == "auto") return {};
@@ -161,6 +172,8 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
     case ValueKind::Text:
       if (!node.is_string()) refuse_value(allowed_values(key));
       return {.text = node.as_string()->get()};
+    case ValueKind::TextList:
+      return read_text_list(key, node);
     case ValueKind::WordOrTable:
       if (node.is_table()) return {};  // its keys have rows of their own
       [[fallthrough]];
@@ -176,6 +189,7 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
     case ValueKind::Scenes:
     case ValueKind::Objective:
     case ValueKind::Variables:
+    case ValueKind::Parameters:
     case ValueKind::Constraints:
     case ValueKind::Expectations:
       return {};  // read by study_tables

@@ -162,6 +162,8 @@ std::string allowed_values(const SchemaKey& key) {
       return "an integer" + range + ", or \"auto\"";
     case ValueKind::Text:
       return "a text";
+    case ValueKind::TextList:
+      return "a list of texts";
     case ValueKind::Word:
       return quoted_list(key.words);
     case ValueKind::WordOrTable:
@@ -176,6 +178,8 @@ std::string allowed_values(const SchemaKey& key) {
       return quoted_list(output_names()) + ", or a table of them";
     case ValueKind::Variables:
       return "a table of keys below pinion.modification or wheel.modification, each with [low, high]";
+    case ValueKind::Parameters:
+      return "a list of keys below pinion.modification, wheel.modification or misalignment (not axial_offset), and load.torque";
     case ValueKind::Constraints:
       return "a table of outputs, each with { max = ... }";
     case ValueKind::Expectations:

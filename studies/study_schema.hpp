@@ -30,6 +30,7 @@ enum class ValueKind {
   Integer,
   IntegerOrAuto, ///< an integer, or "auto"
   Text,          ///< any text
+  TextList,      ///< a list of at least one text
   Word,          ///< one of `words`
   WordOrTable,   ///< one of `words`, or a table of the keys below it
   WordList,      ///< "auto", or a list of `words`
@@ -37,6 +38,7 @@ enum class ValueKind {
   Scenes,        ///< array of tables, each with scene_keys()
   Objective,     ///< an output, or a table of outputs and weights
   Variables,     ///< table: modification key = [low, high]
+  Parameters,    ///< list of keys that derivatives are taken by
   Constraints,   ///< table: output = { max = ... }
   Expectations,  ///< table: key of results.json = { value, within, min, max }
   Later          ///< known, but not in this version
@@ -49,7 +51,7 @@ struct Value {
   std::string text{};
   bool is_list{false};
   std::vector<double> numbers{};     ///< internal units; one entry where is_list is false
-  std::vector<std::string> words{};  ///< empty with is_list false: "auto"
+  std::vector<std::string> words{};  ///< of a TextList its texts; empty with is_list false: "auto"
 };
 
 /// How a gear's flank is generated, as its keys say.

@@ -75,7 +75,7 @@ Json cycle_json(const StudyResults& results) {
   const auto& chosen = results.resolution;
   return {{"positions", chosen ? chosen->convergence.positions : cycle.positions},
           {"phases", cycle.phases},
-          {"peaks", cycle.locate_peaks && cycle.phases.empty() ? "located" : "sampled"},
+          {"peaks", locates_peaks(results.study) ? "located" : "sampled"},
           {"automatic", chosen ? Json{{"converged", chosen->converged},
                                       {"harmonic_change_um", in_um(chosen->convergence.harmonic_change)}}
                                : Json(false)}};

@@ -10,16 +10,19 @@ FlankMeeting::Deviation::Deviation(const Flank& of, int tooth)
     : flank(of),
       formula(of.modification, tooth_error(of.error, tooth), of.frame),
       pitch(pitch_deviation(of.error, tooth)),
+      measured(tooth_topography(of.error, tooth)),
       per_base_radius(1.0 / of.base_radius) {}
 
 inline Dual<2> FlankMeeting::Deviation::at(double rho, double z) const {
   const double r = std::sqrt(rho * rho + flank.base_radius * flank.base_radius);
   const Jet of_formula = formula.at(r, z);
   Dual<2> d{of_formula.value - pitch, {of_formula.u * (rho / r), of_formula.v}};
-  for (const auto& field : flank.fields) {
-    const Jet of_field = field->at(rho, z);
+  const auto add = [&](const DeviationField& field) {
+    const Jet of_field = field.at(rho, z);
     d += Dual<2>{of_field.value, {of_field.u, of_field.v}};
-  }
+  };
+  for (const auto& field : flank.fields) add(*field);
+  if (measured != nullptr) add(*measured);
   return d;
 }
 

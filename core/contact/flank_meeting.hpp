@@ -78,6 +78,7 @@ class FlankMeeting {
     const Flank& flank;
     DeviationFormula formula;
     double pitch;            ///< [mm]
+    const DeviationField* measured;  ///< of this tooth; null: none
     double per_base_radius;  ///< 1/r_b [1/mm]
   };
 

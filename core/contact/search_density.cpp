@@ -28,7 +28,7 @@ class Stretches {
   bool last_hollow_{false};
 };
 
-bool has_field(const Flank& flank) { return !flank.fields.empty(); }
+bool has_field(const Flank& flank) { return !flank.fields.empty() || !flank.error.topographies.empty(); }
 
 bool adds_metal_in_relief(const Flank& flank) {
   const Modification& m = flank.modification;

@@ -5,6 +5,27 @@
 
 namespace flankwright {
 
+namespace {
+
+/// How a point of the pinion's flank moves with its lead-angle (0) or pressure-angle (1) error, rho and z held [mm/rad]:
+///
+///     point = r_b e + along t,   theta = origin + rate z - rho/r_b,   along = rho - D(sqrt(r_b^2 + rho^2), z)
+Eigen::Vector3d motion_by_error(const Flank& pinion, const PinionHelicoid& helicoid, int error, const Meeting& m,
+                                const Eigen::Vector3d& point, int tooth) {
+  const double rb = pinion.base_radius, d_rb = helicoid.base_radius.gradient[error];
+  // Only the part of D that is a function of the radius changes with r_b.
+  Dual<1> removed = pinion.deviation(Dual<1>::variable(m.rho, 0), Dual<1>(m.z), tooth);
+  for (const auto& field : pinion.fields) removed.gradient[0] -= field->at(m.rho, m.z).u;
+  if (const DeviationField* measured = tooth_topography(pinion.error, tooth)) removed.gradient[0] -= measured->at(m.rho, m.z).u;
+  const Eigen::Vector3d radial(point.x(), point.y(), 0.0), turned(-point.y(), point.x(), 0.0);  // turned = r_b t - along e
+  const double square = radial.squaredNorm(), along = std::sqrt(std::max(0.0, square - rb * rb));
+  const Eigen::Vector3d e = (rb * radial - along * turned) / square, t = (along * radial + rb * turned) / square;
+  return (1.0 - along * m.rho / (rb * rb)) * d_rb * e + (m.rho / rb - removed.gradient[0] * rb / m.rho) * d_rb * t +
+         (helicoid.origin.gradient[error] + m.z * helicoid.helix_rate.gradient[error]) * turned;
+}
+
+}  // namespace
+
 SurfaceGap::SurfaceGap(const GearPair& pair, const FlankCondition& condition)
     : pair_(pair),
       condition_(condition),
@@ -12,7 +33,8 @@ SurfaceGap::SurfaceGap(const GearPair& pair, const FlankCondition& condition)
                              condition.pinion_error, condition.wheel_error)),
       density_(search_density(scene_)) {
   for (Member m : {Member::Pinion, Member::Wheel}) {
-    parabola_[static_cast<std::size_t>(m)] = make_conjugate_field(pair, m, condition.modification(m).parabolic_te);
+    const double coefficient = condition.modification(m).parabolic_te;
+    if (coefficient != 0.0) parabola_[static_cast<std::size_t>(m)] = make_conjugate_field(pair, m, coefficient);
   }
 }
 
@@ -79,11 +101,13 @@ Gap SurfaceGap::at(const std::vector<ContactPoint>& points, double line_phase) c
 
 Eigen::VectorXd SurfaceGap::derivative(const Gap& gap, Member member, ModificationParameter parameter) const {
   const Flank& flank = member == Member::Pinion ? scene_.pinion : scene_.wheel;
-  const PredesignedField& parabola = *parabola_[static_cast<std::size_t>(member)];
+  const bool of_parabola = parameter == ModificationParameter::ParabolicTe;  // a field of the roll length, see Flank
+  const auto& parabola = parabola_[static_cast<std::size_t>(member)];
   const auto by_parameter = [&](double radius, double z) {
-    return parameter == ModificationParameter::ParabolicTe
-               ? parabola.coefficient_slope(flank.roll_at(radius), z)
-               : removal_derivative(condition_.modification(member), flank.frame, parameter, radius, z);
+    const double roll = flank.roll_at(radius);
+    if (of_parabola && parabola) return parabola->coefficient_slope(roll, z);
+    return removal_derivative(condition_.modification(member), flank.frame, parameter,
+                              of_parabola ? std::hypot(flank.frame.base_radius, roll) : radius, z);
   };
   Eigen::VectorXd derivative = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gap.nearest.size()));
   for (std::size_t i = 0; i < gap.nearest.size(); ++i) {
@@ -116,15 +140,7 @@ double SurfaceGap::angle_derivative(const FlankMeeting& meeting, const NearestPl
     const PinionHelicoid helicoid = pinion_helicoid(pair_, condition_.misalignment);
     const int error = parameter == &Misalignment::pinion_lead_angle ? 0 : 1;
     const double rb = pinion.base_radius, d_rb = helicoid.base_radius.gradient[error];
-    const Eigen::Vector3d point = arm + scene_.wheel_centre, turned(-point.y(), point.x(), 0.0);
-    // point = r_b e + along t, turned = r_b t - along e; D depends on r_b through the radius only.
-    Dual<1> removed = pinion.deviation(Dual<1>::variable(rho, 0), Dual<1>(m.z), section.tooth);
-    for (const auto& field : pinion.fields) removed.gradient[0] -= field->at(rho, m.z).u;
-    const double square = point.head<2>().squaredNorm(), along = std::sqrt(std::max(0.0, square - rb * rb));
-    const Eigen::Vector3d radial(point.x(), point.y(), 0.0);
-    const Eigen::Vector3d e = (rb * radial - along * turned) / square, t = (along * radial + rb * turned) / square;
-    motion = (1.0 - along * rho / (rb * rb)) * d_rb * e + (rho / rb - removed.gradient[0] * rb / rho) * d_rb * t +
-             (helicoid.origin.gradient[error] + m.z * helicoid.helix_rate.gradient[error]) * turned;
+    motion = motion_by_error(pinion, helicoid, error, m, arm + scene_.wheel_centre, section.tooth);
     const bool at_lowest_start = place.bound == SectionBound::PinionRoot && pinion.form_radius == rb * lowest_start;
     if (place.bound == SectionBound::PinionTip || place.bound == SectionBound::PinionRoot) {
       bound_moves = at_lowest_start ? rho / rb * d_rb : -rb / rho * d_rb;

@@ -62,7 +62,7 @@ class SurfaceGap {
   FlankCondition condition_;
   MeshScene scene_;
   SearchDensity density_;
-  std::array<std::shared_ptr<const PredesignedField>, 2> parabola_;  ///< by member; the involute where the coefficient is 0
+  std::array<std::shared_ptr<const PredesignedField>, 2> parabola_;  ///< by member; null where the coefficient is 0
 };
 
 }  // namespace flankwright

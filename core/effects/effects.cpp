@@ -15,7 +15,7 @@ bool any(const Modification& m) {
 bool any(const ManufacturingError& e) {
   const auto some = [](const std::vector<double>& list) { return std::ranges::any_of(list, [](double f) { return f != 0.0; }); };
   return e.helix_slope != 0.0 || e.profile_slope != 0.0 || e.twist != 0.0 || e.pitch_step != 0.0 || some(e.cumulative_pitch) ||
-         some(e.helix_slopes) || some(e.profile_slopes) || some(e.twists);
+         std::ranges::any_of(e.topographies, [](const auto& field) { return field != nullptr; }) || some(e.helix_slopes) || some(e.profile_slopes) || some(e.twists);
 }
 
 bool any(const Misalignment& m) {

@@ -56,6 +56,7 @@ struct Flank {
     Scalar d = chain(DeviationFormula(modification, tooth_error(error, tooth), frame).at(value_of(r), value_of(z)), r, z) -
                pitch_deviation(error, tooth);
     for (const auto& field : fields) d += evaluate(*field, rho, z);
+    if (const DeviationField* measured = tooth_topography(error, tooth)) d += evaluate(*measured, rho, z);
     return d;
   }
 };

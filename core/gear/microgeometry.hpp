@@ -97,6 +97,8 @@ struct ManufacturingError {
   /// not empty; k counts teeth in the order in which they come into mesh before the reference tooth.
   double pitch_step{0.0};
   std::vector<double> cumulative_pitch{};
+  /// Measured deviation of single teeth [mm, + into the tooth as every DeviationField]: entry k mod size, none where null; empty: none.
+  std::vector<std::shared_ptr<const DeviationField>> topographies{};
 
   bool operator==(const ManufacturingError&) const = default;
 };
@@ -106,6 +108,9 @@ struct ToothError {
   double helix_slope{0.0}, profile_slope{0.0}, twist{0.0};
 };
 ToothError tooth_error(const ManufacturingError& error, int tooth);
+
+/// The measured deviation of one tooth's flank; null where there is none.
+const DeviationField* tooth_topography(const ManufacturingError& error, int tooth);
 
 /// Cumulative pitch deviation of tooth k [mm], see ManufacturingError.
 double pitch_deviation(const ManufacturingError& error, int tooth);

@@ -10,12 +10,15 @@ namespace flankwright {
 
 namespace {
 
-/// Metal added at places of the plane of action, transverse base tangent [mm]: points by roll length of the pinion and z.
-Eigen::VectorXd added(const GearPair& pair, const FlankCondition& condition, const std::vector<std::pair<double, double>>& places) {
+/// Metal added at places of the plane of action on tooth pair k, transverse base tangent [mm]: places by roll length of the pinion
+/// and z.
+Eigen::VectorXd added(const GearPair& pair, const FlankCondition& condition, int tooth,
+                      const std::vector<std::pair<double, double>>& places) {
   const PathOfContact path(pair);
   std::vector<ContactPoint> points;
   for (const auto& [roll, z] : places) {
     ContactPoint point;
+    point.tooth = tooth;
     point.z = z;
     point.phase = (roll - path.roll_at_start) / path.base_pitch;
     point.pinion_radius = std::hypot(pair.pinion.base_radius, roll);
@@ -23,6 +26,11 @@ Eigen::VectorXd added(const GearPair& pair, const FlankCondition& condition, con
     points.push_back(point);
   }
   return plane_of_action_gap(pair, points, condition).error / std::cos(pair.base_helix_angle);
+}
+
+/// Tooth pairs after which slopes repeat on this gear.
+int most_teeth_told_apart(const ManufacturingError& error) {
+  return static_cast<int>(std::max({std::size_t{1}, error.helix_slopes.size(), error.profile_slopes.size()}));
 }
 
 double largest_pitch_step(const ManufacturingError& error) {
@@ -33,17 +41,17 @@ double largest_pitch_step(const ManufacturingError& error) {
   return largest;
 }
 
-/// Peak to peak of the errors' profile deviation of both gears at mid face.
-double profile_deviation(const GearPair& pair, const FlankCondition& condition) {
+/// Peak to peak of the errors' profile deviation of both gears at mid face, tooth pair k.
+double profile_deviation(const GearPair& pair, const FlankCondition& condition, int tooth) {
   constexpr int sections = 16;  // the errors' profiles are straight in the radius, curved a little in the roll length
-  FlankCondition errors = perfect_part({});
-  errors.pinion_error.profile_slope = condition.pinion_error.profile_slope;
-  errors.wheel_error.profile_slope = condition.wheel_error.profile_slope;
+  FlankCondition errors;
+  errors.pinion_error.profile_slope = tooth_error(condition.pinion_error, tooth).profile_slope;
+  errors.wheel_error.profile_slope = tooth_error(condition.wheel_error, tooth).profile_slope;
   std::vector<std::pair<double, double>> places;
   for (int i = 0; i <= sections; ++i) {
     places.emplace_back(pair.path_start + (pair.path_end - pair.path_start) * i / sections, 0.0);
   }
-  const Eigen::VectorXd deviation = added(pair, errors, places);
+  const Eigen::VectorXd deviation = added(pair, errors, 0, places);
   return deviation.maxCoeff() - deviation.minCoeff();
 }
 
@@ -51,10 +59,14 @@ double profile_deviation(const GearPair& pair, const FlankCondition& condition) 
 
 IsoDeviations iso_deviations(const GearPair& pair, const FlankCondition& condition) {
   const double half = 0.5 * pair.face_width, middle = condition.misalignment.axial_offset / 2.0;
-  const Eigen::VectorXd ends = added(pair, lead_part(condition), {{pair.pitch_point, middle - half}, {pair.pitch_point, middle + half}});
-  return {std::abs(ends[1] - ends[0]),
-          std::max({largest_pitch_step(condition.pinion_error), largest_pitch_step(condition.wheel_error),
-                    profile_deviation(pair, condition)})};
+  IsoDeviations deviations{0.0, std::max(largest_pitch_step(condition.pinion_error), largest_pitch_step(condition.wheel_error))};
+  for (int tooth = 0; tooth < std::max(most_teeth_told_apart(condition.pinion_error), most_teeth_told_apart(condition.wheel_error)); ++tooth) {
+    const Eigen::VectorXd ends =
+        added(pair, lead_part(condition), tooth, {{pair.pitch_point, middle - half}, {pair.pitch_point, middle + half}});
+    deviations.misalignment = std::max(deviations.misalignment, std::abs(ends[1] - ends[0]));
+    deviations.base_pitch = std::max(deviations.base_pitch, profile_deviation(pair, condition, tooth));
+  }
+  return deviations;
 }
 
 IsoLoadFactors iso_load_factors(const GearPair& pair, const IsoStiffness& stiffness, const IsoDeviations& deviations,

@@ -4,7 +4,9 @@
 
 #include "core/base/natural_spline.hpp"
 #include "core/base/root.hpp"
+#include "core/contact/condition_gap.hpp"
 #include "core/load/line_region.hpp"
+#include "core/load/placed_points.hpp"
 
 namespace flankwright {
 
@@ -46,11 +48,13 @@ std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, c
     for (const double z : {line.begin, line.end}) {
       const auto point = contact_point(model.pair, region.path, at.phase, tooth, z, model.effects.extended_contact_region);
       if (!point) continue;
-      points.push_back(*point);
+      const std::vector<ContactPoint> placed = placed_points(model.pair, model.placement, {*point}, at.phase);
+      if (placed.empty()) continue;
+      points.push_back(placed.front());
       ends.push_back({tooth, z, structural(z)});
     }
   }
-  const Eigen::VectorXd gap = plane_of_action_gap(model.pair, points, condition).total;
+  const Eigen::VectorXd gap = ConditionGap(model.pair, model.placement.gap, condition).at(points, at.phase).total;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     LineEnd& end = ends[i];
     const double left = loaded.load.transmission_error - gap[static_cast<Eigen::Index>(i)] - end.structural_deflection;

@@ -26,12 +26,14 @@ Modification profile_of(const Modification& m) {
 ManufacturingError lead_of(const ManufacturingError& e) {
   ManufacturingError part;
   part.helix_slope = e.helix_slope;
+  part.helix_slopes = e.helix_slopes;
   return part;
 }
 
 ManufacturingError profile_of(const ManufacturingError& e) {
   ManufacturingError part;
   part.profile_slope = e.profile_slope;
+  part.profile_slopes = e.profile_slopes;
   part.pitch_step = e.pitch_step;
   part.cumulative_pitch = e.cumulative_pitch;
   return part;
@@ -75,9 +77,10 @@ FlankCondition profile_part(const FlankCondition& condition) {
 }
 
 bool has_other_part(const FlankCondition& condition) {
-  const auto other = [](const Modification& m) { return m.twist != 0.0 || m.parabolic_te != 0.0 || m.topography != nullptr; };
-  return other(condition.pinion_modification) || other(condition.wheel_modification) || condition.pinion_error.twist != 0.0 ||
-         condition.wheel_error.twist != 0.0 || condition.misalignment.centre_distance != 0.0;
+  const auto shaped = [](const Modification& m) { return m.twist != 0.0 || m.parabolic_te != 0.0 || m.topography != nullptr; };
+  const auto twisted = [](const ManufacturingError& e) { return e.twist != 0.0 || !e.twists.empty(); };
+  return shaped(condition.pinion_modification) || shaped(condition.wheel_modification) || twisted(condition.pinion_error) ||
+         twisted(condition.wheel_error) || condition.misalignment.centre_distance != 0.0;
 }
 
 LoadFactors load_factors(const ContactPeaks& perfect, const ContactPeaks& lead, const ContactPeaks& profile,

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/compliance/hertz_line.hpp"
-#include "core/contact/surface_gap.hpp"
+#include "core/load/placed_points.hpp"
 
 namespace flankwright {
 
@@ -25,13 +25,9 @@ MeshPosition make_position(const MeshModel& model, const PathOfContact& path, co
                            const PairCompliance* shafts, const Quadrature& quadrature, double phase, double face_start, double face_end) {
   MeshPosition position;
   position.phase = phase;
-  position.points = contact_points(model.pair, path, quadrature, phase, model.effects.extended_contact_region, face_start,
-                                   face_end);
-  if (model.placement.gap == GapModel::WholeSurface) {
-    FlankCondition unmodified;
-    unmodified.misalignment = model.placement.misalignment;
-    position.points = SurfaceGap(model.pair, unmodified).place(position.points, phase);
-  }
+  const std::vector<ContactPoint> in_plane =
+      contact_points(model.pair, path, quadrature, phase, model.effects.extended_contact_region, face_start, face_end);
+  position.points = placed_points(model.pair, model.placement, in_plane, phase);
   const Eigen::Index n = static_cast<Eigen::Index>(position.points.size());
   position.weight.resize(n);
   position.influence = model.effects.bending ? structure.influence(position.points, model.axial_offset)

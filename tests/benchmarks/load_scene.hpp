@@ -40,7 +40,7 @@ inline MeshModel model(int positions, int intervals, bool root_stress) {
   const GearPair pair = make_gear_pair(reference::haddad_18_54::pair_data());
   const CoupledSlices structure(pair);
   const mesh_cases::SyntheticRootStress fillets(pair);
-  return make_mesh_model(pair, {}, {}, {{QuadratureRule::Gauss2, intervals}, equally_spaced_phases(positions)}, {}, 0.0, &structure,
+  return make_mesh_model(pair, {}, {}, {{QuadratureRule::Gauss2, intervals}, equally_spaced_phases(positions)}, {}, {}, &structure,
                          root_stress ? &fillets : nullptr);
 }
 

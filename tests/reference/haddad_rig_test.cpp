@@ -89,6 +89,7 @@ TEST_CASE("Loading the rig adds the transmission error that was measured, by fin
   const std::vector<double> found = added_error({{"fidelity.compliance", "fe"}});
   for (std::size_t phase = 0; phase < 3; ++phase) {
     CAPTURE(phase, found[phase]);
-    CHECK(found[phase] == Approx(rig::measured_added_error).epsilon(0.10));
+    // Model: finite elements of solid gears, the pinion is hollow. Found: 47.4, 47.7, 47.9 um.
+    CHECK(found[phase] == Approx(rig::measured_added_error).epsilon(0.05));
   }
 }

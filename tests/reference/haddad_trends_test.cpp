@@ -5,6 +5,8 @@
 
 #include "core/compliance/plate/cantilever_plate.hpp"
 #include "core/load/load_factors.hpp"
+#include "studies/run_study.hpp"
+#include "studies/study_file.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 /// What chapters 3 and 4 of C. D. Haddad's thesis (1991) say about loads and load distribution factors in words, where teeth as slices
@@ -23,7 +25,7 @@ struct Mesh {
   double torque() const { return 100 * pair.face_width * pair.pinion.base_radius * std::cos(pair.base_helix_angle); }
   ContactPeaks peaks(const FlankCondition& condition) const {
     const MeshAt mesh_at = [this](const std::vector<double>& phases) {
-      return make_mesh_model(pair, mesh_cases::steel, mesh_cases::steel, {quadrature, phases}, effects, 0, structure.get());
+      return make_mesh_model(pair, mesh_cases::steel, mesh_cases::steel, {quadrature, phases}, effects, {}, structure.get());
     };
     return locate_peaks(mesh_at, condition, torque());
   }
@@ -83,7 +85,7 @@ TEST_CASE("The load along a spur tooth turns two modules from its ends, by Poiss
   const double phase = (pair.pitch_point - pair.path_start) / pair.transverse_base_pitch + PathOfContact::extension;
   const auto along_face = [&](double poissons_ratio) {  // of the pair that carries all, by distance from the end [m_n]
     const auto structure = plates(pair, poissons_ratio);
-    const MeshModel model = make_mesh_model(pair, mesh_cases::steel, mesh_cases::steel, {{QuadratureRule::Graded, 16}, {phase}}, {}, 0,
+    const MeshModel model = make_mesh_model(pair, mesh_cases::steel, mesh_cases::steel, {{QuadratureRule::Graded, 16}, {phase}}, {}, {},
                                             structure.get());
     const LoadedCycle cycle = analyse_cycle(model, {}, Mesh{pair}.torque());
     std::map<double, double> loads;
@@ -167,4 +169,23 @@ TEST_CASE("ISO's mesh stiffness knows neither the face width nor the wheel's bod
   CHECK(c_gamma(18, 120) < c_gamma(54, 120));
   CHECK(c_gamma(54, 120) < c_gamma(100, 120));
   CHECK(c_gamma(54, 20) == c_gamma(54, 120));
+}
+
+TEST_CASE("Finite elements give way more the larger the wheel is and the wider a spur pair", "[.soak][reference][haddad][fe]") {
+  // Section 3.3; the same specific load throughout. A helical pair's narrow disc tilts under the axial load: haddad_trends.md.
+  const auto stiffness = [](double helix_angle, int wheel_teeth, double face_width) {
+    const auto text = [](const auto& value) { return std::to_string(value); };
+    const std::string study = "[pair]\nnormal_module = 10\nhelix_angle = " + text(helix_angle) +
+                              "\n[pinion]\nteeth = 18\nface_width = " + text(face_width) + "\n[wheel]\nteeth = " + text(wheel_teeth) +
+                              "\nface_width = " + text(face_width) + "\n[load]\ntorque = " + text(8.457 * face_width) +
+                              "\n[cycle]\npositions = 16\npeaks = \"sampled\"\n[fidelity]\ncompliance = \"fitted\"\n";
+    return studies::run_study(studies::parse_study(study, "trend.toml")).loaded.front().summary.mean_stiffness;
+  };
+  const double small = stiffness(30, 18, 120), middle = stiffness(30, 54, 120), large = stiffness(30, 100, 120);
+  CAPTURE(small, middle, large);
+  CHECK(middle < 0.9 * small);
+  CHECK(large < 0.6 * middle);
+  const double narrow = stiffness(0, 54, 20), wide = stiffness(0, 54, 120);
+  CAPTURE(narrow, wide);
+  CHECK(wide < 0.9 * narrow);
 }

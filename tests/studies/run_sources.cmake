@@ -5,6 +5,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/expectations_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/finite_elements_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/fit_results_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/gradients_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/grid_file_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/results_folder_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/results_store_test.cpp

@@ -183,6 +183,33 @@ TEST_CASE("A grid file beside the study is read and fitted, wherever the program
         Approx(8e-3 * 0.81 / std::cos(pair.base_helix_angle)).epsilon(1e-6));  // six decimals in the file
 }
 
+TEST_CASE("Single teeth may have a measured grid each, in every scene", "[studies][study-file][grid]") {
+  const GridCase grid(crowned_grid());
+  const auto table = [](int teeth) {
+    std::string text = "[pinion.error]\ngrids = [\"\", \"flank.csv\"";
+    for (int tooth = 2; tooth < teeth; ++tooth) text += tooth == 5 ? ", \"flank.csv\"" : ", \"\"";
+    return text + "]\n";
+  };
+  const int teeth = read_study(grid.study_path("")).pair.pinion.teeth;
+  const Study study = read_study(grid.study_path(table(teeth)));
+  const auto& fields = study.scenes.front().pinion_error.topographies;
+  REQUIRE(static_cast<int>(fields.size()) == teeth);
+  CHECK(fields[0] == nullptr);
+  REQUIRE(fields[1] != nullptr);
+  CHECK(fields[5] == fields[1]);  // read once
+  // 8 um taken off at z = 20 mm, + into the tooth and in the transverse section.
+  const GearPair pair = make_gear_pair(study.pair);
+  const double rho = pair.pinion.roll_length_at(43.0);
+  CHECK(fields[1]->at(rho, 18.0).value == Approx(0.008 * 0.81 / std::cos(pair.base_helix_angle)).epsilon(1e-9));
+  CHECK(study.wheel_error.topographies.empty());
+  const auto problems = grid.problems(table(teeth - 1));
+  REQUIRE(problems.size() == 1);
+  CHECK(problems.front().key == "pinion.error.grids");
+  const auto missing = grid.problems("[wheel.error]\ngrids = [1]\n");
+  REQUIRE_FALSE(missing.empty());
+  CHECK(missing.front().key == "wheel.error.grids");
+}
+
 TEST_CASE("A grid may be smoothed, and what it then misses is told", "[studies][study-file][grid]") {
   std::string rough = crowned_grid();
   rough.replace(rough.find("43,0,"), rough.find('\n', rough.find("43,0,")) - rough.find("43,0,"), "43,0,3");

@@ -154,6 +154,34 @@ TEST_CASE("Every tooth pair in mesh has the errors of its own two teeth", "[core
   CHECK(teeth >= 3);
 }
 
+TEST_CASE("Errors of single teeth make the same unloaded contact as gap, to first order", "[core][contact][independent]") {
+  /// A crown of 8 um over 20 mm either way and a slope in roll length.
+  struct Crown final : DeviationField {
+    Jet at(double rho, double z) const override {
+      const double c = 8 * um / 400, k = 0.2 * um;
+      return {c * z * z + k * rho, k, 2 * c * z, 0.0, 0.0, 2 * c};
+    }
+  };
+  const GearPair pair = make_gear_pair(pair_data(23, 57, 15 * deg, 0.3, -0.1, 40.0, 30.0));
+  FlankCondition condition;
+  condition.pinion_modification.lead_crowning = 6 * um;  // contact stays off the face ends
+  condition.pinion_error.helix_slopes.resize(23);
+  condition.wheel_error.cumulative_pitch.resize(57);
+  condition.wheel_error.topographies.resize(57);
+  for (const int tooth : {-1, 0, 1, 2}) {
+    condition.pinion_error.helix_slopes[static_cast<std::size_t>((tooth + 23) % 23)] = 4 * tooth * um;
+    condition.wheel_error.cumulative_pitch[static_cast<std::size_t>((tooth + 57) % 57)] = (tooth % 2 == 0 ? 3 : -2) * um;
+  }
+  condition.wheel_error.topographies[1] = condition.wheel_error.topographies[56] = std::make_shared<Crown>();
+  for (const double turn : {-0.4, -0.2, 0.0, 0.2, 0.4}) {
+    const Comparison c = compare(pair, condition, turn * 2 * pi / pair.data.pinion.teeth);
+    CAPTURE(turn, c.gap, c.contact);
+    // model: as above
+    CHECK(c.gap - c.contact <= 0.1 * um);
+    CHECK(c.contact - c.gap <= 0.02 * um);
+  }
+}
+
 TEST_CASE("The gap's derivative for every parameter agrees with central differences", "[core][contact]") {
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const GearPair pair = make_gear_pair(pair_data(23, 46, 15 * deg, 0.2));

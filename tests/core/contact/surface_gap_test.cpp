@@ -336,6 +336,7 @@ TEST_CASE("Wild random flanks have a finite gap, finite derivatives and places o
     condition.pinion_modification = wild_modification(random, pair, pair.pinion);
     condition.wheel_modification = wild_modification(random, pair, pair.wheel);
     const double phase = random(0.0, 1.0);
+    CHECK_NOTHROW(SurfaceGap(pair, {}));
     std::optional<SurfaceGap> unmodified, modified;
     try {
       unmodified.emplace(pair, misaligned_by(condition.misalignment));

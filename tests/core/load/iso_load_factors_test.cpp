@@ -38,6 +38,9 @@ TEST_CASE("ISO's misalignment is the linear part of the gap along the face", "[c
   CHECK(iso_deviations(gears, c).misalignment == Approx(0).margin(1e-15));
   c.wheel_error.helix_slope = -3 * units::um;
   CHECK(iso_deviations(gears, c).misalignment == Approx(3 * units::um).epsilon(kRoundOff));
+  // Teeth that differ: the worst of them.
+  c.pinion_error.helix_slopes = {0, -2 * units::um, 2 * units::um};
+  CHECK(iso_deviations(gears, c).misalignment == Approx(5 * units::um).epsilon(kRoundOff));
   // Crossing axes: an angle in the plane of action, by cos(alpha_wt), over the face.
   FlankCondition crossed;
   crossed.misalignment.crossing = 1 * units::arcmin;
@@ -57,6 +60,9 @@ TEST_CASE("ISO's pitch deviation is the largest single step or profile deviation
   // A profile slope over the active profile of the pinion; both gears' active profiles are those of A to E.
   c.pinion_error.profile_slope = 12 * units::um;
   CHECK(iso_deviations(gears, c).base_pitch == Approx(12 * units::um).epsilon(kRoundOff));
+  c.pinion_error.profile_slopes = {0, 3 * units::um};
+  CHECK(iso_deviations(gears, c).base_pitch == Approx(15 * units::um).epsilon(kRoundOff));
+  c.pinion_error.profile_slopes.clear();
   // Modifications are meant, not deviations.
   c.pinion_modification.tip_relief = {40 * units::um, 5, ReliefShape::Linear};
   CHECK(iso_deviations(gears, c).base_pitch == Approx(12 * units::um).epsilon(kRoundOff));

@@ -40,6 +40,8 @@ FlankCondition lead_and_profile() {
   c.pinion_error.helix_slope = 3 * units::um;
   c.pinion_error.profile_slope = -4 * units::um;
   c.pinion_error.pitch_step = 2 * units::um;
+  c.pinion_error.helix_slopes = {0, 2 * units::um, -1 * units::um};
+  c.wheel_error.profile_slopes = {1 * units::um, 0};
   c.wheel_error.cumulative_pitch = {1 * units::um, -2 * units::um, 0, 3 * units::um};
   c.misalignment.crossing = 10 * units::arcsec;
   c.misalignment.intersecting = -20 * units::arcsec;
