@@ -54,7 +54,7 @@ TEST_CASE("The mesh fills the gear: its volume is that of teeth, ring and shaft"
     const double r = form.root_radius() + (form.tip_radius() - form.root_radius()) * (i + 0.5) / kSteps;
     tooth += 2 * form.half_angle(r) * r * (form.tip_radius() - form.root_radius()) / kSteps;
   }
-  const double shaft = default_shaft_diameter(form, 1) / 2, bore = 0.2 * shaft;
+  const double shaft = default_shaft_diameter(form, 1) / 2, bore = 0.05 * shaft;
   const double area = 5 * tooth + pi * (form.root_radius() * form.root_radius() - bore * bore);
   const double expected = 6 * area + 2 * shaft * pi * (shaft * shaft - bore * bore);
   CHECK(volume == Approx(expected).epsilon(1e-4));  // discretisation: quadratic elements around circles
