@@ -139,9 +139,11 @@ TEST_CASE("Deflections along a line of contact from the tip's sharp corner fall 
   // The printed values still hold the shaft's motion: without it about 0.3 less remains far away.
   const Eigen::MatrixXd k = model.influence(points, RemovedMotion::None).compliance;
   CAPTURE(k.col(0).transpose());
-  // Model: load and response are one functional here, a patch of 0.5 m_n and a point there.
-  for (int i = 0; i < 7; ++i)
-    CHECK(k(i, 0) == Approx(thesis::table_2b_1[i].centre * thesis::table_2b_1_unit).epsilon(0.16));
+  // Model: load and response are one functional here, a patch of 0.5 m_n and a point there; a module and more from the
+  // load that no longer matters.
+  for (int i = 0; i < 7; ++i) {
+    CHECK(k(i, 0) == Approx(thesis::table_2b_1[i].centre * thesis::table_2b_1_unit).epsilon(i < 2 ? 0.10 : 0.03));
+  }
   const Eigen::MatrixXd net = model.influence(points, RemovedMotion::TranslationTorsionAndTilt).compliance;
   CAPTURE(net.col(0).transpose());
   CHECK(std::abs(k(6, 0) - net(6, 0) - 0.3) < 0.1);

@@ -73,6 +73,9 @@ function build_transmission_error(results, body, selection) {
     caption: "Lag of the wheel along the flank normal while the mesh advances by one base pitch; what varies excites "
       + `noise, what is constant does not.${others}`,
   }, (plot) => draw_te_cycle(plot, selection));
+  const has_harmonics = selection.cases.some((load_case) =>
+    designs_of(load_case).some((design) => list(summary_of(load_case.designs[design]).te_harmonics_um).length > 0));
+  if (!has_harmonics) return; // phases of one's own choice have none
   case_figure(grid, selection, {
     title: "Harmonics of the transmission error",
     caption: "Amplitudes at multiples of the tooth-mesh frequency: the first orders are the ones that are heard.",
