@@ -130,7 +130,7 @@ FaceNodes GearMesh::face_nodes(const MeshFace& face) const {
 GearBody complete_body(const GearBody& body, const ToothForm& form, double normal_module) {
   GearBody complete = body;
   if (std::isnan(body.shaft_diameter)) complete.shaft_diameter = default_shaft_diameter(form, normal_module);
-  if (std::isnan(body.bore_diameter)) complete.bore_diameter = 0.05 * complete.shaft_diameter;
+  if (std::isnan(body.bore_diameter)) complete.bore_diameter = default_bore_share * complete.shaft_diameter;
   if (std::isnan(body.shaft_overhang)) complete.shaft_overhang = 0.5 * complete.shaft_diameter;
   return complete;
 }

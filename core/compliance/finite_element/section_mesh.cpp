@@ -139,8 +139,8 @@ class RootCurve {
 };
 
 HalfTooth half_tooth(const ToothForm& form, int teeth, double rim_radius, int flank_elements, int fillet_elements) {
-  constexpr double kAtTip =
-      0.6;  // size at the tip over the mean one: loads are felt over a distance as the thickness is
+  // Size at the tip over the mean one: loads are felt over a distance as the thickness is.
+  constexpr double kAtTip = 0.6;
   HalfTooth half;
   for (int i = 0; i <= 2 * flank_elements; ++i) {
     const double t = i / (2.0 * flank_elements), drop = t * (kAtTip + (1 - kAtTip) * t);
@@ -267,7 +267,7 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
   const double root = form.root_radius();
   const double shaft =
       (std::isnan(body.shaft_diameter) ? default_shaft_diameter(form, normal_module) : body.shaft_diameter) / 2;
-  const double bore = std::isnan(body.bore_diameter) ? 0.05 * shaft : body.bore_diameter / 2;
+  const double bore = std::isnan(body.bore_diameter) ? default_bore_share * shaft : body.bore_diameter / 2;
   // Half a module of rim is the least that the blocks of the teeth can stand on.
   if (!(shaft > 0 && shaft <= root - 0.5 * normal_module)) {
     throw InvalidInput("body.shaft_diameter", std::to_string(2 * shaft),

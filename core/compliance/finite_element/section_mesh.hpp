@@ -31,11 +31,13 @@ struct GearMeshOptions {
 /// a spur gear the sharp end is that at z = -b/2 of GearToMesh.
 enum class FaceEnd { Sharp, Blunt };
 
+/// Bore over shaft diameter where no bore is given: as near to a solid shaft as elements go.
+inline constexpr double default_bore_share = 0.05;
+
 /// What the teeth stand on: a solid disc as wide as the face, on a hollow shaft that runs through it.
 struct GearBody {
   double shaft_diameter{not_given};  ///< d_s [mm]; not given: default_shaft_diameter()
-  /// [mm], > 0; not given: 0.05 d_s, as near to a solid shaft as elements go. At its edge the shaft is held axially, see
-  /// GearMesh.
+  /// [mm], > 0; not given: default_bore_share d_s. At its edge the shaft is held axially, see GearMesh.
   double bore_diameter{not_given};
   double shaft_overhang{not_given};  ///< length of the shaft beyond each face end [mm], > 0; not given: 0.5 d_s
   /// Where torque and axial force leave the gear. What lies between there and a load winds up under it. The default is
