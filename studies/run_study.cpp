@@ -6,6 +6,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "studies/study_shafts.hpp"
+#include "studies/sweep/sweep_value.hpp"
 
 namespace flankwright::studies {
 
@@ -33,6 +34,9 @@ EffectFacts facts_of(const Study& study) {
       }
     }
     facts.conditions.push_back(condition);
+  }
+  if (study.task == Task::Sweep) {
+    for (const SweptCondition& extreme : extreme_conditions(study)) facts.conditions.push_back(extreme.flanks());
   }
   return facts;
 }
@@ -74,6 +78,7 @@ class Run {
     switch (results_.study.task) {
       case Task::Analyse: analyse(); break;
       case Task::Optimise: optimise(); break;
+      case Task::Sweep: analyse(); break;  // the nominal sample; the others: run_sweep()
       case Task::Fit: fit(); break;
     }
     for (Effect& effect : results_.effects) {
