@@ -60,15 +60,11 @@ class SampleWriter {
   Stopwatch clock_, batch_;
 };
 
-long long samples_of(Shard shard, long long samples) {
-  return shard.index < samples ? (samples - shard.index + shard.count - 1) / shard.count : 0;
-}
-
 }  // namespace
 
 void run_samples(SweepStore& store, const SweepDesign& design, const SampleAnalysis& analysis, Shard shard, const ProgressReport& progress) {
   const long long samples = design.samples();
-  SampleWriter writer(store, progress, samples_of(shard, samples), store.count(samples));
+  SampleWriter writer(store, progress, shard.share_of(samples), store.count(samples));
   for (long long begin = 0; begin < samples; begin += chunk) {
     const long long end = std::min(begin + chunk, samples);
     const std::vector<bool> present = store.present(begin, end);
