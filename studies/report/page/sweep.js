@@ -93,7 +93,8 @@ function build_scatter(results, body) {
   });
   table(body, {
     title: "What scattered",
-    note: `Sampler ${words(sweep.sampler)}, seed ${sweep.seed}; every parameter independent of the others.`,
+    note: `Sampler ${words(sweep.sampler)}, seed ${sweep.seed}; every parameter independent of the others. Sections after the response maps show the `
+      + "nominal sample: the study as it is written, and medians where it gives no value.",
     columns: [{ label: "Parameter" }, { label: "Unit" }, { label: "Distribution" }, { label: "Lowest drawn" }, { label: "Highest drawn" }],
     rows: list(sweep.parameters).map(record).map((p) => [p.path, sweep_unit(p.unit), p.distribution, record(p.range).low ?? null,
       record(p.range).high ?? null]),

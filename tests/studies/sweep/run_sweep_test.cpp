@@ -51,6 +51,16 @@ TEST_CASE("A sample of a sweep is the analysis of its own study, bit for bit", "
   CHECK(samples[0].result.outputs[0] != samples[3].result.outputs[0]);
 }
 
+TEST_CASE("A sample's own study finds the measured grids of the sweep's from anywhere", "[studies][sweep]") {
+  Study study = read("samples = 24");
+  study.file = "/gears/pump/sweep.toml";
+  study.wheel_grid.file = "../flanks/wheel.csv";
+  study.pinion_tooth_grids = {"a.csv", "", "/b.csv"};
+  const std::string text = sample_study(study, "one \"worst\"", {0.5, 1000.0, 8.0});
+  CHECK_THAT(text, Catch::Contains("'/gears/flanks/wheel.csv'") && Catch::Contains("[ '/gears/pump/a.csv', '', '/b.csv' ]"));
+  CHECK_THAT(text, !Catch::Contains("[sweep") && Catch::Contains("one \"worst\""));
+}
+
 TEST_CASE("Samples do not depend on the number of threads, nor on the shard they are analysed in", "[studies][sweep]") {
   const Study study = read("samples = 60\nsampler = \"latin_hypercube\"");
   const auto with_threads = [&](std::size_t threads) {
