@@ -23,6 +23,8 @@ bool has_loaded(const json& results) {
   return has(results, "loaded") && results.at("loaded").is_array();
 }
 
+bool has_sweep(const json& results) { return has(results, "sweep") && results.at("sweep").is_object(); }
+
 /// A section of the page: the script fills the element `id`; it exists only where `present` holds.
 struct Section {
   const char* id;
@@ -32,6 +34,9 @@ struct Section {
 
 /// In the order in which a gear engineer asks.
 constexpr Section sections[] = {
+    {"scatter", "Scatter over the samples", has_sweep},
+    {"sensitivity", "Where the scatter comes from", [](const json& r) { return has_sweep(r) && r.at("sweep").value("index_blocks", 0) > 1; }},
+    {"response-maps", "Response maps", [](const json& r) { return has_sweep(r) && has(r.at("sweep"), "response_maps"); }},
     {"transmission-error", "Transmission error under load", has_loaded},
     {"scenes", "Scenes", [](const json& r) { return has(r, "optimise"); }},
     {"flank-load", "Load on the flank", has_loaded},
