@@ -105,14 +105,20 @@ void DesignProblem::apply(const Eigen::VectorXd& x, Modification& pinion, Modifi
   }
 }
 
+LoadedCycle DesignProblem::analyse_scene(int scene, const Modification& pinion, const Modification& wheel,
+                                         const std::vector<MeshParameter>& parameters) const {
+  const DesignScene& of_task = task_.scenes[static_cast<std::size_t>(scene)];
+  FlankCondition condition = of_task.condition;
+  condition.pinion_modification = pinion;
+  condition.wheel_modification = wheel;
+  return analyse_cycle(model(scene), condition, of_task.torque, parameters);
+}
+
 DesignAnalysis DesignProblem::run(const Modification& pinion, const Modification& wheel, bool with_derivatives) const {
   DesignAnalysis analysis{pinion, wheel, std::vector<LoadedCycle>(task_.scenes.size())};
   const std::vector<MeshParameter> none;
-  tbb::parallel_for(std::size_t{0}, task_.scenes.size(), [&](std::size_t s) {
-    FlankCondition condition = task_.scenes[s].condition;
-    condition.pinion_modification = pinion;
-    condition.wheel_modification = wheel;
-    analysis.cycles[s] = analyse_cycle(*models_[s], condition, task_.scenes[s].torque, with_derivatives ? parameters_ : none);
+  tbb::parallel_for(0, scenes(), [&](int s) {
+    analysis.cycles[static_cast<std::size_t>(s)] = analyse_scene(s, pinion, wheel, with_derivatives ? parameters_ : none);
   });
   return analysis;
 }
@@ -134,10 +140,13 @@ DesignAnalysis DesignProblem::analyse_given() const {
 }
 
 double DesignProblem::scene_measure(const DesignAnalysis& analysis, int scene) const {
+  return scene_measure(analysis.cycles[static_cast<std::size_t>(scene)], scene);
+}
+
+double DesignProblem::scene_measure(const LoadedCycle& cycle, int scene) const {
   double sum = 0.0;
   for (const ObjectiveTerm& term : task_.objective) {
-    sum += term.weight * term.outside_factor() *
-           output_value(term, model(scene), analysis.cycles[static_cast<std::size_t>(scene)]);
+    sum += term.weight * term.outside_factor() * output_value(term, model(scene), cycle);
   }
   return sum;
 }

@@ -43,12 +43,18 @@ class DesignProblem {
   const DesignAnalysis& analyse(const Eigen::VectorXd& x, bool with_derivatives);
   /// Analyses the task's own modifications as given, whatever the bounds.
   DesignAnalysis analyse_given() const;
+  /// Analyses any modifications; neither remembered nor counted.
+  DesignAnalysis analyse_design(const Modification& pinion, const Modification& wheel) const { return run(pinion, wheel, false); }
+  /// One scene of that, with derivatives by any parameters.
+  LoadedCycle analyse_scene(int scene, const Modification& pinion, const Modification& wheel,
+                            const std::vector<MeshParameter>& parameters = {}) const;
 
   /// Runs of analyse() that were computed, not remembered.
   int analyses() const { return analyses_; }
 
   /// Weighted sum of the objective's outputs in one scene, outside units.
   double scene_measure(const DesignAnalysis& analysis, int scene) const;
+  double scene_measure(const LoadedCycle& cycle, int scene) const;
   /// The scenes' measures combined as the task says.
   double objective(const DesignAnalysis& analysis) const;
   /// Largest value of a bounded output over the scenes, inside unit.

@@ -1,0 +1,3 @@
+list(APPEND FLANKWRIGHT_TEST_SOURCES
+     ${CMAKE_CURRENT_LIST_DIR}/rules_of_thumb_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/variant_search_test.cpp)
