@@ -10,6 +10,7 @@
 #include "studies/gradients_json.hpp"
 #include "studies/json_format.hpp"
 #include "studies/load_rating_json.hpp"
+#include "studies/proof/proof_json.hpp"
 #include "studies/shafts_json.hpp"
 #include "studies/unloaded_json.hpp"
 #include "studies/used_json.hpp"
@@ -315,6 +316,7 @@ std::string results_json(const StudyResults& results) {
     return {{"name", e.name}, {"on", e.on}, {"why", e.why}, {"seconds", e.seconds}};
   });
   if (results.design) json["optimise"] = optimise_json(results);
+  if (results.proof) add_proof(*results.proof, *results.design_task, study.optimise.proof, json["optimise"]);
   if (!results.deflections.empty()) json["deflections"] = list(results.deflections, deflections_json);
   if (!results.fits.empty()) json["fit"] = list(results.fits, fit_json);
   json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}}; });

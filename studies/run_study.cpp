@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/base/stopwatch.hpp"
+#include "studies/proof/drawn_scenes.hpp"
 #include "studies/study_shafts.hpp"
 
 namespace flankwright::studies {
@@ -33,6 +34,10 @@ EffectFacts facts_of(const Study& study) {
       }
     }
     facts.conditions.push_back(condition);
+  }
+  // What scatters counts as well; four scenes are enough to see a value other than 0.
+  for (const Scene& scene : draw_scenes(study, {.samples = study.optimise.proof.tolerances.empty() ? 0 : 4})) {
+    facts.conditions.push_back(condition_of(study, scene));
   }
   return facts;
 }
@@ -125,14 +130,23 @@ class Run {
   }
 
   /// Working conditions under load, as far as their effects are on.
-  std::vector<DesignScene> loaded_scenes() const {
+  std::vector<DesignScene> loaded_scenes() const { return loaded(results_.study.scenes); }
+
+  std::vector<DesignScene> loaded(const std::vector<Scene>& of_study) const {
     std::vector<DesignScene> scenes;
-    for (const Scene& scene : results_.study.scenes) {
+    for (const Scene& scene : of_study) {
       for (double torque : scene.torques) {
         if (torque == 0.0) continue;
         scenes.push_back({scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(results_.study, scene))});
       }
     }
+    return scenes;
+  }
+
+  /// The listed ones and those drawn from tolerances.
+  std::vector<DesignScene> all_scenes() const {
+    std::vector<DesignScene> scenes = loaded_scenes();
+    for (DesignScene& scene : loaded(draw_scenes(results_.study, results_.study.optimise.proof.scenes))) scenes.push_back(std::move(scene));
     return scenes;
   }
 
@@ -280,7 +294,7 @@ class Run {
     task.objective = study.optimise.objective;
     task.over = study.optimise.over;
     task.constraints = study.optimise.constraints;
-    task.scenes = loaded_scenes();  // an unloaded scene has no stress and no loaded transmission error to choose by
+    task.scenes = all_scenes();  // an unloaded scene has no stress and no loaded transmission error to choose by
     return task;
   }
 
@@ -301,6 +315,8 @@ class Run {
     results_.design = optimise_design(problem, options);
     const DesignResult& design = *results_.design;
     results_.effects.push_back({"load_distribution", true, "all analyses of the optimisation", design.seconds});
+    results_.proof = prove_optimum(study, problem, design, loaded(draw_scenes(study, study.optimise.proof.validation)), progress_);
+    results_.effects.push_back({"proof_of_the_optimum", true, "rules of thumb, variants, sensitivities", results_.proof->seconds});
     for (const auto& [name, report] : {std::pair{"before", &design.before}, std::pair{"after", &design.after}}) {
       for (int s = 0; s < problem.scenes(); ++s) {
         DesignScene scene = results_.design_task->scenes[static_cast<std::size_t>(s)];

@@ -14,6 +14,7 @@
 #include "core/compliance/shaft/shaft_pair.hpp"
 #include "studies/gear_structures.hpp"
 #include "studies/load_rating.hpp"
+#include "studies/proof/proof.hpp"
 #include "studies/study.hpp"
 #include "studies/unloaded_result.hpp"
 
@@ -46,6 +47,7 @@ struct StudyResults {
   std::vector<Effect> effects;
   std::optional<DesignTask> design_task;
   std::optional<DesignResult> design;
+  std::optional<Proof> proof;     ///< of the design
   std::vector<GearDeflections> deflections;  ///< of both gears, where the compliance is of single gears
   std::vector<GearFit> fits;              ///< of the task "fit", one a gear
   std::vector<std::string> notes;         ///< what the reader should know, one sentence each

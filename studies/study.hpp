@@ -14,6 +14,7 @@
 #include "core/gear/microgeometry.hpp"
 #include "core/load/mesh_parameter.hpp"
 #include "optimize/design_task.hpp"
+#include "studies/proof/proof_table.hpp"
 
 /// A study as pure data: what a study file says, validated, in internal units (mm, N, rad, MPa); study_file.hpp reads.
 namespace flankwright::studies {
@@ -86,6 +87,7 @@ struct OptimiseTable {
   int max_evaluations{2000};
   double max_seconds{std::numeric_limits<double>::infinity()};
   unsigned long seed{1};
+  ProofTable proof;
 };
 
 /// One parameter of analyse.gradients.

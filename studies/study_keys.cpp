@@ -213,7 +213,7 @@ void append(std::vector<SchemaKey>& schema, const std::vector<SchemaKey>& rows) 
 
 std::vector<SchemaKey> make_schema() {
   std::vector<SchemaKey> schema;
-  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), shaft_rows(), task_rows()}) append(schema, rows);
+  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), shaft_rows(), task_rows(), proof_rows()}) append(schema, rows);
   return schema;
 }
 

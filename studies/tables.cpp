@@ -8,6 +8,7 @@
 #include "studies/fit_tables.hpp"
 #include "studies/json_format.hpp"
 #include "studies/load_rating_tables.hpp"
+#include "studies/proof/proof_tables.hpp"
 #include "studies/unloaded_tables.hpp"
 
 namespace flankwright::studies {
@@ -117,8 +118,9 @@ std::string design_table(const StudyResults& results) {
                        width, design.before.constraint_values[c] * output.outside_factor(),
                        design.after.constraint_values[c] * output.outside_factor(), "");
   }
-  return out + fmt::format("\n{}: {} after {} analyses of {} scenes in {:.1f} s\n", design.solver, to_string(design.status),
-                           design.evaluations, task.scenes.size(), design.seconds);
+  out += fmt::format("\n{}: {} after {} analyses of {} scenes in {:.1f} s\n", design.solver, to_string(design.status),
+                     design.evaluations, task.scenes.size(), design.seconds);
+  return results.proof ? out + proof_summary(*results.proof, task, design.after.objective) : out;
 }
 
 std::string analysis_table(const StudyResults& results) {
@@ -164,6 +166,9 @@ std::vector<NamedText> csv_tables(const StudyResults& results) {
   if (results.design) {
     tables.push_back({"scenes.csv", scenes_csv(results)});
     tables.push_back({"history.csv", history_csv(*results.design)});
+  }
+  if (results.proof) {
+    for (NamedText& table : proof_tables(*results.proof)) tables.push_back(std::move(table));
   }
   for (NamedText& table : fit_tables(results.fits)) tables.push_back(std::move(table));
   return tables;

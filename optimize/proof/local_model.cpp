@@ -12,9 +12,7 @@ namespace {
 constexpr std::size_t most_candidates = 400;  // of one peak
 
 ProofParameter of_variable(const DesignVariable& v, int index) {
-  const std::string unit = v.unit();
-  const double step = unit == "mm" ? 0.1 : unit == "um" ? 1.0 : 0.01;
-  return {v.path, step, unit, GearParameter{v.member, v.parameter}, step / v.outside_factor(), index};
+  return {v.path, proof_step(v) * v.outside_factor(), v.unit(), GearParameter{v.member, v.parameter}, proof_step(v), index};
 }
 
 ProofParameter of_error(Member member, const char* name, ModificationParameter removed) {
@@ -28,6 +26,12 @@ double step_in(const DesignScene& scene, const ProofParameter& p) {
 }
 
 }  // namespace
+
+double proof_step(const DesignVariable& variable) {
+  const std::string unit = variable.unit();
+  const double outside = unit == "um" ? 1.0 : unit == "mm" ? 0.1 : 0.01;
+  return outside / variable.outside_factor();
+}
 
 std::vector<ProofParameter> proof_parameters(const DesignTask& task) {
   using enum ModificationParameter;

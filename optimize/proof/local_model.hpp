@@ -18,6 +18,9 @@ struct ProofParameter {
   int variable{-1};       ///< index of the design variable it is; -1: a tolerance
 };
 
+/// One step of a design variable [mm; parabolic_te 1/rad], see proof_parameters().
+double proof_step(const DesignVariable& variable);
+
 /// The task's variables, then what housing and workshop do, the same in every scene: misalignment 1 um, crossing and intersecting 0.1
 /// arcmin, centre distance 0.01 mm, helix and profile slope of either gear 1 um, torque 1 %. Amounts of a modification step by 1 um,
 /// extents by 0.1 mm, parabolic_te by 0.01 arcsec/deg^2.

@@ -23,6 +23,13 @@ bool has_loaded(const json& results) {
   return has(results, "loaded") && results.at("loaded").is_array();
 }
 
+/// A part of the proof of an optimum; a comparison counts where there is something to compare with.
+bool has_proof(const json& results, const char* part) {
+  if (!has(results, "optimise") || !results.at("optimise").is_object() || !has(results.at("optimise"), part)) return false;
+  const json& found = results.at("optimise").at(part);
+  return !found.contains("rules") || has(found, "rules") || has(found, "variants");
+}
+
 /// A section of the page: the script fills the element `id`; it exists only where `present` holds.
 struct Section {
   const char* id;
@@ -34,6 +41,10 @@ struct Section {
 constexpr Section sections[] = {
     {"transmission-error", "Transmission error under load", has_loaded},
     {"scenes", "Scenes", [](const json& r) { return has(r, "optimise"); }},
+    {"comparison", "Optimum and other designs", [](const json& r) { return has_proof(r, "comparison"); }},
+    {"validation", "Scenes drawn afresh", [](const json& r) { return has_proof(r, "validation"); }},
+    {"governing", "What governs the optimum", [](const json& r) { return has_proof(r, "governing"); }},
+    {"sensitivity", "Sensitivity of the optimum", [](const json& r) { return has_proof(r, "sensitivity"); }},
     {"flank-load", "Load on the flank", has_loaded},
     {"modifications", "Flank modifications",
      [](const json& r) { return has(r, "modifications") || has(r, "optimise"); }},

@@ -3,6 +3,10 @@
 const BUILDERS = {
   "transmission-error": build_transmission_error,
   scenes: build_scenes,
+  comparison: build_comparison,
+  validation: build_validation,
+  governing: build_governing,
+  sensitivity: build_sensitivity,
   "flank-load": build_flank_load,
   modifications: build_modifications,
   stiffness: build_stiffness,
