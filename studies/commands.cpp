@@ -16,6 +16,7 @@
 #include "studies/results_store.hpp"
 #include "studies/run_study.hpp"
 #include "studies/study_template.hpp"
+#include "studies/sweep/run_sweep.hpp"
 #include "studies/tables.hpp"
 
 namespace flankwright::studies {
@@ -53,7 +54,8 @@ TestLine test_study(const fs::path& path) {
   try {
     const Study study = read_study(path.string());
     if (study.expect.empty()) return {fmt::format("none  {}  (no [expect] table)\n", path.string())};
-    const StudyResults results = run_study(study);
+    StudyResults results = run_study(study);
+    if (study.task == Task::Sweep) run_sweep(results, {}, {});
     const std::vector<Comparison> comparisons = compare(study.expect, results_json(results));
     const std::string different = differences(comparisons);
     std::string text = fmt::format("{}  {}  ({} expectations, {:.1f} s)\n", different.empty() ? "met " : "DIFF", path.string(),
@@ -76,9 +78,11 @@ int run_command(const RunOptions& options) {
   StudyResults results;
   {
     Progress progress;
-    results = run_study(study, [&](const std::string& label, int done, int total, const std::string& remark) {
+    const ProgressReport report = [&](const std::string& label, int done, int total, const std::string& remark) {
       progress.show(label, done, total, remark);
-    });
+    };
+    results = run_study(study, report);
+    if (study.task == Task::Sweep) run_sweep(results, folder, report);
   }
   const std::string json = results_json(results);
   write_whole(folder / "results.json", json);

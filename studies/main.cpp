@@ -51,7 +51,7 @@ int dispatch(int argc, char** argv) {
   check->add_option("study", study, "study file")->required();
   check->add_option("--set", settings, "key.path=value")->allow_extra_args(false);
   CLI::App* make = app.add_subcommand("new", "print a commented study file");
-  make->add_option("kind", kind, "analyse, optimise or fit")->required();
+  make->add_option("kind", kind, "analyse, optimise, sweep or fit")->required();
   CLI::App* report = app.add_subcommand("report", "rebuild report.html from a results folder");
   report->add_option("folder", folder, "results folder")->required();
   CLI::App* test = app.add_subcommand("test", "run studies that have an [expect] table; exit 1 where one differs");

@@ -12,6 +12,7 @@
 #include "studies/load_rating_json.hpp"
 #include "studies/proof/proof_json.hpp"
 #include "studies/shafts_json.hpp"
+#include "studies/sweep/sweep_json.hpp"
 #include "studies/unloaded_json.hpp"
 #include "studies/used_json.hpp"
 
@@ -317,6 +318,7 @@ std::string results_json(const StudyResults& results) {
   });
   if (results.design) json["optimise"] = optimise_json(results);
   if (results.proof) add_proof(*results.proof, *results.design_task, study.optimise.proof, json["optimise"]);
+  if (results.sweep) json["sweep"] = sweep_json(results);
   if (!results.deflections.empty()) json["deflections"] = list(results.deflections, deflections_json);
   if (!results.fits.empty()) json["fit"] = list(results.fits, fit_json);
   json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}}; });

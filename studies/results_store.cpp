@@ -1,15 +1,13 @@
 #include "studies/results_store.hpp"
 
-#include <sqlite3.h>
 #include <unistd.h>
 
 #include <cassert>
-#include <memory>
 #include <string>
-#include <string_view>
 #include <system_error>
 
 #include "core/base/error.hpp"
+#include "studies/database.hpp"
 #include "studies/results_json.hpp"
 
 namespace flankwright::studies {
@@ -31,77 +29,10 @@ CREATE TABLE constraints (name TEXT, unit TEXT, maximum REAL, before REAL, after
   throw InvalidInput("output folder", file.string(), "a place that can be written (" + reason + ")");
 }
 
-/// An open database; closed when it goes.
-class Database {
- public:
-  /// @param shown_as  the file that messages name
-  Database(const fs::path& file, fs::path shown_as) : shown_as_(std::move(shown_as)) {
-    sqlite3* opened = nullptr;
-    const int code = sqlite3_open_v2(file.c_str(), &opened, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, nullptr);
-    handle_.reset(opened);
-    check(code);
-  }
-
-  void execute(const char* sql) { check(sqlite3_exec(handle_.get(), sql, nullptr, nullptr, nullptr)); }
-
-  /// Throws unless the code says that all is well.
-  void check(int code) const {
-    if (code == SQLITE_OK || code == SQLITE_DONE) return;
-    refuse(shown_as_, handle_ ? sqlite3_errmsg(handle_.get()) : sqlite3_errstr(code));
-  }
-
-  sqlite3* handle() const { return handle_.get(); }
-
- private:
-  struct Close {
-    void operator()(sqlite3* database) const { sqlite3_close(database); }
-  };
-  fs::path shown_as_;
-  std::unique_ptr<sqlite3, Close> handle_;
-};
-
-/// One INSERT statement, used for row after row.
-class Insert {
- public:
-  Insert(Database& database, const char* sql) : database_(database) {
-    sqlite3_stmt* prepared = nullptr;
-    database_.check(sqlite3_prepare_v2(database_.handle(), sql, -1, &prepared, nullptr));
-    statement_.reset(prepared);
-  }
-
-  /// Adds a row; one argument for each question mark of the statement.
-  template <class... Values>
-  void row(const Values&... values) {
-    assert(sqlite3_bind_parameter_count(statement_.get()) == static_cast<int>(sizeof...(values)));
-    int column = 0;
-    (bind(++column, values), ...);
-    const int stepped = sqlite3_step(statement_.get());
-    sqlite3_reset(statement_.get());
-    database_.check(stepped);
-  }
-
- private:
-  // SQLite takes the text as it is at the step, which follows before the arguments of row() go.
-  void bind(int column, std::string_view text) {
-    database_.check(
-        sqlite3_bind_text(statement_.get(), column, text.data(), static_cast<int>(text.size()), SQLITE_STATIC));
-  }
-  void bind(int column, double number) {  // not a number becomes NULL
-    database_.check(sqlite3_bind_double(statement_.get(), column, number));
-  }
-  void bind(int column, int number) { database_.check(sqlite3_bind_int(statement_.get(), column, number)); }
-
-  struct Finalize {
-    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
-  };
-  Database& database_;
-  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
-};
-
 void add_run(Database& database, const StudyResults& results) {
   const DesignResult& design = *results.design;
   const DesignTask& task = *results.design_task;
-  Insert insert(database, "INSERT INTO run VALUES (?, ?)");
+  Statement insert(database, "INSERT INTO run VALUES (?, ?)");
   insert.row("title", results.study.title);
   insert.row("task", "optimise");
   insert.row("version", version());
@@ -126,24 +57,24 @@ void add_run(Database& database, const StudyResults& results) {
 void add_tables(Database& database, const StudyResults& results) {
   const DesignResult& design = *results.design;
   const DesignTask& task = *results.design_task;
-  Insert variables(database, "INSERT INTO variables VALUES (?, ?, ?, ?, ?, ?)");
+  Statement variables(database, "INSERT INTO variables VALUES (?, ?, ?, ?, ?, ?)");
   for (std::size_t i = 0; i < task.variables.size(); ++i) {
     const DesignVariable& v = task.variables[i];
     const double factor = v.outside_factor();
     variables.row(v.path, v.unit(), v.lower * factor, v.upper * factor, design.before.variables[i] * factor,
                   design.after.variables[i] * factor);
   }
-  Insert scenes(database, "INSERT INTO scenes VALUES (?, ?, ?, ?, ?)");
+  Statement scenes(database, "INSERT INTO scenes VALUES (?, ?, ?, ?, ?)");
   for (std::size_t s = 0; s < task.scenes.size(); ++s) {
     const DesignScene& scene = task.scenes[s];
     scenes.row(scene.name, scene.torque / units::newton_metre, scene.weight, design.before.scene_measures[s],
                design.after.scene_measures[s]);
   }
-  Insert history(database, "INSERT INTO history VALUES (?, ?, ?)");
+  Statement history(database, "INSERT INTO history VALUES (?, ?, ?)");
   for (const SolverStep& step : design.history) {
     history.row(step.evaluation, step.objective, step.constraint_violation);
   }
-  Insert constraints(database, "INSERT INTO constraints VALUES (?, ?, ?, ?, ?)");
+  Statement constraints(database, "INSERT INTO constraints VALUES (?, ?, ?, ?, ?)");
   for (std::size_t c = 0; c < task.constraints.size(); ++c) {
     const ObjectiveTerm& output = task.constraints[c].output;
     const double factor = output.outside_factor();

@@ -7,6 +7,7 @@
 #include "core/base/stopwatch.hpp"
 #include "studies/proof/drawn_scenes.hpp"
 #include "studies/study_shafts.hpp"
+#include "studies/sweep/sweep_value.hpp"
 
 namespace flankwright::studies {
 
@@ -38,6 +39,9 @@ EffectFacts facts_of(const Study& study) {
   // What scatters counts as well; four scenes are enough to see a value other than 0.
   for (const Scene& scene : draw_scenes(study, {.samples = study.optimise.proof.tolerances.empty() ? 0 : 4})) {
     facts.conditions.push_back(condition_of(study, scene));
+  }
+  if (study.task == Task::Sweep) {
+    for (const SweptCondition& extreme : extreme_conditions(study)) facts.conditions.push_back(extreme.flanks());
   }
   return facts;
 }
@@ -79,6 +83,7 @@ class Run {
     switch (results_.study.task) {
       case Task::Analyse: analyse(); break;
       case Task::Optimise: optimise(); break;
+      case Task::Sweep: analyse(); break;  // the nominal sample; the others: run_sweep()
       case Task::Fit: fit(); break;
     }
     for (Effect& effect : results_.effects) {

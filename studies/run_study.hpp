@@ -20,6 +20,8 @@
 
 namespace flankwright::studies {
 
+struct SweepStatistics;
+
 /// Loaded contact of one scene at one torque, for one design.
 struct LoadedResult {
   std::string scene;
@@ -49,13 +51,14 @@ struct StudyResults {
   std::optional<DesignResult> design;
   std::optional<Proof> proof;     ///< of the design
   std::vector<GearDeflections> deflections;  ///< of both gears, where the compliance is of single gears
+  std::shared_ptr<const SweepStatistics> sweep;  ///< of the task "sweep": the rest of the results is its nominal sample
   std::vector<GearFit> fits;              ///< of the task "fit", one a gear
   std::vector<std::string> notes;         ///< what the reader should know, one sentence each
   std::vector<std::string> requirements;  ///< requirements that were not met (exit code 1), one line each
   double seconds{not_given};
 };
 
-/// Does the study's task. Never prints.
+/// Does the study's task, of a sweep the nominal sample alone (see run_sweep()). Never prints.
 /// @throws InvalidInput where the study cannot be analysed after all
 StudyResults run_study(const Study& study, const ProgressReport& progress = {});
 

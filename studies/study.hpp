@@ -15,17 +15,19 @@
 #include "core/load/mesh_parameter.hpp"
 #include "optimize/design_task.hpp"
 #include "studies/proof/proof_table.hpp"
+#include "studies/sweep/sweep_table.hpp"
 
 /// A study as pure data: what a study file says, validated, in internal units (mm, N, rad, MPa); study_file.hpp reads.
 namespace flankwright::studies {
 
-enum class Task { Analyse, Optimise, Fit };
+enum class Task { Analyse, Optimise, Sweep, Fit };
 
-/// As a study names it: "analyse", "optimise", "fit".
+/// As a study names it: "analyse", "optimise", "sweep", "fit".
 inline const char* to_string(Task task) {
   switch (task) {
     case Task::Analyse: return "analyse";
     case Task::Optimise: return "optimise";
+    case Task::Sweep: return "sweep";
     case Task::Fit: return "fit";
   }
   __builtin_unreachable();
@@ -143,9 +145,11 @@ struct Study {
   std::vector<Scene> scenes;    ///< never empty: without [[scenes]] the one nominal scene of the base tables
   std::vector<GradientParameter> gradients;  ///< derivatives asked for; meaningful where task is Analyse
   OptimiseTable optimise;       ///< meaningful where task is Optimise
+  SweepTable sweep;             ///< meaningful where task is Sweep
   FitChoice fit;                ///< meaningful where task is Fit
   std::vector<Expectation> expect;
   std::vector<GivenValue> given;
+  std::string text;  ///< all of it as TOML, with what the command line set
 };
 
 /// Whether peaks between the positions, and the load distribution factors that follow, belong to the results: unless the study says

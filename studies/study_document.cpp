@@ -274,6 +274,12 @@ std::string StudyDocument::text_of(const toml::node& node) const {
   return in_one_line(text);
 }
 
+std::string StudyDocument::text() const {
+  std::ostringstream out;
+  out << toml::toml_formatter{root_};
+  return out.str();
+}
+
 std::vector<GivenValue> StudyDocument::given() const {
   std::vector<GivenValue> values;
   const auto collect = [&](const auto& self, const toml::node& node, const std::string& path) -> void {

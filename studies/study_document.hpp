@@ -34,6 +34,9 @@ class StudyDocument {
   /// A value as written, in one line; of a table that is not inline, "a table".
   std::string text_of(const toml::node& node) const;
 
+  /// The document as it is now, as TOML.
+  std::string text() const;
+
   /// All values of file and command line, by dotted path; array elements that are tables by their index from 0.
   std::vector<GivenValue> given() const;
 

@@ -8,12 +8,14 @@
 #include <tuple>
 
 #include "studies/study_checks.hpp"
+#include "studies/proof/proof_reading.hpp"
 #include "studies/study_document.hpp"
 #include "studies/study_flanks.hpp"
 #include "studies/study_reading.hpp"
 #include "studies/study_schema.hpp"
 #include "studies/study_shafts.hpp"
 #include "studies/study_tables.hpp"
+#include "studies/sweep/sweep_reading.hpp"
 
 namespace flankwright::studies {
 
@@ -80,6 +82,8 @@ Study parse_study(std::string_view text, const std::string& name, const std::vec
   read_optimise(reading);
   read_expectations(reading);
   check_pair(reading);
+  read_sweep(reading);
+  read_proof(reading);
   read_shafts(reading);
   check_task(reading);
   read_grids(reading);
@@ -91,6 +95,7 @@ Study parse_study(std::string_view text, const std::string& name, const std::vec
   study.file = name;
   if (study.title.empty()) study.title = std::filesystem::path(name).stem().string();
   study.given = document.given();
+  study.text = document.text();
   return study;
 }
 

@@ -187,7 +187,6 @@ std::vector<SchemaKey> task_rows() {
 
       {.path = "expect", .kind = Expectations, .fallback = "(none)",
        .meaning = "\"loaded.summary.te_peak_to_peak_um\" = { max = 3 }: what results.json must say"},
-      {.path = "sweep", .kind = Later, .fallback = "(none)", .meaning = "samples of a parameter space"},
   };
 }
 
@@ -213,7 +212,9 @@ void append(std::vector<SchemaKey>& schema, const std::vector<SchemaKey>& rows) 
 
 std::vector<SchemaKey> make_schema() {
   std::vector<SchemaKey> schema;
-  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), shaft_rows(), task_rows(), proof_rows()}) append(schema, rows);
+  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), shaft_rows(), task_rows(), proof_rows(), sweep_rows()}) {
+    append(schema, rows);
+  }
   return schema;
 }
 

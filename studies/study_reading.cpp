@@ -189,6 +189,7 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
     case ValueKind::Scenes:
     case ValueKind::Objective:
     case ValueKind::Variables:
+    case ValueKind::Distributions:
     case ValueKind::Parameters:
     case ValueKind::Constraints:
     case ValueKind::Expectations:

@@ -178,6 +178,10 @@ std::string allowed_values(const SchemaKey& key) {
       return quoted_list(output_names()) + ", or a table of them";
     case ValueKind::Variables:
       return "a table of keys below pinion.modification or wheel.modification, each with [low, high]";
+    case ValueKind::Distributions:
+      return "a table of keys below misalignment, load, modification or error, each with { normal = [mean, deviation] }, "
+             "{ truncated_normal = [mean, deviation, low, high] }, { uniform = [low, high] }, { grid = [low, high, levels] }, "
+             "{ values = [...] } or { iso_1328_class = 1 .. 11 }";
     case ValueKind::Parameters:
       return "a list of keys below pinion.modification, wheel.modification or misalignment (not axial_offset), and load.torque";
     case ValueKind::Constraints:

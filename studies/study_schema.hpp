@@ -38,6 +38,7 @@ enum class ValueKind {
   Scenes,        ///< array of tables, each with scene_keys()
   Objective,     ///< an output, or a table of outputs and weights
   Variables,     ///< table: modification key = [low, high]
+  Distributions, ///< table: key = distribution
   Parameters,    ///< list of keys that derivatives are taken by
   Constraints,   ///< table: output = { max = ... }
   Expectations,  ///< table: key of results.json = { value, within, min, max }

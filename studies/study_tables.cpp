@@ -1,27 +1,18 @@
 #include "studies/study_tables.hpp"
 
 #include <cmath>
-#include <functional>
 #include <limits>
 
 namespace flankwright::studies {
 
 namespace {
 
-/// A key of a free table. Quoted ("a.b" = ...) and dotted (a.b = ...) keys give the same item.
-struct Item {
-  std::string name;
-  const toml::node* node;
-  Position position;
-};
-
-using IsItem = std::function<bool(const toml::node&)>;
-
 bool is_not_table(const toml::node& node) {
   return !node.is_table();
 }
 
-/// A table that says something itself, or is empty.
+}  // namespace
+
 bool is_filled_table(const toml::node& node) {
   const toml::table* table = node.as_table();
   if (table == nullptr || table->empty()) return true;
@@ -31,8 +22,7 @@ bool is_filled_table(const toml::node& node) {
   return false;
 }
 
-/// Items of the table under `key`, which may be absent; doubles become problems.
-std::vector<Item> items_of(StudyReading& reading, const std::string& key, const IsItem& is_item) {
+std::vector<Item> items_of(StudyReading& reading, const std::string& key, const std::function<bool(const toml::node&)>& is_item) {
   const Match* match = reading.find(key);
   if (match == nullptr) return {};
   const toml::table* table = match->node->as_table();
@@ -58,6 +48,8 @@ std::vector<Item> items_of(StudyReading& reading, const std::string& key, const 
   for (auto& [name, item] : items) found.push_back(std::move(item));
   return found;
 }
+
+namespace {
 
 std::string unknown_output(const std::string& name) {
   const std::string near = nearest_word(name, output_names());

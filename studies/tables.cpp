@@ -9,6 +9,7 @@
 #include "studies/json_format.hpp"
 #include "studies/load_rating_tables.hpp"
 #include "studies/proof/proof_tables.hpp"
+#include "studies/sweep/sweep_tables.hpp"
 #include "studies/unloaded_tables.hpp"
 
 namespace flankwright::studies {
@@ -170,12 +171,14 @@ std::vector<NamedText> csv_tables(const StudyResults& results) {
   if (results.proof) {
     for (NamedText& table : proof_tables(*results.proof)) tables.push_back(std::move(table));
   }
+  for (NamedText& table : sweep_tables(results)) tables.push_back(std::move(table));
   for (NamedText& table : fit_tables(results.fits)) tables.push_back(std::move(table));
   return tables;
 }
 
 std::string summary_table(const StudyResults& results) {
   if (!results.fits.empty()) return fit_summary(results.fits);
+  if (results.sweep) return "nominal sample\n" + analysis_table(results) + "\n" + sweep_summary(results);
   return results.design ? design_table(results) : analysis_table(results);
 }
 

@@ -1,0 +1,106 @@
+#include "studies/sweep/sample_analysis.hpp"
+
+#include <cmath>
+
+#include "core/contact/transmission_error.hpp"
+#include "studies/json_format.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+constexpr std::size_t harmonics = 10;
+
+/// Thrown inside a sample that has no outputs; the reason goes into its result.
+struct SampleFailure {
+  std::string reason;
+};
+
+void add_harmonics(std::vector<SweepOutput>& outputs, const std::string& unit) {
+  for (std::size_t order = 1; order <= harmonics; ++order) outputs.push_back({"te_harmonic_" + std::to_string(order) + "_" + unit, unit});
+}
+
+/// Amplitudes of all orders; those that the positions do not resolve are NaN.
+void add_harmonics(std::vector<double>& values, const std::vector<double>& amplitudes, double (*in_unit)(double)) {
+  for (std::size_t k = 0; k < harmonics; ++k) values.push_back(k < amplitudes.size() ? in_unit(amplitudes[k]) : not_given);
+}
+
+bool has_root_stress(const StudyResults& nominal) { return !std::isnan(nominal.loaded.front().summary.peak_root_stress); }
+
+}  // namespace
+
+SampleAnalysis::SampleAnalysis(const StudyResults& nominal) : nominal_(nominal) {
+  for (const SweepParameter& p : nominal.study.sweep.parameters) keys_.push_back(study_keys().at(p.path));
+  if (!is_loaded()) {
+    outputs_ = {{"peak_to_peak_arcsec", "arcsec"}, {"peak_to_peak_um", "um"}};
+    add_harmonics(outputs_, "arcsec");
+    return;
+  }
+  outputs_ = {{"te_peak_to_peak_um", "um"}, {"te_mean_um", "um"}};
+  if (nominal.study.cycle.phases.empty()) add_harmonics(outputs_, "um");
+  outputs_.insert(outputs_.end(), {{"peak_load_N_per_mm", "N/mm"}, {"peak_contact_stress_MPa", "MPa"}});
+  if (has_root_stress(nominal)) {
+    outputs_.insert(outputs_.end(), {{"peak_root_stress_MPa", "MPa"}, {"pinion_root_stress_MPa", "MPa"}, {"wheel_root_stress_MPa", "MPa"}});
+  }
+  outputs_.insert(outputs_.end(), {{"mean_stiffness_N_per_mm_um", "N/(mm um)", true},
+                                   {"least_stiffness_N_per_mm_um", "N/(mm um)", true},
+                                   {"largest_stiffness_N_per_mm_um", "N/(mm um)", true},
+                                   {"load_factor", "-"},
+                                   {"iso6336_K_Hbeta", "-"},
+                                   {"iso6336_K_Halpha", "-"}});
+}
+
+SampleResult SampleAnalysis::analyse(const std::vector<double>& values) const {
+  const Study& study = nominal_.study;
+  try {
+    SweptCondition swept = SweptCondition::of(study);
+    for (std::size_t j = 0; j < keys_.size(); ++j) set_swept(swept, *keys_[j], values[j]);
+    const FlankCondition condition = apply_effects(nominal_.effects, swept.flanks());
+    return {"", is_loaded() ? loaded_outputs(condition, swept.scene.torques.front()) : unloaded_outputs(condition)};
+  } catch (const InvalidInput& problem) {
+    return {problem.what(), {}};
+  } catch (const SampleFailure& failure) {
+    return {failure.reason, {}};
+  }
+}
+
+std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& condition, double torque) const {
+  if (!(torque > 0.0)) throw SampleFailure{"load.torque is 0: without load there are no loaded outputs"};
+  const Study& study = nominal_.study;
+  const MeshPlacement placement = MeshPlacement::of(study.fidelity.gap, condition.misalignment);
+  const MeshModel* model = &nominal_.models.front();
+  std::optional<MeshModel> own;
+  if (placement != model->placement) {
+    own = make_mesh_model(nominal_.pair, study.pinion_material, study.wheel_material, {study.fidelity.quadrature, nominal_.phases},
+                          mesh_effects(nominal_.effects), placement, nominal_.structures.pair.get(),
+                          nominal_.structures.root_stress.get(), nominal_.shafts.get());
+    model = &*own;
+  }
+  const LoadedCycle cycle = analyse_cycle(*model, condition, torque);
+  if (!cycle.usable()) {
+    throw SampleFailure{"the load distribution did not converge at " + std::to_string(cycle.failures) + " mesh positions"};
+  }
+  const CycleSummary summary = summarise(*model, cycle);
+  const IsoLoadFactors iso = iso_load_factors(model->pair, model->iso, iso_deviations(model->pair, condition), torque, model->face_width);
+  std::vector<double> values{in_um(summary.te_peak_to_peak), in_um(summary.te_mean)};
+  if (study.cycle.phases.empty()) add_harmonics(values, summary.te_harmonics, in_um);
+  values.insert(values.end(), {summary.peak_line_load, summary.peak_contact_stress});
+  if (has_root_stress(nominal_)) {
+    values.insert(values.end(), {summary.peak_root_stress, summary.pinion_root_stress.stress, summary.wheel_root_stress.stress});
+  }
+  values.insert(values.end(), {summary.mean_stiffness, summary.least_stiffness, summary.largest_stiffness, summary.load_factor, iso.lead,
+                               iso.profile});
+  return values;
+}
+
+std::vector<double> SampleAnalysis::unloaded_outputs(const FlankCondition& condition) const {
+  const MeshScene scene = make_mesh_scene(nominal_.pair, condition.misalignment, condition.pinion_modification,
+                                          condition.wheel_modification, condition.pinion_error, condition.wheel_error);
+  const UnloadedMesh mesh = analyse_unloaded_mesh(nominal_.pair, scene, nominal_.study.cycle.positions);
+  if (mesh.missing > 0) throw SampleFailure{"no tooth pair touches at " + std::to_string(mesh.missing) + " of the mesh positions"};
+  std::vector<double> values{in_arcsec(mesh.peak_to_peak), in_um(mesh.peak_to_peak * nominal_.pair.wheel.base_radius)};
+  add_harmonics(values, mesh.harmonics, in_arcsec);
+  return values;
+}
+
+}  // namespace flankwright::studies
