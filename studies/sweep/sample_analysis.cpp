@@ -9,20 +9,17 @@ namespace flankwright::studies {
 
 namespace {
 
-constexpr std::size_t harmonics = 10;
-
 /// Thrown inside a sample that has no outputs; the reason goes into its result.
 struct SampleFailure {
   std::string reason;
 };
 
-void add_harmonics(std::vector<SweepOutput>& outputs, const std::string& unit) {
-  for (std::size_t order = 1; order <= harmonics; ++order) outputs.push_back({"te_harmonic_" + std::to_string(order) + "_" + unit, unit});
+void add_harmonics(std::vector<SweepOutput>& outputs, const std::string& unit, std::size_t count) {
+  for (std::size_t order = 1; order <= count; ++order) outputs.push_back({"te_harmonic_" + std::to_string(order) + "_" + unit, unit});
 }
 
-/// Amplitudes of all orders; those that the positions do not resolve are NaN.
 void add_harmonics(std::vector<double>& values, const std::vector<double>& amplitudes, double (*in_unit)(double)) {
-  for (std::size_t k = 0; k < harmonics; ++k) values.push_back(k < amplitudes.size() ? in_unit(amplitudes[k]) : not_given);
+  for (const double amplitude : amplitudes) values.push_back(in_unit(amplitude));
 }
 
 bool has_root_stress(const StudyResults& nominal) { return !std::isnan(nominal.loaded.front().summary.peak_root_stress); }
@@ -33,11 +30,11 @@ SampleAnalysis::SampleAnalysis(const StudyResults& nominal) : nominal_(nominal) 
   for (const SweepParameter& p : nominal.study.sweep.parameters) keys_.push_back(study_keys().at(p.path));
   if (!is_loaded()) {
     outputs_ = {{"peak_to_peak_arcsec", "arcsec"}, {"peak_to_peak_um", "um"}};
-    add_harmonics(outputs_, "arcsec");
+    add_harmonics(outputs_, "arcsec", nominal.unloaded.front().mesh.harmonics.size());
     return;
   }
   outputs_ = {{"te_peak_to_peak_um", "um"}, {"te_mean_um", "um"}};
-  if (nominal.study.cycle.phases.empty()) add_harmonics(outputs_, "um");
+  add_harmonics(outputs_, "um", nominal.loaded.front().summary.te_harmonics.size());
   outputs_.insert(outputs_.end(), {{"peak_load_N_per_mm", "N/mm"}, {"peak_contact_stress_MPa", "MPa"}});
   if (has_root_stress(nominal)) {
     outputs_.insert(outputs_.end(), {{"peak_root_stress_MPa", "MPa"}, {"pinion_root_stress_MPa", "MPa"}, {"wheel_root_stress_MPa", "MPa"}});
@@ -83,7 +80,7 @@ std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& conditi
   const CycleSummary summary = summarise(*model, cycle);
   const IsoLoadFactors iso = iso_load_factors(model->pair, model->iso, iso_deviations(model->pair, condition), torque, model->face_width);
   std::vector<double> values{in_um(summary.te_peak_to_peak), in_um(summary.te_mean)};
-  if (study.cycle.phases.empty()) add_harmonics(values, summary.te_harmonics, in_um);
+  add_harmonics(values, summary.te_harmonics, in_um);
   values.insert(values.end(), {summary.peak_line_load, summary.peak_contact_stress});
   if (has_root_stress(nominal_)) {
     values.insert(values.end(), {summary.peak_root_stress, summary.pinion_root_stress.stress, summary.wheel_root_stress.stress});

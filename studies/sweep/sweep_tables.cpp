@@ -26,7 +26,7 @@ std::string statistics_csv(const SweepStatistics& statistics) {
   for (const OutputStatistics& of : statistics.outputs) {
     csv += fmt::format("{},{},{},{},{},{},{}", of.output.name, of.output.unit, of.count, field(of.mean), field(of.deviation),
                        field(of.smallest), field(of.largest));
-    for (const double quantile : of.quantiles) csv += "," + field(quantile);
+    for (const double quantile : of.quantiles) csv += fmt::format(",{}", field(quantile));
     csv += fmt::format(",{}\n", of.worst);
   }
   return csv;
@@ -68,7 +68,7 @@ void write_samples(const StudyResults& results, const fs::path& file, SweepStore
 
 }  // namespace
 
-std::string worst_study_name(const SweepOutput& output) { return "worst/" + output.name + ".toml"; }
+std::string worst_study_name(const SweepOutput& output) { return fmt::format("worst/{}.toml", output.name); }
 
 std::vector<NamedText> sweep_tables(const StudyResults& results) {
   if (!results.sweep) return {};

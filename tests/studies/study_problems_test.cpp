@@ -82,7 +82,7 @@ TEST_CASE("A value outside its range is refused at its line with what is allowed
       Row{"[fidelity]\neffects = [\"bendig\"]\n", "bending"},
       Row{"[fidelity]\nquadrature = 3\n", "table"},
       Row{"[wheel]\n", "redefine"},
-      Row{"[sweep]\nsamples = 3\n", "not in this version"},
+      Row{"[sweep]\nsamples = 0\n", "1 .. 4294967295"},
       Row{"[pinion.modification]\nparabolic_te = -0.1\n", "0 .. 1000 arcsec/deg^2"},
       Row{"[pinion.modification]\nparabolic_te = 100\n", "over a whole pitch"},
       Row{"[unloaded]\nmarking_thickness = 0\n", "above 0"},
@@ -93,7 +93,7 @@ TEST_CASE("A value outside its range is refused at its line with what is allowed
 }
 
 TEST_CASE("All problems come at once, in the order of the lines, as file:line:column", "[studies][study-file]") {
-  const std::string text = R"(task = "sweep"
+  const std::string text = R"(task = "accuracy"
 [pair]
 normal_module = 0
 helix_angel = 30
