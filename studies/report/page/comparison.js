@@ -1,14 +1,18 @@
 // The optimum beside what a designer would grind without one: rules of thumb and a full-factorial search.
 
-/** Horizontal bars, one a row: [{label, value, colour, note}]; a value that is none leaves its row empty. */
-function draw_bars(plot, { rows, unit, label, from_zero = true }) {
+/**
+ * Horizontal bars from zero.
+ * @param rows  [{label, value, colour, hollow?, note?}], or several bars in a row: [{label, values, bars: [{value, colour, what}]}];
+ *              a value that is none leaves its place empty
+ */
+function draw_bars(plot, { rows, unit, label }) {
   const width = Math.max(320, plot.clientWidth || 900), row_height = 24, top = 8, bottom = 40;
   const longest = Math.max(...rows.map((row) => row.label.length));
-  const left = Math.min(0.55 * width, 20 + 6.8 * longest), right = 90;
+  const left = Math.min(0.6 * width, 20 + 7.1 * longest), right = 90;
   const height = top + bottom + row_height * rows.length;
   const values = numbers(rows.flatMap((row) => row.values || [row.value]));
   if (values.length === 0) return;
-  const low = from_zero ? Math.min(0, minimum(values)) : minimum(values), high = Math.max(0, maximum(values)) || 1;
+  const low = Math.min(0, minimum(values)), high = Math.max(0, maximum(values)) || 1;
   const to_x = (value) => left + ((width - left - right) * (value - low)) / (high - low || 1);
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img", "aria-label": label });
   for (const tick of round_ticks(low, high, 6)) {
@@ -20,14 +24,16 @@ function draw_bars(plot, { rows, unit, label, from_zero = true }) {
   rows.forEach((row, i) => {
     const y = top + row_height * (i + 0.5);
     picture.append(svg("text", { x: left - 12, y: y + 4, "text-anchor": "end" }, row.label));
-    for (const bar of row.bars || [row]) {
-      if (!is_number(bar.value)) continue;
+    const bars = row.bars || [row], thickness = 14 / bars.length;
+    bars.forEach((bar, k) => {
+      if (!is_number(bar.value)) return;
       const [from, to] = [to_x(Math.min(0, bar.value)), to_x(Math.max(0, bar.value))];
-      picture.append(svg("rect", { x: from, y: y - 7, width: Math.max(1, to - from), height: 14, rx: 2, fill: bar.colour,
+      picture.append(svg("rect", { x: from, y: y - 7 + k * thickness, width: Math.max(1, to - from), height: thickness,
+        rx: 2, fill: bar.colour,
         ...(bar.hollow ? { "fill-opacity": 0.25, stroke: bar.colour } : {}) },
         svg("title", {}, `${row.label}${bar.what ? `, ${bar.what}` : ""}: ${fmt(bar.value)} ${unit}`)));
-    }
-    const end = Math.max(0, ...numbers((row.bars || [row]).map((bar) => bar.value)));
+    });
+    const end = Math.max(0, ...numbers(bars.map((bar) => bar.value)));
     if (row.note) picture.append(svg("text", { x: to_x(end) + 8, y: y + 4, class: "muted" }, row.note));
   });
   plot.append(picture);

@@ -2,12 +2,12 @@
 
 function build_governing(results, body) {
   const optimise = record(results.optimise), governing = record(optimise.governing);
-  body.append(el("ul", { class: "statements" }, ...list(governing.words).map((sentence) => el("li", {}, sentence))));
+  body.append(el("ul", { class: "statements" }, ...list(governing.words).map((sentence) => el("li", {}, pretty_unit(sentence)))));
   const residual = governing.residual;
   if (!is_number(residual)) return;
   body.append(el("p", { class: "remark" }, "Weights and gains are the multipliers that balance the exact derivatives of everything "
-    + `that is active at this design; what is left over is ${fmt(100 * residual, 2)} % of the objective over a variable's range`
-    + `${residual > 1e-3 ? ": the design lies at a kink of another kind or was not optimised to the end" : ""}.`));
+    + `that is active at this design; what is left over is ${residual < 1e-6 ? "less than 0.0001" : fmt(100 * residual, 2)} % of the objective over a `
+    + `variable's range${residual > 1e-3 ? ": the design lies at a kink of another kind or was not optimised to the end" : ""}.`));
 }
 
 /** Rows of a tornado, the widest first: a bar for a step down and one for a step up. */
@@ -19,7 +19,7 @@ function tornado_rows(entries) {
     const bars = [
       { value: s.less, colour: sequence_colour(0), what: `${step} less`, hollow: !allowed(s, "less") },
       { value: s.more, colour: sequence_colour(1), what: `${step} more`, hollow: !allowed(s, "more") },
-    ].sort((a, b) => Math.abs(b.value) - Math.abs(a.value));
+    ];
     return { label: `${words(s.name)}, ${step}`, bars, values: [s.less, s.more] };
   });
 }

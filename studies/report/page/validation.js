@@ -5,7 +5,7 @@ function build_validation(results, body) {
   const unit = pretty_unit(optimise.objective_unit), name = words(optimise.objective_name);
   const designs = list(validation.designs).map(record), edges = numbers(validation.bin_edges);
   const colours = [design_colour("before"), design_colour("after"), sequence_colour(2)];
-  body.append(el("p", { class: "remark" }, validation.words || ""));
+  body.append(el("p", { class: "remark" }, pretty_unit(validation.words).replace(/->/g, "→")));
   const middles = edges.slice(1).map((edge, i) => fmt((edge + edges[i]) / 2));
   figure(figure_grid(body), {
     title: `${capital(name)} over ${fmt(validation.samples, 7)} drawn scenes`,
