@@ -28,6 +28,20 @@ class Outside {
   Eigen::RowVectorXd units_;
 };
 
+Json located_json(const LoadRating& rating, const Outside& outside) {
+  const auto peaks = [&](const PeakGradients::Pair& of) {
+    return Json{{"contact_stress_MPa", outside.row(of.contact_stress)}, {"load_N_per_mm", outside.row(of.line_load)}};
+  };
+  return {{"without_spikes", peaks(rating.peak_gradients.without_spikes)}, {"with_spikes", peaks(rating.peak_gradients.with_spikes)}};
+}
+
+Json factors_json(const LoadRating& rating, const Outside& outside) {
+  const auto triple = [&](const LoadFactorGradients::Triple& of) {
+    return Json{{"K_Hbeta", outside.row(of.lead)}, {"K_Halpha", outside.row(of.profile)}, {"K_H", outside.row(of.combined)}};
+  };
+  return {{"without_spikes", triple(rating.factor_gradients.without_spikes)}, {"with_spikes", triple(rating.factor_gradients.with_spikes)}};
+}
+
 }  // namespace
 
 Json gradients_json(const LoadedResult& loaded, const MeshModel& model, const Study& study) {
@@ -52,7 +66,9 @@ Json gradients_json(const LoadedResult& loaded, const MeshModel& model, const St
             {"peak_contact_stress_MPa", outside.row(summary.peak_contact_stress)},
             {"peak_root_stress_MPa", outside.row(summary.peak_root_stress)},
             {"mean_stiffness_N_per_mm_um", outside.row(summary.mean_stiffness)},
-            {"load_factor", outside.row(summary.load_factor)}}},
+            {"load_factor", outside.row(summary.load_factor)},
+            {"peaks", loaded.rating ? located_json(*loaded.rating, outside) : Json()},
+            {"load_factors", loaded.rating ? factors_json(*loaded.rating, outside) : Json()}}},
           {"cycle", std::move(cycle)}};
 }
 

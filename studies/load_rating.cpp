@@ -12,13 +12,23 @@ const ContactPeaks& LoadRater::peaks_of(const MeshFor& mesh_for, const FlankCond
   return known_.back().peaks;
 }
 
-LoadRating LoadRater::rate(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque) {
+LoadRating LoadRater::rate(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque,
+                           const std::vector<MeshParameter>& parameters) {
   LoadRating rating;
   rating.perfect = peaks_of(mesh_for, perfect_part(condition), pinion_torque);
   rating.lead = peaks_of(mesh_for, lead_part(condition), pinion_torque);
   rating.profile = peaks_of(mesh_for, profile_part(condition), pinion_torque);
   rating.combined = peaks_of(mesh_for, condition, pinion_torque);
   rating.factors = load_factors(rating.perfect, rating.lead, rating.profile, rating.combined);
+  if (parameters.empty()) return rating;
+  const auto rated = [&](const ContactPeaks& peaks, ConditionPart part) {
+    const MeshAt mesh = mesh_for(part(condition).misalignment);
+    return RatedPeaks{peaks, peak_gradients_of_part(mesh, condition, part, pinion_torque, peaks, parameters)};
+  };
+  const RatedPeaks combined = rated(rating.combined, whole_condition);
+  rating.peak_gradients = combined.gradients;
+  rating.factor_gradients = load_factor_gradients(rated(rating.perfect, perfect_part), rated(rating.lead, lead_part),
+                                                  rated(rating.profile, profile_part), combined);
   return rating;
 }
 

@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "core/load/load_factors.hpp"
+#include "core/load/peak_gradient.hpp"
 
 namespace flankwright::studies {
 
@@ -12,6 +12,8 @@ struct LoadRating {
   SpikeRule spikes;
   ContactPeaks perfect, lead, profile, combined;  ///< of the parts of the condition, see load_factors.hpp
   LoadFactors factors;
+  PeakGradients peak_gradients;              ///< of the whole condition
+  LoadFactorGradients factor_gradients;      ///< empty rows where no derivatives were asked for
 };
 
 /// The mesh for a misalignment, see MeshPlacement.
@@ -20,7 +22,9 @@ using MeshFor = std::function<MeshAt(const Misalignment& misalignment)>;
 /// Rates load cases of one pair. Peaks of a condition are sought once: the perfect pair's serve every scene at the same torque.
 class LoadRater {
  public:
-  LoadRating rate(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque);
+  /// @param parameters  derivatives are given with respect to these; none by default
+  LoadRating rate(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque,
+                  const std::vector<MeshParameter>& parameters = {});
 
  private:
   const ContactPeaks& peaks_of(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque);

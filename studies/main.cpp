@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "studies/commands.hpp"
+#include "studies/exchange_commands.hpp"
 #include "studies/library_command.hpp"
 #include "studies/results_json.hpp"
 
@@ -60,6 +61,21 @@ int dispatch(int argc, char** argv) {
   CLI::App* library = app.add_subcommand("library", "make the library of tooth compliance fits anew; goes on where FILE ends");
   library->add_option("file", study, "file to write")->required();
   library->add_option("--threads", threads, "finite-element runs abreast")->check(CLI::Range(1, 1024));
+  ImportOptions from;
+  CLI::App* import = app.add_subcommand("import", "make a study of a stage in a REXS file");
+  import->add_option("file", from.file, "REXS file, XML or JSON")->required();
+  import->add_option("--out", from.study, "study file to write (default: stdout)");
+  import->add_option("--stage", from.stage, "which stage, of several: its number, as they are listed without this option");
+  import->add_option("--helix-slope", from.slope_end, "face end at which a positive helix_slope removes material")
+      ->check(CLI::IsMember({"non-datum", "datum"}));
+  ExportOptions to;
+  CLI::App* exporting = app.add_subcommand("export", "write what a results folder holds in the formats of other programs");
+  exporting->add_option("folder", to.results, "results folder")->required();
+  exporting->add_option("--out", to.folder, "folder for the files (default: the results folder)");
+  exporting->add_flag("--rexs", to.rexs, "stage.rexs: the pair with its flank modifications, REXS in XML");
+  exporting->add_flag("--rexsj", to.rexsj, "stage.rexsj: the same in JSON");
+  exporting->add_option("--rexs-version", to.rexs_version, "1.0 to 1.7 or 2.0 (default: 1.7)");
+  exporting->add_flag("--given", to.given, "flanks as the study gave them, not as an optimisation left them");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -76,6 +92,8 @@ int dispatch(int argc, char** argv) {
   if (make->parsed()) return new_command(kind);
   if (report->parsed()) return report_command(folder);
   if (library->parsed()) return library_command(study);
+  if (import->parsed()) return import_command(from);
+  if (exporting->parsed()) return export_command(to);
   return test_command(paths);
 }
 

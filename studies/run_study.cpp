@@ -238,9 +238,16 @@ class Run {
                         iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, condition), scene.torque, model.face_width)};
     result.summary = summarise(model, result.cycle);
     if (locates_peaks(results_.study) && result.cycle.usable()) {
-      result.rating = rater_.rate([this](const Misalignment& m) { return mesh_at(m); }, condition, scene.torque);
+      const auto mesh = [this](const Misalignment& m) { return mesh_at(m); };
+      result.rating = rater_.rate(mesh, condition, scene.torque, gradient_parameters());
     }
     results_.loaded.push_back(std::move(result));
+  }
+
+  std::vector<MeshParameter> gradient_parameters() const {
+    std::vector<MeshParameter> parameters;
+    for (const GradientParameter& p : results_.study.gradients) parameters.push_back(p.parameter);
+    return parameters;
   }
 
   void analyse() {
@@ -248,8 +255,7 @@ class Run {
     int total = 0, done = 0;
     for (const Scene& scene : study.scenes) total += static_cast<int>(scene.torques.size());
     double unloaded_seconds = 0.0, loaded_seconds = 0.0;
-    std::vector<MeshParameter> parameters;
-    for (const GradientParameter& p : study.gradients) parameters.push_back(p.parameter);
+    const std::vector<MeshParameter> parameters = gradient_parameters();
     if (study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) {
       structures();  // its time is its own
       const Stopwatch clock;

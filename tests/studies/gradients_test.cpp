@@ -93,6 +93,22 @@ TEST_CASE("Results give derivatives of every output by the keys asked for, in th
   CHECK_FALSE(loaded({}).contains("gradients"));                               // nobody asked
 }
 
+TEST_CASE("Derivatives of located peaks and load factors stand beside them", "[studies][gradient]") {
+  constexpr double kLocated = 0.03;  // both peaks of a difference are located to 2e-4 base pitches
+  const auto at = [](double crowning) {
+    return loaded({{"analyse.gradients", R"(["pinion.modification.lead_crowning"])"}, {"cycle.peaks", "\"located\""},
+                   {"pinion.modification.lead_crowning", std::to_string(crowning)}});
+  };
+  const json here = at(6), up = at(6.05), down = at(5.95);
+  for (const char* path : {"/peaks/with_spikes/contact_stress_MPa", "/peaks/without_spikes/contact_stress_MPa", "/load_factors/without_spikes/K_H"}) {
+    const json::json_pointer key(path);
+    const auto value = [&](const json& result) { return result.at("summary").at(key).get<double>(); };
+    const double exact = here.at("gradients").at("summary").at(key).at(0), difference = (value(up) - value(down)) / 0.1;
+    CAPTURE(path);
+    CHECK(std::abs(exact - difference) <= kLocated * (std::abs(difference) + 0.1 * value(here) / 6));
+  }
+}
+
 TEST_CASE("What has no derivative is refused", "[studies][gradient][input]") {
   CHECK(problem_of("[analyse]\ngradients = [\"misalignment.axial_offset\"]").key == "analyse.gradients");
   CHECK(problem_of("[analyse]\ngradients = [\"pair.helix_angle\"]").key == "analyse.gradients");

@@ -63,6 +63,22 @@ TEST_CASE("A grid file is read whatever its order, separator, comments and line 
                  "c"));
 }
 
+TEST_CASE("Tables of measuring programs and spreadsheets are read as they are", "[studies][grid-file]") {
+  const std::string rows = "50,0;-10,0;-1,0\n50;0;0\n50;10;2\n52,5;-10;3,5\n52,5;0;4\n52,5;10;\xe2\x88\x92" "50\n";
+  // Decimal comma with semicolons; names and units however they are written.
+  check_small(parse_grid("Radius [mm];Z (mm);Abweichung/\xc2\xb5m\n" + rows, "a"));
+  check_small(parse_grid("sep=;\r\nr;z;dev\r\nmm;mm;\xc2\xb5m\r\n" + rows, "b"));
+  check_small(parse_grid("% exported\n// twice\nr;z;dev\n" + rows, "c"));
+  // Quoted cells with commas inside.
+  check_small(parse_grid("\"radius_mm\",\"z_mm\",\"deviation_um\"\n\"50,0\",-10,-1\n50,0,0\n50,10,2\n\"52,5\",-10,\"3,5\"\n52.5,0,4\n52.5,10,-50\n", "d"));
+  // Diameters, other units, removal instead of metal added, lines of an old Macintosh.
+  check_small(parse_grid("d;z;removal_mm\r100;-10;0,001\r100;0;0\r100;10;-0,002\r105;-10;-0,0035\r105;0;-0,004\r105;10;0,05", "e"));
+  const double inch = 25.4;
+  const MeasuredGrid inches = parse_grid("radius_in,z_in,deviation_mil\n2,0,1\n2,1,0\n3,0,0\n3,1,0\n", "f");
+  CHECK(inches.radii == std::vector{2.0 * inch, 3.0 * inch});
+  CHECK(std::abs(inches.deviation(0, 0) - 1e-3 * inch) < 1e-17);
+}
+
 TEST_CASE("The order of the rows changes no bit", "[studies][grid-file][determinism]") {
   std::vector<std::string> rows = small_rows;
   rows[1] = "50,-0,-0";
@@ -79,26 +95,33 @@ TEST_CASE("The order of the rows changes no bit", "[studies][grid-file][determin
 }
 
 TEST_CASE("What is wrong with a grid file is said in one line with its place", "[studies][grid-file][errors]") {
-  const std::string names = "allowed is once each, radius_mm, z_mm, deviation_um";
-  const std::string number = "allowed is a number -1000 .. 1000 with a decimal point";
+  const std::string names = "allowed is once each, radius_mm (or diameter_mm), z_mm, deviation_um (or removal_um)";
+  const std::string number = "allowed is a number -1000 .. 1000";
   CHECK(refusal("") ==
         "flank.csv: file = without content: allowed is a line of column names, then a line for each point");
   CHECK(refusal("# only this\n") == refusal(""));
-  CHECK(refusal("radius_mm,z,deviation_um\n") == "flank.csv:1:11: column = z: " + names);
+  CHECK(refusal("radius_mm,y,deviation_um\n") == "flank.csv:1:11: column = y: " + names);
+  CHECK(refusal("radius_mm,z_kg,deviation_um\n") == "flank.csv:1:11: column = z_kg: " + names);
   CHECK(refusal("\nradius_mm,z_mm,z_mm\n") == "flank.csv:2:16: column = z_mm: " + names);
   CHECK(refusal("radius_mm,z_mm\n") == "flank.csv:1:1: columns = radius_mm,z_mm: " + names);
   CHECK(refusal("50,-10,-1\n") == "flank.csv:1:1: column = 50: " + names);
   CHECK(refusal(header + "50,-10\n") ==
-        "flank.csv:2:1: line = 50,-10: allowed is 3 numbers with the separator of the first line");
+        "flank.csv:2:1: line = 50,-10: allowed is 3 numbers with the separator of the first line (a comma, so no decimal commas)");
   CHECK(refusal(header + "50,-10,1,\n") ==
-        "flank.csv:2:1: line = 50,-10,1,: allowed is 3 numbers with the separator of the first line");
+        "flank.csv:2:1: line = 50,-10,1,: allowed is 3 numbers with the separator of the first line (a comma, so no decimal commas)");
   for (const std::string bad : {"", "nan", "inf", "-inf", "3 um", "1e999", "0x3", "--3", "+-3", "1001", "-1e6"}) {
-    CHECK(refusal(header + "50,-10,2\n50,0, " + bad + "\n") == "flank.csv:3:7: deviation_um = " + bad + ": " + number);
+    CHECK(refusal(header + "50,-10,2\n50,0, " + bad + "\n") == "flank.csv:3:7: deviation = " + bad + ": " + number);
   }
-  CHECK(refusal("radius_mm;z_mm;deviation_um\n50;-10;1,5\n") == "flank.csv:2:8: deviation_um = 1,5: " + number);
+  CHECK(refusal("radius_mm;z_mm;deviation_um\n50;-10;1.000,5\n") == "flank.csv:2:8: deviation = 1.000,5: " + number);
+  CHECK(refusal("radius_mm;z_mm;deviation_um\n50;-10;1,5,5\n") == "flank.csv:2:8: deviation = 1,5,5: " + number);
+  CHECK(refusal(header + "50,5,-10,1,5\n") ==
+        "flank.csv:2:1: line = 50,5,-10,1,5: allowed is 3 numbers with the separator of the first line (a comma, so no decimal commas)");
+  CHECK(refusal("\xff\xfer\0") == "flank.csv:1:1: file = in UTF-16: allowed is a text in UTF-8");
+  CHECK(refusal(header + "mm,mm,um\n") == "flank.csv:2:1: unit = mm: allowed is one unit: the header has it already");
   CHECK(refusal(header + "5e4,-10,1\n") ==
-        "flank.csv:2:1: radius_mm = 5e4: allowed is a number -10000 .. 10000 with a decimal point");
-  CHECK(refusal("deviation_um,z_mm,radius_mm\n2e3,0,50\n") == "flank.csv:2:1: deviation_um = 2e3: " + number);
+        "flank.csv:2:1: radius = 5e4: allowed is a number -10000 .. 10000");
+  CHECK(refusal("deviation_um,z_mm,diameter_mm\n1,0,5e4\n") == "flank.csv:2:5: radius = 5e4: allowed is a number -20000 .. 20000");
+  CHECK(refusal("deviation_um,z_mm,radius_mm\n2e3,0,50\n") == "flank.csv:2:1: deviation = 2e3: " + number);
   CHECK(refusal(header + joined(small_rows) + "50,0,0\n") ==
         "flank.csv:8:1: point = radius_mm 50, z_mm 0: allowed is each point once; line 3 has this one");
   CHECK(refusal(header) == "flank.csv: grid = 0 radii with 0 axial positions: allowed is at least 2 x 2");

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+/// The commands that exchange data with other programs; exit codes as those of commands.hpp.
+namespace flankwright::studies {
+
+struct ImportOptions {
+  std::string file;                    ///< REXS, XML or JSON
+  std::string study;                   ///< file to write; empty: stdout
+  std::optional<int> stage;            ///< of several
+  std::string slope_end{"non-datum"};  ///< or "datum": face end at which a positive helix_slope removes
+};
+
+/// Makes a study of a stage of a REXS file; grids go beside it. What the study says otherwise than the file is told on stderr too.
+int import_command(const ImportOptions& options);
+
+struct ExportOptions {
+  std::string results;  ///< folder with results.json
+  std::string folder;   ///< for the files; empty: the same
+  bool rexs{false}, rexsj{false};
+  std::string rexs_version{"1.7"};
+  bool given{false};  ///< flanks of the study file also where an optimisation has changed them
+};
+
+/// Writes what a results folder holds in the formats that are asked for, at least one.
+int export_command(const ExportOptions& options);
+
+}  // namespace flankwright::studies

@@ -1,0 +1,105 @@
+#include "core/load/peak_gradient.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/core/load/mesh_cases.hpp"
+
+using namespace flankwright;
+using mesh_cases::torque_for;
+
+namespace {
+
+constexpr double kTorque = 100;  // N/mm of mean line load
+constexpr double kStep = 0.05 * units::um;
+
+MeshAt mesh_of(const GearPair& gears) {
+  return [gears](const std::vector<double>& phases) { return mesh_cases::model(gears, {{QuadratureRule::Graded, 5}, phases}); };
+}
+
+FlankCondition crowned_and_relieved() {
+  FlankCondition condition;
+  condition.pinion_modification.lead_crowning = 5 * units::um;
+  condition.wheel_modification.tip_relief = {8 * units::um, 3, ReliefShape::Linear};
+  condition.misalignment.mesh_misalignment = 6 * units::um;
+  return condition;
+}
+
+/// Parameters with a way to move each in a condition by one step.
+struct Moved {
+  MeshParameter parameter;
+  std::function<void(FlankCondition&, double)> move;
+};
+
+std::vector<Moved> movable() {
+  return {{GearParameter{Member::Pinion, ModificationParameter::LeadCrowning},
+           [](FlankCondition& c, double by) { c.pinion_modification.lead_crowning += by; }},
+          {GearParameter{Member::Wheel, ModificationParameter::TipReliefAmount},
+           [](FlankCondition& c, double by) { c.wheel_modification.tip_relief.amount += by; }},
+          {&Misalignment::mesh_misalignment, [](FlankCondition& c, double by) { c.misalignment.mesh_misalignment += by; }}};
+}
+
+RatedPeaks rated(const GearPair& gears, const FlankCondition& condition, ConditionPart part, const std::vector<MeshParameter>& parameters) {
+  const double torque = torque_for(gears, kTorque);
+  const ContactPeaks peaks = locate_peaks(mesh_of(gears), part(condition), torque);
+  return {peaks, peak_gradients_of_part(mesh_of(gears), condition, part, torque, peaks, parameters)};
+}
+
+}  // namespace
+
+TEST_CASE("Derivatives of located peaks and load factors are those of peaks sought again", "[core][load][peaks][gradient]") {
+  // Both peaks of a central difference are located to 2e-4 base pitches: where the peak is a cusp, by that share of its slope.
+  constexpr double kLocated = 0.03;
+  const auto gears = GENERATE(mesh_cases::pair(18, 54, 30, 10, 120), mesh_cases::pair(20, 40, 0, 4, 30));
+  const FlankCondition condition = crowned_and_relieved();
+  const std::vector<Moved> moved = movable();
+  std::vector<MeshParameter> parameters;
+  for (const Moved& m : moved) parameters.push_back(m.parameter);
+  const ConditionPart parts[] = {perfect_part, lead_part, profile_part, whole_condition};
+  const auto all = [&](const FlankCondition& c, const std::vector<MeshParameter>& by) {
+    std::vector<RatedPeaks> list;
+    for (const ConditionPart part : parts) list.push_back(rated(gears, c, part, by));
+    return list;
+  };
+  const std::vector<RatedPeaks> here = all(condition, parameters);
+  const LoadFactorGradients gradients = load_factor_gradients(here[0], here[1], here[2], here[3]);
+  for (std::size_t p = 0; p < moved.size(); ++p) {
+    const auto column = static_cast<Eigen::Index>(p);
+    const auto at = [&](double by) {
+      FlankCondition c = condition;
+      moved[p].move(c, by);
+      return all(c, {});
+    };
+    const std::vector<RatedPeaks> up = at(kStep), down = at(-kStep);
+    const double scale = 0.1 * here[3].peaks.with_spikes.contact_stress.value / condition.misalignment.mesh_misalignment;
+    for (const auto& pair : {std::pair{&ContactPeaks::with_spikes, &PeakGradients::with_spikes},
+                            std::pair{&ContactPeaks::without_spikes, &PeakGradients::without_spikes}}) {
+      for (std::size_t k = 0; k < here.size(); ++k) {
+        CAPTURE(p, k, gears.data.helix_angle);
+        const auto stress = [&](const RatedPeaks& r) { return (r.peaks.*pair.first).contact_stress.value; };
+        const double difference = (stress(up[k]) - stress(down[k])) / (2 * kStep);
+        CHECK(std::abs((here[k].gradients.*pair.second).contact_stress[column] - difference) <= kLocated * (std::abs(difference) + scale));
+      }
+    }
+    const LoadFactors high = load_factors(up[0].peaks, up[1].peaks, up[2].peaks, up[3].peaks);
+    const LoadFactors low = load_factors(down[0].peaks, down[1].peaks, down[2].peaks, down[3].peaks);
+    const double difference = (high.without_spikes.combined - low.without_spikes.combined) / (2 * kStep);
+    CHECK(std::abs(gradients.without_spikes.combined[column] - difference) <= kLocated * (std::abs(difference) + 0.1 / condition.misalignment.mesh_misalignment));
+  }
+  // Tip relief is no lead, crowning no profile, and none of them moves the perfect pair.
+  CHECK(gradients.without_spikes.lead[1] == 0.0);
+  CHECK(gradients.without_spikes.profile[0] == 0.0);
+  CHECK(here[0].gradients.with_spikes.contact_stress.isZero());
+}
+
+TEST_CASE("Where one spur pair carries all, peak stress follows the root of the torque", "[core][load][peaks][gradient]") {
+  constexpr double kRoundOff = 1e-9;
+  const GearPair gears = mesh_cases::pair(40, 60, 0, 4, 30);
+  const MeshAt mesh = [&](const std::vector<double>& phases) {
+    return mesh_cases::model(gears, {{QuadratureRule::Graded, 5}, phases}, {.extended_contact_region = false});
+  };
+  const double torque = torque_for(gears, kTorque);
+  const ContactPeaks peaks = locate_peaks(mesh, {}, torque);
+  const PeakGradients gradients = peak_gradients(mesh, {}, torque, peaks, {PinionTorque{}});
+  CHECK(gradients.without_spikes.contact_stress[0] * torque / peaks.without_spikes.contact_stress.value == Approx(0.5).margin(kRoundOff));
+  CHECK(gradients.without_spikes.line_load[0] * torque / peaks.without_spikes.line_load.value == Approx(1.0).margin(kRoundOff));
+}

@@ -1,0 +1,5 @@
+list(APPEND FLANKWRIGHT_TEST_SOURCES
+     ${CMAKE_CURRENT_LIST_DIR}/rexs_commands_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/rexs_export_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/rexs_import_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/rexs_model_test.cpp)
