@@ -9,6 +9,7 @@
 #include "core/load/iso_load_factors.hpp"
 #include "core/load/mesh_cycle.hpp"
 #include "optimize/design_optimiser.hpp"
+#include "optimize/pareto.hpp"
 #include "studies/fit_task.hpp"
 #include "studies/gear_deflections.hpp"
 #include "core/compliance/shaft/shaft_pair.hpp"
@@ -46,6 +47,7 @@ struct StudyResults {
   std::vector<Effect> effects;
   std::optional<DesignTask> design_task;
   std::optional<DesignResult> design;
+  std::optional<ParetoFront> front;
   std::vector<GearDeflections> deflections;  ///< of both gears, where the compliance is of single gears
   std::vector<GearFit> fits;              ///< of the task "fit", one a gear
   std::vector<std::string> notes;         ///< what the reader should know, one sentence each
