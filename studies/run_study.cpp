@@ -31,7 +31,8 @@ EffectFacts facts_of(const Study& study) {
     // Variables count as modifications from the start, even where their first value is 0.
     if (study.task == Task::Optimise) {
       for (const DesignVariable& v : study.optimise.variables) {
-        set(v.member == Member::Pinion ? condition.pinion_modification : condition.wheel_modification, v.parameter, v.upper);
+        set(v.member == Member::Pinion ? condition.pinion_modification : condition.wheel_modification, v.parameter,
+            v.upper != 0.0 ? v.upper : v.lower);
       }
     }
     facts.conditions.push_back(condition);
@@ -305,6 +306,10 @@ class Run {
     task.objective = study.optimise.objective;
     task.over = study.optimise.over;
     task.constraints = study.optimise.constraints;
+    task.ties = study.optimise.ties;
+    task.modification_constraints = study.optimise.modification_constraints;
+    task.then = study.optimise.then;
+    task.lexicographic_tolerance = study.optimise.lexicographic_tolerance;
     task.scenes = all_scenes();  // an unloaded scene has no stress and no loaded transmission error to choose by
     return task;
   }
@@ -323,7 +328,10 @@ class Run {
       report("optimising", analyses, 0, "best so far " + number(best, 5) + " " + unit);
     };
     DesignProblem problem(*results_.design_task);
-    results_.design = optimise_design(problem, options);
+    results_.design = optimise_design(problem, DesignOptions{options, study.optimise.starts});
+    if (!study.optimise.pareto_goals.empty()) {
+      results_.front = trace_front(problem, study.optimise.pareto_goals, study.optimise.pareto_points, options);
+    }
     const DesignResult& design = *results_.design;
     results_.effects.push_back({"load_distribution", true, "all analyses of the optimisation", design.seconds});
     results_.proof = prove_optimum(study, problem, design, loaded(draw_scenes(study, study.optimise.proof.validation)), progress_);
@@ -343,10 +351,20 @@ class Run {
     for (std::size_t c = 0; c < study.optimise.constraints.size(); ++c) {
       const OutputConstraint& constraint = study.optimise.constraints[c];
       const double value = design.after.constraint_values[c];
-      if (value > constraint.maximum * (1.0 + DesignLog::tolerance)) {
+      if (constraint.excess(value) > DesignLog::tolerance) {
         const double factor = constraint.output.outside_factor();
-        results_.requirements.push_back("the constraint " + constraint.output.name + " <= " + number(constraint.maximum * factor) +
-                                        " is violated: " + number(value * factor) + " " + constraint.output.unit());
+        results_.requirements.push_back("the constraint " + constraint.output.name + (constraint.is_least() ? " >= " : " <= ") +
+                                        number(constraint.limit() * factor) + " is violated: " + number(value * factor) + " " +
+                                        constraint.output.unit());
+      }
+    }
+    for (std::size_t c = 0; c < study.optimise.modification_constraints.size(); ++c) {
+      const ModificationConstraint& constraint = study.optimise.modification_constraints[c];
+      const double value = design.after.modification_values[c];
+      const double slack = DesignLog::tolerance * problem.modification_scale(constraint);
+      if (value > constraint.maximum + slack || value < constraint.minimum - slack) {
+        results_.requirements.push_back("the constraint on " + constraint.name + " is violated: " +
+                                        number(value * constraint.outside_factor()) + " " + constraint.unit());
       }
     }
   }

@@ -82,10 +82,19 @@ struct FlankGrid {
 
 struct OptimiseTable {
   std::vector<ObjectiveTerm> objective;
-  Aggregate over{Aggregate::Worst};
+  Aggregation over;
   std::string solver{"ipopt"};
   std::vector<DesignVariable> variables;
   std::vector<OutputConstraint> constraints;
+  std::vector<DesignTie> ties;
+  std::vector<ModificationConstraint> modification_constraints;
+  std::vector<Goal> then;                 ///< later objectives of a list
+  double lexicographic_tolerance{0.01};
+  double edge_margin{0.05};
+  double step{0.0};                       ///< of variables that have none of their own [mm]; amounts only
+  int starts{1};
+  std::vector<Goal> pareto_goals;         ///< empty: no front
+  int pareto_points{9};
   int max_evaluations{2000};
   double max_seconds{std::numeric_limits<double>::infinity()};
   unsigned long seed{1};

@@ -114,8 +114,9 @@ std::string design_table(const StudyResults& results) {
                      design.after.objective, change(design.before.objective, design.after.objective));
   for (std::size_t c = 0; c < task.constraints.size(); ++c) {
     const ObjectiveTerm& output = task.constraints[c].output;
+    const OutputConstraint& bound = task.constraints[c];
     out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n",
-                       fmt::format("{} <= {:.5g} {}", output.name, task.constraints[c].maximum * output.outside_factor(), output.unit()),
+                       fmt::format("{} {} {:.5g} {}", output.name, bound.is_least() ? ">=" : "<=", bound.limit() * output.outside_factor(), output.unit()),
                        width, design.before.constraint_values[c] * output.outside_factor(),
                        design.after.constraint_values[c] * output.outside_factor(), "");
   }

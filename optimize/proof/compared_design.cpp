@@ -2,10 +2,9 @@
 
 #include <tbb/parallel_for.h>
 
-#include <algorithm>
 #include <stdexcept>
 
-#include "optimize/design_programs.hpp"
+#include "optimize/design_log.hpp"
 
 namespace flankwright {
 
@@ -18,10 +17,7 @@ ComparedDesign compared(const DesignProblem& problem, const NamedDesign& design)
     const DesignAnalysis analysis = problem.analyse_design(design.pinion, design.wheel);
     for (int s = 0; s < problem.scenes(); ++s) result.scene_measures.push_back(problem.scene_measure(analysis, s));
     result.objective = problem.objective(analysis);
-    result.constraint_violation = 0.0;
-    for (const OutputConstraint& c : problem.task().constraints) {
-      result.constraint_violation = std::max(result.constraint_violation, problem.constraint_value(analysis, c) / c.maximum - 1.0);
-    }
+    result.constraint_violation = problem.violation(analysis);
   } catch (const std::runtime_error& failure) {  // of scene_outputs: not every mesh position converged
     result = {.design = design, .scene_measures = {}, .failure = failure.what()};
   }

@@ -18,7 +18,7 @@ struct NamedDesign {
 struct ComparedDesign {
   NamedDesign design;
   double objective{not_given};             ///< outside units
-  double constraint_violation{not_given};  ///< max(0, value / maximum - 1) over the bounded outputs [-]
+  double constraint_violation{not_given};  ///< DesignProblem::violation() [-]
   std::vector<double> scene_measures;      ///< per scene, outside units
   std::string failure;                     ///< why it could not be analysed; empty: it was
 

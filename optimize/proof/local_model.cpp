@@ -3,7 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 namespace flankwright {
 
@@ -12,7 +12,8 @@ namespace {
 constexpr std::size_t most_candidates = 400;  // of one peak
 
 ProofParameter of_variable(const DesignVariable& v, int index) {
-  return {v.path, proof_step(v) * v.outside_factor(), v.unit(), GearParameter{v.member, v.parameter}, proof_step(v), index};
+  const double step = proof_step(v.unit());
+  return {v.path, step, v.unit(), GearParameter{v.member, v.parameter}, step / v.outside_factor(), index};
 }
 
 ProofParameter of_error(Member member, const char* name, ModificationParameter removed) {
@@ -27,11 +28,7 @@ double step_in(const DesignScene& scene, const ProofParameter& p) {
 
 }  // namespace
 
-double proof_step(const DesignVariable& variable) {
-  const std::string unit = variable.unit();
-  const double outside = unit == "um" ? 1.0 : unit == "mm" ? 0.1 : 0.01;
-  return outside / variable.outside_factor();
-}
+double proof_step(const std::string& unit) { return unit == "um" ? 1.0 : unit == "mm" ? 0.1 : 0.01; }
 
 std::vector<ProofParameter> proof_parameters(const DesignTask& task) {
   using enum ModificationParameter;
@@ -66,26 +63,39 @@ LocalModel::LocalModel(const DesignProblem& problem, const Modification& pinion,
       constraints_(task_.constraints.size(), std::vector<Peak>(task_.scenes.size())) {
   std::vector<MeshParameter> of_mesh;
   for (const ProofParameter& p : parameters) of_mesh.push_back(p.parameter);
+  for (const DesignTie& tie : task_.ties) of_mesh.push_back(GearParameter{tie.tied.member, tie.tied.parameter});
   tbb::parallel_for(0, problem.scenes(), [&](int s) {
     const LoadedCycle cycle = problem.analyse_scene(s, pinion, wheel, of_mesh);
     const MeshModel& model = problem.model(s);
-    Eigen::ArrayXd steps(parameters_);
-    for (int i = 0; i < parameters_; ++i) {
-      steps[i] = step_in(task_.scenes[static_cast<std::size_t>(s)], parameters[static_cast<std::size_t>(i)]);
-    }
-    const auto peak_of = [&](const ObjectiveTerm& term, double factor) {
+    const auto slope_of = [&](const Eigen::VectorXd& gradient) {
+      Eigen::VectorXd slope = gradient.head(parameters_);
+      for (int i = 0; i < parameters_; ++i) {
+        const ProofParameter& p = parameters[static_cast<std::size_t>(i)];
+        for (std::size_t t = 0; t < task_.ties.size(); ++t) {
+          const bool follows = p.variable >= 0 && task_.ties[t].as == static_cast<std::size_t>(p.variable);
+          if (follows) slope[i] += task_.ties[t].factor * gradient[parameters_ + static_cast<Eigen::Index>(t)];
+        }
+        slope[i] *= step_in(task_.scenes[static_cast<std::size_t>(s)], p);
+      }
+      return slope;
+    };
+    const auto peak_of = [&](const ObjectiveTerm& term, double factor, double shift) {
       Peak peak;
       for (const PeakCandidate& candidate : leading_candidates(term, model, cycle, reach, most_candidates)) {
         const SmoothValue found = candidate_value(term, candidate, model, cycle);
-        peak.candidates.push_back({factor * found.value, factor * (found.gradient.array() * steps).matrix()});
+        peak.candidates.push_back({factor * found.value + shift, factor * slope_of(found.gradient)});
       }
       return peak;
     };
     for (const ObjectiveTerm& term : task_.objective) {
-      measures_[static_cast<std::size_t>(s)].push_back(peak_of(term, term.weight * term.outside_factor()));
+      measures_[static_cast<std::size_t>(s)].push_back(peak_of(term, term.weight * term.outside_factor(), 0.0));
     }
     for (std::size_t c = 0; c < task_.constraints.size(); ++c) {
-      constraints_[c][static_cast<std::size_t>(s)] = peak_of(task_.constraints[c].output, 1.0 / task_.constraints[c].maximum);
+      const OutputConstraint& bound = task_.constraints[c];
+      const double sign = bound.is_least() ? -1.0 : 1.0;
+      Peak& peak = constraints_[c][static_cast<std::size_t>(s)];
+      peak = peak_of(bound.output, sign / std::abs(bound.limit()), -sign * bound.limit() / std::abs(bound.limit()));
+      if (bound.is_least()) peak.candidates.resize(1);  // the leading one is the output: the others are below it, not above
     }
   });
 }

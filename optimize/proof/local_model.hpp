@@ -18,10 +18,10 @@ struct ProofParameter {
   int variable{-1};       ///< index of the design variable it is; -1: a tolerance
 };
 
-/// One step of a design variable [mm; parabolic_te 1/rad], see proof_parameters().
-double proof_step(const DesignVariable& variable);
+/// One step of a modification in its outside unit, see proof_parameters(). @param unit  DesignVariable::unit()
+double proof_step(const std::string& unit);
 
-/// The task's variables, then what housing and workshop do, the same in every scene: misalignment 1 um, crossing and intersecting 0.1
+/// The task's variables with what is tied to them, then what housing and workshop do, the same in every scene: misalignment 1 um, crossing and intersecting 0.1
 /// arcmin, centre distance 0.01 mm, helix and profile slope of either gear 1 um, torque 1 %. Amounts of a modification step by 1 um,
 /// extents by 0.1 mm, parabolic_te by 0.01 arcsec/deg^2.
 ///
@@ -40,7 +40,7 @@ class LocalModel {
  public:
   static constexpr double reach = 0.2;  ///< candidate >= (1 - reach) peak
 
-  /// A smooth function: value [outside units; bounded outputs as share of their bound] and its change by a step of each parameter.
+  /// A smooth function: value [outside units; bounded outputs: excess over the bound] and its change by a step of each parameter.
   struct Candidate {
     double value{not_given};
     Eigen::VectorXd slope;
@@ -59,7 +59,7 @@ class LocalModel {
   int parameters() const { return parameters_; }
   /// Weighted peaks of the objective's terms in a scene.
   const std::vector<Peak>& measure(int scene) const { return measures_[static_cast<std::size_t>(scene)]; }
-  /// Bounded output c in every scene, as share of its bound.
+  /// Bounded output c in every scene: OutputConstraint::excess().
   const std::vector<Peak>& constraint(int c) const { return constraints_[static_cast<std::size_t>(c)]; }
   int constraints() const { return static_cast<int>(constraints_.size()); }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "optimize/proof/nonnegative_least_squares.hpp"
+#include "optimize/nonnegative_least_squares.hpp"
 
 namespace flankwright {
 
@@ -11,12 +11,12 @@ namespace {
 
 /// A multiplier to be found.
 struct Column {
-  enum class Kind { Peak, Constraint, Bound } kind;
+  enum class Kind { Peak, Constraint, Sum, Bound } kind;
   int index;              ///< scene, constraint, variable
   int term;               ///< of the objective
-  bool upper;             ///< of a Bound
+  bool upper;             ///< of a Sum or Bound
   double sign;            ///< of a Peak: -1 where the objective falls with it
-  Eigen::VectorXd slope;  ///< of the function, by the step of each parameter; of a bound by its variable only
+  Eigen::VectorXd slope;  ///< of the function, by the step of each parameter; of a Sum by the scaled variables; of a Bound none
 };
 
 std::vector<LocalModel::Candidate> active_of(const LocalModel::Peak& peak) {
@@ -47,8 +47,27 @@ std::vector<Optimum::Scene> active_scenes(const DesignTask& task, const std::vec
   return scenes;
 }
 
-std::vector<Column> columns_of(const DesignTask& task, const LocalModel& model, const std::vector<Optimum::Scene>& scenes,
+/// Columns of the sums of modifications that are at a limit.
+void add_sums(const DesignProblem& problem, const std::vector<double>& values, std::vector<Column>& columns) {
+  Eigen::VectorXd x(problem.variables());
+  for (int i = 0; i < problem.variables(); ++i) {
+    const DesignVariable& v = problem.task().variables[static_cast<std::size_t>(i)];
+    x[i] = (values[static_cast<std::size_t>(i)] - v.lower) / (v.upper - v.lower);
+  }
+  Modification pinion, wheel;
+  problem.apply(x, pinion, wheel);
+  for (std::size_t c = 0; c < problem.task().modification_constraints.size(); ++c) {
+    const ModificationConstraint& bound = problem.task().modification_constraints[c];
+    const double sum = bound.value(pinion, wheel), slack = active_within * problem.modification_scale(bound);
+    const Eigen::VectorXd slope = problem.modification_slope(bound) / problem.modification_scale(bound);
+    if (sum >= bound.maximum - slack) columns.push_back({Column::Kind::Sum, static_cast<int>(c), 0, true, 1.0, slope});
+    if (sum <= bound.minimum + slack) columns.push_back({Column::Kind::Sum, static_cast<int>(c), 0, false, 1.0, -slope});
+  }
+}
+
+std::vector<Column> columns_of(const DesignProblem& problem, const LocalModel& model, const std::vector<Optimum::Scene>& scenes,
                                const std::vector<double>& values) {
+  const DesignTask& task = problem.task();
   std::vector<Column> columns;
   for (const Optimum::Scene& scene : scenes) {
     const double sign = scene.weight < 0.0 ? -1.0 : 1.0;
@@ -61,10 +80,11 @@ std::vector<Column> columns_of(const DesignTask& task, const LocalModel& model, 
   for (int c = 0; c < model.constraints(); ++c) {
     for (const LocalModel::Peak& peak : model.constraint(c)) {
       for (const LocalModel::Candidate& candidate : active_of(peak)) {
-        if (candidate.value >= 1.0 - active_within) columns.push_back({Column::Kind::Constraint, c, 0, false, 1.0, candidate.slope});
+        if (candidate.value >= -active_within) columns.push_back({Column::Kind::Constraint, c, 0, false, 1.0, candidate.slope});
       }
     }
   }
+  add_sums(problem, values, columns);
   for (std::size_t i = 0; i < task.variables.size(); ++i) {
     const DesignVariable& v = task.variables[i];
     const double scaled = (values[i] - v.lower) / (v.upper - v.lower);
@@ -95,6 +115,10 @@ Balance balance_of(const DesignTask& task, const std::vector<ProofParameter>& pa
     auto of_column = balance.A.col(static_cast<Eigen::Index>(j));
     if (column.kind == Column::Kind::Bound) {
       of_column[column.index] = column.upper ? 1.0 : -1.0;
+      continue;
+    }
+    if (column.kind == Column::Kind::Sum) {
+      of_column.head(n) = column.slope;
       continue;
     }
     for (std::size_t p = 0; p < parameters.size(); ++p) {
@@ -149,13 +173,14 @@ std::vector<Sensitivity> sensitivities_of(const DesignTask& task, const LocalMod
 
 }  // namespace
 
-Optimum find_optimum(const DesignTask& task, const LocalModel& model, const std::vector<ProofParameter>& parameters,
+Optimum find_optimum(const DesignProblem& problem, const LocalModel& model, const std::vector<ProofParameter>& parameters,
                      const std::vector<double>& values) {
+  const DesignTask& task = problem.task();
   const auto m = static_cast<Eigen::Index>(parameters.size());
   const Eigen::VectorXd nowhere = Eigen::VectorXd::Zero(m);
   const double objective = model.objective(nowhere), scale = std::max(std::abs(objective), 1e-300);
   std::vector<Optimum::Scene> scenes = active_scenes(task, model.scene_measures(nowhere));
-  const std::vector<Column> columns = columns_of(task, model, scenes, values);
+  const std::vector<Column> columns = columns_of(problem, model, scenes, values);
   const Balance balance = balance_of(task, parameters, columns, scenes, scale);
   const Eigen::VectorXd y = nonnegative_least_squares(balance.A, balance.b);
 
@@ -172,6 +197,12 @@ Optimum find_optimum(const DesignTask& task, const LocalModel& model, const std:
         lagrangian += scale * multiplier * column.slope;
         of_constraint[static_cast<std::size_t>(column.index)] += multiplier;
         break;
+      case Column::Kind::Sum: {
+        const ModificationConstraint& bound = task.modification_constraints[static_cast<std::size_t>(column.index)];
+        const double step = proof_step(bound.unit()) / bound.outside_factor();
+        optimum.sums.push_back({column.index, column.upper, -scale * multiplier * step / problem.modification_scale(bound)});
+        break;
+      }
       case Column::Kind::Bound: {
         const DesignVariable& v = task.variables[static_cast<std::size_t>(column.index)];
         const auto p = std::find_if(parameters.begin(), parameters.end(), [&](const ProofParameter& q) { return q.variable == column.index; });
@@ -191,6 +222,7 @@ Optimum find_optimum(const DesignTask& task, const LocalModel& model, const std:
   const auto by_gain = [](const auto& a, const auto& b) { return a.gain < b.gain; };
   std::stable_sort(optimum.bounds.begin(), optimum.bounds.end(), by_gain);
   std::stable_sort(optimum.constraints.begin(), optimum.constraints.end(), by_gain);
+  std::stable_sort(optimum.sums.begin(), optimum.sums.end(), by_gain);
   optimum.sensitivities = sensitivities_of(task, model, parameters, values, lagrangian);
   return optimum;
 }

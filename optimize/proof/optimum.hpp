@@ -20,13 +20,13 @@ struct Sensitivity {
 ///
 ///     sum_j y_j grad c_j + sum_i m_i grad h_i + upper bounds - lower bounds = 0,   all of them >= 0,
 ///
-/// c_j the leading candidates of the governing scenes, h_i of the bounded outputs, in variables scaled to their ranges. They are
+/// c_j the leading candidates of the governing scenes, h_i of bounded outputs and sums, in variables scaled to their ranges. They are
 /// recovered from the design alone, as the non-negative least-squares solution, so that they are there whatever the solver was, and
 /// what is left over says how far from first-order optimal the design is.
 struct Optimum {
   struct Scene {
     int scene{-1};
-    double weight{not_given};  ///< share in the objective's slope: of the worst case >= 0 and one together; of a mean the scene's weight
+    double weight{not_given};  ///< share in the objective's slope: of the worst case >= 0 and one together; else that of the aggregate
   };
   /// A design variable at a bound.
   struct Bound {
@@ -37,11 +37,18 @@ struct Optimum {
   /// A bounded output at its limit.
   struct Constraint {
     int constraint{-1};
-    double gain{not_given};  ///< change of the objective where the limit rises by one per cent and all else follows, <= 0
+    double gain{not_given};  ///< change of the objective where the limit moves out by one per cent and all else follows, <= 0
+  };
+  /// A bounded sum of modifications at its limit.
+  struct Sum {
+    int constraint{-1};      ///< of the task's modification constraints
+    bool upper{false};
+    double gain{not_given};  ///< change of the objective where the limit moves out by one step (as of its first modification), <= 0
   };
   std::vector<Scene> scenes;            ///< heaviest first; those without weight left out
   std::vector<Bound> bounds;            ///< largest gain first; every variable at a bound
   std::vector<Constraint> constraints;  ///< largest gain first
+  std::vector<Sum> sums;                ///< largest gain first
   /// Largest component of the sum above over the variables' ranges, as a share of the objective [-]; 0 is first-order optimal.
   double residual{not_given};
   std::vector<Sensitivity> sensitivities;  ///< in the order of the parameters
@@ -52,9 +59,10 @@ struct Optimum {
 /// slack below it.
 inline constexpr double active_within = 1e-4;
 
+/// Scenes of a conditional value at risk have the weights of aggregate_weights(), which at a tie are one choice of several.
 /// @param parameters  as the model has them, the design variables among them
 /// @param values      of the design variables [mm; parabolic_te 1/rad], in their order
-Optimum find_optimum(const DesignTask& task, const LocalModel& model, const std::vector<ProofParameter>& parameters,
+Optimum find_optimum(const DesignProblem& problem, const LocalModel& model, const std::vector<ProofParameter>& parameters,
                      const std::vector<double>& values);
 
 }  // namespace flankwright

@@ -48,7 +48,7 @@ std::string scene_in_words(const Optimum::Scene& scene, const DesignTask& task, 
 std::string bound_in_words(const Optimum::Bound& bound, const DesignTask& task) {
   const DesignVariable& v = task.variables[static_cast<std::size_t>(bound.variable)];
   const double limit = (bound.upper ? v.upper : v.lower) * v.outside_factor();
-  const double step = proof_step(v) * v.outside_factor();
+  const double step = proof_step(v.unit());
   const std::string stands = fmt::format("{} stands at its {} bound, {:.4g} {}", v.path, bound.upper ? "upper" : "lower", limit, v.unit());
   if (bound.gain == 0.0) return stands + ", and wants no more.";
   return fmt::format("{}: {:.2g} {} {} would give {}.", stands, step, v.unit(), bound.upper ? "more" : "less", change(bound.gain, task));
@@ -56,8 +56,16 @@ std::string bound_in_words(const Optimum::Bound& bound, const DesignTask& task) 
 
 std::string constraint_in_words(const Optimum::Constraint& constraint, const DesignTask& task) {
   const OutputConstraint& c = task.constraints[static_cast<std::size_t>(constraint.constraint)];
-  return fmt::format("The constraint {} <= {:.4g} {} is active: a limit one per cent higher would give {}.", c.output.name,
-                     c.maximum * c.output.outside_factor(), c.output.unit(), change(constraint.gain, task));
+  return fmt::format("The constraint {} {} {:.4g} {} is active: a limit one per cent {} would give {}.", c.output.name,
+                     c.is_least() ? ">=" : "<=", c.limit() * c.output.outside_factor(), c.output.unit(), c.is_least() ? "lower" : "higher",
+                     change(constraint.gain, task));
+}
+
+std::string sum_in_words(const Optimum::Sum& sum, const DesignTask& task) {
+  const ModificationConstraint& c = task.modification_constraints[static_cast<std::size_t>(sum.constraint)];
+  return fmt::format("{} is at its {} limit, {:.4g} {}: {:.2g} {} {} would give {}.", c.name, sum.upper ? "upper" : "lower",
+                     (sum.upper ? c.maximum : c.minimum) * c.outside_factor(), c.unit(), proof_step(c.unit()), c.unit(),
+                     sum.upper ? "more" : "less", change(sum.gain, task));
 }
 
 }  // namespace
@@ -78,12 +86,13 @@ Proof prove_optimum(const Study& study, const DesignProblem& problem, const Desi
     if (progress) progress("validating", 0, 1, std::to_string(drawn.size()) + " scenes drawn afresh");
     proof.validation = validate(study, problem, design, drawn, best_of(proof.rules));
   }
-  const DesignAnalysis& best = design.after.analysis;
-  const bool usable = std::ranges::all_of(best.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
-  if (usable && !best.cycles.empty()) {
+  // Rounding to the grinder's steps leaves the optimum; a later objective of a list left it for its own.
+  const DesignReport& best = design.exact ? *design.exact : design.after;
+  const bool usable = std::ranges::all_of(best.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
+  if (usable && !best.analysis.cycles.empty() && problem.task().then.empty()) {
     const std::vector<ProofParameter> parameters = proof_parameters(problem.task());
-    const LocalModel model(problem, best.pinion_modification, best.wheel_modification, parameters);
-    proof.optimum = find_optimum(problem.task(), model, parameters, design.after.variables);
+    const LocalModel model(problem, best.analysis.pinion_modification, best.analysis.wheel_modification, parameters);
+    proof.optimum = find_optimum(problem, model, parameters, best.variables);
   }
   proof.seconds = clock.seconds();
   return proof;
@@ -114,6 +123,7 @@ std::vector<std::string> optimum_in_words(const Optimum& optimum, const DesignTa
   for (const Optimum::Scene& scene : optimum.scenes) words.push_back(scene_in_words(scene, task, torques.size() > 1));
   for (const Optimum::Bound& bound : optimum.bounds) words.push_back(bound_in_words(bound, task));
   for (const Optimum::Constraint& constraint : optimum.constraints) words.push_back(constraint_in_words(constraint, task));
+  for (const Optimum::Sum& sum : optimum.sums) words.push_back(sum_in_words(sum, task));
   return words;
 }
 

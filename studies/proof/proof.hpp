@@ -27,7 +27,7 @@ struct Proof {
   std::vector<ComparedDesign> rules;     ///< empty: not asked for
   std::vector<VariantSearch> variants;   ///< one a placement of the levels; empty: not asked for
   std::optional<Validation> validation;  ///< none: not asked for
-  std::optional<Optimum> optimum;        ///< none where the design cannot be analysed
+  std::optional<Optimum> optimum;        ///< of the design before rounding; none for a list of objectives, or where it cannot be analysed
   double seconds{not_given};
 };
 

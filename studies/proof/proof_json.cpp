@@ -72,12 +72,20 @@ Json governing_json(const Optimum& optimum, const DesignTask& task) {
                             const DesignVariable& v = task.variables[static_cast<std::size_t>(b.variable)];
                             return {{"variable", v.path},
                                     {"side", b.upper ? "upper" : "lower"},
-                                    {"step", proof_step(v) * v.outside_factor()},
+                                    {"step", proof_step(v.unit())},
                                     {"unit", v.unit()},
                                     {"gain", b.gain}};
                           })},
-          {"constraints", list(optimum.constraints, [&](const Optimum::Constraint& c) -> Json {
-             return {{"name", task.constraints[static_cast<std::size_t>(c.constraint)].output.name}, {"step_percent", 1.0}, {"gain", c.gain}};
+          {"constraints", list(optimum.constraints,
+                               [&](const Optimum::Constraint& c) -> Json {
+                                 return {{"name", task.constraints[static_cast<std::size_t>(c.constraint)].output.name},
+                                         {"step_percent", 1.0},
+                                         {"gain", c.gain}};
+                               })},
+          {"sums", list(optimum.sums, [&](const Optimum::Sum& s) -> Json {
+             const ModificationConstraint& bound = task.modification_constraints[static_cast<std::size_t>(s.constraint)];
+             return {{"name", bound.name}, {"side", s.upper ? "upper" : "lower"}, {"step", proof_step(bound.unit())},
+                     {"unit", bound.unit()}, {"gain", s.gain}};
            })}};
 }
 

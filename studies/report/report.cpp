@@ -37,6 +37,14 @@ struct Section {
   bool (*present)(const json& results);
 };
 
+/// True where an optimisation had several starts, rounded its optimum, or traced a front.
+bool searched(const json& r) {
+  if (!has(r, "optimise") || !r.at("optimise").is_object()) return false;
+  const json& optimise = r.at("optimise");
+  const bool several = has(optimise, "starts") && optimise.at("starts").is_array() && optimise.at("starts").size() > 1;
+  return several || has(optimise, "rounded") || has(optimise, "pareto");
+}
+
 /// In the order in which a gear engineer asks.
 constexpr Section sections[] = {
     {"transmission-error", "Transmission error under load", has_loaded},
@@ -53,6 +61,7 @@ constexpr Section sections[] = {
      [](const json& r) {
        return has(r, "optimise") && r.at("optimise").is_object() && has(r.at("optimise"), "history");
      }},
+    {"search", "Search, rounding and compromises", searched},
     {"load-cases", "Load cases in numbers", has_loaded},
     {"unloaded", "Unloaded contact", [](const json& r) { return has(r, "unloaded"); }},
     {"deflections", "Deflection of a tooth under load", [](const json& r) { return has(r, "fit") || has(r, "deflections"); }},

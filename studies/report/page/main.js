@@ -11,6 +11,7 @@ const BUILDERS = {
   modifications: build_modifications,
   stiffness: build_stiffness,
   convergence: build_convergence,
+  search: build_search,
   "load-cases": build_load_cases,
   unloaded: build_unloaded,
   "gear-pair": build_gear_pair,

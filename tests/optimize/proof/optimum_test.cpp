@@ -24,7 +24,7 @@ struct Solved {
         after(optimise_design(problem, SolverOptions{}).after),
         parameters(proof_parameters(task)),
         model(problem, after.analysis.pinion_modification, after.analysis.wheel_modification, parameters),
-        optimum(find_optimum(problem.task(), model, parameters, after.variables)) {}
+        optimum(find_optimum(problem, model, parameters, after.variables)) {}
 };
 
 /// The objective with one parameter moved by some of its steps and everything analysed again.
@@ -64,7 +64,7 @@ TEST_CASE("Multipliers of a worst case balance at the optimum and their scenes' 
   for (const auto& scene : solved.optimum.scenes) CHECK(scene.weight > 0.0);
   // Away from the optimum nothing balances.
   const LocalModel elsewhere(solved.problem, {}, {}, solved.parameters);
-  CHECK(find_optimum(solved.problem.task(), elsewhere, solved.parameters, {0.0, 0.0, 0.0}).residual > 0.01);
+  CHECK(find_optimum(solved.problem, elsewhere, solved.parameters, {0.0, 0.0, 0.0}).residual > 0.01);
 }
 
 TEST_CASE("The objective answers to a step of anything as the exact derivatives say", "[optimize][proof]") {

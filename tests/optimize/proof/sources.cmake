@@ -1,5 +1,4 @@
 list(APPEND FLANKWRIGHT_TEST_SOURCES
-     ${CMAKE_CURRENT_LIST_DIR}/nonnegative_least_squares_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/optimum_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rules_of_thumb_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/variant_search_test.cpp

@@ -1,11 +1,11 @@
-#include "optimize/proof/nonnegative_least_squares.hpp"
+#include "optimize/nonnegative_least_squares.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>
 
 using namespace flankwright;
 
-TEST_CASE("Non-negative least squares satisfies its optimality conditions", "[optimize][proof]") {
+TEST_CASE("Non-negative least squares satisfies its optimality conditions", "[optimize]") {
   std::mt19937 generator(5);
   std::normal_distribution<double> normal;
   for (int run = 0; run < 200; ++run) {

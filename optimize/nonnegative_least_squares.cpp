@@ -1,4 +1,4 @@
-#include "optimize/proof/nonnegative_least_squares.hpp"
+#include "optimize/nonnegative_least_squares.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>
