@@ -19,11 +19,11 @@ struct Column {
   Eigen::VectorXd slope;  ///< of the function, by the step of each parameter; of a Sum by the scaled variables; of a Bound none
 };
 
-std::vector<LocalModel::Candidate> active_of(const LocalModel::Peak& peak) {
+/// Candidates within active_within * scale of the leading one.
+std::vector<LocalModel::Candidate> active_of(const LocalModel::Peak& peak, double scale) {
   std::vector<LocalModel::Candidate> active;
-  const double least = peak.candidates.front().value - active_within * std::abs(peak.candidates.front().value);
   for (const LocalModel::Candidate& c : peak.candidates) {
-    if (c.value >= least) active.push_back(c);
+    if (c.value >= peak.candidates.front().value - active_within * scale) active.push_back(c);
   }
   return active;
 }
@@ -72,14 +72,15 @@ std::vector<Column> columns_of(const DesignProblem& problem, const LocalModel& m
   for (const Optimum::Scene& scene : scenes) {
     const double sign = scene.weight < 0.0 ? -1.0 : 1.0;
     for (std::size_t k = 0; k < task.objective.size(); ++k) {
-      for (const LocalModel::Candidate& c : active_of(model.measure(scene.scene)[k])) {
+      const LocalModel::Peak& peak = model.measure(scene.scene)[k];
+      for (const LocalModel::Candidate& c : active_of(peak, std::abs(peak.candidates.front().value))) {
         columns.push_back({Column::Kind::Peak, scene.scene, static_cast<int>(k), false, sign, sign * c.slope});
       }
     }
   }
   for (int c = 0; c < model.constraints(); ++c) {
     for (const LocalModel::Peak& peak : model.constraint(c)) {
-      for (const LocalModel::Candidate& candidate : active_of(peak)) {
+      for (const LocalModel::Candidate& candidate : active_of(peak, 1.0)) {  // excesses count in the bound
         if (candidate.value >= -active_within) columns.push_back({Column::Kind::Constraint, c, 0, false, 1.0, candidate.slope});
       }
     }

@@ -168,3 +168,44 @@ TEST_CASE("Several outputs share the weight of their scene", "[optimize][proof]"
   CHECK(solved.optimum.residual < solver);
   CHECK(total_weight(solved.optimum) == Approx(1.0).epsilon(solver));
 }
+
+TEST_CASE("A tied modification follows in sensitivities and multipliers", "[optimize][proof]") {
+  DesignTask task = helical({0.0, 12.0, -12.0}, 6);
+  // Half of each um of lead crowning on the wheel as well.
+  DesignTie tie;
+  tie.tied = {.path = "wheel.modification.lead_crowning", .member = Member::Wheel, .parameter = ModificationParameter::LeadCrowning};
+  tie.factor = 0.5;
+  task.ties = {tie};
+  const Solved solved(task);
+  constexpr double solver = 1e-4;
+  CHECK(solved.optimum.residual < solver);
+  // A step of both, analysed again.
+  constexpr double share = 0.01, second_order = 0.03;
+  Modification pinion = solved.after.analysis.pinion_modification, wheel = solved.after.analysis.wheel_modification;
+  pinion.lead_crowning += share * units::um;
+  wheel.lead_crowning += 0.5 * share * units::um;
+  const double found = solved.problem.objective(solved.problem.analyse_design(pinion, wheel)) - solved.after.objective;
+  const Eigen::VectorXd step = share * Eigen::VectorXd::Unit(solved.model.parameters(), 0);
+  CHECK(solved.model.objective(step) - solved.after.objective == Approx(found).epsilon(second_order).margin(2e-6 * solved.after.objective));
+}
+
+TEST_CASE("A bounded sum of modifications says what its limit costs", "[optimize][proof]") {
+  DesignTask task = helical({0.0, 12.0, -12.0}, 6);
+  ModificationConstraint sum;
+  sum.name = "lead_crowning + profile_crowning";
+  sum.terms = {{Member::Pinion, ModificationParameter::LeadCrowning, 1.0}, {Member::Pinion, ModificationParameter::ProfileCrowning, 1.0}};
+  DesignProblem free(task);
+  const DesignReport unbounded = optimise_design(free, SolverOptions{}).after;
+  sum.maximum = 0.7 * (unbounded.variables[0] + unbounded.variables[2]);
+  task.modification_constraints = {sum};
+  const Solved solved(task);
+  REQUIRE(solved.optimum.sums.size() == 1);
+  CHECK(solved.optimum.sums.front().upper);
+  CHECK(solved.optimum.sums.front().gain < 0.0);
+  DesignTask wider = task;
+  constexpr double share = 0.05, second_order = 0.05;
+  wider.modification_constraints[0].maximum += share * units::um;
+  DesignProblem problem(wider);
+  const double found = optimise_design(problem, SolverOptions{}).after.objective - solved.after.objective;
+  CHECK(share * solved.optimum.sums.front().gain == Approx(found).epsilon(second_order));
+}
