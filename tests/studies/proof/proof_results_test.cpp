@@ -26,6 +26,16 @@ samples = 40
 )";
 }
 
+/// What a clock says differs from run to run.
+void remove_seconds(json& node) {
+  if (node.is_object()) {
+    for (const char* key : {"seconds", "proof_seconds", "message"}) node.erase(key);
+  }
+  if (node.is_structured()) {
+    for (json& child : node) remove_seconds(child);
+  }
+}
+
 json run(const std::string& text) { return json::parse(results_json(run_study(parse_study(text, "small.toml")))); }
 
 TEST_CASE("The proof in results.json hangs together", "[studies][proof]") {
@@ -91,11 +101,8 @@ TEST_CASE("The proof in results.json hangs together", "[studies][proof]") {
 
 TEST_CASE("The same study gives the same proof", "[studies][proof][determinism]") {
   json a = run(proven_study())["optimise"], b = run(proven_study())["optimise"];
-  for (json* proof : {&a, &b}) {
-    for (const char* part : {"seconds", "proof_seconds", "message"}) proof->erase(part);
-    (*proof)["validation"].erase("seconds");
-    for (json& search : (*proof)["comparison"]["variants"]) search.erase("seconds");
-  }
+  remove_seconds(a);
+  remove_seconds(b);
   CHECK(a == b);
 }
 
