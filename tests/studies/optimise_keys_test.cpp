@@ -136,7 +136,7 @@ TEST_CASE("Results say what is ground, what the exact optimum is, and that it is
 TEST_CASE("A front stands in the results and in a table of its own", "[studies][optimise-keys]") {
   const Study study = read("", {{"optimise.pareto.objectives", "[\"peak_contact_stress\", \"te_peak_to_peak\"]"},
                                 {"optimise.pareto.points", "3"},
-                                {"optimise.max_evaluations", "120"}});
+                                {"optimise.max_evaluations", "400"}});
   const StudyResults results = run_study(study);
   const json front = json::parse(results_json(results))["optimise"]["pareto"];
   REQUIRE(front["points"].size() == 3);
