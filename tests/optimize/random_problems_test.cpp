@@ -10,7 +10,7 @@ using namespace flankwright::design_tasks;
 
 namespace {
 
-double between(std::mt19937& generator, double low, double high) { return low + (high - low) * (generator() / 4294967296.0); }
+double between(std::mt19937& generator, double low, double high) { return low + (high - low) * (static_cast<double>(generator()) / 4294967296.0); }
 
 template <typename Value>
 const Value& one_of(std::mt19937& generator, const std::vector<Value>& values) {

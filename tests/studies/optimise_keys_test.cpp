@@ -139,13 +139,15 @@ TEST_CASE("A front stands in the results and in a table of its own", "[studies][
                                 {"optimise.max_evaluations", "400"}});
   const StudyResults results = run_study(study);
   const json front = json::parse(results_json(results))["optimise"]["pareto"];
-  REQUIRE(front["points"].size() == 3);
+  const std::size_t found = front["points"].size();
+  REQUIRE(found >= 2);
+  CHECK(((found == 3) != !front["message"].get<std::string>().empty()));  // fewer points than asked for have a reason
   for (const json& point : front["points"]) CHECK(point["variables"].size() == 4);
-  CHECK(front["points"][0]["values"][0].get<double>() < front["points"][2]["values"][0].get<double>());
+  CHECK(front["points"][0]["values"][0].get<double>() < front["points"][found - 1]["values"][0].get<double>());
   const std::vector<NamedText> tables = csv_tables(results);
   const auto csv = std::ranges::find(tables, "pareto.csv", &NamedText::name);
   REQUIRE(csv != tables.end());
-  CHECK(std::ranges::count(csv->text, '\n') == 4);
+  CHECK(std::ranges::count(csv->text, '\n') == static_cast<long>(found) + 1);
 }
 
 }  // namespace flankwright::studies
