@@ -48,11 +48,17 @@ int dispatch(int argc, char** argv) {
   run->add_option("--out", options.folder, "folder for the results (default: results/ + the study's name)");
   run->add_option("--threads", threads, "threads to use (default: all cores); results do not depend on it")->check(CLI::Range(1, 1024));
   run->add_option("--set", settings, "key.path=value: overrides the study file, may be repeated")->allow_extra_args(false);
+  run->add_option("--shard", options.shard, "k/n: of a sweep the k-th of n parts of the samples alone; `merge` puts them together");
+  CLI::App* merge = app.add_subcommand("merge", "put the shards of a sweep together: the results of an unshared run");
+  merge->add_option("study", options.study, "study file of the sweep")->required();
+  merge->add_option("--out", options.folder, "folder that the shards were given (default: results/ + the study's name)");
+  merge->add_option("--threads", threads, "threads to use")->check(CLI::Range(1, 1024));
+  merge->add_option("--set", settings, "key.path=value, as for the shards")->allow_extra_args(false);
   CLI::App* check = app.add_subcommand("check", "read and validate a study; every problem with file:line:column");
   check->add_option("study", study, "study file")->required();
   check->add_option("--set", settings, "key.path=value")->allow_extra_args(false);
   CLI::App* make = app.add_subcommand("new", "print a commented study file");
-  make->add_option("kind", kind, "analyse, optimise, sweep or fit")->required();
+  make->add_option("kind", kind, "analyse, optimise, sweep or fit; slurm: a job script for the shards of a sweep")->required();
   CLI::App* report = app.add_subcommand("report", "rebuild report.html from a results folder");
   report->add_option("folder", folder, "results folder")->required();
   CLI::App* test = app.add_subcommand("test", "run studies that have an [expect] table; exit 1 where one differs");
@@ -75,6 +81,10 @@ int dispatch(int argc, char** argv) {
   exporting->add_flag("--rexs", to.rexs, "stage.rexs: the pair with its flank modifications, REXS in XML");
   exporting->add_flag("--rexsj", to.rexsj, "stage.rexsj: the same in JSON");
   exporting->add_option("--rexs-version", to.rexs_version, "1.0 to 1.7 or 2.0 (default: 1.7)");
+  exporting->add_flag("--grid", to.grid, "grid-pinion.csv, grid-wheel.csv: the modification as points of a measurement grid");
+  exporting->add_option("--grid-points", to.grid_points, "points along the profile x along the face (default: 9x15)");
+  exporting->add_option("--grid-margin", to.grid_margin, "share of the active flank left out at each border, 0 .. 0.4 (default: 0)");
+  exporting->add_flag("--vtk", to.vtk, "vtk/contact-1.pvd ...: contact under load for ParaView, a collection a load case");
   exporting->add_flag("--given", to.given, "flanks as the study gave them, not as an optimisation left them");
   try {
     app.parse(argc, argv);
@@ -87,6 +97,10 @@ int dispatch(int argc, char** argv) {
   if (run->parsed()) {
     options.overrides = overrides_of(settings);
     return run_command(options);
+  }
+  if (merge->parsed()) {
+    options.overrides = overrides_of(settings);
+    return merge_command(options);
   }
   if (check->parsed()) return check_command(study, overrides_of(settings));
   if (make->parsed()) return new_command(kind);

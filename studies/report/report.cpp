@@ -23,6 +23,8 @@ bool has_loaded(const json& results) {
   return has(results, "loaded") && results.at("loaded").is_array();
 }
 
+bool has_sweep(const json& results) { return has(results, "sweep") && results.at("sweep").is_object(); }
+
 /// A part of the proof of an optimum; a comparison counts where there is something to compare with.
 bool has_proof(const json& results, const char* part) {
   if (!has(results, "optimise") || !results.at("optimise").is_object() || !has(results.at("optimise"), part)) return false;
@@ -47,6 +49,9 @@ bool searched(const json& r) {
 
 /// In the order in which a gear engineer asks.
 constexpr Section sections[] = {
+    {"scatter", "Scatter over the samples", has_sweep},
+    {"indices", "Where the scatter comes from", [](const json& r) { return has_sweep(r) && r.at("sweep").value("index_blocks", 0) > 1; }},
+    {"response-maps", "Response maps", [](const json& r) { return has_sweep(r) && has(r.at("sweep"), "response_maps"); }},
     {"transmission-error", "Transmission error under load", has_loaded},
     {"scenes", "Scenes", [](const json& r) { return has(r, "optimise"); }},
     {"comparison", "Optimum and other designs", [](const json& r) { return has_proof(r, "comparison"); }},

@@ -1,6 +1,9 @@
 // Fills the sections that the page has; one that fails says so and leaves the others alone.
 
 const BUILDERS = {
+  scatter: build_scatter,
+  indices: build_indices,
+  "response-maps": build_response_maps,
   "transmission-error": build_transmission_error,
   scenes: build_scenes,
   comparison: build_comparison,

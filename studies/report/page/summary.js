@@ -67,6 +67,7 @@ function constraint_rows(optimise) {
 function draw_verdict(results) {
   const verdict = document.getElementById("verdict");
   if (results.fit) fit_verdict(results, verdict);
+  if (results.sweep) sweep_verdict(record(results.sweep), verdict);
   if (!results.optimise) return;
   const optimise = record(results.optimise);
   const broken = constraint_rows(optimise).filter((row) => row.met === false);
@@ -141,6 +142,7 @@ function pair_tiles(results) {
 
 function draw_summary(results, cases) {
   const text = results.optimise ? optimise_headline(record(results.optimise))
+    : results.sweep ? sweep_headline(record(results.sweep))
     : cases.length ? loaded_headline(cases)
     : results.unloaded ? unloaded_headline(results)
     : list(results.fit).length ? fit_headline(list(results.fit).map(record))
@@ -151,7 +153,7 @@ function draw_summary(results, cases) {
   document.getElementById("origin").textContent = [results.file, version].filter(Boolean).join("  ·  ");
   draw_verdict(results);
   document.getElementById("tiles").append(
-    ...(cases.length ? loaded_tiles(cases) : []),
+    ...(results.sweep ? sweep_tiles(record(results.sweep)) : cases.length ? loaded_tiles(cases) : []),
     ...(results.optimise ? optimise_tiles(record(results.optimise)) : []),
     ...fit_tiles(list(results.fit).map(record)),
     ...(results.fit ? [] : pair_tiles(results)));
