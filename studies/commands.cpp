@@ -13,6 +13,7 @@
 #include "studies/expectations.hpp"
 #include "studies/progress.hpp"
 #include "studies/report/report.hpp"
+#include "studies/report_tables.hpp"
 #include "studies/results_folder.hpp"
 #include "studies/results_json.hpp"
 #include "studies/results_store.hpp"
@@ -83,6 +84,7 @@ int write_results(const Study& study, const StudyResults& results, const fs::pat
   const std::string json = results_json(results);
   write_whole(folder / "results.json", json);
   for (const NamedText& table : csv_tables(results)) write_whole(folder / table.name, table.text);
+  for (const NamedText& table : report_tables(json)) write_whole(folder / table.name, table.text);
   if (results.design) write_results_store(folder / "results.sqlite", results);
   write_whole(folder / "report.html", render_report(json));
 

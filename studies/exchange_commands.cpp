@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "studies/exchange/grid_table.hpp"
+#include "studies/exchange/vtk_series.hpp"
 #include "studies/results_folder.hpp"
 #include "studies/rexs/rexs_export.hpp"
 #include "studies/rexs/rexs_import.hpp"
@@ -28,6 +30,16 @@ std::string date_of(const fs::path& file) {
 void write_export(const fs::path& file, const std::string& text) {
   write_whole(file, text);
   fmt::print("{}\n", file.string());
+}
+
+/// Every file of the series; the collections, which name the others, are written behind these and told.
+void export_vtk(const std::string& json, const fs::path& results, const fs::path& folder) {
+  for (const ExportedFile& file : vtk_series(json, results.string())) {
+    const fs::path path = folder / file.name;
+    make_folder(path.parent_path());
+    write_whole(path, file.text);
+    if (path.extension() == ".pvd") fmt::print("{}\n", path.string());
+  }
 }
 
 }  // namespace
@@ -54,16 +66,32 @@ int import_command(const ImportOptions& options) {
 }
 
 int export_command(const ExportOptions& options) {
-  if (!options.rexs && !options.rexsj) throw InvalidInput("export", "no format", "--rexs or --rexsj, or both");
+  if (!options.rexs && !options.rexsj && !options.grid && !options.vtk) {
+    throw InvalidInput("export", "no format", "--rexs, --rexsj, --grid or --vtk, or several of them");
+  }
+  const GridLayout layout = grid_layout(options.grid_points, options.grid_margin);
   const fs::path results = fs::path(options.results) / "results.json";
-  const Study study = stored_study(read_whole(results), results.string(), options.given ? StoredFlanks::Given : StoredFlanks::Final);
+  const std::string json = read_whole(results);
   const fs::path folder = options.folder.empty() ? options.results : options.folder;
   make_folder(folder);
-  const rexs::ExportedStage stage = rexs::export_stage(study, {options.rexs_version, date_of(results)});
-  if (options.rexs) write_export(folder / "stage.rexs", model_text(stage.model, rexs::Form::Xml));
-  if (options.rexsj) write_export(folder / "stage.rexsj", model_text(stage.model, rexs::Form::Json));
+  std::vector<std::string> notes;
+  if (options.rexs || options.rexsj || options.grid) {
+    const Study study = stored_study(json, results.string(), options.given ? StoredFlanks::Given : StoredFlanks::Final);
+    if (options.rexs || options.rexsj) {
+      rexs::ExportedStage stage = rexs::export_stage(study, {options.rexs_version, date_of(results)});
+      if (options.rexs) write_export(folder / "stage.rexs", model_text(stage.model, rexs::Form::Xml));
+      if (options.rexsj) write_export(folder / "stage.rexsj", model_text(stage.model, rexs::Form::Json));
+      notes = std::move(stage.notes);
+    }
+    if (options.grid) {
+      const GearPair pair = make_gear_pair(study.pair);
+      write_export(folder / "grid-pinion.csv", grid_table(pair, Member::Pinion, study.pinion_modification, layout, study.title));
+      write_export(folder / "grid-wheel.csv", grid_table(pair, Member::Wheel, study.wheel_modification, layout, study.title));
+    }
+  }
+  if (options.vtk) export_vtk(json, results, folder / "vtk");
   std::fflush(stdout);
-  for (const std::string& note : stage.notes) spdlog::info("{}", note);
+  for (const std::string& note : notes) spdlog::info("{}", note);
   return 0;
 }
 

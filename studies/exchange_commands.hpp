@@ -19,8 +19,10 @@ int import_command(const ImportOptions& options);
 struct ExportOptions {
   std::string results;  ///< folder with results.json
   std::string folder;   ///< for the files; empty: the same
-  bool rexs{false}, rexsj{false};
+  bool rexs{false}, rexsj{false}, grid{false}, vtk{false};
   std::string rexs_version{"1.7"};
+  std::string grid_points{"9x15"};  ///< along the profile x along the face
+  double grid_margin{0.0};          ///< share of the active flank that is left out at each border
   bool given{false};  ///< flanks of the study file also where an optimisation has changed them
 };
 

@@ -81,6 +81,10 @@ int dispatch(int argc, char** argv) {
   exporting->add_flag("--rexs", to.rexs, "stage.rexs: the pair with its flank modifications, REXS in XML");
   exporting->add_flag("--rexsj", to.rexsj, "stage.rexsj: the same in JSON");
   exporting->add_option("--rexs-version", to.rexs_version, "1.0 to 1.7 or 2.0 (default: 1.7)");
+  exporting->add_flag("--grid", to.grid, "grid-pinion.csv, grid-wheel.csv: the modification as points of a measurement grid");
+  exporting->add_option("--grid-points", to.grid_points, "points along the profile x along the face (default: 9x15)");
+  exporting->add_option("--grid-margin", to.grid_margin, "share of the active flank left out at each border, 0 .. 0.4 (default: 0)");
+  exporting->add_flag("--vtk", to.vtk, "vtk/contact-1.pvd ...: contact under load for ParaView, a collection a load case");
   exporting->add_flag("--given", to.given, "flanks as the study gave them, not as an optimisation left them");
   try {
     app.parse(argc, argv);

@@ -8,6 +8,7 @@
 #include "studies/fit_tables.hpp"
 #include "studies/json_format.hpp"
 #include "studies/load_rating_tables.hpp"
+#include "studies/proof/proof_tables.hpp"
 #include "studies/sweep/sweep_tables.hpp"
 #include "studies/unloaded_tables.hpp"
 
@@ -80,6 +81,22 @@ std::string history_csv(const DesignResult& design) {
   return csv;
 }
 
+std::string pareto_csv(const ParetoFront& front, const DesignTask& task) {
+  std::string csv;
+  for (const Goal& goal : front.goals) csv += csv_field(goal.name() + " [" + goal.unit() + "]") + ",";
+  for (const DesignVariable& v : task.variables) csv += csv_field(v.path + " [" + v.unit() + "]") + ",";
+  csv += "status,dominated\n";
+  for (const ParetoPoint& point : front.points) {
+    for (double value : point.values) csv += fmt::format("{},", value);
+    for (std::size_t i = 0; i < task.variables.size(); ++i) {
+      const DesignVariable& v = task.variables[i];
+      csv += fmt::format("{},", (v.lower + point.x[static_cast<Eigen::Index>(i)] * (v.upper - v.lower)) * v.outside_factor());
+    }
+    csv += fmt::format("{},{}\n", to_string(point.status), point.dominated ? "yes" : "no");
+  }
+  return csv;
+}
+
 std::size_t widest(const std::vector<std::string>& names, std::size_t least) {
   std::size_t width = least;
   for (const std::string& name : names) width = std::max(width, name.size());
@@ -113,13 +130,15 @@ std::string design_table(const StudyResults& results) {
                      design.after.objective, change(design.before.objective, design.after.objective));
   for (std::size_t c = 0; c < task.constraints.size(); ++c) {
     const ObjectiveTerm& output = task.constraints[c].output;
+    const OutputConstraint& bound = task.constraints[c];
     out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n",
-                       fmt::format("{} <= {:.5g} {}", output.name, task.constraints[c].maximum * output.outside_factor(), output.unit()),
+                       fmt::format("{} {} {:.5g} {}", output.name, bound.is_least() ? ">=" : "<=", bound.limit() * output.outside_factor(), output.unit()),
                        width, design.before.constraint_values[c] * output.outside_factor(),
                        design.after.constraint_values[c] * output.outside_factor(), "");
   }
-  return out + fmt::format("\n{}: {} after {} analyses of {} scenes in {:.1f} s\n", design.solver, to_string(design.status),
-                           design.evaluations, task.scenes.size(), design.seconds);
+  out += fmt::format("\n{}: {} after {} analyses of {} scenes in {:.1f} s\n", design.solver, to_string(design.status),
+                     design.evaluations, task.scenes.size(), design.seconds);
+  return results.proof ? out + proof_summary(*results.proof, task, design.after.objective) : out;
 }
 
 std::string analysis_table(const StudyResults& results) {
@@ -165,6 +184,10 @@ std::vector<NamedText> csv_tables(const StudyResults& results) {
   if (results.design) {
     tables.push_back({"scenes.csv", scenes_csv(results)});
     tables.push_back({"history.csv", history_csv(*results.design)});
+    if (results.front) tables.push_back({"pareto.csv", pareto_csv(*results.front, *results.design_task)});
+  }
+  if (results.proof) {
+    for (NamedText& table : proof_tables(*results.proof)) tables.push_back(std::move(table));
   }
   for (NamedText& table : sweep_tables(results)) tables.push_back(std::move(table));
   for (NamedText& table : fit_tables(results.fits)) tables.push_back(std::move(table));

@@ -73,16 +73,18 @@ TEST_CASE("A single misaligned scene is cancelled by the lead slope", "[optimize
   CHECK(result.after.objective == Approx(best).epsilon(1e-4));  // the optimiser's tolerance
 }
 
-TEST_CASE("The first harmonic of the transmission error almost vanishes when it alone is minimised",
+TEST_CASE("The first harmonic of the transmission error vanishes when it alone is minimised",
           "[optimize][design][physics]") {
-  DesignTask task = spur({0.0});
-  task.variables = {
-      {"pinion.modification.profile_crowning", Member::Pinion, ModificationParameter::ProfileCrowning, 0.0, 0.040},
-      {"wheel.modification.profile_crowning", Member::Wheel, ModificationParameter::ProfileCrowning, 0.0, 0.040}};
+  DesignTask task = helical({0.0}, 16);
+  task.variables.push_back({"pinion.modification.twist", Member::Pinion, ModificationParameter::Twist, -0.020, 0.020});
+  task.variables.push_back({"pinion.modification.profile_slope", Member::Pinion, ModificationParameter::ProfileSlope, -0.015, 0.015});
   task.objective = {term(Output::TeHarmonic, 1)};
   const DesignResult result = optimise(task);
   CAPTURE(result.before.objective, result.after.objective, result.message);
-  CHECK(result.after.objective < 0.2 * result.before.objective);
+  // Five amounts, one complex number: they bring it to zero, where its modulus has a kink. Discretisation: the optimiser's tolerance.
+  CHECK(result.after.objective < 1e-4 * result.before.objective);
+  CHECK(result.status == SolverStatus::Converged);
+  CHECK(result.optimality.residual < 1e-4);
 }
 
 TEST_CASE("The optimum respects a bound on the transmission error, and pays for it", "[optimize][design]") {
@@ -105,19 +107,22 @@ TEST_CASE("The optimum respects a bound on the transmission error, and pays for 
 }
 
 TEST_CASE("Every way of combining the scenes finds a design that is better in its own sense", "[optimize][design]") {
-  const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean, Aggregate::MeanPlusTwoSigma);
+  const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean, Aggregate::MeanPlusSigmas, Aggregate::Cvar);
   CAPTURE(to_string(over));
   DesignTask task = helical();
   task.over = over;
-  const DesignResult result = optimise(task, over == Aggregate::MeanPlusTwoSigma ? "nlopt:slsqp" : "ipopt", 300);
+  const DesignResult result = optimise(task, "ipopt", 300);
   CAPTURE(result.message, result.evaluations);
   CHECK(result.after.objective <= result.before.objective);
-  CHECK(result.formulation == (over == Aggregate::MeanPlusTwoSigma ? "direct" : "epigraph"));
+  CHECK(result.formulation == "epigraph");
+  CHECK(result.optimality.residual <= 1e-4);  // the issue's bound on the first-order conditions, scaled
   std::vector<double> weights;
   for (const DesignScene& scene : task.scenes) weights.push_back(scene.weight);
   CHECK(aggregate(over, result.after.scene_measures, weights) == result.after.objective);
 
-  // Independent route: no better design on a coarse grid of the bounds. Discretisation: the optimum is flat.
+  // Independent route: no better design on a coarse grid of the bounds. Discretisation: the optimum is flat. Mean + 2 sigma is not
+  // monotone, so that peaks make it kinked inwards too: its optimum is a local one.
+  const double local = over == Aggregate::MeanPlusSigmas ? 3e-3 : 1e-3;
   DesignProblem problem(task);
   double least = INFINITY;
   for (double crowning : {0.0, 0.1, 0.2, 0.3, 0.4}) {
@@ -127,7 +132,7 @@ TEST_CASE("Every way of combining the scenes finds a design that is better in it
       }
     }
   }
-  CHECK(result.after.objective <= least * (1.0 + 1e-3));
+  CHECK(result.after.objective <= least * (1.0 + local));
 }
 
 TEST_CASE("A budget is kept, and the best design met so far comes back", "[optimize][design]") {

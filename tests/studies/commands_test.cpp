@@ -24,8 +24,8 @@ TEST_CASE("A run leaves its files in the folder it was given, a table on stdout 
   CHECK(ending.exit_code == 0);
   CHECK(folder.names() == Names{"here", "small.toml"});
   CHECK(folder.names("here/and there") ==
-        Names{"bearing_pattern.csv", "cycle.csv", "load_factors.csv", "load_sharing.csv", "points.csv", "report.html", "results.json", "transfers.csv",
-              "unloaded.csv"});
+        Names{"bearing_pattern.csv", "cycle.csv", "effects.csv", "gears.csv", "given.csv", "harmonics.csv", "load_factors.csv", "load_sharing.csv", "points.csv",
+              "report.html", "results.json", "summary.csv", "transfers.csv", "unloaded.csv", "used.csv"});
   CHECK_THAT(ending.out, Contains("aligned") && Contains("bent") && Contains("report: here/and there/report.html"));
   CHECK(ending.out.find("analysing") == std::string::npos);
   CHECK_THAT(ending.err, Contains("small analysis"));
@@ -38,7 +38,8 @@ TEST_CASE("An optimisation also leaves its store; the default folder carries the
   CAPTURE(ending.err);
   CHECK(ending.exit_code == 0);
   CHECK(folder.names("results/small") ==
-        Names{"cycle.csv", "history.csv", "load_factors.csv", "load_sharing.csv", "points.csv", "report.html", "results.json", "results.sqlite", "scenes.csv"});
+        Names{"cycle.csv", "design.csv", "effects.csv", "gears.csv", "given.csv", "harmonics.csv", "history.csv", "load_factors.csv", "load_sharing.csv", "points.csv",
+              "report.html", "results.json", "results.sqlite", "scenes.csv", "summary.csv", "used.csv"});
 }
 
 TEST_CASE("Settings of the command line replace those of the file", "[studies][cli]") {

@@ -1,13 +1,19 @@
 // The headline in plain words, the verdict, and the key numbers.
 
-const AGGREGATE = { worst: "Worst", mean: "Mean", "mean+2sigma": "Mean + 2σ of" };
+/** "worst" -> "Worst", "mean+2sigma" -> "Mean + 2σ of"; nothing for the nominal scene. */
+function aggregate_words(over) {
+  if (over === "worst" || over === "mean") return capital(over);
+  const sigmas = /^mean\+(.*)sigma$/.exec(over || ""), tail = /^cvar (.*)$/.exec(over || "");
+  if (sigmas) return `Mean + ${sigmas[1]}σ of`;
+  return tail ? `Mean of the worst ${fmt(100 * (1 - Number(tail[1])))} % of` : null;
+}
 
 const plural = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
 
 function optimise_headline(optimise) {
   const from = record(optimise.before).objective, to = record(optimise.after).objective;
   const name = words(optimise.objective_name), unit = pretty_unit(optimise.objective_unit);
-  const aggregate = AGGREGATE[optimise.over];
+  const aggregate = aggregate_words(optimise.over);
   const subject = aggregate ? `${aggregate} ${name}` : capital(name);
   const count = list(optimise.scenes).length;
   const over = count > 1 ? (aggregate ? ` over ${count} scenes` : " in the nominal scene") : "";
@@ -46,13 +52,15 @@ function unloaded_headline(results) {
   return `Unloaded transmission error ${fmt(te, 3)} arcsec peak to peak at the wheel${count > 1 ? `, the worst of ${count} scenes` : ""}`;
 }
 
-/** Every constraint of the optimised design: {name, value, max, unit, met}. */
+/** Every constraint of the optimised design: {name, value, max, min, unit, met}. */
 function constraint_rows(optimise) {
   return Object.entries(record(record(optimise.after).constraints)).map(([name, raw]) => {
-    const { value, max, unit } = record(raw);
+    const { value, least = value, max, min, unit } = record(raw);
     // Slack for the last digit that the results store, not for the solver.
-    const met = is_number(value) && is_number(max) ? value <= max + 1e-5 * Math.abs(max) : null;
-    return { name, value, max, unit: pretty_unit(unit), met };
+    const slack = (bound) => 1e-5 * Math.abs(bound);
+    const above = is_number(max) && !(value <= max + slack(max)), below = is_number(min) && !(least >= min - slack(min));
+    const met = is_number(value) && (is_number(max) || is_number(min)) ? !above && !below : null;
+    return { name, value, max, min, unit: pretty_unit(unit), met };
   });
 }
 
@@ -65,7 +73,8 @@ function draw_verdict(results) {
   const broken = constraint_rows(optimise).filter((row) => row.met === false);
   if (broken.length > 0) {
     verdict.append(el("p", { class: "banner bad" }, `Not met: ${broken.map((row) =>
-      `${words(row.name)} ${fmt(row.value)} ${row.unit} against at most ${fmt(row.max)} ${row.unit}`).join("; ")}.`));
+      `${words(row.name)} ${fmt(row.value)} ${row.unit} against ${[is_number(row.min) ? `at least ${fmt(row.min)}` : null,
+        is_number(row.max) ? `at most ${fmt(row.max)}` : null].filter(Boolean).join(" and ")} ${row.unit}`).join("; ")}.`));
   }
   if (optimise.status && !/converged|success|optimal/i.test(optimise.status)) {
     verdict.append(el("p", { class: "banner" }, `The solver ended with “${words(optimise.status)}”`

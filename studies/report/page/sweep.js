@@ -144,7 +144,7 @@ function draw_tornado(plot, indices) {
     el("span", { class: "dot", style: `background:${faded(css_colour("after"), 0.35)}` }), " with its interactions   — standard error"), picture);
 }
 
-function build_sensitivity(results, body) {
+function build_indices(results, body) {
   const sweep = record(results.sweep), outputs = sweep_outputs(sweep);
   const state = { output: leading_output(outputs) };
   const options = outputs.map(([name]) => ({ value: name, label: output_label(name) }));

@@ -1,0 +1,226 @@
+#include "studies/exchange/vtk_series.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr int surface_step = 5;  ///< every fifth row and column of the 41 x 41 maps of results.json
+constexpr int surface_points = 9;
+constexpr double on_line_within = 1e-6;  ///< a tooth is drawn where a point of it has off_line() at most this [mm]
+
+/// A number of results.json; null, which VTK cannot read, becomes NaN as VTK writes it.
+double number(const Json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') out += "&amp;";
+    else if (c == '<') out += "&lt;";
+    else if (c == '"') out += "&quot;";
+    else out += static_cast<unsigned char>(c) < ' ' || c == '-' ? ' ' : c;  // two hyphens would end a comment
+  }
+  return out;
+}
+
+/// PolyData as it grows: points, their fields, and cells of either lines or quadrilaterals.
+class PolyData {
+ public:
+  explicit PolyData(std::vector<std::string> fields) : fields_(std::move(fields)), values_(fields_.size()) {}
+
+  int add_point(double x, double y, double z, const std::vector<double>& values) {
+    points_ += fmt::format("{:.9g} {:.9g} {:.9g}\n", x, y, z);
+    for (std::size_t i = 0; i < values.size(); ++i) values_[i] += fmt::format("{:.9g}\n", values[i]);
+    return count_++;
+  }
+  void add_cell(const std::vector<int>& corners, int tooth) {
+    for (const int corner : corners) connectivity_ += fmt::format("{} ", corner);
+    connectivity_ += "\n";
+    used_ += static_cast<int>(corners.size());
+    offsets_ += fmt::format("{}\n", used_);
+    teeth_ += fmt::format("{}\n", tooth);
+    ++cells_;
+  }
+
+  std::string text(const char* cell_kind, const std::string& comment) const {
+    std::string xml = "<?xml version=\"1.0\"?>\n<!-- " + escaped(comment) + " -->\n";
+    xml += "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n";
+    const bool lines = std::string_view(cell_kind) == "Lines";
+    xml += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n", count_,
+                       lines ? cells_ : 0, lines ? 0 : cells_);
+    xml += "<PointData>\n";
+    for (std::size_t i = 0; i < fields_.size(); ++i) xml += array("Float64", fields_[i], values_[i]);
+    xml += "</PointData>\n<CellData>\n" + array("Int32", "tooth", teeth_) + "</CellData>\n<Points>\n";
+    xml += "<DataArray type=\"Float64\" Name=\"position_mm\" NumberOfComponents=\"3\" format=\"ascii\">\n" + points_ + "</DataArray>\n</Points>\n";
+    xml += fmt::format("<{}>\n{}{}</{}>\n", cell_kind, array("Int32", "connectivity", connectivity_), array("Int32", "offsets", offsets_), cell_kind);
+    return xml + "</Piece>\n</PolyData>\n</VTKFile>\n";
+  }
+
+ private:
+  static std::string array(const char* type, const std::string& name, const std::string& values) {
+    return fmt::format("<DataArray type=\"{}\" Name=\"{}\" format=\"ascii\">\n{}</DataArray>\n", type, name, values);
+  }
+
+  std::vector<std::string> fields_;
+  std::vector<std::string> values_;  ///< of each field, a line a point
+  std::string points_, connectivity_, offsets_, teeth_;
+  int count_{0}, cells_{0}, used_{0};
+};
+
+/// What of results.json places points in the housing.
+struct MeshFrame {
+  double pressure_angle;                  ///< alpha_wt [rad]
+  double pitch_radius;                    ///< of the pinion, working [mm]
+  double lead;                            ///< roll length of the pinion's contact line per mm of z, signed
+  double path;                            ///< T1 T2 [mm]
+  double centre_distance;                 ///< [mm]
+  std::array<double, 2> base, root, tip;  ///< radii of pinion and wheel [mm]
+  std::array<double, 2> half_face;        ///< [mm]
+  double mirror;                          ///< -1: the left flank of the pinion works
+
+  explicit MeshFrame(const Json& json) {
+    const Json& geometry = json.at("geometry");
+    const Json& used = json.at("used").at("pair");
+    pressure_angle = geometry.at("working_transverse_pressure_angle_deg").get<double>() * units::deg;
+    pitch_radius = 0.5 * geometry.at("pinion").at("working_pitch_diameter_mm").get<double>();
+    path = geometry.at("path_of_contact_mm").at("T1_T2");
+    centre_distance = geometry.at("centre_distance_mm");
+    mirror = used.at("working_flank") == "right" ? 1.0 : -1.0;
+    const double hand = geometry.at("pinion").at("hand") == "right" ? 1.0 : -1.0;
+    lead = mirror * hand * std::tan(geometry.at("base_helix_angle_deg").get<double>() * units::deg);
+    for (const std::size_t g : {0U, 1U}) {
+      const Json& gear = geometry.at(g == 0U ? "pinion" : "wheel");
+      base[g] = 0.5 * gear.at("base_diameter_mm").get<double>();
+      root[g] = 0.5 * gear.at("active_root_diameter_mm").get<double>();
+      tip[g] = 0.5 * gear.at("tip_diameter_mm").get<double>();
+      half_face[g] = 0.5 * used.at(g == 0U ? "pinion" : "wheel").at("face_width_mm").get<double>();
+    }
+  }
+
+  double roll(std::size_t gear, double radius) const { return std::sqrt(std::max(0.0, (radius - base[gear]) * (radius + base[gear]))); }
+
+  /// How far a contact point is from the line of action [mm]: there both roll lengths make up the path.
+  double off_line(const Json& point) const {
+    return std::abs(roll(0, point.at("pinion_radius_mm")) + roll(1, point.at("wheel_radius_mm")) - path);
+  }
+
+  /// Where the point's radii on both gears meet: on the line of action, or beside it where a tip edge touches.
+  std::array<double, 2> place(const Json& point) const {
+    const double r1 = point.at("pinion_radius_mm"), r2 = point.at("wheel_radius_mm"), a = centre_distance;
+    const double x = (r1 * r1 - r2 * r2 + a * a) / (2.0 * a), y = std::sqrt(std::max(0.0, r1 * r1 - x * x));
+    return {x, x < pitch_radius ? -mirror * y : mirror * y};
+  }
+
+  /// The involute of a gear at roll length rho, whose contact line is at `contact` in this section: base tangent point turned on from
+  /// the line of action by the difference.
+  std::array<double, 2> place(std::size_t gear, double rho, double contact) const {
+    const double angle = -pressure_angle + (contact - rho) / base[gear];
+    const double x = base[gear] * std::cos(angle) - rho * std::sin(angle), y = base[gear] * std::sin(angle) + rho * std::cos(angle);
+    return gear == 0U ? std::array{x, mirror * y} : std::array{centre_distance - x, -mirror * y};
+  }
+};
+
+const std::vector<std::pair<const char*, const char*>> point_fields{
+    {"load_N_per_mm", "load_N_per_mm"},   {"contact_stress_MPa", "contact_stress_MPa"},       {"gap_um", "gap_um"},
+    {"error_um", "error_um"},             {"contact_deflection_um", "contact_deflection_um"}, {"structural_deflection_um", "structural_deflection_um"},
+    {"radius_mm", "pinion_radius_mm"}};
+
+PolyData contact_lines(const MeshFrame& frame, const Json& position) {
+  std::vector<std::string> names;
+  for (const auto& [name, key] : point_fields) names.emplace_back(name);
+  PolyData data(std::move(names));
+  for (const Json& tooth : position.at("teeth")) {
+    std::vector<int> line;
+    for (const Json& point : tooth.at("points")) {
+      const auto [x, y] = frame.place(point);
+      std::vector<double> values;
+      for (const auto& [name, key] : point_fields) values.push_back(number(point.at(key)));
+      line.push_back(data.add_point(x, y, point.at("z_mm"), values));
+    }
+    if (line.size() > 1) data.add_cell(line, tooth.at("tooth"));
+  }
+  return data;
+}
+
+/// The map of what is removed from a gear's flank in a design; null where it is unmodified.
+const Json* removal_map(const Json& json, std::size_t gear, const std::string& design) {
+  for (const Json& map : json.at("modifications")) {
+    if (map.at("gear") == (gear == 0U ? "pinion" : "wheel") && map.at("design") == design) return &map;
+  }
+  return nullptr;
+}
+
+PolyData flanks(const MeshFrame& frame, const Json& position, std::size_t gear, const Json* removal) {
+  PolyData data({"removal_um", "radius_mm"});
+  for (const Json& tooth : position.at("teeth")) {
+    if (tooth.at("points").empty()) continue;
+    const Json& points = tooth.at("points");
+    const Json& on_line = *std::min_element(points.begin(), points.end(), [&](const Json& a, const Json& b) { return frame.off_line(a) < frame.off_line(b); });
+    if (frame.off_line(on_line) > on_line_within) continue;
+    const double at_mid = frame.roll(0, on_line.at("pinion_radius_mm")) - frame.lead * on_line.at("z_mm").get<double>();
+    std::vector<int> before;
+    for (int i = 0; i < surface_points; ++i) {
+      std::vector<int> row;
+      const double radius = std::lerp(frame.root[gear], frame.tip[gear], static_cast<double>(i) / (surface_points - 1));
+      for (int j = 0; j < surface_points; ++j) {
+        const double z = std::lerp(-frame.half_face[gear], frame.half_face[gear], static_cast<double>(j) / (surface_points - 1));
+        const double of_pinion = at_mid + frame.lead * z;
+        const auto [x, y] = frame.place(gear, frame.roll(gear, radius), gear == 0U ? of_pinion : frame.path - of_pinion);
+        const double removed = removal == nullptr ? 0.0 : number(removal->at("removal_um").at(static_cast<std::size_t>(i * surface_step)).at(static_cast<std::size_t>(j * surface_step)));
+        row.push_back(data.add_point(x, y, z, {removed, radius}));
+      }
+      for (std::size_t j = 0; i > 0 && j + 1 < row.size(); ++j) data.add_cell({before[j], before[j + 1], row[j + 1], row[j]}, tooth.at("tooth"));
+      before = std::move(row);
+    }
+  }
+  return data;
+}
+
+void add_case(const Json& json, const MeshFrame& frame, std::size_t index, std::vector<ExportedFile>& files) {
+  const Json& loaded = json.at("loaded").at(index);
+  const std::string name = fmt::format("contact-{}", index + 1), design = loaded.at("design");
+  const std::string comment = fmt::format("{}, {} N m, {}", loaded.at("scene").get<std::string>(), loaded.at("torque_Nm").get<double>(), design);
+  std::string collection = "<?xml version=\"1.0\"?>\n<!-- " + escaped(comment) + " -->\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
+  std::size_t k = 0;
+  for (const Json& position : loaded.at("cycle")) {
+    const std::array<std::pair<const char*, std::string>, 3> parts{
+        {{"lines", contact_lines(frame, position).text("Lines", comment)},
+         {"pinion", flanks(frame, position, 0, removal_map(json, 0, design)).text("Polys", comment)},
+         {"wheel", flanks(frame, position, 1, removal_map(json, 1, design)).text("Polys", comment)}}};
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      const std::string file = fmt::format("{}/{}-{:04}.vtp", name, parts[part].first, k);
+      collection += fmt::format("<DataSet timestep=\"{:.9g}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", number(position.at("phase")), part, file);
+      files.push_back({file, parts[part].second});
+    }
+    ++k;
+  }
+  files.push_back({name + ".pvd", collection + "</Collection>\n</VTKFile>\n"});
+}
+
+}  // namespace
+
+std::vector<ExportedFile> vtk_series(const std::string& results, const std::string& file) {
+  std::vector<ExportedFile> files;
+  try {
+    const Json json = Json::parse(results);
+    if (json.at("loaded").empty()) throw InvalidInput(file, "no loaded contact", "results of a study with a torque");
+    const MeshFrame frame(json);
+    for (std::size_t i = 0; i < json["loaded"].size(); ++i) add_case(json, frame, i, files);
+  } catch (const Json::exception& error) {
+    throw InvalidInput(file, error.what(), "results.json of a study that has run");
+  }
+  return files;
+}
+
+}  // namespace flankwright::studies
