@@ -1,90 +1,141 @@
 #include "optimize/design_optimiser.hpp"
 
-#include <chrono>
+#include <algorithm>
 #include <cmath>
+
+#include "core/base/stopwatch.hpp"
 
 namespace flankwright {
 
 namespace {
 
-constexpr int most_rounds = 20;
-constexpr double round_tolerance = 1e-6;  // see optimise_design()
+/// Steps of one unit and of pairs around an optimum end before this many analyses where there are up to ten variables.
+constexpr int most_rounding_analyses = 400;
 
-DesignReport report(const DesignProblem& problem, DesignAnalysis analysis) {
+void append(std::vector<SolverStep>& history, const std::vector<SolverStep>& more) {
+  const int offset = history.empty() ? 0 : history.back().evaluation;
+  for (SolverStep step : more) {
+    step.evaluation += offset;
+    history.push_back(step);
+  }
+}
+
+/// The whole run, its books and what is left of the budget.
+class DesignRun {
+ public:
+  DesignRun(DesignProblem& problem, const DesignOptions& options) : problem_(problem), options_(options) {}
+
+  DesignResult finish() {
+    result_.solver = options_.solver.name;
+    result_.before = report_design(problem_, problem_.analyse_given());
+    result_.evaluations = result_.failures = 0;
+    first_objective();
+    DesignProblem last = later_objectives();
+    result_.optimality = first_order_optimality(last, x_);
+    result_.gradient_evaluations = uses_gradients(options_.solver.name) ? result_.evaluations : 0;
+    result_.after = report_design(problem_, problem_.analyse(x_, false));
+    if (has_steps(problem_.task())) round(last);
+    result_.seconds = clock_.seconds();
+    return std::move(result_);
+  }
+
+ private:
+  SolverOptions left() const {
+    SolverOptions options = options_.solver;
+    options.max_evaluations = std::max(1, options.max_evaluations - result_.evaluations);
+    options.max_seconds = std::max(1e-3, options.max_seconds - clock_.seconds());
+    return options;
+  }
+
+  bool is_spent() const {
+    return result_.evaluations >= options_.solver.max_evaluations || clock_.seconds() >= options_.solver.max_seconds;
+  }
+
+  void take(const LocalRun& run) {
+    result_.status = run.status;
+    result_.message = run.message;
+    append(result_.history, run.history);
+    x_ = run.x;
+  }
+
+  void first_objective() {
+    result_.runs = run_from_starts(problem_, options_.solver, options_.starts);
+    result_.optima = distinct_optima(result_.runs, DesignResult::same_objective);
+    for (const LocalRun& run : result_.runs) {
+      result_.evaluations += run.evaluations;
+      result_.failures += run.failures;
+    }
+    const LocalRun& best = result_.runs[best_run(result_.runs)];
+    result_.formulation = best.epigraph ? "epigraph" : "direct";
+    result_.rounds = best.rounds;
+    take(best);
+  }
+
+  /// The problem of the last objective, at x_.
+  DesignProblem later_objectives() {
+    const DesignTask& task = problem_.task();
+    DesignProblem stage = problem_;
+    if (task.then.empty()) return stage;
+    std::vector<GoalBound> bounds = task.goal_bounds;
+    Goal goal = task.goal();
+    for (const Goal& next : task.then) {
+      const double least = stage.value(goal, stage.analyse(x_, false));
+      const double limit = (1.0 + task.lexicographic_tolerance) * least;
+      result_.stages.push_back({goal.name(), least, limit});
+      bounds.push_back({goal, limit});
+      goal = next;
+      stage = problem_.judged_by(goal, bounds);
+      stage.set_start(x_);
+      if (is_spent()) continue;
+      const LocalRun run = run_local(stage, left());
+      result_.evaluations += run.evaluations;
+      result_.failures += run.failures;
+      take(run);
+    }
+    result_.stages.push_back({goal.name(), stage.value(goal, stage.analyse(x_, false))});
+    return stage;
+  }
+
+  void round(DesignProblem& last) {
+    result_.exact = result_.after;
+    const int budget = std::clamp(options_.solver.max_evaluations - result_.evaluations, 1, most_rounding_analyses);
+    const RoundedDesign rounded = round_design(last, x_, budget);
+    result_.evaluations += rounded.analyses;
+    result_.after = report_design(problem_, problem_.analyse(rounded.x, false));
+  }
+
+  DesignProblem& problem_;
+  const DesignOptions& options_;
+  const Stopwatch clock_;
+  DesignResult result_;
+  Eigen::VectorXd x_;
+};
+
+}  // namespace
+
+DesignReport report_design(const DesignProblem& problem, DesignAnalysis analysis) {
+  const DesignTask& task = problem.task();
+  const auto value_of = [&](const DesignVariable& v) {
+    return get(v.member == Member::Pinion ? analysis.pinion_modification : analysis.wheel_modification, v.parameter);
+  };
   DesignReport report;
-  for (const DesignVariable& v : problem.task().variables) {
-    report.variables.push_back(
-        get(v.member == Member::Pinion ? analysis.pinion_modification : analysis.wheel_modification, v.parameter));
-  }
+  for (const DesignVariable& v : task.variables) report.variables.push_back(value_of(v));
+  for (const DesignTie& tie : task.ties) report.tied.push_back(value_of(tie.tied));
   for (int s = 0; s < problem.scenes(); ++s) report.scene_measures.push_back(problem.scene_measure(analysis, s));
-  for (const OutputConstraint& c : problem.task().constraints) {
-    report.constraint_values.push_back(problem.constraint_value(analysis, c));
+  for (const OutputConstraint& c : task.constraints) report.constraint_values.push_back(problem.constraint_value(analysis, c));
+  for (const ModificationConstraint& c : task.modification_constraints) {
+    report.modification_values.push_back(c.value(analysis.pinion_modification, analysis.wheel_modification));
   }
+  for (const Goal& goal : task.then) report.later_objectives.push_back(problem.value(goal, analysis));
   report.objective = problem.objective(analysis);
   report.analysis = std::move(analysis);
   return report;
 }
 
-/// What is left of the budget for the next round.
-SolverOptions remaining(const SolverOptions& options, int used, double seconds) {
-  SolverOptions left = options;
-  left.max_evaluations = std::max(1, options.max_evaluations - used);
-  left.max_seconds = std::max(1e-3, options.max_seconds - seconds);
-  left.progress = nullptr;  // the design log reports progress
-  return left;
-}
-
-}  // namespace
-
-DesignResult optimise_design(DesignProblem& problem, const SolverOptions& options) {
-  options.validate();
-  const auto start = std::chrono::steady_clock::now();
-  const auto elapsed = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
-  DesignResult result;
-  result.solver = options.name;
-  result.before = report(problem, problem.analyse_given());
-  const int analyses_before = problem.analyses();
-  const bool gradients = uses_gradients(options.name);
-  const bool epigraph = gradients && accepts_constraints(options.name) &&
-                        problem.task().over != Aggregate::MeanPlusTwoSigma;
-  DesignLog log(options.progress);
-  SolverResult solved;
-  result.failures = 0;
-  if (!epigraph) {
-    result.formulation = "direct";
-    DirectProgram program(problem, log);
-    solved = solve(program, remaining(options, 0, 0.0));
-    result.failures = solved.failures;
-    result.rounds = 1;
-  } else {
-    result.formulation = "epigraph";
-    EpigraphProgram program(problem, log);
-    for (result.rounds = 1; result.rounds <= most_rounds; ++result.rounds) {
-      solved = solve(program, remaining(options, problem.analyses() - analyses_before, elapsed()));
-      result.failures += solved.failures;
-      if (solved.x.size() == 0 || solved.status == SolverStatus::EvaluationLimit || solved.status == SolverStatus::TimeLimit) break;
-      const Eigen::VectorXd x = program.design(solved.x);
-      const DesignAnalysis& analysis = problem.analyse(x, true);
-      log.record(problem, x, analysis);
-      // Done when the true peaks are what the candidates promised.
-      const double promised = solved.objective * program.objective_scale();
-      const bool holds = log.entries().back().objective <= promised * (1.0 + round_tolerance) &&
-                         log.entries().back().constraint_violation <= DesignLog::tolerance;
-      if (holds || program.add_candidates(x) == 0) break;
-      program.restart_from(log.best()->x);
-    }
-  }
-  result.status = solved.status;
-  result.message = solved.message;
-  result.evaluations = problem.analyses() - analyses_before;
-  result.gradient_evaluations = gradients ? result.evaluations : 0;
-  for (std::size_t i = 0; i < log.entries().size(); ++i) {
-    result.history.push_back({static_cast<int>(i) + 1, log.entries()[i].objective, log.entries()[i].constraint_violation});
-  }
-  const Eigen::VectorXd best = log.best() ? log.best()->x : problem.start();
-  result.after = report(problem, problem.analyse(best, false));
-  result.seconds = elapsed();
-  return result;
+DesignResult optimise_design(DesignProblem& problem, const DesignOptions& options) {
+  options.solver.validate();
+  if (options.starts < 1) throw InvalidInput("optimise.starts", std::to_string(options.starts), "an integer of at least 1");
+  return DesignRun(problem, options).finish();
 }
 
 }  // namespace flankwright

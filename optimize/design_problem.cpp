@@ -1,31 +1,25 @@
 #include "optimize/design_problem.hpp"
 
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace flankwright {
 
 namespace {
 
-struct Moments {
-  double total_weight{0.0}, mean{0.0};
-  double sigma{0.0};  ///< 0 where the spread is round-off
-};
-
-Moments moments_of(const std::vector<double>& measures, const std::vector<double>& weights) {
-  Moments m;
-  double variance = 0.0;
-  for (double w : weights) m.total_weight += w;
-  for (std::size_t s = 0; s < measures.size(); ++s) m.mean += weights[s] / m.total_weight * measures[s];
-  for (std::size_t s = 0; s < measures.size(); ++s) {
-    variance += weights[s] / m.total_weight * std::pow(measures[s] - m.mean, 2);
-  }
-  // Scenes that mirror each other differ by round-off only, which has no direction to descend: sigma <= 1e-12 |mean| is none.
-  const double sigma = std::sqrt(variance);
-  m.sigma = sigma > 1e-12 * std::abs(m.mean) ? sigma : 0.0;
-  return m;
+/// Every output that is minimised or bounded.
+std::vector<ObjectiveTerm> terms_of(const DesignTask& task) {
+  std::vector<ObjectiveTerm> terms = task.objective;
+  const auto add = [&](const Goal& goal) { terms.insert(terms.end(), goal.terms.begin(), goal.terms.end()); };
+  for (const GoalBound& bound : task.goal_bounds) add(bound.goal);
+  for (const TradedGoal& traded : task.trade) add(traded.goal);
+  for (const Goal& goal : task.then) add(goal);
+  for (const OutputConstraint& constraint : task.constraints) terms.push_back(constraint.output);
+  return terms;
 }
 
 /// Harmonics can be told apart only where positions are equally spaced over a pitch and more than two to a period.
@@ -42,46 +36,69 @@ void check_harmonics(const DesignTask& task) {
       throw InvalidInput("cycle.positions", std::to_string(n), "at least " + std::to_string(least) + " for " + term.name);
     }
   };
-  for (const ObjectiveTerm& term : task.objective) check(term);
-  for (const OutputConstraint& constraint : task.constraints) check(constraint.output);
+  for (const ObjectiveTerm& term : terms_of(task)) check(term);
 }
 
 void check_root_stress(const DesignTask& task) {
-  const auto wants = [](const ObjectiveTerm& term) { return term.output == Output::PeakRootStress; };
-  const bool wanted = std::any_of(task.objective.begin(), task.objective.end(), wants) ||
-                      std::any_of(task.constraints.begin(), task.constraints.end(),
-                                  [&](const OutputConstraint& constraint) { return wants(constraint.output); });
+  const std::vector<ObjectiveTerm> terms = terms_of(task);
+  const bool wanted = std::any_of(terms.begin(), terms.end(), [](const ObjectiveTerm& t) { return t.output == Output::PeakRootStress; });
   if (wanted && !task.root_stress) {
     throw InvalidInput("peak_root_stress", "no model of root stress", "the effect root_stress");
   }
 }
 
+/// What is asked must be there to be analysed.
+void check(const DesignTask& task) {
+  if (task.objective.empty()) throw InvalidInput("optimise.objective", "none", "at least one output");
+  check_harmonics(task);
+  check_root_stress(task);
+}
+
 }  // namespace
 
 DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)) {
+  check(task_);
   if (task_.scenes.empty()) throw InvalidInput("scenes", "none", "at least one scene");
   if (task_.variables.empty()) throw InvalidInput("optimise.variables", "none", "at least one variable");
-  if (task_.objective.empty()) throw InvalidInput("optimise.objective", "none", "at least one output");
-  check_harmonics(task_);
-  check_root_stress(task_);
   for (const DesignVariable& v : task_.variables) {
     if (!(v.lower < v.upper)) throw InvalidInput("optimise.variables." + v.path, "an empty range", "lower < upper");
     parameters_.push_back(GearParameter{v.member, v.parameter});
   }
+  for (const DesignTie& tie : task_.ties) {
+    if (tie.as >= task_.variables.size()) throw InvalidInput("optimise.ties." + tie.tied.path, "no variable", "the index of a variable");
+    parameters_.push_back(GearParameter{tie.tied.member, tie.tied.parameter});
+  }
+  std::map<MeshPlacement, std::shared_ptr<const MeshModel>> models;
   for (const DesignScene& scene : task_.scenes) {
     if (!(scene.torque > 0.0)) throw InvalidInput("load.torque", std::to_string(scene.torque), "above 0 to optimise");
     const MeshPlacement placement = MeshPlacement::of(task_.gap, scene.condition.misalignment);
-    std::unique_ptr<MeshModel>& model = models_by_placement_[placement];
+    std::shared_ptr<const MeshModel>& model = models[placement];
     if (!model) {
-      model = std::make_unique<MeshModel>(make_mesh_model(task_.pair, task_.pinion_material, task_.wheel_material,
+      model = std::make_shared<const MeshModel>(make_mesh_model(task_.pair, task_.pinion_material, task_.wheel_material,
                                                           task_.resolution, task_.effects, placement, task_.structure.get(),
                                                           task_.root_stress.get(), task_.shafts.get()));
     }
-    models_.push_back(model.get());
+    models_.push_back(model);
+  }
+  for (const ModificationConstraint& c : task_.modification_constraints) {
+    if (modification_scale(c) == 0.0) throw InvalidInput("optimise.constraints." + c.name, "no variable in it", "a sum that a variable changes");
   }
 }
 
+DesignProblem DesignProblem::judged_by(const Goal& goal, std::vector<GoalBound> bounds, std::vector<TradedGoal> trade) const {
+  DesignProblem other = *this;
+  other.task_.objective = goal.terms;
+  other.task_.over = goal.over;
+  other.task_.goal_bounds = std::move(bounds);
+  other.task_.trade = std::move(trade);
+  other.task_.then.clear();
+  check(other.task_);
+  other.analyses_ = 0;
+  return other;
+}
+
 Eigen::VectorXd DesignProblem::start() const {
+  if (start_.size() > 0) return start_;
   Eigen::VectorXd x(variables());
   for (int i = 0; i < variables(); ++i) {
     const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
@@ -103,17 +120,29 @@ void DesignProblem::apply(const Eigen::VectorXd& x, Modification& pinion, Modifi
     const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
     set(v.member == Member::Pinion ? pinion : wheel, v.parameter, unscaled(x, i));
   }
+  for (const DesignTie& tie : task_.ties) {
+    set(tie.tied.member == Member::Pinion ? pinion : wheel, tie.tied.parameter,
+        tie.factor * unscaled(x, static_cast<int>(tie.as)) + tie.offset);
+  }
+}
+
+LoadedCycle DesignProblem::analyse_scene(int scene, const Modification& pinion, const Modification& wheel,
+                                         const std::vector<MeshParameter>& parameters) const {
+  const DesignScene& of_task = task_.scenes[static_cast<std::size_t>(scene)];
+  FlankCondition condition = of_task.condition;
+  condition.pinion_modification = pinion;
+  condition.wheel_modification = wheel;
+  return analyse_cycle(model(scene), condition, of_task.torque, parameters);
 }
 
 DesignAnalysis DesignProblem::run(const Modification& pinion, const Modification& wheel, bool with_derivatives) const {
   DesignAnalysis analysis{pinion, wheel, std::vector<LoadedCycle>(task_.scenes.size())};
   const std::vector<MeshParameter> none;
-  tbb::parallel_for(std::size_t{0}, task_.scenes.size(), [&](std::size_t s) {
-    FlankCondition condition = task_.scenes[s].condition;
-    condition.pinion_modification = pinion;
-    condition.wheel_modification = wheel;
-    analysis.cycles[s] = analyse_cycle(*models_[s], condition, task_.scenes[s].torque, with_derivatives ? parameters_ : none);
-  });
+  const auto analyse = [&](int s) {
+    analysis.cycles[static_cast<std::size_t>(s)] = analyse_scene(s, pinion, wheel, with_derivatives ? parameters_ : none);
+  };
+  // A thread that waits for its scenes must not take up another start of a multi-start meanwhile.
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for(0, scenes(), analyse); });
   return analysis;
 }
 
@@ -133,66 +162,89 @@ DesignAnalysis DesignProblem::analyse_given() const {
   return run(task_.pinion_modification, task_.wheel_modification, false);
 }
 
-double DesignProblem::scene_measure(const DesignAnalysis& analysis, int scene) const {
+double DesignProblem::scene_measure(const Goal& goal, const LoadedCycle& cycle, int scene) const {
   double sum = 0.0;
-  for (const ObjectiveTerm& term : task_.objective) {
-    sum += term.weight * term.outside_factor() *
-           output_value(term, model(scene), analysis.cycles[static_cast<std::size_t>(scene)]);
+  for (const ObjectiveTerm& term : goal.terms) {
+    sum += term.weight * term.outside_factor() * output_value(term, model(scene), cycle);
   }
   return sum;
 }
 
-double DesignProblem::objective(const DesignAnalysis& analysis) const {
-  std::vector<double> measures, weights;
-  for (int s = 0; s < scenes(); ++s) {
-    measures.push_back(scene_measure(analysis, s));
-    weights.push_back(task_.scenes[static_cast<std::size_t>(s)].weight);
-  }
-  return aggregate(task_.over, measures, weights);
+double DesignProblem::scene_measure(const DesignAnalysis& analysis, int scene) const {
+  return scene_measure(task_.goal(), analysis, scene);
 }
 
-double DesignProblem::constraint_value(const DesignAnalysis& analysis, const OutputConstraint& constraint) const {
+double DesignProblem::scene_measure(const Goal& goal, const DesignAnalysis& analysis, int scene) const {
+  return scene_measure(goal, analysis.cycles[static_cast<std::size_t>(scene)], scene);
+}
+
+double DesignProblem::value(const Goal& goal, const DesignAnalysis& analysis) const {
+  std::vector<double> measures;
+  for (int s = 0; s < scenes(); ++s) measures.push_back(scene_measure(goal, analysis, s));
+  return aggregate(goal.over, measures, scene_weights());
+}
+
+double DesignProblem::objective(const DesignAnalysis& analysis) const {
+  if (task_.trade.empty()) return value(task_.goal(), analysis);
   double largest = -INFINITY;
-  for (int s = 0; s < scenes(); ++s) {
-    largest = std::max(largest, output_value(constraint.output, model(s), analysis.cycles[static_cast<std::size_t>(s)]));
+  for (const TradedGoal& traded : task_.trade) {
+    largest = std::max(largest, (value(traded.goal, analysis) - traded.origin) / traded.range);
   }
   return largest;
 }
 
+double DesignProblem::constraint_value(const DesignAnalysis& analysis, const OutputConstraint& constraint) const {
+  double extreme = not_given;
+  for (int s = 0; s < scenes(); ++s) {
+    const double value = output_value(constraint.output, model(s), analysis.cycles[static_cast<std::size_t>(s)]);
+    extreme = constraint.is_least() ? std::fmin(extreme, value) : std::fmax(extreme, value);
+  }
+  return extreme;
+}
+
+double DesignProblem::violation(const DesignAnalysis& analysis) const {
+  double worst = 0.0;
+  for (const OutputConstraint& c : task_.constraints) worst = std::max(worst, c.excess(constraint_value(analysis, c)));
+  for (const GoalBound& bound : task_.goal_bounds) worst = std::max(worst, value(bound.goal, analysis) / bound.limit - 1.0);
+  for (const ModificationConstraint& c : task_.modification_constraints) {
+    const double sum = c.value(analysis.pinion_modification, analysis.wheel_modification);
+    worst = std::max(worst, std::max(sum - c.maximum, c.minimum - sum) / modification_scale(c));
+  }
+  return worst;
+}
+
+Eigen::VectorXd DesignProblem::modification_slope(const ModificationConstraint& constraint) const {
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(variables() + static_cast<Eigen::Index>(task_.ties.size()));
+  for (const ModificationConstraint::Term& term : constraint.terms) {
+    for (std::size_t p = 0; p < parameters_.size(); ++p) {
+      const auto& parameter = std::get<GearParameter>(parameters_[p]);
+      if (parameter.member == term.member && parameter.parameter == term.parameter) slope[static_cast<Eigen::Index>(p)] += term.factor;
+    }
+  }
+  return scaled(slope);
+}
+
+double DesignProblem::modification_scale(const ModificationConstraint& constraint) const {
+  return modification_slope(constraint).cwiseAbs().sum();
+}
+
+std::vector<double> DesignProblem::scene_weights() const {
+  std::vector<double> weights;
+  for (const DesignScene& scene : task_.scenes) weights.push_back(scene.weight);
+  return weights;
+}
+
 Eigen::VectorXd DesignProblem::scaled(const Eigen::VectorXd& gradient) const {
-  Eigen::VectorXd result = gradient;
-  for (int i = 0; i < variables(); ++i) {
+  const Eigen::Index n = variables();
+  Eigen::VectorXd result = gradient.head(n);
+  for (std::size_t t = 0; t < task_.ties.size(); ++t) {
+    result[static_cast<Eigen::Index>(task_.ties[t].as)] += task_.ties[t].factor * gradient[n + static_cast<Eigen::Index>(t)];
+  }
+  for (int i = 0; i < n; ++i) {
     const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
     result[i] *= v.upper - v.lower;
   }
   return result;
-}
-
-std::vector<double> aggregate_weights(Aggregate over, const std::vector<double>& measures, const std::vector<double>& weights) {
-  std::vector<double> result(measures.size(), 0.0);
-  if (over == Aggregate::Nominal) {
-    result.front() = 1.0;
-    return result;
-  }
-  if (over == Aggregate::Worst) {
-    result[static_cast<std::size_t>(std::max_element(measures.begin(), measures.end()) - measures.begin())] = 1.0;
-    return result;
-  }
-  const Moments moments = moments_of(measures, weights);
-  for (std::size_t s = 0; s < measures.size(); ++s) {
-    result[s] = weights[s] / moments.total_weight;
-    if (over == Aggregate::MeanPlusTwoSigma && moments.sigma > 0.0) {
-      result[s] *= 1.0 + 2.0 * (measures[s] - moments.mean) / moments.sigma;
-    }
-  }
-  return result;
-}
-
-double aggregate(Aggregate over, const std::vector<double>& measures, const std::vector<double>& weights) {
-  if (over == Aggregate::Nominal) return measures.front();
-  if (over == Aggregate::Worst) return *std::max_element(measures.begin(), measures.end());
-  const Moments moments = moments_of(measures, weights);
-  return over == Aggregate::Mean ? moments.mean : moments.mean + 2.0 * moments.sigma;
 }
 
 }  // namespace flankwright

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -16,7 +15,8 @@ struct DesignAnalysis {
   std::vector<LoadedCycle> cycles;  ///< one per scene
 };
 
-/// A design task ready to be analysed: mesh models built once, scenes analysed in parallel.
+/// A design task ready to be analysed: mesh models built once, scenes analysed in parallel. A copy shares the models and
+/// counts its own analyses, so that copies may be used in different threads.
 ///
 /// Designs are given scaled: x_i = (value - lower) / (upper - lower), 0 .. 1.
 class DesignProblem {
@@ -31,48 +31,64 @@ class DesignProblem {
   int scenes() const { return static_cast<int>(task_.scenes.size()); }
   const MeshModel& model(int scene) const { return *models_[static_cast<std::size_t>(scene)]; }
 
-  /// The scaled design that the task's own modifications stand for, moved into the bounds where it lies outside.
+  /// The same scenes and variables judged by other goals, models shared; nothing analysed yet.
+  DesignProblem judged_by(const Goal& goal, std::vector<GoalBound> bounds, std::vector<TradedGoal> trade = {}) const;
+
+  /// Where a search begins: set_start(), or the scaled design that the task's own modifications stand for, moved into the bounds
+  /// where it lies outside.
   Eigen::VectorXd start() const;
+  void set_start(const Eigen::VectorXd& x) { start_ = x; }
   /// Value of variable i [mm; parabolic_te 1/rad].
   double unscaled(const Eigen::VectorXd& x, int i) const;
   /// Modifications of a scaled design.
   void apply(const Eigen::VectorXd& x, Modification& pinion, Modification& wheel) const;
 
-  /// Analyses every scene; derivatives are with respect to the unscaled variables. The last analysis is kept and returned
+  /// Analyses every scene; derivatives are with respect to the unscaled variables and what is tied to them. The last analysis is kept and returned
   /// again for the same x (upgraded by a new run where derivatives are missing).
   const DesignAnalysis& analyse(const Eigen::VectorXd& x, bool with_derivatives);
   /// Analyses the task's own modifications as given, whatever the bounds.
   DesignAnalysis analyse_given() const;
+  /// Analyses any modifications; neither remembered nor counted.
+  DesignAnalysis analyse_design(const Modification& pinion, const Modification& wheel) const { return run(pinion, wheel, false); }
+  /// One scene of that, with derivatives by any parameters.
+  LoadedCycle analyse_scene(int scene, const Modification& pinion, const Modification& wheel,
+                            const std::vector<MeshParameter>& parameters = {}) const;
 
   /// Runs of analyse() that were computed, not remembered.
   int analyses() const { return analyses_; }
 
   /// Weighted sum of the objective's outputs in one scene, outside units.
   double scene_measure(const DesignAnalysis& analysis, int scene) const;
-  /// The scenes' measures combined as the task says.
+  double scene_measure(const Goal& goal, const DesignAnalysis& analysis, int scene) const;
+  double scene_measure(const Goal& goal, const LoadedCycle& cycle, int scene) const;
+  /// A goal's measures of all scenes combined, outside unit.
+  double value(const Goal& goal, const DesignAnalysis& analysis) const;
+  /// What is minimised: the objective over the scenes as the task says, or the trade.
   double objective(const DesignAnalysis& analysis) const;
-  /// Largest value of a bounded output over the scenes, inside unit.
+  /// Value of a bounded output in the scene that is nearest to the bound or farthest beyond it, inside unit.
   double constraint_value(const DesignAnalysis& analysis, const OutputConstraint& constraint) const;
-  /// Gradient of a candidate of one scene with respect to the scaled variables.
+  /// Largest excess over all bounds, relative to each (modification constraints: to modification_scale()); 0 where all are kept [-].
+  double violation(const DesignAnalysis& analysis) const;
+  /// What an excess of a modification constraint counts in: the range that the variables give its sum [mm].
+  double modification_scale(const ModificationConstraint& constraint) const;
+  /// d(constraint's sum)/dx, scaled variables.
+  Eigen::VectorXd modification_slope(const ModificationConstraint& constraint) const;
+  /// Gradient of a candidate of one scene with respect to the scaled variables, by the chain rule through the ties.
   Eigen::VectorXd scaled(const Eigen::VectorXd& gradient) const;
+
+  std::vector<double> scene_weights() const;
 
  private:
   DesignAnalysis run(const Modification& pinion, const Modification& wheel, bool with_derivatives) const;
 
   DesignTask task_;
-  std::map<MeshPlacement, std::unique_ptr<MeshModel>> models_by_placement_;
-  std::vector<const MeshModel*> models_;  ///< per scene
-  std::vector<MeshParameter> parameters_;
+    std::vector<std::shared_ptr<const MeshModel>> models_;  ///< per scene; copies of the problem share them
+  std::vector<MeshParameter> parameters_;  ///< variables, then ties
+  Eigen::VectorXd start_;  ///< empty: the task's own
   Eigen::VectorXd last_x_;
   bool last_has_derivatives_{false};
   DesignAnalysis last_;
   int analyses_{0};
 };
-
-/// Combines scene measures: the first, the largest, or the weighted mean (plus twice the weighted standard deviation).
-double aggregate(Aggregate over, const std::vector<double>& measures, const std::vector<double>& weights);
-
-/// d(aggregate)/d(measure); at a tie of the largest, the first carries it all; at sigma = 0 the spread counts nothing.
-std::vector<double> aggregate_weights(Aggregate over, const std::vector<double>& measures, const std::vector<double>& weights);
 
 }  // namespace flankwright

@@ -11,24 +11,16 @@ bool is_extent(ModificationParameter parameter) {
 
 }  // namespace
 
-const char* to_string(Aggregate over) {
-  switch (over) {
-    case Aggregate::Nominal: return "nominal";
-    case Aggregate::Worst: return "worst";
-    case Aggregate::Mean: return "mean";
-    case Aggregate::MeanPlusTwoSigma: return "mean+2sigma";
-  }
-  __builtin_unreachable();
-}
-
 const char* ObjectiveTerm::unit() const {
   switch (output) {
     case Output::PeakContactStress:
     case Output::PeakRootStress: return "MPa";
     case Output::TePeakToPeak:
     case Output::TeHarmonic: return "um";
-    case Output::LoadFactor: return "1";
-    case Output::PeakLineLoad: return "N/mm";
+    case Output::LoadFactor:
+    case Output::EffectiveContactRatio: return "1";
+    case Output::PeakLineLoad:
+    case Output::EdgeLoad: return "N/mm";
   }
   __builtin_unreachable();
 }
@@ -43,12 +35,22 @@ const char* DesignVariable::unit() const {
   return is_extent(parameter) ? "mm" : "um";
 }
 
-std::string DesignTask::objective_name() const {
+double ModificationConstraint::value(const Modification& pinion, const Modification& wheel) const {
+  double sum = 0.0;
+  for (const Term& term : terms) sum += term.factor * get(term.member == Member::Pinion ? pinion : wheel, term.parameter);
+  return sum;
+}
+
+double ModificationConstraint::outside_factor() const { return DesignVariable{{}, {}, terms.front().parameter}.outside_factor(); }
+
+const char* ModificationConstraint::unit() const { return DesignVariable{{}, {}, terms.front().parameter}.unit(); }
+
+std::string Goal::name() const {
   std::string name;
-  for (const ObjectiveTerm& term : objective) name += (name.empty() ? "" : " + ") + term.name;
+  for (const ObjectiveTerm& term : terms) name += (name.empty() ? "" : " + ") + term.name;
   return name;
 }
 
-const char* DesignTask::objective_unit() const { return objective.size() == 1 ? objective.front().unit() : "weighted sum"; }
+const char* Goal::unit() const { return terms.size() == 1 ? terms.front().unit() : "weighted sum"; }
 
 }  // namespace flankwright

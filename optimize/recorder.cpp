@@ -129,6 +129,7 @@ const Recorder::Point& Recorder::at(const Eigen::VectorXd& x_asked, bool gradien
       stop(SolverStatus::Failed, "the progress callback ended the run");
     }
   }
+  if (const std::string why = options_.stop_when ? options_.stop_when() : ""; !why.empty()) stop(SolverStatus::Stalled, why);
   return point;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <map>
 #include <stdexcept>
 
 #include "core/load/cycle_gradient.hpp"
@@ -14,9 +16,56 @@ const LoadedPosition& at(const LoadedCycle& cycle, int position) { return cycle.
 
 bool has_derivatives(const LoadedCycle& cycle) { return cycle.positions.front().transmission_error_derivative.size() > 0; }
 
-SmoothValue harmonic(const LoadedCycle& cycle, int order) {
+/// The amplitude, or the phasor's projection onto a direction.
+SmoothValue harmonic(const LoadedCycle& cycle, int order, int direction) {
   const TeHarmonic found = te_harmonic(cycle, order);
-  return {found.amplitude, found.derivative.transpose()};
+  if (direction < 0) return {found.amplitude, found.derivative.transpose()};
+  const std::complex<double> turn = std::polar(1.0, -2.0 * units::pi * direction / harmonic_directions);
+  return {(turn * found.phasor).real(), (turn * found.phasor_derivative).real().transpose()};
+}
+
+/// Mean over the positions of 1 / sum_k s_k^2 with the shares s_k of the tooth pairs, and its derivative.
+SmoothValue effective_contact_ratio(const MeshModel& model, const LoadedCycle& cycle) {
+  const auto n = static_cast<double>(cycle.positions.size());
+  const Eigen::Index m = cycle.positions.front().line_load_derivative.cols();
+  SmoothValue mean{0.0, Eigen::VectorXd::Zero(m)};
+  for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
+    const MeshPosition& place = model.positions[i];
+    const LoadedPosition& position = cycle.positions[i];
+    std::map<int, SmoothValue> shares;
+    for (Eigen::Index j = 0; j < place.weight.size(); ++j) {
+      SmoothValue& share = shares.try_emplace(place.points[static_cast<std::size_t>(j)].tooth, SmoothValue{0.0, Eigen::VectorXd::Zero(m)})
+                               .first->second;
+      share.value += place.weight[j] * position.load.line_load[j] / cycle.force;
+      if (m > 0) share.gradient += place.weight[j] / cycle.force * position.line_load_derivative.row(j).transpose();
+    }
+    double squares = 0.0;
+    Eigen::VectorXd slope = Eigen::VectorXd::Zero(m);
+    for (const auto& [tooth, share] : shares) {
+      squares += share.value * share.value;
+      slope += 2.0 * share.value * share.gradient;
+    }
+    mean.value += 1.0 / (squares * n);
+    mean.gradient -= slope / (squares * squares * n);
+  }
+  return mean;
+}
+
+SmoothValue smooth_output(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, int direction) {
+  return term.output == Output::TeHarmonic ? harmonic(cycle, term.harmonic, direction) : effective_contact_ratio(model, cycle);
+}
+
+bool is_smooth(Output output) { return output == Output::TeHarmonic || output == Output::EffectiveContactRatio; }
+
+/// Whether a contact point lies within a share of the face's ends or of either gear's tip.
+bool is_near_edge(const MeshModel& model, const ContactPoint& point, double margin) {
+  const auto near_tip = [&](Member member, double radius) {
+    const Gear& gear = model.pair[member];
+    return radius > gear.tip_radius - margin * (gear.tip_radius - gear.active_root_radius);
+  };
+  const double inset = margin * model.face_width;
+  return point.z < model.face_start() + inset || point.z > model.face_end() - inset ||
+         near_tip(Member::Pinion, point.pinion_radius) || near_tip(Member::Wheel, point.wheel_radius);
 }
 
 /// Derivatives of point_values() at one point.
@@ -34,14 +83,23 @@ Eigen::RowVectorXd point_derivative(const ObjectiveTerm& term, const PeakCandida
 
 bool is_pointwise(Output output) {
   return output == Output::PeakContactStress || output == Output::LoadFactor || output == Output::PeakLineLoad ||
-         output == Output::PeakRootStress;
+         output == Output::PeakRootStress || output == Output::EdgeLoad;
 }
 
 /// Value at every contact point, or place on the fillets, of a position for a pointwise output.
-Eigen::VectorXd point_values(Output output, const LoadedPosition& position, double mean_load) {
-  if (output == Output::PeakContactStress) return position.contact_stress;
-  if (output == Output::PeakRootStress) return position.root_stress;
-  return output == Output::LoadFactor ? Eigen::VectorXd(position.load.line_load / mean_load) : position.load.line_load;
+Eigen::VectorXd point_values(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, int index) {
+  const LoadedPosition& position = at(cycle, index);
+  if (term.output == Output::PeakContactStress) return position.contact_stress;
+  if (term.output == Output::PeakRootStress) return position.root_stress;
+  Eigen::VectorXd loads = position.load.line_load;
+  if (term.output == Output::LoadFactor) loads /= model.mean_line_load(cycle.force);
+  if (term.output == Output::EdgeLoad) {
+    const std::vector<ContactPoint>& points = model.positions[static_cast<std::size_t>(index)].points;
+    for (std::size_t j = 0; j < points.size(); ++j) {
+      if (!is_near_edge(model, points[j], term.edge_margin)) loads[static_cast<Eigen::Index>(j)] = 0.0;
+    }
+  }
+  return loads;
 }
 
 struct Ranked {
@@ -53,14 +111,13 @@ std::vector<Ranked> rank(const ObjectiveTerm& term, const MeshModel& model, cons
   if (!cycle.usable()) throw std::runtime_error("the load distribution did not converge at every mesh position");
   const int positions = static_cast<int>(cycle.positions.size());
   std::vector<Ranked> ranked;
-  if (term.output == Output::TeHarmonic) {
-    ranked.push_back({harmonic(cycle, term.harmonic).value, {}});
+  if (is_smooth(term.output)) {
+    ranked.push_back({smooth_output(term, model, cycle, -1).value, whole_output});
     return ranked;
   }
   if (is_pointwise(term.output)) {
-    const double mean_load = model.mean_line_load(cycle.force);
     for (int i = 0; i < positions; ++i) {
-      const Eigen::VectorXd values = point_values(term.output, at(cycle, i), mean_load);
+      const Eigen::VectorXd values = point_values(term, model, cycle, i);
       for (int j = 0; j < values.size(); ++j) ranked.push_back({values[j], {i, j}});
     }
   } else {
@@ -88,8 +145,12 @@ double output_value(const ObjectiveTerm& term, const MeshModel& model, const Loa
 
 std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle,
                                               double margin, std::size_t most) {
-  const std::vector<Ranked> ranked = rank(term, model, cycle, margin);
   std::vector<PeakCandidate> leading;
+  if (term.output == Output::TeHarmonic && margin > 0.0) {
+    for (int direction = 0; direction < harmonic_directions; ++direction) leading.push_back({-1, direction});
+    return leading;
+  }
+  const std::vector<Ranked> ranked = rank(term, model, cycle, margin);
   for (const Ranked& r : ranked) {
     if (leading.size() == most || r.value < (1.0 - margin) * ranked.front().value) break;
     leading.push_back(r.candidate);
@@ -100,12 +161,11 @@ std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const M
 SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& candidate, const MeshModel& model,
                             const LoadedCycle& cycle) {
   if (!cycle.usable()) throw std::runtime_error("the load distribution did not converge at every mesh position");
-  if (term.output == Output::TeHarmonic) return harmonic(cycle, term.harmonic);
+  if (is_smooth(term.output)) return smooth_output(term, model, cycle, candidate.other);
   const LoadedPosition& position = at(cycle, candidate.position);
   SmoothValue result;
   if (is_pointwise(term.output)) {
-    const double mean_load = term.output == Output::LoadFactor ? model.mean_line_load(cycle.force) : 1.0;
-    result.value = point_values(term.output, position, mean_load)[candidate.other];
+    result.value = point_values(term, model, cycle, candidate.position)[candidate.other];
     if (has_derivatives(cycle)) result.gradient = point_derivative(term, candidate, model, cycle).transpose();
     return result;
   }

@@ -39,6 +39,8 @@ struct SolverOptions {
   /// Called after each evaluation with (evaluations so far, best feasible objective so far: NaN where none); may be
   /// empty. If it throws, the run ends in order (status Failed, best point so far).
   std::function<void(int, double)> progress;
+  /// Asked after each evaluation; may be empty. A text that is not empty ends the run in order (status Stalled) and says why.
+  std::function<std::string()> stop_when;
   /// Throws InvalidInput naming the field, its value and what is allowed.
   void validate() const;
 };

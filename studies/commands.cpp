@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
+#include <utility>
 
 #include "studies/expectations.hpp"
 #include "studies/progress.hpp"
@@ -18,6 +20,7 @@
 #include "studies/run_study.hpp"
 #include "studies/study_template.hpp"
 #include "studies/sweep/run_sweep.hpp"
+#include "studies/sweep/shards.hpp"
 #include "studies/tables.hpp"
 
 namespace flankwright::studies {
@@ -67,24 +70,17 @@ TestLine test_study(const fs::path& path) {
   }
 }
 
-}  // namespace
-
-int run_command(const RunOptions& options) {
+/// The study of a command, and the folder for its results, which is made.
+std::pair<Study, fs::path> opened(const RunOptions& options) {
   const Study study = read_study(options.study, options.overrides);
   const fs::path folder =
       options.folder.empty() ? fs::path("results") / fs::path(options.study).stem() : fs::path(options.folder);
   make_folder(folder);
   spdlog::info("{} ({})", study.title, options.study);
+  return {study, folder};
+}
 
-  StudyResults results;
-  {
-    Progress progress;
-    const ProgressReport report = [&](const std::string& label, int done, int total, const std::string& remark) {
-      progress.show(label, done, total, remark);
-    };
-    results = run_study(study, report);
-    if (study.task == Task::Sweep) run_sweep(results, folder, report);
-  }
+int write_results(const Study& study, const StudyResults& results, const fs::path& folder) {
   const std::string json = results_json(results);
   write_whole(folder / "results.json", json);
   for (const NamedText& table : csv_tables(results)) write_whole(folder / table.name, table.text);
@@ -100,6 +96,40 @@ int run_command(const RunOptions& options) {
   std::fflush(stdout);
   for (const std::string& requirement : results.requirements) spdlog::error("{}", requirement);
   return results.requirements.empty() && different.empty() ? 0 : 1;
+}
+
+int run_shard(const StudyResults& nominal, const fs::path& folder, Shard shard, const ProgressReport& report) {
+  const fs::path file = folder / shard_file(shard);
+  make_folder(file.parent_path());
+  run_sweep_shard(nominal, file, shard, report);
+  fmt::print("shard: {}\n", file.string());
+  return 0;
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  const std::optional<Shard> shard = options.shard.empty() ? std::nullopt : std::optional(parse_shard(options.shard));
+  const auto [study, folder] = opened(options);
+  if (shard && study.task != Task::Sweep) throw InvalidInput("--shard", to_string(study.task), "a study of the task \"sweep\"");
+  Progress progress;
+  const ProgressReport report = [&](const std::string& label, int done, int total, const std::string& remark) {
+    progress.show(label, done, total, remark);
+  };
+  StudyResults results = run_study(study, report);
+  if (shard) return run_shard(results, folder, *shard, report);
+  if (study.task == Task::Sweep) run_sweep(results, folder, report);
+  progress.finish();
+  return write_results(study, results, folder);
+}
+
+int merge_command(const RunOptions& options) {
+  const auto [study, folder] = opened(options);
+  if (study.task != Task::Sweep) throw InvalidInput("task", to_string(study.task), "\"sweep\": shards are parts of a sweep");
+  StudyResults results = run_study(study);
+  merge_shards(folder, study, SampleAnalysis(results).outputs());
+  run_sweep(results, folder, {});
+  return write_results(study, results, folder);
 }
 
 int check_command(const std::string& path, const std::vector<Override>& overrides) {

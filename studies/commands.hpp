@@ -13,11 +13,15 @@ struct RunOptions {
   std::string study;
   std::string folder;               ///< empty: results/ + the study file's name
   std::vector<Override> overrides;  ///< --set
+  std::string shard{};              ///< "3/100": of a sweep this part of the samples alone; empty: all
 };
 
 /// Does the study's task, prints the summary on stdout and writes results.json, report.html and CSV tables, and for an
 /// optimisation results.sqlite.
 int run_command(const RunOptions& options);
+
+/// Puts the shards of a sweep together and does the rest of run_command().
+int merge_command(const RunOptions& options);
 
 /// Reads and validates only.
 int check_command(const std::string& study, const std::vector<Override>& overrides);

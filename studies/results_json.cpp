@@ -10,6 +10,8 @@
 #include "studies/gradients_json.hpp"
 #include "studies/json_format.hpp"
 #include "studies/load_rating_json.hpp"
+#include "studies/optimise_json.hpp"
+#include "studies/proof/proof_json.hpp"
 #include "studies/shafts_json.hpp"
 #include "studies/sweep/sweep_json.hpp"
 #include "studies/unloaded_json.hpp"
@@ -228,59 +230,6 @@ Json modifications_json(const StudyResults& results) {
   return maps;
 }
 
-Json design_report_json(const DesignReport& report, const DesignTask& task) {
-  Json variables = Json::object(), variable_units = Json::object(), constraints = Json::object();
-  for (std::size_t i = 0; i < task.variables.size(); ++i) {
-    const DesignVariable& v = task.variables[i];
-    variables[v.path] = report.variables[i] * v.outside_factor();
-    variable_units[v.path] = v.unit();
-  }
-  for (std::size_t c = 0; c < task.constraints.size(); ++c) {
-    const ObjectiveTerm& output = task.constraints[c].output;
-    constraints[output.name] = {{"value", report.constraint_values[c] * output.outside_factor()},
-                                {"max", task.constraints[c].maximum * output.outside_factor()},
-                                {"unit", output.unit()}};
-  }
-  return {{"variables", variables}, {"variable_units", variable_units}, {"objective", report.objective}, {"constraints", constraints}};
-}
-
-Json optimise_json(const StudyResults& results) {
-  const DesignResult& design = *results.design;
-  const DesignTask& task = *results.design_task;
-  Json terms = Json::array(), scenes = Json::array();
-  for (const ObjectiveTerm& term : task.objective) {
-    terms.push_back({{"output", term.name}, {"weight", term.weight}, {"unit", term.unit()}});
-  }
-  for (std::size_t s = 0; s < task.scenes.size(); ++s) {
-    scenes.push_back({{"name", task.scenes[s].name},
-                      {"torque_Nm", task.scenes[s].torque / units::newton_metre},
-                      {"weight", task.scenes[s].weight},
-                      {"before", design.before.scene_measures[s]},
-                      {"after", design.after.scene_measures[s]}});
-  }
-  return {{"objective_name", task.objective_name()},
-          {"objective_unit", task.objective_unit()},
-          {"objective_terms", terms},
-          {"over", to_string(task.over)},
-          {"solver", design.solver},
-          {"formulation", design.formulation},
-          {"status", to_string(design.status)},
-          {"message", design.message},
-          {"evaluations", design.evaluations},
-          {"gradient_evaluations", design.gradient_evaluations},
-          {"failures", design.failures},
-          {"rounds", design.rounds},
-          {"seconds", design.seconds},
-          {"before", design_report_json(design.before, task)},
-          {"after", design_report_json(design.after, task)},
-          {"scenes", scenes},
-          {"history", list(design.history, [](const SolverStep& step) -> Json {
-             return {{"evaluation", step.evaluation},
-                     {"objective", step.objective},
-                     {"constraint_violation", step.constraint_violation}};
-           })}};
-}
-
 Json units_json() {
   return {{"length", "mm"},        {"modification", "um"},      {"deflection", "um"},
           {"te_um", "along the flank normal, positive: the wheel lags"},
@@ -316,6 +265,7 @@ std::string results_json(const StudyResults& results) {
     return {{"name", e.name}, {"on", e.on}, {"why", e.why}, {"seconds", e.seconds}};
   });
   if (results.design) json["optimise"] = optimise_json(results);
+  if (results.proof) add_proof(*results.proof, *results.design_task, study.optimise.proof, json["optimise"]);
   if (results.sweep) json["sweep"] = sweep_json(results);
   if (!results.deflections.empty()) json["deflections"] = list(results.deflections, deflections_json);
   if (!results.fits.empty()) json["fit"] = list(results.fits, fit_json);

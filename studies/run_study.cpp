@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/base/stopwatch.hpp"
+#include "studies/proof/drawn_scenes.hpp"
 #include "studies/study_shafts.hpp"
 #include "studies/sweep/sweep_value.hpp"
 
@@ -30,10 +31,15 @@ EffectFacts facts_of(const Study& study) {
     // Variables count as modifications from the start, even where their first value is 0.
     if (study.task == Task::Optimise) {
       for (const DesignVariable& v : study.optimise.variables) {
-        set(v.member == Member::Pinion ? condition.pinion_modification : condition.wheel_modification, v.parameter, v.upper);
+        set(v.member == Member::Pinion ? condition.pinion_modification : condition.wheel_modification, v.parameter,
+            v.upper != 0.0 ? v.upper : v.lower);
       }
     }
     facts.conditions.push_back(condition);
+  }
+  // What scatters counts as well; four scenes are enough to see a value other than 0.
+  for (const Scene& scene : draw_scenes(study, {.samples = study.optimise.proof.tolerances.empty() ? 0 : 4})) {
+    facts.conditions.push_back(condition_of(study, scene));
   }
   if (study.task == Task::Sweep) {
     for (const SweptCondition& extreme : extreme_conditions(study)) facts.conditions.push_back(extreme.flanks());
@@ -130,14 +136,23 @@ class Run {
   }
 
   /// Working conditions under load, as far as their effects are on.
-  std::vector<DesignScene> loaded_scenes() const {
+  std::vector<DesignScene> loaded_scenes() const { return loaded(results_.study.scenes); }
+
+  std::vector<DesignScene> loaded(const std::vector<Scene>& of_study) const {
     std::vector<DesignScene> scenes;
-    for (const Scene& scene : results_.study.scenes) {
+    for (const Scene& scene : of_study) {
       for (double torque : scene.torques) {
         if (torque == 0.0) continue;
         scenes.push_back({scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(results_.study, scene))});
       }
     }
+    return scenes;
+  }
+
+  /// The listed ones and those drawn from tolerances.
+  std::vector<DesignScene> all_scenes() const {
+    std::vector<DesignScene> scenes = loaded_scenes();
+    for (DesignScene& scene : loaded(draw_scenes(results_.study, results_.study.optimise.proof.scenes))) scenes.push_back(std::move(scene));
     return scenes;
   }
 
@@ -291,7 +306,11 @@ class Run {
     task.objective = study.optimise.objective;
     task.over = study.optimise.over;
     task.constraints = study.optimise.constraints;
-    task.scenes = loaded_scenes();  // an unloaded scene has no stress and no loaded transmission error to choose by
+    task.ties = study.optimise.ties;
+    task.modification_constraints = study.optimise.modification_constraints;
+    task.then = study.optimise.then;
+    task.lexicographic_tolerance = study.optimise.lexicographic_tolerance;
+    task.scenes = all_scenes();  // an unloaded scene has no stress and no loaded transmission error to choose by
     return task;
   }
 
@@ -309,9 +328,14 @@ class Run {
       report("optimising", analyses, 0, "best so far " + number(best, 5) + " " + unit);
     };
     DesignProblem problem(*results_.design_task);
-    results_.design = optimise_design(problem, options);
+    results_.design = optimise_design(problem, DesignOptions{options, study.optimise.starts});
+    if (!study.optimise.pareto_goals.empty()) {
+      results_.front = trace_front(problem, study.optimise.pareto_goals, study.optimise.pareto_points, options);
+    }
     const DesignResult& design = *results_.design;
     results_.effects.push_back({"load_distribution", true, "all analyses of the optimisation", design.seconds});
+    results_.proof = prove_optimum(study, problem, design, loaded(draw_scenes(study, study.optimise.proof.validation)), progress_);
+    results_.effects.push_back({"proof_of_the_optimum", true, "rules of thumb, variants, sensitivities", results_.proof->seconds});
     for (const auto& [name, report] : {std::pair{"before", &design.before}, std::pair{"after", &design.after}}) {
       for (int s = 0; s < problem.scenes(); ++s) {
         DesignScene scene = results_.design_task->scenes[static_cast<std::size_t>(s)];
@@ -327,10 +351,20 @@ class Run {
     for (std::size_t c = 0; c < study.optimise.constraints.size(); ++c) {
       const OutputConstraint& constraint = study.optimise.constraints[c];
       const double value = design.after.constraint_values[c];
-      if (value > constraint.maximum * (1.0 + DesignLog::tolerance)) {
+      if (constraint.excess(value) > DesignLog::tolerance) {
         const double factor = constraint.output.outside_factor();
-        results_.requirements.push_back("the constraint " + constraint.output.name + " <= " + number(constraint.maximum * factor) +
-                                        " is violated: " + number(value * factor) + " " + constraint.output.unit());
+        results_.requirements.push_back("the constraint " + constraint.output.name + (constraint.is_least() ? " >= " : " <= ") +
+                                        number(constraint.limit() * factor) + " is violated: " + number(value * factor) + " " +
+                                        constraint.output.unit());
+      }
+    }
+    for (std::size_t c = 0; c < study.optimise.modification_constraints.size(); ++c) {
+      const ModificationConstraint& constraint = study.optimise.modification_constraints[c];
+      const double value = design.after.modification_values[c];
+      const double slack = DesignLog::tolerance * problem.modification_scale(constraint);
+      if (value > constraint.maximum + slack || value < constraint.minimum - slack) {
+        results_.requirements.push_back("the constraint on " + constraint.name + " is violated: " +
+                                        number(value * constraint.outside_factor()) + " " + constraint.unit());
       }
     }
   }

@@ -9,11 +9,13 @@
 #include "core/load/iso_load_factors.hpp"
 #include "core/load/mesh_cycle.hpp"
 #include "optimize/design_optimiser.hpp"
+#include "optimize/pareto.hpp"
 #include "studies/fit_task.hpp"
 #include "studies/gear_deflections.hpp"
 #include "core/compliance/shaft/shaft_pair.hpp"
 #include "studies/gear_structures.hpp"
 #include "studies/load_rating.hpp"
+#include "studies/proof/proof.hpp"
 #include "studies/study.hpp"
 #include "studies/unloaded_result.hpp"
 
@@ -48,6 +50,8 @@ struct StudyResults {
   std::vector<Effect> effects;
   std::optional<DesignTask> design_task;
   std::optional<DesignResult> design;
+  std::optional<ParetoFront> front;
+  std::optional<Proof> proof;     ///< of the design
   std::vector<GearDeflections> deflections;  ///< of both gears, where the compliance is of single gears
   std::shared_ptr<const SweepStatistics> sweep;  ///< of the task "sweep": the rest of the results is its nominal sample
   std::vector<GearFit> fits;              ///< of the task "fit", one a gear

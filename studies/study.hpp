@@ -14,6 +14,7 @@
 #include "core/gear/microgeometry.hpp"
 #include "core/load/mesh_parameter.hpp"
 #include "optimize/design_task.hpp"
+#include "studies/proof/proof_table.hpp"
 #include "studies/sweep/sweep_table.hpp"
 
 /// A study as pure data: what a study file says, validated, in internal units (mm, N, rad, MPa); study_file.hpp reads.
@@ -81,13 +82,23 @@ struct FlankGrid {
 
 struct OptimiseTable {
   std::vector<ObjectiveTerm> objective;
-  Aggregate over{Aggregate::Worst};
+  Aggregation over;
   std::string solver{"ipopt"};
   std::vector<DesignVariable> variables;
   std::vector<OutputConstraint> constraints;
+  std::vector<DesignTie> ties;
+  std::vector<ModificationConstraint> modification_constraints;
+  std::vector<Goal> then;                 ///< later objectives of a list
+  double lexicographic_tolerance{0.01};
+  double edge_margin{0.05};
+  double step{0.0};                       ///< of variables that have none of their own [mm]; amounts only
+  int starts{1};
+  std::vector<Goal> pareto_goals;         ///< empty: no front
+  int pareto_points{9};
   int max_evaluations{2000};
   double max_seconds{std::numeric_limits<double>::infinity()};
   unsigned long seed{1};
+  ProofTable proof;
 };
 
 /// One parameter of analyse.gradients.

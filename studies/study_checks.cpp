@@ -66,11 +66,15 @@ void check_tooth_lists(StudyReading& reading) {
   }
 }
 
+/// A variable, or what is tied to one.
 const DesignVariable* find_variable(const Study& study, Member m, MP parameter) {
   const auto& variables = study.optimise.variables;
   const auto found = std::ranges::find_if(
       variables, [&](const DesignVariable& v) { return v.member == m && v.parameter == parameter; });
-  return found == variables.end() ? nullptr : &*found;
+  if (found != variables.end()) return &*found;
+  const auto& ties = study.optimise.ties;
+  const auto tie = std::ranges::find_if(ties, [&](const DesignTie& t) { return t.tied.member == m && t.tied.parameter == parameter; });
+  return tie == ties.end() ? nullptr : &tie->tied;
 }
 
 bool asks_derivative(const Study& study, Member m, MP parameter) {
@@ -160,7 +164,9 @@ void check_variables(StudyReading& reading) {
 void check_root_stress(StudyReading& reading) {
   const Study& study = reading.draft.study;
   const auto is_root_stress = [](const ObjectiveTerm& term) { return term.output == Output::PeakRootStress; };
-  const bool asked = std::ranges::any_of(study.optimise.objective, is_root_stress) ||
+  const auto asks = [&](const Goal& goal) { return std::ranges::any_of(goal.terms, is_root_stress); };
+  const bool asked = std::ranges::any_of(study.optimise.objective, is_root_stress) || std::ranges::any_of(study.optimise.then, asks) ||
+                     std::ranges::any_of(study.optimise.pareto_goals, asks) ||
                      std::ranges::any_of(study.optimise.constraints, is_root_stress, &OutputConstraint::output);
   if (asked && !wants_root_stress(study)) {
     refuse_key(reading, "fidelity.effects", "peak_root_stress is asked for: allowed is \"auto\" or a list with \"root_stress\"");
@@ -178,6 +184,17 @@ void check_optimise(StudyReading& reading) {
   }
   if (study.fidelity.compliance == ComplianceModel::Rigid) {
     refuse_key(reading, "fidelity.compliance", "task \"optimise\" needs a compliance: allowed is \"thin_slice\", \"fitted\" or \"fe\"");
+  }
+  if (!study.optimise.pareto_goals.empty() && !(uses_gradients(study.optimise.solver) && accepts_constraints(study.optimise.solver))) {
+    refuse_key(reading, "optimise.solver", "a Pareto front needs gradients and constraints: allowed is \"ipopt\", \"nlopt:slsqp\", \"nlopt:mma\" or \"nlopt:ccsaq\"");
+  }
+  if (study.optimise.then.size() > 0 && !accepts_constraints(study.optimise.solver)) {
+    refuse_key(reading, "optimise.solver", "a list of objectives bounds the earlier ones: allowed is a solver that takes constraints, such as \"ipopt\"");
+  }
+  const Match* over = reading.find("optimise.over");
+  const bool free_sigmas = over != nullptr && over->node->is_string() && over->node->as_string()->get() == "mean+sigmas";
+  if (reading.find("optimise.sigmas") != nullptr && !free_sigmas) {
+    refuse_key(reading, "optimise.sigmas", "has a meaning with optimise.over = \"mean+sigmas\" only");
   }
   check_root_stress(reading);
   for (const Scene& scene : study.scenes) {

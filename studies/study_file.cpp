@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "studies/study_checks.hpp"
+#include "studies/proof/proof_reading.hpp"
 #include "studies/study_document.hpp"
 #include "studies/study_flanks.hpp"
 #include "studies/study_reading.hpp"
@@ -82,6 +83,7 @@ Study parse_study(std::string_view text, const std::string& name, const std::vec
   read_expectations(reading);
   check_pair(reading);
   read_sweep(reading);
+  read_proof(reading);
   read_shafts(reading);
   check_task(reading);
   read_grids(reading);

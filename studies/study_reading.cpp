@@ -188,7 +188,9 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
     case ValueKind::TableList:  // its tables' keys have rows of their own
     case ValueKind::Scenes:
     case ValueKind::Objective:
+    case ValueKind::Objectives:
     case ValueKind::Variables:
+    case ValueKind::Ties:
     case ValueKind::Distributions:
     case ValueKind::Parameters:
     case ValueKind::Constraints:

@@ -175,9 +175,13 @@ std::string allowed_values(const SchemaKey& key) {
     case ValueKind::Scenes:
       return "[[scenes]] tables";
     case ValueKind::Objective:
-      return quoted_list(output_names()) + ", or a table of them";
+      return quoted_list(output_names()) + ", a table of them, or a list in the order of importance";
+    case ValueKind::Objectives:
+      return "a list of two or three outputs, or tables of them";
     case ValueKind::Variables:
-      return "a table of keys below pinion.modification or wheel.modification, each with [low, high]";
+      return "a table of keys below pinion.modification or wheel.modification, each with [low, high] or { range = [low, high], step = ... }";
+    case ValueKind::Ties:
+      return "a table of keys below pinion.modification or wheel.modification, each with { as = a variable } and factor, offset";
     case ValueKind::Distributions:
       return "a table of keys below misalignment, load, modification or error, each with { normal = [mean, deviation] }, "
              "{ truncated_normal = [mean, deviation, low, high] }, { uniform = [low, high] }, { grid = [low, high, levels] }, "
@@ -185,7 +189,7 @@ std::string allowed_values(const SchemaKey& key) {
     case ValueKind::Parameters:
       return "a list of keys below pinion.modification, wheel.modification or misalignment (not axial_offset), and load.torque";
     case ValueKind::Constraints:
-      return "a table of outputs, each with { max = ... }";
+      return "a table of outputs, or sums of keys below pinion.modification and wheel.modification, each with { max = ... }, { min = ... } or both";
     case ValueKind::Expectations:
       return "a table of keys of results.json, each with { value, within }, { min, max } or { is }";
     case ValueKind::Later:
@@ -216,6 +220,8 @@ std::optional<NamedOutput> find_output(const std::string& name) {
   if (name == "load_factor") return found(Output::LoadFactor, Quantity::Number);
   if (name == "peak_line_load") return found(Output::PeakLineLoad, Quantity::LineLoad);
   if (name == "peak_root_stress") return found(Output::PeakRootStress, Quantity::Stress);
+  if (name == "effective_contact_ratio") return found(Output::EffectiveContactRatio, Quantity::Number);
+  if (name == "edge_load") return found(Output::EdgeLoad, Quantity::LineLoad);
   for (int order = 1; order <= highest_te_harmonic; ++order) {
     if (name == "te_harmonic_" + std::to_string(order)) return found(Output::TeHarmonic, Quantity::Deviation, order);
   }
@@ -224,7 +230,7 @@ std::optional<NamedOutput> find_output(const std::string& name) {
 
 std::vector<std::string> output_names() {
   std::vector<std::string> names{"peak_contact_stress", "te_peak_to_peak", "load_factor", "peak_line_load",
-                                 "peak_root_stress"};
+                                 "peak_root_stress",    "effective_contact_ratio", "edge_load"};
   for (int order = 1; order <= highest_te_harmonic; ++order) names.push_back("te_harmonic_" + std::to_string(order));
   return names;
 }

@@ -36,11 +36,13 @@ enum class ValueKind {
   WordList,      ///< "auto", or a list of `words`
   TableList,     ///< array of tables, each with the keys of element_keys()
   Scenes,        ///< array of tables, each with scene_keys()
-  Objective,     ///< an output, or a table of outputs and weights
-  Variables,     ///< table: modification key = [low, high]
+  Objective,     ///< an output, a table of outputs and weights, or a list of such
+  Objectives,    ///< a list of outputs or tables of them
+  Variables,     ///< table: modification key = [low, high] or { range = [low, high], step = ... }
+  Ties,          ///< table: modification key = { as = a variable, factor, offset }
   Distributions, ///< table: key = distribution
   Parameters,    ///< list of keys that derivatives are taken by
-  Constraints,   ///< table: output = { max = ... }
+  Constraints,   ///< table: output, or a sum of modifications = { max = ... , min = ... }
   Expectations,  ///< table: key of results.json = { value, within, min, max }
   Later          ///< known, but not in this version
 };

@@ -224,6 +224,29 @@ form = "one_tooth_accurate"          # the loaded tooth alone; "several_teeth" c
 # "fit.residuals.kernels.unseen.0.median_percent" = { max = 1 }      # 0: the loaded tooth, 1: one pitch away ...
 )";
 
+constexpr std::string_view slurm_text = R"(#!/bin/bash
+# A sweep on a Slurm cluster, one shard a task of a job array:
+#
+#     sbatch sweep.sbatch my-gear.toml results/my-gear
+#
+# and when it is done, anywhere:   flankwright merge my-gear.toml --out results/my-gear
+# The merge names shards that were lost; run those again:   sbatch --array=4,17 sweep.sbatch my-gear.toml results/my-gear
+# A shard that was stopped goes on where it ended. Make shards of minutes: starting a task takes Slurm half a second, and each
+# analyses the nominal sample first.
+#SBATCH --job-name=flankwright
+#SBATCH --array=1-20                 # shards 1 .. 20; the last number is also the one below
+#SBATCH --cpus-per-task=4
+#SBATCH --mem-per-cpu=500M           # "fitted" and "fe" need gigabytes where no earlier run has kept the finite elements
+#SBATCH --time=01:00:00
+#SBATCH --requeue
+#SBATCH --output=flankwright-%A-%a.log
+set -eu
+shards=20
+study=$1
+folder=$2
+exec "${FLANKWRIGHT:-flankwright}" run "$study" --out "$folder" --threads "${SLURM_CPUS_PER_TASK:-1}" --shard "$SLURM_ARRAY_TASK_ID/$shards"
+)";
+
 std::string text_of(std::string_view head, std::string_view tail) {
   return std::string(head) + std::string(pair_and_flanks) + std::string(tail);
 }
@@ -234,8 +257,9 @@ std::string study_template(const std::string& kind) {
   if (kind == "analyse") return text_of(analyse_head, analyse_tail);
   if (kind == "optimise") return text_of(optimise_head, optimise_tail);
   if (kind == "sweep") return text_of(sweep_head, sweep_tail);
+  if (kind == "slurm") return std::string(slurm_text);
   if (kind == "fit") return std::string(fit_text);
-  const std::string allowed = "\"analyse\", \"optimise\", \"sweep\" or \"fit\"";
+  const std::string allowed = "\"analyse\", \"optimise\", \"sweep\", \"fit\" or \"slurm\"";
   throw InvalidInput("KIND", kind, kind == "accuracy" ? allowed + "; accuracy is not in this version" : allowed);
 }
 

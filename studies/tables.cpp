@@ -8,6 +8,7 @@
 #include "studies/fit_tables.hpp"
 #include "studies/json_format.hpp"
 #include "studies/load_rating_tables.hpp"
+#include "studies/proof/proof_tables.hpp"
 #include "studies/sweep/sweep_tables.hpp"
 #include "studies/unloaded_tables.hpp"
 
@@ -113,13 +114,15 @@ std::string design_table(const StudyResults& results) {
                      design.after.objective, change(design.before.objective, design.after.objective));
   for (std::size_t c = 0; c < task.constraints.size(); ++c) {
     const ObjectiveTerm& output = task.constraints[c].output;
+    const OutputConstraint& bound = task.constraints[c];
     out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n",
-                       fmt::format("{} <= {:.5g} {}", output.name, task.constraints[c].maximum * output.outside_factor(), output.unit()),
+                       fmt::format("{} {} {:.5g} {}", output.name, bound.is_least() ? ">=" : "<=", bound.limit() * output.outside_factor(), output.unit()),
                        width, design.before.constraint_values[c] * output.outside_factor(),
                        design.after.constraint_values[c] * output.outside_factor(), "");
   }
-  return out + fmt::format("\n{}: {} after {} analyses of {} scenes in {:.1f} s\n", design.solver, to_string(design.status),
-                           design.evaluations, task.scenes.size(), design.seconds);
+  out += fmt::format("\n{}: {} after {} analyses of {} scenes in {:.1f} s\n", design.solver, to_string(design.status),
+                     design.evaluations, task.scenes.size(), design.seconds);
+  return results.proof ? out + proof_summary(*results.proof, task, design.after.objective) : out;
 }
 
 std::string analysis_table(const StudyResults& results) {
@@ -165,6 +168,9 @@ std::vector<NamedText> csv_tables(const StudyResults& results) {
   if (results.design) {
     tables.push_back({"scenes.csv", scenes_csv(results)});
     tables.push_back({"history.csv", history_csv(*results.design)});
+  }
+  if (results.proof) {
+    for (NamedText& table : proof_tables(*results.proof)) tables.push_back(std::move(table));
   }
   for (NamedText& table : sweep_tables(results)) tables.push_back(std::move(table));
   for (NamedText& table : fit_tables(results.fits)) tables.push_back(std::move(table));

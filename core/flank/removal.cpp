@@ -1,5 +1,7 @@
 #include "core/flank/removal.hpp"
 
+#include <algorithm>
+
 namespace flankwright {
 
 namespace {
@@ -8,6 +10,20 @@ namespace {
 double per_extent(double amount, double extent, int power) {
   if (amount == 0.0) return 0.0;
   return power == 1 ? amount / extent : amount / (extent * extent);
+}
+
+struct Polynomial {
+  double value, first, second;
+};
+
+/// P_0 .. P_4 with their derivatives.
+std::array<Polynomial, 5> legendre(double x) {
+  const double x2 = x * x;
+  return {{{1.0, 0.0, 0.0},
+           {x, 1.0, 0.0},
+           {0.5 * (3.0 * x2 - 1.0), 3.0 * x, 3.0},
+           {0.5 * x * (5.0 * x2 - 3.0), 1.5 * (5.0 * x2 - 1.0), 15.0 * x},
+           {0.125 * ((35.0 * x2 - 30.0) * x2 + 3.0), 2.5 * x * (7.0 * x2 - 3.0), 7.5 * (7.0 * x2 - 1.0)}}};
 }
 
 /// A unit amount of one parameter with the extents of a modification; nothing for an extent.
@@ -37,7 +53,12 @@ DeviationFormula::DeviationFormula(const Modification& m, const ToothError& e, c
                     ? 0.0 : frame.wheel_base_radius * m.parabolic_te * frame.pinion_turn * frame.pinion_turn),
       base_radius_(frame.base_radius),
       pitch_roll_(frame.pitch_roll),
-      helix_rate_(frame.helix_rate) {
+      helix_rate_(frame.helix_rate),
+      has_shapes_(std::ranges::any_of(m.shapes, [](double c) { return c != 0.0; })),
+      shapes_(m.shapes),
+      middle_radius_(0.5 * (frame.tip_radius + frame.active_root_radius)),
+      half_height_(0.5 * (frame.tip_radius - frame.active_root_radius)),
+      half_face_(0.5 * frame.face_width) {
   const double per_width = 1.0 / frame.face_width, per_height = 1.0 / (frame.tip_radius - frame.active_root_radius);
   const double up = frame.pitch_radius - frame.reference_radius;  // from the origin of the errors' profile slope to y = 0
   const double error_slope = e.profile_slope * per_height, error_twist = e.twist * per_height * per_width;
@@ -63,6 +84,20 @@ void DeviationFormula::add_parabola(double r, double z, Jet& d) const {
   d.uu += 2.0 * k * (turn_r * turn_r + turn * turn_rr);
   d.uv -= 2.0 * k * turn_r * helix_rate_;
   d.vv += 2.0 * k * helix_rate_ * helix_rate_;
+}
+
+void DeviationFormula::add_shapes(double r, double z, Jet& d) const {
+  const auto profile = legendre((r - middle_radius_) / half_height_), face = legendre(z / half_face_);
+  for (std::size_t k = 0; k < shapes_.size(); ++k) {
+    const Polynomial& p = profile[static_cast<std::size_t>(topography_shapes[k].profile)];
+    const Polynomial& f = face[static_cast<std::size_t>(topography_shapes[k].face)];
+    d.value += shapes_[k] * p.value * f.value;
+    d.u += shapes_[k] * p.first * f.value / half_height_;
+    d.v += shapes_[k] * p.value * f.first / half_face_;
+    d.uu += shapes_[k] * p.second * f.value / (half_height_ * half_height_);
+    d.uv += shapes_[k] * p.first * f.first / (half_height_ * half_face_);
+    d.vv += shapes_[k] * p.value * f.second / (half_face_ * half_face_);
+  }
 }
 
 RemovalDerivative::RemovalDerivative(const Modification& m, const FlankFrame& frame, ModificationParameter parameter)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "core/base/dual.hpp"
@@ -21,6 +22,7 @@ namespace flankwright {
 ///     parabolic TE:  r_b2 a phi1^2,  phi1 = i ((rho - rho_w)/r_b - s z/p)  with i = 1 (pinion) or -N2/N1 (wheel): the pinion angle
 ///               at which the undisturbed flanks touch along the line through (rho, z), the same along that whole line. It is how
 ///               far the mesh lags there; the flank that makes it do so is make_conjugate_field()
+///     shapes:   sum of c_ij P_i((2 r - r_a - r_Nf)/(r_a - r_Nf)) P_j(2z/b)  (topography_shapes)
 ///     errors:   -(f_Hbeta z/b + f_Halpha y/h_active + f_yz (y/h_active)(z/b)),   y = r - reference radius, h_active = r_a - r_Nf
 ///
 /// Radial measure throughout, as Haddad 1991, eq. 6.1 (there with b^2 printed for (b/2)^2 in the crowning term). The function
@@ -38,6 +40,7 @@ class DeviationFormula {
     root_.add(root_.start - r, -1.0, d.value, d.u, d.uu);
     end_.add(std::abs(z) - end_.start, z < 0.0 ? -1.0 : 1.0, d.value, d.v, d.vv);
     if (parabola_ != 0.0) add_parabola(r, z, d);
+    if (has_shapes_) add_shapes(r, z, d);
     return d;
   }
 
@@ -56,6 +59,7 @@ class DeviationFormula {
 
   static Relief relief(double amount, double extent, ReliefShape shape, double start);
   void add_parabola(double r, double z, Jet& d) const;
+  void add_shapes(double r, double z, Jet& d) const;
 
   double pitch_radius_;
   double level_, y_, z_, yz_, zz_;  ///< coefficients of 1, y, z, yz, z^2 with y = r - r_w
@@ -63,6 +67,9 @@ class DeviationFormula {
   Relief tip_, root_, end_;
   double parabola_;  ///< r_b2 a i^2, see above [mm]
   double base_radius_, pitch_roll_, helix_rate_;
+  bool has_shapes_;
+  std::array<double, topography_shapes.size()> shapes_;
+  double middle_radius_, half_height_, half_face_;  ///< what xi and eta count from and in
 };
 
 /// Material removed by a modification at r, z [mm]: DeviationFormula without errors. Scalar is double, Dual<N> or Jet.

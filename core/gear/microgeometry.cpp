@@ -21,8 +21,8 @@ double& field(Modification& m, ModificationParameter parameter) {
     case ModificationParameter::EndReliefLength: return m.end_relief.length;
     case ModificationParameter::Twist: return m.twist;
     case ModificationParameter::ParabolicTe: return m.parabolic_te;
+    default: return m.shapes[static_cast<std::size_t>(parameter) - static_cast<std::size_t>(ModificationParameter::TopographyFace2)];
   }
-  __builtin_unreachable();
 }
 
 /// Entry k mod size; 0 of an empty list.

@@ -28,6 +28,17 @@ struct EndRelief {
   bool operator==(const EndRelief&) const = default;
 };
 
+/// Degrees of one smooth shape over the active flank: material removed P_profile(xi) P_face(eta) with the Legendre polynomials P_n,
+/// xi = -1 at the start of active profile .. 1 at the tip, eta = -1 at z = -b/2 .. 1 at z = +b/2.
+struct TopographyShape {
+  int profile{0}, face{0};
+};
+
+/// All shapes to the fourth degree but the constant, which only delays the mesh, and those of the first degree in both
+/// directions, which are the slopes and the twist.
+inline constexpr std::array<TopographyShape, 11> topography_shapes{
+    {{0, 2}, {2, 0}, {0, 3}, {3, 0}, {1, 2}, {2, 1}, {0, 4}, {4, 0}, {1, 3}, {3, 1}, {2, 2}}};
+
 /// Flank modification as a designer states it: material removed (positive into the tooth), measured in the
 /// transverse plane along the base tangent [ISO 21771; ISO 1328-1]. All amounts in mm, parabolic_te in 1/rad.
 struct Modification {
@@ -42,6 +53,8 @@ struct Modification {
   double twist{0.0};              ///< removed: twist * (y / h_active) * (z / b); + removes at the tip at z = +b/2
   /// a of the predesigned transmission error delta_phi2 = -a phi1^2 [1/rad]; removed along the line that touches at phi1: r_b2 a phi1^2.
   double parabolic_te{0.0};
+  /// Of each of topography_shapes [mm].
+  std::array<double, topography_shapes.size()> shapes{};
   /// Measured or topological grid on top of the rest; none where null.
   std::shared_ptr<const DeviationField> topography;
   bool operator==(const Modification&) const = default;  ///< of grids: the same object
@@ -51,7 +64,10 @@ struct Modification {
 enum class ModificationParameter {
   LeadCrowning, LeadSlope, ProfileCrowning, AddendumCrowning, DedendumCrowning, ProfileSlope,
   TipReliefAmount, TipReliefHeight, RootReliefAmount, RootReliefHeight,
-  EndReliefAmount, EndReliefLength, Twist, ParabolicTe
+  EndReliefAmount, EndReliefLength, Twist, ParabolicTe,
+  // Coefficients of topography_shapes, in their order.
+  TopographyFace2, TopographyProfile2, TopographyFace3, TopographyProfile3, TopographyProfile1Face2, TopographyProfile2Face1, 
+  TopographyFace4, TopographyProfile4, TopographyProfile1Face3, TopographyProfile3Face1, TopographyProfile2Face2
 };
 
 /// A parameter and the name it carries in a study file below [pinion.modification].
@@ -61,7 +77,7 @@ struct NamedModificationParameter {
 };
 
 /// All of them. ProfileCrowning is the common value of addendum and dedendum crowning.
-inline constexpr std::array<NamedModificationParameter, 14> modification_parameters{{
+inline constexpr std::array<NamedModificationParameter, 25> modification_parameters{{
     {ModificationParameter::LeadCrowning, "lead_crowning"},
     {ModificationParameter::LeadSlope, "lead_slope"},
     {ModificationParameter::ProfileCrowning, "profile_crowning"},
@@ -76,6 +92,17 @@ inline constexpr std::array<NamedModificationParameter, 14> modification_paramet
     {ModificationParameter::EndReliefLength, "end_relief.length"},
     {ModificationParameter::Twist, "twist"},
     {ModificationParameter::ParabolicTe, "parabolic_te"},
+    {ModificationParameter::TopographyFace2, "topography.face_2"},
+    {ModificationParameter::TopographyProfile2, "topography.profile_2"},
+    {ModificationParameter::TopographyFace3, "topography.face_3"},
+    {ModificationParameter::TopographyProfile3, "topography.profile_3"},
+    {ModificationParameter::TopographyProfile1Face2, "topography.profile_1_face_2"},
+    {ModificationParameter::TopographyProfile2Face1, "topography.profile_2_face_1"},
+    {ModificationParameter::TopographyFace4, "topography.face_4"},
+    {ModificationParameter::TopographyProfile4, "topography.profile_4"},
+    {ModificationParameter::TopographyProfile1Face3, "topography.profile_1_face_3"},
+    {ModificationParameter::TopographyProfile3Face1, "topography.profile_3_face_1"},
+    {ModificationParameter::TopographyProfile2Face2, "topography.profile_2_face_2"},
 }};
 
 /// Value of one parameter [mm; parabolic_te 1/rad]. ProfileCrowning reads the mean of addendum and dedendum crowning.

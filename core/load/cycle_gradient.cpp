@@ -51,7 +51,7 @@ TeHarmonic te_harmonic(const LoadedCycle& cycle, int order) {
   }
   const double amplitude = std::abs(sum);
   const std::complex<double> direction = amplitude > 0.0 ? std::conj(sum) / amplitude : 0.0;
-  return {amplitude, (direction * derivative).real()};
+  return {amplitude, (direction * derivative).real(), sum, derivative};
 }
 
 Eigen::RowVectorXd load_factor_derivative(const MeshModel& model, const LoadedCycle& cycle, int position, Eigen::Index point) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <complex>
 
 #include "core/load/mesh_cycle.hpp"
 
@@ -10,6 +11,8 @@ namespace flankwright {
 struct TeHarmonic {
   double amplitude{not_given};     ///< [mm]
   Eigen::RowVectorXd derivative;   ///< 1 x m; at amplitude 0, where it has a kink, 0, one of its subgradients
+  std::complex<double> phasor;     ///< whose modulus the amplitude is [mm]
+  Eigen::RowVectorXcd phasor_derivative;  ///< 1 x m; smooth at amplitude 0 as well
 };
 /// @param order  below half the number of positions, >= 1
 TeHarmonic te_harmonic(const LoadedCycle& cycle, int order);

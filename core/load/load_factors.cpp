@@ -77,7 +77,7 @@ FlankCondition profile_part(const FlankCondition& condition) {
 }
 
 bool has_other_part(const FlankCondition& condition) {
-  const auto shaped = [](const Modification& m) { return m.twist != 0.0 || m.parabolic_te != 0.0 || m.topography != nullptr; };
+  const auto shaped = [](const Modification& m) { return m.twist != 0.0 || m.shapes != decltype(m.shapes){} || m.parabolic_te != 0.0 || m.topography != nullptr; };
   const auto twisted = [](const ManufacturingError& e) { return e.twist != 0.0 || !e.twists.empty(); };
   return shaped(condition.pinion_modification) || shaped(condition.wheel_modification) || twisted(condition.pinion_error) ||
          twisted(condition.wheel_error) || condition.misalignment.centre_distance != 0.0;

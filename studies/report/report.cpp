@@ -23,6 +23,15 @@ bool has_loaded(const json& results) {
   return has(results, "loaded") && results.at("loaded").is_array();
 }
 
+bool has_sweep(const json& results) { return has(results, "sweep") && results.at("sweep").is_object(); }
+
+/// A part of the proof of an optimum; a comparison counts where there is something to compare with.
+bool has_proof(const json& results, const char* part) {
+  if (!has(results, "optimise") || !results.at("optimise").is_object() || !has(results.at("optimise"), part)) return false;
+  const json& found = results.at("optimise").at(part);
+  return !found.contains("rules") || has(found, "rules") || has(found, "variants");
+}
+
 /// A section of the page: the script fills the element `id`; it exists only where `present` holds.
 struct Section {
   const char* id;
@@ -30,10 +39,25 @@ struct Section {
   bool (*present)(const json& results);
 };
 
+/// True where an optimisation had several starts, rounded its optimum, or traced a front.
+bool searched(const json& r) {
+  if (!has(r, "optimise") || !r.at("optimise").is_object()) return false;
+  const json& optimise = r.at("optimise");
+  const bool several = has(optimise, "starts") && optimise.at("starts").is_array() && optimise.at("starts").size() > 1;
+  return several || has(optimise, "rounded") || has(optimise, "pareto");
+}
+
 /// In the order in which a gear engineer asks.
 constexpr Section sections[] = {
+    {"scatter", "Scatter over the samples", has_sweep},
+    {"sensitivity", "Where the scatter comes from", [](const json& r) { return has_sweep(r) && r.at("sweep").value("index_blocks", 0) > 1; }},
+    {"response-maps", "Response maps", [](const json& r) { return has_sweep(r) && has(r.at("sweep"), "response_maps"); }},
     {"transmission-error", "Transmission error under load", has_loaded},
     {"scenes", "Scenes", [](const json& r) { return has(r, "optimise"); }},
+    {"comparison", "Optimum and other designs", [](const json& r) { return has_proof(r, "comparison"); }},
+    {"validation", "Scenes drawn afresh", [](const json& r) { return has_proof(r, "validation"); }},
+    {"governing", "What governs the optimum", [](const json& r) { return has_proof(r, "governing"); }},
+    {"sensitivity", "Sensitivity of the optimum", [](const json& r) { return has_proof(r, "sensitivity"); }},
     {"flank-load", "Load on the flank", has_loaded},
     {"modifications", "Flank modifications",
      [](const json& r) { return has(r, "modifications") || has(r, "optimise"); }},
@@ -42,6 +66,7 @@ constexpr Section sections[] = {
      [](const json& r) {
        return has(r, "optimise") && r.at("optimise").is_object() && has(r.at("optimise"), "history");
      }},
+    {"search", "Search, rounding and compromises", searched},
     {"load-cases", "Load cases in numbers", has_loaded},
     {"unloaded", "Unloaded contact", [](const json& r) { return has(r, "unloaded"); }},
     {"deflections", "Deflection of a tooth under load", [](const json& r) { return has(r, "fit") || has(r, "deflections"); }},

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <limits>
 #include <mutex>
+#include <utility>
+#include <vector>
 
 #include "core/base/stopwatch.hpp"
 #include "studies/sweep/sweep_statistics.hpp"
@@ -18,32 +20,40 @@ namespace {
 
 constexpr long long chunk = 4096;  // samples looked up at a time, so that memory does not grow with their number
 
-/// Takes the samples as they are done, from any thread; ends batches and reports.
+/// Takes the samples as they are done, from any thread. One thread at a time writes a batch while the others go on.
 class SampleWriter {
  public:
   SampleWriter(SweepStore& store, const ProgressReport& progress, long long total, long long done_before)
       : store_(store), progress_(progress), total_(total), done_before_(done_before) {}
 
-  void add(const StoredSample& sample) {
-    const std::lock_guard lock(mutex_);
-    store_.add(sample);
-    ++done_;
-    failed_ += !sample.result.failure.empty();
-    if (batch_.seconds() < std::chrono::duration<double>(SweepStore::commit_interval).count()) return;
-    end_batch();
-    if (progress_) progress_("samples", in_int(done_before_ + done_), in_int(total_), remark());
+  void add(StoredSample sample) {
+    {
+      const std::lock_guard lock(waiting_mutex_);
+      waiting_.push_back(std::move(sample));
+    }
+    const std::unique_lock writing(store_mutex_, std::try_to_lock);
+    if (writing && batch_.seconds() >= std::chrono::duration<double>(SweepStore::commit_interval).count()) write_batch();
   }
-  void finish() {
-    end_batch();
-    if (progress_) progress_("samples", in_int(done_before_ + done_), in_int(total_), remark());
-  }
+  void finish() { write_batch(); }
 
  private:
-  static int in_int(long long count) { return static_cast<int>(std::min<long long>(count, std::numeric_limits<int>::max())); }
-  void end_batch() {
-    store_.commit(batch_.seconds());
+  void write_batch() {
+    std::vector<StoredSample> batch;
+    {
+      const std::lock_guard lock(waiting_mutex_);
+      batch.swap(waiting_);
+    }
+    for (const StoredSample& sample : batch) {
+      store_.add(sample);
+      failed_ += !sample.result.failure.empty();
+    }
+    done_ += static_cast<long long>(batch.size());
+    const double seconds = batch_.seconds();
     batch_ = Stopwatch();
+    store_.commit(seconds);
+    if (progress_) progress_("samples", in_int(done_before_ + done_), in_int(total_), remark());
   }
+  static int in_int(long long count) { return static_cast<int>(std::min<long long>(count, std::numeric_limits<int>::max())); }
   std::string remark() const {
     const double rate = static_cast<double>(done_) / std::max(clock_.seconds(), 1e-9);
     std::string text = fmt::format("{:.3g}/s", rate);
@@ -56,19 +66,16 @@ class SampleWriter {
   SweepStore& store_;
   const ProgressReport& progress_;
   long long total_, done_before_, done_{0}, failed_{0};
-  std::mutex mutex_;
+  std::mutex waiting_mutex_, store_mutex_;  ///< of waiting_; of everything else that changes
+  std::vector<StoredSample> waiting_;
   Stopwatch clock_, batch_;
 };
-
-long long samples_of(Shard shard, long long samples) {
-  return shard.index < samples ? (samples - shard.index + shard.count - 1) / shard.count : 0;
-}
 
 }  // namespace
 
 void run_samples(SweepStore& store, const SweepDesign& design, const SampleAnalysis& analysis, Shard shard, const ProgressReport& progress) {
   const long long samples = design.samples();
-  SampleWriter writer(store, progress, samples_of(shard, samples), store.count(samples));
+  SampleWriter writer(store, progress, shard.share_of(samples), store.count(samples));
   for (long long begin = 0; begin < samples; begin += chunk) {
     const long long end = std::min(begin + chunk, samples);
     const std::vector<bool> present = store.present(begin, end);
@@ -80,13 +87,14 @@ void run_samples(SweepStore& store, const SweepDesign& design, const SampleAnaly
       StoredSample sample{missing[k], design.values(missing[k]), {}};
       // A thread that waits inside a sample shall not begin another one there.
       tbb::this_task_arena::isolate([&] { sample.result = analysis.analyse(sample.values); });
-      writer.add(sample);
+      writer.add(std::move(sample));
     });
   }
   writer.finish();
 }
 
 void run_sweep(StudyResults& nominal, const std::filesystem::path& folder, const ProgressReport& progress) {
+  const Stopwatch clock;
   const Study& study = nominal.study;
   const SampleAnalysis analysis(nominal);
   const SweepDesign design(study.sweep);
@@ -99,6 +107,7 @@ void run_sweep(StudyResults& nominal, const std::filesystem::path& folder, const
   }
   nominal.sweep = statistics;
   if (!folder.empty()) write_sweep_files(nominal, folder, store);
+  nominal.seconds += clock.seconds();
 }
 
 void run_sweep_shard(const StudyResults& nominal, const std::filesystem::path& file, Shard shard, const ProgressReport& progress) {

@@ -88,6 +88,7 @@ Json sweep_json(const StudyResults& results) {
           {"seed", sweep.seed},
           {"index_blocks", statistics.blocks},
           {"parameters", parameters},
+          {"outputs", list(statistics.outputs, [](const OutputStatistics& of) { return of.output.name; })},
           {"statistics", outputs},
           {"response_maps", list(statistics.maps, [&](const ResponseMap& map) { return map_json(statistics, sweep.parameters, map); })}};
 }

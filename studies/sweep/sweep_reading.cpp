@@ -4,7 +4,7 @@
 #include <array>
 
 #include "optimize/sobol_sequence.hpp"
-#include "studies/study_tables.hpp"
+#include "studies/study_items.hpp"
 #include "studies/sweep/distribution_reading.hpp"
 #include "studies/sweep/sweep_value.hpp"
 

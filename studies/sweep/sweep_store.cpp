@@ -41,6 +41,21 @@ std::string fingerprint(const std::string& text) {
   return fmt::format("{:016x}", hash);
 }
 
+Shard read_shard(Database& database) {
+  Statement shards(database, "SELECT (SELECT value FROM sweep WHERE key = 'shard'), (SELECT value FROM sweep WHERE key = 'shards')");
+  shards.next();
+  return {shards.integer(0) - 1, shards.integer(1)};
+}
+
+void check_is_sweep(Database& database) {
+  Statement damage(database, "PRAGMA quick_check(1)");
+  damage.next();
+  if (damage.text(0) != "ok") database.check(SQLITE_CORRUPT);
+  Statement kind(database, "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name IN ('sweep', 'settings', 'samples')");
+  kind.next();
+  if (kind.integer(0) != 3) database.refuse("a folder for this sweep alone; the file is no store of a sweep and was left as it is");
+}
+
 }  // namespace
 
 std::vector<GivenValue> deciding_settings(const Study& study) {
@@ -108,16 +123,7 @@ void SweepStore::create(const Study& study, Shard shard) {
 }
 
 void SweepStore::check_same(const Study& study, Shard shard) {
-  {
-    Statement damage(database_, "PRAGMA quick_check(1)");
-    damage.next();
-    if (damage.text(0) != "ok") database_.check(SQLITE_CORRUPT);
-  }
-  {
-    Statement kind(database_, "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name IN ('sweep', 'settings', 'samples')");
-    kind.next();
-    if (kind.integer(0) != 3) database_.refuse("a folder for this sweep alone; the file is no store of a sweep and was left as it is");
-  }
+  check_is_sweep(database_);
   std::map<std::string, std::string> stored;
   Statement settings(database_, "SELECT key, value FROM settings");
   while (settings.next()) stored[settings.text(0).value_or("")] = settings.text(1).value_or("");
@@ -133,12 +139,16 @@ void SweepStore::check_same(const Study& study, Shard shard) {
     stored.erase(found);
   }
   if (!stored.empty()) differs(stored.begin()->first, stored.begin()->second, "not given");
-  Statement shards(database_, "SELECT (SELECT value FROM sweep WHERE key = 'shard'), (SELECT value FROM sweep WHERE key = 'shards')");
-  shards.next();
-  const Shard found{shards.integer(0) - 1, shards.integer(1)};
+  const Shard found = read_shard(database_);
   if (!(found == shard)) {
     differs("the shard", fmt::format("{}/{}", found.index + 1, found.count), fmt::format("{}/{}", shard.index + 1, shard.count));
   }
+}
+
+Shard SweepStore::shard_of(const fs::path& file) {
+  Database database(file);
+  check_is_sweep(database);
+  return read_shard(database);
 }
 
 void SweepStore::add(const StoredSample& sample) {

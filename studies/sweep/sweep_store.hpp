@@ -16,6 +16,8 @@ namespace flankwright::studies {
 struct Shard {
   long long index{0}, count{1};
   bool contains(long long sample) const { return sample % count == index; }
+  /// How many of so many samples it has.
+  long long share_of(long long samples) const { return index < samples ? (samples - index + count - 1) / count : 0; }
   bool operator==(const Shard&) const = default;
 };
 
@@ -43,6 +45,9 @@ class SweepStore {
   ~SweepStore();
   SweepStore(const SweepStore&) = delete;
   SweepStore& operator=(const SweepStore&) = delete;
+
+  /// Which shard an existing store is of. Throws as opening does.
+  static Shard shard_of(const std::filesystem::path& file);
 
   /// Adds a sample.
   void add(const StoredSample& sample);

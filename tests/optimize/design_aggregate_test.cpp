@@ -2,14 +2,14 @@
 #include <cmath>
 #include <random>
 
-#include "optimize/design_problem.hpp"
+#include "optimize/aggregate.hpp"
 
 using namespace flankwright;
 
 namespace {
 
 constexpr Aggregate all_aggregates[] = {Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean,
-                                        Aggregate::MeanPlusTwoSigma};
+                                        Aggregate::MeanPlusSigmas, Aggregate::Cvar};
 constexpr double round_off = 1e-14;
 
 std::vector<double> random_numbers(std::size_t n, std::mt19937& generator) {
@@ -28,7 +28,12 @@ TEST_CASE("Aggregates of three scenes are the closed forms", "[optimize][design]
   CHECK(aggregate(Aggregate::Nominal, measures, weights) == 1.0);
   CHECK(aggregate(Aggregate::Worst, measures, weights) == 4.0);
   CHECK(aggregate(Aggregate::Mean, measures, weights) == Approx(mean).epsilon(round_off));
-  CHECK(aggregate(Aggregate::MeanPlusTwoSigma, measures, weights) == Approx(mean + 2.0 * sigma).epsilon(round_off));
+  CHECK(aggregate(Aggregate::MeanPlusSigmas, measures, weights) == Approx(mean + 2.0 * sigma).epsilon(round_off));
+  CHECK(aggregate({Aggregate::MeanPlusSigmas, 0.5}, measures, weights) == Approx(mean + 0.5 * sigma).epsilon(round_off));
+  // The worst 60 % of the weight: 50 % at 4 and 10 % at 2.
+  CHECK(aggregate({Aggregate::Cvar, 2.0, 0.4}, measures, weights) == Approx((0.5 * 4.0 + 0.1 * 2.0) / 0.6).epsilon(round_off));
+  CHECK(aggregate({Aggregate::Cvar, 2.0, 0.0}, measures, weights) == Approx(mean).epsilon(round_off));
+  CHECK(aggregate({Aggregate::Cvar, 2.0, 0.7}, measures, weights) == 4.0);  // within the heaviest scene: the worst case
 }
 
 TEST_CASE("Aggregates grow with a common factor and ignore a factor of the weights", "[optimize][design]") {
@@ -72,8 +77,8 @@ TEST_CASE("Derivatives of the aggregates are what central differences say", "[op
 TEST_CASE("Scenes that are equal but for round-off have no spread", "[optimize][design]") {
   // Sums of thirds and of 0.1 are not exact: a spread of round-off must neither count nor steer.
   const std::vector<double> measures{0.1, 0.1 * (1.0 + 1e-15), 0.1}, weights{1.0, 1.0, 1.0};
-  CHECK(aggregate(Aggregate::MeanPlusTwoSigma, measures, weights) == Approx(0.1).epsilon(round_off));
-  for (double w : aggregate_weights(Aggregate::MeanPlusTwoSigma, measures, weights)) {
+  CHECK(aggregate(Aggregate::MeanPlusSigmas, measures, weights) == Approx(0.1).epsilon(round_off));
+  for (double w : aggregate_weights(Aggregate::MeanPlusSigmas, measures, weights)) {
     CHECK(w == Approx(1.0 / 3.0).epsilon(round_off));
   }
 }

@@ -73,7 +73,7 @@ TEST_CASE("A single misaligned scene is cancelled by the lead slope", "[optimize
   CHECK(result.after.objective == Approx(best).epsilon(1e-4));  // the optimiser's tolerance
 }
 
-TEST_CASE("The first harmonic of the transmission error almost vanishes when it alone is minimised",
+TEST_CASE("The first harmonic of the transmission error vanishes when it alone is minimised",
           "[optimize][design][physics]") {
   DesignTask task = spur({0.0});
   task.variables = {
@@ -82,7 +82,10 @@ TEST_CASE("The first harmonic of the transmission error almost vanishes when it 
   task.objective = {term(Output::TeHarmonic, 1)};
   const DesignResult result = optimise(task);
   CAPTURE(result.before.objective, result.after.objective, result.message);
-  CHECK(result.after.objective < 0.2 * result.before.objective);
+  // Two amounts, one complex number: they bring it to zero, where its modulus has a kink. Discretisation: the optimiser's tolerance.
+  CHECK(result.after.objective < 1e-4 * result.before.objective);
+  CHECK(result.status == SolverStatus::Converged);
+  CHECK(result.optimality.residual < 1e-4);
 }
 
 TEST_CASE("The optimum respects a bound on the transmission error, and pays for it", "[optimize][design]") {
@@ -105,14 +108,15 @@ TEST_CASE("The optimum respects a bound on the transmission error, and pays for 
 }
 
 TEST_CASE("Every way of combining the scenes finds a design that is better in its own sense", "[optimize][design]") {
-  const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean, Aggregate::MeanPlusTwoSigma);
+  const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean, Aggregate::MeanPlusSigmas, Aggregate::Cvar);
   CAPTURE(to_string(over));
   DesignTask task = helical();
   task.over = over;
-  const DesignResult result = optimise(task, over == Aggregate::MeanPlusTwoSigma ? "nlopt:slsqp" : "ipopt", 300);
+  const DesignResult result = optimise(task, "ipopt", 300);
   CAPTURE(result.message, result.evaluations);
   CHECK(result.after.objective <= result.before.objective);
-  CHECK(result.formulation == (over == Aggregate::MeanPlusTwoSigma ? "direct" : "epigraph"));
+  CHECK(result.formulation == "epigraph");
+  CHECK(result.optimality.residual <= 1e-4);  // the issue's bound on the first-order conditions, scaled
   std::vector<double> weights;
   for (const DesignScene& scene : task.scenes) weights.push_back(scene.weight);
   CHECK(aggregate(over, result.after.scene_measures, weights) == result.after.objective);

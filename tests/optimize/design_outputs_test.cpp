@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
+#include <set>
 
 #include "core/contact/transmission_error.hpp"
 #include "optimize/scene_outputs.hpp"
@@ -80,7 +83,7 @@ TEST_CASE("Leading candidates are the peak and all that come near it", "[optimiz
   const DesignAnalysis analysis = problem.analyse(random_design(problem.variables(), generator), false);
   const double margin = 0.15;
   for (const ObjectiveTerm& output : all_outputs()) {
-    if (output.output == Output::TeHarmonic) continue;
+    if (output.output == Output::TeHarmonic || output.output == Output::EffectiveContactRatio) continue;
     for (int s = 0; s < problem.scenes(); ++s) {
       CAPTURE(output.name, s);
       const MeshModel& model = problem.model(s);
@@ -163,7 +166,81 @@ TEST_CASE("An output of a cycle that failed somewhere is refused", "[optimize][d
   LoadedCycle cycle = problem.analyse(problem.start(), false).cycles.front();
   cycle.failures = 1;
   for (const ObjectiveTerm& output : all_outputs()) {
+    CAPTURE(output.name);
     CHECK_THROWS_AS(output_value(output, problem.model(0), cycle), std::runtime_error);
     CHECK_THROWS_AS(candidate_value(output, {0, 0}, problem.model(0), cycle), std::runtime_error);
+  }
+}
+
+TEST_CASE("A harmonic's directions never exceed its amplitude and fall short of it by no more than half a per cent",
+          "[optimize][design][outputs]") {
+  DesignProblem problem(helical());
+  std::mt19937 generator(11);
+  const ObjectiveTerm first = term(Output::TeHarmonic, 1);
+  for (int trial = 0; trial < 10; ++trial) {
+    const DesignAnalysis analysis = problem.analyse(random_design(problem.variables(), generator), false);
+    for (int s = 0; s < problem.scenes(); ++s) {
+      const LoadedCycle& cycle = cycle_of(analysis, s);
+      const double amplitude = output_value(first, problem.model(s), cycle);
+      CHECK(candidate_value(first, whole_output, problem.model(s), cycle).value == amplitude);
+      double largest = -INFINITY;
+      for (const PeakCandidate& direction : leading_candidates(first, problem.model(s), cycle, 0.1, 1)) {
+        largest = std::max(largest, candidate_value(first, direction, problem.model(s), cycle).value);
+      }
+      constexpr double round_off = 1e-13;
+      CHECK(largest <= amplitude * (1.0 + round_off));
+      CHECK(largest >= amplitude * std::cos(units::pi / harmonic_directions) * (1.0 - round_off));
+    }
+  }
+}
+
+TEST_CASE("Where one pair carries all the load the effective contact ratio is one, where two share alike it is two",
+          "[optimize][design][outputs][closed-form]") {
+  DesignTask task = spur({0.0});
+  task.objective = {term(Output::EffectiveContactRatio)};
+  DesignProblem problem(task);
+  LoadedCycle cycle = problem.analyse(problem.start(), false).cycles.front();
+  const MeshModel& model = problem.model(0);
+  const auto load_teeth = [&](const auto& weight_of) {
+    for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
+      Eigen::VectorXd& load = cycle.positions[i].load.line_load;
+      std::map<int, double> lengths;
+      for (Eigen::Index j = 0; j < load.size(); ++j) lengths[model.positions[i].points[static_cast<std::size_t>(j)].tooth] += model.positions[i].weight[j];
+      double total = 0.0;
+      for (const auto& [tooth, length] : lengths) total += weight_of(tooth, lengths);
+      for (Eigen::Index j = 0; j < load.size(); ++j) {
+        const int tooth = model.positions[i].points[static_cast<std::size_t>(j)].tooth;
+        load[j] = cycle.force * weight_of(tooth, lengths) / total / lengths.at(tooth);
+      }
+    }
+  };
+  constexpr double round_off = 1e-13;
+  load_teeth([](int tooth, const std::map<int, double>& all) { return tooth == all.begin()->first ? 1.0 : 0.0; });
+  CHECK(output_value(task.objective.front(), model, cycle) == Approx(1.0).epsilon(round_off));
+  load_teeth([](int, const std::map<int, double>&) { return 1.0; });
+  double mean_teeth = 0.0;
+  for (const MeshPosition& position : model.positions) {
+    std::set<int> teeth;
+    for (const ContactPoint& point : position.points) teeth.insert(point.tooth);
+    mean_teeth += static_cast<double>(teeth.size()) / static_cast<double>(model.positions.size());
+  }
+  CHECK(output_value(task.objective.front(), model, cycle) == Approx(mean_teeth).epsilon(round_off));
+}
+
+TEST_CASE("The edge load is the peak line load where the margin covers the whole flank, and never more", "[optimize][design][outputs]") {
+  DesignProblem problem(helical());
+  const DesignAnalysis analysis = problem.analyse(problem.start(), false);
+  ObjectiveTerm edge = term(Output::EdgeLoad);
+  for (int s = 0; s < problem.scenes(); ++s) {
+    const LoadedCycle& cycle = cycle_of(analysis, s);
+    const double peak = output_value(term(Output::PeakLineLoad), problem.model(s), cycle);
+    double last = 0.0;
+    for (double margin : {0.01, 0.05, 0.2, 0.5}) {
+      edge.edge_margin = margin;
+      const double load = output_value(edge, problem.model(s), cycle);
+      CHECK(load >= last);
+      last = load;
+    }
+    CHECK(last == peak);
   }
 }

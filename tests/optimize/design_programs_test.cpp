@@ -1,6 +1,7 @@
-#include "optimize/design_programs.hpp"
-
 #include <catch2/catch.hpp>
+
+#include "optimize/direct_program.hpp"
+#include "optimize/epigraph_program.hpp"
 
 #include "tests/optimize/design_tasks.hpp"
 
@@ -30,7 +31,7 @@ void check_gradients(NonlinearProgram& program, const Eigen::VectorXd& x) {
   CHECK((at.constraint_jacobian - jacobian).cwiseAbs().maxCoeff() <= discretisation * jacobian.cwiseAbs().maxCoeff());
 }
 
-DesignTask with_two_outputs_and_a_bound(Aggregate over) {
+DesignTask with_two_outputs_and_a_bound(const Aggregation& over) {
   DesignTask task = helical();
   task.over = over;
   task.scenes[1].weight = 2.0;
@@ -46,7 +47,7 @@ Eigen::VectorXd row_values(EpigraphProgram& program, const Eigen::VectorXd& y) {
 }  // namespace
 
 TEST_CASE("The direct programme's gradients are what central differences say", "[optimize][design][gradient]") {
-  const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean, Aggregate::MeanPlusTwoSigma);
+  const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean, Aggregate::MeanPlusSigmas, Aggregate::Cvar);
   CAPTURE(to_string(over));
   DesignProblem problem(with_two_outputs_and_a_bound(over));
   DesignLog log(nullptr);
@@ -56,7 +57,9 @@ TEST_CASE("The direct programme's gradients are what central differences say", "
 }
 
 TEST_CASE("The epigraph programme's gradients are what central differences say", "[optimize][design][gradient]") {
-  const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean);
+  const Aggregation over = GENERATE(Aggregation(Aggregate::Nominal), Aggregation(Aggregate::Worst), Aggregation(Aggregate::Mean),
+                                    Aggregation(Aggregate::MeanPlusSigmas, 2.0), Aggregation(Aggregate::MeanPlusSigmas, 0.7),
+                                    Aggregation(Aggregate::Cvar, 2.0, 0.5));
   const bool several_outputs = GENERATE(true, false);
   CAPTURE(to_string(over), several_outputs);
   DesignTask task = with_two_outputs_and_a_bound(over);
@@ -71,7 +74,7 @@ TEST_CASE("The epigraph programme's gradients are what central differences say",
 }
 
 TEST_CASE("The epigraph starts feasible and promises what the true outputs are", "[optimize][design]") {
-  const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean);
+  const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean, Aggregate::Cvar);
   DesignTask task = with_two_outputs_and_a_bound(over);
   task.constraints.clear();
   CAPTURE(to_string(over));

@@ -174,7 +174,7 @@ wheel.modification.tip_relief.height = [0.5, 2]
   CHECK(table.objective[1].output == Output::TeHarmonic);
   CHECK(table.objective[1].harmonic == 2);
   CHECK(table.objective[1].weight == 0.5);
-  CHECK(table.over == Aggregate::MeanPlusTwoSigma);
+  CHECK(table.over == Aggregate::MeanPlusSigmas);
   CHECK(table.max_seconds == 120.0);
   REQUIRE(table.variables.size() == 3);
   CHECK(table.variables[0].upper == Approx(0.040).epsilon(round_off));

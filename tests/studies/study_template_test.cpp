@@ -37,6 +37,15 @@ TEST_CASE("Every template is a study that can be read as it is", "[studies][temp
   CHECK(parse_study(study_template("fit"), "fit.toml").task == Task::Fit);
 }
 
+TEST_CASE("The job script for Slurm asks for as many tasks as it makes shards", "[studies][template]") {
+  const std::string script = study_template("slurm");
+  std::smatch array, shards;
+  REQUIRE(std::regex_search(script, array, std::regex("#SBATCH --array=1-(\\d+)")));
+  REQUIRE(std::regex_search(script, shards, std::regex("\nshards=(\\d+)")));
+  CHECK(script.starts_with("#!/bin/bash\n"));
+  CHECK(array[1] == shards[1]);
+}
+
 TEST_CASE("Every line that a template offers in a comment can be switched on", "[studies][template]") {
   const std::string kind = GENERATE("analyse", "optimise", "sweep", "fit");
   const std::vector<std::string> lines = lines_of(study_template(kind));

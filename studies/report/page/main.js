@@ -1,12 +1,20 @@
 // Fills the sections that the page has; one that fails says so and leaves the others alone.
 
 const BUILDERS = {
+  scatter: build_scatter,
+  sensitivity: build_sensitivity,
+  "response-maps": build_response_maps,
   "transmission-error": build_transmission_error,
   scenes: build_scenes,
+  comparison: build_comparison,
+  validation: build_validation,
+  governing: build_governing,
+  sensitivity: build_sensitivity,
   "flank-load": build_flank_load,
   modifications: build_modifications,
   stiffness: build_stiffness,
   convergence: build_convergence,
+  search: build_search,
   "load-cases": build_load_cases,
   unloaded: build_unloaded,
   "gear-pair": build_gear_pair,

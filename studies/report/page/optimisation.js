@@ -71,10 +71,10 @@ function build_scenes(results, body) {
   if (rows.length > 0) {
     table(body, {
       title: "Constraints",
-      columns: [{ label: "Quantity" }, { label: "Before" }, { label: "After" }, { label: "At most" }, { label: "Unit" },
+      columns: [{ label: "Quantity" }, { label: "Before" }, { label: "After" }, { label: "At least" }, { label: "At most" }, { label: "Unit" },
         { label: "Met" }],
       rows: rows.map((row) => [words(row.name), record(before[row.name]).value ?? null, row.value ?? null,
-        row.max ?? null, row.unit, { text: row.met === null ? "–" : row.met ? "yes" : "no",
+        row.min ?? null, row.max ?? null, row.unit, { text: row.met === null ? "–" : row.met ? "yes" : "no",
           class: row.met === false ? "bad" : "" }]),
     });
   }

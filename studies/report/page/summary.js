@@ -1,13 +1,19 @@
 // The headline in plain words, the verdict, and the key numbers.
 
-const AGGREGATE = { worst: "Worst", mean: "Mean", "mean+2sigma": "Mean + 2σ of" };
+/** "worst" -> "Worst", "mean+2sigma" -> "Mean + 2σ of"; nothing for the nominal scene. */
+function aggregate_words(over) {
+  if (over === "worst" || over === "mean") return capital(over);
+  const sigmas = /^mean\+(.*)sigma$/.exec(over || ""), tail = /^cvar (.*)$/.exec(over || "");
+  if (sigmas) return `Mean + ${sigmas[1]}σ of`;
+  return tail ? `Mean of the worst ${fmt(100 * (1 - Number(tail[1])))} % of` : null;
+}
 
 const plural = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
 
 function optimise_headline(optimise) {
   const from = record(optimise.before).objective, to = record(optimise.after).objective;
   const name = words(optimise.objective_name), unit = pretty_unit(optimise.objective_unit);
-  const aggregate = AGGREGATE[optimise.over];
+  const aggregate = aggregate_words(optimise.over);
   const subject = aggregate ? `${aggregate} ${name}` : capital(name);
   const count = list(optimise.scenes).length;
   const over = count > 1 ? (aggregate ? ` over ${count} scenes` : " in the nominal scene") : "";
@@ -46,25 +52,29 @@ function unloaded_headline(results) {
   return `Unloaded transmission error ${fmt(te, 3)} arcsec peak to peak at the wheel${count > 1 ? `, the worst of ${count} scenes` : ""}`;
 }
 
-/** Every constraint of the optimised design: {name, value, max, unit, met}. */
+/** Every constraint of the optimised design: {name, value, max, min, unit, met}. */
 function constraint_rows(optimise) {
   return Object.entries(record(record(optimise.after).constraints)).map(([name, raw]) => {
-    const { value, max, unit } = record(raw);
+    const { value, least = value, max, min, unit } = record(raw);
     // Slack for the last digit that the results store, not for the solver.
-    const met = is_number(value) && is_number(max) ? value <= max + 1e-5 * Math.abs(max) : null;
-    return { name, value, max, unit: pretty_unit(unit), met };
+    const slack = (bound) => 1e-5 * Math.abs(bound);
+    const above = is_number(max) && !(value <= max + slack(max)), below = is_number(min) && !(least >= min - slack(min));
+    const met = is_number(value) && (is_number(max) || is_number(min)) ? !above && !below : null;
+    return { name, value, max, min, unit: pretty_unit(unit), met };
   });
 }
 
 function draw_verdict(results) {
   const verdict = document.getElementById("verdict");
   if (results.fit) fit_verdict(results, verdict);
+  if (results.sweep) sweep_verdict(record(results.sweep), verdict);
   if (!results.optimise) return;
   const optimise = record(results.optimise);
   const broken = constraint_rows(optimise).filter((row) => row.met === false);
   if (broken.length > 0) {
     verdict.append(el("p", { class: "banner bad" }, `Not met: ${broken.map((row) =>
-      `${words(row.name)} ${fmt(row.value)} ${row.unit} against at most ${fmt(row.max)} ${row.unit}`).join("; ")}.`));
+      `${words(row.name)} ${fmt(row.value)} ${row.unit} against ${[is_number(row.min) ? `at least ${fmt(row.min)}` : null,
+        is_number(row.max) ? `at most ${fmt(row.max)}` : null].filter(Boolean).join(" and ")} ${row.unit}`).join("; ")}.`));
   }
   if (optimise.status && !/converged|success|optimal/i.test(optimise.status)) {
     verdict.append(el("p", { class: "banner" }, `The solver ended with “${words(optimise.status)}”`
@@ -132,6 +142,7 @@ function pair_tiles(results) {
 
 function draw_summary(results, cases) {
   const text = results.optimise ? optimise_headline(record(results.optimise))
+    : results.sweep ? sweep_headline(record(results.sweep))
     : cases.length ? loaded_headline(cases)
     : results.unloaded ? unloaded_headline(results)
     : list(results.fit).length ? fit_headline(list(results.fit).map(record))
@@ -142,7 +153,7 @@ function draw_summary(results, cases) {
   document.getElementById("origin").textContent = [results.file, version].filter(Boolean).join("  ·  ");
   draw_verdict(results);
   document.getElementById("tiles").append(
-    ...(cases.length ? loaded_tiles(cases) : []),
+    ...(results.sweep ? sweep_tiles(record(results.sweep)) : cases.length ? loaded_tiles(cases) : []),
     ...(results.optimise ? optimise_tiles(record(results.optimise)) : []),
     ...fit_tiles(list(results.fit).map(record)),
     ...(results.fit ? [] : pair_tiles(results)));

@@ -33,22 +33,33 @@ TEST_CASE("A sample of a sweep is the analysis of its own study, bit for bit", "
   const Study study = read("samples = 24", "\"wheel.error\" = { iso_1328_class = 7 }\n\"misalignment.axial_offset\" = { uniform = [0, 3] }\n");
   const std::vector<StoredSample> samples = samples_of(study);
   REQUIRE(samples.size() == 24);
+  const StudyResults nominal = run_study(study);
+  const auto outputs = SampleAnalysis(nominal).outputs();
   for (const std::size_t i : {std::size_t{0}, std::size_t{3}, std::size_t{23}}) {
     const StoredSample& sample = samples[i];
     REQUIRE(sample.result.failure.empty());
-    const Study alone = parse_study(sample_study(study, "one", sample.values), "one.toml");
+    const Study alone = parse_study(sample_study(study, "one", sample.values), "one.toml", {{"cycle.peaks", "sampled"}});
     CHECK(alone.task == Task::Analyse);
     const StudyResults results = run_study(alone);
     const CycleSummary& summary = results.loaded.at(0).summary;
     CHECK(sample.result.outputs[0] == summary.te_peak_to_peak / units::um);
     CHECK(sample.result.outputs[2] == summary.te_harmonics.at(0) / units::um);
-    const auto outputs = SampleAnalysis(run_study(study)).outputs();
     for (std::size_t k = 0; k < outputs.size(); ++k) {
       if (outputs[k].name == "peak_contact_stress_MPa") CHECK(sample.result.outputs[k] == summary.peak_contact_stress);
       if (outputs[k].name == "load_factor") CHECK(sample.result.outputs[k] == summary.load_factor);
     }
   }
   CHECK(samples[0].result.outputs[0] != samples[3].result.outputs[0]);
+}
+
+TEST_CASE("A sample's own study finds the measured grids of the sweep's from anywhere", "[studies][sweep]") {
+  Study study = read("samples = 24");
+  study.file = "/gears/pump/sweep.toml";
+  study.wheel_grid.file = "../flanks/wheel.csv";
+  study.pinion_tooth_grids = {"a.csv", "", "/b.csv"};
+  const std::string text = sample_study(study, "one \"worst\"", {0.5, 1000.0, 8.0});
+  CHECK_THAT(text, Catch::Contains("'/gears/flanks/wheel.csv'") && Catch::Contains("[ '/gears/pump/a.csv', '', '/b.csv' ]"));
+  CHECK_THAT(text, !Catch::Contains("[sweep") && Catch::Contains("one \"worst\""));
 }
 
 TEST_CASE("Samples do not depend on the number of threads, nor on the shard they are analysed in", "[studies][sweep]") {
@@ -107,7 +118,7 @@ TEST_CASE("Mean peak stress of a sweep is between what its parameters' ends give
   StudyResults nominal = run_study(study);
   run_sweep(nominal, {}, {});
   const auto stress_at = [&](double torque) {
-    return run_study(parse_study(sample_study(study, "t", {torque}), "t.toml")).loaded.at(0).summary.peak_contact_stress;
+    return run_study(parse_study(sample_study(study, "t", {torque}), "t.toml", {{"cycle.peaks", "sampled"}})).loaded.at(0).summary.peak_contact_stress;
   };
   for (const OutputStatistics& of : nominal.sweep->outputs) {
     if (of.output.name != "peak_contact_stress_MPa") continue;

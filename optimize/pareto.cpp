@@ -1,0 +1,207 @@
+#include "optimize/pareto.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
+
+namespace flankwright {
+
+namespace {
+
+/// How far a goal may rise above its least so that the others fall where it alone is best [-].
+constexpr double anchor_slack = 1e-3;
+
+class FrontTracing {
+ public:
+  FrontTracing(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const SolverOptions& options)
+      : problem_(problem), points_(points), options_(options) {
+    front_.goals = goals;
+  }
+
+  ParetoFront trace() {
+    for (std::size_t g = 0; g < front_.goals.size() && !is_spent(); ++g) add_anchor(g);
+    if (front_.points.size() == front_.goals.size()) {
+      choose_ranges();
+      if (front_.goals.size() == 2) halve_gaps();
+      else fill_triangle();
+    }
+    mark_dominated();
+    front_.seconds = clock_.seconds();
+    return std::move(front_);
+  }
+
+ private:
+  SolverOptions left() const {
+    SolverOptions options = options_;
+    options.max_evaluations = std::max(1, options_.max_evaluations - front_.evaluations);
+    options.max_seconds = std::max(1e-3, options_.max_seconds - clock_.seconds());
+    if (options_.progress) {
+      options.progress = [this](int analyses, double best) { options_.progress(front_.evaluations + analyses, best); };
+    }
+    return options;
+  }
+
+  bool is_spent() {
+    const bool spent = front_.evaluations >= options_.max_evaluations || clock_.seconds() >= options_.max_seconds;
+    if (spent) front_.message = "the budget ended the front after " + std::to_string(front_.points.size()) + " points";
+    return spent;
+  }
+
+  LocalRun search(DesignProblem& problem) {
+    LocalRun run = run_local(problem, left());
+    front_.evaluations += run.evaluations;
+    front_.failures += run.failures;
+    return run;
+  }
+
+  ParetoPoint point(const LocalRun& run) const {
+    ParetoPoint point{run.x, {}, run.status, run.constraint_violation};
+    DesignProblem problem = problem_;
+    const DesignAnalysis& analysis = problem.analyse(run.x, false);
+    for (const Goal& goal : front_.goals) point.values.push_back(problem.value(goal, analysis));
+    return point;
+  }
+
+  /// Best of one goal; then the others, as a trade in units of their values there, while it stays within anchor_slack.
+  void add_anchor(std::size_t g) {
+    const auto& bounds = problem_.task().goal_bounds;
+    DesignProblem alone = problem_.judged_by(front_.goals[g], bounds);
+    LocalRun best = search(alone);
+    ParetoPoint anchor = point(best);
+    std::vector<GoalBound> held = bounds;
+    held.push_back({front_.goals[g], (1.0 + anchor_slack) * anchor.values[g]});
+    std::vector<TradedGoal> others;
+    for (std::size_t k = 0; k < front_.goals.size(); ++k) {
+      if (k != g) others.push_back({front_.goals[k], 0.0, std::max(anchor.values[k], 1e-12)});
+    }
+    if (anchor.values[g] > 0.0 && !is_spent()) {
+      DesignProblem rest = problem_.judged_by(front_.goals[g], held, others);
+      rest.set_start(best.x);
+      const LocalRun run = search(rest);
+      if (run.constraint_violation <= DesignLog::tolerance) anchor = point(run);
+    }
+    front_.points.push_back(anchor);
+  }
+
+  void choose_ranges() {
+    for (std::size_t k = 0; k < front_.goals.size(); ++k) {
+      const auto by = [k](const ParetoPoint& a, const ParetoPoint& b) { return a.values[k] < b.values[k]; };
+      front_.ideal.push_back(std::min_element(front_.points.begin(), front_.points.end(), by)->values[k]);
+      front_.worst.push_back(std::max_element(front_.points.begin(), front_.points.end(), by)->values[k]);
+    }
+  }
+
+  double range(std::size_t k) const { return std::max(front_.worst[k] - front_.ideal[k], 1e-9 * std::abs(front_.worst[k]) + 1e-300); }
+
+  Eigen::VectorXd normalised(const ParetoPoint& point) const {
+    Eigen::VectorXd f(static_cast<Eigen::Index>(point.values.size()));
+    for (std::size_t k = 0; k < point.values.size(); ++k) {
+      f[static_cast<Eigen::Index>(k)] = (point.values[k] - front_.ideal[k]) / range(k);
+    }
+    return f;
+  }
+
+  /// The compromise seen from a reference point.
+  ParetoPoint compromise(const Eigen::VectorXd& reference) {
+    std::vector<TradedGoal> trade;
+    for (std::size_t k = 0; k < front_.goals.size(); ++k) {
+      trade.push_back({front_.goals[k], front_.ideal[k] + reference[static_cast<Eigen::Index>(k)] * range(k), range(k)});
+    }
+    DesignProblem problem = problem_.judged_by(front_.goals.front(), problem_.task().goal_bounds, trade);
+    const auto nearest = std::min_element(front_.points.begin(), front_.points.end(), [&](const ParetoPoint& a, const ParetoPoint& b) {
+      return (normalised(a) - reference).norm() < (normalised(b) - reference).norm();
+    });
+    problem.set_start(nearest->x);
+    return point(search(problem));
+  }
+
+  void halve_gaps() {
+    std::vector<bool> closed(front_.points.size(), false);  // gap after each point: nothing new is found in it
+    while (static_cast<int>(front_.points.size()) < points_ && !is_spent()) {
+      std::size_t widest = front_.points.size();
+      double width = 0.0;
+      for (std::size_t i = 0; i + 1 < front_.points.size(); ++i) {
+        const double gap = (normalised(front_.points[i + 1]) - normalised(front_.points[i])).norm();
+        if (!closed[i] && gap > width) {
+          width = gap;
+          widest = i;
+        }
+      }
+      if (widest == front_.points.size()) {
+        front_.message = "the front has gaps that no design fills";
+        return;
+      }
+      const Eigen::VectorXd from = normalised(front_.points[widest]), to = normalised(front_.points[widest + 1]);
+      const ParetoPoint found = compromise(0.5 * (from + to));
+      const Eigen::VectorXd at = normalised(found);
+      constexpr double apart = 0.05;  // of the gap: a new point lies at least so far from both of its ends
+      if (std::min((at - from).norm(), (at - to).norm()) < apart * width) {
+        closed[widest] = true;
+        continue;
+      }
+      front_.points.insert(front_.points.begin() + static_cast<std::ptrdiff_t>(widest) + 1, found);
+      closed.insert(closed.begin() + static_cast<std::ptrdiff_t>(widest) + 1, false);
+    }
+  }
+
+  void fill_triangle() {
+    int sides = 1;
+    while ((sides + 2) * (sides + 3) / 2 <= points_) ++sides;
+    const std::vector<ParetoPoint> anchors = front_.points;
+    for (int i = 0; i <= sides; ++i) {
+      for (int j = 0; i + j <= sides; ++j) {
+        if (i == sides || j == sides || (i == 0 && j == 0)) continue;  // the anchors themselves
+        if (is_spent()) return;
+        const double a = static_cast<double>(i) / sides, b = static_cast<double>(j) / sides;
+        const Eigen::VectorXd reference = a * normalised(anchors[0]) + b * normalised(anchors[1]) + (1.0 - a - b) * normalised(anchors[2]);
+        front_.points.push_back(compromise(reference));
+      }
+    }
+  }
+
+  void mark_dominated() {
+    if (front_.ideal.empty()) return;
+    for (ParetoPoint& a : front_.points) {
+      a.dominated = std::any_of(front_.points.begin(), front_.points.end(), [&](const ParetoPoint& b) {
+        const Eigen::VectorXd ahead = normalised(a) - normalised(b);
+        return ahead.minCoeff() >= 0.0 && ahead.maxCoeff() > ParetoFront::same;
+      });
+    }
+  }
+
+  const DesignProblem& problem_;
+  const int points_;
+  const SolverOptions& options_;
+  const Stopwatch clock_;
+  ParetoFront front_;
+};
+
+}  // namespace
+
+double ParetoFront::unevenness() const {
+  if (goals.size() != 2 || points.size() < 3 || ideal.empty()) return not_given;
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    double square = 0.0;
+    for (std::size_t k = 0; k < 2; ++k) square += std::pow((points[i + 1].values[k] - points[i].values[k]) / (worst[k] - ideal[k]), 2);
+    shortest = std::min(shortest, std::sqrt(square));
+    longest = std::max(longest, std::sqrt(square));
+  }
+  return longest / shortest;
+}
+
+ParetoFront trace_front(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const SolverOptions& options) {
+  options.validate();
+  if (goals.size() < 2 || goals.size() > 3) throw InvalidInput("optimise.pareto.objectives", std::to_string(goals.size()), "two or three");
+  if (points < static_cast<int>(goals.size())) {
+    throw InvalidInput("optimise.pareto.points", std::to_string(points), "at least one for each objective");
+  }
+  if (!uses_gradients(options.name) || !accepts_constraints(options.name)) {
+    throw InvalidInput("optimise.solver", options.name, "a solver with gradients and constraints for a Pareto front, such as ipopt");
+  }
+  return FrontTracing(problem, goals, points, options).trace();
+}
+
+}  // namespace flankwright

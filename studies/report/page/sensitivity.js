@@ -1,0 +1,56 @@
+// What holds the optimum where it is, and how the objective answers to a step of each variable and tolerance.
+
+function build_governing(results, body) {
+  const optimise = record(results.optimise), governing = record(optimise.governing);
+  body.append(el("ul", { class: "statements" }, ...list(governing.words).map((sentence) => el("li", {}, pretty_unit(sentence)))));
+  const residual = governing.residual;
+  if (!is_number(residual)) return;
+  body.append(el("p", { class: "remark" }, "Weights and gains are the multipliers that balance the exact derivatives of everything "
+    + `that is active at this design; what is left over is ${residual < 1e-6 ? "less than 0.0001" : fmt(100 * residual, 2)} % of the objective over a `
+    + `variable's range${residual > 1e-3 ? ": the design lies at a kink of another kind or was not optimised to the end" : ""}.`));
+}
+
+/** Rows of a tornado, the widest first: a bar for a step down and one for a step up. */
+function tornado_rows(entries) {
+  const size = (s) => Math.max(0, ...numbers([s.less, s.more]).map(Math.abs));
+  const allowed = (s, side) => record(s.within_bounds)[side] !== false;
+  return [...entries].sort((a, b) => size(b) - size(a)).map((s) => {
+    const step = `${fmt(s.step, 3)} ${pretty_unit(s.unit)}`;
+    const bars = [
+      { value: s.less, colour: sequence_colour(0), what: `${step} less`, hollow: !allowed(s, "less") },
+      { value: s.more, colour: sequence_colour(1), what: `${step} more`, hollow: !allowed(s, "more") },
+    ];
+    return { label: `${words(s.name)}, ${step}`, bars, values: [s.less, s.more] };
+  });
+}
+
+const tornado_key = () => el("p", { class: "key" },
+  el("span", { class: "dot", style: `background:${sequence_colour(0)}` }), " a step less   ",
+  el("span", { class: "dot", style: `background:${sequence_colour(1)}` }), " a step more");
+
+function build_sensitivity(results, body) {
+  const optimise = record(results.optimise);
+  const unit = pretty_unit(optimise.objective_unit), name = words(optimise.objective_name);
+  const entries = list(optimise.sensitivity).map(record);
+  const grid = figure_grid(body);
+  const draw = (kind, title, caption) => {
+    const of_kind = entries.filter((s) => s.kind === kind);
+    if (of_kind.length === 0) return;
+    figure(grid, { title, caption }, (plot) => {
+      plot.append(tornado_key());
+      draw_bars(plot, { rows: tornado_rows(of_kind), unit, label: title });
+    });
+  };
+  draw("variable", "A step of each variable",
+    `Change of the ${name}, to first order with kinks, all else as it is. At an optimum no step inside the bounds makes it smaller; `
+    + "hollow bars would leave the bounds.");
+  draw("tolerance", "A step of each tolerance",
+    `Change of the ${name} where housing, workshop or load differ by this much in every scene and the flanks stay as they are.`);
+  table(body, {
+    title: "Sensitivity of the optimum",
+    note: "Optimised anew: to first order, where the design follows the step.",
+    columns: [{ label: "Quantity" }, { label: "Step" }, { label: "Step unit" }, { label: "A step less", unit }, { label: "A step more", unit },
+      { label: "A step more, optimised anew", unit }],
+    rows: entries.map((s) => [words(s.name), s.step, pretty_unit(s.unit), s.less ?? null, s.more ?? null, s.more_optimised_anew ?? null]),
+  });
+}

@@ -1,0 +1,25 @@
+#include "optimize/nonnegative_least_squares.hpp"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+using namespace flankwright;
+
+TEST_CASE("Non-negative least squares satisfies its optimality conditions", "[optimize]") {
+  std::mt19937 generator(5);
+  std::normal_distribution<double> normal;
+  for (int run = 0; run < 200; ++run) {
+    const Eigen::Index m = 1 + run % 9, n = 1 + run % 13;
+    Eigen::MatrixXd A(m, n);
+    Eigen::VectorXd b(m);
+    for (double& a : A.reshaped()) a = normal(generator);
+    for (double& v : b) v = normal(generator);
+    if (n > 2) A.col(2) = A.col(0);  // columns that depend on each other
+    const Eigen::VectorXd y = nonnegative_least_squares(A, b);
+    const Eigen::VectorXd slope = A.transpose() * (A * y - b);
+    constexpr double round_off = 1e-9;
+    CHECK(y.minCoeff() >= 0.0);
+    CHECK(slope.minCoeff() >= -round_off);
+    CHECK((y.array() * slope.array()).abs().maxCoeff() <= round_off);
+  }
+}

@@ -1,0 +1,43 @@
+#include "optimize/optimality.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "optimize/design_optimiser.hpp"
+#include "tests/optimize/design_tasks.hpp"
+
+using namespace flankwright;
+using namespace flankwright::design_tasks;
+
+TEST_CASE("Away from an optimum the first-order residual is the slope that is left", "[optimize][design][optimality]") {
+  DesignTask task = spur({8.0});
+  task.variables.erase(task.variables.begin());  // the slope alone
+  DesignProblem problem(task);
+  const Eigen::VectorXd x = Eigen::VectorXd::Constant(1, 0.45);
+  const Optimality here = first_order_optimality(problem, x);
+  // Independent route: central difference of the objective, in units of the start's.
+  constexpr double step = 1e-5;
+  const auto value = [&](double at) { return problem.objective(problem.analyse(Eigen::VectorXd::Constant(1, at), false)); };
+  const double slope = (value(0.45 + step) - value(0.45 - step)) / (2.0 * step) / value(0.5);
+  // The least-squares multipliers share what cannot be balanced between x and u: s and lambda with s = slope lambda, 1 - lambda.
+  const double residual = std::abs(slope) / (1.0 + slope * slope);
+  CHECK(here.residual == Approx(std::max(residual, std::abs(slope) * residual)).epsilon(1e-3));  // model: smaller candidates take part
+  CHECK(here.residual > 0.05);
+}
+
+TEST_CASE("At a minimax optimum the multipliers of the scenes balance and sum to one", "[optimize][design][optimality]") {
+  DesignProblem problem(spur({10.0, -10.0}));
+  const DesignResult result = optimise_design(problem, SolverOptions{});
+  REQUIRE(result.status == SolverStatus::Converged);
+  CHECK(result.optimality.residual <= 1e-4);
+  CHECK(result.optimality.complementarity <= 1e-4);
+  double sum = 0.0, by_scene[2] = {0.0, 0.0};
+  for (const ActiveBound& active : result.optimality.active) {
+    if (active.variable >= 0 || active.row.kind != EpigraphRow::Kind::Floor || active.row.scene < 0) continue;
+    sum += active.multiplier;
+    by_scene[active.row.scene] += active.multiplier;
+  }
+  constexpr double tolerance = 1e-3;  // the optimiser's
+  CHECK(sum == Approx(1.0).epsilon(tolerance));
+  CHECK(by_scene[0] == Approx(by_scene[1]).epsilon(0.02));  // mirror images; discretisation: contact points lie symmetrically
+}

@@ -1,0 +1,73 @@
+#include "optimize/pareto.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "tests/optimize/design_tasks.hpp"
+
+using namespace flankwright;
+using namespace flankwright::design_tasks;
+
+namespace {
+
+DesignTask trading_task() {
+  DesignTask task = spur({10.0, -10.0});
+  task.variables.push_back(
+      {"pinion.modification.profile_crowning", Member::Pinion, ModificationParameter::ProfileCrowning, 0.0, 0.040});
+  return task;
+}
+
+const Goal stress{{term(Output::PeakContactStress)}, Aggregate::Worst};
+const Goal error{{term(Output::TePeakToPeak)}, Aggregate::Worst};
+
+}  // namespace
+
+TEST_CASE("A front of two goals runs from the best of one to the best of the other without domination", "[optimize][design][pareto]") {
+  const DesignProblem problem(trading_task());
+  const ParetoFront front = trace_front(problem, {stress, error}, 5, SolverOptions{});
+  CAPTURE(front.message, front.evaluations);
+  REQUIRE(front.points.size() == 5);
+  for (std::size_t i = 0; i < front.points.size(); ++i) {
+    CAPTURE(i, front.points[i].values);
+    CHECK_FALSE(front.points[i].dominated);
+    if (i == 0) continue;
+    CHECK(front.points[i].values[0] >= front.points[i - 1].values[0]);
+    CHECK(front.points[i].values[1] <= front.points[i - 1].values[1]);
+  }
+  CHECK(front.unevenness() < 3.0);  // halving gaps: neighbours differ by less than the halves of a bent arc
+
+  // Independent route: no design on a grid lies more than a little below the front's broken line.
+  DesignProblem grid(trading_task());
+  for (double a : {0.1, 0.3, 0.5}) {
+    for (double b : {0.45, 0.5, 0.55}) {
+      for (double c : {0.0, 0.2, 0.5}) {
+        const DesignAnalysis& analysis = grid.analyse(Eigen::Vector3d(a, b, c), false);
+        const double s = grid.value(stress, analysis), e = grid.value(error, analysis);
+        for (const ParetoPoint& point : front.points) {
+          // Model: the first goal of an anchor may rise by its slack of 1e-3.
+          CHECK_FALSE((s < point.values[0] * (1.0 - 2e-3) && e < point.values[1] * (1.0 - 2e-3)));
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("Goals that agree have a front of one design", "[optimize][design][pareto]") {
+  const DesignProblem problem(spur({10.0, -10.0}));
+  const Goal load{{term(Output::PeakLineLoad)}, Aggregate::Worst};  // stress is a function of load and radius
+  const ParetoFront front = trace_front(problem, {stress, load}, 4, SolverOptions{});
+  for (std::size_t k = 0; k < 2; ++k) CHECK(front.worst[k] == Approx(front.ideal[k]).epsilon(0.01));
+}
+
+TEST_CASE("A front keeps its budget and says so", "[optimize][design][pareto]") {
+  const DesignProblem problem(trading_task());
+  SolverOptions options;
+  options.max_evaluations = 10;
+  const ParetoFront front = trace_front(problem, {stress, error}, 9, options);
+  CHECK(front.evaluations <= 10);
+  CHECK(front.points.size() < 9);
+  CHECK_FALSE(front.message.empty());
+  CHECK_THROWS_AS(trace_front(problem, {stress}, 5, options), InvalidInput);
+  options.name = "nlopt:crs2_lm";
+  CHECK_THROWS_AS(trace_front(problem, {stress, error}, 5, options), InvalidInput);
+}

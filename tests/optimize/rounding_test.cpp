@@ -1,0 +1,77 @@
+#include "optimize/rounding.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "optimize/design_optimiser.hpp"
+#include "tests/optimize/design_tasks.hpp"
+
+using namespace flankwright;
+using namespace flankwright::design_tasks;
+
+namespace {
+
+DesignTask in_steps(double step_um) {
+  DesignTask task = spur({10.0, -10.0});
+  for (DesignVariable& v : task.variables) v.step = step_um * units::um;
+  return task;
+}
+
+bool is_multiple(double value, double step) { return std::abs(value / step - std::round(value / step)) < 1e-9; }
+
+}  // namespace
+
+TEST_CASE("What is to be ground lies on the steps, loses little, and no neighbour is better", "[optimize][design][rounding]") {
+  const double step_um = GENERATE(1.0, 3.0);
+  CAPTURE(step_um);
+  DesignProblem problem(in_steps(step_um));
+  const DesignResult result = optimise_design(problem, SolverOptions{});
+  REQUIRE(result.exact.has_value());
+  for (double value : result.after.variables) CHECK(is_multiple(value, step_um * units::um));
+  CHECK(result.rounding_loss() >= -1e-6);  // the optimiser's tolerance
+  CHECK(result.rounding_loss() < 0.05);
+  // Independent route: every neighbour by one step, pairs as well.
+  const auto scaled = [&](const std::vector<double>& values) {
+    Eigen::VectorXd x(2);
+    for (int i = 0; i < 2; ++i) {
+      const DesignVariable& v = problem.task().variables[static_cast<std::size_t>(i)];
+      x[i] = (values[static_cast<std::size_t>(i)] - v.lower) / (v.upper - v.lower);
+    }
+    return x;
+  };
+  for (int a : {-1, 0, 1}) {
+    for (int b : {-1, 0, 1}) {
+      const std::vector<double> values{result.after.variables[0] + a * step_um * units::um, result.after.variables[1] + b * step_um * units::um};
+      const Eigen::VectorXd x = scaled(values);
+      if (x.minCoeff() < 0.0 || x.maxCoeff() > 1.0) continue;
+      CHECK(problem.objective(problem.analyse(x, false)) >= result.after.objective * (1.0 - 1e-12));  // round-off
+    }
+  }
+}
+
+TEST_CASE("Rounding keeps the constraints where it can", "[optimize][design][rounding]") {
+  DesignTask task = in_steps(2.0);
+  DesignProblem free(task);
+  const DesignResult unbounded = optimise_design(free, SolverOptions{});
+  ModificationConstraint sum{"sum", {{Member::Pinion, ModificationParameter::LeadCrowning, 1.0}}};
+  sum.maximum = unbounded.exact->variables[0] - 0.5 * units::um;
+  task.modification_constraints = {sum};
+  DesignProblem problem(task);
+  const DesignResult result = optimise_design(problem, SolverOptions{});
+  CHECK(is_multiple(result.after.variables[0], 2.0 * units::um));
+  CHECK(result.after.variables[0] <= sum.maximum);
+  CHECK(result.after.objective >= result.exact->objective * (1.0 - 1e-6));  // the optimiser's tolerance
+}
+
+TEST_CASE("Without steps nothing is rounded, and a budget of one analysis gives the nearest steps", "[optimize][design][rounding]") {
+  DesignProblem smooth(spur({10.0}));
+  SolverOptions options;
+  options.max_evaluations = 3;
+  CHECK_FALSE(optimise_design(smooth, options).exact.has_value());
+  DesignProblem problem(in_steps(1.0));
+  const RoundedDesign nearest = round_design(problem, Eigen::Vector2d(0.26, 0.51), 1);
+  CHECK(nearest.analyses == 1);
+  constexpr double round_off = 1e-12;
+  CHECK(problem.unscaled(nearest.x, 0) == Approx(0.010).epsilon(round_off));  // 10.4 um
+  CHECK(problem.unscaled(nearest.x, 1) == Approx(0.0).margin(round_off));     // 0.4 um
+}
