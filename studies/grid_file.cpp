@@ -187,8 +187,7 @@ std::vector<double> distinct(const std::vector<Row>& rows, double (Row::*coordin
   std::vector<double> values;
   for (const Row& row : rows) values.push_back((row.*coordinate)());
   std::ranges::sort(values);
-  const auto repeated = std::ranges::unique(values);
-  values.erase(repeated.begin(), repeated.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }
 

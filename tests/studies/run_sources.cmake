@@ -1,4 +1,5 @@
 list(APPEND FLANKWRIGHT_TEST_SOURCES
+     ${CMAKE_CURRENT_LIST_DIR}/command_docs_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/command_line.cpp
      ${CMAKE_CURRENT_LIST_DIR}/commands_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/examples_test.cpp

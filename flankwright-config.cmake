@@ -1,0 +1,15 @@
+# find_package(flankwright): the libraries flankwright::core, flankwright::optimize, flankwright::report and flankwright::studies.
+include(CMakeFindDependencyMacro)
+find_dependency(Eigen3 NO_MODULE)
+find_dependency(NLopt)
+find_dependency(TBB)
+find_dependency(Ceres)
+find_dependency(fmt)
+find_dependency(nlohmann_json)
+find_dependency(pugixml)
+find_dependency(spdlog)
+find_dependency(SQLite3)
+find_dependency(tomlplusplus)
+find_dependency(PkgConfig)
+pkg_check_modules(IPOPT REQUIRED IMPORTED_TARGET ipopt)  # it has no CMake configuration
+include(${CMAKE_CURRENT_LIST_DIR}/flankwright-targets.cmake)

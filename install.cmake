@@ -1,0 +1,62 @@
+# What `cmake --install` and the Debian packages contain: the program with its manual page, completions and examples (flankwright), and
+# the libraries with headers and CMake configuration (flankwright-dev).
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(headers ${CMAKE_INSTALL_INCLUDEDIR}/flankwright)  # files include each other from this root: "core/gear/gear_pair.hpp"
+set(config ${CMAKE_INSTALL_LIBDIR}/cmake/flankwright)
+foreach(library IN ITEMS core optimize report studies)
+  set_target_properties(flankwright_${library} PROPERTIES EXPORT_NAME ${library})
+  target_include_directories(flankwright_${library} INTERFACE $<INSTALL_INTERFACE:${headers}>)
+  target_compile_features(flankwright_${library} PUBLIC cxx_std_20)
+  install(TARGETS flankwright_${library} EXPORT flankwright ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT dev)
+endforeach()
+install(DIRECTORY core optimize studies DESTINATION ${headers} COMPONENT dev FILES_MATCHING PATTERN "*.hpp" PATTERN examples EXCLUDE
+        PATTERN page EXCLUDE PATTERN library EXCLUDE)
+install(EXPORT flankwright NAMESPACE flankwright:: FILE flankwright-targets.cmake DESTINATION ${config} COMPONENT dev)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/flankwright-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES flankwright-config.cmake ${PROJECT_BINARY_DIR}/flankwright-config-version.cmake DESTINATION ${config} COMPONENT dev)
+
+install(TARGETS flankwright RUNTIME COMPONENT program)
+install(DIRECTORY studies/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program PATTERN pictures EXCLUDE)
+install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+install(FILES studies/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME studies.md COMPONENT program)
+
+# Manual page and completions are what the program says of itself.
+set(docs ${PROJECT_BINARY_DIR}/docs)
+add_custom_command(
+  OUTPUT ${docs}/flankwright.1 ${docs}/flankwright ${docs}/_flankwright
+  COMMAND ${CMAKE_COMMAND} -E make_directory ${docs}
+  COMMAND flankwright completion man > ${docs}/flankwright.1
+  COMMAND flankwright completion bash > ${docs}/flankwright
+  COMMAND flankwright completion zsh > ${docs}/_flankwright
+  DEPENDS flankwright
+  COMMENT "Writing the manual page and the completions"
+  VERBATIM)
+add_custom_target(flankwright_docs ALL DEPENDS ${docs}/flankwright.1 ${docs}/flankwright ${docs}/_flankwright)
+install(FILES ${docs}/flankwright.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+install(FILES ${docs}/flankwright DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+install(FILES ${docs}/_flankwright DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
+
+# cpack -G DEB
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME flankwright)
+set(CPACK_PACKAGE_CONTACT "The Flankwright authors")
+set(CPACK_PACKAGE_VENDOR Flankwright)
+set(CPACK_COMPONENTS_ALL program dev)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME flankwright)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME flankwright-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libnlopt-dev, libnlopt-cxx-dev, coinor-libipopt-dev, libtbb-dev, libsuitesparse-dev, \
+libceres-dev, libfmt-dev, libspdlog-dev, libsqlite3-dev, libpugixml-dev, libtomlplusplus-dev, nlohmann-json3-dev, pkg-config")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Micro-geometry of involute gears
+ Flank modifications of spur and helical gears, designed over the whole set
+ of misalignments: tooth contact analysis, loaded contact, optimisation.")
+set(CPACK_COMPONENT_DEV_DESCRIPTION "Micro-geometry of involute gears, libraries and headers
+ Geometry, contact, compliance, load distribution and optimisation as C++20
+ libraries for find_package(flankwright).")
+include(CPack)

@@ -1,0 +1,3 @@
+list(APPEND FLANKWRIGHT_TEST_SOURCES
+     ${CMAKE_CURRENT_LIST_DIR}/readers.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/seeds_test.cpp)
