@@ -32,6 +32,7 @@ class DesignRun {
     first_objective();
     DesignProblem last = later_objectives();
     result_.optimality = first_order_optimality(last, x_);
+    judge_stall();
     result_.gradient_evaluations = uses_gradients(options_.solver.name) ? result_.evaluations : 0;
     result_.after = report_design(problem_, problem_.analyse(x_, false));
     if (has_steps(problem_.task())) round(last);
@@ -56,6 +57,14 @@ class DesignRun {
     result_.message = run.message;
     append(result_.history, run.history);
     x_ = run.x;
+  }
+
+  /// A search that no longer gained has converged where the first-order conditions of the task itself hold.
+  void judge_stall() {
+    const Optimality& found = result_.optimality;
+    if (result_.status != SolverStatus::Stalled || !(std::max(found.residual, found.complementarity) <= DesignResult::optimal)) return;
+    result_.status = SolverStatus::Converged;
+    result_.message += "; but the first-order conditions hold to 1e-4: an optimum on it";
   }
 
   void first_objective() {

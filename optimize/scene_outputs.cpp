@@ -77,6 +77,11 @@ Eigen::RowVectorXd point_derivative(const ObjectiveTerm& term, const PeakCandida
     case Output::PeakRootStress:
       return root_stress_derivative(model.positions[static_cast<std::size_t>(candidate.position)], position, candidate.other);
     case Output::LoadFactor: return load_factor_derivative(model, cycle, candidate.position, candidate.other);
+    case Output::EdgeLoad: {
+      const ContactPoint& point = model.positions[static_cast<std::size_t>(candidate.position)].points[static_cast<std::size_t>(candidate.other)];
+      if (is_near_edge(model, point, term.edge_margin)) return position.line_load_derivative.row(candidate.other);
+      return Eigen::RowVectorXd::Zero(position.line_load_derivative.cols());
+    }
     default: return position.line_load_derivative.row(candidate.other);
   }
 }

@@ -52,6 +52,14 @@ Json design_report_json(const DesignReport& report, const DesignTask& task) {
   return json;
 }
 
+/// The goal of a block of the last epigraph: the last of a list of objectives is minimised, those before it are bounded.
+Goal goal_of_block(const DesignTask& task, int block) {
+  std::vector<Goal> goals{task.goal()};
+  goals.insert(goals.end(), task.then.begin(), task.then.end());
+  std::rotate(goals.begin(), goals.end() - 1, goals.end());
+  return goals[static_cast<std::size_t>(block)];
+}
+
 /// What of the design holds the optimum where it is.
 Json active_json(const ActiveBound& active, const DesignTask& task) {
   Json json{{"multiplier", active.multiplier}};
@@ -65,12 +73,12 @@ Json active_json(const ActiveBound& active, const DesignTask& task) {
   using Kind = EpigraphRow::Kind;
   switch (row.kind) {
     case Kind::Floor:
-    case Kind::Ceiling: json["output"] = row.goal == 0 && index < task.objective.size() ? task.objective[index].name : "a goal's output"; break;
+    case Kind::Ceiling: json["output"] = goal_of_block(task, row.goal).terms[index].name; break;
     case Kind::OutputBound: json["constraint"] = task.constraints[index].output.name; break;
     case Kind::ModificationBound: json["constraint"] = task.modification_constraints[index].name; break;
-    case Kind::GoalHelper: json["output"] = "the scene's sum"; break;
-    case Kind::GoalBound: json["constraint"] = "an earlier objective of the list"; break;
-    case Kind::TradedGoal: json["constraint"] = "a traded objective"; break;
+    case Kind::GoalHelper: json["output"] = goal_of_block(task, row.goal).name(); break;
+    case Kind::GoalBound: json["constraint"] = goal_of_block(task, row.goal).name(); break;
+    case Kind::TradedGoal: break;  // of fronts only, whose points have no optimality of their own
   }
   if (row.scene >= 0) {
     const DesignScene& scene = task.scenes[static_cast<std::size_t>(row.scene)];

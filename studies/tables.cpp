@@ -81,6 +81,22 @@ std::string history_csv(const DesignResult& design) {
   return csv;
 }
 
+std::string pareto_csv(const ParetoFront& front, const DesignTask& task) {
+  std::string csv;
+  for (const Goal& goal : front.goals) csv += csv_field(goal.name() + " [" + goal.unit() + "]") + ",";
+  for (const DesignVariable& v : task.variables) csv += csv_field(v.path + " [" + v.unit() + "]") + ",";
+  csv += "status,dominated\n";
+  for (const ParetoPoint& point : front.points) {
+    for (double value : point.values) csv += fmt::format("{},", value);
+    for (std::size_t i = 0; i < task.variables.size(); ++i) {
+      const DesignVariable& v = task.variables[i];
+      csv += fmt::format("{},", (v.lower + point.x[static_cast<Eigen::Index>(i)] * (v.upper - v.lower)) * v.outside_factor());
+    }
+    csv += fmt::format("{},{}\n", to_string(point.status), point.dominated ? "yes" : "no");
+  }
+  return csv;
+}
+
 std::size_t widest(const std::vector<std::string>& names, std::size_t least) {
   std::size_t width = least;
   for (const std::string& name : names) width = std::max(width, name.size());
@@ -168,6 +184,7 @@ std::vector<NamedText> csv_tables(const StudyResults& results) {
   if (results.design) {
     tables.push_back({"scenes.csv", scenes_csv(results)});
     tables.push_back({"history.csv", history_csv(*results.design)});
+    if (results.front) tables.push_back({"pareto.csv", pareto_csv(*results.front, *results.design_task)});
   }
   if (results.proof) {
     for (NamedText& table : proof_tables(*results.proof)) tables.push_back(std::move(table));

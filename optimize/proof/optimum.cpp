@@ -16,25 +16,26 @@ struct Column {
   int term;               ///< of the objective
   bool upper;             ///< of a Sum or Bound
   double sign;            ///< of a Peak: -1 where the objective falls with it
+  double slack;           ///< how far it is from touching, >= 0
   Eigen::VectorXd slope;  ///< of the function, by the step of each parameter; of a Sum by the scaled variables; of a Bound none
 };
 
-/// Candidates within active_within * scale of the leading one.
-std::vector<LocalModel::Candidate> active_of(const LocalModel::Peak& peak, double scale) {
-  std::vector<LocalModel::Candidate> active;
+/// Candidates within near_within * scale of the leading one.
+std::vector<LocalModel::Candidate> near_of(const LocalModel::Peak& peak, double scale) {
+  std::vector<LocalModel::Candidate> near;
   for (const LocalModel::Candidate& c : peak.candidates) {
-    if (c.value >= peak.candidates.front().value - active_within * scale) active.push_back(c);
+    if (c.value >= peak.candidates.front().value - near_within * scale) near.push_back(c);
   }
-  return active;
+  return near;
 }
 
 /// Scenes that the objective may depend on, with the weight that is already known; NaN: to be found, one together.
-std::vector<Optimum::Scene> active_scenes(const DesignTask& task, const std::vector<double>& measures) {
+std::vector<Optimum::Scene> near_scenes(const DesignTask& task, const std::vector<double>& measures) {
   std::vector<Optimum::Scene> scenes;
   if (task.over == Aggregate::Worst) {
     const double worst = *std::max_element(measures.begin(), measures.end());
     for (std::size_t s = 0; s < measures.size(); ++s) {
-      if (measures[s] >= worst - active_within * std::abs(worst)) scenes.push_back({static_cast<int>(s), not_given});
+      if (measures[s] >= worst - near_within * std::abs(worst)) scenes.push_back({static_cast<int>(s), not_given});
     }
     return scenes;
   }
@@ -58,30 +59,33 @@ void add_sums(const DesignProblem& problem, const std::vector<double>& values, s
   problem.apply(x, pinion, wheel);
   for (std::size_t c = 0; c < problem.task().modification_constraints.size(); ++c) {
     const ModificationConstraint& bound = problem.task().modification_constraints[c];
-    const double sum = bound.value(pinion, wheel), slack = active_within * problem.modification_scale(bound);
-    const Eigen::VectorXd slope = problem.modification_slope(bound) / problem.modification_scale(bound);
-    if (sum >= bound.maximum - slack) columns.push_back({Column::Kind::Sum, static_cast<int>(c), 0, true, 1.0, slope});
-    if (sum <= bound.minimum + slack) columns.push_back({Column::Kind::Sum, static_cast<int>(c), 0, false, 1.0, -slope});
+    const double scale = problem.modification_scale(bound), sum = bound.value(pinion, wheel);
+    const double above = (bound.maximum - sum) / scale, below = (sum - bound.minimum) / scale;
+    const Eigen::VectorXd slope = problem.modification_slope(bound) / scale;
+    if (above <= near_within) columns.push_back({Column::Kind::Sum, static_cast<int>(c), 0, true, 1.0, std::abs(above), slope});
+    if (below <= near_within) columns.push_back({Column::Kind::Sum, static_cast<int>(c), 0, false, 1.0, std::abs(below), -slope});
   }
 }
 
 std::vector<Column> columns_of(const DesignProblem& problem, const LocalModel& model, const std::vector<Optimum::Scene>& scenes,
-                               const std::vector<double>& values) {
+                               const std::vector<double>& values, double objective) {
   const DesignTask& task = problem.task();
   std::vector<Column> columns;
   for (const Optimum::Scene& scene : scenes) {
     const double sign = scene.weight < 0.0 ? -1.0 : 1.0;
     for (std::size_t k = 0; k < task.objective.size(); ++k) {
       const LocalModel::Peak& peak = model.measure(scene.scene)[k];
-      for (const LocalModel::Candidate& c : active_of(peak, std::abs(peak.candidates.front().value))) {
-        columns.push_back({Column::Kind::Peak, scene.scene, static_cast<int>(k), false, sign, sign * c.slope});
+      for (const LocalModel::Candidate& c : near_of(peak, objective)) {
+        const double slack = (peak.candidates.front().value - c.value) / objective;
+        columns.push_back({Column::Kind::Peak, scene.scene, static_cast<int>(k), false, sign, slack, sign * c.slope});
       }
     }
   }
   for (int c = 0; c < model.constraints(); ++c) {
     for (const LocalModel::Peak& peak : model.constraint(c)) {
-      for (const LocalModel::Candidate& candidate : active_of(peak, 1.0)) {  // excesses count in the bound
-        if (candidate.value >= -active_within) columns.push_back({Column::Kind::Constraint, c, 0, false, 1.0, candidate.slope});
+      for (const LocalModel::Candidate& candidate : near_of(peak, 1.0)) {  // excesses count in the bound
+        if (candidate.value < -near_within) continue;
+        columns.push_back({Column::Kind::Constraint, c, 0, false, 1.0, std::abs(candidate.value), candidate.slope});
       }
     }
   }
@@ -90,30 +94,32 @@ std::vector<Column> columns_of(const DesignProblem& problem, const LocalModel& m
     const DesignVariable& v = task.variables[i];
     const double scaled = (values[i] - v.lower) / (v.upper - v.lower);
     for (const bool upper : {false, true}) {
-      if (std::abs(scaled - (upper ? 1.0 : 0.0)) > active_within) continue;
-      columns.push_back({Column::Kind::Bound, static_cast<int>(i), 0, upper, 1.0, {}});
+      const double slack = std::abs(scaled - (upper ? 1.0 : 0.0));
+      if (slack <= near_within) columns.push_back({Column::Kind::Bound, static_cast<int>(i), 0, upper, 1.0, slack, {}});
     }
   }
   return columns;
 }
 
-/// Rows of the least squares: a variable each, then what the weights of the scenes have to be.
+/// Rows of the least squares: a variable each, then what the weights of the scenes have to be, then slack * multiplier of every column.
 struct Balance {
   Eigen::MatrixXd A;
   Eigen::VectorXd b;
 };
 
 Balance balance_of(const DesignTask& task, const std::vector<ProofParameter>& parameters, const std::vector<Column>& columns,
-                   const std::vector<Optimum::Scene>& scenes, double objective) {
+                   const std::vector<Optimum::Scene>& scenes, const std::vector<double>& scene_slack, double objective) {
   constexpr double firm = 100.0;  // weights are kept to 1e-4 of the residual
   const auto n = static_cast<Eigen::Index>(task.variables.size()), terms = static_cast<Eigen::Index>(task.objective.size());
   const auto count = static_cast<Eigen::Index>(scenes.size());
   const bool sought = task.over == Aggregate::Worst;
-  const Eigen::Index first = n, rows = n + count * terms + (sought ? 1 : 0);
-  Balance balance{Eigen::MatrixXd::Zero(rows, static_cast<Eigen::Index>(columns.size()) + (sought ? count : 0)), Eigen::VectorXd::Zero(rows)};
+  const Eigen::Index first = n, last = n + count * terms;  // rows of the weights; the last one: they are one together
+  const Eigen::Index multipliers = static_cast<Eigen::Index>(columns.size()) + (sought ? count : 0), rows = last + 1 + multipliers;
+  Balance balance{Eigen::MatrixXd::Zero(rows, multipliers), Eigen::VectorXd::Zero(rows)};
   for (std::size_t j = 0; j < columns.size(); ++j) {
     const Column& column = columns[j];
     auto of_column = balance.A.col(static_cast<Eigen::Index>(j));
+    of_column[last + 1 + static_cast<Eigen::Index>(j)] = column.slack;
     if (column.kind == Column::Kind::Bound) {
       of_column[column.index] = column.upper ? 1.0 : -1.0;
       continue;
@@ -143,9 +149,12 @@ Balance balance_of(const DesignTask& task, const std::vector<ProofParameter>& pa
         balance.b[row] = firm * std::abs(scenes[static_cast<std::size_t>(s)].weight);
       }
     }
-    if (sought) balance.A(rows - 1, static_cast<Eigen::Index>(columns.size()) + s) = firm;
+    if (!sought) continue;
+    const Eigen::Index of_scene = static_cast<Eigen::Index>(columns.size()) + s;
+    balance.A(last, of_scene) = firm;
+    balance.A(last + 1 + of_scene, of_scene) = scene_slack[static_cast<std::size_t>(s)];
   }
-  if (sought) balance.b[rows - 1] = firm;
+  if (sought) balance.b[last] = firm;
   return balance;
 }
 
@@ -161,7 +170,7 @@ std::vector<Sensitivity> sensitivities_of(const DesignTask& task, const LocalMod
     found.more = model.objective(step) - now;
     if (const int i = found.parameter.variable; i >= 0) {
       const DesignVariable& v = task.variables[static_cast<std::size_t>(i)];
-      const double slack = active_within * (v.upper - v.lower), value = values[static_cast<std::size_t>(i)];
+      const double slack = at_bound * (v.upper - v.lower), value = values[static_cast<std::size_t>(i)];
       found.can_less = value - found.parameter.inside >= v.lower - slack;
       found.can_more = value + found.parameter.inside <= v.upper + slack;
     } else {
@@ -180,9 +189,12 @@ Optimum find_optimum(const DesignProblem& problem, const LocalModel& model, cons
   const auto m = static_cast<Eigen::Index>(parameters.size());
   const Eigen::VectorXd nowhere = Eigen::VectorXd::Zero(m);
   const double objective = model.objective(nowhere), scale = std::max(std::abs(objective), 1e-300);
-  std::vector<Optimum::Scene> scenes = active_scenes(task, model.scene_measures(nowhere));
-  const std::vector<Column> columns = columns_of(problem, model, scenes, values);
-  const Balance balance = balance_of(task, parameters, columns, scenes, scale);
+  const std::vector<double> measures = model.scene_measures(nowhere);
+  std::vector<Optimum::Scene> scenes = near_scenes(task, measures);
+  std::vector<double> scene_slack;
+  for (const Optimum::Scene& s : scenes) scene_slack.push_back((objective - measures[static_cast<std::size_t>(s.scene)]) / scale);
+  const std::vector<Column> columns = columns_of(problem, model, scenes, values, scale);
+  const Balance balance = balance_of(task, parameters, columns, scenes, scene_slack, scale);
   const Eigen::VectorXd y = nonnegative_least_squares(balance.A, balance.b);
 
   Optimum optimum;
@@ -201,10 +213,11 @@ Optimum find_optimum(const DesignProblem& problem, const LocalModel& model, cons
       case Column::Kind::Sum: {
         const ModificationConstraint& bound = task.modification_constraints[static_cast<std::size_t>(column.index)];
         const double step = proof_step(bound.unit()) / bound.outside_factor();
-        optimum.sums.push_back({column.index, column.upper, -scale * multiplier * step / problem.modification_scale(bound)});
+        if (multiplier > felt) optimum.sums.push_back({column.index, column.upper, -scale * multiplier * step / problem.modification_scale(bound)});
         break;
       }
       case Column::Kind::Bound: {
+        if (multiplier <= felt && column.slack > at_bound) break;
         const DesignVariable& v = task.variables[static_cast<std::size_t>(column.index)];
         const auto p = std::find_if(parameters.begin(), parameters.end(), [&](const ProofParameter& q) { return q.variable == column.index; });
         optimum.bounds.push_back({column.index, column.upper, -scale * multiplier * p->inside / (v.upper - v.lower)});
@@ -214,10 +227,10 @@ Optimum find_optimum(const DesignProblem& problem, const LocalModel& model, cons
   }
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     if (task.over == Aggregate::Worst) scenes[s].weight = y[static_cast<Eigen::Index>(columns.size() + s)];
-    if (scenes[s].weight != 0.0) optimum.scenes.push_back(scenes[s]);
+    if (std::abs(scenes[s].weight) > felt) optimum.scenes.push_back(scenes[s]);
   }
   for (std::size_t c = 0; c < of_constraint.size(); ++c) {
-    if (of_constraint[c] > 0.0) optimum.constraints.push_back({static_cast<int>(c), -0.01 * scale * of_constraint[c]});
+    if (of_constraint[c] > felt) optimum.constraints.push_back({static_cast<int>(c), -0.01 * scale * of_constraint[c]});
   }
   std::stable_sort(optimum.scenes.begin(), optimum.scenes.end(), [](const auto& a, const auto& b) { return a.weight > b.weight; });
   const auto by_gain = [](const auto& a, const auto& b) { return a.gain < b.gain; };

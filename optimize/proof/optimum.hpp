@@ -54,10 +54,12 @@ struct Optimum {
   std::vector<Sensitivity> sensitivities;  ///< in the order of the parameters
 };
 
-/// How near to its peak a candidate, to the worst scene a scene, or to its limit an output counts as active: by this share of it, and a
-/// variable by this share of its range to its bound. An interior-point solver that ends at 1e-7 leaves multipliers above 1e-3 a
-/// slack below it.
-inline constexpr double active_within = 1e-4;
+/// What may have a multiplier: candidates this near to their peak, scenes to the worst, outputs and sums to their limit, variables to their
+/// bound, as shares of the objective, the limit and the range. The rows |slack * multiplier| of the least squares keep multipliers
+/// to what really touches, as far as the solver brought it there.
+inline constexpr double near_within = 0.02;
+/// A multiplier above this is felt, and a variable within this share of its range stands at its bound.
+inline constexpr double felt = 1e-6, at_bound = 1e-4;
 
 /// Scenes of a conditional value at risk have the weights of aggregate_weights(), which at a tie are one choice of several.
 /// @param parameters  as the model has them, the design variables among them

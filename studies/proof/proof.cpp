@@ -120,7 +120,10 @@ std::vector<std::string> optimum_in_words(const Optimum& optimum, const DesignTa
   std::set<double> torques;
   for (const DesignScene& scene : task.scenes) torques.insert(scene.torque);
   std::vector<std::string> words;
-  for (const Optimum::Scene& scene : optimum.scenes) words.push_back(scene_in_words(scene, task, torques.size() > 1));
+  constexpr double said = 0.005;  // less would be a weight of 0.00
+  for (const Optimum::Scene& scene : optimum.scenes) {
+    if (std::abs(scene.weight) >= said) words.push_back(scene_in_words(scene, task, torques.size() > 1));
+  }
   for (const Optimum::Bound& bound : optimum.bounds) words.push_back(bound_in_words(bound, task));
   for (const Optimum::Constraint& constraint : optimum.constraints) words.push_back(constraint_in_words(constraint, task));
   for (const Optimum::Sum& sum : optimum.sums) words.push_back(sum_in_words(sum, task));

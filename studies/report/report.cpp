@@ -50,7 +50,7 @@ bool searched(const json& r) {
 /// In the order in which a gear engineer asks.
 constexpr Section sections[] = {
     {"scatter", "Scatter over the samples", has_sweep},
-    {"sensitivity", "Where the scatter comes from", [](const json& r) { return has_sweep(r) && r.at("sweep").value("index_blocks", 0) > 1; }},
+    {"indices", "Where the scatter comes from", [](const json& r) { return has_sweep(r) && r.at("sweep").value("index_blocks", 0) > 1; }},
     {"response-maps", "Response maps", [](const json& r) { return has_sweep(r) && has(r.at("sweep"), "response_maps"); }},
     {"transmission-error", "Transmission error under load", has_loaded},
     {"scenes", "Scenes", [](const json& r) { return has(r, "optimise"); }},

@@ -139,8 +139,12 @@ void read_sweep(StudyReading& reading) {
   const Study& study = reading.draft.study;
   if (study.task != Task::Sweep || !reading.problems.empty()) return;
   if (study.sweep.parameters.empty()) return refuse_key(reading, "sweep.parameters", "task \"sweep\" needs at least one parameter");
-  if (reading.find("scenes") != nullptr) return refuse_key(reading, "scenes", "a sweep runs one working condition: vary its keys in sweep.parameters");
-  if (study.torques.size() > 1) return refuse_key(reading, "load.torque", "a sweep takes one torque, or load.torque = { values = [...] } in sweep.parameters");
+  if (reading.find("scenes") != nullptr) {
+    return refuse_key(reading, "scenes", "a sweep runs one working condition: vary its keys in sweep.parameters");
+  }
+  if (study.torques.size() > 1) {
+    return refuse_key(reading, "load.torque", "a sweep takes one torque, or load.torque = { values = [...] } in sweep.parameters");
+  }
   for (const ExclusiveKeys& keys : exclusive_keys()) {
     if (is_swept(study.sweep, keys.first) && is_swept(study.sweep, keys.second)) {
       return refuse_key(reading, "sweep.parameters." + keys.second, "overlaps the parameter " + keys.first + "; allowed is one of them");

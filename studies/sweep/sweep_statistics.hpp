@@ -55,7 +55,8 @@ struct SweepStatistics {
   long long blocks{0};  ///< that the Sobol indices are from: none of their samples failed
   std::vector<StoredSample> worst;    ///< of each output; an id of -1 where there is none
   std::vector<OutputStatistics> outputs;
-  std::vector<Histogram> parameters;  ///< how the samples lie over each parameter's range; the parts are those of the maps, and where there are few levels the levels
+  /// How the samples lie over each parameter's range; the parts are those of the maps, and where there are few levels the levels.
+  std::vector<Histogram> parameters;
   std::vector<ResponseMap> maps;      ///< of every output over every two parameters
   std::vector<FailureCount> failures; ///< most frequent first, at most 20
 };

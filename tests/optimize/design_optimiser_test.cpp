@@ -75,14 +75,13 @@ TEST_CASE("A single misaligned scene is cancelled by the lead slope", "[optimize
 
 TEST_CASE("The first harmonic of the transmission error vanishes when it alone is minimised",
           "[optimize][design][physics]") {
-  DesignTask task = spur({0.0});
-  task.variables = {
-      {"pinion.modification.profile_crowning", Member::Pinion, ModificationParameter::ProfileCrowning, 0.0, 0.040},
-      {"wheel.modification.profile_crowning", Member::Wheel, ModificationParameter::ProfileCrowning, 0.0, 0.040}};
+  DesignTask task = helical({0.0}, 16);
+  task.variables.push_back({"pinion.modification.twist", Member::Pinion, ModificationParameter::Twist, -0.020, 0.020});
+  task.variables.push_back({"pinion.modification.profile_slope", Member::Pinion, ModificationParameter::ProfileSlope, -0.015, 0.015});
   task.objective = {term(Output::TeHarmonic, 1)};
   const DesignResult result = optimise(task);
   CAPTURE(result.before.objective, result.after.objective, result.message);
-  // Two amounts, one complex number: they bring it to zero, where its modulus has a kink. Discretisation: the optimiser's tolerance.
+  // Five amounts, one complex number: they bring it to zero, where its modulus has a kink. Discretisation: the optimiser's tolerance.
   CHECK(result.after.objective < 1e-4 * result.before.objective);
   CHECK(result.status == SolverStatus::Converged);
   CHECK(result.optimality.residual < 1e-4);
@@ -121,7 +120,9 @@ TEST_CASE("Every way of combining the scenes finds a design that is better in it
   for (const DesignScene& scene : task.scenes) weights.push_back(scene.weight);
   CHECK(aggregate(over, result.after.scene_measures, weights) == result.after.objective);
 
-  // Independent route: no better design on a coarse grid of the bounds. Discretisation: the optimum is flat.
+  // Independent route: no better design on a coarse grid of the bounds. Discretisation: the optimum is flat. Mean + 2 sigma is not
+  // monotone, so that peaks make it kinked inwards too: its optimum is a local one.
+  const double local = over == Aggregate::MeanPlusSigmas ? 3e-3 : 1e-3;
   DesignProblem problem(task);
   double least = INFINITY;
   for (double crowning : {0.0, 0.1, 0.2, 0.3, 0.4}) {
@@ -131,7 +132,7 @@ TEST_CASE("Every way of combining the scenes finds a design that is better in it
       }
     }
   }
-  CHECK(result.after.objective <= least * (1.0 + 1e-3));
+  CHECK(result.after.objective <= least * (1.0 + local));
 }
 
 TEST_CASE("A budget is kept, and the best design met so far comes back", "[optimize][design]") {
@@ -173,4 +174,21 @@ TEST_CASE("The same task gives the same bits", "[optimize][design][determinism]"
   CHECK(a.after.objective == b.after.objective);
   REQUIRE(a.history.size() == b.history.size());
   for (std::size_t i = 0; i < a.history.size(); ++i) CHECK(a.history[i].objective == b.history[i].objective);
+}
+
+TEST_CASE("A parabola of transmission error is chosen over misalignment, and only as much of it as pays", "[optimize][design][physics]") {
+  DesignTask without = helical({0.0, 16.0, -16.0}, 16);
+  without.objective = {term(Output::TePeakToPeak)};
+  without.variables.pop_back();
+  DesignTask with = without;
+  with.variables.push_back({"pinion.modification.parabolic_te", Member::Pinion, ModificationParameter::ParabolicTe, 0.0,
+                            0.02 * units::arcsec_per_square_deg});
+  const DesignResult plain = optimise(without), parabolic = optimise(with);
+  CAPTURE(plain.after.objective, parabolic.after.objective, parabolic.after.variables[2] / units::arcsec_per_square_deg);
+  CHECK(parabolic.after.objective <= plain.after.objective * (1.0 + 1e-3));  // a further variable; local searches
+  // Far beyond the best the parabola's own transmission error outweighs what it prevents.
+  DesignProblem problem(with);
+  const auto error = [&](double share) { return problem.objective(problem.analyse(Eigen::Vector3d(0.25, 0.5, share), false)); };
+  CHECK(error(1.0) > parabolic.after.objective);
+  CHECK(error(1.0) > error(0.5));
 }

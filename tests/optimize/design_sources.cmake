@@ -9,5 +9,6 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/nonnegative_least_squares_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/optimality_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/pareto_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/random_problems_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rounding_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/ties_test.cpp)

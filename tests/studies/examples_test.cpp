@@ -76,6 +76,22 @@ TEST_CASE("The robust example beats its start in the worst scene, not in the ali
   CHECK(*most - *least < 0.5 * (*most_before - *least_before));
 }
 
+TEST_CASE("The robust example takes a quarter off the worst stress, the quiet one nine tenths off the first harmonic",
+          "[.soak][studies][examples][physics]") {
+  const auto run = [](const char* name) {
+    return run_study(read_study(std::string(FLANKWRIGHT_SOURCE_DIR "/studies/examples/") + name + ".toml"));
+  };
+  const StudyResults robust = run("robust-18-54");
+  CHECK(robust.design->status == SolverStatus::Converged);
+  CHECK(robust.design->runs.front().evaluations <= 150);
+  CHECK(robust.design->after.objective <= 0.75 * robust.design->before.objective);
+  CHECK(robust.design->optimality.residual <= 1e-6);
+  const StudyResults quiet = run("quiet-18-54");
+  CHECK(quiet.design->status == SolverStatus::Converged);
+  CHECK(quiet.design->after.objective <= 0.1 * quiet.design->before.scene_measures.front());  // the worst against the aligned pair
+  CHECK(quiet.design->optimality.residual <= 1e-4);
+}
+
 TEST_CASE("The unloaded examples are at their published figures, at any number of positions", "[studies][examples]") {
   for (const char* name : {"nasa-30-100", "nasa-30-100-parabolic-rack", "nasa-20-40-crowned", "parabolic-te",
                            "real-17-44-longitudinal", "real-17-44-three-dimensional", "real-17-44-one-sided-helix"}) {

@@ -9,6 +9,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/gradients_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/grid_file_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/report_tables_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/optimise_keys_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/results_folder_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/results_store_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/run_cache_test.cpp

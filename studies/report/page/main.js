@@ -2,7 +2,7 @@
 
 const BUILDERS = {
   scatter: build_scatter,
-  sensitivity: build_sensitivity,
+  indices: build_indices,
   "response-maps": build_response_maps,
   "transmission-error": build_transmission_error,
   scenes: build_scenes,

@@ -30,6 +30,8 @@ const tornado_key = () => el("p", { class: "key" },
 
 function build_sensitivity(results, body) {
   const optimise = record(results.optimise);
+  const round_off = 1e-9 * Math.abs(record(optimise.after).objective);
+  const shown = (change) => (!is_number(change) ? null : Math.abs(change) < round_off ? 0 : change);
   const unit = pretty_unit(optimise.objective_unit), name = words(optimise.objective_name);
   const entries = list(optimise.sensitivity).map(record);
   const grid = figure_grid(body);
@@ -51,6 +53,7 @@ function build_sensitivity(results, body) {
     note: "Optimised anew: to first order, where the design follows the step.",
     columns: [{ label: "Quantity" }, { label: "Step" }, { label: "Step unit" }, { label: "A step less", unit }, { label: "A step more", unit },
       { label: "A step more, optimised anew", unit }],
-    rows: entries.map((s) => [words(s.name), s.step, pretty_unit(s.unit), s.less ?? null, s.more ?? null, s.more_optimised_anew ?? null]),
+    rows: entries.map((s) => [words(s.name), s.step, pretty_unit(s.unit), shown(s.less), shown(s.more),
+      shown(s.more_optimised_anew)]),
   });
 }

@@ -129,20 +129,22 @@ function draw_tornado(plot, indices) {
   picture.append(svg("text", { x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle", class: "muted" }, "share of the variance [%]"));
   rows.forEach((row, i) => {
     const y = top + row_height * (i + 0.5), per_cent = (share) => fmt(100 * share, 3);
-    const whisker = (value, error, at) => svg("line", { x1: to_x(value - error), x2: to_x(value + error), y1: at, y2: at, stroke: css_colour("ink"), "stroke-width": 1.2 });
+    const whisker = (value, error, at) => svg("line", { x1: to_x(value - error), x2: to_x(value + error), y1: at, y2: at,
+      stroke: css_colour("ink"), "stroke-width": 1.2 });
     picture.append(svg("text", { x: left - 10, y: y + 4, "text-anchor": "end" }, parameter_label(row.path)),
       svg("rect", { x: left, y: y - 10, width: to_x(row.total) - left, height: 20, fill: faded(css_colour("after"), 0.35) },
         svg("title", {}, `${row.path}: total ${per_cent(row.total)} ± ${per_cent(row.total_error)} %`)),
       svg("rect", { x: left, y: y - 10, width: to_x(row.first) - left, height: 20, fill: css_colour("after") },
         svg("title", {}, `${row.path}: alone ${per_cent(row.first)} ± ${per_cent(row.first_error)} %`)),
       whisker(row.first, row.first_error, y - 4), whisker(row.total, row.total_error, y + 4),
-      svg("text", { x: Math.max(to_x(row.total + row.total_error), to_x(row.first + row.first_error)) + 8, y: y + 4, class: "muted" }, `${fmt(100 * row.total, 2)} %`));
+      svg("text", { x: to_x(Math.max(row.total + row.total_error, row.first + row.first_error)) + 8, y: y + 4, class: "muted" },
+        `${fmt(100 * row.total, 2)} %`));
   });
   plot.append(el("p", { class: "key" }, el("span", { class: "dot", style: `background:${css_colour("after")}` }), " alone   ",
     el("span", { class: "dot", style: `background:${faded(css_colour("after"), 0.35)}` }), " with its interactions   — standard error"), picture);
 }
 
-function build_sensitivity(results, body) {
+function build_indices(results, body) {
   const sweep = record(results.sweep), outputs = sweep_outputs(sweep);
   const state = { output: leading_output(outputs) };
   const options = outputs.map(([name]) => ({ value: name, label: output_label(name) }));
@@ -161,12 +163,13 @@ function build_sensitivity(results, body) {
     plot.append(choices, area);
     draw();
   });
+  const shown_total = (total) => (is_number(total) ? (total < 1e-6 ? 0 : 100 * total) : null);
   table(body, {
     title: "Total Sobol indices",
     note: "Share of the variance with all interactions; below a ten-thousandth of a per cent: 0.",
     columns: [{ label: "Parameter" }, ...outputs.map(([name]) => ({ label: output_label(name), unit: "%", digits: 2 }))],
     rows: list(sweep.parameters).map(record).map((p) => [p.path,
-      ...outputs.map(([, of]) => { const { total } = record(record(of.indices)[p.path]); return is_number(total) ? (total < 1e-6 ? 0 : 100 * total) : null; })]),
+      ...outputs.map(([, of]) => shown_total(record(record(of.indices)[p.path]).total))]),
   });
 }
 
@@ -177,12 +180,14 @@ function draw_response(plot, sweep, state) {
     && ((m.x === state.x && m.y === state.y) || (m.x === state.y && m.y === state.x)));
   if (!map) return plot.append(el("p", { class: "caption" }, "Choose two different parameters."));
   const rows = list(map.mean), swapped = map.x !== state.x;
-  const columns = swapped ? rows.length : list(rows[0]).length, height_parts = swapped ? list(rows[0]).length : rows.length;
+  const columns = swapped ? rows.length : list(rows[0]).length;
+  const height_parts = swapped ? list(rows[0]).length : rows.length;
   const at = (ix, iy) => (swapped ? rows[ix][iy] : rows[iy][ix]);
   const values = [...Array(height_parts)].flatMap((_, iy) => [...Array(columns)].map((__, ix) => at(ix, iy)));
   const scale = { low: minimum(values), high: maximum(values) };
   const along = (path) => parameters.find((p) => p.path === path);
-  const [x, y] = [along(state.x), along(state.y)].map((p) => ({ low: p.range.low, high: p.range.high, title: `${parameter_label(p.path)}${sweep_unit(p.unit) ? ` [${sweep_unit(p.unit)}]` : ""}` }));
+  const titled = (p) => parameter_label(p.path) + (sweep_unit(p.unit) ? ` [${sweep_unit(p.unit)}]` : "");
+  const [x, y] = [along(state.x), along(state.y)].map((p) => ({ low: p.range.low, high: p.range.high, title: titled(p) }));
   const height = 380, width = Math.min(720, (plot.clientWidth || 900) - 100), left = 66, top = 26, right = 14, bottom = 44;
   const { canvas, pen } = sharp_canvas(width, height, `Mean ${output_label(state.output)} over ${x.title} and ${y.title}`);
   const frame = { left, top, width: width - left - right, height: height - top - bottom };

@@ -19,10 +19,10 @@ std::string results_of(const std::string& settings) {
 
 TEST_CASE("The report of a sweep has sections of its own; that of an analysis has not", "[studies][sweep][report]") {
   const std::string with_indices = render_report(results_of("samples = 50"));
-  CHECK_THAT(with_indices, Contains("<section id=\"scatter\">") && Contains("<section id=\"sensitivity\">") &&
+  CHECK_THAT(with_indices, Contains("<section id=\"scatter\">") && Contains("<section id=\"indices\">") &&
                                Contains("<section id=\"response-maps\">") && Contains("<section id=\"transmission-error\">"));
   const std::string without = render_report(results_of("samples = 50\nindices = \"off\""));
-  CHECK_THAT(without, Contains("<section id=\"scatter\">") && !Contains("<section id=\"sensitivity\">"));
+  CHECK_THAT(without, Contains("<section id=\"scatter\">") && !Contains("<section id=\"indices\">"));
   const std::string analysis =
       render_report(results_json(run_study(parse_study(small::sweep("samples = 50"), "sweep.toml", {{"task", "analyse"}}))));
   CHECK_THAT(analysis, !Contains("<section id=\"scatter\">"));
