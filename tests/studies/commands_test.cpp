@@ -38,8 +38,8 @@ TEST_CASE("An optimisation also leaves its store; the default folder carries the
   CAPTURE(ending.err);
   CHECK(ending.exit_code == 0);
   CHECK(folder.names("results/small") ==
-        Names{"cycle.csv", "design.csv", "effects.csv", "gears.csv", "given.csv", "harmonics.csv", "history.csv", "load_factors.csv", "load_sharing.csv", "points.csv",
-              "report.html", "results.json", "results.sqlite", "scenes.csv", "summary.csv", "used.csv"});
+        Names{"comparison.csv", "cycle.csv", "design.csv", "effects.csv", "gears.csv", "given.csv", "harmonics.csv", "history.csv", "load_factors.csv", "load_sharing.csv", "points.csv",
+              "report.html", "results.json", "results.sqlite", "scenes.csv", "sensitivity.csv", "summary.csv", "used.csv"});
 }
 
 TEST_CASE("Settings of the command line replace those of the file", "[studies][cli]") {
