@@ -67,7 +67,7 @@ void check_nulls(const json& results) {
 
 void remove_seconds(json& node) {
   if (node.is_object()) {
-    node.erase("seconds");
+    for (const char* time : {"seconds", "proof_seconds"}) node.erase(time);
     if (node.contains("message")) node.erase("message");  // may quote a time
   }
   if (node.is_structured()) {
