@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "studies/fit_tables.hpp"
 #include "studies/json_format.hpp"
@@ -112,7 +113,12 @@ std::string design_table(const StudyResults& results) {
   const DesignResult& design = *results.design;
   std::vector<std::string> names;
   for (const DesignVariable& v : task.variables) names.push_back(v.path);
-  for (const DesignScene& s : task.scenes) names.push_back(s.name);
+  std::set<double> torques;
+  for (const DesignScene& s : task.scenes) torques.insert(s.torque);
+  const auto label = [&](const DesignScene& s) {
+    return torques.size() > 1 ? fmt::format("{}, {:.5g} N·m", s.name, in_Nm(s.torque)) : s.name;
+  };
+  for (const DesignScene& s : task.scenes) names.push_back(label(s));
   const std::size_t width = widest(names, 24);
 
   std::string out = fmt::format("{:<{}}  {:>12}  {:>12}  {:>9}\n", "", width, "before", "after", "change");
@@ -124,7 +130,7 @@ std::string design_table(const StudyResults& results) {
   out += fmt::format("\n{} [{}]\n", task.objective_name(), task.objective_unit());
   for (std::size_t s = 0; s < task.scenes.size(); ++s) {
     const double before = design.before.scene_measures[s], after = design.after.scene_measures[s];
-    out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", task.scenes[s].name, width, before, after, change(before, after));
+    out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", label(task.scenes[s]), width, before, after, change(before, after));
   }
   out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", "over the scenes", width, design.before.objective,
                      design.after.objective, change(design.before.objective, design.after.objective));

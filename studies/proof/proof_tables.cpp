@@ -55,7 +55,9 @@ std::vector<NamedText> proof_tables(const Proof& proof) {
 std::string proof_summary(const Proof& proof, const DesignTask& task, double optimum) {
   std::string out;
   const auto beside = [&](const std::string& what, double value) {
-    out += fmt::format("{}: {:.5g} {} ({:+.1f} %)\n", what, value, task.objective_unit(), 100.0 * (value / optimum - 1.0));
+    const double times = value / optimum;
+    out += fmt::format("{}: {:.5g} {} ({})\n", what, value, task.objective_unit(),
+                       times < 10.0 ? fmt::format("{:+.1f} %", 100.0 * (times - 1.0)) : fmt::format("{:.3g} times the optimum", times));
   };
   if (const ComparedDesign* best = best_of(proof.rules)) beside("best rule of thumb, " + best->design.name, best->objective);
   for (const VariantSearch& search : proof.variants) {
