@@ -77,7 +77,7 @@ function build_comparison(results, body) {
   figure(figure_grid(body), {
     title: `${capital(name)} of the optimum and of other designs`,
     wide: true,
-    caption: `Over the same scenes. ${comparison_caption(record(optimise.comparison))} Hollow bars violate a constraint.`,
+    caption: `Over the same scenes; a rule may use modifications that the study leaves as they are. ${comparison_caption(record(optimise.comparison))} Hollow bars violate a constraint.`,
   }, (plot) => draw_bars(plot, {
     label: "Objective of every design compared", unit,
     rows: [{ label: "optimum", value: after.objective, colour: design_colour("after"), note: `${fmt(after.objective)} ${unit}` },
