@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
+
+#include "studies/json_format.hpp"
 
 namespace flankwright::studies {
 
 namespace {
-
-using Json = nlohmann::json;
 
 std::string in_words(const Expectation& e) {
   if (!e.is.empty()) return e.is;

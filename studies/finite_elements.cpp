@@ -23,7 +23,6 @@ namespace {
 /// Share of the machine's memory that runs may take.
 constexpr double share_of_memory = 0.8;
 
-const char* name_of(Member m) { return m == Member::Pinion ? "pinion" : "wheel"; }
 
 /// Does something with one gear; what it refuses is said under the study's keys.
 template <typename Work>

@@ -4,12 +4,12 @@
 #include <numeric>
 
 #include "studies/compliance_json.hpp"
+#include "studies/json_format.hpp"
 
 namespace flankwright::studies {
 
 namespace {
 
-constexpr double percent = 100.0;
 constexpr std::size_t uncertain_coefficients = 5;  // listed, the least certain first
 
 Json distribution_json(const ResidualDistribution& d) {

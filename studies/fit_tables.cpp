@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
+#include "studies/json_format.hpp"
+
 namespace flankwright::studies {
 
 namespace {
 
-constexpr double percent = 100.0;
 
 std::string coefficients_csv(const FittedCompliance& fit) {
   const FitTable table = fit.to_table();

@@ -75,6 +75,5 @@ const char* to_string(FitStatus status) {
   __builtin_unreachable();
 }
 
-const char* name_of(Member member) { return member == Member::Pinion ? "pinion" : "wheel"; }
 
 }  // namespace flankwright::studies

@@ -30,6 +30,5 @@ std::vector<GearFit> fit_gears(const Study& study, const GearPair& pair, const P
 std::string unmet_requirement(const GearFit& fit);
 
 const char* to_string(FitStatus status);
-const char* name_of(Member member);  ///< "pinion", "wheel"
 
 }  // namespace flankwright::studies

@@ -207,7 +207,7 @@ void add_topography(const GearPair& pair, Member member, const Modification& mod
     removal_um.push_back(std::move(row));
   }
   if (!modified) return;
-  maps.push_back({{"gear", member == Member::Pinion ? "pinion" : "wheel"},
+  maps.push_back({{"gear", name_of(member)},
                   {"design", design},
                   {"z_mm", std::move(z)},
                   {"radius_mm", std::move(radius)},

@@ -25,10 +25,6 @@ CREATE TABLE history (evaluation INTEGER PRIMARY KEY, objective REAL, constraint
 CREATE TABLE constraints (name TEXT, unit TEXT, maximum REAL, before REAL, after REAL);
 )";
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& reason) {
-  throw InvalidInput("output folder", file.string(), "a place that can be written (" + reason + ")");
-}
-
 void add_run(Database& database, const StudyResults& results) {
   const DesignResult& design = *results.design;
   const DesignTask& task = *results.design_task;
@@ -98,7 +94,7 @@ class TemporaryFile {
   void move_to_place() {
     std::error_code error;
     fs::rename(path_, place_, error);
-    if (error) refuse(place_, error.message());
+    if (error) throw InvalidInput("output folder", place_.string(), "a place that can be written (" + error.message() + ")");
   }
 
  private:

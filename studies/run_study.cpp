@@ -113,7 +113,7 @@ class Run {
   void geometry_notes() {
     const GearPair& pair = results_.pair;
     for (const Gear* gear : {&pair.pinion, &pair.wheel}) {
-      const std::string name = gear->member == Member::Pinion ? "pinion" : "wheel";
+      const std::string name = name_of(gear->member);
       if (gear->undercut) note("the " + name + " is undercut: its involute starts at diameter " + number(2.0 * gear->form_radius, 6) + " mm");
       if (gear->fillet_interference) {
         note("the mate's tip reaches below the " + name + "'s form circle: contact is cut off there, fillet interference is not modelled");

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <nlohmann/json.hpp>
 
+#include "studies/json_format.hpp"
 #include "studies/study_file.hpp"
 
 namespace flankwright::studies {
 
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr std::array<std::string_view, 8> kept{"title", "pair.", "pinion.", "wheel.", "material.", "misalignment.", "load.", "scenes."};
 constexpr std::array<std::string_view, 4> left_out{"pinion.shaft.", "wheel.shaft.", "pinion.error.", "wheel.error."};

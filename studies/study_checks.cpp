@@ -16,10 +16,6 @@ using MP = ModificationParameter;
 
 constexpr std::array members{Member::Pinion, Member::Wheel};
 
-std::string gear_name(Member m) {
-  return m == Member::Pinion ? "pinion" : "wheel";
-}
-
 void refuse_key(StudyReading& reading, const std::string& path, const std::string& allowed) {
   const Match* match = reading.find(path);
   reading.refuse(reading.where(path), path, match == nullptr ? nullptr : match->node, allowed);
@@ -56,7 +52,7 @@ void check_tooth_lists(StudyReading& reading) {
     const auto error_of = [m](const Scene& scene) -> const ManufacturingError& {
       return m == Member::Pinion ? scene.pinion_error : scene.wheel_error;
     };
-    const std::string prefix = gear_name(m) + ".error.";
+    const std::string prefix = std::string(name_of(m)) + ".error.";
     const int teeth = draft.study.pair[m].teeth;
     check_tooth_lists(reading, prefix, error_of(draft.base), teeth);
     if (reading.find("scenes") == nullptr) continue;
@@ -94,7 +90,7 @@ struct ReliefKeys {
 void check_relief(StudyReading& reading, Member m, const ReliefKeys& keys) {
   const Study& study = reading.draft.study;
   const Modification& modification = m == Member::Pinion ? study.pinion_modification : study.wheel_modification;
-  const std::string prefix = gear_name(m) + ".modification.";
+  const std::string prefix = std::string(name_of(m)) + ".modification.";
   const DesignVariable* amount = find_variable(study, m, keys.amount);
   const DesignVariable* extent = find_variable(study, m, keys.extent);
   const bool has_amount = amount != nullptr || get(modification, keys.amount) != 0.0;
@@ -122,7 +118,7 @@ void check_relief(StudyReading& reading, Member m, const ReliefKeys& keys) {
 void check_parabola(StudyReading& reading, Member m) {
   const Study& study = reading.draft.study;
   if (!reading.problems.empty()) return;  // the pair may not exist
-  const std::string path = gear_name(m) + ".modification.parabolic_te";
+  const std::string path = std::string(name_of(m)) + ".modification.parabolic_te";
   const auto check = [&](const std::string& key, double coefficient) {
     if (coefficient == 0.0) return;
     try {

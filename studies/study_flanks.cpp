@@ -106,7 +106,7 @@ class GridReading {
 
   /// The fields of single teeth, one a file; null for "".
   std::vector<std::shared_ptr<const DeviationField>> read_teeth(const std::vector<std::string>& files) const {
-    const std::string key = (member_ == Member::Pinion ? "pinion" : "wheel") + std::string(".error.grids");
+    const std::string key = name_of(member_) + std::string(".error.grids");
     const Match* match = reading_.find(key);
     if (match == nullptr) return {};
     const int teeth = pair_[member_].data.teeth;

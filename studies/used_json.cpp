@@ -91,7 +91,7 @@ Json used_json(const StudyResults& results) {
               {"pressure_angle_deg", in_deg(data.pressure_angle)},
               {"helix_angle_deg", in_deg(data.helix_angle)},
               {"centre_distance_mm", results.pair.centre_distance},
-              {"driver", data.driver == Member::Pinion ? "pinion" : "wheel"},
+              {"driver", name_of(data.driver)},
               {"working_flank", data.working_flank == WorkingFlank::Right ? "right" : "left"},
               {"pinion", used_gear_json(results, Member::Pinion)},
               {"wheel", used_gear_json(results, Member::Wheel)}}},

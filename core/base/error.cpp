@@ -1,5 +1,6 @@
 #include "core/base/error.hpp"
 
+#include <sstream>
 #include <utility>
 
 namespace flankwright {
@@ -9,5 +10,12 @@ InvalidInput::InvalidInput(std::string field, std::string value, std::string all
       field_(std::move(field)),
       value_(std::move(value)),
       allowed_(std::move(allowed)) {}
+
+std::string in_words(double value) {
+  std::ostringstream out;
+  out.precision(7);
+  out << value;
+  return out.str();
+}
 
 }  // namespace flankwright

@@ -24,4 +24,7 @@ class InvalidInput : public std::runtime_error {
   std::string field_, value_, allowed_;
 };
 
+/// A number as messages show it: seven significant digits, enough to find it again in a study file.
+std::string in_words(double value);
+
 }  // namespace flankwright

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 
 #include "core/base/error.hpp"
@@ -12,11 +11,7 @@ namespace flankwright {
 
 namespace {
 
-std::string mm(double number) {
-  std::ostringstream text;
-  text << number << " mm";
-  return text.str();
-}
+std::string mm(double number) { return in_words(number) + " mm"; }
 
 [[noreturn]] void refuse(const std::string& value, const std::string& allowed) {
   throw InvalidInput("grid", value, allowed);

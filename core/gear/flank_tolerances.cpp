@@ -1,21 +1,14 @@
 #include "core/gear/flank_tolerances.hpp"
 
 #include <cmath>
-#include <sstream>
 
 namespace flankwright {
 
 namespace {
 
-std::string text_of(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
 void check(const char* field, double value, double low, double high, const char* unit) {
   if (value >= low && value <= high) return;
-  throw InvalidInput(field, text_of(value), text_of(low) + " .. " + text_of(high) + unit + " (ISO 1328-1:2013)");
+  throw InvalidInput(field, in_words(value), in_words(low) + " .. " + in_words(high) + unit + " (ISO 1328-1:2013)");
 }
 
 }  // namespace

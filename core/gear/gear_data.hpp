@@ -16,6 +16,9 @@ enum class Hand { Right, Left };
 /// Index of a gear in a pair: 1 is the pinion, 2 the wheel.
 enum class Member { Pinion, Wheel };
 
+/// The gear as study files and messages name it: "pinion", "wheel".
+constexpr const char* name_of(Member member) { return member == Member::Pinion ? "pinion" : "wheel"; }
+
 /// Flank of the pinion that carries load: right is the drive side, left the coast side.
 enum class WorkingFlank { Right, Left };
 

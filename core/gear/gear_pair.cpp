@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
+#include "core/base/error.hpp"
 #include "core/gear/generation_check.hpp"
 #include "core/gear/involute.hpp"
 #include "core/gear/tooth_form.hpp"
@@ -13,20 +13,11 @@ namespace flankwright {
 
 namespace {
 
-std::string text(double value) {
-  std::ostringstream out;
-  out.precision(7);
-  out << value;
-  return out.str();
-}
-
-std::string gear_name(Member m) { return m == Member::Pinion ? "pinion" : "wheel"; }
-
 /// Collects what is wrong instead of stopping at the first.
 class Findings {
  public:
   void require(bool holds, const std::string& field, double value, const std::string& allowed) {
-    if (!holds) problems_.emplace_back(field, text(value), allowed);
+    if (!holds) problems_.emplace_back(field, in_words(value), allowed);
   }
   void add(const InvalidInput& problem) { problems_.push_back(problem); }
   void add(const std::vector<InvalidInput>& problems) { problems_.insert(problems_.end(), problems.begin(), problems.end()); }
@@ -48,7 +39,7 @@ void check_rack(const GearData& gear, const std::string& name, const PairData& p
                    "small enough that the rack's tooth is not pointed: dedendum * tan(alpha_n) < pi/4");
   if (largest > 0.0) {
     findings.require(rack.root_radius >= 0.0 && rack.root_radius <= largest, name + ".rack.root_radius", rack.root_radius,
-                     "0 .. " + text(largest) + " (full rounding of the tool's tip)");
+                     "0 .. " + in_words(largest) + " (full rounding of the tool's tip)");
   }
 }
 
@@ -76,7 +67,7 @@ Gear single_gear(Member m, const PairData& pair) {
 }
 
 void check_gear(Member m, const PairData& pair, Findings& findings) {
-  const std::string name = gear_name(m);
+  const std::string name = name_of(m);
   const Gear gear = single_gear(m, pair);
   GeneratedProfile generated;
   try {
@@ -92,11 +83,11 @@ void check_gear(Member m, const PairData& pair, Findings& findings) {
   const double tip_value = given_tip ? gear.data.tip_diameter : gear.data.profile_shift;
   const double form = std::max(generated.form_radius, gear.base_radius);
   findings.require(gear.tip_radius > form, tip_field, tip_value,
-                   "a tip circle above the form circle, diameter " + text(2.0 * form) + " mm");
+                   "a tip circle above the form circle, diameter " + in_words(2.0 * form) + " mm");
   if (gear.tip_radius > form) {
     findings.require(gear.tooth_thickness_at(gear.tip_radius) > 0.0, tip_field, tip_value,
                      "a tooth that is not pointed: its thickness at the tip is " +
-                         text(gear.tooth_thickness_at(gear.tip_radius)) + " mm, and must be above 0");
+                         in_words(gear.tooth_thickness_at(gear.tip_radius)) + " mm, and must be above 0");
   }
 }
 
@@ -177,16 +168,16 @@ void check_mesh(const PairData& data, Findings& findings) {
     const Gear& mate = pair[m == Member::Pinion ? Member::Wheel : Member::Pinion];
     const double largest_tip = pair.centre_distance - mate.root_radius;
     const bool given = !std::isnan(gear.data.tip_diameter);
-    findings.require(gear.tip_radius < largest_tip, gear_name(m) + (given ? ".tip_diameter" : ".profile_shift"),
+    findings.require(gear.tip_radius < largest_tip, name_of(m) + std::string(given ? ".tip_diameter" : ".profile_shift"),
                      given ? gear.data.tip_diameter : gear.data.profile_shift,
-                     "a tip diameter below " + text(2.0 * largest_tip) + " mm, where it meets the mate's root circle");
+                     "a tip diameter below " + in_words(2.0 * largest_tip) + " mm, where it meets the mate's root circle");
     findings.add(find_generation_problems(gear, data));
   }
   findings.require(pair.transverse_contact_ratio > 0.0, "pair.centre_distance", pair.centre_distance,
                    "one at which the active flanks meet on the line of action, transverse contact ratio above 0 (it is " +
-                       text(pair.transverse_contact_ratio) + ")");
+                       in_words(pair.transverse_contact_ratio) + ")");
   findings.require(pair.total_contact_ratio() >= 1.0, "pair.centre_distance", pair.centre_distance,
-                   "one that leaves a total contact ratio of at least 1 (it is " + text(pair.total_contact_ratio()) + ")");
+                   "one that leaves a total contact ratio of at least 1 (it is " + in_words(pair.total_contact_ratio()) + ")");
 }
 
 }  // namespace
@@ -235,7 +226,7 @@ std::vector<InvalidInput> find_problems(const PairData& data) {
   findings.require(data.helix_angle >= 0.0 && data.helix_angle <= 45 * units::deg, "pair.helix_angle",
                    data.helix_angle / units::deg, "0 .. 45 deg");
   for (Member m : {Member::Pinion, Member::Wheel}) {
-    const std::string name = gear_name(m);
+    const std::string name = name_of(m);
     const GearData& gear = data[m];
     findings.require(gear.teeth >= 5, name + ".teeth", gear.teeth, "an integer of at least 5");
     findings.require(gear.face_width > 0.0 && std::isfinite(gear.face_width), name + ".face_width", gear.face_width,
@@ -252,7 +243,7 @@ std::vector<InvalidInput> find_problems(const PairData& data) {
   const double base_radii = single_gear(Member::Pinion, data).base_radius + single_gear(Member::Wheel, data).base_radius;
   if (!std::isnan(data.centre_distance)) {
     findings.require(data.centre_distance > base_radii && std::isfinite(data.centre_distance), "pair.centre_distance",
-                     data.centre_distance, "above the sum of the base radii, " + text(base_radii) + " mm");
+                     data.centre_distance, "above the sum of the base radii, " + in_words(base_radii) + " mm");
   }
   const double alpha_t = std::atan(std::tan(data.pressure_angle) / std::cos(data.helix_angle));
   const double shift_sum = data.pinion.profile_shift + data.wheel.profile_shift;

@@ -2,8 +2,8 @@
 
 #include <cmath>
 #include <limits>
-#include <sstream>
 
+#include "core/base/error.hpp"
 #include "core/gear/rack_envelope.hpp"
 
 namespace flankwright {
@@ -12,15 +12,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::string text(double value) {
-  std::ostringstream out;
-  out.precision(7);
-  out << value;
-  return out.str();
-}
-
 std::string field_of(Member member, const char* key) {
-  std::string field(member == Member::Pinion ? "pinion" : "wheel");
+  std::string field(name_of(member));
   return field.append(".generation.").append(key);
 }
 
@@ -54,15 +47,15 @@ std::vector<InvalidInput> find_tool_problems(const PairData& pair, Member member
   };
   const Generation& generation = pair[member].generation;
   if (const auto* rack = std::get_if<ParabolicRack>(&generation)) {
-    require(rack->coefficient >= 0.0 && std::isfinite(rack->coefficient), "coefficient", text(rack->coefficient),
+    require(rack->coefficient >= 0.0 && std::isfinite(rack->coefficient), "coefficient", in_words(rack->coefficient),
             "0 or more, finite (1/mm)");
   }
   if (const auto* tool = std::get_if<RevolutionTool>(&generation)) {
     require(pair.helix_angle == 0.0, "kind", "revolution", "a spur pair (pair.helix_angle = 0) for this tool");
-    require(tool->half_apex > 0.0 && tool->half_apex < 0.5 * units::pi, "half_apex", text(tool->half_apex / units::deg),
+    require(tool->half_apex > 0.0 && tool->half_apex < 0.5 * units::pi, "half_apex", in_words(tool->half_apex / units::deg),
             "above 0 and below 90 deg");
-    require(tool->distance > 0.0 && std::isfinite(tool->distance), "distance", text(tool->distance), "above 0 mm, finite");
-    require(tool->arc_radius > 0.0, "arc_radius", text(tool->arc_radius), "above 0 mm, or left out for a cone");
+    require(tool->distance > 0.0 && std::isfinite(tool->distance), "distance", in_words(tool->distance), "above 0 mm, finite");
+    require(tool->arc_radius > 0.0, "arc_radius", in_words(tool->arc_radius), "above 0 mm, or left out for a cone");
   }
   return problems;
 }
@@ -79,12 +72,12 @@ double largest_parabola_coefficient(const Gear& gear, const PairData& pair) {
 std::vector<InvalidInput> find_generation_problems(const Gear& gear, const PairData& pair) {
   const Generation& generation = gear.data.generation;
   const auto problem = [&](const char* key, double value, const std::string& allowed) {
-    return std::vector{InvalidInput(field_of(gear.member, key), text(value), allowed)};
+    return std::vector{InvalidInput(field_of(gear.member, key), in_words(value), allowed)};
   };
   if (const auto* rack = std::get_if<ParabolicRack>(&generation)) {
     if (generates(ParabolicSection(*rack, pair), gear, FlankStart::Active)) return {};
     return problem("coefficient", rack->coefficient,
-                   "0 .. " + text(largest_parabola_coefficient(gear, pair)) + " 1/mm, above which the flank folds over itself");
+                   "0 .. " + in_words(largest_parabola_coefficient(gear, pair)) + " 1/mm, above which the flank folds over itself");
   }
   if (const auto* tool = std::get_if<RevolutionTool>(&generation)) {
     const auto accepts = [&](double distance, double arc_radius) {
@@ -93,12 +86,12 @@ std::vector<InvalidInput> find_generation_problems(const Gear& gear, const PairD
     if (!accepts(tool->distance, infinity)) {
       const double least = least_above(tool->distance, [&](double distance) { return accepts(distance, infinity); });
       return problem("distance", tool->distance,
-                     "at least " + text(least) + " mm, so that the tool reaches over the tooth and the face");
+                     "at least " + in_words(least) + " mm, so that the tool reaches over the tooth and the face");
     }
     if (!accepts(tool->distance, tool->arc_radius)) {
       const double least = least_above(tool->arc_radius, [&](double radius) { return accepts(tool->distance, radius); });
       return problem("arc_radius", tool->arc_radius,
-                     "at least " + text(least) + " mm, below which the flank folds over itself");
+                     "at least " + in_words(least) + " mm, below which the flank folds over itself");
     }
   }
   return {};

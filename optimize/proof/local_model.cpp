@@ -17,8 +17,7 @@ ProofParameter of_variable(const DesignVariable& v, int index) {
 }
 
 ProofParameter of_error(Member member, const char* name, ModificationParameter removed) {
-  const std::string gear = member == Member::Pinion ? "pinion" : "wheel";
-  return {gear + ".error." + name, 1.0, "um", GearParameter{member, removed}, -units::um};
+  return {name_of(member) + std::string(".error.") + name, 1.0, "um", GearParameter{member, removed}, -units::um};
 }
 
 /// One step of a parameter in one scene, in internal units.

@@ -5,16 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "studies/json_format.hpp"
 
 namespace flankwright::studies {
 
 namespace {
-
-using Json = nlohmann::json;
 
 constexpr int surface_step = 5;  ///< every fifth row and column of the 41 x 41 maps of results.json
 constexpr int surface_points = 9;

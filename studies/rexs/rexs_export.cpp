@@ -84,7 +84,7 @@ class Export {
 
   int add_gear(Member m) {
     const Gear& gear = pair_[m];
-    const int id = add("cylindrical_gear", m == Member::Pinion ? "pinion" : "wheel");
+    const int id = add("cylindrical_gear", name_of(m));
     attribute("number_of_teeth", "none", ValueType::Integer, std::to_string(gear.data.teeth));
     length("normal_module", study_.pair.normal_module);
     angle("helix_angle_reference_diameter", gear.hand == Hand::Right ? study_.pair.helix_angle : -study_.pair.helix_angle);
@@ -284,8 +284,6 @@ class Export {
     if (before("1.3")) result_.notes.push_back("modifications are part of the format since 1.3; older readers pass over them");
     result_.notes.push_back("misalignment, shafts and errors of teeth are not exported");
   }
-
-  static const char* name_of(Member m) { return m == Member::Pinion ? "pinion" : "wheel"; }
 
   const Study& study_;
   GearPair pair_;

@@ -1,15 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
+#include "studies/json_format.hpp"
 #include "studies/rexs/rexs_model.hpp"
 
 namespace flankwright::studies::rexs {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// A REXS file in JSON. Elements have no lines once parsed: what is refused is named by its id.
 class JsonReading {

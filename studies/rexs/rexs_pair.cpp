@@ -219,7 +219,7 @@ class PairReading {
 
 void write_gear(const ImportedPair& pair, Member m, StudyText& text) {
   const GearData& gear = pair.data[m];
-  const std::string name = m == Member::Pinion ? "pinion" : "wheel";
+  const std::string name = name_of(m);
   const auto remark = [&](const std::string& key) {
     const auto found = pair.remarks.find(name + "." + key);
     return found == pair.remarks.end() ? std::string() : found->second;

@@ -131,7 +131,7 @@ TEST_CASE("The drawn flanks are the involutes through their contact lines", "[st
       const double alpha = std::acos(std::min(1.0, gear.base_radius / std::hypot(x, y)));
       return std::atan2(y, x) + std::tan(alpha) - alpha - sense * pair.contact_line_sense() * gear.helix_rate * points[3 * i + 2];
     };
-    const Piece surface = read_piece(files.at(std::string("contact-1/") + (m == Member::Pinion ? "pinion" : "wheel") + "-0000.vtp"), "Polys");
+    const Piece surface = read_piece(files.at(std::string("contact-1/") + name_of(m) + "-0000.vtp"), "Polys");
     // Points on the line of action lie on the flank of their tooth; those of tip edges lie elsewhere.
     std::size_t line = 0, compared = 0;
     for (std::size_t cell = 0; cell < lines.offsets.size(); ++cell) {
