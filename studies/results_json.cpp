@@ -5,6 +5,7 @@
 
 #include "core/compliance/thin_slice.hpp"
 #include "core/gear/tooth_form.hpp"
+#include "studies/accuracy/accuracy_json.hpp"
 #include "studies/compliance_json.hpp"
 #include "studies/fit_json.hpp"
 #include "studies/gradients_json.hpp"
@@ -264,6 +265,8 @@ std::string results_json(const StudyResults& results) {
   json["effects"] = list(results.effects, [](const Effect& e) -> Json {
     return {{"name", e.name}, {"on", e.on}, {"why", e.why}, {"seconds", e.seconds}};
   });
+  if (results.fidelity_choice) json["accuracy_choice"] = fidelity_choice_json(*results.fidelity_choice);
+  if (results.ladder) json["accuracy"] = ladder_json(*results.ladder);
   if (results.design) json["optimise"] = optimise_json(results);
   if (results.proof) add_proof(*results.proof, *results.design_task, study.optimise.proof, json["optimise"]);
   if (results.sweep) json["sweep"] = sweep_json(results);

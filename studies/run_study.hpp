@@ -10,6 +10,8 @@
 #include "core/load/mesh_cycle.hpp"
 #include "optimize/design_optimiser.hpp"
 #include "optimize/pareto.hpp"
+#include "studies/accuracy/fidelity_choice.hpp"
+#include "studies/accuracy/ladder.hpp"
 #include "studies/fit_task.hpp"
 #include "studies/gear_deflections.hpp"
 #include "core/compliance/shaft/shaft_pair.hpp"
@@ -48,6 +50,8 @@ struct StudyResults {
   GearStructures structures;      ///< empty where no structure was asked for, or none needed
   std::shared_ptr<const ShaftPair> shafts;  ///< null where they are rigid
   std::vector<Effect> effects;
+  std::optional<FidelityChoice> fidelity_choice;  ///< where the study asks for an accuracy
+  std::optional<Ladder> ladder;   ///< of the task "accuracy"
   std::optional<DesignTask> design_task;
   std::optional<DesignResult> design;
   std::optional<ParetoFront> front;

@@ -124,8 +124,6 @@ std::vector<SchemaKey> working_condition_rows() {
          d.study.fidelity.automatic_effects = !v.is_list;
          d.study.fidelity.effects = v.words;
        }},
-      {.path = "fidelity.accuracy", .kind = Later, .fallback = "(none)",
-       .meaning = "the cheapest rung that keeps this"},
   };
 }
 
@@ -239,7 +237,7 @@ void append(std::vector<SchemaKey>& schema, const std::vector<SchemaKey>& rows) 
 
 std::vector<SchemaKey> make_schema() {
   std::vector<SchemaKey> schema;
-  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), shaft_rows(), task_rows(), proof_rows(), sweep_rows()}) {
+  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), shaft_rows(), task_rows(), proof_rows(), sweep_rows(), accuracy_rows()}) {
     append(schema, rows);
   }
   return schema;
