@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,7 +21,8 @@ inline PairData pair_data(double helix_angle_deg, double face_width, int wheel_t
   return data;
 }
 
-/// A position of such a pair; the bores leave 2.5 and 3.75 modules below the roots. Aligned spur pairs are halved at
+/// A position of such a pair; the bores leave 2.5 and 3.75 modules below the roots (of large
+/// wheels more, which the program's own mesh asks for). Aligned spur pairs are halved at
 /// mid face.
 inline ContactTask contact_task(const PairData& data, double phase, double approach_um, double lead_crowning_um = 0,
                                 double crossing_urad = 0) {
@@ -28,8 +30,9 @@ inline ContactTask contact_task(const PairData& data, double phase, double appro
   ContactTask task{.pair = data, .phase = phase, .approach = approach_um * units::um};
   task.condition.pinion_modification.lead_crowning = lead_crowning_um * units::um;
   task.condition.misalignment.crossing = 1e-6 * crossing_urad;
-  task.bore_radius = {pair.pinion.root_radius - 2.5 * data.normal_module,
-                      pair.wheel.root_radius - 3.75 * data.normal_module};
+  const double module = data.normal_module;
+  task.bore_radius = {pair.pinion.root_radius - 2.5 * module,
+                      std::min(pair.wheel.root_radius - 3.75 * module, 0.89 * (pair.wheel.root_radius - 0.5 * module))};
   task.half_face = data.helix_angle == 0 && crossing_urad == 0;
   return task;
 }

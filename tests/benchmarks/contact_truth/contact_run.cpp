@@ -62,11 +62,15 @@ struct ContactModel {
   std::size_t layers() const { return meshes[0].planes.size() - 1; }
 };
 
+std::string numbered(std::string name, std::size_t number) {
+  return name += std::to_string(number);
+}
+// Tooth pairs from -10 on.
 std::string slave(int tooth, std::size_t layer) {
-  return "P" + std::to_string(tooth + 10) + "L" + std::to_string(layer);
+  return numbered(numbered("P", static_cast<std::size_t>(tooth + 10)) += "L", layer);
 }
 std::string master(int tooth) {
-  return "W" + std::to_string(tooth + 10);
+  return numbered("W", static_cast<std::size_t>(tooth + 10));
 }
 
 /// The pinion's flanks are the slaves, a surface per layer so that each one's force is printed.
@@ -102,8 +106,8 @@ void write_deck(std::ostream& out, const ContactModel& model, const ContactTask&
     for (const int n : nodes) out << model.first_node[gear] + n + 1 << ",\n";
   };
   for (std::size_t g : {0U, 1U}) {
-    node_set("BORE" + std::to_string(g), g, model.meshes[g].bore);
-    if (task.half_face) node_set("MIDDLE" + std::to_string(g), g, model.meshes[g].mid_face);
+    node_set(numbered("BORE", g), g, model.meshes[g].bore);
+    if (task.half_face) node_set(numbered("MIDDLE", g), g, model.meshes[g].mid_face);
   }
   out << "*MATERIAL, NAME=STEEL\n*ELASTIC\n"
       << task.material.youngs_modulus << ", " << task.material.poissons_ratio
