@@ -5,7 +5,7 @@ const FIGURE_LABEL = {
   te_harmonic_2: "TE harmonic 2", te_harmonic_3: "TE harmonic 3", te_harmonic_4: "TE harmonic 4", te_harmonic_5: "TE harmonic 5",
   peak_contact_stress: "peak contact stress", peak_line_load: "peak line load", load_factor: "load factor",
 };
-const AXIS_STYLE = ["circle", "rect", "triangle", "rectRot", "star", "crossRot", "cross", "circle", "rect", "triangle", "rectRot"];
+const AXIS_STYLE = ["circle", "rect", "triangle", "rectRot", "star", "crossRot", "cross", "rect", "triangle", "circle", "rectRot", "circle"];
 /** Errors below this are drawn at it: a logarithmic axis has no 0 [%]. */
 const LEAST_DRAWN_ERROR = 1e-3;
 
