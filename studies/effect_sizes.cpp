@@ -24,6 +24,14 @@ void add(std::vector<SizeInStudy>& sizes, const SizeInStudy& other) {
   *known = std::move(larger);
 }
 
+/// Estimates are made at the study's own positions, or at this many where there are more.
+constexpr int most_positions = 32;
+
+MeshResolution estimate_resolution(const StudyResults& results) {
+  const bool few = std::ssize(results.phases) <= most_positions;
+  return {results.study.fidelity.quadrature, few ? results.phases : equally_spaced_phases(most_positions)};
+}
+
 EffectScene scene_of(const StudyResults& results, const LoadedResult& loaded, const MeshResolution& resolution) {
   const Study& study = results.study;
   return {results.pair, study.pinion_material, study.wheel_material, resolution, results.structures.pair.get(), results.shafts.get(),
@@ -51,14 +59,12 @@ const SizeInStudy* size_of(const std::vector<SizeInStudy>& sizes, const std::str
   return found == sizes.end() ? nullptr : &*found;
 }
 
-MeshResolution estimate_resolution() { return {{QuadratureRule::Gauss2, 5}, equally_spaced_phases(16)}; }
-
 EffectSizes study_effect_sizes(const StudyResults& results) {
   EffectSizes sizes;
   const EffectSizing asked = results.study.fidelity.effect_sizes;
   for (const LoadedResult& loaded : results.loaded) {
     if (asked == EffectSizing::Off || loaded.design == "before" || !loaded.cycle.usable()) continue;
-    for (const EstimatedSize& estimate : estimate_effect_sizes(scene_of(results, loaded, estimate_resolution()), results.effects)) {
+    for (const EstimatedSize& estimate : estimate_effect_sizes(scene_of(results, loaded, estimate_resolution(results)), results.effects)) {
       add(sizes.estimated, {loaded.scene, loaded.torque, estimate.size, estimate.positions, estimate.solved_again});
     }
     if (asked == EffectSizing::Exact) add_exact(results, loaded, sizes.exact);

@@ -27,9 +27,6 @@ struct EffectSizes {
 /// The entry of that name, null where there is none.
 const SizeInStudy* size_of(const std::vector<SizeInStudy>& sizes, const std::string& name);
 
-/// The resolution of estimates, whatever the study's own: a size is wanted to two digits.
-MeshResolution estimate_resolution();
-
 /// Sizes as fidelity.effect_sizes asks for them, over the loaded results: all load cases of an analysis, those of the design after an
 /// optimisation.
 EffectSizes study_effect_sizes(const StudyResults& results);

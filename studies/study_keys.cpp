@@ -125,7 +125,7 @@ std::vector<SchemaKey> working_condition_rows() {
          d.study.fidelity.effects = v.words;
        }},
       {.path = "fidelity.effect_sizes", .kind = Word, .words = {"off", "estimated", "exact"}, .fallback = "\"estimated\"",
-       .meaning = "what each effect does to transmission error and contact stress: to first order on a coarse mesh, or by leaving it out at the study's resolution as well",
+       .meaning = "what each effect does to transmission error and contact stress: to first order at a few positions, or by leaving it out at the study's resolution as well",
        .store = [](Draft& d, Member, const Value& v) { d.study.fidelity.effect_sizes = static_cast<EffectSizing>(v.integer); }},
       {.path = "fidelity.accuracy", .kind = Later, .fallback = "(none)",
        .meaning = "the cheapest rung that keeps this"},

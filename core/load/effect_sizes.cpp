@@ -5,7 +5,9 @@
 #include <optional>
 
 #include "core/base/stopwatch.hpp"
+#include "core/compliance/hertz_line.hpp"
 #include "core/contact/condition_gap.hpp"
+#include "core/load/mesh_with_effects.hpp"
 #include "core/load/sensitivity.hpp"
 
 namespace flankwright {
@@ -16,12 +18,36 @@ namespace {
 struct Case {
   MeshModel model;
   FlankCondition condition;
+};
 
-  Case(const EffectScene& scene, const EffectDecisions& decisions)
-      : condition(apply_effects(decisions, scene.condition)) {
-    model = make_mesh_model(scene.pair, scene.pinion_material, scene.wheel_material, scene.resolution, mesh_effects(decisions),
-                            MeshPlacement::of(gap_model(decisions), condition.misalignment), scene.structure, nullptr, scene.shafts);
+/// Makes the cases of one scene; what its gears alone settle is worked out once.
+class Cases {
+ public:
+  explicit Cases(const EffectScene& scene)
+      : scene_(scene), slices_(ThinSlice(scene.pair, scene.pinion_material, scene.wheel_material)) {
+    gears_.pair = scene.pair;
+    gears_.pinion_material = scene.pinion_material;
+    gears_.wheel_material = scene.wheel_material;
+    gears_.contact_modulus = contact_modulus(scene.pinion_material, scene.wheel_material);
   }
+
+  Case with(const EffectDecisions& decisions) const {
+    FlankCondition condition = apply_effects(decisions, scene_.condition);
+    const MeshPlacement placement = MeshPlacement::of(gap_model(decisions), condition.misalignment);
+    const PairCompliance& structure = scene_.structure != nullptr ? *scene_.structure : slices_;
+    return {mesh_with_effects(gears_, scene_.resolution, mesh_effects(decisions), placement, structure, nullptr, scene_.shafts),
+            std::move(condition)};
+  }
+
+  CycleOutputs outputs(const EffectDecisions& decisions) const {
+    const Case made = with(decisions);
+    return cycle_outputs(made.model, analyse_cycle(made.model, made.condition, scene_.pinion_torque));
+  }
+
+ private:
+  const EffectScene& scene_;
+  ThinSlicePair slices_;
+  MeshModel gears_;  ///< without positions
 };
 
 /// Outputs as positions come in.
@@ -97,14 +123,14 @@ std::optional<Solution> first_order(const LoadProblem& problem, const Eigen::Vec
   return next;
 }
 
-EstimatedSize estimate(const EffectScene& scene, const EffectDecisions& decisions, const std::string& name, const Case& all,
+EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, const std::string& name, const Case& all,
                        const LoadedCycle& cycle, const CycleOutputs& with, double trust) {
   const Stopwatch clock;
   EstimatedSize result{{name, {}, not_given}};
   const EffectDecisions rest = without(decisions, name, "left out");
   if (!mesh_effects(rest).give_way()) return result;
-  const Case other(scene, rest);
-  const ConditionGap gaps(scene.pair, other.model.placement.gap, other.condition);
+  const Case other = cases.with(rest);
+  const ConditionGap gaps(other.model.pair, other.model.placement.gap, other.condition);
   OutputSum outputs(other.model);
   for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
     const MeshPosition& at = other.model.positions[i];
@@ -139,19 +165,18 @@ CycleOutputs cycle_outputs(const MeshModel& model, const LoadedCycle& cycle) {
   return outputs.outputs();
 }
 
-CycleOutputs outputs_with(const EffectScene& scene, const EffectDecisions& decisions) {
-  const Case with(scene, decisions);
-  return cycle_outputs(with.model, analyse_cycle(with.model, with.condition, scene.pinion_torque));
-}
+CycleOutputs outputs_with(const EffectScene& scene, const EffectDecisions& decisions) { return Cases(scene).outputs(decisions); }
 
 EffectInfluence exact_influence(const EffectScene& scene, const EffectDecisions& decisions, const std::string& name) {
   const EffectDecisions rest = without(decisions, name, "left out");
   if (!mesh_effects(rest).give_way()) return {};
-  return EffectInfluence::between(outputs_with(scene, decisions), outputs_with(scene, rest));
+  const Cases cases(scene);
+  return EffectInfluence::between(cases.outputs(decisions), cases.outputs(rest));
 }
 
 std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options) {
-  const Case all(scene, decisions);
+  const Cases cases(scene);
+  const Case all = cases.with(decisions);
   const LoadedCycle cycle = analyse_cycle(all.model, all.condition, scene.pinion_torque);
   const CycleOutputs with = cycle_outputs(all.model, cycle);
   std::vector<EstimatedSize> sizes;
@@ -161,7 +186,7 @@ std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const
       sizes.push_back({{decision.name, {}, not_given}});
       continue;
     }
-    sizes.push_back(estimate(scene, decisions, decision.name, all, cycle, with, options.trust));
+    sizes.push_back(estimate(cases, decisions, decision.name, all, cycle, with, options.trust));
   }
   return sizes;
 }

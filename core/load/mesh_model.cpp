@@ -6,6 +6,7 @@
 
 #include "core/base/error.hpp"
 #include "core/compliance/hertz_line.hpp"
+#include "core/load/mesh_with_effects.hpp"
 
 namespace flankwright {
 
@@ -70,31 +71,38 @@ MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material,
                           const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
                           const PairCompliance* structure, const PairRootStress* root_stress,
                           const PairCompliance* shafts) {
+  const ThinSlicePair slices(ThinSlice(pair, pinion_material, wheel_material));
+  MeshModel model;
+  model.pair = pair;
+  model.pinion_material = pinion_material;
+  model.wheel_material = wheel_material;
+  model.contact_modulus = contact_modulus(pinion_material, wheel_material);
+  model.calibration = slices.slice().calibration();
+  model.iso = slices.slice().iso();
+  return mesh_with_effects(std::move(model), resolution, effects, placement, structure != nullptr ? *structure : slices, root_stress, shafts);
+}
+
+MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
+                            const PairCompliance& structure, const PairRootStress* root_stress, const PairCompliance* shafts) {
   if (!effects.give_way()) throw InvalidInput("fidelity.effects", "neither bending nor hertzian_contact", "at least one of them under load");
   if (resolution.phases.empty()) throw InvalidInput("cycle.phases", "none", "at least one phase");
   if (resolution.quadrature.intervals < 1) {
     throw InvalidInput("fidelity.quadrature.intervals", std::to_string(resolution.quadrature.intervals), "at least 1");
   }
+  const GearPair& pair = model.pair;
   const double axial_offset = placement.misalignment.axial_offset;
   const double face_start = std::max(-0.5 * pair.pinion.data.face_width, axial_offset - 0.5 * pair.wheel.data.face_width);
   const double face_end = std::min(0.5 * pair.pinion.data.face_width, axial_offset + 0.5 * pair.wheel.data.face_width);
   if (!(face_start < face_end)) {
     throw InvalidInput("misalignment.axial_offset", std::to_string(axial_offset), "one that leaves a common face width");
   }
-  const ThinSlicePair slices(ThinSlice(pair, pinion_material, wheel_material));
-  MeshModel model;
-  model.pair = pair;
-  model.pinion_material = pinion_material;
-  model.wheel_material = wheel_material;
   model.effects = effects;
   model.placement = placement;
   model.axial_offset = axial_offset;
   model.face_width = face_end - face_start;
-  model.contact_modulus = contact_modulus(pinion_material, wheel_material);
-  model.calibration = slices.slice().calibration();
-  model.iso = slices.slice().iso();
-  const MeshParts parts{pair, pinion_material, wheel_material, placement, structure != nullptr ? structure : &slices, shafts, root_stress};
+  const MeshParts parts{pair, model.pinion_material, model.wheel_material, placement, &structure, shafts, root_stress};
   const PathOfContact path(pair);
+  model.positions.clear();
   model.positions.reserve(resolution.phases.size());
   for (double phase : resolution.phases) {
     model.positions.push_back(make_position(model, parts, path, resolution.quadrature, phase, {face_start, face_end}));

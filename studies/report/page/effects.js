@@ -27,7 +27,7 @@ function effect_figures(results, effects, body) {
   for (const { title, key, unit } of effect_measures) {
     figure(grid, { title, wide: key === "te_mean_change_um",
       caption: `With the effect less without it, in the load case in which it is largest${is_exact ? "; exact by leaving it out" : ""}; `
-        + "the estimate is of first order on a coarse mesh." }, (plot) => {
+        + "the estimate is of first order at no more than 32 positions." }, (plot) => {
       plot.append(el("p", { class: "key" },
         ...(is_exact ? [el("span", { class: "dot", style: `background:${sequence_colour(0)}` }), " left out   "] : []),
         el("span", { class: "dot", style: `background:${sequence_colour(1)}` }), " estimate"));

@@ -68,7 +68,7 @@ TEST_CASE("The size of each effect where it matters and where it does not", "[co
   };
   const GearPair pair = helical_pair();
   const TiedSlices tied(pair, 0.3), loose(pair, 1e-4);
-  const Tilting soft(2e-9), stiff(1e-14);
+  const Tilting soft(1e-7), stiff(1e-14);
   std::vector<Row> rows;
   const auto row = [&](const char* name, double at_least, double at_most, auto change, auto hardly) {
     Row made{name, scene(3e5), scene(3e5), at_least, at_most};
@@ -119,7 +119,8 @@ TEST_CASE("What first order leaves falls as the square of the effect", "[core][l
     EffectScene s = scene(3e5);
     s.condition.misalignment.mesh_misalignment = misalignment;
     s.condition.pinion_modification.lead_crowning = 4 * units::um;
-    const EffectDecisions decisions = decisions_of(s);
+    // Between A and E all points stay loaded; beyond, some are always about to lose contact.
+    const EffectDecisions decisions = without(decisions_of(s), "extended_contact_region", "left out");
     const EffectInfluence exact = exact_influence(s, decisions, "misalignment");
     const EstimatedSize estimate = estimated(s, decisions, "misalignment", {.trust = std::numeric_limits<double>::infinity()});
     CHECK(estimate.solved_again == 0);  // no point leaves contact here
