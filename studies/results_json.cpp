@@ -6,6 +6,7 @@
 #include "core/compliance/thin_slice.hpp"
 #include "core/gear/tooth_form.hpp"
 #include "studies/compliance_json.hpp"
+#include "studies/effects_json.hpp"
 #include "studies/fit_json.hpp"
 #include "studies/gradients_json.hpp"
 #include "studies/json_format.hpp"
@@ -261,9 +262,8 @@ std::string results_json(const StudyResults& results) {
   json["loaded"] = list(results.loaded, [&](const LoadedResult& l) { return loaded_json(l, results); });
   if (results.structures.finite_elements) json["compliance"] = compliance_json(results.structures, study);
   json["modifications"] = modifications_json(results);
-  json["effects"] = list(results.effects, [](const Effect& e) -> Json {
-    return {{"name", e.name}, {"on", e.on}, {"why", e.why}, {"seconds", e.seconds}};
-  });
+  json["effects"] = effects_json(results);
+  json["steps"] = list(results.steps, [](const RunStep& s) -> Json { return {{"name", s.name}, {"why", s.why}, {"seconds", s.seconds}}; });
   if (results.design) json["optimise"] = optimise_json(results);
   if (results.proof) add_proof(*results.proof, *results.design_task, study.optimise.proof, json["optimise"]);
   if (results.sweep) json["sweep"] = sweep_json(results);
