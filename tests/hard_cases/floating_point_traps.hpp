@@ -5,9 +5,8 @@
 namespace flankwright::hard_cases {
 
 /// While it lives, an invalid operation (0/0, inf - inf, an ordered comparison with NaN, the root of a negative number) or a division by
-/// zero in this thread ends the program with SIGFPE, which Catch2 reports with the test. Without glibc, and with clang++, which evaluates divisions ahead of their guards, it does nothing.
-///
-/// Copies of NaN and comparisons for equality stay quiet.
+/// zero in this thread ends the program with SIGFPE, which Catch2 reports with the test. Copies of NaN and comparisons for equality stay
+/// quiet. Without glibc it does nothing, nor with clang++, which may divide before the test that guards the division.
 class FloatingPointTraps {
  public:
 #if defined(__GLIBC__) && !defined(__clang__)
