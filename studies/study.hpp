@@ -54,6 +54,9 @@ struct Cycle {
   std::vector<double> phases;  ///< explicit phases of the reference tooth pair [base pitches]; empty: use `positions`
 };
 
+/// Whether and how the sizes of effects are found.
+enum class EffectSizing { Off, Estimated, Exact };
+
 struct Fidelity {
   ComplianceModel compliance{ComplianceModel::Fitted};
   GapModel gap{GapModel::PlaneOfAction};
@@ -61,6 +64,7 @@ struct Fidelity {
   bool automatic_effects{true};
   std::vector<std::string> effects;  ///< switched on by hand where automatic_effects is false
   std::optional<double> accuracy;    ///< share that the rest shall keep, as far as it is not given; see choose_fidelity()
+  EffectSizing effect_sizes{EffectSizing::Estimated};
 };
 
 /// One working condition: base tables of the study with the scene's overrides applied.

@@ -43,9 +43,9 @@ void add_model_rungs(const Rung& finest, const MeshEffects& effects, std::vector
     if (model < finest.compliance) add("compliance", to_string(model), [&](Rung& r) { r.compliance = model; });
   }
   if (finest.gap == GapModel::WholeSurface) add("gap", to_string(GapModel::PlaneOfAction), [](Rung& r) { r.gap = GapModel::PlaneOfAction; });
-  if (effects.tip_corner) add("contact law", "without tip corner", [](Rung& r) { r.tip_corner = false; });
-  if (couples_teeth(finest.compliance)) add("adjacent teeth", "without adjacent teeth", [](Rung& r) { r.adjacent_teeth = false; });
-  if (effects.extended_contact_region) add("contact region", "between A and E only", [](Rung& r) { r.extended_region = false; });
+  if (effects.has("tip_corner")) add("contact law", "without tip corner", [](Rung& r) { r.tip_corner = false; });
+  if (effects.has("adjacent_teeth")) add("adjacent teeth", "without adjacent teeth", [](Rung& r) { r.adjacent_teeth = false; });
+  if (effects.has("extended_contact_region")) add("contact region", "between A and E only", [](Rung& r) { r.extended_region = false; });
 }
 
 void add_resolution_rungs(const Rung& finest, std::vector<Rung>& rungs) {
@@ -154,8 +154,10 @@ std::vector<bool> pareto_best(const std::vector<double>& cost, const std::vector
   return best;
 }
 
-std::vector<Rung> ladder_rungs(const Study& study, const MeshEffects& effects) {
+std::vector<Rung> ladder_rungs(const RungRunner& runner) {
+  const Study& study = runner.subject().study;
   const Rung finest = finest_rung(study.accuracy);
+  const MeshEffects effects = runner.effects(finest);
   std::vector<Rung> rungs{finest};
   add_model_rungs(finest, effects, rungs);
   add_resolution_rungs(finest, rungs);
@@ -167,7 +169,7 @@ Ladder climb_ladder(RungRunner& runner, const ProgressReport& progress) {
   const Stopwatch clock;
   Ladder ladder;
   ladder.scenes = runner.subject().scenes;
-  const std::vector<Rung> rungs = ladder_rungs(runner.subject().study, runner.subject().effects);
+  const std::vector<Rung> rungs = ladder_rungs(runner);
   int done = 0;
   const auto step = [&](const Rung& rung) {
     if (progress) progress("climbing the ladder", done++, static_cast<int>(rungs.size()), rung.name);

@@ -36,7 +36,7 @@ struct Ladder {
 };
 
 /// The rungs of a study's ladder, the finest first: one axis varied at a time from there, whole settings after.
-std::vector<Rung> ladder_rungs(const Study& study, const MeshEffects& effects);
+std::vector<Rung> ladder_rungs(const RungRunner& runner);
 
 /// Runs every rung of the study's load cases and holds them against the finest.
 Ladder climb_ladder(RungRunner& runner, const ProgressReport& progress);

@@ -5,6 +5,7 @@
 
 #include "core/base/thread_stopwatch.hpp"
 #include "core/load/contact_peaks.hpp"
+#include "studies/study_effects.hpp"
 
 namespace flankwright::studies {
 
@@ -51,17 +52,25 @@ double RungRunner::first_seconds(ComplianceModel model) {
   return seconds;
 }
 
+MeshEffects RungRunner::effects(const Rung& rung) const {
+  const bool is_rigid = rung.compliance == ComplianceModel::Rigid;
+  Study study = subject_.study;
+  study.fidelity.compliance = is_rigid ? ComplianceModel::ThinSlice : rung.compliance;  // load is not left out
+  study.fidelity.gap = rung.gap;
+  EffectDecisions decisions = study_effects(study);
+  const std::string why = "left out on this rung";
+  if (is_rigid) decisions = without(std::move(decisions), "bending", why);
+  if (!rung.adjacent_teeth) decisions = without(std::move(decisions), "adjacent_teeth", why);
+  if (!rung.tip_corner) decisions = without(std::move(decisions), "tip_corner", why);
+  if (!rung.extended_region) decisions = without(std::move(decisions), "extended_contact_region", why);
+  return mesh_effects(decisions);
+}
+
 MeshOfResolution RungRunner::mesh(const Rung& rung, const DesignScene& scene) {
-  const bool knows_teeth = couples_teeth(rung.compliance) && subject_.study.fidelity.automatic_effects;
-  MeshEffects effects = subject_.effects;
-  effects.bending = effects.bending && rung.compliance != ComplianceModel::Rigid;
-  effects.adjacent_teeth = (effects.adjacent_teeth || knows_teeth) && rung.adjacent_teeth;
-  effects.tip_corner = effects.tip_corner && rung.tip_corner;
-  effects.extended_contact_region = effects.extended_contact_region && rung.extended_region;
   const MeshPlacement placement = MeshPlacement::of(rung.gap, scene.condition.misalignment);
-  return [this, effects, placement, structure = structures(rung.compliance).pair](const MeshResolution& resolution) {
+  return [this, on = effects(rung), placement, structure = structures(rung.compliance).pair](const MeshResolution& resolution) {
     const Study& study = subject_.study;
-    return make_mesh_model(subject_.pair, study.pinion_material, study.wheel_material, resolution, effects, placement, structure.get(),
+    return make_mesh_model(subject_.pair, study.pinion_material, study.wheel_material, resolution, on, placement, structure.get(),
                            nullptr, subject_.shafts.get());
   };
 }

@@ -41,9 +41,8 @@ struct RungResult {
 struct RungSubject {
   Study study;
   GearPair pair;
-  MeshEffects effects;              ///< those that are on
   std::vector<DesignScene> scenes;  ///< load cases, with effects applied
-  std::shared_ptr<const PairCompliance> shafts;  ///< null: rigid
+  std::shared_ptr<const PairCompliance> shafts{};  ///< null: rigid
 };
 
 /// Analyses one study on any rung; what finite elements give is made once a model, when first needed.
@@ -53,6 +52,8 @@ class RungRunner {
 
   const RungSubject& subject() const { return subject_; }
   RungResult run(const Rung& rung);
+  /// What is on in a rung's meshes: what the study calls for with the rung's models, less what the rung leaves out.
+  MeshEffects effects(const Rung& rung) const;
   /// The mesh of one load case by a rung's models, at resolutions of one's choice.
   MeshOfResolution mesh(const Rung& rung, const DesignScene& scene);
   /// Of "fitted" and "fe"; empty for the others.

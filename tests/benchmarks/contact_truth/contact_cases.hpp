@@ -56,10 +56,12 @@ inline std::vector<ContactCase> contact_cases() {
           {"helical, 1.00", contact_task(helical, 1.00, 45)},
           {"helical, 1.25", contact_task(helical, 1.25, 45)},
           {"helical, 1.00, crossed by 500 urad", contact_task(helical, 1.00, 55, 0, 500)},
-          {"wide spur, one pair", contact_task(pair_data(0, 120, 72), 1.15, 45)}};
+          {"wide spur, one pair", contact_task(pair_data(0, 120, 72), 1.15, 45)},
+          {"narrow spur, one pair", contact_task(pair_data(0, 10), 1.15, 45)}};
 }
 
-/// Meshes from coarse to fine; the default lies between.
+/// Meshes by name: coarse, medium (the default), fine; "ends" has thin layers at the face ends, "pressure" elements
+/// narrow enough for the stress at the contact.
 inline ContactMeshOptions contact_mesh_options(std::string_view name) {
   if (name == "coarse") {
     return {.flank = 10,
@@ -69,6 +71,13 @@ inline ContactMeshOptions contact_mesh_options(std::string_view name) {
             .end_layer = 2,
             .layer_growth = 1.8,
             .largest_layer = 8};
+  }
+  if (name == "ends") {
+    ContactMeshOptions options = contact_mesh_options("coarse");
+    options.end_layer = 1;
+    options.layer_growth = 1.7;
+    options.largest_layer = 10;
+    return options;
   }
   if (name == "fine") {
     return {.flank = 16,
@@ -80,6 +89,7 @@ inline ContactMeshOptions contact_mesh_options(std::string_view name) {
             .largest_layer = 4,
             .body_rings = 3};
   }
+  if (name == "pressure") return {.flank = 24, .across = 5, .finest = 0.15};  // for the narrow pair
   return {};
 }
 

@@ -2,6 +2,7 @@
 
 #include <sys/resource.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -109,6 +110,10 @@ void write_deck(std::ostream& out, const ContactModel& model, const ContactTask&
     node_set(numbered("BORE", g), g, model.meshes[g].bore);
     if (task.half_face) node_set(numbered("MIDDLE", g), g, model.meshes[g].mid_face);
   }
+  out << "*ELSET, ELSET=SKIN\n";
+  for (const auto& flank : model.meshes[0].flanks) {
+    for (const ElementFace& f : flank) out << f.brick + 1 << ",\n";
+  }
   out << "*MATERIAL, NAME=STEEL\n*ELASTIC\n"
       << task.material.youngs_modulus << ", " << task.material.poissons_ratio
       << "\n*SOLID SECTION, ELSET=GEARS, MATERIAL=STEEL\n*SURFACE INTERACTION, NAME=CONTACT\n"
@@ -134,7 +139,7 @@ void write_deck(std::ostream& out, const ContactModel& model, const ContactTask&
       out << "*CONTACT PRINT, SLAVE=" << slave(k, layer) << ", MASTER=" << master(k) << "\nCF\n";
     }
   }
-  out << "*CONTACT PRINT\nCSTR\n*END STEP\n";
+  out << "*EL PRINT, ELSET=SKIN\nS\n*END STEP\n";
 }
 
 /// The next line of numbers.
@@ -150,7 +155,7 @@ std::vector<double> next_numbers(std::istream& in) {
 
 void read_answer(std::istream& in, const ContactModel& model, bool half_face, ContactAnswer& answer) {
   std::map<Eigen::Index, std::pair<int, std::size_t>> layer_of;  // of an element, from 1
-  std::map<std::pair<int, std::size_t>, double> pressure;
+  std::map<std::pair<int, std::size_t>, double> compression;
   for (int k = model.first; k <= model.last; ++k) {
     for (std::size_t layer = 0; layer < model.layers(); ++layer) {
       for (const ElementFace& f : model.layer_faces(0, k, layer)) layer_of[f.brick + 1] = {k, layer};
@@ -164,7 +169,7 @@ void read_answer(std::istream& in, const ContactModel& model, bool half_face, Co
       block = Bore0;
     else if (line.find("set BORE1") != line.npos)
       block = Bore1;
-    else if (line.find("contact stress") != line.npos)
+    else if (line.find("stresses (elem") != line.npos)
       block = Stress;
     else if (line.find("total surface force") != line.npos) {
       block = Nothing;
@@ -174,16 +179,20 @@ void read_answer(std::istream& in, const ContactModel& model, bool half_face, Co
       const int tooth = model.first + static_cast<int>(i / model.layers());
       const auto& planes = model.meshes[0].planes;
       answer.layers.push_back({tooth, planes[layer], planes[layer + 1], std::hypot(force[0], force[1], force[2]),
-                               pressure[{tooth, layer}]});
+                               compression[{tooth, layer}]});
       complete = answer.layers.size() == model.layers() * static_cast<std::size_t>(model.last - model.first + 1);
     } else if (block != Nothing) {
       std::istringstream words(line);
       Eigen::Index number;
       if (!(words >> number)) continue;
       if (block == Stress) {
-        double face, p;
-        if (words >> face >> p && layer_of.contains(number))
-          pressure[layer_of[number]] = std::max(pressure[layer_of[number]], p);
+        double point, xx, yy, zz, xy, xz, yz;
+        if (!(words >> point >> xx >> yy >> zz >> xy >> xz >> yz) || !layer_of.contains(number)) continue;
+        Eigen::Matrix3d stress;
+        stress << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+        const double lowest =
+            Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly).eigenvalues()[0];
+        compression[layer_of[number]] = std::max(compression[layer_of[number]], -lowest);
       } else {
         const std::size_t g = block == Bore0 ? 0 : 1;
         Eigen::Vector3d force;
@@ -217,9 +226,9 @@ double ContactAnswer::share(int tooth) const {
   return sum / force();
 }
 
-double ContactAnswer::peak_pressure() const {
+double ContactAnswer::peak_compression() const {
   double peak = 0;
-  for (const LayerLoad& l : layers) peak = std::max(peak, l.peak_pressure);
+  for (const LayerLoad& l : layers) peak = std::max(peak, l.peak_compression);
   return peak;
 }
 

@@ -30,10 +30,10 @@ struct ContactSettings {
 
 /// What one layer of a tooth pair carries.
 struct LayerLoad {
-  int tooth;             ///< tooth pair
-  double begin, end;     ///< z [mm]
-  double force;          ///< [N]
-  double peak_pressure;  ///< largest at CalculiX' contact points [MPa]
+  int tooth;                ///< tooth pair
+  double begin, end;        ///< z [mm]
+  double force;             ///< [N]
+  double peak_compression;  ///< largest pressure along a principal direction in the pinion's outermost elements [MPa]
 };
 
 struct ContactAnswer {
@@ -43,9 +43,9 @@ struct ContactAnswer {
   double pinion_torque{not_given}, wheel_torque{not_given};  ///< reactions of the bores on the whole face [N mm], > 0
   std::vector<LayerLoad> layers;                             ///< by tooth pair and rising z, z <= 0 only of half a face
 
-  double force() const;           ///< of all layers [N]
-  double share(int tooth) const;  ///< of the force [-]
-  double peak_pressure() const;   ///< [MPa]
+  double force() const;             ///< of all layers [N]
+  double share(int tooth) const;    ///< of the force [-]
+  double peak_compression() const;  ///< [MPa]
 };
 
 /// Whether CalculiX (ccx, Debian package calculix-ccx) can be called.

@@ -14,9 +14,10 @@
 // A gear pair in full three-dimensional contact by CalculiX, beside the program's own models at the torque that came
 // out:
 //
-//     flankwright_contact_truth FOLDER [coarse|medium|fine] [PART_OF_A_CASE'S_NAME]
+//     flankwright_contact_truth FOLDER [MESH] [PART_OF_A_CASE'S_NAME]
 //
-// FOLDER receives decks and CalculiX' output. Times are processor seconds, of the program's own models wall seconds.
+// MESH is coarse, medium, fine, ends or pressure. FOLDER receives decks and CalculiX' output. Times are processor
+// seconds, of the program's own models wall seconds.
 
 using namespace flankwright;
 using namespace flankwright::contact_truth;
@@ -53,12 +54,12 @@ void compare(const ContactCase& c, const ContactSettings& settings, const std::s
   const GearPair pair = make_gear_pair(task.pair);
   const int tooth = outside.layers.front().tooth;
   std::printf(
-      "\n%s: %.1f N·m; CalculiX %ld unknowns, %.2f GB; torques' ratio %.5f; largest pressure at a contact point %.0f "
+      "\n%s: %.1f N·m; CalculiX %ld unknowns, %.2f GB; torques' ratio %.5f; largest compression next to the flank %.0f "
       "MPa\n\n"
       "| model | approach um | share of pair %d | Hertzian peak MPa | end over middle | s "
       "|\n|---|---|---|---|---|---|\n",
       c.name.c_str(), outside.pinion_torque * 1e-6, static_cast<long>(outside.unknowns), outside.peak_bytes / 1e9,
-      outside.wheel_torque / outside.pinion_torque / pair.gear_ratio(), outside.peak_pressure(), tooth);
+      outside.wheel_torque / outside.pinion_torque / pair.gear_ratio(), outside.peak_compression(), tooth);
   std::size_t layers = 0;
   while (layers < outside.layers.size() && outside.layers[layers].tooth == tooth) ++layers;
   const LayerLoad &first = outside.layers.front(), &middle = outside.layers[task.half_face ? layers - 1 : layers / 2];
@@ -92,7 +93,7 @@ void compare(const ContactCase& c, const ContactSettings& settings, const std::s
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    std::fprintf(stderr, "usage: %s FOLDER [coarse|medium|fine] [PART_OF_A_CASE'S_NAME]\n", argv[0]);
+    std::fprintf(stderr, "usage: %s FOLDER [MESH] [PART_OF_A_CASE'S_NAME]\n", argv[0]);
     return 2;
   }
   if (!calculix_is_installed()) {

@@ -46,6 +46,12 @@ TEST_CASE("A helical pair shares its load and yields as in CalculiX' contact of 
   compare_with(helical_figures());
 }
 
+TEST_CASE("The stress in CalculiX' elements is Hertz' of what they carry", "[reference][contact-truth]") {
+  const StressFigure figure = stress_figure();
+  // Discretisation: the outermost integration points lie 0.04 mm deep, a tenth of the contact's half width.
+  CHECK(hertzian_stress(figure.task, figure.layer) == Approx(figure.layer.peak_compression).epsilon(0.01));
+}
+
 TEST_CASE("The outside model's loaded flanks are the true ones", "[contact-truth]") {
   const ContactCase c = contact_cases()[static_cast<std::size_t>(GENERATE(1, 4, 7))];
   CAPTURE(c.name);
