@@ -109,6 +109,7 @@ Json position_json(const MeshModel& model, const MeshPosition& at, const LoadedP
             {"te_base_tangent_um", in_um(load.transmission_error) / cos_base_helix},
             {"stiffness_N_per_mm_um", position.stiffness},
             {"kkt_residual", load.kkt_residual},
+            {"condition", load.condition},
             {"iterations", load.iterations},
             {"message", load.message}};
   std::map<int, Json> teeth;
@@ -163,6 +164,7 @@ Json summary_json(const LoadedResult& loaded, const MeshModel& model, bool full_
           {"stiffness_variation", (summary.largest_stiffness - summary.least_stiffness) / summary.mean_stiffness},
           {"load_factor", summary.load_factor},
           {"worst_kkt_residual", summary.worst_kkt_residual},
+          {"worst_condition", summary.worst_condition},
           {"peaks", loaded.rating ? peaks_json(*loaded.rating, model) : Json()},
           {"load_factors", loaded.rating ? load_factors_json(*loaded.rating) : Json()},
           {"iso6336", iso_json(model.iso, loaded.iso)}};

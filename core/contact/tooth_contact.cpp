@@ -148,7 +148,9 @@ void FaceSearch::reveal_hidden_summits(std::vector<SectionMaximum>& sections, do
       if (!a.exists || !b.exists || (announced && c == 0.0)) break;
       if (!(h > longest * (announced ? announced_share : hidden_share))) break;
       // The bounds differ by a straight line: where they meet, the lower of them is highest.
-      const double meet = (b.phi2 - a.phi2 - b.slope_z * h + 0.5 * c * h * h) / (a.slope_z - b.slope_z + c * h);
+      const double slope = a.slope_z - b.slope_z + c * h;
+      if (slope == 0.0) break;  // nowhere
+      const double meet = (b.phi2 - a.phi2 - b.slope_z * h + 0.5 * c * h * h) / slope;
       if (!(meet > 0.0 && meet < h)) break;
       if (a.phi2 + a.slope_z * meet + 0.5 * c * meet * meet <= highest + coarse_error) break;
       const SectionMaximum middle = search_.at(0.5 * (a.z + b.z), a, SectionAccuracy::Coarse);
