@@ -34,7 +34,7 @@ function effect_figures(results, effects, steps, body) {
   for (const { title, key, unit } of sized.length > 0 ? effect_measures : []) {
     figure(grid, { title,
       caption: `With the effect less without it, in the load case in which it is largest${is_exact ? "; exact by leaving it out" : ""}; `
-        + "the estimate is of first order at no more than 32 positions." }, (plot) => {
+        + "the estimate at no more than 32 positions, to first order where that holds." }, (plot) => {
       plot.append(el("p", { class: "key" },
         ...(is_exact ? [el("span", { class: "dot", style: `background:${sequence_colour(0)}` }), " left out   "] : []),
         el("span", { class: "dot", style: `background:${sequence_colour(1)}` }), " estimate"));
