@@ -8,7 +8,8 @@ namespace flankwright {
 
 namespace {
 
-constexpr double as_good_as_none = 1e-6;  // of what is left over
+/// Up to what is left over the conditions count as holding without the bounds of the variables, as DesignResult::optimal.
+constexpr double holds = 1e-4;
 
 /// A row or bound near enough to be active.
 struct Near {
@@ -61,7 +62,7 @@ Optimality first_order_optimality(DesignProblem& problem, const Eigen::VectorXd&
   Eigen::VectorXd b = Eigen::VectorXd::Zero(n + m);
   b.head(n) = -values.objective_gradient;
   Eigen::VectorXd lambda = nonnegative_least_squares(free, b);
-  if ((free * lambda - b).lpNorm<Eigen::Infinity>() > as_good_as_none) lambda = nonnegative_least_squares(A, b);
+  if ((free * lambda - b).lpNorm<Eigen::Infinity>() > holds) lambda = nonnegative_least_squares(A, b);
   const Eigen::VectorXd left = (A * lambda - b).cwiseAbs();
   Optimality result;
   result.objective_scale = program.objective_scale();
