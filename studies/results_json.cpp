@@ -5,6 +5,7 @@
 
 #include "core/compliance/thin_slice.hpp"
 #include "core/gear/tooth_form.hpp"
+#include "studies/accuracy/accuracy_json.hpp"
 #include "studies/compliance_json.hpp"
 #include "studies/effects_json.hpp"
 #include "studies/fit_json.hpp"
@@ -266,6 +267,8 @@ std::string results_json(const StudyResults& results) {
   json["modifications"] = modifications_json(results);
   json["effects"] = effects_json(results);
   json["steps"] = list(results.steps, [](const RunStep& s) -> Json { return {{"name", s.name}, {"why", s.why}, {"seconds", s.seconds}}; });
+  if (results.fidelity_choice) json["accuracy_choice"] = fidelity_choice_json(*results.fidelity_choice);
+  if (results.ladder) json["accuracy"] = ladder_json(*results.ladder);
   if (results.design) json["optimise"] = optimise_json(results);
   if (results.proof) add_proof(*results.proof, *results.design_task, study.optimise.proof, json["optimise"]);
   if (results.sweep) json["sweep"] = sweep_json(results);

@@ -45,6 +45,7 @@ class Run {
       case Task::Analyse: analyse(); break;
       case Task::Optimise: optimise(); break;
       case Task::Sweep: analyse(); break;  // the nominal sample; the others: run_sweep()
+      case Task::Accuracy: accuracy(); break;
       case Task::Fit: fit(); break;
     }
     size_effects();
@@ -53,6 +54,9 @@ class Run {
     results_.seconds = clock.seconds();
     return std::move(results_);
   }
+
+  /// What every rung of the study analyses.
+  RungSubject rung_subject() const { return {results_.study, results_.pair, loaded_scenes(), results_.shafts}; }
 
  private:
   void note(const std::string& text) { results_.notes.push_back(text); }
@@ -332,6 +336,14 @@ class Run {
     }
   }
 
+  void accuracy() {
+    analyse();
+    RungRunner runner(rung_subject(), progress_);
+    results_.ladder = climb_ladder(runner, progress_);
+    results_.steps.push_back({"accuracy_ladder", "all rungs of the ladder together", results_.ladder->seconds});
+    if (!results_.ladder->usable()) results_.requirements.push_back("the finest rung of the ladder did not converge");
+  }
+
   void fit() {
     results_.effects.clear();  // none of them concerns a single gear
     results_.fits = fit_gears(results_.study, results_.pair, progress_);
@@ -364,8 +376,22 @@ class Run {
   bool has_structure_{false};
 };
 
+/// Nothing where no accuracy is asked for, or nothing is loaded.
+std::optional<FidelityChoice> fidelity_choice(const Study& study, const ProgressReport& progress) {
+  if (!study.fidelity.accuracy || study.fidelity.compliance == ComplianceModel::Rigid || study.task == Task::Fit) return std::nullopt;
+  RungRunner runner(Run(study, progress).rung_subject(), progress);
+  if (runner.subject().scenes.empty()) return std::nullopt;
+  return choose_fidelity(runner, progress);
+}
+
 }  // namespace
 
-StudyResults run_study(const Study& study, const ProgressReport& progress) { return Run(study, progress).finish(); }
+StudyResults run_study(const Study& study, const ProgressReport& progress) {
+  const std::optional<FidelityChoice> choice = fidelity_choice(study, progress);
+  StudyResults results = Run(choice ? with_choice(study, *choice) : study, progress).finish();
+  results.fidelity_choice = choice;
+  if (choice && !choice->kept) results.requirements.push_back(unmet_accuracy(*choice));
+  return results;
+}
 
 }  // namespace flankwright::studies

@@ -10,6 +10,8 @@
 #include "core/load/mesh_cycle.hpp"
 #include "optimize/design_optimiser.hpp"
 #include "optimize/pareto.hpp"
+#include "studies/accuracy/fidelity_choice.hpp"
+#include "studies/accuracy/ladder.hpp"
 #include "studies/effect_sizes.hpp"
 #include "studies/fit_task.hpp"
 #include "studies/gear_deflections.hpp"
@@ -58,6 +60,8 @@ struct StudyResults {
   MeshEffects mesh_effects;       ///< those of them that are on, as all meshes of the study have them
   EffectSizes effect_sizes;
   std::vector<RunStep> steps;
+  std::optional<FidelityChoice> fidelity_choice;  ///< where the study asks for an accuracy
+  std::optional<Ladder> ladder;   ///< of the task "accuracy"
   std::optional<DesignTask> design_task;
   std::optional<DesignResult> design;
   std::optional<ParetoFront> front;

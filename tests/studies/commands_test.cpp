@@ -109,7 +109,6 @@ TEST_CASE("Bad input of any other kind is exit code 2 and says what is allowed",
       {{"run", "small.toml", "--out", "small.toml/below"}, "output folder"},
       {{"check", "small.toml", "--set", "pair.helix_angle=80"}, "pair.helix_angle"},
       {{"new", "nonsense"}, "analyse"},
-      {{"new", "accuracy"}, "not in this version"},
       {{"report", "missing"}, "missing/results.json"},
       {{"test", "missing.toml"}, ""}};
   for (const Case& c : cases) {
