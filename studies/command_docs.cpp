@@ -68,7 +68,7 @@ _flankwright() {{
   case ${{COMP_WORDS[1]}} in
 {}  esac
   case $previous in
-    new) COMPREPLY=($(compgen -W "analyse optimise sweep fit slurm" -- "$current")); return ;;
+    new) COMPREPLY=($(compgen -W "analyse optimise sweep accuracy fit slurm" -- "$current")); return ;;
     --helix-slope) COMPREPLY=($(compgen -W "non-datum datum" -- "$current")); return ;;
     --rexs-version) COMPREPLY=($(compgen -W "1.0 1.1 1.2 1.3 1.4 1.5 1.6 1.7 2.0" -- "$current")); return ;;
   esac

@@ -22,7 +22,7 @@ std::vector<SchemaKey> geometry_rows() {
   return {
       {.path = "title", .kind = Text, .fallback = "(the file's name)", .meaning = "heads the report",
        .store = [](Draft& d, Member, const Value& v) { d.study.title = v.text; }},
-      {.path = "task", .kind = Word, .words = {"analyse", "optimise", "sweep", "fit"}, .later = {"accuracy"},
+      {.path = "task", .kind = Word, .words = {"analyse", "optimise", "sweep", "accuracy", "fit"},
        .fallback = "\"analyse\"", .meaning = "what `run` does",
        .store = [](Draft& d, Member, const Value& v) { d.study.task = static_cast<Task>(v.integer); }},
       {.path = "pair.normal_module", .quantity = Quantity::Length, .range = {.low = 0.001, .high = 1000.0},

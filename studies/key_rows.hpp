@@ -12,6 +12,7 @@ std::vector<SchemaKey> flank_rows();              ///< modifications and manufac
 std::vector<SchemaKey> working_condition_rows();  ///< misalignment, material, load and how it is analysed
 std::vector<SchemaKey> shaft_rows();              ///< shafts and their bearings
 std::vector<SchemaKey> proof_rows();              ///< what an optimum is held against
+std::vector<SchemaKey> accuracy_rows();           ///< accuracy asked for, and the ladder
 std::vector<SchemaKey> sweep_rows();              ///< samples of a parameter space
 std::vector<SchemaKey> task_rows();               ///< scenes, optimisation, expectations
 

@@ -73,7 +73,7 @@ int dispatch(int argc, char** argv) {
                "  flankwright new analyse > pump.toml                         one pair as it runs\n"
                "  flankwright new optimise > pump.toml                        modifications that hold over many conditions\n"
                "  flankwright new slurm > pump.sbatch                         a job script for the shards of a sweep");
-  make->add_option("kind", kind, "analyse, optimise, sweep or fit; slurm: a job script for the shards of a sweep")->required();
+  make->add_option("kind", kind, "analyse, optimise, sweep, accuracy or fit; slurm: a job script for the shards of a sweep")->required();
   CLI::App* report = app.add_subcommand("report", "rebuild report.html from a results folder");
   report->footer("Example:\n"
                "  flankwright report results/pump");

@@ -81,10 +81,24 @@ std::string design_csv(const Json& optimise) {
 }
 
 std::string effects_csv(const Json& effects) {
-  std::string csv = "name,on,why,seconds\n";
+  std::string csv = "name,on,why,seconds,size_from,te_mean_change_um,te_peak_to_peak_change_um,peak_contact_stress_change_MPa,share_percent\n";
   for (const Json& effect : effects) {
-    csv += field(effect.at("name")) + "," + field(effect.at("on")) + "," + field(effect.at("why")) + "," + field(effect.at("seconds")) + "\n";
+    csv += field(effect.at("name")) + "," + field(effect.at("on")) + "," + field(effect.at("why")) + "," + field(effect.at("seconds"));
+    const char* from = !effect.at("exact").is_null() ? "exact" : "estimate";
+    const Json& size = effect.at(from);
+    if (size.is_null()) {
+      csv += ",,,,,\n";
+      continue;
+    }
+    csv += std::string(",") + from + "," + field(size.at("te_mean_change_um")) + "," + field(size.at("te_peak_to_peak_change_um")) + "," +
+           field(size.at("peak_contact_stress_change_MPa")) + "," + field(size.at("share_percent")) + "\n";
   }
+  return csv;
+}
+
+std::string steps_csv(const Json& steps) {
+  std::string csv = "name,why,seconds\n";
+  for (const Json& step : steps) csv += field(step.at("name")) + "," + field(step.at("why")) + "," + field(step.at("seconds")) + "\n";
   return csv;
 }
 
@@ -102,6 +116,7 @@ std::vector<NamedText> report_tables(const std::string& results) {
                                 {"given.csv", given_csv(json.at("given"))},
                                 {"used.csv", key_value_csv(json.at("used"))}};
   if (!json.at("effects").empty()) tables.push_back({"effects.csv", effects_csv(json["effects"])});
+  if (!json.at("steps").empty()) tables.push_back({"steps.csv", steps_csv(json["steps"])});
   if (!json.at("loaded").empty()) {
     tables.push_back({"summary.csv", summary_csv(json["loaded"])});
     tables.push_back({"harmonics.csv", harmonics_csv(json["loaded"])});

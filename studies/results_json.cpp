@@ -5,7 +5,9 @@
 
 #include "core/compliance/thin_slice.hpp"
 #include "core/gear/tooth_form.hpp"
+#include "studies/accuracy/accuracy_json.hpp"
 #include "studies/compliance_json.hpp"
+#include "studies/effects_json.hpp"
 #include "studies/fit_json.hpp"
 #include "studies/gradients_json.hpp"
 #include "studies/json_format.hpp"
@@ -108,6 +110,7 @@ Json position_json(const MeshModel& model, const MeshPosition& at, const LoadedP
             {"te_base_tangent_um", in_um(load.transmission_error) / cos_base_helix},
             {"stiffness_N_per_mm_um", position.stiffness},
             {"kkt_residual", load.kkt_residual},
+            {"condition", load.condition},
             {"iterations", load.iterations},
             {"message", load.message}};
   std::map<int, Json> teeth;
@@ -162,6 +165,7 @@ Json summary_json(const LoadedResult& loaded, const MeshModel& model, bool full_
           {"stiffness_variation", (summary.largest_stiffness - summary.least_stiffness) / summary.mean_stiffness},
           {"load_factor", summary.load_factor},
           {"worst_kkt_residual", summary.worst_kkt_residual},
+          {"worst_condition", summary.worst_condition},
           {"peaks", loaded.rating ? peaks_json(*loaded.rating, model) : Json()},
           {"load_factors", loaded.rating ? load_factors_json(*loaded.rating) : Json()},
           {"iso6336", iso_json(model.iso, loaded.iso)}};
@@ -261,9 +265,10 @@ std::string results_json(const StudyResults& results) {
   json["loaded"] = list(results.loaded, [&](const LoadedResult& l) { return loaded_json(l, results); });
   if (results.structures.finite_elements) json["compliance"] = compliance_json(results.structures, study);
   json["modifications"] = modifications_json(results);
-  json["effects"] = list(results.effects, [](const Effect& e) -> Json {
-    return {{"name", e.name}, {"on", e.on}, {"why", e.why}, {"seconds", e.seconds}};
-  });
+  json["effects"] = effects_json(results);
+  json["steps"] = list(results.steps, [](const RunStep& s) -> Json { return {{"name", s.name}, {"why", s.why}, {"seconds", s.seconds}}; });
+  if (results.fidelity_choice) json["accuracy_choice"] = fidelity_choice_json(*results.fidelity_choice);
+  if (results.ladder) json["accuracy"] = ladder_json(*results.ladder);
   if (results.design) json["optimise"] = optimise_json(results);
   if (results.proof) add_proof(*results.proof, *results.design_task, study.optimise.proof, json["optimise"]);
   if (results.sweep) json["sweep"] = sweep_json(results);

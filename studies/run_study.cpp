@@ -6,46 +6,12 @@
 
 #include "core/base/stopwatch.hpp"
 #include "studies/proof/drawn_scenes.hpp"
+#include "studies/study_effects.hpp"
 #include "studies/study_shafts.hpp"
-#include "studies/sweep/sweep_value.hpp"
 
 namespace flankwright::studies {
 
 namespace {
-
-FlankCondition condition_of(const Study& study, const Scene& scene) {
-  return {study.pinion_modification, study.wheel_modification, scene.pinion_error, scene.wheel_error, scene.misalignment};
-}
-
-EffectFacts facts_of(const Study& study) {
-  EffectFacts facts;
-  facts.coupled_teeth = couples_teeth(study.fidelity.compliance);
-  facts.root_stress = wants_root_stress(study);
-  facts.shafts = study.pinion_shaft || study.wheel_shaft;
-  for (const Scene& scene : study.scenes) {
-    FlankCondition condition = condition_of(study, scene);
-    for (double torque : scene.torques) {
-      const bool rigid = torque == 0.0 || study.fidelity.compliance == ComplianceModel::Rigid;
-      (rigid ? facts.unloaded : facts.loaded) = true;
-    }
-    // Variables count as modifications from the start, even where their first value is 0.
-    if (study.task == Task::Optimise) {
-      for (const DesignVariable& v : study.optimise.variables) {
-        set(v.member == Member::Pinion ? condition.pinion_modification : condition.wheel_modification, v.parameter,
-            v.upper != 0.0 ? v.upper : v.lower);
-      }
-    }
-    facts.conditions.push_back(condition);
-  }
-  // What scatters counts as well; four scenes are enough to see a value other than 0.
-  for (const Scene& scene : draw_scenes(study, {.samples = study.optimise.proof.tolerances.empty() ? 0 : 4})) {
-    facts.conditions.push_back(condition_of(study, scene));
-  }
-  if (study.task == Task::Sweep) {
-    for (const SweptCondition& extreme : extreme_conditions(study)) facts.conditions.push_back(extreme.flanks());
-  }
-  return facts;
-}
 
 std::string number(double value, int digits = 4) {
   std::ostringstream out;
@@ -60,11 +26,8 @@ class Run {
   Run(const Study& study, const ProgressReport& progress) : progress_(progress) {
     results_.study = study;
     results_.pair = make_gear_pair(study.pair);
-    const EffectFacts facts = facts_of(study);
-    results_.effects = study.fidelity.automatic_effects ? decide_effects(facts) : chosen_effects(facts, study.fidelity.effects);
-    if (study.fidelity.gap == GapModel::WholeSurface && study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) {
-      results_.effects.push_back({"whole_surface_gap", true, "fidelity.gap seeks contact over the whole flanks"});
-    }
+    results_.effects = study_effects(study);
+    results_.mesh_effects = mesh_effects(results_.effects);
     if (study.fidelity.compliance == ComplianceModel::Rigid && any_torque() && study.task != Task::Fit) {
       note("compliance is rigid: torques are ignored, contact is analysed without load");
     }
@@ -74,9 +37,6 @@ class Run {
     }
     geometry_notes();
     if (is_on(results_.effects, "shafts")) results_.shafts = make_shafts(study, results_.pair);
-    if (results_.shafts) {
-      timed_shafts_ = std::make_shared<const TimedCompliance>(results_.shafts);
-    }
   }
 
   StudyResults finish() {
@@ -85,15 +45,18 @@ class Run {
       case Task::Analyse: analyse(); break;
       case Task::Optimise: optimise(); break;
       case Task::Sweep: analyse(); break;  // the nominal sample; the others: run_sweep()
+      case Task::Accuracy: accuracy(); break;
       case Task::Fit: fit(); break;
     }
-    for (Effect& effect : results_.effects) {
-      if (effect.name == "shafts" && timed_shafts_) effect.seconds = timed_shafts_->seconds();
-    }
+    size_effects();
+    add_seconds(results_.effects, results_.mesh_effects, unloaded_seconds_);
     check_results();
     results_.seconds = clock.seconds();
     return std::move(results_);
   }
+
+  /// What every rung of the study analyses.
+  RungSubject rung_subject() const { return {results_.study, results_.pair, loaded_scenes(), results_.shafts}; }
 
  private:
   void note(const std::string& text) { results_.notes.push_back(text); }
@@ -127,11 +90,11 @@ class Run {
 
   /// The mesh for a misalignment, at phases of one's choice and without root stress.
   MeshAt mesh_at(const Misalignment& misalignment) {
-    return [this, placement = MeshPlacement::of(results_.study.fidelity.gap, misalignment),
+    return [this, placement = MeshPlacement::of(gap_model(results_.effects), misalignment),
             structure = structures().pair](const std::vector<double>& phases) {
       const Study& study = results_.study;
       return make_mesh_model(results_.pair, study.pinion_material, study.wheel_material, {study.fidelity.quadrature, phases},
-                             mesh_effects(results_.effects), placement, structure.get(), nullptr, timed_shafts_.get());
+                             results_.mesh_effects, placement, structure.get(), nullptr, results_.shafts.get());
     };
   }
 
@@ -179,14 +142,14 @@ class Run {
 
   /// The mesh model for a misalignment, built when first needed.
   std::size_t model_for(const Misalignment& misalignment) {
-    const MeshPlacement placement = MeshPlacement::of(results_.study.fidelity.gap, misalignment);
+    const MeshPlacement placement = MeshPlacement::of(gap_model(results_.effects), misalignment);
     const auto [it, is_new] = model_index_.try_emplace(placement, results_.models.size());
     if (is_new) {
       const Study& study = results_.study;
       results_.models.push_back(make_mesh_model(results_.pair, study.pinion_material, study.wheel_material,
-                                                {study.fidelity.quadrature, results_.phases}, mesh_effects(results_.effects),
+                                                {study.fidelity.quadrature, results_.phases}, results_.mesh_effects,
                                                 placement, structures().pair.get(), structures().root_stress.get(),
-                                                timed_shafts_.get()));
+                                                results_.shafts.get()));
     }
     return it->second;
   }
@@ -199,12 +162,12 @@ class Run {
       has_structure_ = true;
       if (const auto& runs = results_.structures.finite_elements) {
         const bool is_structural = couples_teeth(results_.study.fidelity.compliance);
-        results_.effects.push_back({"finite_elements", true,
-                                    is_structural ? std::string("compliance is ") + to_string(results_.study.fidelity.compliance) +
-                                                        ": influence values of both gears"
-                                                  : "root stress of both gears",
-                                    runs->seconds});
-        fit_effects();
+        results_.steps.push_back({"finite_elements",
+                                  is_structural ? std::string("compliance is ") + to_string(results_.study.fidelity.compliance) +
+                                                      ": influence values of both gears"
+                                                : "root stress of both gears",
+                                  runs->seconds});
+        fit_steps();
         results_.notes.insert(results_.notes.end(), runs->notes.begin(), runs->notes.end());
       }
     }
@@ -212,12 +175,12 @@ class Run {
   }
 
   /// Says of both gears where the kernels of compliance "fitted" come from.
-  void fit_effects() {
+  void fit_steps() {
     for (const Member member : {Member::Pinion, Member::Wheel}) {
       const auto& refinement = results_.structures.refinement(member);
       if (!refinement) continue;
       const std::string why = refinement->unknown.empty() ? "" : ": " + refinement->unknown;
-      results_.effects.push_back({std::string("fit_of_") + name_of(member), true, refinement->source() + why, refinement->seconds});
+      results_.steps.push_back({std::string("fit_of_") + name_of(member), refinement->source() + why, refinement->seconds});
     }
   }
 
@@ -245,6 +208,13 @@ class Run {
     results_.loaded.push_back(std::move(result));
   }
 
+  void size_effects() {
+    const Stopwatch clock;
+    results_.effect_sizes = study_effect_sizes(results_);
+    if (results_.effect_sizes.estimated.empty()) return;
+    results_.steps.push_back({"effect_sizes", results_.effect_sizes.exact.empty() ? "estimates" : "estimates, and each left out in turn", clock.seconds()});
+  }
+
   std::vector<MeshParameter> gradient_parameters() const {
     std::vector<MeshParameter> parameters;
     for (const GradientParameter& p : results_.study.gradients) parameters.push_back(p.parameter);
@@ -255,7 +225,7 @@ class Run {
     const Study& study = results_.study;
     int total = 0, done = 0;
     for (const Scene& scene : study.scenes) total += static_cast<int>(scene.torques.size());
-    double unloaded_seconds = 0.0, loaded_seconds = 0.0;
+    double loaded_seconds = 0.0;
     const std::vector<MeshParameter> parameters = gradient_parameters();
     if (study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) {
       structures();  // its time is its own
@@ -270,7 +240,7 @@ class Run {
         if (torque == 0.0 || study.fidelity.compliance == ComplianceModel::Rigid) {
           if (!has_unloaded) add_unloaded(scene);
           has_unloaded = true;
-          unloaded_seconds += clock.seconds();
+          unloaded_seconds_ += clock.seconds();
         } else {
           const DesignScene loaded{scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(study, scene))};
           const std::size_t model = model_for(loaded.condition.misalignment);
@@ -280,11 +250,8 @@ class Run {
         report("analysing", ++done, total, scene.name);
       }
     }
-    for (Effect& effect : results_.effects) {
-      if (effect.name == "unloaded_contact" && effect.on) effect.seconds = unloaded_seconds;
-    }
     if (loaded_seconds > 0.0) {
-      results_.effects.push_back({"load_distribution", true, "some torque is above 0: all loaded effects together", loaded_seconds});
+      results_.steps.push_back({"load_distribution", "some torque is above 0: all loaded effects together", loaded_seconds});
     }
   }
 
@@ -295,11 +262,11 @@ class Run {
     task.pinion_material = study.pinion_material;
     task.wheel_material = study.wheel_material;
     task.resolution = {study.fidelity.quadrature, results_.phases};
-    task.gap = study.fidelity.gap;
-    task.effects = mesh_effects(results_.effects);
+    task.gap = gap_model(results_.effects);
+    task.effects = results_.mesh_effects;
     task.structure = structures().pair;
     task.root_stress = structures().root_stress;
-    task.shafts = timed_shafts_;
+    task.shafts = results_.shafts;
     task.pinion_modification = study.pinion_modification;
     task.wheel_modification = study.wheel_modification;
     task.variables = study.optimise.variables;
@@ -333,9 +300,9 @@ class Run {
       results_.front = trace_front(problem, study.optimise.pareto_goals, study.optimise.pareto_points, options);
     }
     const DesignResult& design = *results_.design;
-    results_.effects.push_back({"load_distribution", true, "all analyses of the optimisation", design.seconds});
+    results_.steps.push_back({"load_distribution", "all analyses of the optimisation", design.seconds});
     results_.proof = prove_optimum(study, problem, design, loaded(draw_scenes(study, study.optimise.proof.validation)), progress_);
-    results_.effects.push_back({"proof_of_the_optimum", true, "rules of thumb, variants, sensitivities", results_.proof->seconds});
+    results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", results_.proof->seconds});
     for (const auto& [name, report] : {std::pair{"before", &design.before}, std::pair{"after", &design.after}}) {
       for (int s = 0; s < problem.scenes(); ++s) {
         DesignScene scene = results_.design_task->scenes[static_cast<std::size_t>(s)];
@@ -369,6 +336,14 @@ class Run {
     }
   }
 
+  void accuracy() {
+    analyse();
+    RungRunner runner(rung_subject(), progress_);
+    results_.ladder = climb_ladder(runner, progress_);
+    results_.steps.push_back({"accuracy_ladder", "all rungs of the ladder together", results_.ladder->seconds});
+    if (!results_.ladder->usable()) results_.requirements.push_back("the finest rung of the ladder did not converge");
+  }
+
   void fit() {
     results_.effects.clear();  // none of them concerns a single gear
     results_.fits = fit_gears(results_.study, results_.pair, progress_);
@@ -396,13 +371,27 @@ class Run {
   const ProgressReport& progress_;
   StudyResults results_;
   std::map<MeshPlacement, std::size_t> model_index_;
-  std::shared_ptr<const TimedCompliance> timed_shafts_;  ///< results_.shafts; null where they are rigid
+  double unloaded_seconds_{0.0};
   LoadRater rater_;
   bool has_structure_{false};
 };
 
+/// Nothing where no accuracy is asked for, or nothing is loaded.
+std::optional<FidelityChoice> fidelity_choice(const Study& study, const ProgressReport& progress) {
+  if (!study.fidelity.accuracy || study.fidelity.compliance == ComplianceModel::Rigid || study.task == Task::Fit) return std::nullopt;
+  RungRunner runner(Run(study, progress).rung_subject(), progress);
+  if (runner.subject().scenes.empty()) return std::nullopt;
+  return choose_fidelity(runner, progress);
+}
+
 }  // namespace
 
-StudyResults run_study(const Study& study, const ProgressReport& progress) { return Run(study, progress).finish(); }
+StudyResults run_study(const Study& study, const ProgressReport& progress) {
+  const std::optional<FidelityChoice> choice = fidelity_choice(study, progress);
+  StudyResults results = Run(choice ? with_choice(study, *choice) : study, progress).finish();
+  results.fidelity_choice = choice;
+  if (choice && !choice->kept) results.requirements.push_back(unmet_accuracy(*choice));
+  return results;
+}
 
 }  // namespace flankwright::studies

@@ -4,12 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "core/effects/effects.hpp"
+#include "core/effects/decision.hpp"
 #include "core/load/cycle_resolution.hpp"
 #include "core/load/iso_load_factors.hpp"
 #include "core/load/mesh_cycle.hpp"
 #include "optimize/design_optimiser.hpp"
 #include "optimize/pareto.hpp"
+#include "studies/accuracy/fidelity_choice.hpp"
+#include "studies/accuracy/ladder.hpp"
+#include "studies/effect_sizes.hpp"
 #include "studies/fit_task.hpp"
 #include "studies/gear_deflections.hpp"
 #include "core/compliance/shaft/shaft_pair.hpp"
@@ -36,6 +39,12 @@ struct LoadedResult {
   std::optional<LoadRating> rating{};  ///< none where peaks are sampled, or phases were given
 };
 
+/// A piece of the work that is no effect of the mesh, and its time.
+struct RunStep {
+  std::string name, why;
+  double seconds{not_given};
+};
+
 /// Everything a study produced, in internal units.
 struct StudyResults {
   Study study;
@@ -47,7 +56,12 @@ struct StudyResults {
   std::optional<ResolutionChoice> resolution;  ///< of the load case that needed most positions, where they were chosen automatically
   GearStructures structures;      ///< empty where no structure was asked for, or none needed
   std::shared_ptr<const ShaftPair> shafts;  ///< null where they are rigid
-  std::vector<Effect> effects;
+  EffectDecisions effects;
+  MeshEffects mesh_effects;       ///< those of them that are on, as all meshes of the study have them
+  EffectSizes effect_sizes;
+  std::vector<RunStep> steps;
+  std::optional<FidelityChoice> fidelity_choice;  ///< where the study asks for an accuracy
+  std::optional<Ladder> ladder;   ///< of the task "accuracy"
   std::optional<DesignTask> design_task;
   std::optional<DesignResult> design;
   std::optional<ParetoFront> front;

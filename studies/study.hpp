@@ -20,14 +20,15 @@
 /// A study as pure data: what a study file says, validated, in internal units (mm, N, rad, MPa); study_file.hpp reads.
 namespace flankwright::studies {
 
-enum class Task { Analyse, Optimise, Sweep, Fit };
+enum class Task { Analyse, Optimise, Sweep, Accuracy, Fit };
 
-/// As a study names it: "analyse", "optimise", "sweep", "fit".
+/// As a study names it: "analyse", "optimise", "sweep", "accuracy", "fit".
 inline const char* to_string(Task task) {
   switch (task) {
     case Task::Analyse: return "analyse";
     case Task::Optimise: return "optimise";
     case Task::Sweep: return "sweep";
+    case Task::Accuracy: return "accuracy";
     case Task::Fit: return "fit";
   }
   __builtin_unreachable();
@@ -53,12 +54,17 @@ struct Cycle {
   std::vector<double> phases;  ///< explicit phases of the reference tooth pair [base pitches]; empty: use `positions`
 };
 
+/// Whether and how the sizes of effects are found.
+enum class EffectSizing { Off, Estimated, Exact };
+
 struct Fidelity {
   ComplianceModel compliance{ComplianceModel::Fitted};
   GapModel gap{GapModel::PlaneOfAction};
   Quadrature quadrature;
   bool automatic_effects{true};
   std::vector<std::string> effects;  ///< switched on by hand where automatic_effects is false
+  std::optional<double> accuracy;    ///< share that the rest shall keep, as far as it is not given; see choose_fidelity()
+  EffectSizing effect_sizes{EffectSizing::Estimated};
 };
 
 /// One working condition: base tables of the study with the scene's overrides applied.
@@ -117,6 +123,14 @@ struct FitChoice {
   int max_iterations{300};   ///< trust-region steps
 };
 
+/// [accuracy]: the finest rung of a ladder, which the others are held against; graded quadrature, located peaks.
+struct AccuracyTable {
+  ComplianceModel compliance{ComplianceModel::Fitted};
+  GapModel gap{GapModel::WholeSurface};
+  int intervals{16};  ///< >= 8
+  int positions{64};  ///< >= 16
+};
+
 /// [expect]: one key of results.json and what it must be.
 struct Expectation {
   std::string key;      ///< dotted path, array indices as numbers; "loaded.summary.x" means every entry of loaded
@@ -155,6 +169,7 @@ struct Study {
   std::vector<GradientParameter> gradients;  ///< derivatives asked for; meaningful where task is Analyse
   OptimiseTable optimise;       ///< meaningful where task is Optimise
   SweepTable sweep;             ///< meaningful where task is Sweep
+  AccuracyTable accuracy;       ///< meaningful where task is Accuracy
   FitChoice fit;                ///< meaningful where task is Fit
   std::vector<Expectation> expect;
   std::vector<GivenValue> given;

@@ -1,5 +1,6 @@
 #include <string_view>
 
+#include "core/effects/decision.hpp"
 #include "optimize/solver.hpp"
 #include "studies/key_rows.hpp"
 
@@ -116,16 +117,16 @@ std::vector<SchemaKey> working_condition_rows() {
          d.study.fidelity.quadrature.intervals = static_cast<int>(v.integer);
        }},
       {.path = "fidelity.effects", .kind = WordList,
-       .words = {"bending", "adjacent_teeth", "hertzian_contact", "tip_corner", "extended_contact_region", "misalignment",
-                 "modifications", "manufacturing_errors", "root_stress", "shafts"},
+       .words = listed_effect_names(),
        .later = {"gear_body_compliance"}, .fallback = "\"auto\"",
        .meaning = "what enters the run; auto decides from the study, a list switches by hand",
        .store = [](Draft& d, Member, const Value& v) {
          d.study.fidelity.automatic_effects = !v.is_list;
          d.study.fidelity.effects = v.words;
        }},
-      {.path = "fidelity.accuracy", .kind = Later, .fallback = "(none)",
-       .meaning = "the cheapest rung that keeps this"},
+      {.path = "fidelity.effect_sizes", .kind = Word, .words = {"off", "estimated", "exact"}, .fallback = "\"estimated\"",
+       .meaning = "what each effect does to transmission error and contact stress: to first order at a few positions, or by leaving it out at the study's resolution as well",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fidelity.effect_sizes = static_cast<EffectSizing>(v.integer); }},
   };
 }
 
@@ -239,7 +240,7 @@ void append(std::vector<SchemaKey>& schema, const std::vector<SchemaKey>& rows) 
 
 std::vector<SchemaKey> make_schema() {
   std::vector<SchemaKey> schema;
-  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), shaft_rows(), task_rows(), proof_rows(), sweep_rows()}) {
+  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), shaft_rows(), task_rows(), proof_rows(), sweep_rows(), accuracy_rows()}) {
     append(schema, rows);
   }
   return schema;

@@ -166,6 +166,12 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
       return read_numbers(key, node);
     case ValueKind::Integer:
       return read_integer(key, node);
+    case ValueKind::Percentage: {
+      const auto* text = node.as_string();
+      if (text == nullptr) refuse_value(allowed_values(key));
+      constexpr double percent_of_one = 100.0;
+      return {.number = checked(key, percent_of_one * parse_percentage(text->get())) / percent_of_one};
+    }
     case ValueKind::IntegerOrAuto:
       if (node.is_string() && node.as_string()->get() == "auto") return {.text = "auto"};
       return read_integer(key, node);
@@ -183,8 +189,6 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
     }
     case ValueKind::WordList:
       return read_word_list(key, node);
-    case ValueKind::Later:
-      refuse_value("nothing: the key is not in this version");
     case ValueKind::TableList:  // its tables' keys have rows of their own
     case ValueKind::Scenes:
     case ValueKind::Objective:

@@ -158,6 +158,8 @@ std::string allowed_values(const SchemaKey& key) {
       return "a list of numbers" + range;
     case ValueKind::Integer:
       return "an integer" + range;
+    case ValueKind::Percentage:
+      return "a percentage" + range + ", such as \"1 %\"";
     case ValueKind::IntegerOrAuto:
       return "an integer" + range + ", or \"auto\"";
     case ValueKind::Text:
@@ -192,8 +194,6 @@ std::string allowed_values(const SchemaKey& key) {
       return "a table of outputs, or sums of keys below pinion.modification and wheel.modification, each with { max = ... }, { min = ... } or both";
     case ValueKind::Expectations:
       return "a table of keys of results.json, each with { value, within }, { min, max } or { is }";
-    case ValueKind::Later:
-      return "not in this version";
   }
   return "";
 }

@@ -28,6 +28,7 @@ enum class ValueKind {
   NumberOrList,  ///< one number, or a list of at least one
   NumberList,    ///< a list of at least one number
   Integer,
+  Percentage,    ///< text such as "1 %"; the range is in per cent, the number a share
   IntegerOrAuto, ///< an integer, or "auto"
   Text,          ///< any text
   TextList,      ///< a list of at least one text
@@ -43,8 +44,7 @@ enum class ValueKind {
   Distributions, ///< table: key = distribution
   Parameters,    ///< list of keys that derivatives are taken by
   Constraints,   ///< table: output, or a sum of modifications = { max = ... , min = ... }
-  Expectations,  ///< table: key of results.json = { value, within, min, max }
-  Later          ///< known, but not in this version
+  Expectations   ///< table: key of results.json = { value, within, min, max }
 };
 
 /// What the reader found for a key, converted. Which members mean something depends on the kind.

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "core/base/stopwatch.hpp"
-
 namespace flankwright::studies {
 
 namespace {
@@ -46,13 +44,6 @@ void read_shafts(StudyReading& reading) {
   const Match* match = reading.find("fidelity.effects");
   reading.refuse(reading.where("fidelity.effects"), "fidelity.effects", match == nullptr ? nullptr : match->node,
                  "\"shafts\" needs a shaft: allowed is a list without it, or [pinion.shaft] or [wheel.shaft] as well");
-}
-
-Eigen::MatrixXd TimedCompliance::influence(const std::vector<ContactPoint>& points, double axial_offset) const {
-  const Stopwatch clock;
-  Eigen::MatrixXd found = compliance_->influence(points, axial_offset);
-  seconds_ += clock.seconds();
-  return found;
 }
 
 std::shared_ptr<const ShaftPair> make_shafts(const Study& study, const GearPair& pair) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "studies/accuracy/accuracy_tables.hpp"
 #include "studies/fit_tables.hpp"
 #include "studies/json_format.hpp"
 #include "studies/load_rating_tables.hpp"
@@ -195,6 +196,9 @@ std::vector<NamedText> csv_tables(const StudyResults& results) {
   if (results.proof) {
     for (NamedText& table : proof_tables(*results.proof)) tables.push_back(std::move(table));
   }
+  if (results.ladder) {
+    for (NamedText& table : ladder_tables(*results.ladder)) tables.push_back(std::move(table));
+  }
   for (NamedText& table : sweep_tables(results)) tables.push_back(std::move(table));
   for (NamedText& table : fit_tables(results.fits)) tables.push_back(std::move(table));
   return tables;
@@ -203,7 +207,9 @@ std::vector<NamedText> csv_tables(const StudyResults& results) {
 std::string summary_table(const StudyResults& results) {
   if (!results.fits.empty()) return fit_summary(results.fits);
   if (results.sweep) return "nominal sample\n" + analysis_table(results) + "\n" + sweep_summary(results);
-  return results.design ? design_table(results) : analysis_table(results);
+  if (results.ladder) return ladder_summary(*results.ladder);
+  const std::string chosen = results.fidelity_choice ? fidelity_choice_summary(*results.fidelity_choice) : std::string();
+  return chosen + (results.design ? design_table(results) : analysis_table(results));
 }
 
 }  // namespace flankwright::studies

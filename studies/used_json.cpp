@@ -1,5 +1,6 @@
 #include "studies/used_json.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "studies/compliance_json.hpp"
@@ -9,16 +10,6 @@
 namespace flankwright::studies {
 
 namespace {
-
-const char* rule_name(QuadratureRule rule) {
-  switch (rule) {
-    case QuadratureRule::Gauss2: return "gauss2";
-    case QuadratureRule::Gauss3: return "gauss3";
-    case QuadratureRule::Midpoint: return "midpoint";
-    case QuadratureRule::Graded: return "graded";
-  }
-  __builtin_unreachable();
-}
 
 Json generation_json(const Generation& generation) {
   if (const auto* rack = std::get_if<ParabolicRack>(&generation)) {
@@ -83,6 +74,11 @@ Json cycle_json(const StudyResults& results) {
 
 }  // namespace
 
+Json quadrature_json(const Quadrature& quadrature) {
+  constexpr std::array names{"gauss2", "gauss3", "midpoint", "graded"};  // in the order of QuadratureRule
+  return {{"rule", names[static_cast<std::size_t>(quadrature.rule)]}, {"intervals", quadrature.intervals}};
+}
+
 Json used_json(const StudyResults& results) {
   const Study& study = results.study;
   const PairData& data = study.pair;
@@ -100,8 +96,9 @@ Json used_json(const StudyResults& results) {
             {"fidelity",
              {{"compliance", to_string(study.fidelity.compliance)},
               {"gap", to_string(study.fidelity.gap)},
-              {"quadrature", {{"rule", rule_name(study.fidelity.quadrature.rule)}, {"intervals", study.fidelity.quadrature.intervals}}},
-              {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
+              {"quadrature", quadrature_json(study.fidelity.quadrature)},
+              {"accuracy", study.fidelity.accuracy ? Json(*study.fidelity.accuracy) : Json()},
+             {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
   if (study.misalignment.pinion_lead_angle != 0.0) {
     used["misalignment"] = {{"pinion_lead_angle", "lead angle changed, normal pressure angle kept: pitch radius, base radius and screw parameter follow"}};
   }

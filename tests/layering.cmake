@@ -6,7 +6,7 @@
 # A folder sees itself and those before it in this list. Folders of core that are not in the list are an error.
 cmake_minimum_required(VERSION 3.25)
 
-set(FLOW core/base core/gear core/flank core/contact core/compliance core/load core/effects optimize studies)
+set(FLOW core/base core/gear core/flank core/contact core/compliance core/effects core/load optimize studies)
 
 # The place in FLOW of the folder that `path` (from the root) lies in, -1 where it lies in none.
 function(find_layer path result)

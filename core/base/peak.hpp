@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -47,7 +46,7 @@ Peak<Sample> find_peak(const Evaluate& evaluate, double lo, double hi, double gu
                        std::optional<Sample> falling = std::nullopt) {
   constexpr int most_samples = 200;  // bisection alone needs 60 or so
   Peak<Sample> peak{evaluate(guess, static_cast<const Sample*>(nullptr)), std::move(rising), std::move(falling)};
-  double last_position = std::numeric_limits<double>::quiet_NaN(), last_slope = last_position;
+  double last_position = guess, last_slope = 0.0;  // of the sample before; none yet
   double width = hi - lo;
   int slow = 0, same_side = 0;
   bool was_rising = false;
@@ -65,8 +64,10 @@ Peak<Sample> find_peak(const Evaluate& evaluate, double lo, double hi, double gu
     peak.at_end = slope != 0.0 && (rises ? x >= hi : x <= lo);
     if (slope == 0.0 || peak.at_end || samples >= most_samples) return peak;
 
-    const double secant = (last_slope - slope) / (x - last_position);
-    if (secant > 0.0 && std::isfinite(secant)) curvature = secant;
+    if (x != last_position) {
+      const double secant = (last_slope - slope) / (x - last_position);
+      if (secant > 0.0 && std::isfinite(secant)) curvature = secant;
+    }
     last_position = x;
     last_slope = slope;
     double step = slope / curvature;

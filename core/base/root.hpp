@@ -25,11 +25,12 @@ Root bracketed_root(const Function& f, double a, double fa, double b, double fb,
   double width = std::abs(b - a);
   int side = 0, slow_steps = 0;
   while (std::abs(b - a) > tolerance) {
-    double x = (a * fb - b * fa) / (fb - fa);
+    const bool has_secant = std::isfinite(fa) && std::isfinite(fb);  // a function may be infinite on one side
+    double x = has_secant ? (a * fb - b * fa) / (fb - fa) : 0.5 * (a + b);
     const double lo = std::min(a, b), hi = std::max(a, b);
     // A step of at least half the tolerance inside the bracket lets a converged end close in from the other side.
     const double inset = std::min(0.5 * tolerance, 0.25 * (hi - lo));
-    if (slow_steps >= 2 || !std::isfinite(x)) {
+    if (slow_steps >= 2 || !has_secant || !std::isfinite(x)) {
       x = 0.5 * (a + b);
       slow_steps = 0;
       side = 0;

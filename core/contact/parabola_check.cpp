@@ -90,13 +90,17 @@ std::string cause(const Lead& lead) {
   return "";
 }
 
+// Quiet where a slope is NaN: of a pair that is not there.
+bool leaves_well(const Transfer& t) { return std::islessequal(t.slope_before, 0.0); }
+bool enters_well(const Transfer& t) { return std::isgreaterequal(t.slope_after, 0.0); }
+
 std::string verdict(const ParabolaCheck& check, const Lead& lead, double height) {
   for (const Transfer& t : lead.transfers) {
     const double degrees = t.phi1 / units::deg;
-    if (!(t.slope_before <= 0.0)) {
+    if (!leaves_well(t)) {
       return text("the pair that leaves still gains at the hand-over at %.3f deg", degrees) + cause(lead);
     }
-    if (!(t.slope_after >= 0.0)) {
+    if (!enters_well(t)) {
       return text("the pair that enters still falls behind at the hand-over at %.3f deg", degrees) + cause(lead);
     }
   }
@@ -152,7 +156,7 @@ ParabolaCheck check_parabola(const MeshScene& scene, const UnloadedMesh& mesh, d
     }
   }
   check.right_sign = std::all_of(lead.transfers.begin(), lead.transfers.end(),
-                                 [](const Transfer& t) { return t.slope_before <= 0.0 && t.slope_after >= 0.0; });
+                                 [](const Transfer& t) { return leaves_well(t) && enters_well(t); });
   check.why = verdict(check, lead, height);
   check.holds = check.why.empty();
   return check;

@@ -57,10 +57,19 @@ std::vector<double> FaceSearch::section_heights() const {
   const double tilt = scene_.wheel_axes.col(2).head<2>().norm();
   const double reach = scene_.pinion.half_face, centre = scene_.wheel_centre.z();
   const double wheel_reach = scene_.wheel.half_face + tilt * (scene_.wheel_centre.head<2>().norm() + scene_.pinion.tip_radius);
-  const double lo = std::max(-reach, centre - wheel_reach), hi = std::min(reach, centre + wheel_reach);
+  double lo = std::max(-reach, centre - wheel_reach), hi = std::min(reach, centre + wheel_reach);
+  const double rate = meeting_.roll_rate();
+  // Teeth that wind around their gear meet the mate again a turn later, as another pair: half a turn to either side is this one's.
+  const double half_turn = units::pi * std::min(scene_.pinion.base_radius, scene_.wheel.base_radius);
+  const double from_middle =
+      meeting_.undisturbed_roll(0.0) - 0.5 * (meeting_.lowest_undisturbed_roll() + meeting_.highest_undisturbed_roll());
+  if (rate != 0.0) {
+    const double middle = -from_middle / rate, half_way = half_turn / std::abs(rate);
+    lo = std::max(lo, middle - half_way);
+    hi = std::min(hi, middle + half_way);
+  }
   if (!(lo < hi)) return {};
   double first = lo, last = hi;  // of the line of contact
-  const double rate = meeting_.roll_rate();
   if (rate != 0.0) {
     const double start = (meeting_.lowest_undisturbed_roll() - meeting_.undisturbed_roll(0.0)) / rate;
     const double end = (meeting_.highest_undisturbed_roll() - meeting_.undisturbed_roll(0.0)) / rate;
@@ -148,7 +157,9 @@ void FaceSearch::reveal_hidden_summits(std::vector<SectionMaximum>& sections, do
       if (!a.exists || !b.exists || (announced && c == 0.0)) break;
       if (!(h > longest * (announced ? announced_share : hidden_share))) break;
       // The bounds differ by a straight line: where they meet, the lower of them is highest.
-      const double meet = (b.phi2 - a.phi2 - b.slope_z * h + 0.5 * c * h * h) / (a.slope_z - b.slope_z + c * h);
+      const double slope = a.slope_z - b.slope_z + c * h;
+      if (slope == 0.0) break;  // nowhere
+      const double meet = (b.phi2 - a.phi2 - b.slope_z * h + 0.5 * c * h * h) / slope;
       if (!(meet > 0.0 && meet < h)) break;
       if (a.phi2 + a.slope_z * meet + 0.5 * c * meet * meet <= highest + coarse_error) break;
       const SectionMaximum middle = search_.at(0.5 * (a.z + b.z), a, SectionAccuracy::Coarse);

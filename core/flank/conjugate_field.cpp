@@ -46,7 +46,7 @@ class ConjugateField final : public PredesignedField {
     if (!root) return {not_given, not_given, not_given, not_given, not_given, not_given};
     // The touch as a function of (phi1, z), and phi1 as a function of (rho, z), past the end of z alone.
     const Jet profile = Jet::variable_u(rho), face = Jet::variable_v(z);
-    const Touch<Jet> mark = touch(Jet::variable_u(root->angle), face);
+    const Touch<Jet> mark = *touch(Jet::variable_u(root->angle), face);
     const Jet angle = implicit_angle(mark.roll, root->angle, rho == end ? 1.0 : 0.0);
     if (rho == end) return profile - chain(mark.along, angle, face);
     return end - chain(mark.along, angle, face) + (profile - end) * chain(mark.d_roll, angle, face);
@@ -57,7 +57,7 @@ class ConjugateField final : public PredesignedField {
     const double end = std::clamp(rho, lowest_, highest_);
     const std::optional<Root> root = touching_angle(end, z);
     if (!root) return not_given;
-    const Touch<Number> mark = touch(Number::variable(root->angle, 0), Number(z), Number::variable(a_, 1));
+    const Touch<Number> mark = *touch(Number::variable(root->angle, 0), Number(z), Number::variable(a_, 1));
     const auto at_fixed_roll = [&](const Number& f) {
       return f.gradient[1] - f.gradient[0] * mark.roll.gradient[1] / mark.roll.gradient[0];
     };
@@ -85,13 +85,14 @@ class ConjugateField final : public PredesignedField {
   }
 
   template <class Scalar>
-  Touch<Scalar> touch(const Scalar& phi1, const Scalar& z) const {
+  std::optional<Touch<Scalar>> touch(const Scalar& phi1, const Scalar& z) const {
     return touch(phi1, z, a_);
   }
 
+  /// Nothing where no normal through the momentary pitch point touches the mate's base circle, or the flank's own.
   /// @param a  the coefficient, a number or Scalar
   template <class Scalar, class Coefficient>
-  Touch<Scalar> touch(const Scalar& phi1, const Scalar& z, const Coefficient& a) const {
+  std::optional<Touch<Scalar>> touch(const Scalar& phi1, const Scalar& z, const Coefficient& a) const {
     using std::atan2;
     using std::cos;
     using std::sin;
@@ -101,30 +102,35 @@ class ConjugateField final : public PredesignedField {
     const Scalar to_wheel = centre_distance_ / (1.0 + speed_ratio_ - 2.0 * a * phi1);  // from the pitch point to the wheel's axis
     const Scalar to_mate = on_pinion_ ? to_wheel : centre_distance_ - to_wheel;
     const Scalar own = on_pinion_ ? phi1 : -phi2, mate = on_pinion_ ? -phi2 : phi1;  // rotations, each in its own frame
-    const Scalar tangent = sqrt(to_mate * to_mate - mate_base_radius_ * mate_base_radius_);
+    const Scalar tangent_square = to_mate * to_mate - mate_base_radius_ * mate_base_radius_;
+    if (value_of(tangent_square) <= 0.0) return std::nullopt;
+    const Scalar tangent = sqrt(tangent_square);
     const Scalar cosine = mate_base_radius_ / to_mate, sine = tangent / to_mate;  // of the momentary pressure angle
     const Scalar mate_roll = mate_base_radius_ * (start_ + mate + atan2(sine, cosine)) - frame_.helix_rate * rb * z;
     const Scalar beyond = tangent - mate_roll;  // from the pitch point to the contact, along the own outward normal
     const Scalar x = centre_distance_ - to_mate + beyond * sine, y = beyond * cosine;
-    const Scalar along = sqrt(x * x + y * y - rb * rb);
+    const Scalar along_square = x * x + y * y - rb * rb;
+    if (value_of(along_square) <= 0.0) return std::nullopt;
+    const Scalar along = sqrt(along_square);
     const Scalar base = atan2(y, x) - atan2(along, Scalar(rb));  // polar angle where the base tangent starts
     // The tangent along/r_b e - D' t is square to the normal (sine, cosine).
     const Scalar c = cos(base), s = sin(base);
-    return {rb * (start_ + own + frame_.helix_rate * z - base), along,
-            along / rb * (sine * c + cosine * s) / (cosine * c - sine * s)};
+    return Touch<Scalar>{rb * (start_ + own + frame_.helix_rate * z - base), along,
+                         along / rb * (sine * c + cosine * s) / (cosine * c - sine * s)};
   }
 
   /// phi1 at which the flank touches at roll length rho in the section z, to |rho(phi1) - rho| <= 1e-13 (rho + r_b), by Newton from
-  /// where the involute would; nothing where the flank folds on the way.
+  /// where the involute would; nothing where the flank folds or ends on the way.
   std::optional<Root> touching_angle(double rho, double z) const {
     using Number = Dual<1>;
     double phi1 = frame_.pinion_turn * ((rho - frame_.pitch_roll) / frame_.base_radius - frame_.helix_rate * z);
     const double forward = frame_.pinion_turn;  // sense of d(roll)/d(phi1) of the involute
     for (int i = 0; i < 50; ++i) {
-      const Touch<Number> mark = touch(Number::variable(phi1, 0), Number(z));
-      const double rate = mark.roll.gradient[0];
-      if (!(rate * forward > 0.0) || !(mark.d_roll.value < 1.0)) return std::nullopt;
-      const double missing = rho - mark.roll.value;
+      const std::optional<Touch<Number>> mark = touch(Number::variable(phi1, 0), Number(z));
+      if (!mark) return std::nullopt;
+      const double rate = mark->roll.gradient[0];
+      if (rate * forward <= 0.0 || mark->d_roll.value >= 1.0) return std::nullopt;
+      const double missing = rho - mark->roll.value;
       if (std::abs(missing) <= 1e-13 * (rho + frame_.base_radius)) return Root{phi1 + missing / rate, rate};
       phi1 += missing / rate;
     }

@@ -6,7 +6,6 @@
 #include "core/base/root.hpp"
 #include "core/contact/condition_gap.hpp"
 #include "core/load/line_region.hpp"
-#include "core/load/placed_points.hpp"
 
 namespace flankwright {
 
@@ -36,7 +35,7 @@ double line_load_for(const ContactLaw& law, double deflection) {
 std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, const LoadedPosition& loaded,
                                const FlankCondition& condition) {
   std::vector<LineEnd> ends;
-  if (!loaded.load.usable() || !model.effects.hertzian_contact) return ends;
+  if (!loaded.load.usable()) return ends;
   const LineRegion region(model);
   std::vector<ContactPoint> points;
   for (std::size_t begin = 0, end = 0; begin < at.points.size(); begin = end) {
@@ -46,11 +45,9 @@ std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, c
     if (!(line.begin < line.end)) continue;
     const NaturalSpline structural = structural_deflection(at, loaded, begin, end);
     for (const double z : {line.begin, line.end}) {
-      const auto point = contact_point(model.pair, region.path, at.phase, tooth, z, model.effects.extended_contact_region);
-      if (!point) continue;
-      const std::vector<ContactPoint> placed = placed_points(model.pair, model.placement, {*point}, at.phase);
-      if (placed.empty()) continue;
-      points.push_back(placed.front());
+      const auto point = model.place(region.path, at.phase, tooth, z);
+      if (!point || !model.contact_law(*point)) continue;  // without a law of its own an end has no load of its own
+      points.push_back(*point);
       ends.push_back({tooth, z, structural(z)});
     }
   }
@@ -59,7 +56,7 @@ std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, c
     LineEnd& end = ends[i];
     const double left = loaded.load.transmission_error - gap[static_cast<Eigen::Index>(i)] - end.structural_deflection;
     end.contact_deflection = std::max(0.0, left);
-    end.line_load = line_load_for(model.contact_law(points[i]), left);
+    end.line_load = line_load_for(*model.contact_law(points[i]), left);
     end.contact_stress = std::sqrt(end.line_load * model.contact_modulus / (units::pi * points[i].relative_radius));
   }
   return ends;

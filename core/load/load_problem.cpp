@@ -126,6 +126,13 @@ double kkt_residual(const LoadProblem& problem, const Iterate& at, double f) {
   return std::max(balance, worst / scale);
 }
 
+/// See LoadDistribution::condition.
+double condition_of(const QuadraticMinimum& model) {
+  if (model.factorisations == 0 || model.factor.info() != Eigen::Success) return not_given;
+  const double reciprocal = model.factor.rcond();
+  return reciprocal > 0.0 ? 1.0 / reciprocal : std::numeric_limits<double>::infinity();
+}
+
 void fill(const LoadProblem& problem, const Iterate& at, double f, LoadDistribution& result) {
   result.line_load = at.loads();
   result.contact_deflection = at.local();
@@ -170,12 +177,14 @@ LoadDistribution solve_load_distribution(const LoadProblem& problem, const LoadO
   Eigen::MatrixXd hessian = structural_hessian;
   result.factorisations = 0;
   double load_step = std::numeric_limits<double>::infinity();
+  QuadraticMinimum model;
   for (result.iterations = 0;; ++result.iterations) {
     const double f = best_multiplier(problem, at);
     result.kkt_residual = kkt_residual(problem, at, f);
     const bool converged = result.kkt_residual <= options.tolerance && (problem.laws.empty() || load_step <= settled);
     if (converged || result.iterations == options.max_iterations) {
       fill(problem, at, f, result);
+      result.condition = condition_of(model);
       result.status = converged ? LoadStatus::Converged : LoadStatus::IterationLimit;
       result.message = converged ? "converged"
                                  : "the load distribution did not converge within " +
@@ -184,7 +193,7 @@ LoadDistribution solve_load_distribution(const LoadProblem& problem, const LoadO
     }
     hessian.diagonal() = structural_hessian.diagonal() + a.cwiseProduct(at.local_slope());
     const Eigen::VectorXd linear = a.cwiseProduct(at.approach()) - hessian * at.loads();
-    const QuadraticMinimum model = minimise_quadratic(hessian, linear, a, problem.force, at.loads().array() > 0.0);
+    model = minimise_quadratic(hessian, linear, a, problem.force, at.loads().array() > 0.0);
     result.factorisations += model.factorisations;
 
     Iterate next(problem, model.x);

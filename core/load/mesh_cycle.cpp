@@ -157,6 +157,7 @@ CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
     summary.peak_line_load = std::max(summary.peak_line_load, position.load.line_load.maxCoeff());
     summary.peak_contact_stress = std::max(summary.peak_contact_stress, position.contact_stress.maxCoeff());
     summary.worst_kkt_residual = std::max(summary.worst_kkt_residual, position.load.kkt_residual);
+    summary.worst_condition = std::fmax(summary.worst_condition, position.load.condition);
     raise(summary.pinion_root_stress, root_stress_peak(model.positions[i], position, Member::Pinion));
     raise(summary.wheel_root_stress, root_stress_peak(model.positions[i], position, Member::Wheel));
     summary.least_stiffness = std::fmin(summary.least_stiffness, position.stiffness);

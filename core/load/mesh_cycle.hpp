@@ -75,6 +75,7 @@ struct CycleSummary {
   /// Peak line load over the mean line load F / (mean length of the contact lines on the theoretical path) [-].
   double load_factor{not_given};
   double worst_kkt_residual{not_given};
+  double worst_condition{not_given};           ///< largest LoadDistribution::condition [-]
   RootStressPeak pinion_root_stress, wheel_root_stress;  ///< over the positions; NaN where the model has none
   double peak_root_stress{not_given};                    ///< the larger of both [MPa]
 };

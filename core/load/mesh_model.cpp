@@ -2,43 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
+#include "core/base/error.hpp"
 #include "core/compliance/hertz_line.hpp"
-#include "core/load/placed_points.hpp"
+#include "core/load/mesh_with_effects.hpp"
 
 namespace flankwright {
 
 namespace {
 
-/// Leaves of an influence matrix what lies on one tooth; its blocks stay positive semi-definite.
-void uncouple_teeth(const std::vector<ContactPoint>& points, Eigen::MatrixXd& influence) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = 0; j < points.size(); ++j) {
-      if (points[i].tooth != points[j].tooth) influence(i, j) = 0.0;
-    }
-  }
-}
+constexpr std::initializer_list<EffectStage> local_stages{EffectStage::ContactSite, EffectStage::ContactLaw};
 
-MeshPosition make_position(const MeshModel& model, const PathOfContact& path, const PairCompliance& structure,
-                           const PairCompliance* shafts, const Quadrature& quadrature, double phase, double face_start, double face_end) {
-  MeshPosition position;
-  position.phase = phase;
-  const std::vector<ContactPoint> in_plane =
-      contact_points(model.pair, path, quadrature, phase, model.effects.extended_contact_region, face_start, face_end);
-  position.points = placed_points(model.pair, model.placement, in_plane, phase);
-  const Eigen::Index n = static_cast<Eigen::Index>(position.points.size());
-  position.weight.resize(n);
-  position.influence = model.effects.bending ? structure.influence(position.points, model.axial_offset)
-                                             : Eigen::MatrixXd::Zero(n, n);
-  if (!model.effects.adjacent_teeth) uncouple_teeth(position.points, position.influence);
-  if (shafts) position.influence += shafts->influence(position.points, model.axial_offset);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const ContactPoint& point = position.points[static_cast<std::size_t>(i)];
-    position.weight[i] = point.weight;
-    if (model.effects.hertzian_contact) position.laws.push_back(model.contact_law(point));
-  }
+MeshPosition make_position(const MeshModel& model, const MeshParts& parts, const PathOfContact& path, const Quadrature& quadrature,
+                           double phase, const LineInterval& face) {
+  MeshDraft draft(parts, phase);
+  model.effects.act(EffectStage::Region, draft);
+  draft.set_points(contact_points(model.pair, path, quadrature, phase, draft.with_extended_region, face.begin, face.end));
+  model.effects.act({EffectStage::Placement, EffectStage::Structure, EffectStage::Coupling}, draft);
+  model.effects.act(local_stages, draft);
+  model.effects.act(EffectStage::Roots, draft);
+  MeshPosition position{phase, std::move(draft.points), {}, std::move(draft.influence), std::move(draft.laws), std::move(draft.root_stress)};
+  position.weight.resize(std::ssize(position.points));
+  for (Eigen::Index i = 0; i < position.weight.size(); ++i) position.weight[i] = position.points[static_cast<std::size_t>(i)].weight;
   return position;
 }
 
@@ -50,18 +36,23 @@ std::vector<double> equally_spaced_phases(int n) {
   return phases;
 }
 
-MeshPlacement MeshPlacement::of(GapModel gap, const Misalignment& misalignment) {
-  MeshPlacement placement{gap, {}};
-  placement.misalignment.axial_offset = misalignment.axial_offset;
-  if (gap == GapModel::WholeSurface) placement.misalignment = misalignment;
-  return placement;
+std::optional<ContactPoint> MeshModel::place(const PathOfContact& path, double phase, int tooth, double z) const {
+  const MeshParts parts{pair, pinion_material, wheel_material, placement};
+  MeshDraft draft(parts, phase);
+  effects.act(EffectStage::Region, draft);
+  const auto point = contact_point(pair, path, phase, tooth, z, draft.with_extended_region);
+  if (!point) return std::nullopt;
+  draft.set_points({*point});
+  effects.act(EffectStage::Placement, draft);
+  return draft.points.empty() ? std::nullopt : std::optional(draft.points.front());
 }
 
-ContactLaw MeshModel::contact_law(const ContactPoint& point) const {
-  const double no_tip = std::numeric_limits<double>::infinity();
-  return {ContactSide::of(pinion_material, point.pinion_depth, effects.tip_corner ? point.pinion_tip_distance : no_tip),
-          ContactSide::of(wheel_material, point.wheel_depth, effects.tip_corner ? point.wheel_tip_distance : no_tip),
-          point.relative_radius, contact_modulus};
+std::optional<ContactLaw> MeshModel::contact_law(const ContactPoint& point) const {
+  const MeshParts parts{pair, pinion_material, wheel_material, placement};
+  MeshDraft draft(parts, point.phase);
+  draft.set_points({point});
+  effects.act(local_stages, draft);
+  return draft.laws.empty() ? std::nullopt : std::optional(draft.laws.front());
 }
 
 double MeshModel::normal_force(double pinion_torque) const {
@@ -80,37 +71,41 @@ MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material,
                           const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
                           const PairCompliance* structure, const PairRootStress* root_stress,
                           const PairCompliance* shafts) {
-  if (!effects.bending && !effects.hertzian_contact) {
-    throw InvalidInput("fidelity.effects", "neither bending nor hertzian_contact", "at least one of them under load");
-  }
+  const ThinSlicePair slices(ThinSlice(pair, pinion_material, wheel_material));
+  MeshModel model;
+  model.pair = pair;
+  model.pinion_material = pinion_material;
+  model.wheel_material = wheel_material;
+  model.contact_modulus = contact_modulus(pinion_material, wheel_material);
+  model.calibration = slices.slice().calibration();
+  model.iso = slices.slice().iso();
+  return mesh_with_effects(std::move(model), resolution, effects, placement, structure != nullptr ? *structure : slices, root_stress, shafts);
+}
+
+MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
+                            const PairCompliance& structure, const PairRootStress* root_stress, const PairCompliance* shafts) {
+  if (!effects.give_way()) throw InvalidInput("fidelity.effects", "neither bending nor hertzian_contact", "at least one of them under load");
   if (resolution.phases.empty()) throw InvalidInput("cycle.phases", "none", "at least one phase");
   if (resolution.quadrature.intervals < 1) {
     throw InvalidInput("fidelity.quadrature.intervals", std::to_string(resolution.quadrature.intervals), "at least 1");
   }
+  const GearPair& pair = model.pair;
   const double axial_offset = placement.misalignment.axial_offset;
   const double face_start = std::max(-0.5 * pair.pinion.data.face_width, axial_offset - 0.5 * pair.wheel.data.face_width);
   const double face_end = std::min(0.5 * pair.pinion.data.face_width, axial_offset + 0.5 * pair.wheel.data.face_width);
   if (!(face_start < face_end)) {
     throw InvalidInput("misalignment.axial_offset", std::to_string(axial_offset), "one that leaves a common face width");
   }
-  const ThinSlicePair slices(ThinSlice(pair, pinion_material, wheel_material));
-  MeshModel model;
-  model.pair = pair;
-  model.pinion_material = pinion_material;
-  model.wheel_material = wheel_material;
   model.effects = effects;
   model.placement = placement;
   model.axial_offset = axial_offset;
   model.face_width = face_end - face_start;
-  model.contact_modulus = contact_modulus(pinion_material, wheel_material);
-  model.calibration = slices.slice().calibration();
-  model.iso = slices.slice().iso();
+  const MeshParts parts{pair, model.pinion_material, model.wheel_material, placement, &structure, shafts, root_stress};
   const PathOfContact path(pair);
+  model.positions.clear();
   model.positions.reserve(resolution.phases.size());
   for (double phase : resolution.phases) {
-    model.positions.push_back(make_position(model, path, structure != nullptr ? *structure : slices, shafts, resolution.quadrature, phase, face_start, face_end));
-    MeshPosition& position = model.positions.back();
-    if (root_stress) position.root_stress = root_stress->influence(position.points, axial_offset);
+    model.positions.push_back(make_position(model, parts, path, resolution.quadrature, phase, {face_start, face_end}));
   }
   return model;
 }

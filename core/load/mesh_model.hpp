@@ -2,26 +2,14 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <optional>
 #include <vector>
 
-#include "core/compliance/contact_law.hpp"
-#include "core/compliance/pair_compliance.hpp"
-#include "core/compliance/pair_root_stress.hpp"
-#include "core/contact/contact_points.hpp"
-#include "core/contact/gap.hpp"
 #include "core/contact/path_of_contact.hpp"
+#include "core/effects/mesh_effects.hpp"
 #include "core/gear/gear_pair.hpp"
 
 namespace flankwright {
-
-/// Physical effects of the loaded mesh that may be left out.
-struct MeshEffects {
-  bool bending{true};                  ///< structural compliance of teeth and gear bodies
-  bool adjacent_teeth{true};           ///< a load on one tooth moves the others (thin slices do not know of it)
-  bool hertzian_contact{true};         ///< local contact deflection
-  bool tip_corner{true};               ///< Steward's factor M near the tips
-  bool extended_contact_region{true};  ///< tip edges before A and after E
-};
 
 /// How finely a mesh cycle is resolved.
 struct MeshResolution {
@@ -32,16 +20,6 @@ struct MeshResolution {
 
 /// n phases of the reference pair over one base pitch, from 0 (its leading end enters at A0): 0, 1/n, ...
 std::vector<double> equally_spaced_phases(int n);
-
-/// Where the gap is sought, and what of the misalignment decides where the points lie for that: two conditions with the same
-/// placement share a model.
-struct MeshPlacement {
-  GapModel gap{GapModel::PlaneOfAction};
-  Misalignment misalignment{};  ///< PlaneOfAction: the axial offset, which shortens the common face; WholeSurface: all of it
-
-  static MeshPlacement of(GapModel gap, const Misalignment& misalignment);
-  auto operator<=>(const MeshPlacement&) const = default;
-};
 
 /// What does not change while modifications, torque and, with GapModel::PlaneOfAction, misalignment vary: points, influence and
 /// contact laws per position.
@@ -76,20 +54,22 @@ struct MeshModel {
   double normal_force(double pinion_torque) const;
   /// Force over the mean length of the contact lines on the theoretical path [N/mm].
   double mean_line_load(double force) const;
-  /// How a place of a contact line gives way locally, with the effects that are on.
-  ContactLaw contact_law(const ContactPoint& point) const;
+  /// A place of tooth pair `tooth`'s line, where the effects put it; nothing where no contact can be.
+  std::optional<ContactPoint> place(const PathOfContact& path, double phase, int tooth, double z) const;
+  /// How a place gives way locally; nothing where that is left out.
+  std::optional<ContactLaw> contact_law(const ContactPoint& point) const;
   /// The common face, z [mm].
   double face_start() const { return std::max(-0.5 * pair.pinion.data.face_width, axial_offset - 0.5 * pair.wheel.data.face_width); }
   double face_end() const { return face_start() + face_width; }
 };
 
-/// Builds points, influence matrix and contact laws at every phase.
+/// Builds points, influence matrix and contact laws at every phase: asks the effects, stage by stage.
+/// @param effects      those that are on
 /// @param placement    as MeshPlacement::of() makes it
 /// @param structure    what yields structurally; null: thin slices
 /// @param root_stress  null: none
 /// @param shafts       added to it, coupling all points; null: rigid shafts
-/// @throws InvalidInput where bending and Hertzian contact are both off (nothing would yield), no phase is given, or the gears do
-///         not overlap axially
+/// @throws InvalidInput where no effect lets the points give way, no phase is given, or the gears do not overlap axially
 MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
                           const MeshResolution& resolution, const MeshEffects& effects = {}, const MeshPlacement& placement = {},
                           const PairCompliance* structure = nullptr, const PairRootStress* root_stress = nullptr,

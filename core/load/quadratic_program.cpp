@@ -1,6 +1,5 @@
 #include "core/load/quadratic_program.hpp"
 
-#include <Eigen/Cholesky>
 #include <limits>
 #include <vector>
 
@@ -91,14 +90,14 @@ class Programme {
     }
     const Eigen::MatrixXd H = H_(set, set);
     const Eigen::VectorXd a = a_(set), b = b_(set);
-    const Eigen::LLT<Eigen::MatrixXd> factor(H);
+    at_.factor.compute(H);
     ++at_.factorisations;
-    const Eigen::VectorXd ha = factor.solve(a);
+    const Eigen::VectorXd ha = at_.factor.solve(a);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(a.size());
     at_.multiplier = 0.0;
     // The second pass solves for what is left: where H is nearly singular the first loses digits between large terms.
     for (int pass = 0; pass < 2; ++pass) {
-      const Eigen::VectorXd left = factor.solve(H * x + b - at_.multiplier * a);
+      const Eigen::VectorXd left = at_.factor.solve(H * x + b - at_.multiplier * a);
       const double rise = (force_ - a.dot(x) + a.dot(left)) / a.dot(ha);
       x += rise * ha - left;
       at_.multiplier += rise;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 
 namespace flankwright {
@@ -8,6 +9,7 @@ namespace flankwright {
 struct QuadraticMinimum {
   Eigen::VectorXd x;       ///< >= 0
   double multiplier{0.0};  ///< f of the balance
+  Eigen::LLT<Eigen::MatrixXd> factor;  ///< of H over the points that were loaded last
   int factorisations{0};
   bool solved{false};
 };

@@ -48,6 +48,7 @@ bool searched(const json& r) {
 
 /// In the order in which a gear engineer asks.
 constexpr Section sections[] = {
+    {"accuracy", "What accuracy costs", [](const json& r) { return has(r, "accuracy") || has(r, "accuracy_choice"); }},
     {"scatter", "Scatter over the samples", has_sweep},
     {"indices", "Where the scatter comes from", [](const json& r) { return has_sweep(r) && r.at("sweep").value("index_blocks", 0) > 1; }},
     {"response-maps", "Response maps", [](const json& r) { return has_sweep(r) && has(r.at("sweep"), "response_maps"); }},

@@ -64,12 +64,12 @@ SampleResult SampleAnalysis::analyse(const std::vector<double>& values) const {
 std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& condition, double torque) const {
   if (!(torque > 0.0)) throw SampleFailure{"load.torque is 0: without load there are no loaded outputs"};
   const Study& study = nominal_.study;
-  const MeshPlacement placement = MeshPlacement::of(study.fidelity.gap, condition.misalignment);
+  const MeshPlacement placement = MeshPlacement::of(gap_model(nominal_.effects), condition.misalignment);
   const MeshModel* model = &nominal_.models.front();
   std::optional<MeshModel> own;
   if (placement != model->placement) {
     own = make_mesh_model(nominal_.pair, study.pinion_material, study.wheel_material, {study.fidelity.quadrature, nominal_.phases},
-                          mesh_effects(nominal_.effects), placement, nominal_.structures.pair.get(),
+                          nominal_.mesh_effects, placement, nominal_.structures.pair.get(),
                           nominal_.structures.root_stress.get(), nominal_.shafts.get());
     model = &*own;
   }

@@ -108,7 +108,7 @@ TEST_CASE("Full contact under a misalignment is best crowned by sqrt(3)/4 of it"
   const GearPair pair = mesh_cases::pair(18, 72, 0, 10, 120);
   const double phase = (pair.pitch_point - pair.path_start) / pair.transverse_base_pitch + PathOfContact::extension;
   const MeshModel model = mesh_cases::model(pair, {{QuadratureRule::Midpoint, 240}, {phase}},
-                                            {.hertzian_contact = false, .extended_contact_region = false});
+                                            MeshEffects::all_but({"hertzian_contact", "extended_contact_region"}));
   const auto peak = [&](double misalignment, double crowning) {
     const LoadedCycle cycle = analyse_cycle(model, lead_error(misalignment, crowning), Mesh{pair}.torque());
     const double stress = peaks_at(model, model.positions[0], cycle.positions[0]).without_spikes.contact_stress.value;

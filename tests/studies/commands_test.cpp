@@ -25,7 +25,7 @@ TEST_CASE("A run leaves its files in the folder it was given, a table on stdout 
   CHECK(folder.names() == Names{"here", "small.toml"});
   CHECK(folder.names("here/and there") ==
         Names{"bearing_pattern.csv", "cycle.csv", "effects.csv", "gears.csv", "given.csv", "harmonics.csv", "load_factors.csv", "load_sharing.csv", "points.csv",
-              "report.html", "results.json", "summary.csv", "transfers.csv", "unloaded.csv", "used.csv"});
+              "report.html", "results.json", "steps.csv", "summary.csv", "transfers.csv", "unloaded.csv", "used.csv"});
   CHECK_THAT(ending.out, Contains("aligned") && Contains("bent") && Contains("report: here/and there/report.html"));
   CHECK(ending.out.find("analysing") == std::string::npos);
   CHECK_THAT(ending.err, Contains("small analysis"));
@@ -39,7 +39,7 @@ TEST_CASE("An optimisation also leaves its store; the default folder carries the
   CHECK(ending.exit_code == 0);
   CHECK(folder.names("results/small") ==
         Names{"comparison.csv", "cycle.csv", "design.csv", "effects.csv", "gears.csv", "given.csv", "harmonics.csv", "history.csv", "load_factors.csv", "load_sharing.csv", "points.csv",
-              "report.html", "results.json", "results.sqlite", "scenes.csv", "sensitivity.csv", "summary.csv", "used.csv"});
+              "report.html", "results.json", "results.sqlite", "scenes.csv", "sensitivity.csv", "steps.csv", "summary.csv", "used.csv"});
 }
 
 TEST_CASE("Settings of the command line replace those of the file", "[studies][cli]") {
@@ -109,7 +109,6 @@ TEST_CASE("Bad input of any other kind is exit code 2 and says what is allowed",
       {{"run", "small.toml", "--out", "small.toml/below"}, "output folder"},
       {{"check", "small.toml", "--set", "pair.helix_angle=80"}, "pair.helix_angle"},
       {{"new", "nonsense"}, "analyse"},
-      {{"new", "accuracy"}, "not in this version"},
       {{"report", "missing"}, "missing/results.json"},
       {{"test", "missing.toml"}, ""}};
   for (const Case& c : cases) {

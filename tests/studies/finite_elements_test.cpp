@@ -79,7 +79,7 @@ TEST_CASE("A study by finite elements: equal gears are solved once, kept, and ba
   CHECK(results["used"]["pair"]["wheel"]["body"]["shaft_diameter_mm"] > 0);
   CHECK(results["notes"].empty());
   bool told = false;
-  for (const json& effect : results["effects"]) told = told || (effect["name"] == "finite_elements" && effect["seconds"] > 0);
+  for (const json& effect : results["steps"]) told = told || (effect["name"] == "finite_elements" && effect["seconds"] > 0);
   CHECK(told);
 
   // What acts is what is passed on, at every position; and no load does negative work.
@@ -225,7 +225,7 @@ TEST_CASE("A gear that the library of fits does not know has a fit of its own, t
   CHECK(fit["status"] == "converged");
   CHECK(results["notes"].empty());
   bool told = false;
-  for (const json& effect : results["effects"]) told = told || (effect["name"] == "fit_of_pinion" && effect["why"] == "own fit: pressure_angle 22 deg, in the library 20 deg");
+  for (const json& effect : results["steps"]) told = told || (effect["name"] == "fit_of_pinion" && effect["why"] == "own fit: pressure_angle 22 deg, in the library 20 deg");
   CHECK(told);
   // Model, as asked of a gear's own fit; own tooth first, then its neighbours by the coarse mesh.
   const json& unseen = fit["residual_percent"]["unseen"];

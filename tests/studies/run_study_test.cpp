@@ -48,7 +48,7 @@ void check_keys(const json& results, const std::string& prefix, const std::strin
 void check_nulls(const json& results) {
   const std::set<std::string> meant{"loaded[].summary.peak_root_stress_MPa",   "loaded[].summary.pinion_root_stress_MPa",
                                     "loaded[].summary.wheel_root_stress_MPa",  "loaded[].summary.pinion_root_stress",
-                                    "loaded[].summary.wheel_root_stress",      "effects[].seconds"};
+                                    "loaded[].summary.wheel_root_stress",      "effects[].seconds", "effects[].estimate", "effects[].exact"};
   const std::set<std::string> meant_sampled{"loaded[].summary.peaks", "loaded[].summary.load_factors"};
   // Edges have no ellipse, lines one without end; not every point of a flank meets the mate.
   const std::set<std::string> meant_unloaded{"pairs[].positions[].ellipse", "pairs[].positions[].ellipse.semi_major_mm",
@@ -109,7 +109,8 @@ TEST_CASE("results.json of an analysis has every key that it promises", "[studie
              "peaks.without_spikes.contact_stress_MPa peaks.with_spikes.contact_stress_at.phase peaks.spike_rule.end_distance_mm "
              "load_factors.without_spikes.K_Hbeta load_factors.with_spikes.K_H "
              "load_factors.without_spikes.K_Hbeta_times_K_Halpha");
-  check_keys(results, "effects[]", "name on why seconds");
+  check_keys(results, "effects[]", "name on why seconds estimate exact");
+  check_keys(results, "steps[]", "name why seconds");
   check_nulls(results);
   CHECK(results["loaded"].size() == 2);
   CHECK(results["unloaded_scenes"].size() == 2);

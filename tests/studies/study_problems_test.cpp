@@ -93,7 +93,7 @@ TEST_CASE("A value outside its range is refused at its line with what is allowed
 }
 
 TEST_CASE("All problems come at once, in the order of the lines, as file:line:column", "[studies][study-file]") {
-  const std::string text = R"(task = "accuracy"
+  const std::string text = R"(task = "accurate"
 [pair]
 normal_module = 0
 helix_angel = 30

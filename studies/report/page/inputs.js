@@ -1,23 +1,4 @@
-// Effects that ran, notes, and what was given and used.
-
-function build_effects(results, body) {
-  const effects = list(results.effects).map(record);
-  const longest = Math.max(0, maximum(effects.map((effect) => effect.seconds)));
-  const time = (seconds) => ({
-    value: seconds,
-    text: fmt(seconds, 3),
-    draw: () => el("span", { class: "time" }, fmt(seconds, 3),
-      el("i", { style: `width:${longest > 0 && seconds > 0 ? Math.max(1, (60 * seconds) / longest) : 0}px` })),
-  });
-  table(body, {
-    title: "Effects in this run",
-    note: "Which effects of the mesh were called for, why, and what each cost; what is off costs nothing.",
-    columns: [{ label: "Effect" }, { label: "On" }, { label: "Why" }, { label: "Time", unit: "s" }],
-    rows: effects.map((effect) => [words(effect.name),
-      { text: effect.on ? "yes" : "no", class: effect.on ? "good" : "off" }, effect.why ?? "",
-      is_number(effect.seconds) ? time(effect.seconds) : null]),
-  });
-}
+// Notes, and what was given and used.
 
 function build_notes(results, body) {
   body.append(el("ul", { class: "notes" }, ...list(results.notes).map((note) =>

@@ -1,6 +1,7 @@
 // Fills the sections that the page has; one that fails says so and leaves the others alone.
 
 const BUILDERS = {
+  accuracy: build_accuracy,
   scatter: build_scatter,
   indices: build_indices,
   "response-maps": build_response_maps,

@@ -143,6 +143,7 @@ function pair_tiles(results) {
 function draw_summary(results, cases) {
   const text = results.optimise ? optimise_headline(record(results.optimise))
     : results.sweep ? sweep_headline(record(results.sweep))
+    : results.accuracy ? accuracy_headline(record(results.accuracy))
     : cases.length ? loaded_headline(cases)
     : results.unloaded ? unloaded_headline(results)
     : list(results.fit).length ? fit_headline(list(results.fit).map(record))

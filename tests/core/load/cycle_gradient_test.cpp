@@ -171,7 +171,7 @@ TEST_CASE("Twice the torque on a perfect pair without Hertzian contact doubles l
   constexpr double kRoundOff = 1e-10;
   // Linear slices that all touch from the start: w = T dw/dT, f_t = T df_t/dT; load factor and stiffness stay.
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
-  const MeshModel model = mesh_cases::model(gears, {{}, equally_spaced_phases(5)}, {.hertzian_contact = false, .extended_contact_region = false});
+  const MeshModel model = mesh_cases::model(gears, {{}, equally_spaced_phases(5)}, MeshEffects::all_but({"hertzian_contact", "extended_contact_region"}));
   const double torque = mesh_cases::torque_for(gears, 200);
   const LoadedCycle cycle = analyse_cycle(model, {}, torque, {PinionTorque{}});
   const CycleSummary summary = summarise(model, cycle);

@@ -98,7 +98,7 @@ TEST_CASE("Line ends take no part in the equilibrium and need a contact law", "[
   const LoadedPosition& loaded = cycle.positions[0];
   CHECK(model.positions[0].weight.dot(loaded.load.line_load) == Approx(cycle.force).epsilon(1e-11));
   CHECK(line_ends(model, model.positions[0], loaded, {}).size() >= 4);
-  const MeshModel bending = mesh_cases::model(gears, {{}, {1.0}}, {.hertzian_contact = false});
+  const MeshModel bending = mesh_cases::model(gears, {{}, {1.0}}, MeshEffects::all_but({"hertzian_contact"}));
   CHECK(line_ends(bending, bending.positions[0], analyse_cycle(bending, {}, torque_for(gears, 100)).positions[0], {}).empty());
   CHECK(line_ends(model, model.positions[0], {}, {}).empty());
 }

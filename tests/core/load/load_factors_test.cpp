@@ -102,7 +102,7 @@ TEST_CASE("Bending slices under a misalignment have the linear load of ISO 6336'
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
   const double phase = (gears.pitch_point - gears.path_start) / gears.transverse_base_pitch + PathOfContact::extension;
   const MeshModel model =
-      mesh_cases::model(gears, {{QuadratureRule::Gauss2, 8}, {phase}}, {.hertzian_contact = false, .extended_contact_region = false});
+      mesh_cases::model(gears, {{QuadratureRule::Gauss2, 8}, {phase}}, MeshEffects::all_but({"hertzian_contact", "extended_contact_region"}));
   const double torque = torque_for(gears, 300);
   FlankCondition misaligned;
   misaligned.misalignment.mesh_misalignment = 4 * units::um;

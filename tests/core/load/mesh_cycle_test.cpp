@@ -225,7 +225,7 @@ TEST_CASE("Bending alone makes a perfect mesh linear", "[core][load]") {
   const GearPair gears = make_gear_pair(named.data);
   // On the theoretical path all points touch at no load, so that nothing but the deflection grows with it.
   const MeshModel model = mesh_cases::model(gears, {{}, equally_spaced_phases(6)},
-                                            {.hertzian_contact = false, .extended_contact_region = false});
+                                            MeshEffects::all_but({"hertzian_contact", "extended_contact_region"}));
   const LoadedCycle light = analyse_cycle(model, {}, torque_for(gears, 1.0));
   const LoadedCycle heavy = analyse_cycle(model, {}, torque_for(gears, 1000.0));
   for (std::size_t i = 0; i < 6; ++i) {
@@ -280,7 +280,7 @@ TEST_CASE("Where no point lies the cycle says so instead of inventing a load", "
   const GearPair gears = make_gear_pair(data);
   REQUIRE(gears.transverse_contact_ratio < 0.9);
   const MeshModel model = make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, {{}, equally_spaced_phases(16)},
-                                          {.extended_contact_region = false}, MeshPlacement::of(GapModel::PlaneOfAction, {.axial_offset = 19.5}));
+                                          MeshEffects::all_but({"extended_contact_region"}), MeshPlacement::of(GapModel::PlaneOfAction, {.axial_offset = 19.5}));
   const LoadedCycle cycle = analyse_cycle(model, {}, torque_for(gears, 10.0));
   CHECK(cycle.failures > 0);
   CHECK_FALSE(cycle.usable());

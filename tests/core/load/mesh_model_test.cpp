@@ -40,7 +40,7 @@ TEST_CASE("Doubling the intervals halves the slices and not the structure", "[co
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
   const auto stiffness = [&](int intervals) {
     const MeshModel model =
-        mesh_cases::model(gears, {{QuadratureRule::Gauss2, intervals}, {0.9}}, {.hertzian_contact = false});
+        mesh_cases::model(gears, {{QuadratureRule::Gauss2, intervals}, {0.9}}, MeshEffects::all_but({"hertzian_contact"}));
     const MeshPosition& at = model.positions[0];
     return at.influence.diagonal().cwiseInverse().sum();
   };
@@ -77,16 +77,16 @@ TEST_CASE("An axial offset leaves the common face only", "[core][load]") {
 TEST_CASE("Effects that are switched off leave their part of the model out", "[core][load]") {
   const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
   const MeshResolution resolution{{}, {0.4}};
-  CHECK(mesh_cases::model(gears, resolution, {.bending = false}).positions[0].influence.isZero(0.0));
-  CHECK(mesh_cases::model(gears, resolution, {.hertzian_contact = false}).positions[0].laws.empty());
+  CHECK(mesh_cases::model(gears, resolution, MeshEffects::all_but({"bending"})).positions[0].influence.isZero(0.0));
+  CHECK(mesh_cases::model(gears, resolution, MeshEffects::all_but({"hertzian_contact"})).positions[0].laws.empty());
 
   const MeshModel whole = mesh_cases::model(gears, resolution);
-  const MeshModel theoretical = mesh_cases::model(gears, resolution, {.extended_contact_region = false});
+  const MeshModel theoretical = mesh_cases::model(gears, resolution, MeshEffects::all_but({"extended_contact_region"}));
   CHECK(theoretical.positions[0].points.size() < whole.positions[0].points.size());
   for (const ContactPoint& point : theoretical.positions[0].points) CHECK(point.clearance == 0.0);
 
   // Tips only ever soften the contact.
-  const MeshModel blunt = mesh_cases::model(gears, resolution, {.tip_corner = false});
+  const MeshModel blunt = mesh_cases::model(gears, resolution, MeshEffects::all_but({"tip_corner"}));
   bool softer_somewhere = false;
   for (std::size_t i = 0; i < whole.positions[0].laws.size(); ++i) {
     const double with = whole.positions[0].laws[i].deflection(300.0),
@@ -101,7 +101,7 @@ TEST_CASE("A mesh model that cannot be built is refused", "[core][load][input]")
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
   CHECK_THROWS_AS(mesh_cases::model(gears, {{}, {}}), InvalidInput);
   CHECK_THROWS_AS(mesh_cases::model(gears, {{QuadratureRule::Gauss2, 0}, {0.5}}), InvalidInput);
-  CHECK_THROWS_AS(mesh_cases::model(gears, {{}, {0.5}}, {.bending = false, .hertzian_contact = false}), InvalidInput);
+  CHECK_THROWS_AS(mesh_cases::model(gears, {{}, {0.5}}, MeshEffects::all_but({"bending", "hertzian_contact"})), InvalidInput);
   const MeshPlacement apart = MeshPlacement::of(GapModel::PlaneOfAction, {.axial_offset = 30.0});
   CHECK_THROWS_AS(make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, {{}, {0.5}}, {}, apart), InvalidInput);
   CHECK_THROWS_AS(make_mesh_model(gears, {-1.0, 0.3}, mesh_cases::steel, {{}, {0.5}}), InvalidInput);

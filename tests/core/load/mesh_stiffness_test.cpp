@@ -31,7 +31,7 @@ TEST_CASE("A single pair at the pitch point is as stiff as ISO's c'", "[core][lo
   constexpr double kModel = 1e-3;  // the load there is 300 N/mm, that of the calibration, and all of it on one pair
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
   const double phase = (gears.pitch_point - gears.path_start) / gears.transverse_base_pitch + PathOfContact::extension;
-  const MeshModel model = mesh_cases::model(gears, {{}, {phase}}, {.tip_corner = false});
+  const MeshModel model = mesh_cases::model(gears, {{}, {phase}}, MeshEffects::all_but({"tip_corner"}));
   const LoadedCycle cycle = analyse_cycle(model, {}, torque_for(gears, 300.0));
   CHECK(cycle.positions[0].stiffness == Approx(model.iso.c_prime).epsilon(kModel));
 }
@@ -42,7 +42,7 @@ TEST_CASE("Tenfold load stiffens an unmodified mesh by no more than Hertz allows
     return summary_at(gears, 1000.0, 64, effects).mean_stiffness / summary_at(gears, 100.0, 64, effects).mean_stiffness;
   };
   // Hertzian deflection per load falls by A ln(10) over both gears; structure and length of the contact lines stay.
-  const MeshEffects on_path{.extended_contact_region = false};
+  const MeshEffects on_path = MeshEffects::all_but({"extended_contact_region"});
   const double mean = summary_at(gears, 1000.0, 64, on_path).mean_stiffness;
   const double relief = 2 * 2 * (1 - 0.09) / (units::pi * 206000.0) * 0.5 * std::log(10.0) * 1e3;  // mm um / N
   CAPTURE(rise(on_path), rise({}));
@@ -67,7 +67,7 @@ TEST_CASE("Contacts of twice the size under twice the line load deflect twice as
   // Similarity: the contact law has no length in it but the ratio of depth to half width, which stays. Not so with
   // bending, whose calibration to ISO happens at one line load for all modules.
   constexpr double kRoundOff = 1e-9;
-  const MeshEffects contact_only{.bending = false};
+  const MeshEffects contact_only = MeshEffects::all_but({"bending"});
   const GearPair small = mesh_cases::pair(20, 40, 0, 4, 30), large = mesh_cases::pair(20, 40, 0, 8, 60);
   const CycleSummary a = summary_at(small, 150.0, 16, contact_only), b = summary_at(large, 300.0, 16, contact_only);
   CHECK(b.te_peak_to_peak == Approx(2.0 * a.te_peak_to_peak).epsilon(kRoundOff));

@@ -55,7 +55,7 @@ TEST_CASE("Root stress is the principal stress of what all forces do together", 
 TEST_CASE("Twice the torque is twice the root stress where nothing else is nonlinear", "[core][load][root-stress]") {
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
   const MeshModel model = model_with_root_stress(gears, {{}, equally_spaced_phases(4)},
-                                                 {.hertzian_contact = false, .extended_contact_region = false});
+                                                 MeshEffects::all_but({"hertzian_contact", "extended_contact_region"}));
   const auto peak = [&](double load) {
     return summarise(model, analyse_cycle(model, {}, mesh_cases::torque_for(gears, load))).peak_root_stress;
   };

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "core/effects/effect.hpp"
+
+namespace flankwright {
+
+/// A load on one tooth moves the others, through the gear body.
+class AdjacentTeethEffect final : public Effect {
+ public:
+  std::string_view name() const override { return "adjacent_teeth"; }
+  EffectStage stage() const override { return EffectStage::Coupling; }
+  std::string_view needs() const override { return "bending"; }
+  EffectCall called_for(const EffectFacts& facts) const override {
+    const bool on = facts.loaded && facts.coupled_teeth;
+    return {on, on ? "a loaded tooth moves its neighbours" : "no load, or a compliance of teeth that do not know of each other"};
+  }
+  /// The structure's blocks between places of different teeth.
+  void act(MeshDraft& draft) const override {
+    const Eigen::MatrixXd& structure = draft.structural_influence();
+    for (std::size_t i = 0; i < draft.points.size(); ++i) {
+      for (std::size_t j = 0; j < draft.points.size(); ++j) {
+        if (draft.points[i].tooth != draft.points[j].tooth) draft.influence(i, j) += structure(i, j);
+      }
+    }
+  }
+};
+
+}  // namespace flankwright

@@ -1,0 +1,27 @@
+#pragma once
+
+#include "core/effects/effect.hpp"
+
+namespace flankwright {
+
+/// A loaded tooth gives way, with the part of the gear body below it.
+class BendingEffect final : public Effect {
+ public:
+  std::string_view name() const override { return "bending"; }
+  EffectStage stage() const override { return EffectStage::Structure; }
+  bool gives_way() const override { return true; }
+  EffectCall called_for(const EffectFacts& facts) const override {
+    return {facts.loaded, facts.loaded ? "teeth bend under load" : "no load"};
+  }
+  /// The structure's blocks between places of one tooth, which stay positive semi-definite on their own.
+  void act(MeshDraft& draft) const override {
+    const Eigen::MatrixXd& structure = draft.structural_influence();
+    for (std::size_t i = 0; i < draft.points.size(); ++i) {
+      for (std::size_t j = 0; j < draft.points.size(); ++j) {
+        if (draft.points[i].tooth == draft.points[j].tooth) draft.influence(i, j) += structure(i, j);
+      }
+    }
+  }
+};
+
+}  // namespace flankwright

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/effects/mesh_effects.hpp"
+
+namespace flankwright {
+
+/// Whether an effect entered a run, why, and what it cost.
+struct EffectDecision {
+  std::string name;
+  bool on{false};
+  std::string why;
+  double seconds{not_given};  ///< time spent on it; NaN where it cannot be told apart
+};
+using EffectDecisions = std::vector<EffectDecision>;
+
+/// Names of all effects, in the order of the flow.
+std::vector<std::string_view> effect_names();
+/// Names of those that a study's list switches, in the order of the flow.
+std::vector<std::string> listed_effect_names();
+
+/// Which effects the scenes call for, each with its reason.
+EffectDecisions decide_effects(const EffectFacts& facts, const EffectList& effects = registered_effects());
+
+/// Effects switched by hand: exactly those named, as far as what they need is named too; what other keys switch stays as called for.
+/// @throws InvalidInput for an unknown name
+EffectDecisions chosen_effects(const EffectFacts& facts, const std::vector<std::string>& names,
+                               const EffectList& effects = registered_effects());
+
+/// True where the effect of that name is on.
+bool is_on(const EffectDecisions& decisions, std::string_view name);
+
+/// The decisions with one effect, and what needs it, switched off.
+EffectDecisions without(EffectDecisions decisions, std::string_view name, const std::string& why);
+
+/// The effects that are on, for the loaded mesh.
+MeshEffects mesh_effects(const EffectDecisions& decisions, const EffectList& effects = registered_effects());
+
+/// The condition with everything cleared whose effect is off.
+FlankCondition apply_effects(const EffectDecisions& decisions, FlankCondition condition, const EffectList& effects = registered_effects());
+
+/// Where the gap is sought with these effects.
+GapModel gap_model(const EffectDecisions& decisions);
+
+}  // namespace flankwright

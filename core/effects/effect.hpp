@@ -1,0 +1,70 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/contact/gap.hpp"
+#include "core/effects/mesh_draft.hpp"
+
+namespace flankwright {
+
+/// What a study asks of the analysis, as far as effects depend on it.
+struct EffectFacts {
+  bool loaded{false};         ///< some torque is above zero
+  bool unloaded{false};       ///< some torque is zero
+  std::vector<FlankCondition> conditions{};  ///< of all scenes
+  bool coupled_teeth{false};  ///< the compliance model knows how one tooth moves another
+  bool shafts{false};         ///< a gear's shaft is described
+  bool root_stress{false};    ///< finite elements are made anyway, or something asks for peak_root_stress
+  bool whole_surface{false};  ///< contact is sought over the whole flanks
+};
+
+/// Whether a scene calls for an effect, and why or why not.
+struct EffectCall {
+  bool on{false};
+  std::string why;
+};
+
+/// Where between flanks and stress an effect acts. Effects are asked stage by stage, and by name within one, so that the order of
+/// their registration never shows in a result.
+enum class EffectStage {
+  Unloaded,    ///< contact without load, beside the loaded mesh
+  Condition,   ///< what the flanks are like: left out by clear_from()
+  Region,      ///< how far along the plane of action points are made
+  Placement,   ///< where the points lie
+  Structure,   ///< what yields when loads act anywhere on the mesh: the influence matrix
+  Coupling,    ///< what of it ties teeth to each other
+  ContactSite, ///< what the contact law is told of a point's surroundings
+  ContactLaw,  ///< what yields under a point's own load
+  Roots,       ///< what is read off the loads
+};
+
+/// One physical effect: its name, the rule for when a scene calls for it, and what it does to a mesh. An effect that is off is
+/// not asked for anything, but what it has in a condition is cleared.
+class Effect {
+ public:
+  virtual ~Effect() = default;
+
+  virtual std::string_view name() const = 0;
+  virtual EffectStage stage() const = 0;
+  virtual EffectCall called_for(const EffectFacts& facts) const = 0;
+
+  /// Name of the effect without which it means nothing; empty: none.
+  virtual std::string_view needs() const { return {}; }
+  /// A list of effects in a study switches it; false: another key does.
+  virtual bool listed() const { return true; }
+  /// It alone lets every point give way, so that loads are determined.
+  virtual bool gives_way() const { return false; }
+  /// Takes out of a condition what there is of the effect.
+  virtual void clear_from(FlankCondition&) const {}
+  /// Adds its part to a mesh position, in its stage.
+  virtual void act(MeshDraft&) const {}
+
+ protected:
+  Effect() = default;
+  Effect(const Effect&) = default;
+  Effect& operator=(const Effect&) = default;
+};
+
+}  // namespace flankwright

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/effects/decision.hpp"
+
+namespace flankwright {
+
+/// What of a loaded cycle an effect is measured by.
+struct CycleOutputs {
+  double te_mean{not_given};              ///< of f_t [mm]
+  double te_peak_to_peak{not_given};      ///< [mm]
+  double peak_contact_stress{not_given};  ///< [MPa]
+  double mean_approach{not_given};        ///< of f_t - min(g): what the mesh gives way [mm]
+};
+
+/// What an effect does: outputs with it less those without. NaN: not known.
+struct EffectInfluence {
+  double te_mean{not_given};              ///< [mm]
+  double te_peak_to_peak{not_given};      ///< [mm]
+  double peak_contact_stress{not_given};  ///< [MPa]
+  double relative_stress{not_given};      ///< of the peak stress with the effect [-]
+  /// The largest of the three as shares [-]: of the mean approach, of the peak to peak (at least quiet of the mean approach, since shares
+  /// of next to nothing mean nothing), and of the peak stress, all with the effect.
+  double share{not_given};
+  std::string largest_in;                 ///< which of them that is, in words
+
+  static constexpr double quiet{0.02};
+
+  static EffectInfluence between(const CycleOutputs& with, const CycleOutputs& without);
+};
+
+/// The effect of that name acts on a loaded mesh, its flanks or its loads: it may have a size. Not contact without load, nor what is read off
+/// the loads.
+bool changes_mesh(std::string_view name);
+
+/// The size of one effect.
+struct EffectSize {
+  std::string name;
+  EffectInfluence influence;  ///< of the load case in which its share is largest
+  double seconds{not_given};  ///< that it took to find out
+};
+
+/// Switches off what acts on the mesh and is too small to matter: effects by rising size, as long as their shares, which add up to first
+/// order, stay within the budget together. Effects of the condition stay, as they cost nothing, and may be what a study varies; so
+/// does what is read off the loads, what is not listed, and what has no size.
+/// @param budget  relative error [-], > 0
+EffectDecisions within_budget(EffectDecisions decisions, std::vector<EffectSize> sizes, double budget);
+
+}  // namespace flankwright

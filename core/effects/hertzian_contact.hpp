@@ -1,0 +1,29 @@
+#pragma once
+
+#include "core/compliance/hertz_line.hpp"
+#include "core/effects/effect.hpp"
+
+namespace flankwright {
+
+/// Flanks flatten where they touch, see ContactLaw.
+class HertzianContactEffect final : public Effect {
+ public:
+  std::string_view name() const override { return "hertzian_contact"; }
+  EffectStage stage() const override { return EffectStage::ContactLaw; }
+  bool gives_way() const override { return true; }
+  EffectCall called_for(const EffectFacts& facts) const override {
+    return {facts.loaded, facts.loaded ? "flanks flatten under load" : "no load"};
+  }
+  void act(MeshDraft& draft) const override {
+    const MeshParts& parts = draft.parts;
+    const double modulus = contact_modulus(parts.pinion_material, parts.wheel_material);
+    for (std::size_t i = 0; i < draft.points.size(); ++i) {
+      const ContactPoint& point = draft.points[i];
+      draft.laws.emplace_back(ContactSide::of(parts.pinion_material, point.pinion_depth, draft.tip_distances[i].pinion),
+                              ContactSide::of(parts.wheel_material, point.wheel_depth, draft.tip_distances[i].wheel),
+                              point.relative_radius, modulus);
+    }
+  }
+};
+
+}  // namespace flankwright

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "core/compliance/contact_law.hpp"
+#include "core/compliance/pair_compliance.hpp"
+#include "core/compliance/pair_root_stress.hpp"
+#include "core/contact/contact_points.hpp"
+#include "core/contact/mesh_placement.hpp"
+
+namespace flankwright {
+
+/// What a loaded mesh is made of. All must outlive what is made of them.
+struct MeshParts {
+  const GearPair& pair;
+  const Material& pinion_material;
+  const Material& wheel_material;
+  const MeshPlacement& placement;
+  const PairCompliance* structure{nullptr};    ///< teeth and gear bodies; null: rigid
+  const PairCompliance* shafts{nullptr};       ///< null: rigid
+  const PairRootStress* root_stress{nullptr};  ///< null: not asked for
+
+  double axial_offset() const { return placement.misalignment.axial_offset; }
+};
+
+/// How far a point is from both tips; infinity: as if there were none.
+struct TipDistances {
+  double pinion{std::numeric_limits<double>::infinity()}, wheel{std::numeric_limits<double>::infinity()};  ///< [mm]
+};
+
+/// One mesh position while effects make it, each adding its part. Without any it is rigid.
+class MeshDraft {
+ public:
+  /// @param line_phase  of the reference pair's line [base pitches]
+  MeshDraft(const MeshParts& made_of, double line_phase) : parts(made_of), phase(line_phase) {}
+
+  /// Points take what is made for them with them: to be called once.
+  void set_points(std::vector<ContactPoint> at) {
+    points = std::move(at);
+    influence = Eigen::MatrixXd::Zero(std::ssize(points), std::ssize(points));
+    tip_distances.resize(points.size());
+  }
+
+  /// K of the structure between the points, teeth coupled as far as it knows; worked out when first asked for.
+  const Eigen::MatrixXd& structural_influence() {
+    if (!structural_influence_) {
+      structural_influence_ = parts.structure ? parts.structure->influence(points, parts.axial_offset())
+                                              : Eigen::MatrixXd::Zero(std::ssize(points), std::ssize(points));
+    }
+    return *structural_influence_;
+  }
+
+  const MeshParts& parts;
+  double phase;
+  bool with_extended_region{false};         ///< points before A and after E as well
+  std::vector<ContactPoint> points;
+  Eigen::MatrixXd influence;                ///< K, symmetric, positive semi-definite [mm/N]
+  std::vector<TipDistances> tip_distances;  ///< one a point
+  std::vector<ContactLaw> laws;             ///< one a point, or none
+  RootStressInfluence root_stress;
+
+ private:
+  std::optional<Eigen::MatrixXd> structural_influence_;
+};
+
+}  // namespace flankwright

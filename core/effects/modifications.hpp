@@ -1,0 +1,28 @@
+#pragma once
+
+#include <algorithm>
+
+#include "core/effects/effect.hpp"
+
+namespace flankwright {
+
+/// Material taken off the flanks on purpose, see Modification.
+class ModificationsEffect final : public Effect {
+ public:
+  std::string_view name() const override { return "modifications"; }
+  EffectStage stage() const override { return EffectStage::Condition; }
+  EffectCall called_for(const EffectFacts& facts) const override {
+    const bool any = std::ranges::any_of(
+        facts.conditions, [](const FlankCondition& c) { return modified(c.pinion_modification) || modified(c.wheel_modification); });
+    return {any, any ? "a flank is modified or will be" : "no flank is modified"};
+  }
+  void clear_from(FlankCondition& condition) const override { condition.pinion_modification = condition.wheel_modification = {}; }
+
+ private:
+  static bool modified(const Modification& m) {
+    return m.topography || std::ranges::any_of(modification_parameters,
+                                               [&](const NamedModificationParameter& p) { return get(m, p.parameter) != 0.0; });
+  }
+};
+
+}  // namespace flankwright

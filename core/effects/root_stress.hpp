@@ -1,0 +1,21 @@
+#pragma once
+
+#include "core/effects/effect.hpp"
+
+namespace flankwright {
+
+/// What the loads do to the fillets, see PairRootStress: an output of its own, which moves no load.
+class RootStressEffect final : public Effect {
+ public:
+  std::string_view name() const override { return "root_stress"; }
+  EffectStage stage() const override { return EffectStage::Roots; }
+  EffectCall called_for(const EffectFacts& facts) const override {
+    const bool on = facts.loaded && facts.root_stress;
+    return {on, on ? "finite elements tell the stress of the roots" : "no load, or no finite elements and nothing asks for peak_root_stress"};
+  }
+  void act(MeshDraft& draft) const override {
+    if (draft.parts.root_stress) draft.root_stress = draft.parts.root_stress->influence(draft.points, draft.parts.axial_offset());
+  }
+};
+
+}  // namespace flankwright

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "core/effects/effect.hpp"
+
+namespace flankwright {
+
+/// Shafts bend, shear and twist on their bearings, which moves all points together, see ShaftPair.
+class ShaftsEffect final : public Effect {
+ public:
+  std::string_view name() const override { return "shafts"; }
+  EffectStage stage() const override { return EffectStage::Structure; }
+  EffectCall called_for(const EffectFacts& facts) const override {
+    const bool on = facts.loaded && facts.shafts;
+    return {on, on ? "a gear's shaft is described" : "no load, or no shaft is described: they are rigid"};
+  }
+  void act(MeshDraft& draft) const override {
+    if (draft.parts.shafts) draft.influence += draft.parts.shafts->influence(draft.points, draft.parts.axial_offset());
+  }
+};
+
+}  // namespace flankwright

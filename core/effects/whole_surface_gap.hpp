@@ -1,0 +1,27 @@
+#pragma once
+
+#include "core/contact/surface_gap.hpp"
+#include "core/effects/effect.hpp"
+
+namespace flankwright {
+
+/// Contact off the plane of action: points lie where the misaligned, unmodified flanks are nearest in their sections
+/// (SurfaceGap::place), without those whose sections miss the mate. The gap there is ConditionGap's, by the same placement.
+class WholeSurfaceGapEffect final : public Effect {
+ public:
+  std::string_view name() const override { return "whole_surface_gap"; }
+  EffectStage stage() const override { return EffectStage::Placement; }
+  bool listed() const override { return false; }
+  EffectCall called_for(const EffectFacts& facts) const override {
+    const bool on = facts.loaded && facts.whole_surface;
+    return {on, on ? "fidelity.gap seeks contact over the whole flanks" : "no load, or fidelity.gap keeps contact in the plane of action"};
+  }
+  void act(MeshDraft& draft) const override {
+    if (draft.parts.placement.gap != GapModel::WholeSurface) return;
+    FlankCondition unmodified;
+    unmodified.misalignment = draft.parts.placement.misalignment;
+    draft.set_points(SurfaceGap(draft.parts.pair, unmodified).place(draft.points, draft.phase));
+  }
+};
+
+}  // namespace flankwright

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/load/cycle_figures.hpp"
+
+namespace flankwright {
+
+/// The same mesh as finely as one likes.
+using MeshOfResolution = std::function<MeshModel(const MeshResolution&)>;
+
+/// Figures of a cycle on one rung of a ladder of finer and finer resolutions.
+struct ResolutionLevel {
+  int intervals{0}, positions{0};
+  CycleFigures figures;
+  PerFigure error{};  ///< estimated share, see figure_errors(); of quadrature or of positions alone
+};
+
+struct DiscretisationSearch {
+  /// Refined until estimated error <= accuracy, of every figure [-], > 0.
+  double accuracy{0.01};
+  int fewest_intervals{4}, most_intervals{32};    ///< Graded; powers of two times the fewest
+  int fewest_positions{16}, most_positions{256};  ///< powers of two times the fewest, >= 12
+  bool choose_intervals{true}, choose_positions{true};  ///< false: the fewest stand
+};
+
+/// Points and positions that keep an accuracy, and the evidence.
+struct Discretisation {
+  Quadrature quadrature;
+  int positions{0};
+  PerFigure quadrature_error{}, position_error{};  ///< estimated shares at these
+  std::vector<ResolutionLevel> by_intervals, by_positions;  ///< what was solved, coarse to fine
+  bool kept{false};       ///< their sum <= accuracy
+  int failures{0};        ///< positions without a usable load distribution; the search ends there
+
+  PerFigure error() const;
+};
+
+/// Cheapest resolution of one load case whose estimated error is within an accuracy: intervals first, at the fewest positions, within
+/// half of it, then positions within what that leaves. Each is doubled until, by the last three levels,
+///
+///     safety * LimitEstimate::error <= budget     for every figure;
+///
+/// of all levels solved that one is taken which is coarsest with (its distance from the finest) + (the finest's own estimate) <= budget.
+Discretisation choose_discretisation(const MeshOfResolution& mesh_for, QuadratureRule rule, const FlankCondition& condition, double pinion_torque,
+                                     const DiscretisationSearch& search = {});
+
+}  // namespace flankwright

@@ -1,0 +1,75 @@
+#include "studies/effect_sizes.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/stopwatch.hpp"
+#include "studies/run_study.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+/// Keeps the larger of two sizes of one effect, and the time of both.
+void add(std::vector<SizeInStudy>& sizes, const SizeInStudy& other) {
+  const auto known = std::ranges::find(sizes, other.size.name, [](const SizeInStudy& s) { return s.size.name; });
+  if (known == sizes.end()) {
+    sizes.push_back(other);
+    return;
+  }
+  SizeInStudy larger = std::isnan(known->size.influence.share) || other.size.influence.share > known->size.influence.share ? other : *known;
+  larger.size.seconds = known->size.seconds + other.size.seconds;
+  larger.positions = known->positions + other.positions;
+  larger.solved_again = known->solved_again + other.solved_again;
+  *known = std::move(larger);
+}
+
+/// Estimates are made at the study's own positions, or at this many where there are more.
+constexpr int most_positions = 32;
+
+MeshResolution estimate_resolution(const StudyResults& results) {
+  const bool few = std::ssize(results.phases) <= most_positions;
+  return {results.study.fidelity.quadrature, few ? results.phases : equally_spaced_phases(most_positions)};
+}
+
+EffectScene scene_of(const StudyResults& results, const LoadedResult& loaded, const MeshResolution& resolution) {
+  const Study& study = results.study;
+  return {results.pair, study.pinion_material, study.wheel_material, resolution, results.structures.pair.get(), results.shafts.get(),
+          loaded.condition, loaded.torque};
+}
+
+void add_exact(const StudyResults& results, const LoadedResult& loaded, std::vector<SizeInStudy>& sizes) {
+  const CycleOutputs with = cycle_outputs(results.models[loaded.model], loaded.cycle);
+  const EffectScene scene = scene_of(results, loaded, {results.study.fidelity.quadrature, results.phases});
+  for (const EffectDecision& decision : results.effects) {
+    if (!decision.on || !changes_mesh(decision.name)) continue;
+    const Stopwatch clock;
+    EffectSize size{decision.name, {}, not_given};
+    const EffectDecisions rest = without(results.effects, decision.name, "left out");
+    if (mesh_effects(rest).give_way()) size.influence = EffectInfluence::between(with, outputs_with(scene, rest));
+    size.seconds = clock.seconds();
+    add(sizes, {loaded.scene, loaded.torque, size});
+  }
+}
+
+}  // namespace
+
+const SizeInStudy* size_of(const std::vector<SizeInStudy>& sizes, const std::string& name) {
+  const auto found = std::ranges::find(sizes, name, [](const SizeInStudy& s) { return s.size.name; });
+  return found == sizes.end() ? nullptr : &*found;
+}
+
+EffectSizes study_effect_sizes(const StudyResults& results) {
+  EffectSizes sizes;
+  const EffectSizing asked = results.study.fidelity.effect_sizes;
+  for (const LoadedResult& loaded : results.loaded) {
+    if (asked == EffectSizing::Off || loaded.design == "before" || !loaded.cycle.usable()) continue;
+    for (const EstimatedSize& estimate : estimate_effect_sizes(scene_of(results, loaded, estimate_resolution(results)), results.effects)) {
+      add(sizes.estimated, {loaded.scene, loaded.torque, estimate.size, estimate.positions, estimate.solved_again});
+    }
+    if (asked == EffectSizing::Exact) add_exact(results, loaded, sizes.exact);
+  }
+  return sizes;
+}
+
+}  // namespace flankwright::studies

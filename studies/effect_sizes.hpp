@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/load/effect_sizes.hpp"
+#include "studies/study.hpp"
+
+namespace flankwright::studies {
+
+struct StudyResults;
+
+/// The size of an effect in that load case of a study in which it is largest.
+struct SizeInStudy {
+  std::string scene;
+  double torque{not_given};  ///< on the pinion [N mm]
+  EffectSize size;           ///< its seconds those of all load cases
+  int positions{0}, solved_again{0};  ///< of an estimate over all load cases, see EstimatedSize
+};
+
+/// How large the effects of a study are, one entry each that is on and changes a loaded mesh.
+struct EffectSizes {
+  std::vector<SizeInStudy> estimated;  ///< empty: none asked for
+  std::vector<SizeInStudy> exact;      ///< by leaving each out, at the study's own resolution; empty: not asked for
+};
+
+/// The entry of that name, null where there is none.
+const SizeInStudy* size_of(const std::vector<SizeInStudy>& sizes, const std::string& name);
+
+/// Sizes as fidelity.effect_sizes asks for them, over the loaded results: all load cases of an analysis, those of the design after an
+/// optimisation.
+EffectSizes study_effect_sizes(const StudyResults& results);
+
+}  // namespace flankwright::studies

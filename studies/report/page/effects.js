@@ -1,0 +1,73 @@
+// Which effects are on and why, how large each is, and where the time went.
+
+const effect_measures = [
+  { title: "Effect on the mean transmission error", key: "te_mean_change_um", unit: "µm" },
+  { title: "Effect on its peak to peak", key: "te_peak_to_peak_change_um", unit: "µm" },
+  { title: "Effect on the peak contact stress", key: "peak_contact_stress_change_percent", unit: "%" },
+];
+
+/** Bars of one measure, an effect a row: exact where it was left out, and its estimate. */
+function effect_rows(effects, key) {
+  const sides = [{ from: "exact", what: "left out", colour: sequence_colour(0) }, { from: "estimate", what: "estimate", colour: sequence_colour(1) }]
+    .filter((side) => effects.some((effect) => effect[side.from]));
+  return effects.map((effect) => {
+    const bars = sides.map((side) => ({ ...side, value: record(effect[side.from])[key] ?? null }));
+    return { label: words(effect.name), bars, values: bars.map((bar) => bar.value), note: bars.map((bar) => fmt(bar.value, 3)).join(" / ") };
+  });
+}
+
+function time_figure(results, entries, grid) {
+  const timed = entries.filter((entry) => entry.seconds > 0);
+  if (!(results.seconds > 0) || timed.length === 0) return;
+  const title = "Share of the time";
+  figure(grid, { title, caption: `Of ${fmt(results.seconds, 3)} s: what effects did to build meshes, on all threads together, and the steps of the run, `
+    + "which include them. What is off took none." }, (plot) => draw_bars(plot, { unit: "%", label: title, rows: timed.map((entry) => {
+    const share = (100 * entry.seconds) / results.seconds;
+    return { label: words(entry.name), value: share, colour: sequence_colour(entry.on ? 0 : 2), note: fmt(share, 2) };
+  }) }));
+}
+
+function effect_figures(results, effects, steps, body) {
+  const sized = effects.filter((effect) => effect.exact || effect.estimate);
+  const is_exact = sized.some((effect) => effect.exact);
+  const grid = figure_grid(body);
+  for (const { title, key, unit } of sized.length > 0 ? effect_measures : []) {
+    figure(grid, { title,
+      caption: `With the effect less without it, in the load case in which it is largest${is_exact ? "; exact by leaving it out" : ""}; `
+        + "the estimate at no more than 32 positions, to first order where that holds." }, (plot) => {
+      plot.append(el("p", { class: "key" },
+        ...(is_exact ? [el("span", { class: "dot", style: `background:${sequence_colour(0)}` }), " left out   "] : []),
+        el("span", { class: "dot", style: `background:${sequence_colour(1)}` }), " estimate"));
+      draw_bars(plot, { rows: effect_rows(sized, key), unit, label: title });
+    });
+  }
+  time_figure(results, [...effects, ...steps], grid);
+}
+
+const time_cell = (seconds, longest) => (is_number(seconds) ? {
+  value: seconds,
+  text: fmt(seconds, 3),
+  draw: () => el("span", { class: "time" }, fmt(seconds, 3),
+    el("i", { style: `width:${longest > 0 && seconds > 0 ? Math.max(1, (60 * seconds) / longest) : 0}px` })),
+} : null);
+
+function build_effects(results, body) {
+  const effects = list(results.effects).map(record), steps = list(results.steps).map(record);
+  const longest = Math.max(0, maximum([...effects, ...steps].map((entry) => entry.seconds)));
+  effect_figures(results, effects, steps, body);
+  const share = (effect) => record(effect.exact || effect.estimate).share_percent ?? null;
+  table(body, {
+    title: "Effects in this run",
+    note: "Which effects of the mesh were called for, why, how large each is (the largest of its shares of mean deflection, variation and stress), "
+      + "and the time of its own code; what is off costs nothing.",
+    columns: [{ label: "Effect" }, { label: "On" }, { label: "Why" }, { label: "Size", unit: "%", digits: 3 }, { label: "Time", unit: "s" }],
+    rows: effects.map((effect) => [words(effect.name), { text: effect.on ? "yes" : "no", class: effect.on ? "good" : "off" },
+      effect.why ?? "", share(effect), time_cell(effect.seconds, longest)]),
+  });
+  if (steps.length === 0) return;
+  table(body, {
+    title: "Where the rest of the time went",
+    columns: [{ label: "Step" }, { label: "What" }, { label: "Time", unit: "s" }],
+    rows: steps.map((step) => [words(step.name), step.why ?? "", time_cell(step.seconds, longest)]),
+  });
+}

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "tests/benchmarks/contact_truth/contact_cases.hpp"
+
+/// What CalculiX 2.20 (Debian 12) found: C3D20R, penalty 2e7 MPa/mm; spur pairs without crowning by the medium mesh
+/// (48,681 and 66,903 unknowns), the others by the coarse one (28,527 and 69,861). contact_truth.md has the rest.
+namespace flankwright::contact_truth {
+
+/// Force per mm of face width on a tooth pair, mean over a layer.
+struct FaceLoad {
+  int tooth;
+  double begin, end;      ///< z [mm]
+  double per_face_width;  ///< [N/mm]
+};
+
+struct ContactFigure {
+  ContactTask task;
+  double torque;                 ///< on the pinion [N mm]
+  std::map<int, double> shares;  ///< of tooth pairs [-]
+  std::vector<FaceLoad> loads;   ///< of layers that neither the face nor a contact line ends in
+};
+
+inline std::vector<ContactFigure> spur_figures() {
+  const PairData spur = pair_data(0, 40);
+  const double inner = -6.0790, middle = -12.1581, outer = -16.0486;
+  return {{contact_task(spur, 1.15, 45),
+           2356561.784,
+           {{0, 1.0}},
+           {{0, outer, middle, 712.54}, {0, middle, inner, 690.51}, {0, inner, 0, 695.73}}},
+          {contact_task(spur, 0.65, 45),
+           3791179.135,
+           {{0, 0.47518}, {1, 0.52482}},
+           {{0, outer, middle, 546.62},
+            {0, middle, inner, 523.16},
+            {0, inner, 0, 527.73},
+            {1, outer, middle, 603.03},
+            {1, middle, inner, 581.12},
+            {1, inner, 0, 585.20}}},
+          {contact_task(spur, 1.15, 60, 20),
+           2826249.497,
+           {{0, 1.0}},
+           {{0, -18.0080, -14.4223, 584.00}, {0, -14.4223, -7.9681, 855.22}, {0, -7.9681, 0, 1059.74}}}};
+}
+
+inline std::vector<ContactFigure> helical_figures() {
+  const PairData helical = pair_data(30, 40);
+  return {{contact_task(helical, 1.0, 45),
+           3177385.463,
+           {{0, 0.58492}, {1, 0.41508}},
+           {{0, -14.4223, -7.9681, 491.77},
+            {0, -7.9681, 0, 580.55},
+            {0, 0, 7.9681, 636.57},
+            {0, 7.9681, 14.4223, 673.95},
+            {1, -14.4223, -7.9681, 628.98},
+            {1, -7.9681, 0, 642.05}}}};
+}
+
+/// Stress next to the flank where elements are narrow enough to show it, 0.06 mm under a contact 0.82 mm wide
+/// ("pressure" mesh, 36,267 unknowns): a layer of the spur pair with a face of one module.
+struct StressFigure {
+  ContactTask task;
+  LayerLoad layer;
+};
+inline StressFigure stress_figure() {
+  return {contact_task(pair_data(0, 10), 1.15, 45), {0, -3.0769, 0, 690.5817 * 3.0769, 1071.85}};
+}
+
+}  // namespace flankwright::contact_truth

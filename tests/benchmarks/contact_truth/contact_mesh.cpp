@@ -1,0 +1,328 @@
+#include "tests/benchmarks/contact_truth/contact_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+#include "core/compliance/thin_slice.hpp"
+
+namespace flankwright::contact_truth {
+namespace {
+
+using units::pi;
+
+struct Polar {
+  double radius, angle;
+};
+Polar blend(const Polar& a, const Polar& b, double t) {
+  return {a.radius + t * (b.radius - a.radius), a.angle + t * (b.angle - a.angle)};
+}
+
+/// The fillet and half the root land by arc length, 0 .. 1; angles from the tooth's centre line.
+class RootCurve {
+ public:
+  RootCurve(const ToothForm& form, double gap) {
+    constexpr int samples = 200;
+    for (int i = 0; i <= samples; ++i) {
+      const ProfilePoint p = form.fillet_point(form.fillet_start() + (pi / 2 - form.fillet_start()) * i / samples);
+      add({std::hypot(p.x, p.y), std::atan2(p.x, p.y)});
+    }
+    const double start = points_.back().angle;
+    for (int i = 1; i <= 20; ++i) add({form.root_radius(), start + (gap - start) * i / 20});
+  }
+  Polar at(double t) const {
+    const double s = t * length_.back();
+    const auto above = std::upper_bound(length_.begin() + 1, length_.end() - 1, s) - length_.begin();
+    const auto i = static_cast<std::size_t>(above);
+    return blend(points_[i - 1], points_[i], (s - length_[i - 1]) / (length_[i] - length_[i - 1]));
+  }
+
+ private:
+  void add(const Polar& p) {
+    const double step =
+        points_.empty() ? 0 : std::hypot(p.radius - points_.back().radius, p.radius * (p.angle - points_.back().angle));
+    length_.push_back(length_.empty() ? 0 : length_.back() + step);
+    points_.push_back(p);
+  }
+  std::vector<Polar> points_;
+  std::vector<double> length_;
+};
+
+/// Sizes growing from both ends of `length` (or from the first only), as positions from 0.
+std::vector<double> layer_ends(double length, const ContactMeshOptions& options, bool half) {
+  const double reach = half ? length : length / 2;
+  std::vector<double> ends{0};
+  for (double size = options.end_layer; ends.back() < reach;
+       size = std::min(size * options.layer_growth, options.largest_layer)) {
+    ends.push_back(ends.back() + size);
+  }
+  if (ends.size() > 2 && ends.back() - reach > reach - ends[ends.size() - 2]) ends.pop_back();
+  const double scale = reach / ends.back();
+  for (double& end : ends) end *= scale;
+  if (!half) {
+    for (std::size_t i = ends.size() - 1; i-- > 0;) ends.push_back(length - ends[i]);
+  }
+  return ends;
+}
+
+/// The section at any z: which nodes and quads there are does not depend on z, where they lie does.
+class Section {
+ public:
+  Section(const ContactGear& gear, const ContactMeshOptions& options)
+      : gear_(gear),
+        options_(options),
+        form_(tooth_form(*gear.pair, gear.member)),
+        pitch_(2 * pi / (*gear.pair)[gear.member].data.teeth),
+        rim_(std::max(form_.root_radius() - 1.1 * gear.pair->data.normal_module,
+                      0.5 * (form_.root_radius() + gear.bore_radius))),
+        path_(*gear.pair),
+        root_(form_, pitch_ / 2) {
+    // Teeth counter-clockwise: pair k is tooth k of the pinion and -k of the wheel.
+    first_ = (pinion() ? gear.first : -gear.last) - 1;
+    last_ = (pinion() ? gear.last : -gear.first) + 1;
+    build();
+  }
+
+  struct Quad {
+    std::array<int, 8> nodes;
+    int pair;  ///< whose loaded flank it touches
+    int face;  ///< CalculiX' number of that face; 0: it does not touch one
+  };
+  const std::vector<Quad>& quads() const { return quads_; }
+  std::size_t size() const { return places_.size(); }
+  bool at_bore(std::size_t node) const {
+    return places_[node].kind == Ring && places_[node].j == 2 * options_.body_rings;
+  }
+
+  Eigen::Vector2d position(std::size_t node, double z) const {
+    const Polar p = polar(places_[node], z);
+    const double angle = p.angle + turn() + gear_.flank->helix_rate * z;
+    return {p.radius * std::cos(angle), p.radius * std::sin(angle)};
+  }
+
+ private:
+  enum Kind { Tooth, Centre, Gap, Plain, Ring };
+  /// A node at half steps: i along the profile (around the ring), j from the inside to the surface (down to the bore).
+  struct Place {
+    Kind kind;
+    int tooth, side, i, j;
+    auto operator<=>(const Place&) const = default;
+  };
+
+  bool pinion() const { return gear_.member == Member::Pinion; }
+  bool loaded(int tooth) const { return tooth > first_ && tooth < last_; }
+  int pair_of(int tooth) const { return pinion() ? tooth : -tooth; }
+  int flank_elements(int tooth) const { return loaded(tooth) ? options_.flank : options_.far_flank; }
+  int steps(int tooth) const { return flank_elements(tooth) + options_.fillet; }
+  int corner(int tooth) const {
+    return steps(tooth) - 1;
+  }  ///< where the inner line turns from the centre line to the rim
+  double turn() const {
+    const double phi1 = path_.pinion_angle_at(gear_.line_phase, *gear_.pair);
+    const double rotation = pinion() ? phi1 : -phi1 / gear_.pair->gear_ratio();
+    return rotation - form_.half_angle((*gear_.pair)[gear_.member].working_pitch_radius);
+  }
+
+  /// The involute's arc length from the base circle to half step i of the flank, rho^2 / (2 r_b) [mm].
+  double arc(int tooth, int side, int i, double z) const {
+    if (i % 2 != 0) return (arc(tooth, side, i - 1, z) + arc(tooth, side, i + 1, z)) / 2;
+    const auto at = [&](double rho) { return rho * rho / (2 * form_.base_radius()); };
+    const Gear& g = (*gear_.pair)[gear_.member];
+    const double tip = at(g.roll_length_at(form_.tip_radius())), start = at(g.roll_length_at(form_.form_radius()));
+    const double t = i / (2.0 * flank_elements(tooth));
+    if (side < 0 || !loaded(tooth)) return tip + t * (start - tip);
+    const double pinion_roll = path_.roll_at(path_.phase_at(gear_.line_phase + pair_of(tooth), z));
+    const double roll = pinion() ? pinion_roll : gear_.pair->path_length - pinion_roll;
+    const double contact = std::clamp(at(std::max(roll, 0.0)), start, tip), delta = options_.finest;
+    const double above = std::asinh((tip - contact) / delta), below = std::asinh((contact - start) / delta);
+    return contact + delta * std::sinh(above - t * (above + below));
+  }
+
+  /// The surface, angles from the centre line.
+  Polar profile(int tooth, int side, int i, double z) const {
+    const int end = 2 * flank_elements(tooth);
+    if (i > end) return root_.at((i - end) / (2.0 * options_.fillet));
+    const double rho = std::sqrt(2 * form_.base_radius() * arc(tooth, side, i, z));
+    const double radius = std::hypot(rho, form_.base_radius());
+    if (side < 0 || !loaded(tooth))
+      return {radius, form_.half_angle(std::clamp(radius, form_.form_radius(), form_.tip_radius()))};
+    const auto p = flank_point(*gear_.flank, rho, z, pair_of(tooth), 0.0);
+    const double centre =
+        gear_.flank->helix_rate * z - form_.half_angle((*gear_.pair)[gear_.member].working_pitch_radius);
+    return {std::hypot(p.x, p.y), std::remainder(std::atan2(p.y, p.x) - centre, 2 * pi)};
+  }
+
+  /// Where the start of the fillet is joined to the centre line: share of the height from the rim to there.
+  static constexpr double below_flank = 0.6;
+
+  /// The tooth's centre line, then the rim's circle; the same for both sides of a tooth.
+  Polar inner(int tooth, int i) const {
+    const int flank = 2 * flank_elements(tooth), turn = 2 * corner(tooth), last = 2 * steps(tooth);
+    if (i > turn) return {rim_, pitch_ / 2 * (i - turn) / (last - turn)};
+    const double foot = rim_ + below_flank * (form_.form_radius() - rim_);
+    if (i > flank) return {foot + (rim_ - foot) * (i - flank) / (turn - flank), 0};
+    return {form_.tip_radius() + (foot - form_.tip_radius()) * i / flank, 0};
+  }
+
+  /// Share of the way from the inside to the surface at half level j: fine below the loaded flank, even in the gap's
+  /// middle.
+  double level(int tooth, int side, int i, int j) const {
+    if (j % 2 != 0) return (level(tooth, side, i, j - 1) + level(tooth, side, i, j + 1)) / 2;
+    const double even = j / (2.0 * options_.across);
+    if (side < 0 || !loaded(tooth)) return even;
+    const double q = options_.into_depth;
+    const double fine = (1 - std::pow(q, -j / 2.0)) / (1 - std::pow(q, -options_.across));
+    const int end = 2 * flank_elements(tooth);
+    return i <= end ? fine : fine + (even - fine) * (i - end) / (2.0 * options_.fillet);
+  }
+
+  Polar polar(const Place& p, double z) const {
+    const double middle = p.tooth * pitch_;
+    switch (p.kind) {
+      case Centre: {
+        const Polar at = inner(p.tooth, p.i);
+        return {at.radius, middle};
+      }
+      case Tooth: {
+        const Polar at = blend(inner(p.tooth, p.i), profile(p.tooth, p.side, p.i, z), level(p.tooth, p.side, p.i, p.j));
+        return {at.radius, middle + p.side * at.angle};
+      }
+      case Gap:
+        return {rim_ + (form_.root_radius() - rim_) * p.j / (2.0 * options_.across), middle + pitch_ / 2};
+      case Plain: {
+        const double start = (last_ + 0.5) * pitch_, end = (first_ - 0.5) * pitch_ + 2 * pi;
+        return {rim_ + (form_.root_radius() - rim_) * p.j / (2.0 * options_.across),
+                start + (end - start) * plain(p.i)};
+      }
+      case Ring: {
+        Polar at = polar(places_[static_cast<std::size_t>(around_[static_cast<std::size_t>(p.i)])], z);
+        at.radius += (gear_.bore_radius - at.radius) * p.j / (2.0 * options_.body_rings);
+        return at;
+      }
+    }
+    __builtin_unreachable();
+  }
+
+  /// Positions around the plain ring, 0 .. 1, narrow next to the teeth.
+  double plain(int i) const {
+    const double t = i / (2.0 * plain_);
+    return t - 0.6 / (2 * pi) * std::sin(2 * pi * t);
+  }
+
+  int node(Place p) {
+    if (p.kind == Tooth && p.i == 2 * steps(p.tooth))
+      p = {Gap, p.side > 0 ? p.tooth : p.tooth - 1, 0, 0, p.j};
+    else if (p.kind == Tooth && p.j == 0 && p.i <= 2 * corner(p.tooth))
+      p = {Centre, p.tooth, 0, p.i, 0};
+    else if (p.kind == Plain && (p.i == 0 || p.i == 2 * plain_))
+      p = {Gap, p.i == 0 ? last_ : first_ - 1, 0, 0, p.j};
+    else if (p.kind == Ring && p.j == 0)
+      return around_[static_cast<std::size_t>(p.i)];
+    const auto [found, made] = numbers_.try_emplace(p, static_cast<int>(places_.size()));
+    if (made) places_.push_back(p);
+    return found->second;
+  }
+
+  /// @param flipped  where growing i and j turn clockwise
+  template <class At>
+  void grid(int columns, int rows, bool flipped, int tooth, int surface_columns, At&& at) {
+    for (int i = 0; i < 2 * columns; i += 2) {
+      for (int j = 0; j < 2 * rows; j += 2) {
+        const std::array<int, 8> n{at(i, j),     at(i + 2, j),     at(i + 2, j + 2), at(i, j + 2),
+                                   at(i + 1, j), at(i + 2, j + 1), at(i + 1, j + 2), at(i, j + 1)};
+        const bool surface = i < 2 * surface_columns && j == 2 * rows - 2;
+        const int face = !surface ? 0 : flipped ? 4 : 5;
+        if (flipped)
+          quads_.push_back({{n[0], n[3], n[2], n[1], n[7], n[6], n[5], n[4]}, pair_of(tooth), face});
+        else
+          quads_.push_back({n, pair_of(tooth), face});
+      }
+    }
+  }
+
+  void build() {
+    for (int m = first_; m <= last_; ++m) {
+      for (const int side : {-1, 1}) {
+        grid(steps(m), options_.across, side > 0, m, side > 0 && loaded(m) ? flank_elements(m) : 0, [&](int i, int j) {
+          return node({Tooth, m, side, i, j});
+        });
+      }
+      for (int i = 2 * steps(m); i > 2 * corner(m); --i) around_.push_back(node({Tooth, m, -1, i, 0}));
+      for (int i = 2 * corner(m); i < 2 * steps(m); ++i) around_.push_back(node({Tooth, m, 1, i, 0}));
+    }
+    // A full turn has to close on the teeth; elements of at most 24 deg.
+    plain_ = std::max(6, static_cast<int>(std::ceil((2 * pi - (last_ - first_ + 1) * pitch_) / (20 * units::deg))));
+    grid(plain_, options_.across, true, 0, 0, [&](int i, int j) { return node({Plain, 0, 0, i, j}); });
+    for (int i = 0; i < 2 * plain_; ++i) around_.push_back(node({Plain, 0, 0, i, 0}));
+    const auto n = static_cast<int>(around_.size());
+    grid(n / 2, options_.body_rings, false, 0, 0, [&](int i, int j) { return node({Ring, 0, 0, i % n, j}); });
+  }
+
+  const ContactGear& gear_;
+  const ContactMeshOptions& options_;
+  ToothForm form_;
+  double pitch_, rim_;
+  PathOfContact path_;
+  RootCurve root_;
+  int first_, last_, plain_{0};
+  std::vector<Place> places_;
+  std::map<Place, int> numbers_;
+  std::vector<int> around_;
+  std::vector<Quad> quads_;
+};
+
+}  // namespace
+
+ContactMesh contact_mesh(const ContactGear& gear, const ContactMeshOptions& options) {
+  const Section section(gear, options);
+  const double width = (*gear.pair)[gear.member].data.face_width;
+  ContactMesh mesh;
+  for (const double end : layer_ends(gear.half_face ? width / 2 : width, options, gear.half_face)) {
+    mesh.planes.push_back(end - width / 2);
+  }
+  mesh.flanks.resize(static_cast<std::size_t>(gear.last - gear.first + 1));
+
+  std::map<std::pair<int, int>, int> numbers;  // of (level, node of the section)
+  std::vector<Eigen::Vector3d> points;
+  const auto node = [&](int level, int number) {
+    const auto [found, made] = numbers.try_emplace({level, number}, static_cast<int>(points.size()));
+    if (made) {
+      const auto k = static_cast<std::size_t>(level / 2), n = static_cast<std::size_t>(number);
+      const double z = level % 2 == 0 ? mesh.planes[k] : (mesh.planes[k] + mesh.planes[k + 1]) / 2;
+      const Eigen::Vector2d p = section.position(n, z);
+      points.push_back({p.x(), p.y(), z});
+      if (section.at_bore(n)) mesh.bore.push_back(found->second);
+      if (gear.half_face && k + 1 == mesh.planes.size()) mesh.mid_face.push_back(found->second);
+    }
+    return found->second;
+  };
+  std::vector<std::array<int, 20>> bricks;
+  for (int layer = 0; layer + 1 < static_cast<int>(mesh.planes.size()); ++layer) {
+    for (const Section::Quad& quad : section.quads()) {
+      std::array<int, 20> brick;
+      for (std::size_t i = 0; i < 4; ++i) {
+        brick[i] = node(2 * layer, quad.nodes[i]);
+        brick[i + 4] = node(2 * layer + 2, quad.nodes[i]);
+        brick[i + 8] = node(2 * layer, quad.nodes[i + 4]);
+        brick[i + 12] = node(2 * layer + 2, quad.nodes[i + 4]);
+        brick[i + 16] = node(2 * layer + 1, quad.nodes[i]);
+      }
+      if (quad.face != 0) {
+        mesh.flanks[static_cast<std::size_t>(quad.pair - gear.first)].push_back(
+            {static_cast<int>(bricks.size()), quad.face});
+      }
+      bricks.push_back(brick);
+    }
+  }
+  mesh.solid.nodes.resize(3, std::ssize(points));
+  for (std::size_t i = 0; i < points.size(); ++i) mesh.solid.nodes.col(static_cast<Eigen::Index>(i)) = points[i];
+  mesh.solid.bricks.resize(20, std::ssize(bricks));
+  for (std::size_t i = 0; i < bricks.size(); ++i) {
+    for (int k = 0; k < 20; ++k)
+      mesh.solid.bricks(k, static_cast<Eigen::Index>(i)) = bricks[i][static_cast<std::size_t>(k)];
+  }
+  return mesh;
+}
+
+}  // namespace flankwright::contact_truth

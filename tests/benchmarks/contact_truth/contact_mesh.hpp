@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "core/compliance/finite_element/solid_model.hpp"
+#include "core/contact/mesh_scene.hpp"
+#include "core/contact/path_of_contact.hpp"
+#include "core/gear/tooth_form.hpp"
+
+namespace flankwright::contact_truth {
+
+/// How finely a gear is meshed for contact. Sizes in mm.
+struct ContactMeshOptions {
+  int flank{12};              ///< elements from tip to start of fillet, loaded teeth
+  int far_flank{2};           ///< the same, other detailed teeth
+  int fillet{3};              ///< from there to the middle of the gap, >= 2
+  int across{4};              ///< centre surface to flank
+  double finest{0.4};         ///< delta of the spacing along the flank: s = s_c + delta sinh(...)
+  double into_depth{2.2};     ///< size ratio of neighbouring elements below the loaded flank
+  double end_layer{1.5};      ///< axial size at the face ends
+  double layer_growth{1.6};   ///< of neighbouring layers
+  double largest_layer{6.0};  ///< axial size at mid face
+  int body_rings{2};          ///< from below the teeth to the bore
+};
+
+/// One gear of the scene at one mesh position.
+struct ContactGear {
+  const GearPair* pair{nullptr};
+  const Flank* flank{nullptr};  ///< the loaded one, with its modifications
+  Member member{Member::Pinion};
+  double line_phase{0};   ///< of tooth pair 0
+  double bore_radius{0};  ///< where the gear is held [mm]
+  int first{0}, last{0};  ///< tooth pairs that are meshed for contact; one more tooth on either side has its form
+  bool half_face{false};  ///< z <= 0 only, mirrored at mid face (spur gears, symmetric flanks)
+};
+
+/// An element's face of a loaded flank, as CalculiX counts them.
+struct ElementFace {
+  int brick;  ///< from 0
+  int face;   ///< 1 .. 6
+};
+
+/// 20-node bricks of a gear with all of its body, in the frame of Flank.
+struct ContactMesh {
+  SolidMesh solid;
+  std::vector<int> bore;                         ///< nodes
+  std::vector<int> mid_face;                     ///< nodes at z = 0 where only half of the face is meshed
+  std::vector<std::vector<ElementFace>> flanks;  ///< of pairs first .. last
+  std::vector<double> planes;                    ///< z of the layers' ends [mm]
+};
+
+/// Loaded teeth follow the true flank surface; other flanks and fillets are those of ToothForm, and where nothing
+/// meshes the gear is a plain ring at root height. Elements are narrow around the contact line wherever it crosses the
+/// flank: the spacing along the profile is s_c(z) + delta sinh(linear in the index), s the arc length and s_c the
+/// undisturbed contact.
+ContactMesh contact_mesh(const ContactGear& gear, const ContactMeshOptions& options);
+
+}  // namespace flankwright::contact_truth

@@ -1,0 +1,111 @@
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <sstream>
+#include <string>
+
+#include "core/base/stopwatch.hpp"
+#include "studies/gear_structures.hpp"
+#include "studies/study_file.hpp"
+#include "tests/benchmarks/contact_truth/contact_cases.hpp"
+#include "tests/benchmarks/contact_truth/held_structure.hpp"
+#include "tests/benchmarks/contact_truth/own_answer.hpp"
+
+// A gear pair in full three-dimensional contact by CalculiX, beside the program's own models at the torque that came
+// out:
+//
+//     flankwright_contact_truth FOLDER [MESH] [PART_OF_A_CASE'S_NAME]
+//
+// MESH is coarse, medium, fine, ends or pressure. FOLDER receives decks and CalculiX' output. Times are processor
+// seconds, of the program's own models wall seconds.
+
+using namespace flankwright;
+using namespace flankwright::contact_truth;
+
+namespace {
+
+/// The pair as a user states it, with the gears' default bodies.
+studies::Study study_of(const ContactTask& task, double torque, const char* compliance) {
+  std::ostringstream text;
+  text.precision(17);
+  const PairData& data = task.pair;
+  text << "task = \"analyse\"\n[pair]\nnormal_module = " << data.normal_module
+       << "\nhelix_angle = " << data.helix_angle / units::deg << "\n[pinion]\nteeth = " << data.pinion.teeth
+       << "\nface_width = " << data.pinion.face_width << "\n[wheel]\nteeth = " << data.wheel.teeth
+       << "\nface_width = " << data.wheel.face_width << "\n[load]\ntorque = " << torque * 1e-3
+       << "\n[fidelity]\ncompliance = \"" << compliance << "\"\n";
+  return studies::parse_study(text.str(), "contact_truth");
+}
+
+void print_row(const char* model, double approach, double share, double stress, double line_end_to_middle,
+               double seconds) {
+  std::printf("| %s | %.2f | %.4f | %.0f | %.3f | %.1f |\n", model, approach / units::um, share, stress,
+              line_end_to_middle, seconds);
+  std::fflush(stdout);
+}
+
+void compare(const ContactCase& c, const ContactSettings& settings, const std::string& folder) {
+  const ContactTask& task = c.task;
+  const ContactAnswer outside = run_calculix(task, settings, folder);
+  if (!outside.converged) {
+    std::printf("%s: CalculiX did not converge, see %s/ccx.log\n", c.name.c_str(), folder.c_str());
+    return;
+  }
+  const GearPair pair = make_gear_pair(task.pair);
+  const int tooth = outside.layers.front().tooth;
+  std::printf(
+      "\n%s: %.1f N·m; CalculiX %ld unknowns, %.2f GB; torques' ratio %.5f; largest compression next to the flank %.0f "
+      "MPa\n\n"
+      "| model | approach um | share of pair %d | Hertzian peak MPa | end over middle | s "
+      "|\n|---|---|---|---|---|---|\n",
+      c.name.c_str(), outside.pinion_torque * 1e-6, static_cast<long>(outside.unknowns), outside.peak_bytes / 1e9,
+      outside.wheel_torque / outside.pinion_torque / pair.gear_ratio(), outside.peak_compression(), tooth);
+  std::size_t layers = 0;
+  while (layers < outside.layers.size() && outside.layers[layers].tooth == tooth) ++layers;
+  const LayerLoad &first = outside.layers.front(), &middle = outside.layers[task.half_face ? layers - 1 : layers / 2];
+  const auto load = [](const LayerLoad& l) { return l.force / (l.end - l.begin); };
+  print_row("CalculiX", task.approach, outside.share(tooth), hertzian_peak(task, outside), load(first) / load(middle),
+            outside.processor_seconds);
+  const auto own = [&](const char* name, const PairCompliance* structure, double seconds) {
+    const OwnAnswer answer = own_answer(task, outside.pinion_torque, structure);
+    const auto at = [&](const LayerLoad& l) { return answer.mean_face_load(tooth, l.begin, l.end); };
+    print_row(name, answer.loaded.load.transmission_error, answer.share(tooth), answer.peak_stress(),
+              at(first) / at(middle), seconds);
+  };
+  const Stopwatch held_clock;
+  const auto held = held_structure(task);
+  own("fe, held at the bores", held.get(), held_clock.seconds());
+  for (const char* compliance : {"fe", "fitted"}) {
+    const Stopwatch clock;
+    const auto structures = studies::gear_structures(study_of(task, outside.pinion_torque, compliance), pair, {});
+    own(compliance, structures.pair.get(), clock.seconds());
+  }
+  own("thin_slice", nullptr, 0);
+  std::printf("\nforce per mm of face, N/mm: tooth pair, z, CalculiX, fe held\n");
+  const OwnAnswer answer = own_answer(task, outside.pinion_torque, held.get());
+  for (const LayerLoad& l : outside.layers) {
+    std::printf("  %2d %8.2f %9.1f %9.1f\n", l.tooth, (l.begin + l.end) / 2, load(l),
+                answer.mean_face_load(l.tooth, l.begin, l.end));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: %s FOLDER [MESH] [PART_OF_A_CASE'S_NAME]\n", argv[0]);
+    return 2;
+  }
+  if (!calculix_is_installed()) {
+    std::fprintf(stderr, "CalculiX (ccx, Debian package calculix-ccx) is not installed\n");
+    return 1;
+  }
+  ContactSettings settings;
+  settings.mesh = contact_mesh_options(argc > 2 ? argv[2] : "medium");
+  int number = 0;
+  for (const ContactCase& c : contact_cases()) {
+    ++number;
+    if (argc > 3 && c.name.find(argv[3]) == c.name.npos) continue;
+    compare(c, settings, std::string(argv[1]) + "/" + std::to_string(number));
+  }
+}

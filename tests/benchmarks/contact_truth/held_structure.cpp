@@ -1,0 +1,64 @@
+#include "tests/benchmarks/contact_truth/held_structure.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "core/compliance/finite_element/influence.hpp"
+#include "core/compliance/finite_element/solve_influence_table.hpp"
+
+namespace flankwright::contact_truth {
+
+InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_radius, double poissons_ratio,
+                            const GearMeshOptions& mesh) {
+  const Gear& gear = pair[member];
+  const double module = pair.data.normal_module, half = gear.data.face_width / 2;
+  GearToMesh to_mesh{gear.data, module, pair.data.pressure_angle, pair.data.helix_angle, {}};
+  to_mesh.gear.tip_diameter = 2 * gear.tip_radius;
+  // The mesh wants a shaft somewhat larger than its bore, and an overhang; both bores are held all along.
+  to_mesh.body.bore_diameter = 2 * bore_radius;
+  to_mesh.body.shaft_diameter = 2 * std::min(bore_radius / 0.8, gear.root_radius - 0.5 * module);
+  to_mesh.body.shaft_overhang = 0.05 * module;
+  GearMeshOptions options = mesh;
+  const int apart = std::max(2, teeth_apart_in_contact(pair));
+  options.teeth_each_side = apart;
+  GearMesh model = gear_mesh(to_mesh, options);
+  model.supports.clear();
+  for (int i = 0; i < model.solid.nodes.cols(); ++i) {
+    if (model.solid.nodes.col(i).head<2>().norm() < bore_radius * (1 + 1e-9)) model.supports.push_back({i});
+  }
+  const SolidModel solid(model.solid, {1, poissons_ratio}, model.supports);
+
+  const FlankGrid grid = flank_grid(gear.data.face_width / module);
+  std::vector<FlankPoint> points;
+  for (int tooth = -apart; tooth <= apart; ++tooth) {
+    for (const FlankPlace& place : grid.places(tooth)) {
+      points.push_back(
+          {tooth, model.form.form_radius() + (place.u + 1) / 2 * (model.form.tip_radius() - model.form.form_radius()),
+           std::clamp(place.zeta * module - half, -half, half)});
+    }
+  }
+  const Eigen::SparseMatrix<double> functionals = net_functionals(model, points, RemovedMotion::None);
+  const Eigen::Index n = grid.size();
+  const Eigen::SparseMatrix<double> loads = functionals.middleCols(apart * n, n);
+  const Eigen::MatrixXd deflections = module * (functionals.transpose() * solid.solve(loads));
+  std::vector<Eigen::MatrixXd> tables;
+  for (int m = 0; m <= apart; ++m) {
+    tables.push_back(
+        0.5 * (deflections.middleRows((apart - m) * n, n) + deflections.middleRows((apart + m) * n, n).transpose()));
+  }
+  return {grid, tables};
+}
+
+std::shared_ptr<const PairCompliance> held_structure(const ContactTask& task, const GearMeshOptions& mesh) {
+  const GearPair pair = make_gear_pair(task.pair);
+  const auto gear = [&](Member m, double bore) {
+    return GearStructure{
+        std::make_shared<const InfluenceTable>(held_at_bore(pair, m, bore, task.material.poissons_ratio, mesh)),
+        task.material.youngs_modulus};
+  };
+  return std::make_shared<const StructuralPair>(pair, gear(Member::Pinion, task.bore_radius[0]),
+                                                gear(Member::Wheel, task.bore_radius[1]));
+}
+
+}  // namespace flankwright::contact_truth

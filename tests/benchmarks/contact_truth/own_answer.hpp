@@ -1,0 +1,31 @@
+#pragma once
+
+#include "core/load/mesh_cycle.hpp"
+#include "tests/benchmarks/contact_truth/contact_run.hpp"
+
+namespace flankwright::contact_truth {
+
+/// The program's own answer at the position of a task.
+struct OwnAnswer {
+  MeshModel model;
+  LoadedPosition loaded;
+
+  double share(int tooth) const;  ///< [-]
+  /// Force per mm of face width at z on a tooth pair, linear between contact points and level beyond the outermost
+  /// [N/mm]; 0 where the pair has none.
+  double face_load(int tooth, double z) const;
+  double mean_face_load(int tooth, double begin, double end) const;  ///< its mean over a layer [N/mm]
+  double peak_stress() const;                                        ///< Hertzian [MPa]
+};
+
+/// @param torque     on the pinion [N mm]
+/// @param structure  null: thin slices
+OwnAnswer own_answer(const ContactTask& task, double torque, const PairCompliance* structure);
+
+/// Hertzian stress of what a layer carries, in the curvature of the undisturbed contact at its middle [MPa].
+double hertzian_stress(const ContactTask& task, const LayerLoad& layer);
+
+/// Largest hertzian_stress() of an answer [MPa].
+double hertzian_peak(const ContactTask& task, const ContactAnswer& answer);
+
+}  // namespace flankwright::contact_truth
