@@ -23,7 +23,7 @@ struct ActiveBound {
 ///
 ///     minimise over lambda >= 0   |grad f + J' lambda|^2 + |c lambda|^2
 ///
-/// over all rows and bounds within `reach` of being active; variables' bounds only where more than 1e-6 is left without them, so that a bound has
+/// over all rows and bounds within `reach` of being active; variables' bounds only where more than 1e-4 is left without them, so that a bound has
 /// no share where multipliers are not unique. f is the objective in units of its start, variables count in their
 /// ranges. A residual above 1e-4 at a point where no solver can descend is a kink that candidates do not describe: a contact
 /// point about to lose or take up load, a relief's start that passes one.

@@ -95,7 +95,7 @@ effective_contact_ratio = { min = 1.5 }
 )", "small.toml"));
   write_results_store(file, results);
   CHECK(query(file, "SELECT name, unit, minimum, maximum FROM constraints ORDER BY rowid") ==
-        std::vector<Row>{{"effective_contact_ratio", "", "1.5", "NULL"},
+        std::vector<Row>{{"effective_contact_ratio", "1", "1.5", "NULL"},
                          {"te_peak_to_peak", "um", "NULL", "5.0"},
                          {"pinion.modification.lead_crowning + pinion.modification.end_relief.amount", "um", "1.0", "30.0"}});
   constexpr double round_off = 1e-12;
