@@ -122,6 +122,18 @@ class DesignRun {
 
 }  // namespace
 
+DesignProblem last_stage(const DesignProblem& problem, const std::vector<LexicographicStage>& stages) {
+  const DesignTask& task = problem.task();
+  if (task.then.empty()) return problem;
+  std::vector<GoalBound> bounds = task.goal_bounds;
+  Goal goal = task.goal();
+  for (std::size_t i = 0; i < task.then.size(); ++i) {
+    bounds.push_back({goal, stages[i].limit});
+    goal = task.then[i];
+  }
+  return problem.judged_by(goal, bounds);
+}
+
 DesignReport report_design(const DesignProblem& problem, DesignAnalysis analysis) {
   const DesignTask& task = problem.task();
   const auto value_of = [&](const DesignVariable& v) {

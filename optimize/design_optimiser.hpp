@@ -74,6 +74,9 @@ inline DesignResult optimise_design(DesignProblem& problem, const SolverOptions&
   return optimise_design(problem, DesignOptions{options});
 }
 
+/// What the optimality of a result is about: the problem itself, or of a list the last objective's, those before it at the limits they kept.
+DesignProblem last_stage(const DesignProblem& problem, const std::vector<LexicographicStage>& stages);
+
 /// A design as results show it.
 DesignReport report_design(const DesignProblem& problem, DesignAnalysis analysis);
 

@@ -171,6 +171,15 @@ bool EpigraphProgram::is_majorant() const {
   });
 }
 
+double EpigraphProgram::by_output(const EpigraphRow& row) const {
+  if (row.kind == Kind::OutputBound) {
+    const OutputConstraint& bound = problem_.task().constraints[static_cast<std::size_t>(row.index)];
+    return (bound.is_least() ? -1.0 : 1.0) / std::abs(bound.limit());
+  }
+  if (row.kind != Kind::Floor && row.kind != Kind::Ceiling) return 0.0;
+  return (row.kind == Kind::Floor ? 1.0 : -1.0) / blocks_[static_cast<std::size_t>(row.goal)].peak(row.index);
+}
+
 void EpigraphProgram::write_goal(int at, const GoalBlock& block, const Eigen::VectorXd& y, double factor, double shift,
                                  ProgramValues& values) const {
   const SmoothValue value = block.value(y);
@@ -192,7 +201,7 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
       const double sign = row.kind == Kind::Floor ? 1.0 : -1.0;
       const int u = block.bound(row.scene, row.index);
       values.constraints[at] = sign * (value.value / block.peak(row.index) - y[u]);
-      jacobian.head(n) = sign / block.peak(row.index) * problem_.scaled(value.gradient);
+      jacobian.head(n) = by_output(row) * problem_.scaled(value.gradient);
       jacobian[u] = -sign;
       return;
     }
@@ -201,7 +210,7 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
       const SmoothValue value = candidate_value(bound.output, row.candidate, problem_.model(row.scene),
                                                 analysis.cycles[static_cast<std::size_t>(row.scene)]);
       values.constraints[at] = bound.excess(value.value);
-      jacobian.head(n) = (bound.is_least() ? -1.0 : 1.0) / std::abs(bound.limit()) * problem_.scaled(value.gradient);
+      jacobian.head(n) = by_output(row) * problem_.scaled(value.gradient);
       return;
     }
     case Kind::GoalBound:

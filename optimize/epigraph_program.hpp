@@ -55,6 +55,8 @@ class EpigraphProgram : public NonlinearProgram {
   bool is_majorant() const;
   /// What each constraint of the programme is, in their order.
   const std::vector<EpigraphRow>& rows() const { return rows_; }
+  /// Change of a Floor, Ceiling or OutputBound by its output [1/inside unit]; 0 of other rows.
+  double by_output(const EpigraphRow& row) const;
 
   int variables() const override { return variables_; }
   int constraints() const override { return static_cast<int>(rows_.size()); }

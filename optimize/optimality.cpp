@@ -8,7 +8,8 @@ namespace flankwright {
 
 namespace {
 
-constexpr double felt = 1e-6;  // a multiplier that counts is above it
+/// Up to what is left over the conditions count as holding without the bounds of the variables, as DesignResult::optimal.
+constexpr double holds = 1e-4;
 
 /// A row or bound near enough to be active.
 struct Near {
@@ -21,7 +22,9 @@ std::vector<Near> near_rows(const EpigraphProgram& program, const ProgramValues&
   std::vector<Near> near;
   for (int r = 0; r < program.constraints(); ++r) {
     if (values.constraints[r] < -Optimality::reach) continue;
-    near.push_back({{program.rows()[static_cast<std::size_t>(r)]}, values.constraints[r], values.constraint_jacobian.row(r)});
+    ActiveBound bound{program.rows()[static_cast<std::size_t>(r)]};
+    bound.by_output = program.by_output(bound.row);
+    near.push_back({bound, values.constraints[r], values.constraint_jacobian.row(r)});
   }
   const Eigen::VectorXd lower = program.lower(), upper = program.upper();
   for (int i = 0; i < program.variables(); ++i) {
@@ -50,20 +53,23 @@ Optimality first_order_optimality(DesignProblem& problem, const Eigen::VectorXd&
   const ProgramValues values = program.evaluate(y, true);
   const std::vector<Near> near = near_rows(program, values, y, problem.variables());
   const auto n = static_cast<Eigen::Index>(program.variables()), m = static_cast<Eigen::Index>(near.size());
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + m, m);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + m, m), free = A;  // free: without the bounds of the variables
   for (Eigen::Index j = 0; j < m; ++j) {
     A.col(j).head(n) = near[static_cast<std::size_t>(j)].gradient;
     A(n + j, j) = near[static_cast<std::size_t>(j)].slack;
+    if (near[static_cast<std::size_t>(j)].bound.variable < 0) free.col(j) = A.col(j);
   }
   Eigen::VectorXd b = Eigen::VectorXd::Zero(n + m);
   b.head(n) = -values.objective_gradient;
-  const Eigen::VectorXd lambda = nonnegative_least_squares(A, b);
+  Eigen::VectorXd lambda = nonnegative_least_squares(free, b);
+  if ((free * lambda - b).lpNorm<Eigen::Infinity>() > holds) lambda = nonnegative_least_squares(A, b);
   const Eigen::VectorXd left = (A * lambda - b).cwiseAbs();
   Optimality result;
+  result.objective_scale = program.objective_scale();
   result.residual = left.head(n).maxCoeff();
   result.complementarity = m == 0 ? 0.0 : left.tail(m).maxCoeff();
   for (Eigen::Index j = 0; j < m; ++j) {
-    if (lambda[j] <= felt) continue;
+    if (lambda[j] <= Optimality::felt) continue;
     result.active.push_back(near[static_cast<std::size_t>(j)].bound);
     result.active.back().multiplier = lambda[j];
   }

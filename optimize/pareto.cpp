@@ -24,8 +24,12 @@ class FrontTracing {
     for (std::size_t g = 0; g < front_.goals.size() && !is_spent(); ++g) add_anchor(g);
     if (front_.points.size() == front_.goals.size()) {
       choose_ranges();
-      if (front_.goals.size() == 2) halve_gaps();
-      else fill_triangle();
+      if (front_.goals.size() == 2) {
+        halve_gaps();
+        space_evenly();
+      } else {
+        fill_triangle();
+      }
     }
     mark_dominated();
     front_.seconds = clock_.seconds();
@@ -43,8 +47,12 @@ class FrontTracing {
     return options;
   }
 
+  bool is_out_of_budget() const {
+    return front_.evaluations >= options_.max_evaluations || clock_.seconds() >= options_.max_seconds;
+  }
+
   bool is_spent() {
-    const bool spent = front_.evaluations >= options_.max_evaluations || clock_.seconds() >= options_.max_seconds;
+    const bool spent = is_out_of_budget();
     if (spent) front_.message = "the budget ended the front after " + std::to_string(front_.points.size()) + " points";
     return spent;
   }
@@ -144,6 +152,34 @@ class FrontTracing {
       front_.points.insert(front_.points.begin() + static_cast<std::ptrdiff_t>(widest) + 1, found);
       closed.insert(closed.begin() + static_cast<std::ptrdiff_t>(widest) + 1, false);
     }
+  }
+
+  /// Seeks the points between the ends once more, from equal steps of arc length along the broken line through them; one that stands
+  /// there already is kept. Taken where the front has grown more even by it.
+  void space_evenly() {
+    constexpr double there = 0.1;  // of a step
+    const std::size_t n = front_.points.size();
+    if (n < 4) return;
+    std::vector<Eigen::VectorXd> line;
+    std::vector<double> along{0.0};
+    for (const ParetoPoint& p : front_.points) line.push_back(normalised(p));
+    for (std::size_t i = 1; i < n; ++i) along.push_back(along.back() + (line[i] - line[i - 1]).norm());
+    const double step = along.back() / static_cast<double>(n - 1);
+    ParetoFront even = front_;
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+      const double wanted = step * static_cast<double>(i);
+      const std::size_t end = static_cast<std::size_t>(std::upper_bound(along.begin() + 1, along.end() - 1, wanted) - along.begin());
+      const std::size_t nearest = wanted - along[end - 1] < along[end] - wanted ? end - 1 : end;
+      if (std::abs(along[nearest] - wanted) <= there * step) {
+        even.points[i] = front_.points[nearest];
+        continue;
+      }
+      if (is_out_of_budget()) return;
+      const double share = (wanted - along[end - 1]) / (along[end] - along[end - 1]);
+      even.points[i] = compromise((1.0 - share) * line[end - 1] + share * line[end]);
+      if (even.points[i].constraint_violation > DesignLog::tolerance) return;
+    }
+    if (even.unevenness() < front_.unevenness()) front_.points = even.points;
   }
 
   void fill_triangle() {

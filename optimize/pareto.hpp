@@ -34,7 +34,8 @@ struct ParetoFront {
 ///
 ///     minimise tau   subject to   (goal_i(x) - ideal_i) / range_i - a_i <= tau         [Pascoletti, Serafini, JOTA 42 (1984)]
 ///
-/// from reference points a. Of two goals a is the middle of the widest gap between neighbours so far, which keeps the spacing even; of
+/// from reference points a. Of two goals a is the middle of the widest gap between neighbours so far; then the points between the ends are
+/// sought once more from equal steps of arc length along what was found, where that makes the spacing more even. Of
 /// three, a regular grid on the triangle of the single optima. Each search starts from the nearest design found before.
 /// @param goals    two or three
 /// @param points   >= number of goals; of three goals the largest triangular number within it

@@ -2,8 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
-
+#include "core/base/stopwatch.hpp"
 #include "studies/finite_elements.hpp"
 
 namespace flankwright::studies {
@@ -39,16 +38,15 @@ GearFitTask gear_fit_task(const Study& study, const GearPair& pair, Member membe
 }
 
 std::vector<GearFit> fit_gears(const Study& study, const GearPair& pair, const ProgressReport& progress) {
-  using Clock = std::chrono::steady_clock;
   std::vector<GearFit> fits;
   for (const Member member : {Member::Pinion, Member::Wheel}) {
     if (!(member == Member::Pinion ? study.fit.pinion : study.fit.wheel)) continue;
-    const Clock::time_point start = Clock::now();
+    const Stopwatch clock;
     const auto report = [&](const std::string& label, int done, int total) {
       if (progress) progress(fmt::format("{}: {}", name_of(member), label), done, total, "");
     };
     GearFit fit{member, fit_gear(gear_fit_task(study, pair, member), report), study.fit.several_teeth};
-    fit.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    fit.seconds = clock.seconds();
     fits.push_back(std::move(fit));
   }
   return fits;

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <cassert>
+#include <cmath>
 #include <string>
 #include <system_error>
 
@@ -22,7 +23,7 @@ CREATE TABLE run (key TEXT PRIMARY KEY, value);
 CREATE TABLE variables (path TEXT PRIMARY KEY, unit TEXT, lower REAL, upper REAL, before REAL, after REAL);
 CREATE TABLE scenes (name TEXT, torque_Nm REAL, weight REAL, before REAL, after REAL);
 CREATE TABLE history (evaluation INTEGER PRIMARY KEY, objective REAL, constraint_violation REAL);
-CREATE TABLE constraints (name TEXT, unit TEXT, maximum REAL, before REAL, after REAL);
+CREATE TABLE constraints (name TEXT, unit TEXT, minimum REAL, maximum REAL, before REAL, after REAL);
 )";
 
 void add_run(Database& database, const StudyResults& results) {
@@ -70,12 +71,19 @@ void add_tables(Database& database, const StudyResults& results) {
   for (const SolverStep& step : design.history) {
     history.row(step.evaluation, step.objective, step.constraint_violation);
   }
-  Statement constraints(database, "INSERT INTO constraints VALUES (?, ?, ?, ?, ?)");
+  Statement constraints(database, "INSERT INTO constraints VALUES (?, ?, ?, ?, ?, ?)");
+  const auto bound = [](double limit, double factor) { return std::isfinite(limit) ? limit * factor : not_given; };
   for (std::size_t c = 0; c < task.constraints.size(); ++c) {
-    const ObjectiveTerm& output = task.constraints[c].output;
-    const double factor = output.outside_factor();
-    constraints.row(output.name, output.unit(), task.constraints[c].maximum * factor,
+    const OutputConstraint& of = task.constraints[c];
+    const double factor = of.output.outside_factor();
+    constraints.row(of.output.name, of.output.unit(), bound(of.minimum, factor), bound(of.maximum, factor),
                     design.before.constraint_values[c] * factor, design.after.constraint_values[c] * factor);
+  }
+  for (std::size_t c = 0; c < task.modification_constraints.size(); ++c) {
+    const ModificationConstraint& of = task.modification_constraints[c];
+    const double factor = of.outside_factor();
+    constraints.row(of.name, of.unit(), bound(of.minimum, factor), bound(of.maximum, factor),
+                    design.before.modification_values[c] * factor, design.after.modification_values[c] * factor);
   }
 }
 

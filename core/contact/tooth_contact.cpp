@@ -57,10 +57,19 @@ std::vector<double> FaceSearch::section_heights() const {
   const double tilt = scene_.wheel_axes.col(2).head<2>().norm();
   const double reach = scene_.pinion.half_face, centre = scene_.wheel_centre.z();
   const double wheel_reach = scene_.wheel.half_face + tilt * (scene_.wheel_centre.head<2>().norm() + scene_.pinion.tip_radius);
-  const double lo = std::max(-reach, centre - wheel_reach), hi = std::min(reach, centre + wheel_reach);
+  double lo = std::max(-reach, centre - wheel_reach), hi = std::min(reach, centre + wheel_reach);
+  const double rate = meeting_.roll_rate();
+  // Teeth that wind around their gear meet the mate again a turn later, as another pair: half a turn to either side is this one's.
+  const double half_turn = units::pi * std::min(scene_.pinion.base_radius, scene_.wheel.base_radius);
+  const double from_middle =
+      meeting_.undisturbed_roll(0.0) - 0.5 * (meeting_.lowest_undisturbed_roll() + meeting_.highest_undisturbed_roll());
+  if (rate != 0.0) {
+    const double middle = -from_middle / rate, half_way = half_turn / std::abs(rate);
+    lo = std::max(lo, middle - half_way);
+    hi = std::min(hi, middle + half_way);
+  }
   if (!(lo < hi)) return {};
   double first = lo, last = hi;  // of the line of contact
-  const double rate = meeting_.roll_rate();
   if (rate != 0.0) {
     const double start = (meeting_.lowest_undisturbed_roll() - meeting_.undisturbed_roll(0.0)) / rate;
     const double end = (meeting_.highest_undisturbed_roll() - meeting_.undisturbed_roll(0.0)) / rate;

@@ -8,7 +8,7 @@ namespace flankwright {
 class AdjacentTeethEffect final : public Effect {
  public:
   std::string_view name() const override { return "adjacent_teeth"; }
-  EffectStage stage() const override { return EffectStage::Structure; }
+  EffectStage stage() const override { return EffectStage::Coupling; }
   std::string_view needs() const override { return "bending"; }
   EffectCall called_for(const EffectFacts& facts) const override {
     const bool on = facts.loaded && facts.coupled_teeth;

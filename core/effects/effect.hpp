@@ -34,6 +34,7 @@ enum class EffectStage {
   Region,      ///< how far along the plane of action points are made
   Placement,   ///< where the points lie
   Structure,   ///< what yields when loads act anywhere on the mesh: the influence matrix
+  Coupling,    ///< what of it ties teeth to each other
   ContactSite, ///< what the contact law is told of a point's surroundings
   ContactLaw,  ///< what yields under a point's own load
   Roots,       ///< what is read off the loads

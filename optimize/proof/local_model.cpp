@@ -25,6 +25,13 @@ double step_in(const DesignScene& scene, const ProofParameter& p) {
   return std::holds_alternative<PinionTorque>(p.parameter) ? p.inside * scene.torque : p.inside;
 }
 
+/// The output that a row with a candidate is about: of what is minimised, of a bounded goal, or of a bounded output.
+const ObjectiveTerm& term_of(const EpigraphRow& row, const DesignTask& task) {
+  const auto index = static_cast<std::size_t>(row.index);
+  if (row.kind == EpigraphRow::Kind::OutputBound) return task.constraints[index].output;
+  return row.goal == 0 ? task.objective[index] : task.goal_bounds[static_cast<std::size_t>(row.goal - 1)].goal.terms[index];
+}
+
 }  // namespace
 
 double proof_step(const std::string& unit) { return unit == "um" ? 1.0 : unit == "mm" ? 0.1 : 0.01; }
@@ -55,11 +62,12 @@ double LocalModel::Peak::at(const Eigen::VectorXd& steps) const {
 }
 
 LocalModel::LocalModel(const DesignProblem& problem, const Modification& pinion, const Modification& wheel,
-                       const std::vector<ProofParameter>& parameters)
+                       const std::vector<ProofParameter>& parameters, const std::vector<ActiveBound>& active)
     : task_(problem.task()),
       parameters_(static_cast<int>(parameters.size())),
       measures_(task_.scenes.size()),
       constraints_(task_.constraints.size(), std::vector<Peak>(task_.scenes.size())) {
+  std::vector<Eigen::VectorXd> lagrangian(task_.scenes.size(), Eigen::VectorXd::Zero(parameters_));
   std::vector<MeshParameter> of_mesh;
   for (const ProofParameter& p : parameters) of_mesh.push_back(p.parameter);
   for (const DesignTie& tie : task_.ties) of_mesh.push_back(GearParameter{tie.tied.member, tie.tied.parameter});
@@ -96,7 +104,14 @@ LocalModel::LocalModel(const DesignProblem& problem, const Modification& pinion,
       peak = peak_of(bound.output, sign / std::abs(bound.limit()), -sign * bound.limit() / std::abs(bound.limit()));
       if (bound.is_least()) peak.candidates.resize(1);  // the leading one is the output: the others are below it, not above
     }
+    for (const ActiveBound& felt : active) {
+      if (felt.row.scene != s || felt.by_output == 0.0) continue;
+      const SmoothValue found = candidate_value(term_of(felt.row, task_), felt.row.candidate, model, cycle);
+      lagrangian[static_cast<std::size_t>(s)] += felt.multiplier * felt.by_output * slope_of(found.gradient);
+    }
   });
+  lagrangian_slope_ = Eigen::VectorXd::Zero(parameters_);
+  for (const Eigen::VectorXd& of_scene : lagrangian) lagrangian_slope_ += of_scene;
 }
 
 std::vector<double> LocalModel::scene_measures(const Eigen::VectorXd& steps) const {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "optimize/design_problem.hpp"
+#include "optimize/optimality.hpp"
 
 namespace flankwright {
 
@@ -51,9 +52,10 @@ class LocalModel {
     double at(const Eigen::VectorXd& steps) const;
   };
 
+  /// @param active  what has a multiplier at this design, for lagrangian_slope()
   /// @throws std::runtime_error where a scene's load distribution does not converge
   LocalModel(const DesignProblem& problem, const Modification& pinion, const Modification& wheel,
-             const std::vector<ProofParameter>& parameters);
+             const std::vector<ProofParameter>& parameters, const std::vector<ActiveBound>& active = {});
 
   int scenes() const { return static_cast<int>(measures_.size()); }
   int parameters() const { return parameters_; }
@@ -66,12 +68,15 @@ class LocalModel {
   std::vector<double> scene_measures(const Eigen::VectorXd& steps) const;
   /// The scenes' measures combined as the task says, outside units.
   double objective(const Eigen::VectorXd& steps) const;
+  /// Change of the Lagrangian's outputs by a step of each parameter, sum of multiplier * by_output * slope [in Optimality::objective_scale].
+  const Eigen::VectorXd& lagrangian_slope() const { return lagrangian_slope_; }
 
  private:
   const DesignTask& task_;
   int parameters_{0};
   std::vector<std::vector<Peak>> measures_;     ///< [scene][term]
   std::vector<std::vector<Peak>> constraints_;  ///< [constraint][scene]
+  Eigen::VectorXd lagrangian_slope_;
 };
 
 }  // namespace flankwright

@@ -16,17 +16,16 @@ struct Sensitivity {
   double optimised_anew{not_given};
 };
 
-/// What holds an optimum where it is: multipliers that balance the gradients of all that is active,
+/// What holds an optimum where it is, in terms of the task: the multipliers of first_order_optimality(), which balance the gradients of
+/// all that is active, whatever the solver was,
 ///
 ///     sum_j y_j grad c_j + sum_i m_i grad h_i + upper bounds - lower bounds = 0,   all of them >= 0,
 ///
-/// c_j the leading candidates of the governing scenes, h_i of bounded outputs and sums, in variables scaled to their ranges. They are
-/// recovered from the design alone, as the non-negative least-squares solution, so that they are there whatever the solver was, and
-/// what is left over says how far from first-order optimal the design is.
+/// c_j the leading candidates of the governing scenes, h_i of bounded outputs, goals and sums.
 struct Optimum {
   struct Scene {
     int scene{-1};
-    double weight{not_given};  ///< share in the objective's slope: of the worst case >= 0 and one together; else that of the aggregate
+    double weight{not_given};  ///< share in the objective's slope; one together, below 0 where mean + k sigma falls with the scene
   };
   /// A design variable at a bound.
   struct Bound {
@@ -45,26 +44,32 @@ struct Optimum {
     bool upper{false};
     double gain{not_given};  ///< change of the objective where the limit moves out by one step (as of its first modification), <= 0
   };
+  /// An earlier objective of a list at the limit that it keeps.
+  struct Goal {
+    int bound{-1};           ///< of the task's goal bounds
+    double gain{not_given};  ///< change of the objective where the limit moves out by one per cent and all else follows, <= 0
+  };
   std::vector<Scene> scenes;            ///< heaviest first; those without weight left out
   std::vector<Bound> bounds;            ///< largest gain first; every variable at a bound
   std::vector<Constraint> constraints;  ///< largest gain first
   std::vector<Sum> sums;                ///< largest gain first
-  /// Largest component of the sum above over the variables' ranges, as a share of the objective [-]; 0 is first-order optimal.
-  double residual{not_given};
+  std::vector<Goal> goals;              ///< largest gain first
+  double residual{not_given};  ///< Optimality::residual: a share of the start's objective [-]; 0 is first-order optimal
+  /// How well the objective of the optimum is known [outside units]: a gain below it is not told apart from none. The residual, or
+  /// `asked` where it is smaller, of the start's objective.
+  double resolution{not_given};
   std::vector<Sensitivity> sensitivities;  ///< in the order of the parameters
+
+  static constexpr double asked = 1e-6;     ///< first-order residual that is as good as none
+  static constexpr double at_bound = 1e-4;  ///< a variable within this share of its range stands at its bound
 };
 
-/// What may have a multiplier: candidates this near to their peak, scenes to the worst, outputs and sums to their limit, variables to their
-/// bound, as shares of the objective, the limit and the range. The rows |slack * multiplier| of the least squares keep multipliers
-/// to what really touches, as far as the solver brought it there.
-inline constexpr double near_within = 0.02;
-/// A multiplier above this is felt, and a variable within this share of its range stands at its bound.
-inline constexpr double felt = 1e-6, at_bound = 1e-4;
-
-/// Scenes of a conditional value at risk have the weights of aggregate_weights(), which at a tie are one choice of several.
+/// @param problem     of a single objective; of a list the last one's, with the limits of those before it
+/// @param optimality  of the design
+/// @param model       about the design, with what is active there
 /// @param parameters  as the model has them, the design variables among them
 /// @param values      of the design variables [mm; parabolic_te 1/rad], in their order
-Optimum find_optimum(const DesignProblem& problem, const LocalModel& model, const std::vector<ProofParameter>& parameters,
-                     const std::vector<double>& values);
+Optimum find_optimum(const DesignProblem& problem, const Optimality& optimality, const LocalModel& model,
+                     const std::vector<ProofParameter>& parameters, const std::vector<double>& values);
 
 }  // namespace flankwright

@@ -45,27 +45,39 @@ std::string scene_in_words(const Optimum::Scene& scene, const DesignTask& task, 
   return fmt::format("The scene \"{}\"{} governs with weight {:.2f}.", of_task.name, torque, scene.weight);
 }
 
-std::string bound_in_words(const Optimum::Bound& bound, const DesignTask& task) {
+/// What moving a limit would give, where that is more than the optimum is known to.
+std::string gain_in_words(double gain, const std::string& move, const Optimum& optimum, const DesignTask& task) {
+  return std::abs(gain) > optimum.resolution ? fmt::format("{} would give {}.", move, change(gain, task)) : move + " would give nothing.";
+}
+
+std::string bound_in_words(const Optimum::Bound& bound, const Optimum& optimum, const DesignTask& task) {
   const DesignVariable& v = task.variables[static_cast<std::size_t>(bound.variable)];
   const double limit = (bound.upper ? v.upper : v.lower) * v.outside_factor();
   const double step = proof_step(v.unit());
   const std::string stands = fmt::format("{} stands at its {} bound, {:.4g} {}", v.path, bound.upper ? "upper" : "lower", limit, v.unit());
-  if (bound.gain == 0.0) return stands + ", and wants no more.";
-  return fmt::format("{}: {:.2g} {} {} would give {}.", stands, step, v.unit(), bound.upper ? "more" : "less", change(bound.gain, task));
+  return gain_in_words(bound.gain, fmt::format("{}: {:.2g} {} {}", stands, step, v.unit(), bound.upper ? "more" : "less"), optimum, task);
 }
 
-std::string constraint_in_words(const Optimum::Constraint& constraint, const DesignTask& task) {
+std::string constraint_in_words(const Optimum::Constraint& constraint, const Optimum& optimum, const DesignTask& task) {
   const OutputConstraint& c = task.constraints[static_cast<std::size_t>(constraint.constraint)];
-  return fmt::format("The constraint {} {} {:.4g} {} is active: a limit one per cent {} would give {}.", c.output.name,
-                     c.is_least() ? ">=" : "<=", c.limit() * c.output.outside_factor(), c.output.unit(), c.is_least() ? "lower" : "higher",
-                     change(constraint.gain, task));
+  const std::string move = fmt::format("The constraint {} {} {:.4g} {} is active: a limit one per cent {}", c.output.name, c.is_least() ? ">=" : "<=",
+                                       c.limit() * c.output.outside_factor(), c.output.unit(), c.is_least() ? "lower" : "higher");
+  return gain_in_words(constraint.gain, move, optimum, task);
 }
 
-std::string sum_in_words(const Optimum::Sum& sum, const DesignTask& task) {
+std::string sum_in_words(const Optimum::Sum& sum, const Optimum& optimum, const DesignTask& task) {
   const ModificationConstraint& c = task.modification_constraints[static_cast<std::size_t>(sum.constraint)];
-  return fmt::format("{} is at its {} limit, {:.4g} {}: {:.2g} {} {} would give {}.", c.name, sum.upper ? "upper" : "lower",
-                     (sum.upper ? c.maximum : c.minimum) * c.outside_factor(), c.unit(), proof_step(c.unit()), c.unit(),
-                     sum.upper ? "more" : "less", change(sum.gain, task));
+  const std::string move = fmt::format("{} is at its {} limit, {:.4g} {}: {:.2g} {} {}", c.name, sum.upper ? "upper" : "lower",
+                                       (sum.upper ? c.maximum : c.minimum) * c.outside_factor(), c.unit(), proof_step(c.unit()), c.unit(),
+                                       sum.upper ? "more" : "less");
+  return gain_in_words(sum.gain, move, optimum, task);
+}
+
+std::string goal_in_words(const Optimum::Goal& goal, const Optimum& optimum, const DesignTask& task) {
+  const GoalBound& bound = task.goal_bounds[static_cast<std::size_t>(goal.bound)];
+  const std::string move = fmt::format("The objective before it, {}, stands at the {:.4g} {} that it keeps: one per cent more", bound.goal.name(),
+                                       bound.limit, bound.goal.unit());
+  return gain_in_words(goal.gain, move, optimum, task);
 }
 
 }  // namespace
@@ -86,13 +98,15 @@ Proof prove_optimum(const Study& study, const DesignProblem& problem, const Desi
     if (progress) progress("validating", 0, 1, std::to_string(drawn.size()) + " scenes drawn afresh");
     proof.validation = validate(study, problem, design, drawn, best_of(proof.rules));
   }
-  // Rounding to the grinder's steps leaves the optimum; a later objective of a list left it for its own.
+  // Rounding to the grinder's steps leaves the optimum.
   const DesignReport& best = design.exact ? *design.exact : design.after;
   const bool usable = std::ranges::all_of(best.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
-  if (usable && !best.analysis.cycles.empty() && problem.task().then.empty()) {
-    const std::vector<ProofParameter> parameters = proof_parameters(problem.task());
-    const LocalModel model(problem, best.analysis.pinion_modification, best.analysis.wheel_modification, parameters);
-    proof.optimum = find_optimum(problem, model, parameters, best.variables);
+  if (usable && !best.analysis.cycles.empty()) {
+    const DesignProblem last = last_stage(problem, design.stages);
+    const std::vector<ProofParameter> parameters = proof_parameters(last.task());
+    const LocalModel model(last, best.analysis.pinion_modification, best.analysis.wheel_modification, parameters, design.optimality.active);
+    proof.optimum = find_optimum(last, design.optimality, model, parameters, best.variables);
+    proof.judged = last.task();
   }
   proof.seconds = clock.seconds();
   return proof;
@@ -124,9 +138,10 @@ std::vector<std::string> optimum_in_words(const Optimum& optimum, const DesignTa
   for (const Optimum::Scene& scene : optimum.scenes) {
     if (std::abs(scene.weight) >= said) words.push_back(scene_in_words(scene, task, torques.size() > 1));
   }
-  for (const Optimum::Bound& bound : optimum.bounds) words.push_back(bound_in_words(bound, task));
-  for (const Optimum::Constraint& constraint : optimum.constraints) words.push_back(constraint_in_words(constraint, task));
-  for (const Optimum::Sum& sum : optimum.sums) words.push_back(sum_in_words(sum, task));
+  for (const Optimum::Bound& bound : optimum.bounds) words.push_back(bound_in_words(bound, optimum, task));
+  for (const Optimum::Constraint& constraint : optimum.constraints) words.push_back(constraint_in_words(constraint, optimum, task));
+  for (const Optimum::Goal& goal : optimum.goals) words.push_back(goal_in_words(goal, optimum, task));
+  for (const Optimum::Sum& sum : optimum.sums) words.push_back(sum_in_words(sum, optimum, task));
   return words;
 }
 

@@ -27,7 +27,8 @@ struct Proof {
   std::vector<ComparedDesign> rules;     ///< empty: not asked for
   std::vector<VariantSearch> variants;   ///< one a placement of the levels; empty: not asked for
   std::optional<Validation> validation;  ///< none: not asked for
-  std::optional<Optimum> optimum;        ///< of the design before rounding; none for a list of objectives, or where it cannot be analysed
+  std::optional<Optimum> optimum;        ///< of the design before rounding; none where it cannot be analysed
+  std::optional<DesignTask> judged;      ///< what the optimum is of: the task, or of a list its last objective under limits on those before it
   double seconds{not_given};
 };
 
@@ -39,8 +40,9 @@ Proof prove_optimum(const Study& study, const DesignProblem& problem, const Desi
 /// "Over 500 scenes drawn afresh (seed 1) the design is better in 98.2 %, ..."
 std::string validation_in_words(const Validation& validation, const DesignTask& task);
 
-/// What governs the optimum, a sentence each: scenes with their weights, variables at a bound and constraints at their limit
-/// with what they cost.
-std::vector<std::string> optimum_in_words(const Optimum& optimum, const DesignTask& task);
+/// What governs the optimum, a sentence each: scenes with their weights, variables at a bound, constraints and earlier objectives at
+/// their limit with what they cost; a gain below the optimum's resolution is nothing.
+/// @param judged  Proof::judged
+std::vector<std::string> optimum_in_words(const Optimum& optimum, const DesignTask& judged);
 
 }  // namespace flankwright::studies

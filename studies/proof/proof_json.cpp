@@ -60,8 +60,11 @@ Json comparison_json(const Proof& proof, const DesignTask& task) {
 }
 
 Json governing_json(const Optimum& optimum, const DesignTask& task) {
-  return {{"words", optimum_in_words(optimum, task)},
+  return {{"objective_name", task.objective_name()},
+          {"objective_unit", task.objective_unit()},
+          {"words", optimum_in_words(optimum, task)},
           {"residual", optimum.residual},
+          {"resolution", optimum.resolution},
           {"scenes", list(optimum.scenes,
                           [&](const Optimum::Scene& s) -> Json {
                             const DesignScene& scene = task.scenes[static_cast<std::size_t>(s.scene)];
@@ -82,6 +85,11 @@ Json governing_json(const Optimum& optimum, const DesignTask& task) {
                                          {"step_percent", 1.0},
                                          {"gain", c.gain}};
                                })},
+          {"goals", list(optimum.goals,
+                         [&](const Optimum::Goal& g) -> Json {
+                           const GoalBound& bound = task.goal_bounds[static_cast<std::size_t>(g.bound)];
+                           return {{"name", bound.goal.name()}, {"limit", bound.limit}, {"step_percent", 1.0}, {"gain", g.gain}};
+                         })},
           {"sums", list(optimum.sums, [&](const Optimum::Sum& s) -> Json {
              const ModificationConstraint& bound = task.modification_constraints[static_cast<std::size_t>(s.constraint)];
              return {{"name", bound.name}, {"side", s.upper ? "upper" : "lower"}, {"step", proof_step(bound.unit())},
@@ -143,7 +151,7 @@ void add_proof(const Proof& proof, const DesignTask& task, const ProofTable& ask
   optimise["proof_seconds"] = proof.seconds;
   if (proof.validation) optimise["validation"] = validation_json(*proof.validation, task, asked);
   if (!proof.optimum) return;
-  optimise["governing"] = governing_json(*proof.optimum, task);
+  optimise["governing"] = governing_json(*proof.optimum, *proof.judged);
   optimise["sensitivity"] = list(proof.optimum->sensitivities, sensitivity_json);
 }
 

@@ -66,7 +66,7 @@ std::string proof_summary(const Proof& proof, const DesignTask& task, double opt
   }
   if (proof.validation) out += validation_in_words(*proof.validation, task) + "\n";
   if (!proof.optimum) return out;
-  for (const std::string& sentence : optimum_in_words(*proof.optimum, task)) out += sentence + "\n";
+  for (const std::string& sentence : optimum_in_words(*proof.optimum, *proof.judged)) out += sentence + "\n";
   return out;
 }
 

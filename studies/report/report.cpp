@@ -39,12 +39,11 @@ struct Section {
   bool (*present)(const json& results);
 };
 
-/// True where an optimisation had several starts, rounded its optimum, or traced a front.
+/// True where an optimisation says from where it searched, rounded its optimum, or traced a front.
 bool searched(const json& r) {
   if (!has(r, "optimise") || !r.at("optimise").is_object()) return false;
   const json& optimise = r.at("optimise");
-  const bool several = has(optimise, "starts") && optimise.at("starts").is_array() && optimise.at("starts").size() > 1;
-  return several || has(optimise, "rounded") || has(optimise, "pareto");
+  return has(optimise, "starts") || has(optimise, "rounded") || has(optimise, "pareto");
 }
 
 /// In the order in which a gear engineer asks.

@@ -35,7 +35,7 @@ void round_numbers(json& node, int digits) {
 /// List of points -> object of columns.
 json columns_of(const json& points) {
   json columns = json::object();
-  for (const char* key : {"z_mm", "pinion_radius_mm", "load_N_per_mm", "contact_stress_MPa"}) {
+  for (const char* key : {"z_mm", "pinion_radius_mm", "load_N_per_mm", "contact_stress_MPa", "gap_um"}) {
     json& column = columns[key] = json::array();
     for (const json& point : points) column.push_back(point.is_object() ? point.value(key, json()) : json());
   }

@@ -17,7 +17,8 @@ struct SceneVerdict {
 /// - no number is NaN or infinite; loads are not negative;
 /// - the residual of the optimality conditions is below its bound (LoadOptions::tolerance) and forces balance the torque;
 /// - f_t lies between the first touch and what the nearest point would yield if it carried everything alone;
-/// - the unloaded transmission error is no more than all amounts, errors and displacements together can move the flanks.
+/// - the unloaded transmission error is no more than all amounts, errors and displacements together can move the flanks, unless a tip reaches
+///   below the mate's form circle.
 ///
 /// `flankwright run` on the same text does the same analyses, with pattern, ratings and tables on top.
 /// @param name  stands for the file in messages

@@ -33,7 +33,7 @@ int main(int argc, char** argv) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   const auto start = std::chrono::steady_clock::now();
   std::array<std::atomic<std::uint64_t>, 3> counts{};
-  constexpr std::uint64_t block = 10'000;  // between two lines of progress
+  constexpr std::uint64_t block = 1'000;  // between two lines of progress
   for (std::uint64_t from = first; from < first + scenes; from += block) {
     const std::uint64_t to = std::min(from + block, first + scenes);
     tbb::parallel_for(from, to, [&](std::uint64_t index) {

@@ -119,6 +119,24 @@ TEST_CASE("Hard: a designed parabola fades in proportion to its coefficient", "[
   CHECK(peak_to_peak("parabola_to_zero", {{"pinion.modification.parabolic_te", "0"}}) <= kAngleRoundOff);
 }
 
+TEST_CASE("Hard: a tooth that winds around its gear is not taken for another at its far end", "[hard_cases]") {
+  const auto results = run("teeth_that_wind_around", {{"cycle.peaks", "sampled"}});
+  REQUIRE(results.pair.total_contact_ratio() > results.pair.data.pinion.teeth);
+  check_balances(results);
+  const UnloadedMesh& mesh = results.unloaded.front().mesh;
+  CHECK(mesh.missing == 0);
+  // The lead angle turns the flanks over half the face about the base helix, and moves the base circle beside it: twice its reach is plenty,
+  // and a tenth of a pitch.
+  const double reach = 16.6 * arcmin * results.pair.pinion.data.face_width;  // mm
+  for (const PairCurve& curve : mesh.pairs) {
+    for (const ToothContact& contact : curve.positions) {
+      if (contact.exists()) CHECK(std::abs(contact.transmission_error) * results.pair.wheel.base_radius <= 2.0 * reach);
+    }
+  }
+  const auto aligned = run("teeth_that_wind_around", {{"cycle.peaks", "sampled"}, {"misalignment.pinion_lead_angle", "0"}});
+  CHECK(aligned.unloaded.front().mesh.peak_to_peak <= kAngleRoundOff);
+}
+
 TEST_CASE("Hard: flanks pass from convex through flat to hollow without a jump", "[hard_cases]") {
   std::vector<double> last;
   for (double amount = 0.0; amount <= 40.0; amount += 2.0) {

@@ -42,3 +42,22 @@ TEST_CASE("At a minimax optimum the multipliers of the scenes balance and sum to
   CHECK(sum == Approx(1.0).epsilon(tolerance));
   CHECK(std::min(by_scene[0], by_scene[1]) > 0.2);  // mirror images pull against each other
 }
+
+TEST_CASE("A bound that the balance does not need has no multiplier", "[optimize][design][optimality]") {
+  const DesignTask task = spur({10.0, -10.0});
+  DesignProblem free(task);
+  const DesignResult optimum = optimise_design(free, SolverOptions{});
+  constexpr double as_good_as_none = 1e-6;
+  REQUIRE(optimum.optimality.residual <= as_good_as_none);
+  // Bounds moved to where the optimum lies anyway.
+  DesignTask bounded = task;
+  Eigen::VectorXd x(static_cast<Eigen::Index>(task.variables.size()));
+  for (std::size_t i = 0; i < task.variables.size(); ++i) {
+    bounded.variables[i].upper = optimum.after.variables[i];
+    x[static_cast<Eigen::Index>(i)] = 1.0;
+  }
+  DesignProblem problem(bounded);
+  const Optimality found = first_order_optimality(problem, x);
+  CHECK(found.residual <= as_good_as_none);
+  for (const ActiveBound& active : found.active) CHECK(active.variable < 0);
+}

@@ -40,7 +40,8 @@ TEST_CASE("Every example is valid, meets its expectations and runs without a com
     CHECK(command_line::run(folder, {"check", file}).exit_code == 0);
     if (read_study(file).task == Task::Fit) continue;  // finite elements: a minute, below
     std::vector<std::string> arguments{"run", file};
-    arguments.insert(arguments.end(), reduced.begin(), reduced.end());
+    // One that says its own phases is judged at these.
+    if (read_study(file).cycle.phases.empty()) arguments.insert(arguments.end(), reduced.begin(), reduced.end());
     const command_line::Ending ending = command_line::run(folder, arguments);
     CAPTURE(ending.out, ending.err);
     CHECK(ending.exit_code == 0);

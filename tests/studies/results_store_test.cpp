@@ -82,8 +82,25 @@ TEST_CASE("The store of an optimisation answers in SQL what the results say", "[
   CHECK(number(file, "SELECT count(*) FROM history") == static_cast<double>(design.history.size()));
   CHECK(number(file, "SELECT min(objective) FROM history WHERE constraint_violation <= 1e-6") ==
         Approx(design.after.objective).epsilon(1e-9));  // the last round's best, to the solver's feasibility
-  CHECK(query(file, "SELECT name, unit, maximum FROM constraints") ==
-        std::vector<Row>{{"te_peak_to_peak", "um", "5.0"}});
+  CHECK(query(file, "SELECT name, unit, minimum, maximum FROM constraints") ==
+        std::vector<Row>{{"te_peak_to_peak", "um", "NULL", "5.0"}});
+}
+
+TEST_CASE("Least values and sums of modifications stand among the constraints", "[studies][results][store]") {
+  const ScratchFolder folder;
+  const std::filesystem::path file = folder.path() / "results.sqlite";
+  const StudyResults results = run_study(parse_study(small::optimisation() + R"(
+effective_contact_ratio = { min = 1.5 }
+"pinion.modification.lead_crowning + pinion.modification.end_relief.amount" = { min = 1, max = 30 }
+)", "small.toml"));
+  write_results_store(file, results);
+  CHECK(query(file, "SELECT name, unit, minimum, maximum FROM constraints ORDER BY rowid") ==
+        std::vector<Row>{{"effective_contact_ratio", "1", "1.5", "NULL"},
+                         {"te_peak_to_peak", "um", "NULL", "5.0"},
+                         {"pinion.modification.lead_crowning + pinion.modification.end_relief.amount", "um", "1.0", "30.0"}});
+  constexpr double round_off = 1e-12;
+  CHECK(number(file, "SELECT after FROM constraints WHERE maximum = 30") ==
+        Approx(number(file, "SELECT sum(after) FROM variables WHERE path LIKE '%lead_crowning' OR path LIKE '%end_relief.amount'")).epsilon(round_off));
 }
 
 TEST_CASE("Texts with quotes and numbers that were not computed survive the store", "[studies][results][store]") {

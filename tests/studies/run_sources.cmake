@@ -2,6 +2,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/command_docs_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/command_line.cpp
      ${CMAKE_CURRENT_LIST_DIR}/commands_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/effect_sizes_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/examples_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/expectations_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/finite_elements_test.cpp

@@ -43,7 +43,7 @@ function governing_case(cases, optimise) {
  * The one case that a group of figures shows; every choice on the page sets it for all of the group.
  * @param remark  added to the label of the case that is shown first
  */
-function case_selection(cases, first, remark = " (governs)") {
+function case_selection(cases, first, remark) {
   const selection = { cases, current: first, listeners: [], selects: [] };
   const options = cases.map((load_case) => ({
     value: load_case.key,
@@ -63,10 +63,12 @@ function case_selection(cases, first, remark = " (governs)") {
   return selection;
 }
 
-/** A figure that shows the selected case and follows the selection. */
+/** A figure that shows the selected case and follows the selection. @return function that draws it anew */
 function case_figure(parent, selection, options, draw) {
-  selection.listeners.push(figure(parent, options, (plot) => {
+  const redraw = figure(parent, options, (plot) => {
     if (selection.cases.length > 1) plot.append(el("p", { class: "shown" }, `Scene: ${selection.current.label}`));
     draw(plot, selection.current);
-  }));
+  });
+  selection.listeners.push(redraw);
+  return redraw;
 }

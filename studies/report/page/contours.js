@@ -57,10 +57,11 @@ function contour_segments(grid, level) {
   return segments;
 }
 
-/** Draws the contour lines of `levels` and writes each level once, where its line is nearest to the map's diagonal. */
+/** Draws the contour lines of `levels` and writes each level once, where its line is nearest to the map's diagonal, unless another stands there. */
 function draw_contours(pen, grid, levels, to_x, to_y) {
   const left = to_x(grid.z[0]), right = to_x(grid.z[grid.z.length - 1]);
   const low = to_y(grid.r[0]), high = to_y(grid.r[grid.r.length - 1]);
+  const written = [];
   levels.forEach((level) => {
     const segments = contour_segments(grid, level);
     if (segments.length === 0) return;
@@ -81,6 +82,8 @@ function draw_contours(pen, grid, levels, to_x, to_y) {
     if (places.length === 0) return;
     const off_diagonal = ([x, y]) => Math.abs((x - left) / (right - left) - (low - y) / (low - high));
     const [x, y] = places.reduce((best, place) => (off_diagonal(place) < off_diagonal(best) ? place : best));
+    if (written.some((other) => Math.hypot(other[0] - x, other[1] - y) < 22)) return;
+    written.push([x, y]);
     pen.textAlign = "center";
     pen.textBaseline = "middle";
     pen.lineWidth = 3;

@@ -7,33 +7,41 @@ const effect_measures = [
 ];
 
 /** Bars of one measure, an effect a row: exact where it was left out, and its estimate. */
-function effect_rows(effects, key, seconds) {
+function effect_rows(effects, key) {
   const sides = [{ from: "exact", what: "left out", colour: sequence_colour(0) }, { from: "estimate", what: "estimate", colour: sequence_colour(1) }]
     .filter((side) => effects.some((effect) => effect[side.from]));
   return effects.map((effect) => {
     const bars = sides.map((side) => ({ ...side, value: record(effect[side.from])[key] ?? null }));
-    const share = seconds > 0 && is_number(effect.seconds) ? `, ${fmt((100 * effect.seconds) / seconds, 2)} % of the time` : "";
-    return { label: words(effect.name), bars, values: bars.map((bar) => bar.value),
-      note: bars.map((bar) => fmt(bar.value, 3)).join(" / ") + (key === "te_mean_change_um" ? share : "") };
+    return { label: words(effect.name), bars, values: bars.map((bar) => bar.value), note: bars.map((bar) => fmt(bar.value, 3)).join(" / ") };
   });
 }
 
-function effect_figures(results, effects, body) {
+function time_figure(results, entries, grid) {
+  const timed = entries.filter((entry) => entry.seconds > 0);
+  if (!(results.seconds > 0) || timed.length === 0) return;
+  const title = "Share of the time";
+  figure(grid, { title, caption: `Of ${fmt(results.seconds, 3)} s: what effects did to build meshes, on all threads together, and the steps of the run, `
+    + "which include them. What is off took none." }, (plot) => draw_bars(plot, { unit: "%", label: title, rows: timed.map((entry) => {
+    const share = (100 * entry.seconds) / results.seconds;
+    return { label: words(entry.name), value: share, colour: sequence_colour(entry.on ? 0 : 2), note: fmt(share, 2) };
+  }) }));
+}
+
+function effect_figures(results, effects, steps, body) {
   const sized = effects.filter((effect) => effect.exact || effect.estimate);
-  if (sized.length === 0) return;
-  const seconds = results.seconds;
   const is_exact = sized.some((effect) => effect.exact);
   const grid = figure_grid(body);
-  for (const { title, key, unit } of effect_measures) {
-    figure(grid, { title, wide: key === "te_mean_change_um",
+  for (const { title, key, unit } of sized.length > 0 ? effect_measures : []) {
+    figure(grid, { title,
       caption: `With the effect less without it, in the load case in which it is largest${is_exact ? "; exact by leaving it out" : ""}; `
-        + "the estimate is of first order at no more than 32 positions." }, (plot) => {
+        + "the estimate at no more than 32 positions, to first order where that holds." }, (plot) => {
       plot.append(el("p", { class: "key" },
         ...(is_exact ? [el("span", { class: "dot", style: `background:${sequence_colour(0)}` }), " left out   "] : []),
         el("span", { class: "dot", style: `background:${sequence_colour(1)}` }), " estimate"));
-      draw_bars(plot, { rows: effect_rows(sized, key, seconds), unit, label: title });
+      draw_bars(plot, { rows: effect_rows(sized, key), unit, label: title });
     });
   }
+  time_figure(results, [...effects, ...steps], grid);
 }
 
 const time_cell = (seconds, longest) => (is_number(seconds) ? {
@@ -46,7 +54,7 @@ const time_cell = (seconds, longest) => (is_number(seconds) ? {
 function build_effects(results, body) {
   const effects = list(results.effects).map(record), steps = list(results.steps).map(record);
   const longest = Math.max(0, maximum([...effects, ...steps].map((entry) => entry.seconds)));
-  effect_figures(results, effects, body);
+  effect_figures(results, effects, steps, body);
   const share = (effect) => record(effect.exact || effect.estimate).share_percent ?? null;
   table(body, {
     title: "Effects in this run",

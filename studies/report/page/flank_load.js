@@ -1,126 +1,147 @@
-// Contact stress and line load on the pinion flank: the envelope over the mesh cycle, painted point by point.
+// Contact stress, line load and gap on the pinion flank: over the whole mesh cycle, or along the contact lines of one mesh position.
 
-/** All contact points of a mesh cycle on the pinion flank: [{z, r, value, phase, tooth}]. */
-function contact_points(entry, key) {
-  const points = [];
-  for (const position of list(record(entry).cycle).map(record)) {
-    for (const tooth of list(position.teeth).map(record)) {
-      const columns = record(tooth.points);
-      list(columns[key]).forEach((value, i) => {
-        const z = list(columns.z_mm)[i], r = list(columns.pinion_radius_mm)[i];
-        if (is_number(value) && is_number(z) && is_number(r)) {
-          points.push({ z, r, value, phase: position.phase, tooth: tooth.tooth });
-        }
-      });
-    }
-  }
-  return points;
+const FLANK_QUANTITIES = [
+  { unit: "MPa", title: "Contact stress on the pinion flank",
+    values_of: (_, columns) => list(columns.contact_stress_MPa),
+    caption: "Hertzian pressure; over the whole cycle the largest that each place meets, each cell one quadrature point of a "
+      + "contact line, grey never loaded." },
+  { unit: "N/mm", title: "Line load on the pinion flank",
+    values_of: (_, columns) => list(columns.load_N_per_mm),
+    caption: "Load per unit length of contact line over the whole field of contact; a ridge towards one face end is "
+      + "misalignment that the flanks do not take up." },
+  { unit: "µm", title: "Gap before the load on the pinion flank", is_gap: true,
+    values_of: (position, columns) => list(columns.gap_um).map((gap) => (is_number(gap) ? gap - least_gap(position) : null)),
+    caption: "Distance of the unloaded flanks along the flank normal, counted from where they touch first in that mesh position: what the "
+      + "load has to close; over the whole cycle the least at each place. Grey is further apart than twice what the load brings the "
+      + "flanks together." },
+];
+
+const least_gap = (position) =>
+  minimum(list(position.teeth).map((tooth) => minimum(list(record(record(tooth).points).gap_um))));
+
+/** How far the load brings the flanks together, the largest over the mesh cycle [um]. */
+const approach = (entry) => maximum(list(record(entry).cycle).map(record).map((position) => position.te_um - least_gap(position)));
+
+/** What the maps of a quantity in a load case share, worked out once: {area, scale, designs: [{design, points, raster}]}. */
+function flank_clouds(load_case, quantity) {
+  load_case.clouds = load_case.clouds || new Map();
+  if (load_case.clouds.has(quantity)) return load_case.clouds.get(quantity);
+  const designs = designs_of(load_case)
+    .map((design) => ({ design, points: contact_points(load_case.designs[design], quantity.values_of) }));
+  const all = designs.flatMap(({ points }) => points);
+  const area = all.length ? area_of(all) : null;
+  const top = quantity.is_gap ? 2 * maximum(designs.map(({ design }) => approach(load_case.designs[design])))
+    : maximum(all.map((point) => point.value));
+  const scale = { low: 0, high: is_number(top) && top > 0 ? top : 1 };
+  const rank = quantity.is_gap ? { is_bare: (gap) => gap > scale.high, outranks: (a, b) => a < b }
+    : { is_bare: (value) => value <= 0, outranks: (a, b) => a > b };
+  const clouds = { area, scale, rank,
+    designs: designs.map((own) => ({ ...own, raster: area ? nearest_points(own.points, area, rank) : null })) };
+  load_case.clouds.set(quantity, clouds);
+  return clouds;
 }
 
-/** Typical spacing of neighbouring points on the flank, along the face width and along the radius [mm]. */
-function point_spacing(points, area) {
-  const steps = [];
-  for (let i = 1; i < points.length; ++i) {
-    const same_line = points[i].phase === points[i - 1].phase && points[i].tooth === points[i - 1].tooth;
-    const step = Math.abs(points[i].z - points[i - 1].z);
-    if (same_line && step > 0) steps.push(step);
-  }
-  steps.sort((a, b) => a - b);
-  const width = area.z[1] - area.z[0], depth = area.r[1] - area.r[0];
-  const dz = steps.length ? steps[Math.floor(steps.length / 2)] : width;
-  return { dz, dr: Math.min(depth, Math.max(depth / 60, (width * depth) / (points.length * dz))) };
+/** The stored phase of a cloud that is nearest to the wanted one, round the cycle. */
+function nearest_phase(points, wanted) {
+  const apart = (phase) => Math.abs(phase - wanted - Math.round(phase - wanted));
+  return points.reduce((best, { phase }) => (best === null || apart(phase) < apart(best) ? phase : best), null);
 }
 
-/**
- * Every raster cell carries the point nearest to it, distances counted in point spacings; cells further than `reach`
- * spacings from any point stay empty. Of points at the same place the larger value counts. A bare point yields to a
- * loaded one within a spacing: tip edges that hover over a flank outside the path of contact do not hide what the flank carries.
- */
-function nearest_points(points, area, columns = 240, rows = 120, reach = 1.6) {
-  const { dz, dr } = point_spacing(points, area);
-  const cell_z = (area.z[1] - area.z[0]) / columns, cell_r = (area.r[1] - area.r[0]) / rows;
-  const owner = new Array(columns * rows).fill(null);
-  const distance = new Float64Array(columns * rows).fill(Infinity);
-  const clamp = (x, count) => Math.min(Math.max(x, 0), count);
-  for (const point of points) {
-    const first = clamp(Math.floor((point.z - reach * dz - area.z[0]) / cell_z), columns);
-    const last = clamp(Math.ceil((point.z + reach * dz - area.z[0]) / cell_z), columns);
-    const bottom = clamp(Math.floor((point.r - reach * dr - area.r[0]) / cell_r), rows);
-    const top = clamp(Math.ceil((point.r + reach * dr - area.r[0]) / cell_r), rows);
-    for (let row = bottom; row < top; ++row) {
-      for (let column = first; column < last; ++column) {
-        const across = (area.z[0] + (column + 0.5) * cell_z - point.z) / dz;
-        const up = (area.r[0] + (row + 0.5) * cell_r - point.r) / dr;
-        const apart = across * across + up * up;
-        const cell = row * columns + column;
-        if (apart > reach * reach) continue;
-        const d = point.value > 0 ? apart : apart + 1;
-        // Closer than a hundredth of a spacing counts as the same place.
-        const same_place = Math.abs(d - distance[cell]) < 1e-4;
-        if (same_place ? point.value > owner[cell].value : d < distance[cell]) {
-          distance[cell] = d;
-          owner[cell] = point;
-        }
-      }
-    }
-  }
-  return { columns, rows, owner, values: owner.map((point) => (point ? point.value : null)) };
-}
-
-/** Rectangle of the flank that the points span; a single line gets half a millimetre on both sides. */
-function area_of(points) {
-  const range = (values) => {
-    const low = minimum(values), high = maximum(values);
-    return high > low ? [low, high] : [low - 0.5, high + 0.5];
+/** The contact lines of one mesh position, every quadrature point a stretch of its line in the colour of its value, bare ones thin and grey. */
+function draw_contact_lines(pen, points, { scale, rank }, to_x, to_y) {
+  const middle = (a, b) => [(to_x(a.z) + to_x(b.z)) / 2, (to_y(a.r) + to_y(b.r)) / 2];
+  const stretch = (line, i) => {
+    const from = i > 0 ? middle(line[i - 1], line[i]) : [to_x(line[i].z), to_y(line[i].r)];
+    const to = i + 1 < line.length ? middle(line[i], line[i + 1]) : [to_x(line[i].z), to_y(line[i].r)];
+    pen.beginPath();
+    pen.moveTo(...from);
+    pen.lineTo(to_x(line[i].z), to_y(line[i].r));
+    pen.lineTo(...to);
+    pen.stroke();
   };
-  return { z: range(points.map((p) => p.z)), r: range(points.map((p) => p.r)) };
+  pen.lineJoin = "round";
+  for (const tooth of unique(points.map((point) => point.tooth))) {
+    const line = points.filter((point) => point.tooth === tooth);
+    const shown = line.map((point) => !rank.is_bare(point.value));
+    pen.lineCap = "round";
+    pen.strokeStyle = css_colour("ink");
+    line.forEach((_, i) => {
+      pen.lineWidth = shown[i] ? 11 : 2;
+      stretch(line, i);
+    });
+    pen.lineCap = "butt";
+    pen.lineWidth = 8;
+    line.forEach((point, i) => {
+      if (!shown[i]) return;
+      pen.strokeStyle = `rgb(${map_colour((point.value - scale.low) / (scale.high - scale.low)).join(",")})`;
+      stretch(line, i);
+    });
+  }
 }
 
-const raster_index = (x, range, count) =>
-  Math.min(count - 1, Math.floor((count * (x - range[0])) / (range[1] - range[0])));
-
-function draw_flank_load(plot, selection, quantity) {
-  const load_case = selection.current;
-  const designs = designs_of(load_case);
-  const clouds = designs.map((design) => contact_points(load_case.designs[design], quantity.key));
-  const all = clouds.flat();
-  if (all.length === 0) {
+/** @param wanted  phase of the mesh position, null: the whole cycle */
+function draw_flank_load(plot, load_case, quantity, wanted) {
+  const clouds = flank_clouds(load_case, quantity);
+  if (!clouds.area) {
     plot.append(el("p", { class: "empty" }, "No contact points are stored for this load case."));
     return;
   }
-  const area = area_of(all);
-  const scale = { low: 0, high: maximum(all.map((p) => p.value)) || 1 };
-  const maps = designs.map((design, i) => {
-    const raster = nearest_points(clouds[i], area);
-    const peak = maximum(clouds[i].map((p) => p.value));
+  const { area, scale, rank } = clouds;
+  const summary = (points) => {
+    const values = points.map((point) => point.value).filter((value) => !rank.is_bare(value));
+    return quantity.is_gap ? (wanted === null ? null : `largest shown ${fmt(maximum(values), 3)}`) : `peak ${fmt(maximum(values), 3)}`;
+  };
+  const maps = clouds.designs.map(({ design, points, raster }) => {
+    const phase = wanted === null ? null : nearest_phase(points, wanted);
+    const here = phase === null ? points : points.filter((point) => point.phase === phase);
     const read = (z, r) => {
       const column = raster_index(z, area.z, raster.columns), row = raster_index(r, area.r, raster.rows);
       const point = raster.owner[row * raster.columns + column];
       if (!point) return "no point near";
       const where = `phase ${fmt(point.phase)}, tooth ${fmt(point.tooth)}`;
-      return point.value > 0 ? `${fmt(point.value)} ${quantity.unit} (${where})` : `bare (${where})`;
+      return rank.is_bare(point.value) ? `bare (${where})` : `${fmt(point.value)} ${quantity.unit} (${where})`;
     };
-    const label = DESIGN_LABEL[design];
-    return { name: label.toLowerCase(), title: `${label}, peak ${fmt(peak, 3)} ${quantity.unit}`, raster, read };
+    const told = summary(here);
+    return { name: DESIGN_LABEL[design].toLowerCase(), raster, read, opacity: phase === null ? 1 : 0.22,
+      title: `${DESIGN_LABEL[design]}${phase === null ? "" : `, phase ${fmt(phase, 3)}`}${told ? `, ${told} ${quantity.unit}` : ""}`,
+      overlay: phase === null ? null : (pen, to_x, to_y) => draw_contact_lines(pen, here, clouds, to_x, to_y) };
   });
-  flank_maps(plot, { maps, area, scale, unit: quantity.unit, r_title: "pinion radius [mm]", bare_zero: true });
+  flank_maps(plot, { maps, area, scale, unit: quantity.unit, r_title: "pinion radius [mm]" });
+}
+
+/** A slider over the mesh positions of the longest cycle; its first stop is the whole cycle. Calls back with the phase or null. */
+function mesh_slider(parent, cases, on_change) {
+  const cycles = cases.flatMap((load_case) => designs_of(load_case).map((design) => list(load_case.designs[design].cycle)));
+  const phases = cycles.reduce((longest, cycle) => (cycle.length > longest.length ? cycle : longest), [])
+    .map((position) => record(position).phase).filter(is_number);
+  if (phases.length < 2) return;
+  const input = el("input", { type: "range", min: 0, max: phases.length, step: 1, value: 0, id: "mesh-position" });
+  const shown = el("output", { for: "mesh-position" }, "whole cycle");
+  input.addEventListener("input", () => {
+    const at = Number(input.value);
+    shown.textContent = at === 0 ? "whole cycle" : `position ${at} of ${phases.length}, phase ${fmt(phases[at - 1], 3)}`;
+    on_change(at === 0 ? null : phases[at - 1]);
+  });
+  parent.append(el("label", { class: "slider no-print" }, "Mesh position ", input, shown));
 }
 
 function build_flank_load(results, body, selection) {
-  selection.add_choice(body);
+  const controls = el("div", { class: "controls" });
+  body.append(controls);
+  selection.add_choice(controls);
+  let phase = null;
+  const redraws = [];
+  mesh_slider(controls, selection.cases, (wanted) => {
+    phase = wanted;
+    redraws.forEach((redraw) => redraw());
+  });
+  body.append(el("p", { class: "remark" }, "The slider moves through the mesh cycle: at each position the contact lines of all teeth in mesh are drawn, thick in the "
+    + "colour of what they carry, thin where they are bare, edges that hover over a tip or a root included."));
   const grid = figure_grid(body);
   const paired = selection.cases.some((load_case) => designs_of(load_case).length > 1);
-  const scale = paired ? " Both maps share one scale." : "";
-  const quantities = [
-    { key: "contact_stress_MPa", unit: "MPa", title: "Contact stress on the pinion flank",
-      caption: "Largest Hertzian pressure that each place of the flank meets during the mesh cycle; each cell is one "
-        + `quadrature point of a contact line, grey is never loaded.${scale}` },
-    { key: "load_N_per_mm", unit: "N/mm", title: "Line load on the pinion flank",
-      caption: "Load per unit length of contact line over the whole field of contact; a ridge towards one face end is "
-        + `misalignment that the flanks do not take up.${scale}` },
-  ];
-  for (const quantity of quantities) {
-    case_figure(grid, selection, { title: quantity.title, caption: quantity.caption, wide: paired },
-      (plot) => draw_flank_load(plot, selection, quantity));
+  for (const quantity of FLANK_QUANTITIES) {
+    const caption = `${quantity.caption}${paired ? " Both maps share one scale." : ""}`;
+    redraws.push(case_figure(grid, selection, { title: quantity.title, caption, wide: paired },
+      (plot) => draw_flank_load(plot, selection.current, quantity, phase)));
   }
 }

@@ -36,32 +36,34 @@ function draw_axes(pen, frame, { z, r, title, r_title }) {
   pen.restore();
 }
 
-/** Paints raster {columns, rows, values} (row 0 = smallest radius; null = nothing there, 0 with bare_zero = bare). */
-function paint_raster(pen, frame, raster, scale, bare_zero) {
+/** Paints raster {columns, rows, values, is_bare?} (row 0 = smallest radius; null = nothing there), bare places grey. */
+function paint_raster(pen, frame, raster, scale, opacity = 1) {
   const image = document.createElement("canvas");
   image.width = raster.columns;
   image.height = raster.rows;
-  const ink = image.getContext("2d");
-  const bare = css_colour("bare");
-  for (let row = 0; row < raster.rows; ++row) {
-    for (let column = 0; column < raster.columns; ++column) {
-      const value = raster.values[row * raster.columns + column];
-      if (!is_number(value)) continue;
-      const t = (value - scale.low) / (scale.high - scale.low || 1);
-      ink.fillStyle = bare_zero && value <= 0 ? bare : `rgb(${map_colour(t).join(",")})`;
-      ink.fillRect(column, raster.rows - 1 - row, 1, 1);
-    }
-  }
+  const ink = image.getContext("2d"), pixels = ink.createImageData(raster.columns, raster.rows);
+  const bare = [1, 3, 5].map((at) => parseInt(css_colour("bare").slice(at, at + 2), 16));
+  raster.values.forEach((value, cell) => {
+    if (!is_number(value)) return;
+    const is_bare = raster.is_bare && raster.is_bare(value);
+    const colour = is_bare ? bare : map_colour((value - scale.low) / (scale.high - scale.low || 1));
+    const column = cell % raster.columns, row = raster.rows - 1 - (cell - column) / raster.columns;
+    pixels.data.set([...colour, 255], 4 * (row * raster.columns + column));
+  });
+  ink.putImageData(pixels, 0, 0);
+  pen.save();
+  pen.globalAlpha = opacity;
   pen.imageSmoothingEnabled = false;
   pen.drawImage(image, frame.left, frame.top, frame.width, frame.height);
+  pen.restore();
 }
 
 /**
  * Maps of one quantity side by side on one colour scale, with a hover read-out that follows in all of them.
- * @param maps  [{name, title, raster, read(z, r) -> text, overlay?(pen, to_x, to_y)}]
+ * @param maps  [{name, title, raster, opacity?, read(z, r) -> text, overlay?(pen, to_x, to_y)}]
  * @param area  {z: [low, high], r: [low, high]} in mm, common to the maps
  */
-function flank_maps(plot, { maps, area, scale, unit, r_title, bare_zero = false }) {
+function flank_maps(plot, { maps, area, scale, unit, r_title }) {
   const row = el("div", { class: "maps" });
   const read_out = el("p", { class: "read-out", "aria-live": "off" }, "\u00a0");
   plot.append(row, read_out);
@@ -89,7 +91,7 @@ function flank_maps(plot, { maps, area, scale, unit, r_title, bare_zero = false 
   };
   for (const map of maps) {
     const { canvas, pen } = sharp_canvas(width, MAP_HEIGHT, `${map.title}, flank map in ${unit}`);
-    paint_raster(pen, frame, map.raster, scale, bare_zero);
+    paint_raster(pen, frame, map.raster, scale, map.opacity);
     if (map.overlay) {
       pen.save();
       pen.beginPath();

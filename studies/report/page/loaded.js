@@ -129,6 +129,9 @@ function build_stiffness(results, body, selection) {
 
 const percent = (share) => (is_number(share) ? 100 * share : null);
 
+const case_columns = [{ label: "Scene" }, { label: "Torque", unit: "N·m", digits: 6 }, { label: "Design" }];
+const case_cells = ({ load_case, design }) => [load_case.scene, load_case.torque, { text: DESIGN_LABEL[design], class: "word" }];
+
 /** Load distribution factors by calculated stress, without and with spikes, beside those of ISO 6336. */
 function load_factor_table(body, rows) {
   const factors = (entry, key) => record(record(summary_of(entry).load_factors)[key]);
@@ -142,7 +145,7 @@ function load_factor_table(body, rows) {
       return [label, k.K_Hbeta, k.K_Halpha, k.K_Hbeta_times_K_Halpha, k.K_H, peak(entry, key)];
     });
     return [...calculated, ["ISO 6336", iso.K_Hbeta, iso.K_Halpha, iso.K_H, iso.K_H, null]].map((values) =>
-      [load_case.scene, load_case.torque, DESIGN_LABEL[design], ...values.map((value) => value ?? null)]);
+      [...case_cells({ load_case, design }), ...values.map((value) => value ?? null)]);
   };
   table(body, {
     title: "Load distribution factors",
@@ -150,7 +153,7 @@ function load_factor_table(body, rows) {
       + "profile and from tooth to tooth alone (K_Hα), and of everything (K_H), which is not their product. Peaks are sought between the "
       + "positions too; without spikes leaves out short contact lines and what lies near their ends on tip edges. ISO 6336, method C, "
       + "from its own stiffness.",
-    columns: [{ label: "Scene" }, { label: "Torque", unit: "N·m", digits: 6 }, { label: "Design" }, { label: "By" },
+    columns: [...case_columns, { label: "By" },
       { label: "K_Hβ" }, { label: "K_Hα" }, { label: "K_Hβ·K_Hα" }, { label: "K_H" }, { label: "Peak stress", unit: "MPa" }],
     rows: rated.flatMap(lines),
   });
@@ -164,34 +167,36 @@ function build_load_cases(results, body, { cases }) {
     const worst = maximum(list(entry.cycle).map((position) => record(position).kkt_residual));
     return is_number(worst) ? worst : null;
   };
-  const quantities = [
-    [{ label: "TE p-p", unit: "µm" }, plain("te_peak_to_peak_um")],
-    [{ label: "TE mean", unit: "µm" }, plain("te_mean_um")],
-    [{ label: "TE 1st harm.", unit: "µm" }, (entry) => list(summary_of(entry).te_harmonics_um)[0]],
-    [{ label: "Line load", unit: "N/mm" }, plain("peak_load_N_per_mm")],
-    [{ label: "Contact stress", unit: "MPa" }, plain("peak_contact_stress_MPa")],
-    [{ label: "Root stress", unit: "MPa" }, plain("peak_root_stress_MPa")],
-    [{ label: "Load factor" }, plain("load_factor")],
-    [{ label: "Stiffness", unit: "N/(mm µm)" }, plain("mean_stiffness_N_per_mm_um")],
-    [{ label: "Variation of stiffness", unit: "%" }, (entry) => percent(summary_of(entry).stiffness_variation)],
-    [{ label: "f_sh", unit: "µm" }, plain("shaft_misalignment_um")],
-    [{ label: "c′, ISO", unit: "N/(mm µm)" }, iso("c_prime")],
-    [{ label: "c_γ, ISO", unit: "N/(mm µm)" }, iso("c_gamma")],
-    [{ label: "TE harm. change", unit: "µm" }, (entry) => record(summary_of(entry).te_convergence).harmonic_change_um],
-    [{ label: "KKT residual" }, residual],
-  ];
   const rows = cases.flatMap((load_case) => designs_of(load_case).map((design) => ({ load_case, design })));
-  const filled = quantities.filter(([, value]) =>
-    rows.some((row) => is_number(value(row.load_case.designs[row.design]))));
-  table(body, {
-    title: "Peaks and means over the mesh cycle",
-    note: "Peaks are the largest values over the positions and all teeth in contact; c′ and cγ are those of ISO 6336; f_sh is the "
-      + "misalignment by the shafts, its mean; the change of the harmonics is what the last doubling of positions brought; "
-      + "the KKT residual is the largest error of the contact conditions.",
-    columns: [{ label: "Scene" }, { label: "Torque", unit: "N·m", digits: 6 }, { label: "Design" },
-      ...filled.map(([column]) => column)],
-    rows: rows.map(({ load_case, design }) => [load_case.scene, load_case.torque, DESIGN_LABEL[design],
-      ...filled.map(([, value]) => value(load_case.designs[design]) ?? null)]),
-  });
+  const numbers_table = (title, note, quantities) => {
+    const filled = quantities.filter(([, value]) => rows.some((row) => is_number(value(row.load_case.designs[row.design]))));
+    if (filled.length === 0) return;
+    table(body, {
+      title, note,
+      columns: [...case_columns, ...filled.map(([column]) => column)],
+      rows: rows.map((row) => [...case_cells(row), ...filled.map(([, value]) => value(row.load_case.designs[row.design]) ?? null)]),
+    });
+  };
+  numbers_table("Stress and transmission error over the mesh cycle",
+    "Peaks are the largest values over the positions and all teeth in contact.", [
+      [{ label: "Contact stress", unit: "MPa" }, plain("peak_contact_stress_MPa")],
+      [{ label: "Root stress", unit: "MPa" }, plain("peak_root_stress_MPa")],
+      [{ label: "Line load", unit: "N/mm" }, plain("peak_load_N_per_mm")],
+      [{ label: "Load factor" }, plain("load_factor")],
+      [{ label: "TE peak to peak", unit: "µm" }, plain("te_peak_to_peak_um")],
+      [{ label: "TE mean", unit: "µm" }, plain("te_mean_um")],
+      [{ label: "TE 1st harmonic", unit: "µm" }, (entry) => list(summary_of(entry).te_harmonics_um)[0]],
+    ]);
+  numbers_table("Stiffness, and how far the numbers hold",
+    "c′ and cγ are those of ISO 6336; f_sh is the misalignment by the shafts, its mean; the change of the harmonics is what the last "
+      + "doubling of positions brought; the KKT residual is the largest error of the contact conditions.", [
+      [{ label: "Stiffness", unit: "N/(mm µm)" }, plain("mean_stiffness_N_per_mm_um")],
+      [{ label: "Its variation", unit: "%" }, (entry) => percent(summary_of(entry).stiffness_variation)],
+      [{ label: "f_sh", unit: "µm" }, plain("shaft_misalignment_um")],
+      [{ label: "c′, ISO", unit: "N/(mm µm)" }, iso("c_prime")],
+      [{ label: "c_γ, ISO", unit: "N/(mm µm)" }, iso("c_gamma")],
+      [{ label: "Change of harmonics", unit: "µm" }, (entry) => record(summary_of(entry).te_convergence).harmonic_change_um],
+      [{ label: "KKT residual" }, residual],
+    ]);
   load_factor_table(body, rows);
 }

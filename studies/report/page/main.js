@@ -29,7 +29,8 @@ const BUILDERS = {
 function main() {
   const results = JSON.parse(document.getElementById("results").textContent);
   const cases = load_cases(results);
-  const selection = case_selection(cases, governing_case(cases, record(results.optimise)));
+  const selection = case_selection(cases, governing_case(cases, record(results.optimise)),
+    results.optimise ? " (governs)" : " (largest stress)");
   draw_summary(results, cases);
   for (const [id, build] of Object.entries(BUILDERS)) {
     const body = document.querySelector(`#${id} > .body`);

@@ -7,21 +7,31 @@ function topography_grid(modification) {
   return grid.z.length > 1 && grid.r.length > 1 && grid.rows.length === grid.r.length ? grid : null;
 }
 
+/** The range of removal that the designs of a gear share; what is unmodified gets a range of 1 um. */
+function removal_scale(entries) {
+  const values = numbers(entries.flatMap(({ grid }) => grid.rows.flat()));
+  const scale = { low: Math.min(0, minimum(values)), high: maximum(values) };
+  return scale.high > scale.low ? scale : { ...scale, high: scale.low + 1 };
+}
+
+const design_title = ({ design, grid }) => {
+  const peak = maximum(grid.rows.flat());
+  return `${DESIGN_LABEL[design]}${peak > 0 ? `, up to ${fmt(peak, 3)} µm` : ", unmodified"}`;
+};
+
 function draw_topography(plot, gear, entries) {
   const grids = entries.map((entry) => entry.grid);
-  const values = numbers(grids.flatMap((grid) => grid.rows.flat()));
-  const scale = { low: Math.min(0, minimum(values)), high: maximum(values) };
-  if (!(scale.high > scale.low)) scale.high = scale.low + 1;
+  const scale = removal_scale(entries);
   const area = {
     z: [minimum(grids.flatMap((grid) => grid.z)), maximum(grids.flatMap((grid) => grid.z))],
     r: [minimum(grids.flatMap((grid) => grid.r)), maximum(grids.flatMap((grid) => grid.r))],
   };
   const levels = round_ticks(scale.low, scale.high, 8).filter((level) => level > scale.low && level < scale.high);
-  const maps = entries.map(({ design, grid }) => {
-    const peak = maximum(grid.rows.flat());
+  const maps = entries.map((entry) => {
+    const { design, grid } = entry;
     return {
       name: DESIGN_LABEL[design].toLowerCase(),
-      title: `${DESIGN_LABEL[design]}${peak > 0 ? `, up to ${fmt(peak, 3)} µm` : ", unmodified"}`,
+      title: design_title(entry),
       raster: grid_raster(grid, area),
       read: (z, r) => {
         const removal = grid_value(grid, z, r);
@@ -32,6 +42,9 @@ function draw_topography(plot, gear, entries) {
   });
   flank_maps(plot, { maps, area, scale, unit: "µm", r_title: `${gear} radius [mm]` });
 }
+
+/** An amount as it is shown: below a nanometre, or a millionth of any other unit, there is nothing but how far a solver went. */
+const settled = (value, unit) => (Math.abs(value) < (unit === "um" ? 1e-3 : 1e-6) ? 0 : value ?? null);
 
 function variable_table(body, optimise) {
   const before = record(optimise.before), after = record(optimise.after);
@@ -44,7 +57,7 @@ function variable_table(body, optimise) {
     columns: [{ label: "Variable" }, { label: "Before" }, { label: "After" }, { label: "Change" }, { label: "Unit" }],
     rows: names.map((name) => {
       const from = record(before.variables)[name], to = record(after.variables)[name];
-      return [name, from ?? null, to ?? null, is_number(from) && is_number(to) ? to - from : null,
+      return [name, settled(from, units[name]), settled(to, units[name]), is_number(from) && is_number(to) ? settled(to - from, units[name]) : null,
         pretty_unit(units[name])];
     }),
   });
@@ -69,6 +82,13 @@ function build_modifications(results, body) {
       caption: `Material removed from the involute ${gear} flank, along the base tangent, with its contour lines; `
         + "face width to the right, tip at the top.",
     }, (plot) => draw_topography(plot, gear, own));
+    const modified = own.filter((entry) => entry.grid.rows.flat().some((value) => value !== 0));
+    const state = { degrees: -30 };
+    figure(grid, {
+      title: `The ${gear} flank as a surface`,
+      wide: modified.length > 1,
+      caption: "Removed material drops below the unmodified flank, the dashed frame; heights are magnified.",
+    }, (plot) => draw_surfaces(plot, modified.map((entry) => ({ title: design_title(entry), grid: entry.grid })), removal_scale(own), gear, state));
   }
   if (results.optimise) variable_table(body, record(results.optimise));
 }

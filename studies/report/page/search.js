@@ -1,13 +1,17 @@
 // How widely an optimum was sought, what rounding it to the grinder's steps costs, and what a gain in one objective costs in another.
 
-function draw_front(plot, front) {
-  const [first, second] = list(front.objectives).map(record);
+/** The front over two of its objectives, by their places in the list; of two objectives in all its points are joined. */
+function draw_front(plot, front, [across, up]) {
+  const objectives = list(front.objectives).map(record), [first, second] = [objectives[across], objectives[up]];
   const named = ({ name, unit }) => `${words(name)} [${pretty_unit(unit)}]`;
-  const points = list(front.points).map(record).map((point) => ({ x: point.values[0], y: point.values[1], dominated: point.dominated }));
+  const points = list(front.points).map(record)
+    .map((point) => ({ x: point.values[across], y: point.values[up], dominated: point.dominated,
+      note: objectives.length > 2 ? objectives.filter((_, i) => i !== across && i !== up)
+        .map((other) => `${words(other.name)} ${fmt(point.values[objectives.indexOf(other)])} ${pretty_unit(other.unit)}`).join(", ") : null }));
   const best = points.filter((point) => !point.dominated);
   const colour = css_colour("after");
   const curves = [
-    { label: "front", points: best, colour: faded(colour, 0.45), width: 1.2, quiet: true, order: 2 },
+    { label: "front", points: objectives.length === 2 ? best : [], colour: faded(colour, 0.45), width: 1.2, quiet: true, order: 2 },
     { label: "compromise", points: best, colour, scatter: true, size: 5 },
     { label: "dominated", points: points.filter((point) => point.dominated), colour: css_colour("before"), scatter: true,
       hollow: true, fill: "transparent" },
@@ -21,48 +25,71 @@ function draw_front(plot, front) {
   });
 }
 
-function front_table(body, front) {
+function front_table(body, front, units) {
   const paths = Object.keys(record(record(list(front.points)[0]).variables));
   table(body, {
     title: "Compromises",
     columns: [...list(front.objectives).map(record).map(({ name, unit }) => ({ label: capital(words(name)), unit: pretty_unit(unit) })),
-      ...paths.map((path) => ({ label: words(path) }))],
-    rows: list(front.points).map(record).map((point) => [...point.values, ...paths.map((path) => point.variables[path])]),
-    note: "Units of the modifications as in the study.",
+      ...paths.map((path) => ({ label: words(path), unit: pretty_unit(units[path]) }))],
+    rows: list(front.points).map(record).map((point) => [...point.values, ...paths.map((path) => settled(point.variables[path], units[path]))]),
+  });
+}
+
+/** From where the searches began, where each ended, and which different optima they found. */
+function starts_tables(body, optimise, units) {
+  const starts = list(optimise.starts).map(record), unit = pretty_unit(optimise.objective_unit);
+  if (starts.length === 0) return;
+  const paths = Object.keys(record(starts[0].from));
+  const of_variables = paths.map((path) => ({ label: words(path), unit: pretty_unit(units[path]), digits: 3 }));
+  const bumpy = /sigma$/.test(optimise.over || "") ? " Mean + kσ, which may fall where a single scene rises, has more of them than the worst case." : "";
+  table(body, {
+    title: "Where the searches started",
+    note: starts.length === 1 ? `One search, from the values of the file: its end is a local optimum, and more starts may find a better one.${bumpy}`
+      : `The first from the values of the file, the others from a space-filling set; each ends in a local optimum.${bumpy}`,
+    columns: [{ label: "Start" }, ...of_variables, { label: "Ended at", unit }, { label: "Analyses" }, { label: "Status" }],
+    rows: starts.map((start, i) => [i + 1, ...paths.map((path) => settled(record(start.from)[path], units[path])),
+      start.objective ?? null, start.evaluations ?? null, words(start.status)]),
+  });
+  const optima = list(optimise.optima).map(record);
+  if (starts.length < 2 || optima.length === 0) return;
+  table(body, {
+    title: "Optima from several starts",
+    note: optimise.multimodal ? "The starts found different optima: the problem is multimodal, and more starts may find a better one."
+      : "All starts that ended well found the same optimum.",
+    columns: [{ label: "Found by" }, ...of_variables, { label: "Objective", unit }],
+    rows: optima.map((optimum) => [`${optimum.found_by} of ${starts.length}`,
+      ...paths.map((path) => settled(record(optimum.variables)[path], units[path])), optimum.objective ?? null]),
   });
 }
 
 function build_search(results, body) {
   const optimise = record(results.optimise), unit = pretty_unit(optimise.objective_unit);
+  const units = record(record(optimise.before).variable_units);
   if (optimise.pareto) {
     const front = record(optimise.pareto);
-    if (list(front.objectives).length === 2) {
-      figure(figure_grid(body), {
-        title: "What a gain in one costs in the other",
-        wide: true,
-        caption: `Each point is a design of its own; none of them is better in both.${front.message ? ` ${capital(front.message)}.` : ""}`,
-      }, (plot) => draw_front(plot, front));
+    const names = list(front.objectives).map((objective) => words(record(objective).name));
+    const pairs = names.length === 2 ? [[0, 1]] : [[0, 1], [0, 2], [1, 2]];
+    const grid = figure_grid(body);
+    for (const pair of pairs) {
+      figure(grid, {
+        title: names.length === 2 ? "What a gain in one costs in the other" : capital(`${names[pair[1]]} against ${names[pair[0]]}`),
+        wide: names.length === 2,
+        caption: (names.length === 2 ? "Each point is a design of its own; none of them is better in both."
+          : "Every design of the front; none of them is better in all three, so points that look beaten here gain in the third.")
+          + (front.message ? ` ${capital(front.message)}.` : ""),
+      }, (plot) => draw_front(plot, front, pair));
     }
-    if (list(front.points).length > 0) front_table(body, front);
+    if (list(front.points).length > 0) front_table(body, front, units);
   }
   if (optimise.rounded) {
     const exact = record(record(optimise.exact).variables), ground = record(record(optimise.rounded).variables);
     table(body, {
       title: "Rounded to what can be ground",
       columns: [{ label: "Modification" }, { label: "Optimum" }, { label: "To grind", digits: 6 }],
-      rows: [...Object.keys(ground).map((path) => [words(path), exact[path], ground[path]]),
+      rows: [...Object.keys(ground).map((path) => [`${words(path)} [${pretty_unit(units[path])}]`, settled(exact[path], units[path]), ground[path]]),
         [`${words(optimise.objective_name)} [${unit}]`, record(optimise.exact).objective, record(optimise.rounded).objective]],
       note: `Rounding costs ${fmt(record(optimise.rounded).loss_percent)} % of the objective.`,
     });
   }
-  const starts = list(optimise.starts).map(record);
-  if (starts.length < 2) return;
-  const optima = list(optimise.optima).map(record);
-  table(body, {
-    title: "Optima from several starts",
-    columns: [{ label: "Objective", unit }, { label: "Found by" }, ...Object.keys(record(record(optima[0]).variables)).map((path) => ({ label: words(path) }))],
-    rows: optima.map((optimum) => [optimum.objective, `${optimum.found_by} of ${starts.length}`, ...Object.values(record(optimum.variables))]),
-    note: optimise.multimodal ? "The starts found different optima: the problem is multimodal, and more starts may find a better one."
-      : "All starts that ended well found the same optimum.",
-  });
+  starts_tables(body, optimise, units);
 }

@@ -6,8 +6,8 @@ function build_governing(results, body) {
   const residual = governing.residual;
   if (!is_number(residual)) return;
   body.append(el("p", { class: "remark" }, "Weights and gains are the multipliers that balance the exact derivatives of everything "
-    + `that is active at this design; what is left over is ${residual < 1e-6 ? "less than 0.0001" : fmt(100 * residual, 2)} % of the objective over a `
-    + `variable's range${residual > 1e-3 ? ": the design lies at a kink of another kind or was not optimised to the end" : ""}.`));
+    + `that is active at this design; what is left over is ${residual < 1e-6 ? "less than 0.0001" : fmt(100 * residual, 2)} % of the start's objective over a `
+    + `variable's range; gains below ${fmt(governing.resolution, 2)} ${pretty_unit(governing.objective_unit)} are nothing${residual > 1e-3 ? ": the design lies at a kink of another kind or was not optimised to the end" : ""}.`));
 }
 
 /** Rows of a tornado, the widest first: a bar for a step down and one for a step up. */
@@ -30,9 +30,10 @@ const tornado_key = () => el("p", { class: "key" },
 
 function build_sensitivity(results, body) {
   const optimise = record(results.optimise);
-  const round_off = 1e-9 * Math.abs(record(optimise.after).objective);
+  const governing = record(optimise.governing);
+  const round_off = governing.resolution ?? 1e-9 * Math.abs(record(optimise.after).objective);
   const shown = (change) => (!is_number(change) ? null : Math.abs(change) < round_off ? 0 : change);
-  const unit = pretty_unit(optimise.objective_unit), name = words(optimise.objective_name);
+  const unit = pretty_unit(governing.objective_unit ?? optimise.objective_unit), name = words(governing.objective_name ?? optimise.objective_name);
   const entries = list(optimise.sensitivity).map(record);
   const grid = figure_grid(body);
   const draw = (kind, title, caption) => {
@@ -44,7 +45,7 @@ function build_sensitivity(results, body) {
     });
   };
   draw("variable", "A step of each variable",
-    `Change of the ${name}, to first order with kinks, all else as it is. At an optimum no step inside the bounds makes it smaller; `
+    `Change of the ${name}, to first order with kinks, all else as it is. At an optimum no step within bounds and limits makes it smaller; `
     + "hollow bars would leave the bounds.");
   draw("tolerance", "A step of each tolerance",
     `Change of the ${name} where housing, workshop or load differ by this much in every scene and the flanks stay as they are.`);

@@ -163,13 +163,14 @@ function build_indices(results, body) {
     plot.append(choices, area);
     draw();
   });
+  const parameters = list(sweep.parameters).map(record);
   const shown_total = (total) => (is_number(total) ? (total < 1e-6 ? 0 : 100 * total) : null);
   table(body, {
     title: "Total Sobol indices",
     note: "Share of the variance with all interactions; below a ten-thousandth of a per cent: 0.",
-    columns: [{ label: "Parameter" }, ...outputs.map(([name]) => ({ label: output_label(name), unit: "%", digits: 2 }))],
-    rows: list(sweep.parameters).map(record).map((p) => [p.path,
-      ...outputs.map(([, of]) => shown_total(record(record(of.indices)[p.path]).total))]),
+    columns: [{ label: "Output" }, ...parameters.map((p) => ({ label: parameter_label(p.path), unit: "%", digits: 2 }))],
+    rows: outputs.map(([name, of]) => [output_label(name),
+      ...parameters.map((p) => shown_total(record(record(of.indices)[p.path]).total))]),
   });
 }
 
@@ -191,7 +192,7 @@ function draw_response(plot, sweep, state) {
   const height = 380, width = Math.min(720, (plot.clientWidth || 900) - 100), left = 66, top = 26, right = 14, bottom = 44;
   const { canvas, pen } = sharp_canvas(width, height, `Mean ${output_label(state.output)} over ${x.title} and ${y.title}`);
   const frame = { left, top, width: width - left - right, height: height - top - bottom };
-  paint_raster(pen, frame, { columns, rows: height_parts, values }, scale, false);
+  paint_raster(pen, frame, { columns, rows: height_parts, values }, scale);
   pen.strokeStyle = css_colour("axis");
   pen.strokeRect(frame.left, frame.top, frame.width, frame.height);
   pen.fillStyle = css_colour("muted");

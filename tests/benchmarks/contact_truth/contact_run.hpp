@@ -52,7 +52,9 @@ struct ContactAnswer {
 bool calculix_is_installed();
 
 /// Writes the deck into a folder that is made, runs CalculiX on one thread, reads what it prints. Frictionless contact
-/// of surfaces by penalty, small displacements, one increment.
+/// of surfaces by penalty, small displacements, one increment. Forces are CalculiX' sums over each layer. Stress is that
+/// in the integration points next to the flank: the pressures that CalculiX prints for its contact points do not add up
+/// to the force.
 ContactAnswer run_calculix(const ContactTask& task, const ContactSettings& settings,
                            const std::filesystem::path& folder);
 

@@ -35,6 +35,24 @@ inline double torque_for(const GearPair& gears, double line_load) {
   return line_load * gears.face_width * gears.pinion.base_radius;
 }
 
+/// A condition with something of everything.
+inline FlankCondition worked_condition() {
+  FlankCondition condition;
+  condition.pinion_modification.lead_crowning = 6 * units::um;
+  condition.pinion_modification.lead_slope = -4 * units::um;
+  condition.pinion_modification.tip_relief = {10 * units::um, 0.4, ReliefShape::Linear};
+  condition.pinion_modification.twist = 3 * units::um;
+  condition.wheel_modification.addendum_crowning = 5 * units::um;
+  condition.wheel_modification.end_relief = {8 * units::um, 1.0};
+  condition.pinion_error.helix_slope = 3 * units::um;
+  condition.wheel_error.profile_slope = -2 * units::um;
+  condition.misalignment.mesh_misalignment = 9 * units::um;
+  condition.misalignment.crossing = 20 * units::arcsec;
+  condition.misalignment.intersecting = -30 * units::arcsec;
+  condition.misalignment.centre_distance = 0.02;
+  return condition;
+}
+
 /// Line loads of a position by tooth pair and axial position in whole micrometres, so that positions can be compared
 /// point by point; z is mirrored and teeth counted backwards where asked.
 using Loads = std::map<std::pair<int, long>, double>;

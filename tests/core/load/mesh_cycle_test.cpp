@@ -8,9 +8,8 @@
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;
-using mesh_cases::largest_difference;
-using mesh_cases::loads_by_point;
 using mesh_cases::torque_for;
+using mesh_cases::worked_condition;
 
 namespace {
 
@@ -31,42 +30,6 @@ NamedPair named_pair(int i) {
     default:
       return {"wide 30/90, helical", mesh_cases::pair_data(30, 90, 20, 3, 200)};
   }
-}
-
-/// A condition with something of everything.
-FlankCondition worked_condition() {
-  FlankCondition condition;
-  condition.pinion_modification.lead_crowning = 6 * units::um;
-  condition.pinion_modification.lead_slope = -4 * units::um;
-  condition.pinion_modification.tip_relief = {10 * units::um, 0.4, ReliefShape::Linear};
-  condition.pinion_modification.twist = 3 * units::um;
-  condition.wheel_modification.addendum_crowning = 5 * units::um;
-  condition.wheel_modification.end_relief = {8 * units::um, 1.0};
-  condition.pinion_error.helix_slope = 3 * units::um;
-  condition.wheel_error.profile_slope = -2 * units::um;
-  condition.misalignment.mesh_misalignment = 9 * units::um;
-  condition.misalignment.crossing = 20 * units::arcsec;
-  condition.misalignment.intersecting = -30 * units::arcsec;
-  condition.misalignment.centre_distance = 0.02;
-  return condition;
-}
-
-/// The same seen in a mirror at the mid-face plane.
-FlankCondition mirrored(FlankCondition c) {
-  for (Modification* m : {&c.pinion_modification, &c.wheel_modification}) {
-    m->lead_slope = -m->lead_slope;
-    m->twist = -m->twist;
-  }
-  for (ManufacturingError* e : {&c.pinion_error, &c.wheel_error}) {
-    e->helix_slope = -e->helix_slope;
-    e->twist = -e->twist;
-  }
-  // An axis of rotation in the mirror's plane turns the other way round.
-  c.misalignment.crossing = -c.misalignment.crossing;
-  c.misalignment.intersecting = -c.misalignment.intersecting;
-  c.misalignment.axial_offset = -c.misalignment.axial_offset;
-  c.misalignment.mesh_misalignment = -c.misalignment.mesh_misalignment;
-  return c;
 }
 
 int loaded_teeth(const MeshPosition& at, const LoadedPosition& loaded) {
@@ -168,87 +131,6 @@ TEST_CASE("One pair of spur teeth carries all near the pitch point, two share el
   const LoadedCycle there = analyse_cycle(at_pitch, {}, torque_for(gears, load));
   CHECK(loaded_teeth(at_pitch.positions[0], there.positions[0]) == 1);
   CHECK(there.positions[0].load.line_load.maxCoeff() == Approx(load).epsilon(1e-9));
-}
-
-TEST_CASE("A mirrored spur pair carries mirrored loads", "[core][load]") {
-  constexpr double kRoundOff = 1e-9;  // tolerance of the solver times the condition
-  const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
-  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(8)});
-  const LoadedCycle there = analyse_cycle(model, worked_condition(), torque_for(gears, 100.0));
-  const LoadedCycle mirror = analyse_cycle(model, mirrored(worked_condition()), torque_for(gears, 100.0));
-  for (std::size_t i = 0; i < 8; ++i) {
-    CHECK(mirror.positions[i].load.transmission_error ==
-          Approx(there.positions[i].load.transmission_error).epsilon(kRoundOff));
-    CHECK(largest_difference(loads_by_point(model.positions[i], there.positions[i]),
-                             loads_by_point(model.positions[i], mirror.positions[i], -1)) <= kRoundOff * 100.0);
-  }
-}
-
-TEST_CASE("A helical pair of the other hand is the mirror image of the first", "[core][load]") {
-  constexpr double kRoundOff = 1e-9;
-  const GearPair right = mesh_cases::pair(18, 54, 30, 10, 120);
-  PairData data = right.data;
-  data.pinion_hand = Hand::Left;
-  const GearPair left = make_gear_pair(data);
-  const MeshResolution resolution{{QuadratureRule::Gauss2, 10}, equally_spaced_phases(6)};
-  const MeshModel right_model = mesh_cases::model(right, resolution), left_model = mesh_cases::model(left, resolution);
-  const double torque = torque_for(right, 100.0);
-  const LoadedCycle there = analyse_cycle(right_model, worked_condition(), torque);
-  const LoadedCycle mirror = analyse_cycle(left_model, mirrored(worked_condition()), torque);
-  const LoadedCycle same = analyse_cycle(left_model, worked_condition(), torque);
-  for (std::size_t i = 0; i < 6; ++i) {
-    CHECK(mirror.positions[i].load.transmission_error ==
-          Approx(there.positions[i].load.transmission_error).epsilon(kRoundOff));
-    const auto loads = loads_by_point(right_model.positions[i], there.positions[i]);
-    CHECK(largest_difference(loads, loads_by_point(left_model.positions[i], mirror.positions[i], -1)) <=
-          kRoundOff * 100.0);
-    // And only the mirrored condition does: the test can fail.
-    CHECK(largest_difference(loads, loads_by_point(left_model.positions[i], same.positions[i], -1)) > 1.0);
-  }
-}
-
-TEST_CASE("A helical pair driven on its other flank is the same as a pair of the other hand", "[core][load]") {
-  constexpr double kRoundOff = 1e-9;
-  // Seen in a mirror that holds both axes, the coast side of a right-hand pinion is the drive side of a left-hand one;
-  // of the misalignments only rotation about the line of centres changes its sign there.
-  PairData data = mesh_cases::pair_data(18, 54, 30, 10, 120);
-  data.working_flank = WorkingFlank::Left;
-  const GearPair coast = make_gear_pair(data);
-  data.working_flank = WorkingFlank::Right;
-  data.pinion_hand = Hand::Left;
-  const GearPair drive = make_gear_pair(data);
-  FlankCondition reflected = worked_condition();
-  reflected.misalignment.crossing = -reflected.misalignment.crossing;
-  const MeshResolution resolution{{}, {0.2, 0.6}};
-  const MeshModel coast_model = mesh_cases::model(coast, resolution),
-                  drive_model = mesh_cases::model(drive, resolution);
-  const double torque = torque_for(coast, 100.0);
-  const LoadedCycle a = analyse_cycle(coast_model, worked_condition(), torque);
-  const LoadedCycle b = analyse_cycle(drive_model, reflected, torque);
-  for (std::size_t i = 0; i < 2; ++i) {
-    CHECK(a.positions[i].load.transmission_error == Approx(b.positions[i].load.transmission_error).epsilon(kRoundOff));
-    CHECK(largest_difference(loads_by_point(coast_model.positions[i], a.positions[i]),
-                             loads_by_point(drive_model.positions[i], b.positions[i])) <= kRoundOff * 100.0);
-  }
-}
-
-TEST_CASE("Equal gears in perfect mesh run the same forwards and backwards", "[core][load]") {
-  constexpr double kRoundOff = 1e-9;
-  const double helix = GENERATE(0.0, 25.0);
-  const GearPair gears = mesh_cases::pair(28, 28, helix, 3, 25);
-  const PathOfContact path(gears);
-  std::vector<double> forwards = {0.07, 0.31, 0.55, 0.98}, backwards;
-  for (double phase : forwards) backwards.push_back(path.last_line_phase() - phase);
-  const MeshModel there = mesh_cases::model(gears, {{QuadratureRule::Gauss2, 10}, forwards});
-  const MeshModel back = mesh_cases::model(gears, {{QuadratureRule::Gauss2, 10}, backwards});
-  const double torque = torque_for(gears, 200.0);
-  const LoadedCycle a = analyse_cycle(there, {}, torque), b = analyse_cycle(back, {}, torque);
-  for (std::size_t i = 0; i < forwards.size(); ++i) {
-    CAPTURE(helix, forwards[i]);
-    CHECK(a.positions[i].load.transmission_error == Approx(b.positions[i].load.transmission_error).epsilon(kRoundOff));
-    CHECK(largest_difference(loads_by_point(there.positions[i], a.positions[i]),
-                             loads_by_point(back.positions[i], b.positions[i], -1, -1)) <= kRoundOff * 200.0);
-  }
 }
 
 TEST_CASE("A lead slope cancels the misalignment of the mesh", "[core][load]") {

@@ -6,6 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include "tests/core/load/load_cases.hpp"
+#include "tests/hard_cases/floating_point_traps.hpp"
 
 using namespace flankwright;
 using load_cases::Random;
@@ -15,6 +16,7 @@ namespace {
 /// Solves random problems of 1 .. largest points, small ones most often; reports the worst of all, not each.
 void check_random_problems(int count, double largest, std::uint64_t seed) {
   constexpr double kRoundOff = 1e-9;
+  const hard_cases::FloatingPointTraps traps;
   Random random(seed);
   int failed = 0, most_iterations = 0, first_failure = -1;
   double worst = 0.0;

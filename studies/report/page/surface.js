@@ -1,0 +1,121 @@
+// A grid of the flank as a surface in space, seen from above in parallel projection and turned by a slider.
+
+const SURFACE_HEIGHT = 300;
+const SURFACE_TILT = (32 * Math.PI) / 180;  // of the view below the horizontal
+
+/**
+ * Places of the picture, the flank's middle at the origin: face width along u, radius along v, each counted in half face widths of the
+ * drawing, removed material downwards.
+ */
+function surface_view(grid, scale, turn, width) {
+  const [z0, z1] = [grid.z[0], grid.z[grid.z.length - 1]], [r0, r1] = [grid.r[0], grid.r[grid.r.length - 1]];
+  const half_face = Math.min(0.36 * width, 200), half_depth = 0.55 * half_face, drop = 105;
+  const [c, s] = [Math.cos(turn), Math.sin(turn)];
+  const place = (z, r, removal) => {
+    const u = half_face * ((2 * (z - z0)) / (z1 - z0) - 1), v = half_depth * ((2 * (r - r0)) / (r1 - r0) - 1);
+    const across = u * c - v * s, away = u * s + v * c;
+    return { x: width / 2 + across, away,
+      y: 0.42 * SURFACE_HEIGHT - away * Math.sin(SURFACE_TILT) + drop * Math.cos(SURFACE_TILT) * ((removal - scale.low) / (scale.high - scale.low)) };
+  };
+  return { place, z: [z0, z1], r: [r0, r1] };
+}
+
+/** Quadrangles of the surface, the furthest first. */
+function surface_cells(grid, view) {
+  const cells = [];
+  for (let j = 0; j + 1 < grid.r.length; ++j) {
+    for (let i = 0; i + 1 < grid.z.length; ++i) {
+      const corners = [[j, i], [j, i + 1], [j + 1, i + 1], [j + 1, i]]
+        .map(([row, column]) => ({ removal: list(grid.rows[row])[column], z: grid.z[column], r: grid.r[row] }));
+      if (!corners.every((corner) => is_number(corner.removal))) continue;
+      const places = corners.map((corner) => view.place(corner.z, corner.r, corner.removal));
+      const mean = (values) => values.reduce((a, b) => a + b, 0) / values.length;
+      cells.push({ places, away: mean(places.map((p) => p.away)), removal: mean(corners.map((corner) => corner.removal)) });
+    }
+  }
+  return cells.sort((a, b) => b.away - a.away);
+}
+
+/** Draws the surface in the colours of `scale`, the unmodified flank as a dashed frame above it, and writes its ends beside it. */
+function draw_surface(plot, grid, scale, turn, { title, gear, width }) {
+  const { canvas, pen } = sharp_canvas(width, SURFACE_HEIGHT, `${title}: topography of the ${gear} flank as a surface`);
+  const view = surface_view(grid, scale, turn, width);
+  const trace = (places) => {
+    pen.beginPath();
+    places.forEach((p, i) => (i ? pen.lineTo(p.x, p.y) : pen.moveTo(p.x, p.y)));
+    pen.closePath();
+  };
+  pen.lineWidth = 0.6;
+  pen.lineJoin = "round";
+  for (const cell of surface_cells(grid, view)) {
+    const colour = `rgb(${map_colour((cell.removal - scale.low) / (scale.high - scale.low)).join(",")})`;
+    trace(cell.places);
+    pen.fillStyle = pen.strokeStyle = colour;
+    pen.fill();
+    pen.stroke();
+    pen.strokeStyle = "rgba(0,0,0,.16)";
+    pen.stroke();
+  }
+  const [z0, z1] = view.z, [r0, r1] = view.r;
+  const corners = [[z0, r0], [z1, r0], [z1, r1], [z0, r1]];
+  pen.strokeStyle = css_colour("axis");
+  pen.lineWidth = 1;
+  pen.setLineDash([5, 4]);
+  trace(corners.map(([z, r]) => view.place(z, r, 0)));
+  pen.stroke();
+  for (const [z, r] of corners) {
+    const removal = grid_value(grid, z, r);
+    if (removal === null) continue;
+    trace([view.place(z, r, 0), view.place(z, r, removal)]);
+    pen.stroke();
+  }
+  pen.setLineDash([]);
+
+  pen.fillStyle = css_colour("ink");
+  pen.textAlign = "left";
+  pen.textBaseline = "middle";
+  pen.font = `600 13px ${Chart.defaults.font.family}`;
+  pen.fillText(title, 6, 11);
+  pen.font = `12px ${Chart.defaults.font.family}`;
+  const centre = view.place((z0 + z1) / 2, (r0 + r1) / 2, 0);
+  const write = (z, r, text) => {
+    const lowest = Math.max(0, grid_value(grid, z, r) ?? 0);
+    const p = view.place(z, r, view.place(z, r, 0).y > centre.y ? lowest : 0);
+    const side = p.x < centre.x - 12 ? -1 : p.x > centre.x + 12 ? 1 : 0;
+    pen.textAlign = side < 0 ? "right" : side > 0 ? "left" : "center";
+    const x = p.x + 7 * side, y = p.y + (p.y > centre.y ? 12 : -12), wide = pen.measureText(text).width;
+    const left = side < 0 ? x - wide : side > 0 ? x : x - wide / 2;
+    pen.textAlign = "left";
+    const inside = Math.min(Math.max(4, left), width - wide - 4);
+    pen.strokeStyle = css_colour("surface");
+    pen.lineWidth = 4;
+    pen.strokeText(text, inside, y);
+    pen.fillStyle = css_colour("ink");
+    pen.fillText(text, inside, y);
+  };
+  write(z0, (r0 + r1) / 2, `z ${fmt(z0)} mm`);
+  write(z1, (r0 + r1) / 2, `z ${fmt(z1)} mm`);
+  write((z0 + z1) / 2, r1, `tip, r ${fmt(r1)} mm`);
+  write((z0 + z1) / 2, r0, `r ${fmt(r0)} mm`);
+  plot.append(canvas);
+}
+
+/** @param entries  [{title, grid}] drawn side by side on one scale, turned together */
+function draw_surfaces(plot, entries, scale, gear, state) {
+  const width = Math.min(560, ((plot.clientWidth || 900) - 86) / entries.length - 10);
+  const row = el("div", { class: "maps" });
+  const input = el("input", { type: "range", min: -180, max: 180, step: 2, value: state.degrees, "aria-label": "Turn the surface" });
+  const shown = el("output", {}, `${state.degrees}°`);
+  const draw = () => {
+    row.replaceChildren();
+    for (const { title, grid } of entries) draw_surface(row, grid, scale, (state.degrees * Math.PI) / 180, { title, gear, width });
+    row.append(colour_bar(scale, "µm", SURFACE_HEIGHT));
+  };
+  input.addEventListener("input", () => {
+    state.degrees = Number(input.value);
+    shown.textContent = `${state.degrees}°`;
+    draw();
+  });
+  plot.append(row, el("label", { class: "slider no-print" }, "Turned by ", input, shown));
+  draw();
+}

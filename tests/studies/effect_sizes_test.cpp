@@ -1,0 +1,55 @@
+#include "studies/effect_sizes.hpp"
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "studies/results_json.hpp"
+#include "studies/run_study.hpp"
+#include "studies/study_file.hpp"
+#include "tests/studies/small_studies.hpp"
+
+namespace flankwright::studies {
+namespace {
+
+using nlohmann::json;
+
+json run(const std::string& text, const std::vector<Override>& overrides = {}) {
+  return json::parse(results_json(run_study(parse_study(text, "small.toml", overrides))));
+}
+
+}  // namespace
+
+TEST_CASE("Results say how large each effect is as far as it was asked for", "[studies][effects]") {
+  const json off = run(small::analysis(), {{"fidelity.effect_sizes", "off"}});
+  const json exact = run(small::analysis(), {{"fidelity.effect_sizes", "exact"}});
+  for (const json& effect : off["effects"]) CHECK((effect["estimate"].is_null() && effect["exact"].is_null()));
+  CHECK(off["loaded"] == exact["loaded"]);  // to find out changes nothing
+  for (const json& effect : exact["effects"]) {
+    const std::string name = effect["name"];
+    CAPTURE(name);
+    const bool has_size = effect["on"] && name != "unloaded_contact" && name != "root_stress";
+    CHECK(effect["estimate"].is_object() == has_size);
+    CHECK(effect["exact"].is_object() == has_size);
+    if (!has_size) continue;
+    constexpr double first_order = 0.1, negligible = 0.1;  // of a size, and in % where it is small
+    CHECK(effect["estimate"]["share_percent"] == Approx(effect["exact"]["share_percent"].get<double>()).epsilon(first_order).margin(negligible));
+    CHECK(effect["estimate"]["positions"]["solved_again"] <= effect["estimate"]["positions"]["solved"]);
+  }
+  for (const json& effect : exact["effects"]) {
+    if (effect["name"] != "misalignment") continue;
+    CHECK(effect["exact"]["scene"] == "bent");
+    CHECK(effect["exact"]["peak_contact_stress_change_MPa"] > 0.0);
+  }
+}
+
+TEST_CASE("Steps of a run that are no effects stand beside them", "[studies][effects]") {
+  std::set<std::string> steps;
+  for (const json& step : run(small::optimisation())["steps"]) {
+    steps.insert(step["name"].get<std::string>());
+    CHECK(step["seconds"] >= 0.0);
+  }
+  CHECK(steps == std::set<std::string>{"load_distribution", "proof_of_the_optimum", "effect_sizes"});
+}
+
+}  // namespace flankwright::studies

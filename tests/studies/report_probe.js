@@ -1,0 +1,48 @@
+// Looks at a report from within, after its own scripts: says "all is well" or what is not, in an element that the test reads.
+(() => {
+  const wrong = [];
+  const check = (holds, what) => holds || wrong.push(what);
+  const picture = (section) => [...section.querySelectorAll("canvas")].map((canvas) => canvas.toDataURL()).join("");
+  const move = (input, value) => {
+    input.value = value;
+    input.dispatchEvent(new Event("input"));
+  };
+
+  for (const id of expected) {
+    const section = document.getElementById(id);
+    check(section && section.querySelector("canvas, svg, table, ul"), `${id} is empty`);
+  }
+  for (const canvas of document.querySelectorAll("main canvas")) {
+    const blank = document.createElement("canvas");
+    [blank.width, blank.height] = [canvas.width, canvas.height];
+    check(canvas.width > 0 && canvas.toDataURL() !== blank.toDataURL(), `nothing is drawn on "${canvas.getAttribute("aria-label")}"`);
+  }
+  for (const card of document.querySelectorAll(".table-card .scroll")) {
+    check(card.scrollWidth <= card.clientWidth + 1, `a table is wider than its card: ${card.closest(".table-card").textContent.slice(0, 60)}`);
+  }
+
+  let moved = 0;
+  for (const input of document.querySelectorAll("input[type=range]")) {
+    const section = input.closest("section"), before = picture(section), text = section.textContent;
+    const seen = new Set([before]);
+    for (const share of [0.3, 0.6, 1]) {
+      move(input, Number(input.min) + share * (input.max - input.min));
+      seen.add(picture(section));
+    }
+    check(seen.size === 4, `${section.id}: the slider shows ${seen.size} pictures at four places`);
+    check(section.textContent !== text, `${section.id}: the slider does not say where it is`);
+    ++moved;
+  }
+  check(moved > 0 || !document.getElementById("flank-load"), "there is no slider");
+
+  const page = picture(document.querySelector("main")), button = document.getElementById("theme");
+  button.click();
+  check(picture(document.querySelector("main")) !== page, "the other colours change no picture");
+  check(document.documentElement.dataset.theme === "dark", "the button does not darken the page");
+  dispatchEvent(new Event("beforeprint"));
+  check(document.documentElement.dataset.theme === "light", "paper is dark");
+  for (const complaint of complaints) wrong.push(`console: ${complaint}`);
+
+  const words = wrong.length === 0 ? `all is well (${document.querySelectorAll("main canvas, main svg").length} pictures, ${moved} sliders)` : wrong.join("; ");
+  document.body.append(Object.assign(document.createElement("output"), { id: "probe", textContent: words }));
+})();
