@@ -15,14 +15,14 @@ using load_cases::Random;
 /// Writes a study line by line.
 class StudyText {
  public:
-  void table(const std::string& name) { text_ += "[" + name + "]\n"; }
+  void table(const std::string& name) { text_.append("[").append(name).append("]\n"); }
   void line(const std::string& key, double value) {
     char digits[40];
     std::snprintf(digits, sizeof digits, " = %.17g\n", value);
-    text_ += key + digits;
+    text_.append(key).append(digits);
   }
-  void line(const std::string& key, int value) { text_ += key + " = " + std::to_string(value) + "\n"; }
-  void line(const std::string& key, const std::string& value) { text_ += key + " = " + value + "\n"; }
+  void line(const std::string& key, int value) { text_.append(key).append(" = ").append(std::to_string(value)).append("\n"); }
+  void line(const std::string& key, const std::string& value) { text_.append(key).append(" = ").append(value).append("\n"); }
   const std::string& text() const { return text_; }
 
  private:
@@ -131,12 +131,12 @@ class Drawing {
     out_.line("torque", std::min(1e9, design * random_.log_uniform(1e-6, 1e6)));
     out_.table("cycle");
     out_.line("positions", random_.integer(1, 3));
-    out_.line("peaks", std::string("\"sampled\""));
+    out_.line("peaks", std::string(R"("sampled")"));
     out_.table("fidelity");
-    out_.line("compliance", std::string("\"thin_slice\""));
-    if (one_in(16)) out_.line("gap", std::string("\"whole_surface\""));
-    const char* rules[] = {"gauss2", "gauss3", "midpoint", "graded"};
-    out_.line("quadrature.rule", "\"" + std::string(rules[random_.integer(0, 3)]) + "\"");
+    out_.line("compliance", std::string(R"("thin_slice")"));
+    if (one_in(16)) out_.line("gap", std::string(R"("whole_surface")"));
+    const char* rules[] = {R"("gauss2")", R"("gauss3")", R"("midpoint")", R"("graded")"};
+    out_.line("quadrature.rule", std::string(rules[random_.integer(0, 3)]));
     out_.line("quadrature.intervals", random_.integer(1, 8));
     if (one_in(8)) {
       out_.table("analyse");
