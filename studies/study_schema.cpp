@@ -116,10 +116,12 @@ std::string nearest_key_hint(const KeyIndex& keys, const std::string& path) {
   }
   const std::string sibling = nearest_word(last, siblings);
   if (!sibling.empty()) return ", did you mean " + sibling + "?";
+  std::string namesake;  // the one that lies least deep
   for (const auto& [name, key] : keys) {
-    if (name == last || name.ends_with("." + last)) return ", did you mean " + name + "?";
+    const bool is_namesake = name == last || name.ends_with("." + last);
+    if (is_namesake && (namesake.empty() || std::ranges::count(name, '.') < std::ranges::count(namesake, '.'))) namesake = name;
   }
-  return "";
+  return namesake.empty() ? "" : ", did you mean " + namesake + "?";
 }
 
 bool is_described_fallback(const SchemaKey& key) {

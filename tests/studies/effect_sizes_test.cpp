@@ -44,8 +44,9 @@ TEST_CASE("Results say how large each effect is as far as it was asked for", "[s
 }
 
 TEST_CASE("Steps of a run that are no effects stand beside them", "[studies][effects]") {
+  const json results = run(small::optimisation());
   std::set<std::string> steps;
-  for (const json& step : run(small::optimisation())["steps"]) {
+  for (const json& step : results["steps"]) {
     steps.insert(step["name"].get<std::string>());
     CHECK(step["seconds"] >= 0.0);
   }

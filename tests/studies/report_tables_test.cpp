@@ -40,7 +40,7 @@ void check_columns(const std::string& csv) {
 
 TEST_CASE("Every table of the report is a CSV file with as many cells in every line", "[studies][tables]") {
   const auto tables = tables_of(small::analysis(), {{"scenes.0.name", "a, \"b\""}, {"cycle.peaks", "sampled"}});
-  CHECK(tables.size() == 6);
+  CHECK(tables.size() == 7);
   for (const auto& [name, csv] : tables) {
     CAPTURE(name);
     check_columns(csv);
@@ -50,6 +50,7 @@ TEST_CASE("Every table of the report is a CSV file with as many cells in every l
   CHECK_THAT(tables.at("used.csv"), Catch::Contains("\nfidelity.compliance,thin_slice\n"));
   CHECK_THAT(tables.at("summary.csv"), Catch::Contains("\"a, \"\"b\"\"\",1014.868,given,te_peak_to_peak_um,"));
   CHECK_THAT(tables.at("effects.csv"), Catch::Contains("\nbending,true,"));
+  CHECK_THAT(tables.at("steps.csv"), Catch::Contains("\nload_distribution,"));
 }
 
 TEST_CASE("The tables hold the numbers of results.json", "[studies][tables]") {

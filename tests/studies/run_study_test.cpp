@@ -48,7 +48,8 @@ void check_keys(const json& results, const std::string& prefix, const std::strin
 void check_nulls(const json& results) {
   const std::set<std::string> meant{"loaded[].summary.peak_root_stress_MPa",   "loaded[].summary.pinion_root_stress_MPa",
                                     "loaded[].summary.wheel_root_stress_MPa",  "loaded[].summary.pinion_root_stress",
-                                    "loaded[].summary.wheel_root_stress",      "effects[].seconds", "effects[].estimate", "effects[].exact"};
+                                    "loaded[].summary.wheel_root_stress",      "effects[].seconds", "effects[].estimate", "effects[].exact",
+                                    "used.fidelity.accuracy"};
   const std::set<std::string> meant_sampled{"loaded[].summary.peaks", "loaded[].summary.load_factors"};
   // Edges have no ellipse, lines one without end; not every point of a flank meets the mate.
   const std::set<std::string> meant_unloaded{"pairs[].positions[].ellipse", "pairs[].positions[].ellipse.semi_major_mm",

@@ -74,14 +74,12 @@ TEST_CASE("The finest rung has no error, and every other one has its own", "[stu
 
 TEST_CASE("Errors fall with the intervals of a graded line and with the positions", "[studies][accuracy][ladder]") {
   const Ladder ladder = ladder_of(20.0, "lead_crowning = 6\n");
-  for (const Figure figure : {Figure::TeMean, Figure::PeakLineLoad}) {
-    CAPTURE(name_of(figure));
-    CHECK(error(step(ladder, "graded 4"), figure) <= error(step(ladder, "graded 2"), figure));
-  }
-  for (const Figure figure : {Figure::TePeakToPeak, Figure::TeHarmonic1}) {
-    CAPTURE(name_of(figure));
-    CHECK(error(step(ladder, "24 positions"), figure) <= error(step(ladder, "12 positions"), figure));
-  }
+  CHECK(error(step(ladder, "graded 4"), Figure::PeakLineLoad) <= error(step(ladder, "graded 2"), Figure::PeakLineLoad));
+  CHECK(error(step(ladder, "24 positions"), Figure::TePeakToPeak) <= error(step(ladder, "12 positions"), Figure::TePeakToPeak));
+  // Integrals over lines and over the cycle are close from the start, and need not come closer with every step.
+  constexpr double discretisation = 2e-3;
+  for (const char* rung : {"graded 2", "graded 4"}) CHECK(error(step(ladder, rung), Figure::TeMean) < discretisation);
+  for (const char* rung : {"12 positions", "24 positions"}) CHECK(error(step(ladder, rung), Figure::TeHarmonic1) < discretisation);
   // Ends of lines within intervals cost more than intervals that end there.
   CHECK(error(step(ladder, "gauss2 5"), Figure::TePeakToPeak) > error(step(ladder, "graded 4"), Figure::TePeakToPeak));
 }

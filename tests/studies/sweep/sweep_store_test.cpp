@@ -135,7 +135,7 @@ TEST_CASE("A file that is no store, or a damaged one, is refused in one line and
   refused("foreign2", text_of(foreign), "the file is no store of a sweep");
 }
 
-TEST_CASE("A disk that fills up ends a run in one line; what was committed stays", "[studies][sweep][store]") {
+TEST_CASE("A disk that fills up ends a run in one line and leaves what was committed", "[studies][sweep][store]") {
   const ScratchFolder folder;
   const auto file = folder.path() / "results.sqlite";
   {
