@@ -32,15 +32,15 @@ MeshResolution estimate_resolution(const StudyResults& results) {
   return {results.study.fidelity.quadrature, few ? results.phases : equally_spaced_phases(most_positions)};
 }
 
-EffectScene scene_of(const StudyResults& results, const LoadedResult& loaded, const MeshResolution& resolution) {
+EffectScene scene_of(const StudyResults& results, const FlankCondition& condition, double torque, const MeshResolution& resolution) {
   const Study& study = results.study;
   return {results.pair, study.pinion_material, study.wheel_material, resolution, results.structures.pair.get(), results.shafts.get(),
-          loaded.condition, loaded.torque};
+          condition, torque};
 }
 
 void add_exact(const StudyResults& results, const LoadedResult& loaded, std::vector<SizeInStudy>& sizes) {
   const CycleOutputs with = cycle_outputs(results.models[loaded.model], loaded.cycle);
-  const EffectScene scene = scene_of(results, loaded, {results.study.fidelity.quadrature, results.phases});
+  const EffectScene scene = scene_of(results, loaded.condition, loaded.torque, {results.study.fidelity.quadrature, results.phases});
   for (const EffectDecision& decision : results.effects) {
     if (!decision.on || !changes_mesh(decision.name)) continue;
     const Stopwatch clock;
@@ -64,12 +64,28 @@ EffectSizes study_effect_sizes(const StudyResults& results) {
   const EffectSizing asked = results.study.fidelity.effect_sizes;
   for (const LoadedResult& loaded : results.loaded) {
     if (asked == EffectSizing::Off || loaded.design == "before" || !loaded.cycle.usable()) continue;
-    for (const EstimatedSize& estimate : estimate_effect_sizes(scene_of(results, loaded, estimate_resolution(results)), results.effects)) {
+    const EffectScene scene = scene_of(results, loaded.condition, loaded.torque, estimate_resolution(results));
+    for (const EstimatedSize& estimate : estimate_effect_sizes(scene, results.effects)) {
       add(sizes.estimated, {loaded.scene, loaded.torque, estimate.size, estimate.positions, estimate.solved_again});
     }
     if (asked == EffectSizing::Exact) add_exact(results, loaded, sizes.exact);
   }
   return sizes;
+}
+
+void drop_small_effects(StudyResults& results, const std::vector<DesignScene>& scenes, double budget) {
+  if (!(budget > 0.0) || !results.study.fidelity.automatic_effects) return;
+  std::vector<SizeInStudy> largest;
+  for (const DesignScene& load_case : scenes) {
+    const EffectScene scene = scene_of(results, load_case.condition, load_case.torque, estimate_resolution(results));
+    for (const EstimatedSize& estimate : estimate_effect_sizes(scene, results.effects)) {
+      add(largest, {load_case.name, load_case.torque, estimate.size});
+    }
+  }
+  std::vector<EffectSize> sizes;
+  std::ranges::transform(largest, std::back_inserter(sizes), &SizeInStudy::size);
+  results.effects = within_budget(results.effects, sizes, budget);
+  results.mesh_effects = mesh_effects(results.effects);
 }
 
 }  // namespace flankwright::studies

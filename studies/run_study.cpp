@@ -23,7 +23,8 @@ std::string number(double value, int digits = 4) {
 /// Runs one study; each step adds to the results.
 class Run {
  public:
-  Run(const Study& study, const ProgressReport& progress) : progress_(progress) {
+  /// @param budget  relative error that effects may be left out for [-], see drop_small_effects()
+  Run(const Study& study, const ProgressReport& progress, double budget = 0.0) : progress_(progress), budget_(budget) {
     results_.study = study;
     results_.pair = make_gear_pair(study.pair);
     results_.effects = study_effects(study);
@@ -231,6 +232,7 @@ class Run {
       structures();  // its time is its own
       const Stopwatch clock;
       choose_phases();
+      if (study.task == Task::Analyse) drop_small_effects(results_, loaded_scenes(), budget_);
       loaded_seconds += clock.seconds();
     }
     for (const Scene& scene : study.scenes) {
@@ -369,6 +371,7 @@ class Run {
   }
 
   const ProgressReport& progress_;
+  double budget_;
   StudyResults results_;
   std::map<MeshPlacement, std::size_t> model_index_;
   double unloaded_seconds_{0.0};
@@ -388,7 +391,7 @@ std::optional<FidelityChoice> fidelity_choice(const Study& study, const Progress
 
 StudyResults run_study(const Study& study, const ProgressReport& progress) {
   const std::optional<FidelityChoice> choice = fidelity_choice(study, progress);
-  StudyResults results = Run(choice ? with_choice(study, *choice) : study, progress).finish();
+  StudyResults results = choice ? Run(with_choice(study, *choice), progress, choice->effects_budget()).finish() : Run(study, progress).finish();
   results.fidelity_choice = choice;
   if (choice && !choice->kept) results.requirements.push_back(unmet_accuracy(*choice));
   return results;

@@ -126,6 +126,8 @@ PerFigure FidelityChoice::error() const {
   return added(added(compliance_error, gap_error), added(quadrature_error, position_error));
 }
 
+double FidelityChoice::effects_budget() const { return kept ? 0.5 * (accuracy - largest(error())) : 0.0; }
+
 FidelityChoice choose_fidelity(RungRunner& runner, const ProgressReport& progress) {
   const Stopwatch clock;
   const Study& study = runner.subject().study;

@@ -34,6 +34,8 @@ struct FidelityChoice {
 
   /// Model and discretisation added up.
   PerFigure error() const;
+  /// Half of what the estimates leave of the accuracy, for effects that are too small to matter: their sizes are first order.
+  double effects_budget() const;
 };
 
 /// Chooses the cheapest compliance, gap, quadrature and mesh positions whose estimated errors, added up, keep an accuracy in every

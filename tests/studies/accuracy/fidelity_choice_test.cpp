@@ -1,5 +1,6 @@
 #include "studies/accuracy/fidelity_choice.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -52,6 +53,21 @@ TEST_CASE("An accuracy chooses what the study leaves open, says so and keeps it"
   CHECK(json.at("accuracy_choice").at("compliance").at("estimate_percent").is_null());
   CHECK(json.at("used").at("cycle").at("positions") == choice.positions);
   CHECK(json.at("used").at("fidelity").at("accuracy") == Approx(0.10));
+}
+
+TEST_CASE("Effects below what an accuracy leaves are left out of an analysis, with their size as the reason", "[studies][accuracy][effects]") {
+  // Relieved far below the tips: nothing of their corners is felt.
+  const std::string wide = "[pinion.modification.tip_relief]\namount = 60\nheight = 4\n[wheel.modification.tip_relief]\namount = 60\nheight = 4\n";
+  const StudyResults results = run_study(small_study("accuracy = \"30 %\"", wide));
+  REQUIRE(results.fidelity_choice);
+  CHECK(results.fidelity_choice->effects_budget() > 0.0);
+  const auto tip = std::ranges::find(results.effects, "tip_corner", &EffectDecision::name);
+  REQUIRE(tip != results.effects.end());
+  CHECK_FALSE(tip->on);
+  CHECK_THAT(tip->why, Catch::Contains("below the budget"));
+  CHECK_FALSE(results.models.front().effects.has("tip_corner"));
+  // Without an accuracy nothing is dropped, whatever its size.
+  CHECK(is_on(run_study(small_study("", wide)).effects, "tip_corner"));
 }
 
 TEST_CASE("The figures of a run with an accuracy are within it of a far finer run", "[studies][accuracy][fidelity-choice]") {
