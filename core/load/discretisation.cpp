@@ -59,7 +59,8 @@ Discretisation choose_discretisation(const MeshOfResolution& mesh_for, Quadratur
     chosen.failures += cycle.failures();
     return cycle;
   };
-  const auto within = [](std::vector<ResolutionLevel>& levels, double budget, const SampledCycle* between = nullptr) {
+  // The level before the last is within the budget: what is chosen has been held against something finer.
+  const auto settled = [](std::vector<ResolutionLevel>& levels, double budget, const SampledCycle* between = nullptr) {
     ResolutionLevel& last = levels.back();
     last.error = error_of_last(levels);
     if (between) {
@@ -69,7 +70,8 @@ Discretisation choose_discretisation(const MeshOfResolution& mesh_for, Quadratur
       const PerFigure rise = figure_errors(raised, last.figures);
       for (std::size_t i = 0; i < rise.size(); ++i) last.error[i] = std::max(last.error[i], rise[i]);
     }
-    return largest(last.error) <= budget;
+    if (levels.size() < 2) return false;
+    return largest(sum(figure_errors(levels[levels.size() - 2].figures, last.figures), last.error)) <= budget;
   };
 
   if (search.choose_intervals) {
@@ -79,7 +81,7 @@ Discretisation choose_discretisation(const MeshOfResolution& mesh_for, Quadratur
       const SampledCycle cycle = solve(n, phases);
       if (chosen.failures > 0) return chosen;
       chosen.by_intervals.push_back({n, cycle.positions(), cycle.figures()});
-      if (within(chosen.by_intervals, budget)) break;
+      if (settled(chosen.by_intervals, budget)) break;
     }
     const ResolutionLevel& level = chosen.by_intervals[coarsest_within(chosen.by_intervals, budget)];
     chosen.quadrature.intervals = level.intervals;
@@ -99,7 +101,7 @@ Discretisation choose_discretisation(const MeshOfResolution& mesh_for, Quadratur
       }
       if (chosen.failures > 0) return chosen;
       chosen.by_positions.push_back({chosen.quadrature.intervals, n, cycle->figures()});
-      if (within(chosen.by_positions, budget, &*cycle)) break;
+      if (settled(chosen.by_positions, budget, &*cycle)) break;
     }
     const ResolutionLevel& level = chosen.by_positions[coarsest_within(chosen.by_positions, budget)];
     chosen.positions = level.positions;

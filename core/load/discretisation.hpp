@@ -38,11 +38,12 @@ struct Discretisation {
 };
 
 /// Cheapest resolution of one load case whose estimated error is within an accuracy: intervals first, at the fewest positions, within
-/// half of it, then positions within what that leaves. Each is doubled until, by the last three levels,
+/// half of it, then positions within what that leaves. Each is doubled until a level before the last keeps for every figure
 ///
-///     safety * LimitEstimate::error <= budget     for every figure;
+///     (its distance from the last) + safety * (LimitEstimate::error of the last, by the last three) <= budget,
 ///
-/// of all levels solved that one is taken which is coarsest with (its distance from the finest) + (the finest's own estimate) <= budget.
+/// and the coarsest that does is taken. Its error is mostly a difference that was measured, hence neither understated by chance nor overstated
+/// many times. The last level itself is taken where nothing finer is allowed, on its estimate alone.
 Discretisation choose_discretisation(const MeshOfResolution& mesh_for, QuadratureRule rule, const FlankCondition& condition, double pinion_torque,
                                      const DiscretisationSearch& search = {});
 

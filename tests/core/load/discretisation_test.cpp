@@ -48,7 +48,8 @@ LoadCase random_case(unsigned seed, double widest = 15.0) {
 }
 
 struct Honesty {
-  int drawn{0}, within{0}, over_tenfold{0}, not_kept{0};
+  int drawn{0}, within{0}, not_kept{0};
+  int over_tenfold{0};  ///< of those that are kept
 };
 
 /// Chooses for random load cases and compares with at least twice the intervals and positions.
@@ -66,7 +67,7 @@ Honesty honesty(unsigned first, int count, double widest, const DiscretisationSe
                        << chosen.positions << " positions" << (chosen.kept ? "" : ", not kept"));
     ++result.drawn;
     result.within += error <= stated * (1.0 + round_off) ? 1 : 0;
-    result.over_tenfold += stated > 10.0 * error ? 1 : 0;
+    result.over_tenfold += chosen.kept && stated > 10.0 * error ? 1 : 0;
     result.not_kept += chosen.kept ? 0 : 1;
   }
   return result;
@@ -74,18 +75,18 @@ Honesty honesty(unsigned first, int count, double widest, const DiscretisationSe
 
 }  // namespace
 
-TEST_CASE("A resolution is estimated within what it is, on random load cases", "[core][load][discretisation]") {
+TEST_CASE("Estimated errors of a resolution hold on random load cases", "[core][load][discretisation]") {
   const Honesty found = honesty(1000, 20, 6.0, {.accuracy = 0.05, .most_intervals = 16, .most_positions = 64});
   CAPTURE(found.within, found.over_tenfold, found.not_kept);
   CHECK(found.within >= 19);       // 95 %
-  CHECK(found.over_tenfold <= 8);  // 6 as measured: quiet meshes, whose estimates count a change of the peak to peak in full
+  CHECK(found.over_tenfold <= 2);  // where the finest level allowed stands on its own estimate
 }
 
-TEST_CASE("A resolution is estimated within what it is, on 200 random load cases", "[core][load][discretisation][.soak]") {
+TEST_CASE("Estimated errors of a resolution hold on 200 random load cases", "[core][load][discretisation][.soak]") {
   const Honesty found = honesty(0, 200, 15.0, {.accuracy = 0.01});
   WARN("within " << found.within << " of " << found.drawn << ", over tenfold " << found.over_tenfold << ", not kept " << found.not_kept);
   CHECK(found.within >= 190);
-  CHECK(found.over_tenfold <= 40);
+  CHECK(found.over_tenfold <= 20);
 }
 
 TEST_CASE("A line that is loaded evenly needs no more than the fewest intervals", "[core][load][discretisation]") {
