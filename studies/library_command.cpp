@@ -21,6 +21,7 @@
 #include "studies/progress.hpp"
 #include "studies/results_folder.hpp"
 #include "studies/results_json.hpp"
+#include "studies/stored_table.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -84,13 +85,19 @@ std::vector<RefinementEntry> entries_so_far(const std::filesystem::path& path, c
   return entries;
 }
 
-/// What a finer mesh adds to a tooth does not reach its neighbours: one on either side will do.
-InfluenceTable table_by(const GearMeshOptions& mesh, const GearFacts& gear) {
+/// What a finer mesh adds to a tooth does not reach its neighbours: one on either side will do. Runs are kept, so that
+/// another form is fitted, or an interrupted library gone on with, without solving them again.
+InfluenceTableRun run_by(const GearMeshOptions& mesh, const GearFacts& gear) {
   const InfluenceTableTask task{
       .gear = standard_gear(gear), .teeth_apart = 1, .mesh = mesh, .grid = flank_grid(gear.relative_face)};
+  const RunCache cache(RunCache::default_folder());
+  const Json key = cache_key(task);
+  std::vector<std::string> notes;  // of a folder that cannot be used: the run is made anew
+  if (const auto stored = cache.find(key, notes)) return from_store(task, *stored);
   InfluenceTableRun run = solve_influence_table(task, std::numeric_limits<double>::infinity());
   if (!run.table) throw std::runtime_error("finite elements of the library could not be solved");
-  return std::move(*run.table);
+  cache.store(key, to_store(run), notes);
+  return run;
 }
 
 RefinementEntry fit(const RefinementSamples& samples, const Step& step, const std::vector<RefinementEntry>& entries) {
@@ -114,10 +121,12 @@ int library_command(const std::string& path) {
     std::vector<RefinementSamples> samples(count);
     std::vector<double> seconds(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
-      const auto start = std::chrono::steady_clock::now();
       const GearFacts& gear = list[begin + i].gear;
-      samples[i] = refinement_samples(gear, table_by({}, gear), table_by(coarse_mesh(), gear));
-      seconds[i] = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      const InfluenceTableRun fine = run_by({}, gear), coarse = run_by(coarse_mesh(), gear);
+      samples[i] = refinement_samples(gear, *fine.table, *coarse.table);
+      for (const InfluenceTableRun* run : {&fine, &coarse}) {
+        seconds[i] += run->statistics.model_seconds + run->statistics.solve_seconds;  // when it was solved
+      }
     });
     for (std::size_t i = 0; i < count; ++i) {
       const auto start = std::chrono::steady_clock::now();

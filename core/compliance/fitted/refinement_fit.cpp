@@ -12,9 +12,9 @@ GearMeshOptions coarse_mesh() {
   options.half_thickness_elements = 2;
   options.adjacent_flank_elements = 2;
   options.adjacent_fillet_elements = 2;
-  options.end_element = 0.4;
-  options.axial_growth = 1.6;
-  options.largest_element = 1.2;
+  options.end_element = 0.3;
+  options.axial_growth = 1.5;
+  options.largest_element = AxialSteps{}.largest;
   return options;
 }
 

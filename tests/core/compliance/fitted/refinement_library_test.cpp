@@ -26,7 +26,7 @@ Eigen::MatrixXd kernels_between(const GearFacts& gear, const std::vector<double>
 }  // namespace
 
 TEST_CASE("The shipped library's fits have converged and meet what is asked of unseen places", "[core][compliance][fitted]") {
-  int stopped = 0, missed = 0;
+  int stopped = 0;
   for (const RefinementEntry& entry : RefinementLibrary::shipped().entries()) {
     CAPTURE(entry.gear.teeth, entry.gear.helix_angle / deg, entry.gear.profile_shift);
     stopped += entry.status != FitStatus::Converged;
@@ -34,12 +34,9 @@ TEST_CASE("The shipped library's fits have converged and meet what is asked of u
     CHECK(entry.unseen.pairs > 600);
     CHECK(entry.unseen.median < 0.005);
     CHECK(entry.unseen.share_95 < 0.025);
-    // Asked: 0.08. Missed by six of 18, at single places near the tip's corners; the thinnest tip, 0.2 modules, most.
-    CHECK(entry.unseen.worst < 0.15);
-    missed += entry.unseen.worst >= 0.08;
+    CHECK(entry.unseen.worst < 0.08);
   }
   CHECK(stopped == 0);
-  CHECK(missed <= 6);
 }
 
 TEST_CASE("The library gives its own entries back, spur gears alike at both ends", "[core][compliance][fitted]") {
