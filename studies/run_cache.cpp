@@ -56,7 +56,8 @@ StoredRun decode(std::string_view file, const Json& key) {
   const std::size_t head_end = std::min(text.find('\n'), text.size());
   const Json head = Json::parse(text.substr(0, head_end), nullptr, false);
   if (head.is_discarded()) throw Unusable{"it is damaged"};
-  if (head.at("key") != key) throw Unusable{"it belongs to another gear"};
+  // As text, as the file is named by: what is not given, NaN, is null there.
+  if (head.at("key").dump() != key.dump()) throw Unusable{"it belongs to another gear"};
   StoredRun run{head.at("facts"), {}};
   std::string_view rest = text.substr(std::min(head_end + 1, text.size()));
   for (const Json& entry : head.at("matrices")) {

@@ -1,6 +1,7 @@
 #include "studies/run_cache.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 
@@ -13,7 +14,7 @@ using command_line::text_of;
 
 namespace {
 
-const Json key{{"teeth", 18}, {"face_width", 12.1}};
+const Json key{{"teeth", 18}, {"face_width", 12.1}, {"tip_diameter", NAN}};  // not given
 
 StoredRun sample() {
   StoredRun run;
