@@ -11,7 +11,7 @@ namespace flankwright {
 /// The mesh that `fitted` solves of every gear: enough for the gear body, the neighbouring teeth and whatever is a module
 /// or more away from the load. The body has the elements of the default mesh, so that both are equally stiff there: what
 /// they differ by would otherwise be shared out to the kernels of the tooth. So has the fillet, for root stress. Its layers
-/// are no longer than the places of flank_grid() are apart: along the tip, values by layers twice as long waver with the
+/// are about as long as the places of flank_grid() are apart, at most: along the tip, values by layers twice as long waver with the
 /// place in the layer, and the table's splines overshoot between them, by up to a third of the value where the tip is
 /// pointed; no sum of kernels, which are positive, takes that off again. How it compares is in the folder's README.
 GearMeshOptions coarse_mesh();

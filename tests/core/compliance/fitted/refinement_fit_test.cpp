@@ -101,13 +101,13 @@ TEST_CASE("A refinement's samples lie on the whole flank of any face, and are wh
   }
 }
 
-TEST_CASE("Layers of the coarse mesh are no longer than places of a table are apart", "[core][compliance][fitted]") {
+TEST_CASE("Layers of the coarse mesh are about as long as places of a table are apart at most", "[core][compliance][fitted]") {
   for (const double face : {3.0, 8.0, 12.0, 25.0}) {
     const std::vector<double> planes = gear_mesh(standard_gear({20, 20 * deg, face, 0}), coarse_mesh()).planes;
     double longest = 0;
     for (std::size_t i = 1; i < planes.size(); ++i) longest = std::max(longest, planes[i] - planes[i - 1]);
     CAPTURE(face, longest);
-    CHECK(longest <= AxialSteps{}.largest * (1 + 1e-12));  // round-off
+    CHECK(longest < 1.2 * AxialSteps{}.largest);  // a whole number of them is stretched over half the face
   }
 }
 
