@@ -62,7 +62,7 @@ void fill_root_stress(const MeshPosition& at, LoadedPosition& position) {
 
 void raise(RootStressPeak& peak, const RootStressPeak& other) {
   const double tangent = std::fmax(peak.tangent_stress, other.tangent_stress);
-  if (other.stress > peak.stress || std::isnan(peak.stress)) peak = other;
+  if (std::isgreater(other.stress, peak.stress) || std::isnan(peak.stress)) peak = other;  // quiet where stresses are not computed
   peak.tangent_stress = tangent;
 }
 
@@ -135,7 +135,7 @@ RootStressPeak root_stress_peak(const MeshPosition& at, const LoadedPosition& po
     const double stress = position.root_stress[i];
     if (place.member != member) continue;
     if (place.tangent) peak.tangent_stress = std::fmax(peak.tangent_stress, stress);
-    if (peak.stress >= stress) continue;
+    if (std::isgreaterequal(peak.stress, stress)) continue;  // quiet where none is known yet
     peak.stress = stress;
     peak.place = place;
     peak.phase = position.phase;

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
+#include "studies/json_format.hpp"
 #include "tests/studies/command_line.hpp"
 #include "tests/studies/small_studies.hpp"
 
@@ -50,7 +50,7 @@ TEST_CASE("Settings of the command line replace those of the file", "[studies][c
                    "scenes.1.misalignment.crossing=2 arcmin", "--set", "title=two words"});
   CAPTURE(ending.err);
   REQUIRE(ending.exit_code == 0);
-  const nlohmann::json results = nlohmann::json::parse(text_of(folder.path() / "r" / "results.json"));
+  const Json results = Json::parse(text_of(folder.path() / "r" / "results.json"));
   CHECK(results["title"] == "two words");
   CHECK(results["loaded"][1]["torque_Nm"] == 500.0);
   CHECK(results["loaded"][1]["cycle"].size() == 4);

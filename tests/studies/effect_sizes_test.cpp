@@ -1,9 +1,9 @@
 #include "studies/effect_sizes.hpp"
 
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 #include <set>
 
+#include "studies/json_format.hpp"
 #include "studies/results_json.hpp"
 #include "studies/run_study.hpp"
 #include "studies/study_file.hpp"
@@ -12,7 +12,7 @@
 namespace flankwright::studies {
 namespace {
 
-using nlohmann::json;
+using json = Json;
 
 json run(const std::string& text, const std::vector<Override>& overrides = {}) {
   return json::parse(results_json(run_study(parse_study(text, "small.toml", overrides))));

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "studies/expectations.hpp"
 #include "studies/fit_tables.hpp"
+#include "studies/json_format.hpp"
 #include "studies/report/report.hpp"
 #include "studies/results_json.hpp"
 #include "studies/study_file.hpp"
@@ -15,7 +15,7 @@ namespace flankwright::studies {
 namespace {
 
 using Catch::Contains;
-using nlohmann::json;
+using json = Json;
 
 /// A study whose pinion has been fitted with a coarse mesh, a narrow face and hardly any steps.
 StudyResults fitted_results() {

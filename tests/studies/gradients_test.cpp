@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
+#include "studies/json_format.hpp"
 #include "studies/results_json.hpp"
 #include "studies/run_study.hpp"
 #include "studies/study_file.hpp"
@@ -9,7 +9,7 @@
 namespace flankwright::studies {
 namespace {
 
-using nlohmann::json;
+using json = Json;
 using study_texts::problem_of;
 
 const std::string loaded_study = study_texts::small_study + R"(

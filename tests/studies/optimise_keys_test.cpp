@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
+#include "studies/json_format.hpp"
 #include "studies/results_json.hpp"
 #include "studies/run_study.hpp"
 #include "studies/study_file.hpp"
@@ -13,7 +13,7 @@
 namespace flankwright::studies {
 namespace {
 
-using nlohmann::json;
+using json = Json;
 
 constexpr double round_off = 1e-14;
 

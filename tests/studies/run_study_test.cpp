@@ -2,10 +2,10 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 
+#include "studies/json_format.hpp"
 #include "studies/results_json.hpp"
 #include "studies/study_file.hpp"
 #include "tests/studies/small_studies.hpp"
@@ -13,7 +13,7 @@
 namespace flankwright::studies {
 namespace {
 
-using nlohmann::json;
+using json = Json;
 
 json run(const std::string& text, const std::vector<Override>& overrides = {}) {
   return json::parse(results_json(run_study(parse_study(text, "small.toml", overrides))));

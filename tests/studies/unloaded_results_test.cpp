@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
+#include "studies/json_format.hpp"
 #include "studies/results_json.hpp"
 #include "studies/run_study.hpp"
 #include "studies/study_file.hpp"
@@ -15,7 +15,7 @@
 namespace flankwright::studies {
 namespace {
 
-using nlohmann::json;
+using json = Json;
 
 json run(const std::string& text, const std::vector<Override>& overrides = {}) {
   return json::parse(results_json(run_study(parse_study(text, "small.toml", overrides))));
@@ -148,7 +148,7 @@ TEST_CASE("A sequence names each kind once for every time it is met", "[studies]
     for (const json& pair : unloaded["pairs"]) {
       std::string expected, last;
       for (const json& position : pair["positions"]) {
-        if (position["contact"] == last) continue;
+        if (position["contact"].get<std::string>() == last) continue;
         last = position["contact"];
         expected += (expected.empty() ? "" : ", ") + last;
       }

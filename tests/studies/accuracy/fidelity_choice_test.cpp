@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
+#include "studies/json_format.hpp"
 #include "studies/results_json.hpp"
 #include "studies/run_study.hpp"
 #include "studies/study_file.hpp"
@@ -48,7 +48,7 @@ TEST_CASE("An accuracy chooses what the study leaves open, says so and keeps it"
   // What was chosen is what ran.
   CHECK(results.study.fidelity.quadrature.intervals == choice.fidelity.quadrature.intervals);
   CHECK(static_cast<int>(results.phases.size()) == choice.positions);
-  const auto json = nlohmann::json::parse(results_json(results));
+  const auto json = Json::parse(results_json(results));
   CHECK(json.at("accuracy_choice").at("kept") == true);
   CHECK(json.at("accuracy_choice").at("compliance").at("estimate_percent").is_null());
   CHECK(json.at("used").at("cycle").at("positions") == choice.positions);

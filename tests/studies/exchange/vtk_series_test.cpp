@@ -4,11 +4,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <pugixml.hpp>
 #include <sstream>
 
 #include "core/base/error.hpp"
+#include "studies/json_format.hpp"
 #include "studies/results_json.hpp"
 #include "studies/run_study.hpp"
 #include "studies/study_file.hpp"
@@ -64,7 +64,7 @@ TEST_CASE("A VTK series is valid, complete and lies on the plane of action and t
   CAPTURE(hand, flank);
   const StudyResults results = run_study(parse_study(small::analysis(), "a", {{"pinion.hand", hand}, {"pair.working_flank", flank}, {"cycle.positions", "3"}, {"cycle.peaks", "sampled"}}));
   const std::string text = results_json(results);
-  const nlohmann::json json = nlohmann::json::parse(text);
+  const Json json = Json::parse(text);
   std::map<std::string, std::string> files;
   for (const ExportedFile& file : vtk_series(text, "a")) files[file.name] = file.text;
   REQUIRE(files.size() == 2 * (1 + 3 * 3));  // two scenes, three positions, three parts
@@ -79,11 +79,11 @@ TEST_CASE("A VTK series is valid, complete and lies on the plane of action and t
   CHECK(sets == 9);
 
   const Piece lines = read_piece(files.at("contact-2/lines-0001.vtp"), "Lines");
-  const nlohmann::json& position = json["loaded"][1]["cycle"][1];
+  const Json& position = json["loaded"][1]["cycle"][1];
   std::size_t at = 0, on_line = 0;
   const double angle = results.pair.working_transverse_pressure_angle, mirror = flank == "right" ? 1.0 : -1.0;
-  for (const nlohmann::json& tooth : position["teeth"]) {
-    for (const nlohmann::json& point : tooth["points"]) {
+  for (const Json& tooth : position["teeth"]) {
+    for (const Json& point : tooth["points"]) {
       CHECK(lines.fields.at("load_N_per_mm")[at] == Approx(point["load_N_per_mm"].get<double>()));
       CHECK(lines.fields.at("contact_stress_MPa")[at] == Approx(point["contact_stress_MPa"].get<double>()));
       CHECK(lines.fields.at("gap_um")[at] == Approx(point["gap_um"].get<double>()));

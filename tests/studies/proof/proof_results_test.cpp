@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "studies/json_format.hpp"
 #include "studies/report/report.hpp"
 #include "studies/results_json.hpp"
 #include "studies/run_study.hpp"
@@ -12,7 +12,7 @@
 namespace flankwright::studies {
 namespace {
 
-using nlohmann::json;
+using json = Json;
 
 /// The small optimisation with everything that proves it.
 std::string proven_study() {

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
+#include "studies/json_format.hpp"
 #include "studies/study_file.hpp"
 #include "tests/studies/command_line.hpp"
 #include "tests/studies/small_studies.hpp"
@@ -25,7 +25,7 @@ TEST_CASE("What an optimisation left goes to REXS and back into a study that che
   const Ending imported = run(folder, {"import", "x/stage.rexs", "--out", "deep/back.toml"});
   CHECK(imported.exit_code == 0);
   CHECK(run(folder, {"check", "deep/back.toml"}).exit_code == 0);
-  const auto variables = nlohmann::json::parse(text_of(folder.path() / "r/results.json"))["optimise"]["after"]["variables"];
+  const auto variables = Json::parse(text_of(folder.path() / "r/results.json"))["optimise"]["after"]["variables"];
   const Study back = read_study((folder.path() / "deep/back.toml").string());
   CHECK(back.pinion_modification.lead_crowning == Approx(1e-3 * variables["pinion.modification.lead_crowning"].get<double>()).epsilon(1e-14));
   CHECK(back.pinion_modification.end_relief.amount == Approx(1e-3 * variables["pinion.modification.end_relief.amount"].get<double>()).epsilon(1e-14));

@@ -5,10 +5,10 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
-#include <nlohmann/json.hpp>
 #include <random>
 #include <thread>
 
+#include "studies/json_format.hpp"
 #include "tests/studies/command_line.hpp"
 #include "tests/studies/sweep/small_sweep.hpp"
 
@@ -20,7 +20,7 @@ using command_line::Ending;
 using command_line::run;
 using command_line::ScratchFolder;
 using command_line::text_of;
-using nlohmann::json;
+using json = Json;
 
 /// Starts the sweep of sweep.toml and kills it after a while; true where it was not done by then.
 bool run_and_kill(const ScratchFolder& folder, std::chrono::milliseconds after) {

@@ -1,9 +1,9 @@
 #include "core/compliance/fitted/kernel_sum.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>
 
 #include "tests/core/compliance/fitted/random_gear.hpp"
+#include "tests/reference/eigenvalues.hpp"
 
 using namespace flankwright;
 using namespace flankwright::testing;
@@ -19,8 +19,7 @@ KernelForm everything() {
 }
 
 double smallest_over_largest(const Eigen::MatrixXd& K) {
-  const Eigen::VectorXd values =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues();
+  const Eigen::VectorXd values = symmetric_eigenvalues(K);
   return values[0] / values[values.size() - 1];
 }
 
