@@ -35,14 +35,17 @@ TEST_CASE("Even teeth of an aligned spur pair carry less at their free ends", "[
                      mesh_cases::loads_by_point(model.positions[0], cycle.positions[0], -1));
   };
   const auto [with, mirrored] = loads({});
-  const auto [without, same] = loads(MeshEffects::all_but({"free_ends"}));
-  double last = 0;
+  const auto without = loads(MeshEffects::all_but({"free_ends"})).first;
+  double last = 0, first = 0;
   for (const auto& [place, load] : with) {
-    CAPTURE(place.second);
-    CHECK(load == Approx(mirrored.at(place)).epsilon(1e-9));               // a spur pair is its own mirror image
-    CHECK(without.at(place) == Approx(600).epsilon(1e-9).margin(1e-9));    // independent slices know of no ends
+    if (without.at(place) == 0) continue;  // of the pairs before and after
+    CAPTURE(place.first, place.second);
+    CHECK(load == Approx(mirrored.at(place)).epsilon(1e-9));   // a spur pair is its own mirror image
+    CHECK(without.at(place) == Approx(600).epsilon(1e-9));     // independent slices know of no ends
     if (place.second < 0) CHECK(load > last);
+    if (first == 0) first = load;
     last = load;
   }
-  CHECK(with.begin()->second < 0.95 * 600);
+  CHECK(first < 0.97 * 600);
+  CHECK(first > 0.8 * 600);
 }
