@@ -102,11 +102,9 @@ ContactLaw::Response ContactLaw::evaluate(double line_load) const {
     response.deflection += side.coefficient * line_load * m.value * g.value;
     response.slope += side.coefficient * (m.value * (g.value - 0.5 * h * g.slope) - 0.5 * lengthening);
     if (end_coefficient == 0) continue;
-    for (const double distance : side.end_distances) {
-      const FreeEnd::Softening f = free_end.at(distance, side.depth, l);
-      response.deflection += end_coefficient * line_load * f.value;
-      response.slope += end_coefficient * (f.value + 0.5 * f.widening);
-    }
+    const FreeEnd::Softening f = free_end.at(side.end_distances, side.depth, l);
+    response.deflection += end_coefficient * line_load * f.value;
+    response.slope += end_coefficient * (f.value + 0.5 * f.widening);
   }
   return response;
 }

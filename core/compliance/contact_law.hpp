@@ -53,7 +53,7 @@ struct ContactSide {
 /// much larger than L and turns back beyond that; this law increases at every load, c(0) = 0, and c ~ sqrt(w) where L
 /// exceeds h. The first slope is infinite, as -log(w). y is held fixed at 0 at the tip itself.
 ///
-/// A small value, cheap to copy: an evaluation is two asinh, a square root and a logarithm for every end.
+/// A small value, cheap to copy: an evaluation is two asinh, a square root and, with ends, two logarithms.
 class ContactLaw {
  public:
   /// @param relative_radius  R in the normal section [mm], > 0

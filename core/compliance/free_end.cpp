@@ -9,13 +9,21 @@ FreeEnd::FreeEnd(double poissons_ratio)
       reach(poissons_ratio * (2.15 - 1.6 * poissons_ratio)),
       bluntness(0.15 + 0.3 * poissons_ratio) {}
 
-FreeEnd::Softening FreeEnd::at(double distance, double depth, double half_width) const {
-  if (std::isinf(distance)) return {0, 0};
-  const double share = half_width / (half_width + 2 * distance);
-  const double s = distance + bluntness * half_width * share;
-  const double grown = bluntness * half_width * share * (2 - share);  // L dS/dL
+FreeEnd::Softening FreeEnd::at(const std::array<double, 2>& distances, double depth, double half_width) const {
   const double reached = reach * depth;
-  return {std::log1p(reached / s), -reached * grown / (s * (s + reached))};
+  // Products of S and S + a h over the ends, and the sum of L dS/dL / (S (S + a h)) over their common denominator.
+  double near = 1, beyond = 1, growth = 0;
+  for (const double distance : distances) {
+    if (std::isinf(distance)) continue;
+    const double share = half_width / (half_width + 2 * distance);
+    const double blunted = bluntness * half_width * share;
+    const double s = distance + blunted;
+    growth = growth * s * (s + reached) + blunted * (2 - share) * near * beyond;
+    near *= s;
+    beyond *= s + reached;
+  }
+  const double inverse = 1 / (near * beyond);
+  return {std::log(beyond * beyond * inverse), -reached * growth * inverse};
 }
 
 }  // namespace flankwright

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 namespace flankwright {
 
 /// What a free end face adds to the deflection of a line contact near it, of one body:
@@ -38,13 +40,14 @@ struct FreeEnd {
   explicit FreeEnd(double poissons_ratio);
 
   struct Softening {
-    double value;     ///< f [-], >= 0; 0 infinitely far away
-    double widening;  ///< L df/dL [-], <= 0 and less than 2 f in size, so that w f grows with w
+    double value;     ///< sum of f over both ends [-], >= 0; an end infinitely far away adds nothing
+    double widening;  ///< L times its derivative by L [-], <= 0 and less than 2 f in size, so that w f grows with w
   };
-  /// @param distance    s >= 0, infinity too
+  /// Both ends together, which takes one logarithm.
+  /// @param distances   s of either end, >= 0, infinity too
   /// @param depth       h > 0
   /// @param half_width  L > 0, all in one unit of length
-  Softening at(double distance, double depth, double half_width) const;
+  Softening at(const std::array<double, 2>& distances, double depth, double half_width) const;
 };
 
 }  // namespace flankwright
