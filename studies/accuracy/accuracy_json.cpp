@@ -35,9 +35,7 @@ Json settings_json(const Rung& rung) {
           {"quadrature", quadrature_json(rung.quadrature)},
           {"positions", rung.positions},
           {"peaks", rung.located_peaks ? "located" : "sampled"},
-          {"tip_corner", rung.tip_corner},
-          {"adjacent_teeth", rung.adjacent_teeth},
-          {"extended_contact_region", rung.extended_region}};
+          {"left_out", rung.left_out}};
 }
 
 Json step_json(const LadderStep& step, const std::vector<DesignScene>& scenes) {

@@ -21,15 +21,15 @@ std::vector<const LadderStep*> all_steps(const Ladder& ladder) {
 }
 
 std::string rungs_csv(const Ladder& ladder) {
-  std::string csv = "rung,axis,varies,compliance,gap,rule,intervals,positions,peaks,tip_corner,adjacent_teeth,extended_contact_region,seconds,first_run_seconds,pareto_best";
+  std::string csv = "rung,axis,varies,compliance,gap,rule,intervals,positions,peaks,left_out,seconds,first_run_seconds,pareto_best";
   for (int i = 0; i < figure_count; ++i) csv += fmt::format(",{}_error_percent", name_of(static_cast<Figure>(i)));
   csv += ",worst_error_percent\n";
   for (const LadderStep* step : all_steps(ladder)) {
     const Rung& r = step->result.rung;
     const Json quadrature = quadrature_json(r.quadrature);
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", csv_field(r.name), r.axis,
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", csv_field(r.name), r.axis,
                        to_string(r.kind), to_string(r.compliance), to_string(r.gap), quadrature.at("rule").get<std::string>(), r.quadrature.intervals,
-                       r.positions, r.located_peaks ? "located" : "sampled", r.tip_corner, r.adjacent_teeth, r.extended_region,
+                       r.positions, r.located_peaks ? "located" : "sampled", fmt::join(r.left_out, " "),
                        step->result.seconds, step->first_seconds, step->best);
     for (double share : step->error) csv += fmt::format(",{}", percent * share);
     csv += fmt::format(",{}\n", percent * largest(step->error));

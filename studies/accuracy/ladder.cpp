@@ -30,32 +30,35 @@ std::vector<int> halvings(int from, int least) {
   return levels;
 }
 
-void add_model_rungs(const Rung& finest, const MeshEffects& effects, std::vector<Rung>& rungs) {
-  const auto add = [&](const char* axis, const char* name, auto change) {
-    Rung rung = finest;
-    rung.axis = axis;
-    rung.name = name;
-    rung.kind = ErrorKind::Model;
-    change(rung);
-    rungs.push_back(rung);
-  };
+/// The finest rung with one thing changed.
+void add_varied(std::vector<Rung>& rungs, const char* axis, const std::string& name, ErrorKind kind, const auto& change) {
+  Rung rung = rungs.front();
+  rung.axis = axis;
+  rung.name = name;
+  rung.kind = kind;
+  change(rung);
+  rungs.push_back(std::move(rung));
+}
+
+void add_model_rungs(const MeshEffects& effects, std::vector<Rung>& rungs) {
+  const Rung finest = rungs.front();
+  const auto add = [&](const char* axis, const char* name, const auto& change) { add_varied(rungs, axis, name, ErrorKind::Model, change); };
   for (const ComplianceModel model : {ComplianceModel::Rigid, ComplianceModel::ThinSlice, ComplianceModel::Fitted}) {
     if (model < finest.compliance) add("compliance", to_string(model), [&](Rung& r) { r.compliance = model; });
   }
   if (finest.gap == GapModel::WholeSurface) add("gap", to_string(GapModel::PlaneOfAction), [](Rung& r) { r.gap = GapModel::PlaneOfAction; });
-  if (effects.has("tip_corner")) add("contact law", "without tip corner", [](Rung& r) { r.tip_corner = false; });
-  if (effects.has("adjacent_teeth")) add("adjacent teeth", "without adjacent teeth", [](Rung& r) { r.adjacent_teeth = false; });
-  if (effects.has("extended_contact_region")) add("contact region", "between A and E only", [](Rung& r) { r.extended_region = false; });
+  const auto leave_out = [&](const char* axis, const char* name, const char* effect) {
+    if (effects.has(effect)) add(axis, name, [&](Rung& r) { r.left_out = {effect}; });
+  };
+  leave_out("contact law", "without tip corner", "tip_corner");
+  leave_out("adjacent teeth", "without adjacent teeth", "adjacent_teeth");
+  leave_out("contact region", "between A and E only", "extended_contact_region");
 }
 
-void add_resolution_rungs(const Rung& finest, std::vector<Rung>& rungs) {
-  const auto add = [&](const char* axis, const std::string& name, auto change) {
-    Rung rung = finest;
-    rung.axis = axis;
-    rung.name = name;
-    rung.kind = ErrorKind::Discretisation;
-    change(rung);
-    rungs.push_back(rung);
+void add_resolution_rungs(std::vector<Rung>& rungs) {
+  const Rung finest = rungs.front();
+  const auto add = [&](const char* axis, const std::string& name, const auto& change) {
+    add_varied(rungs, axis, name, ErrorKind::Discretisation, change);
   };
   const auto add_rule = [&](const char* axis, QuadratureRule rule, const char* name, const std::vector<int>& levels) {
     for (int n : levels) add(axis, fmt::format("{} {}", name, n), [&](Rung& r) { r.quadrature = {rule, n}; });
@@ -159,8 +162,8 @@ std::vector<Rung> ladder_rungs(const RungRunner& runner) {
   const Rung finest = finest_rung(study.accuracy);
   const MeshEffects effects = runner.effects(finest);
   std::vector<Rung> rungs{finest};
-  add_model_rungs(finest, effects, rungs);
-  add_resolution_rungs(finest, rungs);
+  add_model_rungs(effects, rungs);
+  add_resolution_rungs(rungs);
   add_whole_settings(finest, study, rungs);
   return rungs;
 }

@@ -60,9 +60,7 @@ MeshEffects RungRunner::effects(const Rung& rung) const {
   EffectDecisions decisions = study_effects(study);
   const std::string why = "left out on this rung";
   if (is_rigid) decisions = without(std::move(decisions), "bending", why);
-  if (!rung.adjacent_teeth) decisions = without(std::move(decisions), "adjacent_teeth", why);
-  if (!rung.tip_corner) decisions = without(std::move(decisions), "tip_corner", why);
-  if (!rung.extended_region) decisions = without(std::move(decisions), "extended_contact_region", why);
+  for (const std::string& name : rung.left_out) decisions = without(std::move(decisions), name, why);
   return mesh_effects(decisions);
 }
 

@@ -27,7 +27,7 @@ struct Rung {
   Quadrature quadrature;
   int positions{32};
   bool located_peaks{false};  ///< peaks sought between the positions; false: of the positions only
-  bool tip_corner{true}, adjacent_teeth{true}, extended_region{true};  ///< as far as the study has them on
+  std::vector<std::string> left_out{};  ///< names of effects that the study has on and this rung does without
 };
 
 struct RungResult {

@@ -14,10 +14,9 @@ const is_best = (rung, figure) => (figure === "worst" ? rung.pareto_best : list(
 
 function settings_text(settings) {
   const { compliance, gap, quadrature, positions, peaks } = record(settings);
-  const left_out = [["tip_corner", "tip corner"], ["adjacent_teeth", "adjacent teeth"], ["extended_contact_region", "edges"]]
-    .filter(([key]) => record(settings)[key] === false).map(([, name]) => name);
-  return [compliance, gap, `${record(quadrature).rule} ${fmt(record(quadrature).intervals)}`, `${fmt(positions)} positions`, `peaks ${peaks}`]
-    .map((part) => `${part}`.replace(/_/g, " ")).join(", ") + (left_out.length ? `, without ${left_out.join(", ")}` : "");
+  const left_out = list(record(settings).left_out).map((effect) => `without ${effect}`);
+  return [compliance, gap, `${record(quadrature).rule} ${fmt(record(quadrature).intervals)}`, `${fmt(positions)} positions`, `peaks ${peaks}`, ...left_out]
+    .map((part) => `${part}`.replace(/_/g, " ")).join(", ");
 }
 
 /** "coarser by one figure": the cheapest rung within an error, for the headline. */
