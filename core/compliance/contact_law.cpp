@@ -57,20 +57,29 @@ TipFactor tip_factor(double tip_distance) {
   return {1 + u * u * u * polynomial, u * u * (u * (c1 + 2 * c2 * t) - 3 * polynomial) / width};
 }
 
-ContactSide ContactSide::of(const Material& material, double depth, double tip_distance) {
+ContactSide ContactSide::of(const Material& material, double depth, double tip_distance, const std::array<double, 2>& end_distances) {
   validate(material);
   if (!(depth > 0 && std::isfinite(depth))) throw InvalidInput("depth", std::to_string(depth), "more than 0 mm");
   const double nu = material.poissons_ratio;
-  return {2 * (1 - nu * nu) / (units::pi * material.youngs_modulus), nu / (1 - nu), depth, tip_distance};
+  return {2 * (1 - nu * nu) / (units::pi * material.youngs_modulus), nu / (1 - nu), depth, tip_distance, end_distances};
 }
 
 ContactLaw::ContactLaw(const ContactSide& pinion, const ContactSide& wheel, double relative_radius,
                        double contact_modulus)
-    : sides_{pinion, wheel}, half_width_at_unit_load_(hertz_line(1.0, relative_radius, contact_modulus).half_width) {
-  for (ContactSide& side : sides_) {
+    : half_width_at_unit_load_(hertz_line(1.0, relative_radius, contact_modulus).half_width) {
+  const auto distance = [](const char* field, double given) {
+    if (std::isnan(given)) throw InvalidInput(field, "nan", "a distance in mm or infinity");
+    return std::max(0.0, given);
+  };
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    ContactSide side = i == 0 ? pinion : wheel;
     assert(side.coefficient > 0 && side.depth > 0 && side.lateral_ratio >= 0 && side.lateral_ratio < 1);
-    if (std::isnan(side.tip_distance)) throw InvalidInput("tip_distance", "nan", "a distance in mm or infinity");
-    side.tip_distance = std::max(0.0, side.tip_distance);
+    side.tip_distance = distance("tip_distance", side.tip_distance);
+    for (double& end : side.end_distances) end = distance("end_distances", end);
+    const double nu = side.lateral_ratio / (1 + side.lateral_ratio);
+    const FreeEnd end(nu);
+    const bool endless = side.end_distances == ContactSide::no_ends;
+    sides_[i] = {side, end, endless ? 0 : side.coefficient * end.strength / (1 - nu * nu)};
   }
 }
 
@@ -83,7 +92,7 @@ ContactLaw::Response ContactLaw::evaluate(double line_load) const {
   if (line_load == 0) return {0, std::numeric_limits<double>::infinity()};
   const double l = half_width(line_load);
   Response response{0, 0};
-  for (const ContactSide& side : sides_) {
+  for (const auto& [side, free_end, end_coefficient] : sides_) {
     // L grows as sqrt(w), so w d/dw of h' and of y are -h'/2 and -y/2.
     const double h = side.depth / l;
     const DepthFunction g = depth_function(h, side.lateral_ratio);
@@ -92,6 +101,10 @@ ContactLaw::Response ContactLaw::evaluate(double line_load) const {
     const double lengthening = m.slope == 0 ? 0 : m.slope * y * g.value;  // y may be infinite where the slope is zero
     response.deflection += side.coefficient * line_load * m.value * g.value;
     response.slope += side.coefficient * (m.value * (g.value - 0.5 * h * g.slope) - 0.5 * lengthening);
+    if (end_coefficient == 0) continue;
+    const FreeEnd::Softening f = free_end.at(side.end_distances, side.depth, l);
+    response.deflection += end_coefficient * line_load * f.value;
+    response.slope += end_coefficient * (f.value + 0.5 * f.widening);
   }
   return response;
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 
+#include "core/compliance/free_end.hpp"
 #include "core/gear/gear_data.hpp"
 
 namespace flankwright {
@@ -27,25 +28,32 @@ struct ContactSide {
   double depth{not_given};          ///< h [mm], > 0: depth along the normal that the deflection is referred to
   /// (r_a - r) / cos(alpha_yt) [mm], distance from the tip; < 0 counts as 0, infinity switches the tip factor off.
   double tip_distance{std::numeric_limits<double>::infinity()};
+  /// Distances of the contact from the gear's own end faces, along the axis [mm]; as tip_distance below 0 and at infinity.
+  std::array<double, 2> end_distances{no_ends};
+
+  static constexpr std::array<double, 2> no_ends{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
   /// The side of a gear of this material.
   /// @throws InvalidInput where the material is out of range or the depth is not positive
-  static ContactSide of(const Material& material, double depth,
-                        double tip_distance = std::numeric_limits<double>::infinity());
+  static ContactSide of(const Material& material, double depth, double tip_distance = std::numeric_limits<double>::infinity(),
+                        const std::array<double, 2>& end_distances = no_ends);
 };
 
 /// Local (Hertzian) deflection of one contact point under a line load: how far the contact line approaches the points
 /// at the depths h of both gears [Vedmar; Haddad 1991, eqs 1.30 and 1.54],
 ///
 ///     c(w) = sum over both gears of  M(y) A w [asinh(h') - nu/(1 - nu) h' (sqrt(1 + h'^2) - h')],
-///     h' = h/L,  y = tip distance/L,  L = sqrt(4 w R / (pi E')).
+///     h' = h/L,  y = tip distance/L,  L = sqrt(4 w R / (pi E')),
+///
+/// and what each end face at a finite distance adds, (2/pi)(w/E) kappa f(s, h, L), see FreeEnd. Tip and ends do not know of
+/// each other: in a corner both are added.
 ///
 /// It is the exact integral of the strain under the middle of the Hertzian pressure in plane strain. (Eq. 1.30 as
 /// printed has lost the square of the h' before the root, which 1.32 has.) The logarithm of eq. 1.34 is its limit for h
 /// much larger than L and turns back beyond that; this law increases at every load, c(0) = 0, and c ~ sqrt(w) where L
 /// exceeds h. The first slope is infinite, as -log(w). y is held fixed at 0 at the tip itself.
 ///
-/// A small value, cheap to copy: an evaluation is two asinh and a square root.
+/// A small value, cheap to copy: an evaluation is two asinh, a square root and, with ends, two logarithms.
 class ContactLaw {
  public:
   /// @param relative_radius  R in the normal section [mm], > 0
@@ -66,7 +74,12 @@ class ContactLaw {
   double half_width(double line_load) const;
 
  private:
-  std::array<ContactSide, 2> sides_;
+  struct Side {
+    ContactSide data;
+    FreeEnd end;
+    double end_coefficient;  ///< A kappa / (1 - nu^2) [mm^2/N]; 0 where no end is near
+  };
+  std::array<Side, 2> sides_;
   double half_width_at_unit_load_;  ///< L / sqrt(w)
 };
 

@@ -19,8 +19,10 @@ class HertzianContactEffect final : public Effect {
     const double modulus = contact_modulus(parts.pinion_material, parts.wheel_material);
     for (std::size_t i = 0; i < draft.points.size(); ++i) {
       const ContactPoint& point = draft.points[i];
-      draft.laws.emplace_back(ContactSide::of(parts.pinion_material, point.pinion_depth, draft.tip_distances[i].pinion),
-                              ContactSide::of(parts.wheel_material, point.wheel_depth, draft.tip_distances[i].wheel),
+      const TipDistances& tips = draft.tip_distances[i];
+      const EndDistances& ends = draft.end_distances[i];
+      draft.laws.emplace_back(ContactSide::of(parts.pinion_material, point.pinion_depth, tips.pinion, ends.pinion),
+                              ContactSide::of(parts.wheel_material, point.wheel_depth, tips.wheel, ends.wheel),
                               point.relative_radius, modulus);
     }
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -31,6 +32,11 @@ struct TipDistances {
   double pinion{std::numeric_limits<double>::infinity()}, wheel{std::numeric_limits<double>::infinity()};  ///< [mm]
 };
 
+/// How far a point is from the end faces of either gear; infinity: as if there were none.
+struct EndDistances {
+  std::array<double, 2> pinion{ContactSide::no_ends}, wheel{ContactSide::no_ends};  ///< along the axis [mm]
+};
+
 /// One mesh position while effects make it, each adding its part. Without any it is rigid.
 class MeshDraft {
  public:
@@ -42,6 +48,7 @@ class MeshDraft {
     points = std::move(at);
     influence = Eigen::MatrixXd::Zero(std::ssize(points), std::ssize(points));
     tip_distances.resize(points.size());
+    end_distances.resize(points.size());
   }
 
   /// K of the structure between the points, teeth coupled as far as it knows; worked out when first asked for.
@@ -59,6 +66,7 @@ class MeshDraft {
   std::vector<ContactPoint> points;
   Eigen::MatrixXd influence;                ///< K, symmetric, positive semi-definite [mm/N]
   std::vector<TipDistances> tip_distances;  ///< one a point
+  std::vector<EndDistances> end_distances;  ///< one a point
   std::vector<ContactLaw> laws;             ///< one a point, or none
   RootStressInfluence root_stress;
 

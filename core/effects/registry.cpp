@@ -6,6 +6,7 @@
 #include "core/effects/adjacent_teeth.hpp"
 #include "core/effects/bending.hpp"
 #include "core/effects/extended_contact_region.hpp"
+#include "core/effects/free_ends.hpp"
 #include "core/effects/hertzian_contact.hpp"
 #include "core/effects/manufacturing_errors.hpp"
 #include "core/effects/misalignment.hpp"
@@ -19,8 +20,8 @@
 namespace flankwright {
 
 const EffectList& registered_effects() {
-  static const std::tuple<AdjacentTeethEffect, BendingEffect, ExtendedContactRegionEffect, HertzianContactEffect, ManufacturingErrorsEffect,
-                          MisalignmentEffect, ModificationsEffect, RootStressEffect, ShaftsEffect, TipCornerEffect, UnloadedContactEffect,
+  static const std::tuple<AdjacentTeethEffect, BendingEffect, ExtendedContactRegionEffect, FreeEndsEffect, HertzianContactEffect,
+                          ManufacturingErrorsEffect, MisalignmentEffect, ModificationsEffect, RootStressEffect, ShaftsEffect, TipCornerEffect, UnloadedContactEffect,
                           WholeSurfaceGapEffect>
       effects;
   static const EffectList list = std::apply([](const auto&... effect) { return in_order_of_flow({&effect...}); }, effects);

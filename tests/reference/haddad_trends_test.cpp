@@ -69,7 +69,7 @@ TEST_CASE("Coupled helical teeth have load spikes at the start and the end of co
   // curved. A line there is a face corner.
   const LinePeak &stress = plate.with_spikes.contact_stress, &load = plate.with_spikes.line_load;
   CAPTURE(stress.value, plate.without_spikes.contact_stress.value, slices.with_spikes.contact_stress.value);
-  CHECK(stress.phase + stress.tooth == Approx(start).margin(0.01));
+  CHECK(stress.phase + stress.tooth == Approx(start).margin(0.02));  // the corner itself is softer than what lies next to it
   CHECK(std::abs(stress.z) > 59);
   CHECK(std::min(std::abs(load.phase + load.tooth - end), std::abs(load.phase + load.tooth - start)) < 0.02);  // discretisation: where a flat top of two kinks lies
   CHECK(stress.value > 1.4 * plate.without_spikes.contact_stress.value);
@@ -83,9 +83,9 @@ TEST_CASE("The load along a spur tooth turns two modules from its ends, by Poiss
   // Finite elements say the same; see haddad_trends.md.
   const GearPair pair = mesh_cases::pair(18, 72, 0, 10, 120);
   const double phase = (pair.pitch_point - pair.path_start) / pair.transverse_base_pitch + PathOfContact::extension;
-  const auto along_face = [&](double poissons_ratio) {  // of the pair that carries all, by distance from the end [m_n]
+  const auto along_face = [&](double poissons_ratio, const MeshEffects& effects) {  // of the pair that carries all, by distance from the end [m_n]
     const auto structure = plates(pair, poissons_ratio);
-    const MeshModel model = make_mesh_model(pair, mesh_cases::steel, mesh_cases::steel, {{QuadratureRule::Graded, 16}, {phase}}, {}, {},
+    const MeshModel model = make_mesh_model(pair, mesh_cases::steel, mesh_cases::steel, {{QuadratureRule::Graded, 16}, {phase}}, effects, {},
                                             structure.get());
     const LoadedCycle cycle = analyse_cycle(model, {}, Mesh{pair}.torque());
     std::map<double, double> loads;
@@ -95,11 +95,16 @@ TEST_CASE("The load along a spur tooth turns two modules from its ends, by Poiss
     }
     return loads;
   };
-  const std::map<double, double> steel = along_face(0.3), without = along_face(0);
+  const MeshEffects bent_only = MeshEffects::all_but({"free_ends"});
+  const std::map<double, double> steel = along_face(0.3, bent_only), without = along_face(0, bent_only);
   const double middle = steel.rbegin()->second, end = steel.begin()->second;
   CHECK(lowest_at(steel) == Approx(2.2).margin(0.4));
   CHECK(end / middle == Approx(1.07).margin(0.02));
   CHECK(without.begin()->second / without.rbegin()->second == Approx(1).margin(0.02));
+  // What the thesis says of the ends themselves: contact is softer there, and outweighs the plate.
+  const std::map<double, double> with_ends = along_face(0.3, {});
+  CHECK(lowest_at(with_ends) == with_ends.begin()->first);
+  CHECK(with_ends.begin()->second / with_ends.rbegin()->second == Approx(0.92).margin(0.04));  // model: 0.88 to 0.96
 }
 
 TEST_CASE("Full contact under a misalignment is best crowned by sqrt(3)/4 of it", "[reference][haddad][load-factors]") {

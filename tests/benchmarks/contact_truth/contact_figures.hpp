@@ -20,16 +20,20 @@ struct ContactFigure {
   ContactTask task;
   double torque;                 ///< on the pinion [N mm]
   std::map<int, double> shares;  ///< of tooth pairs [-]
-  std::vector<FaceLoad> loads;   ///< of layers that neither the face nor a contact line ends in
+  std::vector<FaceLoad> loads;   ///< of layers that no contact line ends in, of helical pairs nor the face
 };
 
 inline std::vector<ContactFigure> spur_figures() {
   const PairData spur = pair_data(0, 40);
-  const double inner = -6.0790, middle = -12.1581, outer = -16.0486;
+  const double inner = -6.0790, middle = -12.1581, outer = -16.0486, last = -18.4802;
   return {{contact_task(spur, 1.15, 45),
            2356561.784,
            {{0, 1.0}},
-           {{0, outer, middle, 712.54}, {0, middle, inner, 690.51}, {0, inner, 0, 695.73}}},
+           {{0, -20, last, 658.7},
+            {0, last, outer, 711.5},
+            {0, outer, middle, 712.54},
+            {0, middle, inner, 690.51},
+            {0, inner, 0, 695.73}}},
           {contact_task(spur, 0.65, 45),
            3791179.135,
            {{0, 0.47518}, {1, 0.52482}},

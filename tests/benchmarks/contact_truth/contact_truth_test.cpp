@@ -14,7 +14,8 @@ using namespace flankwright::contact_truth;
 
 namespace {
 
-void compare_with(const std::vector<ContactFigure>& figures) {
+/// @param load_error  of a layer's load, relative: model
+void compare_with(const std::vector<ContactFigure>& figures, double load_error) {
   // Coarse elements on our side: they take 0.4 to 0.5 um off 43 um of approach and 0.001 off the shares.
   const auto structure = held_structure(figures.front().task, coarse_mesh());
   for (const ContactFigure& figure : figures) {
@@ -29,7 +30,7 @@ void compare_with(const std::vector<ContactFigure>& figures) {
     for (const FaceLoad& load : figure.loads) {
       CAPTURE(load.tooth, load.begin);
       CHECK(own.mean_face_load(load.tooth, load.begin, load.end) ==
-            Approx(load.per_face_width).epsilon(0.06));  // model
+            Approx(load.per_face_width).epsilon(load_error));
     }
   }
 }
@@ -38,12 +39,12 @@ void compare_with(const std::vector<ContactFigure>& figures) {
 
 TEST_CASE("A spur pair shares its load and yields as in CalculiX' contact of whole gears",
           "[reference][contact-truth]") {
-  compare_with(spur_figures());
+  compare_with(spur_figures(), 0.03);
 }
 
 TEST_CASE("A helical pair shares its load and yields as in CalculiX' contact of whole gears",
           "[reference][contact-truth]") {
-  compare_with(helical_figures());
+  compare_with(helical_figures(), 0.07);
 }
 
 TEST_CASE("The stress in CalculiX' elements is Hertz' of what they carry", "[reference][contact-truth]") {

@@ -156,7 +156,7 @@ TEST_CASE("An effect that is off costs no instruction", "[core][effects]") {
   };
   const double everything = instructions(mesh_effects(all));
   constexpr double allocator = 2e-3;  // what the memory allocator does is not the same twice
-  for (const std::string name : {"shafts", "tip_corner", "adjacent_teeth", "extended_contact_region"}) {
+  for (const std::string name : {"shafts", "free_ends", "tip_corner", "adjacent_teeth", "extended_contact_region"}) {
     CAPTURE(name);
     const double off = instructions(mesh_effects(without(all, name, "left out")));
     const double never = instructions(mesh_effects(all, registered_without(name)));
@@ -171,7 +171,7 @@ TEST_CASE("What an effect costs is counted over all copies of a choice", "[core]
   const MeshEffects effects = mesh_effects(decisions);
   scene.run(decisions, effects);
   scene.run(decisions, effects);
-  for (const char* name : {"bending", "shafts", "hertzian_contact", "tip_corner", "whole_surface_gap", "extended_contact_region"}) {
+  for (const char* name : {"bending", "shafts", "hertzian_contact", "free_ends", "tip_corner", "whole_surface_gap", "extended_contact_region"}) {
     CAPTURE(name);
     CHECK(effects.calls(name) == 8);  // four positions, twice
     CHECK(effects.seconds(name) > 0.0);

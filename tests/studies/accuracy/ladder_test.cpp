@@ -14,7 +14,7 @@ using namespace flankwright::studies;
 namespace {
 
 /// A pair by thin slices, coarse enough for a fraction of a second.
-Ladder ladder_of(double helix_angle_deg, const std::string& modification = "") {
+Ladder ladder_of(double helix_angle_deg, const std::string& modification = "", const std::string& fidelity = "") {
   const std::string text = R"(task = "accuracy"
 [pair]
 normal_module = 4
@@ -34,6 +34,7 @@ torque = 200
 positions = 12
 [fidelity]
 compliance = "thin_slice"
+)" + fidelity + R"(
 [accuracy.finest]
 compliance = "thin_slice"
 gap = "plane_of_action"
@@ -84,8 +85,8 @@ TEST_CASE("Errors fall with the intervals of a graded line and with the position
   CHECK(error(step(ladder, "gauss2 5"), Figure::TePeakToPeak) > error(step(ladder, "graded 4"), Figure::TePeakToPeak));
 }
 
-TEST_CASE("Without modification and misalignment spur lines carry evenly: quadrature has no error", "[studies][accuracy][ladder][closed-form]") {
-  const Ladder ladder = ladder_of(0.0);
+TEST_CASE("Without modification, misalignment and free ends spur lines carry evenly: quadrature has no error", "[studies][accuracy][ladder][closed-form]") {
+  const Ladder ladder = ladder_of(0.0, "", R"(effects = ["bending", "hertzian_contact", "tip_corner", "extended_contact_region"])");
   constexpr double kRoundOff = 1e-9;
   for (const LadderStep& s : ladder.steps) {
     const Rung& rung = s.result.rung;

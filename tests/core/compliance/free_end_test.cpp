@@ -1,0 +1,167 @@
+#include "core/compliance/free_end.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <vector>
+
+#include "core/base/units.hpp"
+#include "core/compliance/contact_law.hpp"
+#include "core/compliance/hertz_line.hpp"
+#include "tests/core/compliance/finite_element/block_mesh.hpp"
+
+using namespace flankwright;
+using namespace flankwright::test;
+using units::pi;
+
+namespace {
+
+/// A block under Hertz's pressure of half width 1 and 1 N per mm, along z up to its end face z = 0: the quarter space y >= 0, z >= 0
+/// as far as elements reach, of which symmetry keeps x >= 0. Its far sides are held. Lengths in half widths, E = 1.
+class LoadedBlock {
+ public:
+  explicit LoadedBlock(double poissons_ratio) {
+    mesh_ = block_mesh(cells(x_), cells(depth_), cells(along_),
+                       [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(at(x_, p.x()), at(depth_, p.y()), at(along_, p.z())); }, &cube_);
+    const Eigen::SparseMatrix<double> load = hertzian_load().sparseView();
+    for (const bool free_end : {false, true}) {
+      const SolidModel solid(mesh_, {1, poissons_ratio}, supports(free_end));
+      moved_[free_end ? 1 : 0] = solid.solve(load);
+    }
+  }
+  const std::vector<double>& depths() const { return depth_; }
+  const std::vector<double>& distances() const { return along_; }
+  /// How far the flank approaches a depth below it, in units of (2/pi) w/E, by numbers of the grid.
+  double deflection(bool free_end, std::size_t depth, std::size_t distance) const {
+    const auto down = [&](std::size_t j) {
+      const Eigen::Vector3d place(0, static_cast<double>(j) / cells(depth_), static_cast<double>(distance) / cells(along_));
+      Eigen::Index node = 0;
+      REQUIRE((cube_.colwise() - place).colwise().norm().minCoeff(&node) < 1e-9);
+      return moved_[free_end ? 1 : 0][3 * node + 1];
+    };
+    return (down(0) - down(depth)) * pi / 2;
+  }
+
+ private:
+  static int cells(const std::vector<double>& grid) { return static_cast<int>(grid.size()) - 1; }
+  static double at(const std::vector<double>& grid, double part) {
+    const double place = part * cells(grid);
+    const auto i = std::min(grid.size() - 2, static_cast<std::size_t>(place + 1e-9));
+    return grid[i] + (place - static_cast<double>(i)) * (grid[i + 1] - grid[i]);
+  }
+  Eigen::MatrixXd hertzian_load() const {
+    Eigen::MatrixXd load = Eigen::MatrixXd::Zero(mesh_.nodes.size(), 1);
+    constexpr int face[8] = {0, 1, 5, 4, 8, 17, 12, 16}, parts = 6;
+    for (Eigen::Index e = 0; e < mesh_.bricks.cols(); ++e) {
+      FaceNodes nodes;
+      for (int i = 0; i < 8; ++i) nodes.col(i) = mesh_.nodes.col(mesh_.bricks(face[i], e));
+      if (nodes.row(1).maxCoeff() > 0 || nodes.row(0).minCoeff() > 1 - 1e-9) continue;
+      for (int i = 0; i < 9 * parts * parts; ++i) {
+        const auto local = [](int k) { return -1 + (2 * (k / 3) + 1 + gauss3_abscissae[k % 3]) / parts; };
+        const int row = i / (3 * parts), column = i % (3 * parts);
+        const FaceShape shape = face_shape(local(row), local(column));
+        const Eigen::Matrix<double, 3, 2> tangents = nodes * shape.derivatives;
+        const double x = nodes.row(0).dot(shape.values);
+        const double area = std::abs(tangents(2, 0) * tangents(0, 1) - tangents(0, 0) * tangents(2, 1)) * gauss3_weights[row % 3] *
+                            gauss3_weights[column % 3] / (parts * parts);
+        for (int k = 0; k < 8; ++k) load(3 * mesh_.bricks(face[k], e) + 1) += 2 / pi * std::sqrt(1 - x * x) * area * shape.values[k];
+      }
+    }
+    return load;
+  }
+  std::vector<NodeSupport> supports(bool free_end) const {
+    std::vector<NodeSupport> supports;
+    for (int n = 0; n < cube_.cols(); ++n) {
+      const bool side = cube_(0, n) > 1 - 1e-9, bottom = cube_(1, n) > 1 - 1e-9, back = cube_(2, n) > 1 - 1e-9;
+      const std::array<bool, 3> fixed{cube_(0, n) == 0 || side || bottom, side || bottom, !free_end || back};
+      if (fixed[0] || fixed[1] || fixed[2]) supports.push_back({n, fixed});
+    }
+    return supports;
+  }
+
+  const std::vector<double> x_{0, 0.25, 0.5, 0.75, 1, 1.5, 2.5, 4.5, 8.5, 16.5, 32.5, 64.5, 128.5};
+  const std::vector<double> depth_{0, 0.3, 0.9, 2.1, 4.5, 9.3, 19, 38, 76, 128}, along_ = depth_;
+  SolidMesh mesh_;
+  Eigen::Matrix3Xd cube_;
+  Eigen::VectorXd moved_[2];  ///< without and with a free end
+};
+
+}  // namespace
+
+TEST_CASE("A block pressed up to its free end gives way as the law says", "[core][compliance][fe]") {
+  const double nu = GENERATE(0.2, 0.3);
+  const LoadedBlock block(nu);
+  const FreeEnd end(nu);
+  for (std::size_t j = 3; j <= 5; ++j) {  // 2.1 .. 9.3 half widths deep
+    const double depth = block.depths()[j], k = nu / (1 - nu);
+    // Plane strain's own bracket, as ContactLaw has it. Discretisation.
+    const double strain = (1 - nu * nu) * (std::asinh(depth) - k * depth * (std::sqrt(1 + depth * depth) - depth));
+    CHECK(block.deflection(false, j, 0) == Approx(strain).epsilon(0.01));
+    for (std::size_t i = 0; i <= 6; ++i) {  // up to 19 half widths away
+      const double distance = block.distances()[i];
+      CAPTURE(nu, depth, distance);
+      // Fit: 0.02. Discretisation and the block's far sides: 0.01.
+      CHECK(block.deflection(true, j, i) - block.deflection(false, j, i) ==
+            Approx(end.strength * end.at({distance, INFINITY}, depth, 1).value).margin(0.03));
+    }
+  }
+  // Per ln(depth), under the end face itself: softer than plane stress, which has 1. Discretisation.
+  const double per_depth = (block.deflection(true, 5, 0) - block.deflection(true, 3, 0)) / std::log(block.depths()[5] / block.depths()[3]);
+  const double plane_strain = (block.deflection(false, 5, 0) - block.deflection(false, 3, 0)) / std::log(block.depths()[5] / block.depths()[3]);
+  CHECK(per_depth - plane_strain == Approx(end.strength).epsilon(0.06));
+  CHECK(end.strength > nu * nu);
+}
+
+TEST_CASE("Contact softens towards a free end, and an end far away is none", "[core][compliance]") {
+  const Material steel{};
+  const auto law = [&](double distance) {
+    return ContactLaw(ContactSide::of(steel, 7, INFINITY, {distance, INFINITY}), ContactSide::of(steel, 8, INFINITY, {distance, INFINITY}), 9,
+                      contact_modulus(steel, steel));
+  };
+  const double endless = law(INFINITY).deflection(300);
+  double last = law(0).deflection(300);
+  CHECK(last > 1.15 * endless);  // kappa/(1 - nu^2) = 0.24 of the logarithm's part
+  for (double distance = 1e-3; distance < 1e6; distance *= 1.5) {
+    const double here = law(distance).deflection(300);
+    CHECK(here < last);
+    CHECK(here > endless);
+    last = here;
+  }
+  // As h/s: (2/pi) (w/E) kappa a h/s of both gears.
+  const FreeEnd end(steel.poissons_ratio);
+  const double far = 2 / pi * 300 / steel.youngs_modulus * end.strength * end.reach * (7 + 8) / 1e5;
+  CHECK(law(1e5).deflection(300) - endless == Approx(far).epsilon(1e-3));
+  CHECK(law(1e15).deflection(300) == Approx(endless).epsilon(1e-14));  // round-off
+}
+
+TEST_CASE("Ends add up, each on its own side", "[core][compliance]") {
+  const Material steel{}, cork{30, 0};
+  const auto deflection = [&](const Material& second, const std::array<double, 2>& first_ends, const std::array<double, 2>& second_ends) {
+    return ContactLaw(ContactSide::of(steel, 4, INFINITY, first_ends), ContactSide::of(second, 5, INFINITY, second_ends), 9,
+                      contact_modulus(steel, second))
+        .deflection(200);
+  };
+  const auto none = ContactSide::no_ends;
+  const double endless = deflection(steel, none, none);
+  const double one = deflection(steel, {0.3, INFINITY}, none) - endless, other = deflection(steel, none, {2, INFINITY}) - endless;
+  CHECK(one > other);
+  CHECK(deflection(steel, {0.3, INFINITY}, {INFINITY, 2}) - endless == Approx(one + other).epsilon(1e-12));   // round-off
+  CHECK(deflection(steel, {0.3, 0.3}, none) - endless == Approx(2 * one).epsilon(1e-12));                    // round-off
+  // Without Poisson's ratio nothing is held along the axis in the first place.
+  CHECK(deflection(cork, none, {0, 0}) == deflection(cork, none, none));
+}
+
+TEST_CASE("Near an end too the law grows at every load and its slope is its derivative", "[core][compliance]") {
+  const Material steel{};
+  const double distance = GENERATE(-1.0, 0.0, 1e-3, 0.05, 0.7, 30.0);
+  const ContactLaw law(ContactSide::of(steel, 4, 0.8, {distance, 6}), ContactSide::of({110000, 0.45}, 5, INFINITY, {distance, INFINITY}), 9,
+                       contact_modulus(steel, {110000, 0.45}));
+  double last = 0;
+  for (double w = 1e-9; w < 1e6; w *= 3.7) {
+    CAPTURE(distance, w);
+    const auto [deflection, slope] = law.evaluate(w);
+    CHECK(deflection > last);
+    const double step = 1e-4 * w;
+    CHECK(slope == Approx((law.deflection(w + step) - law.deflection(w - step)) / (2 * step)).epsilon(1e-6));  // discretisation
+    last = deflection;
+  }
+}
