@@ -50,6 +50,7 @@ void add_model_rungs(const MeshEffects& effects, std::vector<Rung>& rungs) {
   const auto leave_out = [&](const char* axis, const char* name, const char* effect) {
     if (effects.has(effect)) add(axis, name, [&](Rung& r) { r.left_out = {effect}; });
   };
+  leave_out("contact law", "without free ends", "free_ends");
   leave_out("contact law", "without tip corner", "tip_corner");
   leave_out("adjacent teeth", "without adjacent teeth", "adjacent_teeth");
   leave_out("contact region", "between A and E only", "extended_contact_region");

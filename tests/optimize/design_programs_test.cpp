@@ -10,8 +10,8 @@ using namespace flankwright::design_tasks;
 
 namespace {
 
-// Steps of 2e-5 of a range: differences lose 1e-12 / 2e-5 to round-off and step^2 to curvature.
-constexpr double step = 2e-5, discretisation = 1e-6;
+// Steps of 1e-5 of a range: differences lose 1e-12 / 1e-5 to round-off and step^2 to curvature.
+constexpr double step = 1e-5, discretisation = 1e-6;
 
 void check_gradients(NonlinearProgram& program, const Eigen::VectorXd& x) {
   const ProgramValues at = program.evaluate(x, true);

@@ -135,7 +135,7 @@ TEST_CASE("The effect shafts is on where a shaft is described and load runs, and
     CHECK(position.at("mesh_misalignment_um") == position.at("pinion").at("misalignment_um"));
   }
   CHECK(lag == Approx(moved).epsilon(0.1));  // model: the motion of one place stands for all, along the normal
-  const json off = run(pair_text + shaft_text, {{"fidelity.effects", "[\"bending\", \"hertzian_contact\", \"tip_corner\", \"extended_contact_region\"]"}});
+  const json off = run(pair_text + shaft_text, {{"fidelity.effects", "[\"bending\", \"hertzian_contact\", \"free_ends\", \"tip_corner\", \"extended_contact_region\"]"}});
   CHECK(effect(off, "shafts").at("on") == false);
   CHECK(off.at("loaded")[0].at("summary").at("te_mean_um") == rigid.at("loaded")[0].at("summary").at("te_mean_um"));
   const std::vector<StudyProblem> problems = problems_of(pair_text, {{"fidelity.effects", "[\"bending\", \"shafts\"]"}});

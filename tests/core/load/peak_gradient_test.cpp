@@ -10,7 +10,7 @@ using mesh_cases::torque_for;
 namespace {
 
 constexpr double kTorque = 100;  // N/mm of mean line load
-constexpr double kStep = 0.05 * units::um;
+constexpr double kStep = 0.01 * units::um;
 
 MeshAt mesh_of(const GearPair& gears) {
   return [gears](const std::vector<double>& phases) { return mesh_cases::model(gears, {{QuadratureRule::Graded, 5}, phases}); };

@@ -76,7 +76,8 @@ TEST_CASE("The finest rung has no error, and every other one has its own", "[stu
 TEST_CASE("Errors fall with the intervals of a graded line and with the positions", "[studies][accuracy][ladder]") {
   const Ladder ladder = ladder_of(20.0, "lead_crowning = 6\n");
   CHECK(error(step(ladder, "graded 4"), Figure::PeakLineLoad) <= error(step(ladder, "graded 2"), Figure::PeakLineLoad));
-  CHECK(error(step(ladder, "24 positions"), Figure::TePeakToPeak) <= error(step(ladder, "12 positions"), Figure::TePeakToPeak));
+  constexpr double round_off = 1e-12;  // where extremes lie at positions of either
+  CHECK(error(step(ladder, "24 positions"), Figure::TePeakToPeak) <= error(step(ladder, "12 positions"), Figure::TePeakToPeak) + round_off);
   // Integrals over lines and over the cycle are close from the start, and need not come closer with every step.
   constexpr double discretisation = 2e-3;
   for (const char* rung : {"graded 2", "graded 4"}) CHECK(error(step(ladder, rung), Figure::TeMean) < discretisation);
