@@ -45,6 +45,7 @@ struct FidelityChoice {
 ///   wrong by what its kernels leave (its own fit's median on unseen places, 0.8 % of the library's, see core/compliance/fitted) move no
 ///   figure by more than 0.7 of the accuracy; else "fe", which has no error in this account;
 /// - gap: "plane_of_action" where the whole surface's gap changes figures by less than half of what is left; else "whole_surface";
+/// - differences between models are multiplied by a safety of 1.25, as they are seen at a coarse resolution;
 /// - the rest: choose_discretisation() for each load case, the finest of their resolutions.
 /// @param runner  with the study's load cases
 FidelityChoice choose_fidelity(RungRunner& runner, const ProgressReport& progress);

@@ -74,7 +74,8 @@ struct Scene {
 bool bit_identical(const LoadedCycle& a, const LoadedCycle& b) {
   bool same = a.positions.size() == b.positions.size();
   for (std::size_t i = 0; same && i < a.positions.size(); ++i) {
-    same = a.positions[i].load.line_load == b.positions[i].load.line_load &&
+    same = a.positions[i].load.line_load.size() == b.positions[i].load.line_load.size() &&
+           a.positions[i].load.line_load == b.positions[i].load.line_load &&
            a.positions[i].load.transmission_error == b.positions[i].load.transmission_error &&
            a.positions[i].contact_stress == b.positions[i].contact_stress;
   }
