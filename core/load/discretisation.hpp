@@ -42,8 +42,8 @@ struct Discretisation {
 ///
 ///     (its distance from the last) + safety * (LimitEstimate::error of the last, by the last three) <= budget,
 ///
-/// and the coarsest that does is taken. Its error is mostly a difference that was measured, hence neither understated by chance nor overstated
-/// many times. The last level itself is taken where nothing finer is allowed, on its estimate alone.
+/// and the coarsest that does is taken. Its error is mostly a difference that was measured. Of 200 random cases at 1 % the true error was
+/// within the stated one in 199; of the 145 that were kept 23 were overstated more than ten times. The last level itself is taken where nothing finer is allowed, on its estimate alone.
 Discretisation choose_discretisation(const MeshOfResolution& mesh_for, QuadratureRule rule, const FlankCondition& condition, double pinion_torque,
                                      const DiscretisationSearch& search = {});
 
