@@ -10,7 +10,7 @@ using units::um;
 
 namespace {
 
-const studies::Override sampled_peaks{"cycle.peaks", "sampled_peaks"};
+const studies::Override sampled_peaks{"cycle.peaks", "sampled"};
 
 double largest_difference(const LoadedCycle& a, const LoadedCycle& b) {
   return (a.transmission_error() - b.transmission_error()).cwiseAbs().maxCoeff();

@@ -10,7 +10,7 @@ using namespace flankwright::design_tasks;
 
 namespace {
 
-// Steps of 1e-5 of a range: differences lose 1e-12 / 1e-5 to round-off and difference_step^2 to curvature.
+// Steps of 1e-5 of a range: differences lose 1e-12 / 1e-5 to round-off and step^2 to curvature.
 constexpr double difference_step = 1e-5, discretisation = 1e-6;
 
 void check_gradients(NonlinearProgram& program, const Eigen::VectorXd& x) {

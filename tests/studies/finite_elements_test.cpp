@@ -31,7 +31,7 @@ class ScratchCache {
   command_line::ScratchFolder folder_;
 };
 
-/// Two equal narrow spur gears: one small finite-element run_twins.
+/// Two equal narrow spur gears: one small finite-element run.
 const std::string twins = R"(
 [pair]
 normal_module = 4
@@ -92,7 +92,7 @@ TEST_CASE("A study by finite elements: equal gears are solved once, kept, and ba
     CHECK(values[0] > -1e-13 * values[values.size() - 1]);  // round-off
   }
 
-  // The next study finds the run_twins; gears of another size and modulus are the same in modules.
+  // The next study finds the run; gears of another size and modulus are the same in modules.
   const StudyResults kept = run_twins(twins);
   const json kept_results = json::parse(results_json(kept));
   CHECK(kept_results["compliance"]["wheel"]["source"] == "cache");
@@ -105,7 +105,7 @@ TEST_CASE("A study by finite elements: equal gears are solved once, kept, and ba
   // Teeth that do not know of each other give way less: their loads push on their neighbours' flanks.
   const StudyResults alone = run_twins(twins, {{"fidelity.effects", R"(["bending", "hertzian_contact", "tip_corner", "extended_contact_region"])"}});
   CHECK(alone.loaded[0].summary.te_mean < kept.loaded[0].summary.te_mean);
-  CHECK(alone.structures.finite_elements->gears[0].from_cache);  // a run_twins that tells more will do
+  CHECK(alone.structures.finite_elements->gears[0].from_cache);  // a run that tells more will do
   CHECK(std::isnan(alone.loaded[0].summary.peak_root_stress));
 }
 
@@ -118,7 +118,7 @@ TEST_CASE("A study's root stress: by finite elements, whatever the compliance", 
   CHECK(results["loaded"][0]["summary"]["wheel_root_stress"]["z_mm"].is_number());
   CHECK(results["loaded"][0]["cycle"][3]["teeth"][0]["pinion_root_stress_MPa"].is_number());
   CHECK(summary.peak_root_stress == std::max(summary.pinion_root_stress.stress, summary.wheel_root_stress.stress));
-  // Equal gears, whose loads run_twins towards each other's tips: alike to the mesh positions' distance (discretisation).
+  // Equal gears, whose loads run towards each other's tips: alike to the mesh positions' distance (discretisation).
   CHECK(summary.pinion_root_stress.stress == Approx(summary.wheel_root_stress.stress).epsilon(0.05));
   // The whole force at the tip would be ISO's worst; it acts lower down, or shared (model).
   const GearPair& pair = solved.pair;
@@ -212,7 +212,7 @@ TEST_CASE("A study by fitted compliance: a coarse mesh of its gears and the libr
   CHECK(ours.loaded[0].summary.peak_root_stress == Approx(fe.loaded[0].summary.peak_root_stress).epsilon(0.06));
 }
 
-TEST_CASE("A gear that the library of fits does not know has a fit of its own, to the run_twins that fe takes", "[studies][fitted]") {
+TEST_CASE("A gear that the library of fits does not know has a fit of its own, to the run that fe takes", "[studies][fitted]") {
   const ScratchCache cache;
   const std::vector<Override> by_fit{{"fidelity.compliance", "fitted"}, {"pair.pressure_angle", "22"}};
   const StudyResults ours = run_twins(twins, by_fit);

@@ -41,7 +41,7 @@ const std::string wheel_tie = R"([optimise.ties]
 
 }  // namespace
 
-TEST_CASE("Steps, ties and bounds on sums are read_optimisation in their own units", "[studies][optimise-keys]") {
+TEST_CASE("Steps, ties and bounds on sums are read in their own units", "[studies][optimise-keys]") {
   const OptimiseTable table = read_optimisation(wheel_tie, {{"optimise.step", "0.5"},
                                                {"optimise.variables.wheel.modification.twist", "{ range = [-10, 10], step = 2 }"}})
                                   .optimise;
@@ -103,7 +103,7 @@ TEST_CASE("What [optimise] cannot mean is refused where it stands", "[studies][o
   CHECK_THAT(problem.allowed, Catch::Contains(row.allowed));
 }
 
-TEST_CASE("Any k of sigma and any level of the tail are read_optimisation", "[studies][optimise-keys]") {
+TEST_CASE("Any k of sigma and any level of the tail are read", "[studies][optimise-keys]") {
   const Aggregation sigmas = read_optimisation("", {{"optimise.over", "mean+sigmas"}, {"optimise.sigmas", "3"}}).optimise.over;
   CHECK(sigmas == Aggregate::MeanPlusSigmas);
   CHECK(sigmas.sigmas == 3.0);

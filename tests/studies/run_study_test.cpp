@@ -239,14 +239,14 @@ TEST_CASE("Given repeats the study's keys and used says what became of the rest"
   CHECK(results["loaded"][0]["cycle"].size() == 5);
 }
 
-TEST_CASE("A rigid study ignores its torques and says so", "[studies][results_of]") {
+TEST_CASE("A rigid study ignores its torques and says so", "[studies][run]") {
   const json results = results_of(small::analysis(), {{"fidelity.compliance", "rigid"}});
   CHECK(results["loaded"].empty());
   CHECK(results["unloaded_scenes"].size() == 2);
   CHECK_THAT(results["notes"].dump(), Catch::Contains("torques are ignored"));
 }
 
-TEST_CASE("A bound that cannot be met is a requirement that was not met", "[studies][results_of]") {
+TEST_CASE("A bound that cannot be met is a requirement that was not met", "[studies][run]") {
   const std::vector<Override> impossible{{"optimise.constraints.te_peak_to_peak.max", "0.0001"},
                                          {"optimise.max_evaluations", "30"}};
   const StudyResults results = run_study(parse_study(small::optimisation(), "small.toml", impossible));
@@ -254,7 +254,7 @@ TEST_CASE("A bound that cannot be met is a requirement that was not met", "[stud
   CHECK_THAT(results.requirements.back(), Catch::Contains("te_peak_to_peak") && Catch::Contains("violated"));
 }
 
-TEST_CASE("A harmonic that the positions do not resolve is bad input", "[studies][results_of]") {
+TEST_CASE("A harmonic that the positions do not resolve is bad input", "[studies][run]") {
   const Study study = parse_study(small::optimisation(), "small.toml", {{"optimise.objective", "te_harmonic_3"}});
   CHECK_THROWS_AS(run_study(study), InvalidInput);  // 6 positions
 }

@@ -65,7 +65,7 @@ std::vector<StudyProblem> shaft_problems(const std::string& text, const std::vec
 
 }  // namespace
 
-TEST_CASE("A shaft is read_shafts with its units, the gear's material and one bearing that holds axially", "[studies][shaft]") {
+TEST_CASE("A shaft is read with its units, the gear's material and one bearing that holds axially", "[studies][shaft]") {
   const Study study = read_shafts(pair_text + shaft_text, {{"material.youngs_modulus", "210000"}});
   REQUIRE(study.pinion_shaft);
   CHECK_FALSE(study.wheel_shaft);
@@ -181,7 +181,7 @@ TEST_CASE("Finite elements leave their wind-up to start where the study's torque
   CHECK(task(pair_text + shaft_text, Member::Pinion).removed == RemovedMotion::WholeTranslationTorsionAndTilt);
 }
 
-TEST_CASE("Errors of single teeth are read_shafts as lists, one value a tooth", "[studies][shaft]") {
+TEST_CASE("Errors of single teeth are read as lists, one value a tooth", "[studies][shaft]") {
   std::string values = "[1, -2, 3";
   for (int tooth = 3; tooth < 21; ++tooth) values += ", 0";
   values += "]";

@@ -28,7 +28,7 @@ samples = 40
 )";
 }
 
-/// What a clock says differs from results_of to results_of.
+/// What a clock says differs from run to run.
 void remove_seconds(json& node) {
   if (node.is_object()) {
     for (const char* key : {"seconds", "proof_seconds", "message"}) node.erase(key);

@@ -21,7 +21,7 @@ const SweepParameter& parameter(const Study& study, const std::string& path) {
   return study.sweep.parameters.front();
 }
 
-TEST_CASE("Distributions of a sweep are sweep_keys in the unit of their key, or with their own", "[studies][sweep]") {
+TEST_CASE("Distributions of a sweep are read in the unit of their key, or with their own", "[studies][sweep]") {
   const Study study = sweep_keys("samples = 100", R"(
 "misalignment.crossing" = { normal = ["1 deg", "30 arcsec"] }
 "wheel.error.pitch" = { values = [-3, "0.004 mm"] }
