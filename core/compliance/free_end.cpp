@@ -44,7 +44,7 @@ FreeEnd::Softening FreeEnd::at(const std::array<double, 2>& distances, double de
     if (leaning[i] == 0) continue;
     const Blunted t = blunted(distances[i], half_width, leaning_bluntness);
     const double ratio = leaning_reach * depth / t.value, square = ratio * ratio;
-    leant.value += 0.5 * leaning[i] * std::log(1 + square);  // digits lost far away are no part of the sum
+    leant.value += 0.5 * leaning[i] * std::log1p(square);
     leant.widening -= leaning[i] * t.widening / t.value * (square / (1 + square));
   }
   const double inverse = 1 / (near * beyond);
