@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "core/base/stopwatch.hpp"
+#include "core/load/axial_offset.hpp"
 #include "studies/proof/drawn_scenes.hpp"
 #include "studies/study_effects.hpp"
 #include "studies/study_shafts.hpp"
@@ -89,13 +90,20 @@ class Run {
     }
   }
 
-  /// The mesh for a misalignment, at phases of one's choice and without root stress.
-  MeshAt mesh_at(const Misalignment& misalignment) {
-    return [this, placement = MeshPlacement::of(gap_model(results_.effects), misalignment),
-            structure = structures().pair](const std::vector<double>& phases) {
+  /// The mesh at a placement, with its further offsets where a derivative asks for them.
+  MeshModel mesh(const MeshPlacement& placement, const std::vector<double>& phases, const PairRootStress* root_stress) {
+    const MeshPlaced placed = [&](const MeshPlacement& at) {
       const Study& study = results_.study;
       return make_mesh_model(results_.pair, study.pinion_material, study.wheel_material, {study.fidelity.quadrature, phases},
-                             results_.mesh_effects, placement, structure.get(), nullptr, results_.shafts.get());
+                             results_.mesh_effects, at, structures().pair.get(), root_stress, results_.shafts.get());
+    };
+    return axial_offsets_among(gradient_parameters()).empty() ? placed(placement) : with_further_offsets(placed, placement);
+  }
+
+  /// The mesh for a misalignment, at phases of one's choice and without root stress.
+  MeshAt mesh_at(const Misalignment& misalignment) {
+    return [this, placement = MeshPlacement::of(gap_model(results_.effects), misalignment)](const std::vector<double>& phases) {
+      return mesh(placement, phases, nullptr);
     };
   }
 
@@ -145,13 +153,7 @@ class Run {
   std::size_t model_for(const Misalignment& misalignment) {
     const MeshPlacement placement = MeshPlacement::of(gap_model(results_.effects), misalignment);
     const auto [it, is_new] = model_index_.try_emplace(placement, results_.models.size());
-    if (is_new) {
-      const Study& study = results_.study;
-      results_.models.push_back(make_mesh_model(results_.pair, study.pinion_material, study.wheel_material,
-                                                {study.fidelity.quadrature, results_.phases}, results_.mesh_effects,
-                                                placement, structures().pair.get(), structures().root_stress.get(),
-                                                results_.shafts.get()));
-    }
+    if (is_new) results_.models.push_back(mesh(placement, results_.phases, structures().root_stress.get()));
     return it->second;
   }
 

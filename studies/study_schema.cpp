@@ -191,7 +191,7 @@ std::string allowed_values(const SchemaKey& key) {
              "{ truncated_normal = [mean, deviation, low, high] }, { uniform = [low, high] }, { grid = [low, high, levels] }, "
              "{ values = [...] } or { iso_1328_class = 1 .. 11 }";
     case ValueKind::Parameters:
-      return "a list of keys below pinion.modification, wheel.modification or misalignment (not axial_offset), and load.torque";
+      return "a list of keys below pinion.modification, wheel.modification or misalignment, and load.torque";
     case ValueKind::Constraints:
       return "a table of outputs, or sums of keys below pinion.modification and wheel.modification, each with { max = ... }, { min = ... } or both";
     case ValueKind::Expectations:

@@ -57,11 +57,12 @@ TipFactor tip_factor(double tip_distance) {
   return {1 + u * u * u * polynomial, u * u * (u * (c1 + 2 * c2 * t) - 3 * polynomial) / width};
 }
 
-ContactSide ContactSide::of(const Material& material, double depth, double tip_distance, const std::array<double, 2>& end_distances) {
+ContactSide ContactSide::of(const Material& material, double depth, double tip_distance, const std::array<double, 2>& end_distances,
+                            double end_lean) {
   validate(material);
   if (!(depth > 0 && std::isfinite(depth))) throw InvalidInput("depth", std::to_string(depth), "more than 0 mm");
   const double nu = material.poissons_ratio;
-  return {2 * (1 - nu * nu) / (units::pi * material.youngs_modulus), nu / (1 - nu), depth, tip_distance, end_distances};
+  return {2 * (1 - nu * nu) / (units::pi * material.youngs_modulus), nu / (1 - nu), depth, tip_distance, end_distances, end_lean};
 }
 
 ContactLaw::ContactLaw(const ContactSide& pinion, const ContactSide& wheel, double relative_radius,
@@ -77,9 +78,8 @@ ContactLaw::ContactLaw(const ContactSide& pinion, const ContactSide& wheel, doub
     side.tip_distance = distance("tip_distance", side.tip_distance);
     for (double& end : side.end_distances) end = distance("end_distances", end);
     const double nu = side.lateral_ratio / (1 + side.lateral_ratio);
-    const FreeEnd end(nu);
     const bool endless = side.end_distances == ContactSide::no_ends;
-    sides_[i] = {side, end, endless ? 0 : side.coefficient * end.strength / (1 - nu * nu)};
+    sides_[i] = {side, FreeEnd(nu, side.end_lean), endless ? 0 : side.coefficient / (1 - nu * nu)};
   }
 }
 

@@ -28,15 +28,16 @@ struct ContactSide {
   double depth{not_given};          ///< h [mm], > 0: depth along the normal that the deflection is referred to
   /// (r_a - r) / cos(alpha_yt) [mm], distance from the tip; < 0 counts as 0, infinity switches the tip factor off.
   double tip_distance{std::numeric_limits<double>::infinity()};
-  /// Distances of the contact from the gear's own end faces, along the axis [mm]; as tip_distance below 0 and at infinity.
+  /// Distances of the contact from the gear's own end faces, along the contact line [mm]; as tip_distance below 0 and at infinity.
   std::array<double, 2> end_distances{no_ends};
+  double end_lean{0};  ///< of the first end face, > 0 where it is the sharp one; the second leans the other way, see FreeEnd [rad]
 
   static constexpr std::array<double, 2> no_ends{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
   /// The side of a gear of this material.
   /// @throws InvalidInput where the material is out of range or the depth is not positive
   static ContactSide of(const Material& material, double depth, double tip_distance = std::numeric_limits<double>::infinity(),
-                        const std::array<double, 2>& end_distances = no_ends);
+                        const std::array<double, 2>& end_distances = no_ends, double end_lean = 0);
 };
 
 /// Local (Hertzian) deflection of one contact point under a line load: how far the contact line approaches the points
@@ -45,7 +46,7 @@ struct ContactSide {
 ///     c(w) = sum over both gears of  M(y) A w [asinh(h') - nu/(1 - nu) h' (sqrt(1 + h'^2) - h')],
 ///     h' = h/L,  y = tip distance/L,  L = sqrt(4 w R / (pi E')),
 ///
-/// and what each end face at a finite distance adds, (2/pi)(w/E) kappa f(s, h, L), see FreeEnd. Tip and ends do not know of
+/// and what each end face at a finite distance adds, (2/pi)(w/E) f(s, h, L), see FreeEnd. Tip and ends do not know of
 /// each other: in a corner both are added.
 ///
 /// It is the exact integral of the strain under the middle of the Hertzian pressure in plane strain. (Eq. 1.30 as
@@ -53,7 +54,7 @@ struct ContactSide {
 /// much larger than L and turns back beyond that; this law increases at every load, c(0) = 0, and c ~ sqrt(w) where L
 /// exceeds h. The first slope is infinite, as -log(w). y is held fixed at 0 at the tip itself.
 ///
-/// A small value, cheap to copy: an evaluation is two asinh, a square root and, with ends, two logarithms.
+/// A small value, cheap to copy: an evaluation is two asinh, a square root and, with ends, two logarithms, with leaning ones six.
 class ContactLaw {
  public:
   /// @param relative_radius  R in the normal section [mm], > 0
@@ -77,7 +78,7 @@ class ContactLaw {
   struct Side {
     ContactSide data;
     FreeEnd end;
-    double end_coefficient;  ///< A kappa / (1 - nu^2) [mm^2/N]; 0 where no end is near
+    double end_coefficient;  ///< A / (1 - nu^2) [mm^2/N]; 0 where no end is near
   };
   std::array<Side, 2> sides_;
   double half_width_at_unit_load_;  ///< L / sqrt(w)

@@ -24,7 +24,7 @@ class ConditionGap {
                              ModificationParameter parameter) const;
 
   /// dg/dp at each point for one number of the misalignment [mm/rad or mm/mm], exact, the points held.
-  /// @throws InvalidInput  for the axial offset, see misalignment_parameters
+  /// @throws InvalidInput  for the axial offset in the plane of action, see gap_derivative()
   Eigen::VectorXd derivative(const std::vector<ContactPoint>& points, double line_phase, const Gap& gap,
                              MisalignmentParameter parameter) const;
 

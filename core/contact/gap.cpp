@@ -47,6 +47,7 @@ Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& p
   const Flank wheel = flank_in_plane_of_action(pair, Member::Wheel, condition);
   const Flank nominal = make_flank(pair, Member::Pinion, {}, {});
   const Flank changed = make_mesh_scene(pair, condition.misalignment, {}, {}, {}, {}).pinion;
+  const bool is_nominal = condition.misalignment.pinion_lead_angle == 0.0 && condition.misalignment.pinion_pressure_angle == 0.0;
   Gap gap{Eigen::VectorXd(n), Eigen::VectorXd(n)};
   for (int i = 0; i < n; ++i) {
     const ContactPoint& point = points[i];
@@ -56,7 +57,7 @@ Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& p
       removed += flank.deviation(flank.roll_at(radius_of(point, m)), own_z(point, m, condition.misalignment), point.tooth);
     }
     gap.error[i] = -cos_base_helix * removed - displacement.along_normal(point) +
-                   cos_base_helix * pair.pinion.base_radius * pinion_lead(changed, nominal, point);
+                   (is_nominal ? 0.0 : cos_base_helix * pair.pinion.base_radius * pinion_lead(changed, nominal, point));
     gap.total[i] = point.clearance - gap.error[i];
   }
   return gap;

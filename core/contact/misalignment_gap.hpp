@@ -19,19 +19,20 @@ struct NamedMisalignmentParameter {
   std::string_view name;
 };
 
-/// Those that leave the contact points where they are, so that loads have a derivative with respect to them. The axial offset has
-/// none: it cuts the common face elsewhere, which moves the points and their influence.
-inline constexpr std::array<NamedMisalignmentParameter, 6> misalignment_parameters{{
+/// All of them. The axial offset alone does more than open the gap: it cuts the common face elsewhere, which moves the points and
+/// their influence (OffsetSlopes of core/load).
+inline constexpr std::array<NamedMisalignmentParameter, 7> misalignment_parameters{{
     {&Misalignment::crossing, "crossing"},
     {&Misalignment::intersecting, "intersecting"},
     {&Misalignment::centre_distance, "centre_distance"},
+    {&Misalignment::axial_offset, "axial_offset"},
     {&Misalignment::pinion_lead_angle, "pinion_lead_angle"},
     {&Misalignment::pinion_pressure_angle, "pinion_pressure_angle"},
     {&Misalignment::mesh_misalignment, "mesh_misalignment"},
 }};
 
-/// dg/dp of plane_of_action_gap() at each point [mm/rad or mm/mm], exact.
-/// @throws InvalidInput for the axial offset
+/// dg/dp of plane_of_action_gap() at each point [mm/rad or mm/mm], exact, the points held.
+/// @throws InvalidInput for the axial offset, by which points move
 Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const Misalignment& misalignment,
                                MisalignmentParameter parameter);
 

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cmath>
+
 #include "core/effects/effect.hpp"
 
 namespace flankwright {
 
-/// Near a gear's own end face nothing holds the flank along the axis, and contact softens, see FreeEnd. Where one gear is wider
+/// Near a gear's own end face nothing holds the flank along the axis, and contact softens, see FreeEnd; of helical teeth at the
+/// sharp end much more, at the blunt one less. Where one gear is wider
 /// than its mate, the mate's end is the nearer one to contact, and its own side alone softens there.
 class FreeEndsEffect final : public Effect {
  public:
@@ -15,13 +18,16 @@ class FreeEndsEffect final : public Effect {
     return {facts.loaded, facts.loaded ? "contact softens near the end faces" : "no load"};
   }
   void act(MeshDraft& draft) const override {
-    const auto distances = [](const Gear& gear, double z) {
+    const GearPair& pair = draft.parts.pair;
+    const double cos_base_helix = std::cos(pair.base_helix_angle);
+    const auto distances = [&](const Gear& gear, double z) {
       const double half = 0.5 * gear.data.face_width;
-      return std::array{half + z, half - z};
+      return std::array{(half + z) / cos_base_helix, (half - z) / cos_base_helix};
     };
+    const auto lean = [&](Member member) { return -sharp_end(pair, member) * std::abs(pair.base_helix_angle); };
     for (std::size_t i = 0; i < draft.points.size(); ++i) {
       const double z = draft.points[i].z;
-      draft.end_distances[i] = {distances(draft.parts.pair.pinion, z), distances(draft.parts.pair.wheel, z - draft.parts.axial_offset())};
+      draft.end_distances[i] = {distances(pair.pinion, z), distances(pair.wheel, z - draft.parts.axial_offset()), lean(Member::Pinion), lean(Member::Wheel)};
     }
   }
 };

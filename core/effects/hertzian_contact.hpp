@@ -21,8 +21,8 @@ class HertzianContactEffect final : public Effect {
       const ContactPoint& point = draft.points[i];
       const TipDistances& tips = draft.tip_distances[i];
       const EndDistances& ends = draft.end_distances[i];
-      draft.laws.emplace_back(ContactSide::of(parts.pinion_material, point.pinion_depth, tips.pinion, ends.pinion),
-                              ContactSide::of(parts.wheel_material, point.wheel_depth, tips.wheel, ends.wheel),
+      draft.laws.emplace_back(ContactSide::of(parts.pinion_material, point.pinion_depth, tips.pinion, ends.pinion, ends.pinion_lean),
+                              ContactSide::of(parts.wheel_material, point.wheel_depth, tips.wheel, ends.wheel, ends.wheel_lean),
                               point.relative_radius, modulus);
     }
   }

@@ -32,9 +32,10 @@ struct TipDistances {
   double pinion{std::numeric_limits<double>::infinity()}, wheel{std::numeric_limits<double>::infinity()};  ///< [mm]
 };
 
-/// How far a point is from the end faces of either gear; infinity: as if there were none.
+/// How far along its contact line a point is from the end faces of either gear, and how these lean; infinity: as if there were none.
 struct EndDistances {
-  std::array<double, 2> pinion{ContactSide::no_ends}, wheel{ContactSide::no_ends};  ///< along the axis [mm]
+  std::array<double, 2> pinion{ContactSide::no_ends}, wheel{ContactSide::no_ends};  ///< [mm]
+  double pinion_lean{0}, wheel_lean{0};  ///< ContactSide::end_lean [rad]
 };
 
 /// One mesh position while effects make it, each adding its part. Without any it is rigid.

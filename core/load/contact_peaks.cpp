@@ -186,7 +186,7 @@ ContactPeaks peaks_at(const MeshModel& model, const MeshPosition& at, const Load
   return peaks;
 }
 
-std::vector<double> line_events(const MeshModel& model, double line_share) {
+std::vector<double> unsorted_line_events(const MeshModel& model, double line_share) {
   const LineRegion region(model);
   const double slope = std::abs(region.path.slope), part = line_share * region.longest * slope;
   // A line's phase is that of its leading end at one end of the pair's face; ends of the common face lie within it.
@@ -199,6 +199,11 @@ std::vector<double> line_events(const MeshModel& model, double line_share) {
   }
   events.push_back(region.first - leading + part);
   events.push_back(region.last - trailing - part);
+  return events;
+}
+
+std::vector<double> line_events(const MeshModel& model, double line_share) {
+  std::vector<double> events = unsorted_line_events(model, line_share);
   for (double& event : events) {
     event -= std::floor(event);
     if (event > 1.0 - LineRegion::round_off) event = 0.0;
@@ -239,6 +244,7 @@ ContactPeaks locate_peaks(const MeshAt& mesh_at, const FlankCondition& condition
   ContactPeaks peaks = samples.over_all();
   peaks.search_step = search.step;
   peaks.phase_tolerance = search.phase_tolerance;
+  peaks.spikes = search.spikes;
   return peaks;
 }
 

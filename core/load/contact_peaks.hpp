@@ -43,6 +43,7 @@ struct ContactPeaks {
   int failures{0};         ///< of these without a usable load distribution: the peaks are then those of the others
   double search_step{not_given};     ///< used [base pitches]
   double phase_tolerance{not_given}; ///< used [base pitches]
+  SpikeRule spikes{};                ///< used
 };
 
 /// At one mesh position. Where the rule's cut falls between two points of a line, the cut counts too: w and sigma_H^2 are taken as
@@ -70,6 +71,10 @@ struct PeakSearch {
 /// @throws InvalidInput where a search parameter is out of range
 ContactPeaks locate_peaks(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque,
                           const PeakSearch& search = {});
+
+/// All phases at which some line of the pair begins or ends at A0, A, E or B0 at either face end, or at which its length between A and E is
+/// line_share of the longest; whole pitches apart from where they recur, in an order that is the same for every mesh of a pair.
+std::vector<double> unsorted_line_events(const MeshModel& model, double line_share);
 
 /// Phases within [0, 1) at which some line of the pair begins or ends at A0, A, E or B0 at either face end, and at which its
 /// length between A and E is line_share of the longest; rising, without repetition.

@@ -31,9 +31,9 @@ Place place_of_peak(const LoadedCycle& cycle, const Values& values_of) {
 
 const LoadedPosition& at(const LoadedCycle& cycle, const Place& place) { return cycle.positions[static_cast<std::size_t>(place.position)]; }
 
-/// A secant stiffness ~ F / approach follows both.
+/// A secant stiffness ~ F / (b approach) follows all three.
 Eigen::RowVectorXd secant_derivative(const LoadedCycle& cycle, double stiffness, double approach, const Eigen::RowVectorXd& d_approach) {
-  return stiffness * (cycle.force_derivative / cycle.force - d_approach / approach);
+  return stiffness * (cycle.force_derivative / cycle.force - cycle.face_width_change - d_approach / approach);
 }
 
 double approach_of(const LoadedPosition& position) { return position.load.transmission_error - position.gap.total.minCoeff(); }
@@ -56,8 +56,8 @@ TeHarmonic te_harmonic(const LoadedCycle& cycle, int order) {
 
 Eigen::RowVectorXd load_factor_derivative(const MeshModel& model, const LoadedCycle& cycle, int position, Eigen::Index point) {
   const LoadedPosition& here = cycle.positions[static_cast<std::size_t>(position)];
-  return (here.line_load_derivative.row(point) - here.load.line_load[point] / cycle.force * cycle.force_derivative) /
-         model.mean_line_load(cycle.force);
+  const Eigen::RowVectorXd mean_change = cycle.force_derivative / cycle.force - cycle.line_length_change;
+  return (here.line_load_derivative.row(point) - here.load.line_load[point] * mean_change) / model.mean_line_load(cycle.force);
 }
 
 Eigen::RowVectorXd stiffness_derivative(const LoadedCycle& cycle, const LoadedPosition& position) {

@@ -4,9 +4,11 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "core/contact/condition_gap.hpp"
 #include "core/contact/transmission_error.hpp"
+#include "core/load/axial_offset.hpp"
 #include "core/load/sensitivity.hpp"
 
 namespace flankwright {
@@ -66,19 +68,44 @@ void raise(RootStressPeak& peak, const RootStressPeak& other) {
   peak.tangent_stress = tangent;
 }
 
+/// What the axial offset changes, and which parameters it is.
+struct MovedMesh {
+  const std::vector<Eigen::Index>& columns;
+  OffsetSlope slope{};
+};
+
 /// Without force flanks touch at the nearest point, and move with it.
-void fill_derivatives(const LoadProblem& problem, const ParameterSlopes& slopes, LoadedPosition& position) {
+void fill_derivatives(const LoadProblem& problem, const MovedMesh& moved, ParameterSlopes slopes, LoadedPosition& position) {
   const Eigen::Index n = problem.gap.size(), m = slopes.gap.cols();
+  for (const Eigen::Index p : moved.columns) slopes.gap.col(p) = moved.slope.gap;
   position.line_load_derivative = Eigen::MatrixXd::Zero(n, m);
   position.approach_derivative = Eigen::RowVectorXd::Zero(m);
   Eigen::Index nearest = 0;
   problem.gap.minCoeff(&nearest);
-  position.transmission_error_derivative = slopes.gap.row(nearest);
+  const Eigen::RowVectorXd nearest_slope = slopes.gap.row(nearest);
+  position.transmission_error_derivative = nearest_slope;
   if (m == 0 || problem.force == 0.0) return;
-  const auto derivatives = LoadSensitivity(problem, position.load).with(slopes.gap, slopes.force);
-  position.line_load_derivative = derivatives.line_load;
-  position.transmission_error_derivative = derivatives.transmission_error;
-  position.approach_derivative = derivatives.transmission_error - slopes.gap.row(nearest);
+  for (const Eigen::Index p : moved.columns) {
+    slopes.gap.col(p) += moved.slope.deflection;
+    slopes.force[p] -= moved.slope.carried_force;
+  }
+  auto derivatives = LoadSensitivity(problem, position.load).with(slopes.gap, slopes.force);
+  position.line_load_derivative = std::move(derivatives.line_load);
+  position.transmission_error_derivative = std::move(derivatives.transmission_error);
+  position.approach_derivative = position.transmission_error_derivative - nearest_slope;
+}
+
+/// What remains where loads are held: stress follows the curvature, root stress the places of the points.
+void add_moved_places(const MeshPosition& at, const MovedMesh& moved, LoadedPosition& position) {
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(moved.slope.root_components.size(), position.line_load_derivative.cols());
+  position.root_influence_derivative = none;
+  for (const Eigen::Index p : moved.columns) {
+    for (Eigen::Index i = 0; i < position.contact_stress.size(); ++i) {
+      const double radius = at.points[static_cast<std::size_t>(i)].relative_radius;
+      position.contact_stress_derivative(i, p) -= position.contact_stress[i] / (2.0 * radius) * moved.slope.relative_radius[i];
+    }
+    position.root_influence_derivative.col(p) = moved.slope.root_components;
+  }
 }
 
 }  // namespace
@@ -96,6 +123,14 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
   cycle.positions.resize(model.positions.size());
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
   const ConditionGap gaps(model.pair, model.placement.gap, condition);
+  const std::vector<Eigen::Index> offsets = axial_offsets_among(parameters);
+  std::optional<OffsetSlopes> by_offset;
+  if (!offsets.empty()) by_offset.emplace(model, condition);
+  cycle.face_width_change = cycle.line_length_change = Eigen::RowVectorXd::Zero(std::ssize(parameters));
+  for (const Eigen::Index p : offsets) {
+    cycle.face_width_change[p] = by_offset->face_width() / model.face_width;
+    cycle.line_length_change[p] = by_offset->relative_line_length();
+  }
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const MeshPosition& at = model.positions[i];
     LoadedPosition& position = cycle.positions[i];
@@ -110,10 +145,13 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
       ++cycle.failures;
       continue;
     }
-    const ParameterSlopes slopes = parameter_slopes(model, at, gaps, position.gap, parameters);
+    ParameterSlopes slopes = parameter_slopes(model, at, gaps, position.gap, parameters);
     cycle.force_derivative = slopes.force;
-    fill_derivatives(problem, slopes, position);
+    MovedMesh moved{offsets};
+    if (by_offset) moved.slope = by_offset->at(i, position.load, position.gap);
+    fill_derivatives(problem, moved, std::move(slopes), position);
     fill_stress(model, at, position);
+    if (by_offset) add_moved_places(at, moved, position);
     if (!at.root_stress.places.empty()) fill_root_stress(at, position);
     const double approach = position.load.transmission_error - position.gap.total.minCoeff();
     position.stiffness = cycle.force / model.face_width * cos_base_helix * cos_base_helix / (approach / micrometre);
@@ -125,7 +163,9 @@ Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPo
   // The direction of a principal stress is held at its optimum.
   const auto influence = at.root_stress.components.middleRows<3>(3 * place);
   const PrincipalStress principal = largest_principal(influence * at.weight.cwiseProduct(position.load.line_load));
-  return principal_slope(principal) * influence * at.weight.asDiagonal() * position.line_load_derivative;
+  Eigen::MatrixXd components = influence * at.weight.asDiagonal() * position.line_load_derivative;
+  if (position.root_influence_derivative.size() > 0) components += position.root_influence_derivative.middleRows<3>(3 * place);
+  return principal_slope(principal) * components;
 }
 
 RootStressPeak root_stress_peak(const MeshPosition& at, const LoadedPosition& position, Member member) {

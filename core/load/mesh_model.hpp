@@ -49,6 +49,8 @@ struct MeshModel {
   double calibration{not_given};      ///< kappa of the thin slice
   IsoStiffness iso;
   std::vector<MeshPosition> positions;
+  /// The same mesh with the wheel one and two steps further along +z, see OffsetSlopes; empty where no derivative by the offset is asked for.
+  std::vector<MeshModel> further{};
 
   /// Force normal to the flanks for a torque on the pinion [N]; torque in N mm.
   double normal_force(double pinion_torque) const;

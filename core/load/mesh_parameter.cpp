@@ -11,12 +11,21 @@ ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at,
     if (const auto* gear = std::get_if<GearParameter>(&which)) {
       slopes.gap.col(p) = gaps.derivative(at.points, gap, gear->member, gear->parameter);
     } else if (const auto* misalignment = std::get_if<MisalignmentParameter>(&which)) {
-      slopes.gap.col(p) = gaps.derivative(at.points, at.phase, gap, *misalignment);
+      if (*misalignment != &Misalignment::axial_offset) slopes.gap.col(p) = gaps.derivative(at.points, at.phase, gap, *misalignment);
     } else {
       slopes.force[p] = model.normal_force(1.0);
     }
   }
   return slopes;
+}
+
+std::vector<Eigen::Index> axial_offsets_among(const std::vector<MeshParameter>& parameters) {
+  std::vector<Eigen::Index> found;
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const auto* misalignment = std::get_if<MisalignmentParameter>(&parameters[p]);
+    if (misalignment && *misalignment == &Misalignment::axial_offset) found.push_back(static_cast<Eigen::Index>(p));
+  }
+  return found;
 }
 
 }  // namespace flankwright

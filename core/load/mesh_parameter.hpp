@@ -23,12 +23,14 @@ using MeshParameter = std::variant<GearParameter, MisalignmentParameter, PinionT
 
 /// How parameters enter the load problem of one mesh position.
 struct ParameterSlopes {
-  Eigen::MatrixXd gap;       ///< dg/dp, points x parameters
+  Eigen::MatrixXd gap;       ///< dg/dp, points x parameters; 0 for the axial offset, see OffsetSlope
   Eigen::RowVectorXd force;  ///< dF/dp
 };
 /// @param gap  as gaps has it at this position
-/// @throws InvalidInput for the axial offset, see misalignment_parameters
 ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at, const ConditionGap& gaps, const Gap& gap,
                                  const std::vector<MeshParameter>& parameters);
+
+/// Where among the parameters the axial offset stands, which alone changes more than gap and force.
+std::vector<Eigen::Index> axial_offsets_among(const std::vector<MeshParameter>& parameters);
 
 }  // namespace flankwright

@@ -13,7 +13,8 @@ namespace flankwright {
 /// A peak lies either where its slope over the phase is zero or at a phase that geometry alone fixes (a line begins, ends or passes the
 /// length of the spike rule). Both ways its first derivative is that of the same place of the same line at the same phase, held; of
 /// equal peaks that of the one found, by which the largest rises on one side at least. What the search leaves between the
-/// place found and the true one, PeakSearch::phase_tolerance, enters by first order.
+/// place found and the true one, PeakSearch::phase_tolerance, enters by first order. With the axial offset lines begin and end at other phases:
+/// the place goes with the event that it lies at, and loads are solved anew there at three offsets (OffsetSlopes); NaN where it is lost on the way.
 struct PeakGradients {
   struct Pair {
     Eigen::RowVectorXd contact_stress;  ///< [MPa per unit of the parameter]
@@ -22,7 +23,8 @@ struct PeakGradients {
   Pair with_spikes, without_spikes;
 };
 
-/// @param peaks  as locate_peaks() found them for the same mesh, condition and torque
+/// @param mesh_at  makes meshes with MeshModel::further where the axial offset is among the parameters
+/// @param peaks    as locate_peaks() found them for the same mesh, condition and torque
 PeakGradients peak_gradients(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque, const ContactPeaks& peaks,
                              const std::vector<MeshParameter>& parameters);
 

@@ -69,10 +69,11 @@ TEST_CASE("Coupled helical teeth have load spikes at the start and the end of co
   // curved. A line there is a face corner.
   const LinePeak &stress = plate.with_spikes.contact_stress, &load = plate.with_spikes.line_load;
   CAPTURE(stress.value, plate.without_spikes.contact_stress.value, slices.with_spikes.contact_stress.value);
-  CHECK(stress.phase + stress.tooth == Approx(start).margin(0.02));  // the corner itself is softer than what lies next to it
-  CHECK(std::abs(stress.z) > 59);
-  CHECK(std::min(std::abs(load.phase + load.tooth - end), std::abs(load.phase + load.tooth - start)) < 0.02);  // discretisation: where a flat top of two kinks lies
-  CHECK(stress.value > 1.4 * plate.without_spikes.contact_stress.value);
+  // The corner itself is softer than what lies next to it, as one gear's edge is sharp there: 2 to 3 mm of line, 0.05 base pitches.
+  CHECK(stress.phase + stress.tooth == Approx(start).margin(0.07));
+  CHECK(std::abs(stress.z) > 57);
+  CHECK(std::min(std::abs(load.phase + load.tooth - end), std::abs(load.phase + load.tooth - start)) < 0.07);
+  CHECK(stress.value > 1.25 * plate.without_spikes.contact_stress.value);
   // Slices that nobody props up have none.
   CHECK(slices.with_spikes.contact_stress.value < 1.05 * slices.without_spikes.contact_stress.value);
 }

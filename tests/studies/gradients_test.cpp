@@ -18,6 +18,7 @@ lead_crowning = 6
 tip_relief = { amount = 5, height = 2 }
 [misalignment]
 crossing = "0.3 arcmin"
+axial_offset = 0.05
 mesh_misalignment = 4
 [load]
 torque = 300
@@ -46,6 +47,7 @@ TEST_CASE("Results give derivatives of every output by the keys asked for, in th
                               {"pinion.modification.tip_relief.amount", 5, 0.01, "um"},
                               {"misalignment.crossing", 0.3, 0.0005, "arcmin"},
                               {"misalignment.mesh_misalignment", 4, 0.01, "um"},
+                              {"misalignment.axial_offset", 0.05, 0.0005, "mm"},
                               {"load.torque", 300, 0.05, "N·m"}};
   std::string asked;
   for (const Key& key : keys) asked += (asked.empty() ? "[\"" : ", \"") + key.path + "\"";
@@ -60,7 +62,7 @@ TEST_CASE("Results give derivatives of every output by the keys asked for, in th
     const json up = moved(keys[p].step), down = moved(-keys[p].step);
     const auto check = [&](const json& exact, const json& high, const json& low, double scale) {
       const double difference = (high.get<double>() - low.get<double>()) / (2 * keys[p].step);
-      CHECK(std::abs(exact.get<double>() - difference) <= kDifference * (std::abs(difference) + scale));
+      CHECK(std::abs(exact.get<double>() - difference) <= kDifference * (std::abs(difference) + std::abs(scale)));
     };
     for (const char* output : {"te_peak_to_peak_um", "te_mean_um", "peak_load_N_per_mm", "peak_contact_stress_MPa",
                                "mean_stiffness_N_per_mm_um", "load_factor"}) {
@@ -110,7 +112,6 @@ TEST_CASE("Derivatives of located peaks and load factors stand beside them", "[s
 }
 
 TEST_CASE("What has no derivative is refused", "[studies][gradient][input]") {
-  CHECK(problem_of("[analyse]\ngradients = [\"misalignment.axial_offset\"]").key == "analyse.gradients");
   CHECK(problem_of("[analyse]\ngradients = [\"pair.helix_angle\"]").key == "analyse.gradients");
   CHECK_THAT(problem_of("[analyse]\ngradients = [\"misalignment.crosing\"]").allowed, Catch::Contains("did you mean crossing?"));
   CHECK(problem_of("[analyse]\ngradients = \"misalignment.crossing\"").key == "analyse.gradients");

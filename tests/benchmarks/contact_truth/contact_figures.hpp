@@ -62,6 +62,11 @@ inline std::vector<ContactFigure> helical_figures() {
             {1, -7.9681, 0, 642.05}}}};
 }
 
+/// Loads of the helical position's layers at the end faces, where flank and face are not at right angles.
+inline std::vector<FaceLoad> helical_end_loads() {
+  return {{0, -20, -18.0080, 207}, {0, -18.0080, -14.4223, 366}, {0, 14.4223, 18.0080, 625}, {0, 18.0080, 20, 399}, {1, -20, -18.0080, 392}};
+}
+
 /// Stress next to the flank where elements are narrow enough to show it, 0.06 mm under a contact 0.82 mm wide
 /// ("pressure" mesh, 36,267 unknowns): a layer of the spur pair with a face of one module.
 struct StressFigure {

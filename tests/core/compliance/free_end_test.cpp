@@ -16,14 +16,16 @@ using units::pi;
 namespace {
 
 /// A block under Hertz's pressure of half width 1 and 1 N per mm, along z up to its end face z = 0: the quarter space y >= 0, z >= 0
-/// as far as elements reach, of which symmetry keeps x >= 0. Its far sides are held. Lengths in half widths, E = 1.
+/// as far as elements reach, of which symmetry keeps x >= 0. Its far sides are held. Lengths in half widths, E = 1. The end face may lean: it is
+/// z = y tan(lean).
 class LoadedBlock {
  public:
-  explicit LoadedBlock(double poissons_ratio) {
+  explicit LoadedBlock(double poissons_ratio, double lean = 0) : slope_(std::tan(lean)) {
     mesh_ = block_mesh(cells(x_), cells(depth_), cells(along_),
-                       [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(at(x_, p.x()), at(depth_, p.y()), at(along_, p.z())); }, &cube_);
+                       [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(at(x_, p.x()), at(depth_, p.y()), at(along_, p.z()) + slope_ * at(depth_, p.y())); }, &cube_);
     const Eigen::SparseMatrix<double> load = hertzian_load().sparseView();
     for (const bool free_end : {false, true}) {
+      if (!free_end && lean != 0) continue;  // held along z alone is no plane strain there
       const SolidModel solid(mesh_, {1, poissons_ratio}, supports(free_end));
       moved_[free_end ? 1 : 0] = solid.solve(load);
     }
@@ -32,16 +34,24 @@ class LoadedBlock {
   const std::vector<double>& distances() const { return along_; }
   /// How far the flank approaches a depth below it, in units of (2/pi) w/E, by numbers of the grid.
   double deflection(bool free_end, std::size_t depth, std::size_t distance) const {
-    const auto down = [&](std::size_t j) {
-      const Eigen::Vector3d place(0, static_cast<double>(j) / cells(depth_), static_cast<double>(distance) / cells(along_));
-      Eigen::Index node = 0;
-      REQUIRE((cube_.colwise() - place).colwise().norm().minCoeff(&node) < 1e-9);
-      return moved_[free_end ? 1 : 0][3 * node + 1];
-    };
-    return (down(0) - down(depth)) * pi / 2;
+    return (down(free_end, 0, distance) - down(free_end, depth, distance)) * pi / 2;
+  }
+  /// The same of the leaning block, towards the point below, or the end face at that depth where it lies outside.
+  double deflection_at_lean(std::size_t depth, std::size_t distance) const {
+    const double z = std::max(0.0, along_[distance] - slope_ * depth_[depth]);  // of the grid, at that depth
+    const auto above = static_cast<std::size_t>(std::upper_bound(along_.begin(), along_.end(), z) - along_.begin());
+    const double share = (z - along_[above - 1]) / (along_[above] - along_[above - 1]);
+    const double below = (1 - share) * down(true, depth, above - 1) + share * down(true, depth, above);
+    return (down(true, 0, distance) - below) * pi / 2;
   }
 
  private:
+  double down(bool free_end, std::size_t depth, std::size_t distance) const {
+    const Eigen::Vector3d place(0, static_cast<double>(depth) / cells(depth_), static_cast<double>(distance) / cells(along_));
+    Eigen::Index node = 0;
+    REQUIRE((cube_.colwise() - place).colwise().norm().minCoeff(&node) < 1e-9);
+    return moved_[free_end ? 1 : 0][3 * node + 1];
+  }
   static int cells(const std::vector<double>& grid) { return static_cast<int>(grid.size()) - 1; }
   static double at(const std::vector<double>& grid, double part) {
     const double place = part * cells(grid);
@@ -80,6 +90,7 @@ class LoadedBlock {
 
   const std::vector<double> x_{0, 0.25, 0.5, 0.75, 1, 1.5, 2.5, 4.5, 8.5, 16.5, 32.5, 64.5, 128.5};
   const std::vector<double> depth_{0, 0.3, 0.9, 2.1, 4.5, 9.3, 19, 38, 76, 128}, along_ = depth_;
+  double slope_;
   SolidMesh mesh_;
   Eigen::Matrix3Xd cube_;
   Eigen::VectorXd moved_[2];  ///< without and with a free end
@@ -101,7 +112,7 @@ TEST_CASE("A block pressed up to its free end gives way as the law says", "[core
       CAPTURE(nu, depth, distance);
       // Fit: 0.02. Discretisation and the block's far sides: 0.01.
       CHECK(block.deflection(true, j, i) - block.deflection(false, j, i) ==
-            Approx(end.strength * end.at({distance, INFINITY}, depth, 1).value).margin(0.03));
+            Approx(end.at({distance, INFINITY}, depth, 1).value).margin(0.03));
     }
   }
   // Per ln(depth), under the end face itself: softer than plane stress, which has 1. Discretisation.
@@ -109,6 +120,23 @@ TEST_CASE("A block pressed up to its free end gives way as the law says", "[core
   const double plane_strain = (block.deflection(false, 5, 0) - block.deflection(false, 3, 0)) / std::log(block.depths()[5] / block.depths()[3]);
   CHECK(per_depth - plane_strain == Approx(end.strength).epsilon(0.06));
   CHECK(end.strength > nu * nu);
+}
+
+TEST_CASE("The sharp edge of a leaning end gives way as the law says, and the blunt one holds", "[core][compliance][fe]") {
+  const double nu = 0.3, lean = GENERATE(-28.0, -14.0, 14.0, 28.0) * units::deg;
+  const LoadedBlock block(nu, lean);
+  const FreeEnd end(nu, lean), upright(nu);
+  for (std::size_t j = 4; j <= 5; ++j) {  // 4.5 and 9.3 half widths deep
+    const double depth = block.depths()[j], k = nu / (1 - nu);
+    const double strain = (1 - nu * nu) * (std::asinh(depth) - k * depth * (std::sqrt(1 + depth * depth) - depth));
+    for (std::size_t i = 0; i <= 6; ++i) {
+      const double distance = block.distances()[i], found = block.deflection_at_lean(j, i) - strain;
+      CAPTURE(lean / units::deg, depth, distance, found);
+      // Model: the law is for finite elements' own deflection of the centre, which this point's exceeds by 5 to 20 %. Fit and discretisation: 0.15.
+      CHECK(end.at({distance, INFINITY}, depth, 1).value == Approx(found).epsilon(0.22).margin(0.15));
+    }
+    CHECK((end.at({0, INFINITY}, depth, 1).value > upright.at({0, INFINITY}, depth, 1).value) == (lean > 0));
+  }
 }
 
 TEST_CASE("Contact softens towards a free end, and an end far away is none", "[core][compliance]") {
@@ -152,12 +180,14 @@ TEST_CASE("Ends add up, each on its own side", "[core][compliance]") {
 
 TEST_CASE("Near an end too the law grows at every load and its slope is its derivative", "[core][compliance]") {
   const Material steel{};
-  const double distance = GENERATE(-1.0, 0.0, 1e-3, 0.05, 0.7, 30.0);
-  const ContactLaw law(ContactSide::of(steel, 4, 0.8, {distance, 6}), ContactSide::of({110000, 0.45}, 5, INFINITY, {distance, INFINITY}), 9,
-                       contact_modulus(steel, {110000, 0.45}));
+  const double distance = GENERATE(-1.0, 0.0, 1e-3, 0.05, 0.7, 30.0), lean = GENERATE(-0.7, -0.2, 0.0, 0.5);
+  // Alike sides, so that none makes up for the other's.
+  const ContactSide side = ContactSide::of({110000, 0.45}, 5, INFINITY, {distance, INFINITY}, lean);
+  const ContactLaw law = GENERATE_REF(ContactLaw(ContactSide::of(steel, 4, 0.8, {distance, 6}, lean), side, 9, contact_modulus(steel, {110000, 0.45})),
+                                      ContactLaw(side, side, 9, contact_modulus({110000, 0.45}, {110000, 0.45})));
   double last = 0;
   for (double w = 1e-9; w < 1e6; w *= 3.7) {
-    CAPTURE(distance, w);
+    CAPTURE(distance, lean, w);
     const auto [deflection, slope] = law.evaluate(w);
     CHECK(deflection > last);
     const double step = 1e-4 * w;

@@ -39,6 +39,7 @@ TEST_CASE("Gaps change with misalignment as central differences say", "[core][co
     condition.misalignment = random_misalignment(random);
     for (const MeshPosition& at : model.positions) {
       for (const NamedMisalignmentParameter& p : misalignment_parameters) {
+        if (p.parameter == &Misalignment::axial_offset) continue;  // moves the points: core/load
         CAPTURE(helix, left, trial, std::string(p.name));
         const auto gap = [&](double by) {
           FlankCondition moved = condition;
@@ -54,7 +55,7 @@ TEST_CASE("Gaps change with misalignment as central differences say", "[core][co
   }
 }
 
-TEST_CASE("There is no derivative with respect to an axial offset, which moves the contact points", "[core][contact][gap][input]") {
+TEST_CASE("There is no derivative at held contact points with respect to an axial offset", "[core][contact][gap][input]") {
   const GearPair pair = mesh_cases::pair(20, 40, 0, 4, 30);
   const MeshModel model = mesh_cases::model(pair, {{}, {0.5}});
   CHECK_THROWS_AS(gap_derivative(pair, model.positions[0].points, {}, &Misalignment::axial_offset), InvalidInput);

@@ -16,9 +16,12 @@ TEST_CASE("A contact softens by each gear's own ends, wherever the mate ends", "
   REQUIRE(model.axial_offset == 4);
   for (std::size_t i = 0; i < model.positions[0].points.size(); ++i) {
     const ContactPoint& p = model.positions[0].points[i];
-    const ContactLaw expected(ContactSide::of(pinion, p.pinion_depth, p.pinion_tip_distance, {15 + p.z, 15 - p.z}),
-                              ContactSide::of(wheel, p.wheel_depth, p.wheel_tip_distance, {22 + p.z - 4, 22 - p.z + 4}), p.relative_radius,
-                              contact_modulus(pinion, wheel));
+    // The end where a gear is sharp is its mate's blunt one.
+    const double cosine = std::cos(gears.base_helix_angle), lean = -sharp_end(gears, Member::Pinion) * gears.base_helix_angle;
+    const ContactLaw expected(
+        ContactSide::of(pinion, p.pinion_depth, p.pinion_tip_distance, {(15 + p.z) / cosine, (15 - p.z) / cosine}, lean),
+        ContactSide::of(wheel, p.wheel_depth, p.wheel_tip_distance, {(22 + p.z - 4) / cosine, (22 - p.z + 4) / cosine}, -lean),
+        p.relative_radius, contact_modulus(pinion, wheel));
     CAPTURE(p.z);
     CHECK(model.positions[0].laws[i].deflection(300) == Approx(expected.deflection(300)).epsilon(1e-14));  // round-off
   }

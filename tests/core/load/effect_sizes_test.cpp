@@ -93,7 +93,8 @@ TEST_CASE("The size of each effect where it matters and where it does not", "[co
         s.condition.pinion_modification.tip_relief = {200 * units::um, 3.0};
         s.condition.wheel_modification.tip_relief = {200 * units::um, 3.0};
       });
-  row("free_ends", 5e-3, 1e-12, [](EffectScene&) {}, [](EffectScene& s) {
+  // What remains without Poisson's ratio is the bending of sharp edges.
+  row("free_ends", 5e-3, 2e-3, [](EffectScene&) {}, [](EffectScene& s) {
         s.pinion_material.poissons_ratio = s.wheel_material.poissons_ratio = 0;
       });
   row("extended_contact_region", 1e-3, 1e-9, [](EffectScene& s) { s.pinion_torque = 3e6; }, [](EffectScene& s) { s.pinion_torque = 1.0; });

@@ -1,0 +1,161 @@
+#include "core/load/axial_offset.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "core/base/error.hpp"
+#include "core/load/cycle_gradient.hpp"
+#include "core/load/peak_gradient.hpp"
+#include "tests/core/load/mesh_cases.hpp"
+#include "tests/core/load/synthetic_root_stress.hpp"
+
+using namespace flankwright;
+using mesh_cases::steel;
+using mesh_cases::torque_for;
+
+namespace {
+
+const std::vector<MeshParameter> offset_and_torque{&Misalignment::axial_offset, PinionTorque{}};
+
+/// A pair whose wheel is moved along its axis.
+struct OffsetCase {
+  GearPair gears;
+  FlankCondition condition{};
+  MeshResolution resolution{};
+  GapModel gap{GapModel::PlaneOfAction};
+  MeshEffects effects{};
+  const PairRootStress* root_stress{nullptr};
+
+  FlankCondition at(double offset) const {
+    FlankCondition moved = condition;
+    moved.misalignment.axial_offset = offset;
+    return moved;
+  }
+  MeshModel mesh(double offset, const MeshResolution& resolved) const {
+    const MeshPlaced placed = [&](const MeshPlacement& placement) {
+      return make_mesh_model(gears, steel, steel, resolved, effects, placement, nullptr, root_stress);
+    };
+    return with_further_offsets(placed, MeshPlacement::of(gap, at(offset).misalignment));
+  }
+  LoadedCycle solved(double offset, const MeshModel& model, const std::vector<MeshParameter>& by = {}) const {
+    return analyse_cycle(model, at(offset), torque_for(gears, 150), by);
+  }
+};
+
+OffsetCase unequal_faces(double helix_deg, double pinion_face, double wheel_face) {
+  PairData data = mesh_cases::pair_data(19, 41, helix_deg, 5, pinion_face);
+  data.wheel.face_width = wheel_face;
+  return {make_gear_pair(data)};
+}
+
+}  // namespace
+
+TEST_CASE("Loaded contact changes with an axial offset as meshes made and solved again say", "[core][load][gradient]") {
+  // Step^2 of the differences against changes over millimetres, and what the solver leaves of loads, 1e-10, over the step; of a peak its
+  // own size over the face.
+  constexpr double kDifference = 2e-5, step = 2e-3;
+  const auto [helix, rule, gap] = GENERATE(table<double, QuadratureRule, GapModel>({{0.0, QuadratureRule::Gauss2, GapModel::PlaneOfAction},
+                                                                                    {25.0, QuadratureRule::Graded, GapModel::PlaneOfAction},
+                                                                                    {25.0, QuadratureRule::Gauss2, GapModel::WholeSurface},
+                                                                                    {12.0, QuadratureRule::Graded, GapModel::WholeSurface}}));
+  const double offset = GENERATE(-1.3, 2.1);
+  OffsetCase of = unequal_faces(helix, 40, 40);
+  const mesh_cases::SyntheticRootStress roots(of.gears);
+  of.root_stress = &roots;
+  of.condition = mesh_cases::worked_condition();
+  of.gap = gap;
+  of.resolution = {{rule, 3}, gap == GapModel::WholeSurface ? std::vector{0.11, 0.72} : std::vector{0.11, 0.35, 0.72, 0.9}};
+  const MeshModel model = of.mesh(offset, of.resolution), above = of.mesh(offset + step, of.resolution), below = of.mesh(offset - step, of.resolution);
+  const LoadedCycle here = of.solved(offset, model, offset_and_torque), up = of.solved(offset + step, above), down = of.solved(offset - step, below);
+  REQUIRE(here.usable());
+  const auto check = [&](double exact, double high, double low, double size) {
+    CHECK(std::abs(exact - (high - low) / (2 * step)) <= kDifference * std::max(size / of.gears.face_width, std::abs(exact)));
+  };
+  for (std::size_t p = 0; p < here.positions.size(); ++p) {
+    const LoadedPosition &at = here.positions[p], &high = up.positions[p], &low = down.positions[p];
+    CAPTURE(helix, offset, at.phase);
+    check(at.transmission_error_derivative[0], high.load.transmission_error, low.load.transmission_error, at.load.transmission_error);
+    check(stiffness_derivative(here, at)[0], high.stiffness, low.stiffness, at.stiffness);
+    const auto same_high = same_points(model.positions[p], above.positions[p]), same_low = same_points(model.positions[p], below.positions[p]);
+    for (Eigen::Index i = 0; i < at.load.line_load.size(); ++i) {
+      const Eigen::Index h = same_high[static_cast<std::size_t>(i)], l = same_low[static_cast<std::size_t>(i)];
+      if (h < 0 || l < 0) continue;
+      check(at.line_load_derivative(i, 0), high.load.line_load[h], low.load.line_load[l], at.load.line_load.maxCoeff());
+      check(at.contact_stress_derivative(i, 0), high.contact_stress[h], low.contact_stress[l], at.contact_stress.maxCoeff());
+    }
+    for (Eigen::Index i = 0; i < at.root_stress.size(); ++i) {
+      check(root_stress_derivative(model.positions[p], at, i)[0], high.root_stress[i], low.root_stress[i], at.root_stress.maxCoeff());
+    }
+  }
+  const CycleSummary summary = summarise(model, here);
+  const CycleGradient gradient = summary_gradient(model, here, summary);
+  check(gradient.load_factor[0], summarise(above, up).load_factor, summarise(below, down).load_factor, summary.load_factor);
+  check(gradient.mean_stiffness[0], summarise(above, up).mean_stiffness, summarise(below, down).mean_stiffness, summary.mean_stiffness);
+}
+
+TEST_CASE("Even teeth that lose face to an offset carry what more torque would give them", "[core][load][gradient][closed-form]") {
+  // Aligned spur teeth without free ends know load per face width only: by F/(b - s), d/ds = F/b d/dF.
+  OffsetCase of{mesh_cases::pair(20, 33, 0, 4, 30)};
+  of.effects = MeshEffects::all_but({"free_ends"});
+  of.condition.pinion_modification.tip_relief = {8 * units::um, 2, ReliefShape::Linear};
+  const MeshModel model = of.mesh(0.0, {{QuadratureRule::Gauss3, 4}, equally_spaced_phases(6)});
+  const LoadedCycle cycle = of.solved(0.0, model, offset_and_torque);
+  const double torque_over_face = torque_for(of.gears, 150) / of.gears.face_width;
+  constexpr double kOffset = 1e-6;  // offset_step^2, and round-off over it
+  for (const LoadedPosition& at : cycle.positions) {
+    CHECK(at.transmission_error_derivative[0] == Approx(torque_over_face * at.transmission_error_derivative[1]).epsilon(kOffset));
+    for (Eigen::Index i = 0; i < at.load.line_load.size(); ++i) {
+      CAPTURE(at.phase, i);
+      CHECK(at.line_load_derivative(i, 0) == Approx(torque_over_face * at.line_load_derivative(i, 1)).epsilon(kOffset).margin(1e-5));
+      CHECK(at.contact_stress_derivative(i, 0) == Approx(torque_over_face * at.contact_stress_derivative(i, 1)).epsilon(kOffset).margin(1e-5));
+    }
+  }
+}
+
+TEST_CASE("Within a wider mate's face a wheel's offset turns it along its helix, and no more", "[core][load][gradient][closed-form]") {
+  // Flanks that are alike all along know of the offset by their phase and by the wheel's lag on its helix; the pinion's ends are far away.
+  const double helix = GENERATE(0.0, 20.0);
+  OffsetCase of = unequal_faces(helix, 60, 30);
+  of.effects = MeshEffects::all_but({"free_ends"});
+  of.condition.wheel_modification.tip_relief = {8 * units::um, 2, ReliefShape::Linear};
+  const double offset = 4, step = 1e-5;
+  const auto mesh = [&](double phase) { return of.mesh(offset, {{QuadratureRule::Graded, 4}, {phase}}); };
+  const PathOfContact path(of.gears);
+  for (const double phase : {0.07, 0.4, 0.81}) {
+    const LoadedCycle cycle = of.solved(offset, mesh(phase), offset_and_torque);
+    const auto te = [&](double at) { return of.solved(offset, mesh(at)).positions[0].load.transmission_error; };
+    const double by_phase = (te(phase + step) - te(phase - step)) / (2 * step);
+    const double along_helix = -of.gears.contact_line_sense() * std::sin(of.gears.base_helix_angle);
+    CAPTURE(helix, phase);
+    CHECK(cycle.positions[0].transmission_error_derivative[0] == Approx(along_helix + path.slope * by_phase).epsilon(1e-6).margin(1e-9));
+    CHECK(cycle.face_width_change[0] == 0.0);
+  }
+}
+
+TEST_CASE("Located peaks follow an axial offset to where they are found again", "[core][load][peaks][gradient]") {
+  constexpr double kLocated = 0.03, step = 0.02;  // both peaks of a difference are located to 2e-4 base pitches
+  OffsetCase of = unequal_faces(GENERATE(0.0, 25.0), 40, 40);
+  of.condition.pinion_modification.lead_crowning = 5 * units::um;
+  of.condition.misalignment.mesh_misalignment = 6 * units::um;
+  const double offset = 2, torque = torque_for(of.gears, 150);
+  const auto mesh_at = [&](double at) -> MeshAt {
+    return [&of, at](const std::vector<double>& phases) { return of.mesh(at, {{QuadratureRule::Graded, 5}, phases}); };
+  };
+  const auto peaks = [&](double at) { return locate_peaks(mesh_at(at), of.at(at), torque); };
+  const ContactPeaks here = peaks(offset), up = peaks(offset + step), down = peaks(offset - step);
+  const PeakGradients gradients = peak_gradients(mesh_at(offset), of.at(offset), torque, here, offset_and_torque);
+  const auto check = [&](const Eigen::RowVectorXd& exact, const LinePeak& at, const LinePeak& high, const LinePeak& low) {
+    CAPTURE(of.gears.data.helix_angle, at.value, at.phase, at.tooth, at.z, high.phase, high.z, low.phase, low.z);
+    const double difference = (high.value - low.value) / (2 * step);
+    CHECK(std::abs(exact[0] - difference) <= kLocated * (std::abs(difference) + at.value / of.gears.face_width));
+  };
+  check(gradients.with_spikes.contact_stress, here.with_spikes.contact_stress, up.with_spikes.contact_stress, down.with_spikes.contact_stress);
+  check(gradients.with_spikes.line_load, here.with_spikes.line_load, up.with_spikes.line_load, down.with_spikes.line_load);
+  check(gradients.without_spikes.contact_stress, here.without_spikes.contact_stress, up.without_spikes.contact_stress, down.without_spikes.contact_stress);
+  check(gradients.without_spikes.line_load, here.without_spikes.line_load, up.without_spikes.line_load, down.without_spikes.line_load);
+}
+
+TEST_CASE("A mesh that knows no further offsets refuses their derivative", "[core][load][gradient][input]") {
+  const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
+  const MeshModel model = mesh_cases::model(gears, {{}, {0.5}});
+  CHECK_THROWS_AS(analyse_cycle(model, {}, torque_for(gears, 100), offset_and_torque), InvalidInput);
+}
