@@ -10,7 +10,7 @@ using units::um;
 
 namespace {
 
-const studies::Override sampled{"cycle.peaks", "sampled"};
+const studies::Override sampled_peaks{"cycle.peaks", "sampled"};
 
 double largest_difference(const LoadedCycle& a, const LoadedCycle& b) {
   return (a.transmission_error() - b.transmission_error()).cwiseAbs().maxCoeff();
@@ -22,7 +22,7 @@ TEST_CASE("Hard: misalignment passes through zero without a step", "[hard_cases]
   constexpr double kRoundOff = 1e-13;  // mm
   for (double amount = 1.0; amount > 1e-13; amount *= 0.01) {
     const auto results = run("misalignment_through_zero", {{"scenes.0.misalignment.mesh_misalignment", in_digits(-amount)},
-                                                           {"scenes.2.misalignment.mesh_misalignment", in_digits(amount)}, sampled});
+                                                           {"scenes.2.misalignment.mesh_misalignment", in_digits(amount)}, sampled_peaks});
     check_balances(results);
     CAPTURE(amount);
     REQUIRE(results.loaded.size() == 3);
@@ -63,7 +63,7 @@ TEST_CASE("Hard: a single contact point obeys its closed form", "[hard_cases]") 
 TEST_CASE("Hard: over twelve decades of torque loads balance and f_t rises", "[hard_cases]") {
   std::string torques = "[0.0002";
   for (double torque = 0.002; torque < 3e8; torque *= 10.0) torques += ", " + in_digits(torque);
-  const auto results = run("torque_of_twelve_decades", {{"load.torque", torques + "]"}, sampled});
+  const auto results = run("torque_of_twelve_decades", {{"load.torque", torques + "]"}, sampled_peaks});
   check_balances(results);
   REQUIRE(results.loaded.size() == 13);
   for (std::size_t i = 0; i < results.loaded.front().cycle.positions.size(); ++i) {
@@ -81,7 +81,7 @@ TEST_CASE("Hard: a tooth that stands back carries nothing, however far", "[hard_
   const auto back_by = [](double amount) {
     std::string pitch = "[0, " + in_digits(-amount);
     for (int i = 2; i < 22; ++i) pitch += ", 0";
-    return run("unloaded_tooth", {{"pinion.error.pitch", pitch + "]"}, sampled});
+    return run("unloaded_tooth", {{"pinion.error.pitch", pitch + "]"}, sampled_peaks});
   };
   const auto results = back_by(300.0), further = back_by(900.0), in_line = back_by(0.0);
   check_balances(results);
@@ -111,7 +111,7 @@ TEST_CASE("Hard: reliefs far beyond the deflection leave one pair in contact", "
     }
     return counts;
   };
-  const auto results = run("relief_beyond_deflection", {sampled}), half = run("relief_beyond_deflection", {sampled, {"load.torque", "25"}});
+  const auto results = run("relief_beyond_deflection", {sampled_peaks}), half = run("relief_beyond_deflection", {sampled_peaks, {"load.torque", "25"}});
   check_balances(results);
   check_balances(half);
   const auto counts = teeth_in_contact(results), of_half = teeth_in_contact(half);
@@ -120,7 +120,7 @@ TEST_CASE("Hard: reliefs far beyond the deflection leave one pair in contact", "
 }
 
 TEST_CASE("Hard: quadrature points that nearly coincide share their load evenly", "[hard_cases]") {
-  const Settings settings{sampled, {"cycle.positions", "3"}};
+  const Settings settings{sampled_peaks, {"cycle.positions", "3"}};
   Settings single = settings;
   single.push_back({"fidelity.quadrature.intervals", "1"});
   const auto results = run("nearly_equal_points", settings), few = run("nearly_equal_points", single);

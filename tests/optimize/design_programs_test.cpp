@@ -11,7 +11,7 @@ using namespace flankwright::design_tasks;
 namespace {
 
 // Steps of 1e-5 of a range: differences lose 1e-12 / 1e-5 to round-off and step^2 to curvature.
-constexpr double step = 1e-5, discretisation = 1e-6;
+constexpr double difference_step = 1e-5, discretisation = 1e-6;
 
 void check_gradients(NonlinearProgram& program, const Eigen::VectorXd& x) {
   const ProgramValues at = program.evaluate(x, true);
@@ -20,10 +20,10 @@ void check_gradients(NonlinearProgram& program, const Eigen::VectorXd& x) {
   Eigen::VectorXd gradient(n);
   Eigen::MatrixXd jacobian(program.constraints(), n);
   for (int i = 0; i < n; ++i) {
-    const Eigen::VectorXd shift = step * Eigen::VectorXd::Unit(n, i);
+    const Eigen::VectorXd shift = difference_step * Eigen::VectorXd::Unit(n, i);
     const ProgramValues up = program.evaluate(x + shift, false), down = program.evaluate(x - shift, false);
-    gradient[i] = (up.objective - down.objective) / (2.0 * step);
-    jacobian.col(i) = (up.constraints - down.constraints) / (2.0 * step);
+    gradient[i] = (up.objective - down.objective) / (2.0 * difference_step);
+    jacobian.col(i) = (up.constraints - down.constraints) / (2.0 * difference_step);
   }
   CAPTURE(at.objective_gradient.transpose(), gradient.transpose());
   CHECK((at.objective_gradient - gradient).cwiseAbs().maxCoeff() <= discretisation * gradient.cwiseAbs().maxCoeff());

@@ -35,21 +35,21 @@ struct Row {
   int tooth;
   double z, error, load;
 };
-struct Output {
+struct PrintedOutput {
   const char* name;
   int position;
   double transmission_error;  // um
   std::vector<Row> rows;
 };
 
-std::vector<Output> outputs() {
+std::vector<PrintedOutput> outputs() {
   const auto perfect = [](const char* name, int position, double f_t, const auto& points) {
-    Output output{name, position, f_t, {}};
+    PrintedOutput output{name, position, f_t, {}};
     for (const haddad::Point& p : points) output.rows.push_back({p.tooth, p.z, 0.0, p.load});
     return output;
   };
   const auto with_errors = [](const char* name, const haddad::OutputWithErrors& printed, auto&& error) {
-    Output output{name, 0, printed.transmission_error, {}};
+    PrintedOutput output{name, 0, printed.transmission_error, {}};
     for (std::size_t i = 0; i < haddad::null_a.size(); ++i) {
       const haddad::Point& p = haddad::null_a[i];
       output.rows.push_back({p.tooth, p.z, error(i), printed.loads[i]});
@@ -82,7 +82,7 @@ TEST_CASE("With finite elements of our own the thesis' sample outputs come out",
                                           {{QuadratureRule::Gauss2, 5}, {haddad::phase_a, haddad::phase_b}}, {}, {}, &structure);
   const double cos_base = std::cos(pair.base_helix_angle);
 
-  for (const Output& printed : outputs()) {
+  for (const PrintedOutput& printed : outputs()) {
     const MeshPosition& at = model.positions[static_cast<std::size_t>(printed.position)];
     LoadProblem problem{at.influence, at.weight * cos_base, Eigen::VectorXd(at.weight.size()), at.laws,
                         haddad::normal_force};

@@ -13,7 +13,7 @@ using namespace flankwright::contact_cases;
 using units::arcmin;
 using units::arcsec;
 using units::pi;
-namespace nasa = reference::nasa_tm_100260;
+namespace revolved = reference::nasa_tm_100260;
 
 namespace {
 
@@ -26,26 +26,26 @@ struct Analysis {
 Analysis analyse(const GearPair& pair, const Misalignment& misalignment) {
   Analysis a{scene_of(pair, misalignment), {}, {}};
   a.mesh = analyse_unloaded_mesh(pair, a.scene, 64);
-  a.check = check_parabola(a.scene, a.mesh, nasa::coefficient());
+  a.check = check_parabola(a.scene, a.mesh, revolved::coefficient());
   return a;
 }
 
-const double height = nasa::coefficient() * std::pow(pi / 20, 2);  // a (pi/N1)^2, 0.3166 arcsec
+const double height = revolved::coefficient() * std::pow(pi / 20, 2);  // a (pi/N1)^2, 0.3166 arcsec
 
 /// Half an addendum of the 1 % goes to each gear: full working depth at the paper's centre distance.
-const double full_depth = 1.0 + 0.5 * nasa::centre_distance_change * 30.0;
+const double full_depth = 1.0 + 0.5 * revolved::centre_distance_change * 30.0;
 
 }  // namespace
 
 TEST_CASE("TM-100260: the aligned pair's transmission error is the parabola of eq. 8 with its missing factor",
           "[reference][contact]") {
-  const GearPair pair = make_gear_pair(nasa::pair_data());
-  CHECK(std::abs(parabola_of_arc(pair, Member::Pinion, nasa::tool.arc_radius) / nasa::coefficient() - 1) <= 1e-12);
+  const GearPair pair = make_gear_pair(revolved::pair_data());
+  CHECK(std::abs(parabola_of_arc(pair, Member::Pinion, revolved::tool.arc_radius) / revolved::coefficient() - 1) <= 1e-12);
   CHECK(std::abs(height / arcsec - 0.3166) <= 1e-4);
   const Analysis aligned = analyse(pair, {});
   CAPTURE(aligned.check.why);
   CHECK(aligned.check.holds);
-  CHECK(std::abs(aligned.check.found / nasa::coefficient() - 1) <=
+  CHECK(std::abs(aligned.check.found / revolved::coefficient() - 1) <=
         1e-4);  // model: the parabola is the error's second order
   CHECK(std::abs(aligned.check.shift) <= 1e-4 * pi / 20);
   CHECK(std::abs(aligned.mesh.peak_to_peak / height - 1) <= 1e-3);
@@ -59,11 +59,11 @@ TEST_CASE("TM-100260: the aligned pair's transmission error is the parabola of e
 TEST_CASE(
     "TM-100260: with a changed centre distance and misaligned axes it stays this parabola, and only its vertex moves",
     "[reference][contact]") {
-  const nasa::Example example = GENERATE(from_range(std::begin(nasa::examples), std::end(nasa::examples)));
+  const revolved::Example example = GENERATE(from_range(std::begin(revolved::examples), std::end(revolved::examples)));
   const double sign = GENERATE(1.0, -1.0);
-  const GearPair pair = make_gear_pair(nasa::pair_data(full_depth));
+  const GearPair pair = make_gear_pair(revolved::pair_data(full_depth));
   Misalignment apart;
-  apart.centre_distance = nasa::centre_distance_change * pair.centre_distance;
+  apart.centre_distance = revolved::centre_distance_change * pair.centre_distance;
   Misalignment misaligned = apart;
   misaligned.crossing = sign * example.crossing;
   misaligned.intersecting = sign * example.intersecting;
@@ -72,7 +72,7 @@ TEST_CASE(
           before.check.shift);
   CHECK(after.check.holds);
   CHECK(after.check.right_sign);
-  CHECK(std::abs(after.check.found / nasa::coefficient() - 1) <= 5e-4);  // model: second order of the angles
+  CHECK(std::abs(after.check.found / revolved::coefficient() - 1) <= 5e-4);  // model: second order of the angles
   CHECK(after.check.residual <= 1e-3 * height);
   CHECK(std::abs(after.mesh.peak_to_peak / height - 1) <= 1e-3);
   for (const ToothContact& c : reference::leading_contacts(after.mesh)) CHECK(c.kind == ContactKind::Surface);
@@ -90,9 +90,9 @@ TEST_CASE("TM-100260: teeth of standard height hand over on a tip edge where the
           "[reference][contact]") {
   // At + 1 % centre distance the contact ratio falls to 1.35 or so: the limit (eps_alpha - 1)/2 of a pitch, see
   // ParabolaCheck, is passed by crossing of 10 minutes only. The paper's analysis knows surfaces without edges.
-  const GearPair pair = make_gear_pair(nasa::pair_data());
+  const GearPair pair = make_gear_pair(revolved::pair_data());
   Misalignment misalignment;
-  misalignment.centre_distance = nasa::centre_distance_change * pair.centre_distance;
+  misalignment.centre_distance = revolved::centre_distance_change * pair.centre_distance;
   misalignment.crossing = 5 * arcmin;
   CHECK(analyse(pair, misalignment).check.holds);
   misalignment.crossing = 10 * arcmin;
@@ -105,8 +105,8 @@ TEST_CASE("TM-100260: teeth of standard height hand over on a tip edge where the
 TEST_CASE("TM-100260: a cone without arc localises the contact and leaves no predesigned error",
           "[reference][contact]") {
   // Case 2 of fig. 5.
-  PairData data = nasa::pair_data();
-  data.pinion.generation = RevolutionTool{nasa::tool.half_apex, nasa::tool.distance};
+  PairData data = revolved::pair_data();
+  data.pinion.generation = RevolutionTool{revolved::tool.half_apex, revolved::tool.distance};
   const GearPair pair = make_gear_pair(data);
   const MeshScene scene = scene_of(pair);
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 64);

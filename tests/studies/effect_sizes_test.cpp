@@ -8,21 +8,19 @@
 #include "studies/run_study.hpp"
 #include "studies/study_file.hpp"
 #include "tests/studies/small_studies.hpp"
+#include "tests/studies/study_texts.hpp"
 
 namespace flankwright::studies {
 namespace {
 
 using json = Json;
-
-json run(const std::string& text, const std::vector<Override>& overrides = {}) {
-  return json::parse(results_json(run_study(parse_study(text, "small.toml", overrides))));
-}
+using study_texts::results_of;
 
 }  // namespace
 
 TEST_CASE("Results say how large each effect is as far as it was asked for", "[studies][effects]") {
-  const json off = run(small::analysis(), {{"fidelity.effect_sizes", "off"}});
-  const json exact = run(small::analysis(), {{"fidelity.effect_sizes", "exact"}});
+  const json off = results_of(small::analysis(), {{"fidelity.effect_sizes", "off"}});
+  const json exact = results_of(small::analysis(), {{"fidelity.effect_sizes", "exact"}});
   for (const json& effect : off["effects"]) CHECK((effect["estimate"].is_null() && effect["exact"].is_null()));
   CHECK(off["loaded"] == exact["loaded"]);  // to find out changes nothing
   for (const json& effect : exact["effects"]) {
@@ -44,7 +42,7 @@ TEST_CASE("Results say how large each effect is as far as it was asked for", "[s
 }
 
 TEST_CASE("Steps of a run that are no effects stand beside them", "[studies][effects]") {
-  const json results = run(small::optimisation());
+  const json results = results_of(small::optimisation());
   std::set<std::string> steps;
   for (const json& step : results["steps"]) {
     steps.insert(step["name"].get<std::string>());

@@ -6,7 +6,7 @@
 namespace flankwright::studies {
 namespace {
 
-const std::string results = R"({
+const std::string expected_results = R"({
   "a": {"b": 2.0, "nothing": null, "text": "two", "truth": true, "list": [1, 2, 3]},
   "loaded": [{"summary": {"te": 1.0}}, {"summary": {"te": 2.0}}, {"summary": {}}],
   "empty": []})";
@@ -29,7 +29,7 @@ Expectation range(const std::string& key, double minimum, double maximum) {
 }
 
 bool met(const Expectation& e) {
-  const std::vector<Comparison> comparisons = compare({e}, results);
+  const std::vector<Comparison> comparisons = compare({e}, expected_results);
   REQUIRE(comparisons.size() == 1);
   return comparisons.front().met;
 }
@@ -54,7 +54,7 @@ TEST_CASE("A range is met on its ends", "[studies][expect]") {
 }
 
 TEST_CASE("Without an index every entry of a list must meet it, with one that entry", "[studies][expect]") {
-  const std::vector<Comparison> all = compare({range("loaded.summary.te", 0.0, 1.5)}, results);
+  const std::vector<Comparison> all = compare({range("loaded.summary.te", 0.0, 1.5)}, expected_results);
   REQUIRE(all.size() == 3);
   CHECK(all[0].key == "loaded[0].summary.te");
   CHECK(all[0].met);
@@ -70,7 +70,7 @@ TEST_CASE("What is missing, null or no number is not met", "[studies][expect]") 
   const std::string key = GENERATE("a.c", "nowhere", "a.nothing", "a.text", "a", "loaded.7.summary.te", "empty.x",
                                    "a.b.c", "a.list.99999999999999999999", "");
   CAPTURE(key);
-  const std::vector<Comparison> comparisons = compare({range(key, -INFINITY, INFINITY)}, results);
+  const std::vector<Comparison> comparisons = compare({range(key, -INFINITY, INFINITY)}, expected_results);
   CHECK_FALSE(comparisons.empty());
   for (const Comparison& c : comparisons) CHECK_FALSE(c.met);
 }
@@ -88,12 +88,12 @@ TEST_CASE("A text or a truth value is met by itself only", "[studies][expect]") 
   CHECK_FALSE(met(word("a.truth", "false")));
   CHECK_FALSE(met(word("a.b", "2")));  // a number is no text
   CHECK_FALSE(met(word("a.nothing", "null")));
-  CHECK(differences(compare({word("a.text", "three")}, results)) == "  a.text: expected three, found two\n");
+  CHECK(differences(compare({word("a.text", "three")}, expected_results)) == "  a.text: expected three, found two\n");
 }
 
 TEST_CASE("The table of differences names key, wanted and found, and only what differs", "[studies][expect]") {
   const std::string table =
-      differences(compare({value("a.b", 2.0), value("a.b", 3.0, 0.02), range("a.c", 1.0, 2.0)}, results));
+      differences(compare({value("a.b", 2.0), value("a.b", 3.0, 0.02), range("a.c", 1.0, 2.0)}, expected_results));
   CHECK(table == "  a.b: expected 3 within 2 %, found 2\n  a.c: expected at least 1, at most 2, found nothing\n");
   CHECK(differences({}).empty());
 }

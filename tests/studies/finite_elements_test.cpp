@@ -51,11 +51,11 @@ positions = 8
 compliance = "fe"
 )";
 
-StudyResults run(const std::string& text, const std::vector<Override>& overrides = {}) {
+StudyResults run_twins(const std::string& text, const std::vector<Override>& overrides = {}) {
   return run_study(parse_study(text, "twins.toml", overrides));
 }
 
-std::string refusal(const std::vector<Override>& overrides) {
+std::string twins_refusal(const std::vector<Override>& overrides) {
   try {
     parse_study(twins, "twins.toml", overrides);
   } catch (const InvalidInput& problem) {
@@ -68,7 +68,7 @@ std::string refusal(const std::vector<Override>& overrides) {
 
 TEST_CASE("A study by finite elements: equal gears are solved once, kept, and balance the load", "[studies][fe]") {
   const ScratchCache cache;
-  const StudyResults solved = run(twins);
+  const StudyResults solved = run_twins(twins);
   const json results = json::parse(results_json(solved));
   const json& compliance = results["compliance"];
   CHECK(compliance["pinion"]["source"] == "solved");
@@ -93,17 +93,17 @@ TEST_CASE("A study by finite elements: equal gears are solved once, kept, and ba
   }
 
   // The next study finds the run; gears of another size and modulus are the same in modules.
-  const StudyResults kept = run(twins);
+  const StudyResults kept = run_twins(twins);
   const json kept_results = json::parse(results_json(kept));
   CHECK(kept_results["compliance"]["wheel"]["source"] == "cache");
   CHECK(kept_results["loaded"] == results["loaded"]);
-  const StudyResults doubled = run(twins, {{"pair.normal_module", "8"}, {"pinion.face_width", "8"}, {"wheel.face_width", "8"},
+  const StudyResults doubled = run_twins(twins, {{"pair.normal_module", "8"}, {"pinion.face_width", "8"}, {"wheel.face_width", "8"},
                                            {"load.torque", "160"}, {"material.youngs_modulus", "206000"}});
   CHECK(doubled.structures.finite_elements->gears[0].from_cache);
   CHECK(doubled.loaded[0].summary.te_mean == Approx(2 * kept.loaded[0].summary.te_mean).epsilon(1e-9));  // same stress
 
   // Teeth that do not know of each other give way less: their loads push on their neighbours' flanks.
-  const StudyResults alone = run(twins, {{"fidelity.effects", R"(["bending", "hertzian_contact", "tip_corner", "extended_contact_region"])"}});
+  const StudyResults alone = run_twins(twins, {{"fidelity.effects", R"(["bending", "hertzian_contact", "tip_corner", "extended_contact_region"])"}});
   CHECK(alone.loaded[0].summary.te_mean < kept.loaded[0].summary.te_mean);
   CHECK(alone.structures.finite_elements->gears[0].from_cache);  // a run that tells more will do
   CHECK(std::isnan(alone.loaded[0].summary.peak_root_stress));
@@ -111,7 +111,7 @@ TEST_CASE("A study by finite elements: equal gears are solved once, kept, and ba
 
 TEST_CASE("A study's root stress: by finite elements, whatever the compliance", "[studies][fe][root-stress]") {
   const ScratchCache cache;
-  const StudyResults solved = run(twins);
+  const StudyResults solved = run_twins(twins);
   const CycleSummary& summary = solved.loaded[0].summary;
   const json results = json::parse(results_json(solved));
   CHECK(results["loaded"][0]["summary"]["peak_root_stress_MPa"] == summary.peak_root_stress);
@@ -127,22 +127,22 @@ TEST_CASE("A study's root stress: by finite elements, whatever the compliance", 
   CHECK(summary.peak_root_stress < at_tip);
   CHECK(summary.peak_root_stress > 0.5 * at_tip);
 
-  const StudyResults doubled = run(twins, {{"pair.normal_module", "8"}, {"pinion.face_width", "8"}, {"wheel.face_width", "8"},
+  const StudyResults doubled = run_twins(twins, {{"pair.normal_module", "8"}, {"pinion.face_width", "8"}, {"wheel.face_width", "8"},
                                            {"load.torque", "160"}});
   CHECK(doubled.loaded[0].summary.peak_root_stress == Approx(summary.peak_root_stress).epsilon(1e-9));  // same stress
 
   // Asked for by an expectation, with slices for the loads.
   const StudyResults slices =
-      run(twins + "[expect]\n\"loaded.summary.peak_root_stress_MPa\" = { max = 1000 }\n", {{"fidelity.compliance", "\"thin_slice\""}});
+      run_twins(twins + "[expect]\n\"loaded.summary.peak_root_stress_MPa\" = { max = 1000 }\n", {{"fidelity.compliance", "\"thin_slice\""}});
   CHECK(slices.structures.finite_elements->gears[0].from_cache);
   CHECK(!slices.structures.pair);
   CHECK(slices.loaded[0].summary.peak_root_stress == Approx(summary.peak_root_stress).epsilon(0.25));  // model: the loads
-  const StudyResults without = run(twins, {{"fidelity.compliance", "\"thin_slice\""}});
+  const StudyResults without = run_twins(twins, {{"fidelity.compliance", "\"thin_slice\""}});
   CHECK(!without.structures.finite_elements);
   CHECK(json::parse(results_json(without))["loaded"][0]["summary"]["peak_root_stress_MPa"].is_null());
 
   // Minimised: a slope takes load off the face end that a misalignment stresses.
-  const StudyResults designed = run("task = \"optimise\"\n" + twins + R"(
+  const StudyResults designed = run_twins("task = \"optimise\"\n" + twins + R"(
 [misalignment]
 mesh_misalignment = 15
 [optimise]
@@ -166,18 +166,18 @@ variables = { "pinion.modification.lead_slope" = [-30, 30] }
 }
 
 TEST_CASE("What a gear's finite elements refuse is refused when the study is read, under its key", "[studies][fe]") {
-  CHECK(refusal({}).empty());
-  CHECK(refusal({{"pinion.body.shaft_diameter", "30"}, {"wheel.body.bore_diameter", "5"}}).empty());
-  CHECK_THAT(refusal({{"pinion.body.shaft_diameter", "40"}}), Catch::Contains("pinion.body.shaft_diameter"));
-  CHECK_THAT(refusal({{"wheel.body.shaft_diameter", "20"}, {"wheel.body.bore_diameter", "19"}}),
+  CHECK(twins_refusal({}).empty());
+  CHECK(twins_refusal({{"pinion.body.shaft_diameter", "30"}, {"wheel.body.bore_diameter", "5"}}).empty());
+  CHECK_THAT(twins_refusal({{"pinion.body.shaft_diameter", "40"}}), Catch::Contains("pinion.body.shaft_diameter"));
+  CHECK_THAT(twins_refusal({{"wheel.body.shaft_diameter", "20"}, {"wheel.body.bore_diameter", "19"}}),
              Catch::Contains("wheel.body.bore_diameter"));
-  CHECK_THAT(refusal({{"wheel.body.shaft_overhang", "-1"}}), Catch::Contains("wheel.body.shaft_overhang"));
-  CHECK_THAT(refusal({{"pair.helix_angle", "40"}, {"pinion.face_width", "120"}, {"wheel.face_width", "120"}}),
+  CHECK_THAT(twins_refusal({{"wheel.body.shaft_overhang", "-1"}}), Catch::Contains("wheel.body.shaft_overhang"));
+  CHECK_THAT(twins_refusal({{"pair.helix_angle", "40"}, {"pinion.face_width", "120"}, {"wheel.face_width", "120"}}),
              Catch::Contains("pitches apart touch at once"));
 }
 
 TEST_CASE("A gear's body that the compliance does not know of is said to be left out", "[studies][fe]") {
-  const StudyResults results = run(twins, {{"fidelity.compliance", "thin_slice"}, {"pinion.body.shaft_diameter", "20"}});
+  const StudyResults results = run_twins(twins, {{"fidelity.compliance", "thin_slice"}, {"pinion.body.shaft_diameter", "20"}});
   REQUIRE(results.notes.size() == 1);
   CHECK_THAT(results.notes[0], Catch::Contains("does not know of it"));
   CHECK(!results.structures.finite_elements);
@@ -188,7 +188,7 @@ TEST_CASE("A study by fitted compliance: a coarse mesh of its gears and the libr
   const std::vector<Override> wider{{"pinion.face_width", "8"}, {"wheel.face_width", "8"}, {"pair.helix_angle", "15"}};
   auto fitted = wider;
   fitted.push_back({"fidelity.compliance", "fitted"});
-  const StudyResults ours = run(twins, fitted);
+  const StudyResults ours = run_twins(twins, fitted);
   const json results = json::parse(results_json(ours));
   const json& compliance = results["compliance"];
   CHECK(compliance["model"] == "fitted");
@@ -204,7 +204,7 @@ TEST_CASE("A study by fitted compliance: a coarse mesh of its gears and the libr
     CHECK(values[0] > -1e-13 * values[values.size() - 1]);  // round-off
   }
 
-  const StudyResults fe = run(twins, wider);
+  const StudyResults fe = run_twins(twins, wider);
   CHECK(json::parse(results_json(fe))["compliance"]["pinion"]["unknowns"] > 1.5 * compliance["pinion"]["unknowns"].get<double>());
   CHECK(cache.files().size() == 2);  // coarse and fine runs are not taken for each other
   CHECK(ours.loaded[0].summary.te_mean == Approx(fe.loaded[0].summary.te_mean).epsilon(0.005));  // model, as asked of the fits
@@ -215,7 +215,7 @@ TEST_CASE("A study by fitted compliance: a coarse mesh of its gears and the libr
 TEST_CASE("A gear that the library of fits does not know has a fit of its own, to the run that fe takes", "[studies][fitted]") {
   const ScratchCache cache;
   const std::vector<Override> by_fit{{"fidelity.compliance", "fitted"}, {"pair.pressure_angle", "22"}};
-  const StudyResults ours = run(twins, by_fit);
+  const StudyResults ours = run_twins(twins, by_fit);
   const json results = json::parse(results_json(ours));
   CHECK(results["compliance"].count("fits") == 1);
   CHECK(results["used"]["fidelity"]["fits"]["wheel"] == "own fit");
@@ -241,13 +241,13 @@ TEST_CASE("A gear that the library of fits does not know has a fit of its own, t
   }
   CHECK(cache.files().size() == 3);  // coarse, fine, fit; the gears are equal
 
-  const json again = json::parse(results_json(run(twins, by_fit)));
+  const json again = json::parse(results_json(run_twins(twins, by_fit)));
   CHECK(again["compliance"]["wheel"]["fit"]["from_cache"] == true);
   CHECK(again["compliance"]["wheel"]["fine_mesh"]["source"] == "cache");
   CHECK(again["loaded"] == results["loaded"]);
   CHECK(cache.files().size() == 3);
 
-  const StudyResults fe = run(twins, {{"pair.pressure_angle", "22"}});
+  const StudyResults fe = run_twins(twins, {{"pair.pressure_angle", "22"}});
   CHECK(fe.structures.finite_elements->gears[0].from_cache);
   CHECK(ours.loaded[0].summary.te_mean == Approx(fe.loaded[0].summary.te_mean).epsilon(0.005));             // model
   CHECK(ours.loaded[0].summary.peak_root_stress == Approx(fe.loaded[0].summary.peak_root_stress).epsilon(0.005));  // by its loads
@@ -256,10 +256,10 @@ TEST_CASE("A gear that the library of fits does not know has a fit of its own, t
 TEST_CASE("A damaged fit is made anew from the runs that are kept", "[studies][fitted]") {
   const ScratchCache cache;
   const std::vector<Override> by_fit{{"fidelity.compliance", "fitted"}, {"pair.pressure_angle", "22"}};
-  const StudyResults first = run(twins, by_fit);
+  const StudyResults first = run_twins(twins, by_fit);
   const std::string file = first.structures.refinement(Member::Pinion)->file;
   std::ofstream(file, std::ios::app) << "more";
-  const StudyResults second = run(twins, by_fit);
+  const StudyResults second = run_twins(twins, by_fit);
   CHECK(!second.structures.refinement(Member::Pinion)->from_cache);
   CHECK(second.structures.finite_elements->gears[0].from_cache);
   CHECK(second.structures.refinement(Member::Pinion)->fit.coefficients == first.structures.refinement(Member::Pinion)->fit.coefficients);
@@ -269,7 +269,7 @@ TEST_CASE("A damaged fit is made anew from the runs that are kept", "[studies][f
 
 TEST_CASE("What cannot be meshed is refused by fitted compliance under the study's key", "[studies][fitted]") {
   const auto refused = [](const std::string& key, const std::string& value) {
-    return refusal({{"fidelity.compliance", "fitted"}, {key, value}});
+    return twins_refusal({{"fidelity.compliance", "fitted"}, {key, value}});
   };
   CHECK(refused("pair.pressure_angle", "22").empty());
   CHECK_THAT(refused("pinion.body.shaft_diameter", "50"), Catch::Contains("pinion.body.shaft_diameter"));

@@ -15,15 +15,15 @@ namespace {
 
 using json = Json;
 
-constexpr double round_off = 1e-14;
+constexpr double optimisation_round_off = 1e-14;
 
-Study read(const std::string& tables, const std::vector<Override>& overrides = {}) {
+Study read_optimisation(const std::string& tables, const std::vector<Override>& overrides = {}) {
   return parse_study(small::optimisation() + tables, "small.toml", overrides);
 }
 
-StudyProblem problem_of(const std::string& tables, const std::vector<Override>& overrides = {}) {
+StudyProblem optimisation_problem(const std::string& tables, const std::vector<Override>& overrides = {}) {
   try {
-    read(tables, overrides);
+    read_optimisation(tables, overrides);
   } catch (const StudyErrors& errors) {
     return errors.problems().front();
   }
@@ -31,8 +31,8 @@ StudyProblem problem_of(const std::string& tables, const std::vector<Override>& 
   return {};
 }
 
-json run(const std::string& tables, const std::vector<Override>& overrides = {}) {
-  return json::parse(results_json(run_study(read(tables, overrides))));
+json run_optimisation(const std::string& tables, const std::vector<Override>& overrides = {}) {
+  return json::parse(results_json(run_study(read_optimisation(tables, overrides))));
 }
 
 const std::string wheel_tie = R"([optimise.ties]
@@ -42,7 +42,7 @@ const std::string wheel_tie = R"([optimise.ties]
 }  // namespace
 
 TEST_CASE("Steps, ties and bounds on sums are read in their own units", "[studies][optimise-keys]") {
-  const OptimiseTable table = read(wheel_tie, {{"optimise.step", "0.5"},
+  const OptimiseTable table = read_optimisation(wheel_tie, {{"optimise.step", "0.5"},
                                                {"optimise.variables.wheel.modification.twist", "{ range = [-10, 10], step = 2 }"}})
                                   .optimise;
   REQUIRE(table.variables.size() == 5);
@@ -51,27 +51,27 @@ TEST_CASE("Steps, ties and bounds on sums are read in their own units", "[studie
     const double step = v.path == "wheel.modification.twist"                ? 0.002
                         : v.path == "pinion.modification.end_relief.length" ? 0.0  // no amount
                                                                             : 0.0005;
-    CHECK(v.step == Approx(step).epsilon(round_off));
+    CHECK(v.step == Approx(step).epsilon(optimisation_round_off));
   }
   REQUIRE(table.ties.size() == 1);
   CHECK(table.ties[0].tied.member == Member::Wheel);
   CHECK(table.variables[table.ties[0].as].path == "pinion.modification.lead_crowning");
   CHECK(table.ties[0].factor == -1.0);
-  CHECK(table.ties[0].offset == Approx(0.040).epsilon(round_off));
+  CHECK(table.ties[0].offset == Approx(0.040).epsilon(optimisation_round_off));
   CHECK(table.ties[0].tied.lower == Approx(0.0).margin(1e-17));
-  CHECK(table.ties[0].tied.upper == Approx(0.040).epsilon(round_off));
+  CHECK(table.ties[0].tied.upper == Approx(0.040).epsilon(optimisation_round_off));
 }
 
 TEST_CASE("A sum of modifications may be bounded from both sides", "[studies][optimise-keys]") {
   const OptimiseTable table =
-      read("\"2 * pinion.modification.lead_crowning - pinion.modification.lead_slope\" = { min = -5, max = \"0.03 mm\" }\n").optimise;
+      read_optimisation("\"2 * pinion.modification.lead_crowning - pinion.modification.lead_slope\" = { min = -5, max = \"0.03 mm\" }\n").optimise;
   REQUIRE(table.modification_constraints.size() == 1);
   const ModificationConstraint& sum = table.modification_constraints[0];
   REQUIRE(sum.terms.size() == 2);
   CHECK(sum.terms[0].factor == 2.0);
   CHECK(sum.terms[1].factor == -1.0);
-  CHECK(sum.minimum == Approx(-0.005).epsilon(round_off));
-  CHECK(sum.maximum == Approx(0.030).epsilon(round_off));
+  CHECK(sum.minimum == Approx(-0.005).epsilon(optimisation_round_off));
+  CHECK(sum.maximum == Approx(0.030).epsilon(optimisation_round_off));
 }
 
 TEST_CASE("What [optimise] cannot mean is refused where it stands", "[studies][optimise-keys]") {
@@ -98,22 +98,22 @@ TEST_CASE("What [optimise] cannot mean is refused where it stands", "[studies][o
       Row{"", {{"optimise.objective", "[]"}}, "optimise.objective", "a list"},
       Row{"", {{"optimise.pareto.objectives", "[\"edge_load\"]"}}, "optimise.pareto.objectives", "two or three"});
   CAPTURE(row.tables);
-  const StudyProblem problem = problem_of(row.tables, row.overrides);
+  const StudyProblem problem = optimisation_problem(row.tables, row.overrides);
   CHECK(problem.key == row.key);
   CHECK_THAT(problem.allowed, Catch::Contains(row.allowed));
 }
 
 TEST_CASE("Any k of sigma and any level of the tail are read", "[studies][optimise-keys]") {
-  const Aggregation sigmas = read("", {{"optimise.over", "mean+sigmas"}, {"optimise.sigmas", "3"}}).optimise.over;
+  const Aggregation sigmas = read_optimisation("", {{"optimise.over", "mean+sigmas"}, {"optimise.sigmas", "3"}}).optimise.over;
   CHECK(sigmas == Aggregate::MeanPlusSigmas);
   CHECK(sigmas.sigmas == 3.0);
-  const Aggregation tail = read("", {{"optimise.over", "cvar"}, {"optimise.cvar_level", "0.75"}}).optimise.over;
+  const Aggregation tail = read_optimisation("", {{"optimise.over", "cvar"}, {"optimise.cvar_level", "0.75"}}).optimise.over;
   CHECK(tail == Aggregate::Cvar);
   CHECK(tail.level == 0.75);
 }
 
 TEST_CASE("Results say what is ground, what the exact optimum is, and that it is one", "[studies][optimise-keys]") {
-  const json optimise = run(wheel_tie, {{"optimise.step", "1"},
+  const json optimise = run_optimisation(wheel_tie, {{"optimise.step", "1"},
                                         {"optimise.starts", "2"},
                                         {"optimise.objective", "[\"peak_contact_stress\", \"te_peak_to_peak\"]"}})["optimise"];
   for (const char* name : {"pinion.modification.lead_crowning", "pinion.modification.lead_slope"}) {
@@ -134,7 +134,7 @@ TEST_CASE("Results say what is ground, what the exact optimum is, and that it is
 }
 
 TEST_CASE("A front stands in the results and in a table of its own", "[studies][optimise-keys]") {
-  const Study study = read("", {{"optimise.pareto.objectives", "[\"peak_contact_stress\", \"te_peak_to_peak\"]"},
+  const Study study = read_optimisation("", {{"optimise.pareto.objectives", "[\"peak_contact_stress\", \"te_peak_to_peak\"]"},
                                 {"optimise.pareto.points", "3"},
                                 {"optimise.max_evaluations", "400"}});
   const StudyResults results = run_study(study);

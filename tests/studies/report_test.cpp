@@ -13,7 +13,7 @@
 namespace flankwright::studies {
 namespace {
 
-using nlohmann::json;
+using PlainJson = nlohmann::json;  // what the report reads
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;
@@ -30,16 +30,16 @@ std::vector<std::string> section_ids(const std::string& page) {
 }
 
 /// The data block of the page, read back as a browser would: up to the first closing tag.
-json embedded(const std::string& page) {
+PlainJson embedded(const std::string& page) {
   const std::string opening = "<script type=\"application/json\" id=\"results\">";
   const std::size_t from = page.find(opening) + opening.size();
-  return json::parse(page.substr(from, page.find("</script", from) - from));
+  return PlainJson::parse(page.substr(from, page.find("</script", from) - from));
 }
 
-json stripped_of_numbers(json value) {
+PlainJson stripped_of_numbers(PlainJson value) {
   if (value.is_number()) return nullptr;
   if (value.is_structured()) {
-    for (json& child : value) child = stripped_of_numbers(child);
+    for (PlainJson& child : value) child = stripped_of_numbers(child);
   }
   return value;
 }
@@ -53,17 +53,17 @@ TEST_CASE("The report of an unloaded analysis has the sections of unloaded conta
 
 TEST_CASE("The page of an unloaded analysis has its pictures' data in every scene and the scripts that draw them",
           "[studies][report]") {
-  const json results = sample::unloaded_results();
+  const PlainJson results = sample::unloaded_results();
   const std::string page = render_report(results.dump());
   for (const char* script : {"function draw_contact_paths(", "function draw_unloaded_te(", "function draw_pattern(",
                              "function draw_words(", "function scene_table("}) {
     CAPTURE(script);
     CHECK(count(page, script) == 1);
   }
-  const json data = embedded(page);
+  const PlainJson data = embedded(page);
   REQUIRE(data["unloaded_scenes"].size() == 2);
   for (std::size_t i = 0; i < 2; ++i) {
-    const json &shown = data["unloaded_scenes"][i], &stored = results["unloaded_scenes"][i];
+    const PlainJson &shown = data["unloaded_scenes"][i], &stored = results["unloaded_scenes"][i];
     CHECK(shown["sequence"] == stored["sequence"]);
     CHECK(shown["parabolic_te"]["why"] == stored["parabolic_te"]["why"]);
     CHECK(shown["bearing_pattern"]["pinion"]["separation_um"].size() == stored["bearing_pattern"]["pinion"]["radius_mm"].size());
@@ -118,7 +118,7 @@ TEST_CASE("The report keeps the licence notice of its plot library", "[studies][
 
 TEST_CASE("A hostile study cannot bring script into its report", "[studies][report]") {
   const std::string attack = "</title></script><script>alert(1)</script><!-- {{results}} \" ' & \u2028 \u2029";
-  json results = sample::optimise_results(1, 2);
+  PlainJson results = sample::optimise_results(1, 2);
   const std::size_t honest = count(render_report(results.dump()), "<script");
   results["title"] = results["file"] = results["task"] = attack;
   results["notes"] = {attack};
@@ -133,7 +133,7 @@ TEST_CASE("A hostile study cannot bring script into its report", "[studies][repo
   CHECK(page.find("&lt;script&gt;alert(1)&lt;/script&gt;") != std::string::npos);
   CHECK(page.find("<h1>&lt;/title&gt;") != std::string::npos);
 
-  const json data = embedded(page);
+  const PlainJson data = embedded(page);
   CHECK(data["title"] == attack);
   CHECK(data["loaded"][0]["scene"] == attack);
   const std::string inlined = page.substr(page.find("id=\"results\">"), 200);
@@ -141,7 +141,7 @@ TEST_CASE("A hostile study cannot bring script into its report", "[studies][repo
 }
 
 TEST_CASE("A report survives numbers that did not run", "[studies][report]") {
-  for (const json& results : {sample::unloaded_results(), sample::loaded_results(1), sample::optimise_results(2, 2)}) {
+  for (const PlainJson& results : {sample::unloaded_results(), sample::loaded_results(1), sample::optimise_results(2, 2)}) {
     const std::string whole = render_report(results.dump());
     const std::string nulls = render_report(stripped_of_numbers(results).dump());
     CHECK(section_ids(nulls) == section_ids(whole));
@@ -149,14 +149,14 @@ TEST_CASE("A report survives numbers that did not run", "[studies][report]") {
 }
 
 TEST_CASE("A report survives sections that are missing, empty or of another shape", "[studies][report]") {
-  const json full = sample::optimise_results(1, 2);
+  const PlainJson full = sample::optimise_results(1, 2);
   for (const auto& item : full.items()) {
     CAPTURE(item.key());
-    json less = full;
+    PlainJson less = full;
     less.erase(item.key());
     CHECK_NOTHROW(render_report(less.dump()));
-    for (const json& odd : {json(), json::array(), json::object(), json(3.5), json("text"), json({1, "a", nullptr}),
-                            json({{"cycle", 1}})}) {
+    for (const PlainJson& odd : {PlainJson(), PlainJson::array(), PlainJson::object(), PlainJson(3.5), PlainJson("text"), PlainJson({1, "a", nullptr}),
+                            PlainJson({{"cycle", 1}})}) {
       less[item.key()] = odd;
       CHECK_NOTHROW(render_report(less.dump()));
     }
@@ -173,15 +173,15 @@ TEST_CASE("What is not a JSON object is refused", "[studies][report]") {
 }
 
 TEST_CASE("The page gets every contact point to six digits", "[studies][report]") {
-  const json results = sample::loaded_results(1);
-  const json view = report_view(results);
+  const PlainJson results = sample::loaded_results(1);
+  const PlainJson view = report_view(results);
   constexpr double round_off = 5.1e-6;  // half a unit of the sixth significant digit, relative
   std::size_t seen = 0;
-  const json& cycle = results["loaded"][0]["cycle"];
+  const PlainJson& cycle = results["loaded"][0]["cycle"];
   for (std::size_t p = 0; p < cycle.size(); ++p) {
     for (std::size_t t = 0; t < cycle[p]["teeth"].size(); ++t) {
-      const json& points = cycle[p]["teeth"][t]["points"];
-      const json& columns = view["loaded"][0]["cycle"][p]["teeth"][t]["points"];
+      const PlainJson& points = cycle[p]["teeth"][t]["points"];
+      const PlainJson& columns = view["loaded"][0]["cycle"][p]["teeth"][t]["points"];
       for (const char* key : {"z_mm", "pinion_radius_mm", "load_N_per_mm", "contact_stress_MPa"}) {
         REQUIRE(columns[key].size() == points.size());
         for (std::size_t i = 0; i < points.size(); ++i, ++seen) {
@@ -196,9 +196,9 @@ TEST_CASE("The page gets every contact point to six digits", "[studies][report]"
 }
 
 TEST_CASE("The page sees a small transmission error on top of a large backlash", "[studies][report]") {
-  json results = sample::unloaded_results();
+  PlainJson results = sample::unloaded_results();
   results["unloaded"]["mesh"]["te_arcsec"] = {-1167.23456, -1167.23321};
-  const json shown = report_view(results)["unloaded"]["mesh"]["te_arcsec"];
+  const PlainJson shown = report_view(results)["unloaded"]["mesh"]["te_arcsec"];
   CHECK(shown[1].get<double>() - shown[0].get<double>() == Approx(0.00135).epsilon(1e-3));  // of ten digits, 1e-6 arcsec
 }
 

@@ -14,7 +14,7 @@ using command_line::text_of;
 
 namespace {
 
-const Json key{{"teeth", 18}, {"face_width", 12.1}, {"tip_diameter", NAN}};  // not given
+const Json run_key{{"teeth", 18}, {"face_width", 12.1}, {"tip_diameter", NAN}};  // not given
 
 StoredRun sample() {
   StoredRun run;
@@ -32,10 +32,10 @@ TEST_CASE("A kept run comes back to the last bit", "[studies][cache]") {
   const ScratchFolder folder;
   const RunCache cache(folder.path() / "made" / "when needed");
   std::vector<std::string> notes;
-  CHECK(!cache.find(key, notes));
+  CHECK(!cache.find(run_key, notes));
   const StoredRun run = sample();
-  REQUIRE(cache.store(key, run, notes));
-  const auto found = cache.find(key, notes);
+  REQUIRE(cache.store(run_key, run, notes));
+  const auto found = cache.find(run_key, notes);
   REQUIRE(found);
   CHECK(found->facts == run.facts);
   REQUIRE(found->matrices.size() == 2);
@@ -43,7 +43,7 @@ TEST_CASE("A kept run comes back to the last bit", "[studies][cache]") {
   CHECK(*found->find("second") == run.matrices[1].second);
   CHECK(found->find("third") == nullptr);
   CHECK(notes.empty());
-  Json other = key;
+  Json other = run_key;
   other["teeth"] = 19;
   CHECK(!cache.find(other, notes));
   CHECK(notes.empty());
@@ -53,8 +53,8 @@ TEST_CASE("A file that is damaged, cut short or of another gear is not used, and
   const ScratchFolder folder;
   const RunCache cache(folder.path());
   std::vector<std::string> notes;
-  REQUIRE(cache.store(key, sample(), notes));
-  const std::filesystem::path file = cache.file_of(key);
+  REQUIRE(cache.store(run_key, sample(), notes));
+  const std::filesystem::path file = cache.file_of(run_key);
   const std::string whole = text_of(file);
 
   std::string changed = whole, why = "it is damaged";
@@ -81,12 +81,12 @@ TEST_CASE("A file that is damaged, cut short or of another gear is not used, and
     why = "it belongs to another gear";
   }
   write(file, changed);
-  CHECK(!cache.find(key, notes));
+  CHECK(!cache.find(run_key, notes));
   REQUIRE(notes.size() == 1);
   CHECK_THAT(notes[0], Catch::Contains(file.string()) && Catch::EndsWith(why));
   // Kept again, it is whole again.
-  REQUIRE(cache.store(key, sample(), notes));
-  CHECK(cache.find(key, notes));
+  REQUIRE(cache.store(run_key, sample(), notes));
+  CHECK(cache.find(run_key, notes));
 }
 
 TEST_CASE("A folder that cannot be written costs a note and nothing else", "[studies][cache]") {
@@ -94,10 +94,10 @@ TEST_CASE("A folder that cannot be written costs a note and nothing else", "[stu
   folder.file("file", "text");
   const RunCache cache(folder.path() / "file" / "below");
   std::vector<std::string> notes;
-  CHECK(!cache.store(key, sample(), notes));
+  CHECK(!cache.store(run_key, sample(), notes));
   REQUIRE(notes.size() == 1);
   CHECK_THAT(notes[0], Catch::Contains("not kept"));
-  CHECK(!cache.find(key, notes));
+  CHECK(!cache.find(run_key, notes));
 }
 
 TEST_CASE("The folder of kept runs is what the environment says", "[studies][cache]") {

@@ -9,15 +9,13 @@
 #include "studies/results_json.hpp"
 #include "studies/study_file.hpp"
 #include "tests/studies/small_studies.hpp"
+#include "tests/studies/study_texts.hpp"
 
 namespace flankwright::studies {
 namespace {
 
 using json = Json;
-
-json run(const std::string& text, const std::vector<Override>& overrides = {}) {
-  return json::parse(results_json(run_study(parse_study(text, "small.toml", overrides))));
-}
+using study_texts::results_of;
 
 /// Every path that leads to something, entries of lists as "[]": "loaded[].cycle[].phase".
 void collect_paths(const json& node, const std::string& path, std::set<std::string>& paths,
@@ -79,7 +77,7 @@ void remove_seconds(json& node) {
 }  // namespace
 
 TEST_CASE("results.json of an analysis has every key that it promises", "[studies][results]") {
-  const json results = run(small::analysis());
+  const json results = results_of(small::analysis());
   check_keys(results, "", "unloaded loaded effects given used version units title task file seconds");
   check_keys(results, "unloaded.pairs[]",
              "tooth positions[].phi1_deg positions[].phi2_deg positions[].te_arcsec positions[].contact "
@@ -123,7 +121,7 @@ TEST_CASE("results.json of an analysis has every key that it promises", "[studie
 }
 
 TEST_CASE("Positions chosen automatically, and peaks sampled, are said in the results", "[studies][results]") {
-  const json chosen = run(small::analysis(), {{"cycle.positions", "auto"}, {"cycle.peaks", "sampled"}});
+  const json chosen = results_of(small::analysis(), {{"cycle.positions", "auto"}, {"cycle.peaks", "sampled"}});
   const json& cycle = chosen["used"]["cycle"];
   CHECK(cycle["peaks"] == "sampled");
   CHECK(cycle["positions"] >= 32);
@@ -136,7 +134,7 @@ TEST_CASE("Positions chosen automatically, and peaks sampled, are said in the re
 }
 
 TEST_CASE("results.json of an optimisation has every key that it promises", "[studies][results]") {
-  const json results = run(small::optimisation());
+  const json results = results_of(small::optimisation());
   check_keys(results, "optimise",
              "solver status evaluations gradient_evaluations seconds before.variables before.objective "
              "before.constraints after.variables after.objective after.constraints scenes[].name scenes[].before "
@@ -160,7 +158,7 @@ TEST_CASE("results.json of an optimisation has every key that it promises", "[st
 }
 
 TEST_CASE("Loaded results keep the identities of equilibrium, compatibility and units", "[studies][results][physics]") {
-  const json results = run(small::analysis());
+  const json results = results_of(small::analysis());
   const double base_helix = results["geometry"]["base_helix_angle_deg"].get<double>() * units::deg;
   const double base_radius = 0.5 * results["geometry"]["pinion"]["base_diameter_mm"].get<double>();
   constexpr double round_off = 1e-10,
@@ -203,7 +201,7 @@ TEST_CASE("Loaded results keep the identities of equilibrium, compatibility and 
 }
 
 TEST_CASE("Unloaded results keep the identities of transmission error and units", "[studies][results][physics]") {
-  const json results = run(small::analysis());
+  const json results = results_of(small::analysis());
   const double wheel_base_radius = 0.5 * results["geometry"]["wheel"]["base_diameter_mm"].get<double>();
   for (const json& unloaded : results["unloaded_scenes"]) {
     const json& mesh = unloaded["mesh"];
@@ -225,14 +223,14 @@ TEST_CASE("Unloaded results keep the identities of transmission error and units"
 
 TEST_CASE("Two runs differ in their times only", "[studies][results][determinism]") {
   const std::string text = GENERATE(small::analysis(), small::optimisation());
-  json first = run(text), second = run(text);
+  json first = results_of(text), second = results_of(text);
   remove_seconds(first);
   remove_seconds(second);
   CHECK(first.dump() == second.dump());
 }
 
 TEST_CASE("Given repeats the study's keys and used says what became of the rest", "[studies][results]") {
-  const json results = run(small::analysis(), {{"cycle.positions", "5"}});
+  const json results = results_of(small::analysis(), {{"cycle.positions", "5"}});
   bool has_positions = false;
   for (const json& given : results["given"]) has_positions = has_positions || given["key"] == "cycle.positions";
   CHECK(has_positions);
@@ -242,7 +240,7 @@ TEST_CASE("Given repeats the study's keys and used says what became of the rest"
 }
 
 TEST_CASE("A rigid study ignores its torques and says so", "[studies][run]") {
-  const json results = run(small::analysis(), {{"fidelity.compliance", "rigid"}});
+  const json results = results_of(small::analysis(), {{"fidelity.compliance", "rigid"}});
   CHECK(results["loaded"].empty());
   CHECK(results["unloaded_scenes"].size() == 2);
   CHECK_THAT(results["notes"].dump(), Catch::Contains("torques are ignored"));

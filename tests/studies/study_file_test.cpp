@@ -20,7 +20,7 @@ using study_texts::small_study;
 
 namespace {
 
-constexpr double round_off = 1e-14;  // relative: one or two rounded factors
+constexpr double file_round_off = 1e-14;  // relative: one or two rounded factors
 
 }  // namespace
 
@@ -39,16 +39,16 @@ mesh_misalignment = "0.012 mm"
 torque = [100, "1 kN·m"]
 )");
   CHECK(study.pair.normal_module == 4.0);
-  CHECK(study.pair.helix_angle == Approx(std::acos(-1.0) / 9.0).epsilon(round_off));
-  CHECK(study.pinion_modification.lead_crowning == Approx(0.008).epsilon(round_off));
-  CHECK(study.pinion_modification.tip_relief.amount == Approx(0.010).epsilon(round_off));
+  CHECK(study.pair.helix_angle == Approx(std::acos(-1.0) / 9.0).epsilon(file_round_off));
+  CHECK(study.pinion_modification.lead_crowning == Approx(0.008).epsilon(file_round_off));
+  CHECK(study.pinion_modification.tip_relief.amount == Approx(0.010).epsilon(file_round_off));
   CHECK(study.pinion_modification.tip_relief.height == 2.5);
   CHECK(study.pinion_modification.tip_relief.shape == ReliefShape::Parabolic);
   CHECK(study.wheel_modification.tip_relief.amount == 0.0);
-  CHECK(study.wheel_error.helix_slope == Approx(-0.004).epsilon(round_off));
-  CHECK(study.misalignment.crossing == Approx(3.0 * std::acos(-1.0) / 10800.0).epsilon(round_off));
+  CHECK(study.wheel_error.helix_slope == Approx(-0.004).epsilon(file_round_off));
+  CHECK(study.misalignment.crossing == Approx(3.0 * std::acos(-1.0) / 10800.0).epsilon(file_round_off));
   CHECK(study.misalignment.centre_distance == 0.05);
-  CHECK(study.misalignment.mesh_misalignment == Approx(0.012).epsilon(round_off));
+  CHECK(study.misalignment.mesh_misalignment == Approx(0.012).epsilon(file_round_off));
   CHECK(study.torques == std::vector<double>{1e5, 1e6});
 }
 
@@ -77,40 +77,40 @@ TEST_CASE("A study without a key has the defaults of the data types", "[studies]
 
 TEST_CASE("A diametral pitch stands for the module 25.4 mm / P", "[studies][study-file]") {
   const std::string text = replaced(small_study, "normal_module = 4", "normal_diametral_pitch = 5");
-  CHECK(parse_study(text, "inch.toml").pair.normal_module == Approx(5.08).epsilon(round_off));
+  CHECK(parse_study(text, "inch.toml").pair.normal_module == Approx(5.08).epsilon(file_round_off));
   const auto both =
       problems_of(replaced(small_study, "normal_module = 4", "normal_module = 5.08\nnormal_diametral_pitch = 5"));
   REQUIRE(both.size() == 1);
   CHECK(both.front().key == "pair.normal_diametral_pitch");
   CHECK(both.front().line == 4);
   // From the command line the one replaces the other.
-  CHECK(read("", {{"pair.normal_diametral_pitch", "5"}}).pair.normal_module == Approx(5.08).epsilon(round_off));
+  CHECK(read("", {{"pair.normal_diametral_pitch", "5"}}).pair.normal_module == Approx(5.08).epsilon(file_round_off));
 }
 
 TEST_CASE("A gear's own material overrides the common one", "[studies][study-file]") {
   const Study study = read("[wheel.material]\nyoungs_modulus = \"110 GPa\"\n[material]\nyoungs_modulus = 200000\n");
   CHECK(study.pinion_material.youngs_modulus == 200000.0);
-  CHECK(study.wheel_material.youngs_modulus == Approx(110000.0).epsilon(round_off));
+  CHECK(study.wheel_material.youngs_modulus == Approx(110000.0).epsilon(file_round_off));
   CHECK(study.wheel_material.poissons_ratio == 0.3);
 }
 
 TEST_CASE("Profile crowning sets both halves, and giving a half as well is refused", "[studies][study-file]") {
   const Study study = read("[wheel.modification]\nprofile_crowning = 6\n");
-  CHECK(study.wheel_modification.addendum_crowning == Approx(0.006).epsilon(round_off));
-  CHECK(study.wheel_modification.dedendum_crowning == Approx(0.006).epsilon(round_off));
+  CHECK(study.wheel_modification.addendum_crowning == Approx(0.006).epsilon(file_round_off));
+  CHECK(study.wheel_modification.dedendum_crowning == Approx(0.006).epsilon(file_round_off));
   CHECK(read("[wheel.modification]\naddendum_crowning = 5\n").wheel_modification.dedendum_crowning == 0.0);
   CHECK(problem_of("[wheel.modification]\nprofile_crowning = 6\ndedendum_crowning = 2\n").key ==
         "wheel.modification.dedendum_crowning");
 }
 
 TEST_CASE("A pitch error is a step for every tooth, or a list with one entry a tooth", "[studies][study-file]") {
-  CHECK(read("[pinion.error]\npitch = 3\n").pinion_error.pitch_step == Approx(0.003).epsilon(round_off));
+  CHECK(read("[pinion.error]\npitch = 3\n").pinion_error.pitch_step == Approx(0.003).epsilon(file_round_off));
   std::string list = "[0";
   for (int tooth = 1; tooth < 20; ++tooth) list += ", " + std::to_string(tooth % 3);
   const Study study = read("[pinion.error]\npitch = " + list + "]\n");
   CHECK(study.pinion_error.pitch_step == 0.0);
   CHECK(study.pinion_error.cumulative_pitch.size() == 20);
-  CHECK(study.pinion_error.cumulative_pitch[5] == Approx(0.002).epsilon(round_off));
+  CHECK(study.pinion_error.cumulative_pitch[5] == Approx(0.002).epsilon(file_round_off));
   const StudyProblem problem = problem_of("[wheel.error]\npitch = [1, 2, 3]\n");
   CHECK(problem.line == 14);
   CHECK_THAT(problem.allowed, Catch::Contains("30"));
@@ -140,9 +140,9 @@ pinion.error.helix_slope = 7
   CHECK(hot.name == "hot");
   CHECK(hot.weight == 2.0);
   CHECK(hot.misalignment.crossing == study.misalignment.crossing);
-  CHECK(hot.misalignment.mesh_misalignment == Approx(0.012).epsilon(round_off));
+  CHECK(hot.misalignment.mesh_misalignment == Approx(0.012).epsilon(file_round_off));
   CHECK(hot.torques == std::vector<double>{3e5});
-  CHECK(hot.pinion_error.helix_slope == Approx(0.007).epsilon(round_off));
+  CHECK(hot.pinion_error.helix_slope == Approx(0.007).epsilon(file_round_off));
   CHECK(study.pinion_error.helix_slope == 0.0);
 
   const StudyProblem problem = problem_of("[[scenes]]\npinion.teeth = 21\n");
@@ -177,15 +177,15 @@ wheel.modification.tip_relief.height = [0.5, 2]
   CHECK(table.over == Aggregate::MeanPlusSigmas);
   CHECK(table.max_seconds == 120.0);
   REQUIRE(table.variables.size() == 3);
-  CHECK(table.variables[0].upper == Approx(0.040).epsilon(round_off));
+  CHECK(table.variables[0].upper == Approx(0.040).epsilon(file_round_off));
   CHECK(table.variables[1].member == Member::Wheel);
-  CHECK(table.variables[1].lower == Approx(0.005).epsilon(round_off));
-  CHECK(table.variables[1].upper == Approx(0.030).epsilon(round_off));
+  CHECK(table.variables[1].lower == Approx(0.005).epsilon(file_round_off));
+  CHECK(table.variables[1].upper == Approx(0.030).epsilon(file_round_off));
   CHECK(table.variables[2].parameter == ModificationParameter::TipReliefHeight);
   CHECK(table.variables[2].upper == 2.0);
   REQUIRE(table.constraints.size() == 2);
-  CHECK(table.constraints[0].maximum == Approx(1200.0).epsilon(round_off));
-  CHECK(table.constraints[1].maximum == Approx(0.0015).epsilon(round_off));
+  CHECK(table.constraints[0].maximum == Approx(1200.0).epsilon(file_round_off));
+  CHECK(table.constraints[1].maximum == Approx(0.0015).epsilon(file_round_off));
 }
 
 TEST_CASE("Expectations may be a text or a truth value", "[studies][study-file]") {
@@ -208,7 +208,7 @@ unloaded.mesh.peak_to_peak_arcsec = { max = 5 }
   CHECK(study.expect[0].within_absolute == 0.1);
   CHECK(std::isnan(study.expect[0].within_relative));
   CHECK(study.expect[1].value == 0.84);
-  CHECK(study.expect[1].within_relative == Approx(0.02).epsilon(round_off));
+  CHECK(study.expect[1].within_relative == Approx(0.02).epsilon(file_round_off));
   CHECK(study.expect[2].key == "unloaded.mesh.peak_to_peak_arcsec");
   CHECK(study.expect[2].maximum == 5.0);
 
@@ -246,8 +246,8 @@ TEST_CASE("The command line replaces, adds and is remembered with what the file 
   CHECK(study.pair.pinion.teeth == 21);
   CHECK(study.misalignment.crossing == 3 * units::arcmin);
   REQUIRE(study.optimise.variables.size() == 1);
-  CHECK(study.optimise.variables.front().upper == Approx(0.0121).epsilon(round_off));
-  CHECK(study.scenes.front().torques.front() == Approx(120 * 4.4482216152605 * 25.4).epsilon(round_off));
+  CHECK(study.optimise.variables.front().upper == Approx(0.0121).epsilon(file_round_off));
+  CHECK(study.scenes.front().torques.front() == Approx(120 * 4.4482216152605 * 25.4).epsilon(file_round_off));
 
   const auto given = [&study](const std::string& key) -> std::string {
     const auto found = std::ranges::find_if(study.given, [&](const GivenValue& g) { return g.key == key; });

@@ -14,7 +14,7 @@ namespace {
 
 using json = Json;
 
-constexpr double round_off = 1e-14;
+constexpr double shaft_round_off = 1e-14;
 
 const std::string pair_text = R"([pair]
 normal_module = 4
@@ -40,10 +40,10 @@ gear_position = 90
 torque_position = 0
 )";
 
-Study read(const std::string& text, const std::vector<Override>& overrides = {}) { return parse_study(text, "shaft.toml", overrides); }
+Study read_shafts(const std::string& text, const std::vector<Override>& overrides = {}) { return parse_study(text, "shaft.toml", overrides); }
 
-json run(const std::string& text, const std::vector<Override>& overrides = {}) {
-  return json::parse(results_json(run_study(read(text, overrides))));
+json run_shafts(const std::string& text, const std::vector<Override>& overrides = {}) {
+  return json::parse(results_json(run_study(read_shafts(text, overrides))));
 }
 
 const json& effect(const json& results, const std::string& name) {
@@ -54,9 +54,9 @@ const json& effect(const json& results, const std::string& name) {
 }
 
 /// The problems of a study that must be refused.
-std::vector<StudyProblem> problems_of(const std::string& text, const std::vector<Override>& overrides = {}) {
+std::vector<StudyProblem> shaft_problems(const std::string& text, const std::vector<Override>& overrides = {}) {
   try {
-    read(text, overrides);
+    read_shafts(text, overrides);
   } catch (const StudyErrors& errors) {
     return errors.problems();
   }
@@ -66,7 +66,7 @@ std::vector<StudyProblem> problems_of(const std::string& text, const std::vector
 }  // namespace
 
 TEST_CASE("A shaft is read with its units, the gear's material and one bearing that holds axially", "[studies][shaft]") {
-  const Study study = read(pair_text + shaft_text, {{"material.youngs_modulus", "210000"}});
+  const Study study = read_shafts(pair_text + shaft_text, {{"material.youngs_modulus", "210000"}});
   REQUIRE(study.pinion_shaft);
   CHECK_FALSE(study.wheel_shaft);
   const ShaftData& shaft = *study.pinion_shaft;
@@ -76,19 +76,19 @@ TEST_CASE("A shaft is read with its units, the gear's material and one bearing t
   CHECK(shaft.sections[1].length == 100.0);
   CHECK(shaft.sections[1].inner_diameter == 20.0);
   REQUIRE(shaft.bearings.size() == 2);
-  CHECK(shaft.bearings[0].radial_stiffness == Approx(8e5).epsilon(round_off));
-  CHECK(shaft.bearings[1].radial_stiffness == Approx(4e5).epsilon(round_off));
-  CHECK(shaft.bearings[1].tilting_stiffness == Approx(5e3).epsilon(round_off));
+  CHECK(shaft.bearings[0].radial_stiffness == Approx(8e5).epsilon(shaft_round_off));
+  CHECK(shaft.bearings[1].radial_stiffness == Approx(4e5).epsilon(shaft_round_off));
+  CHECK(shaft.bearings[1].tilting_stiffness == Approx(5e3).epsilon(shaft_round_off));
   CHECK(std::isinf(shaft.bearings[0].axial_stiffness));
   CHECK(shaft.bearings[1].axial_stiffness == 0.0);
   CHECK(shaft.gear_stiffens);
   CHECK(shaft.material.youngs_modulus == 210000.0);
-  CHECK_FALSE(read(pair_text + shaft_text + "gear_stiffens = \"no\"\n").pinion_shaft->gear_stiffens);
-  CHECK(read(pair_text + shaft_text, {{"pinion.shaft.bearings.1.axial_stiffness", "5"}}).pinion_shaft->bearings[0].axial_stiffness == 0.0);
+  CHECK_FALSE(read_shafts(pair_text + shaft_text + "gear_stiffens = \"no\"\n").pinion_shaft->gear_stiffens);
+  CHECK(read_shafts(pair_text + shaft_text, {{"pinion.shaft.bearings.1.axial_stiffness", "5"}}).pinion_shaft->bearings[0].axial_stiffness == 0.0);
 }
 
 TEST_CASE("Shafts that cannot be are refused with the place that says so", "[studies][shaft]") {
-  CHECK(problems_of(pair_text + shaft_text).empty());
+  CHECK(shaft_problems(pair_text + shaft_text).empty());
   const int lines = static_cast<int>(std::count(pair_text.begin(), pair_text.end(), '\n'));
   struct Case {
     std::string from, to, key;
@@ -108,14 +108,14 @@ TEST_CASE("Shafts that cannot be are refused with the place that says so", "[stu
   text.replace(at, wrong.from.size(), wrong.to);
   if (wrong.key.ends_with("bearings")) text.replace(text.find(", tilting_stiffness = 5"), 23, "");
   CAPTURE(text);
-  const std::vector<StudyProblem> problems = problems_of(pair_text + text);
+  const std::vector<StudyProblem> problems = shaft_problems(pair_text + text);
   REQUIRE_FALSE(problems.empty());
   CHECK(problems.front().key == wrong.key);
   CHECK(problems.front().line == lines + wrong.line);
 }
 
 TEST_CASE("The effect shafts is on where a shaft is described and load runs, and says so", "[studies][shaft]") {
-  const json rigid = run(pair_text), with = run(pair_text + shaft_text);
+  const json rigid = run_shafts(pair_text), with = run_shafts(pair_text + shaft_text);
   CHECK(effect(rigid, "shafts").at("on") == false);
   CHECK(effect(with, "shafts").at("on") == true);
   CHECK(effect(with, "shafts").at("seconds").get<double>() >= 0.0);
@@ -135,17 +135,17 @@ TEST_CASE("The effect shafts is on where a shaft is described and load runs, and
     CHECK(position.at("mesh_misalignment_um") == position.at("pinion").at("misalignment_um"));
   }
   CHECK(lag == Approx(moved).epsilon(0.1));  // model: the motion of one place stands for all, along the normal
-  const json off = run(pair_text + shaft_text, {{"fidelity.effects", "[\"bending\", \"hertzian_contact\", \"free_ends\", \"tip_corner\", \"extended_contact_region\"]"}});
+  const json off = run_shafts(pair_text + shaft_text, {{"fidelity.effects", "[\"bending\", \"hertzian_contact\", \"free_ends\", \"tip_corner\", \"extended_contact_region\"]"}});
   CHECK(effect(off, "shafts").at("on") == false);
   CHECK(off.at("loaded")[0].at("summary").at("te_mean_um") == rigid.at("loaded")[0].at("summary").at("te_mean_um"));
-  const std::vector<StudyProblem> problems = problems_of(pair_text, {{"fidelity.effects", "[\"bending\", \"shafts\"]"}});
+  const std::vector<StudyProblem> problems = shaft_problems(pair_text, {{"fidelity.effects", "[\"bending\", \"shafts\"]"}});
   REQUIRE(problems.size() == 1);
   CHECK(problems.front().key == "fidelity.effects");
 }
 
 TEST_CASE("The best lead slope takes back what the shafts do", "[studies][shaft][physics]") {
   // Thin enough to open the mesh by some 20 um; one gear is corrected for both.
-  const json results = run("task = \"optimise\"\n" + pair_text + shaft_text +
+  const json results = run_shafts("task = \"optimise\"\n" + pair_text + shaft_text +
                                "[optimise.variables]\n\"pinion.modification.lead_slope\" = [-60, 60]\n"
                                "\"pinion.modification.lead_crowning\" = [0, 40]\n",
                            {{"pinion.face_width", "60"}, {"wheel.face_width", "60"}, {"load.torque", "700"}, {"cycle.positions", "8"},
@@ -165,7 +165,7 @@ TEST_CASE("Finite elements leave their wind-up to start where the study's torque
   const auto task = [](const std::string& text, Member member, const std::vector<Override>& overrides = {}) {
     std::vector<Override> all = overrides;
     all.push_back({"fidelity.compliance", "fe"});
-    const Study study = read(text, all);
+    const Study study = read_shafts(text, all);
     return influence_table_task(study, make_gear_pair(study.pair), member);
   };
   const auto end = [&](auto&&... of) { return task(of...).gear.body.torque_end; };
@@ -185,15 +185,15 @@ TEST_CASE("Errors of single teeth are read as lists, one value a tooth", "[studi
   std::string values = "[1, -2, 3";
   for (int tooth = 3; tooth < 21; ++tooth) values += ", 0";
   values += "]";
-  const Study study = read(pair_text + "[pinion.error]\nhelix_slope = " + values + "\nprofile_slope = 5\ntwist = " + values + "\n");
+  const Study study = read_shafts(pair_text + "[pinion.error]\nhelix_slope = " + values + "\nprofile_slope = 5\ntwist = " + values + "\n");
   CHECK(study.pinion_error.helix_slope == 0.0);
   REQUIRE(study.pinion_error.helix_slopes.size() == 21);
-  CHECK(study.pinion_error.helix_slopes[1] == Approx(-0.002).epsilon(round_off));
-  CHECK(study.pinion_error.profile_slope == Approx(0.005).epsilon(round_off));
+  CHECK(study.pinion_error.helix_slopes[1] == Approx(-0.002).epsilon(shaft_round_off));
+  CHECK(study.pinion_error.profile_slope == Approx(0.005).epsilon(shaft_round_off));
   CHECK(study.pinion_error.profile_slopes.empty());
-  CHECK(study.pinion_error.twists[2] == Approx(0.003).epsilon(round_off));
+  CHECK(study.pinion_error.twists[2] == Approx(0.003).epsilon(shaft_round_off));
   for (const char* key : {"helix_slope", "profile_slope", "twist", "pitch"}) {
-    const std::vector<StudyProblem> problems = problems_of(pair_text + "[pinion.error]\n" + key + " = [1, 2, 3]\n");
+    const std::vector<StudyProblem> problems = shaft_problems(pair_text + "[pinion.error]\n" + key + " = [1, 2, 3]\n");
     REQUIRE(problems.size() == 1);
     CHECK(problems.front().key == std::string("pinion.error.") + key);
   }

@@ -2,6 +2,9 @@
 
 #include <catch2/catch.hpp>
 
+#include "studies/results_json.hpp"
+#include "studies/run_study.hpp"
+
 namespace flankwright::studies::study_texts {
 
 Study read(const std::string& more, const std::vector<Override>& overrides) {
@@ -22,6 +25,10 @@ StudyProblem problem_of(const std::string& more, const std::vector<Override>& ov
   CAPTURE(more);
   REQUIRE(problems.size() == 1);
   return problems.front();
+}
+
+Json results_of(const std::string& text, const std::vector<Override>& overrides) {
+  return Json::parse(results_json(run_study(parse_study(text, "small.toml", overrides))));
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {

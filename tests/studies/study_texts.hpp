@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/json_format.hpp"
 #include "studies/study_file.hpp"
 
 /// Studies as texts, and what the reader makes of them.
@@ -31,6 +32,9 @@ std::vector<StudyProblem> problems_of(const std::string& text, const std::vector
 
 /// The one problem that the small study with these lines added has.
 StudyProblem problem_of(const std::string& more, const std::vector<Override>& overrides = {});
+
+/// What results.json says after a run of the text.
+Json results_of(const std::string& text, const std::vector<Override>& overrides = {});
 
 /// The text with the first `from` replaced.
 std::string replaced(std::string text, const std::string& from, const std::string& to);

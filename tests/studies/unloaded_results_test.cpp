@@ -11,15 +11,13 @@
 #include "studies/tables.hpp"
 #include "tests/studies/command_line.hpp"
 #include "tests/studies/small_studies.hpp"
+#include "tests/studies/study_texts.hpp"
 
 namespace flankwright::studies {
 namespace {
 
 using json = Json;
-
-json run(const std::string& text, const std::vector<Override>& overrides = {}) {
-  return json::parse(results_json(run_study(parse_study(text, "small.toml", overrides))));
-}
+using study_texts::results_of;
 
 /// A helical pair with a predesigned parabola, its scenes within and beyond what lead crowning takes up.
 const std::string parabola_study = R"(
@@ -71,7 +69,7 @@ bool is_edge(const json& position) {
 }  // namespace
 
 TEST_CASE("The pairs that carry are the mesh's curve, at every position some pair does", "[studies][results][physics]") {
-  const json results = run(small::analysis());
+  const json results = results_of(small::analysis());
   for (const json& unloaded : results["unloaded_scenes"]) {
     const json& mesh = unloaded["mesh"];
     constexpr double shared = 1e-12 / units::arcsec;  // what counts as sharing the lead
@@ -92,7 +90,7 @@ TEST_CASE("The pairs that carry are the mesh's curve, at every position some pai
 
 TEST_CASE("At a hand-over the pair that enters is the faster one, and the slopes are those of the curves",
           "[studies][results][physics]") {
-  const json results = run(parabola_study);
+  const json results = results_of(parabola_study);
   for (const json& unloaded : results["unloaded_scenes"]) {
     for (const json& transfer : unloaded["mesh"]["transfers"]) {
       const double before = transfer["slope_before_arcsec_per_deg"], after = transfer["slope_after_arcsec_per_deg"];
@@ -116,7 +114,7 @@ TEST_CASE("At a hand-over the pair that enters is the faster one, and the slopes
 }
 
 TEST_CASE("Ellipses belong to contact inside both flanks and lie in their common tangent plane", "[studies][results][physics]") {
-  const json results = run(parabola_study);
+  const json results = results_of(parabola_study);
   int ellipses = 0;
   for (const json& unloaded : results["unloaded_scenes"]) {
     for (const json& pair : unloaded["pairs"]) {
@@ -143,7 +141,7 @@ TEST_CASE("Ellipses belong to contact inside both flanks and lie in their common
 }
 
 TEST_CASE("A sequence names each kind once for every time it is met", "[studies][results]") {
-  const json results = run(parabola_study);
+  const json results = results_of(parabola_study);
   for (const json& unloaded : results["unloaded_scenes"]) {
     for (const json& pair : unloaded["pairs"]) {
       std::string expected, last;
@@ -181,16 +179,16 @@ TEST_CASE("A designed parabola is judged in every scene; where it does not hold 
   const std::string summary = summary_table(results);
   CHECK_THAT(summary, Catch::Contains("parabola holds") && Catch::Contains("parabola does not hold: "));
 
-  CHECK_FALSE(run(small::analysis())["unloaded"].contains("parabolic_te"));
+  CHECK_FALSE(results_of(small::analysis())["unloaded"].contains("parabolic_te"));
   // Three positions do not tell a parabola.
-  CHECK(run(parabola_study, {{"cycle.positions", "3"}})["unloaded"]["parabolic_te"]["holds"] == false);
+  CHECK(results_of(parabola_study, {{"cycle.positions", "3"}})["unloaded"]["parabolic_te"]["holds"] == false);
 }
 
 TEST_CASE("The arc of a surface of revolution asks for its parabola", "[studies][results][physics]") {
   const std::vector<Override> crowned{{"pair.helix_angle", "0"},
                                       {"pinion.modification.parabolic_te", "0"},
                                       {"pinion.generation", "{ kind = \"revolution\", half_apex = 80, distance = 15, arc_radius = 2000 }"}};
-  const json results = run(parabola_study, crowned);
+  const json results = results_of(parabola_study, crowned);
   const json& parabola = results["unloaded"]["parabolic_te"];
   CHECK(parabola["found_arcsec_per_deg2"].get<double>() ==
         Approx(parabola["wanted_arcsec_per_deg2"].get<double>()).epsilon(0.05));  // a parabola near the vertex only
@@ -201,7 +199,7 @@ TEST_CASE("The arc of a surface of revolution asks for its parabola", "[studies]
 TEST_CASE("A thicker marking compound marks more of both flanks", "[studies][results][physics]") {
   double last_pinion = 0.0, last_wheel = 0.0;
   for (const char* thickness : {"2", "6.35", "20"}) {
-    const json results = run(parabola_study, {{"unloaded.marking_thickness", thickness}});
+    const json results = results_of(parabola_study, {{"unloaded.marking_thickness", thickness}});
     const json& pattern = results["unloaded"]["bearing_pattern"];
     CHECK(pattern["marking_thickness_um"].get<double>() == Approx(std::stod(thickness)));
     CHECK(pattern["pinion"]["covered_percent"] > last_pinion);
@@ -218,7 +216,7 @@ TEST_CASE("A thicker marking compound marks more of both flanks", "[studies][res
 
 TEST_CASE("A flank that is too thin everywhere shifts the transmission error and changes nothing else",
           "[studies][results][physics][grid]") {
-  const json nominal = run(small::analysis()), thin = run_with_thin_pinion(small::analysis());
+  const json nominal = results_of(small::analysis()), thin = run_with_thin_pinion(small::analysis());
   const double base_helix = nominal["geometry"]["base_helix_angle_deg"].get<double>() * units::deg;
   // Unloaded: the involute turned by 10 um/(r_b1 cos(beta_b)); a grid of equal numbers is that exactly.
   constexpr double round_off = 1e-6;  // um, angles of some degrees on 160 mm
@@ -260,14 +258,14 @@ TEST_CASE("A flank that is too thin everywhere shifts the transmission error and
 TEST_CASE("A crowned generation concentrates the load", "[studies][results][physics]") {
   double last = 0.0;
   for (const char* coefficient : {"0", "0.0002", "0.0005"}) {
-    const json results = run(small::analysis(), {{"pinion.generation.kind", "parabolic_rack"},
+    const json results = results_of(small::analysis(), {{"pinion.generation.kind", "parabolic_rack"},
                                                  {"pinion.generation.coefficient", coefficient}});
     const double stress = results["loaded"][0]["summary"]["peak_contact_stress_MPa"];
     CHECK(stress > last);
     last = stress;
   }
   // What the tool removes belongs to the map of the flank, as modifications do.
-  const json map = run(parabola_study, {{"pinion.modification.lead_crowning", "0"},
+  const json map = results_of(parabola_study, {{"pinion.modification.lead_crowning", "0"},
                                         {"pinion.modification.parabolic_te", "0"},
                                         {"pinion.generation", "{ kind = \"parabolic_rack\", coefficient = 0.001 }"}});
   REQUIRE(map["modifications"].size() == 1);

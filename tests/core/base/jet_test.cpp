@@ -8,15 +8,15 @@ using namespace flankwright;
 
 namespace {
 
-constexpr double kRoundOff = 1e-12;  // relative to numbers of order 1..10
+constexpr double kJetRoundOff = 1e-12;  // relative to numbers of order 1..10
 
 void check_equal(const Jet& a, const Jet& b) {
-  CHECK(a.value == Approx(b.value).margin(kRoundOff).epsilon(kRoundOff));
-  CHECK(a.u == Approx(b.u).margin(kRoundOff).epsilon(kRoundOff));
-  CHECK(a.v == Approx(b.v).margin(kRoundOff).epsilon(kRoundOff));
-  CHECK(a.uu == Approx(b.uu).margin(kRoundOff).epsilon(kRoundOff));
-  CHECK(a.uv == Approx(b.uv).margin(kRoundOff).epsilon(kRoundOff));
-  CHECK(a.vv == Approx(b.vv).margin(kRoundOff).epsilon(kRoundOff));
+  CHECK(a.value == Approx(b.value).margin(kJetRoundOff).epsilon(kJetRoundOff));
+  CHECK(a.u == Approx(b.u).margin(kJetRoundOff).epsilon(kJetRoundOff));
+  CHECK(a.v == Approx(b.v).margin(kJetRoundOff).epsilon(kJetRoundOff));
+  CHECK(a.uu == Approx(b.uu).margin(kJetRoundOff).epsilon(kJetRoundOff));
+  CHECK(a.uv == Approx(b.uv).margin(kJetRoundOff).epsilon(kJetRoundOff));
+  CHECK(a.vv == Approx(b.vv).margin(kJetRoundOff).epsilon(kJetRoundOff));
 }
 
 /// Two numbers with all derivatives different from zero.
@@ -69,5 +69,5 @@ TEST_CASE("The chain rule gives what differentiating the composition gives", "[c
   using Number = Dual<2>;
   const Number dual = chain(at, Number(a.value, {a.u, a.v}), Number(b.value, {b.u, b.v}));
   CHECK(dual.value == at.value);
-  CHECK((dual.gradient - Eigen::Vector2d(f(a, b).u, f(a, b).v)).norm() <= kRoundOff);
+  CHECK((dual.gradient - Eigen::Vector2d(f(a, b).u, f(a, b).v)).norm() <= kJetRoundOff);
 }

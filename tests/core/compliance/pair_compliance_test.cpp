@@ -11,7 +11,7 @@ using namespace flankwright;
 
 namespace {
 
-constexpr double kModule = 10, kFace = 60;
+constexpr double kModule = 10, kWidth = 60;
 
 GearPair pair_of(Hand hand, WorkingFlank flank) {
   PairData data;
@@ -21,8 +21,8 @@ GearPair pair_of(Hand hand, WorkingFlank flank) {
   data.working_flank = flank;
   data.pinion.teeth = 18;
   data.wheel.teeth = 27;
-  data.pinion.face_width = kFace;
-  data.wheel.face_width = kFace + 20;
+  data.pinion.face_width = kWidth;
+  data.wheel.face_width = kWidth + 20;
   return make_gear_pair(data);
 }
 
@@ -55,7 +55,7 @@ TEST_CASE("Contact points lie on the finite-element gears as in the housing: sam
   const GearPair pair = pair_of(hand, flank);
   const PathOfContact path(pair);
   const std::vector<ContactPoint> points =
-      contact_points(pair, path, {QuadratureRule::Gauss2, 4}, 0.7, false, -0.5 * kFace, 0.5 * kFace);
+      contact_points(pair, path, {QuadratureRule::Gauss2, 4}, 0.7, false, -0.5 * kWidth, 0.5 * kWidth);
   int teeth = 0;
   for (Member member : {Member::Pinion, Member::Wheel}) {
     const GearMesh mesh = mesh_of(pair, member);
@@ -88,7 +88,7 @@ TEST_CASE("A thin slice's influence is its own: diagonal, and by the length it s
   const GearPair pair = pair_of(Hand::Right, WorkingFlank::Right);
   const ThinSlicePair slices{ThinSlice(pair, {}, {})};
   const std::vector<ContactPoint> points =
-      contact_points(pair, PathOfContact(pair), {QuadratureRule::Gauss2, 4}, 0.7, false, -0.5 * kFace, 0.5 * kFace);
+      contact_points(pair, PathOfContact(pair), {QuadratureRule::Gauss2, 4}, 0.7, false, -0.5 * kWidth, 0.5 * kWidth);
   const Eigen::MatrixXd influence = slices.influence(points, 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t j = 0; j < points.size(); ++j) {

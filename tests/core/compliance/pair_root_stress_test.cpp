@@ -9,12 +9,12 @@ using namespace flankwright;
 
 namespace {
 
-constexpr double kModule = 4, kFace = 24;
+constexpr double kStressModule = 4, kStressWidth = 24;
 
 /// A table that says where a force and a fillet are: s_tt = teeth between them, s_aa = u of the force, s_ta = zeta of
 /// the force less that of the fillet. Linear, so that splines interpolate it exactly.
 std::shared_ptr<const RootStressTable> telltale(double face_width) {
-  RootStressTable table{flank_grid(face_width / kModule, 4), {{0.2, 0.5, 0.8}, 1, {0, 1, face_width / kModule}}, {}};
+  RootStressTable table{flank_grid(face_width / kStressModule, 4), {{0.2, 0.5, 0.8}, 1, {0, 1, face_width / kStressModule}}, {}};
   const std::vector<FlankPlace> forces = table.grid.places();
   for (int m = -2; m <= 2; ++m) {
     Eigen::MatrixXd stress(3 * table.fillet.size(), table.grid.size());
@@ -36,19 +36,19 @@ TEST_CASE("Fillets of both gears feel forces where these are in the housing", "[
       GENERATE(std::pair{Hand::Right, WorkingFlank::Right}, std::pair{Hand::Left, WorkingFlank::Right},
                std::pair{Hand::Right, WorkingFlank::Left});
   PairData data;
-  data.normal_module = kModule;
+  data.normal_module = kStressModule;
   data.helix_angle = 25 * units::deg;
   data.pinion_hand = hand;
   data.working_flank = flank;
   data.pinion.teeth = 20;
   data.wheel.teeth = 33;
-  data.pinion.face_width = kFace;
-  data.wheel.face_width = kFace + 8;
+  data.pinion.face_width = kStressWidth;
+  data.wheel.face_width = kStressWidth + 8;
   const double offset = 1.5;
   const GearPair pair = make_gear_pair(data);
   const std::vector<ContactPoint> points =
-      contact_points(pair, PathOfContact(pair), {QuadratureRule::Gauss2, 3}, 0.8, false, -kFace / 2, kFace / 2);
-  const TabulatedRootStress stress(pair, telltale(kFace), telltale(kFace + 8));
+      contact_points(pair, PathOfContact(pair), {QuadratureRule::Gauss2, 3}, 0.8, false, -kStressWidth / 2, kStressWidth / 2);
+  const TabulatedRootStress stress(pair, telltale(kStressWidth), telltale(kStressWidth + 8));
   const RootStressInfluence found = stress.influence(points, offset);
   REQUIRE(found.components.rows() == 3 * static_cast<Eigen::Index>(found.places.size()));
   REQUIRE(found.components.cols() == static_cast<Eigen::Index>(points.size()));
@@ -62,8 +62,8 @@ TEST_CASE("Fillets of both gears feel forces where these are in the housing", "[
     CHECK(std::abs(place.z - (pinion ? 0 : offset)) <= half * (1 + 1e-12));
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Eigen::Vector3d s =
-          found.components.block<3, 1>(3 * static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(i)) * kModule *
-          kModule;
+          found.components.block<3, 1>(3 * static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(i)) * kStressModule *
+          kStressModule;
       // The same number of teeth apart, in the mesh's own sense of counting on either gear; round-off of splines.
       CHECK(s[0] == Approx((pinion ? -1 : 1) * (points[i].tooth - place.tooth)).margin(1e-11));
       const double radius = pinion ? points[i].pinion_radius : points[i].wheel_radius;
@@ -72,7 +72,7 @@ TEST_CASE("Fillets of both gears feel forces where these are in the housing", "[
                            1)
                         .margin(1e-11));
       // zeta runs from the sharp end, opposite ends on both gears: with z on one, against it on the other.
-      const double along_z = (points[i].z - place.z) / kModule;
+      const double along_z = (points[i].z - place.z) / kStressModule;
       const double sense = (pinion ? -1 : 1) * (pair.contact_line_sense() >= 0 ? 1.0 : -1.0);
       CHECK(s[2] == Approx(sense * along_z).margin(1e-11));
     }

@@ -15,7 +15,7 @@ namespace {
 using Points = std::vector<double>;
 
 // Values, spacings and derivatives here are of order 1 to 100.
-constexpr double round_off = 1e-12;
+constexpr double spline_round_off = 1e-12;
 
 // Not equidistant, spacing 0.5 .. 2.
 const Points uneven_u{-3.0, -2.2, -1.2, 0.0, 0.5, 1.7, 2.4, 4.0};
@@ -79,10 +79,10 @@ TEST_CASE("A spline of any number of pieces reproduces bicubic polynomials with 
   CAPTURE(pieces_u, pieces_v);
   for (double u = -3.0; u <= 4.0; u += 0.35) {
     for (double v = 0.0; v <= 7.7; v += 0.35) {
-      CHECK(largest_difference(fit.spline.at(u, v), bicubic(u, v, 3, 3)) <= 10.0 * round_off);
+      CHECK(largest_difference(fit.spline.at(u, v), bicubic(u, v, 3, 3)) <= 10.0 * spline_round_off);
     }
   }
-  CHECK(fit.largest <= round_off);
+  CHECK(fit.largest <= spline_round_off);
   CHECK(fit.rms <= fit.largest);
 }
 
@@ -97,7 +97,7 @@ TEST_CASE("Few points along a direction give the polynomial through them", "[cor
                                })).spline;
   for (const double a : {1.0, 1.3, 2.9}) {
     for (const double b : {-2.0, 0.1, 1.6}) {
-      CHECK(largest_difference(spline.at(a, b), bicubic(a, b, degree_u, degree_v)) <= 10.0 * round_off);
+      CHECK(largest_difference(spline.at(a, b), bicubic(a, b, degree_u, degree_v)) <= 10.0 * spline_round_off);
     }
   }
 }
@@ -108,10 +108,10 @@ TEST_CASE("The interpolating spline passes through every sample", "[core][flank]
   for (std::size_t i = 0; i < samples.u.size(); ++i) {
     for (std::size_t j = 0; j < samples.v.size(); ++j) {
       const double sample = samples.values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-      CHECK(std::abs(fit.spline.at(samples.u[i], samples.v[j]).value - sample) <= round_off);
+      CHECK(std::abs(fit.spline.at(samples.u[i], samples.v[j]).value - sample) <= spline_round_off);
     }
   }
-  CHECK(fit.largest <= round_off);
+  CHECK(fit.largest <= spline_round_off);
 }
 
 TEST_CASE("The breaks are the third to the third last point: truncated cubics that start there are reproduced",
@@ -128,7 +128,7 @@ TEST_CASE("The breaks are the third to the third last point: truncated cubics th
     largest = std::max(largest, std::abs(spline.at(u, 3.0).value - truncated(u, 0.0)));
   const bool is_break = k >= 2 && k <= 5;
   CAPTURE(k, largest);
-  CHECK((largest <= 100.0 * round_off) == is_break);
+  CHECK((largest <= 100.0 * spline_round_off) == is_break);
 }
 
 TEST_CASE("Value, slopes and curvatures are continuous across every joint, those of the extension included",
@@ -217,12 +217,12 @@ TEST_CASE("Beyond the grid the curvature of the border fades and a straight line
     const double bent =
         d <= interval ? d * d * (3.0 * interval - d) / (6.0 * interval) : interval * (3.0 * d - interval) / 6.0;
     CAPTURE(border, v, d);
-    CHECK(std::abs(f.value - (edge.value + slope * d + edge.uu * bent)) <= 10.0 * round_off * (1.0 + d));
-    CHECK(std::abs(f.uu - edge.uu * std::max(0.0, 1.0 - d / interval)) <= 10.0 * round_off);
+    CHECK(std::abs(f.value - (edge.value + slope * d + edge.uu * bent)) <= 10.0 * spline_round_off * (1.0 + d));
+    CHECK(std::abs(f.uu - edge.uu * std::max(0.0, 1.0 - d / interval)) <= 10.0 * spline_round_off);
     // The slope stays between that of the border and that of the line.
     const double last = slope + 0.5 * edge.uu * interval;
-    CHECK(outwards * f.u <= std::max(slope, last) + round_off);
-    CHECK(outwards * f.u >= std::min(slope, last) - round_off);
+    CHECK(outwards * f.u <= std::max(slope, last) + spline_round_off);
+    CHECK(outwards * f.u >= std::min(slope, last) - spline_round_off);
   }
 }
 
@@ -239,7 +239,7 @@ TEST_CASE("At a corner the extension is the same along u first or v first", "[co
   for (const double u : {-6.0, -3.5, 1.1, 4.5, 9.0}) {
     for (const double v : {-5.0, -0.7, 2.2, 8.5, 12.0}) {
       CAPTURE(u, v);
-      CHECK(largest_difference(product.at(u, v), along_u.at(u, v) * along_v.at(u, v)) <= 100.0 * round_off);
+      CHECK(largest_difference(product.at(u, v), along_u.at(u, v) * along_v.at(u, v)) <= 100.0 * spline_round_off);
     }
   }
 }
@@ -252,7 +252,7 @@ TEST_CASE("Beyond a ragged edge the extension grows linearly where the cubic of 
   const Jet edge = spline.at(8.0, 0.5);
   const double third = edge.uu - spline.at(7.0, 0.5).uu;  // of the last cubic, over an interval of 1
   const auto cubic = [&](double d) { return edge.value + d * (edge.u + d * (0.5 * edge.uu + d * third / 6.0)); };
-  REQUIRE(spline.at(7.2, 0.5).value == Approx(cubic(-0.8)).margin(round_off));
+  REQUIRE(spline.at(7.2, 0.5).value == Approx(cubic(-0.8)).margin(spline_round_off));
   CHECK(std::abs(spline.at(10.0, 0.5).value) <= 0.5 * std::abs(cubic(2.0)));
   CHECK(spline.at(16.0, 0.5).value - edge.value <= 8.0 * (edge.u + 0.5 * edge.uu));
 }
@@ -264,10 +264,10 @@ TEST_CASE("A fit with fewer pieces is the orthogonal projection of the samples",
   const SplineFit fit = fit_spline(samples, {pieces_u, pieces_v});
   const GridSamples fitted = sample(uneven_u, uneven_v, [&](double u, double v) { return fit.spline.at(u, v).value; });
   const Eigen::MatrixXd residual = samples.values - fitted.values;
-  CHECK(std::abs(residual.cwiseProduct(fitted.values).sum()) <= round_off);
-  CHECK(fit_spline(fitted, {pieces_u, pieces_v}).largest <= round_off);
+  CHECK(std::abs(residual.cwiseProduct(fitted.values).sum()) <= spline_round_off);
+  CHECK(fit_spline(fitted, {pieces_u, pieces_v}).largest <= spline_round_off);
   const SplineFit nothing = fit_spline({uneven_u, uneven_v, residual}, {pieces_u, pieces_v});
-  CHECK(std::abs(nothing.spline.at(0.3, 3.1).value) <= round_off);
+  CHECK(std::abs(nothing.spline.at(0.3, 3.1).value) <= spline_round_off);
   CHECK(fit.rms == Approx(std::sqrt(residual.squaredNorm() / static_cast<double>(residual.size()))).epsilon(1e-12));
   CHECK(fit.largest == Approx(residual.cwiseAbs().maxCoeff()).epsilon(1e-12));
   CHECK(fit.rms > 0.1);
@@ -285,7 +285,7 @@ TEST_CASE("Every allowed number of pieces determines the fit", "[core][flank][sp
     for (int pieces = 1; pieces <= most_spline_pieces(n); ++pieces) {
       const SplineFit fit = fit_spline(samples, {pieces, 1});
       CAPTURE(n, pieces);
-      CHECK(std::abs(fit.spline.at(2.3, 0.4).value - f(2.3, 0.4)) <= 10.0 * round_off);
+      CHECK(std::abs(fit.spline.at(2.3, 0.4).value - f(2.3, 0.4)) <= 10.0 * spline_round_off);
     }
   }
 }
@@ -298,8 +298,8 @@ TEST_CASE("Symmetric samples give a symmetric spline and zero gives zero", "[cor
   for (const double u : {0.3, 1.1, 2.6}) {
     for (const double v : {0.2, 0.9, 1.4}) {
       const Jet a = spline.at(u, v), b = spline.at(-u, v), c = spline.at(u, -v);
-      CHECK(largest_difference(a, {b.value, -b.u, b.v, b.uu, -b.uv, b.vv}) <= 10.0 * round_off);
-      CHECK(largest_difference(a, {c.value, c.u, -c.v, c.uu, -c.uv, c.vv}) <= 10.0 * round_off);
+      CHECK(largest_difference(a, {b.value, -b.u, b.v, b.uu, -b.uv, b.vv}) <= 10.0 * spline_round_off);
+      CHECK(largest_difference(a, {c.value, c.u, -c.v, c.uu, -c.uv, c.vv}) <= 10.0 * spline_round_off);
     }
   }
   const SplineFit zero =

@@ -18,7 +18,7 @@ using units::um;
 
 namespace {
 
-constexpr double round_off = 1e-14;  // mm, on deviations of some 0.05 mm
+constexpr double grid_round_off = 1e-14;  // mm, on deviations of some 0.05 mm
 
 /// The pair of "TCA of real helical gears", table 1.
 GearPair real_pair() {
@@ -81,7 +81,7 @@ double smooth_deviation(const GearPair& pair, double r, double z) {
   return (-35.0 * x * x + 13.0 * std::sin(4.0 * y + x) + 10.0 * x * y) * um;
 }
 
-std::string refusal(const std::function<void()>& call) {
+std::string grid_refusal(const std::function<void()>& call) {
   try {
     call();
   } catch (const InvalidInput& problem) {
@@ -131,15 +131,15 @@ TEST_CASE("A grid of a lead crowning is that lead crowning, beyond the grid to t
     for (double z = grid.z.front(); z <= grid.z.back(); z += 3.1) {
       const Jet d = fit.field->at(rho, z);
       const double r = std::hypot(rho, pair.pinion.base_radius);
-      CHECK(std::abs(d.value - removal(crowned, frame, r, z)) <= round_off);
-      CHECK(std::abs(d.v - (8.0 * 0.03 * z / 92.0 - 0.01) / 92.0) <= round_off);
-      CHECK(std::abs(d.vv - 8.0 * 0.03 / (92.0 * 92.0)) <= round_off);
-      CHECK(std::abs(d.u) + std::abs(d.uu) + std::abs(d.uv) <= round_off);
+      CHECK(std::abs(d.value - removal(crowned, frame, r, z)) <= grid_round_off);
+      CHECK(std::abs(d.v - (8.0 * 0.03 * z / 92.0 - 0.01) / 92.0) <= grid_round_off);
+      CHECK(std::abs(d.vv - 8.0 * 0.03 / (92.0 * 92.0)) <= grid_round_off);
+      CHECK(std::abs(d.u) + std::abs(d.uu) + std::abs(d.uv) <= grid_round_off);
     }
   }
   // Model: the share d/(3 L) of the curvature term at the face end, d = 4.6 mm beyond the grid, L = 82.8/14 mm.
   const double missing = 4.6 / (3.0 * 82.8 / 14.0) * 0.5 * 8.0 * 0.03 * (4.6 / 92.0) * (4.6 / 92.0);
-  CHECK(fit.field->at(20.0, 46.0).value == Approx(removal(crowned, frame, 60.0, 46.0) - missing).margin(round_off));
+  CHECK(fit.field->at(20.0, 46.0).value == Approx(removal(crowned, frame, 60.0, 46.0) - missing).margin(grid_round_off));
 }
 
 TEST_CASE("A deviation that is bilinear in roll length and z comes back exactly from an uneven 2 x 2 grid",
@@ -158,9 +158,9 @@ TEST_CASE("A deviation that is bilinear in roll length and z comes back exactly 
   for (const double rho : {5.0, 20.0, 40.0}) {
     for (const double z : {-30.0, 1.0, 25.0}) {
       const Jet error = fit.field->at(rho, z) - truth(Jet::variable_u(rho), Jet::variable_v(z));
-      CHECK(std::abs(error.value) <= 10.0 * round_off);
-      CHECK(std::abs(error.u) + std::abs(error.v) + std::abs(error.uv) <= 10.0 * round_off);
-      CHECK(std::abs(error.uu) + std::abs(error.vv) <= 10.0 * round_off);
+      CHECK(std::abs(error.value) <= 10.0 * grid_round_off);
+      CHECK(std::abs(error.u) + std::abs(error.v) + std::abs(error.uv) <= 10.0 * grid_round_off);
+      CHECK(std::abs(error.uu) + std::abs(error.vv) <= 10.0 * grid_round_off);
     }
   }
 }
@@ -180,7 +180,7 @@ TEST_CASE(
   CAPTURE(inside / um, everywhere / um);
   CHECK(inside <= 1.0 * um);
   CHECK(everywhere <= 1.0 * um);
-  CHECK(fit.largest <= round_off);
+  CHECK(fit.largest <= grid_round_off);
 }
 
 TEST_CASE("A grid without deviation is the involute itself", "[core][flank][grid]") {
@@ -206,7 +206,7 @@ TEST_CASE(
   // 5 x 5 B-splines take 25 of the 135 degrees of freedom; scatter of a standard deviation from 110 others: 7 %.
   CHECK(smooth.rms == Approx(std::sqrt(110.0 / 135.0) * um).epsilon(0.2));
   CHECK(smooth.largest >= smooth.rms);
-  CHECK(through.largest <= round_off);
+  CHECK(through.largest <= grid_round_off);
   // Between the points, and at the borders of the active flank, where the extension magnifies what the edge of the grid
   // says.
   for (const double beyond : {0.0, 1.0}) {
@@ -221,7 +221,7 @@ TEST_CASE("A grid that is not one is refused, and why is said", "[core][flank][g
   const auto refused = [](const std::function<void(MeasuredGrid&)>& spoil) {
     MeasuredGrid grid = small_grid();
     spoil(grid);
-    return refusal([&] { make_grid_field(grid, 50.0, 0.3); });
+    return grid_refusal([&] { make_grid_field(grid, 50.0, 0.3); });
   };
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(refused([](MeasuredGrid&) {}).empty());
@@ -249,13 +249,13 @@ TEST_CASE("A grid whose steps differ ten to one still passes through its points"
   std::mt19937 random(2);
   for (double& delta : grid.deviation.reshaped()) delta = um * static_cast<double>(random() % 100) / 100.0;
   // Round-off of what the spline swings to between points of such noise, up to 1000 times as far.
-  CHECK(make_grid_field(grid, 50.0, 0.3).largest <= 1000.0 * round_off);
+  CHECK(make_grid_field(grid, 50.0, 0.3).largest <= 1000.0 * grid_round_off);
 }
 
 TEST_CASE("The number of pieces is that of the points less three at most", "[core][flank][grid][errors]") {
   const GearPair pair = real_pair();
   const MeasuredGrid grid = paper_grid(pair, [](double, double) { return 0.0; });
-  const auto refused = [&](const GridFitOptions& options) { return refusal([&] { fit_on(pair, grid, options); }); };
+  const auto refused = [&](const GridFitOptions& options) { return grid_refusal([&] { fit_on(pair, grid, options); }); };
   CHECK(refused({6, 12}).empty());
   CHECK(refused({7, {}}) == "grid.profile_pieces: 7");
   CHECK(refused({{}, 13}) == "grid.face_pieces: 13");
@@ -284,7 +284,7 @@ TEST_CASE("Coverage is the share of the active flank, and a grid of another flan
   for (double& z : from_face_end.z) z += 46.0;
   for (double& z : below_face_end.z) z -= 46.0;
   for (double& r : diameters.radii) r *= 2.0;
-  CHECK_THAT(refusal([&] { check_coverage(from_face_end, frame); }), Catch::StartsWith("grid: z 4.6 mm .. 87.4 mm"));
-  CHECK_THAT(refusal([&] { check_coverage(below_face_end, frame); }), Catch::StartsWith("grid: z -87.4 mm .. -4.6 mm"));
-  CHECK_THAT(refusal([&] { check_coverage(diameters, frame); }), Catch::StartsWith("grid: radii 105.7"));
+  CHECK_THAT(grid_refusal([&] { check_coverage(from_face_end, frame); }), Catch::StartsWith("grid: z 4.6 mm .. 87.4 mm"));
+  CHECK_THAT(grid_refusal([&] { check_coverage(below_face_end, frame); }), Catch::StartsWith("grid: z -87.4 mm .. -4.6 mm"));
+  CHECK_THAT(grid_refusal([&] { check_coverage(diameters, frame); }), Catch::StartsWith("grid: radii 105.7"));
 }

@@ -20,7 +20,7 @@ const FlankFrame frame{.pitch_radius = 50.0,
                        .wheel_base_radius = 90.0};
 constexpr double active_height = 7.0;                  // r_a - r_Nf
 
-constexpr double kRoundOff = 1e-15;  // mm: amounts are of the order of 0.01 mm
+constexpr double kRemovalRoundOff = 1e-15;  // mm: amounts are of the order of 0.01 mm
 
 Modification only(ModificationParameter parameter, double amount) {
   Modification m;
@@ -46,7 +46,7 @@ Modification everything(ReliefShape shape) {
   return m;
 }
 
-bool near(double found, double expected, double margin = kRoundOff) {
+bool near(double found, double expected, double margin = kRemovalRoundOff) {
   INFO("found " << found << ", expected " << expected);
   return std::abs(found - expected) <= margin;
 }

@@ -29,22 +29,22 @@ PairData data_of() {
 
 RevolutionTool paper_tool() { return {80 * deg, 0.176 * inch, 500 * inch}; }
 
-struct Generated {
+struct Revolved {
   GearPair pair;
   Flank flank;
   double reference_roll;
 };
 
-Generated generate(const RevolutionTool& tool, PairData data = data_of(), Member member = Member::Pinion) {
+Revolved revolve(const RevolutionTool& tool, PairData data = data_of(), Member member = Member::Pinion) {
   (member == Member::Pinion ? data.pinion : data.wheel).generation = tool;
-  Generated made{make_gear_pair(data), {}, not_given};
+  Revolved made{make_gear_pair(data), {}, not_given};
   made.flank = make_flank(made.pair, member, {}, {});
   made.flank.fields = {make_generated_field(made.pair, member)};
   made.reference_roll = made.pair[member].roll_length_at(made.pair[member].reference_radius);
   return made;
 }
 
-double roll_at(const Flank& flank, double share) {
+double roll_at_share(const Flank& flank, double share) {
   return flank.lowest_roll() + share * (flank.highest_roll() - flank.lowest_roll());
 }
 
@@ -77,12 +77,12 @@ TEST_CASE("A tool of revolution cuts nowhere deeper than its flank and touches i
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   PairData data = data_of();
   data.pinion.profile_shift = 0.1;
-  const auto made = generate(tool, data, member);
+  const auto made = revolve(tool, data, member);
   const GearPair& pair = made.pair;
   const double apex = RevolutionSection(tool, pair.data, pair[member].data).apex_distance();
   for (const double z : {-6.3, -2.0, 0.0, 4.0}) {
     for (double share = 0.0; share <= 1.0; share += 0.125) {
-      const SurfacePoint at = surface_point(made.flank, roll_at(made.flank, share), z, 0, 0.0);
+      const SurfacePoint at = surface_point(made.flank, roll_at_share(made.flank, share), z, 0, 0.0);
       const Point3<double> p{at.position.x(), at.position.y(), z};
       const auto clearance = [&](double psi) {
         const Eigen::Vector3d q = rolling::in_rack(pair, member, p, psi);
@@ -101,12 +101,12 @@ TEST_CASE("A tool of revolution cuts nowhere deeper than its flank and touches i
 
 TEST_CASE("The flank of a tool of revolution satisfies the paper's equation of meshing", "[core][flank]") {
   const RevolutionTool tool = paper_tool();
-  const auto made = generate(tool);
+  const auto made = revolve(tool);
   const double alpha = tool.half_apex, psi_c = made.pair.data.pressure_angle, rho = tool.arc_radius;
   const double a1 = RevolutionSection(tool, made.pair.data, made.pair.pinion.data).apex_distance();
   for (const double z : {-5.0, 0.0, 3.0}) {
     for (double share = 0.0; share <= 1.0; share += 0.125) {
-      const SurfacePoint at = surface_point(made.flank, roll_at(made.flank, share), z, 0, 0.0);
+      const SurfacePoint at = surface_point(made.flank, roll_at_share(made.flank, share), z, 0, 0.0);
       const double psi = rolling::roll_of_normal(made.pair, Member::Pinion, at);
       const Eigen::Vector3d p = rolling::in_rack(made.pair, Member::Pinion, {at.position.x(), at.position.y(), z}, psi);
       // The point in S_a (inverse of eq. 17, with x_c = y and y_c = x here), its meridian and its place on the arc.
@@ -131,9 +131,9 @@ TEST_CASE("The flank of a tool of revolution satisfies the paper's equation of m
 TEST_CASE("A cone leaves the involute in mid face and nowhere else", "[core][flank][closed-form]") {
   RevolutionTool cone = paper_tool();
   cone.arc_radius = kInfinity;
-  const auto made = generate(cone);
+  const auto made = revolve(cone);
   for (double share = 0.0; share <= 1.0; share += 0.1) {
-    const double rho = roll_at(made.flank, share);
+    const double rho = roll_at_share(made.flank, share);
     const Jet middle = made.flank.fields.front()->at(rho, 0.0);
     CHECK(middle.value == 0.0);
     CHECK(middle.u == 0.0);
@@ -156,7 +156,7 @@ TEST_CASE("A cone leaves the involute in mid face and nowhere else", "[core][fla
 TEST_CASE("At the reference circle a cone gives a lead crowning of z^2/(2 a_1 tan alpha)", "[core][flank][closed-form]") {
   RevolutionTool cone = paper_tool();
   cone.arc_radius = kInfinity;
-  const auto made = generate(cone);
+  const auto made = revolve(cone);
   const double a1 = RevolutionSection(cone, made.pair.data, made.pair.pinion.data).apex_distance();
   const double curvature = 1.0 / (a1 * std::tan(cone.half_apex));
   CHECK(made.flank.fields.front()->at(made.reference_roll, 0.0).vv == Approx(curvature).epsilon(1e-12));
@@ -170,8 +170,8 @@ TEST_CASE("At the reference circle a cone gives a lead crowning of z^2/(2 a_1 ta
 TEST_CASE("Cones become the straight rack as they flatten or grow, arcs become cones", "[core][flank]") {
   const double z = 5.0;
   const auto removed = [&](const RevolutionTool& tool, double share) {
-    const auto made = generate(tool);
-    return made.flank.fields.front()->at(roll_at(made.flank, share), z).value;
+    const auto made = revolve(tool);
+    return made.flank.fields.front()->at(roll_at_share(made.flank, share), z).value;
   };
   const double share = GENERATE(0.1, 0.5, 1.0);
   const double straight = removed({89.99 * deg, 4.47, kInfinity}, share);
@@ -188,7 +188,7 @@ TEST_CASE("Cones become the straight rack as they flatten or grow, arcs become c
 
 TEST_CASE("An arc crowns the profile with the curvature tan^2(alpha)/rho at the reference circle", "[core][flank][closed-form]") {
   const RevolutionTool tool = paper_tool();
-  const auto made = generate(tool);
+  const auto made = revolve(tool);
   const Jet there = made.flank.fields.front()->at(made.reference_roll, 0.0);
   const double tangent = std::tan(made.pair.data.pressure_angle);
   CHECK(std::abs(there.value) <= 1e-16);  // round-off
@@ -197,11 +197,11 @@ TEST_CASE("An arc crowns the profile with the curvature tan^2(alpha)/rho at the 
 }
 
 TEST_CASE("The flank of a tool of revolution is symmetric about mid face, finite, and thinner than the involute", "[core][flank]") {
-  const auto made = generate(paper_tool());
+  const auto made = revolve(paper_tool());
   const DeviationField& field = *made.flank.fields.front();
   for (double share = 0.0; share <= 1.0; share += 0.05) {
     for (double z = 0.1; z <= 1.2 * made.flank.half_face; z += 0.4) {
-      const Jet front = field.at(roll_at(made.flank, share), z), back = field.at(roll_at(made.flank, share), -z);
+      const Jet front = field.at(roll_at_share(made.flank, share), z), back = field.at(roll_at_share(made.flank, share), -z);
       REQUIRE(std::isfinite(front.value));
       REQUIRE(front.value > 0.0);
       REQUIRE(front.value == back.value);
@@ -217,13 +217,13 @@ TEST_CASE("The flank of a tool of revolution is symmetric about mid face, finite
 TEST_CASE("The derivatives of a flank from a tool of revolution are those of its values and of each other", "[core][flank]") {
   RevolutionTool tool = paper_tool();
   tool.arc_radius = GENERATE(as<double>{}, kInfinity, 2500.0);
-  const auto made = generate(tool);
+  const auto made = revolve(tool);
   const DeviationField& field = *made.flank.fields.front();
   constexpr double kStep = 1e-3;            // mm
   constexpr double kDiscretisation = 2e-9;  // step^2 times third derivatives of 1e-3, round-off / step
   for (const double z : {-7.0, 0.0, 0.3, 4.0}) {
     for (double share = -0.5; share <= 1.3; share += 0.1) {  // on the flank and where it is continued
-      const double rho = roll_at(made.flank, share);
+      const double rho = roll_at_share(made.flank, share);
       const Jet at = field.at(rho, z);
       const Jet down = field.at(rho - kStep, z), up = field.at(rho + kStep, z);
       const Jet back = field.at(rho, z - kStep), front = field.at(rho, z + kStep);
@@ -243,7 +243,7 @@ TEST_CASE("An arc's parabola of transmission error is the one unloaded contact f
   const double stretch = GENERATE(1.0, 1.01);  // of the centre distance; the paper takes 1 %
   PairData data = data_of();
   data.centre_distance = stretch * 0.5 * 60 * data.normal_module;
-  const auto made = generate(paper_tool(), data, member);
+  const auto made = revolve(paper_tool(), data, member);
   const GearPair& pair = made.pair;
   MeshScene scene = make_mesh_scene(pair, {}, {}, {}, {}, {});
   (member == Member::Pinion ? scene.pinion : scene.wheel).fields = made.flank.fields;

@@ -17,7 +17,7 @@ using units::pi;
 
 namespace {
 
-constexpr double kRoundOff = 1e-13;  // relative: a handful of trigonometric functions
+constexpr double kPairRoundOff = 1e-13;  // relative: a handful of trigonometric functions
 
 PairData pair_of(int z1, int z2, double module, double beta, double x1 = 0.0, double x2 = 0.0) {
   PairData data;
@@ -32,7 +32,7 @@ PairData pair_of(int z1, int z2, double module, double beta, double x1 = 0.0, do
   return data;
 }
 
-bool near(double found, double expected, double relative = kRoundOff) {
+bool near(double found, double expected, double relative = kPairRoundOff) {
   INFO("found " << found << ", expected " << expected);
   return std::abs(found - expected) <= relative * std::abs(expected);
 }
@@ -48,7 +48,7 @@ double half_angle_by_integration(double thickness, double reference, double base
   return 0.5 * thickness / reference - integral * h / 3.0;
 }
 
-std::vector<std::string> fields(const PairData& data) {
+std::vector<std::string> refused_fields(const PairData& data) {
   std::vector<std::string> names;
   for (const InvalidInput& problem : find_problems(data)) {
     CHECK_FALSE(problem.allowed().empty());
@@ -58,7 +58,7 @@ std::vector<std::string> fields(const PairData& data) {
 }
 
 bool names(const PairData& data, const std::string& field) {
-  const std::vector<std::string> found = fields(data);
+  const std::vector<std::string> found = refused_fields(data);
   CHECK_THROWS_AS(make_gear_pair(data), InvalidInput);
   return std::find(found.begin(), found.end(), field) != found.end();
 }
@@ -77,15 +77,15 @@ TEST_CASE("A pair without profile shift has the radii and angles of its standard
   CHECK(near(pair.pinion.tooth_thickness, 0.5 * pi * module / std::cos(beta)));
   CHECK(near(pair.transverse_base_pitch, pi * module / std::cos(beta) * std::cos(alpha_t)));
   // ISO 21771: sin(beta_b) = sin(beta) cos(alpha_n), a relation the program does not use.
-  CHECK(std::abs(std::sin(pair.base_helix_angle) - std::sin(beta) * std::cos(20 * deg)) <= kRoundOff);
-  CHECK(std::abs(pair.backlash) <= kRoundOff * module * 100);
+  CHECK(std::abs(std::sin(pair.base_helix_angle) - std::sin(beta) * std::cos(20 * deg)) <= kPairRoundOff);
+  CHECK(std::abs(pair.backlash) <= kPairRoundOff * module * 100);
   CHECK(pair.face_width == 9.0 * module);
   // Transverse contact ratio from the tip pressure angles; overlap ratio from the normal pitch.
   const auto gain = [&](const Gear& gear) {
     return gear.data.teeth / (2 * pi) * (std::tan(std::acos(gear.base_radius / gear.tip_radius)) - std::tan(alpha_t));
   };
   CHECK(near(pair.transverse_contact_ratio, gain(pair.pinion) + gain(pair.wheel), 1e-12));
-  CHECK(std::abs(pair.overlap_ratio - pair.face_width * std::sin(beta) / (pi * module)) <= kRoundOff * 10);
+  CHECK(std::abs(pair.overlap_ratio - pair.face_width * std::sin(beta) / (pi * module)) <= kPairRoundOff * 10);
 }
 
 TEST_CASE("Profile-shifted flanks fill the working pitch circle without backlash", "[core][gear][closed-form]") {
@@ -189,14 +189,14 @@ TEST_CASE("Contact of an undercut pinion ends at its form circle", "[core][gear]
   const GearPair pair = make_gear_pair(pair_of(10, 60, 3.0, 0.0));
   CHECK(pair.pinion.undercut);
   CHECK(pair.pinion.fillet_interference);
-  CHECK(pair.pinion.active_root_radius >= pair.pinion.form_radius * (1 - kRoundOff));
+  CHECK(pair.pinion.active_root_radius >= pair.pinion.form_radius * (1 - kPairRoundOff));
   CHECK(pair.path_start >= 0.0);
   CHECK(pair.path_start > pair.path_length - pair.wheel.roll_length_at(pair.wheel.tip_radius));
 }
 
 TEST_CASE("What cannot be built is refused by the name of its field", "[core][gear][invalid-input]") {
   const PairData good = pair_of(20, 50, 3.0, 15 * deg);
-  CHECK(fields(good).empty());
+  CHECK(refused_fields(good).empty());
   const auto with = [&](const std::function<void(PairData&)>& change) {
     PairData data = good;
     change(data);
@@ -254,7 +254,7 @@ TEST_CASE("A number that is none is refused in every field", "[core][gear][inval
 TEST_CASE("Several mistakes are reported at once and the first is thrown", "[core][gear][invalid-input]") {
   PairData data = pair_of(2, 50, -3.0, 15 * deg);
   data.wheel.face_width = -1.0;
-  const std::vector<std::string> found = fields(data);
+  const std::vector<std::string> found = refused_fields(data);
   for (const char* field : {"pair.normal_module", "pinion.teeth", "pinion.face_width", "wheel.face_width"}) {
     CAPTURE(field);
     CHECK(std::find(found.begin(), found.end(), field) != found.end());

@@ -7,13 +7,10 @@
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;
+using mesh_cases::mesh_of;
 using mesh_cases::torque_for;
 
 namespace {
-
-MeshAt mesh_of(const GearPair& gears, const Quadrature& quadrature = {QuadratureRule::Graded, 6}) {
-  return [gears, quadrature](const std::vector<double>& phases) { return mesh_cases::model(gears, {quadrature, phases}); };
-}
 
 FlankCondition misaligned(double by) {
   FlankCondition condition;

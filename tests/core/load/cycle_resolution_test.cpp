@@ -7,6 +7,7 @@
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;
+using mesh_cases::mesh_of;
 using mesh_cases::torque_for;
 
 namespace {
@@ -15,10 +16,6 @@ std::vector<double> cosine(int positions, int order, double amplitude) {
   std::vector<double> samples;
   for (int i = 0; i < positions; ++i) samples.push_back(amplitude * std::cos(2 * units::pi * order * i / positions));
   return samples;
-}
-
-MeshAt mesh_of(const GearPair& gears, const Quadrature& quadrature) {
-  return [gears, quadrature](const std::vector<double>& phases) { return mesh_cases::model(gears, {quadrature, phases}); };
 }
 
 std::vector<double> transmission_error(const MeshAt& mesh_at, double torque, int positions) {

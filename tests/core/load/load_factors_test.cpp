@@ -7,15 +7,10 @@
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;
+using mesh_cases::mesh_of;
 using mesh_cases::torque_for;
 
 namespace {
-
-MeshAt mesh_of(const GearPair& gears) {
-  return [gears](const std::vector<double>& phases) {
-    return mesh_cases::model(gears, {{QuadratureRule::Graded, 5}, phases});
-  };
-}
 
 LoadFactors factors_of(const GearPair& gears, const FlankCondition& condition, double line_load = 100) {
   const auto located = [&](const FlankCondition& part) {

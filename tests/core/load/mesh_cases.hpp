@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "core/load/contact_peaks.hpp"
 #include "core/load/mesh_cycle.hpp"
 
 /// Gear pairs and readings of a loaded cycle that several tests share.
@@ -28,6 +29,11 @@ inline GearPair pair(int z1, int z2, double helix_angle_deg, double module, doub
 
 inline MeshModel model(const GearPair& gears, const MeshResolution& resolution, const MeshEffects& effects = {}) {
   return make_mesh_model(gears, steel, steel, resolution, effects);
+}
+
+/// The pair's mesh at whatever phases are asked for.
+inline MeshAt mesh_of(const GearPair& gears, const Quadrature& quadrature = {QuadratureRule::Graded, 5}) {
+  return [gears, quadrature](const std::vector<double>& phases) { return model(gears, {quadrature, phases}); };
 }
 
 /// Torque on the pinion that gives a mean line load over b / cos(beta_b) [N mm].

@@ -5,16 +5,13 @@
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;
+using mesh_cases::mesh_of;
 using mesh_cases::torque_for;
 
 namespace {
 
 constexpr double kTorque = 100;  // N/mm of mean line load
 constexpr double kStep = 0.01 * units::um;
-
-MeshAt mesh_of(const GearPair& gears) {
-  return [gears](const std::vector<double>& phases) { return mesh_cases::model(gears, {{QuadratureRule::Graded, 5}, phases}); };
-}
 
 FlankCondition crowned_and_relieved() {
   FlankCondition condition;

@@ -21,7 +21,7 @@ MeshModel surface_model(const GearPair& gears, const MeshResolution& resolution,
 }
 
 /// Crowned, relieved and skewed: contact at summits, on tips and at face ends.
-FlankCondition worked_condition() {
+FlankCondition surface_condition() {
   FlankCondition c;
   c.pinion_modification.lead_crowning = 6 * um;
   c.pinion_modification.tip_relief = {30 * um, 2.1, ReliefShape::Parabolic};
@@ -40,7 +40,7 @@ FlankCondition worked_condition() {
 TEST_CASE("As the load vanishes the loaded transmission error becomes the unloaded one", "[core][load][independent]") {
   const double helix = GENERATE(0.0, 20.0);
   const GearPair gears = mesh_cases::pair(23, 41, helix, 4, 30);
-  FlankCondition condition = worked_condition();
+  FlankCondition condition = surface_condition();
   const bool edges = GENERATE(false, true);
   if (edges) {
     // Hollow leads and a pitch error that brings the next tooth in by its tip edge.
@@ -154,7 +154,7 @@ TEST_CASE("The ends of lines carry what the whole surface leaves there", "[core]
 
 TEST_CASE("Gradients over the whole surface agree with central differences", "[core][load]") {
   const GearPair gears = mesh_cases::pair(23, 41, 20, 4, 30);
-  FlankCondition condition = worked_condition();
+  FlankCondition condition = surface_condition();
   condition.pinion_modification.parabolic_te = 2e-4;
   const MeshModel model = surface_model(gears, {{QuadratureRule::Gauss2, 5}, {0.15, 0.48, 0.83}}, condition.misalignment);
   const double torque = torque_for(gears, 200);

@@ -8,11 +8,13 @@
 #include "studies/study_file.hpp"
 #include "studies/tables.hpp"
 #include "tests/studies/small_studies.hpp"
+#include "tests/studies/study_texts.hpp"
 
 namespace flankwright::studies {
 namespace {
 
 using json = Json;
+using study_texts::results_of;
 
 /// The small optimisation with everything that proves it.
 std::string proven_study() {
@@ -35,8 +37,6 @@ void remove_seconds(json& node) {
     for (json& child : node) remove_seconds(child);
   }
 }
-
-json run(const std::string& text) { return json::parse(results_json(run_study(parse_study(text, "small.toml")))); }
 
 TEST_CASE("The proof in results.json hangs together", "[studies][proof]") {
   const StudyResults results = run_study(parse_study(proven_study(), "small.toml"));
@@ -99,7 +99,7 @@ TEST_CASE("The proof in results.json hangs together", "[studies][proof]") {
 }
 
 TEST_CASE("The same study gives the same proof", "[studies][proof][determinism]") {
-  json a = run(proven_study())["optimise"], b = run(proven_study())["optimise"];
+  json a = results_of(proven_study())["optimise"], b = results_of(proven_study())["optimise"];
   remove_seconds(a);
   remove_seconds(b);
   CHECK(a == b);

@@ -13,7 +13,7 @@ using Catch::Contains;
 
 namespace {
 
-std::string refusal(const std::string& text) {
+std::string model_refusal(const std::string& text) {
   try {
     parse_model(text, "gears.rexs");
   } catch (const studies::StudyErrors& errors) {
@@ -22,7 +22,7 @@ std::string refusal(const std::string& text) {
   return "";
 }
 
-Model sample() {
+Model sample_model() {
   Model model{.version = "1.7", .application = "A \"B\" <C>", .application_version = "1", .date = "2026-01-01T00:00:00+00:00"};
   model.components.push_back({.id = 4, .type = "cylindrical_gear", .name = "Rad & \xc3\x84hnliches"});
   model.components.back().attributes = {{"number_of_teeth", "none", ValueType::Integer, "17"},
@@ -39,7 +39,7 @@ Model sample() {
 
 TEST_CASE("A REXS model survives both of its forms", "[studies][rexs]") {
   const Form form = GENERATE(Form::Xml, Form::Json);
-  const Model model = sample();
+  const Model model = sample_model();
   const std::string text = model_text(model, form);
   CHECK(text.starts_with("\xef\xbb\xbf"));
   const Model back = parse_model(text, "a");
@@ -77,29 +77,29 @@ TEST_CASE("Elements of XML know their line", "[studies][rexs]") {
 }
 
 TEST_CASE("A damaged REXS file is refused in one line with its place", "[studies][rexs][errors]") {
-  CHECK_THAT(refusal(""), Contains("gears.rexs: file = without content"));
-  CHECK_THAT(refusal("PK\x03\x04rest"), Contains("ZIP archive") && Contains("unpack it"));
-  CHECK_THAT(refusal("hello"), Contains("XML starts with <, JSON with {"));
-  CHECK_THAT(refusal("<model>\n<a>\xff</a></model>"), Contains("gears.rexs:2:1: byte = 0xff: allowed is UTF-8"));
-  CHECK_THAT(refusal("<model>\n<relations>\n</model>"), Contains("gears.rexs:3:1: XML = Start-end tags mismatch"));
-  CHECK_THAT(refusal("<model>\n"), Contains("gears.rexs:") && Contains("XML = "));
-  CHECK_THAT(refusal("<gears/>"), Contains("element = gears: allowed is <model>"));
-  CHECK_THAT(refusal("{\n\"model\": {\n\"relations\": [,]}}"), Contains("gears.rexs:3:1: JSON = "));
-  CHECK_THAT(refusal("{\"model\": 3}"), Contains("model = 3"));
-  CHECK_THAT(refusal("{\"gear\": {}}"), Contains("an object with \"model\""));
-  CHECK_THAT(refusal("{\"model\": {\"components\": 3}}"), Contains("components = 3: allowed is a list"));
+  CHECK_THAT(model_refusal(""), Contains("gears.rexs: file = without content"));
+  CHECK_THAT(model_refusal("PK\x03\x04rest"), Contains("ZIP archive") && Contains("unpack it"));
+  CHECK_THAT(model_refusal("hello"), Contains("XML starts with <, JSON with {"));
+  CHECK_THAT(model_refusal("<model>\n<a>\xff</a></model>"), Contains("gears.rexs:2:1: byte = 0xff: allowed is UTF-8"));
+  CHECK_THAT(model_refusal("<model>\n<relations>\n</model>"), Contains("gears.rexs:3:1: XML = Start-end tags mismatch"));
+  CHECK_THAT(model_refusal("<model>\n"), Contains("gears.rexs:") && Contains("XML = "));
+  CHECK_THAT(model_refusal("<gears/>"), Contains("element = gears: allowed is <model>"));
+  CHECK_THAT(model_refusal("{\n\"model\": {\n\"relations\": [,]}}"), Contains("gears.rexs:3:1: JSON = "));
+  CHECK_THAT(model_refusal("{\"model\": 3}"), Contains("model = 3"));
+  CHECK_THAT(model_refusal("{\"gear\": {}}"), Contains("an object with \"model\""));
+  CHECK_THAT(model_refusal("{\"model\": {\"components\": 3}}"), Contains("components = 3: allowed is a list"));
   const std::string component = "<component id='1' type='a'/>";
-  CHECK_THAT(refusal("<model><components>" + component + "\n" + component + "</components></model>"), Contains("gears.rexs:2:1: component id = 1: allowed is each id once"));
-  CHECK_THAT(refusal("<model><components>\n<component id='x1'/></components></model>"), Contains("gears.rexs:2:1: component id = x1: allowed is a whole number"));
-  CHECK_THAT(refusal("<model><relations><relation id='1' type='a'><ref id='-3'/></relation></relations></model>"), Contains("ref id = -3"));
+  CHECK_THAT(model_refusal("<model><components>" + component + "\n" + component + "</components></model>"), Contains("gears.rexs:2:1: component id = 1: allowed is each id once"));
+  CHECK_THAT(model_refusal("<model><components>\n<component id='x1'/></components></model>"), Contains("gears.rexs:2:1: component id = x1: allowed is a whole number"));
+  CHECK_THAT(model_refusal("<model><relations><relation id='1' type='a'><ref id='-3'/></relation></relations></model>"), Contains("ref id = -3"));
   // Neither nesting nor entities exhaust anything.
   std::string deep_json = "{\"model\": ", deep_xml = "<model>";
   for (int i = 0; i < 100000; ++i) {
     deep_json += '[';
     deep_xml += "<a>";
   }
-  CHECK_FALSE(refusal(deep_json).empty());
-  CHECK_FALSE(refusal(deep_xml).empty());
+  CHECK_FALSE(model_refusal(deep_json).empty());
+  CHECK_FALSE(model_refusal(deep_xml).empty());
 }
 
 TEST_CASE("Packed arrays are unpacked", "[studies][rexs]") {

@@ -13,7 +13,7 @@
 namespace flankwright::studies {
 namespace {
 
-Study read(const std::string& settings, const std::string& more = "", const std::vector<Override>& overrides = {}) {
+Study sweep_study(const std::string& settings, const std::string& more = "", const std::vector<Override>& overrides = {}) {
   return parse_study(small::sweep(settings, more), "sweep.toml", overrides);
 }
 
@@ -30,7 +30,7 @@ std::vector<StoredSample> samples_of(const Study& study, Shard shard = {}) {
 
 TEST_CASE("A sample of a sweep is the analysis of its own study, bit for bit", "[studies][sweep]") {
   // Everything that is zero in the study itself: its effect must be on for the samples all the same.
-  const Study study = read("samples = 24", "\"wheel.error\" = { iso_1328_class = 7 }\n\"misalignment.axial_offset\" = { uniform = [0, 3] }\n");
+  const Study study = sweep_study("samples = 24", "\"wheel.error\" = { iso_1328_class = 7 }\n\"misalignment.axial_offset\" = { uniform = [0, 3] }\n");
   const std::vector<StoredSample> samples = samples_of(study);
   REQUIRE(samples.size() == 24);
   const StudyResults nominal = run_study(study);
@@ -53,7 +53,7 @@ TEST_CASE("A sample of a sweep is the analysis of its own study, bit for bit", "
 }
 
 TEST_CASE("A sample's own study finds the measured grids of the sweep's from anywhere", "[studies][sweep]") {
-  Study study = read("samples = 24");
+  Study study = sweep_study("samples = 24");
   study.file = "/gears/pump/sweep.toml";
   study.wheel_grid.file = "../flanks/wheel.csv";
   study.pinion_tooth_grids = {"a.csv", "", "/b.csv"};
@@ -63,7 +63,7 @@ TEST_CASE("A sample's own study finds the measured grids of the sweep's from any
 }
 
 TEST_CASE("Samples do not depend on the number of threads, nor on the shard they are analysed in", "[studies][sweep]") {
-  const Study study = read("samples = 60\nsampler = \"latin_hypercube\"");
+  const Study study = sweep_study("samples = 60\nsampler = \"latin_hypercube\"");
   const auto with_threads = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     return samples_of(study);
@@ -99,7 +99,7 @@ TEST_CASE("A sweep without torque has the outputs of unloaded contact", "[studie
 }
 
 TEST_CASE("A sample that cannot be analysed fails with its reason and stops no other", "[studies][sweep]") {
-  const Study study = read("samples = 40", "", {{"sweep.parameters.load.torque", "{ normal = [100, 200] }"}});
+  const Study study = sweep_study("samples = 40", "", {{"sweep.parameters.load.torque", "{ normal = [100, 200] }"}});
   StudyResults nominal = run_study(study);
   run_sweep(nominal, {}, {});
   const SweepStatistics& sweep = *nominal.sweep;

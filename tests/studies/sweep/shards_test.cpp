@@ -16,14 +16,14 @@ using command_line::ScratchFolder;
 using command_line::text_of;
 namespace fs = std::filesystem;
 
-const std::vector<SweepOutput> outputs{{"stress", "MPa"}};
+const std::vector<SweepOutput> shard_outputs{{"stress", "MPa"}};
 
 Study study() { return parse_study(small::sweep("samples = 17"), "sweep.toml"); }
 
 /// A shard with its samples below `end`.
 void write_shard(const fs::path& file, Shard shard, long long end = 17) {
   fs::create_directories(file.parent_path());
-  SweepStore store(file, study(), outputs, shard);
+  SweepStore store(file, study(), shard_outputs, shard);
   for (long long i = shard.index; i < end; i += shard.count) store.add({i, {1.0, 2.0, 3.0}, {"", {static_cast<double>(i)}}});
   store.commit(1.0);
 }
@@ -57,8 +57,8 @@ TEST_CASE("A merge has every sample of whole shards once, also when it is repeat
   const ScratchFolder folder;
   for (long long k = 0; k < 4; ++k) write_shard(folder.path() / shard_file({k, 4}), {k, 4});
   for (int time = 0; time < 2; ++time) {
-    merge_shards(folder.path(), study(), outputs);
-    SweepStore whole(folder.path() / "results.sqlite", study(), outputs);
+    merge_shards(folder.path(), study(), shard_outputs);
+    SweepStore whole(folder.path() / "results.sqlite", study(), shard_outputs);
     CHECK(whole.count(1000) == 17);
     for (long long i = 0; i < 17; ++i) CHECK(whole.find(i)->result.outputs[0] == static_cast<double>(i));
   }
@@ -67,12 +67,12 @@ TEST_CASE("A merge has every sample of whole shards once, also when it is repeat
 TEST_CASE("Lost, repeated, unfinished and foreign shards are all named, and nothing is merged", "[studies][sweep][shards]") {
   const ScratchFolder folder;
   const fs::path shards = folder.path() / "shards";
-  CHECK_THROWS_WITH(merge_shards(folder.path(), study(), outputs), Contains("the folder of the shards"));
+  CHECK_THROWS_WITH(merge_shards(folder.path(), study(), shard_outputs), Contains("the folder of the shards"));
   write_shard(shards / "1-of-4.sqlite", {0, 4});
   write_shard(shards / "3-of-4.sqlite", {2, 4}, 12);
   write_shard(shards / "a copy.sqlite", {0, 4});
   write_shard(shards / "other.sqlite", {1, 5});
-  CHECK_THROWS_WITH(merge_shards(folder.path(), study(), outputs),
+  CHECK_THROWS_WITH(merge_shards(folder.path(), study(), shard_outputs),
                     Contains("lost of 4: 2, 4") && Contains("unfinished of 4: 3") && Contains("shard 1 is repeated, in 1-of-4.sqlite and a copy.sqlite") &&
                         Contains("other.sqlite is a shard of 5, others are of 4"));
   CHECK(!fs::exists(folder.path() / "results.sqlite"));

@@ -11,7 +11,7 @@ namespace {
 
 using Catch::Contains;
 
-Study read(const std::string& settings, const std::string& more = "") { return parse_study(small::sweep(settings, more), "sweep.toml"); }
+Study sweep_keys(const std::string& settings, const std::string& more = "") { return parse_study(small::sweep(settings, more), "sweep.toml"); }
 
 const SweepParameter& parameter(const Study& study, const std::string& path) {
   for (const SweepParameter& p : study.sweep.parameters) {
@@ -22,7 +22,7 @@ const SweepParameter& parameter(const Study& study, const std::string& path) {
 }
 
 TEST_CASE("Distributions of a sweep are read in the unit of their key, or with their own", "[studies][sweep]") {
-  const Study study = read("samples = 100", R"(
+  const Study study = sweep_keys("samples = 100", R"(
 "misalignment.crossing" = { normal = ["1 deg", "30 arcsec"] }
 "wheel.error.pitch" = { values = [-3, "0.004 mm"] }
 "wheel.modification.twist" = { grid = [-2, 2, 5] }
@@ -43,7 +43,7 @@ TEST_CASE("Distributions of a sweep are read in the unit of their key, or with t
 }
 
 TEST_CASE("A tolerance class is that gear's tolerance, and of an error all three that it covers", "[studies][sweep]") {
-  const Study study = read("samples = 100", "\"pinion.error\" = { iso_1328_class = 6 }\n\"wheel.error.helix_slope\" = { iso_1328_class = 8 }\n");
+  const Study study = sweep_keys("samples = 100", "\"pinion.error\" = { iso_1328_class = 6 }\n\"wheel.error.helix_slope\" = { iso_1328_class = 8 }\n");
   CHECK(study.sweep.parameters.size() == 7);
   const GearPair pair = make_gear_pair(study.pair);
   const FlankTolerances pinion = flank_tolerances(ToleranceData::of(pair, Member::Pinion), 6);
@@ -55,7 +55,7 @@ TEST_CASE("A tolerance class is that gear's tolerance, and of an error all three
 }
 
 TEST_CASE("A parameter without a value stands at its median in the nominal sample, one with a value there", "[studies][sweep]") {
-  const Study study = read("samples = 100");
+  const Study study = sweep_keys("samples = 100");
   CHECK(study.pinion_modification.lead_crowning == Approx(8.0 * units::um));
   CHECK(study.torques == std::vector<double>{1014.868 * units::newton_metre});
   REQUIRE(study.scenes.size() == 1);
@@ -98,7 +98,7 @@ TEST_CASE("What a sweep cannot do is refused by name", "[studies][sweep]") {
       Row{"samples = 30\n[[scenes]]\nname = \"a\"", "", "a sweep runs one working condition"},
   }));
   CAPTURE(more);
-  CHECK_THROWS_WITH(read(settings, more), Contains(said));
+  CHECK_THROWS_WITH(sweep_keys(settings, more), Contains(said));
 }
 
 TEST_CASE("A sweep without parameters, or with a list of torques, is refused", "[studies][sweep]") {

@@ -16,7 +16,7 @@ using Catch::Contains;
 using command_line::ScratchFolder;
 using command_line::text_of;
 
-const std::vector<SweepOutput> outputs{{"stress", "MPa"}};
+const std::vector<SweepOutput> stored_outputs{{"stress", "MPa"}};
 
 Study study_with(const std::vector<Override>& overrides = {}) { return parse_study(small::sweep("samples = 100"), "sweep.toml", overrides); }
 
@@ -31,12 +31,12 @@ TEST_CASE("A store gives back what was put in, bit for bit, and goes on where it
   const ScratchFolder folder;
   const auto file = folder.path() / "results.sqlite";
   {
-    SweepStore store(file, study_with(), outputs);
+    SweepStore store(file, study_with(), stored_outputs);
     fill(store, 0, 10);
     store.add({20, {1.0, 2.0, 3.0}, {"it failed, \"badly\"", {}}});
     store.commit(0.25);
   }
-  SweepStore store(file, study_with(), outputs);
+  SweepStore store(file, study_with(), stored_outputs);
   CHECK(store.count(100) == 11);
   CHECK(store.count(5) == 5);
   CHECK(store.seconds() == 0.75);
@@ -53,42 +53,42 @@ TEST_CASE("What was not committed is lost, what was is not", "[studies][sweep][s
   const ScratchFolder folder;
   const auto file = folder.path() / "results.sqlite";
   {
-    SweepStore store(file, study_with(), outputs);
+    SweepStore store(file, study_with(), stored_outputs);
     fill(store, 0, 10);
     store.add(sample(10));
   }
-  CHECK(SweepStore(file, study_with(), outputs).count(100) == 10);
+  CHECK(SweepStore(file, study_with(), stored_outputs).count(100) == 10);
 }
 
 TEST_CASE("A store in use is refused to others and free again afterwards", "[studies][sweep][store]") {
   const ScratchFolder folder;
   const auto file = folder.path() / "results.sqlite";
   {
-    SweepStore store(file, study_with(), outputs);
-    CHECK_THROWS_WITH(SweepStore(file, study_with(), outputs), Contains("a store that no other run is using"));
+    SweepStore store(file, study_with(), stored_outputs);
+    CHECK_THROWS_WITH(SweepStore(file, study_with(), stored_outputs), Contains("a store that no other run is using"));
     fill(store, 0, 10);
-    CHECK_THROWS_WITH(SweepStore(file, study_with(), outputs), Contains("a store that no other run is using"));
+    CHECK_THROWS_WITH(SweepStore(file, study_with(), stored_outputs), Contains("a store that no other run is using"));
   }
-  CHECK(SweepStore(file, study_with(), outputs).count(100) == 10);
+  CHECK(SweepStore(file, study_with(), stored_outputs).count(100) == 10);
 }
 
 TEST_CASE("A store of another study is refused by the setting that differs", "[studies][sweep][store]") {
   const ScratchFolder folder;
   const auto file = folder.path() / "results.sqlite";
-  { SweepStore store(file, study_with(), outputs); }
-  CHECK_THROWS_WITH(SweepStore(file, study_with({{"sweep.seed", "2"}}), outputs), Contains("sweep.seed is not given, not 2"));
-  CHECK_THROWS_WITH(SweepStore(file, study_with({{"load.torque", "900"}}), outputs), Contains("load.torque is 1014.868, not 900"));
-  CHECK_THROWS_WITH(SweepStore(file, study_with(), outputs, {1, 2}), Contains("the shard is 1/1, not 2/2"));
-  CHECK_NOTHROW(SweepStore(file, study_with({{"title", "\"another\""}}), outputs));
-  CHECK_NOTHROW(SweepStore(file, study_with({{"sweep.samples", "200"}}), outputs));  // Sobol: the beginning is the same
+  { SweepStore store(file, study_with(), stored_outputs); }
+  CHECK_THROWS_WITH(SweepStore(file, study_with({{"sweep.seed", "2"}}), stored_outputs), Contains("sweep.seed is not given, not 2"));
+  CHECK_THROWS_WITH(SweepStore(file, study_with({{"load.torque", "900"}}), stored_outputs), Contains("load.torque is 1014.868, not 900"));
+  CHECK_THROWS_WITH(SweepStore(file, study_with(), stored_outputs, {1, 2}), Contains("the shard is 1/1, not 2/2"));
+  CHECK_NOTHROW(SweepStore(file, study_with({{"title", "\"another\""}}), stored_outputs));
+  CHECK_NOTHROW(SweepStore(file, study_with({{"sweep.samples", "200"}}), stored_outputs));  // Sobol: the beginning is the same
 }
 
 TEST_CASE("With a Latin hypercube more samples are other samples", "[studies][sweep][store]") {
   const ScratchFolder folder;
   const auto file = folder.path() / "results.sqlite";
   const Override sampler{"sweep.sampler", "latin_hypercube"};
-  { SweepStore store(file, study_with({sampler}), outputs); }
-  CHECK_THROWS_WITH(SweepStore(file, study_with({sampler, {"sweep.samples", "200"}}), outputs), Contains("sweep.samples is 100, not 200"));
+  { SweepStore store(file, study_with({sampler}), stored_outputs); }
+  CHECK_THROWS_WITH(SweepStore(file, study_with({sampler, {"sweep.samples", "200"}}), stored_outputs), Contains("sweep.samples is 100, not 200"));
 }
 
 TEST_CASE("A measured grid with other contents is another study", "[studies][sweep][store]") {
@@ -98,10 +98,10 @@ TEST_CASE("A measured grid with other contents is another study", "[studies][swe
   study.pinion_grid.file = "flank.csv";
   folder.file("flank.csv", "a");
   const auto file = folder.path() / "results.sqlite";
-  { SweepStore store(file, study, outputs); }
-  CHECK_NOTHROW(SweepStore(file, study, outputs));
+  { SweepStore store(file, study, stored_outputs); }
+  CHECK_NOTHROW(SweepStore(file, study, stored_outputs));
   folder.file("flank.csv", "b");
-  CHECK_THROWS_WITH(SweepStore(file, study, outputs), Contains("contents of pinion.modification.grid"));
+  CHECK_THROWS_WITH(SweepStore(file, study, stored_outputs), Contains("contents of pinion.modification.grid"));
 }
 
 TEST_CASE("A file that is no store, or a damaged one, is refused in one line and left as it is", "[studies][sweep][store]") {
@@ -110,7 +110,7 @@ TEST_CASE("A file that is no store, or a damaged one, is refused in one line and
     const std::string file = folder.file(name, contents);
     CAPTURE(name);
     try {
-      SweepStore store(file, study_with(), outputs);
+      SweepStore store(file, study_with(), stored_outputs);
       FAIL("not refused");
     } catch (const InvalidInput& problem) {
       CHECK_THAT(problem.what(), Contains(said));
@@ -121,7 +121,7 @@ TEST_CASE("A file that is no store, or a damaged one, is refused in one line and
   refused("text", std::string(5000, 'x'), "an undamaged store");
   const auto file = folder.path() / "results.sqlite";
   {
-    SweepStore store(file, study_with(), outputs);
+    SweepStore store(file, study_with(), stored_outputs);
     fill(store, 0, 2000);
   }
   const std::string whole = text_of(file);
@@ -139,7 +139,7 @@ TEST_CASE("A disk that fills up ends a run in one line and leaves what was commi
   const ScratchFolder folder;
   const auto file = folder.path() / "results.sqlite";
   {
-    SweepStore store(file, study_with(), outputs);
+    SweepStore store(file, study_with(), stored_outputs);
     fill(store, 0, 500);
     const SmallFileLimit full(static_cast<rlim_t>(std::filesystem::file_size(file) + 20'000));
     CHECK_THROWS_WITH(
@@ -148,7 +148,7 @@ TEST_CASE("A disk that fills up ends a run in one line and leaves what was commi
         }(),
         Contains("a place that can be written"));
   }
-  SweepStore store(file, study_with(), outputs);
+  SweepStore store(file, study_with(), stored_outputs);
   const long long count = store.count(1'000'000);
   CHECK(count >= 500);
   CHECK(count % 500 == 0);  // whole batches
@@ -159,9 +159,9 @@ TEST_CASE("A disk that fills up ends a run in one line and leaves what was commi
 TEST_CASE("A place where nothing can be written is refused in one line", "[studies][sweep][store]") {
   const ScratchFolder folder;
   folder.file("plain", "no folder");
-  CHECK_THROWS_WITH(SweepStore(folder.path() / "plain" / "results.sqlite", study_with(), outputs), Contains("a place that can be written"));
-  CHECK_THROWS_WITH(SweepStore(folder.path() / "missing" / "results.sqlite", study_with(), outputs), Contains("a place that can be written"));
-  CHECK_THROWS_WITH(SweepStore("/proc/results.sqlite", study_with(), outputs), Contains("a place that can be written"));  // read-only, even to root
+  CHECK_THROWS_WITH(SweepStore(folder.path() / "plain" / "results.sqlite", study_with(), stored_outputs), Contains("a place that can be written"));
+  CHECK_THROWS_WITH(SweepStore(folder.path() / "missing" / "results.sqlite", study_with(), stored_outputs), Contains("a place that can be written"));
+  CHECK_THROWS_WITH(SweepStore("/proc/results.sqlite", study_with(), stored_outputs), Contains("a place that can be written"));  // read-only, even to root
 }
 
 }  // namespace

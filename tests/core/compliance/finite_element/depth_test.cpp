@@ -15,7 +15,6 @@ using namespace flankwright::test;
 
 namespace {
 
-const Material kUnit{1, 0.3};
 constexpr double kHalfWidth = 0.1;  // L of the Hertzian pressure [modules]: a heavy load, so that the mesh resolves it
 
 /// A thin spur gear fine enough around one flank to resolve a Hertzian pressure.

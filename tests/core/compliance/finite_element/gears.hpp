@@ -5,6 +5,9 @@
 
 namespace flankwright::test {
 
+/// Of Young's modulus one: influence values are then in the thesis' unit E m_n K.
+inline const Material kUnit{1, 0.3};
+
 /// A gear with Haddad's rack, alpha_n = 20 deg; sizes in modules.
 inline GearToMesh gear_of(int teeth, double helix_deg, double width = 6, double shift = 0, double module = 1) {
   GearToMesh gear;

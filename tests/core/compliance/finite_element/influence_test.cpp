@@ -12,8 +12,6 @@ using namespace flankwright::test;
 
 namespace {
 
-const Material kUnit{1, 0.3};
-
 std::vector<FlankPoint> points(const GearMesh& mesh, int teeth = 1) {
   std::vector<FlankPoint> result;
   for (int tooth = -teeth; tooth <= teeth; ++tooth) {

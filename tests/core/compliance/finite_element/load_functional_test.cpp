@@ -14,7 +14,7 @@ using units::pi;
 namespace {
 
 /// Points from root to tip and from end to end, on three teeth.
-std::vector<FlankPoint> points(const GearMesh& mesh) {
+std::vector<FlankPoint> flank_points(const GearMesh& mesh) {
   std::vector<FlankPoint> result;
   for (const int tooth : {-1, 0, 1}) {
     for (const double u : {0.0, 0.4, 1.0}) {
@@ -41,7 +41,7 @@ Eigen::Matrix<double, 6, 1> resultant(const GearMesh& mesh, const Eigen::VectorX
 
 TEST_CASE("The flank's frame: normal to the surface, and deep to the tooth's centre", "[core][compliance][fe]") {
   const GearMesh mesh = gear_mesh(gear_of(23, GENERATE(0, 25), 5, 0.1), coarse());
-  for (const FlankPoint& point : points(mesh)) {
+  for (const FlankPoint& point : flank_points(mesh)) {
     const LoadFrame frame = load_frame(mesh, point);
     const auto at = [&](double dr, double dz) {
       FlankPoint moved = point;
@@ -68,7 +68,7 @@ TEST_CASE("The flank's frame: normal to the surface, and deep to the tooth's cen
 
 TEST_CASE("A load on the flank keeps its force and its moments exactly", "[core][compliance][fe]") {
   const GearMesh mesh = gear_mesh(gear_of(23, GENERATE(0, 25), 5), coarse());
-  for (const FlankPoint& point : points(mesh)) {
+  for (const FlankPoint& point : flank_points(mesh)) {
     CAPTURE(point.tooth, point.radius, point.z);
     const LoadFrame frame = load_frame(mesh, point);
     const Eigen::Matrix<double, 6, 1> sum = resultant(mesh, centre_functional(mesh, point));
@@ -126,7 +126,7 @@ TEST_CASE("The net functional does not feel the motions that are taken out", "[c
   GearToMesh gear = gear_of(18, 30);
   gear.body.torque_end = GENERATE(FaceEnd::Sharp, FaceEnd::Blunt);
   const GearMesh mesh = gear_mesh(gear, coarse());
-  for (const FlankPoint& point : points(mesh)) {
+  for (const FlankPoint& point : flank_points(mesh)) {
     const double axial = -load_frame(mesh, point).normal.z();
     const auto two = resultant(mesh, net_functional(mesh, point, RemovedMotion::TranslationAndTorsion));
     CHECK(two.head<2>().norm() < 1e-12);  // round-off

@@ -14,8 +14,6 @@ using namespace flankwright::test;
 
 namespace {
 
-const Material kUnit{1, 0.3};
-
 struct Gear {
   GearMesh mesh;
   SolidModel solid;

@@ -10,8 +10,6 @@ using namespace flankwright::test;
 
 namespace {
 
-const Material kUnit{1, 0.3};
-
 GearMeshOptions fine_ends(double end_element) {
   GearMeshOptions options = coarse();
   options.flank_elements = 5;

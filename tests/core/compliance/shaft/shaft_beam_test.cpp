@@ -11,14 +11,14 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kRoundOff = 1e-12;  // of the clamped beam's values, of which some closed forms are a fiftieth
+constexpr double kBeamRoundOff = 1e-12;  // of the clamped beam's values, of which some closed forms are a fiftieth
 
 const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ(), none = Vector3d::Zero();
 
 // 1/(E I), 1/(kappa G A), 1/(G I_p), 1/(E A) of a shaft of about 40 mm.
 constexpr double EI = 2.6e10, kGA = 9e7, GJ = 2e10, EA = 2.6e8, L = 300;
-BeamPiece piece(double length, double shear = 1 / kGA) { return {length, 1 / EI, shear, 1 / GJ, 1 / EA}; }
-BeamPiece slender(double length) { return piece(length, 0.0); }
+BeamPiece uniform_piece(double length, double shear = 1 / kGA) { return {length, 1 / EI, shear, 1 / GJ, 1 / EA}; }
+BeamPiece slender(double length) { return uniform_piece(length, 0.0); }
 
 void hold(std::vector<BeamSupport>& supports, double at, std::initializer_list<Vector3d> forces,
           std::initializer_list<Vector3d> moments = {}, double compliance = 0.0) {
@@ -40,16 +40,16 @@ std::vector<BeamSupport> two_bearings(double first = 0.0, double second = L) {
   return supports;
 }
 
-double between(const ShaftBeam& beam, const BeamLoad& a, const BeamLoad& b) {
-  return beam.flexibility(std::vector{a}, std::vector{b})(0, 0);
+double between(const ShaftBeam& beam, const BeamLoad& one, const BeamLoad& other) {
+  return beam.flexibility(std::vector{one}, std::vector{other})(0, 0);
 }
 
-Approx near(double value) { return Approx(value).epsilon(kRoundOff).margin(1e-20); }
+Approx near(double value) { return Approx(value).epsilon(kBeamRoundOff).margin(1e-20); }
 
 }  // namespace
 
 TEST_CASE("A clamped shaft bends, shears, twists and stretches as textbooks say", "[core][compliance][shaft][closed-form]") {
-  const ShaftBeam beam({piece(L)}, clamp(GENERATE(0.0, L)));
+  const ShaftBeam beam({uniform_piece(L)}, clamp(GENERATE(0.0, L)));
   const bool from_start = between(beam, {0, x, none}, {0, x, none}) < 1e-15;
   const double free = from_start ? L : 0.0, along = from_start ? 1.0 : -1.0;  // z away from the clamp
   CHECK(between(beam, {free, x, none}, {free, x, none}) == near(L * L * L / (3 * EI) + L / kGA));
@@ -66,13 +66,13 @@ TEST_CASE("A clamped shaft bends, shears, twists and stretches as textbooks say"
 }
 
 TEST_CASE("A shaft on two bearings sags as a simply supported beam, overhangs included", "[core][compliance][shaft][closed-form]") {
-  const ShaftBeam beam({piece(L)}, two_bearings());
+  const ShaftBeam beam({uniform_piece(L)}, two_bearings());
   for (const double a : {20.0, 150.0, 220.0}) {
     const double b = L - a;
     CAPTURE(a);
     CHECK(between(beam, {a, x, none}, {a, x, none}) == near(a * a * b * b / (3 * EI * L) + a * b / (L * kGA)));
   }
-  CHECK(between(beam, {0, x, none}, {100, x, none}) == Approx(0.0).margin(kRoundOff * L * L * L / EI));
+  CHECK(between(beam, {0, x, none}, {100, x, none}) == Approx(0.0).margin(kBeamRoundOff * L * L * L / EI));
   // A moment in the middle turns it by M L/(12 E I) and shears both halves by M/L.
   CHECK(between(beam, {L / 2, none, y}, {L / 2, none, y}) == near(L / (12 * EI) + 1 / (L * kGA)));
 
@@ -110,7 +110,7 @@ TEST_CASE("Supports in excess share the load by their stiffness", "[core][compli
 }
 
 TEST_CASE("Loads that act together are the sum of their parts", "[core][compliance][shaft]") {
-  const ShaftBeam beam({piece(100), slender(80), piece(120)}, two_bearings(30, 280));
+  const ShaftBeam beam({uniform_piece(100), slender(80), uniform_piece(120)}, two_bearings(30, 280));
   const std::vector<BeamLoad> parts{{40, {1, -2, 0.3}, none}, {90, none, {20, 5, 0}}, {150, none, {0, 0, 8}},
                                     {200, {0.2, 1, 1}, none}, {90, none, {-7, 2, 0}}, {150, none, {0, 0, -3}}};
   const Eigen::MatrixXd each = beam.flexibility(parts), together = beam.flexibility(parts, 3);

@@ -6,7 +6,7 @@ using namespace flankwright;
 
 namespace {
 
-constexpr double kFace = 40;
+constexpr double kGearWidth = 40;
 
 ShaftData sound() {
   ShaftData shaft;
@@ -21,11 +21,11 @@ ShaftData sound() {
 
 TEST_CASE("A sound shaft has no problem and knows its length and side of torque", "[core][compliance][shaft]") {
   ShaftData shaft = sound();
-  CHECK(find_problems(shaft, kFace).empty());
+  CHECK(find_problems(shaft, kGearWidth).empty());
   CHECK(shaft.length() == 160);
   CHECK(shaft.torque_side() == -1);
   shaft.torque_position = 100;  // right at the face end
-  CHECK(find_problems(shaft, kFace).empty());
+  CHECK(find_problems(shaft, kGearWidth).empty());
   CHECK(shaft.torque_side() == 1);
 }
 
@@ -54,7 +54,7 @@ TEST_CASE("What a shaft cannot be is refused by its field", "[core][compliance][
   CAPTURE(wrong.field);
   ShaftData shaft = sound();
   wrong.spoil(shaft);
-  const std::vector<InvalidInput> problems = find_problems(shaft, kFace);
+  const std::vector<InvalidInput> problems = find_problems(shaft, kGearWidth);
   REQUIRE(problems.size() == 1);
   CHECK(problems.front().field() == wrong.field);
 }
@@ -63,5 +63,5 @@ TEST_CASE("One bearing is enough where it holds against tilting", "[core][compli
   ShaftData shaft = sound();
   shaft.bearings.pop_back();
   shaft.bearings[0].tilting_stiffness = 1e9;
-  CHECK(find_problems(shaft, kFace).empty());
+  CHECK(find_problems(shaft, kGearWidth).empty());
 }
