@@ -61,8 +61,7 @@ class DesignRun {
 
   /// A search that no longer gained has converged where the first-order conditions of the task itself hold.
   void judge_stall() {
-    const Optimality& found = result_.optimality;
-    if (result_.status != SolverStatus::Stalled || !(std::max(found.residual, found.complementarity) <= DesignResult::optimal)) return;
+    if (result_.status != SolverStatus::Stalled || !result_.optimality.satisfied()) return;
     result_.status = SolverStatus::Converged;
     result_.message += "; but the first-order conditions hold to 1e-4: an optimum on it";
   }

@@ -51,8 +51,6 @@ struct DesignResult {
   double seconds{not_given};
   std::vector<SolverStep> history;  ///< one entry per analysis of the best run and the stages after it
 
-  /// Residual and complementarity up to which a run that stalled counts as converged [-].
-  static constexpr double optimal = 1e-4;
   /// Two optima of which the better is lower by more than this share are different [-].
   static constexpr double same_objective = 1e-3;
   bool is_multimodal() const { return optima.size() > 1; }

@@ -20,6 +20,9 @@ constexpr double round_tolerance = 1e-6;  // see run_local()
 constexpr int stall_analyses = 80;
 constexpr double stall_gain = 1e-5;
 
+/// What goes on from the best design where Ipopt stalls: an active-set method, which steps onto the kink.
+constexpr const char* finisher = "nlopt:slsqp";
+
 /// Says so, judged by the true objective.
 std::function<std::string()> when_stalled(const DesignLog& log) {
   return [&log, at = std::size_t{0}, best = not_given]() mutable -> std::string {
@@ -49,16 +52,23 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
   const int analyses_before = problem.analyses();
   EpigraphProgram program(problem, log);
   double last = std::numeric_limits<double>::infinity();
+  std::string solver = options.name;
   for (run.rounds = 1; run.rounds <= most_rounds; ++run.rounds) {
     SolverOptions round = remaining(options, problem.analyses() - analyses_before, clock.seconds());
+    round.name = solver;
     round.stop_when = when_stalled(log);
     const SolverResult solved = solve(program, round);
     run.status = solved.status;
-    run.message = solved.message;
+    run.message = solver == options.name ? solved.message : solved.message + " (after Ipopt stalled on a kink: " + solver + ")";
     run.failures += solved.failures;
     if (log.best() != nullptr && solved.status == SolverStatus::Stalled &&
         last - log.best()->objective <= stall_gain * program.objective_scale()) {
-      break;
+      if (solver != "ipopt") break;
+      // Interior points crawl where an active set steps onto the kink.
+      solver = finisher;
+      program.add_candidates(log.best()->x);
+      program.restart_from(log.best()->x);
+      continue;
     }
     if (solved.x.size() == 0 || solved.status == SolverStatus::EvaluationLimit || solved.status == SolverStatus::TimeLimit) break;
     const Eigen::VectorXd x = program.design(solved.x);

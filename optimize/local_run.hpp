@@ -23,7 +23,8 @@ struct LocalRun {
 /// Searches from problem.start().
 ///
 /// Solvers with gradients that take constraints get the epigraph form, re-solved from its own optimum until no peak outside its
-/// candidates exceeds them by 1e-6 of the objective at the start, or 20 rounds are done; the others the direct form. The best design
+/// candidates exceeds them by 1e-6 of the objective at the start, or 20 rounds are done; where Ipopt no
+/// longer gains on a kink, nlopt:slsqp goes on from its best design, as `message` then says; the others the direct form. The best design
 /// met under the true outputs is returned, whatever the solver stopped at.
 LocalRun run_local(DesignProblem& problem, const SolverOptions& options);
 

@@ -86,6 +86,7 @@ Json active_json(const ActiveBound& active, const DesignTask& task) {
     json["torque_Nm"] = scene.torque / units::newton_metre;
   }
   if (row.candidate.position >= 0) json["position"] = row.candidate.position;
+  if (active.is_kink) json["kink"] = true;
   return json;
 }
 

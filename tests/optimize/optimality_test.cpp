@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
 #include "optimize/design_optimiser.hpp"
 #include "tests/optimize/design_tasks.hpp"
@@ -60,4 +61,32 @@ TEST_CASE("A bound that the balance does not need has no multiplier", "[optimize
   const Optimality found = first_order_optimality(problem, x);
   CHECK(found.residual <= as_good_as_none);
   for (const ActiveBound& active : found.active) CHECK(active.variable < 0);
+}
+
+TEST_CASE("On a kink the gradients of both sides balance, and no direction descends", "[optimize][design][optimality]") {
+  DesignTask task = helical({0.0, -16.0});
+  task.objective = {term(Output::TePeakToPeak)};
+  DesignProblem problem(task);
+  SolverOptions options;
+  options.name = "nlopt:slsqp";
+  const DesignResult result = optimise_design(problem, options);
+  CAPTURE(result.message, result.optimality.residual, result.optimality.complementarity);
+  REQUIRE(result.optimality.satisfied());
+  CHECK(result.status == SolverStatus::Converged);
+  CHECK(std::any_of(result.optimality.active.begin(), result.optimality.active.end(), [](const ActiveBound& a) { return a.is_kink; }));
+  // Independent route: the objective itself along random directions. A multiplier of the wrong sign would let it fall by a jump of the
+  // gradient, some 0.1, times the step; what the conditions leave and the curvature of f_t allow 1e-3.
+  Eigen::VectorXd x(problem.variables());
+  for (int i = 0; i < problem.variables(); ++i) {
+    const DesignVariable& v = task.variables[static_cast<std::size_t>(i)];
+    x[i] = (result.after.variables[static_cast<std::size_t>(i)] - v.lower) / (v.upper - v.lower);
+  }
+  const auto value = [&](const Eigen::VectorXd& at) { return problem.objective(problem.analyse(at, false)) / result.before.objective; };
+  const double least = value(x);
+  std::mt19937 generator(3);
+  for (int k = 0; k < 50; ++k) {
+    constexpr double step = 3e-3;
+    const Eigen::VectorXd towards = random_design(static_cast<int>(x.size()), generator) - x;
+    CHECK(value(x + step * towards.normalized()) >= least - 1e-3 * step);
+  }
 }
