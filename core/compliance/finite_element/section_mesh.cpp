@@ -219,6 +219,20 @@ std::vector<double> shaft_fractions(int rings) {
   return ends;
 }
 
+/// Elements from the teeth's inner line to their surface, as fractions of the way. Below the fillet, whose stress falls off
+/// over a fraction of its radius, each is 1.5 times as thick as the next one outwards; along the flank that falls to 1 at the
+/// tip, where elements at the centre, which loads enter through, matter as much.
+/// @param of_flank  0 at the tip, 1 from the start of the fillet on
+std::vector<double> half_thickness_fractions(int elements, double of_flank) {
+  constexpr double kBelowFillet = 1.5;
+  const double growth = 1 + (kBelowFillet - 1) * of_flank;
+  std::vector<double> ends{0};
+  for (int i = elements; i-- > 0;) ends.push_back(ends.back() + std::pow(growth, i));
+  for (double& end : ends) end /= ends.back();
+  ends.back() = 1;
+  return ends;
+}
+
 /// Fractions at half steps.
 double at_half_step(const std::vector<double>& fractions, int i) {
   return i % 2 == 0 ? fractions[i / 2] : 0.5 * (fractions[i / 2] + fractions[i / 2 + 1]);
@@ -281,6 +295,7 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
   const bool thin_rim = root - shaft < 1.8 * normal_module;
   const double rim = thin_rim ? shaft : root - 1.25 * normal_module;
   const int across = options.half_thickness_elements;
+  const std::vector<double> below_fillet = half_thickness_fractions(across, 1);
   Builder builder(1e-7 * normal_module);
   std::vector<SectionTooth> lines;
   std::vector<double> angles;  // of the rim's nodes at half steps, counter-clockwise
@@ -291,7 +306,8 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
         m == 0 ? half_tooth(form, teeth, rim, options.flank_elements, options.fillet_elements)
                : half_tooth(form, teeth, rim, options.adjacent_flank_elements, options.adjacent_fillet_elements);
     const auto at = [&](int side, int step, int level) {
-      const Polar p = blend(half.inner[step], half.profile[step], level / (2.0 * across));
+      const double of_flank = std::min(1.0, step / (2.0 * half.involute));
+      const Polar p = blend(half.inner[step], half.profile[step], at_half_step(half_thickness_fractions(across, of_flank), level));
       return Polar{p.radius, m * pitch + side * p.angle}.point();
     };
     const int steps = half.steps();
@@ -324,7 +340,7 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
                         : first - half_angle * at_half_step(ring, 4 * n - i);
     };
     const auto at = [&](int i, int j) {
-      return blend({rim, angle(i)}, {root, angle(i)}, 1 - j / (2.0 * across)).point();
+      return blend({rim, angle(i)}, {root, angle(i)}, at_half_step(below_fillet, 2 * across - j)).point();
     };
     builder.grid(2 * n, across, false, at);
     for (int i = 0; i < 4 * n; ++i) angles.push_back(angle(i));

@@ -9,7 +9,6 @@ namespace flankwright {
 GearMeshOptions coarse_mesh() {
   GearMeshOptions options;
   options.flank_elements = 3;
-  options.half_thickness_elements = 2;
   options.adjacent_flank_elements = 2;
   options.adjacent_fillet_elements = 2;
   options.end_element = 0.3;

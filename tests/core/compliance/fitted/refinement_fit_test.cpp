@@ -111,6 +111,15 @@ TEST_CASE("Layers of the coarse mesh are about as long as places of a table are 
   }
 }
 
+TEST_CASE("Body and fillets of the coarse mesh are the fine one's", "[core][compliance][fitted]") {
+  // What both are to give alike, gear body and root stress, is meshed alike.
+  const GearMeshOptions coarse = coarse_mesh(), fine;
+  CHECK(coarse.body_growth == fine.body_growth);
+  CHECK(coarse.shaft_elements == fine.shaft_elements);
+  CHECK(coarse.fillet_elements == fine.fillet_elements);
+  CHECK(coarse.half_thickness_elements == fine.half_thickness_elements);
+}
+
 TEST_CASE("The coarse mesh takes gears of the whole range, pointed ones apart", "[core][compliance][fitted]") {
   std::mt19937 random(4);
   const auto between = [&](double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); };
