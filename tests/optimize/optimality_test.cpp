@@ -63,30 +63,36 @@ TEST_CASE("A bound that the balance does not need has no multiplier", "[optimize
   for (const ActiveBound& active : found.active) CHECK(active.variable < 0);
 }
 
-TEST_CASE("On a kink the gradients of both sides balance, and no direction descends", "[optimize][design][optimality]") {
-  DesignTask task = helical({0.0, -16.0});
-  task.objective = {term(Output::TePeakToPeak)};
-  DesignProblem problem(task);
-  SolverOptions options;
-  options.name = "nlopt:slsqp";
-  const DesignResult result = optimise_design(problem, options);
-  CAPTURE(result.message, result.optimality.residual, result.optimality.complementarity);
-  REQUIRE(result.optimality.satisfied());
-  CHECK(result.status == SolverStatus::Converged);
-  CHECK(std::any_of(result.optimality.active.begin(), result.optimality.active.end(), [](const ActiveBound& a) { return a.is_kink; }));
-  // Independent route: the objective itself along random directions. A multiplier of the wrong sign would let it fall by a jump of the
-  // gradient, some 0.1, times the step; what the conditions leave and the curvature of f_t allow 1e-3.
-  Eigen::VectorXd x(problem.variables());
-  for (int i = 0; i < problem.variables(); ++i) {
-    const DesignVariable& v = task.variables[static_cast<std::size_t>(i)];
-    x[i] = (result.after.variables[static_cast<std::size_t>(i)] - v.lower) / (v.upper - v.lower);
+TEST_CASE("Where the conditions hold no direction descends, and on kinks they hold by the gradients of both sides",
+          "[optimize][design][optimality]") {
+  int on_kinks = 0;
+  for (const auto& [misalignments, positions] : {std::pair{std::vector{0.0, 10.0}, 8}, {{0.0}, 16}, {{0.0, -16.0, 16.0}, 12}}) {
+    DesignTask task = helical(misalignments, positions);
+    task.objective = {term(Output::TePeakToPeak)};
+    task.variables.back() = {"pinion.modification.parabolic_te", Member::Pinion, ModificationParameter::ParabolicTe, 0.0,
+                             0.02 * units::arcsec / (units::deg * units::deg)};
+    DesignProblem problem(task);
+    SolverOptions options;
+    options.name = "nlopt:slsqp";
+    const DesignResult result = optimise_design(problem, options);
+    CAPTURE(positions, result.message, result.optimality.residual, result.optimality.complementarity);
+    REQUIRE(result.optimality.satisfied());
+    on_kinks += std::ranges::any_of(result.optimality.active, [](const ActiveBound& bound) { return bound.is_kink; }) ? 1 : 0;
+    // Independent route: the objective itself along random directions. A multiplier of the wrong sign would let it fall by a jump of
+    // the gradient, some 0.1, times the step; what the conditions leave and the curvature of f_t allow 1e-3.
+    Eigen::VectorXd x(problem.variables());
+    for (int i = 0; i < problem.variables(); ++i) {
+      const DesignVariable& v = task.variables[static_cast<std::size_t>(i)];
+      x[i] = (result.after.variables[static_cast<std::size_t>(i)] - v.lower) / (v.upper - v.lower);
+    }
+    const auto value = [&](const Eigen::VectorXd& at) { return problem.objective(problem.analyse(at, false)) / result.before.objective; };
+    const double least = value(x);
+    std::mt19937 generator(3);
+    for (int k = 0; k < 50; ++k) {
+      constexpr double step = 3e-3;
+      const Eigen::VectorXd towards = random_design(static_cast<int>(x.size()), generator) - x;
+      CHECK(value(x + step * towards.normalized()) >= least - 1e-3 * step);
+    }
   }
-  const auto value = [&](const Eigen::VectorXd& at) { return problem.objective(problem.analyse(at, false)) / result.before.objective; };
-  const double least = value(x);
-  std::mt19937 generator(3);
-  for (int k = 0; k < 50; ++k) {
-    constexpr double step = 3e-3;
-    const Eigen::VectorXd towards = random_design(static_cast<int>(x.size()), generator) - x;
-    CHECK(value(x + step * towards.normalized()) >= least - 1e-3 * step);
-  }
+  CHECK(on_kinks >= 1);  // which of them is on one, the contact law decides
 }
