@@ -61,27 +61,22 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
     run.status = solved.status;
     run.message = solver == options.name ? solved.message : solved.message + " (after Ipopt stalled on a kink: " + solver + ")";
     run.failures += solved.failures;
-    if (log.best() != nullptr && solved.status == SolverStatus::Stalled &&
-        last - log.best()->objective <= stall_gain * program.objective_scale()) {
-      if (solver != "ipopt") break;
-      // Interior points crawl where an active set steps onto the kink.
-      solver = finisher;
-      program.add_candidates(log.best()->x);
-      program.restart_from(log.best()->x);
-      continue;
-    }
     if (solved.x.size() == 0 || solved.status == SolverStatus::EvaluationLimit || solved.status == SolverStatus::TimeLimit) break;
     const Eigen::VectorXd x = program.design(solved.x);
     const DesignAnalysis& analysis = problem.analyse(x, true);
     log.record(problem, x, analysis);
-    // Done when the true peaks are what the candidates promised.
+    const bool stalled = solved.status == SolverStatus::Stalled;
+    // Done when the true peaks are what the candidates promised, or a stalled round has gained nothing.
     const double excess = log.entries().back().objective - solved.objective * program.objective_scale();
     const bool holds = excess <= round_tolerance * program.objective_scale() &&
                        log.entries().back().constraint_violation <= DesignLog::tolerance;
+    const double gain = (last - log.best()->objective) / program.objective_scale();
     // A majorant has a next one, as long as rounds descend.
-    const bool settled = !program.is_majorant() || last - log.best()->objective <= round_tolerance * program.objective_scale();
+    const bool settled = !program.is_majorant() || gain <= round_tolerance;
     last = log.best()->objective;
-    if ((program.add_candidates(x) == 0 || holds) && settled) break;
+    const bool is_done = ((program.add_candidates(x) == 0 || holds) && settled) || (stalled && gain <= stall_gain);
+    if (is_done && !(stalled && solver == "ipopt")) break;
+    if (is_done) solver = finisher;
     program.restart_from(log.best()->x);
   }
 }
