@@ -12,7 +12,7 @@ namespace {
 
 /// Estimates by differences are multiplied by this before they are called an error: sequences are not regular, and the largest of ten
 /// figures is asked for.
-constexpr double safety = 1.25;
+constexpr double safety = 1.5;
 constexpr double quadrature_share = 0.5;  ///< of the accuracy, for the intervals
 
 /// Error of the last level by the last three; infinite where there are fewer: two may agree by chance.
