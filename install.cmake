@@ -52,7 +52,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME flankwright-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libnlopt-dev, libnlopt-cxx-dev, coinor-libipopt-dev, libtbb-dev, libsuitesparse-dev, \
-libceres-dev, libfmt-dev, libspdlog-dev, libsqlite3-dev, libpugixml-dev, libtomlplusplus-dev, nlohmann-json3-dev, pkg-config")
+libceres-dev, libfmt-dev, libspdlog-dev, libsqlite3-dev, libpugixml-dev, libzip-dev, libtomlplusplus-dev, nlohmann-json3-dev, pkg-config")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Micro-geometry of involute gears
  Flank modifications of spur and helical gears, designed over the whole set
  of misalignments: tooth contact analysis, loaded contact, optimisation.")
