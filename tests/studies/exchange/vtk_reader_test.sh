@@ -11,7 +11,7 @@ python=
 for candidate in python3 /usr/bin/python3; do
   "$candidate" -c 'import vtkmodules.vtkIOXML' 2>/dev/null && python=$candidate && break
 done
-[[ -n $python ]] || { echo "skipped: no VTK for python3 here (Debian: python3-vtk9, 0.3 GB with what it needs)"; exit 77; }
+[[ -n $python ]] || { echo "skipped: no VTK for python3 here (Debian: python3-vtk9)"; exit 77; }
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
