@@ -15,7 +15,7 @@ done
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-# Two of the scenes of the main study, before and after a coarse optimisation, fill every array; expectations are those of the whole study.
+# The main study, coarse and stopped early: nine scenes before and after. Its expectations are those of the whole study.
 "$flankwright" run "$examples/helical-18-54.toml" --out "$scratch" --set cycle.positions=4 --set fidelity.quadrature.intervals=4 \
   --set optimise.max_evaluations=3 >"$scratch/log" 2>&1 || [[ $? -eq 1 ]] || { cat "$scratch/log"; exit 1; }
 "$flankwright" export "$scratch" --vtk >/dev/null
