@@ -31,7 +31,13 @@ class ShaftReading {
     read_positions();
     read_material();
     if (parts_.shaft_against_z) turn_round();
-    ShaftData whole = result_.data;  // what it lacks of its material is the gear's
+    std::ranges::sort(result_.data.bearings, {}, &ShaftBearing::position);
+    // What a shaft lacks of its material is the gear's, and its first bearing holds axially where none is said to.
+    ShaftData whole = result_.data;
+    if (std::ranges::none_of(whole.bearings, [](const ShaftBearing& bearing) { return bearing.axial_stiffness > 0.0; })) {
+      whole.bearings.front().axial_stiffness = std::numeric_limits<double>::infinity();
+      note(shaft_, "no bearing has an axial_stiffness, the one of lowest z holds it");
+    }
     if (std::isnan(whole.material.youngs_modulus)) whole.material.youngs_modulus = Material{}.youngs_modulus;
     if (std::isnan(whole.material.poissons_ratio)) whole.material.poissons_ratio = Material{}.poissons_ratio;
     const std::vector<InvalidInput> problems = find_problems(whole, face_width);
@@ -142,7 +148,6 @@ class ShaftReading {
     ShaftData& data = result_.data;
     const double length = end_ - start_;
     std::ranges::reverse(data.sections);
-    std::ranges::reverse(data.bearings);
     for (ShaftBearing& bearing : data.bearings) bearing.position = length - bearing.position;
     data.gear_position = length - data.gear_position;
     data.torque_position = length - data.torque_position;

@@ -70,6 +70,14 @@ TEST_CASE("A shaft with its bearings comes from the file with every number in it
   CHECK_THAT(imported.text, Contains("rolling_bearing_with_catalog_geometry 14: it has no radial_stiffness and is taken as rigid"));
 }
 
+TEST_CASE("Where no bearing holds a shaft axially its first one does, and it is said so", "[studies][rexs][import]") {
+  const rexs::ImportedStudy imported = shaft_study(replaced(file_with_shaft(), of_shaft("axial_stiffness", "1E+8", "N / m"), ""));
+  const Study study = parse_study(imported.text, "gears.toml");
+  REQUIRE(study.pinion_shaft);
+  CHECK(std::isinf(study.pinion_shaft->bearings[0].axial_stiffness));
+  CHECK_THAT(imported.text, Contains("shaft 7: no bearing has an axial_stiffness"));
+}
+
 TEST_CASE("A shaft whose axis runs against the pinion's is the same from its other end", "[studies][rexs][import]") {
   const Study study = parse_study(shaft_study(file_with_shaft("-1")).text, "gears.toml");
   REQUIRE(study.pinion_shaft);
