@@ -11,5 +11,6 @@ find_dependency(spdlog)
 find_dependency(SQLite3)
 find_dependency(tomlplusplus)
 find_dependency(PkgConfig)
+pkg_check_modules(LIBZIP REQUIRED IMPORTED_TARGET libzip)
 pkg_check_modules(IPOPT REQUIRED IMPORTED_TARGET ipopt)  # it has no CMake configuration
 include(${CMAKE_CURRENT_LIST_DIR}/flankwright-targets.cmake)

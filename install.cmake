@@ -49,14 +49,14 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME flankwright)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS libopenblas0-serial)  # reference BLAS takes many times as long
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME flankwright-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "libeigen3-dev, libnlopt-dev, libnlopt-cxx-dev, coinor-libipopt-dev, libtbb-dev, libsuitesparse-dev, \
-libceres-dev, libfmt-dev, libspdlog-dev, libsqlite3-dev, libpugixml-dev, libtomlplusplus-dev, nlohmann-json3-dev, pkg-config")
-set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Micro-geometry of involute gears
- Flank modifications of spur and helical gears, designed over the whole set
- of misalignments: tooth contact analysis, loaded contact, optimisation.")
-set(CPACK_COMPONENT_DEV_DESCRIPTION "Micro-geometry of involute gears, libraries and headers
- Geometry, contact, compliance, load distribution and optimisation as C++20
- libraries for find_package(flankwright).")
+libceres-dev, libfmt-dev, libspdlog-dev, libsqlite3-dev, libpugixml-dev, libzip-dev, libtomlplusplus-dev, nlohmann-json3-dev, pkg-config")
+# The summary is the project's; CPack indents.
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "Flank modifications of spur and helical gears, designed over the whole set
+of misalignments: tooth contact analysis, loaded contact, optimisation.")
+set(CPACK_COMPONENT_DEV_DESCRIPTION "Libraries and headers: geometry, contact, compliance, load distribution and
+optimisation in C++20 for find_package(flankwright).")
 include(CPack)

@@ -226,7 +226,7 @@ InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair
     }
     GearMeshOptions options = task.mesh;
     options.teeth_each_side = task.teeth_apart;
-    section_mesh(form, to_mesh.gear.teeth, to_mesh.normal_module, task.gear.body, options);  // only for what it refuses
+    section_radii(form, to_mesh.gear.teeth, to_mesh.normal_module, task.gear.body, options);  // only for what it refuses
   });
   return task;
 }

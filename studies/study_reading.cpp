@@ -249,11 +249,16 @@ void read_into(StudyReading& reading, const Match& match, Scene& scene) {
 }
 
 void store_defaults(Draft& draft) {
-  for (const SchemaKey& key : study_schema()) {
-    if (is_described_fallback(key)) continue;
-    const toml::table fallback = toml::parse("value = " + key.fallback);
-    store(key, read_value(key, *fallback.get("value")), draft, draft.base);
-  }
+  static const Draft defaults = [] {
+    Draft made;
+    for (const SchemaKey& key : study_schema()) {
+      if (is_described_fallback(key)) continue;
+      const toml::table fallback = toml::parse("value = " + key.fallback);
+      store(key, read_value(key, *fallback.get("value")), made, made.base);
+    }
+    return made;
+  }();
+  draft = defaults;
 }
 
 }  // namespace flankwright::studies

@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <type_traits>
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
@@ -18,8 +22,30 @@ constexpr int surface_step = 5;  ///< every fifth row and column of the 41 x 41 
 constexpr int surface_points = 9;
 constexpr double on_line_within = 1e-6;  ///< a tooth is drawn where a point of it has off_line() at most this [mm]
 
-/// A number of results.json; null, which VTK cannot read, becomes NaN as VTK writes it.
+/// A number of results.json; NaN for null, as where a mesh position did not converge.
 double number(const Json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
+
+std::string base64(std::string_view bytes) {
+  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 3; ++k) word = word << 8 | (at + k < bytes.size() ? static_cast<unsigned char>(bytes[at + k]) : 0U);
+    for (std::size_t k = 0; k < 4; ++k) text += at + k > bytes.size() ? '=' : digits[word >> (18 - 6 * k) & 0x3fU];
+  }
+  return text;
+}
+
+/// Numbers as the XML format packs them: their bytes behind the count of these. As text VTK's reader would stop at the first NaN and
+/// leave what follows zero, without a word.
+template <typename Number>
+std::string packed(const std::vector<Number>& numbers) {
+  const auto size = static_cast<std::uint32_t>(numbers.size() * sizeof(Number));
+  std::string bytes(sizeof size + size, '\0');
+  std::memcpy(bytes.data(), &size, sizeof size);
+  if (size > 0) std::memcpy(bytes.data() + sizeof size, numbers.data(), size);
+  return base64(bytes);
+}
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -38,42 +64,42 @@ class PolyData {
   explicit PolyData(std::vector<std::string> fields) : fields_(std::move(fields)), values_(fields_.size()) {}
 
   int add_point(double x, double y, double z, const std::vector<double>& values) {
-    points_ += fmt::format("{:.9g} {:.9g} {:.9g}\n", x, y, z);
-    for (std::size_t i = 0; i < values.size(); ++i) values_[i] += fmt::format("{:.9g}\n", values[i]);
+    points_.insert(points_.end(), {x, y, z});
+    for (std::size_t i = 0; i < values.size(); ++i) values_[i].push_back(values[i]);
     return count_++;
   }
   void add_cell(const std::vector<int>& corners, int tooth) {
-    for (const int corner : corners) connectivity_ += fmt::format("{} ", corner);
-    connectivity_ += "\n";
-    used_ += static_cast<int>(corners.size());
-    offsets_ += fmt::format("{}\n", used_);
-    teeth_ += fmt::format("{}\n", tooth);
-    ++cells_;
+    connectivity_.insert(connectivity_.end(), corners.begin(), corners.end());
+    offsets_.push_back(static_cast<std::int32_t>(connectivity_.size()));
+    teeth_.push_back(tooth);
   }
 
   std::string text(const char* cell_kind, const std::string& comment) const {
     std::string xml = "<?xml version=\"1.0\"?>\n<!-- " + escaped(comment) + " -->\n";
-    xml += "<VTKFile type=\"PolyData\" version=\"0.1\" byte_order=\"LittleEndian\">\n<PolyData>\n";
+    xml += fmt::format("<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"{}\" header_type=\"UInt32\">\n<PolyData>\n",
+                       std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian");
     const bool lines = std::string_view(cell_kind) == "Lines";
     xml += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"{}\" NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n", count_,
-                       lines ? cells_ : 0, lines ? 0 : cells_);
+                       lines ? teeth_.size() : 0, lines ? 0 : teeth_.size());
     xml += "<PointData>\n";
-    for (std::size_t i = 0; i < fields_.size(); ++i) xml += array("Float64", fields_[i], values_[i]);
-    xml += "</PointData>\n<CellData>\n" + array("Int32", "tooth", teeth_) + "</CellData>\n<Points>\n";
-    xml += "<DataArray type=\"Float64\" Name=\"position_mm\" NumberOfComponents=\"3\" format=\"ascii\">\n" + points_ + "</DataArray>\n</Points>\n";
-    xml += fmt::format("<{}>\n{}{}</{}>\n", cell_kind, array("Int32", "connectivity", connectivity_), array("Int32", "offsets", offsets_), cell_kind);
+    for (std::size_t i = 0; i < fields_.size(); ++i) xml += array(fields_[i], values_[i]);
+    xml += "</PointData>\n<CellData>\n" + array("tooth", teeth_) + "</CellData>\n<Points>\n" + array("position_mm", points_, 3) + "</Points>\n";
+    xml += fmt::format("<{}>\n{}{}</{}>\n", cell_kind, array("connectivity", connectivity_), array("offsets", offsets_), cell_kind);
     return xml + "</Piece>\n</PolyData>\n</VTKFile>\n";
   }
 
  private:
-  static std::string array(const char* type, const std::string& name, const std::string& values) {
-    return fmt::format("<DataArray type=\"{}\" Name=\"{}\" format=\"ascii\">\n{}</DataArray>\n", type, name, values);
+  template <typename Number>
+  static std::string array(const std::string& name, const std::vector<Number>& values, int components = 1) {
+    return fmt::format("<DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}</DataArray>\n",
+                       std::is_same_v<Number, double> ? "Float64" : "Int32", name, components, packed(values));
   }
 
   std::vector<std::string> fields_;
-  std::vector<std::string> values_;  ///< of each field, a line a point
-  std::string points_, connectivity_, offsets_, teeth_;
-  int count_{0}, cells_{0}, used_{0};
+  std::vector<std::vector<double>> values_;  ///< of each field, one a point
+  std::vector<double> points_;               ///< x, y, z of each
+  std::vector<std::int32_t> connectivity_, offsets_, teeth_;
+  int count_{0};
 };
 
 /// What of results.json places points in the housing.

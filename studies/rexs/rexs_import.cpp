@@ -9,6 +9,7 @@
 
 #include "core/base/units.hpp"
 #include "studies/rexs/rexs_load.hpp"
+#include "studies/rexs/rexs_shaft.hpp"
 #include "studies/study_file.hpp"
 
 namespace flankwright::studies::rexs {
@@ -47,6 +48,9 @@ class Import {
       add_modification(read_modification(reading_, parts_[m], geometry, m, options_.slope_end), m, body);
     }
     write_materials(body);
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      if (const auto shaft = read_shaft(reading_, parts_[m], geometry[m].data.face_width)) write_shaft(*shaft, m, body);
+    }
     write_torques(read_torques(reading_, parts_), body);
     write_rest(body);
     return {head() + body.text(), std::move(grids_), reading_.warnings()};

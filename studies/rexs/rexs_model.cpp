@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <set>
 
+#include "studies/rexs/rexs_archive.hpp"
 #include "studies/study_file.hpp"
 
 namespace flankwright::studies::rexs {
@@ -102,7 +103,8 @@ std::optional<std::vector<std::string>> unpacked(std::string_view base64, std::s
 }
 
 Model parse_model(std::string_view text, const std::string& name) {
-  if (text.starts_with("PK\x03\x04")) refuse(name, 0, "file", "a ZIP archive", "a text file: unpack it first");
+  std::string unpacked_text;
+  if (is_archive(text)) text = unpacked_text = unpack(text, name);
   if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
   if (const std::size_t foreign = first_foreign_byte(text); foreign != std::string_view::npos) {
     const auto line = std::ranges::count(text.substr(0, foreign), '\n') + 1;

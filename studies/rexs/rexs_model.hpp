@@ -70,10 +70,10 @@ struct Model {
 /// Text forms of the format.
 enum class Form { Xml, Json };
 
-/// Reads either form, told by its first character.
+/// Reads either form, told by its first character, or unpacked from an archive, see rexs_archive.hpp.
 ///
 /// @param name  stands for the file in messages
-/// @throws StudyErrors with one problem, and its line where the form has one: damaged XML or JSON, a file that is packed (.rexsz), not
+/// @throws StudyErrors with one problem, and its line where the form has one: damaged XML, JSON or archive, not
 /// UTF-8, no REXS model, an id that is missing, no number or given twice
 Model parse_model(std::string_view text, const std::string& name);
 

@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <memory>
 
 #include "core/base/units.hpp"
+#include "core/flank/measured_grid.hpp"
 #include "studies/grid_file.hpp"
+#include "studies/rexs/flank_parts.hpp"
 
 namespace flankwright::studies::rexs {
 
@@ -29,6 +33,7 @@ class ModificationReading {
     if (parts_.flank == nullptr) return {};
     for (const Component* component : modifications_of(*parts_.flank)) read(*component);
     join_end_reliefs();
+    lay_grid();
     if (parts_.other_flank != nullptr) compare_other_flank();
     return std::move(result_);
   }
@@ -54,7 +59,10 @@ class ModificationReading {
     if (c.type == "end_relief_datum_face") return read_end_relief(c, "datum_face", datum_end_);
     if (c.type == "end_relief_non_datum_face") return read_end_relief(c, "non_datum_face", other_end_);
     if (c.type == "topographical_modification") return read_topography(c);
-    leave_out(c, "no key of a study says this");
+    // Triangular reliefs: the diameter at which one starts and its depth, but neither at which end of the face it lies nor how far it
+    // reaches along it.
+    reading_.word(&c, "shape_of_relief");
+    leave_out(c, "the format does not say over which part of the face it reaches");
   }
 
   std::optional<double> length(const Component& c, std::string_view id) {
@@ -78,12 +86,19 @@ class ModificationReading {
     return std::hypot(frame_.base_radius, gear_.roll_length_at(std::max(frame_.active_root_radius, frame_.base_radius)) + roll);
   }
 
-  /// Linear or parabolic; what is neither, but near the parabola, is taken for it; nullopt for the rest.
+  /// Of a relief, from its start (0) to where its depth is reached (1).
+  static double form(ReliefShape shape, double share) {
+    const double within = std::max(0.0, share);
+    return shape == ReliefShape::Linear ? within : within * within;
+  }
+
+  /// Linear or parabolic; what is neither, but near the parabola, is taken for it. Nullopt for the rest, which is left out.
   std::optional<ReliefShape> shape_of(const Component& c) {
     const std::string shape = reading_.word(&c, "shape_of_relief");
     if (shape.empty() || shape == "linear" || shape == "false" || shape == "False") return ReliefShape::Linear;
     if (shape == "circular") note(c, "its circular shape is taken as parabolic");
     if (shape == "parabolic" || shape == "circular") return ReliefShape::Parabolic;
+    leave_out(c, fmt::format("the format has no formula for its shape, \"{}\"", shape));
     return std::nullopt;
   }
 
@@ -99,7 +114,7 @@ class ModificationReading {
     const auto reference = length(c, name + "_evaluation_reference");
     if (!diameter && !roll) return leave_out(c, "it has neither datum diameter nor datum length");
     const auto shape = shape_of(c);
-    if (!shape) return leave_out(c, "a relief is linear or parabolic here");
+    if (!shape) return;
     if (length(c, "position_of_profile_modification")) note(c, "its position along the face is not taken, the relief is the same along all of it");
     warn_of_transition(c);
     const double end = at_tip ? frame_.tip_radius : frame_.active_root_radius;
@@ -111,12 +126,13 @@ class ModificationReading {
     if (reference && !same_length(0.5 * *reference, end)) {
       const double share = height / std::abs(0.5 * *reference - start);
       if (!std::isfinite(share)) return leave_out(c, "it is evaluated where it starts");
-      amount *= *shape == ReliefShape::Linear ? share : share * share;
+      amount *= form(*shape, share);
       note(c, fmt::format("its depth at diameter {} mm is carried on to diameter {} mm, where a study states it", number_text(*reference), difference_text(2.0 * end)));
     }
     ProfileRelief& relief = at_tip ? result_.modification.tip_relief : result_.modification.root_relief;
     if (relief.amount != 0.0 && (!same_length(relief.height, height) || relief.shape != *shape)) {
-      return leave_out(c, "a study has one relief at this end, and another was taken");
+      const double sense = at_tip ? 1.0 : -1.0;
+      return add_part(c, [=](double r, double) { return amount * form(*shape, sense * (r - start) / height); }, {.along_face = false});
     }
     relief = {relief.amount + amount, height, *shape};
     remark(name, c);
@@ -191,8 +207,14 @@ class ModificationReading {
     const double at_two = length(c, "coordinate_where_helix_crowning_is_specified_non_datum_face").value_or(half);
     // One parabola K (z - apex)^2 on both sides: crowning K b^2/4 and, off centre, a slope; a constant only turns the gear.
     const double left = one / ((at_one - apex) * (at_one - apex)), right = two / ((at_two - apex) * (at_two - apex));
-    if (!std::isfinite(left) || !std::isfinite(right) || std::abs(left - right) > 1e-6 * (std::abs(left) + std::abs(right))) {
-      return leave_out(c, "its two sides are different parabolas");
+    if (!std::isfinite(left) || !std::isfinite(right)) return leave_out(c, "its amount is specified at its highest point");
+    if (std::abs(left - right) > 1e-6 * (std::abs(left) + std::abs(right))) {
+      const double to_datum = parts_.datum_at_low_z ? 1.0 : -1.0;
+      const auto removed = [=](double, double z) {
+        const double along = to_datum * z - apex;
+        return (along < 0.0 ? left : right) * along * along;
+      };
+      return add_part(c, removed, {.along_profile = false});
     }
     const double curvature = 0.5 * (left + right);
     if (!same_length(std::abs(at_one), half) || !same_length(std::abs(at_two), half)) note(c, "its amounts are carried on to the ends of the face, where a study states them");
@@ -221,7 +243,11 @@ class ModificationReading {
 
   struct EndOfFace {
     double amount{0.0}, length{0.0};
+    ReliefShape shape{ReliefShape::Linear};
     const Component* component{nullptr};
+    bool operator==(const EndOfFace& other) const {
+      return same_length(amount, other.amount) && same_length(length, other.length) && shape == other.shape;
+    }
   };
 
   void read_end_relief(const Component& c, const std::string& side, EndOfFace& end) {
@@ -229,32 +255,36 @@ class ModificationReading {
     const auto reference = length(c, "end_relief_evaluation_reference_" + side);
     if (!depth || !extent || !(*extent > 0.0)) return leave_out(c, "it has no depth or no length");
     const auto shape = shape_of(c);
-    if (shape != ReliefShape::Linear) return leave_out(c, "an end relief is linear here");
-    if (end.component != nullptr) return leave_out(c, "a study has one relief at this end, and another was taken");
+    if (!shape) return;
     warn_of_transition(c);
     double amount = *depth;
     if (reference && !same_length(std::abs(*reference), 0.5 * frame_.face_width)) {
       const double within = *extent - (0.5 * frame_.face_width - std::abs(*reference));
       if (!(within > 0.0)) return leave_out(c, "it is evaluated before it starts");
-      amount *= *extent / within;
+      amount /= form(*shape, within / *extent);
       note(c, "its depth is carried on to the end of the face, where a study states it");
     }
-    end = {amount, *extent, &c};
+    const EndOfFace read{amount, *extent, *shape, &c};
+    if (end.component != nullptr) return add_end_relief(read, &end == &datum_end_);
+    end = read;
   }
 
-  /// A study has the same relief at both ends.
+  void add_end_relief(const EndOfFace& end, bool at_datum) {
+    const double sense = at_datum == parts_.datum_at_low_z ? -1.0 : 1.0, start = 0.5 * frame_.face_width - end.length;
+    add_part(*end.component, [=](double, double z) { return end.amount * form(end.shape, (sense * z - start) / end.length); }, {.along_profile = false});
+  }
+
+  /// A study has the same linear relief at both ends; all else is a part of the grid.
   void join_end_reliefs() {
     const EndOfFace &one = datum_end_, &two = other_end_;
-    if (one.component == nullptr && two.component == nullptr) return;
-    if (one.component == nullptr || two.component == nullptr || !same_length(one.amount, two.amount) || !same_length(one.length, two.length)) {
-      for (const EndOfFace& end : {one, two}) {
-        if (end.component != nullptr) leave_out(*end.component, "a study has the same relief at both ends of the face, these differ");
-      }
+    if (one.component != nullptr && two.component != nullptr && one == two && one.shape == ReliefShape::Linear) {
+      result_.modification.end_relief = {one.amount, one.length};
+      remark("end_relief", *one.component);
+      remark("end_relief", *two.component);
       return;
     }
-    result_.modification.end_relief = {one.amount, one.length};
-    remark("end_relief", *one.component);
-    remark("end_relief", *two.component);
+    if (one.component != nullptr) add_end_relief(one, true);
+    if (two.component != nullptr) add_end_relief(two, false);
   }
 
   void read_topography(const Component& c) {
@@ -266,19 +296,44 @@ class ModificationReading {
     if (z->size() != amounts->size() || diameters->size() != amounts->size()) {
       return leave_out(c, "its coordinates, diameters and amounts are not one for each point");
     }
-    if (!result_.grid.empty()) return leave_out(c, "a study has one grid for a gear, and another was taken");
     std::string grid = "# " + Reading::name_of(c) + "\nradius_mm,z_mm,deviation_um\n";
     for (std::size_t i = 0; i < amounts->size(); ++i) {
       const double normal = -(*amounts)[i] * std::cos(base_helix_);
       grid += fmt::format("{},{},{}\n", number_text(0.5 * (*diameters)[i]), number_text(parts_.datum_at_low_z ? (*z)[i] : -(*z)[i]), number_text(normal / units::um));
     }
     try {
-      parse_grid(grid, "points");
+      const std::shared_ptr<const DeviationField> field = make_grid_field(parse_grid(grid, "points"), frame_.base_radius, base_helix_).field;
+      add_part(c, [field, this](double r, double axial) { return field->at(gear_.roll_length_at(r), axial).value; });
     } catch (const InvalidInput& problem) {
       return leave_out(c, problem.what());
     }
-    result_.grid = std::move(grid);
+    points_ = std::move(grid);
+  }
+
+  /// Removal that the keys of a study cannot say.
+  void add_part(const Component& c, std::function<double(double r, double z)> removed, FlankPart changes = {}) {
+    changes.removed = std::move(removed);
+    parts_of_grid_.push_back(std::move(changes));
     remark("grid", c);
+  }
+
+  /// What no key says goes into the grid: a topography by itself with the points that it has, all else summed at even ones.
+  void lay_grid() {
+    if (parts_of_grid_.empty()) return;
+    if (parts_of_grid_.size() == 1 && !points_.empty()) {
+      result_.grid = std::move(points_);
+      return;
+    }
+    const std::string of = result_.remarks.at("grid");
+    try {
+      GriddedParts laid = grid_of(parts_of_grid_, frame_, base_helix_);
+      reading_.warn(fmt::format("{}: taken as a grid of {} radii and {} axial positions; the surface through them departs from it by at most {:.2g} um",
+                                of, laid.radii, laid.positions, laid.departure / units::um));
+      result_.grid = "# " + of + "\n" + std::move(laid.text);
+    } catch (const InvalidInput& problem) {
+      reading_.warn(of + ": not taken, " + problem.what());
+      result_.remarks.erase("grid");
+    }
   }
 
   /// Whether the flank at the back is modified alike is not a study's business, but not to be lost either.
@@ -300,6 +355,8 @@ class ModificationReading {
   double base_helix_;
   SlopeEnd slope_end_;
   EndOfFace datum_end_, other_end_;
+  std::vector<FlankPart> parts_of_grid_;
+  std::string points_;  ///< the grid file of the last topographical_modification
   std::vector<std::string> back_;
   ImportedModification result_;
 };

@@ -10,6 +10,10 @@
 
 namespace flankwright::studies::rexs {
 
+void Reading::warn(std::string text) {
+  if (std::ranges::find(warnings_, text) == warnings_.end()) warnings_.push_back(std::move(text));
+}
+
 std::string Reading::name_of(const Component& component) { return fmt::format("{} {}", component.type, component.id); }
 
 void Reading::refuse_attribute(const Component& component, std::string_view attribute, const std::string& value,
@@ -20,9 +24,12 @@ void Reading::refuse_attribute(const Component& component, std::string_view attr
 }
 
 double Reading::unit_of(const Component& component, const Attribute& attribute, Dimension dimension) const {
-  constexpr double standard_angle = units::deg, standard_torque = 1e3;
+  constexpr double standard_angle = units::deg, standard_torque = 1e3, standard_stiffness = 1e-3;
   if (attribute.unit.empty() || attribute.unit == "none") {
-    return dimension == Dimension::Angle ? standard_angle : dimension == Dimension::Torque ? standard_torque : 1.0;
+    return dimension == Dimension::Angle       ? standard_angle
+           : dimension == Dimension::Torque    ? standard_torque
+           : dimension == Dimension::Stiffness ? standard_stiffness
+                                               : 1.0;
   }
   const std::optional<double> size = unit_size(attribute.unit, dimension);
   if (!size) refuse_attribute(component, attribute.id, "a value in " + attribute.unit, "a unit of " + units_in_words(dimension));

@@ -44,7 +44,7 @@ class Reading {
   const Component& in_role(const Relation& relation, std::string_view role) const;
 
   /// Something that the study does not say as the file does; each is told once more on stderr.
-  void warn(std::string text) { warnings_.push_back(std::move(text)); }
+  void warn(std::string text);
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   /// Attributes of a component that nobody asked for.

@@ -78,6 +78,8 @@ std::array<double, 3> u_axis(Reading& reading, const Component& component) {
   return {(*vector)[0], (*vector)[1], (*vector)[2]};
 }
 
+bool against_z(const std::array<double, 3>& z, const std::array<double, 3>& u) { return z[0] * u[0] + z[1] * u[1] + z[2] * u[2] < 0.0; }
+
 void find_flanks(const Reading& reading, GearParts& parts, bool left) {
   for (const Relation& relation : reading.model().relations) {
     if (relation.type != "flank" || relation.role("gear") != parts.gear->id) continue;
@@ -119,8 +121,7 @@ StageParts find_stage(Reading& reading, std::optional<int> number) {
   const std::array<double, 3> z = u_axis(reading, *parts.gears[0].gear);
   for (GearParts& gear : parts.gears) {
     gear.data = gear_data(reading, *parts.stage, *gear.gear);
-    const std::array<double, 3> u = u_axis(reading, *gear.gear);
-    const bool against = z[0] * u[0] + z[1] * u[1] + z[2] * u[2] < 0.0;
+    const bool against = against_z(z, u_axis(reading, *gear.gear));
     const bool positive = reading.word(gear.gear, "datum_face_orientation") == "positive";
     gear.datum_at_low_z = positive == against;
   }
@@ -134,6 +135,7 @@ StageParts find_stage(Reading& reading, std::optional<int> number) {
   for (GearParts& gear : parts.gears) {
     find_flanks(reading, gear, (parts.working_flank == WorkingFlank::Left) == gear.datum_at_low_z);
     find_rest(reading, gear);
+    if (gear.shaft != nullptr) gear.shaft_against_z = against_z(z, u_axis(reading, *gear.shaft));
   }
   return parts;
 }

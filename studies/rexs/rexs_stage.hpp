@@ -20,6 +20,7 @@ struct GearParts {
   const Component* shaft{nullptr};
   /// The datum face is the end of lowest z, seen from where left and right are named; z runs along the pinion's u axis.
   bool datum_at_low_z{true};
+  bool shaft_against_z{false};  ///< the shaft's u axis runs the other way
 };
 
 /// A cylindrical stage of a model. The pinion is the gear with fewer teeth, gear_1 where both have the same.

@@ -15,7 +15,7 @@ struct Unit {
 };
 
 using enum Dimension;
-constexpr std::array<Unit, 39> known_units{{{None, "none", 1.0},        {None, "", 1.0},
+constexpr std::array<Unit, 45> known_units{{{None, "none", 1.0},        {None, "", 1.0},
                                             {None, "-", 1.0},           {None, "%", 0.01},
                                             {Length, "mm", 1.0},        {Length, "m", 1e3},
                                             {Length, "cm", 10.0},       {Length, "mum", 1e-3},
@@ -34,7 +34,10 @@ constexpr std::array<Unit, 39> known_units{{{None, "none", 1.0},        {None, "
                                             {Power, "MW", 1e3},         {Power, "PS", 0.73549875},
                                             {Speed, "1/min", 1.0},      {Speed, "rpm", 1.0},
                                             {Speed, "min^-1", 1.0},     {Speed, "1/s", 60.0},
-                                            {Speed, "rad/s", 30.0 / units::pi}, {Speed, "Hz", 60.0}}};
+                                            {Speed, "rad/s", 30.0 / units::pi}, {Speed, "Hz", 60.0},
+                                            {Stiffness, "N/m", 1e-3},   {Stiffness, "N/mm", 1.0},
+                                            {Stiffness, "N/mum", 1e3},  {Stiffness, "kN/mm", 1e3},
+                                            {TiltingStiffness, "Nmm/rad", 1.0}, {TiltingStiffness, "Nm/rad", 1e3}}};
 
 }  // namespace
 

@@ -14,7 +14,9 @@ enum class Dimension {
   Torque,  ///< N mm
   Stress,  ///< MPa
   Power,   ///< kW
-  Speed    ///< 1/min
+  Speed,   ///< 1/min
+  Stiffness,        ///< N/mm
+  TiltingStiffness  ///< N mm/rad
 };
 
 /// Size of one such unit inside. Spaces, points and asterisks within it do not count: "N / mm^2" (up to 1.7) and "MPa" (2.0), "°" (up

@@ -63,7 +63,7 @@ std::optional<NamedDistribution> read_class(const SchemaKey& key, const toml::no
     const double tolerance =
         tolerance_of(key, flank_tolerances(ToleranceData::of(*pair, key.member), tolerance_class)) / units::um;
     return NamedDistribution{Distribution::within_tolerance(tolerance),
-                             fmt::format("ISO 1328-1 class {}: normal, mean 0, deviation {:.4g}, cut off at +-{:.4g}", tolerance_class,
+                             fmt::format("ISO 1328-1 class {}: normal, mean 0, deviation {:.4g}, cut off at \u00b1{:.4g}", tolerance_class,
                                          tolerance / 3.0, tolerance)};
   } catch (const InvalidInput& problem) {
     refuse("a gear that ISO 1328-1 covers: " + problem.field() + " is " + problem.value() + ", covered is " + problem.allowed());

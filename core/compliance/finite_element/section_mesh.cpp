@@ -269,8 +269,8 @@ double default_shaft_diameter(const ToothForm& form, double normal_module) {
                    2 * form.root_radius() - 1.2 * normal_module});
 }
 
-SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module, const GearBody& body,
-                         const GearMeshOptions& options) {
+SectionRadii section_radii(const ToothForm& form, int teeth, double normal_module, const GearBody& body,
+                           const GearMeshOptions& options) {
   options.validate();
   if (!(form.tip_half_angle() > 0)) {
     throw InvalidInput("tip_diameter", std::to_string(2 * form.tip_radius()), "a tooth that is not pointed");
@@ -291,6 +291,13 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
   if (!(bore > 0 && bore < 0.9 * shaft)) {
     throw InvalidInput("body.bore_diameter", std::to_string(2 * bore), "more than 0 and less than 0.9 of the shaft");
   }
+  return {shaft, bore};
+}
+
+SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module, const GearBody& body,
+                         const GearMeshOptions& options) {
+  const SectionRadii radii = section_radii(form, teeth, normal_module, body, options);
+  const double root = form.root_radius(), shaft = radii.shaft, bore = radii.bore;
 
   // The teeth's blocks end on the shaft where that is near, otherwise 1.25 modules below the root.
   const bool thin_rim = root - shaft < 1.8 * normal_module;

@@ -67,13 +67,24 @@ struct SectionMesh {
   std::vector<SectionTooth> teeth;  ///< -n .. n, counter-clockwise
 };
 
-/// The toothed ring has one block per half tooth, spanned between the profile (flank, fillet, half the root land) and
-/// the line that comes down the tooth's centre and turns, on a circle below the root, towards the gap's centre; where
-/// there is no detailed tooth a plain ring ends at the root circle. Rings of elements follow, down to the bore.
+/// Radii of shaft and bore, given or by their rules [mm].
+struct SectionRadii {
+  double shaft{not_given}, bore{not_given};
+};
+
+/// What section_mesh() starts from, and all that it refuses; nothing is meshed.
 ///
 /// @throws InvalidInput  a tooth without a tip ("tip_diameter"), a shaft that does not fit into the root
 ///                       ("body.shaft_diameter"), a bore that does not fit into the shaft ("body.bore_diameter"), an
 ///                       option out of range, or fewer teeth than are to be detailed ("options.teeth_each_side")
+SectionRadii section_radii(const ToothForm& form, int teeth, double normal_module, const GearBody& body,
+                           const GearMeshOptions& options);
+
+/// The toothed ring has one block per half tooth, spanned between the profile (flank, fillet, half the root land) and
+/// the line that comes down the tooth's centre and turns, on a circle below the root, towards the gap's centre; where
+/// there is no detailed tooth a plain ring ends at the root circle. Rings of elements follow, down to the bore.
+///
+/// @throws InvalidInput  as section_radii()
 SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module, const GearBody& body,
                          const GearMeshOptions& options);
 

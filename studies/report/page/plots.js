@@ -13,7 +13,11 @@ const axis = (title, more = {}) => ({
   ticks: { callback: (value) => fmt(value, 5), maxRotation: 0, includeBounds: false, ...(more.ticks || {}) },
 });
 
-const legend = (show) => ({
+/** Legend entries that are dashed where their curve is. */
+const labels_with_dashes = (chart) => Chart.defaults.plugins.legend.labels.generateLabels(chart)
+  .map((item) => ({ ...item, lineDash: chart.data.datasets[item.datasetIndex].borderDash }));
+
+const legend = (show, of_lines = false) => ({
   display: show,
   position: "top",
   align: "start",
@@ -21,6 +25,8 @@ const legend = (show) => ({
     usePointStyle: true,
     boxWidth: 18,
     boxHeight: 7,
+    // Long enough to tell dashed from full; points would become ellipses.
+    ...(of_lines ? { pointStyleWidth: 30, generateLabels: labels_with_dashes } : {}),
     filter: (item, data) => !data.datasets[item.datasetIndex].quiet,
   },
 });
@@ -99,7 +105,7 @@ function xy_chart(plot, options) {
       interaction: { mode: "nearest", axis: nearest, intersect: false },
       scales: { x: axis(x, { type: "linear", ...x_range }), y: axis(y, y_range) },
       plugins: {
-        legend: legend(curves.filter((curve) => !curve.quiet).length > 1),
+        legend: legend(curves.filter((curve) => !curve.quiet).length > 1, curves.every((curve) => !curve.scatter)),
         tooltip: {
           filter: (item) => !item.dataset.quiet,
           callbacks: { title: (items) => (items.length ? (read_x || fmt)(items[0].parsed.x) : ""), label: read },

@@ -1,15 +1,17 @@
 #include "studies/exchange/vtk_series.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <pugixml.hpp>
-#include <sstream>
 
 #include "core/base/error.hpp"
 #include "studies/json_format.hpp"
 #include "studies/results_json.hpp"
+#include "studies/rexs/rexs_model.hpp"
 #include "studies/run_study.hpp"
 #include "studies/study_file.hpp"
 #include "tests/studies/small_studies.hpp"
@@ -19,12 +21,24 @@ using namespace flankwright::studies;
 
 namespace {
 
+/// Numbers of a packed array, after the count of bytes before them was checked.
 std::vector<double> numbers(const pugi::xml_node& array) {
-  std::istringstream text(array.text().get());
+  CHECK(std::string(array.attribute("format").value()) == "binary");
+  const bool whole = std::string(array.attribute("type").value()) == "Int32";
+  // The count, a UInt32, and the numbers are one stream of bytes: the same length of base64 as 4 + n width bytes have.
+  const auto words = rexs::unpacked(array.text().get(), "int32");
+  REQUIRE(words);
+  const std::size_t bytes = std::stoul(words->front());
+  REQUIRE(bytes + 4 == 4 * words->size());
   std::vector<double> values;
-  for (double value; text >> value;) values.push_back(value);
+  for (std::size_t at = 1; at < words->size(); at += whole ? 1 : 2) {
+    const auto word = [&](std::size_t k) { return static_cast<std::uint64_t>(static_cast<std::uint32_t>(std::stol((*words)[k]))); };
+    values.push_back(whole ? std::stod((*words)[at]) : std::bit_cast<double>(word(at) | word(at + 1) << 32));
+  }
   return values;
 }
+
+constexpr double vtk_round_off = 1e-12;
 
 /// A PolyData file as a reader of VTK sees it, after its counts were checked against each other.
 struct Piece {
@@ -88,9 +102,9 @@ TEST_CASE("A VTK series is valid, complete and lies on the plane of action and t
       CHECK(lines.fields.at("contact_stress_MPa")[at] == Approx(point["contact_stress_MPa"].get<double>()));
       CHECK(lines.fields.at("gap_um")[at] == Approx(point["gap_um"].get<double>()));
       const double x = lines.points[3 * at], y = mirror * lines.points[3 * at + 1], a = results.pair.centre_distance;
-      // Nine digits are written. On the pinion, on the wheel, and, unless a tip edge touches, on the line of action.
-      CHECK(std::hypot(x, y) == Approx(point["pinion_radius_mm"].get<double>()).epsilon(1e-8));
-      CHECK(std::hypot(a - x, y) == Approx(point["wheel_radius_mm"].get<double>()).epsilon(1e-8));
+      // On the pinion, on the wheel, and, unless a tip edge touches, on the line of action.
+      CHECK(std::hypot(x, y) == Approx(point["pinion_radius_mm"].get<double>()).epsilon(vtk_round_off));
+      CHECK(std::hypot(a - x, y) == Approx(point["wheel_radius_mm"].get<double>()).epsilon(vtk_round_off));
       const double distance = std::abs((x - results.pair.pinion.working_pitch_radius) * std::cos(angle) - y * std::sin(angle));
       const double rolls = results.pair.pinion.roll_length_at(point["pinion_radius_mm"]) + results.pair.wheel.roll_length_at(point["wheel_radius_mm"]);
       if (std::abs(rolls - results.pair.path_length) < 1e-6) CHECK(distance < 1e-6);
@@ -108,7 +122,7 @@ TEST_CASE("A VTK series is valid, complete and lies on the plane of action and t
     CHECK(surface.teeth.size() >= 128);
     const double centre = gear == "pinion" ? 0.0 : results.pair.centre_distance;
     for (std::size_t i = 0; i < surface.points.size() / 3; ++i) {
-      CHECK(std::hypot(surface.points[3 * i] - centre, surface.points[3 * i + 1]) == Approx(surface.fields.at("radius_mm")[i]).epsilon(1e-8));
+      CHECK(std::hypot(surface.points[3 * i] - centre, surface.points[3 * i + 1]) == Approx(surface.fields.at("radius_mm")[i]).epsilon(vtk_round_off));
     }
     const double largest = *std::max_element(surface.fields.at("removal_um").begin(), surface.fields.at("removal_um").end());
     CHECK((largest > 1.0) == (gear == "pinion"));
@@ -142,13 +156,26 @@ TEST_CASE("The drawn flanks are the involutes through their contact lines", "[st
         const double rolls = pair.pinion.roll_length_at(std::hypot(x, y)) + pair.wheel.roll_length_at(std::hypot(pair.centre_distance - x, y));
         if (drawn == surface.teeth.end() || std::abs(rolls - pair.path_length) > 1e-5) continue;
         for (std::size_t i = 81 * tooth; i < 81 * (tooth + 1); i += 10) {
-          CHECK(start(lines.points, line) == Approx(start(surface.points, i)).margin(1e-7));  // nine digits are written
+          CHECK(start(lines.points, line) == Approx(start(surface.points, i)).margin(1e-9));  // round-off
         }
         ++compared;
       }
     }
     CHECK(compared > 5);
   }
+}
+
+TEST_CASE("What a position could not compute is NaN in its place, and the points behind it keep their values", "[studies][vtk]") {
+  Json json = Json::parse(results_json(run_study(parse_study(small::analysis(), "a", {{"cycle.positions", "2"}, {"cycle.peaks", "sampled"}}))));
+  Json& points = json["loaded"][0]["cycle"][0]["teeth"][0]["points"];
+  REQUIRE(points.size() > 2);
+  points[1]["gap_um"] = nullptr;
+  std::map<std::string, std::string> files;
+  for (const ExportedFile& file : vtk_series(json.dump(), "a")) files[file.name] = file.text;
+  const std::vector<double> gaps = read_piece(files.at("contact-1/lines-0000.vtp"), "Lines").fields.at("gap_um");
+  CHECK(std::isnan(gaps[1]));
+  CHECK(gaps[0] == points[0]["gap_um"].get<double>());
+  CHECK(gaps[2] == points[2]["gap_um"].get<double>());
 }
 
 TEST_CASE("What has no loaded contact has no series", "[studies][vtk][errors]") {

@@ -6,6 +6,9 @@
 #include <string>
 
 #include "core/base/units.hpp"
+#include "core/flank/measured_grid.hpp"
+#include "core/gear/gear_pair.hpp"
+#include "studies/grid_file.hpp"
 #include "studies/results_folder.hpp"
 #include "studies/rexs/rexs_export.hpp"
 #include "studies/study_file.hpp"
@@ -185,8 +188,7 @@ TEST_CASE("What no key of a study says is named and not lost", "[studies][rexs][
       "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01") + attribute("tip_relief_datum_diameter", "85") + attribute("shape_of_relief", "logarithmic", "none"),
       "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01") + attribute("tip_relief_datum_diameter", "99"),
       "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01"),
-      "type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") + attribute("end_relief_length_datum_face", "5"),
-      "type=\"helix_crowning\">" + attribute("helix_crowning_amount_datum_face", "0.01") + attribute("helix_crowning_amount_non_datum_face", "0.02"),
+      "type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") + attribute("end_relief_length_datum_face", "5") + attribute("shape_of_relief", "exponential", "none"),
       "type=\"topographical_modification\">" + attribute("coordinates_of_topographical_modification", "<array><c>1</c></array>"));
   CAPTURE(component);
   const rexs::ImportedStudy imported = import_text(modified({component}));
@@ -207,6 +209,64 @@ TEST_CASE("Equal end reliefs are one, modifications of one kind add up", "[studi
   CHECK(m.end_relief.amount == Approx(0.010));
   CHECK(m.end_relief.length == 5.0);
   CHECK(m.lead_slope == Approx(0.007));
+}
+
+namespace {
+
+/// Deepest departure of the imported grid's surface from a removal, at 21 x 21 places between the lines of the grid [mm].
+template <typename Removed>
+double worst_departure(const rexs::ImportedStudy& imported, const Removed& removed) {
+  REQUIRE(imported.grids.size() == 1);
+  const GearPair pair = make_gear_pair(parse_study(study_texts::replaced(imported.text, "grid = ", "# grid = "), "gears.toml").pair);
+  const auto field = make_grid_field(parse_grid(imported.grids.front().text, "g"), pair.pinion.base_radius, pair.base_helix_angle).field;
+  double worst = 0.0;
+  for (int i = 0; i <= 20; ++i) {
+    for (int j = 0; j <= 20; ++j) {
+      const double r = std::lerp(pair.pinion.active_root_radius, pair.pinion.tip_radius, (i + 0.37) / 21.0), z = 40.0 * ((j + 0.37) / 21.0 - 0.5);
+      worst = std::max(worst, std::abs(field->at(pair.pinion.roll_length_at(r), z).value - removed(r, z)));
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("What no key says but a grid can is laid as a grid, and how near is said", "[studies][rexs][import]") {
+  constexpr double smooth = 1e-9;         // [mm] a parabola is a cubic spline's own; decimals of the table
+  constexpr double beside_a_kink = 1e-4;  // [mm] discretisation: slope 2 um/mm jumps between lines half a millimetre apart
+  const auto relief = [](double amount, double share) { return share > 0.0 ? amount * share : 0.0; };
+  {
+    const auto imported = import_text(modified({"type=\"helix_crowning\">" + attribute("helix_crowning_amount_datum_face", "0.01") + attribute("helix_crowning_amount_non_datum_face", "0.02")}));
+    // The curvature jumps at mid face, a line of the grid.
+    CHECK(worst_departure(imported, [](double, double z) { return (z < 0.0 ? 0.01 : 0.02) * z * z / 400.0; }) < 1e-6);
+    CHECK_THAT(imported.warnings.front(), Contains("helix_crowning 20: taken as a grid of 3 radii and 81 axial positions") && Contains("departs from it by at most "));
+  }
+  const auto one_end = import_text(modified({"type=\"end_relief_non_datum_face\">" + attribute("end_relief_depth_non_datum_face", "0.01") + attribute("end_relief_length_non_datum_face", "5")}));
+  CHECK(worst_departure(one_end, [&](double, double z) { return relief(0.01, (z - 15.0) / 5.0); }) < beside_a_kink);
+  CHECK(worst_departure(one_end, [&](double, double z) { return relief(0.01, (-z - 15.0) / 5.0); }) > 0.008);  // at that end, not at the other
+
+  // Parabolic ends, 5 mm and 8 mm, a slope that a study has a key for, and a topography on top of them.
+  const std::string array = "<array><c>-20</c><c>20</c><c>-20</c><c>20</c></array>";
+  const auto sum = import_text(modified(
+      {"type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") + attribute("end_relief_length_datum_face", "5") + attribute("shape_of_relief", "parabolic", "none"),
+       "type=\"end_relief_non_datum_face\">" + attribute("end_relief_depth_non_datum_face", "0.02") + attribute("end_relief_length_non_datum_face", "8") + attribute("shape_of_relief", "parabolic", "none"),
+       "type=\"helix_slope\">" + attribute("helix_slope", "0.004"),
+       "type=\"topographical_modification\">" + attribute("coordinates_of_topographical_modification", array) +
+           attribute("diameters_of_topographical_modification", "<array><c>76</c><c>76</c><c>88</c><c>88</c></array>") +
+           attribute("topographical_modification_amounts", "<array><c>0.001</c><c>0.003</c><c>0.001</c><c>0.003</c></array>")}));
+  CHECK_THAT(sum.text, Contains("lead_slope = 4"));
+  const auto squared = [](double amount, double share) { return share > 0.0 ? amount * share * share : 0.0; };
+  CHECK(worst_departure(sum, [&](double, double z) { return squared(0.01, (-z - 15.0) / 5.0) + squared(0.02, (z - 12.0) / 8.0) + 0.002 + 0.001 * z / 20.0; }) < 3e-5);
+
+  // A second tip relief of another height; the first stays a key.
+  const auto two = import_text(modified({"type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01") + attribute("tip_relief_datum_diameter", "84"),
+                                         "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.006") + attribute("tip_relief_datum_diameter", "86") + attribute("shape_of_relief", "parabolic", "none")}));
+  CHECK_THAT(two.text, Contains("tip_relief = { amount = 10, height = 2"));
+  CHECK(worst_departure(two, [&](double r, double) { return squared(0.006, r - 43.0); }) < 3e-5);
+  // Smooth all over: nothing is lost but decimals.
+  CHECK(worst_departure(import_text(modified({"type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") + attribute("end_relief_length_datum_face", "40") +
+                                              attribute("shape_of_relief", "parabolic", "none")})),
+                        [&](double, double z) { return squared(0.01, (20.0 - z) / 40.0); }) < smooth);
 }
 
 TEST_CASE("What cannot be a study is refused with component and attribute", "[studies][rexs][import][errors]") {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace flankwright::studies::rexs {
+
+/// Whether these are the bytes of a ZIP archive, as .rexsz and .rexs.zip are.
+bool is_archive(std::string_view bytes);
+
+/// The text of the one REXS file in an archive: the entry that ends in .rexs, .rexsj, .xml or .json, or the only one there is. Other
+/// entries may stand beside it, the format keeps pictures and tables there; they are not looked at.
+///
+/// @param name  stands for the archive in messages
+/// @throws StudyErrors with one problem: a damaged or encrypted archive, none or several such entries, or one of more than
+/// largest_unpacked bytes
+std::string unpack(std::string_view bytes, const std::string& name);
+
+/// A file of a gear unit has megabytes; an archive of a few bytes can hold gigabytes of zeros.
+inline constexpr std::size_t largest_unpacked = std::size_t{1} << 28U;
+
+}  // namespace flankwright::studies::rexs
