@@ -41,7 +41,8 @@ struct PlacedPeak {
   bool of_stress;
 };
 
-/// How a peak's phase moves with the axial offset [base pitches per mm] where a point that reaches or leaves A0, A, E or B0 there, as points at fixed places along the face do; nothing where none does. Seen from both sides, as on one it may not exist.
+/// How a peak's phase moves with the axial offset [base pitches per mm] where a point at a fixed place along the face reaches or leaves A0, A, E or
+/// B0 there; nothing where none does. Seen from both sides, as on one it may not exist.
 std::optional<double> phase_slope_of_points(const PlacedPeak& at) {
   const double near = 2.0 * at.peaks.phase_tolerance;
   const MeshModel model = at.mesh_at({at.peak.phase - near, at.peak.phase + near});
@@ -84,39 +85,85 @@ MeshModel mesh_along(const PlacedPeak& at) {
 
 /// How the share of a place changes with the axial offset [1/mm]: a cut between points lies at a phase of its own, and moves along the line with that.
 /// NaN where it passes a point.
-double share_slope(const MeshModel& along, const PlacedPeak& at, const LinePlace& place) {
+double share_slope(const MeshModel& model, std::size_t position, int tooth, const LinePlace& place) {
   if (place.share == 0.0) return 0.0;
-  std::array<double, 3> shares{place.share};
-  for (std::size_t k = 1; k < shares.size(); ++k) {
-    const MeshModel& moved = further_mesh(along, k - 1);
-    const MeshPosition& there = moved.positions.front();
-    const double cut = at.peak.z - (there.phase - at.peak.phase) / PathOfContact(along.pair).slope;
-    const LinePlace moved_place = place_on_line(moved, there, at.peak.tooth, cut);
-    if (moved_place.point != same_points(along.positions.front(), there)[static_cast<std::size_t>(place.point)]) return not_given;
+  const MeshPosition& at = model.positions[position];
+  const auto first = static_cast<std::size_t>(place.point);
+  const double cut = (1.0 - place.share) * at.points[first].z + place.share * at.points[first + 1].z;
+  std::array<double, 2> shares{};
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    const MeshPosition& there = further_mesh(model, k).positions[position];
+    const double moved = cut - (there.phase - at.phase) / PathOfContact(model.pair).slope;
+    const LinePlace moved_place = place_on_line(further_mesh(model, k), there, tooth, moved);
+    if (moved_place.point != same_points(at, there)[first]) return not_given;
     shares[k] = moved_place.share;
   }
-  return first_slope(shares[0], shares[1], shares[2], further_mesh(along, 0).axial_offset - along.axial_offset);
+  return first_slope(place.share, shares[0], shares[1], further_mesh(model, 0).axial_offset - model.axial_offset);
 }
 
-/// Derivative at the peak's place; empty where there is none.
-Eigen::RowVectorXd gradient(const PlacedPeak& at, const std::vector<MeshParameter>& parameters) {
-  if (std::isnan(at.peak.value)) return {};
-  const std::vector<Eigen::Index> offsets = axial_offsets_among(parameters);
-  const MeshModel model = offsets.empty() ? at.mesh_at({at.peak.phase}) : mesh_along(at);
-  const LoadedCycle cycle = analyse_cycle(model, at.condition, at.torque, parameters);
-  if (!cycle.usable()) return {};
-  const LinePlace place = place_on_line(model, model.positions.front(), at.peak.tooth, at.peak.z);
-  if (place.point < 0) return {};
-  const LoadedPosition& here = cycle.positions.front();
+/// What is peaked, at a place of a position, and its derivatives there.
+struct Reading {
+  double value;
+  Eigen::RowVectorXd slopes;
+};
+/// @param place  known
+Reading read(const PlacedPeak& at, const MeshModel& model, const LoadedCycle& cycle, std::size_t position, const LinePlace& place,
+             const std::vector<MeshParameter>& parameters) {
+  const LoadedPosition& here = cycle.positions[position];
   const Eigen::VectorXd& values = at.of_stress ? here.contact_stress : here.load.line_load;
   const Eigen::MatrixXd& slopes = at.of_stress ? here.contact_stress_derivative : here.line_load_derivative;
-  if (place.share == 0.0) return slopes.row(place.point);
-  // Between points w and sigma^2 are linear: of sigma^n = (1 - t) sigma_0^n + t sigma_1^n.
-  const double first = values[place.point], next = values[place.point + 1], t = place.share, n = at.of_stress ? 2.0 : 1.0;
-  const double mean = std::pow((1.0 - t) * std::pow(first, n) + t * std::pow(next, n), (n - 1.0) / n);  // sigma^(n - 1)
-  Eigen::RowVectorXd gradient = ((1.0 - t) * std::pow(first, n - 1.0) * slopes.row(place.point) + t * std::pow(next, n - 1.0) * slopes.row(place.point + 1)) / mean;
-  for (const Eigen::Index p : offsets) gradient[p] += share_slope(model, at, place) * (std::pow(next, n) - std::pow(first, n)) / (n * mean);
-  return gradient;
+  const double first = values[place.point];
+  if (place.share == 0.0) return {first, slopes.row(place.point)};
+  // Between points w and sigma^2 are linear: sigma^n = (1 - t) sigma_0^n + t sigma_1^n.
+  const double next = values[place.point + 1], t = place.share, n = at.of_stress ? 2.0 : 1.0;
+  const double value = std::pow((1.0 - t) * std::pow(first, n) + t * std::pow(next, n), 1.0 / n), mean = std::pow(value, n - 1.0);
+  Reading reading{value, ((1.0 - t) * std::pow(first, n - 1.0) * slopes.row(place.point) + t * std::pow(next, n - 1.0) * slopes.row(place.point + 1)) / mean};
+  for (const Eigen::Index p : axial_offsets_among(parameters)) {
+    reading.slopes[p] += share_slope(model, position, at.peak.tooth, place) * (std::pow(next, n) - std::pow(first, n)) / (n * mean);
+  }
+  return reading;
+}
+
+/// At the peak itself, which with the axial offset goes with its event; empty where the mesh has no such place.
+Eigen::RowVectorXd held_gradient(const PlacedPeak& at, const std::vector<MeshParameter>& parameters) {
+  const MeshModel model = axial_offsets_among(parameters).empty() ? at.mesh_at({at.peak.phase}) : mesh_along(at);
+  const LinePlace place = place_on_line(model, model.positions.front(), at.peak.tooth, at.peak.z);
+  const LoadedCycle cycle = analyse_cycle(model, at.condition, at.torque, parameters);
+  if (!cycle.usable() || place.point < 0) return {};
+  return read(at, model, cycle, 0, place, parameters).slopes;
+}
+
+/// Of a peak that is continuous over the phase: the mean of both its sides in which the slope over the phase vanishes. Nothing where it is not:
+/// where the place is missing on one side, or what is peaked jumps.
+std::optional<Eigen::RowVectorXd> gradient_of_sides(const PlacedPeak& at, const std::vector<MeshParameter>& parameters) {
+  const double d = 2.0 * at.peaks.phase_tolerance;  // the summit lies nearer
+  const std::array<double, 4> away{-2.0 * d, -d, d, 2.0 * d};
+  std::vector<double> phases{at.peak.phase};
+  for (const double by : away) phases.push_back(at.peak.phase + by);
+  const MeshModel model = at.mesh_at(phases);
+  const LoadedCycle cycle = analyse_cycle(model, at.condition, at.torque, parameters);
+  const LinePlace place = place_on_line(model, model.positions.front(), at.peak.tooth, at.peak.z);
+  if (!cycle.usable() || place.point < 0) return std::nullopt;
+  std::vector<Reading> sides;
+  for (std::size_t k = 0; k < away.size(); ++k) {
+    const MeshPosition& there = model.positions[k + 1];
+    const LinePlace same = place.share == 0.0 ? LinePlace{same_points(model.positions.front(), there)[static_cast<std::size_t>(place.point)]}
+                                              : place_on_line(model, there, at.peak.tooth, at.peak.z - away[k] / PathOfContact(model.pair).slope);
+    if (same.point < 0) return std::nullopt;
+    sides.push_back(read(at, model, cycle, k + 1, same, parameters));
+  }
+  const double rise = (sides[1].value - sides[0].value) / d, fall = (sides[2].value - sides[3].value) / d;
+  const double jump = std::abs((sides[1].value + rise * d) - (sides[2].value + fall * d));
+  if (!(rise > 0.0 && fall > 0.0) || jump > 2.0 * d * (rise + fall)) return std::nullopt;
+  const Eigen::RowVectorXd before = 2.0 * sides[1].slopes - sides[0].slopes, after = 2.0 * sides[2].slopes - sides[3].slopes;  // at the peak
+  return (fall * before + rise * after) / (rise + fall);
+}
+
+/// Empty where there is none.
+Eigen::RowVectorXd gradient(const PlacedPeak& at, const std::vector<MeshParameter>& parameters) {
+  if (std::isnan(at.peak.value)) return {};
+  const std::optional<Eigen::RowVectorXd> of_sides = gradient_of_sides(at, parameters);
+  return of_sides ? *of_sides : held_gradient(at, parameters);
 }
 
 }  // namespace

@@ -183,7 +183,7 @@ TEST_CASE("Derivatives of located peaks and load factors stand beside them", "[s
   // Both peaks of a difference are located to 2e-4 base pitches; step^2 times curvature.
   constexpr double kLocated = 5e-4, kDifference = 0.02;
   const auto [key, value, step] = GENERATE(table<std::string, double, double>(
-      {{"pinion.modification.lead_crowning", 6, 0.2}, {"load.torque", 300, 10}}));
+      {{"pinion.modification.lead_crowning", 6, 0.2}, {"load.torque", 300, 10}, {"misalignment.axial_offset", 0.5, 0.2}}));
   const auto at = [&, key = key](double moved) {
     return loaded({{"analyse.gradients", "[\"" + key + "\"]"}, {"cycle.peaks", "\"located\""}, {key, std::to_string(moved)}});
   };
