@@ -57,6 +57,7 @@ Json refinement_json(const GearRefinement& refinement) {
   for (const ResidualStatistics& residuals : refinement.residuals) {
     json["residual_percent"]["unseen"].push_back(residuals_json(residuals));
   }
+  json["covariance"] = covariance_json(KernelForm::refinement(), refinement.fit.coefficients, refinement.fit.covariance);
   return json;
 }
 
@@ -104,6 +105,16 @@ Json compliance_json(const GearStructures& structures, const Study& study) {
             {"wheel", gear(Member::Wheel, study.wheel_material)}};
   if (structures.refinement(Member::Pinion)) json["fits"] = fits_json(RefinementLibrary::shipped());
   return json;
+}
+
+Json covariance_json(const KernelForm& form, const std::vector<double>& coefficients, const Eigen::MatrixXd& covariance) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j <= i; ++j) row.push_back(covariance(i, j));
+    rows.push_back(std::move(row));
+  }
+  return {{"coefficient", form.coefficient_names()}, {"value", coefficients}, {"lower_triangle", std::move(rows)}};
 }
 
 Json body_json(const GearBody& body) {

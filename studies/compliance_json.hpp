@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/compliance/fitted/kernel_form.hpp"
 #include "studies/gear_structures.hpp"
 #include "studies/json_format.hpp"
 
@@ -10,6 +11,9 @@ Json compliance_json(const GearStructures& structures, const Study& study);
 
 /// The motion of the shaft that is taken out of influence values, in words.
 const char* name_of(RemovedMotion removed);
+
+/// Coefficients of a fit by name, and the lower triangle of their covariance, row by row.
+Json covariance_json(const KernelForm& form, const std::vector<double>& coefficients, const Eigen::MatrixXd& covariance);
 
 /// A gear's body as used, of `used` in results.json.
 Json body_json(const GearBody& body);

@@ -33,7 +33,7 @@ Json residuals_json(const std::vector<FormResiduals>& all) {
 }
 
 /// Standard errors, where the fit came to an end.
-Json uncertainty_json(const FittedCompliance& fit) {
+Json uncertainty_json(const FittedCompliance& fit, const Eigen::MatrixXd& covariance) {
   const std::vector<double>& errors = fit.record().standard_errors;
   const std::vector<std::string> names = fit.form().coefficient_names();
   std::vector<std::size_t> order(errors.size());
@@ -46,7 +46,8 @@ Json uncertainty_json(const FittedCompliance& fit) {
         {{"coefficient", names[c]}, {"value", fit.coefficients()[c]}, {"standard_error", errors[c]}});
   }
   return {{"median_standard_error", order.empty() ? not_given : errors[order[order.size() / 2]]},
-          {"least_certain", least_certain}};
+          {"least_certain", least_certain},
+          {"covariance", covariance_json(fit.form(), fit.coefficients(), covariance)}};
 }
 
 Json range_json(const FitRange& range) {
@@ -101,7 +102,7 @@ Json fit_json(const GearFit& fit) {
   if (!result.fit.fit) return json;
   json["coefficients"] = result.fit.fit->coefficients().size();
   json["range"] = range_json(result.fit.fit->record().range);
-  json["uncertainty"] = uncertainty_json(*result.fit.fit);
+  json["uncertainty"] = uncertainty_json(*result.fit.fit, result.fit.covariance);
   json["lowest_eigenvalue"] = result.lowest_eigenvalue;
   json["eigenvalue_teeth"] = result.eigenvalue_teeth;
   json["residuals"] = residuals_json(result.residuals);

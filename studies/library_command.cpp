@@ -69,7 +69,8 @@ std::string settings_text() {
       "# standard rack (1 / 1.25 / 0.39, 20 deg), nu = 0.3. Made by `flankwright library`, version {}.\n"
       "{}{}"
       "# columns: teeth, helix angle [deg], x, b/m_n, converged, steps, pairs, seconds, then pairs and median, 95 % and\n"
-      "# worst relative residual [-] of the places fitted and of others, then the coefficients of KernelForm::refinement().\n",
+      "# worst relative residual [-] of the places fitted and of others, then the coefficients of KernelForm::refinement()\n"
+      "# and the lower triangle of their covariance.\n",
       version(), mesh_line("fine", {}), mesh_line("coarse", coarse_mesh()));
 }
 

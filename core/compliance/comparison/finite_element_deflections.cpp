@@ -34,6 +34,7 @@ Eigen::MatrixXd finite_element_deflections(const InfluenceModel& model, std::spa
     K.middleCols(first, count) = scale * (rows.transpose() * model.solid().solve(columns.middleCols(first, count)));
     if (progress) progress(static_cast<int>(first + count), static_cast<int>(columns.cols()));
   }
+  K.array() += scale * axial_hold_compliance(mesh, model.material(), removed);
   return K;
 }
 

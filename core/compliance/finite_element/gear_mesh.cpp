@@ -144,6 +144,7 @@ GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options) {
   mesh.face_width = width;
   mesh.teeth_each_side = options.teeth_each_side;
   const GearBody body = complete_body(gear.body, mesh.form, gear.normal_module);
+  mesh.shaft_diameter = body.shaft_diameter;
   mesh.torque_end = (body.torque_end == FaceEnd::Sharp ? -0.5 : 0.5) * width;
   const SectionMesh section = section_mesh(mesh.form, mesh.teeth, mesh.normal_module, body, options);
   const double overhang = body.shaft_overhang;
@@ -186,13 +187,10 @@ GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options) {
     throw InvalidInput("options", "an element is folded", "element numbers and sizes that fit this tooth and body");
   }
 
-  const double bore = section.nodes.colwise().norm().minCoeff();
   const int last_level = 2 * (static_cast<int>(all.size()) - 1);
   const bool at_sharp_end = body.torque_end == FaceEnd::Sharp;
-  sweep.for_each_at(at_sharp_end ? 0 : last_level, [&](int node, const Eigen::Vector3d& p) {
-    const bool at_bore = p.head<2>().norm() < bore * (1 + 1e-9);  // round-off of the rotation
-    mesh.supports.push_back({node, {true, true, at_bore}, Eigen::Matrix3d::Identity()});
-  });
+  sweep.for_each_at(at_sharp_end ? 0 : last_level,
+                    [&](int node, const Eigen::Vector3d&) { mesh.supports.push_back({.node = node}); });
   sweep.for_each_at(at_sharp_end ? last_level : 0, [&](int node, const Eigen::Vector3d& p) {
     const Eigen::Vector2d out = p.head<2>().normalized();
     Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();

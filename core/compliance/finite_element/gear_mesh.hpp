@@ -35,14 +35,13 @@ struct ToothSurfaces {
 };
 
 /// The section swept along z with the helix, and the shaft's overhangs, held at their far ends: that beyond the torque
-/// end in x and y and the edge of its bore in z as well, the other one radially. Haddad holds the central node in z
-/// [1991, 2.5]. How far such a hold gives depends on the size of what is held, and adds the same to K at all places: it moves
-/// the mean transmission error and nothing else, by 0.13 um of 8 from a bore of 0.1 to one of 0.05 d_s (his 18:54 pair).
+/// end whole, the other one radially. What the axial hold gives besides is axial_hold_compliance().
 struct GearMesh {
   ToothForm form;
   int teeth{0};
   double normal_module{not_given}, face_width{not_given};
   int teeth_each_side{0};
+  double shaft_diameter{not_given};  ///< [mm]
   double torque_end{not_given};  ///< z of the face end where torque and axial force leave, -b/2 or b/2 [mm]
   SolidMesh solid{};
   std::vector<NodeSupport> supports{};

@@ -44,6 +44,7 @@ InfluenceMatrix InfluenceModel::influence(const std::vector<FlankPoint>& points,
   if (result.status != FactorStatus::Factorised) return result;
   const double start = clock_seconds();
   result.compliance = solid_.influence(net_functionals(mesh_, points, removed));
+  result.compliance.array() += axial_hold_compliance(mesh_, material_, removed);
   result.statistics.solve_seconds = clock_seconds() - start;
   return result;
 }

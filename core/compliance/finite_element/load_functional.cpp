@@ -204,4 +204,13 @@ Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoin
   return result;
 }
 
+double axial_hold_compliance(const GearMesh& mesh, const Material& material, RemovedMotion removed) {
+  if (removed == RemovedMotion::WholeTranslationTorsionAndTilt) return 0;
+  const auto [E, nu] = material;
+  const double a = axial_hold_share * mesh.shaft_diameter / 2;
+  const double tan_beta_b = std::tan(mesh.form.helix_angle()) * mesh.form.base_radius() / mesh.form.reference_radius();
+  const double sin_squared = tan_beta_b * tan_beta_b / (1 + tan_beta_b * tan_beta_b);
+  return sin_squared * 16 * (1 - nu * nu) / (3 * units::pi * units::pi * E * a);
+}
+
 }  // namespace flankwright

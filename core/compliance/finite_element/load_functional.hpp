@@ -112,4 +112,20 @@ enum class RemovedMotion {
 /// symmetric and positive semi-definite again.
 Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoint& point, RemovedMotion removed);
 
+/// Diameter of what holds the shaft axially, over the shaft's.
+inline constexpr double axial_hold_share = 1.0 / 6;
+
+/// What the shaft's axial hold gives, in the direction of the normals [mm/N]: the same at all places of all teeth, to be added
+/// to every K(p, q),
+///
+///     sin^2(beta_b) 16 (1 - nu^2) / (3 pi^2 E a),    a = axial_hold_share d_s / 2,
+///
+/// the mean displacement of a disc under an even pressure on a half space [Timoshenko and Goodier, Theory of Elasticity, art.
+/// 139]; 0 where the axial motion is taken off. It moves the mean transmission error and nothing else.
+///
+/// Haddad holds the central node of one end [1991, 2.5], and his deflections have that node's give in them. Of a node, or of the edge
+/// of a narrow bore, it grows without limit as elements shrink; this does not know the mesh. The share is a choice: it stands for
+/// what the edge of a bore of 0.05 d_s gives in elements as large as the shaft's radius.
+double axial_hold_compliance(const GearMesh& mesh, const Material& material, RemovedMotion removed);
+
 }  // namespace flankwright

@@ -19,7 +19,7 @@ struct GearMeshOptions {
   double end_element{0.15};         ///< axial size next to the face ends, > 0
   double axial_growth{1.4};         ///< size ratio of neighbouring layers, > 1
   double largest_element{0.4};      ///< axial size at mid face, >= end_element
-  int most_layers{48};              ///< over the face; a wider face has longer layers at mid face, >= 4
+  int most_layers{80};              ///< over the face; a wider face has longer layers at mid face, >= 4
   double body_growth{3.0};          ///< size ratio of neighbouring elements into the body and around it, > 1
   int shaft_elements{2};            ///< rings from the bore to the shaft's surface, >= 1
 
@@ -37,8 +37,7 @@ inline constexpr double default_bore_share = 0.05;
 /// What the teeth stand on: a solid disc as wide as the face, on a hollow shaft that runs through it.
 struct GearBody {
   double shaft_diameter{not_given};  ///< d_s [mm]; not given: default_shaft_diameter()
-  /// [mm], > 0; not given: default_bore_share d_s. At its edge the shaft is held axially, see GearMesh.
-  double bore_diameter{not_given};
+  double bore_diameter{not_given};   ///< [mm], > 0; not given: default_bore_share d_s
   double shaft_overhang{not_given};  ///< length of the shaft beyond each face end [mm], > 0; not given: 0.5 d_s
   /// Where torque and axial force leave the gear. What lies between there and a load winds up under it. The default is
   /// what Haddad's sample outputs show: pinion loads that fall towards the other, sharp end.

@@ -106,6 +106,7 @@ class TableSolver {
       result.middleCols(begin, columns) = functionals.transpose() * solid.solve(loads);
       report(block + 2);
     }
+    result.array() += axial_hold_compliance(mesh, {1, task_.poissons_ratio}, task_.removed);
     return result;
   }
 

@@ -73,6 +73,7 @@ RefinementEntry fit_refinement(const RefinementSamples& samples, const std::vect
   entry.pairs = result.pairs;
   if (!result.fit) return entry;
   entry.coefficients = result.fit->coefficients();
+  entry.covariance = result.covariance;
   entry.fitted = residual_statistics(*result.fit, {&samples.fitted, 1}, kScaleFloor).front();
   entry.unseen = residual_statistics(*result.fit, {&samples.unseen, 1}, kScaleFloor).front();
   return entry;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -22,9 +23,11 @@ struct RefinementEntry {
   ResidualStatistics fitted;         ///< of coarse values plus fit against fine ones, on the places fitted
   ResidualStatistics unseen;         ///< on places that the fit has not seen
   std::vector<double> coefficients;  ///< of KernelForm::refinement()
+  Eigen::MatrixXd covariance;        ///< of the coefficients, FitResult::covariance; empty where the fit failed
 };
 
-/// A line of text for an entry and back, in full precision. Lines that start with # are remarks.
+/// A line of text for an entry and back, in full precision but for the covariance: its lower triangle, row by row, in four
+/// digits. Lines that start with # are remarks.
 std::string to_text(const RefinementEntry& entry);
 /// @throws InvalidInput "library" with the number of the line that is no entry
 std::vector<RefinementEntry> entries_in(std::string_view text);

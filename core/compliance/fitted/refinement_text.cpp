@@ -1,7 +1,7 @@
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
@@ -18,15 +18,23 @@ void append(std::string& text, double value) {
   text.append(buffer, end);
 }
 
+/// In four digits.
+void append_rounded(std::string& text, double value) {
+  char buffer[32];
+  text += ' ';
+  text.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 4).ptr);
+}
+
 /// Numbers of a line, empty where one of its words is none.
-std::vector<double> numbers_in(const std::string& line) {
-  std::istringstream words(line);
+std::vector<double> numbers_in(std::string_view line) {
   std::vector<double> numbers;
-  for (std::string word; words >> word;) {
+  while (!line.empty()) {
+    const std::string_view word = line.substr(0, line.find(' '));
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size()) return {};
     numbers.push_back(value);
+    line.remove_prefix(std::min(line.size(), word.size() + 1));
   }
   return numbers;
 }
@@ -39,9 +47,10 @@ void append(std::string& text, const ResidualStatistics& residuals) {
 
 constexpr std::size_t kBeforeCoefficients = 16;
 
-std::optional<RefinementEntry> entry_in(const std::string& line) {
+std::optional<RefinementEntry> entry_in(std::string_view line) {
   const std::vector<double> x = numbers_in(line);
-  if (x.size() != kBeforeCoefficients + static_cast<std::size_t>(KernelForm::refinement().count())) return std::nullopt;
+  const auto count = static_cast<std::size_t>(KernelForm::refinement().count());
+  if (x.size() != kBeforeCoefficients + count + count * (count + 1) / 2) return std::nullopt;
   const auto residuals = [&](std::size_t at) {
     return ResidualStatistics{0, static_cast<int>(x[at]), x[at + 1], x[at + 2], x[at + 3]};
   };
@@ -54,7 +63,13 @@ std::optional<RefinementEntry> entry_in(const std::string& line) {
   entry.seconds = x[7];
   entry.fitted = residuals(8);
   entry.unseen = residuals(12);
-  entry.coefficients.assign(x.begin() + kBeforeCoefficients, x.end());
+  auto next = x.begin() + kBeforeCoefficients;
+  entry.coefficients.assign(next, next + static_cast<std::ptrdiff_t>(count));
+  next += static_cast<std::ptrdiff_t>(count);
+  entry.covariance.resize(KernelForm::refinement().count(), KernelForm::refinement().count());
+  for (Eigen::Index i = 0; i < entry.covariance.rows(); ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j) entry.covariance(i, j) = entry.covariance(j, i) = *next++;
+  }
   return entry;
 }
 
@@ -74,15 +89,17 @@ std::string to_text(const RefinementEntry& entry) {
   append(text, entry.fitted);
   append(text, entry.unseen);
   for (const double coefficient : entry.coefficients) append(text, coefficient);
+  for (Eigen::Index i = 0; i < entry.covariance.rows(); ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j) append_rounded(text, entry.covariance(i, j));
+  }
   return text + '\n';
 }
 
 std::vector<RefinementEntry> entries_in(std::string_view text) {
-  std::istringstream lines{std::string(text)};
   std::vector<RefinementEntry> entries;
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
+  for (int number = 1; !text.empty(); ++number) {
+    const std::string_view line = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(text.size(), line.size() + 1));
     if (line.empty() || line.front() == '#') continue;
     const std::optional<RefinementEntry> entry = entry_in(line);
     if (!entry) throw InvalidInput("library", "line " + std::to_string(number), "an entry of a library of fits");

@@ -40,7 +40,8 @@ TEST_CASE("Influence values are symmetric and positive semi-definite over all te
 
   // The same by full solutions: what one load does to the other's place.
   const auto loads = net_functionals(model.mesh(), result.points, removed);
-  const Eigen::MatrixXd solved = loads.transpose() * model.solid().solve(loads);
+  Eigen::MatrixXd solved = loads.transpose() * model.solid().solve(loads);
+  solved.array() += axial_hold_compliance(model.mesh(), kUnit, removed);
   CHECK((solved - result.compliance).cwiseAbs().maxCoeff() < 1e-10 * values.maxCoeff());  // round-off x condition
 }
 
@@ -69,6 +70,24 @@ TEST_CASE("With translation, torsion and tilt taken out the supports carry nothi
   // The mesh's own supports keep the shaft's ends round and flat, which the gear notices a little (Saint-Venant).
   const Eigen::MatrixXd usual = SolidModel(mesh.solid, kUnit, mesh.supports).influence(loads);
   CHECK((a - usual).norm() < 3e-3 * a.norm());
+}
+
+TEST_CASE("The axial hold gives what a disc under an even pressure does", "[core][compliance][fe]") {
+  const GearMesh mesh = gear_mesh(gear_of(18, 30), coarse());
+  const double a = axial_hold_share * mesh.shaft_diameter / 2, pressure = 1 / (units::pi * a * a);
+  // Displacement of the half space at radius r, by a complete elliptic integral, and its mean over the disc.
+  double mean = 0;
+  constexpr int kRings = 20000;
+  for (int i = 0; i < kRings; ++i) {
+    const double share = (i + 0.5) / kRings;
+    const double u = 4 * (1 - 0.3 * 0.3) * pressure * a / units::pi * std::comp_ellint_2(share);
+    mean += 2 * share * u / kRings;
+  }
+  const double along_normal = load_frame(mesh, {0, mesh.form.tip_radius(), 0}).normal.z();
+  CHECK(axial_hold_compliance(mesh, kUnit, RemovedMotion::TranslationTorsionAndTilt) ==
+        Approx(along_normal * along_normal * mean).epsilon(1e-8));  // the rings' discretisation
+  CHECK(axial_hold_compliance(mesh, kUnit, RemovedMotion::WholeTranslationTorsionAndTilt) == 0);
+  CHECK(axial_hold_compliance(gear_mesh(gear_of(18, 0), coarse()), kUnit, RemovedMotion::None) == 0);
 }
 
 TEST_CASE("Compliance scales with 1 / (E m_n)", "[core][compliance][fe]") {
@@ -113,7 +132,7 @@ TEST_CASE("A helical tooth gives way most at the tip of its sharp end, and drags
   }
 }
 
-TEST_CASE("The default mesh is converged to three percent", "[core][compliance][fe][.soak]") {
+TEST_CASE("The default mesh is converged to two percent", "[core][compliance][fe][.soak]") {
   const GearToMesh gear = gear_of(GENERATE(18, 40), 30, 6);
   GearMeshOptions usual, fine;
   usual.teeth_each_side = fine.teeth_each_side = 1;
@@ -124,7 +143,7 @@ TEST_CASE("The default mesh is converged to three percent", "[core][compliance][
   fine.axial_growth = 1.25;
   fine.largest_element = 0.25;
   fine.body_growth = 1.6;
-  fine.shaft_elements = 3;
+  fine.shaft_elements = 4;
   const auto run = [&](const GearMeshOptions& options) {
     const InfluenceModel model(gear, kUnit, options);
     std::vector<FlankPoint> grid;
@@ -142,6 +161,5 @@ TEST_CASE("The default mesh is converged to three percent", "[core][compliance][
   const Eigen::VectorXd scale = b.diagonal().cwiseSqrt();
   const Eigen::MatrixXd apart = ((a - b).array() / (scale * scale.transpose()).array()).abs();
   CAPTURE(apart.diagonal().reshaped(20, 6).transpose());
-  // Discretisation, found 2.9 % low on the flank of 18 teeth: by the shaft's rings up to 1.3, body 0.9, below the flank 0.9.
-  CHECK(apart.maxCoeff() < 0.03);
+  CHECK(apart.maxCoeff() < 0.02);  // discretisation
 }

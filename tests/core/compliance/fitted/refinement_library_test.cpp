@@ -59,6 +59,17 @@ TEST_CASE("The library gives its own entries back, spur gears alike at both ends
   }
 }
 
+TEST_CASE("The library's fits have a covariance, positive definite but for its rounding", "[core][compliance][fitted]") {
+  for (const RefinementEntry& entry : RefinementLibrary::shipped().entries()) {
+    const Eigen::VectorXd errors = entry.covariance.diagonal().cwiseSqrt();
+    REQUIRE(static_cast<std::size_t>(errors.size()) == entry.coefficients.size());
+    CHECK(errors.minCoeff() > 0);
+    const Eigen::MatrixXd correlation = errors.cwiseInverse().asDiagonal() * entry.covariance * errors.cwiseInverse().asDiagonal();
+    // Four digits: entries of a correlation are off by 5e-4 at most, eigenvalues by that times the size.
+    CHECK(symmetric_eigenvalues(correlation).minCoeff() > -5e-4 * static_cast<double>(errors.size()));
+  }
+}
+
 TEST_CASE("Mirrored coefficients are the same kernels seen from the other end", "[core][compliance][fitted]") {
   const KernelForm form = GENERATE(KernelForm::refinement(), KernelForm::several_teeth());
   std::mt19937 random(3);
@@ -144,6 +155,7 @@ TEST_CASE("A library is read as it was written, and refused where an entry is mi
     CHECK(read[i].gear == library.entries()[i].gear);
     CHECK(read[i].coefficients == library.entries()[i].coefficients);
     CHECK(read[i].unseen == library.entries()[i].unseen);
+    CHECK(read[i].covariance == library.entries()[i].covariance);
   }
   auto incomplete = read;
   incomplete.pop_back();
