@@ -12,13 +12,10 @@ function parameter_step(unit, torque) {
 const GRADIENT_OUTPUTS = [
   { column: { label: "TE peak to peak", unit: "µm" }, of: (s) => s.te_peak_to_peak_um, bars: true },
   { column: { label: "TE 1st harmonic", unit: "µm" }, of: (s) => list(s.te_harmonics_um)[0] },
-  { column: { label: "TE mean", unit: "µm" }, of: (s) => s.te_mean_um },
   { column: { label: "Contact stress", unit: "MPa" }, of: (s) => s.peak_contact_stress_MPa, bars: true },
   { column: { label: "Root stress", unit: "MPa" }, of: (s) => s.peak_root_stress_MPa, bars: true },
   { column: { label: "Line load", unit: "N/mm" }, of: (s) => s.peak_load_N_per_mm },
   { column: { label: "Stiffness", unit: "N/(mm µm)" }, of: (s) => s.mean_stiffness_N_per_mm_um },
-  { column: { label: "K_Hβ" }, of: (s) => record(record(s.load_factors).without_spikes).K_Hbeta },
-  { column: { label: "K_Hα" }, of: (s) => record(record(s.load_factors).without_spikes).K_Halpha },
   { column: { label: "K_H" }, of: (s) => record(record(s.load_factors).without_spikes).K_H },
 ];
 
@@ -51,9 +48,8 @@ function build_gradients(results, body, selection) {
     });
   }
   table(body, {
-    title: "Derivatives of the results",
-    note: "Of each output by each parameter, in the output's unit per unit of the parameter; load factors without spikes. results.json has "
-      + "those of every point and position as well.",
+    title: "In numbers, per unit of the parameter",
+    note: "In the output's unit per unit of the parameter; K_H without spikes. results.json has the derivatives of everything else, to the last point.",
     columns: [{ label: "Scene" }, { label: "Torque", unit: "N·m", digits: 6 }, { label: "Parameter" }, { label: "per" }, ...outputs.map(({ column }) => column)],
     rows: cases.flatMap((load_case) => {
       const { parameters, units, summary } = gradients_of(load_case);

@@ -39,7 +39,7 @@ std::vector<Moved> movable() {
 RatedPeaks rated(const GearPair& gears, const FlankCondition& condition, ConditionPart part, const std::vector<MeshParameter>& parameters) {
   const double torque = torque_for(gears, kTorque);
   const MeshAt mesh = mesh_of(gears, {QuadratureRule::Graded, 3});
-  const ContactPeaks peaks = locate_peaks(mesh, part(condition), torque, {.step = 1.0 / 12, .phase_tolerance = kFineSearch});
+  const ContactPeaks peaks = locate_peaks(mesh, part(condition), torque, {.step = 1.0 / 12, .phase_tolerance = kFineSearch, .worth = 0.995});
   return {peaks, peak_gradients_of_part(mesh, condition, part, torque, peaks, parameters)};
 }
 
@@ -113,7 +113,7 @@ TEST_CASE("A peak at which another point just gains contact follows every parame
   std::vector<MeshParameter> parameters;
   for (const Moved& m : moved) parameters.push_back(m.parameter);
   parameters.push_back(PinionTorque{});
-  const auto peaks = [&](const FlankCondition& c, double by_torque) { return locate_peaks(mesh, c, by_torque, {.phase_tolerance = kFineSearch}); };
+  const auto peaks = [&](const FlankCondition& c, double by_torque) { return locate_peaks(mesh, c, by_torque, {.step = 1.0 / 12, .phase_tolerance = kFineSearch, .worth = 0.995}); };
   const ContactPeaks here = peaks(condition, torque);
   const PeakGradients gradients = peak_gradients(mesh, condition, torque, here, parameters);
   int kinks = 0;
