@@ -26,9 +26,10 @@ LoadRating LoadRater::rate(const MeshFor& mesh_for, const FlankCondition& condit
     return RatedPeaks{peaks, peak_gradients_of_part(mesh, condition, part, pinion_torque, peaks, parameters)};
   };
   const RatedPeaks combined = rated(rating.combined, whole_condition);
+  const RatedPeaks perfect = rated(rating.perfect, perfect_part);
   rating.peak_gradients = combined.gradients;
-  rating.factor_gradients = load_factor_gradients(rated(rating.perfect, perfect_part), rated(rating.lead, lead_part),
-                                                  rated(rating.profile, profile_part), combined);
+  rating.perfect_gradients = perfect.gradients;
+  rating.factor_gradients = load_factor_gradients(perfect, rated(rating.lead, lead_part), rated(rating.profile, profile_part), combined);
   return rating;
 }
 

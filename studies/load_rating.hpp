@@ -12,7 +12,7 @@ struct LoadRating {
   SpikeRule spikes;
   ContactPeaks perfect, lead, profile, combined;  ///< of the parts of the condition, see load_factors.hpp
   LoadFactors factors;
-  PeakGradients peak_gradients;              ///< of the whole condition
+  PeakGradients peak_gradients, perfect_gradients;  ///< of the whole condition and of the perfect part
   LoadFactorGradients factor_gradients;      ///< empty rows where no derivatives were asked for
 };
 

@@ -94,12 +94,8 @@ Json point_json(const ContactPoint& point, const LoadedPosition& position, Eigen
 
 /// Largest over a tooth's fillet [MPa]; NaN without.
 double root_stress_of_tooth(const MeshPosition& at, const LoadedPosition& position, Member member, int tooth) {
-  double largest = not_given;
-  for (Eigen::Index i = 0; i < position.root_stress.size(); ++i) {
-    const RootPlace& place = at.root_stress.places[static_cast<std::size_t>(i)];
-    if (place.member == member && place.tooth == tooth) largest = std::fmax(largest, position.root_stress[i]);
-  }
-  return largest;
+  const Eigen::Index highest = highest_root_stress(at, position, {member, tooth});
+  return highest < 0 ? not_given : position.root_stress[highest];
 }
 
 Json position_json(const MeshModel& model, const MeshPosition& at, const LoadedPosition& position, const FlankCondition& condition) {
@@ -162,7 +158,7 @@ Json summary_json(const LoadedResult& loaded, const MeshModel& model, bool full_
           {"mean_stiffness_N_per_mm_um", summary.mean_stiffness},
           {"least_stiffness_N_per_mm_um", summary.least_stiffness},
           {"largest_stiffness_N_per_mm_um", summary.largest_stiffness},
-          {"stiffness_variation", (summary.largest_stiffness - summary.least_stiffness) / summary.mean_stiffness},
+          {"stiffness_variation", summary.stiffness_variation()},
           {"load_factor", summary.load_factor},
           {"worst_kkt_residual", summary.worst_kkt_residual},
           {"worst_condition", summary.worst_condition},
@@ -185,7 +181,7 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
             {"cycle", std::move(cycle)}};
   if (results.shafts) add_shaft_motion(loaded, results, json);
   const bool asked = results.study.task == Task::Analyse && !results.study.gradients.empty();
-  if (asked && loaded.cycle.usable()) json["gradients"] = gradients_json(loaded, model, results.study);
+  if (asked && loaded.cycle.usable()) json["gradients"] = gradients_json(loaded, results);
   return json;
 }
 

@@ -38,6 +38,7 @@ class Run {
       note(std::string("a gear's body is given, but the compliance \"") + to_string(study.fidelity.compliance) + "\" does not know of it");
     }
     geometry_notes();
+    held_points_note();
     if (is_on(results_.effects, "shafts")) results_.shafts = make_shafts(study, results_.pair);
   }
 
@@ -73,6 +74,15 @@ class Run {
       }
     }
     return false;
+  }
+
+  void held_points_note() {
+    const auto moves_points = [](const GradientParameter& p) {
+      const auto* misalignment = std::get_if<MisalignmentParameter>(&p.parameter);
+      return misalignment && *misalignment != &Misalignment::axial_offset && *misalignment != &Misalignment::mesh_misalignment;
+    };
+    if (gap_model(results_.effects) != GapModel::WholeSurface || std::ranges::none_of(results_.study.gradients, moves_points)) return;
+    note("with gap whole_surface derivatives by misalignments hold the contact points: they lack what these points' other curvature and compliance bring");
   }
 
   void geometry_notes() {

@@ -9,13 +9,6 @@ namespace flankwright {
 
 namespace {
 
-const MeshModel& further_of(const MeshModel& model, std::size_t i) {
-  if (model.further.size() != 2) {
-    throw InvalidInput("misalignment.axial_offset", "a derivative", "a mesh that knows itself at further offsets");
-  }
-  return model.further[i];
-}
-
 /// What OffsetSlope is the slope of, for the points of a position as a further mesh has them.
 struct HeldLoads {
   Eigen::VectorXd gap, deflection, relative_radius, root_components;
@@ -35,30 +28,6 @@ HeldLoads held_loads(const MeshPosition& at, const Gap& gap, const Eigen::Vector
   return held;
 }
 
-/// A condition with the wheel where a mesh has it.
-FlankCondition placed_as(const MeshModel& mesh, FlankCondition condition) {
-  condition.misalignment.axial_offset = mesh.axial_offset;
-  return condition;
-}
-
-/// Values of further points that are those of a position, by the position's numbers; 0 where there is none.
-Eigen::VectorXd as_at(const std::vector<Eigen::Index>& same, const Eigen::VectorXd& values) {
-  Eigen::VectorXd sorted = Eigen::VectorXd::Zero(std::ssize(same));
-  for (Eigen::Index i = 0; i < sorted.size(); ++i) {
-    if (const Eigen::Index k = same[static_cast<std::size_t>(i)]; k >= 0) sorted[i] = values[k];
-  }
-  return sorted;
-}
-
-/// The other way round.
-Eigen::VectorXd as_further(const std::vector<Eigen::Index>& same, const Eigen::VectorXd& values, Eigen::Index points) {
-  Eigen::VectorXd sorted = Eigen::VectorXd::Zero(points);
-  for (Eigen::Index i = 0; i < values.size(); ++i) {
-    if (const Eigen::Index k = same[static_cast<std::size_t>(i)]; k >= 0) sorted[k] = values[i];
-  }
-  return sorted;
-}
-
 }  // namespace
 
 MeshModel with_further_offsets(const MeshPlaced& mesh, const MeshPlacement& placement) {
@@ -69,6 +38,34 @@ MeshModel with_further_offsets(const MeshPlaced& mesh, const MeshPlacement& plac
     model.further.push_back(mesh(further));
   }
   return model;
+}
+
+const MeshModel& further_mesh(const MeshModel& model, std::size_t i) {
+  if (model.further.size() != 2) {
+    throw InvalidInput("misalignment.axial_offset", "a derivative", "a mesh that knows itself at further offsets");
+  }
+  return model.further[i];
+}
+
+FlankCondition placed_as(const MeshModel& mesh, FlankCondition condition) {
+  condition.misalignment.axial_offset = mesh.axial_offset;
+  return condition;
+}
+
+Eigen::VectorXd as_at(const std::vector<Eigen::Index>& same, const Eigen::VectorXd& values) {
+  Eigen::VectorXd sorted = Eigen::VectorXd::Zero(std::ssize(same));
+  for (Eigen::Index i = 0; i < sorted.size(); ++i) {
+    if (const Eigen::Index k = same[static_cast<std::size_t>(i)]; k >= 0) sorted[i] = values[k];
+  }
+  return sorted;
+}
+
+Eigen::VectorXd as_further(const std::vector<Eigen::Index>& same, const Eigen::VectorXd& values, Eigen::Index points) {
+  Eigen::VectorXd sorted = Eigen::VectorXd::Zero(points);
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (const Eigen::Index k = same[static_cast<std::size_t>(i)]; k >= 0) sorted[k] = values[i];
+  }
+  return sorted;
 }
 
 std::vector<Eigen::Index> same_points(const MeshPosition& at, const MeshPosition& further) {
@@ -97,7 +94,7 @@ OffsetSlopes::Further::Further(const MeshModel& mesh, const FlankCondition& of)
     : model(mesh), condition(placed_as(mesh, of)), gaps(mesh.pair, mesh.placement.gap, condition) {}
 
 OffsetSlopes::OffsetSlopes(const MeshModel& model, const FlankCondition& condition)
-    : model_(model), one_(further_of(model, 0), condition), two_(further_of(model, 1), condition) {}
+    : model_(model), one_(further_mesh(model, 0), condition), two_(further_mesh(model, 1), condition) {}
 
 double OffsetSlopes::step() const { return one_.model.axial_offset - model_.axial_offset; }
 

@@ -20,6 +20,12 @@ using MeshPlaced = std::function<MeshModel(const MeshPlacement&)>;
 /// The same with what a derivative with respect to the axial offset needs, MeshModel::further.
 MeshModel with_further_offsets(const MeshPlaced& mesh, const MeshPlacement& placement);
 
+/// The mesh with the wheel one (0) or two (1) steps further along.
+/// @throws InvalidInput  where the model knows no further offsets
+const MeshModel& further_mesh(const MeshModel& model, std::size_t which);
+/// A condition with the wheel where a mesh has it.
+FlankCondition placed_as(const MeshModel& mesh, FlankCondition condition);
+
 /// What the axial offset changes at one mesh position while loads are held, per mm of offset, following each point of the mesh.
 struct OffsetSlope {
   Eigen::VectorXd gap;              ///< g [mm/mm]
@@ -72,6 +78,12 @@ class OffsetSlopes {
 
 /// Which point of the further position each point of a position is, by its place in its line; -1 where it is none of them.
 std::vector<Eigen::Index> same_points(const MeshPosition& at, const MeshPosition& further);
+
+/// Values of further points that are those of a position, by the position's numbers; 0 where there is none.
+Eigen::VectorXd as_at(const std::vector<Eigen::Index>& same, const Eigen::VectorXd& values);
+/// The other way round.
+/// @param points  how many the further position has
+Eigen::VectorXd as_further(const std::vector<Eigen::Index>& same, const Eigen::VectorXd& values, Eigen::Index points);
 
 /// The slope at the first of three values, one step apart.
 template <class T>

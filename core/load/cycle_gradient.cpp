@@ -1,6 +1,8 @@
 #include "core/load/cycle_gradient.hpp"
 
+#include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <complex>
 #include <limits>
 
@@ -34,6 +36,23 @@ const LoadedPosition& at(const LoadedCycle& cycle, const Place& place) { return 
 /// A secant stiffness ~ F / (b approach) follows all three.
 Eigen::RowVectorXd secant_derivative(const LoadedCycle& cycle, double stiffness, double approach, const Eigen::RowVectorXd& d_approach) {
   return stiffness * (cycle.force_derivative / cycle.force - cycle.face_width_change - d_approach / approach);
+}
+
+/// Of the highest of these places over all positions; empty where there is none.
+Eigen::RowVectorXd root_derivative(const MeshModel& model, const LoadedCycle& cycle, const RootPlaces& among) {
+  Place highest{0, -1};
+  for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
+    const Eigen::Index index = highest_root_stress(model.positions[i], cycle.positions[i], among);
+    if (index < 0) continue;
+    if (highest.index >= 0 && !(cycle.positions[i].root_stress[index] > at(cycle, highest).root_stress[highest.index])) continue;
+    highest = {static_cast<int>(i), index};
+  }
+  if (highest.index < 0) return {};
+  return root_stress_derivative(model.positions[static_cast<std::size_t>(highest.position)], at(cycle, highest), highest.index);
+}
+
+CycleGradient::Root root_gradient(const MeshModel& model, const LoadedCycle& cycle, Member member) {
+  return {root_derivative(model, cycle, {.member = member}), root_derivative(model, cycle, {.member = member, .tangent_only = true})};
 }
 
 double approach_of(const LoadedPosition& position) { return position.load.transmission_error - position.gap.total.minCoeff(); }
@@ -78,6 +97,11 @@ CycleGradient summary_gradient(const MeshModel& model, const LoadedCycle& cycle,
     mean_approach += approach_of(position) / n;
   }
   gradient.mean_stiffness = secant_derivative(cycle, summary.mean_stiffness, mean_approach, mean_approach_derivative);
+  const auto [least, largest] = std::ranges::minmax_element(cycle.positions, {}, &LoadedPosition::stiffness);
+  gradient.least_stiffness = stiffness_derivative(cycle, *least);
+  gradient.largest_stiffness = stiffness_derivative(cycle, *largest);
+  gradient.stiffness_variation =
+      (gradient.largest_stiffness - gradient.least_stiffness - summary.stiffness_variation() * gradient.mean_stiffness) / summary.mean_stiffness;
 
   Eigen::Index highest = 0, lowest = 0;
   const Eigen::VectorXd te = cycle.transmission_error();
@@ -95,11 +119,10 @@ CycleGradient summary_gradient(const MeshModel& model, const LoadedCycle& cycle,
   gradient.load_factor = load_factor_derivative(model, cycle, load.position, load.index);
   const Place stress = place_of_peak(cycle, [](const LoadedPosition& p) -> const auto& { return p.contact_stress; });
   gradient.peak_contact_stress = at(cycle, stress).contact_stress_derivative.row(stress.index);
-  if (cycle.positions.front().root_stress.size() > 0) {
-    const Place root = place_of_peak(cycle, [](const LoadedPosition& p) -> const auto& { return p.root_stress; });
-    gradient.peak_root_stress =
-        root_stress_derivative(model.positions[static_cast<std::size_t>(root.position)], at(cycle, root), root.index);
-  }
+  gradient.pinion_root_stress = root_gradient(model, cycle, Member::Pinion);
+  gradient.wheel_root_stress = root_gradient(model, cycle, Member::Wheel);
+  const bool wheel_leads = std::isgreater(summary.wheel_root_stress.stress, summary.pinion_root_stress.stress);
+  gradient.peak_root_stress = (wheel_leads ? gradient.wheel_root_stress : gradient.pinion_root_stress).stress;
   return gradient;
 }
 

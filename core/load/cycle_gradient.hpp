@@ -27,7 +27,12 @@ struct CycleGradient {
   Eigen::RowVectorXd te_peak_to_peak, te_mean;
   Eigen::MatrixXd te_harmonics;  ///< row per order of CycleSummary::te_harmonics
   Eigen::RowVectorXd peak_line_load, peak_contact_stress, load_factor;
-  Eigen::RowVectorXd mean_stiffness;
+  Eigen::RowVectorXd mean_stiffness, least_stiffness, largest_stiffness, stiffness_variation;
+  /// Of RootStressPeak; empty where the model has no root stress.
+  struct Root {
+    Eigen::RowVectorXd stress, tangent_stress;
+  };
+  Root pinion_root_stress, wheel_root_stress;
   Eigen::RowVectorXd peak_root_stress;  ///< empty where the model has no root stress
 };
 /// @param cycle  usable()

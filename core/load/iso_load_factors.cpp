@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contact/condition_gap.hpp"
 #include "core/contact/path_of_contact.hpp"
+#include "core/load/axial_offset.hpp"
 #include "core/load/load_factors.hpp"
 
 namespace flankwright {
 
 namespace {
 
-/// Metal added at places of the plane of action on tooth pair k, transverse base tangent [mm]: places by roll length of the pinion
-/// and z.
-Eigen::VectorXd added(const GearPair& pair, const FlankCondition& condition, int tooth,
-                      const std::vector<std::pair<double, double>>& places) {
+/// Places of the plane of action on tooth pair k by roll length of the pinion and z.
+std::vector<ContactPoint> at_places(const GearPair& pair, int tooth, const std::vector<std::pair<double, double>>& places) {
   const PathOfContact path(pair);
   std::vector<ContactPoint> points;
   for (const auto& [roll, z] : places) {
@@ -25,12 +25,33 @@ Eigen::VectorXd added(const GearPair& pair, const FlankCondition& condition, int
     point.wheel_radius = std::hypot(pair.wheel.base_radius, pair.path_length - roll);
     points.push_back(point);
   }
-  return plane_of_action_gap(pair, points, condition).error / std::cos(pair.base_helix_angle);
+  return points;
 }
 
-/// Tooth pairs after which slopes repeat on this gear.
-int most_teeth_told_apart(const ManufacturingError& error) {
-  return static_cast<int>(std::max({std::size_t{1}, error.helix_slopes.size(), error.profile_slopes.size()}));
+/// Metal added there, transverse base tangent [mm].
+Eigen::VectorXd added(const GearPair& pair, const FlankCondition& condition, const std::vector<ContactPoint>& places) {
+  return plane_of_action_gap(pair, places, condition).error / std::cos(pair.base_helix_angle);
+}
+
+/// Both ends of the common face.
+std::vector<ContactPoint> face_ends(const GearPair& pair, const FlankCondition& condition, int tooth) {
+  const double half = 0.5 * pair.face_width, middle = condition.misalignment.axial_offset / 2.0;
+  return at_places(pair, tooth, {{pair.pitch_point, middle - half}, {pair.pitch_point, middle + half}});
+}
+
+/// What the lead part adds at one end beyond the other, signed [mm].
+double linear_part(const GearPair& pair, const FlankCondition& condition, int tooth) {
+  const Eigen::VectorXd ends = added(pair, lead_part(condition), face_ends(pair, condition, tooth));
+  return ends[1] - ends[0];
+}
+
+/// Tooth pairs after which slopes repeat on the gear with the longer list.
+int teeth_told_apart(const FlankCondition& condition) {
+  std::size_t most = 1;
+  for (const ManufacturingError* error : {&condition.pinion_error, &condition.wheel_error}) {
+    most = std::max({most, error->helix_slopes.size(), error->profile_slopes.size()});
+  }
+  return static_cast<int>(most);
 }
 
 double largest_pitch_step(const ManufacturingError& error) {
@@ -51,19 +72,44 @@ double profile_deviation(const GearPair& pair, const FlankCondition& condition, 
   for (int i = 0; i <= sections; ++i) {
     places.emplace_back(pair.path_start + (pair.path_end - pair.path_start) * i / sections, 0.0);
   }
-  const Eigen::VectorXd deviation = added(pair, errors, 0, places);
+  const Eigen::VectorXd deviation = added(pair, errors, at_places(pair, 0, places));
   return deviation.maxCoeff() - deviation.minCoeff();
+}
+
+/// dF_beta_y, by the tooth pair that counts.
+Eigen::RowVectorXd misalignment_derivative(const MeshModel& model, const FlankCondition& condition, const std::vector<MeshParameter>& parameters) {
+  const GearPair& pair = model.pair;
+  int worst = 0;
+  double sign = 0.0, largest = 0.0;
+  for (int tooth = 0; tooth < teeth_told_apart(condition); ++tooth) {
+    const double step = linear_part(pair, condition, tooth);
+    if (std::abs(step) <= largest) continue;
+    worst = tooth;
+    largest = std::abs(step);
+    sign = step < 0.0 ? -1.0 : 1.0;
+  }
+  const FlankCondition lead = lead_part(condition);
+  const ConditionGap gaps(pair, GapModel::PlaneOfAction, lead);
+  MeshPosition ends;
+  ends.points = face_ends(pair, condition, worst);
+  const Eigen::MatrixXd slopes = parameter_slopes(model, ends, gaps, {}, parameters).gap;
+  Eigen::RowVectorXd derivative = sign * (slopes.row(0) - slopes.row(1)) / std::cos(pair.base_helix_angle);
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    if (!acts(parameters[p], lead_part)) derivative[static_cast<Eigen::Index>(p)] = 0.0;
+  }
+  for (const Eigen::Index p : axial_offsets_among(parameters)) {
+    const auto moved = [&](std::size_t k) { return linear_part(pair, placed_as(further_mesh(model, k), condition), worst); };
+    derivative[p] = sign * first_slope(linear_part(pair, condition, worst), moved(0), moved(1), further_mesh(model, 0).axial_offset - model.axial_offset);
+  }
+  return derivative;
 }
 
 }  // namespace
 
 IsoDeviations iso_deviations(const GearPair& pair, const FlankCondition& condition) {
-  const double half = 0.5 * pair.face_width, middle = condition.misalignment.axial_offset / 2.0;
   IsoDeviations deviations{0.0, std::max(largest_pitch_step(condition.pinion_error), largest_pitch_step(condition.wheel_error))};
-  for (int tooth = 0; tooth < std::max(most_teeth_told_apart(condition.pinion_error), most_teeth_told_apart(condition.wheel_error)); ++tooth) {
-    const Eigen::VectorXd ends =
-        added(pair, lead_part(condition), tooth, {{pair.pitch_point, middle - half}, {pair.pitch_point, middle + half}});
-    deviations.misalignment = std::max(deviations.misalignment, std::abs(ends[1] - ends[0]));
+  for (int tooth = 0; tooth < teeth_told_apart(condition); ++tooth) {
+    deviations.misalignment = std::max(deviations.misalignment, std::abs(linear_part(pair, condition, tooth)));
     deviations.base_pitch = std::max(deviations.base_pitch, profile_deviation(pair, condition, tooth));
   }
   return deviations;
@@ -88,6 +134,25 @@ IsoLoadFactors iso_load_factors(const GearPair& pair, const IsoStiffness& stiffn
   const double free = total <= 2.0 ? 0.5 * total * (0.9 + pitch) : 0.9 + std::sqrt(2.0 * (total - 1.0) / total) * pitch;
   factors.profile = std::clamp(free, 1.0, factors.profile_limit);
   return factors;
+}
+
+IsoGradient iso_gradient(const MeshModel& model, const FlankCondition& condition, const IsoLoadFactors& factors, const LoadedCycle& cycle,
+                         const std::vector<MeshParameter>& parameters) {
+  IsoGradient gradient;
+  gradient.misalignment = misalignment_derivative(model, condition, parameters);
+  const Eigen::RowVectorXd load = cycle.force_derivative / cycle.force - cycle.face_width_change;  // relative
+  gradient.specific_load = factors.specific_load * load;
+
+  const double c = model.iso.c_gamma / units::um, q = factors.deviations.misalignment * c / factors.specific_load;
+  const Eigen::RowVectorXd dq = gradient.misalignment * c / factors.specific_load - q * load;
+  gradient.lead = (q <= 2.0 ? 0.5 : 1.0 / factors.lead) * dq;
+
+  // K_Halpha is linear in f_pe/(s K_Hbeta), from `without`, its value for no deviation.
+  const double total = model.pair.total_contact_ratio(), without = total <= 2.0 ? 0.45 * total : 0.9;
+  const bool is_free = factors.profile > 1.0 && factors.profile < factors.profile_limit;
+  gradient.profile = (is_free ? without - factors.profile : 0.0) * (load + gradient.lead / factors.lead);
+  gradient.combined = gradient.lead * factors.profile + factors.lead * gradient.profile;
+  return gradient;
 }
 
 }  // namespace flankwright

@@ -2,6 +2,7 @@
 
 #include "core/compliance/iso_stiffness.hpp"
 #include "core/contact/gap.hpp"
+#include "core/load/mesh_cycle.hpp"
 
 namespace flankwright {
 
@@ -42,5 +43,15 @@ struct IsoLoadFactors {
 /// @param face_width     common [mm]
 IsoLoadFactors iso_load_factors(const GearPair& pair, const IsoStiffness& stiffness, const IsoDeviations& deviations,
                                 double pinion_torque, double face_width);
+
+/// Derivatives of IsoLoadFactors and IsoDeviations::misalignment, 1 x m each. All else depends on errors and geometry alone. On a kink (no
+/// misalignment, equal teeth, a limit of K_Halpha) that of the one that counts.
+struct IsoGradient {
+  Eigen::RowVectorXd misalignment, specific_load, lead, profile, combined;
+};
+/// @param factors  iso_load_factors() of the condition, under some torque
+/// @param cycle    of the same condition and torque: how force and face width change with the parameters
+IsoGradient iso_gradient(const MeshModel& model, const FlankCondition& condition, const IsoLoadFactors& factors, const LoadedCycle& cycle,
+                         const std::vector<MeshParameter>& parameters);
 
 }  // namespace flankwright

@@ -37,7 +37,7 @@ std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, c
   std::vector<LineEnd> ends;
   if (!loaded.load.usable()) return ends;
   const LineRegion region(model);
-  std::vector<ContactPoint> points;
+  std::vector<ContactPoint> points;  // of the ends
   for (std::size_t begin = 0, end = 0; begin < at.points.size(); begin = end) {
     while (end < at.points.size() && at.points[end].tooth == at.points[begin].tooth) ++end;
     const int tooth = at.points[begin].tooth;
@@ -58,6 +58,7 @@ std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, c
     end.contact_deflection = std::max(0.0, left);
     end.line_load = line_load_for(*model.contact_law(points[i]), left);
     end.contact_stress = std::sqrt(end.line_load * model.contact_modulus / (units::pi * points[i].relative_radius));
+    end.place = points[i];
   }
   return ends;
 }

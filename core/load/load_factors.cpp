@@ -76,6 +76,20 @@ FlankCondition profile_part(const FlankCondition& condition) {
   return part;
 }
 
+FlankCondition whole_condition(const FlankCondition& condition) { return condition; }
+
+bool acts(const MeshParameter& parameter, ConditionPart part) {
+  FlankCondition only;
+  if (const auto* gear = std::get_if<GearParameter>(&parameter)) {
+    set(gear->member == Member::Pinion ? only.pinion_modification : only.wheel_modification, gear->parameter, 1.0);
+  } else if (const auto* misalignment = std::get_if<MisalignmentParameter>(&parameter)) {
+    only.misalignment.*(*misalignment) = 1.0;
+  } else {
+    return true;
+  }
+  return !(part(only) == FlankCondition{});
+}
+
 bool has_other_part(const FlankCondition& condition) {
   const auto shaped = [](const Modification& m) { return m.twist != 0.0 || m.shapes != decltype(m.shapes){} || m.parabolic_te != 0.0 || m.topography != nullptr; };
   const auto twisted = [](const ManufacturingError& e) { return e.twist != 0.0 || !e.twists.empty(); };

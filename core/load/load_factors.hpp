@@ -2,6 +2,7 @@
 
 #include "core/contact/gap.hpp"
 #include "core/load/contact_peaks.hpp"
+#include "core/load/mesh_parameter.hpp"
 
 namespace flankwright {
 
@@ -15,6 +16,11 @@ namespace flankwright {
 FlankCondition perfect_part(const FlankCondition& condition);
 FlankCondition lead_part(const FlankCondition& condition);
 FlankCondition profile_part(const FlankCondition& condition);
+FlankCondition whole_condition(const FlankCondition& condition);
+/// One of these.
+using ConditionPart = FlankCondition (*)(const FlankCondition&);
+/// Whether a parameter moves a part of a condition: something of it alone is left there.
+bool acts(const MeshParameter& parameter, ConditionPart part);
 /// Some of the condition is neither lead nor profile.
 bool has_other_part(const FlankCondition& condition);
 

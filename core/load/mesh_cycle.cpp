@@ -84,6 +84,7 @@ void fill_derivatives(const LoadProblem& problem, const MovedMesh& moved, Parame
   problem.gap.minCoeff(&nearest);
   const Eigen::RowVectorXd nearest_slope = slopes.gap.row(nearest);
   position.transmission_error_derivative = nearest_slope;
+  position.gap_derivative = slopes.gap;
   if (m == 0 || problem.force == 0.0) return;
   for (const Eigen::Index p : moved.columns) {
     slopes.gap.col(p) += moved.slope.deflection;
@@ -170,17 +171,23 @@ Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPo
 
 RootStressPeak root_stress_peak(const MeshPosition& at, const LoadedPosition& position, Member member) {
   RootStressPeak peak;
-  for (Eigen::Index i = 0; i < position.root_stress.size(); ++i) {
-    const RootPlace& place = at.root_stress.places[static_cast<std::size_t>(i)];
-    const double stress = position.root_stress[i];
-    if (place.member != member) continue;
-    if (place.tangent) peak.tangent_stress = std::fmax(peak.tangent_stress, stress);
-    if (std::isgreaterequal(peak.stress, stress)) continue;  // quiet where none is known yet
-    peak.stress = stress;
-    peak.place = place;
-    peak.phase = position.phase;
+  if (const Eigen::Index i = highest_root_stress(at, position, {.member = member}); i >= 0) {
+    peak = {position.root_stress[i], at.root_stress.places[static_cast<std::size_t>(i)], position.phase};
+  }
+  if (const Eigen::Index i = highest_root_stress(at, position, {.member = member, .tangent_only = true}); i >= 0) {
+    peak.tangent_stress = position.root_stress[i];
   }
   return peak;
+}
+
+Eigen::Index highest_root_stress(const MeshPosition& at, const LoadedPosition& position, const RootPlaces& among) {
+  Eigen::Index highest = -1;
+  for (Eigen::Index i = 0; i < position.root_stress.size(); ++i) {
+    const RootPlace& place = at.root_stress.places[static_cast<std::size_t>(i)];
+    const bool counts = place.member == among.member && (!among.tooth || place.tooth == *among.tooth) && (place.tangent || !among.tangent_only);
+    if (counts && (highest < 0 || position.root_stress[i] > position.root_stress[highest])) highest = i;
+  }
+  return highest;
 }
 
 CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "core/contact/gap.hpp"
@@ -20,6 +21,7 @@ struct LoadedPosition {
   Eigen::VectorXd root_stress;
   double stiffness{not_given};       ///< secant, transverse, per mm of face width [N/(mm um)]; see analyse_cycle()
   // Derivatives with respect to the parameters asked for, column per parameter; those of root_stress: see root_stress_derivative().
+  Eigen::MatrixXd gap_derivative;             ///< d(gap.total)/dp, n x m
   Eigen::MatrixXd line_load_derivative;       ///< dw/dp, n x m
   Eigen::MatrixXd contact_stress_derivative;  ///< dsigma_H/dp, n x m
   Eigen::RowVectorXd transmission_error_derivative;  ///< df_t/dp, 1 x m
@@ -68,6 +70,15 @@ struct RootStressPeak {
 /// Of one gear at one mesh position; NaN where there is none.
 RootStressPeak root_stress_peak(const MeshPosition& at, const LoadedPosition& position, Member member);
 
+/// Some of the places of MeshPosition::root_stress.
+struct RootPlaces {
+  Member member{Member::Pinion};
+  std::optional<int> tooth{};  ///< of the tooth pair; nothing: all teeth
+  bool tangent_only{false};    ///< those at the 30 deg tangent
+};
+/// Which of these places is stressed most at one position, the first of equals; -1 where there is none.
+Eigen::Index highest_root_stress(const MeshPosition& at, const LoadedPosition& position, const RootPlaces& among);
+
 /// What a designer reads off a cycle first.
 struct CycleSummary {
   double te_peak_to_peak{not_given};           ///< of f_t over the positions [mm]
@@ -77,6 +88,7 @@ struct CycleSummary {
   double peak_contact_stress{not_given};       ///< [MPa]
   double mean_stiffness{not_given};            ///< Haddad eq. 2.17b [N/(mm um)]
   double least_stiffness{not_given}, largest_stiffness{not_given};  ///< eq. 2.16b over the positions [N/(mm um)]
+  double stiffness_variation() const { return (largest_stiffness - least_stiffness) / mean_stiffness; }  ///< [-]
   /// Peak line load over the mean line load F / (mean length of the contact lines on the theoretical path) [-].
   double load_factor{not_given};
   double worst_kkt_residual{not_given};

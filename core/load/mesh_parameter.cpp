@@ -5,7 +5,7 @@ namespace flankwright {
 ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at, const ConditionGap& gaps, const Gap& gap,
                                  const std::vector<MeshParameter>& parameters) {
   const auto m = static_cast<Eigen::Index>(parameters.size());
-  ParameterSlopes slopes{Eigen::MatrixXd::Zero(at.weight.size(), m), Eigen::RowVectorXd::Zero(m)};
+  ParameterSlopes slopes{Eigen::MatrixXd::Zero(std::ssize(at.points), m), Eigen::RowVectorXd::Zero(m)};
   for (Eigen::Index p = 0; p < m; ++p) {
     const MeshParameter& which = parameters[static_cast<std::size_t>(p)];
     if (const auto* gear = std::get_if<GearParameter>(&which)) {

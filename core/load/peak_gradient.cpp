@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/load/axial_offset.hpp"
 #include "core/load/line_region.hpp"
@@ -38,87 +39,131 @@ struct PlacedPeak {
   const ContactPeaks& peaks;
   const LinePeak& peak;
   bool of_stress;
-
-  /// Between points w and sigma^2 are linear.
-  double value(const LoadedPosition& here, const LinePlace& place) const {
-    const Eigen::VectorXd& values = of_stress ? here.contact_stress : here.load.line_load;
-    const double first = values[place.point];
-    if (place.share == 0.0) return first;
-    const double next = values[place.point + 1], t = place.share;
-    return of_stress ? std::sqrt((1.0 - t) * first * first + t * next * next) : (1.0 - t) * first + t * next;
-  }
-  Eigen::RowVectorXd slope(const LoadedPosition& here, const LinePlace& place) const {
-    const Eigen::MatrixXd& slopes = of_stress ? here.contact_stress_derivative : here.line_load_derivative;
-    if (place.share == 0.0) return slopes.row(place.point);
-    // dsigma = sum t_i sigma_i dsigma_i / sigma
-    const auto factor = [&](Eigen::Index i) { return of_stress ? here.contact_stress[i] / peak.value : 1.0; };
-    return (1.0 - place.share) * factor(place.point) * slopes.row(place.point) +
-           place.share * factor(place.point + 1) * slopes.row(place.point + 1);
-  }
 };
+
+/// How a peak's phase moves with the axial offset [base pitches per mm] where a point at a fixed place along the face reaches or leaves A0, A, E or
+/// B0 there; nothing where none does. Seen from both sides, as on one it may not exist.
+std::optional<double> phase_slope_of_points(const PlacedPeak& at) {
+  const double near = 2.0 * at.peaks.phase_tolerance;
+  const MeshModel model = at.mesh_at({at.peak.phase - near, at.peak.phase + near});
+  const LineRegion region(model);
+  for (std::size_t p = 0; p < model.positions.size(); ++p) {
+    const std::vector<ContactPoint>&points = model.positions[p].points, &further = further_mesh(model, 0).positions[p].points;
+    const std::vector<Eigen::Index> same = same_points(model.positions[p], further_mesh(model, 0).positions[p]);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto passes = [&](double mark) { return std::abs(points[i].phase - mark) <= 2.0 * near; };
+      if (same[i] < 0 || !(passes(0.0) || passes(region.first) || passes(region.last) || passes(region.path.region_length))) continue;
+      return (points[i].phase - further[static_cast<std::size_t>(same[i])].phase) / (further_mesh(model, 0).axial_offset - model.axial_offset);
+    }
+  }
+  return std::nullopt;
+}
 
 /// How a peak's phase moves with the axial offset [base pitches per mm]: as the event does that it lies at. Between events, where the
 /// slope over the phase is zero, it may be held.
 double phase_slope(const MeshModel& model, const PlacedPeak& at) {
   const double share = at.peaks.spikes.line_share;
-  const std::vector<double> events = unsorted_line_events(model, share), further = unsorted_line_events(model.further.front(), share);
+  const std::vector<double> events = unsorted_line_events(model, share), further = unsorted_line_events(further_mesh(model, 0), share);
   for (std::size_t i = 0; i < events.size(); ++i) {
     const double distance = at.peak.phase - events[i];
     if (std::abs(distance - std::round(distance)) > 2.0 * at.peaks.phase_tolerance) continue;
-    return (further[i] - events[i]) / (model.further.front().axial_offset - model.axial_offset);
+    return (further[i] - events[i]) / (further_mesh(model, 0).axial_offset - model.axial_offset);
   }
-  return 0.0;
+  return phase_slope_of_points(at).value_or(0.0);
 }
 
-/// By the axial offset: loads solved anew where the peak is with the wheel further along, as lines begin and end elsewhere then.
-/// @param model  at the peak
-double offset_slope(const MeshModel& model, const PlacedPeak& at) {
-  const double by_phase = phase_slope(model, at), step = model.further.front().axial_offset - model.axial_offset;
-  const auto phase = [&](int steps) { return at.peak.phase + steps * step * by_phase; };
-  const MeshModel mesh = at.mesh_at({phase(0), phase(1), phase(2)});
-  const LinePlace place = place_on_line(mesh, mesh.positions.front(), at.peak.tooth, at.peak.z);
-  if (place.point < 0) return not_given;
-  std::array<double, 3> values{};
-  for (std::size_t k = 0; k < values.size(); ++k) {
-    const MeshModel& moved = k == 0 ? mesh : mesh.further[k - 1];
-    FlankCondition condition = at.condition;
-    condition.misalignment.axial_offset = moved.axial_offset;
-    const LoadedCycle cycle = analyse_cycle(moved, condition, at.torque);
-    if (!cycle.usable()) return not_given;
-    // A cut between points lies at a phase of its own, and moves along the line with that.
-    const double cut = at.peak.z - (place.share == 0.0 ? 0.0 : (phase(static_cast<int>(k)) - phase(0)) / PathOfContact(mesh.pair).slope);
-    const LinePlace there = place.share == 0.0 ? LinePlace{same_points(mesh.positions[0], moved.positions[k])[static_cast<std::size_t>(place.point)]}
-                                               : place_on_line(moved, moved.positions[k], at.peak.tooth, cut);
-    if (there.point < 0) return not_given;
-    values[k] = at.value(cycle.positions[k], there);
-  }
-  return first_slope(values[0], values[1], values[2], step);
+/// The mesh at the peak, which further along has the phase that the peak then has.
+MeshModel mesh_along(const PlacedPeak& at) {
+  const MeshModel held = at.mesh_at({at.peak.phase});
+  const double by_phase = phase_slope(held, at), step = further_mesh(held, 0).axial_offset - held.axial_offset;
+  if (by_phase == 0.0) return held;
+  MeshModel along = at.mesh_at({at.peak.phase, at.peak.phase + step * by_phase, at.peak.phase + 2.0 * step * by_phase});
+  for (std::size_t k = 0; k < along.further.size(); ++k) along.further[k].positions = {along.further[k].positions[k + 1]};
+  along.positions.resize(1);
+  return along;
 }
 
-/// Derivative at the peak's place; empty where there is none.
+/// How the share of a place changes with the axial offset [1/mm]: a cut between points lies at a phase of its own, and moves along the line with that.
+/// NaN where it passes a point.
+double share_slope(const MeshModel& model, std::size_t position, int tooth, const LinePlace& place) {
+  if (place.share == 0.0) return 0.0;
+  const MeshPosition& at = model.positions[position];
+  const auto first = static_cast<std::size_t>(place.point);
+  const double cut = (1.0 - place.share) * at.points[first].z + place.share * at.points[first + 1].z;
+  std::array<double, 2> shares{};
+  for (std::size_t k = 0; k < shares.size(); ++k) {
+    const MeshPosition& there = further_mesh(model, k).positions[position];
+    const double moved = cut - (there.phase - at.phase) / PathOfContact(model.pair).slope;
+    const LinePlace moved_place = place_on_line(further_mesh(model, k), there, tooth, moved);
+    if (moved_place.point != same_points(at, there)[first]) return not_given;
+    shares[k] = moved_place.share;
+  }
+  return first_slope(place.share, shares[0], shares[1], further_mesh(model, 0).axial_offset - model.axial_offset);
+}
+
+/// What is peaked, at a place of a position, and its derivatives there.
+struct Reading {
+  double value;
+  Eigen::RowVectorXd slopes;
+};
+/// @param place  known
+Reading read(const PlacedPeak& at, const MeshModel& model, const LoadedCycle& cycle, std::size_t position, const LinePlace& place,
+             const std::vector<MeshParameter>& parameters) {
+  const LoadedPosition& here = cycle.positions[position];
+  const Eigen::VectorXd& values = at.of_stress ? here.contact_stress : here.load.line_load;
+  const Eigen::MatrixXd& slopes = at.of_stress ? here.contact_stress_derivative : here.line_load_derivative;
+  const double first = values[place.point];
+  if (place.share == 0.0) return {first, slopes.row(place.point)};
+  // Between points w and sigma^2 are linear: sigma^n = (1 - t) sigma_0^n + t sigma_1^n.
+  const double next = values[place.point + 1], t = place.share, n = at.of_stress ? 2.0 : 1.0;
+  const double value = std::pow((1.0 - t) * std::pow(first, n) + t * std::pow(next, n), 1.0 / n), mean = std::pow(value, n - 1.0);
+  Reading reading{value, ((1.0 - t) * std::pow(first, n - 1.0) * slopes.row(place.point) + t * std::pow(next, n - 1.0) * slopes.row(place.point + 1)) / mean};
+  for (const Eigen::Index p : axial_offsets_among(parameters)) {
+    reading.slopes[p] += share_slope(model, position, at.peak.tooth, place) * (std::pow(next, n) - std::pow(first, n)) / (n * mean);
+  }
+  return reading;
+}
+
+/// At the peak itself, which with the axial offset goes with its event; empty where the mesh has no such place.
+Eigen::RowVectorXd held_gradient(const PlacedPeak& at, const std::vector<MeshParameter>& parameters) {
+  const MeshModel model = axial_offsets_among(parameters).empty() ? at.mesh_at({at.peak.phase}) : mesh_along(at);
+  const LinePlace place = place_on_line(model, model.positions.front(), at.peak.tooth, at.peak.z);
+  const LoadedCycle cycle = analyse_cycle(model, at.condition, at.torque, parameters);
+  if (!cycle.usable() || place.point < 0) return {};
+  return read(at, model, cycle, 0, place, parameters).slopes;
+}
+
+/// Of a peak that is continuous over the phase: the mean of both its sides in which the slope over the phase vanishes. Nothing where it is not:
+/// where the place is missing on one side, or what is peaked jumps.
+std::optional<Eigen::RowVectorXd> gradient_of_sides(const PlacedPeak& at, const std::vector<MeshParameter>& parameters) {
+  const double d = 2.0 * at.peaks.phase_tolerance;  // the summit lies nearer
+  const std::array<double, 4> away{-2.0 * d, -d, d, 2.0 * d};
+  std::vector<double> phases{at.peak.phase};
+  for (const double by : away) phases.push_back(at.peak.phase + by);
+  const MeshModel model = at.mesh_at(phases);
+  const LoadedCycle cycle = analyse_cycle(model, at.condition, at.torque, parameters);
+  const LinePlace place = place_on_line(model, model.positions.front(), at.peak.tooth, at.peak.z);
+  if (!cycle.usable() || place.point < 0) return std::nullopt;
+  std::vector<Reading> sides;
+  for (std::size_t k = 0; k < away.size(); ++k) {
+    const MeshPosition& there = model.positions[k + 1];
+    const LinePlace same = place.share == 0.0 ? LinePlace{same_points(model.positions.front(), there)[static_cast<std::size_t>(place.point)]}
+                                              : place_on_line(model, there, at.peak.tooth, at.peak.z - away[k] / PathOfContact(model.pair).slope);
+    if (same.point < 0) return std::nullopt;
+    sides.push_back(read(at, model, cycle, k + 1, same, parameters));
+  }
+  const double rise = (sides[1].value - sides[0].value) / d, fall = (sides[2].value - sides[3].value) / d;
+  const double jump = std::abs((sides[1].value + rise * d) - (sides[2].value + fall * d));
+  if (!(rise > 0.0 && fall > 0.0) || jump > 2.0 * d * (rise + fall)) return std::nullopt;
+  const Eigen::RowVectorXd before = 2.0 * sides[1].slopes - sides[0].slopes, after = 2.0 * sides[2].slopes - sides[3].slopes;  // at the peak
+  return (fall * before + rise * after) / (rise + fall);
+}
+
+/// Empty where there is none.
 Eigen::RowVectorXd gradient(const PlacedPeak& at, const std::vector<MeshParameter>& parameters) {
   if (std::isnan(at.peak.value)) return {};
-  const MeshModel model = at.mesh_at({at.peak.phase});
-  const LoadedCycle cycle = analyse_cycle(model, at.condition, at.torque, parameters);
-  if (!cycle.usable()) return {};
-  const LinePlace place = place_on_line(model, model.positions.front(), at.peak.tooth, at.peak.z);
-  if (place.point < 0) return {};
-  Eigen::RowVectorXd slopes = at.slope(cycle.positions.front(), place);
-  for (const Eigen::Index p : axial_offsets_among(parameters)) slopes[p] = offset_slope(model, at);
-  return slopes;
-}
-
-/// Whether a parameter belongs to a part of a condition: something of it alone is left there.
-bool acts(const MeshParameter& parameter, ConditionPart part) {
-  FlankCondition only;
-  if (const auto* gear = std::get_if<GearParameter>(&parameter)) {
-    set(gear->member == Member::Pinion ? only.pinion_modification : only.wheel_modification, gear->parameter, 1.0);
-  } else if (const auto* misalignment = std::get_if<MisalignmentParameter>(&parameter)) {
-    only.misalignment.*(*misalignment) = 1.0;
-  } else {
-    return true;
-  }
-  return !(part(only) == FlankCondition{});
+  const std::optional<Eigen::RowVectorXd> of_sides = gradient_of_sides(at, parameters);
+  return of_sides ? *of_sides : held_gradient(at, parameters);
 }
 
 }  // namespace
@@ -131,8 +176,6 @@ PeakGradients peak_gradients(const MeshAt& mesh_at, const FlankCondition& condit
   };
   return {pair(peaks.with_spikes), pair(peaks.without_spikes)};
 }
-
-FlankCondition whole_condition(const FlankCondition& condition) { return condition; }
 
 PeakGradients peak_gradients_of_part(const MeshAt& mesh_at, const FlankCondition& condition, ConditionPart part, double pinion_torque,
                                      const ContactPeaks& peaks, const std::vector<MeshParameter>& parameters) {
@@ -168,7 +211,10 @@ LoadFactorGradients load_factor_gradients(const RatedPeaks& perfect, const Rated
       if (std::isnan(factor) || slope.size() == 0 || slope.size() != base.size()) return {};
       return 2.0 * factor * (slope - base);
     };
-    return LoadFactorGradients::Triple{of(value.lead, lead), of(value.profile, profile), of(value.combined, combined)};
+    const Eigen::RowVectorXd by_lead = of(value.lead, lead), by_profile = of(value.profile, profile);
+    const bool has_both = by_lead.size() > 0 && by_profile.size() > 0;
+    return LoadFactorGradients::Triple{by_lead, by_profile, of(value.combined, combined),
+                                       has_both ? Eigen::RowVectorXd(by_lead * value.profile + value.lead * by_profile) : Eigen::RowVectorXd()};
   };
   return {triple(factors.without_spikes, &PeakGradients::without_spikes, &ContactPeaks::without_spikes),
           triple(factors.with_spikes, &PeakGradients::with_spikes, &ContactPeaks::with_spikes)};

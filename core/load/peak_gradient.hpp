@@ -10,11 +10,15 @@ namespace flankwright {
 
 /// Derivatives of located peaks, 1 x m each; empty where there is no peak.
 ///
-/// A peak lies either where its slope over the phase is zero or at a phase that geometry alone fixes (a line begins, ends or passes the
-/// length of the spike rule). Both ways its first derivative is that of the same place of the same line at the same phase, held; of
-/// equal peaks that of the one found, by which the largest rises on one side at least. What the search leaves between the
-/// place found and the true one, PeakSearch::phase_tolerance, enters by first order. With the axial offset lines begin and end at other phases:
-/// the place goes with the event that it lies at, and loads are solved anew there at three offsets (OffsetSlopes); NaN where it is lost on the way.
+/// A peak s over the phase f is smooth, or a kink where a point of the mesh, often another one, just gains or loses contact or passes A or E, or a
+/// jump where a line or a point begins or ends. Of the first two it is the mean of both sides in which the slope over the phase vanishes,
+///
+///     ds/dp = (s'(+) ds(-)/dp - s'(-) ds(+)/dp) / (s'(+) - s'(-)),     s' = ds/df,
+///
+/// the phase held on either side, so that nothing need be known of how the kink moves. Both sides are read two and four
+/// phase_tolerance of the search off the summit and extrapolated to it. Of a jump it is that of the same place of the line at the phase held; with the axial offset, which moves jumps, the place
+/// goes with its event, so that the further meshes of OffsetSlopes are those at the phases that it then has; NaN where it passes a point on the way.
+/// Of equal peaks it is that of the one found, by which the largest rises on one side at least.
 struct PeakGradients {
   struct Pair {
     Eigen::RowVectorXd contact_stress;  ///< [MPa per unit of the parameter]
@@ -28,10 +32,6 @@ struct PeakGradients {
 PeakGradients peak_gradients(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque, const ContactPeaks& peaks,
                              const std::vector<MeshParameter>& parameters);
 
-/// perfect_part(), lead_part(), profile_part(), or whole_condition().
-using ConditionPart = FlankCondition (*)(const FlankCondition&);
-FlankCondition whole_condition(const FlankCondition& condition);
-
 /// The same for a part of a condition, as the whole's parameters change: those that the part leaves out do not move it.
 /// @param peaks  of part(condition)
 PeakGradients peak_gradients_of_part(const MeshAt& mesh_at, const FlankCondition& condition, ConditionPart part, double pinion_torque,
@@ -40,7 +40,7 @@ PeakGradients peak_gradients_of_part(const MeshAt& mesh_at, const FlankCondition
 /// Derivatives of LoadFactors, 1 x m each; empty where the factor has no value.
 struct LoadFactorGradients {
   struct Triple {
-    Eigen::RowVectorXd lead, profile, combined;
+    Eigen::RowVectorXd lead, profile, combined, product;
   };
   Triple without_spikes, with_spikes;
 };

@@ -1,5 +1,6 @@
 #include "studies/report/report.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
@@ -21,6 +22,10 @@ bool has(const json& results, const char* key) {
 
 bool has_loaded(const json& results) {
   return has(results, "loaded") && results.at("loaded").is_array();
+}
+
+bool has_gradients(const json& results) {
+  return has_loaded(results) && std::ranges::any_of(results.at("loaded"), [](const json& entry) { return entry.is_object() && has(entry, "gradients"); });
 }
 
 bool has_sweep(const json& results) { return has(results, "sweep") && results.at("sweep").is_object(); }
@@ -62,6 +67,7 @@ constexpr Section sections[] = {
     {"modifications", "Flank modifications",
      [](const json& r) { return has(r, "modifications") || has(r, "optimise"); }},
     {"stiffness", "Load sharing and mesh stiffness", has_loaded},
+    {"gradients", "Derivatives of the results", has_gradients},
     {"convergence", "Convergence",
      [](const json& r) {
        return has(r, "optimise") && r.at("optimise").is_object() && has(r.at("optimise"), "history");

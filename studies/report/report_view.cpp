@@ -55,6 +55,9 @@ void for_each_in(json& node, const char* key, Visitor&& visit) {
 
 nlohmann::json report_view(nlohmann::json results) {
   for_each_in(results, "loaded", [](json& entry) {
+    if (entry.is_object() && entry.contains("gradients") && entry["gradients"].is_object()) {
+      for (const char* part : {"cycle", "shafts"}) entry["gradients"].erase(part);  // the page has those of the summary
+    }
     for_each_in(entry, "cycle", [](json& position) {
       for_each_in(position, "teeth", [](json& tooth) {
         if (!tooth.is_object()) return;

@@ -1,5 +1,6 @@
 #include "studies/report/report.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <regex>
@@ -193,6 +194,20 @@ TEST_CASE("The page gets every contact point to six digits", "[studies][report]"
   CHECK(seen > 1000);
   CHECK(view["given"] == results["given"]);
   CHECK(view["used"] == results["used"]);
+}
+
+TEST_CASE("The page has derivatives where some were asked for, those of the summary alone", "[studies][report][gradient]") {
+  PlainJson results = sample::loaded_results(1);
+  const auto sections_of = [&] { return section_ids(render_report(results.dump())); };
+  const auto has_gradients = [](const auto& ids) { return std::ranges::find(ids, "gradients") != ids.end(); };
+  CHECK_FALSE(has_gradients(sections_of()));
+  results["loaded"][0]["gradients"] = {{"parameters", {"load.torque"}}, {"units", {"N·m"}}, {"summary", {{"te_mean_um", {0.125}}}},
+                                       {"cycle", {1, 2, 3}}, {"shafts", {4}}};
+  CHECK(has_gradients(sections_of()));
+  const PlainJson seen = report_view(results)["loaded"][0]["gradients"];
+  CHECK(seen["summary"]["te_mean_um"] == PlainJson::array({0.125}));
+  CHECK_FALSE(seen.contains("cycle"));
+  CHECK_FALSE(seen.contains("shafts"));
 }
 
 TEST_CASE("The page sees a small transmission error on top of a large backlash", "[studies][report]") {

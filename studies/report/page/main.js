@@ -14,6 +14,7 @@ const BUILDERS = {
   "flank-load": build_flank_load,
   modifications: build_modifications,
   stiffness: build_stiffness,
+  gradients: build_gradients,
   convergence: build_convergence,
   search: build_search,
   "load-cases": build_load_cases,

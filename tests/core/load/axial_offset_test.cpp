@@ -5,6 +5,7 @@
 #include "core/base/error.hpp"
 #include "core/load/cycle_gradient.hpp"
 #include "core/load/peak_gradient.hpp"
+#include "core/load/position_gradient.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 #include "tests/core/load/synthetic_root_stress.hpp"
 
@@ -31,13 +32,33 @@ struct OffsetCase {
     return moved;
   }
   MeshModel mesh(double offset, const MeshResolution& resolved) const {
-    const MeshPlaced placed = [&](const MeshPlacement& placement) {
-      return make_mesh_model(gears, steel, steel, resolved, effects, placement, nullptr, root_stress);
-    };
+    const MeshPlaced placed = [&](const MeshPlacement& placement) { return alone(placement, resolved); };
     return with_further_offsets(placed, MeshPlacement::of(gap, at(offset).misalignment));
+  }
+  MeshModel alone(const MeshPlacement& placement, const MeshResolution& resolved) const {
+    return make_mesh_model(gears, steel, steel, resolved, effects, placement, nullptr, root_stress);
   }
   LoadedCycle solved(double offset, const MeshModel& model, const std::vector<MeshParameter>& by = {}) const {
     return analyse_cycle(model, at(offset), torque_for(gears, 150), by);
+  }
+};
+
+/// What position_gradient() has the derivatives of.
+struct ReadPosition {
+  Eigen::VectorXd point_force, gap, error, structural_deflection, contact_deflection;
+  std::vector<LineEnd> ends;
+  std::vector<ToothShare> shares;
+
+  ReadPosition(const MeshModel& mesh, const FlankCondition& condition, const LoadedCycle& cycle, std::size_t p) {
+    const MeshPosition& at = mesh.positions[p];
+    const LoadedPosition& loaded = cycle.positions[p];
+    point_force = at.weight.cwiseProduct(loaded.load.line_load);
+    gap = loaded.gap.total;
+    error = loaded.gap.error;
+    structural_deflection = loaded.load.structural_deflection;
+    contact_deflection = loaded.load.contact_deflection;
+    ends = line_ends(mesh, at, loaded, condition);
+    shares = load_sharing(at, loaded);
   }
 };
 
@@ -86,6 +107,37 @@ TEST_CASE("Loaded contact changes with an axial offset as meshes made and solved
       check(root_stress_derivative(model.positions[p], at, i)[0], high.root_stress[i], low.root_stress[i], at.root_stress.maxCoeff());
     }
   }
+  for (std::size_t p = 0; p < here.positions.size(); ++p) {
+    const auto at = [&](const MeshModel& mesh, const LoadedCycle& cycle, double moved) { return ReadPosition(mesh, of.at(moved), cycle, p); };
+    const ReadPosition read = at(model, here, offset), high = at(above, up, offset + step), low = at(below, down, offset - step);
+    const PositionGradient gradient = position_gradient(model, of.at(offset), here, p, read.ends, offset_and_torque);
+    CAPTURE(helix, offset, p);
+    const auto same_high = same_points(model.positions[p], above.positions[p]), same_low = same_points(model.positions[p], below.positions[p]);
+    for (const auto& [exact, values] : {std::pair{&gradient.point_force, &ReadPosition::point_force}, std::pair{&gradient.gap, &ReadPosition::gap},
+                                       std::pair{&gradient.error, &ReadPosition::error},
+                                       std::pair{&gradient.structural_deflection, &ReadPosition::structural_deflection},
+                                       std::pair{&gradient.contact_deflection, &ReadPosition::contact_deflection}}) {
+      const double size = std::max((read.*values).cwiseAbs().maxCoeff(), gradient.gap.col(0).cwiseAbs().maxCoeff() * of.gears.face_width);
+      for (Eigen::Index i = 0; i < exact->rows(); ++i) {
+        const Eigen::Index h = same_high[static_cast<std::size_t>(i)], l = same_low[static_cast<std::size_t>(i)];
+        if (h >= 0 && l >= 0) check((*exact)(i, 0), (high.*values)[h], (low.*values)[l], values == &ReadPosition::point_force ? (read.*values).maxCoeff() : size);
+      }
+    }
+    REQUIRE(read.ends.size() == high.ends.size());
+    REQUIRE(read.shares.size() == high.shares.size());
+    for (std::size_t e = 0; e < read.ends.size(); ++e) {
+      const auto row = static_cast<Eigen::Index>(e);
+      check(gradient.line_end_load(row, 0), high.ends[e].line_load, low.ends[e].line_load, here.positions[p].load.line_load.maxCoeff());
+      // Stress goes with the root of the load, which a step must not change by much.
+      if (std::abs(gradient.line_end_load(row, 0)) * step > 0.01 * read.ends[e].line_load) continue;
+      check(gradient.line_end_stress(row, 0), high.ends[e].contact_stress, low.ends[e].contact_stress, here.positions[p].contact_stress.maxCoeff());
+    }
+    for (std::size_t t = 0; t < read.shares.size(); ++t) {
+      check(gradient.shares(static_cast<Eigen::Index>(t), 0), high.shares[t].share, low.shares[t].share, 1.0);
+    }
+    CHECK(gradient.shares.colwise().sum().cwiseAbs().maxCoeff() <= 1e-12);  // round-off
+    CHECK(std::abs(gradient.point_force.col(0).sum()) <= kDifference * here.force / of.gears.face_width);
+  }
   const CycleSummary summary = summarise(model, here);
   const CycleGradient gradient = summary_gradient(model, here, summary);
   check(gradient.load_factor[0], summarise(above, up).load_factor, summarise(below, down).load_factor, summary.load_factor);
@@ -132,17 +184,19 @@ TEST_CASE("Within a wider mate's face a wheel's offset turns it along its helix,
 }
 
 TEST_CASE("Located peaks follow an axial offset to where they are found again", "[core][load][peaks][gradient]") {
-  constexpr double kLocated = 0.03, step = 0.02;  // both peaks of a difference are located to 2e-4 base pitches
+  constexpr double kLocated = 2e-3, step = 4e-3, phase_tolerance = 2e-6;  // to which both peaks of a difference are located [base pitches]
   OffsetCase of = unequal_faces(GENERATE(0.0, 25.0), 40, 40);
   of.condition.pinion_modification.lead_crowning = 5 * units::um;
   of.condition.misalignment.mesh_misalignment = 6 * units::um;
   const double offset = 2, torque = torque_for(of.gears, 150);
-  const auto mesh_at = [&](double at) -> MeshAt {
-    return [&of, at](const std::vector<double>& phases) { return of.mesh(at, {{QuadratureRule::Graded, 5}, phases}); };
+  const auto resolved = [](const std::vector<double>& phases) { return MeshResolution{{QuadratureRule::Graded, 5}, phases}; };
+  const auto peaks = [&](double at) {
+    const auto mesh = [&](const std::vector<double>& phases) { return of.alone(MeshPlacement::of(of.gap, of.at(at).misalignment), resolved(phases)); };
+    return locate_peaks(mesh, of.at(at), torque, {.phase_tolerance = phase_tolerance});
   };
-  const auto peaks = [&](double at) { return locate_peaks(mesh_at(at), of.at(at), torque); };
   const ContactPeaks here = peaks(offset), up = peaks(offset + step), down = peaks(offset - step);
-  const PeakGradients gradients = peak_gradients(mesh_at(offset), of.at(offset), torque, here, offset_and_torque);
+  const MeshAt mesh_at = [&](const std::vector<double>& phases) { return of.mesh(offset, resolved(phases)); };
+  const PeakGradients gradients = peak_gradients(mesh_at, of.at(offset), torque, here, offset_and_torque);
   const auto check = [&](const Eigen::RowVectorXd& exact, const LinePeak& at, const LinePeak& high, const LinePeak& low) {
     CAPTURE(of.gears.data.helix_angle, at.value, at.phase, at.tooth, at.z, high.phase, high.z, low.phase, low.z);
     const double difference = (high.value - low.value) / (2 * step);

@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
+#include "core/load/position_gradient.hpp"
 #include "tests/core/load/load_cases.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 #include "tests/core/load/synthetic_root_stress.hpp"
@@ -83,6 +84,37 @@ struct Outputs {
   }
 };
 
+/// What a position has beside loads and f_t.
+void add_position_outputs(const MeshModel& model, const FlankCondition& condition, const LoadedCycle& cycle, std::size_t k,
+                          const std::vector<MeshParameter>& parameters, Outputs& all) {
+  const MeshPosition& at = model.positions[k];
+  const LoadedPosition& p = cycle.positions[k];
+  const std::vector<LineEnd> ends = line_ends(model, at, p, condition);
+  const std::vector<ToothShare> teeth = load_sharing(at, p);
+  const PositionGradient gradient = position_gradient(model, condition, cycle, k, ends, parameters);
+  Eigen::VectorXd shares(std::ssize(teeth)), loads(std::ssize(ends)), stresses(std::ssize(ends));
+  for (Eigen::Index i = 0; i < shares.size(); ++i) shares[i] = teeth[static_cast<std::size_t>(i)].share;
+  for (Eigen::Index i = 0; i < loads.size(); ++i) {
+    loads[i] = ends[static_cast<std::size_t>(i)].line_load;
+    stresses[i] = ends[static_cast<std::size_t>(i)].contact_stress;
+  }
+  all.add("point force", at.weight.cwiseProduct(p.load.line_load), gradient.point_force);
+  all.add("structural deflection", p.load.structural_deflection, gradient.structural_deflection);
+  all.add("contact deflection", p.load.contact_deflection, gradient.contact_deflection);
+  all.add("gap", p.gap.total, gradient.gap);
+  all.add("error", p.gap.error, gradient.error);
+  all.add("share", shares, gradient.shares);
+  all.add("line end's load", loads, gradient.line_end_load);
+  all.add("line end's stress", stresses, gradient.line_end_stress);
+  for (const ToothShare& tooth : teeth) {
+    for (const Member member : {Member::Pinion, Member::Wheel}) {
+      const Eigen::Index highest = highest_root_stress(at, p, {member, tooth.tooth});
+      REQUIRE(highest >= 0);
+      all.add("root stress of a tooth", p.root_stress[highest], root_stress_derivative(at, p, highest));
+    }
+  }
+}
+
 Outputs outputs(const MeshModel& model, const Scene& scene, const std::vector<MeshParameter>& parameters) {
   const LoadedCycle cycle = analyse_cycle(model, scene.condition, scene.torque, parameters);
   REQUIRE(cycle.usable());
@@ -96,6 +128,7 @@ Outputs outputs(const MeshModel& model, const Scene& scene, const std::vector<Me
     Eigen::MatrixXd root(p.root_stress.size(), p.transmission_error_derivative.size());
     for (Eigen::Index i = 0; i < root.rows(); ++i) root.row(i) = root_stress_derivative(model.positions[k], p, i);
     all.add("root stress", p.root_stress, root);
+    add_position_outputs(model, scene.condition, cycle, k, parameters, all);
   }
   const CycleSummary summary = summarise(model, cycle);
   const CycleGradient gradient = summary_gradient(model, cycle, summary);
@@ -107,7 +140,14 @@ Outputs outputs(const MeshModel& model, const Scene& scene, const std::vector<Me
   all.add("peak_contact_stress", summary.peak_contact_stress, gradient.peak_contact_stress);
   all.add("load_factor", summary.load_factor, gradient.load_factor);
   all.add("mean_stiffness", summary.mean_stiffness, gradient.mean_stiffness);
+  all.add("least_stiffness", summary.least_stiffness, gradient.least_stiffness);
+  all.add("largest_stiffness", summary.largest_stiffness, gradient.largest_stiffness);
+  all.add("stiffness_variation", summary.stiffness_variation(), gradient.stiffness_variation);
   all.add("peak_root_stress", summary.peak_root_stress, gradient.peak_root_stress);
+  all.add("pinion_root_stress", summary.pinion_root_stress.stress, gradient.pinion_root_stress.stress);
+  all.add("wheel_root_stress", summary.wheel_root_stress.stress, gradient.wheel_root_stress.stress);
+  all.add("pinion_root_tangent", summary.pinion_root_stress.tangent_stress, gradient.pinion_root_stress.tangent_stress);
+  all.add("wheel_root_tangent", summary.wheel_root_stress.tangent_stress, gradient.wheel_root_stress.tangent_stress);
   return all;
 }
 

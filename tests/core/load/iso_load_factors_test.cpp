@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/load/axial_offset.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;
@@ -109,4 +110,62 @@ TEST_CASE("ISO's K_Halpha of a spur pair uses the load sharing of less than two 
   const double expected = gears.total_contact_ratio() / 2 * (0.9 + 0.4 * stiffness.c_gamma * f / factors.specific_load);
   CHECK(factors.profile == Approx(expected).epsilon(1e-12));
   CHECK(factors.profile_limit == Approx(3 / (4 - gears.transverse_contact_ratio)).epsilon(1e-12));  // Z_eps of a spur pair
+}
+
+TEST_CASE("ISO's factors change with misalignment, modifications, offset and torque as central differences say", "[core][load][iso][gradient]") {
+  // Relative; step^2 of the differences, and for the offset that of its own three meshes.
+  constexpr double kDifference = 1e-6;
+  const auto [misaligned, pitch] = GENERATE(table<double, double>({{2e-3, 8e-3}, {40e-3, 60e-3}, {6e-3, 0.3}}));  // both branches of K_Hbeta; K_Halpha free and at its limit
+  const bool helical = GENERATE(false, true);
+  const GearPair gears = helical ? haddad() : mesh_cases::pair(20, 40, 0, 4, 30);
+  FlankCondition condition;
+  condition.misalignment.mesh_misalignment = misaligned;
+  condition.misalignment.axial_offset = 1.5;
+  condition.pinion_error.pitch_step = pitch;
+  condition.wheel_error.helix_slopes = {0, 3 * units::um, -2 * units::um};
+  condition.pinion_modification.lead_slope = 1 * units::um;
+  condition.wheel_modification.end_relief = {6 * units::um, 0.2 * gears.face_width};
+  condition.wheel_modification.tip_relief = {6 * units::um, 2, ReliefShape::Linear};
+  const double torque = mesh_cases::torque_for(gears, 200);
+  const std::vector<MeshParameter> parameters{&Misalignment::mesh_misalignment, &Misalignment::crossing, GearParameter{Member::Pinion, ModificationParameter::LeadSlope},
+                                              GearParameter{Member::Wheel, ModificationParameter::EndReliefAmount},
+                                              GearParameter{Member::Wheel, ModificationParameter::TipReliefAmount}, &Misalignment::axial_offset, PinionTorque{}};
+  const std::vector<double> steps{1e-5, 2e-8, 1e-5, 1e-5, 1e-5, 1e-3, 1e-4 * torque};
+  const auto mesh = [&](const FlankCondition& c) {
+    const MeshPlaced placed = [&](const MeshPlacement& placement) {
+      return make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, {{}, {0.3}}, {}, placement);
+    };
+    return with_further_offsets(placed, MeshPlacement::of(GapModel::PlaneOfAction, c.misalignment));
+  };
+  const auto factors = [&](const FlankCondition& c, double by_torque) {
+    const MeshModel model = mesh(c);
+    return iso_load_factors(gears, model.iso, iso_deviations(gears, c), by_torque, model.face_width);
+  };
+  const MeshModel model = mesh(condition);
+  const IsoLoadFactors here = factors(condition, torque);
+  const IsoGradient gradient = iso_gradient(model, condition, here, analyse_cycle(model, condition, torque, parameters), parameters);
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const auto moved = [&](double by) {
+      FlankCondition c = condition;
+      if (const auto* gear = std::get_if<GearParameter>(&parameters[p])) {
+        Modification& m = gear->member == Member::Pinion ? c.pinion_modification : c.wheel_modification;
+        set(m, gear->parameter, get(m, gear->parameter) + by);
+      } else if (const auto* misalignment = std::get_if<MisalignmentParameter>(&parameters[p])) {
+        c.misalignment.*(*misalignment) += by;
+      }
+      return factors(c, std::holds_alternative<PinionTorque>(parameters[p]) ? torque + by : torque);
+    };
+    const IsoLoadFactors up = moved(steps[p]), down = moved(-steps[p]);
+    const auto column = static_cast<Eigen::Index>(p);
+    const auto check = [&](const char* name, double exact, double high, double low, double value) {
+      CAPTURE(p, name, misaligned, helical);
+      CHECK(std::abs(exact - (high - low) / (2 * steps[p])) <= kDifference * (std::abs(exact) + 1e-3 * value / steps[p]));
+    };
+    check("F_beta_y", gradient.misalignment[column], up.deviations.misalignment, down.deviations.misalignment, here.deviations.misalignment);
+    check("specific load", gradient.specific_load[column], up.specific_load, down.specific_load, here.specific_load);
+    check("K_Hbeta", gradient.lead[column], up.lead, down.lead, here.lead);
+    check("K_Halpha", gradient.profile[column], up.profile, down.profile, here.profile);
+    check("K_H", gradient.combined[column], up.combined(), down.combined(), here.combined());
+  }
+  CHECK(gradient.misalignment[4] == 0);  // tip relief is no lead
 }

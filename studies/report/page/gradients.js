@@ -1,0 +1,60 @@
+// How the outputs of each load case answer to the parameters of analyse.gradients: bars for a step of each, derivatives in numbers.
+
+const gradients_of = (load_case) => record(final_entry(load_case).gradients);
+
+/** A step that a designer or a workshop would think in, in the parameter's unit. */
+function parameter_step(unit, torque) {
+  if (unit === "N·m" && is_number(torque)) return 0.01 * torque;
+  return unit === "mm" ? 0.1 : 1;
+}
+
+/** What of a summary is shown, of values and of derivatives alike; with bars where it is looked at first. */
+const GRADIENT_OUTPUTS = [
+  { column: { label: "TE peak to peak", unit: "µm" }, of: (s) => s.te_peak_to_peak_um, bars: true },
+  { column: { label: "TE 1st harmonic", unit: "µm" }, of: (s) => list(s.te_harmonics_um)[0] },
+  { column: { label: "Contact stress", unit: "MPa" }, of: (s) => s.peak_contact_stress_MPa, bars: true },
+  { column: { label: "Root stress", unit: "MPa" }, of: (s) => s.peak_root_stress_MPa, bars: true },
+  { column: { label: "Line load", unit: "N/mm" }, of: (s) => s.peak_load_N_per_mm },
+  { column: { label: "Stiffness", unit: "N/(mm µm)" }, of: (s) => s.mean_stiffness_N_per_mm_um },
+  { column: { label: "K_H" }, of: (s) => record(record(s.load_factors).without_spikes).K_H },
+];
+
+/** Bars of one output, the longest first. */
+function gradient_rows(load_case, output) {
+  const gradients = gradients_of(load_case), slopes = list(output.of(record(gradients.summary))), value = output.of(summary_of(final_entry(load_case)));
+  return list(gradients.parameters).map((name, i) => {
+    const unit = list(gradients.units)[i], step = parameter_step(unit, load_case.torque);
+    const change = is_number(slopes[i]) ? slopes[i] * step : null;
+    return {
+      label: `${words(name)}, ${fmt(step, 3)} ${pretty_unit(unit)}`, value: change, colour: sequence_colour(1),
+      note: is_number(change) ? percent_change(value, value + change) ?? "" : "",
+    };
+  }).filter((row) => is_number(row.value)).sort((a, b) => Math.abs(b.value) - Math.abs(a.value));
+}
+
+function build_gradients(results, body, selection) {
+  selection.add_choice(body);
+  const cases = selection.cases.filter((load_case) => list(gradients_of(load_case).parameters).length > 0);
+  const known = (output) => cases.some((load_case) => list(output.of(record(gradients_of(load_case).summary))).some(is_number));
+  const outputs = GRADIENT_OUTPUTS.filter(known), grid = figure_grid(body);
+  for (const output of outputs.filter(({ bars }) => bars)) {
+    const { label, unit } = output.column;
+    case_figure(grid, selection, {
+      title: `${label}: a step more of each parameter`,
+      caption: "Change to first order, all else as it is: exact while contact points keep their contact and the peak its place.",
+    }, (plot, load_case) => {
+      const rows = gradient_rows(load_case, output);
+      if (rows.length > 0) draw_bars(plot, { rows, unit, label });
+    });
+  }
+  table(body, {
+    title: "In numbers, per unit of the parameter",
+    note: "In the output's unit per unit of the parameter; K_H without spikes. results.json has the derivatives of everything else, to the last point.",
+    columns: [{ label: "Scene" }, { label: "Torque", unit: "N·m", digits: 6 }, { label: "Parameter" }, { label: "per" }, ...outputs.map(({ column }) => column)],
+    rows: cases.flatMap((load_case) => {
+      const { parameters, units, summary } = gradients_of(load_case);
+      return list(parameters).map((name, i) => [load_case.scene, load_case.torque, words(name), pretty_unit(list(units)[i]),
+        ...outputs.map((output) => list(output.of(record(summary)))[i] ?? null)]);
+    }),
+  });
+}
