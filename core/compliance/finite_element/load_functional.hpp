@@ -125,7 +125,7 @@ inline constexpr double axial_hold_share = 0.2;
 ///
 /// Haddad holds the central node of one end [1991, 2.5], and his deflections have that node's give in them. Of a node, or of the edge
 /// of a narrow bore, it grows without limit as elements shrink; this does not know the mesh. The share is a choice that the thesis
-/// leaves open. With 1/6 instead f_t of his 18:54 pair rises by 0.12 um of 8, and the far values of his table 2B.1 by 2 %.
+/// leaves open: first 1/6, near what the bore gave before, then 1/5 once his outputs had been compared. With 1/6 f_t of his 18:54 pair rises by 0.12 um of 8, and the far values of his table 2B.1 by 2 %.
 double axial_hold_compliance(const GearMesh& mesh, const Material& material, RemovedMotion removed);
 
 }  // namespace flankwright
