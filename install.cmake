@@ -15,7 +15,7 @@ install(DIRECTORY core optimize studies DESTINATION ${headers} COMPONENT dev FIL
         PATTERN page EXCLUDE PATTERN library EXCLUDE)
 install(EXPORT flankwright NAMESPACE flankwright:: FILE flankwright-targets.cmake DESTINATION ${config} COMPONENT dev)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/flankwright-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES flankwright-config.cmake ${PROJECT_BINARY_DIR}/flankwright-config-version.cmake DESTINATION ${config} COMPONENT dev)
+install(FILES flankwright-config.cmake core/compliance/fitted/find_ceres.cmake ${PROJECT_BINARY_DIR}/flankwright-config-version.cmake DESTINATION ${config} COMPONENT dev)
 
 install(TARGETS flankwright RUNTIME COMPONENT program)
 install(DIRECTORY studies/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program PATTERN pictures EXCLUDE)
