@@ -7,6 +7,8 @@
 #include <mutex>
 #include <string>
 
+#include "core/base/one_blas_thread.hpp"
+
 namespace flankwright {
 
 namespace {
@@ -196,6 +198,7 @@ SolverStatus status_of(Ipopt::ApplicationReturnStatus code, std::string& message
 }  // namespace
 
 SolverEnding solve_with_ipopt(Recorder& recorder, const SolverOptions& options) {
+  const OneBlasThread one_thread;
   std::unique_lock<std::mutex> lock(library_mutex());
   auto* program = new RecordedProgram(recorder, lock);  // owned by the smart pointer
   const Ipopt::SmartPtr<Ipopt::TNLP> owner = program;

@@ -162,7 +162,7 @@ TEST_CASE("Least influence values of five gears are those of an independent calc
   int decided = 0;
   for (const auto& [teeth, value] : {Least{18, 0.086}, Least{27, 0.072}, Least{40, 0.126}, Least{60, 0.37}, Least{100, 1.35}}) {
     const InfluenceModel model = thesis_gear(teeth, 30);
-    const GearForm& form = model.mesh().form;
+    const ToothForm& form = model.mesh().form;
     std::vector<FlankPoint> points;
     for (int up = 0; up < 7; ++up) {
       for (int along = 0; along < 15; ++along) {

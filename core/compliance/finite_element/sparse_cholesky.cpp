@@ -10,34 +10,10 @@
 #include <new>
 #include <vector>
 
+#include "core/base/one_blas_thread.hpp"
+
 namespace flankwright {
 namespace {
-
-/// Keeps OpenBLAS on one thread while any of them lives, in whatever thread of ours. Which BLAS runs is known only when
-/// the program is loaded, so its switch is looked for there; other implementations do not have it.
-class SerialBlas {
- public:
-  SerialBlas() {
-    const std::lock_guard lock(mutex_);
-    if (users_++ > 0 || !get_ || !set_) return;
-    threads_ = get_();
-    set_(1);
-  }
-  ~SerialBlas() {
-    const std::lock_guard lock(mutex_);
-    if (--users_ == 0 && get_ && set_) set_(threads_);
-  }
-  SerialBlas(const SerialBlas&) = delete;
-  SerialBlas& operator=(const SerialBlas&) = delete;
-
- private:
-  using Get = int (*)();
-  using Set = void (*)(int);
-  static inline const Get get_{reinterpret_cast<Get>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"))};
-  static inline const Set set_{reinterpret_cast<Set>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"))};
-  static inline std::mutex mutex_;
-  static inline int users_{0}, threads_{0};
-};
 
 /// Keeps OpenMP, with which CHOLMOD assembles and solves, on the calling thread while it lives: its workers would spin
 /// against those of the other gear. The switch is the calling thread's own, and looked for as OpenBLAS' is.
@@ -62,9 +38,22 @@ class SerialOpenMp {
   int levels_{1};
 };
 
-/// What CHOLMOD's calls need to stay on one core.
+/// A turn among our threads, where BLAS needs that.
+class BlasTurn {
+ public:
+  BlasTurn() {
+    if (blas_needs_turns()) turn_ = std::unique_lock(turns_);
+  }
+
+ private:
+  static inline std::mutex turns_;
+  std::unique_lock<std::mutex> turn_;
+};
+
+/// What CHOLMOD's calls need to stay on one core, and out of each other's way.
 struct OneCore {
-  SerialBlas blas;
+  BlasTurn turn;
+  OneBlasThread blas;
   SerialOpenMp open_mp;
 };
 

@@ -81,16 +81,19 @@ TEST_CASE("A solved table is the gear's influence matrix at the places of its gr
 }
 
 TEST_CASE("The same gear gives the same table again, whatever else is being solved", "[core][compliance][fe]") {
-  const InfluenceTableTask task = task_of(gear_of(12, 10, 3), coarse_grid(3));
-  const InfluenceTableTask other = task_of(gear_of(15, 0, 3), coarse_grid(3));
+  const InfluenceTableTask task = task_of(gear_of(19, 20, 3), coarse_grid(3));
+  const InfluenceTableTask other = task_of(gear_of(27, 20, 3), coarse_grid(3));
   const auto tables = [](const InfluenceTableTask& t) { return solve_influence_table(t, kNoLimit).table->tables(); };
-  const auto alone = tables(task);
-  std::vector<Eigen::MatrixXd> beside, others;
-  std::thread second([&] { others = tables(other); });
-  beside = tables(task);
-  second.join();
-  CHECK(alone == beside);
-  CHECK(others == tables(other));
+  const auto alone = tables(task), others_alone = tables(other);
+  // A BLAS without locks spoils about every fourth pair.
+  for (int round = 0; round < 8; ++round) {
+    std::vector<Eigen::MatrixXd> beside, others;
+    std::thread second([&] { others = tables(other); });
+    beside = tables(task);
+    second.join();
+    CHECK(alone == beside);
+    CHECK(others_alone == others);
+  }
 }
 
 TEST_CASE("Gears that differ in size only have the same task in modules", "[core][compliance][fe]") {
