@@ -15,6 +15,8 @@ class ConditionGap {
   /// @throws InvalidInput  as SurfaceGap
   ConditionGap(const GearPair& pair, GapModel model, const FlankCondition& condition);
 
+  GapModel model() const { return surfaces_ ? GapModel::WholeSurface : GapModel::PlaneOfAction; }
+
   /// @param line_phase  of tooth pair 0, as the points were made for
   Gap at(const std::vector<ContactPoint>& points, double line_phase) const;
 

@@ -4,7 +4,7 @@
 
 #include "core/base/natural_spline.hpp"
 #include "core/contact/condition_gap.hpp"
-#include "core/load/offset_way.hpp"
+#include "core/load/mesh_way.hpp"
 
 namespace flankwright {
 
@@ -71,7 +71,7 @@ Eigen::VectorXd clearances(const MeshPosition& at) {
 }
 
 /// @param of  one of the numbers of an end
-Eigen::VectorXd end_values(const OffsetWay::Stage& stage, double LineEnd::* of) {
+Eigen::VectorXd end_values(const MeshWay::Stage& stage, double LineEnd::* of) {
   const std::vector<LineEnd> ends = line_ends(stage.model, stage.at, stage.loaded, stage.condition);
   Eigen::VectorXd values(std::ssize(ends));
   for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = ends[static_cast<std::size_t>(i)].*of;
@@ -91,13 +91,13 @@ PositionGradient position_gradient(const MeshModel& model, const FlankCondition&
   gradient.gap = loaded.gap_derivative;
   gradient.error = -gradient.gap;
   add_line_ends(model, condition, at, loaded, ends, parameters, gradient);
-  for (const Eigen::Index p : axial_offsets_among(parameters)) {
-    const OffsetWay way(model, condition, loaded, position, p);
-    gradient.point_force.col(p) = way.point_slope([](const OffsetWay::Stage& s) { return Eigen::VectorXd(s.at.weight.cwiseProduct(s.loaded.load.line_load)); });
-    gradient.structural_deflection.col(p) = way.point_slope([](const OffsetWay::Stage& s) { return s.loaded.load.structural_deflection; });
-    gradient.error.col(p) += way.point_slope([](const OffsetWay::Stage& s) { return clearances(s.at); });
-    gradient.line_end_load.col(p) = way.slope([](const OffsetWay::Stage& s) { return end_values(s, &LineEnd::line_load); });
-    gradient.line_end_stress.col(p) = way.slope([](const OffsetWay::Stage& s) { return end_values(s, &LineEnd::contact_stress); });
+  for (const Eigen::Index p : moving_among(model.placement.gap, parameters)) {
+    const MeshWay way(model, condition, loaded, position, std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]), p);
+    gradient.point_force.col(p) = way.point_slope([](const MeshWay::Stage& s) { return Eigen::VectorXd(s.at.weight.cwiseProduct(s.loaded.load.line_load)); });
+    gradient.structural_deflection.col(p) = way.point_slope([](const MeshWay::Stage& s) { return s.loaded.load.structural_deflection; });
+    gradient.error.col(p) += way.point_slope([](const MeshWay::Stage& s) { return clearances(s.at); });
+    gradient.line_end_load.col(p) = way.slope([](const MeshWay::Stage& s) { return end_values(s, &LineEnd::line_load); });
+    gradient.line_end_stress.col(p) = way.slope([](const MeshWay::Stage& s) { return end_values(s, &LineEnd::contact_stress); });
   }
   gradient.contact_deflection = -gradient.gap - gradient.structural_deflection;
   for (Eigen::Index i = 0; i < gradient.contact_deflection.rows(); ++i) {
