@@ -33,7 +33,7 @@ HeldLoads held_loads(const MeshPosition& at, const Gap& gap, const Eigen::Vector
 }  // namespace
 
 double mesh_step_of(const GearPair& pair, MisalignmentParameter parameter) {
-  const double length = mesh_step * pair.data.normal_module;
+  const double length = (parameter == &Misalignment::axial_offset ? step_along : step_apart) * pair.data.normal_module;
   const MisalignmentParameter angles[] = {&Misalignment::crossing, &Misalignment::intersecting, &Misalignment::pinion_lead_angle,
                                           &Misalignment::pinion_pressure_angle};
   return std::ranges::find(angles, parameter) == std::end(angles) ? length : length / (0.5 * pair.face_width);

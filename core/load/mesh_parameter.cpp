@@ -11,7 +11,7 @@ ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at,
     if (const auto* gear = std::get_if<GearParameter>(&which)) {
       slopes.gap.col(p) = gaps.derivative(at.points, gap, gear->member, gear->parameter);
     } else if (const auto* misalignment = std::get_if<MisalignmentParameter>(&which)) {
-      if (!moves_mesh(gaps.model(), which)) slopes.gap.col(p) = gaps.derivative(at.points, at.phase, gap, *misalignment);
+      if (!moves_mesh(gaps.model(), which)) slopes.gap.col(p) = gaps.derivative(at.points, *misalignment);
     } else {
       slopes.force[p] = model.normal_force(1.0);
     }
