@@ -33,7 +33,7 @@ HeldLoads held_loads(const MeshPosition& at, const Gap& gap, const Eigen::Vector
 }  // namespace
 
 double mesh_step_of(const GearPair& pair, MisalignmentParameter parameter) {
-  const double length = (parameter == &Misalignment::axial_offset ? step_along : step_apart) * pair.data.normal_module;
+  const double length = mesh_step * pair.data.normal_module;
   const MisalignmentParameter angles[] = {&Misalignment::crossing, &Misalignment::intersecting, &Misalignment::pinion_lead_angle,
                                           &Misalignment::pinion_pressure_angle};
   return std::ranges::find(angles, parameter) == std::end(angles) ? length : length / (0.5 * pair.face_width);
@@ -140,7 +140,7 @@ MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load, con
     return first_slope(here.*what, one.*what, two.*what, further_.step).cwiseProduct(same_as.known);
   };
   MeshSlope by{slope(&HeldLoads::gap), slope(&HeldLoads::deflection), first_slope(here.force, one.force, two.force, further_.step),
-                 slope(&HeldLoads::relative_radius), {}};
+               slope(&HeldLoads::relative_radius), {}};
   by.root_components = Eigen::VectorXd::Zero(here.root_components.size());
   if (here.root_components.size() == one.root_components.size() && here.root_components.size() == two.root_components.size()) {
     by.root_components = first_slope(here.root_components, one.root_components, two.root_components, further_.step);

@@ -12,10 +12,10 @@
 
 namespace flankwright {
 
-/// How far apart the meshes lie that derivatives by a parameter that moves the mesh are taken from [m_n]: along the faces by the axial offset; by all others, which take
-/// flanks apart and loads with them, less: lengths by `step_apart`, angles by that over half the common face width, so that the flanks' ends move
-/// alike. The slope of a smooth f over three meshes is wrong by step^2 f'''/3, and by about four times the round-off of f over the step.
-inline constexpr double step_along = 1e-4, step_apart = 1e-5;
+/// How far apart the meshes lie that derivatives by a parameter that moves the mesh are taken from [m_n]: lengths by this, angles by this over
+/// half the common face width, so that the flanks' ends move alike. The slope of a smooth f over three of them is wrong by step^2 f'''/3, and by about
+/// four times the round-off of f over the step.
+inline constexpr double mesh_step = 1e-4;
 /// The same for one parameter [mm or rad].
 double mesh_step_of(const GearPair& pair, MisalignmentParameter parameter);
 

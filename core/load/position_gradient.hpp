@@ -26,7 +26,8 @@ struct PositionGradient {
 ///     d(K a w) = K a dw,     dc = df_t - dg - d(K a w),
 ///
 /// of the share s of a tooth pair ds = sum a dw / F - s dF/F, and of a line's end dw = (df_t - dg - dS)/c', with S the spline through the structural
-/// deflections, linear in them; a line end without load has none.
+/// deflections, linear in them; a line end without load has none. What moves the mesh moves a line's end too: read along the way are what is left for its contact, c at the load
+/// held, and its curvature.
 /// @param condition, parameters  as analyse_cycle() had them
 /// @param position  of the cycle, usable and under some force
 /// @param ends      line_ends() of it

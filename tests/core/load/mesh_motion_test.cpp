@@ -171,7 +171,9 @@ TEST_CASE("Differences of solved cycles close in with the square of their step o
     double change, h;
   };
   const Motion motion = GENERATE(Motion{&Misalignment::crossing, 3e-4, 1e-5}, Motion{&Misalignment::intersecting, 8e-4, 1e-5},
-                                 Motion{&Misalignment::centre_distance, 1, 5e-3}, Motion{&Misalignment::axial_offset, 40, 5e-3});
+                                 Motion{&Misalignment::centre_distance, 1, 5e-3}, Motion{&Misalignment::axial_offset, 40, 5e-3},
+                                 Motion{&Misalignment::pinion_lead_angle, 3e-4, 1e-5}, Motion{&Misalignment::pinion_pressure_angle, 1e-3, 1e-5},
+                                 Motion{&Misalignment::mesh_misalignment, 0.02, 2e-4});
   MotionCase of = unequal_faces(25, 40, 38);
   const mesh_cases::SyntheticRootStress roots(of.gears);
   of.root_stress = &roots;
@@ -211,7 +213,7 @@ TEST_CASE("Even teeth that lose face to an offset carry what more torque would g
   const MeshModel model = of.mesh(0.0, {{QuadratureRule::Gauss3, 4}, equally_spaced_phases(6)});
   const LoadedCycle cycle = of.solved(0.0, model, offset_and_torque);
   const double torque_over_face = torque_for(of.gears, 150) / of.gears.face_width;
-  constexpr double kOffset = 1e-6;  // step_along^2, and round-off over it
+  constexpr double kOffset = 1e-6;  // mesh_step^2, and round-off over it
   for (const LoadedPosition& at : cycle.positions) {
     CHECK(at.transmission_error_derivative[0] == Approx(torque_over_face * at.transmission_error_derivative[1]).epsilon(kOffset));
     for (Eigen::Index i = 0; i < at.load.line_load.size(); ++i) {
@@ -251,7 +253,8 @@ TEST_CASE("Located peaks and K_Hbeta follow what moves the mesh to where they ar
     double value, change;  ///< a change of loads by much of themselves
   };
   const Motion motion = GENERATE(Motion{0, GapModel::PlaneOfAction, &Misalignment::axial_offset, 2, 40}, Motion{25, GapModel::PlaneOfAction, &Misalignment::axial_offset, 2, 40},
-                                 Motion{25, GapModel::WholeSurface, &Misalignment::crossing, 2e-4, 3e-4});
+                                 Motion{25, GapModel::WholeSurface, &Misalignment::crossing, 2e-4, 3e-4},
+                                 Motion{25, GapModel::WholeSurface, &Misalignment::centre_distance, 0.2, 1});
   const double value = motion.value, step = 1e-4 * motion.change;
   MotionCase of = unequal_faces(motion.helix, 40, 40);
   of.gap = motion.gap;
@@ -276,8 +279,8 @@ TEST_CASE("Located peaks and K_Hbeta follow what moves the mesh to where they ar
   check(gradients.with_spikes.line_load, here.with_spikes.line_load, up.with_spikes.line_load, down.with_spikes.line_load);
   check(gradients.without_spikes.contact_stress, here.without_spikes.contact_stress, up.without_spikes.contact_stress, down.without_spikes.contact_stress);
   check(gradients.without_spikes.line_load, here.without_spikes.line_load, up.without_spikes.line_load, down.without_spikes.line_load);
-  if (of.by == &Misalignment::axial_offset) return;
-  // Nothing but leads: all of it is the part that K_Hbeta counts, and the perfect pair knows no crossing.
+  if (!acts(of.by, lead_part) || acts(of.by, perfect_part)) return;
+  // Nothing but leads: all of it is the part that K_Hbeta counts, and the perfect pair is not moved.
   REQUIRE(lead_part(of.at(value)) == of.at(value));
   const ContactPeaks perfect = peaks(perfect_part(of.at(value)));
   const MeshAt aligned_at = [&](const std::vector<double>& phases) { return of.alone(MeshPlacement::of(of.gap, {}), resolved(phases)); };
