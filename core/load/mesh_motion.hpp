@@ -14,8 +14,9 @@ namespace flankwright {
 
 /// How far apart the meshes lie that derivatives by a parameter that moves the mesh are taken from [m_n]: lengths by this, angles by this over
 /// half the common face width, so that the flanks' ends move alike. The slope of a smooth f over three of them is wrong by step^2 f'''/3, and by about
-/// four times the round-off of f over the step.
-inline constexpr double mesh_step = 1e-4;
+/// four times the round-off of f over the step, places of the whole surface having some 1e-10 mm of it. A place that comes to a tip edge within two steps
+/// has a kink there, and its slope is then a mean of both sides: the shorter the step, the fewer do.
+inline constexpr double mesh_step = 3e-5;
 /// The same for one parameter [mm or rad].
 double mesh_step_of(const GearPair& pair, MisalignmentParameter parameter);
 
