@@ -165,7 +165,7 @@ double MeshSlopes::relative_line_length() const {
       slope += same_as.known[i] * by[i];
     }
   }
-  return slope / length;
+  return length > 0.0 ? slope / length : not_given;
 }
 
 }  // namespace flankwright
