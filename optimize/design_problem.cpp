@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "core/load/mesh_motion.hpp"
+
 namespace flankwright {
 
 namespace {
@@ -73,16 +75,17 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)) {
     if (!(scene.torque > 0.0)) throw InvalidInput("load.torque", std::to_string(scene.torque), "above 0 to optimise");
     const MeshPlacement placement = MeshPlacement::of(task_.gap, scene.condition.misalignment);
     std::shared_ptr<const MeshModel>& model = models[placement];
-    if (!model) {
-      model = std::make_shared<const MeshModel>(make_mesh_model(task_.pair, task_.pinion_material, task_.wheel_material,
-                                                          task_.resolution, task_.effects, placement, task_.structure.get(),
-                                                          task_.root_stress.get(), task_.shafts.get()));
-    }
+    if (!model) model = std::make_shared<const MeshModel>(mesh(placement));
     models_.push_back(model);
   }
   for (const ModificationConstraint& c : task_.modification_constraints) {
     if (modification_scale(c) == 0.0) throw InvalidInput("optimise.constraints." + c.name, "no variable in it", "a sum that a variable changes");
   }
+}
+
+MeshModel DesignProblem::mesh(const MeshPlacement& placement) const {
+  return make_mesh_model(task_.pair, task_.pinion_material, task_.wheel_material, task_.resolution, task_.effects, placement,
+                         task_.structure.get(), task_.root_stress.get(), task_.shafts.get());
 }
 
 DesignProblem DesignProblem::judged_by(const Goal& goal, std::vector<GoalBound> bounds, std::vector<TradedGoal> trade) const {
@@ -132,7 +135,9 @@ LoadedCycle DesignProblem::analyse_scene(int scene, const Modification& pinion, 
   FlankCondition condition = of_task.condition;
   condition.pinion_modification = pinion;
   condition.wheel_modification = wheel;
-  return analyse_cycle(model(scene), condition, of_task.torque, parameters);
+  if (moving_among(task_.gap, parameters).empty()) return analyse_cycle(model(scene), condition, of_task.torque, parameters);
+  const MeshPlaced placed = [this](const MeshPlacement& placement) { return mesh(placement); };
+  return analyse_cycle(with_further_meshes(model(scene), placed, parameters), condition, of_task.torque, parameters);
 }
 
 DesignAnalysis DesignProblem::run(const Modification& pinion, const Modification& wheel, bool with_derivatives) const {

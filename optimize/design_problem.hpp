@@ -50,7 +50,8 @@ class DesignProblem {
   DesignAnalysis analyse_given() const;
   /// Analyses any modifications; neither remembered nor counted.
   DesignAnalysis analyse_design(const Modification& pinion, const Modification& wheel) const { return run(pinion, wheel, false); }
-  /// One scene of that, with derivatives by any parameters.
+  /// One scene of that, with derivatives by any parameters; those that move the mesh (moves_mesh()) have two more meshes made for them each, and
+  /// not kept.
   LoadedCycle analyse_scene(int scene, const Modification& pinion, const Modification& wheel,
                             const std::vector<MeshParameter>& parameters = {}) const;
 
@@ -79,6 +80,7 @@ class DesignProblem {
   std::vector<double> scene_weights() const;
 
  private:
+  MeshModel mesh(const MeshPlacement& placement) const;
   DesignAnalysis run(const Modification& pinion, const Modification& wheel, bool with_derivatives) const;
 
   DesignTask task_;

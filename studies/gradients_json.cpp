@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/load/cycle_gradient.hpp"
-#include "core/load/offset_way.hpp"
+#include "core/load/mesh_way.hpp"
 #include "core/load/position_gradient.hpp"
 
 namespace flankwright::studies {
@@ -141,13 +141,14 @@ ShaftGradient shaft_gradient(const ShaftPair& shafts, Member member, const Loade
     gradient.displacement[p] = motion.displacement;
     gradient.misalignment[p] = motion.misalignment;
   }
-  for (const Eigen::Index p : axial_offsets_among(parameters)) {
-    const OffsetWay way(model, loaded.condition, loaded.cycle.positions[i], i, p);
-    const auto motion = [&](const OffsetWay::Stage& s) {
+  for (const Eigen::Index p : moving_among(model.placement.gap, parameters)) {
+    const auto parameter = std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]);
+    const MeshWay way(model, loaded.condition, loaded.cycle.positions[i], i, parameter, p);
+    const auto motion = [&](const MeshWay::Stage& s) {
       return shafts.motion(member, s.at.points, s.at.weight.cwiseProduct(s.loaded.load.line_load), s.model.axial_offset);
     };
-    gradient.displacement[p] = way.slope([&](const OffsetWay::Stage& s) { return motion(s).displacement; });
-    gradient.misalignment[p] = way.slope([&](const OffsetWay::Stage& s) { return motion(s).misalignment; });
+    gradient.displacement[p] = way.slope([&](const MeshWay::Stage& s) { return motion(s).displacement; });
+    gradient.misalignment[p] = way.slope([&](const MeshWay::Stage& s) { return motion(s).misalignment; });
   }
   return gradient;
 }

@@ -1,6 +1,7 @@
 #include "studies/load_rating.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace flankwright::studies {
 
@@ -8,7 +9,7 @@ const ContactPeaks& LoadRater::peaks_of(const MeshFor& mesh_for, const FlankCond
   const auto found = std::ranges::find_if(
       known_, [&](const Known& k) { return k.torque == pinion_torque && k.condition == condition; });
   if (found != known_.end()) return found->peaks;
-  known_.push_back({condition, pinion_torque, locate_peaks(mesh_for(condition.misalignment), condition, pinion_torque)});
+  known_.push_back({condition, pinion_torque, locate_peaks(mesh_for(condition.misalignment, {}), condition, pinion_torque)});
   return known_.back().peaks;
 }
 
@@ -22,7 +23,9 @@ LoadRating LoadRater::rate(const MeshFor& mesh_for, const FlankCondition& condit
   rating.factors = load_factors(rating.perfect, rating.lead, rating.profile, rating.combined);
   if (parameters.empty()) return rating;
   const auto rated = [&](const ContactPeaks& peaks, ConditionPart part) {
-    const MeshAt mesh = mesh_for(part(condition).misalignment);
+    std::vector<MeshParameter> acting;
+    std::ranges::copy_if(parameters, std::back_inserter(acting), [&](const MeshParameter& p) { return acts(p, part); });
+    const MeshAt mesh = mesh_for(part(condition).misalignment, acting);
     return RatedPeaks{peaks, peak_gradients_of_part(mesh, condition, part, pinion_torque, peaks, parameters)};
   };
   const RatedPeaks combined = rated(rating.combined, whole_condition);

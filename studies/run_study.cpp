@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "core/base/stopwatch.hpp"
-#include "core/load/axial_offset.hpp"
+#include "core/load/mesh_motion.hpp"
 #include "studies/proof/drawn_scenes.hpp"
 #include "studies/study_effects.hpp"
 #include "studies/study_shafts.hpp"
@@ -38,7 +38,6 @@ class Run {
       note(std::string("a gear's body is given, but the compliance \"") + to_string(study.fidelity.compliance) + "\" does not know of it");
     }
     geometry_notes();
-    held_points_note();
     if (is_on(results_.effects, "shafts")) results_.shafts = make_shafts(study, results_.pair);
   }
 
@@ -76,15 +75,6 @@ class Run {
     return false;
   }
 
-  void held_points_note() {
-    const auto moves_points = [](const GradientParameter& p) {
-      const auto* misalignment = std::get_if<MisalignmentParameter>(&p.parameter);
-      return misalignment && *misalignment != &Misalignment::axial_offset && *misalignment != &Misalignment::mesh_misalignment;
-    };
-    if (gap_model(results_.effects) != GapModel::WholeSurface || std::ranges::none_of(results_.study.gradients, moves_points)) return;
-    note("with gap whole_surface derivatives by misalignments hold the contact points: they lack what these points' other curvature and compliance bring");
-  }
-
   void geometry_notes() {
     const GearPair& pair = results_.pair;
     for (const Gear* gear : {&pair.pinion, &pair.wheel}) {
@@ -100,20 +90,21 @@ class Run {
     }
   }
 
-  /// The mesh at a placement, with its further offsets where a derivative asks for them.
-  MeshModel mesh(const MeshPlacement& placement, const std::vector<double>& phases, const PairRootStress* root_stress) {
+  /// The mesh at a placement, with what derivatives by these parameters need.
+  MeshModel mesh(const MeshPlacement& placement, const std::vector<double>& phases, const PairRootStress* root_stress,
+                 const std::vector<MeshParameter>& parameters) {
     const MeshPlaced placed = [&](const MeshPlacement& at) {
       const Study& study = results_.study;
       return make_mesh_model(results_.pair, study.pinion_material, study.wheel_material, {study.fidelity.quadrature, phases},
                              results_.mesh_effects, at, structures().pair.get(), root_stress, results_.shafts.get());
     };
-    return axial_offsets_among(gradient_parameters()).empty() ? placed(placement) : with_further_offsets(placed, placement);
+    return with_further_meshes(placed(placement), placed, parameters);
   }
 
   /// The mesh for a misalignment, at phases of one's choice and without root stress.
-  MeshAt mesh_at(const Misalignment& misalignment) {
-    return [this, placement = MeshPlacement::of(gap_model(results_.effects), misalignment)](const std::vector<double>& phases) {
-      return mesh(placement, phases, nullptr);
+  MeshAt mesh_at(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters = {}) {
+    return [this, placement = MeshPlacement::of(gap_model(results_.effects), misalignment), parameters](const std::vector<double>& phases) {
+      return mesh(placement, phases, nullptr, parameters);
     };
   }
 
@@ -163,7 +154,7 @@ class Run {
   std::size_t model_for(const Misalignment& misalignment) {
     const MeshPlacement placement = MeshPlacement::of(gap_model(results_.effects), misalignment);
     const auto [it, is_new] = model_index_.try_emplace(placement, results_.models.size());
-    if (is_new) results_.models.push_back(mesh(placement, results_.phases, structures().root_stress.get()));
+    if (is_new) results_.models.push_back(mesh(placement, results_.phases, structures().root_stress.get(), gradient_parameters()));
     return it->second;
   }
 
@@ -215,7 +206,7 @@ class Run {
                         iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, condition), scene.torque, model.face_width)};
     result.summary = summarise(model, result.cycle);
     if (locates_peaks(results_.study) && result.cycle.usable()) {
-      const auto mesh = [this](const Misalignment& m) { return mesh_at(m); };
+      const auto mesh = [this](const Misalignment& m, const std::vector<MeshParameter>& by) { return mesh_at(m, by); };
       result.rating = rater_.rate(mesh, condition, scene.torque, gradient_parameters());
     }
     results_.loaded.push_back(std::move(result));

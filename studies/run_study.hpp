@@ -51,7 +51,7 @@ struct StudyResults {
   GearPair pair;
   std::vector<UnloadedResult> unloaded;
   std::vector<LoadedResult> loaded;
-  std::vector<MeshModel> models;  ///< one per axial offset
+  std::vector<MeshModel> models;  ///< one per placement
   std::vector<double> phases;     ///< of the loaded mesh positions [base pitches]
   std::optional<ResolutionChoice> resolution;  ///< of the load case that needed most positions, where they were chosen automatically
   GearStructures structures;      ///< empty where no structure was asked for, or none needed

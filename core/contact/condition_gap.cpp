@@ -1,5 +1,9 @@
 #include "core/contact/condition_gap.hpp"
 
+#include <string>
+
+#include "core/base/error.hpp"
+
 namespace flankwright {
 
 ConditionGap::ConditionGap(const GearPair& pair, GapModel model, const FlankCondition& condition)
@@ -16,10 +20,11 @@ Eigen::VectorXd ConditionGap::derivative(const std::vector<ContactPoint>& points
   return surfaces_ ? surfaces_->derivative(gap, member, parameter) : gap_derivative(pair_, points, condition_, member, parameter);
 }
 
-Eigen::VectorXd ConditionGap::derivative(const std::vector<ContactPoint>& points, double line_phase, const Gap& gap,
-                                         MisalignmentParameter parameter) const {
-  return surfaces_ ? surfaces_->derivative(points, line_phase, gap, parameter)
-                   : gap_derivative(pair_, points, condition_.misalignment, parameter);
+Eigen::VectorXd ConditionGap::derivative(const std::vector<ContactPoint>& points, MisalignmentParameter parameter) const {
+  if (surfaces_) {
+    throw InvalidInput("misalignment." + std::string(name_of(parameter)), "a derivative", "a parameter that leaves the contact points where they are");
+  }
+  return gap_derivative(pair_, points, condition_.misalignment, parameter);
 }
 
 }  // namespace flankwright

@@ -15,6 +15,8 @@ class ConditionGap {
   /// @throws InvalidInput  as SurfaceGap
   ConditionGap(const GearPair& pair, GapModel model, const FlankCondition& condition);
 
+  GapModel model() const { return surfaces_ ? GapModel::WholeSurface : GapModel::PlaneOfAction; }
+
   /// @param line_phase  of tooth pair 0, as the points were made for
   Gap at(const std::vector<ContactPoint>& points, double line_phase) const;
 
@@ -23,10 +25,9 @@ class ConditionGap {
   Eigen::VectorXd derivative(const std::vector<ContactPoint>& points, const Gap& gap, Member member,
                              ModificationParameter parameter) const;
 
-  /// dg/dp at each point for one number of the misalignment [mm/rad or mm/mm], exact, the points held.
-  /// @throws InvalidInput  for the axial offset in the plane of action, see gap_derivative()
-  Eigen::VectorXd derivative(const std::vector<ContactPoint>& points, double line_phase, const Gap& gap,
-                             MisalignmentParameter parameter) const;
+  /// dg/dp at each point for one number of the misalignment that leaves the points where they are [mm/rad or mm/mm], exact.
+  /// @throws InvalidInput  where it moves them: in the plane of action the axial offset, over the whole surface any
+  Eigen::VectorXd derivative(const std::vector<ContactPoint>& points, MisalignmentParameter parameter) const;
 
  private:
   const GearPair& pair_;

@@ -6,7 +6,6 @@
 
 #include "core/contact/contact_points.hpp"
 #include "core/contact/misalignment.hpp"
-#include "core/contact/section_maximum.hpp"
 #include "core/flank/removal.hpp"
 
 namespace flankwright {
@@ -42,7 +41,6 @@ struct NearestPlace {
     double share{0.0};                     ///< of the derivative [-]; both sides' add up to 1
   };
   std::array<Side, 2> sides;
-  SectionBound bound{SectionBound::None};  ///< what holds it in its section
 };
 
 /// Gap of unloaded flanks at each contact point, normal to the flank, before load.

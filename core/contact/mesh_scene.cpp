@@ -16,6 +16,7 @@ Eigen::Vector3d tilt(const GearPair& pair, const Misalignment& misalignment) {
   return {sense_of_crossing(pair) * misalignment.crossing, misalignment.intersecting, 0.0};
 }
 
+/// TM-107451, appendix 2 (A.2.1-A.2.8) with beta = pi/2 - lambda_p for the pinion as it was really made.
 void apply_pinion_errors(const GearPair& pair, const Misalignment& misalignment, Flank& flank) {
   const double beta = pair.data.helix_angle - misalignment.pinion_lead_angle;
   const double alpha_n = pair.data.pressure_angle + misalignment.pinion_pressure_angle;
@@ -23,10 +24,15 @@ void apply_pinion_errors(const GearPair& pair, const Misalignment& misalignment,
     throw InvalidInput("misalignment.pinion_lead_angle", std::to_string(misalignment.pinion_lead_angle),
                        "an error that leaves the helix and pressure angle between 0 and 90 deg");
   }
-  const PinionHelicoid helicoid = pinion_helicoid(pair, misalignment);
-  flank.base_radius = helicoid.base_radius.value;
-  flank.origin = helicoid.origin.value;
-  flank.helix_rate = helicoid.helix_rate.value;
+  const double cos_beta = std::cos(beta), tan_alpha = std::sin(alpha_n) / (std::cos(alpha_n) * cos_beta), alpha = std::atan(tan_alpha);
+  const double pitch_radius = 0.5 * pair.data.normal_module * pair.data.pinion.teeth / cos_beta;
+  // Polar angle of the flank at the pitch cylinder is what the tooth spacing fixes (mu_1 of A.1.1).
+  const double polar_angle = involute(pair.working_transverse_pressure_angle) - involute(pair.transverse_pressure_angle);
+  // A spur pinion with a lead error has a helix of the error's own hand: negative beta turns right-handed.
+  const double sense = pair.contact_line_sense() == 0 ? 1.0 : pair.contact_line_sense();
+  flank.base_radius = pitch_radius * std::cos(alpha);
+  flank.origin = polar_angle + tan_alpha - alpha;
+  flank.helix_rate = sense * std::sin(beta) / cos_beta / pitch_radius;
   flank.form_radius = std::max(flank.form_radius, flank.base_radius * lowest_start);
   if (!(flank.tip_radius > flank.form_radius)) {
     throw InvalidInput("misalignment.pinion_pressure_angle", std::to_string(misalignment.pinion_pressure_angle),
@@ -35,31 +41,6 @@ void apply_pinion_errors(const GearPair& pair, const Misalignment& misalignment,
 }
 
 }  // namespace
-
-/// TM-107451, appendix 2 (A.2.1-A.2.8) with beta = pi/2 - lambda_p for the pinion as it was really made.
-PinionHelicoid pinion_helicoid(const GearPair& pair, const Misalignment& misalignment) {
-  using Number = Dual<2>;
-  const Number beta = pair.data.helix_angle - Number::variable(misalignment.pinion_lead_angle, 0);
-  const Number alpha_n = pair.data.pressure_angle + Number::variable(misalignment.pinion_pressure_angle, 1);
-  const Number cos_beta = cos(beta), tan_alpha = sin(alpha_n) / (cos(alpha_n) * cos_beta), alpha = atan2(tan_alpha, Number(1.0));
-  const Number pitch_radius = 0.5 * pair.data.normal_module * pair.data.pinion.teeth / cos_beta;
-  // Polar angle of the flank at the pitch cylinder is what the tooth spacing fixes (mu_1 of A.1.1).
-  const double polar_angle = involute(pair.working_transverse_pressure_angle) - involute(pair.transverse_pressure_angle);
-  // A spur pinion with a lead error has a helix of the error's own hand: negative beta turns right-handed.
-  const double sense = pair.contact_line_sense() == 0 ? 1.0 : pair.contact_line_sense();
-  return {pitch_radius * cos(alpha), polar_angle + tan_alpha - alpha, sense * sin(beta) / cos_beta / pitch_radius};
-}
-
-/// Left Jacobian of the exponential map, 1 + (1 - cos a)/a^2 [v] + (a - sin a)/a^3 [v]^2 with [v] x = v cross x.
-Eigen::Vector3d tilt_rate(const GearPair& pair, const Misalignment& misalignment, double Misalignment::* parameter) {
-  const Eigen::Vector3d v = tilt(pair, misalignment);
-  Misalignment unit;
-  unit.*parameter = 1.0;
-  const Eigen::Vector3d along = tilt(pair, unit), once = v.cross(along), twice = v.cross(once);
-  const double angle = v.norm(), half = std::sin(0.5 * angle);
-  if (angle == 0.0) return along;
-  return along + 2.0 * half * half / (angle * angle) * once + (angle - std::sin(angle)) / (angle * angle * angle) * twice;
-}
 
 MeshScene make_mesh_scene(const GearPair& pair, const Misalignment& misalignment, const Modification& pinion_modification,
                           const Modification& wheel_modification, const ManufacturingError& pinion_error,

@@ -23,19 +23,6 @@ struct MeshScene {
   double speed_ratio() const { return static_cast<double>(pinion_teeth) / wheel_teeth; }
 };
 
-/// The pinion's helicoid as its errors leave it, each with its derivatives with respect to the lead-angle and the
-/// pressure-angle error.
-struct PinionHelicoid {
-  Dual<2> base_radius;  ///< r_b1 [mm]
-  Dual<2> origin;       ///< theta of the involute's start in the section z = 0 [rad]
-  Dual<2> helix_rate;   ///< s/p_1 [rad/mm]
-};
-/// See make_mesh_scene().
-PinionHelicoid pinion_helicoid(const GearPair& pair, const Misalignment& misalignment);
-
-/// Angular velocity of the wheel's axes in W per unit of crossing or intersecting, at the tilt as it is.
-Eigen::Vector3d tilt_rate(const GearPair& pair, const Misalignment& misalignment, double Misalignment::* parameter);
-
 /// Places the flanks of a pair. Lead-angle and pressure-angle error of the pinion change its helicoid:
 /// - pinion_lead_angle: TM-107451, appendix 2 in full: lambda_p1 changes, alpha_n is kept, so r_p1, r_b1 and p_1 follow;
 /// - pinion_pressure_angle: eqs 15-17: alpha_n changes, r_p1 and the helix angle on it are kept, so alpha_t, r_b1, lambda_b1 follow.

@@ -1,5 +1,6 @@
 #include "core/contact/misalignment_gap.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/base/error.hpp"
@@ -45,6 +46,10 @@ class PinionLeadSlope {
 };
 
 }  // namespace
+
+std::string_view name_of(MisalignmentParameter parameter) {
+  return std::ranges::find(misalignment_parameters, parameter, &NamedMisalignmentParameter::parameter)->name;
+}
 
 Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const Misalignment& misalignment,
                                MisalignmentParameter parameter) {

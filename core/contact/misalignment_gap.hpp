@@ -19,8 +19,8 @@ struct NamedMisalignmentParameter {
   std::string_view name;
 };
 
-/// All of them. The axial offset alone does more than open the gap: it cuts the common face elsewhere, which moves the points and
-/// their influence (OffsetSlopes of core/load).
+/// All of them. In the plane of action the axial offset alone does more than open the gap: it cuts the common face elsewhere, which moves the points and
+/// their influence (MeshSlopes of core/load).
 inline constexpr std::array<NamedMisalignmentParameter, 7> misalignment_parameters{{
     {&Misalignment::crossing, "crossing"},
     {&Misalignment::intersecting, "intersecting"},
@@ -30,6 +30,9 @@ inline constexpr std::array<NamedMisalignmentParameter, 7> misalignment_paramete
     {&Misalignment::pinion_pressure_angle, "pinion_pressure_angle"},
     {&Misalignment::mesh_misalignment, "mesh_misalignment"},
 }};
+
+/// The name of one of them.
+std::string_view name_of(MisalignmentParameter parameter);
 
 /// dg/dp of plane_of_action_gap() at each point [mm/rad or mm/mm], exact, the points held.
 /// @throws InvalidInput for the axial offset, by which points move

@@ -5,27 +5,6 @@
 
 namespace flankwright {
 
-namespace {
-
-/// How a point of the pinion's flank moves with its lead-angle (0) or pressure-angle (1) error, rho and z held [mm/rad]:
-///
-///     point = r_b e + along t,   theta = origin + rate z - rho/r_b,   along = rho - D(sqrt(r_b^2 + rho^2), z)
-Eigen::Vector3d motion_by_error(const Flank& pinion, const PinionHelicoid& helicoid, int error, const Meeting& m,
-                                const Eigen::Vector3d& point, int tooth) {
-  const double rb = pinion.base_radius, d_rb = helicoid.base_radius.gradient[error];
-  // Only the part of D that is a function of the radius changes with r_b.
-  Dual<1> removed = pinion.deviation(Dual<1>::variable(m.rho, 0), Dual<1>(m.z), tooth);
-  for (const auto& field : pinion.fields) removed.gradient[0] -= field->at(m.rho, m.z).u;
-  if (const DeviationField* measured = tooth_topography(pinion.error, tooth)) removed.gradient[0] -= measured->at(m.rho, m.z).u;
-  const Eigen::Vector3d radial(point.x(), point.y(), 0.0), turned(-point.y(), point.x(), 0.0);  // turned = r_b t - along e
-  const double square = radial.squaredNorm(), along = std::sqrt(std::max(0.0, square - rb * rb));
-  const Eigen::Vector3d e = (rb * radial - along * turned) / square, t = (along * radial + rb * turned) / square;
-  return (1.0 - along * m.rho / (rb * rb)) * d_rb * e + (m.rho / rb - removed.gradient[0] * rb / m.rho) * d_rb * t +
-         (helicoid.origin.gradient[error] + m.z * helicoid.helix_rate.gradient[error]) * turned;
-}
-
-}  // namespace
-
 SurfaceGap::SurfaceGap(const GearPair& pair, const FlankCondition& condition)
     : pair_(pair),
       condition_(condition),
@@ -75,7 +54,6 @@ NearestPlace SurfaceGap::nearest_place(const SectionMaximum& found, int tooth) c
                               scale * by_pinion,                              scale * touch.wheel_pace / wheel.base_radius, share};
   };
   NearestPlace place;
-  place.bound = found.bound;
   place.sides[0] = side(touch_at(found.at), 1.0 - found.share_beyond);
   if (found.share_beyond != 0.0) place.sides[1] = side(found.beyond, found.share_beyond);
   place.pinion_radius = place.sides[0].pinion_radius;
@@ -116,63 +94,6 @@ Eigen::VectorXd SurfaceGap::derivative(const Gap& gap, Member member, Modificati
       derivative[static_cast<Eigen::Index>(i)] +=
           side.share * (member == Member::Pinion ? side.by_pinion * by_parameter(side.pinion_radius, side.pinion_z)
                                                  : side.by_wheel * by_parameter(side.wheel_radius, side.wheel_z));
-    }
-  }
-  return derivative;
-}
-
-/// d(phi2)/dp of the place held on what bounds it: how the point moves relative to the wheel, and how far it slides for that.
-double SurfaceGap::angle_derivative(const FlankMeeting& meeting, const NearestPlace& place, const NearestPlace::Side& side,
-                                    const ContactPoint& section, double Misalignment::* parameter) const {
-  const Flank& pinion = scene_.pinion;
-  const double rho = pinion.roll_at(side.pinion_radius);
-  const Meeting m = meeting.at(rho, section.z);
-  const Eigen::Vector3d arm = scene_.wheel_axes * m.place;  // from the wheel's centre, housing
-  Eigen::Vector3d motion = Eigen::Vector3d::Zero();
-  double bound_moves = 0.0;  // of the pinion's roll length at tip or root
-  if (parameter == &Misalignment::crossing || parameter == &Misalignment::intersecting) {
-    motion = -tilt_rate(pair_, condition_.misalignment, parameter).cross(arm);
-  } else if (parameter == &Misalignment::centre_distance) {
-    motion = -Eigen::Vector3d::UnitX();
-  } else if (parameter == &Misalignment::axial_offset) {
-    motion = -Eigen::Vector3d::UnitZ();
-  } else {
-    const PinionHelicoid helicoid = pinion_helicoid(pair_, condition_.misalignment);
-    const int error = parameter == &Misalignment::pinion_lead_angle ? 0 : 1;
-    const double rb = pinion.base_radius, d_rb = helicoid.base_radius.gradient[error];
-    motion = motion_by_error(pinion, helicoid, error, m, arm + scene_.wheel_centre, section.tooth);
-    const bool at_lowest_start = place.bound == SectionBound::PinionRoot && pinion.form_radius == rb * lowest_start;
-    if (place.bound == SectionBound::PinionTip || place.bound == SectionBound::PinionRoot) {
-      bound_moves = at_lowest_start ? rho / rb * d_rb : -rb / rho * d_rb;
-    }
-  }
-  if (m.on_wheel_end) {
-    const Eigen::Vector3d axis = scene_.wheel_axes.col(2);
-    motion -= m.along_z * (axis.dot(motion) / axis.dot(m.along_z));
-  }
-  double derivative = m.turn.dot(motion) + m.angle.rho * bound_moves;
-  if (place.bound == SectionBound::WheelTip || place.bound == SectionBound::WheelRoot) {
-    const Eigen::Vector3d outwards = scene_.wheel_axes * Eigen::Vector3d(m.place.x(), m.place.y(), 0.0) / m.wheel_radius;
-    derivative -= m.angle.rho / meeting.radius_gradient(m).rho * outwards.dot(motion);
-  }
-  return derivative;
-}
-
-Eigen::VectorXd SurfaceGap::derivative(const std::vector<ContactPoint>& points, double line_phase, const Gap& gap,
-                                       double Misalignment::* parameter) const {
-  const double phi1 = PathOfContact(pair_).pinion_angle_at(line_phase, pair_);
-  const double scale = scene_.wheel.base_radius * std::cos(pair_.base_helix_angle);
-  Eigen::VectorXd derivative = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const NearestPlace& place = gap.nearest[i];
-    const FlankMeeting meeting(scene_, points[i].tooth, phi1);
-    for (const NearestPlace::Side& side : place.sides) {
-      if (side.share == 0.0) continue;
-      // F_beta_y is removed from the wheel as z/b of its own.
-      derivative[static_cast<Eigen::Index>(i)] +=
-          side.share * (parameter == &Misalignment::mesh_misalignment
-                            ? side.by_wheel * side.wheel_z / pair_.face_width
-                            : -scale * angle_derivative(meeting, place, side, points[i], parameter));
     }
   }
   return derivative;

@@ -43,19 +43,12 @@ class SurfaceGap {
   /// @param gap  as at() gave it
   Eigen::VectorXd derivative(const Gap& gap, Member member, ModificationParameter parameter) const;
 
-  /// dg/dp at each point for one number of the misalignment [mm/rad or mm/mm], exact in the same sense, the sections held.
-  /// @param points, line_phase, gap  as at() was given them and gave it
-  Eigen::VectorXd derivative(const std::vector<ContactPoint>& points, double line_phase, const Gap& gap,
-                             double Misalignment::* parameter) const;
-
   /// The points, each moved along its section to where the flanks are nearest, radii, curvature, depths and tip distances with
   /// it; without those whose section misses the mate. Clearances outside A .. E become those of the aligned pair sought likewise.
   std::vector<ContactPoint> place(const std::vector<ContactPoint>& points, double line_phase) const;
 
  private:
   NearestPlace nearest_place(const SectionMaximum& found, int tooth) const;
-  double angle_derivative(const FlankMeeting& meeting, const NearestPlace& place, const NearestPlace::Side& side,
-                          const ContactPoint& section, double Misalignment::* parameter) const;
   std::vector<SectionMaximum> maxima(const std::vector<ContactPoint>& points, double line_phase) const;
 
   GearPair pair_;

@@ -5,7 +5,7 @@
 
 #include "core/contact/condition_gap.hpp"
 #include "core/contact/path_of_contact.hpp"
-#include "core/load/axial_offset.hpp"
+#include "core/load/mesh_motion.hpp"
 #include "core/load/load_factors.hpp"
 
 namespace flankwright {
@@ -97,9 +97,11 @@ Eigen::RowVectorXd misalignment_derivative(const MeshModel& model, const FlankCo
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     if (!acts(parameters[p], lead_part)) derivative[static_cast<Eigen::Index>(p)] = 0.0;
   }
-  for (const Eigen::Index p : axial_offsets_among(parameters)) {
-    const auto moved = [&](std::size_t k) { return linear_part(pair, placed_as(further_mesh(model, k), condition), worst); };
-    derivative[p] = sign * first_slope(linear_part(pair, condition, worst), moved(0), moved(1), further_mesh(model, 0).axial_offset - model.axial_offset);
+  for (const Eigen::Index p : moving_among(GapModel::PlaneOfAction, parameters)) {
+    const auto parameter = std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]);
+    const FurtherMeshes& further = further_meshes(model, parameter);
+    const auto moved = [&](std::size_t k) { return linear_part(pair, placed_as(further.meshes[k], parameter, condition), worst); };
+    derivative[p] = sign * first_slope(linear_part(pair, condition, worst), moved(0), moved(1), further.step);
   }
   return derivative;
 }

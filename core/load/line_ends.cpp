@@ -54,9 +54,9 @@ std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, c
   const Eigen::VectorXd gap = ConditionGap(model.pair, model.placement.gap, condition).at(points, at.phase).total;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     LineEnd& end = ends[i];
-    const double left = loaded.load.transmission_error - gap[static_cast<Eigen::Index>(i)] - end.structural_deflection;
-    end.contact_deflection = std::max(0.0, left);
-    end.line_load = line_load_for(*model.contact_law(points[i]), left);
+    end.approach = loaded.load.transmission_error - gap[static_cast<Eigen::Index>(i)] - end.structural_deflection;
+    end.contact_deflection = std::max(0.0, end.approach);
+    end.line_load = line_load_for(*model.contact_law(points[i]), end.approach);
     end.contact_stress = std::sqrt(end.line_load * model.contact_modulus / (units::pi * points[i].relative_radius));
     end.place = points[i];
   }

@@ -11,7 +11,8 @@ struct LineEnd {
   int tooth{0};
   double z{not_given};                      ///< [mm]
   double structural_deflection{not_given};  ///< extrapolated [mm]
-  double contact_deflection{not_given};     ///< what is left of f_t, 0 where nothing is [mm]
+  double approach{not_given};               ///< what gap and structure leave of f_t, below 0 where flanks stay apart [mm]
+  double contact_deflection{not_given};     ///< the same, 0 where nothing is left [mm]
   double line_load{not_given};              ///< [N/mm]
   double contact_stress{not_given};         ///< sigma_H [MPa]
   ContactPoint place{};                     ///< the end as a point of the mesh, without a weight

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <deque>
 #include <limits>
-#include <optional>
 
 #include "core/contact/condition_gap.hpp"
 #include "core/contact/transmission_error.hpp"
-#include "core/load/axial_offset.hpp"
+#include "core/load/mesh_motion.hpp"
 #include "core/load/sensitivity.hpp"
 
 namespace flankwright {
@@ -68,16 +68,16 @@ void raise(RootStressPeak& peak, const RootStressPeak& other) {
   peak.tangent_stress = tangent;
 }
 
-/// What the axial offset changes, and which parameters it is.
+/// What a parameter that moves the mesh changes, and which it is.
 struct MovedMesh {
-  const std::vector<Eigen::Index>& columns;
-  OffsetSlope slope{};
+  Eigen::Index column;
+  MeshSlope slope;
 };
 
 /// Without force flanks touch at the nearest point, and move with it.
-void fill_derivatives(const LoadProblem& problem, const MovedMesh& moved, ParameterSlopes slopes, LoadedPosition& position) {
+void fill_derivatives(const LoadProblem& problem, const std::vector<MovedMesh>& moved, ParameterSlopes slopes, LoadedPosition& position) {
   const Eigen::Index n = problem.gap.size(), m = slopes.gap.cols();
-  for (const Eigen::Index p : moved.columns) slopes.gap.col(p) = moved.slope.gap;
+  for (const auto& [p, slope] : moved) slopes.gap.col(p) = slope.gap;
   position.line_load_derivative = Eigen::MatrixXd::Zero(n, m);
   position.approach_derivative = Eigen::RowVectorXd::Zero(m);
   Eigen::Index nearest = 0;
@@ -86,9 +86,9 @@ void fill_derivatives(const LoadProblem& problem, const MovedMesh& moved, Parame
   position.transmission_error_derivative = nearest_slope;
   position.gap_derivative = slopes.gap;
   if (m == 0 || problem.force == 0.0) return;
-  for (const Eigen::Index p : moved.columns) {
-    slopes.gap.col(p) += moved.slope.deflection;
-    slopes.force[p] -= moved.slope.carried_force;
+  for (const auto& [p, slope] : moved) {
+    slopes.gap.col(p) += slope.deflection;
+    slopes.force[p] -= slope.carried_force;
   }
   auto derivatives = LoadSensitivity(problem, position.load).with(slopes.gap, slopes.force);
   position.line_load_derivative = std::move(derivatives.line_load);
@@ -97,15 +97,14 @@ void fill_derivatives(const LoadProblem& problem, const MovedMesh& moved, Parame
 }
 
 /// What remains where loads are held: stress follows the curvature, root stress the places of the points.
-void add_moved_places(const MeshPosition& at, const MovedMesh& moved, LoadedPosition& position) {
-  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(moved.slope.root_components.size(), position.line_load_derivative.cols());
-  position.root_influence_derivative = none;
-  for (const Eigen::Index p : moved.columns) {
+void add_moved_places(const MeshPosition& at, const std::vector<MovedMesh>& moved, LoadedPosition& position) {
+  position.root_influence_derivative = Eigen::MatrixXd::Zero(moved.front().slope.root_components.size(), position.line_load_derivative.cols());
+  for (const auto& [p, slope] : moved) {
     for (Eigen::Index i = 0; i < position.contact_stress.size(); ++i) {
       const double radius = at.points[static_cast<std::size_t>(i)].relative_radius;
-      position.contact_stress_derivative(i, p) -= position.contact_stress[i] / (2.0 * radius) * moved.slope.relative_radius[i];
+      position.contact_stress_derivative(i, p) -= position.contact_stress[i] / (2.0 * radius) * slope.relative_radius[i];
     }
-    position.root_influence_derivative.col(p) = moved.slope.root_components;
+    position.root_influence_derivative.col(p) = slope.root_components;
   }
 }
 
@@ -124,13 +123,13 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
   cycle.positions.resize(model.positions.size());
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
   const ConditionGap gaps(model.pair, model.placement.gap, condition);
-  const std::vector<Eigen::Index> offsets = axial_offsets_among(parameters);
-  std::optional<OffsetSlopes> by_offset;
-  if (!offsets.empty()) by_offset.emplace(model, condition);
+  const std::vector<Eigen::Index> moving = moving_among(model.placement.gap, parameters);
+  std::deque<MeshSlopes> slopes_of;  // of each of them
   cycle.face_width_change = cycle.line_length_change = Eigen::RowVectorXd::Zero(std::ssize(parameters));
-  for (const Eigen::Index p : offsets) {
-    cycle.face_width_change[p] = by_offset->face_width() / model.face_width;
-    cycle.line_length_change[p] = by_offset->relative_line_length();
+  for (const Eigen::Index p : moving) {
+    const MeshSlopes& by = slopes_of.emplace_back(model, condition, std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]));
+    cycle.face_width_change[p] = by.face_width() / model.face_width;
+    cycle.line_length_change[p] = by.relative_line_length();
   }
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const MeshPosition& at = model.positions[i];
@@ -148,11 +147,11 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     }
     ParameterSlopes slopes = parameter_slopes(model, at, gaps, position.gap, parameters);
     cycle.force_derivative = slopes.force;
-    MovedMesh moved{offsets};
-    if (by_offset) moved.slope = by_offset->at(i, position.load, position.gap);
+    std::vector<MovedMesh> moved;
+    for (std::size_t k = 0; k < moving.size(); ++k) moved.push_back({moving[k], slopes_of[k].at(i, position.load, position.gap)});
     fill_derivatives(problem, moved, std::move(slopes), position);
     fill_stress(model, at, position);
-    if (by_offset) add_moved_places(at, moved, position);
+    if (!moved.empty()) add_moved_places(at, moved, position);
     if (!at.root_stress.places.empty()) fill_root_stress(at, position);
     const double approach = position.load.transmission_error - position.gap.total.minCoeff();
     position.stiffness = cycle.force / model.face_width * cos_base_helix * cos_base_helix / (approach / micrometre);

@@ -26,7 +26,7 @@ struct LoadedPosition {
   Eigen::MatrixXd contact_stress_derivative;  ///< dsigma_H/dp, n x m
   Eigen::RowVectorXd transmission_error_derivative;  ///< df_t/dp, 1 x m
   Eigen::RowVectorXd approach_derivative;            ///< of f_t - min(g), one point's where several are nearest, 1 x m
-  Eigen::MatrixXd root_influence_derivative;  ///< of RootStressInfluence::components a w at held loads, 3 places x m; empty without axial offset
+  Eigen::MatrixXd root_influence_derivative;  ///< of RootStressInfluence::components a w at held loads, 3 places x m; empty where no parameter moves the mesh
 };
 
 /// Loaded contact over the positions of a MeshModel.
@@ -50,9 +50,9 @@ struct LoadedCycle {
 /// @param condition      GapModel::WholeSurface: with the misalignment that the model was placed for
 /// @param pinion_torque  [N mm], >= 0
 /// @param parameters     derivatives are computed for these; empty: none. Without torque there is none with respect to it: what
-///                       the flanks yield first is infinite per unit load, and 0 stands in its place. Points' derivatives by the axial offset
-///                       follow them as the mesh moves, see OffsetSlopes
-/// @throws InvalidInput  where the axial offset is among the parameters and the model knows no further offsets
+///                       the flanks yield first is infinite per unit load, and 0 stands in its place. Points' derivatives by what
+///                       moves the mesh follow them, see MeshSlopes
+/// @throws InvalidInput  where a parameter moves the mesh and the model knows no further meshes along it
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
                           const std::vector<MeshParameter>& parameters = {}, const LoadOptions& options = {});
 

@@ -64,7 +64,7 @@ double MeshModel::mean_line_load(double force) const {
   for (const MeshPosition& position : positions) {
     for (const ContactPoint& point : position.points) length += point.clearance == 0.0 ? point.weight : 0.0;
   }
-  return force * static_cast<double>(positions.size()) / length;
+  return length > 0.0 ? force * static_cast<double>(positions.size()) / length : not_given;
 }
 
 MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/contact/misalignment_gap.hpp"
 #include "core/contact/path_of_contact.hpp"
 #include "core/effects/mesh_effects.hpp"
 #include "core/gear/gear_pair.hpp"
@@ -38,6 +39,15 @@ struct MeshPosition {
   RootStressInfluence root_stress{};  ///< no places: not asked for
 };
 
+struct MeshModel;
+
+/// The same mesh one and two steps further along a parameter that moves it, see MeshSlopes.
+struct FurtherMeshes {
+  MisalignmentParameter parameter;
+  double step;  ///< [mm or rad]
+  std::vector<MeshModel> meshes;
+};
+
 struct MeshModel {
   GearPair pair;
   Material pinion_material, wheel_material;
@@ -49,12 +59,11 @@ struct MeshModel {
   double calibration{not_given};      ///< kappa of the thin slice
   IsoStiffness iso;
   std::vector<MeshPosition> positions;
-  /// The same mesh with the wheel one and two steps further along +z, see OffsetSlopes; empty where no derivative by the offset is asked for.
-  std::vector<MeshModel> further{};
+  std::vector<FurtherMeshes> further{};  ///< along each parameter that derivatives are asked for by and that moves the mesh
 
   /// Force normal to the flanks for a torque on the pinion [N]; torque in N mm.
   double normal_force(double pinion_torque) const;
-  /// Force over the mean length of the contact lines on the theoretical path [N/mm].
+  /// Force over the mean length of the contact lines on the theoretical path [N/mm]; NaN where no point lies on it.
   double mean_line_load(double force) const;
   /// A place of tooth pair `tooth`'s line, where the effects put it; nothing where no contact can be.
   std::optional<ContactPoint> place(const PathOfContact& path, double phase, int tooth, double z) const;

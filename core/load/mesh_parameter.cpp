@@ -11,7 +11,7 @@ ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at,
     if (const auto* gear = std::get_if<GearParameter>(&which)) {
       slopes.gap.col(p) = gaps.derivative(at.points, gap, gear->member, gear->parameter);
     } else if (const auto* misalignment = std::get_if<MisalignmentParameter>(&which)) {
-      if (*misalignment != &Misalignment::axial_offset) slopes.gap.col(p) = gaps.derivative(at.points, at.phase, gap, *misalignment);
+      if (!moves_mesh(gaps.model(), which)) slopes.gap.col(p) = gaps.derivative(at.points, *misalignment);
     } else {
       slopes.force[p] = model.normal_force(1.0);
     }
@@ -19,11 +19,18 @@ ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at,
   return slopes;
 }
 
-std::vector<Eigen::Index> axial_offsets_among(const std::vector<MeshParameter>& parameters) {
+bool moves_mesh(GapModel gap, const MeshParameter& parameter) {
+  const auto* misalignment = std::get_if<MisalignmentParameter>(&parameter);
+  if (!misalignment) return false;
+  Misalignment unit;
+  unit.*(*misalignment) = 1.0;
+  return MeshPlacement::of(gap, unit) != MeshPlacement::of(gap, {});
+}
+
+std::vector<Eigen::Index> moving_among(GapModel gap, const std::vector<MeshParameter>& parameters) {
   std::vector<Eigen::Index> found;
   for (std::size_t p = 0; p < parameters.size(); ++p) {
-    const auto* misalignment = std::get_if<MisalignmentParameter>(&parameters[p]);
-    if (misalignment && *misalignment == &Misalignment::axial_offset) found.push_back(static_cast<Eigen::Index>(p));
+    if (moves_mesh(gap, parameters[p])) found.push_back(static_cast<Eigen::Index>(p));
   }
   return found;
 }

@@ -23,14 +23,16 @@ using MeshParameter = std::variant<GearParameter, MisalignmentParameter, PinionT
 
 /// How parameters enter the load problem of one mesh position.
 struct ParameterSlopes {
-  Eigen::MatrixXd gap;       ///< dg/dp, points x parameters; 0 for the axial offset, see OffsetSlope
+  Eigen::MatrixXd gap;       ///< dg/dp, points x parameters; 0 for what moves the mesh, see MeshSlope
   Eigen::RowVectorXd force;  ///< dF/dp
 };
 /// @param gap  as gaps has it at this position
 ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at, const ConditionGap& gaps, const Gap& gap,
                                  const std::vector<MeshParameter>& parameters);
 
-/// Where among the parameters the axial offset stands, which alone changes more than gap and force.
-std::vector<Eigen::Index> axial_offsets_among(const std::vector<MeshParameter>& parameters);
+/// Whether a parameter changes more than gap and force: what a mesh is placed by, see MeshPlacement.
+bool moves_mesh(GapModel gap, const MeshParameter& parameter);
+/// Where among the parameters those stand.
+std::vector<Eigen::Index> moving_among(GapModel gap, const std::vector<MeshParameter>& parameters);
 
 }  // namespace flankwright

@@ -1,10 +1,11 @@
 #include "core/load/peak_gradient.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
-#include "core/load/axial_offset.hpp"
+#include "core/load/mesh_motion.hpp"
 #include "core/load/line_region.hpp"
 
 namespace flankwright {
@@ -46,14 +47,15 @@ struct PlacedPeak {
 std::optional<double> phase_slope_of_points(const PlacedPeak& at) {
   const double near = 2.0 * at.peaks.phase_tolerance;
   const MeshModel model = at.mesh_at({at.peak.phase - near, at.peak.phase + near});
+  const FurtherMeshes& further = further_meshes(model, &Misalignment::axial_offset);
   const LineRegion region(model);
   for (std::size_t p = 0; p < model.positions.size(); ++p) {
-    const std::vector<ContactPoint>&points = model.positions[p].points, &further = further_mesh(model, 0).positions[p].points;
-    const std::vector<Eigen::Index> same = same_points(model.positions[p], further_mesh(model, 0).positions[p]);
+    const std::vector<ContactPoint>&points = model.positions[p].points, &moved = further.meshes[0].positions[p].points;
+    const std::vector<Eigen::Index> same = same_points(model.positions[p], further.meshes[0].positions[p]);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const auto passes = [&](double mark) { return std::abs(points[i].phase - mark) <= 2.0 * near; };
       if (same[i] < 0 || !(passes(0.0) || passes(region.first) || passes(region.last) || passes(region.path.region_length))) continue;
-      return (points[i].phase - further[static_cast<std::size_t>(same[i])].phase) / (further_mesh(model, 0).axial_offset - model.axial_offset);
+      return (points[i].phase - moved[static_cast<std::size_t>(same[i])].phase) / further.step;
     }
   }
   return std::nullopt;
@@ -61,44 +63,48 @@ std::optional<double> phase_slope_of_points(const PlacedPeak& at) {
 
 /// How a peak's phase moves with the axial offset [base pitches per mm]: as the event does that it lies at. Between events, where the
 /// slope over the phase is zero, it may be held.
-double phase_slope(const MeshModel& model, const PlacedPeak& at) {
+double phase_slope(const MeshModel& model, const FurtherMeshes& further, const PlacedPeak& at) {
   const double share = at.peaks.spikes.line_share;
-  const std::vector<double> events = unsorted_line_events(model, share), further = unsorted_line_events(further_mesh(model, 0), share);
+  const std::vector<double> events = unsorted_line_events(model, share), moved = unsorted_line_events(further.meshes[0], share);
   for (std::size_t i = 0; i < events.size(); ++i) {
     const double distance = at.peak.phase - events[i];
     if (std::abs(distance - std::round(distance)) > 2.0 * at.peaks.phase_tolerance) continue;
-    return (further[i] - events[i]) / (further_mesh(model, 0).axial_offset - model.axial_offset);
+    return (moved[i] - events[i]) / further.step;
   }
   return phase_slope_of_points(at).value_or(0.0);
 }
 
-/// The mesh at the peak, which further along has the phase that the peak then has.
-MeshModel mesh_along(const PlacedPeak& at) {
-  const MeshModel held = at.mesh_at({at.peak.phase});
-  const double by_phase = phase_slope(held, at), step = further_mesh(held, 0).axial_offset - held.axial_offset;
+/// The mesh at the peak, which with a further axial offset has the phase that the peak then has. No other parameter moves what a line begins and ends at.
+MeshModel mesh_along(const PlacedPeak& at, const std::vector<MeshParameter>& parameters) {
+  MeshModel held = at.mesh_at({at.peak.phase});
+  constexpr MisalignmentParameter offset = &Misalignment::axial_offset;
+  const auto is_offset = [](const MeshParameter& p) { return std::holds_alternative<MisalignmentParameter>(p) && std::get<MisalignmentParameter>(p) == offset; };
+  const auto of_offset = std::ranges::find(held.further, offset, &FurtherMeshes::parameter);
+  if (std::ranges::none_of(parameters, is_offset) || of_offset == held.further.end()) return held;
+  const double by_phase = phase_slope(held, *of_offset, at), step = of_offset->step;
   if (by_phase == 0.0) return held;
-  MeshModel along = at.mesh_at({at.peak.phase, at.peak.phase + step * by_phase, at.peak.phase + 2.0 * step * by_phase});
-  for (std::size_t k = 0; k < along.further.size(); ++k) along.further[k].positions = {along.further[k].positions[k + 1]};
-  along.positions.resize(1);
-  return along;
+  const MeshModel along = at.mesh_at({at.peak.phase + step * by_phase, at.peak.phase + 2.0 * step * by_phase});
+  const FurtherMeshes& moved = further_meshes(along, &Misalignment::axial_offset);
+  for (std::size_t k = 0; k < moved.meshes.size(); ++k) of_offset->meshes[k].positions = {moved.meshes[k].positions[k]};
+  return held;
 }
 
-/// How the share of a place changes with the axial offset [1/mm]: a cut between points lies at a phase of its own, and moves along the line with that.
+/// How the share of a place changes with a parameter [1 per unit]: a cut between points lies at a phase of its own, and moves along the line with that.
 /// NaN where it passes a point.
-double share_slope(const MeshModel& model, std::size_t position, int tooth, const LinePlace& place) {
+double share_slope(const MeshModel& model, const FurtherMeshes& further, std::size_t position, int tooth, const LinePlace& place) {
   if (place.share == 0.0) return 0.0;
   const MeshPosition& at = model.positions[position];
   const auto first = static_cast<std::size_t>(place.point);
   const double cut = (1.0 - place.share) * at.points[first].z + place.share * at.points[first + 1].z;
   std::array<double, 2> shares{};
   for (std::size_t k = 0; k < shares.size(); ++k) {
-    const MeshPosition& there = further_mesh(model, k).positions[position];
+    const MeshPosition& there = further.meshes[k].positions[position];
     const double moved = cut - (there.phase - at.phase) / PathOfContact(model.pair).slope;
-    const LinePlace moved_place = place_on_line(further_mesh(model, k), there, tooth, moved);
+    const LinePlace moved_place = place_on_line(further.meshes[k], there, tooth, moved);
     if (moved_place.point != same_points(at, there)[first]) return not_given;
     shares[k] = moved_place.share;
   }
-  return first_slope(place.share, shares[0], shares[1], further_mesh(model, 0).axial_offset - model.axial_offset);
+  return first_slope(place.share, shares[0], shares[1], further.step);
 }
 
 /// What is peaked, at a place of a position, and its derivatives there.
@@ -118,15 +124,16 @@ Reading read(const PlacedPeak& at, const MeshModel& model, const LoadedCycle& cy
   const double next = values[place.point + 1], t = place.share, n = at.of_stress ? 2.0 : 1.0;
   const double value = std::pow((1.0 - t) * std::pow(first, n) + t * std::pow(next, n), 1.0 / n), mean = std::pow(value, n - 1.0);
   Reading reading{value, ((1.0 - t) * std::pow(first, n - 1.0) * slopes.row(place.point) + t * std::pow(next, n - 1.0) * slopes.row(place.point + 1)) / mean};
-  for (const Eigen::Index p : axial_offsets_among(parameters)) {
-    reading.slopes[p] += share_slope(model, position, at.peak.tooth, place) * (std::pow(next, n) - std::pow(first, n)) / (n * mean);
+  for (const Eigen::Index p : moving_among(model.placement.gap, parameters)) {
+    const FurtherMeshes& further = further_meshes(model, std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]));
+    reading.slopes[p] += share_slope(model, further, position, at.peak.tooth, place) * (std::pow(next, n) - std::pow(first, n)) / (n * mean);
   }
   return reading;
 }
 
 /// At the peak itself, which with the axial offset goes with its event; empty where the mesh has no such place.
 Eigen::RowVectorXd held_gradient(const PlacedPeak& at, const std::vector<MeshParameter>& parameters) {
-  const MeshModel model = axial_offsets_among(parameters).empty() ? at.mesh_at({at.peak.phase}) : mesh_along(at);
+  const MeshModel model = mesh_along(at, parameters);
   const LinePlace place = place_on_line(model, model.positions.front(), at.peak.tooth, at.peak.z);
   const LoadedCycle cycle = analyse_cycle(model, at.condition, at.torque, parameters);
   if (!cycle.usable() || place.point < 0) return {};

@@ -17,7 +17,7 @@ namespace flankwright {
 ///
 /// the phase held on either side, so that nothing need be known of how the kink moves. Both sides are read two and four
 /// phase_tolerance of the search off the summit and extrapolated to it. Of a jump it is that of the same place of the line at the phase held; with the axial offset, which moves jumps, the place
-/// goes with its event, so that the further meshes of OffsetSlopes are those at the phases that it then has; NaN where it passes a point on the way.
+/// goes with its event, so that the further meshes of MeshSlopes are those at the phases that it then has; NaN where it passes a point on the way.
 /// Of equal peaks it is that of the one found, by which the largest rises on one side at least.
 struct PeakGradients {
   struct Pair {
@@ -27,7 +27,7 @@ struct PeakGradients {
   Pair with_spikes, without_spikes;
 };
 
-/// @param mesh_at  makes meshes with MeshModel::further where the axial offset is among the parameters
+/// @param mesh_at  makes meshes with MeshModel::further along those of the parameters that move it
 /// @param peaks    as locate_peaks() found them for the same mesh, condition and torque
 PeakGradients peak_gradients(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque, const ContactPeaks& peaks,
                              const std::vector<MeshParameter>& parameters);

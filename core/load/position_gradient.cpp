@@ -4,7 +4,7 @@
 
 #include "core/base/natural_spline.hpp"
 #include "core/contact/condition_gap.hpp"
-#include "core/load/offset_way.hpp"
+#include "core/load/mesh_way.hpp"
 
 namespace flankwright {
 
@@ -70,12 +70,32 @@ Eigen::VectorXd clearances(const MeshPosition& at) {
   return all;
 }
 
-/// @param of  one of the numbers of an end
-Eigen::VectorXd end_values(const OffsetWay::Stage& stage, double LineEnd::* of) {
+/// Of the ends of lines, one after the other: approach, contact deflection under these ends' loads, relative radius [mm]; empty where their number is another.
+Eigen::VectorXd end_readings(const MeshWay::Stage& stage, const std::vector<LineEnd>& held) {
   const std::vector<LineEnd> ends = line_ends(stage.model, stage.at, stage.loaded, stage.condition);
-  Eigen::VectorXd values(std::ssize(ends));
-  for (Eigen::Index i = 0; i < values.size(); ++i) values[i] = ends[static_cast<std::size_t>(i)].*of;
-  return values;
+  if (ends.size() != held.size()) return {};
+  const Eigen::Index n = std::ssize(ends);
+  Eigen::VectorXd readings(3 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const LineEnd& end = ends[static_cast<std::size_t>(i)];
+    readings[i] = end.approach;
+    readings[n + i] = stage.model.contact_law(end.place)->deflection(held[static_cast<std::size_t>(i)].line_load);
+    readings[2 * n + i] = end.place.relative_radius;
+  }
+  return readings;
+}
+
+/// Where the mesh moves, with it an end's place and law: dw = (d(f_t - g - S) - dc at w held)/c', and the stress follows the curvature.
+void move_line_ends(const MeshModel& model, const MeshWay& way, const std::vector<LineEnd>& ends, Eigen::Index column, PositionGradient& gradient) {
+  const Eigen::VectorXd slopes = way.slope([&](const MeshWay::Stage& s) { return end_readings(s, ends); });
+  const Eigen::Index n = std::ssize(ends);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const LineEnd& end = ends[static_cast<std::size_t>(i)];
+    if (!(end.line_load > 0.0)) continue;
+    const double load = (slopes[i] - slopes[n + i]) / model.contact_law(end.place)->slope(end.line_load);
+    gradient.line_end_load(i, column) = load;
+    gradient.line_end_stress(i, column) = 0.5 * end.contact_stress * (load / end.line_load - slopes[2 * n + i] / end.place.relative_radius);
+  }
 }
 
 }  // namespace
@@ -91,13 +111,12 @@ PositionGradient position_gradient(const MeshModel& model, const FlankCondition&
   gradient.gap = loaded.gap_derivative;
   gradient.error = -gradient.gap;
   add_line_ends(model, condition, at, loaded, ends, parameters, gradient);
-  for (const Eigen::Index p : axial_offsets_among(parameters)) {
-    const OffsetWay way(model, condition, loaded, position, p);
-    gradient.point_force.col(p) = way.point_slope([](const OffsetWay::Stage& s) { return Eigen::VectorXd(s.at.weight.cwiseProduct(s.loaded.load.line_load)); });
-    gradient.structural_deflection.col(p) = way.point_slope([](const OffsetWay::Stage& s) { return s.loaded.load.structural_deflection; });
-    gradient.error.col(p) += way.point_slope([](const OffsetWay::Stage& s) { return clearances(s.at); });
-    gradient.line_end_load.col(p) = way.slope([](const OffsetWay::Stage& s) { return end_values(s, &LineEnd::line_load); });
-    gradient.line_end_stress.col(p) = way.slope([](const OffsetWay::Stage& s) { return end_values(s, &LineEnd::contact_stress); });
+  for (const Eigen::Index p : moving_among(model.placement.gap, parameters)) {
+    const MeshWay way(model, condition, loaded, position, std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]), p);
+    gradient.point_force.col(p) = way.point_slope([](const MeshWay::Stage& s) { return Eigen::VectorXd(s.at.weight.cwiseProduct(s.loaded.load.line_load)); });
+    gradient.structural_deflection.col(p) = way.point_slope([](const MeshWay::Stage& s) { return s.loaded.load.structural_deflection; });
+    gradient.error.col(p) += way.point_slope([](const MeshWay::Stage& s) { return clearances(s.at); });
+    move_line_ends(model, way, ends, p, gradient);
   }
   gradient.contact_deflection = -gradient.gap - gradient.structural_deflection;
   for (Eigen::Index i = 0; i < gradient.contact_deflection.rows(); ++i) {

@@ -9,7 +9,7 @@
 namespace flankwright {
 
 /// Derivatives of what a loaded position has beside line loads, contact stress, f_t and stiffness, column per parameter of analyse_cycle(); exact while points
-/// keep their contact. With the axial offset they follow each point, see OffsetWay.
+/// keep their contact. By what moves the mesh they follow each point, see MeshWay.
 struct PositionGradient {
   // Row per contact point.
   Eigen::MatrixXd point_force;            ///< of a w [N]
@@ -18,7 +18,7 @@ struct PositionGradient {
   Eigen::MatrixXd gap, error;             ///< of Gap::total and Gap::error, before load [mm]
   // Row per entry.
   Eigen::MatrixXd shares;                            ///< of load_sharing() [-]
-  Eigen::MatrixXd line_end_load, line_end_stress;    ///< of line_ends() [N/mm, MPa]; NaN by the axial offset where their number changes with it
+  Eigen::MatrixXd line_end_load, line_end_stress;    ///< of line_ends() [N/mm, MPa]; NaN by what moves the mesh where their number changes with it
 };
 
 /// With dF the change of the force, of a point that bears load
@@ -26,7 +26,8 @@ struct PositionGradient {
 ///     d(K a w) = K a dw,     dc = df_t - dg - d(K a w),
 ///
 /// of the share s of a tooth pair ds = sum a dw / F - s dF/F, and of a line's end dw = (df_t - dg - dS)/c', with S the spline through the structural
-/// deflections, linear in them; a line end without load has none.
+/// deflections, linear in them; a line end without load has none. What moves the mesh moves a line's end too: read along the way are what is left for its contact, c at the load
+/// held, and its curvature.
 /// @param condition, parameters  as analyse_cycle() had them
 /// @param position  of the cycle, usable and under some force
 /// @param ends      line_ends() of it

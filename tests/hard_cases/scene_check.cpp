@@ -8,6 +8,7 @@
 
 #include "core/contact/transmission_error.hpp"
 #include "core/load/mesh_cycle.hpp"
+#include "core/load/mesh_motion.hpp"
 #include "studies/results_folder.hpp"
 #include "studies/study_file.hpp"
 #include "tests/hard_cases/floating_point_traps.hpp"
@@ -99,9 +100,10 @@ void check_position(const MeshPosition& at, const LoadedPosition& position, doub
 void check_loaded(const Study& study, const GearPair& pair, const FlankCondition& condition, Findings& findings) {
   std::vector<MeshParameter> parameters;
   for (const studies::GradientParameter& p : study.gradients) parameters.push_back(p.parameter);
-  const MeshModel model = make_mesh_model(pair, study.pinion_material, study.wheel_material,
-                                          {study.fidelity.quadrature, equally_spaced_phases(study.cycle.positions)}, {},
-                                          MeshPlacement::of(study.fidelity.gap, condition.misalignment));
+  const MeshPlaced placed = [&](const MeshPlacement& placement) {
+    return make_mesh_model(pair, study.pinion_material, study.wheel_material, {study.fidelity.quadrature, equally_spaced_phases(study.cycle.positions)}, {}, placement);
+  };
+  const MeshModel model = with_further_meshes(placed(MeshPlacement::of(study.fidelity.gap, condition.misalignment)), placed, parameters);
   for (const double torque : study.scenes.front().torques) {
     const LoadedCycle cycle = analyse_cycle(model, condition, torque, parameters);
     for (std::size_t i = 0; i < cycle.positions.size(); ++i) check_position(model.positions[i], cycle.positions[i], cycle.force, findings);

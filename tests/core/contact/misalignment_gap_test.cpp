@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "core/base/error.hpp"
-#include "core/contact/gap.hpp"
+#include "core/contact/condition_gap.hpp"
 #include "tests/core/load/load_cases.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
@@ -55,8 +55,11 @@ TEST_CASE("Gaps change with misalignment as central differences say", "[core][co
   }
 }
 
-TEST_CASE("There is no derivative at held contact points with respect to an axial offset", "[core][contact][gap][input]") {
+TEST_CASE("There is no derivative at held contact points with respect to what moves them", "[core][contact][gap][input]") {
   const GearPair pair = mesh_cases::pair(20, 40, 0, 4, 30);
   const MeshModel model = mesh_cases::model(pair, {{}, {0.5}});
   CHECK_THROWS_AS(gap_derivative(pair, model.positions[0].points, {}, &Misalignment::axial_offset), InvalidInput);
+  const FlankCondition aligned;
+  const ConditionGap surface(pair, GapModel::WholeSurface, aligned);
+  CHECK_THROWS_AS(surface.derivative(model.positions[0].points, &Misalignment::crossing), InvalidInput);
 }

@@ -247,51 +247,6 @@ TEST_CASE("The gap's derivative over the whole flanks agrees with central differ
   CHECK(on_edges > 60);
 }
 
-TEST_CASE("The gap's derivative by the misalignment agrees with differences, edges and displaced faces included", "[core][contact]") {
-  Random random(31);
-  int compared = 0, held = 0;
-  for (int i = 0; i < 16; ++i) {
-    const GearPair pair = random_pair(random);
-    FlankCondition condition = random_condition(random, pair);
-    condition.pinion_modification.parabolic_te = condition.wheel_modification.parabolic_te = 0.0;
-    if (i < 4) condition = {};
-    const double phase = random(0.0, 1.0);
-    std::vector<ContactPoint> points = points_of(pair, phase, 3);
-    if (i % 4 == 0) {
-      // One at the very end of the wheel's face, which a tilt moves.
-      points.push_back(points.front());
-      points.back().z = std::min(0.5 * pair.pinion.data.face_width,
-                                 condition.misalignment.axial_offset + 0.5 * pair.wheel.data.face_width);
-    }
-    const SurfaceGap here(pair, condition);
-    const Gap gap = here.at(points, phase);
-    for (double Misalignment::* part : {&Misalignment::crossing, &Misalignment::intersecting, &Misalignment::centre_distance,
-                                        &Misalignment::axial_offset, &Misalignment::pinion_lead_angle,
-                                        &Misalignment::pinion_pressure_angle, &Misalignment::mesh_misalignment}) {
-      const double step = part == &Misalignment::axial_offset ? 1e-4 : 1e-6;  // rad or mm
-      const auto moved = [&](double by) {
-        FlankCondition c = condition;
-        c.misalignment.*part += by;
-        return Eigen::VectorXd(SurfaceGap(pair, c).at(points, phase).total);
-      };
-      const Eigen::VectorXd ahead = (moved(step) - gap.total) / step, behind = (gap.total - moved(-step)) / step;
-      const Eigen::VectorXd exact = here.derivative(points, phase, gap, part);
-      for (Eigen::Index k = 0; k < exact.size(); ++k) {
-        // As above; on an end of the wheel's face the gap has a kink, and the derivative is that of one side.
-        const double kRoundOff = 2e-13 / step;
-        const double lower = std::min(ahead[k], behind[k]), upper = std::max(ahead[k], behind[k]), spread = upper - lower;
-        CAPTURE(i, k, step, exact[k], ahead[k], behind[k], points[static_cast<std::size_t>(k)].phase);
-        CHECK(exact[k] >= lower - 0.5 * spread - kRoundOff);
-        CHECK(exact[k] <= upper + 0.5 * spread + kRoundOff);
-        ++compared;
-        if (gap.nearest[static_cast<std::size_t>(k)].bound != SectionBound::None) ++held;
-      }
-    }
-  }
-  CHECK(compared > 500);
-  CHECK(held > 100);
-}
-
 TEST_CASE("The gap is continuous through zero misalignment, its places too", "[core][contact]") {
   constexpr double kTiny = 1e-9;  // rad or mm
   constexpr double kRoundOff = 1e-12;

@@ -30,9 +30,8 @@ struct Solved {
 };
 
 /// The objective with one parameter moved by some of its steps and everything analysed again.
-double moved_objective(const DesignTask& task, const DesignReport& after, const ProofParameter& p, double steps) {
+double moved_objective(const DesignTask& task, Modification pinion, Modification wheel, const ProofParameter& p, double steps) {
   DesignTask moved = task;
-  Modification pinion = after.analysis.pinion_modification, wheel = after.analysis.wheel_modification;
   const auto member_is_pinion = [](const GearParameter& g) { return g.member == Member::Pinion; };
   for (DesignScene& scene : moved.scenes) {
     if (const auto* m = std::get_if<MisalignmentParameter>(&p.parameter)) scene.condition.misalignment.*(*m) += steps * p.inside;
@@ -49,6 +48,10 @@ double moved_objective(const DesignTask& task, const DesignReport& after, const 
   }
   const DesignProblem problem(moved);
   return problem.objective(problem.analyse_design(pinion, wheel));
+}
+
+double moved_objective(const DesignTask& task, const DesignReport& after, const ProofParameter& p, double steps) {
+  return moved_objective(task, after.analysis.pinion_modification, after.analysis.wheel_modification, p, steps);
 }
 
 double total_weight(const Optimum& optimum) {
@@ -84,6 +87,25 @@ TEST_CASE("The objective answers to a step of anything as the exact derivatives 
       const double found = moved_objective(task, solved.after, s.parameter, side * share) - now;
       CHECK(predicted == Approx(found).epsilon(second_order).margin(margin));
     }
+  }
+}
+
+TEST_CASE("Over the whole surface a step of a misalignment takes the points with it", "[optimize][proof]") {
+  DesignTask task = spur({6.0});
+  task.gap = GapModel::WholeSurface;
+  task.pinion_modification.lead_crowning = 8 * units::um;
+  task.scenes.front().condition.misalignment.centre_distance = 0.2;
+  const DesignProblem problem(task);
+  const std::vector<ProofParameter> parameters = proof_parameters(task);
+  const LocalModel model(problem, task.pinion_modification, task.wheel_modification, parameters);
+  const double now = model.objective(Eigen::VectorXd::Zero(model.parameters()));
+  for (std::size_t i = 0; i < parameters.size(); ++i) {
+    if (!moves_mesh(task.gap, parameters[i].parameter)) continue;
+    CAPTURE(parameters[i].name);
+    constexpr double share = 0.01, second_order = 1e-4;  // of a step, relative; round-off of the objective over it is less
+    const auto found = [&](double steps) { return moved_objective(task, task.pinion_modification, task.wheel_modification, parameters[i], steps); };
+    const double slope = (model.objective(share * Eigen::VectorXd::Unit(model.parameters(), static_cast<Eigen::Index>(i))) - now) / share;
+    CHECK(slope == Approx((found(share) - found(-share)) / (2 * share)).epsilon(second_order).margin(1e-7 * now));
   }
 }
 

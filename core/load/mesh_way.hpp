@@ -4,15 +4,15 @@
 #include <concepts>
 #include <vector>
 
-#include "core/load/axial_offset.hpp"
+#include "core/load/mesh_motion.hpp"
 #include "core/load/mesh_cycle.hpp"
 
 namespace flankwright {
 
-/// A solved position and the same one with the wheel one and two steps further along (MeshModel::further): points and what they rest on are those
-/// of the further meshes, line loads and f_t go there by their derivatives with respect to the axial offset. Whatever can be read off a
-/// loaded position has its own derivative by reading it off all three: that of OffsetSlopes, with its error.
-class OffsetWay {
+/// A solved position and the same one with the mesh one and two steps further along a parameter that moves it (MeshModel::further): points and what they rest
+/// on are those of the further meshes, line loads and f_t go there by their derivatives. Whatever can be read off a
+/// loaded position has its own derivative by reading it off all three: that of MeshSlopes, with its error. A load that falls may end below 0.
+class MeshWay {
  public:
   struct Stage {
     const MeshModel& model;
@@ -23,10 +23,11 @@ class OffsetWay {
 
   /// @param model, condition  as analyse_cycle() had them; the model must outlive this
   /// @param loaded            position number `position` of the cycle, solved under some force
-  /// @param column            where the axial offset stands among its parameters
-  OffsetWay(const MeshModel& model, const FlankCondition& condition, const LoadedPosition& loaded, std::size_t position, Eigen::Index column);
+  /// @param column            where the parameter stands among the cycle's
+  MeshWay(const MeshModel& model, const FlankCondition& condition, const LoadedPosition& loaded, std::size_t position,
+          MisalignmentParameter parameter, Eigen::Index column);
 
-  /// Derivative of what read(stage) gives: a number, or as many as a vector has at every stage, else NaN throughout [per mm].
+  /// Derivative of what read(stage) gives: a number, or as many as a vector has at every stage, else NaN throughout [per mm or rad].
   template <class Read>
   auto slope(const Read& read) const {
     const auto here = read(stages_[0]), one = read(stages_[1]), two = read(stages_[2]);
@@ -45,7 +46,7 @@ class OffsetWay {
   }
 
  private:
-  double step_;  ///< [mm]
+  double step_;  ///< [mm or rad]
   std::array<std::vector<Eigen::Index>, 2> same_;
   Eigen::VectorXd known_;  ///< 1 where all stages have the point, else 0
   std::vector<Stage> stages_;

@@ -1,6 +1,8 @@
-#include "core/load/axial_offset.hpp"
+#include "core/load/mesh_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "core/base/error.hpp"
@@ -9,7 +11,7 @@ namespace flankwright {
 
 namespace {
 
-/// What OffsetSlope is the slope of, for the points of a position as a further mesh has them.
+/// What MeshSlope is the slope of, for the points of a position as a further mesh has them.
 struct HeldLoads {
   Eigen::VectorXd gap, deflection, relative_radius, root_components;
   double force;
@@ -30,25 +32,39 @@ HeldLoads held_loads(const MeshPosition& at, const Gap& gap, const Eigen::Vector
 
 }  // namespace
 
-MeshModel with_further_offsets(const MeshPlaced& mesh, const MeshPlacement& placement) {
-  MeshModel model = mesh(placement);
-  for (int steps : {1, 2}) {
-    MeshPlacement further = placement;
-    further.misalignment.axial_offset += steps * offset_step * model.pair.data.normal_module;
-    model.further.push_back(mesh(further));
+double mesh_step_of(const GearPair& pair, MisalignmentParameter parameter) {
+  const double length = mesh_step * pair.data.normal_module;
+  const MisalignmentParameter angles[] = {&Misalignment::crossing, &Misalignment::intersecting, &Misalignment::pinion_lead_angle,
+                                          &Misalignment::pinion_pressure_angle};
+  return std::ranges::find(angles, parameter) == std::end(angles) ? length : length / (0.5 * pair.face_width);
+}
+
+MeshModel with_further_meshes(MeshModel model, const MeshPlaced& mesh, const std::vector<MeshParameter>& parameters) {
+  model.further.clear();
+  for (const Eigen::Index p : moving_among(model.placement.gap, parameters)) {
+    const auto parameter = std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]);
+    if (std::ranges::find(model.further, parameter, &FurtherMeshes::parameter) != model.further.end()) continue;
+    FurtherMeshes along{parameter, mesh_step_of(model.pair, parameter), {}};
+    for (int steps : {1, 2}) {
+      MeshPlacement further = model.placement;
+      further.misalignment.*parameter += steps * along.step;
+      along.meshes.push_back(mesh(further));
+    }
+    model.further.push_back(std::move(along));
   }
   return model;
 }
 
-const MeshModel& further_mesh(const MeshModel& model, std::size_t i) {
-  if (model.further.size() != 2) {
-    throw InvalidInput("misalignment.axial_offset", "a derivative", "a mesh that knows itself at further offsets");
+const FurtherMeshes& further_meshes(const MeshModel& model, MisalignmentParameter parameter) {
+  const auto found = std::ranges::find(model.further, parameter, &FurtherMeshes::parameter);
+  if (found == model.further.end()) {
+    throw InvalidInput("misalignment." + std::string(name_of(parameter)), "a derivative", "a mesh that knows itself further along");
   }
-  return model.further[i];
+  return *found;
 }
 
-FlankCondition placed_as(const MeshModel& mesh, FlankCondition condition) {
-  condition.misalignment.axial_offset = mesh.axial_offset;
+FlankCondition placed_as(const MeshModel& mesh, MisalignmentParameter parameter, FlankCondition condition) {
+  condition.misalignment.*parameter = mesh.placement.misalignment.*parameter;
   return condition;
 }
 
@@ -90,15 +106,16 @@ std::vector<Eigen::Index> same_points(const MeshPosition& at, const MeshPosition
   return same;
 }
 
-OffsetSlopes::Further::Further(const MeshModel& mesh, const FlankCondition& of)
-    : model(mesh), condition(placed_as(mesh, of)), gaps(mesh.pair, mesh.placement.gap, condition) {}
+MeshSlopes::Further::Further(const MeshModel& mesh, MisalignmentParameter parameter, const FlankCondition& of)
+    : model(mesh), condition(placed_as(mesh, parameter, of)), gaps(mesh.pair, mesh.placement.gap, condition) {}
 
-OffsetSlopes::OffsetSlopes(const MeshModel& model, const FlankCondition& condition)
-    : model_(model), one_(further_mesh(model, 0), condition), two_(further_mesh(model, 1), condition) {}
+MeshSlopes::MeshSlopes(const MeshModel& model, const FlankCondition& condition, MisalignmentParameter parameter)
+    : model_(model),
+      further_(further_meshes(model, parameter)),
+      one_(further_.meshes[0], parameter, condition),
+      two_(further_.meshes[1], parameter, condition) {}
 
-double OffsetSlopes::step() const { return one_.model.axial_offset - model_.axial_offset; }
-
-OffsetSlopes::Same OffsetSlopes::same(std::size_t position) const {
+MeshSlopes::Same MeshSlopes::same(std::size_t position) const {
   const MeshPosition& here = model_.positions[position];
   Same both{same_points(here, one_.model.positions[position]), same_points(here, two_.model.positions[position]),
             Eigen::VectorXd::Ones(here.weight.size())};
@@ -108,7 +125,7 @@ OffsetSlopes::Same OffsetSlopes::same(std::size_t position) const {
   return both;
 }
 
-OffsetSlope OffsetSlopes::at(std::size_t position, const LoadDistribution& load, const Gap& gap) const {
+MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load, const Gap& gap) const {
   const Same same_as = same(position);
   const Eigen::VectorXd loads = load.line_load.cwiseProduct(same_as.known);
   const auto further = [&](const Further& mesh, const std::vector<Eigen::Index>& same) {
@@ -120,35 +137,35 @@ OffsetSlope OffsetSlopes::at(std::size_t position, const LoadDistribution& load,
   const HeldLoads here = held_loads(model_.positions[position], gap, loads);
   const HeldLoads one = further(one_, same_as.one), two = further(two_, same_as.two);
   const auto slope = [&](Eigen::VectorXd HeldLoads::* what) -> Eigen::VectorXd {
-    return first_slope(here.*what, one.*what, two.*what, step()).cwiseProduct(same_as.known);
+    return first_slope(here.*what, one.*what, two.*what, further_.step).cwiseProduct(same_as.known);
   };
-  OffsetSlope by{slope(&HeldLoads::gap), slope(&HeldLoads::deflection), first_slope(here.force, one.force, two.force, step()),
-                 slope(&HeldLoads::relative_radius), {}};
+  MeshSlope by{slope(&HeldLoads::gap), slope(&HeldLoads::deflection), first_slope(here.force, one.force, two.force, further_.step),
+               slope(&HeldLoads::relative_radius), {}};
   by.root_components = Eigen::VectorXd::Zero(here.root_components.size());
   if (here.root_components.size() == one.root_components.size() && here.root_components.size() == two.root_components.size()) {
-    by.root_components = first_slope(here.root_components, one.root_components, two.root_components, step());
+    by.root_components = first_slope(here.root_components, one.root_components, two.root_components, further_.step);
   }
   return by;
 }
 
-double OffsetSlopes::face_width() const {
-  return first_slope(model_.face_width, one_.model.face_width, two_.model.face_width, step());
+double MeshSlopes::face_width() const {
+  return first_slope(model_.face_width, one_.model.face_width, two_.model.face_width, further_.step);
 }
 
-double OffsetSlopes::relative_line_length() const {
+double MeshSlopes::relative_line_length() const {
   double length = 0.0, slope = 0.0;
   for (std::size_t p = 0; p < model_.positions.size(); ++p) {
     const MeshPosition& here = model_.positions[p];
     const Same same_as = same(p);
     const Eigen::VectorXd by = first_slope(here.weight, as_at(same_as.one, one_.model.positions[p].weight),
-                                           as_at(same_as.two, two_.model.positions[p].weight), step());
+                                           as_at(same_as.two, two_.model.positions[p].weight), further_.step);
     for (Eigen::Index i = 0; i < here.weight.size(); ++i) {
       if (here.points[static_cast<std::size_t>(i)].clearance != 0.0) continue;
       length += here.weight[i];
       slope += same_as.known[i] * by[i];
     }
   }
-  return slope / length;
+  return length > 0.0 ? slope / length : not_given;
 }
 
 }  // namespace flankwright
