@@ -366,9 +366,17 @@ class Run {
       }
     }
     for (const LoadedResult& loaded : results_.loaded) {
-      if (!loaded.cycle.usable()) {
+      if (loaded.cycle.usable()) continue;
+      const auto apart = std::ranges::count_if(loaded.cycle.positions, [](const LoadedPosition& position) {
+        return position.load.status == LoadStatus::NoContactPoints;
+      });
+      if (apart > 0) {
+        results_.requirements.push_back("scene \"" + loaded.scene + "\": no point of the flanks can touch the mate at " + std::to_string(apart) +
+                                        " mesh positions; misalignment may have moved the faces past each other");
+      }
+      if (loaded.cycle.failures > apart) {
         results_.requirements.push_back("scene \"" + loaded.scene + "\": the load distribution did not converge at " +
-                                        std::to_string(loaded.cycle.failures) + " mesh positions");
+                                        std::to_string(loaded.cycle.failures - apart) + " mesh positions");
       }
     }
   }

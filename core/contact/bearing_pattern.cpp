@@ -25,10 +25,12 @@ class Envelope {
     // The position that closes the pitch: with pitch deviations it is not the first one again.
     const double end = units::pi / scene.pinion_teeth;
     double last = -infinity;
-    for (const PairCurve& pair : mesh.pairs) {
-      const ToothContact contact = find_tooth_contact(scene, pair.tooth, end);
+    const auto consider = [&](int tooth) {
+      const ToothContact contact = find_tooth_contact(scene, tooth, end);
       if (contact.exists()) last = std::max(last, contact.transmission_error);
-    }
+    };
+    for (const PairCurve& pair : mesh.pairs) consider(pair.tooth);
+    if (!mesh.transfers.empty()) consider(mesh.transfers.back().to_tooth);  // may have entered since the last position
     nodes_.emplace_back(end, last);
     std::sort(nodes_.begin(), nodes_.end());
   }

@@ -6,17 +6,16 @@
 
 #include "core/base/peak.hpp"
 #include "core/base/root.hpp"
+#include "core/contact/edge_reach.hpp"
 
 namespace flankwright {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double margin = 0.25;  // pitches beyond the extended path of contact, see MeshEnvelope
+constexpr double margin = 0.25;  // pitches beyond the path and the edges' reach, see MeshEnvelope
 constexpr double hand_over_tolerance = 1e-13;              // rad of the pinion
 constexpr PeakTolerance extreme_tolerance{1e-9, 1e-16, 1e-7};  // rad of the pinion, rad of the wheel, rad of the pinion
-
-double transmission_error(const ToothContact* contact) { return contact ? contact->transmission_error : -infinity; }
 
 }  // namespace
 
@@ -36,17 +35,31 @@ const ToothContact* MeshState::of(int tooth) const {
 }
 
 MeshEnvelope::MeshEnvelope(const GearPair& pair, const MeshScene& scene)
-    : pair_(pair), solver_(scene), path_(pair), pitch_(2.0 * units::pi / scene.pinion_teeth) {}
+    : pair_(pair), solver_(scene), path_(pair), pitch_(2.0 * units::pi / scene.pinion_teeth) {
+  const EdgeReach reach = edge_reach(pair);
+  first_ = -reach.before;
+  last_ = path_.last_line_phase() + reach.beyond;
+}
+
+bool MeshEnvelope::is_within(int tooth, double phi1, double beyond) const {
+  const double phase = path_.line_phase_at(phi1 + tooth * pitch_, pair_);
+  return phase >= first_ - beyond && phase <= last_ + beyond;
+}
+
+/// Contact of one pair, None where it is not in mesh.
+ToothContact MeshEnvelope::contact(int tooth, double phi1) const {
+  return is_within(tooth, phi1, margin) ? solver_.find(tooth, phi1) : ToothContact{};
+}
 
 MeshState MeshEnvelope::at(double phi1, int preferred) const {
   MeshState state;
   state.phi1 = phi1;
   const double phase = path_.line_phase_at(phi1, pair_);  // of pair 0; every tooth on adds one
-  const int first = static_cast<int>(std::ceil(-margin - phase));
-  const int last = static_cast<int>(std::floor(path_.last_line_phase() + margin - phase));
+  const int first = static_cast<int>(std::floor(first_ - margin - phase));
+  const int last = static_cast<int>(std::ceil(last_ + margin - phase));
   for (int tooth = first; tooth <= last; ++tooth) {
-    const ToothContact contact = solver_.find(tooth, phi1);
-    if (contact.exists()) state.contacts.push_back(contact);
+    const ToothContact found = contact(tooth, phi1);
+    if (found.exists()) state.contacts.push_back(found);
   }
   double highest = -infinity;
   for (const ToothContact& c : state.contacts) highest = std::max(highest, c.transmission_error);
@@ -79,7 +92,7 @@ void MeshEnvelope::follow(const MeshState& from, const MeshState& to, std::vecto
   }
   const MeshState middle = at(split, after);
   if (!middle.exists()) return;
-  const ToothContact *leaves = middle.of(before), *enters = middle.of(after);
+  const ToothContact* leaves = middle.of(before);
   const bool inside = split > from.phi1 && split < to.phi1;
   const bool third = inside && middle.leading().tooth != after && middle.leading().tooth != before;
   if (before == after || third) {
@@ -87,18 +100,19 @@ void MeshEnvelope::follow(const MeshState& from, const MeshState& to, std::vecto
     follow(middle, to, transfers, smallest, largest);
     return;
   }
+  const ToothContact& enters = middle.leading();
   Transfer transfer;
   transfer.phi1 = split;
   transfer.from_tooth = before;
   transfer.to_tooth = after;
-  transfer.transmission_error = transmission_error(enters);
-  if (enters) transfer.slope_after = enters->slope;
+  transfer.transmission_error = enters.transmission_error;
+  transfer.slope_after = enters.slope;
   if (leaves) transfer.slope_before = leaves->slope;
   transfers.push_back(transfer);
   smallest = std::min(smallest, transfer.transmission_error);
   largest = std::max(largest, transfer.transmission_error);
   if (leaves) follow_pair(from.leading(), *leaves, smallest, largest);
-  if (enters) follow_pair(*enters, to.leading(), smallest, largest);
+  follow_pair(enters, to.leading(), smallest, largest);
 }
 
 /// Where the pair that leads `to` overtakes the one that leads `from`, by lead_tolerance.
@@ -106,11 +120,12 @@ double MeshEnvelope::hand_over(const MeshState& from, const MeshState& to) const
   const int before = from.leading().tooth, after = to.leading().tooth;
   const auto ahead = [&](const ToothContact* entering, const ToothContact* leaving) {
     if (!leaving || !leaving->exists()) return infinity;
-    return transmission_error(entering) - leaving->transmission_error - lead_tolerance;
+    if (!entering || !entering->exists()) return -infinity;
+    return entering->transmission_error - leaving->transmission_error - lead_tolerance;
   };
   const auto at_angle = [&](double phi1) {
-    const ToothContact entering = solver_.find(after, phi1), leaving = solver_.find(before, phi1);
-    return ahead(entering.exists() ? &entering : nullptr, &leaving);
+    const ToothContact entering = contact(after, phi1), leaving = contact(before, phi1);
+    return ahead(&entering, &leaving);
   };
   const double start = ahead(from.of(after), from.of(before)), end = ahead(to.of(after), to.of(before));
   if (end <= 0.0) return to.phi1;  // only about to overtake, see look_ahead()
@@ -133,10 +148,10 @@ double MeshEnvelope::hidden_lead(const MeshState& from, const MeshState& to) con
     if (lead + rise * meet <= lead_tolerance) continue;
     // The crest of the lead itself decides.
     const auto lead_slope = [&](double phi1) {
-      return solver_.find(c.tooth, phi1).slope - solver_.find(first.tooth, phi1).slope;
+      return contact(c.tooth, phi1).slope - contact(first.tooth, phi1).slope;
     };
     const double crest = bracketed_root(lead_slope, from.phi1, rise, to.phi1, fall, 1e-6 * width).x;
-    const ToothContact over = solver_.find(c.tooth, crest), under = solver_.find(first.tooth, crest);
+    const ToothContact over = contact(c.tooth, crest), under = contact(first.tooth, crest);
     if (over.exists() && under.exists() && over.transmission_error > under.transmission_error + lead_tolerance) return crest;
   }
   return not_given;
@@ -148,7 +163,7 @@ void MeshEnvelope::follow_pair(const ToothContact& from, const ToothContact& to,
   if (!(from.slope * to.slope < 0.0) || std::min(std::abs(from.slope), std::abs(to.slope)) * width <= lead_tolerance) return;
   const double sign = from.slope > 0.0 ? 1.0 : -1.0;
   const double curvature = std::abs(to.slope - from.slope) / width;
-  const auto evaluate = [&](double phi1, const Sample*) { return Sample{solver_.find(from.tooth, phi1), sign}; };
+  const auto evaluate = [&](double phi1, const Sample*) { return Sample{contact(from.tooth, phi1), sign}; };
   const double guess = std::clamp(from.phi1 + std::abs(from.slope) / curvature, from.phi1, to.phi1);
   const Peak<Sample> peak = find_peak<Sample>(evaluate, from.phi1, to.phi1, guess, curvature, extreme_tolerance,
                                               Sample{from, sign}, Sample{to, sign});

@@ -16,7 +16,6 @@ constexpr int highest_harmonic = 10;
 }  // namespace
 
 UnloadedMesh analyse_unloaded_mesh(const GearPair& pair, const MeshScene& scene, int positions) {
-  const PathOfContact path(pair);
   const MeshEnvelope envelope(pair, scene);
   const double pitch = 2.0 * units::pi / scene.pinion_teeth;
   UnloadedMesh mesh;
@@ -39,8 +38,7 @@ UnloadedMesh analyse_unloaded_mesh(const GearPair& pair, const MeshScene& scene,
       mesh.phi1.push_back(now.phi1);
       mesh.transmission_error.push_back(te);
       for (const ToothContact& c : now.contacts) {
-        const double phase = path.line_phase_at(now.phi1 + c.tooth * pitch, pair);
-        if (phase < 0.0 || phase > path.last_line_phase()) continue;
+        if (!envelope.on_path(c.tooth, now.phi1)) continue;
         PairCurve& curve = curves[c.tooth];
         curve.tooth = c.tooth;
         curve.positions.push_back(c);

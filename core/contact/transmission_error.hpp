@@ -27,7 +27,7 @@ struct Transfer {
 struct UnloadedMesh {
   std::vector<double> phi1;                ///< equally spaced over one pitch around phi1 = 0 [rad]
   std::vector<double> transmission_error;  ///< delta_phi2 at each, wheel [rad]
-  std::vector<PairCurve> pairs;            ///< at the same angles, while the pair is inside the extended path of contact
+  std::vector<PairCurve> pairs;            ///< at the same angles, while the pair is on its path, see MeshEnvelope::on_path()
   std::vector<Transfer> transfers;
   /// Extremes of the envelope over the pitch, both its ends included: hand-overs, crests and troughs between positions are
   /// located, so they hardly depend on how many positions there are. Wheel [rad]; not given where `missing` > 0.
@@ -46,7 +46,7 @@ struct UnloadedMesh {
 ///
 /// A pair takes the lead only when it is ahead by more than 1e-12 rad, the round-off of the angles, so that aligned pairs
 /// sharing the load do not appear to hand over.
-/// @param pair       for the extended path of contact within which a pair's own curve is reported
+/// @param pair       for the extended path of contact and the edges' reach, within which a pair's own curve is reported
 /// @param positions  >= 1
 UnloadedMesh analyse_unloaded_mesh(const GearPair& pair, const MeshScene& scene, int positions);
 

@@ -14,8 +14,10 @@ namespace flankwright {
 
 /// How far apart the meshes lie that derivatives by a parameter that moves the mesh are taken from [m_n]: lengths by this, angles by this over
 /// half the common face width, so that the flanks' ends move alike. The slope of a smooth f over three of them is wrong by step^2 f'''/3, and by about
-/// four times the round-off of f over the step, places of the whole surface having some 1e-10 mm of it. A place that comes to a tip edge within two steps
-/// has a kink there, and its slope is then a mean of both sides: the shorter the step, the fewer do.
+/// four times the round-off of f over the step, places of the whole surface having some 1e-10 mm of it. A place that comes to a tip edge or to the start of
+/// a linear relief within two steps has a kink there, and its slope is then off by between -1/2 and all of what the slope jumps by: the shorter the step, the
+/// fewer do. Measured over 40,000 positions of a worked pair, against differences over 2.5e-6 of a change that turns loads over, in parts of the peak load over
+/// that change: 20 are off by more than 1e-4, of these 16 with a loaded place that near to a tip edge, by up to 0.16, and one on the start of an end relief, 0.31.
 inline constexpr double mesh_step = 3e-5;
 /// The same for one parameter [mm or rad].
 double mesh_step_of(const GearPair& pair, MisalignmentParameter parameter);

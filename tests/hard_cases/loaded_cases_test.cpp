@@ -140,3 +140,22 @@ TEST_CASE("Hard: quadrature points that nearly coincide share their load evenly"
     }
   }
 }
+
+TEST_CASE("Hard: faces that a tilt moves past each other touch nowhere, and it is said so", "[hard_cases]") {
+  // The wheel's rim, some 76 mm from its axis, moves along the face by 60 arcmin of it, 1.3 mm: the faces are 0.7 mm wide.
+  const auto tilted_by = [](const std::string& minutes) {
+    return run("any_face_width", {{"pinion.face_width", "0.7"}, {"wheel.face_width", "0.7"}, {"fidelity.gap", "whole_surface"},
+                                  {"fidelity.effects", "auto"}, {"misalignment.intersecting", minutes}, sampled_peaks});
+  };
+  const auto apart = tilted_by("-60");
+  for (const LoadedPosition& position : apart.loaded.front().cycle.positions) CHECK(position.load.status == LoadStatus::NoContactPoints);
+  const UnloadedMesh& mesh = apart.unloaded.front().mesh;
+  CHECK(mesh.missing > 0);
+  CHECK(std::isnan(mesh.peak_to_peak));
+  REQUIRE(apart.requirements.size() == 2);
+  CHECK(apart.requirements[0].find("no tooth pair touches") != std::string::npos);
+  CHECK(apart.requirements[1].find("no point of the flanks can touch the mate") != std::string::npos);
+  const auto still_facing = tilted_by("-20");
+  CHECK(still_facing.loaded.front().cycle.usable());
+  CHECK(still_facing.unloaded.front().mesh.missing == 0);
+}

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "core/contact/path_of_contact.hpp"
 #include "core/contact/transmission_error.hpp"
 #include "core/load/mesh_cycle.hpp"
 #include "core/load/mesh_motion.hpp"
@@ -79,8 +80,26 @@ void check_unloaded(const Study& study, const GearPair& pair, const FlankConditi
   findings.require(std::isfinite(mesh.peak_to_peak) && mesh.peak_to_peak >= 0.0, "peak-to-peak of the transmission error [rad]", mesh.peak_to_peak);
 }
 
-void check_position(const MeshPosition& at, const LoadedPosition& position, double force, Findings& findings) {
+/// How many tooth pairs' flanks can meet at all.
+int pairs_that_meet(const GearPair& pair, const FlankCondition& c, double phase) {
+  const MeshScene scene = make_mesh_scene(pair, c.misalignment, c.pinion_modification, c.wheel_modification, c.pinion_error, c.wheel_error);
+  const PathOfContact path(pair);
+  const ToothContactSolver solver(scene);
+  int meeting = 0;
+  for (int tooth = -1; tooth <= static_cast<int>(path.last_line_phase()) + 1; ++tooth) {
+    if (solver.find(tooth, path.pinion_angle_at(phase, pair)).exists()) ++meeting;
+  }
+  return meeting;
+}
+
+void check_position(const MeshPosition& at, const LoadedPosition& position, double force, const GearPair& pair, const FlankCondition& condition,
+                    Findings& findings) {
   const LoadDistribution& load = position.load;
+  if (load.status == LoadStatus::NoContactPoints) {
+    const int meeting = pairs_that_meet(pair, condition, at.phase);
+    findings.require(meeting == 0, "without contact points no pair meets, meeting", meeting);
+    return;
+  }
   findings.require(load.usable(), "load distribution found, residual", load.kkt_residual);
   if (!load.usable()) return;
   findings.require(load.kkt_residual <= LoadOptions{}.tolerance, "residual of the optimality conditions", load.kkt_residual);
@@ -106,7 +125,7 @@ void check_loaded(const Study& study, const GearPair& pair, const FlankCondition
   const MeshModel model = with_further_meshes(placed(MeshPlacement::of(study.fidelity.gap, condition.misalignment)), placed, parameters);
   for (const double torque : study.scenes.front().torques) {
     const LoadedCycle cycle = analyse_cycle(model, condition, torque, parameters);
-    for (std::size_t i = 0; i < cycle.positions.size(); ++i) check_position(model.positions[i], cycle.positions[i], cycle.force, findings);
+    for (std::size_t i = 0; i < cycle.positions.size(); ++i) check_position(model.positions[i], cycle.positions[i], cycle.force, pair, condition, findings);
     if (!cycle.usable()) continue;
     const CycleSummary summary = summarise(model, cycle);
     findings.require(std::isfinite(summary.peak_contact_stress) && std::isfinite(summary.te_mean), "summary is of numbers", summary.te_mean);

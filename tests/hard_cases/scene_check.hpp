@@ -17,6 +17,7 @@ struct SceneVerdict {
 /// - no number is NaN or infinite; loads are not negative;
 /// - the residual of the optimality conditions is below its bound (LoadOptions::tolerance) and forces balance the torque;
 /// - f_t lies between the first touch and what the nearest point would yield if it carried everything alone;
+/// - a position has no contact points only where tooth contact analysis finds no pair that meets there either;
 /// - the unloaded transmission error is no more than all amounts, errors and displacements together can move the flanks, unless a tip reaches
 ///   below the mate's form circle.
 ///

@@ -137,6 +137,38 @@ TEST_CASE("Hard: a tooth that winds around its gear is not taken for another at 
   CHECK(aligned.unloaded.front().mesh.peak_to_peak <= kAngleRoundOff);
 }
 
+TEST_CASE("Hard: an edge that runs along its mate before the path begins takes the lead without a step", "[hard_cases]") {
+  const auto results_at = [](const std::string& positions) { return run("edge_before_the_path", {{"cycle.positions", positions}}); };
+  const auto results = results_at("12");
+  const studies::Study base = study("edge_before_the_path");
+  REQUIRE(results.pair.pinion.fillet_interference);
+  const MeshScene scene = make_mesh_scene(results.pair, {}, base.pinion_modification, base.wheel_modification, {}, {});
+  const UnloadedMesh& mesh = results.unloaded.front().mesh;
+  CHECK(mesh.missing == 0);
+  for (std::size_t i = 0; i < mesh.phi1.size(); ++i) {
+    double highest = -1.0;  // rad
+    for (int tooth = -5; tooth <= 5; ++tooth) {
+      const ToothContact contact = find_tooth_contact(scene, tooth, mesh.phi1[i]);
+      if (contact.exists()) highest = std::max(highest, contact.transmission_error);
+    }
+    CHECK(std::abs(mesh.transmission_error[i] - highest) <= kAngleRoundOff);
+  }
+  REQUIRE(mesh.transfers.size() == 1);
+  const Transfer& transfer = mesh.transfers.front();
+  const ToothContact leaving = find_tooth_contact(scene, transfer.from_tooth, transfer.phi1);
+  CHECK(find_tooth_contact(scene, transfer.to_tooth, transfer.phi1).kind == ContactKind::WheelTip);
+  constexpr double kLocated = 1e-11;  // rad: the pinion's angle to 1e-13 rad, times the slope of an edge, and the lead itself
+  CHECK(std::abs(transfer.transmission_error - leaving.transmission_error) <= kLocated);
+  CHECK(transfer.slope_jump() > 0.0);
+  // More than half a pitch before A, where the path begins.
+  const PathOfContact path(results.pair);
+  CHECK(path.line_phase_at(transfer.phi1, results.pair) + transfer.to_tooth < PathOfContact::extension - 0.5);
+  // Extremes are located, whatever the positions; so is the hand-over.
+  const auto finer = results_at("48");
+  CHECK(std::abs(finer.unloaded.front().mesh.peak_to_peak - mesh.peak_to_peak) <= kLocated);
+  CHECK(std::abs(results_at("2").unloaded.front().mesh.transfers.at(0).phi1 - transfer.phi1) <= kLocated);
+}
+
 TEST_CASE("Hard: flanks pass from convex through flat to hollow without a jump", "[hard_cases]") {
   std::vector<double> last;
   for (double amount = 0.0; amount <= 40.0; amount += 2.0) {

@@ -206,6 +206,30 @@ TEST_CASE("Eight positions give the pattern of a parabola to a 64th of its heigh
   }
 }
 
+TEST_CASE("A pair that enters after the last position closes the pitch in the pattern too", "[core][contact]") {
+  // Undercut pinion, and the wheel relieved below: the next pair takes over after the only position, which it has not reached yet.
+  PairData data = pair_data(12, 56, 0.0, 0.05, 0.0, 5.0, 5.0);
+  data.pressure_angle = 15.5 * deg;
+  const GearPair pair = make_gear_pair(data);
+  Modification wheel;
+  wheel.root_relief = {0.08, 3.0, ReliefShape::Linear};
+  const MeshScene scene = scene_of(pair, {}, {}, wheel);
+  const UnloadedMesh one = analyse_unloaded_mesh(pair, scene, 1), many = analyse_unloaded_mesh(pair, scene, 64);
+  REQUIRE(one.transfers.size() == 1);
+  for (const PairCurve& curve : one.pairs) REQUIRE(curve.tooth != one.transfers.front().to_tooth);
+  // Between its nodes the mesh's error is taken for linear: off by at most its peak to peak, which does not reach what the pair that has
+  // been overtaken lags behind at the end of the pitch.
+  const double scale = pair.wheel.base_radius, linear = many.peak_to_peak * scale;
+  for (const Member member : {Member::Pinion, Member::Wheel}) {
+    const BearingPattern coarse = bearing_pattern(scene, one, member, 11, 3), fine = bearing_pattern(scene, many, member, 11, 3);
+    for (int i = 0; i < 11; ++i) {
+      if (!std::isfinite(fine.separation(i, 1))) continue;
+      CAPTURE(i, fine.separation(i, 1), coarse.separation(i, 1), linear);
+      CHECK(std::abs(coarse.separation(i, 1) - fine.separation(i, 1)) <= linear);
+    }
+  }
+}
+
 TEST_CASE("What overhangs the mate is not marked", "[core][contact]") {
   const GearPair pair = make_gear_pair(pair_data(20, 40, 10 * deg, 0.0, 0.0, 36.0, 30.0));
   Misalignment misalignment;

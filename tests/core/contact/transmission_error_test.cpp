@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/contact/edge_reach.hpp"
 #include "tests/core/contact/contact_cases.hpp"
 
 using namespace flankwright;
@@ -105,6 +106,86 @@ TEST_CASE("Each pair's curve lies inside its extended path of contact, in order 
   // Every pair passes every position of the pitch once: as many positions as the extended path has pitches.
   CHECK(std::abs(static_cast<double>(positions) - 24 * path.last_line_phase()) <=
         static_cast<double>(mesh.pairs.size()));
+}
+
+TEST_CASE("An edge that a fillet leaves reaches from the mate's tip circle to the line of action", "[core][contact][independent]") {
+  const double beta = GENERATE(0.0, 20.0) * deg;
+  const GearPair pair = make_gear_pair(pair_data(12, 56, beta));
+  REQUIRE(pair.pinion.fillet_interference);
+  const MeshScene scene = scene_of(pair);
+  const double form = scene.pinion.form_radius, rho = scene.pinion.roll_at(form);
+  const auto outside = [&](double phi1) {  // the wheel's tip circle [mm]
+    const Point3<double> p = flank_point(scene.pinion, rho, 0.0, 0, phi1);
+    return std::hypot(p.x - pair.centre_distance, p.y) - pair.wheel.tip_radius;
+  };
+  // On the line of action, and from there back to where the edge entered the circle.
+  const double on_line = (pair.path_start - pair.pitch_point) / pair.pinion.base_radius;
+  double inside = on_line, before = on_line - 1.0;
+  REQUIRE(outside(inside) < 0.0);
+  REQUIRE(outside(before) > 0.0);
+  while (inside - before > 1e-14) {
+    const double middle = 0.5 * (inside + before);
+    (outside(middle) < 0.0 ? inside : before) = middle;
+  }
+  const EdgeReach reach = edge_reach(pair);
+  constexpr double kRoundOff = 1e-11;  // of the form circle: tooth_form finds it to 1e-12 of its radius
+  CHECK(std::abs(reach.before - (on_line - inside) * 12 / (2 * pi)) <= kRoundOff);
+  CHECK(reach.beyond == 0.0);
+  // The same pair the other way round.
+  const EdgeReach turned = edge_reach(make_gear_pair(pair_data(56, 12, beta)));
+  CHECK(std::abs(turned.beyond - reach.before) <= kRoundOff);
+  CHECK(turned.before == 0.0);
+  // Where the mate's tip crosses the line of action first, no edge does.
+  const EdgeReach none = edge_reach(make_gear_pair(pair_data(22, 51, beta)));
+  CHECK(none.before == 0.0);
+  CHECK(none.beyond == 0.0);
+}
+
+TEST_CASE("Undercut teeth: the envelope is the largest of all pairs, those before and beyond the path included", "[core][contact]") {
+  Random random(2026);
+  int examined = 0, before_the_path = 0;
+  for (int i = 0; i < 40; ++i) {
+    const int few = random.integer(9, 13), many = random.integer(30, 120);
+    const double beta = random.coin() ? random(0.0, 20 * deg) : 0.0;
+    const bool pinion_is_small = random.coin();
+    PairData data = pair_data(pinion_is_small ? few : many, pinion_is_small ? many : few, beta, 0.0, 0.0, 12.0, 12.0);
+    data.pressure_angle = random(16 * deg, 20 * deg);
+    if (!find_problems(data).empty()) continue;
+    const GearPair pair = make_gear_pair(data);
+    if (!pair.pinion.fillet_interference && !pair.wheel.fillet_interference) continue;
+    Misalignment misalignment;
+    misalignment.centre_distance = random(0.0, 0.1);
+    Modification pinion, wheel;
+    pinion.addendum_crowning = random(0.0, 0.02);
+    wheel.addendum_crowning = random(0.0, 0.02);
+    (pinion_is_small ? wheel : pinion).root_relief = {random(0.0, 0.08), 3.0, ReliefShape::Linear};
+    (pinion_is_small ? pinion : wheel).tip_relief = {random(0.0, 0.08), 2.0, ReliefShape::Parabolic};
+    const MeshScene scene = scene_of(pair, misalignment, pinion, wheel);
+    const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 24);
+    CAPTURE(i, few, many, beta, pinion_is_small);
+    REQUIRE(mesh.missing == 0);
+    ++examined;
+    const PathOfContact path(pair);
+    const ToothContactSolver solver(scene);
+    for (std::size_t k = 0; k < mesh.phi1.size(); ++k) {
+      ToothContact leading;
+      for (int tooth = -8; tooth <= 8; ++tooth) {
+        const ToothContact contact = solver.find(tooth, mesh.phi1[k]);
+        if (contact.exists() && !(contact.transmission_error <= leading.transmission_error)) leading = contact;
+      }
+      CHECK(std::abs(mesh.transmission_error[k] - leading.transmission_error) <= 1e-12);  // round-off
+      const double phase = path.line_phase_at(mesh.phi1[k], pair) + leading.tooth;
+      if (phase < 0.0 || phase > path.last_line_phase()) ++before_the_path;
+    }
+    for (const Transfer& transfer : mesh.transfers) {
+      const double leaving = solver.find(transfer.from_tooth, transfer.phi1).transmission_error;
+      CHECK(std::abs(transfer.transmission_error - leaving) <= 1e-11);  // as above
+    }
+    CHECK(mesh.peak_to_peak >= 0.0);
+    CHECK(std::isfinite(mesh.peak_to_peak));
+  }
+  CHECK(examined >= 20);
+  CHECK(before_the_path >= 10);  // positions
 }
 
 namespace {
