@@ -14,7 +14,7 @@ using units::um;
 
 namespace {
 
-constexpr double kAngleRoundOff = 1e-12;  // rad
+constexpr double kUnloadedRoundOff = 1e-12;  // rad
 
 double peak_to_peak(const std::string& name, const Settings& settings) { return run(name, settings).unloaded.front().mesh.peak_to_peak; }
 
@@ -27,8 +27,8 @@ TEST_CASE("Hard: aligned flanks touch along a line and transmit without error", 
   const auto results = run("aligned_line_contact", {{"pair.helix_angle", helix}, {"pinion.hand", hand}});
   const auto& unloaded = results.unloaded.front();
   CHECK(unloaded.mesh.missing == 0);
-  CHECK(unloaded.mesh.peak_to_peak <= kAngleRoundOff);
-  CHECK(std::abs(unloaded.mesh.largest) <= kAngleRoundOff);
+  CHECK(unloaded.mesh.peak_to_peak <= kUnloadedRoundOff);
+  CHECK(std::abs(unloaded.mesh.largest) <= kUnloadedRoundOff);
   // A line shorter than a hundredth of the face counts as a point, see ToothContactSolver: there at most, a line begins or ends.
   const PathOfContact path(results.pair);
   for (std::size_t i = 0; i < unloaded.mesh.pairs.size(); ++i) {
@@ -55,7 +55,7 @@ TEST_CASE("Hard: a crossing that cancels a lead error is approached continuously
       const double near = crossed_by(3.0 + side * distance);
       CAPTURE(distance, side, near / arcsec);
       // Each point's angle is linear in the crossing, to first order: the envelope of them has the slope of the steepest at most.
-      CHECK(std::abs(near - singular) <= 1.1 * far * distance + kAngleRoundOff);
+      CHECK(std::abs(near - singular) <= 1.1 * far * distance + kUnloadedRoundOff);
     }
   }
   CHECK(crossed_by(3.1) == Approx(0.1 * far).epsilon(0.05));  // second order in 3 arcmin is what is left
@@ -86,7 +86,7 @@ TEST_CASE("Hard: contact that leaves the flank for an edge and a corner takes it
     ++transitions;
     const ToothContact one = contact_at(before, phi1), other = contact_at(after, phi1);
     CAPTURE(phi1, before, to_string(one.kind), to_string(other.kind));
-    CHECK(std::abs(other.transmission_error - one.transmission_error) <= kAngleRoundOff);
+    CHECK(std::abs(other.transmission_error - one.transmission_error) <= kUnloadedRoundOff);
     // The place may jump along a line of equal height only where it does not show: slopes stay between those of differences.
     constexpr double step = 1e-6;
     for (const double minutes : {before, after}) {
@@ -103,7 +103,7 @@ TEST_CASE("Hard: contact that leaves the flank for an edge and a corner takes it
     };
     const UnloadedMesh left = mesh_at(before), right = mesh_at(after);
     for (std::size_t j = 0; j < left.transmission_error.size(); ++j) {
-      CHECK(std::abs(left.transmission_error[j] - right.transmission_error[j]) <= kAngleRoundOff);
+      CHECK(std::abs(left.transmission_error[j] - right.transmission_error[j]) <= kUnloadedRoundOff);
     }
   }
   CHECK(transitions >= 2);
@@ -114,9 +114,9 @@ TEST_CASE("Hard: a designed parabola fades in proportion to its coefficient", "[
     const double found = peak_to_peak("parabola_to_zero", {{"pinion.modification.parabolic_te", in_digits(a)}});
     const double expected = a * (180.0 / 22) * (180.0 / 22) * arcsec;
     CAPTURE(a);
-    CHECK(std::abs(found - expected) <= 1e-9 * expected + kAngleRoundOff);
+    CHECK(std::abs(found - expected) <= 1e-9 * expected + kUnloadedRoundOff);
   }
-  CHECK(peak_to_peak("parabola_to_zero", {{"pinion.modification.parabolic_te", "0"}}) <= kAngleRoundOff);
+  CHECK(peak_to_peak("parabola_to_zero", {{"pinion.modification.parabolic_te", "0"}}) <= kUnloadedRoundOff);
 }
 
 TEST_CASE("Hard: a tooth that winds around its gear is not taken for another at its far end", "[hard_cases]") {
@@ -134,7 +134,7 @@ TEST_CASE("Hard: a tooth that winds around its gear is not taken for another at 
     }
   }
   const auto aligned = run("teeth_that_wind_around", {{"cycle.peaks", "sampled"}, {"misalignment.pinion_lead_angle", "0"}});
-  CHECK(aligned.unloaded.front().mesh.peak_to_peak <= kAngleRoundOff);
+  CHECK(aligned.unloaded.front().mesh.peak_to_peak <= kUnloadedRoundOff);
 }
 
 TEST_CASE("Hard: an edge that runs along its mate before the path begins takes the lead without a step", "[hard_cases]") {
@@ -151,7 +151,7 @@ TEST_CASE("Hard: an edge that runs along its mate before the path begins takes t
       const ToothContact contact = find_tooth_contact(scene, tooth, mesh.phi1[i]);
       if (contact.exists()) highest = std::max(highest, contact.transmission_error);
     }
-    CHECK(std::abs(mesh.transmission_error[i] - highest) <= kAngleRoundOff);
+    CHECK(std::abs(mesh.transmission_error[i] - highest) <= kUnloadedRoundOff);
   }
   REQUIRE(mesh.transfers.size() == 1);
   const Transfer& transfer = mesh.transfers.front();
@@ -181,8 +181,8 @@ TEST_CASE("Hard: flanks pass from convex through flat to hollow without a jump",
     // little more on the way to the form circle.
     for (std::size_t i = 0; i < last.size(); ++i) {
       const double rise = mesh.transmission_error[i] - last[i];
-      CHECK(rise >= -kAngleRoundOff);
-      CHECK(rise <= 1.1 * 2.0 * um / results.pair.wheel.base_radius + kAngleRoundOff);
+      CHECK(rise >= -kUnloadedRoundOff);
+      CHECK(rise <= 1.1 * 2.0 * um / results.pair.wheel.base_radius + kUnloadedRoundOff);
     }
     last = mesh.transmission_error;
     // Both ways to the first touch: the nearest of all points, and the maximum of the wheel's angle.

@@ -1,14 +1,10 @@
 #include "core/compliance/comparison/finite_element_deflections.hpp"
 
 #include <algorithm>
-#include <cassert>
 
 #include "core/compliance/tooth_places.hpp"
 
 namespace flankwright {
-
-/// Loads solved for at a time: enough for the factor to be read seldom, few enough to need little memory.
-constexpr Eigen::Index kBlock = 32;
 
 std::vector<FlankPoint> flank_points(const GearMesh& mesh, std::span<const FlankPlace> places) {
   std::vector<FlankPoint> points;
@@ -21,21 +17,12 @@ std::vector<FlankPoint> flank_points(const GearMesh& mesh, std::span<const Flank
 }
 
 Eigen::MatrixXd finite_element_deflections(const InfluenceModel& model, std::span<const FlankPlace> places,
-                                           std::span<const FlankPlace> loads, RemovedMotion removed,
-                                           const LoadProgress& progress) {
-  assert(model.solid().status() == FactorStatus::Factorised);
+                                           std::span<const FlankPlace> loads, RemovedMotion removed) {
   const GearMesh& mesh = model.mesh();
-  const Eigen::SparseMatrix<double> rows = net_functionals(mesh, flank_points(mesh, places), removed);
-  const Eigen::SparseMatrix<double> columns = net_functionals(mesh, flank_points(mesh, loads), removed);
+  std::vector<FlankPlace> all(places.begin(), places.end());
+  all.insert(all.end(), loads.begin(), loads.end());
   const double scale = model.material().youngs_modulus * mesh.normal_module;
-  Eigen::MatrixXd K(rows.cols(), columns.cols());
-  for (Eigen::Index first = 0; first < columns.cols(); first += kBlock) {
-    const Eigen::Index count = std::min(kBlock, columns.cols() - first);
-    K.middleCols(first, count) = scale * (rows.transpose() * model.solid().solve(columns.middleCols(first, count)));
-    if (progress) progress(static_cast<int>(first + count), static_cast<int>(columns.cols()));
-  }
-  K.array() += scale * axial_hold_compliance(mesh, model.material(), removed);
-  return K;
+  return scale * model.influence(flank_points(mesh, all), removed).compliance.topRightCorner(std::ssize(places), std::ssize(loads));
 }
 
 }  // namespace flankwright

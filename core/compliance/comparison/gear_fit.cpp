@@ -122,13 +122,13 @@ class GearFitRun {
 
   /// Samples of one grid on the loaded tooth and one on several.
   std::vector<InfluenceSample> samples(const InfluenceModel& model, const Places& own, const Places& adjacent) {
-    const auto solved = [&](int done, int) { report("solving loads", result_.loads + done, total_loads_); };
+    report("solving loads", result_.loads, total_loads_);
     std::vector<InfluenceSample> all =
-        finite_element_samples(model, result_.gear, own.us, own.zetas, 0, task_.removed, solved);
+        finite_element_samples(model, result_.gear, own.us, own.zetas, 0, task_.removed);
     result_.loads += own.count();
     if (apart_ == 0) return all;
     std::vector<InfluenceSample> several =
-        finite_element_samples(model, result_.gear, adjacent.us, adjacent.zetas, apart_, task_.removed, solved);
+        finite_element_samples(model, result_.gear, adjacent.us, adjacent.zetas, apart_, task_.removed);
     result_.loads += adjacent.count();
     all.insert(all.end(), several.begin() + 1, several.end());
     return all;
@@ -214,8 +214,7 @@ class GearFitRun {
 
 std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model, const GearFacts& gear,
                                                     const std::vector<double>& us, const std::vector<double>& zetas,
-                                                    int teeth_apart, RemovedMotion removed,
-                                                    const std::function<void(int done, int total)>& progress) {
+                                                    int teeth_apart, RemovedMotion removed) {
   const Places grid{us, zetas};
   const std::vector<FlankPlace> loads = on_tooth(grid, 0);
   std::vector<FlankPlace> places;
@@ -223,7 +222,7 @@ std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model,
     const std::vector<FlankPlace> some = on_tooth(grid, tooth);
     places.insert(places.end(), some.begin(), some.end());
   }
-  const MatrixXd K = finite_element_deflections(model, places, loads, removed, progress);
+  const MatrixXd K = finite_element_deflections(model, places, loads, removed);
   const auto n = static_cast<Index>(loads.size());
   const auto of_tooth = [&](int m) { return K.middleRows((teeth_apart + m) * n, n); };
   const MatrixXd own = 0.5 * (of_tooth(0) + of_tooth(0).transpose());

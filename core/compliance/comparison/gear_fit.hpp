@@ -75,7 +75,6 @@ GearFitResult fit_gear(const GearFitTask& task, const FitProgress& progress = {}
 /// but for their mesh, they count as each other's reciprocal.
 std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model, const GearFacts& gear,
                                                     const std::vector<double>& us, const std::vector<double>& zetas,
-                                                    int teeth_apart, RemovedMotion removed,
-                                                    const std::function<void(int done, int total)>& progress = {});
+                                                    int teeth_apart, RemovedMotion removed);
 
 }  // namespace flankwright

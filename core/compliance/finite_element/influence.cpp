@@ -11,18 +11,16 @@ double clock_seconds() {
 
 }  // namespace
 
-Eigen::SparseMatrix<double> net_functionals(const GearMesh& mesh, const std::vector<FlankPoint>& points,
-                                            RemovedMotion removed) {
-  Eigen::SparseMatrix<double> result(mesh.solid.nodes.size(), static_cast<Eigen::Index>(points.size()));
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::SparseVector<double> column = net_functional(mesh, points[i], removed);
-    result.startVec(static_cast<Eigen::Index>(i));
-    for (Eigen::SparseVector<double>::InnerIterator entry(column); entry; ++entry) {
-      result.insertBack(entry.index(), static_cast<Eigen::Index>(i)) = entry.value();
-    }
+FlankInfluence solve_flank_influence(const GearMesh& mesh, const SolidModel& solid, const Material& material, const std::vector<FlankPoint>& points,
+                                     RemovedMotion removed, const Eigen::SparseMatrix<double>& readings) {
+  const Eigen::Index n = std::ssize(points), r = readings.cols();
+  Eigen::SparseMatrix<double> both = net_functionals(mesh, points, removed);
+  if (r > 0) {
+    both.conservativeResize(both.rows(), n + r);
+    both.rightCols(r) = readings;
   }
-  result.finalize();
-  return result;
+  const Eigen::MatrixXd influence = solid.influence(both);
+  return {influence.topLeftCorner(n, n).array() + axial_hold_compliance(mesh, material, removed), influence.bottomLeftCorner(r, n)};
 }
 
 InfluenceModel::InfluenceModel(const GearToMesh& gear, const Material& material, const GearMeshOptions& options)
@@ -43,8 +41,7 @@ InfluenceMatrix InfluenceModel::influence(const std::vector<FlankPoint>& points,
   result.statistics.model_seconds = model_seconds_;
   if (result.status != FactorStatus::Factorised) return result;
   const double start = clock_seconds();
-  result.compliance = solid_.influence(net_functionals(mesh_, points, removed));
-  result.compliance.array() += axial_hold_compliance(mesh_, material_, removed);
+  result.compliance = solve_flank_influence(mesh_, solid_, material_, points, removed).compliance;
   result.statistics.solve_seconds = clock_seconds() - start;
   return result;
 }

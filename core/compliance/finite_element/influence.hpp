@@ -29,6 +29,20 @@ struct InfluenceMatrix {
   RunStatistics statistics;
 };
 
+/// What forces on flanks do to these, and to anything else that is linear in the displacements.
+struct FlankInfluence {
+  /// As InfluenceMatrix::compliance: K(p, q) [mm/N], n x n.
+  Eigen::MatrixXd compliance;
+  /// Of every reading under a unit force at every point, r x n.
+  Eigen::MatrixXd readings;
+};
+
+/// @param solid     of the mesh, Factorised
+/// @param readings  3n x r, functionals of the nodes' displacements; may have no columns
+/// @throws InvalidInput  a point outside the ranges of FlankPoint
+FlankInfluence solve_flank_influence(const GearMesh& mesh, const SolidModel& solid, const Material& material, const std::vector<FlankPoint>& points,
+                                     RemovedMotion removed, const Eigen::SparseMatrix<double>& readings = {});
+
 /// Meshed and factorised gear, for any number of influence matrices.
 class InfluenceModel {
  public:
@@ -39,7 +53,6 @@ class InfluenceModel {
   const SolidModel& solid() const { return solid_; }
   const Material& material() const { return material_; }
 
-  /// Needs 8 bytes per unknown and point beside the factor.
   /// @throws InvalidInput  a point outside the ranges of FlankPoint
   InfluenceMatrix influence(const std::vector<FlankPoint>& points,
                             RemovedMotion removed = RemovedMotion::TranslationTorsionAndTilt) const;
@@ -51,9 +64,5 @@ class InfluenceModel {
   SolidModel solid_;
   double model_seconds_;
 };
-
-/// Functionals of the points as columns, 3n x k.
-Eigen::SparseMatrix<double> net_functionals(const GearMesh& mesh, const std::vector<FlankPoint>& points,
-                                            RemovedMotion removed);
 
 }  // namespace flankwright

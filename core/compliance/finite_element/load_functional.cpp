@@ -163,7 +163,12 @@ SectionMotion shaft_motion(const GearMesh& mesh, double z) {
   return motion;
 }
 
-Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoint& point, RemovedMotion removed) {
+const SectionMotion& ShaftMotions::at(double z) {
+  const auto found = motions_.find(z);
+  return found != motions_.end() ? found->second : motions_.emplace(z, shaft_motion(*mesh_, z)).first->second;
+}
+
+Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoint& point, RemovedMotion removed, ShaftMotions& motions) {
   const Eigen::SparseVector<double> load = centre_functional(mesh, point);
   if (removed == RemovedMotion::None) return load;
 
@@ -179,7 +184,7 @@ Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoin
   std::map<Eigen::Index, double> entries;
   for (Eigen::SparseVector<double>::InnerIterator entry(load); entry; ++entry) entries[entry.index()] = entry.value();
   const auto take_off = [&](double z, const Eigen::Matrix<double, 6, 1>& part) {
-    const SectionMotion motion = shaft_motion(mesh, z);
+    const SectionMotion& motion = motions.at(z);
     const Eigen::RowVectorXd weights = part.transpose() * motion.weights;
     for (std::size_t k = 0; k < motion.nodes.size(); ++k) {
       for (int a = 0; a < 3; ++a) {
@@ -201,6 +206,18 @@ Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoin
   }
   Eigen::SparseVector<double> result(load.size());
   for (const auto& [index, value] : entries) result.insert(index) = value;
+  return result;
+}
+
+Eigen::SparseMatrix<double> net_functionals(const GearMesh& mesh, const std::vector<FlankPoint>& points, RemovedMotion removed) {
+  ShaftMotions motions(mesh);
+  Eigen::SparseMatrix<double> result(mesh.solid.nodes.size(), std::ssize(points));
+  for (Eigen::Index i = 0; i < result.cols(); ++i) {
+    const Eigen::SparseVector<double> column = net_functional(mesh, points[static_cast<std::size_t>(i)], removed, motions);
+    result.startVec(i);
+    for (Eigen::SparseVector<double>::InnerIterator entry(column); entry; ++entry) result.insertBack(entry.index(), i) = entry.value();
+  }
+  result.finalize();
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <map>
 #include <vector>
 
 #include "core/compliance/finite_element/gear_mesh.hpp"
@@ -87,6 +88,17 @@ struct SectionMotion {
 /// @param z  -b/2 .. b/2 [mm]
 SectionMotion shaft_motion(const GearMesh& mesh, double z);
 
+/// shaft_motion() of one mesh, worked out once for each plane.
+class ShaftMotions {
+ public:
+  explicit ShaftMotions(const GearMesh& mesh) : mesh_(&mesh) {}
+  const SectionMotion& at(double z);
+
+ private:
+  const GearMesh* mesh_;
+  std::map<double, SectionMotion> motions_;
+};
+
 /// What of the shaft's motion is taken out of the compliance.
 enum class RemovedMotion {
   None,
@@ -110,7 +122,10 @@ enum class RemovedMotion {
 /// F and M being force and moment of l_p about the axis in the plane z_p. It serves for load and deflection: the load
 /// that belongs to it has its reactions on the shaft right where the motion is measured. Hence P' K P instead of K P,
 /// symmetric and positive semi-definite again.
-Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoint& point, RemovedMotion removed);
+Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoint& point, RemovedMotion removed, ShaftMotions& motions);
+
+/// Functionals of many points as columns, 3n x k.
+Eigen::SparseMatrix<double> net_functionals(const GearMesh& mesh, const std::vector<FlankPoint>& points, RemovedMotion removed);
 
 /// Diameter of what holds the shaft axially, over the shaft's.
 inline constexpr double axial_hold_share = 0.2;

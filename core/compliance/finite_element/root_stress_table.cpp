@@ -1,23 +1,14 @@
 #include "core/compliance/finite_element/root_stress_table.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
-#include <string>
 
-#include "core/base/error.hpp"
 #include "core/base/units.hpp"
-#include "core/compliance/finite_element/influence.hpp"
 #include "core/compliance/tooth_places.hpp"
 
 namespace flankwright {
-namespace {
-
-FlankPoint point_of(const GearMesh& mesh, const FlankPlace& place) {
-  return {place.tooth, flank_radius(mesh.form, place.u), place.zeta * mesh.normal_module - mesh.face_width / 2};
-}
-
-}  // namespace
 
 Eigen::MatrixXd RootStressTable::evaluate(int tooth, std::span<const FlankPlace> forces) const {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * fillet.size(), static_cast<Eigen::Index>(forces.size()));
@@ -45,37 +36,21 @@ FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet) {
   return grid;
 }
 
-RootStressTable solve_root_stress_table(const GearMesh& mesh, const SolidModel& solid, const Material& material,
-                                        const FlankGrid& grid,
-                                        const std::function<void(Eigen::Index, Eigen::Index)>& progress) {
-  const double width = mesh.face_width / mesh.normal_module;
-  if (!(std::abs(grid.face_width() - width) <= 1e-9 * width)) {  // round-off of the division
-    throw InvalidInput("grid", std::to_string(grid.face_width()) + " modules", std::to_string(width));
-  }
+RootStressReadings root_stress_readings(const GearMesh& mesh, const Material& material) {
   const FilletStress fillet(mesh, material);
-  RootStressTable table{grid, fillet_grid(mesh, fillet), {}};
+  const FilletGrid grid = fillet_grid(mesh, fillet);
   std::vector<FilletPlace> places;
-  for (const double along : table.fillet.along) {
-    for (const double zeta : table.fillet.zetas)
-      places.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
+  for (const double along : grid.along) {
+    for (const double zeta : grid.zetas) places.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
   }
-  std::vector<FlankPoint> points;
-  for (int tooth = -mesh.teeth_each_side; tooth <= mesh.teeth_each_side; ++tooth) {
-    for (const FlankPlace& place : grid.places(tooth)) points.push_back(point_of(mesh, place));
-  }
-  const Eigen::SparseMatrix<double> forces = net_functionals(mesh, points, RemovedMotion::TranslationTorsionAndTilt);
-  const Eigen::SparseMatrix<double> readings = fillet.functionals(places);
+  return {grid, fillet.functionals(places)};
+}
+
+RootStressTable root_stress_table(const GearMesh& mesh, const FlankGrid& grid, const FilletGrid& fillet, const Eigen::MatrixXd& stress) {
+  assert(stress.rows() == 3 * fillet.size() && stress.cols() == (2 * mesh.teeth_each_side + 1) * grid.size());
+  RootStressTable table{grid, fillet, {}};
   const double scale = mesh.normal_module * mesh.normal_module;
-  Eigen::MatrixXd stress(readings.cols(), forces.cols());
-  for (Eigen::Index begin = 0; begin < readings.cols(); begin += kSolveBlock) {
-    const Eigen::Index rows = std::min(kSolveBlock, readings.cols() - begin);
-    stress.middleRows(begin, rows) =
-        scale * (forces.transpose() * solid.solve(readings.middleCols(begin, rows))).transpose();
-    if (progress) progress(begin + rows, readings.cols());
-  }
-  for (Eigen::Index begin = 0; begin < forces.cols(); begin += grid.size()) {
-    table.stress.push_back(stress.middleCols(begin, grid.size()));
-  }
+  for (Eigen::Index begin = 0; begin < stress.cols(); begin += grid.size()) table.stress.push_back(scale * stress.middleCols(begin, grid.size()));
   return table;
 }
 

@@ -1,12 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include "core/compliance/finite_element/fillet_stress.hpp"
-#include "core/compliance/finite_element/solid_model.hpp"
 #include "core/compliance/flank_grid.hpp"
 
 namespace flankwright {
@@ -23,7 +21,7 @@ struct FilletGrid {
 /// Stress along the fillets of one gear under forces on its flanks [Haddad 1991, eq. 1.71, as three components instead
 /// of one, so that loads add up exactly before the principal stress is taken].
 ///
-/// Tension side only: the fillet below the flank that carries. Forces are those of net_functional(): they enter over
+/// Tension side only: the fillet below the flank that carries. Forces are those of net_functional() with at least the tilt removed: they enter over
 /// the tooth's centre surface and are held by the shaft right where they act, so that the stress of the shaft's own
 /// bending and torsion is not in it (5e-4 of the whole with the default shaft; a rigid motion leaves no stress behind).
 /// A force on the flank itself stresses the fillet 1 to 2 % more from the upper half of the flank, 5 % from 0.6 modules
@@ -54,15 +52,16 @@ std::vector<double> fillet_zetas(double face_width);
 
 FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet);
 
-/// Reads a gear's table off its finite elements: by reciprocity a solution per component of stress, read by the forces
-/// on all detailed teeth, needs fewer of them than one per force.
-///
-/// @param solid     of the mesh, Factorised
+/// What a table is read with: three functionals per place of the fillet of tooth 0, as FilletStress::functionals() has them.
+struct RootStressReadings {
+  FilletGrid fillet;
+  Eigen::SparseMatrix<double> functionals;  ///< 3n x 3 P, MPa per mm
+};
+
 /// @param material  of the solid model
-/// @param progress  called with the number of solutions done and of all
-/// @throws InvalidInput  "grid" where it is not as wide as the face
-RootStressTable solve_root_stress_table(const GearMesh& mesh, const SolidModel& solid, const Material& material,
-                                        const FlankGrid& grid,
-                                        const std::function<void(Eigen::Index, Eigen::Index)>& progress = {});
+RootStressReadings root_stress_readings(const GearMesh& mesh, const Material& material);
+
+/// @param stress  of the readings under unit forces at the places of the grid on teeth -M .. M, one tooth after the other [MPa/N]
+RootStressTable root_stress_table(const GearMesh& mesh, const FlankGrid& grid, const FilletGrid& fillet, const Eigen::MatrixXd& stress);
 
 }  // namespace flankwright

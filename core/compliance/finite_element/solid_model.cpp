@@ -86,8 +86,8 @@ double SolidMesh::quality() const {
 
 struct SolidModel::Assembled {
   Eigen::SparseMatrix<double> lower;
-  Eigen::VectorXi free_rows, node_of;
-  std::vector<NodeSupport> turned;
+  Eigen::SparseMatrix<double> motion;
+  Eigen::VectorXi node_of;
 
   Assembled(const SolidMesh& mesh, const Material& material, const std::vector<NodeSupport>& supports) {
     check(mesh, material, supports);
@@ -97,30 +97,40 @@ struct SolidModel::Assembled {
     for (const NodeSupport& support : supports) {
       for (int a = 0; a < 3; ++a) fixed[3 * support.node + a] = support.fixed[a];
       if (!support.frame.isIdentity(0)) {
-        turn[support.node] = static_cast<int>(turned.size());
-        turned.push_back(support);
+        turn[support.node] = static_cast<int>(turned_.size());
+        turned_.push_back(support);
       }
     }
     std::vector<int> number(static_cast<std::size_t>(3 * n), -1);
     const auto count = static_cast<Eigen::Index>(std::count(fixed.begin(), fixed.end(), 0));
-    free_rows.resize(count);
     node_of.resize(count);
+    motion.resize(3 * n, count);
+    motion.reserve(Eigen::VectorXi::Constant(count, 3));
     for (int row = 0, next = 0; row < 3 * n; ++row) {
       if (fixed[row]) continue;
-      free_rows[next] = row;
-      node_of[next] = row / 3;
-      number[row] = next++;
+      const int node = row / 3, t = turn[node];
+      node_of[next] = node;
+      number[row] = next;
+      if (t < 0) {
+        motion.insert(row, next) = 1.0;
+      } else {
+        for (int a = 0; a < 3; ++a) motion.insert(3 * node + a, next) = turned_[t].frame(a, row % 3);
+      }
+      ++next;
     }
+    motion.makeCompressed();
 
+    lower.resize(count, count);
     lay_out(node_graph(mesh), number, n);
     fill(mesh, material, number, turn);
   }
 
  private:
+  std::vector<NodeSupport> turned_;  ///< supports whose frame is not the axes
+
   /// Pattern of `lower`, values 0.
   void lay_out(const NodeGraph& graph, const std::vector<int>& number, Eigen::Index n) {
-    lower.resize(free_rows.size(), free_rows.size());
-    Eigen::VectorXi counts(free_rows.size());
+    Eigen::VectorXi counts(lower.cols());
     std::vector<int> rows;
     const auto below = [&](int node) {
       rows.clear();
@@ -162,8 +172,8 @@ struct SolidModel::Assembled {
       for (int i = 0; i < 20; ++i) {
         const int t = turn[mesh.bricks(i, e)];
         if (t < 0) continue;
-        stiffness.middleRows<3>(3 * i) = (turned[t].frame.transpose() * stiffness.middleRows<3>(3 * i)).eval();
-        stiffness.middleCols<3>(3 * i) = (stiffness.middleCols<3>(3 * i) * turned[t].frame).eval();
+        stiffness.middleRows<3>(3 * i) = (turned_[t].frame.transpose() * stiffness.middleRows<3>(3 * i)).eval();
+        stiffness.middleCols<3>(3 * i) = (stiffness.middleCols<3>(3 * i) * turned_[t].frame).eval();
       }
       for (int j = 0; j < 60; ++j) {
         const int column = number[3 * mesh.bricks(j / 3, e) + j % 3];
@@ -180,44 +190,19 @@ struct SolidModel::Assembled {
 };
 
 SolidModel::SolidModel(const SolidMesh& mesh, const Material& material, const std::vector<NodeSupport>& supports)
-    : SolidModel(3 * mesh.nodes.cols(), Assembled(mesh, material, supports)) {}
+    : SolidModel(Assembled(mesh, material, supports)) {}
 
-SolidModel::SolidModel(Eigen::Index size, Assembled&& assembled)
-    : size_(size),
-      turned_(std::move(assembled.turned)),
-      free_rows_(std::move(assembled.free_rows)),
-      factor_(assembled.lower, assembled.node_of) {}
-
-Eigen::MatrixXd SolidModel::reduce(const Eigen::SparseMatrix<double>& loads, Eigen::Index begin,
-                                   Eigen::Index columns) const {
-  Eigen::MatrixXd full = loads.middleCols(begin, columns);
-  for (const NodeSupport& support : turned_) {
-    full.middleRows<3>(3 * support.node) = (support.frame.transpose() * full.middleRows<3>(3 * support.node)).eval();
-  }
-  return full(free_rows_, Eigen::all);
-}
+SolidModel::SolidModel(Assembled&& assembled)
+    : motion_(std::move(assembled.motion)), factor_(assembled.lower, assembled.node_of) {}
 
 Eigen::MatrixXd SolidModel::solve(const Eigen::SparseMatrix<double>& loads) const {
-  assert(loads.rows() == size_);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size_, loads.cols());
-  result(free_rows_, Eigen::all) = factor_.solve(reduce(loads, 0, loads.cols()));
-  for (const NodeSupport& support : turned_) {
-    result.middleRows<3>(3 * support.node) = (support.frame * result.middleRows<3>(3 * support.node)).eval();
-  }
-  return result;
+  assert(loads.rows() == motion_.rows());
+  return motion_ * factor_.solve(motion_.transpose() * loads);
 }
 
 Eigen::MatrixXd SolidModel::influence(const Eigen::SparseMatrix<double>& loads) const {
-  assert(loads.rows() == size_);
-  Eigen::MatrixXd half(unknowns(), loads.cols());
-  for (Eigen::Index begin = 0; begin < loads.cols(); begin += kSolveBlock) {
-    const Eigen::Index columns = std::min(kSolveBlock, loads.cols() - begin);
-    half.middleCols(begin, columns) = factor_.half_solve(reduce(loads, begin, columns));
-  }
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(loads.cols(), loads.cols());
-  result.selfadjointView<Eigen::Lower>().rankUpdate(half.transpose());
-  result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
-  return result;
+  assert(loads.rows() == motion_.rows());
+  return factor_.gram(motion_.transpose() * loads);
 }
 
 }  // namespace flankwright

@@ -41,23 +41,20 @@ class SolidModel {
 
   /// Not Factorised where the supports leave a rigid motion free; then nothing below may be called.
   FactorStatus status() const { return factor_.status(); }
-  Eigen::Index unknowns() const { return free_rows_.size(); }
+  Eigen::Index unknowns() const { return motion_.cols(); }
   const SparseCholesky& factor() const { return factor_; }
 
   /// A^-1 F, 3n x k.
   Eigen::MatrixXd solve(const Eigen::SparseMatrix<double>& loads) const;
-  /// F' A^-1 F, k x k, as the Gram matrix of the half-solved loads: exactly symmetric, and positive semi-definite to
-  /// round-off.
+  /// F' A^-1 F, k x k: exactly symmetric, and positive semi-definite to round-off. What it takes grows with the part of the body
+  /// that the loads are on, a small one of what solve() takes.
   Eigen::MatrixXd influence(const Eigen::SparseMatrix<double>& loads) const;
 
  private:
   struct Assembled;
-  SolidModel(Eigen::Index size, Assembled&& assembled);
-  Eigen::MatrixXd reduce(const Eigen::SparseMatrix<double>& loads, Eigen::Index begin, Eigen::Index columns) const;
+  explicit SolidModel(Assembled&& assembled);
 
-  Eigen::Index size_;                ///< 3 n
-  std::vector<NodeSupport> turned_;  ///< supports whose frame is not the axes
-  Eigen::VectorXi free_rows_;        ///< of every unknown, its place among the 3 n
+  Eigen::SparseMatrix<double> motion_;  ///< displacements of the nodes by the unknowns, 3n x unknowns, along the supports' frames
   SparseCholesky factor_;
 };
 

@@ -53,9 +53,7 @@ class TableSolver {
   TableSolver(const InfluenceTableTask& task, const TableProgress& progress, InfluenceTableRun& run)
       : task_(task),
         progress_(progress),
-        run_(run),
-        blocks_(blocks_of(task.grid.size())),
-        stress_blocks_(task.root_stress ? blocks_of(3 * fillet_stations * std::ssize(fillet_zetas(task.grid.face_width()))) : 0) {}
+        run_(run) {}
 
   void solve(double memory_limit) {
     report(0);
@@ -70,7 +68,8 @@ class TableSolver {
       run_.status = FactorStatus::OutOfMemory;
       return;
     }
-    const SolidModel solid(mesh.solid, {1, task_.poissons_ratio}, mesh.supports);
+    const Material material{1, task_.poissons_ratio};
+    const SolidModel solid(mesh.solid, material, mesh.supports);
     run_.status = solid.status();
     statistics.unknowns = solid.unknowns();
     statistics.factor_entries = static_cast<double>(solid.factor().factor_entries());
@@ -79,37 +78,21 @@ class TableSolver {
     if (run_.status != FactorStatus::Factorised) return;
     report(1);
     const Stopwatch loads;
-    run_.table.emplace(task_.grid, tables(deflections(mesh, solid)));
-    if (task_.root_stress) {
-      run_.root_stress = solve_root_stress_table(
-          mesh, solid, {1, task_.poissons_ratio}, task_.grid,
-          [&](Eigen::Index done, Eigen::Index) { report(blocks_ + 1 + blocks_of(done)); });
-    }
+    const RootStressReadings readings = task_.root_stress ? root_stress_readings(mesh, material) : RootStressReadings{};
+    const FlankInfluence influence =
+        solve_flank_influence(mesh, solid, material, flank_points(mesh, task_.grid), task_.removed, readings.functionals);
+    run_.table.emplace(task_.grid, tables(influence.compliance.middleCols(task_.teeth_apart * task_.grid.size(), task_.grid.size())));
+    if (task_.root_stress) run_.root_stress = root_stress_table(mesh, task_.grid, readings.fillet, influence.readings);
     statistics.solve_seconds = loads.seconds();
+    report(2);
   }
 
  private:
-  static int blocks_of(Eigen::Index columns) { return static_cast<int>((columns + kSolveBlock - 1) / kSolveBlock); }
-
   void report(int done) const {
-    if (progress_) progress_(done, blocks_ + stress_blocks_ + 1);
+    if (progress_) progress_(done, 2);
   }
 
-  /// Of all places on teeth -M .. M, by loads on tooth 0.
-  Eigen::MatrixXd deflections(const GearMesh& mesh, const SolidModel& solid) const {
-    const Eigen::SparseMatrix<double> functionals = net_functionals(mesh, flank_points(mesh, task_.grid), task_.removed);
-    const Eigen::Index n = task_.grid.size();
-    Eigen::MatrixXd result(functionals.cols(), n);
-    for (int block = 0; block < blocks_; ++block) {
-      const Eigen::Index begin = block * kSolveBlock, columns = std::min(kSolveBlock, n - begin);
-      const Eigen::SparseMatrix<double> loads = functionals.middleCols(task_.teeth_apart * n + begin, columns);
-      result.middleCols(begin, columns) = functionals.transpose() * solid.solve(loads);
-      report(block + 2);
-    }
-    result.array() += axial_hold_compliance(mesh, {1, task_.poissons_ratio}, task_.removed);
-    return result;
-  }
-
+  /// From deflections of all places on teeth -M .. M, by loads on tooth 0.
   std::vector<Eigen::MatrixXd> tables(const Eigen::MatrixXd& deflections) const {
     const Eigen::Index n = task_.grid.size();
     const auto of_tooth = [&](int m) { return deflections.middleRows((task_.teeth_apart + m) * n, n); };
@@ -121,7 +104,6 @@ class TableSolver {
   const InfluenceTableTask& task_;
   const TableProgress& progress_;
   InfluenceTableRun& run_;
-  int blocks_, stress_blocks_;
 };
 
 }  // namespace

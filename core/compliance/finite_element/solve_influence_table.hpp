@@ -40,7 +40,7 @@ struct InfluenceTableRun {
 /// 12 modules (36,000 to 225,000 unknowns) as 42 to 48 n^1.469.
 double expected_bytes(Eigen::Index unknowns);
 
-/// Steps of a run: the model, then blocks of loads.
+/// Steps of a run: the model, then the loads.
 using TableProgress = std::function<void(int done, int total)>;
 
 /// Solves a gear's finite elements for a load at every place of the grid on tooth 0, the one that is meshed finely, and

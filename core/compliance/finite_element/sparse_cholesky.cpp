@@ -5,15 +5,18 @@
 
 #include <algorithm>
 #include <cassert>
-#include <initializer_list>
 #include <mutex>
 #include <new>
 #include <vector>
 
 #include "core/base/one_blas_thread.hpp"
+#include "core/compliance/finite_element/supernodal_gram.hpp"
 
 namespace flankwright {
 namespace {
+
+/// Right-hand sides that are solved together: enough for BLAS-3, few enough to keep the workspace small.
+constexpr Eigen::Index kSolveBlock = 48;
 
 /// Keeps OpenMP, with which CHOLMOD assembles and solves, on the calling thread while it lives: its workers would spin
 /// against those of the other gear. The switch is the calling thread's own, and looked for as OpenBLAS' is.
@@ -115,8 +118,8 @@ struct SparseCholesky::Factor {
   Factor(const Factor&) = delete;
   Factor& operator=(const Factor&) = delete;
 
-  /// Solves with one of CHOLMOD's systems after another, in blocks of columns.
-  Eigen::MatrixXd solve(std::initializer_list<int> systems, const Eigen::MatrixXd& right_sides) const {
+  /// Solves in blocks of columns.
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& right_sides) const {
     const OneCore serial;
     Eigen::MatrixXd result(right_sides.rows(), right_sides.cols());
     for (Eigen::Index begin = 0; begin < right_sides.cols(); begin += kSolveBlock) {
@@ -128,13 +131,8 @@ struct SparseCholesky::Factor {
       view.x = const_cast<double*>(right_sides.col(begin).data());
       view.xtype = CHOLMOD_REAL;
       view.dtype = CHOLMOD_DOUBLE;
-      cholmod_dense* x = &view;
-      for (const int system : systems) {
-        cholmod_dense* next = cholmod_solve(system, l, x, &common);
-        if (x != &view) cholmod_free_dense(&x, &common);
-        if (!next) throw std::bad_alloc();
-        x = next;
-      }
+      cholmod_dense* x = cholmod_solve(CHOLMOD_A, l, &view, &common);
+      if (!x) throw std::bad_alloc();
       result.middleCols(begin, columns) =
           Eigen::Map<const Eigen::MatrixXd>(static_cast<double*>(x->x), right_sides.rows(), columns);
       cholmod_free_dense(&x, &common);
@@ -199,12 +197,13 @@ double SparseCholesky::flops() const {
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& right_sides) const {
   assert(status_ == FactorStatus::Factorised);
-  return factor_->solve({CHOLMOD_A}, right_sides);
+  return factor_->solve(right_sides);
 }
 
-Eigen::MatrixXd SparseCholesky::half_solve(const Eigen::MatrixXd& right_sides) const {
+Eigen::MatrixXd SparseCholesky::gram(const Eigen::SparseMatrix<double>& right_sides) const {
   assert(status_ == FactorStatus::Factorised);
-  return factor_->solve({CHOLMOD_P, CHOLMOD_L}, right_sides);
+  const OneCore serial;
+  return supernodal_gram(*factor_->l, right_sides);
 }
 
 }  // namespace flankwright

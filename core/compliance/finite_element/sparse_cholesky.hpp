@@ -7,9 +7,6 @@
 
 namespace flankwright {
 
-/// Right-hand sides that are solved together: enough for BLAS-3, few enough to keep the workspace small.
-inline constexpr Eigen::Index kSolveBlock = 48;
-
 /// Outcome of a factorisation.
 enum class FactorStatus {
   Factorised,
@@ -39,8 +36,8 @@ class SparseCholesky {
 
   /// A^-1 B, n x k. Needs status() Factorised.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_sides) const;
-  /// L^-1 P B, n x k, whose Gram matrix is B' A^-1 B: half the work of solve(). Needs status() Factorised.
-  Eigen::MatrixXd half_solve(const Eigen::MatrixXd& right_sides) const;
+  /// B' A^-1 B, k x k, exactly symmetric, see supernodal_gram(). Needs status() Factorised.
+  Eigen::MatrixXd gram(const Eigen::SparseMatrix<double>& right_sides) const;
 
  private:
   struct Factor;

@@ -23,7 +23,7 @@ using units::pi;
 
 namespace {
 
-constexpr double kRoundOff = 1e-12;  // rad
+constexpr double kAngleRoundOff = 1e-12;  // rad
 
 Modification parabola(double a, double lead_crowning = 0.0) {
   Modification m;
@@ -102,7 +102,7 @@ TEST_CASE("An aligned pair's transmission error is the predesigned parabola to r
     const ToothContact contact = find_tooth_contact(scene, 0, phi1);
     CAPTURE(beta / deg, a, phi1, crowned, to_string(contact.kind));
     CHECK(contact.kind == (crowned ? ContactKind::Surface : ContactKind::Line));
-    CHECK(std::abs(contact.transmission_error + a * phi1 * phi1) <= kRoundOff);
+    CHECK(std::abs(contact.transmission_error + a * phi1 * phi1) <= kAngleRoundOff);
     CHECK(std::abs(contact.slope + 2 * a * phi1) <= 1e-7);  // round-off of the place on a flat line
     if (crowned) continue;
     const ContactEllipse ellipse = contact_ellipse(scene, contact, 0.006);
@@ -202,7 +202,7 @@ TEST_CASE("Below the point where the flank would fold its slope continues, and t
   CHECK(std::abs(below.value - (here.value - 0.1 * here.u)) <= 1e-14);
   const MeshScene scene = scene_of(pair, {}, parabola(a, 0.01));
   for (const double phi1 : {-pi / 18, -0.05, 0.06, pi / 18}) {
-    CHECK(std::abs(find_tooth_contact(scene, 0, phi1).transmission_error + a * phi1 * phi1) <= kRoundOff);
+    CHECK(std::abs(find_tooth_contact(scene, 0, phi1).transmission_error + a * phi1 * phi1) <= kAngleRoundOff);
   }
 }
 

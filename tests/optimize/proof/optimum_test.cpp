@@ -38,8 +38,8 @@ double moved_objective(const DesignTask& task, Modification pinion, Modification
     if (std::holds_alternative<PinionTorque>(p.parameter)) scene.torque *= 1.0 + steps * p.inside;
     const auto* g = std::get_if<GearParameter>(&p.parameter);
     if (g == nullptr || p.variable >= 0) continue;
-    ManufacturingError& error = member_is_pinion(*g) ? scene.condition.pinion_error : scene.condition.wheel_error;
-    (g->parameter == ModificationParameter::LeadSlope ? error.helix_slope : error.profile_slope) += steps * units::um;
+    ManufacturingError& manufacturing = member_is_pinion(*g) ? scene.condition.pinion_error : scene.condition.wheel_error;
+    (g->parameter == ModificationParameter::LeadSlope ? manufacturing.helix_slope : manufacturing.profile_slope) += steps * units::um;
   }
   if (p.variable >= 0) {
     const auto& g = std::get<GearParameter>(p.parameter);

@@ -7,7 +7,7 @@
 /// C. D. Haddad, The elastic analysis of load distribution in wide-faced helical gears, Ph.D. thesis, University of Newcastle
 /// upon Tyne, 1991, appendix 2C: a shaft of two diameters on two supports, the gear's face 0 .. b, z counted from it. All
 /// formulas are his; loads are a force and a moment in one plane, his F cos(beta_b) and M_f.
-namespace {
+namespace haddad_2c {
 
 using namespace flankwright;
 using Eigen::Vector3d;
@@ -73,7 +73,6 @@ double shear(double z, double z_f, double M_f) {
   return z <= z_f ? g1 * l1 + g2 * z + theta * (z + l1) : g1 * l1 + g2 * z_f + g3 * (z - z_f) + theta * (z + l1);
 }
 
-}  // namespace
 
 TEST_CASE("Shaft bending and shear are those of Haddad's appendix 2C", "[core][compliance][shaft][reference]") {
   const ShaftBeam bends = on_two_supports(false), shears = on_two_supports(true);
@@ -103,3 +102,5 @@ TEST_CASE("Shaft torsion is that of Haddad's appendix 2C, by one force and by a 
     CHECK(mean == Approx((l1 / J(d1) + z * (2 * b - z) / (2 * b * J(d2))) / G).epsilon(kRoundOff));
   }
 }
+
+}  // namespace haddad_2c

@@ -9,7 +9,7 @@
 using namespace flankwright;
 using Eigen::Vector3d;
 
-namespace {
+namespace beam_cases {
 
 constexpr double kBeamRoundOff = 1e-12;  // of the clamped beam's values, of which some closed forms are a fiftieth
 
@@ -46,7 +46,6 @@ double between(const ShaftBeam& beam, const BeamLoad& one, const BeamLoad& other
 
 Approx near(double value) { return Approx(value).epsilon(kBeamRoundOff).margin(1e-20); }
 
-}  // namespace
 
 TEST_CASE("A clamped shaft bends, shears, twists and stretches as textbooks say", "[core][compliance][shaft][closed-form]") {
   const ShaftBeam beam({uniform_piece(L)}, clamp(GENERATE(0.0, L)));
@@ -155,3 +154,5 @@ TEST_CASE("Any shaft's flexibility is symmetric, does no negative work and does 
     CHECK((same.flexibility(loads) - K).norm() < 1e-11 * K.norm());  // round-off
   }
 }
+
+}  // namespace beam_cases
