@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "core/base/limit_estimate.hpp"
 
@@ -10,26 +11,12 @@ namespace flankwright {
 
 namespace {
 
-/// Estimates by differences are multiplied by this before they are called an error: sequences are not regular, and the largest of ten
-/// figures is asked for.
+/// Differences and estimates by differences are multiplied by this before they are called an error: sequences are not regular, and the
+/// largest of ten figures is asked for.
 constexpr double safety = 1.5;
 constexpr double quadrature_share = 0.5;  ///< of the accuracy, for the intervals
-
-/// Error of the last level by the last three; infinite where there are fewer: two may agree by chance.
-PerFigure error_of_last(const std::vector<ResolutionLevel>& levels) {
-  PerFigure error{};
-  const std::size_t n = levels.size();
-  if (n < 3) {
-    error.fill(std::numeric_limits<double>::infinity());
-    return error;
-  }
-  const CycleFigures& fine = levels[n - 1].figures;
-  CycleFigures limit = fine;
-  for (std::size_t i = 0; i < error.size(); ++i) {
-    limit.value[i] += safety * estimate_limit(levels[n - 3].figures.value[i], levels[n - 2].figures.value[i], fine.value[i]).error;
-  }
-  return figure_errors(limit, fine);
-}
+/// An estimate of more than this many times the difference that was measured is held against one more level.
+constexpr double most_over_measured = 3.0;
 
 PerFigure sum(const PerFigure& a, const PerFigure& b) {
   PerFigure both{};
@@ -37,12 +24,144 @@ PerFigure sum(const PerFigure& a, const PerFigure& b) {
   return both;
 }
 
-/// Gives every level its error by the finest one, whose own is known, and finds the coarsest within the budget; the finest where none is.
+PerFigure times(double factor, PerFigure errors) {
+  for (double& error : errors) error *= factor;
+  return errors;
+}
+
+PerFigure larger(const PerFigure& a, const PerFigure& b) {
+  PerFigure both{};
+  for (std::size_t i = 0; i < both.size(); ++i) both[i] = std::max(a[i], b[i]);
+  return both;
+}
+
+/// What figures change by when each moves by so much, in its unit.
+PerFigure change(const CycleFigures& figures, const PerFigure& moved) {
+  CycleFigures changed = figures;
+  for (std::size_t i = 0; i < moved.size(); ++i) changed.value[i] += moved[i];
+  return figure_errors(changed, figures);
+}
+
+/// Error of the last level by the last three; infinite where there are fewer: two may agree by chance.
+PerFigure error_of_last(const std::vector<ResolutionLevel>& levels) {
+  PerFigure error{};
+  error.fill(std::numeric_limits<double>::infinity());
+  const std::size_t n = levels.size();
+  if (n < 3) return error;
+  for (std::size_t i = 0; i < error.size(); ++i) {
+    error[i] = estimate_limit(levels[n - 3].figures.value[i], levels[n - 2].figures.value[i], levels[n - 1].figures.value[i]).error;
+  }
+  return times(safety, change(levels[n - 1].figures, error));
+}
+
+/// Gives every level its error by the last one, whose own stands in it, and finds the coarsest within the budget; the last where none is.
 std::size_t coarsest_within(std::vector<ResolutionLevel>& levels, double budget) {
   for (ResolutionLevel& level : levels) level.error = sum(figure_errors(level.figures, levels.back().figures), levels.back().error);
   const auto enough = std::ranges::find_if(levels, [&](const ResolutionLevel& level) { return largest(level.error) <= budget; });
   return enough == levels.end() ? levels.size() - 1 : static_cast<std::size_t>(enough - levels.begin());
 }
+
+/// A search under way; each step adds to what is chosen.
+class DiscretisationRun {
+ public:
+  DiscretisationRun(const MeshOfResolution& mesh_for, QuadratureRule rule, const FlankCondition& condition, double pinion_torque,
+                   const DiscretisationSearch& search)
+      : mesh_for_(mesh_for), rule_(rule), condition_(condition), torque_(pinion_torque), search_(search) {
+    chosen_.quadrature = {rule, search.fewest_intervals};
+    chosen_.positions = search.fewest_positions;
+  }
+
+  Discretisation finish() {
+    if (search_.choose_intervals) search_intervals();
+    if (search_.choose_positions && chosen_.failures == 0) search_positions();
+    if (search_.choose_intervals && chosen_.failures == 0) confirm_intervals();
+    chosen_.kept = chosen_.failures == 0 && largest(chosen_.error()) <= search_.accuracy;
+    return std::move(chosen_);
+  }
+
+ private:
+  SampledCycle solve(int intervals, const std::vector<double>& phases) {
+    const MeshModel model = mesh_for_({{rule_, intervals}, phases});
+    SampledCycle cycle(model, analyse_cycle(model, condition_, torque_));
+    chosen_.failures += cycle.failures();
+    return cycle;
+  }
+
+  /// At the fewest positions.
+  void search_intervals() {
+    const std::vector<double> phases = equally_spaced_phases(search_.fewest_positions);
+    const double budget = quadrature_share * search_.accuracy;
+    std::vector<ResolutionLevel>& levels = chosen_.by_intervals;
+    std::size_t taken = 0;
+    for (int n = search_.fewest_intervals; n <= 2 * search_.most_intervals; n *= 2) {
+      const SampledCycle cycle = solve(n, phases);
+      if (chosen_.failures > 0) return;
+      levels.push_back({n, cycle.positions(), cycle.figures()});
+      levels.back().error = error_of_last(levels);
+      taken = coarsest_within(levels, budget);
+      if (taken + 1 < levels.size()) break;
+    }
+    while (levels[taken].intervals > search_.most_intervals) --taken;
+    take_intervals(levels[taken]);
+  }
+
+  void take_intervals(const ResolutionLevel& level) {
+    chosen_.quadrature.intervals = level.intervals;
+    chosen_.quadrature_error = level.error;
+  }
+
+  /// At the intervals chosen.
+  void search_positions() {
+    const double budget = std::max(search_.accuracy - largest(chosen_.quadrature_error), 0.0);
+    std::vector<ResolutionLevel>& levels = chosen_.by_positions;
+    const int intervals = chosen_.quadrature.intervals;
+    std::optional<SampledCycle> cycle;
+    std::size_t taken = 0;
+    for (int n = search_.fewest_positions; n <= 2 * search_.most_positions; n *= 2) {
+      std::vector<double> phases = equally_spaced_phases(n);
+      if (cycle) {
+        std::vector<double> odd;
+        for (std::size_t i = 1; i < phases.size(); i += 2) odd.push_back(phases[i]);
+        cycle = cycle->joined(solve(intervals, odd));
+      } else {
+        cycle = solve(intervals, phases);
+      }
+      if (chosen_.failures > 0) return;
+      levels.push_back({intervals, n, cycle->figures()});
+      levels.back().error = larger(error_of_last(levels), change(cycle->figures(), cycle->unseen()));
+      taken = coarsest_within(levels, budget);
+      const double measured = largest(figure_errors(levels[taken].figures, levels.back().figures));
+      if (taken + 1 < levels.size() && largest(levels[taken].error) <= most_over_measured * measured) break;
+    }
+    while (levels[taken].positions > search_.most_positions) --taken;
+    chosen_.positions = levels[taken].positions;
+    chosen_.position_error = levels[taken].error;
+  }
+
+  /// At the positions chosen: where lines end shows between the fewest. The most intervals keep the error that they, or half of them, had.
+  void confirm_intervals() {
+    const std::vector<double> phases = equally_spaced_phases(chosen_.positions);
+    int& intervals = chosen_.quadrature.intervals;
+    SampledCycle coarse = solve(intervals, phases);
+    while (2 * intervals <= search_.most_intervals) {
+      SampledCycle fine = solve(2 * intervals, phases);
+      if (chosen_.failures > 0) return;
+      chosen_.by_intervals.push_back(
+          {intervals, chosen_.positions, coarse.figures(), times(safety, figure_errors(coarse.figures(), fine.figures()))});
+      take_intervals(chosen_.by_intervals.back());
+      if (largest(chosen_.error()) <= search_.accuracy) return;
+      intervals *= 2;
+      coarse = std::move(fine);
+    }
+  }
+
+  const MeshOfResolution& mesh_for_;
+  const QuadratureRule rule_;
+  const FlankCondition& condition_;
+  const double torque_;
+  const DiscretisationSearch& search_;
+  Discretisation chosen_;
+};
 
 }  // namespace
 
@@ -50,65 +169,7 @@ PerFigure Discretisation::error() const { return sum(quadrature_error, position_
 
 Discretisation choose_discretisation(const MeshOfResolution& mesh_for, QuadratureRule rule, const FlankCondition& condition, double pinion_torque,
                                      const DiscretisationSearch& search) {
-  Discretisation chosen;
-  chosen.quadrature = {rule, search.fewest_intervals};
-  chosen.positions = search.fewest_positions;
-  const auto solve = [&](int intervals, const std::vector<double>& phases) {
-    const MeshModel model = mesh_for({{rule, intervals}, phases});
-    SampledCycle cycle(model, analyse_cycle(model, condition, pinion_torque));
-    chosen.failures += cycle.failures();
-    return cycle;
-  };
-  // The level before the last is within the budget: what is chosen has been held against something finer.
-  const auto settled = [](std::vector<ResolutionLevel>& levels, double budget, const SampledCycle* between = nullptr) {
-    ResolutionLevel& last = levels.back();
-    last.error = error_of_last(levels);
-    if (between) {
-      CycleFigures raised = last.figures;
-      const PerFigure unseen = between->unseen();
-      for (std::size_t i = 0; i < unseen.size(); ++i) raised.value[i] += unseen[i];
-      const PerFigure rise = figure_errors(raised, last.figures);
-      for (std::size_t i = 0; i < rise.size(); ++i) last.error[i] = std::max(last.error[i], rise[i]);
-    }
-    if (levels.size() < 2) return false;
-    return largest(sum(figure_errors(levels[levels.size() - 2].figures, last.figures), last.error)) <= budget;
-  };
-
-  if (search.choose_intervals) {
-    const std::vector<double> phases = equally_spaced_phases(search.fewest_positions);
-    const double budget = quadrature_share * search.accuracy;
-    for (int n = search.fewest_intervals; n <= search.most_intervals; n *= 2) {
-      const SampledCycle cycle = solve(n, phases);
-      if (chosen.failures > 0) return chosen;
-      chosen.by_intervals.push_back({n, cycle.positions(), cycle.figures()});
-      if (settled(chosen.by_intervals, budget)) break;
-    }
-    const ResolutionLevel& level = chosen.by_intervals[coarsest_within(chosen.by_intervals, budget)];
-    chosen.quadrature.intervals = level.intervals;
-    chosen.quadrature_error = level.error;
-  }
-  if (search.choose_positions) {
-    const double budget = std::max(search.accuracy - largest(chosen.quadrature_error), 0.0);
-    std::optional<SampledCycle> cycle;
-    for (int n = search.fewest_positions; n <= search.most_positions; n *= 2) {
-      std::vector<double> phases = equally_spaced_phases(n);
-      if (cycle) {
-        std::vector<double> odd;
-        for (std::size_t i = 1; i < phases.size(); i += 2) odd.push_back(phases[i]);
-        cycle = cycle->joined(solve(chosen.quadrature.intervals, odd));
-      } else {
-        cycle = solve(chosen.quadrature.intervals, phases);
-      }
-      if (chosen.failures > 0) return chosen;
-      chosen.by_positions.push_back({chosen.quadrature.intervals, n, cycle->figures()});
-      if (settled(chosen.by_positions, budget, &*cycle)) break;
-    }
-    const ResolutionLevel& level = chosen.by_positions[coarsest_within(chosen.by_positions, budget)];
-    chosen.positions = level.positions;
-    chosen.position_error = level.error;
-  }
-  chosen.kept = largest(chosen.error()) <= search.accuracy;
-  return chosen;
+  return DiscretisationRun(mesh_for, rule, condition, pinion_torque, search).finish();
 }
 
 }  // namespace flankwright

@@ -27,7 +27,7 @@ int occurrences(const std::string& text, const std::string& part) {
 }
 
 /// Coarser than the example itself, so that each takes a second at most.
-const std::vector<std::string> reduced{"--set", "fidelity.quadrature.intervals=4", "--set", "cycle.positions=8", "--set", "sweep.samples=110",
+const std::vector<std::string> reduced{"--set", "fidelity.quadrature.intervals=4", "--set", "cycle.positions=8", "--set", "cycle.peaks=sampled", "--set", "sweep.samples=110",
                                        "--set", "accuracy.finest.compliance=thin_slice", "--set", "accuracy.finest.intervals=8", "--set", "accuracy.finest.positions=16"};
 
 }  // namespace

@@ -94,7 +94,7 @@ TEST_CASE("What a study gives beside an accuracy stays as it is", "[studies][acc
 }
 
 TEST_CASE("An accuracy that no resolution keeps is a requirement not met", "[studies][accuracy][fidelity-choice]") {
-  const StudyResults results = run_study(small_study("accuracy = \"0.001 %\"\ngap = \"plane_of_action\"", "[cycle]\npeaks = \"sampled\"\n"));
+  const StudyResults results = run_study(small_study("accuracy = \"0.001 %\"\ngap = \"plane_of_action\"\nquadrature = { rule = \"graded\", intervals = 4 }", "[cycle]\npeaks = \"sampled\"\n"));
   REQUIRE(results.fidelity_choice);
   CHECK_FALSE(results.fidelity_choice->kept);
   REQUIRE(results.requirements.size() == 1);
