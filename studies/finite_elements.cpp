@@ -45,10 +45,16 @@ double machine_memory() {
   return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
 }
 
+enum class Purpose {
+  Gear,       ///< its influence values
+  Fine,       ///< what its own fit shall meet
+  FitCoarse,  ///< what that is fitted beside, where the gear's own run is of a wider face
+};
+
 /// What a run is for.
 struct Use {
   Member member;
-  bool for_fit;  ///< of a gear's own fit, beside the coarse run that it completes
+  Purpose purpose;
 };
 
 /// One mesh of one or both gears of a study, alike but for their size.
@@ -78,13 +84,14 @@ std::vector<Job> jobs_of(const Study& study, const GearPair& pair) {
   for (const Member member : {Member::Pinion, Member::Wheel}) {
     InfluenceTableTask task = influence_table_task(study, pair, member);
     if (!unknown_to_library(study, task).empty()) {
-      InfluenceTableTask fine = task;
+      InfluenceTableTask fit = task_of_fit(task), fine = fit;
       fine.mesh = {};
-      // The finest mesh tells root stress.
-      task.root_stress = false;
-      add({member, true}, std::move(fine));
+      const bool narrower = fit.grid.face_width() < task.grid.face_width();
+      if (narrower) add({member, Purpose::FitCoarse}, std::move(fit));
+      if (!narrower) task.root_stress = false;  // the finest mesh of the whole face tells it
+      add({member, Purpose::Fine}, std::move(fine));
     }
-    add({member, false}, std::move(task));
+    add({member, Purpose::Gear}, std::move(task));
   }
   return jobs;
 }
@@ -236,6 +243,14 @@ std::string unknown_to_library(const Study& study, const InfluenceTableTask& tas
   return RefinementLibrary::shipped().unknown(task.gear, task.poissons_ratio);
 }
 
+InfluenceTableTask task_of_fit(InfluenceTableTask coarse) {
+  if (coarse.grid.face_width() <= widest_own_fit) return coarse;
+  coarse.gear.gear.face_width = widest_own_fit * coarse.gear.normal_module;
+  coarse.grid = flank_grid(widest_own_fit);
+  coarse.root_stress = false;
+  return coarse;
+}
+
 FiniteElementRuns solve_finite_elements(const Study& study, const GearPair& pair, const ProgressReport& progress) {
   const Stopwatch clock;
   FiniteElementRuns runs;
@@ -257,9 +272,9 @@ FiniteElementRuns solve_finite_elements(const Study& study, const GearPair& pair
     const auto table = std::make_shared<const InfluenceTable>(std::move(*job.run.table));
     std::shared_ptr<const RootStressTable> root_stress;
     if (job.run.root_stress) root_stress = std::make_shared<const RootStressTable>(std::move(*job.run.root_stress));
-    for (const auto& [member, for_fit] : job.uses) {
+    for (const auto& [member, purpose] : job.uses) {
       const std::size_t i = member == Member::Pinion ? 0 : 1;
-      GearRun& run = for_fit ? runs.fine[i].emplace() : runs.gears[i];
+      GearRun& run = purpose == Purpose::Gear ? runs.gears[i] : (purpose == Purpose::Fine ? runs.fine : runs.narrow)[i].emplace();
       run = {table, root_stress, job.run.statistics, influence_table_task(study, pair, member).gear.body, job.task.removed,
              job.from_cache, job.file, job.seconds};
     }

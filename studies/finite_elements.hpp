@@ -28,14 +28,17 @@ struct FiniteElementRuns {
   std::array<GearRun, 2> gears;  ///< pinion, wheel; by coarse_mesh() where the compliance is "fitted"
   /// By the default mesh, for a fit of its own, beside that of `gears`: those that the library of fits does not know.
   std::array<std::optional<GearRun>, 2> fine;
+  /// By coarse_mesh(), with the face of the fine run, where that is narrower than the gear's own.
+  std::array<std::optional<GearRun>, 2> narrow;
   std::vector<std::string> notes;
   double seconds{not_given};     ///< wall time in this study
 
   const GearRun& operator[](Member m) const { return gears[m == Member::Pinion ? 0 : 1]; }
   const std::optional<GearRun>& fine_run(Member m) const { return fine[m == Member::Pinion ? 0 : 1]; }
-  /// Of the finest run; null where the study does not want it.
+  const std::optional<GearRun>& narrow_run(Member m) const { return narrow[m == Member::Pinion ? 0 : 1]; }
+  /// Of the finest run with the gear's own face; null where the study does not want it.
   const std::shared_ptr<const RootStressTable>& root_stress(Member m) const {
-    return fine_run(m) ? fine_run(m)->root_stress : (*this)[m].root_stress;
+    return fine_run(m) && !narrow_run(m) ? fine_run(m)->root_stress : (*this)[m].root_stress;
   }
 };
 
@@ -55,6 +58,9 @@ InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair
 /// What of a gear the library of fits does not know, RefinementLibrary::unknown(), where the study's compliance would use
 /// it: the gear then needs a fit of its own. Empty otherwise.
 std::string unknown_to_library(const Study& study, const InfluenceTableTask& task);
+
+/// What a gear's own fit is made from: the coarse task, with a face of at most widest_own_fit.
+InfluenceTableTask task_of_fit(InfluenceTableTask coarse);
 
 /// Solves both gears or takes them from the cache. Gears that are alike but for their size are solved once; two that
 /// are not are solved side by side where memory suffices for both, one after the other where it does not.

@@ -64,11 +64,14 @@ GearRefinement gear_refinement(const Study& study, const InfluenceTableTask& tas
     result.seconds = clock.seconds();
     return result;
   }
+  const InfluenceTableTask fit_task = task_of_fit(task);
+  const GearFacts fit_facts = facts_of(fit_task.gear);
   const InfluenceTable& fine = *runs.fine_run(member)->table;
-  const RefinementSamples samples = refinement_samples(facts, fine, *coarse);
+  const std::shared_ptr<const InfluenceTable>& fit_coarse = runs.narrow_run(member) ? runs.narrow_run(member)->table : coarse;
+  const RefinementSamples samples = refinement_samples(fit_facts, fine, *fit_coarse);
   const std::vector<double> start = library.coefficients(library.nearest(facts));
   const RunCache cache(RunCache::default_folder());
-  const Json key = fit_key(task, start);
+  const Json key = fit_key(fit_task, start);
   if (auto kept = take(key, cache, notes)) {
     result.fit = std::move(*kept);
     result.from_cache = true;
@@ -87,7 +90,7 @@ GearRefinement gear_refinement(const Study& study, const InfluenceTableTask& tas
     notes.push_back(fmt::format("the {}'s fit stopped after {} steps, before it converged", name_of(member), result.fit.iterations));
   }
   result.compliance = std::make_shared<const RefinedCompliance>(coarse, facts, result.fit.coefficients);
-  result.residuals = unseen_residuals(*result.compliance, fine, samples.unseen);
+  result.residuals = unseen_residuals(RefinedCompliance(fit_coarse, fit_facts, result.fit.coefficients), fine, samples.unseen);
   result.seconds = clock.seconds();
   return result;
 }

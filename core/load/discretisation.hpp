@@ -50,7 +50,9 @@ struct Discretisation {
 /// 3. Intervals again, at these positions: their error is safety * (distance from twice the intervals), and they are doubled until the
 ///    sum is within the accuracy. Between the fewest positions a line's end may ripple ten times as much.
 ///
-/// What is chosen has been held against something finer, the most intervals at the fewest positions only.
+/// What is chosen has been held against something finer, the most intervals at the fewest positions only. Of 200 random cases at 1 % the true
+/// error was within the stated one in 196; it was kept in 192, of these overstated more than tenfold in 4 (the fewest positions alone for
+/// intervals, and no regard to how much of an estimate was measured: 187, 184 and 9).
 Discretisation choose_discretisation(const MeshOfResolution& mesh_for, QuadratureRule rule, const FlankCondition& condition, double pinion_torque,
                                      const DiscretisationSearch& search = {});
 

@@ -45,7 +45,9 @@ double RungRunner::first_seconds(ComplianceModel model) {
   const auto add = [&](const GearRun& run) { seconds += run.statistics.model_seconds + run.statistics.solve_seconds; };
   for (const Member member : {Member::Pinion, Member::Wheel}) {
     add((*made.finite_elements)[member]);
-    if (const auto& fine = made.finite_elements->fine_run(member)) add(*fine);
+    for (const auto* run : {&made.finite_elements->fine_run(member), &made.finite_elements->narrow_run(member)}) {
+      if (*run) add(**run);
+    }
     const auto& refinement = made.refinement(member);
     if (refinement && !refinement->unknown.empty()) seconds += refinement->fit.seconds;
   }

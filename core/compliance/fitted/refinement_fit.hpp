@@ -36,6 +36,11 @@ struct RefinementSamples {
 /// @param fine, coarse  of that gear, E m_n K; what the fit shall meet, and what it is added to
 RefinementSamples refinement_samples(const GearFacts& gear, const FlankCompliance& fine, const FlankCompliance& coarse);
 
+/// Face width over m_n of what a gear's own fit is made from, at most [-]: kernels are local and hardly depend on the face (the library's, of 8
+/// modules, serve 2 to 30), while the fine mesh of a wide face takes minutes and gigabytes. How close they come on wider faces is in the
+/// folder's README.
+inline constexpr double widest_own_fit = 12.0;
+
 /// Pairs count relative to max(|K|, kScaleFloor sqrt(K_pp K_qq)), in the fit and in its residuals.
 inline constexpr double kScaleFloor = 0.01;
 
