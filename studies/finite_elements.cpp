@@ -195,10 +195,7 @@ bool wants_root_stress(const Study& study) {
 }
 
 bool solves_finite_elements(const Study& study) {
-  const bool loaded = std::ranges::any_of(study.scenes, [](const Scene& scene) {
-    return std::ranges::any_of(scene.torques, [](double torque) { return torque > 0.0; });
-  });
-  return study.task == Task::Fit || (loaded && (couples_teeth(study.fidelity.compliance) || wants_root_stress(study)));
+  return study.task == Task::Fit || (has_torque(study) && (couples_teeth(study.fidelity.compliance) || wants_root_stress(study)));
 }
 
 InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair, Member member) {

@@ -8,6 +8,7 @@
 #include "core/load/mesh_motion.hpp"
 #include "studies/proof/drawn_scenes.hpp"
 #include "studies/study_effects.hpp"
+#include "studies/study_notes.hpp"
 #include "studies/study_shafts.hpp"
 
 namespace flankwright::studies {
@@ -30,14 +31,7 @@ class Run {
     results_.pair = make_gear_pair(study.pair);
     results_.effects = study_effects(study);
     results_.mesh_effects = mesh_effects(results_.effects);
-    if (study.fidelity.compliance == ComplianceModel::Rigid && any_torque() && study.task != Task::Fit) {
-      note("compliance is rigid: torques are ignored, contact is analysed without load");
-    }
-    const bool has_body = std::ranges::any_of(study.given, [](const GivenValue& g) { return g.key.find(".body.") != std::string::npos; });
-    if (has_body && any_torque() && !solves_finite_elements(study)) {
-      note(std::string("a gear's body is given, but the compliance \"") + to_string(study.fidelity.compliance) + "\" does not know of it");
-    }
-    geometry_notes();
+    results_.notes = study_notes(study, results_.pair);
     if (is_on(results_.effects, "shafts")) results_.shafts = make_shafts(study, results_.pair);
   }
 
@@ -64,30 +58,6 @@ class Run {
   void note(const std::string& text) { results_.notes.push_back(text); }
   void report(const std::string& label, int done, int total, const std::string& remark = {}) const {
     if (progress_) progress_(label, done, total, remark);
-  }
-
-  bool any_torque() const {
-    for (const Scene& scene : results_.study.scenes) {
-      for (double torque : scene.torques) {
-        if (torque > 0.0) return true;
-      }
-    }
-    return false;
-  }
-
-  void geometry_notes() {
-    const GearPair& pair = results_.pair;
-    for (const Gear* gear : {&pair.pinion, &pair.wheel}) {
-      const std::string name = name_of(gear->member);
-      if (gear->undercut) note("the " + name + " is undercut: its involute starts at diameter " + number(2.0 * gear->form_radius, 6) + " mm");
-      if (gear->fillet_interference) {
-        note("the mate's tip reaches below the " + name + "'s form circle: contact is cut off there, fillet interference is not modelled");
-      }
-    }
-    if (pair.backlash < -units::um) {
-      note("the teeth have a backlash of " + number(pair.backlash / units::um) + " um at this centre distance: they would jam; "
-           "only the working flanks are analysed");
-    }
   }
 
   /// The mesh at a placement, with what derivatives by these parameters need.
@@ -231,7 +201,7 @@ class Run {
     for (const Scene& scene : study.scenes) total += static_cast<int>(scene.torques.size());
     double loaded_seconds = 0.0;
     const std::vector<MeshParameter> parameters = gradient_parameters();
-    if (study.fidelity.compliance != ComplianceModel::Rigid && any_torque()) {
+    if (study.fidelity.compliance != ComplianceModel::Rigid && has_torque(study)) {
       structures();  // its time is its own
       const Stopwatch clock;
       choose_phases();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 #include <string>
@@ -175,6 +176,11 @@ struct Study {
   std::vector<GivenValue> given;
   std::string text;  ///< all of it as TOML, with what the command line set
 };
+
+/// Whether any scene has a torque.
+inline bool has_torque(const Study& study) {
+  return std::ranges::any_of(study.scenes, [](const Scene& scene) { return std::ranges::any_of(scene.torques, [](double torque) { return torque > 0.0; }); });
+}
 
 /// Whether peaks between the positions, and the load distribution factors that follow, belong to the results: unless the study says
 /// otherwise in an analysis, not beside an optimisation's many scenes; never where explicit phases are asked for.

@@ -57,7 +57,7 @@ double error(const LadderStep& step, Figure figure) { return step.error[static_c
 
 }  // namespace
 
-TEST_CASE("The finest rung has no error, and every other one has its own", "[studies][accuracy][ladder]") {
+TEST_CASE("The finest rung has no error, every other one has its own, and these fall with intervals and positions", "[studies][accuracy][ladder]") {
   const Ladder ladder = ladder_of(20.0, "lead_crowning = 6\n");
   CHECK(largest(ladder.reference.error) == 0.0);
   CHECK(ladder.reference.best);
@@ -71,10 +71,7 @@ TEST_CASE("The finest rung has no error, and every other one has its own", "[stu
   // Rigid teeth give way by the flanks' contact alone, less than half of what the mesh does.
   CHECK(error(step(ladder, "rigid"), Figure::TeMean) > 0.5);
   CHECK(error(step(ladder, "rigid"), Figure::TeMean) < 1.0);
-}
 
-TEST_CASE("Errors fall with the intervals of a graded line and with the positions", "[studies][accuracy][ladder]") {
-  const Ladder ladder = ladder_of(20.0, "lead_crowning = 6\n");
   CHECK(error(step(ladder, "graded 4"), Figure::PeakLineLoad) <= error(step(ladder, "graded 2"), Figure::PeakLineLoad));
   constexpr double round_off = 1e-12;  // where extremes lie at positions of either
   CHECK(error(step(ladder, "24 positions"), Figure::TePeakToPeak) <= error(step(ladder, "12 positions"), Figure::TePeakToPeak) + round_off);

@@ -1,0 +1,36 @@
+#include "studies/study_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/units.hpp"
+#include "studies/finite_elements.hpp"
+
+namespace flankwright::studies {
+
+std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
+  std::vector<std::string> notes;
+  if (study.fidelity.compliance == ComplianceModel::Rigid && has_torque(study) && study.task != Task::Fit) {
+    notes.push_back("compliance is rigid: torques are ignored, contact is analysed without load");
+  }
+  const bool has_body = std::ranges::any_of(study.given, [](const GivenValue& g) { return g.key.find(".body.") != std::string::npos; });
+  if (has_body && has_torque(study) && !solves_finite_elements(study)) {
+    notes.push_back(fmt::format("a gear's body is given, but the compliance \"{}\" does not know of it", to_string(study.fidelity.compliance)));
+  }
+  for (const Gear* gear : {&pair.pinion, &pair.wheel}) {
+    const char* name = name_of(gear->member);
+    if (gear->undercut) notes.push_back(fmt::format("the {} is undercut: its involute starts at diameter {:.6g} mm", name, 2.0 * gear->form_radius));
+    if (gear->fillet_interference) {
+      notes.push_back(
+          fmt::format("the mate's tip reaches below the {}'s form circle: contact is cut off there, fillet interference is not modelled", name));
+    }
+  }
+  if (pair.backlash < -units::um) {
+    notes.push_back(fmt::format("the teeth have a backlash of {:.4g} um at this centre distance: they would jam; only the working flanks are analysed",
+                                pair.backlash / units::um));
+  }
+  return notes;
+}
+
+}  // namespace flankwright::studies
