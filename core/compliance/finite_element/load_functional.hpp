@@ -122,6 +122,7 @@ enum class RemovedMotion {
 /// F and M being force and moment of l_p about the axis in the plane z_p. It serves for load and deflection: the load
 /// that belongs to it has its reactions on the shaft right where the motion is measured. Hence P' K P instead of K P,
 /// symmetric and positive semi-definite again.
+/// @param motions  of that mesh
 Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoint& point, RemovedMotion removed, ShaftMotions& motions);
 
 /// Functionals of many points as columns, 3n x k.
