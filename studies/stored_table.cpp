@@ -9,16 +9,16 @@ namespace flankwright::studies {
 namespace {
 
 /// To be raised whenever the same task comes to mean other numbers: mesh, load functional, removed motion, solution.
-constexpr int model_version = 6;
+constexpr int model_version = 7;
 
 // clang-format off
 /// A field that is added to these structs must be added to the key: the bindings then no longer compile.
 Json mesh_key(const GearMeshOptions& options) {
   const auto& [flank, fillet, half_thickness, adjacent_flank, adjacent_fillet, teeth_each_side, end, axial_growth, largest,
-               most_layers, body_growth, shaft] = options;
+               most_layers, body_growth, shaft, layer_share] = options;
   static_cast<void>(teeth_each_side);  // teeth_apart says it
   return {flank, fillet, half_thickness, adjacent_flank, adjacent_fillet, end, axial_growth, largest, most_layers,
-          body_growth, shaft};
+          body_growth, shaft, layer_share};
 }
 // clang-format on
 

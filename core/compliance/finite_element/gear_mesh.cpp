@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/compliance/finite_element/section_sweep.hpp"
 
 namespace flankwright {
 namespace {
@@ -51,74 +52,6 @@ std::vector<double> overhang_planes(double length, double first, double growth) 
   return planes;
 }
 
-/// Numbers the nodes of the swept section as bricks ask for them.
-class Sweep {
- public:
-  Sweep(const SectionMesh& section, double twist, double half_face)
-      : section_(section), twist_(twist), half_face_(half_face) {}
-
-  /// @param level  2 k at plane k, 2 k + 1 half way to the next
-  int node(int section_node, int level, double z) {
-    const auto needed = static_cast<std::size_t>((level + 1) * section_.nodes.cols());
-    if (numbers_.size() < needed) numbers_.resize(needed, -1);
-    int& number = numbers_[static_cast<std::size_t>(level * section_.nodes.cols() + section_node)];
-    if (number < 0) {
-      number = static_cast<int>(points_.size());
-      const double turn = twist_ * std::clamp(z, -half_face_, half_face_);
-      const Eigen::Vector2d p = section_.nodes.col(section_node);
-      points_.push_back(
-          {p.x() * std::cos(turn) - p.y() * std::sin(turn), p.x() * std::sin(turn) + p.y() * std::cos(turn), z});
-    }
-    return number;
-  }
-  int brick(Eigen::Index quad, int layer, double lower, double upper) {
-    std::array<int, 20> brick;
-    for (int i = 0; i < 4; ++i) {
-      const int corner = section_.quads(i, quad), side = section_.quads(i + 4, quad);
-      brick[i] = node(corner, 2 * layer, lower);
-      brick[i + 4] = node(corner, 2 * layer + 2, upper);
-      brick[i + 8] = node(side, 2 * layer, lower);
-      brick[i + 12] = node(side, 2 * layer + 2, upper);
-      brick[i + 16] = node(corner, 2 * layer + 1, (lower + upper) / 2);
-    }
-    bricks_.push_back(brick);
-    return static_cast<int>(bricks_.size()) - 1;
-  }
-  MeshFace face(const SectionEdge& edge, int layer, double lower, double upper) {
-    const double middle = (lower + upper) / 2;
-    return {node(edge[0], 2 * layer, lower),     node(edge[2], 2 * layer, lower),
-            node(edge[2], 2 * layer + 2, upper), node(edge[0], 2 * layer + 2, upper),
-            node(edge[1], 2 * layer, lower),     node(edge[2], 2 * layer + 1, middle),
-            node(edge[1], 2 * layer + 2, upper), node(edge[0], 2 * layer + 1, middle)};
-  }
-  /// Nodes made so far at a level.
-  template <typename Use>
-  void for_each_at(int level, Use&& use) const {
-    const Eigen::Index n = section_.nodes.cols();
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const int number = numbers_[static_cast<std::size_t>(level * n + i)];
-      if (number >= 0) use(number, points_[number]);
-    }
-  }
-  SolidMesh solid() const {
-    SolidMesh mesh;
-    mesh.nodes.resize(3, static_cast<Eigen::Index>(points_.size()));
-    for (std::size_t i = 0; i < points_.size(); ++i) mesh.nodes.col(static_cast<Eigen::Index>(i)) = points_[i];
-    mesh.bricks.resize(20, static_cast<Eigen::Index>(bricks_.size()));
-    for (std::size_t i = 0; i < bricks_.size(); ++i) {
-      for (int k = 0; k < 20; ++k) mesh.bricks(k, static_cast<Eigen::Index>(i)) = bricks_[i][k];
-    }
-    return mesh;
-  }
-
- private:
-  const SectionMesh& section_;
-  double twist_, half_face_;
-  std::vector<int> numbers_;
-  std::vector<Eigen::Vector3d> points_;
-  std::vector<std::array<int, 20>> bricks_;
-};
-
 }  // namespace
 
 FaceNodes GearMesh::face_nodes(const MeshFace& face) const {
@@ -155,48 +88,58 @@ GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options) {
   mesh.planes = face_planes(width, gear.normal_module, options);
   const std::vector<double> beyond =
       overhang_planes(overhang, options.largest_element * gear.normal_module, options.body_growth);
-  std::vector<double> all;
-  for (std::size_t i = beyond.size(); i-- > 0;) all.push_back(-width / 2 - beyond[i]);
-  all.insert(all.end(), mesh.planes.begin(), mesh.planes.end());
-  for (const double z : beyond) all.push_back(width / 2 + z);
+  SweepPlanes planes;
+  for (std::size_t i = beyond.size(); i-- > 0;) planes.z.push_back(-width / 2 - beyond[i]);
+  planes.first = static_cast<int>(planes.z.size());
+  planes.z.insert(planes.z.end(), mesh.planes.begin(), mesh.planes.end());
+  planes.last = static_cast<int>(planes.z.size()) - 1;
+  for (const double z : beyond) planes.z.push_back(width / 2 + z);
+  const int last_plane = static_cast<int>(planes.z.size()) - 1;
 
-  Sweep sweep(section, std::tan(gear.helix_angle) / mesh.form.reference_radius(), width / 2);
+  SectionSweep sweep(section, planes, std::tan(gear.helix_angle) / mesh.form.reference_radius(), options.layer_share);
   mesh.tooth_surfaces.resize(section.teeth.size());
-  const auto before = static_cast<int>(beyond.size()), on_face = static_cast<int>(mesh.planes.size()) - 1;
-  for (int layer = 0; layer + 1 < static_cast<int>(all.size()); ++layer) {
-    const double lower = all[layer], upper = all[layer + 1];
-    const bool toothed = layer >= before && layer < before + on_face;
+  std::vector<int> latest(static_cast<std::size_t>(section.quads.cols()), -1);  // brick of every quad
+  for (int layer = 0; layer < last_plane; ++layer) {
+    const bool toothed = layer >= planes.first && layer < planes.last;
     if (toothed) mesh.shaft_bricks.emplace_back();
     for (Eigen::Index quad = 0; quad < section.quads.cols(); ++quad) {
-      if (!toothed && !section.in_shaft[quad]) continue;
-      const int brick = sweep.brick(quad, layer, lower, upper);
-      if (toothed && section.in_shaft[quad]) mesh.shaft_bricks.back().push_back(brick);
+      const bool in_shaft = section.parts[static_cast<std::size_t>(quad)] == SectionPart::Shaft;
+      if (!toothed && !in_shaft) continue;
+      int& brick = latest[static_cast<std::size_t>(quad)];
+      const LayerSpan span = sweep.span_of_quad(quad, layer);
+      if (span.lower == layer) brick = sweep.brick(quad, span);
+      if (toothed && in_shaft) mesh.shaft_bricks.back().push_back(brick);
     }
     if (!toothed) continue;
     for (std::size_t m = 0; m < section.teeth.size(); ++m) {
       const SectionTooth& lines = section.teeth[m];
       ToothSurfaces& surfaces = mesh.tooth_surfaces[m];
-      for (const auto& edge : lines.centre_line) surfaces.centre.push_back(sweep.face(edge, layer, lower, upper));
-      for (const auto& edge : lines.flank) surfaces.flank.push_back(sweep.face(edge, layer, lower, upper));
-      for (const auto& edge : lines.fillet) surfaces.fillet.push_back(sweep.face(edge, layer, lower, upper));
+      const auto add = [&](const std::vector<SectionEdge>& edges, std::vector<MeshFace>& faces) {
+        for (const SectionEdge& edge : edges) {
+          const LayerSpan span = sweep.span_of_edge(edge, layer);
+          if (span.lower == layer) faces.push_back(sweep.face(edge, span));
+        }
+      };
+      add(lines.centre_line, surfaces.centre);
+      add(lines.flank, surfaces.flank);
+      add(lines.fillet, surfaces.fillet);
     }
   }
-  mesh.solid = sweep.solid();
+  const bool at_sharp_end = body.torque_end == FaceEnd::Sharp;
+  const std::vector<int> held = sweep.on_plane(at_sharp_end ? 0 : last_plane), guided = sweep.on_plane(at_sharp_end ? last_plane : 0);
+  mesh.solid = sweep.take();
   // What the solid model demands of every brick; a folded one is the doing of shape and options together.
   if (!(mesh.solid.quality() > 0)) {
     throw InvalidInput("options", "an element is folded", "element numbers and sizes that fit this tooth and body");
   }
 
-  const int last_level = 2 * (static_cast<int>(all.size()) - 1);
-  const bool at_sharp_end = body.torque_end == FaceEnd::Sharp;
-  sweep.for_each_at(at_sharp_end ? 0 : last_level,
-                    [&](int node, const Eigen::Vector3d&) { mesh.supports.push_back({.node = node}); });
-  sweep.for_each_at(at_sharp_end ? last_level : 0, [&](int node, const Eigen::Vector3d& p) {
-    const Eigen::Vector2d out = p.head<2>().normalized();
+  for (const int node : held) mesh.supports.push_back({.node = node});
+  for (const int node : guided) {
+    const Eigen::Vector2d out = mesh.solid.nodes.col(node).head<2>().normalized();
     Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
     frame.topLeftCorner<2, 2>() << out.x(), -out.y(), out.y(), out.x();
     mesh.supports.push_back({node, {true, false, false}, frame});
-  });
+  }
   return mesh;
 }
 

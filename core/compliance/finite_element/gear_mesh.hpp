@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/compliance/finite_element/section_mesh.hpp"
+#include "core/compliance/finite_element/section_sweep.hpp"
 #include "core/compliance/finite_element/solid_model.hpp"
 #include "core/gear/gear_data.hpp"
 
@@ -24,9 +25,6 @@ struct GearToMesh {
 /// The body with its defaults in place of what is not given.
 GearBody complete_body(const GearBody& body, const ToothForm& form, double normal_module);
 
-/// An 8-node face of the mesh: four corners, then the mid-sides between them.
-using MeshFace = std::array<int, 8>;
-
 /// Surfaces of one detailed tooth, without the shaft's overhangs.
 struct ToothSurfaces {
   std::vector<MeshFace> centre;  ///< centre surface, from the tip to the bore
@@ -34,7 +32,7 @@ struct ToothSurfaces {
   std::vector<MeshFace> fillet;  ///< fillet below it, to its lowest point
 };
 
-/// The section swept along z with the helix, and the shaft's overhangs, held at their far ends: that beyond the torque
+/// The section swept along z (SectionSweep), and the shaft's overhangs, held at their far ends: that beyond the torque
 /// end whole, the other one radially. What the axial hold gives besides is axial_hold_compliance().
 struct GearMesh {
   ToothForm form;
@@ -46,7 +44,7 @@ struct GearMesh {
   SolidMesh solid{};
   std::vector<NodeSupport> supports{};
   std::vector<double> planes{};                  ///< z of the layers' ends on the face width, ascending [mm]
-  std::vector<std::vector<int>> shaft_bricks{};  ///< of every layer between them; local z runs along the axis
+  std::vector<std::vector<int>> shaft_bricks{};  ///< that reach through every layer between them; local z runs along the axis
   std::vector<ToothSurfaces> tooth_surfaces{};   ///< of teeth -n .. n
 
   const ToothSurfaces& surfaces(int tooth) const { return tooth_surfaces.at(tooth + teeth_each_side); }

@@ -1,6 +1,7 @@
 #include "core/compliance/finite_element/influence.hpp"
 
 #include <chrono>
+#include <utility>
 
 namespace flankwright {
 namespace {
@@ -13,14 +14,19 @@ double clock_seconds() {
 
 FlankInfluence solve_flank_influence(const GearMesh& mesh, const SolidModel& solid, const Material& material, const std::vector<FlankPoint>& points,
                                      RemovedMotion removed, const Eigen::SparseMatrix<double>& readings) {
-  const Eigen::Index n = std::ssize(points), r = readings.cols();
-  Eigen::SparseMatrix<double> both = net_functionals(mesh, points, removed);
-  if (r > 0) {
-    both.conservativeResize(both.rows(), n + r);
-    both.rightCols(r) = readings;
-  }
-  const Eigen::MatrixXd influence = solid.influence(both);
-  return {influence.topLeftCorner(n, n).array() + axial_hold_compliance(mesh, material, removed), influence.bottomLeftCorner(r, n)};
+  NetFunctionals net = net_functionals(mesh, points, removed);
+  const Eigen::SparseMatrix<double> T = std::move(net.taken_off);
+  const Eigen::Index n = net.centre.cols(), m = net.motions.cols(), r = readings.cols();
+  Eigen::SparseMatrix<double> parts = std::move(net.centre);
+  parts.conservativeResize(parts.rows(), n + m + r);
+  if (m > 0) parts.middleCols(n, m) = net.motions;
+  if (r > 0) parts.rightCols(r) = readings;
+  const Eigen::MatrixXd G = solid.influence(std::move(parts));  // of centre, motions and readings
+
+  const Eigen::MatrixXd motions = G.middleRows(n, m).leftCols(n) - G.block(n, n, m, m) * T;
+  Eigen::MatrixXd compliance = G.topLeftCorner(n, n) - G.block(0, n, n, m) * T - T.transpose() * motions;
+  compliance = (0.5 * (compliance + compliance.transpose())).eval();
+  return {compliance.array() + axial_hold_compliance(mesh, material, removed), G.bottomLeftCorner(r, n) - G.block(n + m, n, r, m) * T};
 }
 
 InfluenceModel::InfluenceModel(const GearToMesh& gear, const Material& material, const GearMeshOptions& options)

@@ -22,7 +22,7 @@ struct RunStatistics {
 struct InfluenceMatrix {
   FactorStatus status{FactorStatus::NotPositiveDefinite};
   std::vector<FlankPoint> points;
-  /// K(p, q): deflection at p along its inward normal per unit load at q along its own [mm/N], both as net_functional()
+  /// K(p, q): deflection at p along its inward normal per unit load at q along its own [mm/N], both as NetFunctionals
   /// defines them, with axial_hold_compliance(); local contact deflection and the removed motion are not in it. Exactly
   /// symmetric, positive semi-definite to round-off. Empty unless status is Factorised.
   Eigen::MatrixXd compliance;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/root.hpp"
@@ -132,13 +133,12 @@ Eigen::SparseVector<double> centre_functional(const GearMesh& mesh, const FlankP
 SectionMotion shaft_motion(const GearMesh& mesh, double z) {
   const auto above = std::upper_bound(mesh.planes.begin(), mesh.planes.end(), z) - mesh.planes.begin();
   const auto layer = static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(above - 1, 0, std::ssize(mesh.planes) - 2));
-  const double lower = mesh.planes[layer], upper = mesh.planes[layer + 1];
-  const double zeta = std::clamp(2 * (z - lower) / (upper - lower) - 1, -1.0, 1.0);
 
   Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
   std::map<int, Eigen::Matrix<double, 6, 3>> nodal;
   for (const int brick : mesh.shaft_bricks[layer]) {
     const BrickNodes nodes = mesh.solid.brick_nodes(brick);
+    const double lower = nodes(2, 0), upper = nodes(2, 4), zeta = std::clamp(2 * (z - lower) / (upper - lower) - 1, -1.0, 1.0);
     for (int i = 0; i < 9; ++i) {
       const BrickShape shape = brick_shape({gauss3_abscissae[i % 3], gauss3_abscissae[i / 3], zeta});
       const Eigen::Matrix3d jacobian = nodes * shape.derivatives;
@@ -163,62 +163,57 @@ SectionMotion shaft_motion(const GearMesh& mesh, double z) {
   return motion;
 }
 
-const SectionMotion& ShaftMotions::at(double z) {
-  const auto found = motions_.find(z);
-  return found != motions_.end() ? found->second : motions_.emplace(z, shaft_motion(*mesh_, z)).first->second;
+Eigen::SparseMatrix<double> NetFunctionals::whole() const {
+  return centre - motions * taken_off;
 }
 
-Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoint& point, RemovedMotion removed, ShaftMotions& motions) {
-  const Eigen::SparseVector<double> load = centre_functional(mesh, point);
-  if (removed == RemovedMotion::None) return load;
-
-  const Eigen::Vector3d centre(0, 0, point.z);
-  Eigen::Matrix<double, 6, 1> resultant = Eigen::Matrix<double, 6, 1>::Zero();
-  for (Eigen::SparseVector<double>::InnerIterator entry(load); entry; ++entry) {
-    Eigen::Vector3d force = Eigen::Vector3d::Zero();
-    force[entry.index() % 3] = entry.value();
-    resultant.head<3>() += force;
-    resultant.tail<3>() += (mesh.solid.nodes.col(entry.index() / 3) - centre).cross(force);
-  }
-
-  std::map<Eigen::Index, double> entries;
-  for (Eigen::SparseVector<double>::InnerIterator entry(load); entry; ++entry) entries[entry.index()] = entry.value();
-  const auto take_off = [&](double z, const Eigen::Matrix<double, 6, 1>& part) {
-    const SectionMotion& motion = motions.at(z);
-    const Eigen::RowVectorXd weights = part.transpose() * motion.weights;
-    for (std::size_t k = 0; k < motion.nodes.size(); ++k) {
-      for (int a = 0; a < 3; ++a) {
-        entries[3 * motion.nodes[k] + a] -= weights[3 * static_cast<Eigen::Index>(k) + a];
-      }
+NetFunctionals net_functionals(const GearMesh& mesh, const std::vector<FlankPoint>& points, RemovedMotion removed) {
+  const auto count = static_cast<int>(points.size());
+  std::vector<Eigen::Triplet<double>> motions, taken_off;
+  std::map<std::pair<double, int>, int> columns;  // of the motions' parts, by plane and component of (t, omega)
+  std::map<double, SectionMotion> sections;
+  const auto take_off = [&](double z, int component, double amount, int point) {
+    const auto [place, is_new] = columns.try_emplace({z, component}, static_cast<int>(columns.size()));
+    taken_off.emplace_back(place->second, point, amount);
+    if (!is_new) return;
+    if (!sections.contains(z)) sections.emplace(z, shaft_motion(mesh, z));
+    const SectionMotion& section = sections.at(z);
+    for (int i = 0; i < section.weights.cols(); ++i) {
+      motions.emplace_back(3 * section.nodes[static_cast<std::size_t>(i / 3)] + i % 3, place->second, section.weights(component, i));
     }
   };
-  Eigen::Matrix<double, 6, 1> part = Eigen::Matrix<double, 6, 1>::Zero();
-  part.head<2>() = resultant.head<2>();
-  if (removed == RemovedMotion::WholeTranslationTorsionAndTilt) part[2] = resultant[2];
-  take_off(point.z, part);
-  part.setZero();
-  part[5] = resultant[5];
-  take_off(mesh.torque_end, part);
-  if (removed != RemovedMotion::TranslationAndTorsion) {
-    part.setZero();
-    part.segment<2>(3) = resultant.segment<2>(3);
-    take_off(0, part);
-  }
-  Eigen::SparseVector<double> result(load.size());
-  for (const auto& [index, value] : entries) result.insert(index) = value;
-  return result;
-}
 
-Eigen::SparseMatrix<double> net_functionals(const GearMesh& mesh, const std::vector<FlankPoint>& points, RemovedMotion removed) {
-  ShaftMotions motions(mesh);
-  Eigen::SparseMatrix<double> result(mesh.solid.nodes.size(), std::ssize(points));
-  for (Eigen::Index i = 0; i < result.cols(); ++i) {
-    const Eigen::SparseVector<double> column = net_functional(mesh, points[static_cast<std::size_t>(i)], removed, motions);
-    result.startVec(i);
-    for (Eigen::SparseVector<double>::InnerIterator entry(column); entry; ++entry) result.insertBack(entry.index(), i) = entry.value();
+  NetFunctionals net;
+  net.centre.resize(mesh.solid.nodes.size(), count);
+  for (int i = 0; i < count; ++i) {
+    const FlankPoint& point = points[static_cast<std::size_t>(i)];
+    const Eigen::SparseVector<double> load = centre_functional(mesh, point);
+    const Eigen::Vector3d centre(0, 0, point.z);
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
+    net.centre.startVec(i);
+    for (Eigen::SparseVector<double>::InnerIterator entry(load); entry; ++entry) {
+      net.centre.insertBack(entry.index(), i) = entry.value();
+      Eigen::Vector3d part = Eigen::Vector3d::Zero();
+      part[entry.index() % 3] = entry.value();
+      force += part;
+      moment += (mesh.solid.nodes.col(entry.index() / 3) - centre).cross(part);
+    }
+    if (removed == RemovedMotion::None) continue;
+    take_off(point.z, 0, force.x(), i);
+    take_off(point.z, 1, force.y(), i);
+    if (removed == RemovedMotion::WholeTranslationTorsionAndTilt) take_off(point.z, 2, force.z(), i);
+    take_off(mesh.torque_end, 5, moment.z(), i);
+    if (removed == RemovedMotion::TranslationAndTorsion) continue;
+    take_off(0, 3, moment.x(), i);
+    take_off(0, 4, moment.y(), i);
   }
-  result.finalize();
-  return result;
+  net.centre.finalize();
+  const auto parts = static_cast<Eigen::Index>(columns.size());
+  net.motions.resize(mesh.solid.nodes.size(), parts);
+  net.motions.setFromTriplets(motions.begin(), motions.end());
+  net.taken_off.resize(parts, count);
+  net.taken_off.setFromTriplets(taken_off.begin(), taken_off.end());
+  return net;
 }
 
 double axial_hold_compliance(const GearMesh& mesh, const Material& material, RemovedMotion removed) {

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <map>
 #include <vector>
 
 #include "core/compliance/finite_element/gear_mesh.hpp"
@@ -88,17 +87,6 @@ struct SectionMotion {
 /// @param z  -b/2 .. b/2 [mm]
 SectionMotion shaft_motion(const GearMesh& mesh, double z);
 
-/// shaft_motion() of one mesh, worked out once for each plane.
-class ShaftMotions {
- public:
-  explicit ShaftMotions(const GearMesh& mesh) : mesh_(&mesh) {}
-  const SectionMotion& at(double z);
-
- private:
-  const GearMesh* mesh_;
-  std::map<double, SectionMotion> motions_;
-};
-
 /// What of the shaft's motion is taken out of the compliance.
 enum class RemovedMotion {
   None,
@@ -115,18 +103,21 @@ enum class RemovedMotion {
   WholeTranslationTorsionAndTilt,
 };
 
-/// The functional with the removed motion taken off,
+/// The functionals of many points with the removed motion taken off,
 ///
 ///     l_p - F_x t_x(z_p) - F_y t_y(z_p) - M_z omega_z(torque end) [- M_x omega_x(0) - M_y omega_y(0)] [- F_z t_z(z_p)],
 ///
-/// F and M being force and moment of l_p about the axis in the plane z_p. It serves for load and deflection: the load
-/// that belongs to it has its reactions on the shaft right where the motion is measured. Hence P' K P instead of K P,
-/// symmetric and positive semi-definite again.
-/// @param motions  of that mesh
-Eigen::SparseVector<double> net_functional(const GearMesh& mesh, const FlankPoint& point, RemovedMotion removed, ShaftMotions& motions);
-
-/// Functionals of many points as columns, 3n x k.
-Eigen::SparseMatrix<double> net_functionals(const GearMesh& mesh, const std::vector<FlankPoint>& points, RemovedMotion removed);
+/// F and M being force and moment of l_p about the axis in the plane z_p. They serve for load and deflection: the load
+/// that belongs to one has its reactions on the shaft right where the motion is measured. Hence P' K P instead of K P,
+/// symmetric and positive semi-definite again. Kept in parts: the shaft's motions are the same for all points of a plane.
+struct NetFunctionals {
+  Eigen::SparseMatrix<double> centre;     ///< l_p of every point, 3n x k
+  Eigen::SparseMatrix<double> motions;    ///< components of t and omega that are needed, 3n x m
+  Eigen::SparseMatrix<double> taken_off;  ///< forces and moments, m x k
+  /// centre - motions taken_off, 3n x k.
+  Eigen::SparseMatrix<double> whole() const;
+};
+NetFunctionals net_functionals(const GearMesh& mesh, const std::vector<FlankPoint>& points, RemovedMotion removed);
 
 /// Diameter of what holds the shaft axially, over the shaft's.
 inline constexpr double axial_hold_share = 0.2;

@@ -21,7 +21,7 @@ struct FilletGrid {
 /// Stress along the fillets of one gear under forces on its flanks [Haddad 1991, eq. 1.71, as three components instead
 /// of one, so that loads add up exactly before the principal stress is taken].
 ///
-/// Tension side only: the fillet below the flank that carries. Forces are those of net_functional(), with the motion removed that the
+/// Tension side only: the fillet below the flank that carries. Forces are those of NetFunctionals, with the motion removed that the
 /// gear's influence values have it of, at least translation, torsion and tilt: they enter over
 /// the tooth's centre surface and are held by the shaft right where they act, so that the stress of the shaft's own
 /// bending and torsion is not in it (5e-4 of the whole with the default shaft; a rigid motion leaves no stress behind).

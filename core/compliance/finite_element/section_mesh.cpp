@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <ranges>
 #include <string>
 #include <unordered_map>
 #include <utility>
@@ -49,12 +50,12 @@ class Builder {
   /// A grid of quads from points at half steps; the corner (i, j), (i + 1, j), (i + 1, j + 1) must turn
   /// counter-clockwise. `at(i, j)`: i = 0 .. 2 columns, j = 0 .. 2 rows.
   template <typename At>
-  void grid(int columns, int rows, bool in_shaft, At&& at) {
+  void grid(int columns, int rows, SectionPart part, At&& at) {
     for (int i = 0; i < 2 * columns; i += 2) {
       for (int j = 0; j < 2 * rows; j += 2) {
         quads_.push_back({node(at(i, j)), node(at(i + 2, j)), node(at(i + 2, j + 2)), node(at(i, j + 2)),
                           node(at(i + 1, j)), node(at(i + 2, j + 1)), node(at(i + 1, j + 2)), node(at(i, j + 1))});
-        in_shaft_.push_back(in_shaft);
+        parts_.push_back(part);
       }
     }
   }
@@ -67,7 +68,7 @@ class Builder {
     for (std::size_t i = 0; i < quads_.size(); ++i) {
       for (int k = 0; k < 8; ++k) mesh.quads(k, static_cast<Eigen::Index>(i)) = quads_[i][k];
     }
-    mesh.in_shaft = std::move(in_shaft_);
+    mesh.parts = std::move(parts_);
     mesh.teeth = std::move(teeth);
     return mesh;
   }
@@ -79,7 +80,7 @@ class Builder {
   double cell_;
   std::vector<Eigen::Vector2d> points_;
   std::vector<std::array<int, 8>> quads_;
-  std::vector<char> in_shaft_;
+  std::vector<SectionPart> parts_;
   std::unordered_map<std::uint64_t, int> places_;
 };
 
@@ -194,20 +195,31 @@ std::vector<double> graded(double length, double first, double growth, double la
   return ends;
 }
 
-/// Rings from a radius down to a smaller one, as fractions of their distance: sizes grow from `first`, but stay in
-/// proportion to the radius, as the stress of a torque does that flows to the shaft.
-std::vector<double> ring_fractions(double outer, double inner, double first, double growth) {
+/// Rings from the teeth's blocks down to the shaft, as fractions of their distance: sizes grow from both ends, where loads come in
+/// and where the shaft takes them, but stay in proportion to the radius, as the stress of a torque does that flows to the shaft.
+std::vector<double> ring_fractions(double outer, double inner, double first_outside, double first_inside, double growth) {
   constexpr double kOfRadius = 0.35;
-  std::vector<double> ends{0};
-  double size = first, radius = outer;
-  while (radius > inner * (1 + 1e-12)) {
-    radius -= std::min(size, kOfRadius * radius);
-    ends.push_back(outer - radius);
-    size *= growth;
+  std::vector<double> from_outside{outer}, from_inside{inner};
+  double outside = first_outside, inside = first_inside;
+  while (true) {
+    const double gap = from_outside.back() - from_inside.back();
+    const double below = std::min(outside, kOfRadius * from_outside.back()), above = std::min(inside, kOfRadius * from_inside.back());
+    const double next = std::min(below, above);
+    if (gap <= 1.5 * next) {  // the last ring, or too little for one
+      if (gap < 0.5 * next && from_outside.size() > 1) from_outside.pop_back();
+      break;
+    }
+    if (below <= above) {
+      from_outside.push_back(from_outside.back() - below);
+      outside *= growth;
+    } else {
+      from_inside.push_back(from_inside.back() + above);
+      inside *= growth;
+    }
   }
-  if (ends.size() > 2 && ends.back() - (outer - inner) > (outer - inner) - ends[ends.size() - 2]) ends.pop_back();
-  for (double& end : ends) end /= ends.back();
-  ends.back() = 1;
+  std::vector<double> ends;
+  for (const double radius : from_outside) ends.push_back((outer - radius) / (outer - inner));
+  for (const double radius : from_inside | std::views::reverse) ends.push_back((outer - radius) / (outer - inner));
   return ends;
 }
 
@@ -259,6 +271,7 @@ void GearMeshOptions::validate() const {
   more_than("options.end_element", end_element, 0);
   more_than("options.axial_growth", axial_growth, 1);
   more_than("options.body_growth", body_growth, 1);
+  if (!(layer_share >= 0)) throw InvalidInput("options.layer_share", std::to_string(layer_share), "at least 0");
   if (!(largest_element >= end_element)) {
     throw InvalidInput("options.largest_element", std::to_string(largest_element), "at least options.end_element");
   }
@@ -319,8 +332,9 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
       return Polar{p.radius, m * pitch + side * p.angle}.point();
     };
     const int steps = half.steps();
-    builder.grid(steps, across, false, [&](int i, int j) { return at(1, i, 2 * across - j); });
-    builder.grid(steps, across, false, [&](int i, int j) { return at(-1, 2 * steps - i, 2 * across - j); });
+    const SectionPart part = m == 0 ? SectionPart::LoadedTooth : SectionPart::Body;
+    builder.grid(steps, across, part, [&](int i, int j) { return at(1, i, 2 * across - j); });
+    builder.grid(steps, across, part, [&](int i, int j) { return at(-1, 2 * steps - i, 2 * across - j); });
 
     SectionTooth tooth;
     const auto edge = [&](int side, int step, int level) {
@@ -350,16 +364,16 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
     const auto at = [&](int i, int j) {
       return blend({rim, angle(i)}, {root, angle(i)}, at_half_step(below_fillet, 2 * across - j)).point();
     };
-    builder.grid(2 * n, across, false, at);
+    builder.grid(2 * n, across, SectionPart::Body, at);
     for (int i = 0; i < 4 * n; ++i) angles.push_back(angle(i));
   }
 
   // Rings down to the bore.
   const auto around = static_cast<int>(angles.size()) / 2;
-  const auto rings = [&](double outer, double inner, const std::vector<double>& fractions, bool in_shaft) {
+  const auto rings = [&](double outer, double inner, const std::vector<double>& fractions, SectionPart part) {
     const auto n = static_cast<int>(fractions.size()) - 1;
     const auto radius = [&](int j) { return outer + (inner - outer) * at_half_step(fractions, j); };
-    builder.grid(around, n, in_shaft, [&](int i, int j) {
+    builder.grid(around, n, part, [&](int i, int j) {
       const auto k = static_cast<std::size_t>(i % (2 * around));
       return Polar{radius(j), angles[k]}.point();
     });
@@ -372,10 +386,15 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
       }
     }
   };
-  if (!thin_rim) rings(rim, shaft, ring_fractions(rim, shaft, normal_module, options.body_growth), false);
-  rings(shaft, bore, shaft_fractions(options.shaft_elements), true);
+  if (!thin_rim) {
+    const double in_shaft = (shaft - bore) * shaft_fractions(options.shaft_elements)[1];
+    rings(rim, shaft, ring_fractions(rim, shaft, normal_module, in_shaft, options.body_growth), SectionPart::Body);
+  }
+  rings(shaft, bore, shaft_fractions(options.shaft_elements), SectionPart::Shaft);
 
-  return builder.take(std::move(lines));
+  SectionMesh mesh = builder.take(std::move(lines));
+  mesh.root_radius = root;
+  return mesh;
 }
 
 }  // namespace flankwright

@@ -20,8 +20,12 @@ struct GearMeshOptions {
   double axial_growth{1.4};         ///< size ratio of neighbouring layers, > 1
   double largest_element{0.4};      ///< axial size at mid face, >= end_element
   int most_layers{80};              ///< over the face; a wider face has longer layers at mid face, >= 4
-  double body_growth{3.0};          ///< size ratio of neighbouring elements into the body and around it, > 1
-  int shaft_elements{2};            ///< rings from the bore to the shaft's surface, >= 1
+  double body_growth{2.0};          ///< size ratio of neighbouring elements into the body and around it, > 1
+  int shaft_elements{3};            ///< rings from the bore to the shaft's surface, >= 1
+  /// Outside the loaded tooth layers are joined by twos, fours, ... as long as the longest joined one is at most this share of the
+  /// longest side that the element has in the section, or of its depth below the root circle (but of its radius at most), >= 0; 0:
+  /// every layer runs all round. Next to the face ends the joined ones are of 1, 1, 2, 4, ... layers all the same.
+  double layer_share{0.75};
 
   /// Throws InvalidInput with field, value and violated bound.
   void validate() const;
@@ -58,12 +62,16 @@ struct SectionTooth {
   std::vector<SectionEdge> fillet;       ///< right-hand fillet, down to its lowest point
 };
 
+/// What an element of the section belongs to. Where no tooth is detailed the plain ring counts as body, as adjacent teeth do.
+enum class SectionPart { LoadedTooth, Body, Shaft };
+
 /// Transverse section of a gear at z = 0 in quadratic 8-node quads, origin in the axis, tooth 0 along +y. Corners run
 /// counter-clockwise, mid-sides 1-2, 2-3, 3-4, 4-1. All nodes of flanks and fillets lie exactly on them.
 struct SectionMesh {
+  double root_radius{not_given};  ///< [mm]
   Eigen::Matrix2Xd nodes;  ///< [mm]
   Eigen::Matrix<int, 8, Eigen::Dynamic> quads;
-  std::vector<char> in_shaft;       ///< of every quad: part of the shaft
+  std::vector<SectionPart> parts;   ///< of every quad
   std::vector<SectionTooth> teeth;  ///< -n .. n, counter-clockwise
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <map>
+#include <ranges>
 #include <string>
 #include <utility>
 
@@ -10,18 +12,63 @@
 namespace flankwright {
 namespace {
 
-/// Nodes that share a brick with each node and have no smaller number, ascending.
+/// Of every node its place among the tied ones, or -1.
+std::vector<int> places_of_ties(const SolidMesh& mesh) {
+  std::vector<int> places(static_cast<std::size_t>(mesh.nodes.cols()), -1);
+  for (std::size_t i = 0; i < mesh.tied.size(); ++i) places[static_cast<std::size_t>(mesh.tied[i].node)] = static_cast<int>(i);
+  return places;
+}
+
+/// Nodes that decide how a brick moves, and by how much each moves the brick's own.
+struct BrickMotion {
+  std::vector<int> nodes;
+  Eigen::MatrixXd weights;  ///< 20 x nodes; empty where the nodes are the brick's own, in its order
+
+  BrickMotion(const SolidMesh& mesh, const std::vector<int>& ties, Eigen::Index brick) {
+    const auto own = mesh.bricks.col(brick);
+    nodes.assign(own.begin(), own.end());
+    if (std::ranges::all_of(nodes, [&](int node) { return ties[node] < 0; })) return;
+    std::map<int, Eigen::Vector<double, 20>> columns;
+    for (int i = 0; i < 20; ++i) {
+      const auto add = [&](int node, double weight) { columns.try_emplace(node, Eigen::Vector<double, 20>::Zero()).first->second[i] += weight; };
+      if (ties[own[i]] < 0) {
+        add(own[i], 1);
+      } else {
+        for (const auto& [node, weight] : mesh.tied[static_cast<std::size_t>(ties[own[i]])].follows) add(node, weight);
+      }
+    }
+    nodes.clear();
+    weights.resize(20, std::ssize(columns));
+    for (const auto& [node, column] : columns) {
+      weights.col(std::ssize(nodes)) = column;
+      nodes.push_back(node);
+    }
+  }
+
+  /// 3k x 3k, from 60 x 60.
+  Eigen::MatrixXd reduce(const Eigen::Matrix<double, 60, 60>& stiffness) const {
+    if (weights.size() == 0) return stiffness;
+    Eigen::MatrixXd moves = Eigen::MatrixXd::Zero(60, 3 * weights.cols());
+    for (Eigen::Index k = 0; k < weights.cols(); ++k) {
+      for (int i = 0; i < 20; ++i) moves.block<3, 3>(3 * i, 3 * k).diagonal().setConstant(weights(i, k));
+    }
+    return moves.transpose() * stiffness * moves;
+  }
+};
+
+/// Nodes that act in a brick with each node and have no smaller number, ascending.
 struct NodeGraph {
   std::vector<int> starts, neighbours;
 };
 
-NodeGraph node_graph(const SolidMesh& mesh) {
+NodeGraph node_graph(const SolidMesh& mesh, const std::vector<int>& ties) {
   const Eigen::Index n = mesh.nodes.cols();
   std::vector<std::vector<int>> lists(static_cast<std::size_t>(n));
   for (Eigen::Index e = 0; e < mesh.bricks.cols(); ++e) {
-    for (int i = 0; i < 20; ++i) {
-      for (int j = 0; j < 20; ++j) {
-        if (mesh.bricks(j, e) >= mesh.bricks(i, e)) lists[mesh.bricks(i, e)].push_back(mesh.bricks(j, e));
+    const std::vector<int> nodes = BrickMotion(mesh, ties, e).nodes;
+    for (const int i : nodes) {
+      for (const int j : nodes) {
+        if (j >= i) lists[static_cast<std::size_t>(i)].push_back(j);
       }
     }
   }
@@ -63,10 +110,19 @@ void check(const SolidMesh& mesh, const Material& material, const std::vector<No
     throw InvalidInput("mesh.nodes", "number " + std::to_string(alone - used.begin()) + " is in no brick",
                        "nodes that belong to a brick");
   }
-  for (const NodeSupport& support : supports) {
-    if (support.node < 0 || support.node >= n) {
-      throw InvalidInput("supports", std::to_string(support.node), "node numbers below " + std::to_string(n));
+  std::vector<char> tied(static_cast<std::size_t>(n), 0);
+  for (const TiedNode& tie : mesh.tied) {
+    if (tie.node < 0 || tie.node >= n) throw InvalidInput("mesh.tied", std::to_string(tie.node), "node numbers below " + std::to_string(n));
+    tied[static_cast<std::size_t>(tie.node)] = 1;
+  }
+  const auto is_free = [&](int node) { return node >= 0 && node < n && !tied[static_cast<std::size_t>(node)]; };
+  for (const TiedNode& tie : mesh.tied) {
+    for (const auto& [node, weight] : tie.follows) {
+      if (!is_free(node)) throw InvalidInput("mesh.tied", std::to_string(node), "to follow nodes of the mesh that are not tied");
     }
+  }
+  for (const NodeSupport& support : supports) {
+    if (!is_free(support.node)) throw InvalidInput("supports", std::to_string(support.node), "nodes of the mesh that are not tied");
   }
 }
 
@@ -92,7 +148,9 @@ struct SolidModel::Assembled {
   Assembled(const SolidMesh& mesh, const Material& material, const std::vector<NodeSupport>& supports) {
     check(mesh, material, supports);
     const Eigen::Index n = mesh.nodes.cols();
+    const std::vector<int> ties = places_of_ties(mesh);
     std::vector<char> fixed(static_cast<std::size_t>(3 * n), 0);
+    for (const TiedNode& tie : mesh.tied) std::fill_n(fixed.begin() + 3 * tie.node, 3, 1);
     std::vector<int> turn(static_cast<std::size_t>(n), -1);
     for (const NodeSupport& support : supports) {
       for (int a = 0; a < 3; ++a) fixed[3 * support.node + a] = support.fixed[a];
@@ -104,25 +162,36 @@ struct SolidModel::Assembled {
     std::vector<int> number(static_cast<std::size_t>(3 * n), -1);
     const auto count = static_cast<Eigen::Index>(std::count(fixed.begin(), fixed.end(), 0));
     node_of.resize(count);
-    motion.resize(3 * n, count);
-    motion.reserve(Eigen::VectorXi::Constant(count, 3));
     for (int row = 0, next = 0; row < 3 * n; ++row) {
       if (fixed[row]) continue;
-      const int node = row / 3, t = turn[node];
-      node_of[next] = node;
-      number[row] = next;
-      if (t < 0) {
-        motion.insert(row, next) = 1.0;
-      } else {
-        for (int a = 0; a < 3; ++a) motion.insert(3 * node + a, next) = turned_[t].frame(a, row % 3);
-      }
-      ++next;
+      node_of[next] = row / 3;
+      number[row] = next++;
     }
-    motion.makeCompressed();
+    std::vector<Eigen::Triplet<double>> moves;
+    const auto add = [&](int node, int other, double weight) {  // how `node` moves by the unknowns of `other`
+      for (int axis = 0; axis < 3; ++axis) {
+        const int column = number[3 * other + axis], t = turn[other];
+        if (column < 0) continue;
+        if (t < 0) {
+          moves.emplace_back(3 * node + axis, column, weight);
+        } else {
+          for (int a = 0; a < 3; ++a) moves.emplace_back(3 * node + a, column, weight * turned_[t].frame(a, axis));
+        }
+      }
+    };
+    for (int node = 0; node < n; ++node) {
+      if (ties[node] < 0) {
+        add(node, node, 1);
+      } else {
+        for (const auto& [other, weight] : mesh.tied[static_cast<std::size_t>(ties[node])].follows) add(node, other, weight);
+      }
+    }
+    motion.resize(3 * n, count);
+    motion.setFromTriplets(moves.begin(), moves.end());
 
     lower.resize(count, count);
-    lay_out(node_graph(mesh), number, n);
-    fill(mesh, material, number, turn);
+    lay_out(node_graph(mesh, ties), number, n);
+    fill(mesh, material, ties, number, turn);
   }
 
  private:
@@ -163,23 +232,25 @@ struct SolidModel::Assembled {
     std::fill_n(lower.valuePtr(), lower.nonZeros(), 0.0);
   }
 
-  void fill(const SolidMesh& mesh, const Material& material, const std::vector<int>& number,
+  void fill(const SolidMesh& mesh, const Material& material, const std::vector<int>& ties, const std::vector<int>& number,
             const std::vector<int>& turn) {
     const int* outer = lower.outerIndexPtr();
     const int* inner = lower.innerIndexPtr();
     for (Eigen::Index e = 0; e < mesh.bricks.cols(); ++e) {
-      Eigen::Matrix<double, 60, 60> stiffness = brick_stiffness(mesh.brick_nodes(e), material);
-      for (int i = 0; i < 20; ++i) {
-        const int t = turn[mesh.bricks(i, e)];
+      const BrickMotion brick(mesh, ties, e);
+      const std::vector<int>& nodes = brick.nodes;
+      Eigen::MatrixXd stiffness = brick.reduce(brick_stiffness(mesh.brick_nodes(e), material));
+      for (int i = 0; i < std::ssize(nodes); ++i) {
+        const int t = turn[nodes[i]];
         if (t < 0) continue;
         stiffness.middleRows<3>(3 * i) = (turned_[t].frame.transpose() * stiffness.middleRows<3>(3 * i)).eval();
         stiffness.middleCols<3>(3 * i) = (stiffness.middleCols<3>(3 * i) * turned_[t].frame).eval();
       }
-      for (int j = 0; j < 60; ++j) {
-        const int column = number[3 * mesh.bricks(j / 3, e) + j % 3];
+      for (int j = 0; j < stiffness.cols(); ++j) {
+        const int column = number[3 * nodes[j / 3] + j % 3];
         if (column < 0) continue;
-        for (int i = 0; i < 60; ++i) {
-          const int row = number[3 * mesh.bricks(i / 3, e) + i % 3];
+        for (int i = 0; i < stiffness.rows(); ++i) {
+          const int row = number[3 * nodes[i / 3] + i % 3];
           if (row < column) continue;
           const int* place = std::lower_bound(inner + outer[column], inner + outer[column + 1], row);
           lower.valuePtr()[place - inner] += stiffness(i, j);
@@ -200,9 +271,11 @@ Eigen::MatrixXd SolidModel::solve(const Eigen::SparseMatrix<double>& loads) cons
   return motion_ * factor_.solve(motion_.transpose() * loads);
 }
 
-Eigen::MatrixXd SolidModel::influence(const Eigen::SparseMatrix<double>& loads) const {
+Eigen::MatrixXd SolidModel::influence(Eigen::SparseMatrix<double> loads) const {
   assert(loads.rows() == motion_.rows());
-  return factor_.gram(motion_.transpose() * loads);
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> by_unknowns = motion_.transpose() * loads;
+  loads = {};
+  return factor_.gram(by_unknowns);
 }
 
 }  // namespace flankwright

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCore>
 #include <array>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "core/compliance/finite_element/brick.hpp"
@@ -11,10 +12,17 @@
 
 namespace flankwright {
 
+/// A node that moves as others do: u = sum of weight u(other). Of those others none is tied.
+struct TiedNode {
+  int node{-1};
+  std::vector<std::pair<int, double>> follows;  ///< node and weight
+};
+
 /// A body of n nodes and m curved 20-node bricks.
 struct SolidMesh {
   Eigen::Matrix3Xd nodes;                         ///< [mm], 3 x n
   Eigen::Matrix<int, 20, Eigen::Dynamic> bricks;  ///< node numbers, 20 x m, in the order of BrickNodes
+  std::vector<TiedNode> tied{};
 
   BrickNodes brick_nodes(Eigen::Index brick) const;
   /// Smallest brick_quality() of the mesh.
@@ -30,13 +38,14 @@ struct NodeSupport {
 
 /// Linear elastic body, factorised once for many loads:
 ///
-///     A u = f,   A = assembled brick_stiffness(),   u = 0 along the supports.
+///     A u = f,   A = assembled brick_stiffness(),   u = 0 along the supports, tied nodes as what they follow.
 ///
 /// Displacements and loads are vectors of size 3 n, node by node (x, y, z) [mm], [N].
 class SolidModel {
  public:
   /// @throws InvalidInput  "material" out of range; "mesh" with a node number out of range, a node in no brick, or a
-  ///                       brick whose Jacobian is not positive; "supports" with a node out of range
+  ///                       brick whose Jacobian is not positive; "mesh.tied" where a node follows one out of range or
+  ///                       tied itself; "supports" with a node out of range or tied
   SolidModel(const SolidMesh& mesh, const Material& material, const std::vector<NodeSupport>& supports);
 
   /// Not Factorised where the supports leave a rigid motion free; then nothing below may be called.
@@ -48,13 +57,14 @@ class SolidModel {
   Eigen::MatrixXd solve(const Eigen::SparseMatrix<double>& loads) const;
   /// F' A^-1 F, k x k: exactly symmetric, and positive semi-definite to round-off. What it takes grows with the part of the body
   /// that the loads are on, a small one of what solve() takes.
-  Eigen::MatrixXd influence(const Eigen::SparseMatrix<double>& loads) const;
+  /// @param loads  taken over: of many wide ones two copies beside the factor would matter
+  Eigen::MatrixXd influence(Eigen::SparseMatrix<double> loads) const;
 
  private:
   struct Assembled;
   explicit SolidModel(Assembled&& assembled);
 
-  Eigen::SparseMatrix<double> motion_;  ///< displacements of the nodes by the unknowns, 3n x unknowns, along the supports' frames
+  Eigen::SparseMatrix<double> motion_;  ///< displacements of the nodes by the unknowns, which are along the supports' frames, 3n x unknowns
   SparseCholesky factor_;
 };
 

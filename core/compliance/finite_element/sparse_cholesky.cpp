@@ -200,7 +200,7 @@ Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& right_sides) const 
   return factor_->solve(right_sides);
 }
 
-Eigen::MatrixXd SparseCholesky::gram(const Eigen::SparseMatrix<double>& right_sides) const {
+Eigen::MatrixXd SparseCholesky::gram(const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides) const {
   assert(status_ == FactorStatus::Factorised);
   const OneCore serial;
   return supernodal_gram(*factor_->l, right_sides);

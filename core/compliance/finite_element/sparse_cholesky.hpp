@@ -37,7 +37,7 @@ class SparseCholesky {
   /// A^-1 B, n x k. Needs status() Factorised.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_sides) const;
   /// B' A^-1 B, k x k, exactly symmetric, see supernodal_gram(). Needs status() Factorised.
-  Eigen::MatrixXd gram(const Eigen::SparseMatrix<double>& right_sides) const;
+  Eigen::MatrixXd gram(const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides) const;
 
  private:
   struct Factor;

@@ -12,6 +12,8 @@ extern "C" {  // which some vendors' header leaves to us
 namespace flankwright {
 namespace {
 
+using RowSparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
 /// Columns of L that share a pattern below their diagonal block, as CHOLMOD stores them: a dense matrix by columns.
 class Supernodes {
  public:
@@ -47,13 +49,14 @@ class Supernodes {
 };
 
 /// For every supernode the columns of B that reach it, ascending.
-std::vector<std::vector<int>> reach(const Supernodes& supernodes, const Eigen::SparseMatrix<double>& right_sides, const std::vector<int>& place) {
+/// @param place  of a row of A in L
+std::vector<std::vector<int>> reach(const Supernodes& supernodes, const RowSparse& right_sides, const std::vector<int>& place) {
   std::vector<std::vector<int>> columns(static_cast<std::size_t>(supernodes.count()));
-  for (int c = 0; c < right_sides.cols(); ++c) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(right_sides, c); entry; ++entry) {
-      std::vector<int>& here = columns[supernodes.of_row(place[entry.row()])];
-      if (here.empty() || here.back() != c) here.push_back(c);
-    }
+  for (int row = 0; row < right_sides.rows(); ++row) {
+    std::vector<int>& here = columns[supernodes.of_row(place[row])];
+    for (RowSparse::InnerIterator entry(right_sides, row); entry; ++entry) here.push_back(static_cast<int>(entry.col()));
+    std::ranges::sort(here);
+    here.erase(std::unique(here.begin(), here.end()), here.end());
   }
   std::vector<int> both;
   for (int s = 0; s < supernodes.count(); ++s) {
@@ -79,32 +82,30 @@ std::vector<int> places_in(const std::vector<int>& list, const std::vector<int>&
 
 }  // namespace
 
-Eigen::MatrixXd supernodal_gram(const cholmod_factor& factor, const Eigen::SparseMatrix<double>& right_sides) {
+Eigen::MatrixXd supernodal_gram(const cholmod_factor& factor, const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides) {
   const Supernodes supernodes(factor);
   const auto n = static_cast<Eigen::Index>(factor.n), k = right_sides.cols();
   assert(right_sides.rows() == n);
-  std::vector<int> place(static_cast<std::size_t>(n));  // of a row of A in L
-  const auto* order = static_cast<const int*>(factor.Perm);
+  const auto* order = static_cast<const int*>(factor.Perm);  // of a row of L in A
+  std::vector<int> place(static_cast<std::size_t>(n));
   for (Eigen::Index i = 0; i < n; ++i) place[order[i]] = static_cast<int>(i);
   const std::vector<std::vector<int>> columns = reach(supernodes, right_sides, place);
 
-  std::vector<Eigen::MatrixXd> waiting(columns.size());  // W_s by the columns that reach it
+  std::vector<Eigen::MatrixXd> waiting(columns.size());  // what those below leave of W_s, by the columns that reach it
   const auto waiting_at = [&](int s) -> Eigen::MatrixXd& {
     if (waiting[s].size() == 0) waiting[s].setZero(supernodes.size(s), std::ssize(columns[s]));
     return waiting[s];
   };
-  for (int c = 0; c < k; ++c) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(right_sides, c); entry; ++entry) {
-      const int row = place[entry.row()], s = supernodes.of_row(row);
-      const auto column = std::ranges::lower_bound(columns[s], c) - columns[s].begin();
-      waiting_at(s)(row - supernodes.first_row(s), column) += entry.value();
-    }
-  }
 
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(k, k), product;
   for (int s = 0; s < supernodes.count(); ++s) {
     if (columns[s].empty()) continue;
     Eigen::MatrixXd y = std::move(waiting_at(s));
+    for (int i = 0; i < supernodes.size(s); ++i) {
+      for (RowSparse::InnerIterator entry(right_sides, order[supernodes.first_row(s) + i]); entry; ++entry) {
+        y(i, std::ranges::lower_bound(columns[s], entry.col()) - columns[s].begin()) += entry.value();
+      }
+    }
     const int size = supernodes.size(s), height = supernodes.height(s), below = height - size, count = static_cast<int>(y.cols());
     const double* l = supernodes.block(s);
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, size, count, 1.0, l, height, y.data(), size);

@@ -18,6 +18,6 @@ namespace flankwright {
 ///
 /// Only what waits above the supernode at work, W_t, is held: at most k times the rows of the largest separators.
 /// @throws std::bad_alloc
-Eigen::MatrixXd supernodal_gram(const cholmod_factor& factor, const Eigen::SparseMatrix<double>& right_sides);
+Eigen::MatrixXd supernodal_gram(const cholmod_factor& factor, const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides);
 
 }  // namespace flankwright

@@ -13,7 +13,7 @@ enum class GearBodyIn {
   /// The model knows teeth only (thin slices): forces and moments act on the shaft where the tooth is loaded.
   Shaft,
   /// The model has the gear's body and takes off, of the shaft's motion, the translation of the section of the load, the tilt
-  /// at mid face and the rotation at the face end where the torque leaves [net_functional()]. Just these act on the shaft,
+  /// at mid face and the rotation at the face end where the torque leaves [NetFunctionals]. Just these act on the shaft,
   /// there: the gear's wind-up and the tilt of its sections against mid face stay the model's.
   Structure,
 };

@@ -38,7 +38,7 @@ InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_rad
            std::clamp(place.zeta * module - half, -half, half)});
     }
   }
-  const Eigen::SparseMatrix<double> functionals = net_functionals(model, points, RemovedMotion::None);
+  const Eigen::SparseMatrix<double> functionals = net_functionals(model, points, RemovedMotion::None).centre;
   const Eigen::Index n = grid.size();
   const Eigen::SparseMatrix<double> loads = functionals.middleCols(apart * n, n);
   const Eigen::MatrixXd deflections = module * (functionals.transpose() * solid.solve(loads));

@@ -47,7 +47,7 @@ SurfaceCheck check_surface(int half_thickness_elements) {
   options.half_thickness_elements = half_thickness_elements;
   const GearMesh mesh = gear_mesh(gear_of(18, 0, 2.5), options);
   const SolidModel solid(mesh.solid, kSteel, mesh.supports);
-  const Eigen::SparseMatrix<double> force = net_functionals(mesh, {{0, mesh.form.tip_radius(), 0}}, RemovedMotion::TranslationTorsionAndTilt);
+  const Eigen::SparseMatrix<double> force = net_functionals(mesh, {{0, mesh.form.tip_radius(), 0}}, RemovedMotion::TranslationTorsionAndTilt).whole();
   const Eigen::VectorXd u = solid.solve(force);
   const FilletStress fillet(mesh, kSteel);
 

@@ -31,7 +31,7 @@ TEST_CASE("Influence values are symmetric and positive semi-definite over all te
   const InfluenceModel model(gear_of(18, 30), kUnit, coarse());
   const auto removed =
       GENERATE(RemovedMotion::None, RemovedMotion::TranslationAndTorsion, RemovedMotion::TranslationTorsionAndTilt,
-               RemovedMotion::WholeTranslationTorsionAndTilt);
+               RemovedMotion::WholeTranslationTorsionAndTilt).whole();
   const InfluenceMatrix result = model.influence(points(model.mesh()), removed);
   REQUIRE(result.status == FactorStatus::Factorised);
   CHECK(result.compliance == result.compliance.transpose());
@@ -39,7 +39,7 @@ TEST_CASE("Influence values are symmetric and positive semi-definite over all te
   CHECK(values.minCoeff() > -1e-13 * values.maxCoeff());  // round-off
 
   // The same by full solutions: what one load does to the other's place.
-  const auto loads = net_functionals(model.mesh(), result.points, removed);
+  const auto loads = net_functionals(model.mesh(), result.points, removed).whole();
   Eigen::MatrixXd solved = loads.transpose() * model.solid().solve(loads);
   solved.array() += axial_hold_compliance(model.mesh(), kUnit, removed);
   CHECK((solved - result.compliance).cwiseAbs().maxCoeff() < 1e-10 * values.maxCoeff());  // round-off x condition
@@ -47,7 +47,7 @@ TEST_CASE("Influence values are symmetric and positive semi-definite over all te
 
 TEST_CASE("With translation, torsion and tilt taken out the supports carry nothing", "[core][compliance][fe]") {
   const GearMesh mesh = gear_mesh(gear_of(18, 30), coarse());
-  const auto loads = net_functionals(mesh, points(mesh), RemovedMotion::WholeTranslationTorsionAndTilt);
+  const auto loads = net_functionals(mesh, points(mesh), RemovedMotion::WholeTranslationTorsionAndTilt).whole();
   // Held at three nodes, no more than needed: the first in all directions, the second across the line to it, the third
   // across the plane of all three.
   const auto held_at = [&](int first, int second) {

@@ -54,7 +54,7 @@ struct Gear {
         places.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
     }
     return std::pow(mesh.normal_module, 2) * FilletStress(mesh, kUnit).functionals(places).transpose() *
-           solid.solve(net_functionals(mesh, points, removed));
+           solid.solve(net_functionals(mesh, points, removed).whole());
   }
 };
 

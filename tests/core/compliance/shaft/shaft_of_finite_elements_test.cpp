@@ -73,7 +73,7 @@ TEST_CASE("What finite elements keep and what the beam holds add up to the whole
   const GearMesh mesh = gear_mesh(gear, test::coarse());
   const std::vector<FlankPoint> points = points_of(mesh);
   const SolidModel solid = clamped_at(mesh, end);
-  const auto influence = [&](RemovedMotion removed) { return solid.influence(net_functionals(mesh, points, removed)); };
+  const auto influence = [&](RemovedMotion removed) { return solid.influence(net_functionals(mesh, points, removed).whole()); };
   const Eigen::MatrixXd whole = influence(RemovedMotion::None);
   const Eigen::MatrixXd kept = influence(RemovedMotion::WholeTranslationTorsionAndTilt);
   std::vector<BeamLoad> loads;

@@ -1,0 +1,179 @@
+#include "core/compliance/finite_element/section_sweep.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace flankwright {
+namespace {
+
+/// Numbers of the planes that remain where 2^level layers are joined, from both ends of the face width to mid face; next to the
+/// ends 1, 1, 2, 4, ... Those of a level are among those of the level below.
+std::vector<int> joined_ends(const SweepPlanes& planes, int level) {
+  std::vector<int> ends;
+  const int half = (planes.last - planes.first) / 2, step = 1 << level;
+  for (int plane = 0; plane < static_cast<int>(planes.z.size()); ++plane) {
+    const int from_end = std::min(plane - planes.first, planes.last - plane);  // less than 0 beyond the face width
+    const bool near_end = from_end < step && (from_end < 0 || std::has_single_bit(static_cast<unsigned>(from_end)));
+    if (near_end || from_end % step == 0 || from_end == half) ends.push_back(plane);
+  }
+  return ends;
+}
+
+}  // namespace
+
+SectionSweep::SectionSweep(const SectionMesh& section, const SweepPlanes& planes, double twist, double layer_share)
+    : section_(section), planes_(planes), twist_(twist), numbers_(static_cast<std::size_t>(section.nodes.cols())) {
+  for (int level = 0; level == 0 || 1 << level < planes.last - planes.first; ++level) ends_.push_back(joined_ends(planes, level));
+  set_levels(layer_share);
+}
+
+/// What the share of GearMeshOptions::layer_share is taken of.
+double SectionSweep::length_scale(Eigen::Index quad) const {
+  double side = 0, innermost = INFINITY, outermost = 0;
+  for (int i = 0; i < 4; ++i) {
+    const Eigen::Vector2d corner = section_.nodes.col(section_.quads(i, quad)), next = section_.nodes.col(section_.quads((i + 1) % 4, quad));
+    side = std::max(side, (corner - next).norm());
+    innermost = std::min(innermost, corner.norm());
+    outermost = std::max(outermost, corner.norm());
+  }
+  return std::max(side, std::min(section_.root_radius - outermost, innermost));
+}
+
+void SectionSweep::set_levels(double layer_share) {
+  std::vector<double> longest;  // joined layer of every level
+  for (const std::vector<int>& ends : ends_) {
+    longest.push_back(0);
+    for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+      const bool on_face = ends[i] >= planes_.first && ends[i + 1] <= planes_.last;
+      if (on_face) longest.back() = std::max(longest.back(), planes_.z[ends[i + 1]] - planes_.z[ends[i]]);
+    }
+  }
+  node_levels_.assign(static_cast<std::size_t>(section_.nodes.cols()), 0);
+  for (Eigen::Index quad = 0; quad < section_.quads.cols(); ++quad) {
+    int level = 0;
+    if (section_.parts[static_cast<std::size_t>(quad)] != SectionPart::LoadedTooth) {
+      const double most = layer_share * length_scale(quad);
+      while (level + 1 < static_cast<int>(longest.size()) && longest[static_cast<std::size_t>(level) + 1] <= most) ++level;
+    }
+    quad_levels_.push_back(level);
+    for (int i = 0; i < 8; ++i) {
+      int& of_node = node_levels_[static_cast<std::size_t>(section_.quads(i, quad))];
+      of_node = std::max(of_node, level);
+    }
+  }
+}
+
+LayerSpan SectionSweep::span(int level, int layer) const {
+  const std::vector<int>& ends = ends_[static_cast<std::size_t>(level)];
+  const auto above = std::upper_bound(ends.begin(), ends.end(), layer);
+  return {*(above - 1), *above};
+}
+
+int SectionSweep::node(int section_node, LayerSpan span) {
+  const auto [place, is_new] = numbers_[static_cast<std::size_t>(section_node)].try_emplace(span, static_cast<int>(points_.size()));
+  if (is_new) {
+    const double z = height(span), turn = twist_ * std::clamp(z, planes_.z[planes_.first], planes_.z[planes_.last]);
+    const Eigen::Vector2d p = section_.nodes.col(section_node);
+    points_.push_back({p.x() * std::cos(turn) - p.y() * std::sin(turn), p.x() * std::sin(turn) + p.y() * std::cos(turn), z});
+  }
+  return place->second;
+}
+
+int SectionSweep::brick(Eigen::Index quad, LayerSpan span) {
+  const LayerSpan lower{span.lower, span.lower}, upper{span.upper, span.upper};
+  std::array<int, 20> brick;
+  for (int i = 0; i < 4; ++i) {
+    const int corner = section_.quads(i, quad), side = section_.quads(i + 4, quad);
+    brick[i] = node(corner, lower);
+    brick[i + 4] = node(corner, upper);
+    brick[i + 8] = node(side, lower);
+    brick[i + 12] = node(side, upper);
+    brick[i + 16] = node(corner, span);
+  }
+  bricks_.push_back(brick);
+  return static_cast<int>(bricks_.size()) - 1;
+}
+
+MeshFace SectionSweep::face(const SectionEdge& edge, LayerSpan span) {
+  const LayerSpan lower{span.lower, span.lower}, upper{span.upper, span.upper};
+  return {node(edge[0], lower), node(edge[2], lower), node(edge[2], upper), node(edge[0], upper),
+          node(edge[1], lower), node(edge[2], span),  node(edge[1], upper), node(edge[0], span)};
+}
+
+std::vector<int> SectionSweep::on_plane(int plane) const {
+  std::vector<int> nodes;
+  for (const auto& numbers : numbers_) {
+    const auto found = numbers.find({plane, plane});
+    if (found != numbers.end()) nodes.push_back(found->second);
+  }
+  return nodes;
+}
+
+void SectionSweep::tie(int section_node, const SectionEdge* edge) {
+  const int level = node_levels_[static_cast<std::size_t>(section_node)];
+  const std::map<LayerSpan, int> made = numbers_[static_cast<std::size_t>(section_node)];
+  for (const auto& [span, number] : made) {
+    const LayerSpan around = this->span(level, span.lower);
+    const bool on_end = span.lower == span.upper && around.lower == span.lower;
+    if (on_end || span == around) continue;
+    const double lower = planes_.z[around.lower], upper = planes_.z[around.upper];
+    const double eta = (2 * height(span) - lower - upper) / (upper - lower);
+
+    // What it follows: a corner's node the long element's edge, a mid-side's its face.
+    std::map<int, double> follows;
+    const auto add = [&](int node, double weight) {
+      if (weight == 0) return;
+      if (tie_of_[static_cast<std::size_t>(node)] < 0) {
+        follows[node] += weight;
+      } else {
+        const TiedNode& tied = ties_[static_cast<std::size_t>(tie_of_[static_cast<std::size_t>(node)])];
+        for (const auto& [other, share] : tied.follows) follows[other] += weight * share;
+      }
+    };
+    if (edge) {
+      const MeshFace face = this->face(*edge, around);
+      const FaceShape shape = face_shape(0, eta);
+      for (int i = 0; i < 8; ++i) add(face[static_cast<std::size_t>(i)], shape.values[i]);
+    } else {
+      add(node(section_node, {around.lower, around.lower}), eta * (eta - 1) / 2);
+      add(node(section_node, around), 1 - eta * eta);
+      add(node(section_node, {around.upper, around.upper}), eta * (eta + 1) / 2);
+    }
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    for (const auto& [other, weight] : follows) point += weight * points_[static_cast<std::size_t>(other)];
+    points_[static_cast<std::size_t>(number)] = point;
+    tie_of_[static_cast<std::size_t>(number)] = static_cast<int>(ties_.size());
+    ties_.push_back({number, {follows.begin(), follows.end()}});
+  }
+}
+
+SolidMesh SectionSweep::take() {
+  tie_of_.assign(points_.size(), -1);
+  std::map<int, SectionEdge> sides;  // by their middle
+  std::vector<char> is_corner(numbers_.size(), 0);
+  for (Eigen::Index quad = 0; quad < section_.quads.cols(); ++quad) {
+    for (int i = 0; i < 4; ++i) {
+      const int corner = section_.quads(i, quad), side = section_.quads(i + 4, quad);
+      is_corner[static_cast<std::size_t>(corner)] = 1;
+      sides.try_emplace(side, SectionEdge{corner, side, section_.quads((i + 1) % 4, quad)});
+    }
+  }
+  // Corners' first: mid-sides follow what these follow.
+  for (int i = 0; i < static_cast<int>(numbers_.size()); ++i) {
+    if (is_corner[static_cast<std::size_t>(i)]) tie(i, nullptr);
+  }
+  for (const auto& [middle, edge] : sides) tie(middle, &edge);
+
+  SolidMesh mesh;
+  mesh.nodes.resize(3, static_cast<Eigen::Index>(points_.size()));
+  for (std::size_t i = 0; i < points_.size(); ++i) mesh.nodes.col(static_cast<Eigen::Index>(i)) = points_[i];
+  mesh.bricks.resize(20, static_cast<Eigen::Index>(bricks_.size()));
+  for (std::size_t i = 0; i < bricks_.size(); ++i) {
+    for (int k = 0; k < 20; ++k) mesh.bricks(k, static_cast<Eigen::Index>(i)) = bricks_[i][static_cast<std::size_t>(k)];
+  }
+  mesh.tied = std::move(ties_);
+  return mesh;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "core/compliance/finite_element/section_mesh.hpp"
+#include "core/compliance/finite_element/solid_model.hpp"
+
+namespace flankwright {
+
+/// An 8-node face of the mesh: four corners, then the mid-sides between them.
+using MeshFace = std::array<int, 8>;
+
+/// Layers that an element reaches through, by the numbers of the planes at its ends.
+struct LayerSpan {
+  int lower{0}, upper{0};
+  auto operator<=>(const LayerSpan&) const = default;
+};
+
+/// Planes across the axis, ascending [mm]; those from number `first` to `last` lie on the face width.
+struct SweepPlanes {
+  std::vector<double> z;
+  int first{0}, last{0};
+};
+
+/// A section swept along the axis with the helix, in layers between planes. On the face width layers are joined by twos, fours, ...,
+/// counted from both face ends to mid face, where GearMeshOptions::layer_share allows. Where a quad with short elements
+/// meets one with long ones, the short ones' nodes in between are tied to the long one's: its quadratic displacement on the common
+/// face is theirs, so that the displacement is continuous.
+class SectionSweep {
+ public:
+  /// @param twist  turn of the section per length, on the face width [rad/mm]
+  SectionSweep(const SectionMesh& section, const SweepPlanes& planes, double twist, double layer_share);
+
+  /// Layers that the quad's, or the edge's, element through a layer takes; of two quads at an edge that with the longer ones.
+  LayerSpan span_of_quad(Eigen::Index quad, int layer) const { return span(quad_levels_[static_cast<std::size_t>(quad)], layer); }
+  LayerSpan span_of_edge(const SectionEdge& edge, int layer) const { return span(node_levels_[static_cast<std::size_t>(edge[1])], layer); }
+
+  /// Makes a brick; its number.
+  int brick(Eigen::Index quad, LayerSpan span);
+  MeshFace face(const SectionEdge& edge, LayerSpan span);
+  /// Nodes made so far on a plane.
+  std::vector<int> on_plane(int plane) const;
+  /// The nodes and bricks made, with the ties; call once, at the end.
+  SolidMesh take();
+
+ private:
+  LayerSpan span(int level, int layer) const;
+  double height(LayerSpan span) const { return (planes_.z[span.lower] + planes_.z[span.upper]) / 2; }
+  int node(int section_node, LayerSpan span);
+  void set_levels(double layer_share);
+  double length_scale(Eigen::Index quad) const;
+  void tie(int section_node, const SectionEdge* edge);
+
+  const SectionMesh& section_;
+  const SweepPlanes& planes_;
+  double twist_;
+  std::vector<std::vector<int>> ends_;             ///< of every level (2^level layers are joined): numbers of the planes between its joined layers
+  std::vector<int> quad_levels_, node_levels_;      ///< the latter: highest of the quads around
+  std::vector<std::map<LayerSpan, int>> numbers_;   ///< of the nodes above every section node
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<std::array<int, 20>> bricks_;
+  std::vector<TiedNode> ties_;
+  std::vector<int> tie_of_;                         ///< of every node: number of its tie, or -1
+};
+
+}  // namespace flankwright
