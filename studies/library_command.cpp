@@ -56,10 +56,10 @@ std::vector<Step> steps() {
 std::string mesh_line(const char* name, const GearMeshOptions& mesh) {
   return fmt::format(
       "# {} mesh: flank {} fillet {} half_thickness {} adjacent_flank {} adjacent_fillet {} end {} growth {} largest {} "
-      "most_layers {} body_growth {} shaft {}\n",
+      "most_layers {} body_growth {} shaft {} layer_share {}\n",
       name, mesh.flank_elements, mesh.fillet_elements, mesh.half_thickness_elements, mesh.adjacent_flank_elements,
       mesh.adjacent_fillet_elements, mesh.end_element, mesh.axial_growth, mesh.largest_element,
-      mesh.most_layers, mesh.body_growth, mesh.shaft_elements);
+      mesh.most_layers, mesh.body_growth, mesh.shaft_elements, mesh.layer_share);
 }
 
 /// What a file must have been made with to be gone on with.

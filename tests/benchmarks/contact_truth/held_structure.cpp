@@ -22,6 +22,7 @@ InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_rad
   GearMeshOptions options = mesh;
   const int apart = std::max(2, teeth_apart_in_contact(pair));
   options.teeth_each_side = apart;
+  options.layer_share = 0;  // any node of the bore is held
   GearMesh model = gear_mesh(to_mesh, options);
   model.supports.clear();
   for (int i = 0; i < model.solid.nodes.cols(); ++i) {

@@ -266,4 +266,11 @@ TEST_CASE("A body free to move is reported, a bad mesh is refused", "[core][comp
   mesh.nodes.conservativeResize(3, mesh.nodes.cols() + 1);
   mesh.nodes.rightCols<1>().setZero();
   CHECK(field() == "mesh.nodes");
+  mesh = good;
+  mesh.tied = {{5, {{1, 0.5}, {static_cast<int>(mesh.nodes.cols()), 0.5}}}};
+  CHECK(field() == "mesh.tied");
+  mesh.tied = {{5, {{1, 1.0}}}, {1, {{2, 1.0}}}};  // a chain
+  CHECK(field() == "mesh.tied");
+  mesh.tied = {{0, {{1, 1.0}}}};  // held at the same time
+  CHECK(field() == "supports");
 }

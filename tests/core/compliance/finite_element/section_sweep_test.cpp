@@ -1,0 +1,93 @@
+#include "core/compliance/finite_element/section_sweep.hpp"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "core/compliance/finite_element/influence.hpp"
+#include "tests/core/compliance/finite_element/block_mesh.hpp"
+#include "tests/core/compliance/finite_element/gears.hpp"
+
+using namespace flankwright;
+using namespace flankwright::test;
+
+namespace {
+
+/// Short layers beside long elements: joined ones of 2, 4 and more.
+GearMeshOptions short_layers(double layer_share) {
+  GearMeshOptions options = coarse();
+  options.end_element = 0.15;
+  options.axial_growth = 1.4;
+  options.largest_element = 0.25;
+  options.layer_share = layer_share;
+  return options;
+}
+
+}  // namespace
+
+TEST_CASE("Where short layers meet joined ones an even stress stays even (patch test)", "[core][compliance][fe]") {
+  const SolidMesh mesh = gear_mesh(gear_of(30, 25, 5), short_layers(0.75)).solid;
+  REQUIRE(mesh.tied.size() > 400);
+  const Eigen::Matrix3d stress{{100, 20, -30}, {20, -50, 10}, {-30, 10, 70}};
+  const Material steel{206000, 0.3};
+
+  // Loads that keep the even stress in balance: of every brick the integral of stress times gradient.
+  Eigen::MatrixXd load = Eigen::MatrixXd::Zero(mesh.nodes.size(), 1);
+  integrate(mesh, [&](Eigen::Index brick, const BrickShape&, const Eigen::Vector3d&, const auto& gradient, double weight) {
+    const Eigen::Matrix<double, 3, 20> forces = weight * stress * gradient.transpose();
+    for (int k = 0; k < 20; ++k) load.middleRows<3>(3 * mesh.bricks(k, brick)) += forces.col(k);
+  });
+  // Held against rigid motion only, at three free nodes far apart.
+  std::set<int> tied;
+  for (const TiedNode& tie : mesh.tied) tied.insert(tie.node);
+  const auto nearest = [&](const Eigen::Vector3d& wanted) {
+    int best = -1;
+    for (int i = 0; i < mesh.nodes.cols(); ++i) {
+      if (!tied.contains(i) && (best < 0 || (mesh.nodes.col(i) - wanted).norm() < (mesh.nodes.col(best) - wanted).norm())) best = i;
+    }
+    return best;
+  };
+  const std::vector<NodeSupport> supports{
+      {nearest({-15, 0, 0})}, {nearest({15, 0, 0}), {false, true, true}}, {nearest({0, 15, 0}), {false, false, true}}};
+  const Eigen::SparseMatrix<double> column = load.sparseView();
+  const Eigen::VectorXd u = SolidModel(mesh, steel, supports).solve(column);
+
+  const double E = steel.youngs_modulus, nu = steel.poissons_ratio;
+  const Eigen::Matrix3d strain = ((1 + nu) * stress - nu * stress.trace() * Eigen::Matrix3d::Identity()) / E;
+  double worst = 0;
+  integrate(mesh, [&](Eigen::Index brick, const BrickShape&, const Eigen::Vector3d&, const auto& gradient, double) {
+    Eigen::Matrix3d slope = Eigen::Matrix3d::Zero();
+    for (int k = 0; k < 20; ++k) slope += u.segment<3>(3 * mesh.bricks(k, brick)) * gradient.row(k);
+    worst = std::max(worst, (0.5 * (slope + slope.transpose()) - strain).norm());
+  });
+  CHECK(worst < 1e-9 * strain.norm());  // round-off times condition
+}
+
+TEST_CASE("Joined layers leave the loaded tooth alone and cost next to nothing of the influence values", "[core][compliance][fe]") {
+  const GearToMesh gear = gear_of(30, 25, 5);
+  const InfluenceModel whole(gear, kUnit, short_layers(0)), joined(gear, kUnit, short_layers(0.75));
+  CHECK(whole.mesh().solid.tied.empty());
+  CHECK(3 * joined.solid().unknowns() < 2 * whole.solid().unknowns());
+
+  std::set<int> tied;
+  for (const TiedNode& tie : joined.mesh().solid.tied) tied.insert(tie.node);
+  const ToothSurfaces &of_whole = whole.mesh().surfaces(0), &of_joined = joined.mesh().surfaces(0);
+  CHECK(of_joined.flank.size() == of_whole.flank.size());
+  CHECK(of_joined.fillet.size() == of_whole.fillet.size());
+  for (const MeshFace& face : of_joined.flank) {
+    for (const int node : face) REQUIRE(!tied.contains(node));
+  }
+
+  std::vector<FlankPoint> points;
+  const ToothForm& form = whole.mesh().form;
+  for (const int tooth : {-1, 0, 1}) {
+    for (const double height : {0.1, 0.6}) {
+      for (const double z : {-2.4, 0.3, 2.0}) points.push_back({tooth, form.form_radius() + height * (form.tip_radius() - form.form_radius()), z});
+    }
+  }
+  const Eigen::MatrixXd K = whole.influence(points).compliance, J = joined.influence(points).compliance;
+  // Discretisation error. Of the own tooth what the joined layers of body and adjacent teeth add; the adjacent ones' own values are not used.
+  CHECK((J - K).block<6, 6>(6, 6).cwiseAbs().maxCoeff() < 2e-3 * K.block<6, 6>(6, 6).maxCoeff());
+  CHECK((J - K).middleRows<6>(6).cwiseAbs().maxCoeff() < 2e-3 * K.block<6, 6>(6, 6).maxCoeff());
+  // Joined elements can bend less.
+  CHECK((K - J).diagonal().minCoeff() > 0);
+}
