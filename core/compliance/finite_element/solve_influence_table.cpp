@@ -42,7 +42,7 @@ int teeth_apart_in_contact(const GearPair& pair) {
 
 double expected_bytes(Eigen::Index unknowns) {
   const auto n = static_cast<double>(unknowns);
-  return 56 * std::pow(n, 1.469) + 4000 * n;
+  return 46 * std::pow(n, 1.469) + 2500 * n;
 }
 
 namespace {
