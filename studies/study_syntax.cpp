@@ -34,7 +34,7 @@ std::string syntax_hint(std::string_view line) {
   const std::string_view rest = line.substr(equals + 1);
   const std::string_view value = trimmed(rest.substr(0, rest.find('#')));
   if (value.size() > longest_value || value.find_first_of("[]{}\"'") != std::string_view::npos) return "";
-  if (value.find(',') != std::string_view::npos && number_length(value, ',') == value.size()) {
+  if (value.find(',') != std::string_view::npos && value.back() != ',' && number_length(value, ',') == value.size()) {
     std::string with_point(value);
     std::ranges::replace(with_point, ',', '.');
     return "; decimals stand behind a point: " + with_point;

@@ -24,7 +24,8 @@ class JsonReading {
       refuse(name_, static_cast<int>(line), "JSON", text_of_error(error.what()), "well-formed JSON");
     } catch (const Json::out_of_range& error) {
       // Well-formed, but no double is as large: "1e999". This error knows no place.
-      refuse(name_, 0, "JSON", text_of_error(error.what()), "numbers of at most 1.8e308");
+      const std::string_view what = error.what();
+      refuse(name_, 0, "JSON", std::string(what.substr(std::min(what.find("] ") + 2, what.size()))), "numbers of at most 1.8e308");
     }
     const Json& root = member(json, "model", "file");
     if (!root.is_object()) refuse(name_, 0, "model", shown(root), "a JSON object");
