@@ -14,6 +14,10 @@ function flattened(value, key = "") {
   return Object.entries(value).flatMap(([name, child]) => flattened(child, key ? `${key}.${name}` : name));
 }
 
+/** A dotted key that may go on in the next line behind a dot. */
+const key_cell = (key) => ({ text: key,
+  draw: () => el("span", {}, ...`${key}`.split(/(?<=\.)/).flatMap((part) => [part, el("wbr")])) });
+
 function build_inputs(results, body) {
   const columns = [{ label: "Key" }, { label: "Value", digits: 10 }];
   const tables = el("div", { class: "tables" });
@@ -23,7 +27,7 @@ function build_inputs(results, body) {
       title: "Given",
       note: "What the study file and the command line say, as written. Texts in quotes carry their own unit.",
       columns: [...columns, { label: "Unit" }],
-      rows: list(results.given).map(record).map((given) => [given.key ?? "", given.value ?? null, { text: pretty_unit(given.unit ?? ""), class: "word" }]),
+      rows: list(results.given).map(record).map((given) => [key_cell(given.key ?? ""), given.value ?? null, { text: pretty_unit(given.unit ?? ""), class: "word" }]),
     });
   }
   const used = flattened(record(results.used)).filter(([key]) => key !== "");
