@@ -99,6 +99,7 @@ TEST_CASE("Check warns of what a run would warn of first", "[studies][cli]") {
   CAPTURE(undercut.err);
   CHECK(undercut.exit_code == 0);
   CHECK_THAT(undercut.err, Contains("warning: the pinion is undercut"));
+  CHECK_THAT(run(folder, {"check", "small.toml", "--set", "pair.centre_distance=424"}).err, Contains("the transverse contact ratio is 0.744"));
 }
 
 TEST_CASE("Bad input of any other kind is exit code 2 and says what is allowed", "[studies][cli]") {
