@@ -64,8 +64,8 @@ TestLine test_study(const fs::path& path) {
     if (study.task == Task::Sweep) run_sweep(results, {}, {});
     const std::vector<Comparison> comparisons = compare(study.expect, results_json(results));
     const std::string different = differences(comparisons);
-    std::string text = fmt::format("{}  {}  ({} expectations, {:.1f} s)\n", different.empty() ? "met " : "DIFF", path.string(),
-                                   comparisons.size(), results.seconds);
+    std::string text = fmt::format("{}  {}  ({} expectation{}, {:.1f} s)\n", different.empty() ? "met " : "DIFF", path.string(),
+                                   comparisons.size(), comparisons.size() == 1 ? "" : "s", results.seconds);
     return {text + different, different.empty()};
   } catch (const InvalidInput& problem) {
     return {fmt::format("BAD   {}\n{}\n", path.string(), problem.what()), false, true};
