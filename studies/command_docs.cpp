@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <array>
 #include <vector>
 
 namespace flankwright::studies {
@@ -29,6 +29,13 @@ std::string names_of(const CLI::App& app) {
   return words;
 }
 
+/// What may stand behind a word, where that is neither a file nor a free text.
+struct Choice {
+  const char *word, *values;
+};
+constexpr std::array choices{Choice{"new", "analyse optimise sweep accuracy fit slurm"}, Choice{"completion", "bash zsh man"},
+                             Choice{"--helix-slope", "non-datum datum"}, Choice{"--rexs-version", "1.0 1.1 1.2 1.3 1.4 1.5 1.6 1.7 2.0"}};
+
 /// Roff: backslashes, hyphens that are to stay hyphens, and no line that starts as a request.
 std::string roff(const std::string& text) {
   std::string out;
@@ -53,7 +60,10 @@ std::string man_option(const CLI::Option& option) {
 }  // namespace
 
 std::string bash_completion(const CLI::App& app) {
-  std::string cases;
+  std::string cases, values;
+  for (const Choice& choice : choices) {
+    values += fmt::format("    {}) COMPREPLY=($(compgen -W \"{}\" -- \"$current\")); return ;;\n", choice.word, choice.values);
+  }
   for (const CLI::App* command : commands_of(app)) {
     cases += fmt::format("    {}) options=\"{}\" ;;\n", command->get_name(), options_of(*command));
   }
@@ -68,10 +78,7 @@ _flankwright() {{
   case ${{COMP_WORDS[1]}} in
 {}  esac
   case $previous in
-    new) COMPREPLY=($(compgen -W "analyse optimise sweep accuracy fit slurm" -- "$current")); return ;;
-    --helix-slope) COMPREPLY=($(compgen -W "non-datum datum" -- "$current")); return ;;
-    --rexs-version) COMPREPLY=($(compgen -W "1.0 1.1 1.2 1.3 1.4 1.5 1.6 1.7 2.0" -- "$current")); return ;;
-  esac
+{}  esac
   if [[ $current == -* ]]; then
     COMPREPLY=($(compgen -W "$options" -- "$current"))
   else
@@ -80,19 +87,18 @@ _flankwright() {{
 }}
 complete -o filenames -o bashdefault -F _flankwright flankwright
 )",
-                     names_of(app), cases);
+                     names_of(app), cases, values);
 }
 
 std::string zsh_completion(const CLI::App& app) {
-  std::string described, cases;
+  std::string described, cases, values;
+  for (const Choice& choice : choices) values += fmt::format("    {}) compadd -- {}; return ;;\n", choice.word, choice.values);
   const auto quoted = [](std::string text) {
     for (std::size_t at = text.find('\''); at != std::string::npos; at = text.find('\'', at + 4)) text.replace(at, 1, "'\\''");
     return text;
   };
   for (const CLI::App* command : commands_of(app)) {
-    std::string description = command->get_description();
-    std::ranges::replace(description, ':', ' ');
-    described += fmt::format("    '{}:{}'\n", command->get_name(), quoted(description));
+    described += fmt::format("    '{}:{}'\n", command->get_name(), quoted(command->get_description()));
     cases += fmt::format("    {}) options=({}) ;;\n", command->get_name(), options_of(*command));
   }
   return fmt::format(R"(#compdef flankwright
@@ -107,6 +113,8 @@ _flankwright() {{
   fi
   case $words[2] in
 {}  esac
+  case $words[CURRENT-1] in
+{}  esac
   if [[ $words[CURRENT] == -* ]]; then
     compadd -- $options
   else
@@ -115,7 +123,7 @@ _flankwright() {{
 }}
 _flankwright "$@"
 )",
-                     described, cases);
+                     described, cases, values);
 }
 
 std::string man_page(const CLI::App& app, const std::string& version) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <utility>
 
@@ -18,6 +19,7 @@
 #include "studies/results_json.hpp"
 #include "studies/results_store.hpp"
 #include "studies/run_study.hpp"
+#include "studies/study_notes.hpp"
 #include "studies/study_template.hpp"
 #include "studies/sweep/run_sweep.hpp"
 #include "studies/sweep/shards.hpp"
@@ -62,8 +64,8 @@ TestLine test_study(const fs::path& path) {
     if (study.task == Task::Sweep) run_sweep(results, {}, {});
     const std::vector<Comparison> comparisons = compare(study.expect, results_json(results));
     const std::string different = differences(comparisons);
-    std::string text = fmt::format("{}  {}  ({} expectations, {:.1f} s)\n", different.empty() ? "met " : "DIFF", path.string(),
-                                   comparisons.size(), results.seconds);
+    std::string text = fmt::format("{}  {}  ({} expectation{}, {:.1f} s)\n", different.empty() ? "met " : "DIFF", path.string(),
+                                   comparisons.size(), comparisons.size() == 1 ? "" : "s", results.seconds);
     return {text + different, different.empty()};
   } catch (const InvalidInput& problem) {
     return {fmt::format("BAD   {}\n{}\n", path.string(), problem.what()), false, true};
@@ -136,6 +138,8 @@ int check_command(const std::string& path, const std::vector<Override>& override
   const Study study = read_study(path, overrides);
   fmt::print("{}: valid, task {}, {} scene{}\n", path, to_string(study.task), study.scenes.size(),
              study.scenes.size() == 1 ? "" : "s");
+  std::fflush(stdout);
+  for (const std::string& note : study_notes(study, make_gear_pair(study.pair))) spdlog::warn("{}", note);
   return 0;
 }
 
@@ -146,7 +150,7 @@ int new_command(const std::string& kind) {
 
 int report_command(const std::string& folder) {
   const fs::path page = fs::path(folder) / "report.html";
-  write_whole(page, render_report(read_whole(fs::path(folder) / "results.json")));
+  write_whole(page, render_report(read_results(folder)));
   fmt::print("report: {}\n", page.string());
   return 0;
 }
@@ -155,7 +159,15 @@ int test_command(const std::vector<std::string>& paths) {
   const std::vector<fs::path> studies = collect_studies(paths);
   if (studies.empty()) throw InvalidInput("test", "no study", "folders with *.toml files, or study files");
   std::vector<TestLine> lines(studies.size());
-  tbb::parallel_for(std::size_t{0}, studies.size(), [&](std::size_t i) { lines[i] = test_study(studies[i]); });
+  Progress progress;
+  std::mutex mutex;
+  int done = 0;
+  tbb::parallel_for(std::size_t{0}, studies.size(), [&](std::size_t i) {
+    lines[i] = test_study(studies[i]);
+    const std::lock_guard lock(mutex);
+    progress.show("testing", ++done, static_cast<int>(studies.size()), studies[i].filename().string());
+  });
+  progress.finish();
   bool met = true, bad_input = false;
   for (const TestLine& line : lines) {
     std::fputs(line.text.c_str(), stdout);

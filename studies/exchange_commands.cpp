@@ -71,7 +71,7 @@ int export_command(const ExportOptions& options) {
   }
   const GridLayout layout = grid_layout(options.grid_points, options.grid_margin);
   const fs::path results = fs::path(options.results) / "results.json";
-  const std::string json = read_whole(results);
+  const std::string json = read_results(options.results);
   const fs::path folder = options.folder.empty() ? options.results : options.folder;
   make_folder(folder);
   std::vector<std::string> notes;

@@ -136,10 +136,12 @@ class JointProgress {
     if (!report_) return;
     const std::lock_guard lock(mutex_);
     steps_[job] = {done, total};
+    // A job that has not begun counts like the longest that has: the bar shall not be full before the last one.
+    const int longest = std::ranges::max(steps_, {}, &std::pair<int, int>::second).second;
     int all_done = 0, all = 0;
     for (const auto& [d, t] : steps_) {
       all_done += d;
-      all += t;
+      all += t > 0 ? t : longest;
     }
     report_(label_, all_done, all, done == 0 ? "mesh and factor" : "loads");
   }

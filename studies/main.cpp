@@ -1,17 +1,22 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <tbb/global_control.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "studies/command_docs.hpp"
 #include "studies/commands.hpp"
 #include "studies/exchange_commands.hpp"
 #include "studies/library_command.hpp"
 #include "studies/results_json.hpp"
+#include "studies/study_schema.hpp"
 
 namespace {
 
@@ -28,6 +33,11 @@ std::vector<Override> overrides_of(const std::vector<std::string>& texts) {
     overrides.push_back({text.substr(0, equals), text.substr(equals + 1)});
   }
   return overrides;
+}
+
+std::string did_you_mean(const std::string& word, const std::vector<std::string>& words) {
+  const std::string near = nearest_word(word, words);
+  return near.empty() ? "" : "; did you mean " + near + "?";
 }
 
 int dispatch(int argc, char** argv) {
@@ -124,6 +134,11 @@ int dispatch(int argc, char** argv) {
                      "  flankwright completion zsh > ~/.zfunc/_flankwright\n"
                      "  flankwright completion man | man -l -");
   completion->add_option("for", docs, "bash, zsh or man")->required()->check(CLI::IsMember({"bash", "zsh", "man"}));
+  std::vector<std::string> commands;
+  for (const CLI::App* command : std::as_const(app).get_subcommands([](const CLI::App*) { return true; })) commands.push_back(command->get_name());
+  if (argc > 1 && argv[1][0] != '-' && std::ranges::find(commands, argv[1]) == commands.end()) {
+    throw InvalidInput("command", argv[1], fmt::format("one of {}{}", fmt::join(commands, ", "), did_you_mean(argv[1], commands)));
+  }
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

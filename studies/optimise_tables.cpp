@@ -17,6 +17,15 @@ std::string unknown_output(const std::string& name) {
   return "unknown output" + (near.empty() ? "" : ", did you mean " + near + "?");
 }
 
+/// The same where the line does not list them anyway.
+std::string unknown_output_of(const std::string& name) {
+  const std::string said = unknown_output(name);
+  if (said.ends_with('?')) return said;
+  std::string all;
+  for (const std::string& output : output_names()) all += (all.empty() ? "; allowed is " : ", ") + output;
+  return said + all;
+}
+
 constexpr double largest_weight = 1e9;
 
 /// One output, or a table of outputs and weights; what cannot be read becomes a problem.
@@ -38,7 +47,7 @@ std::vector<ObjectiveTerm> read_terms(StudyReading& reading, const SchemaKey& ke
     const Position position = reading.document.position(name);
     auto output = find_output(std::string(name.str()));
     if (!output) {
-      reading.refuse(position, path, &value, unknown_output(std::string(name.str())));
+      reading.refuse(position, path, &value, unknown_output_of(std::string(name.str())));
       continue;
     }
     output->term.weight = number_of(reading, position, path, value, weight);
@@ -236,7 +245,7 @@ void read_constraint(StudyReading& reading, const Item& item) {
   const std::string allowed = "allowed is { max = ... }, { min = ... } or both, and nothing else";
   const bool is_sum = item.name.find("modification.") != std::string::npos;
   const auto output = find_output(item.name);
-  if (!output && !is_sum) return reading.refuse(item.position, shown, item.node, unknown_output(item.name));
+  if (!output && !is_sum) return reading.refuse(item.position, shown, item.node, unknown_output_of(item.name));
   const toml::table* table = item.node->as_table();
   if (table == nullptr || table->empty()) return reading.refuse(item.position, shown, item.node, allowed);
   if (!has_only(reading, item, shown, {"max", "min"}, allowed)) return;

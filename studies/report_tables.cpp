@@ -103,8 +103,8 @@ std::string steps_csv(const Json& steps) {
 }
 
 std::string given_csv(const Json& given) {
-  std::string csv = "key,value\n";
-  for (const Json& entry : given) csv += field(entry.at("key")) + "," + field(entry.at("value")) + "\n";
+  std::string csv = "key,value,unit\n";
+  for (const Json& entry : given) csv += field(entry.at("key")) + "," + field(entry.at("value")) + "," + entry.value("unit", "") + "\n";
   return csv;
 }
 

@@ -60,4 +60,13 @@ std::string read_whole(const std::filesystem::path& file) {
   return text.str();
 }
 
+std::string read_results(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "results.json";
+  std::error_code no_status;
+  if (!std::filesystem::exists(file, no_status)) {
+    throw InvalidInput("folder", folder.string(), "a folder with results.json, as `flankwright run` leaves it");
+  }
+  return read_whole(file);
+}
+
 }  // namespace flankwright::studies

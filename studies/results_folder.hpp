@@ -15,4 +15,7 @@ void make_folder(const std::filesystem::path& folder);
 /// A whole file as text. @throws InvalidInput ("file") where it cannot be read.
 std::string read_whole(const std::filesystem::path& file);
 
+/// results.json of a results folder. Throws InvalidInput where the folder has none.
+std::string read_results(const std::filesystem::path& folder);
+
 }  // namespace flankwright::studies

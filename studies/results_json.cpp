@@ -9,6 +9,7 @@
 #include "studies/compliance_json.hpp"
 #include "studies/effects_json.hpp"
 #include "studies/fit_json.hpp"
+#include "studies/given_units.hpp"
 #include "studies/gradients_json.hpp"
 #include "studies/json_format.hpp"
 #include "studies/load_rating_json.hpp"
@@ -270,7 +271,7 @@ std::string results_json(const StudyResults& results) {
   if (results.sweep) json["sweep"] = sweep_json(results);
   if (!results.deflections.empty()) json["deflections"] = list(results.deflections, deflections_json);
   if (!results.fits.empty()) json["fit"] = list(results.fits, fit_json);
-  json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}}; });
+  json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}, {"unit", unit_of_given(g)}}; });
   json["used"] = used_json(results);
   // A file name need not be UTF-8, JSON must be: what is not becomes the replacement character.
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "studies/study_schema.hpp"
+#include "studies/study_syntax.hpp"
 
 namespace flankwright::studies {
 
@@ -85,7 +86,9 @@ toml::table parse_toml(std::string_view text, const std::string& name) {
   } catch (const toml::parse_error& error) {
     const toml::source_position at = error.source().begin;
     const std::string description(error.description());
-    throw StudyErrors({{name, static_cast<int>(at.line), static_cast<int>(at.column), "", "", description}});
+    const std::vector<std::string> lines = split(text, '\n');
+    const std::string hint = at.line >= 1 && at.line <= lines.size() ? syntax_hint(lines[at.line - 1]) : "";
+    throw StudyErrors({{name, static_cast<int>(at.line), static_cast<int>(at.column), "", "", description + hint}});
   }
 }
 

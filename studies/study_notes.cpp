@@ -26,6 +26,10 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
           fmt::format("the mate's tip reaches below the {}'s form circle: contact is cut off there, fillet interference is not modelled", name));
     }
   }
+  if (pair.transverse_contact_ratio < 1.0) {
+    notes.push_back(fmt::format("the transverse contact ratio is {:.3g}: in each section no teeth touch for a while, the overlap ratio of {:.3g} alone carries the mesh on",
+                                pair.transverse_contact_ratio, pair.overlap_ratio));
+  }
   if (pair.backlash < -units::um) {
     notes.push_back(fmt::format("the teeth have a backlash of {:.4g} um at this centre distance: they would jam; only the working flanks are analysed",
                                 pair.backlash / units::um));

@@ -133,7 +133,7 @@ misalignment.mesh_misalignment = -8
 load.torque = 120
 
 [optimise]
-objective = "peak_contact_stress"    # or te_peak_to_peak, te_harmonic_1 .. te_harmonic_10, load_factor, peak_line_load, peak_root_stress
+objective = "peak_contact_stress"    # or te_peak_to_peak, te_harmonic_1 .. te_harmonic_10, load_factor, peak_line_load, peak_root_stress, edge_load
 over = "worst"                       # nominal | worst | mean | mean+2sigma of the scenes
 solver = "ipopt"                     # or nlopt:slsqp, nlopt:mma, nlopt:cobyla ...
 # max_evaluations = 500

@@ -22,6 +22,10 @@ class JsonReading {
       const std::size_t byte = std::min(error.byte, text_.size());
       const auto line = std::ranges::count(text_.substr(0, byte > 0 ? byte - 1 : 0), '\n') + 1;
       refuse(name_, static_cast<int>(line), "JSON", text_of_error(error.what()), "well-formed JSON");
+    } catch (const Json::out_of_range& error) {
+      // Well-formed, but no double is as large: "1e999". This error knows no place.
+      const std::string_view what = error.what();
+      refuse(name_, 0, "JSON", std::string(what.substr(std::min(what.find("] ") + 2, what.size()))), "numbers of at most 1.8e308");
     }
     const Json& root = member(json, "model", "file");
     if (!root.is_object()) refuse(name_, 0, "model", shown(root), "a JSON object");

@@ -23,7 +23,9 @@ std::vector<const Relation*> stages_of(const Reading& reading) {
 std::string teeth_in_words(const Reading& reading, const Relation& stage, std::string_view role) {
   const Component& gear = reading.in_role(stage, role);
   const Attribute* teeth = gear.find("number_of_teeth");
-  return fmt::format("{} {} with {} teeth", gear.type, gear.id, teeth == nullptr ? "?" : teeth->text);
+  std::string number = teeth == nullptr ? "?" : teeth->text;
+  if (number.ends_with(".0")) number.resize(number.size() - 2);  // as some write whole numbers
+  return fmt::format("{} {} with {} teeth", gear.type, gear.id, number);
 }
 
 std::string list_of(const Reading& reading, const std::vector<const Relation*>& stages) {

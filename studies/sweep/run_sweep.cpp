@@ -108,6 +108,7 @@ void run_sweep(StudyResults& nominal, const std::filesystem::path& folder, const
   nominal.sweep = statistics;
   if (!folder.empty()) write_sweep_files(nominal, folder, store);
   nominal.seconds += clock.seconds();
+  nominal.steps.push_back({"samples", "analyses, statistics and files of all samples", clock.seconds()});
 }
 
 void run_sweep_shard(const StudyResults& nominal, const std::filesystem::path& file, Shard shard, const ProgressReport& progress) {

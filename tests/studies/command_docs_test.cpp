@@ -69,6 +69,7 @@ TEST_CASE("The completion completes in bash", "[studies][cli]") {
   CHECK(completed("flankwright exp", 1) == "export\n");
   CHECK(completed("flankwright export r --vt", 3) == "--vtk\n");
   CHECK(completed("flankwright new opt", 2) == "optimise\n");
+  CHECK(completed("flankwright completion z", 2) == "zsh\n");
   CHECK(completed("flankwright check flank", 2) == "flankwright.bash\n");
 }
 

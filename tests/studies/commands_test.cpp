@@ -89,6 +89,19 @@ TEST_CASE("Everything that is wrong with a study is said at once, with line and 
   CHECK(folder.names() == Names{"bad.toml"});  // no results folder
 }
 
+TEST_CASE("Check warns of what a run would warn of first", "[studies][cli]") {
+  const ScratchFolder folder;
+  folder.file("small.toml", small::analysis());
+  const Ending sound = run(folder, {"check", "small.toml"});
+  CHECK(sound.exit_code == 0);
+  CHECK(sound.err.empty());
+  const Ending undercut = run(folder, {"check", "small.toml", "--set", "pinion.teeth=9", "--set", "pinion.profile_shift=-0.3"});
+  CAPTURE(undercut.err);
+  CHECK(undercut.exit_code == 0);
+  CHECK_THAT(undercut.err, Contains("warning: the pinion is undercut"));
+  CHECK_THAT(run(folder, {"check", "small.toml", "--set", "pair.centre_distance=424"}).err, Contains("the transverse contact ratio is 0.744"));
+}
+
 TEST_CASE("Bad input of any other kind is exit code 2 and says what is allowed", "[studies][cli]") {
   const ScratchFolder folder;
   folder.file("small.toml", small::analysis());
@@ -99,7 +112,8 @@ TEST_CASE("Bad input of any other kind is exit code 2 and says what is allowed",
   };
   const std::vector<Case> cases{
       {{}, "subcommand"},
-      {{"nonsense"}, ""},
+      {{"chekc", "small.toml"}, "command = chekc: allowed is one of run, merge, check"},
+      {{"chekc"}, "did you mean check?"},
       {{"run"}, "study is required"},
       {{"run", "missing.toml"}, "missing.toml: the file cannot be read"},
       {{"run", "broken.toml"}, "broken.toml:1:"},
@@ -109,7 +123,8 @@ TEST_CASE("Bad input of any other kind is exit code 2 and says what is allowed",
       {{"run", "small.toml", "--out", "small.toml/below"}, "output folder"},
       {{"check", "small.toml", "--set", "pair.helix_angle=80"}, "pair.helix_angle"},
       {{"new", "nonsense"}, "analyse"},
-      {{"report", "missing"}, "missing/results.json"},
+      {{"report", "missing"}, "folder = missing: allowed is a folder with results.json"},
+      {{"export", "missing", "--rexs"}, "folder = missing: allowed is a folder with results.json"},
       {{"test", "missing.toml"}, ""}};
   for (const Case& c : cases) {
     const Ending ending = run(folder, c.arguments);

@@ -273,8 +273,8 @@ json unloaded_part() {
 }
 
 json frame(const char* task) {
-  const json given = json::array({{{"key", "pair.normal_module"}, {"value", "10"}},
-                                  {{"key", "pair.helix_angle"}, {"value", "30"}},
+  const json given = json::array({{{"key", "pair.normal_module"}, {"value", "10"}, {"unit", "mm"}},
+                                  {{"key", "pair.helix_angle"}, {"value", "30"}, {"unit", "deg"}},
                                   {{"key", "misalignment.crossing"}, {"value", "\"3 arcmin\""}}});
   const json effects =
       json::array({{{"name", "tooth_bending"}, {"on", true}, {"why", "a torque is given"}, {"seconds", 0.42}},

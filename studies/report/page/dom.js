@@ -62,6 +62,10 @@ function words(name) {
 const symbols = (label) => el("span", {},
   ...label.split(/_(\p{L}+)/u).map((part, i) => (i % 2 ? el("sub", {}, part) : part)));
 
+/** The same within a drawing's text; the dy after a subscript leads back to its line. */
+const subscripts = (label) => label.split(/_(\p{L}+)/u).map((part, i) =>
+  (i === 0 ? part : svg("tspan", i % 2 ? { dy: "0.25em", "font-size": "80%" } : { dy: "-0.2em" }, part)));
+
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
 /** Change from a to b in per cent with its sign, or nothing where it has no meaning. */

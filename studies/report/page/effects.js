@@ -6,12 +6,17 @@ const effect_measures = [
   { title: "Effect on the peak contact stress", key: "peak_contact_stress_change_percent", unit: "%" },
 ];
 
+const without_round_off = (value, round_off) => (is_number(value) && Math.abs(value) <= round_off ? 0 : value);
+
 /** Bars of one measure, an effect a row: exact where it was left out, and its estimate. */
 function effect_rows(effects, key) {
   const sides = [{ from: "exact", what: "left out", colour: sequence_colour(0) }, { from: "estimate", what: "estimate", colour: sequence_colour(1) }]
     .filter((side) => effects.some((effect) => effect[side.from]));
+  const value_of = (effect, side) => record(effect[side.from])[key] ?? null;
+  const all = effects.flatMap((effect) => sides.map((side) => value_of(effect, side)));
+  const round_off = 1e-12 * maximum(all.filter(is_number).map(Math.abs));  // what an effect without effect leaves of such figures
   return effects.map((effect) => {
-    const bars = sides.map((side) => ({ ...side, value: record(effect[side.from])[key] ?? null }));
+    const bars = sides.map((side) => ({ ...side, value: without_round_off(value_of(effect, side), round_off) }));
     return { label: words(effect.name), bars, values: bars.map((bar) => bar.value), note: bars.map((bar) => fmt(bar.value, 3)).join(" / ") };
   });
 }
@@ -55,7 +60,8 @@ function build_effects(results, body) {
   const effects = list(results.effects).map(record), steps = list(results.steps).map(record);
   const longest = Math.max(0, maximum([...effects, ...steps].map((entry) => entry.seconds)));
   effect_figures(results, effects, steps, body);
-  const share = (effect) => record(effect.exact || effect.estimate).share_percent ?? null;
+  // A share in per cent of what the run computed: below 1e-10 it is round-off.
+  const share = (effect) => without_round_off(record(effect.exact || effect.estimate).share_percent ?? null, 1e-10);
   table(body, {
     title: "Effects in this run",
     note: "Which effects of the mesh were called for, why, how large each is (the largest of its shares of mean deflection, variation and stress), "

@@ -8,11 +8,15 @@ function build_notes(results, body) {
 /** Nested tables and lists as dotted keys: [[key, value]]. */
 function flattened(value, key = "") {
   if (Array.isArray(value) && value.every((item) => item === null || typeof item !== "object")) {
-    return [[key, value.map((item) => (is_number(item) ? fmt(item, 6) : String(item))).join(", ")]];
+    return [[key, value.map((item) => (is_number(item) ? fmt(item, 6) : String(item))).join(", ") || "–"]];
   }
   if (value === null || typeof value !== "object") return [[key, value]];
   return Object.entries(value).flatMap(([name, child]) => flattened(child, key ? `${key}.${name}` : name));
 }
+
+/** A dotted key that may go on in the next line behind a dot. */
+const key_cell = (key) => ({ text: key,
+  draw: () => el("span", {}, ...`${key}`.split(/(?<=\.)/).flatMap((part) => [part, el("wbr")])) });
 
 function build_inputs(results, body) {
   const columns = [{ label: "Key" }, { label: "Value", digits: 10 }];
@@ -21,9 +25,9 @@ function build_inputs(results, body) {
   if (list(results.given).length) {
     table(tables, {
       title: "Given",
-      note: "What the study file and the command line say, as written.",
-      columns,
-      rows: list(results.given).map(record).map((given) => [given.key ?? "", given.value ?? null]),
+      note: "What the study file and the command line say, as written. Texts in quotes carry their own unit.",
+      columns: [...columns, { label: "Unit" }],
+      rows: list(results.given).map(record).map((given) => [key_cell(given.key ?? ""), given.value ?? null, { text: pretty_unit(given.unit ?? ""), class: "word" }]),
     });
   }
   const used = flattened(record(results.used)).filter(([key]) => key !== "");

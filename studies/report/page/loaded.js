@@ -188,8 +188,8 @@ function build_load_cases(results, body, { cases }) {
       [{ label: "TE 1st harmonic", unit: "µm" }, (entry) => list(summary_of(entry).te_harmonics_um)[0]],
     ]);
   numbers_table("Stiffness, and how far the numbers hold",
-    "c′ and cγ are those of ISO 6336; f_sh is the misalignment by the shafts, its mean; the change of the harmonics is what the last "
-      + "doubling of positions brought; the KKT residual is the largest error of the contact conditions.", [
+    symbols("c′ and c_γ are those of ISO 6336; f_sh is the misalignment by the shafts, its mean; the change of the harmonics is what the last "
+      + "doubling of positions brought; the KKT residual is the largest error of the contact conditions."), [
       [{ label: "Stiffness", unit: "N/(mm µm)" }, plain("mean_stiffness_N_per_mm_um")],
       [{ label: "Its variation", unit: "%" }, (entry) => percent(summary_of(entry).stiffness_variation)],
       [{ label: "f_sh", unit: "µm" }, plain("shaft_misalignment_um")],

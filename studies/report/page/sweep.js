@@ -15,6 +15,8 @@ function output_label(name) {
 }
 
 const sweep_unit = (unit) => (unit === "-" ? "" : pretty_unit(unit));
+const output_cell = (name) => ({ text: output_label(name), draw: () => symbols(output_label(name)) });
+
 const parameter_label = (path) => `${path}`.replace(/^misalignment\.|^load\./, "").replace(/\.(modification|error)\./, (_, kind) =>
   (kind === "error" ? " error: " : ": ")).replace(/[_.]/g, " ");
 
@@ -54,7 +56,7 @@ function draw_histogram(name, of) {
   const to_x = (value) => left + ((width - left - right) * (value - low)) / (high - low || 1);
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img",
     "aria-label": `Histogram of ${output_label(name)}` });
-  picture.append(svg("text", { x: left, y: 14, "font-weight": 600, "font-size": 13 }, capital(output_label(name)) + (unit ? ` [${unit}]` : "")));
+  picture.append(svg("text", { x: left, y: 14, "font-weight": 600, "font-size": 13 }, ...subscripts(capital(output_label(name))), unit ? ` [${unit}]` : ""));
   const bar = (width - left - right) / bars.length;
   bars.forEach((count, i) => {
     const size = ((height - top - bottom) * count) / highest;
@@ -87,7 +89,7 @@ function build_scatter(results, body) {
     title: "Outputs over the samples",
     columns: [{ label: "Output" }, { label: "Unit" }, { label: "Mean" }, { label: "σ", digits: 3 }, { label: "1 %" }, { label: "Median" },
       { label: "99 %" }, { label: "Worst" }, { label: "in sample", digits: 9 }, { label: "Its study" }],
-    rows: outputs.map(([name, of]) => [output_label(name), sweep_unit(of.unit), of.mean, of.std, record(of.quantiles)["1 %"],
+    rows: outputs.map(([name, of]) => [output_cell(name), sweep_unit(of.unit), of.mean, of.std, record(of.quantiles)["1 %"],
       record(of.quantiles)["50 %"], record(of.quantiles)["99 %"], record(of.worst).value ?? null, record(of.worst).sample ?? null,
       record(of.worst).study ?? null]),
   });
@@ -169,7 +171,7 @@ function build_indices(results, body) {
     title: "Total Sobol indices",
     note: "Share of the variance with all interactions; below a ten-thousandth of a per cent: 0.",
     columns: [{ label: "Output" }, ...parameters.map((p) => ({ label: parameter_label(p.path), unit: "%", digits: 2 }))],
-    rows: outputs.map(([name, of]) => [output_label(name),
+    rows: outputs.map(([name, of]) => [output_cell(name),
       ...parameters.map((p) => shown_total(record(record(of.indices)[p.path]).total))]),
   });
 }

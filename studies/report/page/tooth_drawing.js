@@ -51,7 +51,7 @@ function draw_teeth(plot, geometry) {
   const picture = svg("svg", { viewBox: view.join(" "), class: "teeth", role: "img",
     "aria-label": "Tooth pair in mesh" });
   const circle = (cy, diameter, name) => svg("circle", { cx: 0, cy: -cy, r: diameter / 2, class: name,
-    "stroke-width": line });
+    "stroke-width": line, "stroke-dasharray": name === "pitch-circle" ? `${5.5 * line} ${3.5 * line}` : `${1.2 * line} ${2.4 * line}` });
   const close = (gear, centre) => ` L 0 ${-centre} Z`;
 
   // A tooth is centred at +y: turning by the half angle brings its left flank onto the line of centres.
@@ -71,7 +71,8 @@ function draw_teeth(plot, geometry) {
       "stroke-width": 2 * line }));
   }
   picture.append(svg("circle", { cx: 0, cy: -r_w[0], r: 3.5 * line, class: "pitch-point" }));
-  const words_at = (y, text, name) => svg("text", { x: -half_width + 0.06 * pitch, y: -y, class: name,
+  // Below the pitch point and above it: there the bodies are, and no tooth comes near.
+  const words_at = (y, text, name) => svg("text", { x: 0, y: -y, class: name, "text-anchor": "middle",
     style: `font-size:${(0.1 * pitch).toFixed(3)}px` }, text);
   picture.append(words_at(r_w[0] - 0.85 * half_height, `pinion, ${pinion.teeth} teeth`, "name"),
     words_at(r_w[0] + 0.85 * half_height, `wheel, ${wheel.teeth} teeth`, "name"));

@@ -284,6 +284,9 @@ TEST_CASE("What cannot be a study is refused with component and attribute", "[st
   CHECK_THAT(refusal(replaced(good, "type=\"stage\"", "type=\"side\"")), Contains("no relation \"stage\""));
   CHECK_THAT(refusal(replaced(good, "<ref id=\"3\" role=\"gear_2\"/>", "<ref id=\"33\" role=\"gear_2\"/>")), Contains("relation 1 role gear_2 = 33"));
   CHECK_THAT(refusal(replaced(good, "<ref id=\"3\" role=\"gear_2\"/>", "")), Contains("without gear_2"));
+  // Well-formed JSON, but its number is no double.
+  const std::string overflow = R"({"model":{"components":[{"id":2,"type":"cylindrical_gear","attributes":[{"id":"face_width","floating_point":4e400}]}]}})";
+  CHECK_THAT(refusal(overflow), Contains("JSON = number overflow parsing '4e400'"));
   // A pair that cannot run: the reason, and what of the file it came from.
   CHECK_THAT(refusal(replaced(good, "type=\"cylindrical_stage\"/>", "type=\"cylindrical_stage\">" + attribute("center_distance", "500") + "</component>")),
              Contains("cylindrical_stage 1: pair.centre_distance (cylindrical_stage 1 center_distance) = 500"));
