@@ -184,5 +184,6 @@ TEST_CASE("Least influence values of five gears are those of an independent calc
     }
   }
   CHECK(decided == 4);
-  CHECK(std::exp(log_share / decided) == Approx(axial_hold_share).epsilon(0.15));
+  // Model: 2 % of an independent value, its elements' error, are 3 to 20 % of the share, least where the hold is most of it.
+  CHECK(std::exp(log_share / decided) == Approx(axial_hold_share).epsilon(0.2));
 }
