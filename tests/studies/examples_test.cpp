@@ -58,8 +58,8 @@ TEST_CASE("The fit of the example converges and meets what the study expects of 
       command_line::run(folder, {"run", FLANKWRIGHT_SOURCE_DIR "/studies/examples/fit-18.toml", "--out", "fit"});
   CAPTURE(ending.out, ending.err);
   CHECK(ending.exit_code == 0);
-  CHECK(folder.names("fit") == std::vector<std::string>{"deflection_curves.csv", "fit_pinion.csv", "fit_residuals.csv",
-                                                        "report.html", "results.json"});
+  CHECK(folder.names("fit") == std::vector<std::string>{"deflection_curves.csv", "fit_pinion.csv", "fit_residuals.csv", "gears.csv",
+                                                        "given.csv", "report.html", "results.json", "used.csv"});
 }
 
 TEST_CASE("The robust example beats its start in the worst scene, not in the aligned one",
