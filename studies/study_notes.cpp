@@ -23,7 +23,9 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
     if (gear->undercut) notes.push_back(fmt::format("the {} is undercut: its involute starts at diameter {:.6g} mm", name, 2.0 * gear->form_radius));
     if (gear->fillet_interference) {
       notes.push_back(
-          fmt::format("the mate's tip reaches below the {}'s form circle: contact is cut off there, fillet interference is not modelled", name));
+          fmt::format("the mate's tip reaches below the {}'s form circle: the path of contact ends there, {} it the edge that the fillet leaves carries load; "
+                      "what touches the fillet itself is not modelled",
+                      name, gear->member == Member::Pinion ? "before" : "beyond"));
     }
   }
   if (pair.transverse_contact_ratio < 1.0) {

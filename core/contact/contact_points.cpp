@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
+#include "core/base/root.hpp"
 #include "core/gear/involute.hpp"
 
 namespace flankwright {
@@ -32,7 +35,7 @@ std::vector<Node> nodes(QuadratureRule rule) {
   __builtin_unreachable();
 }
 
-/// Cuts [begin, end] at begin + (end - begin) cut(j/n).
+/// Cuts [begin, end] at begin + (end - begin) cut(j/n); nothing where it is empty.
 template <typename Cut>
 void divide(double begin, double end, int n, Cut cut, std::vector<LineInterval>& intervals) {
   for (int j = 0; j < n; ++j) {
@@ -53,62 +56,111 @@ std::vector<LineInterval> graded_intervals(const PathOfContact& path, int n, dou
   const auto z_at = [&](double phase) {
     return std::clamp((phase - path.phase_at(line_phase, 0.0)) / path.slope, face_start, face_end);
   };
-  std::array<double, 4> cuts{z_at(0.0), z_at(PathOfContact::extension), z_at(path.region_length - PathOfContact::extension),
+  // Where edges reach further than the extension, the mate's tip takes over from them there.
+  std::array<double, 6> cuts{z_at(0.0),
+                             z_at(PathOfContact::extension),
+                             z_at(path.before),
+                             z_at(path.path_end()),
+                             z_at(path.region_length - PathOfContact::extension),
                              z_at(path.region_length)};
+  if (path.before == PathOfContact::extension) cuts[1] = cuts[0];
+  if (path.beyond == PathOfContact::extension) cuts[4] = cuts[5];
   std::sort(cuts.begin(), cuts.end());  // either sense of the lines
   const int extended = std::max(2, n / 2);
-  if (cuts[0] < cuts[1]) divide(cuts[0], cuts[1], extended, [](double t) { return t * (2.0 - t); }, intervals);
-  if (cuts[1] < cuts[2]) divide(cuts[1], cuts[2], n, towards_both_ends, intervals);
-  if (cuts[2] < cuts[3]) divide(cuts[2], cuts[3], extended, [](double t) { return t * t; }, intervals);
+  const auto from_its_end = [](double t) { return t * (2.0 - t); };
+  const auto from_its_start = [](double t) { return t * t; };
+  divide(cuts[0], cuts[1], extended, from_its_end, intervals);
+  divide(cuts[1], cuts[2], extended, from_its_end, intervals);
+  divide(cuts[2], cuts[3], n, towards_both_ends, intervals);
+  divide(cuts[3], cuts[4], extended, from_its_start, intervals);
+  divide(cuts[4], cuts[5], extended, from_its_start, intervals);
   return intervals;
 }
 
-/// Where a tip edge meets the mate's flank, transverse section.
-struct TipContact {
-  double mate_roll;  ///< roll length of the mate's flank at the tip's radius [mm]
-  double clearance;  ///< along the base tangent [mm]
+/// Polar angle of a flank at roll length rho, about its gear's centre and from the line of centres, when the undisturbed flanks would touch
+/// at its roll length `on_line`: -alpha_wt on the line of action, from there turned by the gear's rotation.
+double polar_angle(const GearPair& pair, const Gear& gear, double on_line, double rho) {
+  return -pair.working_transverse_pressure_angle + (on_line - rho) / gear.base_radius + std::atan(rho / gear.base_radius);
+}
+
+struct Polar {
+  double radius, angle;
 };
 
-/// The edge of `tip` at the instant at which the undisturbed flanks would touch at roll `tip_roll` > its tip's on the line of
-/// action, against the flank of `mate` (undisturbed roll `mate_roll`). Both flanks turned by their own rotation: the polar angle of
-/// the flank at roll length rho is -alpha_wt + (roll* - rho)/r_b + atan(rho/r_b) when roll* is on the line of action.
-std::optional<TipContact> tip_contact(const GearPair& pair, const Gear& tip, const Gear& mate, double tip_roll,
-                                      double mate_roll) {
-  const double alpha = pair.working_transverse_pressure_angle;
-  const auto polar_angle = [alpha](const Gear& gear, double on_line, double rho) {
-    return -alpha + (on_line - rho) / gear.base_radius + std::atan(rho / gear.base_radius);
-  };
-  const double angle = polar_angle(tip, tip_roll, tip.roll_length_at(tip.tip_radius));
-  const double x = pair.centre_distance - tip.tip_radius * std::cos(angle), y = -tip.tip_radius * std::sin(angle);
-  const double radius = std::hypot(x, y);
-  if (radius <= std::max(mate.base_radius, mate.form_radius) || radius > mate.tip_radius) return std::nullopt;
-  const double rho = mate.roll_length_at(radius);
-  return TipContact{rho, mate.base_radius * (std::atan2(y, x) - polar_angle(mate, mate_roll, rho))};
+/// A gear's flank at roll length rho about its mate's centre.
+Polar about_mate(const GearPair& pair, const Gear& gear, double on_line, double rho) {
+  const double radius = std::hypot(gear.base_radius, rho), angle = polar_angle(pair, gear, on_line, rho);
+  const double x = pair.centre_distance - radius * std::cos(angle), y = -radius * std::sin(angle);
+  return {std::hypot(x, y), std::atan2(y, x)};
+}
+
+/// Where flanks meet outside A .. E, transverse section.
+struct EdgeContact {
+  double roll, mate_roll;  ///< [mm]
+  double clearance;        ///< by which the mate would have to turn, along its base tangent [mm]
+};
+
+/// A point of a flank, at its roll length rho and where the mate sees it, against the mate's flank, both as undisturbed flanks turn.
+EdgeContact meet(const GearPair& pair, const Gear& mate, double on_line, double rho, const Polar& place) {
+  const double mate_roll = mate.roll_length_at(place.radius);
+  return {rho, mate_roll, mate.base_radius * (place.angle - polar_angle(pair, mate, pair.path_length - on_line, mate_roll))};
+}
+
+double lower_end(const Gear& gear) { return std::max(gear.base_radius, gear.form_radius); }
+
+/// The tip edge of `gear` against its mate's flank, `gear` where the undisturbed flanks would touch at its roll length `on_line`.
+std::optional<EdgeContact> tip_contact(const GearPair& pair, const Gear& gear, const Gear& mate, double on_line) {
+  const double rho = gear.roll_length_at(gear.tip_radius);
+  const Polar place = about_mate(pair, gear, on_line, rho);
+  if (place.radius <= lower_end(mate) || place.radius > mate.tip_radius) return std::nullopt;
+  return meet(pair, mate, on_line, rho, place);
+}
+
+/// The pinion's flank against the wheel's where the path ends at a form circle, as the wheel turns: with the pinion's edge (its lower end before A, its tip
+/// beyond E) where that is on the wheel's flank, else where the pinion's flank passes the wheel's edge (its tip before A, its lower end beyond E).
+/// @param on_line  pinion roll length of the undisturbed contact
+std::optional<EdgeContact> interfering_contact(const GearPair& pair, bool before, double on_line) {
+  const Gear &pinion = pair.pinion, &wheel = pair.wheel;
+  const double lower = pinion.roll_length_at(lower_end(pinion)), upper = pinion.roll_length_at(pinion.tip_radius);
+  const double edge = before ? lower : upper, other = before ? upper : lower;
+  const Polar place = about_mate(pair, pinion, on_line, edge);
+  const bool inside = place.radius >= lower_end(wheel) && place.radius <= wheel.tip_radius;
+  if (inside) return meet(pair, wheel, on_line, edge, place);
+  // Outwards along the pinion's flank the wheel's radius falls.
+  const double circle = before ? wheel.tip_radius : lower_end(wheel);
+  const auto excess = [&](double rho) { return about_mate(pair, pinion, on_line, rho).radius - circle; };
+  const double at_edge = excess(edge), at_other = excess(other);
+  if ((at_edge > 0.0) != before || (at_other > 0.0) == before) return std::nullopt;
+  const double tolerance = 4.0 * std::numeric_limits<double>::epsilon() * upper;
+  const double rho = bracketed_root(excess, edge, at_edge, other, at_other, tolerance).x;
+  Polar crossing = about_mate(pair, pinion, on_line, rho);
+  crossing.radius = circle;
+  return meet(pair, wheel, on_line, rho, crossing);
+}
+
+/// Outside A .. E, on either side.
+/// @param on_line  pinion roll length of the undisturbed contact
+std::optional<EdgeContact> edge_contact(const GearPair& pair, bool before, double on_line) {
+  if ((before ? pair.pinion : pair.wheel).fillet_interference) return interfering_contact(pair, before, on_line);
+  if (!before) return tip_contact(pair, pair.pinion, pair.wheel, on_line);
+  auto contact = tip_contact(pair, pair.wheel, pair.pinion, pair.path_length - on_line);
+  if (contact) std::swap(contact->roll, contact->mate_roll);
+  return contact;
 }
 
 /// Geometry at a phase; false where no contact can be.
 bool locate(const GearPair& pair, const PathOfContact& path, bool with_extended_region, ContactPoint& point) {
-  const double rho1 = path.roll_at(point.phase), rho2 = pair.path_length - rho1;
+  const double rho1 = path.roll_at(point.phase);
   if (rho1 >= pair.path_start && rho1 <= pair.path_end) {
-    set_rolls(pair, rho1, rho2, point);
+    set_rolls(pair, rho1, pair.path_length - rho1, point);
     return point.relative_radius > 0.0;
   }
   if (!with_extended_region) return false;
-  const double cos_base_helix = std::cos(pair.base_helix_angle);
-  if (rho1 < pair.path_start) {
-    if (pair.pinion.fillet_interference) return false;
-    const auto contact = tip_contact(pair, pair.wheel, pair.pinion, rho2, rho1);
-    if (!contact) return false;
-    set_rolls(pair, contact->mate_roll, pair.wheel.roll_length_at(pair.wheel.tip_radius), point);
-    point.clearance = contact->clearance * cos_base_helix;
-  } else {
-    if (pair.wheel.fillet_interference) return false;
-    const auto contact = tip_contact(pair, pair.pinion, pair.wheel, rho1, rho2);
-    if (!contact) return false;
-    set_rolls(pair, pair.pinion.roll_length_at(pair.pinion.tip_radius), contact->mate_roll, point);
-    point.clearance = contact->clearance * cos_base_helix;
-  }
-  return true;
+  const auto contact = edge_contact(pair, rho1 < pair.path_start, rho1);
+  if (!contact) return false;
+  set_rolls(pair, contact->roll, contact->mate_roll, point);
+  point.clearance = contact->clearance * std::cos(pair.base_helix_angle);
+  return point.relative_radius > 0.0;
 }
 
 }  // namespace

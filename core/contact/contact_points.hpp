@@ -34,7 +34,8 @@ struct LineInterval {
 ///     z_j = z_A + (z_E - z_A) (1 - cos(pi j/n))/2,   j = 0 .. n,
 ///
 /// narrow at the ends, where the load rises or falls within a few tenths of a module; on either extended part, where
-/// load falls to 0 a little way beyond A or E, max(2, n/2) intervals that grow as the square of the distance from there.
+/// load falls to 0 a little way beyond A or E, max(2, n/2) intervals that grow as the square of the distance from there, and as many where edges
+/// reach further out.
 /// @param line_phase  of the line's leading end [base pitches]
 std::vector<LineInterval> line_intervals(const PathOfContact& path, const Quadrature& quadrature, double line_phase,
                                          double face_start, double face_end);
@@ -65,7 +66,9 @@ std::optional<ContactPoint> contact_point(const GearPair& pair, const PathOfCont
 /// flanks touch in the base tangent plane. Between A0 and A the wheel's tip edge meets the pinion flank off that plane, between
 /// E and B0 the pinion's tip edge the wheel flank; clearance and contact radii there are solved exactly in the transverse
 /// section [Haddad 1991, app. 2A, 2A.2-2A.17; solved here in closed form: the tip's position is known, and the mate's flank angle at
-/// that radius is explicit]. No point is made where the path ends at a form circle instead of a tip.
+/// that radius is explicit]. Departure: where the path ends at a form circle, because the mate's tip reaches below it
+/// (Gear::fillet_interference), the lower end of the flank is an edge that runs along the mate's flank, from where it enters the mate's tip
+/// circle (EdgeReach); further out the mate's tip edge meets the flank. Clearances there are what the wheel would have to turn by.
 /// @param line_phase  of tooth pair 0 [base pitches], see PathOfContact
 /// @param with_extended_region  false leaves out A0 .. A and E .. B0
 std::vector<ContactPoint> contact_points(const GearPair& pair, const PathOfContact& path, const Quadrature& quadrature,

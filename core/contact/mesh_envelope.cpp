@@ -6,14 +6,13 @@
 
 #include "core/base/peak.hpp"
 #include "core/base/root.hpp"
-#include "core/contact/edge_reach.hpp"
 
 namespace flankwright {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double margin = 0.25;  // pitches beyond the path and the edges' reach, see MeshEnvelope
+constexpr double margin = 0.25;  // pitches beyond the extended path, see MeshEnvelope
 constexpr double hand_over_tolerance = 1e-13;              // rad of the pinion
 constexpr PeakTolerance extreme_tolerance{1e-9, 1e-16, 1e-7};  // rad of the pinion, rad of the wheel, rad of the pinion
 
@@ -35,15 +34,11 @@ const ToothContact* MeshState::of(int tooth) const {
 }
 
 MeshEnvelope::MeshEnvelope(const GearPair& pair, const MeshScene& scene)
-    : pair_(pair), solver_(scene), path_(pair), pitch_(2.0 * units::pi / scene.pinion_teeth) {
-  const EdgeReach reach = edge_reach(pair);
-  first_ = -reach.before;
-  last_ = path_.last_line_phase() + reach.beyond;
-}
+    : pair_(pair), solver_(scene), path_(pair), pitch_(2.0 * units::pi / scene.pinion_teeth) {}
 
 bool MeshEnvelope::is_within(int tooth, double phi1, double beyond) const {
   const double phase = path_.line_phase_at(phi1 + tooth * pitch_, pair_);
-  return phase >= first_ - beyond && phase <= last_ + beyond;
+  return phase >= -beyond && phase <= path_.last_line_phase() + beyond;
 }
 
 /// Contact of one pair, None where it is not in mesh.
@@ -55,8 +50,8 @@ MeshState MeshEnvelope::at(double phi1, int preferred) const {
   MeshState state;
   state.phi1 = phi1;
   const double phase = path_.line_phase_at(phi1, pair_);  // of pair 0; every tooth on adds one
-  const int first = static_cast<int>(std::floor(first_ - margin - phase));
-  const int last = static_cast<int>(std::ceil(last_ + margin - phase));
+  const int first = static_cast<int>(std::floor(-margin - phase));
+  const int last = static_cast<int>(std::ceil(path_.last_line_phase() + margin - phase));
   for (int tooth = first; tooth <= last; ++tooth) {
     const ToothContact found = contact(tooth, phi1);
     if (found.exists()) state.contacts.push_back(found);

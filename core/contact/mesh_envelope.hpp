@@ -21,17 +21,17 @@ struct MeshState {
 
 /// The envelope of all tooth pairs as a function of the pinion angle: states of the mesh, and what happens between two of them.
 ///
-/// Only pairs within a quarter of a pitch of the extended path of contact, and of what edges reach outside the path (EdgeReach), are in
-/// mesh; others count as if they were not there, for the envelope and the hand-overs alike. A pair beyond that is 0.6 base pitches or more
-/// outside the path along every part of the face, where flanks have parted by about a tenth of the module, while another
-/// pair is inside it at the same place along the face: the contact ratio is above 1.
+/// Only pairs within a quarter of a pitch of the extended path of contact are in mesh; others count as if they were not there, for the
+/// envelope and the hand-overs alike. A pair beyond that is 0.6 base pitches or more outside the path, or outside what edges reach, along every part
+/// of the face, where flanks have parted by about a tenth of the module, while another pair is inside it at the same place along the
+/// face: the contact ratio is above 1.
 class MeshEnvelope {
  public:
   static constexpr double lead_tolerance = 1e-12;  ///< rad, see analyse_unloaded_mesh()
 
   MeshEnvelope(const GearPair& pair, const MeshScene& scene);
 
-  /// Whether pair `tooth` is, with the pinion at phi1, on the extended path of contact or within what edges reach outside the path.
+  /// Whether pair `tooth` is, with the pinion at phi1, on the extended path of contact.
   bool on_path(int tooth, double phi1) const { return is_within(tooth, phi1, 0.0); }
 
   /// @param preferred  tooth that keeps the lead unless another is ahead of it by more than lead_tolerance
@@ -59,7 +59,6 @@ class MeshEnvelope {
   const GearPair& pair_;
   ToothContactSolver solver_;
   PathOfContact path_;
-  double first_, last_;  ///< line phases between which a pair is on its path, edges' reach included [base pitches]
   double pitch_;  ///< 2 pi/N1 [rad]
 };
 

@@ -1,11 +1,15 @@
 #include "core/contact/path_of_contact.hpp"
 
+#include "core/contact/edge_reach.hpp"
+
 namespace flankwright {
 
 PathOfContact::PathOfContact(const GearPair& pair)
     : base_pitch(pair.transverse_base_pitch),
-      roll_at_start(pair.path_start - extension * base_pitch),
-      region_length(pair.transverse_contact_ratio + 2.0 * extension),
+      before(extension + edge_reach(pair).before),
+      beyond(extension + edge_reach(pair).beyond),
+      roll_at_start(pair.path_start - before * base_pitch),
+      region_length(before + pair.transverse_contact_ratio + beyond),
       slope(pair.contact_line_sense() * std::tan(pair.base_helix_angle) / base_pitch),
       half_face(0.5 * pair.face_width) {}
 

@@ -9,14 +9,16 @@ namespace flankwright {
 /// The plane of action of a pair, counted in base pitches as Haddad 1991, section 2.3 and fig. 2.1.
 ///
 /// The phase of a point of a contact line is its distance along the line of action from A0, in transverse base pitches. A0 lies
-/// 0.35 base pitches before the theoretical start A, B0 as much after the theoretical end: the extended region in which
-/// deflection and errors may bring tip edges into contact (app. 2A). The phase of a *line* is that of its leading end.
+/// 0.35 base pitches before the theoretical start A, B0 as much after the theoretical end E: the extended region in which
+/// deflection and errors may bring tip edges into contact (app. 2A). Departure: where a flank's lower end is an edge that reaches
+/// further (EdgeReach), A0 or B0 lies as much further out. The phase of a *line* is that of its leading end.
 struct PathOfContact {
-  static constexpr double extension = 0.35;  ///< A0 A = B B0 [base pitches], Haddad 1991, section 2.3
+  static constexpr double extension = 0.35;  ///< [base pitches], Haddad 1991, section 2.3
 
   explicit PathOfContact(const GearPair& pair);
 
   double base_pitch;        ///< p_bt [mm]
+  double before, beyond;    ///< A0 A and E B0: the extension and what edges reach [base pitches]
   double roll_at_start;     ///< pinion roll length at A0 [mm]; may be negative
   double region_length;     ///< A0 B0 [base pitches]
   double slope;             ///< d(phase)/dz, signed with the sense of the contact lines [1/mm]
@@ -32,6 +34,8 @@ struct PathOfContact {
   double pinion_angle_at(double line_phase, const GearPair& pair) const;
   /// Largest line phase at which the line still touches the extended region.
   double last_line_phase() const { return region_length + 2.0 * std::abs(slope) * half_face; }
+  /// Phase of E, as `before` is that of A [base pitches].
+  double path_end() const { return region_length - beyond; }
 };
 
 }  // namespace flankwright

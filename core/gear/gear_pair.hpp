@@ -25,7 +25,7 @@ struct Gear {
   double virtual_teeth{not_given};       ///< z_n of the equivalent spur gear [ISO 6336-1]
   double helix_rate{not_given};          ///< 1/p = tan(beta_b) / r_b: turn of the transverse section per mm of z [rad/mm], >= 0
   bool undercut{false};                  ///< the fillet cuts into the involute
-  bool fillet_interference{false};       ///< the mate's tip reaches below the form circle; contact is cut off there
+  bool fillet_interference{false};       ///< the mate's tip reaches below the form circle; the path of contact ends there
 
   /// Transverse pressure angle at radius r >= r_b [rad].
   double pressure_angle_at(double radius) const;

@@ -16,8 +16,8 @@ struct LineRegion {
       : path(model.pair),
         face_start(model.face_start()),
         face_end(model.face_end()),
-        first(PathOfContact::extension),
-        last(path.region_length - PathOfContact::extension),
+        first(path.before),
+        last(path.path_end()),
         longest(path.slope == 0.0 ? model.face_width : std::min(model.face_width, (last - first) / std::abs(path.slope))) {}
 
   /// What a line has between A and E, its ends there (not those on the faces) moved inwards along the axis by `distance` [mm]; begin >

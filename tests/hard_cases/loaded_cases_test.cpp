@@ -119,6 +119,35 @@ TEST_CASE("Hard: reliefs far beyond the deflection leave one pair in contact", "
   for (std::size_t i = 0; i < counts.size(); ++i) CHECK(of_half[i] <= counts[i]);
 }
 
+TEST_CASE("Hard: an edge that runs along its mate before the path begins carries load", "[hard_cases]") {
+  const std::string gap = GENERATE("plane_of_action", "whole_surface");
+  const auto results = run("edge_before_the_path",
+                           {{"load.torque", "[1e-9, 40]"}, {"fidelity.gap", gap}, {"cycle.positions", "16"}, sampled_peaks});
+  check_balances(results);
+  CAPTURE(gap);
+  const MeshScene scene = make_mesh_scene(results.pair, {}, results.study.pinion_modification, results.study.wheel_modification, {}, {});
+  const PathOfContact path(results.pair);
+  const LoadedCycle &light = results.loaded[0].cycle, &heavy = results.loaded[1].cycle;
+  double on_edge = 0.0;  // N/mm
+  for (std::size_t i = 0; i < light.positions.size(); ++i) {
+    const MeshPosition& at = results.models[results.loaded[1].model].positions[i];
+    const double phi1 = path.pinion_angle_at(at.phase, results.pair);
+    double te = -1.0;
+    for (int tooth = -3; tooth <= 5; ++tooth) {
+      const ToothContact contact = find_tooth_contact(scene, tooth, phi1);
+      if (contact.exists()) te = std::max(te, contact.transmission_error);
+    }
+    // The first touch, by edges too. Model: the plane of action has it where undisturbed flanks touch, the relief of 80 um moves it.
+    const double lag = -te * results.pair.wheel.base_radius, smallest = light.positions[i].gap.total.minCoeff();
+    CAPTURE(at.phase, lag, smallest);
+    CHECK(std::abs(smallest - lag) <= (gap == "whole_surface" ? 1e-11 : 0.03 * 80.0 * um));
+    for (std::size_t j = 0; j < at.points.size(); ++j) {
+      if (at.points[j].phase < path.before) on_edge = std::max(on_edge, heavy.positions[i].load.line_load[static_cast<Eigen::Index>(j)]);
+    }
+  }
+  CHECK(on_edge > 0.1 * results.loaded[1].summary.peak_line_load);
+}
+
 TEST_CASE("Hard: quadrature points that nearly coincide share their load evenly", "[hard_cases]") {
   const Settings settings{sampled_peaks, {"cycle.positions", "3"}};
   Settings single = settings;

@@ -162,7 +162,7 @@ TEST_CASE("Hard: an edge that runs along its mate before the path begins takes t
   CHECK(transfer.slope_jump() > 0.0);
   // More than half a pitch before A, where the path begins.
   const PathOfContact path(results.pair);
-  CHECK(path.line_phase_at(transfer.phi1, results.pair) + transfer.to_tooth < PathOfContact::extension - 0.5);
+  CHECK(path.line_phase_at(transfer.phi1, results.pair) + transfer.to_tooth < path.before - 0.5);
   // Extremes are located, whatever the positions; so is the hand-over.
   const auto finer = results_at("48");
   CHECK(std::abs(finer.unloaded.front().mesh.peak_to_peak - mesh.peak_to_peak) <= kLocated);

@@ -32,8 +32,8 @@ struct ContactModel {
     const auto may_touch = [&](int tooth) {
       const double a = path.phase_at(task.phase + tooth, -path.half_face),
                    b = path.phase_at(task.phase + tooth, path.half_face);
-      return std::max(a, b) > PathOfContact::extension - beyond &&
-             std::min(a, b) < path.region_length - PathOfContact::extension + beyond;
+      return std::max(a, b) > path.before - beyond &&
+             std::min(a, b) < path.path_end() + beyond;
     };
     while (!may_touch(first)) ++first;
     while (may_touch(first - 1)) --first;

@@ -1,5 +1,6 @@
 #include "core/contact/contact_points.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -192,14 +193,54 @@ TEST_CASE("Depths and tip distances are those of the tooth at the point", "[core
   }
 }
 
-TEST_CASE("No tip contact is made where the path ends at a form circle", "[core][contact]") {
-  const GearPair pair = make_gear_pair(pair_data(10, 60, 0.0));
-  REQUIRE(pair.pinion.fillet_interference);
+TEST_CASE("Where the path ends at a form circle the flank's lower end meets the mate, further out the mate's tip", "[core][contact][independent]") {
+  const bool at_end = GENERATE(false, true);
+  const GearPair pair = make_gear_pair(at_end ? pair_data(60, 10, 0.0) : pair_data(10, 60, 0.0));
+  REQUIRE((at_end ? pair.wheel : pair.pinion).fillet_interference);
+  const MeshScene scene = scene_of(pair);
   const PathOfContact path(pair);
-  for (double line_phase = 0.0; line_phase < 1.0; line_phase += 0.05) {
-    for (const ContactPoint& point : points_at(pair, line_phase, 1)) {
-      CHECK(path.roll_at(point.phase) >= pair.path_start - 1e-12);
-      CHECK(point.relative_radius > 0.0);
+  const double reach = ((at_end ? path.beyond : path.before) - PathOfContact::extension) * path.base_pitch;
+  REQUIRE(reach > 0.2 * path.base_pitch);
+  constexpr double kRoundOff = 1e-11;  // mm: of wheel angles times r_b2; both turn the wheel
+  double last = 0.0;
+  for (const double part : {0.01, 0.3, 0.7, 0.99, 0.999999, 1.000001, 1.01, 1.2, 1.4}) {
+    const double d = part * reach;
+    const ContactPoint point = beyond(pair, d, at_end);
+    const double roll = at_end ? pair.path_end + d : pair.path_start - d;
+    const ToothContact contact = find_tooth_contact(scene, 0, (roll - pair.pitch_point) / pair.pinion.base_radius);
+    CAPTURE(at_end, part, point.clearance);
+    // The corner itself: the edge that the wheel turns towards comes there a clearance earlier or later.
+    const bool near_corner = std::abs(part - 1.0) < 0.001;
+    if (!near_corner) {
+      const ContactKind edge = at_end ? ContactKind::WheelRoot : ContactKind::PinionRoot, tip = at_end ? ContactKind::PinionTip : ContactKind::WheelTip;
+      CHECK(contact.kind == (part < 1.0 ? edge : tip));
     }
+    CHECK(std::abs(point.clearance + contact.transmission_error * pair.wheel.base_radius) <= kRoundOff);
+    CHECK(std::abs(point.wheel_radius - contact.wheel_radius) <= 1e-9);  // mm: of a place, the angle's round-off over a flat slope
+    CHECK(point.relative_radius > 0.0);
+    CHECK(point.clearance > 0.0);
+    // Where the tip takes over from the edge there is no step: flanks part by less than the line advances, 2e-6 of the reach.
+    if (part > 1.0 && near_corner) CHECK(std::abs(point.clearance - last) <= 2e-6 * reach);
+    last = point.clearance;
   }
+}
+
+TEST_CASE("Graded lines are cut where the mate's tip takes over from an edge", "[core][contact]") {
+  const GearPair pair = make_gear_pair(pair_data(10, 60, 20 * deg));
+  const PathOfContact path(pair);
+  REQUIRE(path.before > PathOfContact::extension);
+  REQUIRE(path.beyond == PathOfContact::extension);
+  const double b = 0.5 * pair.face_width, round_off = 1e-12 * b;
+  int found = 0;
+  for (double line_phase = 0.05; line_phase < path.last_line_phase(); line_phase += 0.1) {
+    const auto intervals = line_intervals(path, {QuadratureRule::Graded, 4}, line_phase, -b, b);
+    for (const double phase : {PathOfContact::extension, path.before, path.path_end()}) {
+      const double z = (phase - path.phase_at(line_phase, 0.0)) / path.slope;
+      if (std::abs(z) >= b) continue;
+      CHECK(std::any_of(intervals.begin(), intervals.end(), [&](const LineInterval& part) { return std::abs(part.end - z) <= round_off; }));
+      ++found;
+    }
+    for (std::size_t i = 1; i < intervals.size(); ++i) CHECK(std::abs(intervals[i].begin - intervals[i - 1].end) <= round_off);
+  }
+  CHECK(found >= 10);
 }

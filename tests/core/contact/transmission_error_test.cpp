@@ -175,7 +175,8 @@ TEST_CASE("Undercut teeth: the envelope is the largest of all pairs, those befor
       }
       CHECK(std::abs(mesh.transmission_error[k] - leading.transmission_error) <= 1e-12);  // round-off
       const double phase = path.line_phase_at(mesh.phi1[k], pair) + leading.tooth;
-      if (phase < 0.0 || phase > path.last_line_phase()) ++before_the_path;
+      const double reach_before = path.before - PathOfContact::extension, reach_beyond = path.beyond - PathOfContact::extension;
+      if (phase < reach_before || phase > path.last_line_phase() - reach_beyond) ++before_the_path;
     }
     for (const Transfer& transfer : mesh.transfers) {
       const double leaving = solver.find(transfer.from_tooth, transfer.phi1).transmission_error;
