@@ -35,35 +35,29 @@ void integrate(double a, double b, Visit&& visit) {
 
 }  // namespace
 
-ToothCompliance slice_compliance(const std::function<double(double)>& thickness, const std::vector<double>& heights,
-                                 double load_angle, double poissons_ratio) {
-  assert(heights.size() >= 2);
-  const double root = heights.front();
-  const double load = heights.back();
+ToothCompliance slice_compliance(const std::vector<SlicePiece>& pieces, double load_height, double load_angle, double poissons_ratio) {
+  assert(!pieces.empty());
+  const SlicePoint root = pieces.front().at(pieces.front().begin);
+  const double lever = (load_height - root.height) / root.thickness;
 
-  double slenderness = 0;  // int (y_p - y)^2 / s^3 dy
-  double height = 0;       // int dy / s
-  const auto add = [&](double y, double dy) {
-    const double s = thickness(y);
-    const double lever = load - y;
-    slenderness += lever * lever / (s * s * s) * dy;
-    height += dy / s;
-  };
-  if (load > root) {
-    // y = y_f + t^2 on the first piece takes the square root out of a fillet that ends flat.
-    integrate(0, std::sqrt(heights[1] - root), [&](double t, double dt) { add(root + t * t, 2 * t * dt); });
-    for (std::size_t i = 1; i + 1 < heights.size(); ++i) integrate(heights[i], heights[i + 1], add);
-  } else {
-    const double s = thickness(root);
-    height = (load - root) / s;
-    slenderness = height * height * height / 3;
+  double slenderness = lever * lever * lever / 3;  // int (y_p - y)^2 / s^3 dy
+  double height = lever;                           // int dy / s
+  if (lever > 0) {
+    slenderness = height = 0;
+    for (const SlicePiece& piece : pieces) {
+      integrate(piece.begin, piece.end, [&](double p, double dp) {
+        const auto [y, s, rise] = piece.at(p);
+        const double arm = load_height - y;
+        slenderness += arm * arm / (s * s * s) * rise * dp;
+        height += rise * dp / s;
+      });
+    }
   }
 
   const double nu = poissons_ratio;
   const double plane_strain = 1 - nu * nu;
   const double cos2 = std::cos(load_angle) * std::cos(load_angle);
   const double sin2 = 1 - cos2;
-  const double lever = (load - root) / thickness(root);
 
   ToothCompliance result;
   result.bending = plane_strain * cos2 * 12 * slenderness;
@@ -80,14 +74,16 @@ ToothCompliance tooth_compliance(const ToothForm& form, double radius, double po
   const ProfilePoint contact = form.at_radius(radius);
   const double tan_load = std::tan(contact.tangent_angle) * cos_beta;
   const double load_height = contact.y - contact.x * cos_beta * tan_load;
-  const double root_height = form.fillet_point(pi / 2).y;
-  const double form_height = form.at_radius(form.form_radius()).y;
 
-  std::vector<double> heights{root_height};
-  if (form_height > root_height && form_height < load_height) heights.push_back(form_height);
-  heights.push_back(load_height);
-  return slice_compliance([&](double y) { return 2 * cos_beta * form.at_height(y).x; }, heights, std::atan(tan_load),
-                          poissons_ratio);
+  const SlicePiece fillet{pi / 2, form.fillet_at_height(load_height), [&](double lambda) {
+                            const ProfilePoint p = form.fillet_point(lambda);
+                            return SlicePoint{p.y, 2 * cos_beta * p.x, form.fillet_rise(lambda)};
+                          }};
+  const SlicePiece involute{form.involute_start(), form.involute_at_height(load_height), [&](double roll) {
+                              const ProfilePoint p = form.involute_point(roll);
+                              return SlicePoint{p.y, 2 * cos_beta * p.x, form.involute_rise(roll)};
+                            }};
+  return slice_compliance({fillet, involute}, load_height, std::atan(tan_load), poissons_ratio);
 }
 
 }  // namespace flankwright

@@ -116,6 +116,18 @@ ProfilePoint ToothForm::fillet_point(double lambda) const {
           reference_radius_ * std::cos(theta) + distance * std::sin(theta - lambda), lambda - theta};
 }
 
+double ToothForm::fillet_rise(double lambda) const {
+  const auto [depth, theta] = trochoid(lambda);
+  const double cos_beta = std::cos(helix_angle_), sine = std::sin(lambda), cosine = std::cos(lambda);
+  const double length = std::hypot(sine * cos_beta, cosine);  // of (sin, cos) lambda_n before scaling
+  const double by_lambda = cos_beta / (length * length);      // d(lambda_n)/d(lambda)
+  const double depth_slope = rounding_ * cosine / length * by_lambda;
+  const double theta_slope =
+      (depth_slope * cosine / sine - depth / (sine * sine) + rounding_ * sine / length * by_lambda) / reference_radius_;
+  const double downwards = reference_radius_ * theta_slope * sine - depth / sine * (theta_slope - 1);  // along the tangent
+  return -downwards * std::cos(lambda - theta);
+}
+
 double ToothForm::fillet_radius(double lambda) const {
   const double depth = trochoid(lambda).depth;
   return std::hypot(reference_radius_ - depth, depth * std::cos(lambda) / std::sin(lambda));
@@ -135,6 +147,10 @@ ProfilePoint ToothForm::involute_point(double roll_length) const {
   const double half_angle = involute_half_angle(roll_length);
   return {radius * std::sin(half_angle), radius * std::cos(half_angle),
           std::atan(roll_length / base_radius_) - half_angle};
+}
+
+double ToothForm::involute_rise(double roll_length) const {
+  return roll_length / base_radius_ * std::cos(involute_point(roll_length).tangent_angle);
 }
 
 void ToothForm::locate_form_radius() {
@@ -173,13 +189,17 @@ ProfilePoint ToothForm::at_radius(double radius) const {
   return fillet_point(crossing([&](double lambda) { return fillet_radius(lambda) - radius; }, pi / 2, fillet_start_));
 }
 
+double ToothForm::fillet_at_height(double y) const {
+  return crossing([&](double lambda) { return fillet_point(lambda).y - y; }, pi / 2, fillet_start_);
+}
+
+double ToothForm::involute_at_height(double y) const {
+  return crossing([&](double roll) { return involute_point(roll).y - y; }, involute_start(), roll_length(tip_radius_));
+}
+
 ProfilePoint ToothForm::at_height(double y) const {
-  const double form_roll = roll_length(form_radius_);
-  if (y >= involute_point(form_roll).y) {
-    const double tip_roll = roll_length(tip_radius_);
-    return involute_point(crossing([&](double roll) { return involute_point(roll).y - y; }, form_roll, tip_roll));
-  }
-  return fillet_point(crossing([&](double lambda) { return fillet_point(lambda).y - y; }, pi / 2, fillet_start_));
+  const bool on_involute = y >= involute_point(involute_start()).y;
+  return on_involute ? involute_point(involute_at_height(y)) : fillet_point(fillet_at_height(y));
 }
 
 ProfilePoint ToothForm::root_tangent_point(double normal_tangent_angle) const {

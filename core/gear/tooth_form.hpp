@@ -89,6 +89,19 @@ class ToothForm {
   double fillet_start() const { return fillet_start_; }
   /// The fillet at parameter lambda, fillet_start() <= lambda <= pi/2.
   ProfilePoint fillet_point(double lambda) const;
+  /// dy/dlambda there, at most 0 [mm/rad]: of the class comment's formula, along the tangent.
+  double fillet_rise(double lambda) const;
+  /// Where the fillet has a height y [rad]; the nearer end where it has not.
+  double fillet_at_height(double y) const;
+
+  /// Roll length of the form circle, where the involute starts [mm].
+  double involute_start() const { return roll_length(form_radius_); }
+  /// The involute at a roll length, from involute_start() to the tip's.
+  ProfilePoint involute_point(double roll_length) const;
+  /// dy/d(roll length) there [-].
+  double involute_rise(double roll_length) const;
+  /// Roll length where the involute has a height y [mm]; the nearer end where it has not.
+  double involute_at_height(double y) const;
   /// Where the tangent to the fillet makes a given angle with the centre line in the *normal* section, tan(angle_t) =
   /// tan(angle_n) / cos(beta) [Haddad 1991, fig. 1A.5]; 30 deg is the critical section of ISO 6336-3. The start of the
   /// fillet where its tangent is already steeper, its lowest point where none is as steep.
@@ -108,7 +121,6 @@ class ToothForm {
   };
   Trochoid trochoid(double lambda) const;
   double fillet_radius(double lambda) const;
-  ProfilePoint involute_point(double roll_length) const;
   double involute_half_angle(double roll_length) const;
   double roll_length(double radius) const;
   void locate_form_radius();

@@ -1,7 +1,9 @@
 #include "core/compliance/tooth_bending.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 
 #include "core/base/units.hpp"
 
@@ -19,12 +21,38 @@ ToothForm form_of(int teeth, double module = 5, double beta = 0, double shift = 
   return ToothForm(gear, module, 20 * deg, beta);
 }
 
+/// A slice given by its thickness over the height.
+SlicePiece slice(double from, double to, const std::function<double(double)>& thickness) {
+  return {from, to, [=](double y) { return SlicePoint{y, thickness(y), 1.0}; }};
+}
+SlicePiece even_slice(double from, double to, double s) {
+  return slice(from, to, [=](double) { return s; });
+}
+
 }  // namespace
+
+TEST_CASE("The profile rises with its parameter as differences of its height say", "[core][gear][compliance]") {
+  const int teeth = GENERATE(10, 23, 150);
+  const double beta = GENERATE(0.0, 25.0) * deg;
+  const ToothForm form = form_of(teeth, 3, beta);
+  constexpr double kStep = 1e-5, kDiscretisation = 1e-8;  // central differences: step^2 times third derivatives, round-off over the step
+  for (const double share : {0.01, 0.2, 0.5, 0.8, 0.99}) {
+    const double lambda = form.fillet_start() + share * (pi / 2 - form.fillet_start());
+    const double fillet = (form.fillet_point(lambda + kStep).y - form.fillet_point(lambda - kStep).y) / (2 * kStep);
+    CHECK(form.fillet_rise(lambda) == Approx(fillet).margin(kDiscretisation * form.tip_radius()));
+    CHECK(form.fillet_rise(lambda) < 0);
+    CHECK(form.fillet_at_height(form.fillet_point(lambda).y) == Approx(lambda).margin(1e-6));  // flat at its lowest point
+    const double roll = form.involute_start() + share * 3;
+    const double involute = (form.involute_point(roll + kStep).y - form.involute_point(roll - kStep).y) / (2 * kStep);
+    CHECK(form.involute_rise(roll) == Approx(involute).margin(kDiscretisation * form.tip_radius()));
+    CHECK(form.involute_at_height(form.involute_point(roll).y) == Approx(roll).margin(1e-9));
+  }
+}
 
 TEST_CASE("A slice of constant thickness is the textbook cantilever in plane strain",
           "[core][compliance][closed-form]") {
   const double s = 2, l = 7, nu = 0.3, a = GENERATE(0.0, 0.4);
-  const ToothCompliance q = slice_compliance([&](double) { return s; }, {1, 1 + l}, a, nu);
+  const ToothCompliance q = slice_compliance({even_slice(1, 1 + l, s)}, 1 + l, a, nu);
   const double cos2 = std::cos(a) * std::cos(a), sin2 = std::sin(a) * std::sin(a);
   constexpr double kRoundOff = 1e-13;
   // End load on a beam of unit width: F l^3 / (3 E' I), 1.2 F l / (G A), F l / (E' A), with E' = E/(1 - nu^2), G = E/(2
@@ -37,7 +65,8 @@ TEST_CASE("A slice of constant thickness is the textbook cantilever in plane str
 TEST_CASE("A tapered slice bends as its closed form says", "[core][compliance][closed-form]") {
   // s = s_0 - k y: with s as variable, int (l - y)^2 / s^3 dy has the primitive below.
   const double s0 = 4, k = 0.35, l = 6, nu = 0.25;
-  const ToothCompliance q = slice_compliance([&](double y) { return s0 - k * y; }, {0, 2.2, l}, 0, nu);
+  const auto thickness = [&](double y) { return s0 - k * y; };
+  const ToothCompliance q = slice_compliance({slice(0, 2.2, thickness), slice(2.2, l, thickness)}, l, 0, nu);
   const double end = s0 - k * l;
   const auto primitive = [&](double s) { return std::log(s) + 2 * end / s - end * end / (2 * s * s); };
   const double integral = (primitive(s0) - primitive(end)) / (k * k * k);
@@ -62,7 +91,7 @@ TEST_CASE("The root's rotation is that of a half-plane under a linear traction",
   // The same coefficient out of the code: the second difference of the foundation over the lever.
   const double nu = 0.3;
   const auto foundation = [&](double lever) {
-    return slice_compliance([](double) { return 2.0; }, {0, lever}, 0, nu).foundation / (1 - nu * nu);
+    return slice_compliance({even_slice(0, lever, 2.0)}, lever, 0, nu).foundation / (1 - nu * nu);
   };
   const double second = (foundation(6) - 2 * foundation(4) + foundation(2)) / 2;
   CHECK(second == Approx(18 / pi).epsilon(1e-12));  // round-off
@@ -74,7 +103,7 @@ TEST_CASE("At a Poisson's ratio of 0.3 the foundation has Weber and Banaschek's 
   const double a = 0.35, l = 3, s = 2.4;
   const double tan2 = std::tan(a) * std::tan(a);
   const double printed = std::cos(a) * std::cos(a) * (5.2 * (l / s) * (l / s) + l / s + 1.4 * (1 + 0.294 * tan2));
-  const double ours = slice_compliance([&](double) { return s; }, {0, l}, a, 0.3).foundation;
+  const double ours = slice_compliance({even_slice(0, l, s)}, l, a, 0.3).foundation;
   CHECK(ours == Approx(printed).epsilon(0.01));  // model: rounded to two figures, 1.04 to 1
 }
 
@@ -90,7 +119,7 @@ TEST_CASE("Tooth compliance does not depend on the module", "[core][compliance]"
 
 TEST_CASE("A load that points into the rim takes off the beam smoothly", "[core][compliance]") {
   const auto total = [](double lever) {
-    return slice_compliance([](double) { return 2.0; }, {5, 5 + lever}, 0.3, 0.3).total();
+    return slice_compliance({even_slice(5, std::max(5.0, 5 + lever), 2.0)}, 5 + lever, 0.3, 0.3).total();
   };
   // Value and slope agree from both sides of a load at the root section.
   const double step = 1e-5;

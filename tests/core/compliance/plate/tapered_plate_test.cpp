@@ -58,7 +58,7 @@ TEST_CASE("A load on the top edge of a tapered plate strip bends it as a slice i
   const auto thickness = [](double y) { return 1.9 - 0.5 * y; };
   PlateShape shape = uniform(1, 2.2, 30, 0.3);
   shape.thickness = thickness;
-  const ToothCompliance q = slice_compliance(thickness, {0, 2.2}, 0, 0.3);
+  const ToothCompliance q = slice_compliance({{0, 2.2, [&](double y) { return SlicePoint{y, thickness(y), 1.0}; }}}, 2.2, 0, 0.3);
   // Far from the ends, which bend anticlastically. Discretisation: 1/s^3 by degree 7, and the ends' decay over 15.
   const double middle = under_line_load(TaperedPlate(shape, 40, 8), 30, 2.2, 15, 2.2);
   CHECK(middle == Approx(q.bending + q.shear).epsilon(1e-4));
