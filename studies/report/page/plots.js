@@ -31,7 +31,7 @@ const legend = (show, of_lines = false) => ({
   },
 });
 
-/** Plugin that writes texts beside points, on the side that has room; of texts that would overlap the first one stays. */
+/** Plugin that writes texts beside points, where they cover neither another such point nor another text; without a text where there is no such place. */
 const point_labels = (labels) => ({
   id: "point_labels",
   afterDatasetsDraw: ({ ctx: pen, scales, chartArea: area }) => {
@@ -43,19 +43,23 @@ const point_labels = (labels) => ({
     pen.lineJoin = "round";
     pen.strokeStyle = css_colour("surface");
     pen.fillStyle = css_colour("ink");
-    const taken = [];
-    for (const { x, y, text } of labels) {
-      const at_x = scales.x.getPixelForValue(x), at_y = scales.y.getPixelForValue(y);
-      if (at_x < area.left || at_x > area.right || at_y < area.top || at_y > area.bottom) continue;
+    const inside = ({ x, y }) => x >= area.left && x <= area.right && y >= area.top && y <= area.bottom;
+    const points = labels.map(({ x, y, text }) => ({ x: scales.x.getPixelForValue(x), y: scales.y.getPixelForValue(y), text })).filter(inside);
+    const taken = points.map(({ x, y }) => ({ left: x - 9, right: x + 9, top: y - 9, bottom: y + 9 }));
+    for (const { x, y, text } of points) {
       const width = pen.measureText(text).width;
-      const left = at_x + 12 + width < area.right ? at_x + 11 : at_x - 11 - width;
-      const place = [left, Math.min(at_y + 18, area.bottom - 10)];
-      if (taken.some((other) => Math.abs(other.y - place[1]) < 15 && left < other.right + 8 && other.left < left + width + 8)) {
-        continue;
-      }
-      taken.push({ left, right: left + width, y: place[1] });
-      pen.strokeText(text, ...place);
-      pen.fillText(text, ...place);
+      const right = x + 12, left = x - 12 - width;
+      const places = [[right, y + 18], [left, y + 18], [right, y], [left, y], [right, y - 18], [left, y - 18]];
+      const box = ([at, middle]) => ({ left: at - 3, right: at + width + 3, top: middle - 7, bottom: middle + 7 });
+      const free = places.find((place) => {
+        const own = box(place);
+        return own.left >= area.left && own.right <= area.right && own.top >= area.top && own.bottom <= area.bottom
+          && taken.every((other) => own.right < other.left || other.right < own.left || own.bottom < other.top || other.bottom < own.top);
+      });
+      if (!free) continue;
+      taken.push(box(free));
+      pen.strokeText(text, ...free);
+      pen.fillText(text, ...free);
     }
     pen.restore();
   },
