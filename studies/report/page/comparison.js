@@ -89,6 +89,6 @@ function build_comparison(results, body) {
     columns: [{ label: "Design" }, { label: capital(name), unit }, { label: "Against the optimum" }, { label: "Constraints met" },
       { label: "Modifications" }, { label: "Basis" }],
     rows: designs.map((design) => [design.name, design.objective ?? null, note(design.objective),
-      design.failure ? design.failure : design.feasible ? "yes" : "no", modifications_in_words(design), design.basis || "–"]),
+      design.failure ? design.failure : design.feasible ? "yes" : "no", modifications_in_words(design), in_symbols(design.basis || "–")]),
   });
 }

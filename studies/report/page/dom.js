@@ -58,6 +58,9 @@ function words(name) {
   return WORDS[text] || text.replace(/\.modification\./g, " ").replace(/[_.]/g, " ");
 }
 
+/** Plain text with the field's symbols: "0.1 b and m_n, 10 um" -> 0.1 b and mₙ, 10 µm. */
+const in_symbols = (text) => text.replace(/\bm_n\b/g, "mₙ").replace(/\bum\b/g, "µm");
+
 /** A label with its subscripts set: "K_Hβ at mid face" -> K, sub Hβ, at mid face. */
 const symbols = (label) => el("span", {},
   ...label.split(/_(\p{L}+)/u).map((part, i) => (i % 2 ? el("sub", {}, part) : part)));
