@@ -58,7 +58,7 @@ void compare(const ContactCase& c, const ContactSettings& settings, const std::s
       "MPa\n\n"
       "| model | approach um | share of pair %d | Hertzian peak MPa | end over middle | s "
       "|\n|---|---|---|---|---|---|\n",
-      c.name.c_str(), outside.pinion_torque * 1e-6, static_cast<long>(outside.unknowns), outside.peak_bytes / 1e9,
+      c.name.c_str(), outside.pinion_torque * 1e-3, static_cast<long>(outside.unknowns), outside.peak_bytes / 1e9,
       outside.wheel_torque / outside.pinion_torque / pair.gear_ratio(), outside.peak_compression(), tooth);
   std::size_t layers = 0;
   while (layers < outside.layers.size() && outside.layers[layers].tooth == tooth) ++layers;
