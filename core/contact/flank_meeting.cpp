@@ -87,14 +87,16 @@ Meeting FlankMeeting::at(double rho, double z, const Meeting* near) const {
   m.wheel_roll = std::sqrt((radius - rb2) * (radius + rb2));
 
   // Newton on rho2 - D(rho2, z2) = sqrt(r^2 - r_b^2); its last step is too short to change D or its slope. Where it does not
-  // close in (kinks), the plain iteration does: |D'| < 1.
+  // close in (kinks), the plain iteration does: |D'| < 1. Beyond the tip a relief goes on and may become steeper than that; no point of the flank
+  // has such a radius then, and rho2 ends at its bound.
   const double negligible = 1e-7;      // mm: squared it is below round-off
   const double near_enough = 0.05;     // of the roll length: from further off no guess is taken
   const double lowest = 0.1 * m.wheel_roll;  // keeps clear of the cusp of the involute
+  const double highest = 10.0 * m.wheel_roll;  // and of overflow
   double rho2 = m.wheel_roll, last_step = std::numeric_limits<double>::infinity();
   if (near && std::abs(m.wheel_roll - near->wheel_roll) <= near_enough * m.wheel_roll) {
     rho2 += near->wheel_deviation + near->deviation_slope * (m.wheel_roll - near->wheel_roll);
-    rho2 = std::max(rho2, lowest);
+    rho2 = std::clamp(rho2, lowest, highest);
   }
   Dual<2> d;
   double pace = 1.0;  // d(rho2)/d(sqrt(r^2 - r_b^2))
@@ -103,7 +105,7 @@ Meeting FlankMeeting::at(double rho, double z, const Meeting* near) const {
     pace = 1.0 / (1.0 - d.gradient[0]);
     double step = rho2 - d.value - m.wheel_roll;
     if (std::abs(step) < 0.5 * last_step) step *= pace;
-    rho2 = std::max(rho2 - step, lowest);
+    rho2 = std::clamp(rho2 - step, lowest, highest);
     last_step = std::abs(step);
     if (last_step <= negligible) break;
   }

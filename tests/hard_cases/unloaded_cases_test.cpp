@@ -169,6 +169,20 @@ TEST_CASE("Hard: an edge that runs along its mate before the path begins takes t
   CHECK(std::abs(results_at("2").unloaded.front().mesh.transfers.at(0).phi1 - transfer.phi1) <= kLocated);
 }
 
+TEST_CASE("Hard: a relief that beyond the tip is steeper than the flank overflows nothing", "[hard_cases]") {
+  const std::string gap = GENERATE("plane_of_action", "whole_surface");
+  for (const double height : {0.2, 0.16, 0.14, 0.12, 0.1, 0.085}) {
+    const auto results = run("relief_steeper_than_the_flank", {{"wheel.modification.tip_relief.height", in_digits(height)}, {"fidelity.gap", gap}, {"cycle.peaks", "sampled"}});
+    check_balances(results);
+    CAPTURE(gap, height);
+    const UnloadedMesh& mesh = results.unloaded.front().mesh;
+    CHECK(mesh.missing == 0);
+    // So short a relief leaves more than a base pitch of the path untouched: some pair always touches without error.
+    CHECK(std::abs(mesh.largest) <= kUnloadedRoundOff);
+    CHECK(mesh.peak_to_peak <= kUnloadedRoundOff);
+  }
+}
+
 TEST_CASE("Hard: flanks pass from convex through flat to hollow without a jump", "[hard_cases]") {
   std::vector<double> last;
   for (double amount = 0.0; amount <= 40.0; amount += 2.0) {
