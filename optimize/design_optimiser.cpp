@@ -27,6 +27,7 @@ class DesignRun {
 
   DesignResult finish() {
     result_.solver = options_.solver.name;
+    result_.finisher = options_.solver.finisher;
     result_.before = report_design(problem_, problem_.analyse_given());
     result_.evaluations = result_.failures = 0;
     first_objective();
@@ -55,6 +56,7 @@ class DesignRun {
   void take(const LocalRun& run) {
     result_.status = run.status;
     result_.message = run.message;
+    result_.finished_by = run.finished_by;
     append(result_.history, run.history);
     x_ = run.x;
   }

@@ -106,14 +106,22 @@ Eigen::VectorXd DesignProblem::start() const {
   for (int i = 0; i < variables(); ++i) {
     const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
     const Modification& given = v.member == Member::Pinion ? task_.pinion_modification : task_.wheel_modification;
-    x[i] = std::clamp((get(given, v.parameter) - v.lower) / (v.upper - v.lower), 0.0, 1.0);
+    x[i] = std::clamp(v.scaled(get(given, v.parameter)), 0.0, 1.0);
+  }
+  return x;
+}
+
+Eigen::VectorXd DesignProblem::scaled_design(const std::vector<double>& values) const {
+  Eigen::VectorXd x(variables());
+  for (int i = 0; i < variables(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    x[i] = task_.variables[at].scaled(values[at]);
   }
   return x;
 }
 
 double DesignProblem::unscaled(const Eigen::VectorXd& x, int i) const {
-  const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
-  return v.lower + x[i] * (v.upper - v.lower);
+  return task_.variables[static_cast<std::size_t>(i)].unscaled(x[i]);
 }
 
 void DesignProblem::apply(const Eigen::VectorXd& x, Modification& pinion, Modification& wheel) const {

@@ -35,7 +35,7 @@ class StepSearch {
     const DesignVariable& v = variable(i);
     constexpr double round_off = 1e-9;  // of a step: a bound that is a multiple of it counts as one
     const double least = std::ceil(v.lower / v.step - round_off), most = std::floor(v.upper / v.step + round_off);
-    x[i] = std::clamp((std::clamp(steps, least, std::max(least, most)) * v.step - v.lower) / (v.upper - v.lower), 0.0, 1.0);
+    x[i] = std::clamp(v.scaled(std::clamp(steps, least, std::max(least, most)) * v.step), 0.0, 1.0);
   }
 
   Eigen::VectorXd moved(const Eigen::VectorXd& from, int i, int by) const {
