@@ -150,6 +150,7 @@ DesignReport report_design(const DesignProblem& problem, DesignAnalysis analysis
   }
   for (const Goal& goal : task.then) report.later_objectives.push_back(problem.value(goal, analysis));
   report.objective = problem.objective(analysis);
+  problem.add_root_stress(analysis);
   report.analysis = std::move(analysis);
   return report;
 }

@@ -57,6 +57,8 @@ class DesignProblem {
   /// not kept.
   LoadedCycle analyse_scene(int scene, const Modification& pinion, const Modification& wheel,
                             const std::vector<MeshParameter>& parameters = {}) const;
+  /// Root stress is analysed where the task minimises or bounds it; this adds it where not, to be shown.
+  void add_root_stress(DesignAnalysis& analysis) const;
 
   /// Runs of analyse() that were computed, not remembered.
   int analyses() const { return analyses_; }
@@ -87,6 +89,7 @@ class DesignProblem {
   DesignAnalysis run(const Modification& pinion, const Modification& wheel, bool with_derivatives) const;
 
   DesignTask task_;
+  RootStresses root_stresses_;  ///< with every analysis where the task asks for them
     std::vector<std::shared_ptr<const MeshModel>> models_;  ///< per scene; copies of the problem share them
   std::vector<MeshParameter> parameters_;  ///< variables, then ties
   Eigen::VectorXd start_;  ///< empty: the task's own

@@ -180,6 +180,25 @@ TEST_CASE("Where a solver stalls on a kink the finisher goes on from its best de
   CHECK_THROWS_AS(finished("ipopt", "slsqp"), InvalidInput);
 }
 
+TEST_CASE("Root stress is shown of an optimum that was sought without it, and is a goal of its own", "[optimize][design]") {
+  DesignProblem problem(helical());
+  const DesignResult result = optimise_design(problem, SolverOptions{});
+  const Goal root{{term(Output::PeakRootStress)}, Aggregate::Worst};
+  double worst = 0.0;
+  for (const DesignReport* report : {&result.before, &result.after}) {
+    worst = 0.0;
+    for (int s = 0; s < problem.scenes(); ++s) {
+      worst = std::max(worst, summarise(problem.model(s), report->analysis.cycles[static_cast<std::size_t>(s)]).peak_root_stress);
+    }
+    CHECK(worst > 0.0);
+  }
+  // Of an analysis that was made without it, and of one made for it.
+  const Eigen::VectorXd x = problem.scaled_design(result.after.variables);
+  CHECK(problem.value(root, problem.analyse(x, false)) == Approx(worst).epsilon(1e-12));  // round-off
+  DesignProblem for_root = problem.judged_by(root, {});
+  CHECK(for_root.objective(for_root.analyse(x, false)) == problem.value(root, problem.analyse(x, false)));
+}
+
 TEST_CASE("A budget is kept, and the best design met so far comes back", "[optimize][design]") {
   const std::string solver = GENERATE("ipopt", "nlopt:slsqp", "nlopt:crs2_lm", "nlopt:sbplx");
   for (int budget : {1, 2, 4}) {
