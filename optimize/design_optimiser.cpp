@@ -10,7 +10,7 @@ namespace flankwright {
 namespace {
 
 /// Steps of one unit and of pairs around an optimum end before this many analyses where there are up to ten variables.
-constexpr int most_rounding_analyses = 400;
+constexpr int most_rounding_analyses = 1000;
 
 void append(std::vector<SolverStep>& history, const std::vector<SolverStep>& more) {
   const int offset = history.empty() ? 0 : history.back().evaluation;
