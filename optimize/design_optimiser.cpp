@@ -10,7 +10,7 @@ namespace flankwright {
 namespace {
 
 /// Steps of one unit and of pairs around an optimum end before this many analyses where there are up to ten variables.
-constexpr int most_rounding_analyses = 400;
+constexpr int most_rounding_analyses = 1000;
 
 void append(std::vector<SolverStep>& history, const std::vector<SolverStep>& more) {
   const int offset = history.empty() ? 0 : history.back().evaluation;
@@ -27,6 +27,7 @@ class DesignRun {
 
   DesignResult finish() {
     result_.solver = options_.solver.name;
+    result_.finisher = options_.solver.finisher;
     result_.before = report_design(problem_, problem_.analyse_given());
     result_.evaluations = result_.failures = 0;
     first_objective();
@@ -55,6 +56,7 @@ class DesignRun {
   void take(const LocalRun& run) {
     result_.status = run.status;
     result_.message = run.message;
+    result_.finished_by = run.finished_by;
     append(result_.history, run.history);
     x_ = run.x;
   }
@@ -148,6 +150,7 @@ DesignReport report_design(const DesignProblem& problem, DesignAnalysis analysis
   }
   for (const Goal& goal : task.then) report.later_objectives.push_back(problem.value(goal, analysis));
   report.objective = problem.objective(analysis);
+  problem.add_root_stress(analysis);
   report.analysis = std::move(analysis);
   return report;
 }

@@ -35,7 +35,8 @@ struct LexicographicStage {
 struct DesignResult {
   SolverStatus status{SolverStatus::NotRun};
   std::string message{"optimise_design() was not called"};
-  std::string solver;
+  std::string solver, finisher;  ///< as asked for
+  std::string finished_by;       ///< LocalRun::finished_by of the run that `status` is of
   std::string formulation;       ///< "epigraph" (smooth, exact gradients) or "direct" (values of the true peaks)
   DesignReport before;           ///< the task's own modifications as given
   DesignReport after;            ///< what is to be ground: the best design met, on the variables' steps where they have any

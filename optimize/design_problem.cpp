@@ -41,10 +41,17 @@ void check_harmonics(const DesignTask& task) {
   for (const ObjectiveTerm& term : terms_of(task)) check(term);
 }
 
-void check_root_stress(const DesignTask& task) {
+bool asks_for_root_stress(const DesignTask& task) {
   const std::vector<ObjectiveTerm> terms = terms_of(task);
-  const bool wanted = std::any_of(terms.begin(), terms.end(), [](const ObjectiveTerm& t) { return t.output == Output::PeakRootStress; });
-  if (wanted && !task.root_stress) {
+  return std::any_of(terms.begin(), terms.end(), [](const ObjectiveTerm& t) { return t.output == Output::PeakRootStress; });
+}
+
+RootStresses root_stresses_for(const DesignTask& task) {
+  return asks_for_root_stress(task) ? RootStresses::WithLoads : RootStresses::Later;
+}
+
+void check_root_stress(const DesignTask& task) {
+  if (asks_for_root_stress(task) && !task.root_stress) {
     throw InvalidInput("peak_root_stress", "no model of root stress", "the effect root_stress");
   }
 }
@@ -58,7 +65,7 @@ void check(const DesignTask& task) {
 
 }  // namespace
 
-DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)) {
+DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_stresses_(root_stresses_for(task_)) {
   check(task_);
   if (task_.scenes.empty()) throw InvalidInput("scenes", "none", "at least one scene");
   if (task_.variables.empty()) throw InvalidInput("optimise.variables", "none", "at least one variable");
@@ -96,6 +103,8 @@ DesignProblem DesignProblem::judged_by(const Goal& goal, std::vector<GoalBound> 
   other.task_.trade = std::move(trade);
   other.task_.then.clear();
   check(other.task_);
+  other.root_stresses_ = root_stresses_for(other.task_);
+  if (other.root_stresses_ != root_stresses_) other.last_x_.resize(0);
   other.analyses_ = 0;
   return other;
 }
@@ -106,14 +115,22 @@ Eigen::VectorXd DesignProblem::start() const {
   for (int i = 0; i < variables(); ++i) {
     const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
     const Modification& given = v.member == Member::Pinion ? task_.pinion_modification : task_.wheel_modification;
-    x[i] = std::clamp((get(given, v.parameter) - v.lower) / (v.upper - v.lower), 0.0, 1.0);
+    x[i] = std::clamp(v.scaled(get(given, v.parameter)), 0.0, 1.0);
+  }
+  return x;
+}
+
+Eigen::VectorXd DesignProblem::scaled_design(const std::vector<double>& values) const {
+  Eigen::VectorXd x(variables());
+  for (int i = 0; i < variables(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    x[i] = task_.variables[at].scaled(values[at]);
   }
   return x;
 }
 
 double DesignProblem::unscaled(const Eigen::VectorXd& x, int i) const {
-  const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
-  return v.lower + x[i] * (v.upper - v.lower);
+  return task_.variables[static_cast<std::size_t>(i)].unscaled(x[i]);
 }
 
 void DesignProblem::apply(const Eigen::VectorXd& x, Modification& pinion, Modification& wheel) const {
@@ -135,9 +152,17 @@ LoadedCycle DesignProblem::analyse_scene(int scene, const Modification& pinion, 
   FlankCondition condition = of_task.condition;
   condition.pinion_modification = pinion;
   condition.wheel_modification = wheel;
-  if (moving_among(task_.gap, parameters).empty()) return analyse_cycle(model(scene), condition, of_task.torque, parameters);
+  const auto analyse = [&](const MeshModel& mesh_model) {
+    return analyse_cycle(mesh_model, condition, of_task.torque, parameters, {}, root_stresses_);
+  };
+  if (moving_among(task_.gap, parameters).empty()) return analyse(model(scene));
   const MeshPlaced placed = [this](const MeshPlacement& placement) { return mesh(placement); };
-  return analyse_cycle(with_further_meshes(model(scene), placed, parameters), condition, of_task.torque, parameters);
+  return analyse(with_further_meshes(model(scene), placed, parameters));
+}
+
+void DesignProblem::add_root_stress(DesignAnalysis& analysis) const {
+  if (root_stresses_ == RootStresses::WithLoads) return;
+  for (int s = 0; s < scenes(); ++s) flankwright::add_root_stress(model(s), analysis.cycles[static_cast<std::size_t>(s)]);
 }
 
 DesignAnalysis DesignProblem::run(const Modification& pinion, const Modification& wheel, bool with_derivatives) const {

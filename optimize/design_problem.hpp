@@ -18,7 +18,7 @@ struct DesignAnalysis {
 /// A design task ready to be analysed: mesh models built once, scenes analysed in parallel. A copy shares the models and
 /// counts its own analyses, so that copies may be used in different threads.
 ///
-/// Designs are given scaled: x_i = (value - lower) / (upper - lower), 0 .. 1.
+/// Designs are given scaled: x_i = DesignVariable::scaled(), 0 .. 1.
 class DesignProblem {
  public:
   /// @throws InvalidInput where the task has no scene, variable or objective, a bound pair is empty, the
@@ -38,6 +38,9 @@ class DesignProblem {
   /// where it lies outside.
   Eigen::VectorXd start() const;
   void set_start(const Eigen::VectorXd& x) { start_ = x; }
+  /// The scaled design of a value for each variable [mm; parabolic_te 1/rad], such as DesignReport::variables; outside 0 .. 1 where a value is out
+  /// of bounds.
+  Eigen::VectorXd scaled_design(const std::vector<double>& values) const;
   /// Value of variable i [mm; parabolic_te 1/rad].
   double unscaled(const Eigen::VectorXd& x, int i) const;
   /// Modifications of a scaled design.
@@ -54,6 +57,8 @@ class DesignProblem {
   /// not kept.
   LoadedCycle analyse_scene(int scene, const Modification& pinion, const Modification& wheel,
                             const std::vector<MeshParameter>& parameters = {}) const;
+  /// Root stress is analysed where the task minimises or bounds it; this adds it where not, to be shown.
+  void add_root_stress(DesignAnalysis& analysis) const;
 
   /// Runs of analyse() that were computed, not remembered.
   int analyses() const { return analyses_; }
@@ -84,6 +89,7 @@ class DesignProblem {
   DesignAnalysis run(const Modification& pinion, const Modification& wheel, bool with_derivatives) const;
 
   DesignTask task_;
+  RootStresses root_stresses_;  ///< with every analysis where the task asks for them
     std::vector<std::shared_ptr<const MeshModel>> models_;  ///< per scene; copies of the problem share them
   std::vector<MeshParameter> parameters_;  ///< variables, then ties
   Eigen::VectorXd start_;  ///< empty: the task's own

@@ -50,6 +50,9 @@ struct DesignVariable {
   double lower{0.0}, upper{0.0};  ///< [mm; parabolic_te 1/rad], lower < upper
   double step{0.0};  ///< what the grinder can set is a multiple of this, unit as the bounds; 0: anything
 
+  /// Place of a value in the range: 0 at the lower bound, 1 at the upper [-].
+  double scaled(double value) const { return (value - lower) / (upper - lower); }
+  double unscaled(double x) const { return lower + x * (upper - lower); }
   /// Factor from the inside unit to that of reports: um, but mm for the extent of a relief, arcsec/deg^2 for parabolic_te.
   double outside_factor() const;
   const char* unit() const;

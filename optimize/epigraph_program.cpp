@@ -21,7 +21,7 @@ CandidateChoice choice_for(Output output) {
   return output == Output::TePeakToPeak ? CandidateChoice{0.15, 60} : CandidateChoice{0.5, 400};
 }
 
-constexpr double auxiliary_limit = 100.0;  // u <= 100 peaks of the start: no active bound at any sensible design
+constexpr double auxiliary_limit = 100.0;  // u <= 100 of what it is counted in: no active bound at any sensible design
 
 /// A harmonic's amplitude is a candidate of its own where it exceeds this share of its largest at the start: far from its kink.
 constexpr double away_from_zero = 0.01;
@@ -35,6 +35,21 @@ double largest_peak(const DesignProblem& problem, const DesignAnalysis& analysis
   return largest > 0.0 ? largest : 1.0 / term.outside_factor();
 }
 
+/// What the outputs of a goal are counted in [inside units]: their peaks at the start, but no less than a tenth of what the goal is there or
+/// is to range over [outside unit], which an output that is next to nothing at the start may rise to.
+std::vector<double> units_of(const DesignProblem& problem, const DesignAnalysis& analysis, const Goal& goal, double range) {
+  constexpr double least_share = 0.1;
+  std::vector<double> units, outside;
+  double total = 0.0;
+  for (const ObjectiveTerm& term : goal.terms) {
+    units.push_back(largest_peak(problem, analysis, goal, term));
+    outside.push_back(term.weight * term.outside_factor());
+    total += outside.back() * units.back();
+  }
+  for (std::size_t k = 0; k < units.size(); ++k) units[k] = std::max(units[k], least_share * std::max(total, range) / outside[k]);
+  return units;
+}
+
 }  // namespace
 
 EpigraphProgram::EpigraphProgram(DesignProblem& problem, DesignLog& log) : problem_(problem), log_(log) {
@@ -43,15 +58,13 @@ EpigraphProgram::EpigraphProgram(DesignProblem& problem, DesignLog& log) : probl
   log.record(problem, x, analysis);
   const DesignTask& task = problem.task();
   variables_ = problem.variables();
-  const auto add_block = [&](const Goal& goal) {
-    std::vector<double> peaks;
-    for (const ObjectiveTerm& term : goal.terms) peaks.push_back(largest_peak(problem, analysis, goal, term));
-    blocks_.emplace_back(goal, problem.scene_weights(), peaks, variables_);
+  const auto add_block = [&](const Goal& goal, double range) {
+    blocks_.emplace_back(goal, problem.scene_weights(), units_of(problem, analysis, goal, range), variables_);
     variables_ += blocks_.back().variables();
   };
-  for (const TradedGoal& traded : task.trade) add_block(traded.goal);
-  if (!trades()) add_block(task.goal());
-  for (const GoalBound& bound : task.goal_bounds) add_block(bound.goal);
+  for (const TradedGoal& traded : task.trade) add_block(traded.goal, traded.range);
+  if (!trades()) add_block(task.goal(), 0.0);
+  for (const GoalBound& bound : task.goal_bounds) add_block(bound.goal, bound.limit);
   if (trades()) {
     ++variables_;  // tau, the last
   } else {
@@ -73,7 +86,7 @@ Eigen::VectorXd EpigraphProgram::lower() const {
 }
 
 Eigen::VectorXd EpigraphProgram::upper() const {
-  Eigen::VectorXd bound = Eigen::VectorXd::Constant(variables(), auxiliary_limit);
+  Eigen::VectorXd bound = (2.0 * start_).cwiseMax(auxiliary_limit);  // a restart may stand beyond it
   bound.head(problem_.variables()).setOnes();
   return bound;
 }

@@ -8,7 +8,7 @@
 
 namespace flankwright {
 
-/// One goal as a smooth function of upper bounds u_sk on its outputs k in the scenes s, counted in their peaks at the start. With
+/// One goal as a smooth function of upper bounds u_sk on its outputs k in the scenes s, counted in sizes of theirs, the peaks. With
 /// m_s = sum_k w_k u_sk and the shares p_s of the scenes,
 ///
 ///     nominal          m_0

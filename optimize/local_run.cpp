@@ -20,9 +20,6 @@ constexpr double round_tolerance = 1e-6;  // see run_local()
 constexpr int stall_analyses = 80;
 constexpr double stall_gain = 1e-5;
 
-/// What goes on from the best design where Ipopt stalls: an active-set method, which steps onto the kink.
-constexpr const char* finisher = "nlopt:slsqp";
-
 /// Says so, judged by the true objective.
 std::function<std::string()> when_stalled(const DesignLog& log) {
   return [&log, at = std::size_t{0}, best = not_given]() mutable -> std::string {
@@ -53,13 +50,14 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
   EpigraphProgram program(problem, log);
   double last = std::numeric_limits<double>::infinity();
   std::string solver = options.name;
+  const bool has_finisher = options.finisher != "none" && options.finisher != options.name;
   for (run.rounds = 1; run.rounds <= most_rounds; ++run.rounds) {
     SolverOptions round = remaining(options, problem.analyses() - analyses_before, clock.seconds());
     round.name = solver;
     round.stop_when = when_stalled(log);
     const SolverResult solved = solve(program, round);
     run.status = solved.status;
-    run.message = solver == options.name ? solved.message : solved.message + " (after Ipopt stalled on a kink: " + solver + ")";
+    run.message = run.finished_by.empty() ? solved.message : solved.message + " (after " + options.name + " stalled on a kink: " + solver + ")";
     run.failures += solved.failures;
     if (solved.x.size() == 0 || solved.status == SolverStatus::EvaluationLimit || solved.status == SolverStatus::TimeLimit) break;
     const Eigen::VectorXd x = program.design(solved.x);
@@ -75,8 +73,11 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
     const bool settled = !program.is_majorant() || gain <= round_tolerance;
     last = log.best()->objective;
     const bool is_done = ((program.add_candidates(x) == 0 || holds) && settled) || (stalled && gain <= stall_gain);
-    if (is_done && !(stalled && solver == "ipopt")) break;
-    if (is_done) solver = finisher;
+    if (stalled && has_finisher && run.finished_by.empty()) {
+      run.finished_by = solver = options.finisher;
+    } else if (is_done) {
+      break;
+    }
     program.restart_from(log.best()->x);
   }
 }

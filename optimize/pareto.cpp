@@ -10,18 +10,19 @@ namespace flankwright {
 
 namespace {
 
-/// How far a goal may rise above its least so that the others fall where it alone is best [-].
+/// How far a goal may rise above its least so that the others fall where it alone is best, see add_anchor() [-].
 constexpr double anchor_slack = 1e-3;
 
 class FrontTracing {
  public:
-  FrontTracing(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const SolverOptions& options)
-      : problem_(problem), points_(points), options_(options) {
+  FrontTracing(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const DesignOptions& options)
+      : problem_(problem), points_(points), options_(options.solver), starts_(options.starts) {
     front_.goals = goals;
   }
 
   ParetoFront trace() {
-    for (std::size_t g = 0; g < front_.goals.size() && !is_spent(); ++g) add_anchor(g);
+    const std::vector<ParetoPoint> bests = best_of_each_goal();
+    for (std::size_t g = 0; g < bests.size() && !is_spent(); ++g) add_anchor(g, bests);
     if (front_.points.size() == front_.goals.size()) {
       choose_ranges();
       if (front_.goals.size() == 2) {
@@ -57,10 +58,14 @@ class FrontTracing {
     return spent;
   }
 
-  LocalRun search(DesignProblem& problem) {
-    LocalRun run = run_local(problem, left());
+  void count(const LocalRun& run) {
     front_.evaluations += run.evaluations;
     front_.failures += run.failures;
+  }
+
+  LocalRun search(DesignProblem& problem) {
+    LocalRun run = run_local(problem, left());
+    count(run);
     return run;
   }
 
@@ -72,21 +77,49 @@ class FrontTracing {
     return point;
   }
 
-  /// Best of one goal; then the others, as a trade in units of their values there, while it stays within anchor_slack.
-  void add_anchor(std::size_t g) {
-    const auto& bounds = problem_.task().goal_bounds;
-    DesignProblem alone = problem_.judged_by(front_.goals[g], bounds);
-    LocalRun best = search(alone);
-    ParetoPoint anchor = point(best);
-    std::vector<GoalBound> held = bounds;
-    held.push_back({front_.goals[g], (1.0 + anchor_slack) * anchor.values[g]});
+  DesignProblem alone(std::size_t g) const { return problem_.judged_by(front_.goals[g], problem_.task().goal_bounds); }
+
+  /// The best design of each goal, from all starts and from the best of every other goal: a local optimum where another goal's best lies
+  /// lower would be an end that the front never reaches. Empty where the budget is spent before each has one.
+  std::vector<ParetoPoint> best_of_each_goal() {
+    const std::size_t goals = front_.goals.size();
+    std::vector<LocalRun> bests;
+    for (std::size_t g = 0; g < goals; ++g) {
+      if (is_spent()) return {};
+      const std::vector<LocalRun> runs = run_from_starts(alone(g), left(), starts_);
+      for (const LocalRun& run : runs) count(run);
+      bests.push_back(runs[best_run(runs)]);
+    }
+    for (std::size_t g = 0; g < goals; ++g) {
+      for (std::size_t k = 0; k < goals; ++k) {
+        if (k == g || is_out_of_budget()) continue;
+        DesignProblem problem = alone(g);
+        problem.set_start(bests[k].x);
+        const LocalRun run = search(problem);
+        if (best_run({bests[g], run}) == 1) bests[g] = run;
+      }
+    }
+    std::vector<ParetoPoint> points;
+    for (const LocalRun& best : bests) points.push_back(point(best));
+    return points;
+  }
+
+  /// The best of goal g; then the others, as a trade in units of their largest among the bests, while g stays within anchor_slack of its
+  /// least, or of its own largest among them where its least is (nearly) 0.
+  void add_anchor(std::size_t g, const std::vector<ParetoPoint>& bests) {
+    const auto largest = [&](std::size_t k) {
+      return std::ranges::max(bests, {}, [k](const ParetoPoint& best) { return best.values[k]; }).values[k];
+    };
+    ParetoPoint anchor = bests[g];
+    std::vector<GoalBound> held = problem_.task().goal_bounds;
+    held.push_back({front_.goals[g], std::max((1.0 + anchor_slack) * anchor.values[g], anchor_slack * largest(g))});
     std::vector<TradedGoal> others;
     for (std::size_t k = 0; k < front_.goals.size(); ++k) {
-      if (k != g) others.push_back({front_.goals[k], 0.0, std::max(anchor.values[k], 1e-12)});
+      if (k != g && largest(k) > 0.0) others.push_back({front_.goals[k], 0.0, largest(k)});
     }
-    if (anchor.values[g] > 0.0 && !is_spent()) {
+    if (largest(g) > 0.0 && !others.empty() && !is_spent()) {
       DesignProblem rest = problem_.judged_by(front_.goals[g], held, others);
-      rest.set_start(best.x);
+      rest.set_start(anchor.x);
       const LocalRun run = search(rest);
       if (run.constraint_violation <= DesignLog::tolerance) anchor = point(run);
     }
@@ -210,6 +243,7 @@ class FrontTracing {
   const DesignProblem& problem_;
   const int points_;
   const SolverOptions& options_;
+  const int starts_;
   const Stopwatch clock_;
   ParetoFront front_;
 };
@@ -228,14 +262,15 @@ double ParetoFront::unevenness() const {
   return longest / shortest;
 }
 
-ParetoFront trace_front(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const SolverOptions& options) {
-  options.validate();
+ParetoFront trace_front(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const DesignOptions& options) {
+  options.solver.validate();
   if (goals.size() < 2 || goals.size() > 3) throw InvalidInput("optimise.pareto.objectives", std::to_string(goals.size()), "two or three");
   if (points < static_cast<int>(goals.size())) {
     throw InvalidInput("optimise.pareto.points", std::to_string(points), "at least one for each objective");
   }
-  if (!uses_gradients(options.name) || !accepts_constraints(options.name)) {
-    throw InvalidInput("optimise.solver", options.name, "a solver with gradients and constraints for a Pareto front, such as ipopt");
+  const std::string& solver = options.solver.name;
+  if (!uses_gradients(solver) || !accepts_constraints(solver)) {
+    throw InvalidInput("optimise.solver", solver, "a solver with gradients and constraints for a Pareto front, such as ipopt");
   }
   return FrontTracing(problem, goals, points, options).trace();
 }

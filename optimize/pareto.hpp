@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "optimize/local_run.hpp"
+#include "optimize/design_optimiser.hpp"
 
 namespace flankwright {
 
@@ -30,7 +30,8 @@ struct ParetoFront {
   double unevenness() const;
 };
 
-/// Traces a front: each goal alone first, every other held to the least that allows it; then compromises
+/// Traces a front: each goal alone first, from options.starts and from the others' best, every other held to the least that allows it; then
+/// compromises
 ///
 ///     minimise tau   subject to   (goal_i(x) - ideal_i) / range_i - a_i <= tau         [Pascoletti, Serafini, JOTA 42 (1984)]
 ///
@@ -41,6 +42,9 @@ struct ParetoFront {
 /// @param points   >= number of goals; of three goals the largest triangular number within it
 /// @param options  a solver that takes gradients and constraints; its budget is that of the whole front
 /// @throws InvalidInput for another number of goals, or a solver that cannot do it
-ParetoFront trace_front(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const SolverOptions& options);
+ParetoFront trace_front(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const DesignOptions& options);
+inline ParetoFront trace_front(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const SolverOptions& options) {
+  return trace_front(problem, goals, points, DesignOptions{options});
+}
 
 }  // namespace flankwright

@@ -95,7 +95,10 @@ bool is_pointwise(Output output) {
 Eigen::VectorXd point_values(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, int index) {
   const LoadedPosition& position = at(cycle, index);
   if (term.output == Output::PeakContactStress) return position.contact_stress;
-  if (term.output == Output::PeakRootStress) return position.root_stress;
+  if (term.output == Output::PeakRootStress) {
+    const bool is_there = position.root_stress.size() > 0;  // else of a goal that the analysis was not made for
+    return is_there ? position.root_stress : root_stresses(model.positions[static_cast<std::size_t>(index)], position.load);
+  }
   Eigen::VectorXd loads = position.load.line_load;
   if (term.output == Output::LoadFactor) loads /= model.mean_line_load(cycle.force);
   if (term.output == Output::EdgeLoad) {

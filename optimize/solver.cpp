@@ -50,6 +50,9 @@ std::string names_where(Condition condition) {
   return names;
 }
 
+/// An epigraph can be handed on to it.
+bool can_finish(const Traits& traits) { return traits.gradients && traits.constraints; }
+
 const Traits& traits_of(const std::string& name) {
   const auto* found = std::find_if(kSolvers.begin(), kSolvers.end(), [&](const Traits& t) { return t.name == name; });
   if (found == kSolvers.end()) {
@@ -110,6 +113,9 @@ std::string to_string(SolverStatus status) {
 
 void SolverOptions::validate() const {
   traits_of(name);
+  if (const auto names = finisher_names(); std::ranges::find(names, finisher) == names.end()) {
+    throw InvalidInput("optimise.finisher", finisher, "one of none, " + names_where(can_finish));
+  }
   const auto require = [](bool good, const char* field, double value, const char* allowed) {
     if (!good) throw InvalidInput(field, std::to_string(value), allowed);
   };
@@ -141,6 +147,14 @@ bool accepts_constraints(const std::string& solver_name) {
 std::vector<std::string> solver_names() {
   std::vector<std::string> names;
   for (const Traits& traits : kSolvers) names.emplace_back(traits.name);
+  return names;
+}
+
+std::vector<std::string> finisher_names() {
+  std::vector<std::string> names{"none"};
+  for (const Traits& traits : kSolvers) {
+    if (can_finish(traits)) names.emplace_back(traits.name);
+  }
   return names;
 }
 

@@ -25,6 +25,9 @@ struct SolverOptions {
   /// "ipopt", or "nlopt:NAME" with NAME one of slsqp, mma, ccsaq, lbfgs, cobyla, bobyqa, sbplx, neldermead, crs2_lm,
   /// isres, direct_l, esch, mlsl (see solver_names()).
   std::string name{"ipopt"};
+  /// Of a design run (run_local()), not of solve(): what goes on from the best design where `name` stalls on a kink, one of
+  /// finisher_names(). An active-set method steps onto the kink.
+  std::string finisher{"nlopt:slsqp"};
   /// Convergence tolerance [-], > 0. Ipopt: scaled first-order residual <= tolerance. NLopt: step of variable i <=
   /// tolerance * (upper_i - lower_i). esch, direct_l and mlsl have no convergence test: they end at a limit.
   double tolerance{1e-7};
@@ -86,5 +89,8 @@ bool accepts_constraints(const std::string& solver_name);
 
 /// All solver names that solve() takes.
 std::vector<std::string> solver_names();
+
+/// "none", and the solvers that use gradients and accept constraints.
+std::vector<std::string> finisher_names();
 
 }  // namespace flankwright

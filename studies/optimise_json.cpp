@@ -105,10 +105,13 @@ Json scaled_design_json(const Eigen::VectorXd& x, const DesignTask& task) {
   std::vector<double> values;
   for (std::size_t i = 0; i < task.variables.size(); ++i) {
     const DesignVariable& v = task.variables[i];
-    values.push_back(v.lower + x[static_cast<Eigen::Index>(i)] * (v.upper - v.lower));
+    values.push_back(v.unscaled(x[static_cast<Eigen::Index>(i)]));
   }
   return variables_json(values, task);
 }
+
+/// Null where the search needed no finisher.
+Json finished_by_json(const std::string& solver) { return solver.empty() ? Json() : Json(solver); }
 
 /// Every start and the different optima that they found.
 void add_starts(const DesignResult& design, const DesignTask& task, Json& json) {
@@ -119,6 +122,7 @@ void add_starts(const DesignResult& design, const DesignTask& task, Json& json) 
             {"constraint_violation", run.constraint_violation},
             {"status", to_string(run.status)},
             {"message", run.message},
+            {"finished_by", finished_by_json(run.finished_by)},
             {"evaluations", run.evaluations},
             {"failures", run.failures},
             {"seconds", run.seconds}};
@@ -172,6 +176,8 @@ Json optimise_json(const StudyResults& results) {
             {"objective_terms", terms},
             {"over", to_string(task.over)},
             {"solver", design.solver},
+            {"finisher", design.finisher},
+            {"finished_by", finished_by_json(design.finished_by)},
             {"formulation", design.formulation},
             {"status", to_string(design.status)},
             {"message", design.message},

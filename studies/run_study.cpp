@@ -262,6 +262,7 @@ class Run {
     results_.design_task = design_task();
     SolverOptions options;
     options.name = study.optimise.solver;
+    options.finisher = study.optimise.finisher;
     options.max_evaluations = study.optimise.max_evaluations;
     options.max_seconds = study.optimise.max_seconds;
     options.seed = study.optimise.seed;
@@ -270,9 +271,10 @@ class Run {
       report("optimising", analyses, 0, "best so far " + number(best, 5) + " " + unit);
     };
     DesignProblem problem(*results_.design_task);
-    results_.design = optimise_design(problem, DesignOptions{options, study.optimise.starts});
+    const DesignOptions choice{options, study.optimise.starts};
+    results_.design = optimise_design(problem, choice);
     if (!study.optimise.pareto_goals.empty()) {
-      results_.front = trace_front(problem, study.optimise.pareto_goals, study.optimise.pareto_points, options);
+      results_.front = trace_front(problem, study.optimise.pareto_goals, study.optimise.pareto_points, choice);
     }
     const DesignResult& design = *results_.design;
     results_.steps.push_back({"load_distribution", "all analyses of the optimisation", design.seconds});

@@ -181,11 +181,15 @@ void check_optimise(StudyReading& reading) {
   if (study.fidelity.compliance == ComplianceModel::Rigid) {
     refuse_key(reading, "fidelity.compliance", "task \"optimise\" needs a compliance: allowed is \"thin_slice\", \"fitted\" or \"fe\"");
   }
-  if (!study.optimise.pareto_goals.empty() && !(uses_gradients(study.optimise.solver) && accepts_constraints(study.optimise.solver))) {
+  const bool smooth = uses_gradients(study.optimise.solver) && accepts_constraints(study.optimise.solver);  // the epigraph is
+  if (!study.optimise.pareto_goals.empty() && !smooth) {
     refuse_key(reading, "optimise.solver", "a Pareto front needs gradients and constraints: allowed is \"ipopt\", \"nlopt:slsqp\", \"nlopt:mma\" or \"nlopt:ccsaq\"");
   }
   if (study.optimise.then.size() > 0 && !accepts_constraints(study.optimise.solver)) {
     refuse_key(reading, "optimise.solver", "a list of objectives bounds the earlier ones: allowed is a solver that takes constraints, such as \"ipopt\"");
+  }
+  if (reading.find("optimise.finisher") != nullptr && !smooth) {
+    refuse_key(reading, "optimise.finisher", "has a meaning with a solver of gradients and constraints only: \"ipopt\", \"nlopt:slsqp\", \"nlopt:mma\" or \"nlopt:ccsaq\"");
   }
   const Match* over = reading.find("optimise.over");
   const bool free_sigmas = over != nullptr && over->node->is_string() && over->node->as_string()->get() == "mean+sigmas";

@@ -92,7 +92,7 @@ std::string pareto_csv(const ParetoFront& front, const DesignTask& task) {
     for (double value : point.values) csv += fmt::format("{},", value);
     for (std::size_t i = 0; i < task.variables.size(); ++i) {
       const DesignVariable& v = task.variables[i];
-      csv += fmt::format("{},", (v.lower + point.x[static_cast<Eigen::Index>(i)] * (v.upper - v.lower)) * v.outside_factor());
+      csv += fmt::format("{},", v.unscaled(point.x[static_cast<Eigen::Index>(i)]) * v.outside_factor());
     }
     csv += fmt::format("{},{}\n", to_string(point.status), point.dominated ? "yes" : "no");
   }

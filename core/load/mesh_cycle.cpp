@@ -54,14 +54,6 @@ void fill_stress(const MeshModel& model, const MeshPosition& at, LoadedPosition&
   }
 }
 
-/// Components are linear in the forces a w; principal stresses are their largest component.
-void fill_root_stress(const MeshPosition& at, LoadedPosition& position) {
-  const auto places = static_cast<Eigen::Index>(at.root_stress.places.size());
-  const Eigen::VectorXd components = at.root_stress.components * at.weight.cwiseProduct(position.load.line_load);
-  position.root_stress.resize(places);
-  for (Eigen::Index i = 0; i < places; ++i) position.root_stress[i] = largest_principal(components.segment<3>(3 * i)).value;
-}
-
 void raise(RootStressPeak& peak, const RootStressPeak& other) {
   const double tangent = std::fmax(peak.tangent_stress, other.tangent_stress);
   if (std::isgreater(other.stress, peak.stress) || std::isnan(peak.stress)) peak = other;  // quiet where stresses are not computed
@@ -117,7 +109,7 @@ Eigen::VectorXd LoadedCycle::transmission_error() const {
 }
 
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
-                          const std::vector<MeshParameter>& parameters, const LoadOptions& options) {
+                          const std::vector<MeshParameter>& parameters, const LoadOptions& options, RootStresses root_stresses) {
   LoadedCycle cycle;
   cycle.force = model.normal_force(pinion_torque);
   cycle.positions.resize(model.positions.size());
@@ -152,11 +144,27 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     fill_derivatives(problem, moved, std::move(slopes), position);
     fill_stress(model, at, position);
     if (!moved.empty()) add_moved_places(at, moved, position);
-    if (!at.root_stress.places.empty()) fill_root_stress(at, position);
     const double approach = position.load.transmission_error - position.gap.total.minCoeff();
     position.stiffness = cycle.force / model.face_width * cos_base_helix * cos_base_helix / (approach / micrometre);
   }
+  if (root_stresses == RootStresses::WithLoads) add_root_stress(model, cycle);
   return cycle;
+}
+
+Eigen::VectorXd root_stresses(const MeshPosition& at, const LoadDistribution& load) {
+  // Components are linear in the forces a w; principal stresses are their largest component.
+  const Eigen::VectorXd components = at.root_stress.components * at.weight.cwiseProduct(load.line_load);
+  Eigen::VectorXd stresses(static_cast<Eigen::Index>(at.root_stress.places.size()));
+  for (Eigen::Index i = 0; i < stresses.size(); ++i) stresses[i] = largest_principal(components.segment<3>(3 * i)).value;
+  return stresses;
+}
+
+void add_root_stress(const MeshModel& model, LoadedCycle& cycle) {
+  for (std::size_t i = 0; i < model.positions.size(); ++i) {
+    const MeshPosition& at = model.positions[i];
+    LoadedPosition& position = cycle.positions[i];
+    if (!at.root_stress.places.empty() && position.load.usable()) position.root_stress = root_stresses(at, position.load);
+  }
 }
 
 Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPosition& position, Eigen::Index place) {

@@ -17,7 +17,7 @@ struct LoadedPosition {
   LoadDistribution load;
   Gap gap;                           ///< before load
   Eigen::VectorXd contact_stress;    ///< sigma_H per point [MPa]
-  /// Largest principal stress at every place of MeshPosition::root_stress [MPa]; empty without.
+  /// Largest principal stress at every place of MeshPosition::root_stress [MPa]; empty without, or where it was left for later.
   Eigen::VectorXd root_stress;
   double stiffness{not_given};       ///< secant, transverse, per mm of face width [N/(mm um)]; see analyse_cycle()
   // Derivatives with respect to the parameters asked for, column per parameter; those of root_stress: see root_stress_derivative().
@@ -43,6 +43,9 @@ struct LoadedCycle {
   bool usable() const { return failures == 0; }
 };
 
+/// Root stress follows from the loads, for more than half of what they cost: with them, or by add_root_stress() where it is read.
+enum class RootStresses { WithLoads, Later };
+
 /// Solves the load distribution at every position, each warm-started from the one before, and its exact derivatives.
 ///
 /// Mesh stiffness is Haddad's eq. 2.16b, (F/b) cos^2(beta_b) / f_t, with f_t counted from first touch, f_t - min(g), so that a
@@ -54,7 +57,13 @@ struct LoadedCycle {
 ///                       moves the mesh follow them, see MeshSlopes
 /// @throws InvalidInput  where a parameter moves the mesh and the model knows no further meshes along it
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
-                          const std::vector<MeshParameter>& parameters = {}, const LoadOptions& options = {});
+                          const std::vector<MeshParameter>& parameters = {}, const LoadOptions& options = {},
+                          RootStresses root_stresses = RootStresses::WithLoads);
+
+/// The largest principal stress at every place of MeshPosition::root_stress [MPa].
+Eigen::VectorXd root_stresses(const MeshPosition& at, const LoadDistribution& load);
+/// Completes a cycle whose root stress was left for later.
+void add_root_stress(const MeshModel& model, LoadedCycle& cycle);
 
 /// d(root_stress[place])/dp of one position, 1 x m. Worked out when asked for: places are many, those that matter few.
 Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPosition& position, Eigen::Index place);

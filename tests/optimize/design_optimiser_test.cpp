@@ -122,8 +122,8 @@ TEST_CASE("Every way of combining the scenes finds a design that is better in it
   for (const DesignScene& scene : task.scenes) weights.push_back(scene.weight);
   CHECK(aggregate(over, result.after.scene_measures, weights) == result.after.objective);
 
-  // Independent route: no better design on a coarse grid of the bounds. Discretisation: the optimum is flat. Mean + 2 sigma is not
-  // monotone, so that peaks make it kinked inwards too: its optimum is a local one.
+  // Independent route: no better design on a coarse grid of the bounds. Discretisation: the optimum is flat. Mean + 2 sigma falls with
+  // the peaks of good scenes, so that these kink it inwards: its optimum is a local one.
   const double local = over == Aggregate::MeanPlusSigmas ? 3e-3 : 1e-3;
   DesignProblem problem(task);
   double least = INFINITY;
@@ -135,6 +135,68 @@ TEST_CASE("Every way of combining the scenes finds a design that is better in it
     }
   }
   CHECK(result.after.objective <= least * (1.0 + local));
+}
+
+TEST_CASE("Mean + k sigma has several optima, of which several starts find the one of a global search", "[optimize][design][starts]") {
+  DesignTask task = helical();
+  task.over = Aggregate::MeanPlusSigmas;
+  DesignProblem problem(task);
+  DesignOptions options;
+  options.starts = 8;
+  const DesignResult result = optimise_design(problem, options);
+  REQUIRE(result.is_multimodal());  // 385.52 and 386.19 MPa
+  CHECK(result.optima.front().found_by < 8);
+  CHECK(result.optimality.satisfied());
+  const DesignResult global = optimise(task, "nlopt:crs2_lm", 8000);
+  REQUIRE(global.status == SolverStatus::Converged);
+  constexpr double tolerance = 1e-6;  // the solvers'
+  CHECK(result.after.objective == Approx(global.after.objective).epsilon(tolerance));
+}
+
+TEST_CASE("Where a solver stalls on a kink the finisher goes on from its best design, unless none is asked for", "[optimize][design][finisher]") {
+  DesignTask task = spur({10.0, -10.0});
+  task.variables.push_back({"pinion.modification.profile_crowning", Member::Pinion, ModificationParameter::ProfileCrowning, 0.0, 0.040});
+  task.objective = {term(Output::TePeakToPeak)};
+  const auto finished = [&](const std::string& solver, const std::string& finisher) {
+    DesignProblem problem(task);
+    SolverOptions options;
+    options.name = solver;
+    options.finisher = finisher;
+    options.max_evaluations = 400;
+    return optimise_design(problem, options);
+  };
+  const DesignResult alone = finished("ipopt", "none"), handed_on = finished("ipopt", "nlopt:slsqp");
+  CHECK(alone.status == SolverStatus::Stalled);
+  CHECK(alone.finished_by.empty());
+  CHECK(handed_on.status == SolverStatus::Converged);
+  CHECK(handed_on.finished_by == "nlopt:slsqp");
+  CHECK(handed_on.runs.front().finished_by == "nlopt:slsqp");
+  CHECK_THAT(handed_on.message, Catch::Contains("nlopt:slsqp"));
+  CHECK(handed_on.optimality.satisfied());
+  CHECK(handed_on.after.objective <= alone.after.objective);
+  CHECK(finished("nlopt:slsqp", "nlopt:slsqp").finished_by.empty());
+  CHECK(finished("nlopt:cobyla", "nlopt:slsqp").finished_by.empty());  // values of the true peaks, no epigraph to hand on
+  CHECK_THROWS_AS(finished("ipopt", "nlopt:cobyla"), InvalidInput);
+  CHECK_THROWS_AS(finished("ipopt", "slsqp"), InvalidInput);
+}
+
+TEST_CASE("Root stress is shown of an optimum that was sought without it, and is a goal of its own", "[optimize][design]") {
+  DesignProblem problem(helical());
+  const DesignResult result = optimise_design(problem, SolverOptions{});
+  const Goal root{{term(Output::PeakRootStress)}, Aggregate::Worst};
+  double worst = 0.0;
+  for (const DesignReport* report : {&result.before, &result.after}) {
+    worst = 0.0;
+    for (int s = 0; s < problem.scenes(); ++s) {
+      worst = std::max(worst, summarise(problem.model(s), report->analysis.cycles[static_cast<std::size_t>(s)]).peak_root_stress);
+    }
+    CHECK(worst > 0.0);
+  }
+  // Of an analysis that was made without it, and of one made for it.
+  const Eigen::VectorXd x = problem.scaled_design(result.after.variables);
+  CHECK(problem.value(root, problem.analyse(x, false)) == Approx(worst).epsilon(1e-12));  // round-off
+  DesignProblem for_root = problem.judged_by(root, {});
+  CHECK(for_root.objective(for_root.analyse(x, false)) == problem.value(root, problem.analyse(x, false)));
 }
 
 TEST_CASE("A budget is kept, and the best design met so far comes back", "[optimize][design]") {

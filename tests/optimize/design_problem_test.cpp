@@ -58,6 +58,7 @@ TEST_CASE("A scaled design sets what is varied and nothing else", "[optimize][de
   CHECK(wheel.lead_crowning == 0.003);
   CHECK(wheel.tip_relief.shape == ReliefShape::Parabolic);
   CHECK(problem.unscaled(Eigen::Vector3d(0.5, 0.25, 1.0), 1) == Approx(-0.010).epsilon(round_off));
+  CHECK(problem.scaled_design({0.020, -0.010, 0.030}).isApprox(Eigen::Vector3d(0.5, 0.25, 1.0), round_off));
   const Eigen::VectorXd scaled = problem.scaled(Eigen::Vector3d(1.0, 2.0, -3.0));
   CHECK(scaled.isApprox(Eigen::Vector3d(0.040, 0.080, -0.090), round_off));
 }

@@ -31,6 +31,7 @@ TEST_CASE("Starts fill the space evenly, and the seed decides where", "[optimize
 TEST_CASE("Several starts give the same bits on one thread and on two, and no worse a design than one", "[optimize][design][starts][determinism]") {
   DesignOptions options;
   options.starts = 3;
+  options.solver.name = GENERATE("ipopt", "nlopt:slsqp");
   const auto run = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
     DesignProblem problem(spur({10.0, -10.0}));

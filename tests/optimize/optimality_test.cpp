@@ -80,11 +80,7 @@ TEST_CASE("Where the conditions hold no direction descends, and on kinks they ho
     on_kinks += std::ranges::any_of(result.optimality.active, [](const ActiveBound& bound) { return bound.is_kink; }) ? 1 : 0;
     // Independent route: the objective itself along random directions. A multiplier of the wrong sign would let it fall by a jump of
     // the gradient, some 0.1, times the step; what the conditions leave and the curvature of f_t allow 1e-3.
-    Eigen::VectorXd x(problem.variables());
-    for (int i = 0; i < problem.variables(); ++i) {
-      const DesignVariable& v = task.variables[static_cast<std::size_t>(i)];
-      x[i] = (result.after.variables[static_cast<std::size_t>(i)] - v.lower) / (v.upper - v.lower);
-    }
+    const Eigen::VectorXd x = problem.scaled_design(result.after.variables);
     const auto value = [&](const Eigen::VectorXd& at) { return problem.objective(problem.analyse(at, false)) / result.before.objective; };
     const double least = value(x);
     std::mt19937 generator(3);

@@ -47,7 +47,7 @@ void check_nulls(const json& results) {
   const std::set<std::string> meant{"loaded[].summary.peak_root_stress_MPa",   "loaded[].summary.pinion_root_stress_MPa",
                                     "loaded[].summary.wheel_root_stress_MPa",  "loaded[].summary.pinion_root_stress",
                                     "loaded[].summary.wheel_root_stress",      "effects[].seconds", "effects[].estimate", "effects[].exact",
-                                    "used.fidelity.accuracy"};
+                                    "used.fidelity.accuracy", "optimise.finished_by", "optimise.starts[].finished_by"};
   const std::set<std::string> meant_sampled{"loaded[].summary.peaks", "loaded[].summary.load_factors"};
   // Edges have no ellipse, lines one without end; not every point of a flank meets the mate.
   const std::set<std::string> meant_unloaded{"pairs[].positions[].ellipse", "pairs[].positions[].ellipse.semi_major_mm",
@@ -136,7 +136,7 @@ TEST_CASE("Positions chosen automatically, and peaks sampled, are said in the re
 TEST_CASE("results.json of an optimisation has every key that it promises", "[studies][results]") {
   const json results = results_of(small::optimisation());
   check_keys(results, "optimise",
-             "solver status evaluations gradient_evaluations seconds before.variables before.objective "
+             "solver finisher finished_by status evaluations gradient_evaluations seconds before.variables before.objective "
              "before.constraints after.variables after.objective after.constraints scenes[].name scenes[].before "
              "scenes[].after history[].evaluation history[].objective history[].constraint_violation");
   check_nulls(results);

@@ -27,6 +27,10 @@ TEST_CASE("An optimisation that cannot be run is refused with what to do", "[stu
   using Row = std::tuple<std::string, std::string, std::string>;
   const auto [more, key, advice] = GENERATE(table<std::string, std::string, std::string>({
       Row{"solver = \"snopt\"\n", "optimise.solver", "ipopt"},
+      Row{"finisher = \"slsqp\"\n", "optimise.finisher", "\"nlopt:slsqp\""},
+      Row{"finisher = \"nlopt:cobyla\"\n", "optimise.finisher", "\"none\""},
+      Row{"solver = \"nlopt:crs2_lm\"\nfinisher = \"none\"\n[optimise.variables]\npinion.modification.twist = [0, 1]\n", "optimise.finisher",
+          "gradients and constraints only"},
       Row{"solver = \"nlopt:lbfgs\"\n[optimise.variables]\npinion.modification.twist = [0, 1]\n[optimise.constraints]\n"
           "load_factor = { max = 2 }\n",
           "optimise.solver", "no constraints"},
@@ -48,8 +52,8 @@ TEST_CASE("An optimisation that cannot be run is refused with what to do", "[stu
       Row{"[optimise.variables]\npinion.modification.tip_relief.height = [1, 3]\n",
           "optimise.variables.pinion.modification.tip_relief.height", "no effect"},
   }));
-  // These two are judged when the task is to optimise.
-  const bool is_about_task = key == "optimise.variables" || advice == "no constraints";
+  // These are judged when the task is to optimise.
+  const bool is_about_task = key == "optimise.variables" || advice == "no constraints" || advice == "gradients and constraints only";
   const StudyProblem problem = problem_of(
       optimise + more, is_about_task ? std::vector<Override>{{"task", "optimise"}} : std::vector<Override>{});
   CHECK(problem.key == key);

@@ -52,6 +52,17 @@ TEST_CASE("Root stress is the principal stress of what all forces do together", 
   CHECK(pinion > 0);
 }
 
+TEST_CASE("Root stress left for later is the same to the bit", "[core][load][root-stress]") {
+  const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
+  const MeshModel model = model_with_root_stress(gears, {{}, equally_spaced_phases(3)});
+  const double torque = mesh_cases::torque_for(gears, 100);
+  const LoadedCycle with_loads = analyse_cycle(model, {}, torque);
+  LoadedCycle later = analyse_cycle(model, {}, torque, {}, {}, RootStresses::Later);
+  for (const LoadedPosition& position : later.positions) CHECK(position.root_stress.size() == 0);
+  add_root_stress(model, later);
+  for (std::size_t k = 0; k < later.positions.size(); ++k) CHECK(later.positions[k].root_stress == with_loads.positions[k].root_stress);
+}
+
 TEST_CASE("Twice the torque is twice the root stress where nothing else is nonlinear", "[core][load][root-stress]") {
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
   const MeshModel model = model_with_root_stress(gears, {{}, equally_spaced_phases(4)},
