@@ -28,6 +28,14 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
                       name, gear->member == Member::Pinion ? "before" : "beyond"));
     }
   }
+  for (const Gear* gear : {&pair.pinion, &pair.wheel}) {
+    const Modification& given = gear->member == Member::Pinion ? study.pinion_modification : study.wheel_modification;
+    const bool no_addendum = gear->tip_radius <= gear->working_pitch_radius, no_dedendum = gear->active_root_radius >= gear->working_pitch_radius;
+    if ((no_addendum && given.addendum_crowning != 0.0) || (no_dedendum && given.dedendum_crowning != 0.0)) {
+      notes.push_back(fmt::format("the {}'s {} touches nothing, the path of contact lies on one side of the pitch point: it is not crowned", name_of(gear->member),
+                                  no_addendum ? "addendum" : "dedendum"));
+    }
+  }
   if (pair.transverse_contact_ratio < 1.0) {
     notes.push_back(fmt::format("the transverse contact ratio is {:.3g}: in each section no teeth touch for a while, the overlap ratio of {:.3g} alone carries the mesh on",
                                 pair.transverse_contact_ratio, pair.overlap_ratio));

@@ -6,6 +6,9 @@ namespace flankwright {
 
 namespace {
 
+/// Coefficient of the crowning of a part of the profile [1/mm]; of a part that is not there nothing is crowned.
+double crowning(double amount, double extent) { return extent > 0.0 ? amount / (extent * extent) : 0.0; }
+
 /// amount/extent^power, 0 for no amount, whose extent may be missing.
 double per_extent(double amount, double extent, int power) {
   if (amount == 0.0) return 0.0;
@@ -42,8 +45,8 @@ Modification unit_amount(const Modification& m, ModificationParameter parameter)
 
 DeviationFormula::DeviationFormula(const Modification& m, const ToothError& e, const FlankFrame& frame)
     : pitch_radius_(frame.pitch_radius),
-      above_(per_extent(m.addendum_crowning, frame.tip_radius - frame.pitch_radius, 2)),
-      below_(per_extent(m.dedendum_crowning, frame.pitch_radius - frame.active_root_radius, 2)),
+      above_(crowning(m.addendum_crowning, frame.tip_radius - frame.pitch_radius)),
+      below_(crowning(m.dedendum_crowning, frame.pitch_radius - frame.active_root_radius)),
       tip_(relief(m.tip_relief.amount, m.tip_relief.height, m.tip_relief.shape, frame.tip_radius - m.tip_relief.height)),
       root_(relief(m.root_relief.amount, m.root_relief.height, m.root_relief.shape,
                    frame.active_root_radius + m.root_relief.height)),

@@ -15,7 +15,8 @@ namespace flankwright {
 ///
 ///     lead:     C_beta (2z/b)^2 + C_Hbeta z/b
 ///     profile:  C_a ((r - r_w)/(r_a - r_w))^2 above, C_f ((r_w - r)/(r_w - r_Nf))^2 below the pitch circle r_w,
-///               C_Halpha (r - r_w)/(r_a - r_Nf)
+///               C_Halpha (r - r_w)/(r_a - r_Nf);    no crowning above where r_a <= r_w, none below where r_Nf >= r_w (all contact on one
+///               side of the pitch point)
 ///     reliefs:  C_tip  t or t^2,  t = (r - (r_a - h))/h where t > 0;    root likewise from r_Nf + h downwards;
 ///               C_end (|z| - (b/2 - l))/l where that is positive
 ///     twist:    S (r - r_w)/(r_a - r_Nf) z/b

@@ -95,6 +95,19 @@ TEST_CASE("Each amount is what is removed where it is specified", "[core][flank]
   CHECK(removed(P::Twist, tip, end) > 0.0);
 }
 
+TEST_CASE("A part of the profile that touches nothing is not crowned", "[core][flank]") {
+  // All contact beyond the pitch point: the active flank begins above the pitch circle. Its depth below would else be squared, whatever its sign.
+  FlankFrame recess = frame;
+  recess.active_root_radius = frame.pitch_radius + 0.1;
+  const Modification m = only(ModificationParameter::ProfileCrowning, 0.15);
+  CHECK(removal(m, recess, 47.0, 0.0) == 0.0);
+  CHECK(removal(m, recess, 54.0, 0.0) == Approx(0.15).epsilon(1e-14));
+  FlankFrame approach = frame;
+  approach.tip_radius = frame.pitch_radius - 0.1;
+  CHECK(removal(m, approach, 49.95, 0.0) == Approx(0.15 * 0.05 * 0.05 / 9.0).epsilon(1e-12));
+  CHECK(removal(m, approach, 50.5, 0.0) == 0.0);
+}
+
 TEST_CASE("A parabolic relief starts without a kink, a linear one with its full slope", "[core][flank]") {
   Modification m = only(ModificationParameter::TipReliefAmount, 0.02);
   const double start = frame.tip_radius - 1.6, step = 1e-4;
