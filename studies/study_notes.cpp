@@ -9,6 +9,27 @@
 
 namespace flankwright::studies {
 
+namespace {
+
+/// Crowning counts over the part of the profile that touches: says so where that is nothing, or little of the dedendum.
+void note_crowning(const Modification& given, const Gear& gear, std::vector<std::string>& notes) {
+  const char* name = name_of(gear.member);
+  const double addendum = gear.tip_radius - gear.working_pitch_radius, dedendum = gear.working_pitch_radius - gear.active_root_radius;
+  const bool no_addendum = addendum <= 0.0, no_dedendum = dedendum <= 0.0;
+  if ((no_addendum && given.addendum_crowning != 0.0) || (no_dedendum && given.dedendum_crowning != 0.0)) {
+    notes.push_back(fmt::format("the {}'s {} touches nothing, the path of contact lies on one side of the pitch point: it is not crowned", name,
+                                no_addendum ? "addendum" : "dedendum"));
+  }
+  const double extents = (gear.working_pitch_radius - gear.form_radius) / dedendum;
+  if (given.dedendum_crowning != 0.0 && !no_dedendum && extents > 2.0) {
+    const double amount = given.dedendum_crowning / units::um;
+    notes.push_back(fmt::format("the {}'s dedendum touches over a height of {:.3g} mm only, where it is crowned by {:.4g} um: at the form circle that is {:.4g} um", name,
+                                dedendum, amount, amount * extents * extents));
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
   std::vector<std::string> notes;
   if (study.fidelity.compliance == ComplianceModel::Rigid && has_torque(study) && study.task != Task::Fit) {
@@ -28,14 +49,8 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
                       name, gear->member == Member::Pinion ? "before" : "beyond"));
     }
   }
-  for (const Gear* gear : {&pair.pinion, &pair.wheel}) {
-    const Modification& given = gear->member == Member::Pinion ? study.pinion_modification : study.wheel_modification;
-    const bool no_addendum = gear->tip_radius <= gear->working_pitch_radius, no_dedendum = gear->active_root_radius >= gear->working_pitch_radius;
-    if ((no_addendum && given.addendum_crowning != 0.0) || (no_dedendum && given.dedendum_crowning != 0.0)) {
-      notes.push_back(fmt::format("the {}'s {} touches nothing, the path of contact lies on one side of the pitch point: it is not crowned", name_of(gear->member),
-                                  no_addendum ? "addendum" : "dedendum"));
-    }
-  }
+  note_crowning(study.pinion_modification, pair.pinion, notes);
+  note_crowning(study.wheel_modification, pair.wheel, notes);
   if (pair.transverse_contact_ratio < 1.0) {
     notes.push_back(fmt::format("the transverse contact ratio is {:.3g}: in each section no teeth touch for a while, the overlap ratio of {:.3g} alone carries the mesh on",
                                 pair.transverse_contact_ratio, pair.overlap_ratio));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numeric>
+#include <set>
 
 namespace flankwright::studies {
 
@@ -116,6 +117,11 @@ std::string nearest_key_hint(const KeyIndex& keys, const std::string& path) {
   }
   const std::string sibling = nearest_word(last, siblings);
   if (!sibling.empty()) return ", did you mean " + sibling + "?";
+  std::set<std::string> longer;  // of which the word is one end: module, normal_module
+  for (const std::string& name : siblings) {
+    if (name.starts_with(last + "_") || name.ends_with("_" + last)) longer.insert(name);
+  }
+  if (longer.size() == 1) return ", did you mean " + *longer.begin() + "?";
   std::string namesake;  // the one that lies least deep
   for (const auto& [name, key] : keys) {
     const bool is_namesake = name == last || name.ends_with("." + last);

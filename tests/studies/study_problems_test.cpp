@@ -127,6 +127,7 @@ TEST_CASE("A misspelt key names the key that was meant", "[studies][study-file]"
       Row{"[misalignment]\ncenter_distance = 0.1\n", "centre_distance"},
       Row{"[pinon]\nx = 1\n", "pinion"},
       Row{"[optimize]\nx = 1\n", "optimise"},
+      Row{"[misalignment]\nmesh = 3\n", "mesh_misalignment"},
       Row{"[fidelity]\npositions = 3\n", "cycle.positions"},
       Row{"[[scenes]]\nmisalignment.crosing = 3\n", "crossing"},
   }));
