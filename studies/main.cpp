@@ -61,7 +61,7 @@ int dispatch(int argc, char** argv) {
                "  flankwright run pump.toml --set load.torque=250 --set misalignment.crossing=\"3 arcmin\"\n"
                "  flankwright run pump.toml --set scenes.1.load.torque=300    the second scene's");
   run->add_option("study", options.study, "study file (TOML)")->required();
-  run->add_option("--out", options.folder, "folder for the results (default: results/ + the study's name)");
+  run->add_option("-o,--out", options.folder, "folder for the results (default: results/ + the study's name)");
   run->add_option("--threads", threads, "threads to use (default: all cores); results do not depend on it")->check(CLI::Range(1, 1024));
   run->add_option("--set", settings, "key.path=value: overrides the study file, may be repeated")->allow_extra_args(false);
   run->add_option("--shard", options.shard, "k/n: of a sweep the k-th of n parts of the samples alone; `merge` puts them together");
@@ -69,7 +69,7 @@ int dispatch(int argc, char** argv) {
   merge->footer("Example:\n"
                "  flankwright merge pump.toml                                 after flankwright run pump.toml --shard 1/3 ... 3/3");
   merge->add_option("study", options.study, "study file of the sweep")->required();
-  merge->add_option("--out", options.folder, "folder that the shards were given (default: results/ + the study's name)");
+  merge->add_option("-o,--out", options.folder, "folder that the shards were given (default: results/ + the study's name)");
   merge->add_option("--threads", threads, "threads to use")->check(CLI::Range(1, 1024));
   merge->add_option("--set", settings, "key.path=value, as for the shards")->allow_extra_args(false);
   CLI::App* check = app.add_subcommand("check", "read and validate a study; every problem with file:line:column");
@@ -106,7 +106,7 @@ int dispatch(int argc, char** argv) {
                "  flankwright import gearbox.rexs --stage 2 --out pump.toml   flank grids of the file go beside pump.toml\n"
                "  flankwright import gearbox.rexsj --helix-slope datum > pump.toml");
   import->add_option("file", from.file, "REXS file, XML or JSON")->required();
-  import->add_option("--out", from.study, "study file to write (default: stdout)");
+  import->add_option("-o,--out", from.study, "study file to write (default: stdout)");
   import->add_option("--stage", from.stage, "which stage, of several: its number, as they are listed without this option");
   import->add_option("--helix-slope", from.slope_end, "face end at which a positive helix_slope removes material")
       ->check(CLI::IsMember({"non-datum", "datum"}));
@@ -118,7 +118,7 @@ int dispatch(int argc, char** argv) {
                "  flankwright export results/pump --grid --grid-points 5x9 --grid-margin 0.05\n"
                "  flankwright export results/pump --vtk                       open results/pump/vtk/contact-1.pvd in ParaView");
   exporting->add_option("folder", to.results, "results folder")->required();
-  exporting->add_option("--out", to.folder, "folder for the files (default: the results folder)");
+  exporting->add_option("-o,--out", to.folder, "folder for the files (default: the results folder)");
   exporting->add_flag("--rexs", to.rexs, "stage.rexs: the pair with its flank modifications, REXS in XML");
   exporting->add_flag("--rexsj", to.rexsj, "stage.rexsj: the same in JSON");
   exporting->add_option("--rexs-version", to.rexs_version, "1.0 to 1.7 or 2.0 (default: 1.7)");

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <type_traits>
 
 #include "core/base/error.hpp"
@@ -20,7 +21,7 @@ namespace {
 
 constexpr int surface_step = 5;  ///< every fifth row and column of the 41 x 41 maps of results.json
 constexpr int surface_points = 9;
-constexpr double on_line_within = 1e-6;  ///< a tooth is drawn where a point of it has off_line() at most this [mm]
+constexpr double on_line_within = 1e-6;  ///< flanks are drawn where a point of some tooth has off_line() at most this [mm]
 
 /// A number of results.json; NaN for null, as where a mesh position did not converge.
 double number(const Json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
@@ -108,6 +109,7 @@ struct MeshFrame {
   double pitch_radius;                    ///< of the pinion, working [mm]
   double lead;                            ///< roll length of the pinion's contact line per mm of z, signed
   double path;                            ///< T1 T2 [mm]
+  double base_pitch;                      ///< transverse [mm]
   double centre_distance;                 ///< [mm]
   std::array<double, 2> base, root, tip;  ///< radii of pinion and wheel [mm]
   std::array<double, 2> half_face;        ///< [mm]
@@ -119,6 +121,7 @@ struct MeshFrame {
     pressure_angle = geometry.at("working_transverse_pressure_angle_deg").get<double>() * units::deg;
     pitch_radius = 0.5 * geometry.at("pinion").at("working_pitch_diameter_mm").get<double>();
     path = geometry.at("path_of_contact_mm").at("T1_T2");
+    base_pitch = geometry.at("transverse_base_pitch_mm");
     centre_distance = geometry.at("centre_distance_mm");
     mirror = used.at("working_flank") == "right" ? 1.0 : -1.0;
     const double hand = geometry.at("pinion").at("hand") == "right" ? 1.0 : -1.0;
@@ -185,21 +188,33 @@ const Json* removal_map(const Json& json, std::size_t gear, const std::string& d
   return nullptr;
 }
 
+/// Roll length of the pinion's contact line of tooth 0 at mid face [mm], by the point of all teeth that lies closest to the line of
+/// action; NaN where tip edges alone touch.
+double roll_at_mid(const MeshFrame& frame, const Json& position) {
+  double at_mid = std::numeric_limits<double>::quiet_NaN(), off = on_line_within;
+  for (const Json& tooth : position.at("teeth")) {
+    for (const Json& point : tooth.at("points")) {
+      if (frame.off_line(point) > off) continue;
+      off = frame.off_line(point);
+      at_mid = frame.roll(0, point.at("pinion_radius_mm")) - frame.lead * point.at("z_mm").get<double>() - tooth.at("tooth").get<int>() * frame.base_pitch;
+    }
+  }
+  return at_mid;
+}
+
 PolyData flanks(const MeshFrame& frame, const Json& position, std::size_t gear, const Json* removal) {
   PolyData data({"removal_um", "radius_mm"});
+  const double at_mid = roll_at_mid(frame, position);
+  if (std::isnan(at_mid)) return data;
   for (const Json& tooth : position.at("teeth")) {
     if (tooth.at("points").empty()) continue;
-    const Json& points = tooth.at("points");
-    const Json& on_line = *std::min_element(points.begin(), points.end(), [&](const Json& a, const Json& b) { return frame.off_line(a) < frame.off_line(b); });
-    if (frame.off_line(on_line) > on_line_within) continue;
-    const double at_mid = frame.roll(0, on_line.at("pinion_radius_mm")) - frame.lead * on_line.at("z_mm").get<double>();
     std::vector<int> before;
     for (int i = 0; i < surface_points; ++i) {
       std::vector<int> row;
       const double radius = std::lerp(frame.root[gear], frame.tip[gear], static_cast<double>(i) / (surface_points - 1));
       for (int j = 0; j < surface_points; ++j) {
         const double z = std::lerp(-frame.half_face[gear], frame.half_face[gear], static_cast<double>(j) / (surface_points - 1));
-        const double of_pinion = at_mid + frame.lead * z;
+        const double of_pinion = at_mid + tooth.at("tooth").get<int>() * frame.base_pitch + frame.lead * z;
         const auto [x, y] = frame.place(gear, frame.roll(gear, radius), gear == 0U ? of_pinion : frame.path - of_pinion);
         const double removed = removal == nullptr ? 0.0 : number(removal->at("removal_um").at(static_cast<std::size_t>(i * surface_step)).at(static_cast<std::size_t>(j * surface_step)));
         row.push_back(data.add_point(x, y, z, {removed, radius}));

@@ -150,6 +150,7 @@ TEST_CASE("The drawn flanks are the involutes through their contact lines", "[st
     std::size_t line = 0, compared = 0;
     for (std::size_t cell = 0; cell < lines.offsets.size(); ++cell) {
       const auto drawn = std::find(surface.teeth.begin(), surface.teeth.end(), lines.teeth[cell]);
+      CHECK(drawn != surface.teeth.end());  // also of teeth that touch by a tip edge only
       const auto tooth = static_cast<std::size_t>(drawn - surface.teeth.begin()) / 64;
       for (; line < static_cast<std::size_t>(lines.offsets[cell]); ++line) {
         const double x = lines.points[3 * line], y = lines.points[3 * line + 1];
