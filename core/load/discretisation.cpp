@@ -17,6 +17,8 @@ constexpr double safety = 1.5;
 constexpr double quadrature_share = 0.5;  ///< of the accuracy, for the intervals
 /// An estimate of more than this many times the difference that was measured is held against one more level.
 constexpr double most_over_measured = 3.0;
+/// No estimate is more than this many times the difference from both doubled: from a first order on, twice that difference is the error.
+constexpr double most_over_doubled = 5.0;
 
 PerFigure sum(const PerFigure& a, const PerFigure& b) {
   PerFigure both{};
@@ -59,6 +61,14 @@ std::size_t coarsest_within(std::vector<ResolutionLevel>& levels, double budget)
   for (ResolutionLevel& level : levels) level.error = sum(figure_errors(level.figures, levels.back().figures), levels.back().error);
   const auto enough = std::ranges::find_if(levels, [&](const ResolutionLevel& level) { return largest(level.error) <= budget; });
   return enough == levels.end() ? levels.size() - 1 : static_cast<std::size_t>(enough - levels.begin());
+}
+
+/// Of so many positions those between half as many.
+std::vector<double> every_other(int positions) {
+  const std::vector<double> phases = equally_spaced_phases(positions);
+  std::vector<double> odd;
+  for (std::size_t i = 1; i < phases.size(); i += 2) odd.push_back(phases[i]);
+  return odd;
 }
 
 /// A search under way; each step adds to what is chosen.
@@ -118,14 +128,7 @@ class DiscretisationRun {
     std::optional<SampledCycle> cycle;
     std::size_t taken = 0;
     for (int n = search_.fewest_positions; n <= 2 * search_.most_positions; n *= 2) {
-      std::vector<double> phases = equally_spaced_phases(n);
-      if (cycle) {
-        std::vector<double> odd;
-        for (std::size_t i = 1; i < phases.size(); i += 2) odd.push_back(phases[i]);
-        cycle = cycle->joined(solve(intervals, odd));
-      } else {
-        cycle = solve(intervals, phases);
-      }
+      cycle = cycle ? cycle->joined(solve(intervals, every_other(n))) : solve(intervals, equally_spaced_phases(n));
       if (chosen_.failures > 0) return;
       levels.push_back({intervals, n, cycle->figures()});
       levels.back().error = larger(error_of_last(levels), change(cycle->figures(), cycle->unseen()));
@@ -138,21 +141,26 @@ class DiscretisationRun {
     chosen_.position_error = levels[taken].error;
   }
 
-  /// At the positions chosen: where lines end shows between the fewest. The most intervals keep the error that they, or half of them, had.
+  /// At the positions chosen: where lines end shows between the fewest.
   void confirm_intervals() {
-    const std::vector<double> phases = equally_spaced_phases(chosen_.positions);
-    int& intervals = chosen_.quadrature.intervals;
-    SampledCycle coarse = solve(intervals, phases);
-    while (2 * intervals <= search_.most_intervals) {
-      SampledCycle fine = solve(2 * intervals, phases);
+    const int positions = chosen_.positions;
+    SampledCycle coarse = solve(chosen_.quadrature.intervals, equally_spaced_phases(positions));
+    for (int n = chosen_.quadrature.intervals; n <= search_.most_intervals; n *= 2) {
+      const SampledCycle fine = solve(2 * n, equally_spaced_phases(positions));
       if (chosen_.failures > 0) return;
-      chosen_.by_intervals.push_back(
-          {intervals, chosen_.positions, coarse.figures(), times(safety, figure_errors(coarse.figures(), fine.figures()))});
+      chosen_.by_intervals.push_back({n, positions, coarse.figures(), times(safety, figure_errors(coarse.figures(), fine.figures()))});
       take_intervals(chosen_.by_intervals.back());
-      if (largest(chosen_.error()) <= search_.accuracy) return;
-      intervals *= 2;
-      coarse = std::move(fine);
+      const bool enough = largest(sum(chosen_.quadrature_error, chosen_.position_error)) <= search_.accuracy || 2 * n > search_.most_intervals;
+      if (enough && search_.choose_positions) double_positions(coarse, fine);
+      if (enough) return;
+      coarse = fine;
     }
+  }
+
+  /// Of a cycle with twice the intervals of the one chosen.
+  void double_positions(const SampledCycle& chosen, const SampledCycle& fine) {
+    const SampledCycle doubled = fine.joined(solve(2 * chosen_.quadrature.intervals, every_other(2 * chosen_.positions)));
+    if (chosen_.failures == 0) chosen_.doubled_difference = largest(figure_errors(chosen.figures(), doubled.figures()));
   }
 
   const MeshOfResolution& mesh_for_;
@@ -165,7 +173,11 @@ class DiscretisationRun {
 
 }  // namespace
 
-PerFigure Discretisation::error() const { return sum(quadrature_error, position_error); }
+PerFigure Discretisation::error() const {
+  PerFigure error = sum(quadrature_error, position_error);
+  for (double& of_figure : error) of_figure = std::min(of_figure, most_over_doubled * doubled_difference);
+  return error;
+}
 
 Discretisation choose_discretisation(const MeshOfResolution& mesh_for, QuadratureRule rule, const FlankCondition& condition, double pinion_torque,
                                      const DiscretisationSearch& search) {

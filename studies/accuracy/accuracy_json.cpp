@@ -123,6 +123,9 @@ Json fidelity_choice_json(const FidelityChoice& choice) {
             {"given", choice.positions_given},
             {"estimate_percent", estimate(choice.positions_given, choice.position_error)},
             {"levels", levels_json(choice.discretisation.by_positions)}}},
+          {"resolution",
+           {{"estimate_percent", estimate(choice.quadrature_given && choice.positions_given, choice.resolution_error)},
+            {"doubled_difference_percent", std::isfinite(choice.discretisation.doubled_difference) ? Json(percent * choice.discretisation.doubled_difference) : Json()}}},
           {"governing", {{"scene", choice.governing}, {"torque_Nm", choice.governing_torque / units::newton_metre}}},
           {"choosing_seconds", choice.choosing_seconds},
           {"cycle_seconds", choice.cycle_seconds}};

@@ -126,13 +126,14 @@ void choose_resolution(RungRunner& runner, FidelityChoice& choice, const Progres
     if (!choice.positions_given) choice.positions = std::max(choice.positions, found.positions);
     raise(choice.quadrature_error, found.quadrature_error);
     raise(choice.position_error, found.position_error);
+    raise(choice.resolution_error, found.error());
   }
 }
 
 }  // namespace
 
 PerFigure FidelityChoice::error() const {
-  return added(added(compliance_error, gap_error), added(quadrature_error, position_error));
+  return added(added(compliance_error, gap_error), resolution_error);
 }
 
 double FidelityChoice::effects_budget() const { return kept ? 0.5 * (accuracy - largest(error())) : 0.0; }

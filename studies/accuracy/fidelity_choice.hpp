@@ -23,7 +23,8 @@ struct FidelityChoice {
   /// What the study itself says stays, and counts as exact.
   bool compliance_given{false}, gap_given{false}, quadrature_given{false}, positions_given{false};
   std::vector<ModelCandidate> compliances, gaps;  ///< considered; empty where given
-  PerFigure compliance_error{}, gap_error{}, quadrature_error{}, position_error{};  ///< estimated shares, worst over the load cases
+  /// Estimated shares, worst over the load cases; of the resolution: of quadrature and positions together, see Discretisation::error().
+  PerFigure compliance_error{}, gap_error{}, quadrature_error{}, position_error{}, resolution_error{};
   std::string governing;         ///< scene of the load case that asked for the finest resolution
   double governing_torque{not_given};  ///< its torque [N mm]
   Discretisation discretisation; ///< of the governing load case

@@ -50,27 +50,27 @@ LoadCase random_case(unsigned seed, double widest = 15.0) {
 struct Honesty {
   int drawn{0}, within{0}, not_kept{0};
   int honest{0};  ///< within the stated error, and not less than a tenth of it
-  int over_tenfold{0};  ///< of those that are kept
+  int over_tenfold{0};
 };
 
-/// Chooses for random load cases and compares with at least twice the intervals and positions.
+/// Chooses for random load cases and compares with at least three times the intervals and four times the positions: finer than anything
+/// that was looked at.
 Honesty honesty(unsigned first, int count, double widest, const DiscretisationSearch& search) {
-  constexpr double round_off = 1e-9;  // where the truth is a level of the search, both say the same
   Honesty result;
   for (unsigned seed = first; seed < first + static_cast<unsigned>(count); ++seed) {
     const LoadCase drawn = random_case(seed, widest);
     const Discretisation chosen = choose_discretisation(drawn.mesh(), QuadratureRule::Graded, drawn.condition, drawn.torque, search);
-    const Quadrature finer{QuadratureRule::Graded, std::max(16, 2 * chosen.quadrature.intervals)};
-    const CycleFigures truth = drawn.figures(finer, std::max(64, 2 * chosen.positions));
+    const Quadrature finer{QuadratureRule::Graded, std::max(16, 3 * chosen.quadrature.intervals)};
+    const CycleFigures truth = drawn.figures(finer, std::max(64, 4 * chosen.positions));
     const double error = largest(figure_errors(drawn.figures(chosen.quadrature, chosen.positions), truth));
     const double stated = largest(chosen.error());
     UNSCOPED_INFO(seed << ": stated " << 100 * stated << " %, found " << 100 * error << " % with " << chosen.quadrature.intervals << " intervals, "
                        << chosen.positions << " positions" << (chosen.kept ? "" : ", not kept"));
     ++result.drawn;
-    const bool within = error <= stated * (1.0 + round_off), tenfold = stated > 10.0 * error;
+    const bool within = error <= stated, tenfold = stated > 10.0 * error;
     result.within += within ? 1 : 0;
     result.honest += within && !tenfold ? 1 : 0;
-    result.over_tenfold += chosen.kept && tenfold ? 1 : 0;
+    result.over_tenfold += tenfold ? 1 : 0;
     result.not_kept += chosen.kept ? 0 : 1;
   }
   return result;
@@ -81,15 +81,13 @@ Honesty honesty(unsigned first, int count, double widest, const DiscretisationSe
 TEST_CASE("Estimated errors of a resolution hold on random load cases", "[core][load][discretisation]") {
   const Honesty found = honesty(1000, 20, 6.0, {.accuracy = 0.05, .most_intervals = 16, .most_positions = 64});
   CAPTURE(found.within, found.over_tenfold, found.not_kept);
-  CHECK(found.within >= 19);       // 95 %
-  CHECK(found.over_tenfold <= 2);  // where the finest level allowed stands on its own estimate
+  CHECK(found.honest >= 19);  // 95 %: differences may cancel by chance
 }
 
 TEST_CASE("Estimated errors of a resolution hold on 200 random load cases", "[core][load][discretisation][.soak]") {
   const Honesty found = honesty(0, 200, 15.0, {.accuracy = 0.01});
   WARN("within " << found.within << " of " << found.drawn << ", honest " << found.honest << ", over tenfold " << found.over_tenfold << ", not kept " << found.not_kept);
-  CHECK(found.within >= 190);       // 95 %
-  CHECK(found.over_tenfold <= 10);  // 5 %: differences may cancel by chance
+  CHECK(found.honest >= 190);  // 95 %: differences may cancel by chance
 }
 
 TEST_CASE("A line that is loaded evenly needs no more than the fewest intervals", "[core][load][discretisation]") {
