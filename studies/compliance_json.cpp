@@ -96,6 +96,7 @@ Json compliance_json(const GearStructures& structures, const Study& study) {
   const auto gear = [&](Member member, const Material& material) {
     Json json = gear_run_json(runs[member], material);
     if (const auto& fine = runs.fine_run(member)) json["fine_mesh"] = gear_run_json(*fine, material);
+    if (const auto& rigid = runs.rigid_body_run(member)) json["rigid_body"] = gear_run_json(*rigid, material);
     if (const auto& narrow = runs.narrow_run(member)) json["coarse_mesh_of_fit"] = gear_run_json(*narrow, material);
     if (const auto& refinement = structures.refinement(member)) json["fit"] = refinement_json(*refinement);
     return json;

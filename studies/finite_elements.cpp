@@ -48,6 +48,7 @@ double machine_memory() {
 enum class Purpose {
   Gear,       ///< its influence values
   Fine,       ///< what its own fit shall meet
+  RigidBody,  ///< the same, nothing giving way below its teeth
   FitCoarse,  ///< what that is fitted beside, where the gear's own run is of a wider face
 };
 
@@ -56,6 +57,17 @@ struct Use {
   Member member;
   Purpose purpose;
 };
+
+GearRun& place_of(FiniteElementRuns& runs, const Use& use) {
+  const std::size_t i = use.member == Member::Pinion ? 0 : 1;
+  switch (use.purpose) {
+    case Purpose::Gear: return runs.gears[i];
+    case Purpose::RigidBody: return runs.rigid_body[i].emplace();
+    case Purpose::Fine: return runs.fine[i].emplace();
+    case Purpose::FitCoarse: return runs.narrow[i].emplace();
+  }
+  __builtin_unreachable();
+}
 
 /// One mesh of one or both gears of a study, alike but for their size.
 struct Job {
@@ -90,6 +102,13 @@ std::vector<Job> jobs_of(const Study& study, const GearPair& pair) {
       if (narrower) add({member, Purpose::FitCoarse}, std::move(fit));
       if (!narrower) task.root_stress = false;  // the finest mesh of the whole face tells it
       add({member, Purpose::Fine}, std::move(fine));
+    }
+    if (wants_rigid_bodies(study)) {
+      InfluenceTableTask rigid = task;
+      rigid.gear.body.rigid = true;
+      rigid.removed = RemovedMotion::None;
+      rigid.root_stress = false;
+      add({member, Purpose::RigidBody}, std::move(rigid));
     }
     add({member, Purpose::Gear}, std::move(task));
   }
@@ -196,6 +215,14 @@ bool wants_root_stress(const Study& study) {
          std::ranges::any_of(study.expect, [](const Expectation& e) { return e.key.find("root_stress") != std::string::npos; });
 }
 
+bool wants_rigid_bodies(const Study& study) {
+  const Fidelity& fidelity = study.fidelity;
+  if (study.task == Task::Fit || !couples_teeth(fidelity.compliance)) return false;
+  const bool left_out =
+      !fidelity.automatic_effects && std::ranges::find(fidelity.effects, "gear_body_compliance") == fidelity.effects.end();
+  return left_out || study.task == Task::Accuracy || fidelity.accuracy || fidelity.effect_sizes != EffectSizing::Off;
+}
+
 bool solves_finite_elements(const Study& study) {
   return study.task == Task::Fit || (has_torque(study) && (couples_teeth(study.fidelity.compliance) || wants_root_stress(study)));
 }
@@ -271,11 +298,9 @@ FiniteElementRuns solve_finite_elements(const Study& study, const GearPair& pair
     const auto table = std::make_shared<const InfluenceTable>(std::move(*job.run.table));
     std::shared_ptr<const RootStressTable> root_stress;
     if (job.run.root_stress) root_stress = std::make_shared<const RootStressTable>(std::move(*job.run.root_stress));
-    for (const auto& [member, purpose] : job.uses) {
-      const std::size_t i = member == Member::Pinion ? 0 : 1;
-      GearRun& run = purpose == Purpose::Gear ? runs.gears[i] : (purpose == Purpose::Fine ? runs.fine : runs.narrow)[i].emplace();
-      run = {table, root_stress, job.run.statistics, influence_table_task(study, pair, member).gear.body, job.task.removed,
-             job.from_cache, job.file, job.seconds};
+    for (const Use& use : job.uses) {
+      place_of(runs, use) = {table, root_stress, job.run.statistics, influence_table_task(study, pair, use.member).gear.body,
+                             job.task.removed, job.from_cache, job.file, job.seconds};
     }
   }
   runs.seconds = clock.seconds();

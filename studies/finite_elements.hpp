@@ -30,12 +30,15 @@ struct FiniteElementRuns {
   std::array<std::optional<GearRun>, 2> fine;
   /// By coarse_mesh(), with the face of the fine run, where that is narrower than the gear's own.
   std::array<std::optional<GearRun>, 2> narrow;
+  /// As `gears`, their bodies rigid; where wants_rigid_bodies().
+  std::array<std::optional<GearRun>, 2> rigid_body;
   std::vector<std::string> notes;
   double seconds{not_given};     ///< wall time in this study
 
   const GearRun& operator[](Member m) const { return gears[m == Member::Pinion ? 0 : 1]; }
   const std::optional<GearRun>& fine_run(Member m) const { return fine[m == Member::Pinion ? 0 : 1]; }
   const std::optional<GearRun>& narrow_run(Member m) const { return narrow[m == Member::Pinion ? 0 : 1]; }
+  const std::optional<GearRun>& rigid_body_run(Member m) const { return rigid_body[m == Member::Pinion ? 0 : 1]; }
   /// Of the finest run with the gear's own face; null where the study does not want it.
   const std::shared_ptr<const RootStressTable>& root_stress(Member m) const {
     return fine_run(m) && !narrow_run(m) ? fine_run(m)->root_stress : (*this)[m].root_stress;
@@ -45,6 +48,10 @@ struct FiniteElementRuns {
 /// Whether the study's finite elements shall tell root stress: where its compliance is "fitted" or "fe", or an objective, constraint
 /// or expectation names it, and the study's own list of effects, if it has one, does not leave it out.
 bool wants_root_stress(const Study& study);
+
+/// Whether the study asks what its gears do on rigid bodies: to size the effect `gear_body_compliance`, to leave it out on a rung, or
+/// because its list of effects does.
+bool wants_rigid_bodies(const Study& study);
 
 /// Whether the study solves finite elements of its gears at all: for its task, or, where there is a torque, its compliance
 /// or root stress.

@@ -23,6 +23,11 @@ struct GearRefinement {
   std::string file;           ///< where the fit is kept; empty: nowhere
   double seconds{not_given};  ///< wall time in this study
 
+  /// Another coarse compliance of the same gear, completed by the same kernels: they are the tooth's, whatever it stands on.
+  std::shared_ptr<const RefinedCompliance> completed(std::shared_ptr<const FlankCompliance> coarse) const {
+    return std::make_shared<const RefinedCompliance>(std::move(coarse), compliance->gear(), compliance->coefficients());
+  }
+
   const char* source() const { return unknown.empty() ? "library" : "own fit"; }
 };
 

@@ -28,10 +28,12 @@ GearStructures gear_structures(const Study& study, const GearPair& pair, const P
   if (is_structural) {
     const auto structure = [&](Member member, const Material& material) {
       GearStructure result{runs[member].table, material.youngs_modulus};
+      if (const auto& rigid = runs.rigid_body_run(member)) result.on_rigid_body = rigid->table;
       if (study.fidelity.compliance == ComplianceModel::Fitted) {
         auto& refinement = structures.refinements[member == Member::Pinion ? 0 : 1];
         refinement = gear_refinement(study, influence_table_task(study, pair, member), runs, member, runs.notes, progress);
         result.compliance = refinement->compliance;
+        if (result.on_rigid_body) result.on_rigid_body = refinement->completed(result.on_rigid_body);
       }
       return result;
     };

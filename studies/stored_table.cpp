@@ -26,17 +26,19 @@ Json gear_key(const GearToMesh& gear) {
   const auto& [data, module, pressure_angle, helix_angle, body] = gear;
   const auto& [teeth, face_width, profile_shift, tip_diameter, rack, generation] = data;
   const auto& [addendum, dedendum, root_radius] = rack;
-  const auto& [shaft_diameter, bore_diameter, shaft_overhang, torque_end] = body;
+  const auto& [shaft_diameter, bore_diameter, shaft_overhang, torque_end, rigid] = body;
   static_cast<void>(module);      // 1
   static_cast<void>(generation);  // amounts of micrometres, which the mesh does not know
-  return {{"teeth", teeth},
-          {"face_width", face_width},
-          {"profile_shift", profile_shift},
-          {"tip_diameter", tip_diameter},
-          {"rack", {addendum, dedendum, root_radius}},
-          {"pressure_angle", pressure_angle},
-          {"helix_angle", helix_angle},
-          {"body", {shaft_diameter, bore_diameter, shaft_overhang, torque_end == FaceEnd::Blunt ? "blunt" : "sharp"}}};
+  Json key{{"teeth", teeth},
+           {"face_width", face_width},
+           {"profile_shift", profile_shift},
+           {"tip_diameter", tip_diameter},
+           {"rack", {addendum, dedendum, root_radius}},
+           {"pressure_angle", pressure_angle},
+           {"helix_angle", helix_angle},
+           {"body", {shaft_diameter, bore_diameter, shaft_overhang, torque_end == FaceEnd::Blunt ? "blunt" : "sharp"}}};
+  if (rigid) key["rigid_body"] = true;
+  return key;
 }
 
 std::string table_name(int teeth_apart) { return fmt::format("influence {} apart", teeth_apart); }

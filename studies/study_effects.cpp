@@ -12,7 +12,7 @@ FlankCondition condition_of(const Study& study, const Scene& scene) {
 
 EffectFacts effect_facts(const Study& study) {
   EffectFacts facts;
-  facts.coupled_teeth = couples_teeth(study.fidelity.compliance);
+  facts.coupled_teeth = facts.gear_bodies = couples_teeth(study.fidelity.compliance);
   facts.root_stress = wants_root_stress(study);
   facts.shafts = study.pinion_shaft || study.wheel_shaft;
   facts.whole_surface = study.fidelity.gap == GapModel::WholeSurface;

@@ -117,8 +117,7 @@ std::vector<SchemaKey> working_condition_rows() {
          d.study.fidelity.quadrature.intervals = static_cast<int>(v.integer);
        }},
       {.path = "fidelity.effects", .kind = WordList,
-       .words = listed_effect_names(),
-       .later = {"gear_body_compliance"}, .fallback = "\"auto\"",
+       .words = listed_effect_names(), .fallback = "\"auto\"",
        .meaning = "what enters the run; auto decides from the study, a list switches by hand",
        .store = [](Draft& d, Member, const Value& v) {
          d.study.fidelity.automatic_effects = !v.is_list;

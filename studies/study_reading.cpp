@@ -56,9 +56,6 @@ Value read_integer(const SchemaKey& key, const toml::node& node) {
 std::size_t read_word(const SchemaKey& key, const toml::node& node) {
   const auto* word = node.as_string();
   if (word == nullptr) refuse_value(allowed_values(key));
-  if (std::ranges::find(key.later, word->get()) != key.later.end()) {
-    refuse_value(allowed_values(key) + "; \"" + word->get() + "\" is not in this version");
-  }
   const auto found = std::ranges::find(key.words, word->get());
   if (found == key.words.end()) refuse_value(allowed_values(key));
   return static_cast<std::size_t>(found - key.words.begin());

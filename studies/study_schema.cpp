@@ -211,9 +211,7 @@ std::string schema_markdown() {
   for (const SchemaKey& key : study_schema()) {
     const std::string fallback =
         is_described_fallback(key) ? key.fallback.substr(1, key.fallback.size() - 2) : "`" + key.fallback + "`";
-    std::string allowed = allowed_values(key);
-    if (!key.later.empty()) allowed += "; not in this version: " + quoted_list(key.later);
-    table += "| `" + key.path + "` | " + std::string(default_unit(key.quantity)) + " | " + fallback + " | " + allowed +
+    table += "| `" + key.path + "` | " + std::string(default_unit(key.quantity)) + " | " + fallback + " | " + allowed_values(key) +
              " | " + key.meaning + " |\n";
   }
   return table;

@@ -37,14 +37,23 @@ FlankPlace flank_place(const GearPair& pair, Member member, const ContactPoint& 
 }
 
 Eigen::MatrixXd StructuralPair::influence(const std::vector<ContactPoint>& points, double axial_offset) const {
+  return sum(&GearStructure::compliance, points, axial_offset);
+}
+
+Eigen::MatrixXd StructuralPair::influence_on_rigid_bodies(const std::vector<ContactPoint>& points, double axial_offset) const {
+  return sum(&GearStructure::on_rigid_body, points, axial_offset);
+}
+
+Eigen::MatrixXd StructuralPair::sum(std::shared_ptr<const FlankCompliance> GearStructure::* of, const std::vector<ContactPoint>& points,
+                                    double axial_offset) const {
   const Eigen::Index n = static_cast<Eigen::Index>(points.size());
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
   std::vector<FlankPlace> places(points.size());
   for (Member member : {Member::Pinion, Member::Wheel}) {
     const GearStructure& gear = (*this)[member];
-    assert(gear.compliance);
+    assert(gear.*of);
     for (std::size_t i = 0; i < points.size(); ++i) places[i] = flank_place(pair_, member, points[i], axial_offset);
-    sum += gear.compliance->evaluate(places) / (gear.youngs_modulus * pair_.data.normal_module);
+    sum += (gear.*of)->evaluate(places) / (gear.youngs_modulus * pair_.data.normal_module);
   }
   return sum;
 }

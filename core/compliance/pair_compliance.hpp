@@ -21,6 +21,12 @@ class PairCompliance {
   /// @throws InvalidInput where the model does not know a point
   virtual Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const = 0;
 
+  /// The same where the gears' bodies are rigid. A model that knows of no body gives way as ever.
+  /// @throws InvalidInput as influence()
+  virtual Eigen::MatrixXd influence_on_rigid_bodies(const std::vector<ContactPoint>& points, double axial_offset) const {
+    return influence(points, axial_offset);
+  }
+
  protected:
   PairCompliance() = default;
   PairCompliance(const PairCompliance&) = default;
@@ -42,6 +48,7 @@ class ThinSlicePair final : public PairCompliance {
 struct GearStructure {
   std::shared_ptr<const FlankCompliance> compliance;
   double youngs_modulus{not_given};  ///< E [MPa], > 0
+  std::shared_ptr<const FlankCompliance> on_rigid_body{};  ///< GearBody::rigid; null: influence_on_rigid_bodies() must not be called
 };
 
 /// Both gears' structures side by side, K = K_1 + K_2, points on different teeth coupled.
@@ -50,10 +57,13 @@ class StructuralPair final : public PairCompliance {
   StructuralPair(const GearPair& pair, GearStructure pinion, GearStructure wheel)
       : pair_(pair), pinion_(std::move(pinion)), wheel_(std::move(wheel)) {}
   Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
+  Eigen::MatrixXd influence_on_rigid_bodies(const std::vector<ContactPoint>& points, double axial_offset) const override;
 
   const GearStructure& operator[](Member m) const { return m == Member::Pinion ? pinion_ : wheel_; }
 
  private:
+  Eigen::MatrixXd sum(std::shared_ptr<const FlankCompliance> GearStructure::* of, const std::vector<ContactPoint>& points, double axial_offset) const;
+
   GearPair pair_;
   GearStructure pinion_, wheel_;
 };

@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// A load on one tooth moves the others, through the gear body.
+/// A load on one tooth moves the others, through what they stand on.
 class AdjacentTeethEffect final : public Effect {
  public:
   std::string_view name() const override { return "adjacent_teeth"; }

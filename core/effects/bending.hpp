@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// A loaded tooth gives way, with the part of the gear body below it.
+/// A loaded tooth gives way, with the material that it stands on.
 class BendingEffect final : public Effect {
  public:
   std::string_view name() const override { return "bending"; }

@@ -15,6 +15,7 @@ struct EffectFacts {
   bool unloaded{false};       ///< some torque is zero
   std::vector<FlankCondition> conditions{};  ///< of all scenes
   bool coupled_teeth{false};  ///< the compliance model knows how one tooth moves another
+  bool gear_bodies{false};    ///< and how the gears' bodies give way
   bool shafts{false};         ///< a gear's shaft is described
   bool root_stress{false};    ///< finite elements are made anyway, or something asks for peak_root_stress
   bool whole_surface{false};  ///< contact is sought over the whole flanks
@@ -33,6 +34,7 @@ enum class EffectStage {
   Condition,   ///< what the flanks are like: left out by clear_from()
   Region,      ///< how far along the plane of action points are made
   Placement,   ///< where the points lie
+  Body,        ///< what the teeth stand on
   Structure,   ///< what yields when loads act anywhere on the mesh: the influence matrix
   Coupling,    ///< what of it ties teeth to each other
   ContactSite, ///< what the contact law is told of a point's surroundings

@@ -25,7 +25,8 @@ const Effect* effect_named(std::string_view name) {
 
 bool may_be_dropped(std::string_view name) {
   const Effect* effect = effect_named(name);
-  return changes_mesh(name) && effect->listed() && effect->stage() != EffectStage::Condition;
+  const bool free_of_cost = effect && (effect->stage() == EffectStage::Condition || effect->stage() == EffectStage::Body);
+  return changes_mesh(name) && effect->listed() && !free_of_cost;
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ struct EffectSize {
 
 /// Switches off what acts on the mesh and is too small to matter: effects by rising size, as long as their shares, which add up to first
 /// order, stay within the budget together. Effects of the condition stay, as they cost nothing, and may be what a study varies; so
-/// does what is read off the loads, what is not listed, and what has no size.
+/// does what the teeth stand on, for the same reason; what is read off the loads, what is not listed, and what has no size.
 /// @param budget  relative error [-], > 0
 EffectDecisions within_budget(EffectDecisions decisions, std::vector<EffectSize> sizes, double budget);
 

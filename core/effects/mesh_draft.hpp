@@ -54,16 +54,14 @@ class MeshDraft {
 
   /// K of the structure between the points, teeth coupled as far as it knows; worked out when first asked for.
   const Eigen::MatrixXd& structural_influence() {
-    if (!structural_influence_) {
-      structural_influence_ = parts.structure ? parts.structure->influence(points, parts.axial_offset())
-                                              : Eigen::MatrixXd::Zero(std::ssize(points), std::ssize(points));
-    }
+    if (!structural_influence_) structural_influence_ = worked_out_influence();
     return *structural_influence_;
   }
 
   const MeshParts& parts;
   double phase;
   bool with_extended_region{false};         ///< points before A and after E as well
+  bool with_gear_bodies{false};             ///< these give way as well
   std::vector<ContactPoint> points;
   Eigen::MatrixXd influence;                ///< K, symmetric, positive semi-definite [mm/N]
   std::vector<TipDistances> tip_distances;  ///< one a point
@@ -72,6 +70,12 @@ class MeshDraft {
   RootStressInfluence root_stress;
 
  private:
+  Eigen::MatrixXd worked_out_influence() const {
+    if (parts.structure == nullptr) return Eigen::MatrixXd::Zero(std::ssize(points), std::ssize(points));
+    return with_gear_bodies ? parts.structure->influence(points, parts.axial_offset())
+                            : parts.structure->influence_on_rigid_bodies(points, parts.axial_offset());
+  }
+
   std::optional<Eigen::MatrixXd> structural_influence_;
 };
 

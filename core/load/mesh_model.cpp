@@ -19,7 +19,7 @@ MeshPosition make_position(const MeshModel& model, const MeshParts& parts, const
   MeshDraft draft(parts, phase);
   model.effects.act(EffectStage::Region, draft);
   draft.set_points(contact_points(model.pair, path, quadrature, phase, draft.with_extended_region, face.begin, face.end));
-  model.effects.act({EffectStage::Placement, EffectStage::Structure, EffectStage::Coupling}, draft);
+  model.effects.act({EffectStage::Placement, EffectStage::Body, EffectStage::Structure, EffectStage::Coupling}, draft);
   model.effects.act(local_stages, draft);
   model.effects.act(EffectStage::Roots, draft);
   MeshPosition position{phase, std::move(draft.points), {}, std::move(draft.influence), std::move(draft.laws), std::move(draft.root_stress)};

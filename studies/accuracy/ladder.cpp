@@ -53,6 +53,7 @@ void add_model_rungs(const MeshEffects& effects, std::vector<Rung>& rungs) {
   leave_out("contact law", "without free ends", "free_ends");
   leave_out("contact law", "without tip corner", "tip_corner");
   leave_out("adjacent teeth", "without adjacent teeth", "adjacent_teeth");
+  leave_out("gear bodies", "rigid gear bodies", "gear_body_compliance");
   leave_out("contact region", "between A and E only", "extended_contact_region");
 }
 

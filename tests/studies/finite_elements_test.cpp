@@ -49,6 +49,7 @@ torque = 20
 positions = 8
 [fidelity]
 compliance = "fe"
+effect_sizes = "off"
 )";
 
 StudyResults run_twins(const std::string& text, const std::vector<Override>& overrides = {}) {
@@ -103,10 +104,38 @@ TEST_CASE("A study by finite elements: equal gears are solved once, kept, and ba
   CHECK(doubled.loaded[0].summary.te_mean == Approx(2 * kept.loaded[0].summary.te_mean).epsilon(1e-9));  // same stress
 
   // Teeth that do not know of each other give way less: their loads push on their neighbours' flanks.
-  const StudyResults alone = run_twins(twins, {{"fidelity.effects", R"(["bending", "hertzian_contact", "tip_corner", "extended_contact_region"])"}});
+  const StudyResults alone = run_twins(twins, {{"fidelity.effects", R"(["bending", "gear_body_compliance", "hertzian_contact", "tip_corner", "extended_contact_region"])"}});
   CHECK(alone.loaded[0].summary.te_mean < kept.loaded[0].summary.te_mean);
   CHECK(alone.structures.finite_elements->gears[0].from_cache);  // a run that tells more will do
   CHECK(std::isnan(alone.loaded[0].summary.peak_root_stress));
+}
+
+TEST_CASE("A study on rigid gear bodies: stiffer, by a run of its own, and sized beside the elastic ones", "[studies][fe]") {
+  const ScratchCache cache;
+  const StudyResults elastic = run_twins(twins, {{"fidelity.effect_sizes", "exact"}});
+  CHECK(cache.files().size() == 2);
+  const json results = json::parse(results_json(elastic));
+  const json& compliance = results["compliance"]["pinion"];
+  CHECK(compliance["rigid_body"]["unknowns"] < compliance["unknowns"]);
+  CHECK(compliance["rigid_body"]["projection"] < 1e-12);  // round-off
+
+  const StudyResults rigid = run_twins(twins, {{"fidelity.effects", R"(["bending", "adjacent_teeth", "free_ends", "hertzian_contact", "tip_corner", "extended_contact_region"])"}});
+  CHECK(rigid.structures.finite_elements->rigid_body[1]->from_cache);
+  const double less = elastic.loaded[0].summary.te_mean - rigid.loaded[0].summary.te_mean;
+  CHECK(less > 0.02 * elastic.loaded[0].summary.te_mean);
+  const SizeInStudy* size = size_of(elastic.effect_sizes.exact, "gear_body_compliance");
+  REQUIRE(size != nullptr);
+  CHECK(size->size.influence.te_mean == Approx(less).epsilon(1e-9));  // the same two analyses
+  for (const MeshPosition& at : rigid.models[0].positions) {
+    const Eigen::VectorXd values = symmetric_eigenvalues(at.influence);
+    CHECK(values[0] > -1e-13 * values[values.size() - 1]);  // round-off
+  }
+
+  // The kernels that complete a coarse mesh are the tooth's: fitted teeth lose as much by a rigid body.
+  const StudyResults fitted = run_twins(twins, {{"fidelity.compliance", "fitted"}, {"fidelity.effect_sizes", "exact"}});
+  const SizeInStudy* of_fitted = size_of(fitted.effect_sizes.exact, "gear_body_compliance");
+  REQUIRE(of_fitted != nullptr);
+  CHECK(of_fitted->size.influence.te_mean == Approx(less).epsilon(0.1));  // discretisation of the body
 }
 
 TEST_CASE("A study's root stress: by finite elements, whatever the compliance", "[studies][fe][root-stress]") {

@@ -78,6 +78,7 @@ GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options) {
   mesh.teeth_each_side = options.teeth_each_side;
   const GearBody body = complete_body(gear.body, mesh.form, gear.normal_module);
   mesh.shaft_diameter = body.shaft_diameter;
+  mesh.rigid_body = body.rigid;
   mesh.torque_end = (body.torque_end == FaceEnd::Sharp ? -0.5 : 0.5) * width;
   const SectionMesh section = section_mesh(mesh.form, mesh.teeth, mesh.normal_module, body, options);
   const double overhang = body.shaft_overhang;
@@ -133,6 +134,16 @@ GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options) {
     throw InvalidInput("options", "an element is folded", "element numbers and sizes that fit this tooth and body");
   }
 
+  if (body.rigid) {
+    const double rim = rim_radius(mesh.form, body.shaft_diameter, mesh.normal_module) * (1 + 1e-9);  // round-off of its nodes
+    std::vector<char> follows(static_cast<std::size_t>(mesh.solid.nodes.cols()), 0);
+    for (const TiedNode& tie : mesh.solid.tied) follows[static_cast<std::size_t>(tie.node)] = 1;
+    for (int node = 0; node < mesh.solid.nodes.cols(); ++node) {
+      const bool in_body = mesh.solid.nodes.col(node).head<2>().norm() <= rim;
+      if (in_body && !follows[static_cast<std::size_t>(node)]) mesh.supports.push_back({.node = node});
+    }
+    return mesh;
+  }
   for (const int node : held) mesh.supports.push_back({.node = node});
   for (const int node : guided) {
     const Eigen::Vector2d out = mesh.solid.nodes.col(node).head<2>().normalized();

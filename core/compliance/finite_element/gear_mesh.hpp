@@ -33,13 +33,14 @@ struct ToothSurfaces {
 };
 
 /// The section swept along z (SectionSweep), and the shaft's overhangs, held at their far ends: that beyond the torque
-/// end whole, the other one radially. What the axial hold gives besides is axial_hold_compliance().
+/// end whole, the other one radially. What the axial hold gives besides is axial_hold_compliance(). A rigid body is held everywhere.
 struct GearMesh {
   ToothForm form;
   int teeth{0};
   double normal_module{not_given}, face_width{not_given};
   int teeth_each_side{0};
   double shaft_diameter{not_given};  ///< [mm]
+  bool rigid_body{false};            ///< GearBody::rigid
   double torque_end{not_given};  ///< z of the face end where torque and axial force leave, -b/2 or b/2 [mm]
   SolidMesh solid{};
   std::vector<NodeSupport> supports{};

@@ -128,7 +128,7 @@ inline constexpr double axial_hold_share = 0.2;
 ///     sin^2(beta_b) 16 (1 - nu^2) / (3 pi^2 E a),    a = axial_hold_share d_s / 2,
 ///
 /// the mean displacement of a disc under an even pressure on a half space [Timoshenko and Goodier, Theory of Elasticity, art.
-/// 139]; 0 where the axial motion is taken off. It moves the mean transmission error and nothing else.
+/// 139]; 0 where the axial motion is taken off, or the body is rigid. It moves the mean transmission error and nothing else.
 ///
 /// Haddad holds the central node of one end [1991, 2.5], and his deflections have that node's give in them. Of a node, or of the edge
 /// of a narrow bore, it grows without limit as elements shrink; this does not know the mesh. The thesis leaves the share open. A fifth

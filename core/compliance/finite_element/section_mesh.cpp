@@ -282,6 +282,11 @@ double default_shaft_diameter(const ToothForm& form, double normal_module) {
                    2 * form.root_radius() - 1.2 * normal_module});
 }
 
+double rim_radius(const ToothForm& form, double shaft_diameter, double normal_module) {
+  const double root = form.root_radius(), shaft = shaft_diameter / 2;
+  return root - shaft < 1.8 * normal_module ? shaft : root - 1.25 * normal_module;
+}
+
 SectionRadii section_radii(const ToothForm& form, int teeth, double normal_module, const GearBody& body,
                            const GearMeshOptions& options) {
   options.validate();
@@ -312,9 +317,7 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
   const SectionRadii radii = section_radii(form, teeth, normal_module, body, options);
   const double root = form.root_radius(), shaft = radii.shaft, bore = radii.bore;
 
-  // The teeth's blocks end on the shaft where that is near, otherwise 1.25 modules below the root.
-  const bool thin_rim = root - shaft < 1.8 * normal_module;
-  const double rim = thin_rim ? shaft : root - 1.25 * normal_module;
+  const double rim = rim_radius(form, 2 * shaft, normal_module);  // where the teeth's blocks end
   const int across = options.half_thickness_elements;
   const std::vector<double> below_fillet = half_thickness_fractions(across, 1);
   Builder builder(1e-7 * normal_module);
@@ -386,7 +389,7 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
       }
     }
   };
-  if (!thin_rim) {
+  if (rim > shaft) {
     const double in_shaft = (shaft - bore) * shaft_fractions(options.shaft_elements)[1];
     rings(rim, shaft, ring_fractions(rim, shaft, normal_module, in_shaft, options.body_growth), SectionPart::Body);
   }

@@ -46,11 +46,19 @@ struct GearBody {
   /// Where torque and axial force leave the gear. What lies between there and a load winds up under it. The default is
   /// what Haddad's sample outputs show: pinion loads that fall towards the other, sharp end.
   FaceEnd torque_end{FaceEnd::Blunt};
+  /// Nothing gives way from rim_radius() inwards: what is left are the teeth with the material that they stand on, as Vedmar modelled
+  /// them [Haddad 1991, 1.4.3.2].
+  bool rigid{false};
 };
 
 /// Steward's rule for helical gears [Haddad 1991, eq. 2.4]: d_s = 0.8 d, at most 25 m_n / cos(beta). Departure: at
 /// most the root diameter less 1.2 m_n (which matters below 18 teeth), so that a rim is left.
 double default_shaft_diameter(const ToothForm& form, double normal_module);
+
+/// Where the teeth's own material ends and the gear's body begins [mm]: 1.25 m_n below the root circle, or the shaft's surface where that is
+/// less than 1.8 m_n below it. Elastic half-planes under a tooth are taken to reach "a few modules" below the pitch point [Haddad 1991,
+/// 1.3.2]; this is 2.5 of them with a standard rack.
+double rim_radius(const ToothForm& form, double shaft_diameter, double normal_module);
 
 /// An edge of a quad: corner, mid-side, corner.
 using SectionEdge = std::array<int, 3>;

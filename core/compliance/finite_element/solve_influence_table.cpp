@@ -63,7 +63,7 @@ class TableSolver {
     const GearMesh mesh = gear_mesh(in_modules(task_).gear, options);
     RunStatistics& statistics = run_.statistics;
     statistics.bricks = mesh.solid.bricks.cols();
-    statistics.unknowns = mesh.solid.nodes.size() - 3 * std::ssize(mesh.solid.tied);  // the supports' among them, until they are told apart
+    statistics.unknowns = mesh.solid.nodes.size() - 3 * (std::ssize(mesh.solid.tied) + std::ssize(mesh.supports));  // guided nodes slide: a few more
     if (expected_bytes(statistics.unknowns) > memory_limit) {
       run_.status = FactorStatus::OutOfMemory;
       return;

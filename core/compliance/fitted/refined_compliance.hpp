@@ -26,6 +26,7 @@ class RefinedCompliance final : public FlankCompliance {
   Eigen::MatrixXd evaluate(std::span<const FlankPlace> points) const override;
 
   const FlankCompliance& coarse() const { return *coarse_; }
+  const GearFacts& gear() const { return gear_; }
   const std::vector<double>& coefficients() const { return coefficients_; }
 
  private:

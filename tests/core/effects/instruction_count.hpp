@@ -1,53 +1,44 @@
 #pragma once
 
-#include <linux/perf_event.h>
-#include <sys/ioctl.h>
-#include <sys/syscall.h>
-#include <unistd.h>
+#if !__has_include(<valgrind/callgrind.h>)
+#error "instructions are counted by Valgrind's Callgrind: see .scripts/install-dependencies --tests"
+#endif
+#include <valgrind/callgrind.h>
 
-#include <cerrno>
 #include <cstdint>
-#include <cstring>
+#include <cstdlib>
+#include <fstream>
 #include <string>
 
 namespace flankwright {
 
-/// Instructions of this thread outside the kernel, where the machine lets one count them.
+/// Instructions of this program outside the kernel, counted by Callgrind, which it must have been started under with
+/// `--callgrind-out-file` as the environment's FLANKWRIGHT_INSTRUCTIONS.
 class InstructionCount {
  public:
-  InstructionCount() {
-    perf_event_attr event{};
-    event.type = PERF_TYPE_HARDWARE;
-    event.size = sizeof(event);
-    event.config = PERF_COUNT_HW_INSTRUCTIONS;
-    event.disabled = 1;
-    event.exclude_kernel = 1;
-    event.exclude_hv = 1;
-    file_ = static_cast<int>(syscall(SYS_perf_event_open, &event, 0, -1, -1, 0));
-    if (file_ < 0) why_not_ = std::strerror(errno);
-  }
-  ~InstructionCount() {
-    if (file_ >= 0) close(file_);
-  }
-  InstructionCount(const InstructionCount&) = delete;
-  InstructionCount& operator=(const InstructionCount&) = delete;
-
-  bool permitted() const { return file_ >= 0; }
-  const std::string& why_not() const { return why_not_; }
+  bool possible() const { return RUNNING_ON_VALGRIND != 0 && std::getenv("FLANKWRIGHT_INSTRUCTIONS") != nullptr; }
 
   void start() {
-    ioctl(file_, PERF_EVENT_IOC_RESET, 0);
-    ioctl(file_, PERF_EVENT_IOC_ENABLE, 0);
+    CALLGRIND_START_INSTRUMENTATION;
+    CALLGRIND_ZERO_STATS;
   }
+  /// -1 where Callgrind wrote nothing that can be read.
   std::int64_t stop() {
-    ioctl(file_, PERF_EVENT_IOC_DISABLE, 0);
-    std::int64_t count = -1;
-    return read(file_, &count, sizeof(count)) == sizeof(count) ? count : -1;
+    CALLGRIND_DUMP_STATS;
+    CALLGRIND_STOP_INSTRUMENTATION;
+    std::string name(std::getenv("FLANKWRIGHT_INSTRUCTIONS"));
+    name += '.';
+    name += std::to_string(++dumps_);
+    std::ifstream file(name);
+    for (std::string word; file >> word;) {
+      std::int64_t count = -1;
+      if (word == "totals:" && file >> count) return count;
+    }
+    return -1;
   }
 
  private:
-  int file_{-1};
-  std::string why_not_;
+  int dumps_{0};
 };
 
 }  // namespace flankwright

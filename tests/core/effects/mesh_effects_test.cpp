@@ -22,6 +22,9 @@ class CoupledSlices final : public PairCompliance {
     const Eigen::MatrixXd own = slices_.influence(points, axial_offset);
     return own + Eigen::MatrixXd::Constant(own.rows(), own.cols(), 0.02 * own.diagonal().minCoeff());
   }
+  Eigen::MatrixXd influence_on_rigid_bodies(const std::vector<ContactPoint>& points, double axial_offset) const override {
+    return 0.8 * influence(points, axial_offset);
+  }
 
  private:
   ThinSlicePair slices_;
@@ -60,7 +63,7 @@ struct Scene {
     condition.pinion_error.cumulative_pitch = {0.0, 3 * units::um};
     return condition;
   }
-  EffectFacts facts() const { return {.loaded = true, .conditions = {condition}, .coupled_teeth = true, .shafts = true, .whole_surface = true}; }
+  EffectFacts facts() const { return {.loaded = true, .conditions = {condition}, .coupled_teeth = true, .gear_bodies = true, .shafts = true, .whole_surface = true}; }
 
   LoadedCycle run(const EffectDecisions& decisions, const MeshEffects& effects) const {
     const FlankCondition left = apply_effects(decisions, condition);
@@ -141,28 +144,29 @@ TEST_CASE("An effect that is off leaves no trace in the results and costs nothin
   }
 }
 
-TEST_CASE("An effect that is off costs no instruction", "[core][effects]") {
+// By core/effects/instruction_count_test.sh: [.] keeps it from running where nothing counts.
+TEST_CASE("An effect that is off costs no instruction", "[.][core][effects][instructions]") {
   const Scene scene;
   const EffectDecisions all = decide_effects(scene.facts());
   InstructionCount counter;
-  if (!counter.permitted()) {
-    WARN("instructions cannot be counted here: " << counter.why_not());
-    return;
-  }
+  REQUIRE(counter.possible());
   const auto instructions = [&](const MeshEffects& effects) {
-    make_mesh_model(scene.pair, {}, {}, {{}, equally_spaced_phases(4)}, effects, {}, &scene.structure, nullptr, &scene.shafts);  // warms up
+    const auto make = [&] { make_mesh_model(scene.pair, {}, {}, {{}, equally_spaced_phases(4)}, effects, {}, &scene.structure, nullptr, &scene.shafts); };
+    make();  // warms up
     counter.start();
-    make_mesh_model(scene.pair, {}, {}, {{}, equally_spaced_phases(4)}, effects, {}, &scene.structure, nullptr, &scene.shafts);
-    return static_cast<double>(counter.stop());
+    make();
+    const std::int64_t counted = counter.stop();
+    REQUIRE(counted > 0);
+    return static_cast<double>(counted);
   };
   const double everything = instructions(mesh_effects(all));
-  constexpr double allocator = 2e-3;  // what the memory allocator does is not the same twice
-  for (const std::string name : {"shafts", "free_ends", "tip_corner", "adjacent_teeth", "extended_contact_region"}) {
+  constexpr double allocator = 2e-4;  // what the memory allocator does is not the same twice; effects here cost 1e-4 (tips) to 3e-3
+  for (const std::string name : {"shafts", "free_ends", "tip_corner", "adjacent_teeth", "gear_body_compliance", "extended_contact_region"}) {
     CAPTURE(name);
     const double off = instructions(mesh_effects(without(all, name, "left out")));
     const double never = instructions(mesh_effects(all, registered_without(name)));
     CHECK(off == Approx(never).epsilon(allocator));
-    CHECK(off < everything);
+    if (name != "gear_body_compliance") CHECK(off < everything);  // of that one either way is a look at another table
   }
 }
 

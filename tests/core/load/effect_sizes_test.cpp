@@ -24,6 +24,23 @@ class TiedSlices final : public PairCompliance {
   double share_, scale_;
 };
 
+/// Slices on bodies that move as one under whatever acts on them.
+class SlicesOnBodies final : public PairCompliance {
+ public:
+  /// @param body  [mm/N]
+  SlicesOnBodies(const GearPair& pair, double body) : slices_(ThinSlice(pair, {}, {})), body_(body) {}
+  Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const override {
+    return influence_on_rigid_bodies(points, axial_offset).array() + body_;
+  }
+  Eigen::MatrixXd influence_on_rigid_bodies(const std::vector<ContactPoint>& points, double axial_offset) const override {
+    return slices_.influence(points, axial_offset);
+  }
+
+ private:
+  ThinSlicePair slices_;
+  double body_;
+};
+
 /// Gives way to the load's moment about mid face.
 class Tilting final : public PairCompliance {
  public:
@@ -46,7 +63,7 @@ EffectScene scene(double torque) {
 }
 
 EffectDecisions decisions_of(const EffectScene& s, bool whole_surface = false) {
-  return decide_effects({.loaded = true, .conditions = {s.condition}, .coupled_teeth = s.structure != nullptr, .shafts = s.shafts != nullptr,
+  return decide_effects({.loaded = true, .conditions = {s.condition}, .coupled_teeth = s.structure != nullptr, .gear_bodies = s.structure != nullptr, .shafts = s.shafts != nullptr,
                          .whole_surface = whole_surface});
 }
 
@@ -69,6 +86,7 @@ TEST_CASE("The size of each effect where it matters and where it does not", "[co
   const GearPair pair = helical_pair();
   const TiedSlices tied(pair, 0.3), loose(pair, 1e-4), stiff_teeth(pair, 0.0, 1e-4), soft_teeth(pair, 0.0, 1e4);
   const Tilting soft(1e-7), stiff(1e-14);
+  const SlicesOnBodies soft_bodies(pair, 1e-7), stiff_bodies(pair, 1e-13);
   std::vector<Row> rows;
   const auto row = [&](const char* name, double at_least, double at_most, auto change, auto hardly) {
     Row made{name, scene(3e5), scene(3e5), at_least, at_most};
@@ -84,6 +102,7 @@ TEST_CASE("The size of each effect where it matters and where it does not", "[co
       [](EffectScene& s) { s.condition.wheel_error.helix_slope = 1e-3 * units::um; });
   row("bending", 0.5, 1e-2, [](EffectScene&) {}, [&](EffectScene& s) { s.structure = &stiff_teeth; });
   row("adjacent_teeth", 0.05, 1e-3, [&](EffectScene& s) { s.structure = &tied; }, [&](EffectScene& s) { s.structure = &loose; });
+  row("gear_body_compliance", 0.05, 1e-3, [&](EffectScene& s) { s.structure = &soft_bodies; }, [&](EffectScene& s) { s.structure = &stiff_bodies; });
   row("shafts", 0.02, 1e-3, [&](EffectScene& s) {
         s.shafts = &soft;
         s.condition.misalignment.mesh_misalignment = 5 * units::um;

@@ -132,6 +132,38 @@ TEST_CASE("A helical tooth gives way most at the tip of its sharp end, and drags
   }
 }
 
+TEST_CASE("On a rigid body teeth give way less, what lies below their own material does not matter, and they hardly move each other",
+          "[core][compliance][fe]") {
+  const GearToMesh gear = gear_of(40, 15, 4);
+  const InfluenceModel elastic(gear, kUnit, coarse());
+  const std::vector<FlankPoint> where = points(elastic.mesh());
+  const auto on_rigid_body = [&](double shaft_diameter) {
+    GearToMesh held = gear;
+    held.body.rigid = true;
+    held.body.shaft_diameter = shaft_diameter;
+    const InfluenceModel model(held, kUnit, coarse());
+    CHECK(model.solid().unknowns() < elastic.solid().unknowns());
+    const Eigen::MatrixXd K = model.influence(where, RemovedMotion::None).compliance;
+    // A body that does not move has no motion to take off, and no axial hold.
+    CHECK((model.influence(where).compliance - K).cwiseAbs().maxCoeff() <= 1e-14 * K.maxCoeff());  // round-off
+    return K;
+  };
+  const Eigen::MatrixXd rigid = on_rigid_body(not_given);
+  // Discretisation: another shaft moves the elements below, between which a load deep in the tooth is shared out.
+  CHECK((on_rigid_body(20) - rigid).cwiseAbs().maxCoeff() < 1e-3 * rigid.maxCoeff());
+
+  // Whatever is held gives way less to any load: the difference is positive semi-definite, as long as no motion is taken off.
+  const Eigen::MatrixXd free = elastic.influence(where, RemovedMotion::None).compliance;
+  const Eigen::VectorXd values = symmetric_eigenvalues(free - rigid);
+  CHECK(values.minCoeff() > -1e-12 * values.maxCoeff());  // round-off x condition
+
+  const Eigen::MatrixXd net = elastic.influence(where).compliance;
+  const Eigen::Index own = 15 + 7, next = 30 + 7;  // half height at mid face
+  CHECK(rigid(own, own) < net(own, own));
+  CHECK(rigid(own, own) > 0.5 * net(own, own));
+  CHECK(std::abs(rigid(own, next)) < 0.2 * net(own, next));
+}
+
 TEST_CASE("The default mesh is converged to two percent", "[core][compliance][fe][.soak]") {
   const GearToMesh gear = gear_of(GENERATE(18, 40), 30, 6);
   GearMeshOptions usual, fine;

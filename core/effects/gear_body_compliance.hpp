@@ -1,0 +1,19 @@
+#pragma once
+
+#include "core/effects/effect.hpp"
+
+namespace flankwright {
+
+/// The gear's body gives way under its teeth: what lies deeper than the material that they stand on.
+class GearBodyComplianceEffect final : public Effect {
+ public:
+  std::string_view name() const override { return "gear_body_compliance"; }
+  EffectStage stage() const override { return EffectStage::Body; }
+  EffectCall called_for(const EffectFacts& facts) const override {
+    const bool on = facts.loaded && facts.gear_bodies;
+    return {on, on ? "what carries the teeth gives way as well" : "no load, or a compliance of teeth that knows of no gear body"};
+  }
+  void act(MeshDraft& draft) const override { draft.with_gear_bodies = true; }
+};
+
+}  // namespace flankwright

@@ -1,0 +1,16 @@
+#!/usr/bin/env bash
+# What an effect that is off costs, in instructions: runs that test under Callgrind. Skipped (77) where there is no Valgrind.
+#
+#   instruction_count_test.sh FLANKWRIGHT_TESTS
+set -euo pipefail
+
+if ! command -v valgrind >/dev/null; then
+  echo "no Valgrind here" >&2
+  exit 77
+fi
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+export FLANKWRIGHT_INSTRUCTIONS=$folder/instructions OPENBLAS_NUM_THREADS=1
+# -s lists what was compared, so that the figures stand in the log.
+valgrind --quiet --tool=callgrind --instr-atstart=no --callgrind-out-file="$FLANKWRIGHT_INSTRUCTIONS" \
+  "$1" "An effect that is off costs no instruction" -s
