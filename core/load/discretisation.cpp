@@ -83,13 +83,24 @@ class DiscretisationRun {
 
   Discretisation finish() {
     if (search_.choose_intervals) search_intervals();
-    if (search_.choose_positions && chosen_.failures == 0) search_positions();
-    if (search_.choose_intervals && chosen_.failures == 0) confirm_intervals();
-    chosen_.kept = chosen_.failures == 0 && largest(chosen_.error()) <= search_.accuracy;
+    // Intervals whose error is large between the fewest positions may do at more of them: these have their share whatever is left.
+    settle(std::max(left(), (1 - quadrature_share) * search_.accuracy));
+    const bool both = search_.choose_intervals && search_.choose_positions;
+    if (both && !chosen_.kept && left() > 0) settle(left());
     return std::move(chosen_);
   }
 
  private:
+  /// Of the accuracy, by the intervals.
+  double left() const { return search_.accuracy - largest(chosen_.quadrature_error); }
+
+  /// Positions within a budget, and the intervals at these.
+  void settle(double budget) {
+    if (search_.choose_positions && chosen_.failures == 0) search_positions(budget);
+    if (search_.choose_intervals && chosen_.failures == 0) confirm_intervals();
+    chosen_.kept = chosen_.failures == 0 && largest(chosen_.error()) <= search_.accuracy;
+  }
+
   SampledCycle solve(int intervals, const std::vector<double>& phases) {
     const MeshModel model = mesh_for_({{rule_, intervals}, phases});
     SampledCycle cycle(model, analyse_cycle(model, condition_, torque_));
@@ -121,9 +132,9 @@ class DiscretisationRun {
   }
 
   /// At the intervals chosen.
-  void search_positions() {
-    const double budget = std::max(search_.accuracy - largest(chosen_.quadrature_error), 0.0);
+  void search_positions(double budget) {
     std::vector<ResolutionLevel>& levels = chosen_.by_positions;
+    levels.clear();
     const int intervals = chosen_.quadrature.intervals;
     std::optional<SampledCycle> cycle;
     std::size_t taken = 0;
