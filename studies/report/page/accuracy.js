@@ -126,8 +126,13 @@ function build_accuracy_choice(choice, body) {
   });
   const tried = [...list(record(choice.compliance).candidates), ...list(record(choice.gap).candidates)].map(record)
     .map((c) => [`${c.name}`.replace(/_/g, " "), c.chosen ? "yes" : "", record(c.error_percent).worst ?? null, c.seconds ?? null]);
-  const levels = [...list(record(choice.quadrature).levels), ...list(record(choice.positions).levels)].map(record)
-    .map((l) => [`${fmt(l.intervals)} intervals, ${fmt(l.positions)} positions`, "", record(l.error_percent).worst ?? null, null]);
+  const positions = record(choice.positions).used;
+  const level = (text, l, chosen) => [text, chosen ? "yes" : "", record(l.error_percent).worst ?? null, null];
+  // Intervals are confirmed at the positions chosen: theirs is the last level.
+  const levels = [
+    ...list(record(choice.quadrature).levels).map(record).map((l, i, all) => level(`${fmt(l.intervals)} intervals, by ${fmt(l.positions)} positions`, l, i === all.length - 1)),
+    ...list(record(choice.positions).levels).map(record).map((l) => level(`${fmt(l.positions)} positions, by ${fmt(l.intervals)} intervals`, l, l.positions === positions)),
+  ];
   table(body, {
     title: "What was considered",
     note: "Models resolved coarsely, then the resolutions of the load case that asked for the finest one.",

@@ -4,13 +4,15 @@
  * Horizontal bars from zero.
  * @param rows  [{label, value, colour, hollow?, note?}], or several bars in a row: [{label, values, bars: [{value, colour, what}]}];
  *              a value that is none leaves its place empty
+ * @param limit  bars beyond it, either way, end there with a break
  */
-function draw_bars(plot, { rows, unit, label }) {
+function draw_bars(plot, { rows, unit, label, limit = Infinity }) {
   const width = Math.max(320, plot.clientWidth || 900), row_height = 24, top = 8, bottom = 40;
   const longest = Math.max(...rows.map((row) => row.label.length));
   const left = Math.min(0.6 * width, 20 + 7.1 * longest), right = 90;
   const height = top + bottom + row_height * rows.length;
-  const values = numbers(rows.flatMap((row) => row.values || [row.value]));
+  const shown = (value) => Math.min(limit, Math.max(-limit, value));
+  const values = numbers(rows.flatMap((row) => row.values || [row.value])).map(shown);
   if (values.length === 0) return;
   const low = Math.min(0, minimum(values)), high = Math.max(0, maximum(values)) || 1;
   const to_x = (value) => left + ((width - left - right) * (value - low)) / (high - low || 1);
@@ -27,13 +29,18 @@ function draw_bars(plot, { rows, unit, label }) {
     const bars = row.bars || [row], thickness = 14 / bars.length;
     bars.forEach((bar, k) => {
       if (!is_number(bar.value)) return;
-      const [from, to] = [to_x(Math.min(0, bar.value)), to_x(Math.max(0, bar.value))];
+      const [from, to] = [to_x(Math.min(0, shown(bar.value))), to_x(Math.max(0, shown(bar.value)))];
       picture.append(svg("rect", { x: from, y: y - 7 + k * thickness, width: Math.max(1, to - from), height: thickness,
         rx: 2, fill: bar.colour,
         ...(bar.hollow ? { "fill-opacity": 0.25, stroke: bar.colour } : {}) },
         svg("title", {}, `${row.label}${bar.what ? `, ${bar.what}` : ""}: ${fmt(bar.value)} ${unit}`)));
     });
-    const end = Math.max(0, ...numbers(bars.map((bar) => bar.value)));
+    const broken = numbers(bars.map((bar) => bar.value)).find((value) => Math.abs(value) > limit);
+    if (broken !== undefined) {
+      const x = to_x(shown(broken)) - 14 * Math.sign(broken);
+      picture.append(svg("path", { d: `M${x - 5},${y + 9} l6,-18 M${x},${y + 9} l6,-18`, class: "bar-break" }));
+    }
+    const end = Math.max(0, ...numbers(bars.map((bar) => shown(bar.value))));
     if (row.note) picture.append(svg("text", { x: to_x(end) + 8, y: y + 4, class: "muted" }, row.note));
   });
   plot.append(picture);

@@ -21,6 +21,12 @@ function effect_rows(effects, key) {
   });
 }
 
+/** Where one row is more than ten times as long as any other, bars end at one and a half of that: else no other would be seen. */
+function bar_limit(rows) {
+  const lengths = rows.map((row) => Math.max(0, ...row.values.filter(is_number).map(Math.abs))).sort((a, b) => b - a);
+  return lengths.length > 1 && lengths[1] > 0 && lengths[0] > 10 * lengths[1] ? 1.5 * lengths[1] : Infinity;
+}
+
 function time_figure(results, entries, grid) {
   const timed = entries.filter((entry) => entry.seconds > 0);
   if (!(results.seconds > 0) || timed.length === 0) return;
@@ -37,13 +43,14 @@ function effect_figures(results, effects, steps, body) {
   const is_exact = sized.some((effect) => effect.exact);
   const grid = figure_grid(body);
   for (const { title, key, unit } of sized.length > 0 ? effect_measures : []) {
+    const rows = effect_rows(sized, key), limit = bar_limit(rows);
     figure(grid, { title,
       caption: `With the effect less without it, in the load case in which it is largest${is_exact ? "; exact by leaving it out" : ""}; `
-        + "the estimate at no more than 32 positions, to first order where that holds." }, (plot) => {
+        + `the estimate at no more than 32 positions, to first order where that holds.${limit < Infinity ? " The broken bar goes on beyond the axis." : ""}` }, (plot) => {
       plot.append(el("p", { class: "key" },
         ...(is_exact ? [el("span", { class: "dot", style: `background:${sequence_colour(0)}` }), " left out   "] : []),
         el("span", { class: "dot", style: `background:${sequence_colour(1)}` }), " estimate"));
-      draw_bars(plot, { rows: effect_rows(sized, key), unit, label: title });
+      draw_bars(plot, { rows, unit, label: title, limit });
     });
   }
   time_figure(results, [...effects, ...steps], grid);
