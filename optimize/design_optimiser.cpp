@@ -69,7 +69,9 @@ class DesignRun {
   }
 
   void first_objective() {
-    result_.runs = run_from_starts(problem_, options_.solver, options_.starts);
+    SolverOptions search = options_.solver;
+    search.max_evaluations = std::min(search.max_evaluations, options_.most_search_analyses);
+    result_.runs = run_from_starts(problem_, search, options_.starts);
     result_.optima = distinct_optima(result_.runs, DesignResult::same_objective);
     for (const LocalRun& run : result_.runs) {
       result_.evaluations += run.evaluations;

@@ -63,6 +63,8 @@ struct DesignResult {
 struct DesignOptions {
   SolverOptions solver;  ///< budgets are those of all starts together, and of the stages and the rounding after them
   int starts{1};         ///< >= 1
+  /// Analyses of the search itself, without stages and rounding, >= 1; those of `solver` where that is less.
+  int most_search_analyses{std::numeric_limits<int>::max()};
 };
 
 /// Chooses the modifications of a task: from all starts (run_from_starts()), then the later objectives of a list from the best

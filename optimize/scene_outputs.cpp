@@ -151,6 +151,27 @@ double output_value(const ObjectiveTerm& term, const MeshModel& model, const Loa
   return rank(term, model, cycle, 0.0).front().value;
 }
 
+ResolvedValue resolved_value(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, const ResolvedCycle& resolved) {
+  const CycleSummary& summary = resolved.summary;
+  const CycleErrors& errors = resolved.errors;
+  const auto order = static_cast<std::size_t>(std::max(term.harmonic, 1) - 1);
+  switch (term.output) {
+    case Output::PeakContactStress: return {summary.peak_contact_stress, errors.peak_contact_stress};
+    case Output::TePeakToPeak: return {summary.te_peak_to_peak, errors.te_peak_to_peak};
+    case Output::LoadFactor: return {summary.load_factor, errors.load_factor};
+    case Output::PeakLineLoad: return {summary.peak_line_load, errors.peak_line_load};
+    case Output::TeHarmonic:
+      if (order < summary.te_harmonics.size()) {
+        return {summary.te_harmonics[order], order < errors.te_harmonics.size() ? errors.te_harmonics[order] : not_given};
+      }
+      break;
+    case Output::PeakRootStress: return {output_value(term, model, cycle), errors.peak_root_stress};
+    case Output::EffectiveContactRatio:
+    case Output::EdgeLoad: break;
+  }
+  return {output_value(term, model, cycle), not_given};
+}
+
 std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle,
                                               double margin, std::size_t most) {
   std::vector<PeakCandidate> leading;

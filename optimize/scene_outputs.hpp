@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/load/resolved_cycle.hpp"
 #include "optimize/design_task.hpp"
 
 namespace flankwright {
@@ -32,6 +33,13 @@ inline constexpr PeakCandidate whole_output{-1, -1};
 /// Value of an output: the largest of its candidates.
 /// @throws std::runtime_error where the cycle is not usable(): a solver survives and counts it
 double output_value(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle);
+
+/// The same with extremes between the positions, and its estimated error, inside unit; the error is NaN where none was estimated. What
+/// has no figure of its own in a summary is that of the positions.
+struct ResolvedValue {
+  double value{not_given}, error{not_given};
+};
+ResolvedValue resolved_value(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, const ResolvedCycle& resolved);
 
 /// Candidates whose value is at least (1 - margin) of the output's, largest first (ties by position), at most `most`.
 /// A harmonic's are its directions, all of them; with margin 0 the amplitude itself.

@@ -71,7 +71,7 @@ Json iso_gradient_json(const LoadedResult& loaded, const MeshModel& model, const
 }
 
 Json summary_gradient_json(const LoadedResult& loaded, const MeshModel& model, const Outside& outside, bool full_cycle) {
-  const CycleGradient summary = summary_gradient(model, loaded.cycle, loaded.summary);
+  const CycleGradient summary = resolved_gradient(model, loaded.cycle, loaded.resolved);
   const auto tangent = [&](const CycleGradient::Root& root) {
     return root.tangent_stress.size() == 0 ? Json() : Json{{"at_30_deg_tangent_MPa", outside.row(root.tangent_stress)}};
   };

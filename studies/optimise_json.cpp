@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/used_json.hpp"
+
 namespace flankwright::studies {
 
 namespace {
@@ -33,6 +35,33 @@ Json constraints_json(const DesignReport& report, const DesignTask& task) {
     if (std::isfinite(bound.minimum)) entry["min"] = bound.minimum * factor;
   }
   return constraints;
+}
+
+/// Estimated discretisation errors of what a report says; entries as constraints_json() has them.
+void add_errors(const DesignErrors& errors, const DesignTask& task, Json& json) {
+  json["objective_error"] = errors.objective;
+  json["constraints_error"] = Json::object();
+  for (std::size_t c = 0; c < errors.constraint_values.size(); ++c) {
+    const ObjectiveTerm& output = task.constraints[c].output;
+    json["constraints_error"][output.name] = errors.constraint_values[c] * output.outside_factor();
+  }
+  if (!errors.later_objectives.empty()) json["later_objectives_error"] = errors.later_objectives;
+}
+
+Json resolution_json(const LevelWork& work, std::size_t scenes) {
+  const double cycles = static_cast<double>(work.analyses) * static_cast<double>(scenes);
+  return {{"quadrature", quadrature_json(work.resolution.quadrature)},
+          {"positions", work.resolution.phases.size()},
+          {"cycles", cycles},
+          {"milliseconds_per_cycle", 1e3 * work.seconds / cycles},
+          {"seconds", work.seconds}};
+}
+
+Json assessment_json(const SearchWork& work, std::size_t scenes) {
+  return {{"search", resolution_json(work.search, scenes)},
+          {"assessed", resolution_json(work.fine, scenes)},
+          {"objective_seen_by_search", work.objective_seen_by_search},
+          {"searches", work.search.resolution.quadrature.intervals == work.fine.resolution.quadrature.intervals ? 1 : 2}};
 }
 
 Json design_report_json(const DesignReport& report, const DesignTask& task) {
@@ -169,7 +198,9 @@ Json optimise_json(const StudyResults& results) {
                       {"torque_Nm", task.scenes[s].torque / units::newton_metre},
                       {"weight", task.scenes[s].weight},
                       {"before", design.before.scene_measures[s]},
-                      {"after", design.after.scene_measures[s]}});
+                      {"after", design.after.scene_measures[s]},
+                      {"before_error", results.before_errors.scene_measures[s]},
+                      {"after_error", results.after_errors.scene_measures[s]}});
   }
   Json json{{"objective_name", task.objective_name()},
             {"objective_unit", task.objective_unit()},
@@ -195,6 +226,9 @@ Json optimise_json(const StudyResults& results) {
                        {"objective", step.objective},
                        {"constraint_violation", step.constraint_violation}};
              })}};
+  add_errors(results.before_errors, task, json["before"]);
+  add_errors(results.after_errors, task, json["after"]);
+  if (results.search_work) json["assessment"] = assessment_json(*results.search_work, task.scenes.size());
   if (design.exact) {
     json["exact"] = design_report_json(*design.exact, task);
     json["rounded"] = {{"variables", json["after"]["variables"]},

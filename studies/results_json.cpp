@@ -143,9 +143,21 @@ Json root_stress_json(const RootStressPeak& peak) {
           {"at_30_deg_tangent_MPa", peak.tangent_stress}};
 }
 
+/// Estimated discretisation errors, each beside its figure and in its unit; null where none was estimated.
+void add_errors(const CycleErrors& errors, Json& json) {
+  json["te_peak_to_peak_um_error"] = in_um(errors.te_peak_to_peak);
+  json["te_harmonics_um_error"] = list(errors.te_harmonics, in_um);
+  json["te_mean_um_error"] = in_um(errors.te_mean);
+  json["peak_load_N_per_mm_error"] = errors.peak_line_load;
+  json["peak_contact_stress_MPa_error"] = errors.peak_contact_stress;
+  json["peak_root_stress_MPa_error"] = errors.peak_root_stress;
+  json["mean_stiffness_N_per_mm_um_error"] = errors.mean_stiffness;
+  json["load_factor_error"] = errors.load_factor;
+}
+
 Json summary_json(const LoadedResult& loaded, const MeshModel& model, bool full_cycle) {
   const CycleSummary& summary = loaded.summary;
-  return {{"te_peak_to_peak_um", in_um(summary.te_peak_to_peak)},
+  Json json{{"te_peak_to_peak_um", in_um(summary.te_peak_to_peak)},
           {"te_harmonics_um", full_cycle ? list(summary.te_harmonics, in_um) : Json::array()},
           {"te_convergence", full_cycle ? te_convergence_json(loaded.cycle) : Json()},
           {"te_mean_um", in_um(summary.te_mean)},
@@ -166,6 +178,18 @@ Json summary_json(const LoadedResult& loaded, const MeshModel& model, bool full_
           {"peaks", loaded.rating ? peaks_json(*loaded.rating, model) : Json()},
           {"load_factors", loaded.rating ? load_factors_json(*loaded.rating) : Json()},
           {"iso6336", iso_json(model.iso, loaded.iso)}};
+  add_errors(loaded.resolved.errors, json);
+  return json;
+}
+
+/// Where the extremes lie that no position of the cycle has.
+Json extremes_json(const LoadedResult& loaded) {
+  return list(loaded.resolved.extreme_cycle.positions, [](const LoadedPosition& position) -> Json {
+    return {{"phase", position.phase},
+            {"te_um", in_um(position.load.transmission_error)},
+            {"peak_load_N_per_mm", position.load.line_load.maxCoeff()},
+            {"peak_contact_stress_MPa", position.contact_stress.maxCoeff()}};
+  });
 }
 
 Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
@@ -179,7 +203,8 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
             {"normal_force_N", loaded.cycle.force},
             {"design", loaded.design},
             {"summary", summary_json(loaded, model, results.study.cycle.phases.empty())},
-            {"cycle", std::move(cycle)}};
+            {"cycle", std::move(cycle)},
+            {"extremes", extremes_json(loaded)}};
   if (results.shafts) add_shaft_motion(loaded, results, json);
   const bool asked = results.study.task == Task::Analyse && !results.study.gradients.empty();
   if (asked && loaded.cycle.usable()) json["gradients"] = gradients_json(loaded, results);

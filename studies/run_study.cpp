@@ -7,6 +7,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/load/mesh_motion.hpp"
 #include "studies/proof/drawn_scenes.hpp"
+#include "studies/refine_resolution.hpp"
 #include "studies/study_effects.hpp"
 #include "studies/study_notes.hpp"
 #include "studies/study_shafts.hpp"
@@ -61,20 +62,22 @@ class Run {
   }
 
   /// The mesh at a placement, with what derivatives by these parameters need.
-  MeshModel mesh(const MeshPlacement& placement, const std::vector<double>& phases, const PairRootStress* root_stress,
+  MeshModel mesh(const MeshPlacement& placement, const MeshResolution& resolution, const PairRootStress* root_stress,
                  const std::vector<MeshParameter>& parameters) {
     const MeshPlaced placed = [&](const MeshPlacement& at) {
       const Study& study = results_.study;
-      return make_mesh_model(results_.pair, study.pinion_material, study.wheel_material, {study.fidelity.quadrature, phases},
-                             results_.mesh_effects, at, structures().pair.get(), root_stress, results_.shafts.get());
+      return make_mesh_model(results_.pair, study.pinion_material, study.wheel_material, resolution, results_.mesh_effects, at,
+                             structures().pair.get(), root_stress, results_.shafts.get());
     };
     return with_further_meshes(placed(placement), placed, parameters);
   }
 
+  MeshPlacement placement_of(const Misalignment& misalignment) const { return MeshPlacement::of(gap_model(results_.effects), misalignment); }
+
   /// The mesh for a misalignment, at phases of one's choice and without root stress.
   MeshAt mesh_at(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters = {}) {
-    return [this, placement = MeshPlacement::of(gap_model(results_.effects), misalignment), parameters](const std::vector<double>& phases) {
-      return mesh(placement, phases, nullptr, parameters);
+    return [this, placement = placement_of(misalignment), parameters](const std::vector<double>& phases) {
+      return mesh(placement, {results_.study.fidelity.quadrature, phases}, nullptr, parameters);
     };
   }
 
@@ -99,33 +102,46 @@ class Run {
     return scenes;
   }
 
-  /// Phases of the loaded mesh positions: as given, or as many as the load case asks for that needs most.
-  void choose_phases() {
+  /// Phases of the loaded mesh positions: as given, or evenly spaced.
+  void set_phases() {
     const Cycle& cycle = results_.study.cycle;
-    int positions = cycle.positions;
-    if (cycle.automatic_positions) {
-      for (const DesignScene& scene : loaded_scenes()) {
-        const ResolutionChoice choice =
-            choose_positions(mesh_at(scene.condition.misalignment), scene.condition, scene.torque);
-        std::optional<ResolutionChoice>& most = results_.resolution;
-        if (!most || choice.convergence.positions > most->convergence.positions) most = choice;
-      }
-      positions = results_.resolution->convergence.positions;
-      if (!results_.resolution->converged) {
-        note("the harmonics of the transmission error still change by " +
-             number(results_.resolution->convergence.harmonic_change / units::um) + " um from " + std::to_string(positions / 2) +
-             " to " + std::to_string(positions) + " mesh positions");
-      }
-    }
-    results_.phases = cycle.phases.empty() ? equally_spaced_phases(positions) : cycle.phases;
+    results_.phases = cycle.phases.empty() ? equally_spaced_phases(cycle.positions) : cycle.phases;
   }
 
   /// The mesh model for a misalignment, built when first needed.
   std::size_t model_for(const Misalignment& misalignment) {
-    const MeshPlacement placement = MeshPlacement::of(gap_model(results_.effects), misalignment);
+    const MeshPlacement placement = placement_of(misalignment);
     const auto [it, is_new] = model_index_.try_emplace(placement, results_.models.size());
-    if (is_new) results_.models.push_back(mesh(placement, results_.phases, structures().root_stress.get(), gradient_parameters()));
+    if (is_new) {
+      results_.models.push_back(
+          mesh(placement, {results_.study.fidelity.quadrature, results_.phases}, structures().root_stress.get(), gradient_parameters()));
+    }
     return it->second;
+  }
+
+  /// A load case with half the intervals at every second position, to hold the study's own resolution against; nothing for phases that
+  /// were given, whose figures are of these phases.
+  std::optional<LoadedCycle> coarse_cycle(const DesignScene& scene) {
+    Quadrature quadrature = results_.study.fidelity.quadrature;
+    if (!results_.study.cycle.phases.empty() || results_.phases.size() < 4 || quadrature.intervals < 2) return std::nullopt;
+    quadrature.intervals /= 2;
+    const MeshPlacement placement = placement_of(scene.condition.misalignment);
+    auto known = coarse_models_.find(placement);
+    if (known == coarse_models_.end()) {
+      const MeshResolution resolution{quadrature, coarse_phases(results_.phases)};
+      known = coarse_models_.emplace(placement, mesh(placement, resolution, structures().root_stress.get(), {})).first;
+    }
+    return analyse_cycle(known->second, scene.condition, scene.torque);
+  }
+
+  /// What a solved load case shows, with extremes between its positions and errors.
+  ResolvedCycle resolved(const DesignScene& scene, const MeshModel& model, const LoadedCycle& cycle) {
+    const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>& parameters) {
+      return mesh_at(scene.condition.misalignment, parameters)(phases);
+    };
+    const std::optional<LoadedCycle> coarse = coarse_cycle(scene);
+    return resolve_cycle(model, cycle, at, scene.condition, scene.torque,
+                         {.seek_extremes = seeks_extremes(results_.study), .coarse = coarse ? &*coarse : nullptr}, gradient_parameters());
   }
 
   /// Both gears' structure and root stress, made when first needed.
@@ -172,14 +188,20 @@ class Run {
     const FlankCondition& condition = scene.condition;
     const std::size_t index = model_for(condition.misalignment);
     const MeshModel& model = results_.models[index];
-    LoadedResult result{scene.name, scene.torque, design, std::move(cycle), {}, index, condition,
+    LoadedResult result{scene.name, scene.torque, design, std::move(cycle), {}, {}, index, condition,
                         iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, condition), scene.torque, model.face_width)};
-    result.summary = summarise(model, result.cycle);
-    if (locates_peaks(results_.study) && result.cycle.usable()) {
-      const auto mesh = [this](const Misalignment& m, const std::vector<MeshParameter>& by) { return mesh_at(m, by); };
-      result.rating = rater_.rate(mesh, condition, scene.torque, gradient_parameters());
-    }
+    result.resolved = resolved(scene, model, result.cycle);
+    result.summary = result.resolved.summary;
     results_.loaded.push_back(std::move(result));
+  }
+
+  /// Located peaks with and without spikes, and the load factors that follow.
+  void rate() {
+    if (!locates_peaks(results_.study)) return;
+    const auto mesh = [this](const Misalignment& m, const std::vector<MeshParameter>& by) { return mesh_at(m, by); };
+    for (LoadedResult& loaded : results_.loaded) {
+      if (loaded.cycle.usable()) loaded.rating = rater_.rate(mesh, loaded.condition, loaded.torque, gradient_parameters());
+    }
   }
 
   void size_effects() {
@@ -197,37 +219,47 @@ class Run {
 
   void analyse() {
     const Study& study = results_.study;
-    int total = 0, done = 0;
-    for (const Scene& scene : study.scenes) total += static_cast<int>(scene.torques.size());
+    const bool is_rigid = study.fidelity.compliance == ComplianceModel::Rigid;
     double loaded_seconds = 0.0;
-    const std::vector<MeshParameter> parameters = gradient_parameters();
-    if (study.fidelity.compliance != ComplianceModel::Rigid && has_torque(study)) {
-      structures();  // its time is its own
-      const Stopwatch clock;
-      choose_phases();
-      if (study.task == Task::Analyse) drop_small_effects(results_, loaded_scenes(), budget_);
-      loaded_seconds += clock.seconds();
-    }
+    if (!is_rigid && has_torque(study)) structures();  // its time is its own
     for (const Scene& scene : study.scenes) {
-      bool has_unloaded = false;
-      for (double torque : scene.torques) {
-        const Stopwatch clock;
-        if (torque == 0.0 || study.fidelity.compliance == ComplianceModel::Rigid) {
-          if (!has_unloaded) add_unloaded(scene);
-          has_unloaded = true;
-          unloaded_seconds_ += clock.seconds();
-        } else {
-          const DesignScene loaded{scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(study, scene))};
-          const std::size_t model = model_for(loaded.condition.misalignment);
-          add_loaded(loaded, "given", analyse_cycle(results_.models[model], loaded.condition, torque, parameters));
-          loaded_seconds += clock.seconds();
-        }
-        report("analysing", ++done, total, scene.name);
-      }
+      if (!is_rigid && std::ranges::find(scene.torques, 0.0) == scene.torques.end()) continue;
+      const Stopwatch clock;
+      add_unloaded(scene);
+      unloaded_seconds_ += clock.seconds();
     }
-    if (loaded_seconds > 0.0) {
-      results_.steps.push_back({"load_distribution", "some torque is above 0: all loaded effects together", loaded_seconds});
+    const std::vector<DesignScene> scenes = is_rigid ? std::vector<DesignScene>() : loaded_scenes();
+    if (scenes.empty()) return;
+    const Stopwatch clock;
+    set_phases();
+    if (study.task == Task::Analyse) drop_small_effects(results_, scenes, budget_);
+    analyse_loaded(scenes);
+    while (refine_resolution(results_)) {
+      forget_loaded();
+      analyse_loaded(scenes);
     }
+    rate();
+    loaded_seconds += clock.seconds();
+    results_.steps.push_back({"load_distribution", "some torque is above 0: all loaded effects together", loaded_seconds});
+  }
+
+  void analyse_loaded(const std::vector<DesignScene>& scenes) {
+    const std::vector<MeshParameter> parameters = gradient_parameters();
+    int done = 0;
+    for (const DesignScene& scene : scenes) {
+      const std::size_t model = model_for(scene.condition.misalignment);
+      add_loaded(scene, "given", analyse_cycle(results_.models[model], scene.condition, scene.torque, parameters));
+      report("analysing", ++done, static_cast<int>(scenes.size()), scene.name);
+    }
+  }
+
+  /// At another resolution all is made anew.
+  void forget_loaded() {
+    results_.loaded.clear();
+    results_.models.clear();
+    model_index_.clear();
+    coarse_models_.clear();
+    set_phases();
   }
 
   DesignTask design_task() {
@@ -258,7 +290,7 @@ class Run {
 
   void optimise() {
     const Study& study = results_.study;
-    choose_phases();
+    set_phases();
     results_.design_task = design_task();
     SolverOptions options;
     options.name = study.optimise.solver;
@@ -272,7 +304,9 @@ class Run {
     };
     DesignProblem problem(*results_.design_task);
     const DesignOptions choice{options, study.optimise.starts};
-    results_.design = optimise_design(problem, choice);
+    const TwoLevelDesign found = optimise_by_two_levels(problem, choice);
+    results_.design = found.design;
+    results_.search_work = {found.search, found.fine, found.objective_seen_by_search, found.design.after.objective};
     if (!study.optimise.pareto_goals.empty()) {
       results_.front = trace_front(problem, study.optimise.pareto_goals, study.optimise.pareto_points, choice);
     }
@@ -280,14 +314,10 @@ class Run {
     results_.steps.push_back({"load_distribution", "all analyses of the optimisation", design.seconds});
     results_.proof = prove_optimum(study, problem, design, loaded(draw_scenes(study, study.optimise.proof.validation)), progress_);
     results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", results_.proof->seconds});
-    for (const auto& [name, report] : {std::pair{"before", &design.before}, std::pair{"after", &design.after}}) {
-      for (int s = 0; s < problem.scenes(); ++s) {
-        DesignScene scene = results_.design_task->scenes[static_cast<std::size_t>(s)];
-        scene.condition.pinion_modification = report->analysis.pinion_modification;
-        scene.condition.wheel_modification = report->analysis.wheel_modification;
-        add_loaded(scene, name, report->analysis.cycles[static_cast<std::size_t>(s)]);
-      }
-    }
+    results_.before_errors = show(problem, "before", results_.design->before);
+    results_.after_errors = show(problem, "after", results_.design->after);
+    if (results_.design->exact) resolve_report(problem, resolved_cycles(problem, *results_.design->exact), *results_.design->exact);
+    rate();
     const bool ended_well = design.status == SolverStatus::Converged || design.status == SolverStatus::Stalled;
     if (!ended_well) {
       results_.requirements.push_back("the optimisation ended early (" + to_string(design.status) + "): " + design.message);
@@ -311,6 +341,32 @@ class Run {
                                         number(value * constraint.outside_factor()) + " " + constraint.unit());
       }
     }
+  }
+
+  /// The scenes of a design's report.
+  DesignScene scene_of(const DesignReport& report, int s) const {
+    DesignScene scene = results_.design_task->scenes[static_cast<std::size_t>(s)];
+    scene.condition.pinion_modification = report.analysis.pinion_modification;
+    scene.condition.wheel_modification = report.analysis.wheel_modification;
+    return scene;
+  }
+
+  std::vector<ResolvedCycle> resolved_cycles(const DesignProblem& problem, const DesignReport& report) {
+    std::vector<ResolvedCycle> cycles;
+    for (int s = 0; s < problem.scenes(); ++s) {
+      cycles.push_back(resolved(scene_of(report, s), problem.model(s), report.analysis.cycles[static_cast<std::size_t>(s)]));
+    }
+    return cycles;
+  }
+
+  /// Adds a design's load cases, and puts what they show into its report.
+  DesignErrors show(const DesignProblem& problem, const std::string& name, DesignReport& report) {
+    std::vector<ResolvedCycle> cycles;
+    for (int s = 0; s < problem.scenes(); ++s) {
+      add_loaded(scene_of(report, s), name, report.analysis.cycles[static_cast<std::size_t>(s)]);
+      cycles.push_back(results_.loaded.back().resolved);
+    }
+    return resolve_report(problem, cycles, report);
   }
 
   void accuracy() {
@@ -357,6 +413,7 @@ class Run {
   double budget_;
   StudyResults results_;
   std::map<MeshPlacement, std::size_t> model_index_;
+  std::map<MeshPlacement, MeshModel> coarse_models_;  ///< half the intervals, every second position
   double unloaded_seconds_{0.0};
   LoadRater rater_;
   bool has_structure_{false};

@@ -6,10 +6,13 @@
 
 #include "core/effects/decision.hpp"
 #include "core/load/cycle_resolution.hpp"
+#include "core/load/resolved_cycle.hpp"
 #include "core/load/iso_load_factors.hpp"
 #include "core/load/mesh_cycle.hpp"
 #include "optimize/design_optimiser.hpp"
 #include "optimize/pareto.hpp"
+#include "optimize/resolved_design.hpp"
+#include "optimize/two_level.hpp"
 #include "studies/accuracy/fidelity_choice.hpp"
 #include "studies/accuracy/ladder.hpp"
 #include "studies/effect_sizes.hpp"
@@ -32,7 +35,8 @@ struct LoadedResult {
   double torque{not_given};    ///< on the pinion [N mm]
   std::string design{"given"}; ///< "given", or "before" / "after" an optimisation
   LoadedCycle cycle;
-  CycleSummary summary;
+  ResolvedCycle resolved;      ///< with extremes between the positions, and errors
+  CycleSummary summary;        ///< of `resolved`
   std::size_t model{0};        ///< index into StudyResults::models
   FlankCondition condition;    ///< that it was solved for
   IsoLoadFactors iso;
@@ -45,6 +49,13 @@ struct RunStep {
   double seconds{not_given};
 };
 
+/// What a search took on its two levels, and what it believed.
+struct SearchWork {
+  LevelWork search, fine;
+  double objective_seen_by_search{not_given};  ///< of the optimum on the coarse level, outside units
+  double objective_at_positions{not_given};    ///< of what is to be ground, at the fine level's positions alone: what it is compared by, outside units
+};
+
 /// Everything a study produced, in internal units.
 struct StudyResults {
   Study study;
@@ -53,7 +64,6 @@ struct StudyResults {
   std::vector<LoadedResult> loaded;
   std::vector<MeshModel> models;  ///< one per placement
   std::vector<double> phases;     ///< of the loaded mesh positions [base pitches]
-  std::optional<ResolutionChoice> resolution;  ///< of the load case that needed most positions, where they were chosen automatically
   GearStructures structures;      ///< empty where no structure was asked for, or none needed
   std::shared_ptr<const ShaftPair> shafts;  ///< null where they are rigid
   EffectDecisions effects;
@@ -63,7 +73,9 @@ struct StudyResults {
   std::optional<FidelityChoice> fidelity_choice;  ///< where the study asks for an accuracy
   std::optional<Ladder> ladder;   ///< of the task "accuracy"
   std::optional<DesignTask> design_task;
-  std::optional<DesignResult> design;
+  std::optional<DesignResult> design;      ///< its figures as they are shown: with extremes between the positions
+  std::optional<SearchWork> search_work;   ///< how the design was found
+  DesignErrors before_errors, after_errors;  ///< of the design's reports
   std::optional<ParetoFront> front;
   std::optional<Proof> proof;     ///< of the design
   std::vector<GearDeflections> deflections;  ///< of both gears, where the compliance is of single gears

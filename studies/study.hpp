@@ -50,7 +50,7 @@ inline bool couples_teeth(ComplianceModel model) {
 
 struct Cycle {
   int positions{32};           ///< mesh positions over one base pitch, >= 1
-  bool automatic_positions{false};  ///< as many as the harmonics of the loaded transmission error need; `positions` without load
+  bool automatic_positions{true};  ///< doubled from `positions` on where the figures need more; `positions` without load
   std::optional<bool> locate_peaks;  ///< as the study says; see locates_peaks()
   std::vector<double> phases;  ///< explicit phases of the reference tooth pair [base pitches]; empty: use `positions`
 };
@@ -61,7 +61,8 @@ enum class EffectSizing { Off, Estimated, Exact };
 struct Fidelity {
   ComplianceModel compliance{ComplianceModel::Fitted};
   GapModel gap{GapModel::PlaneOfAction};
-  Quadrature quadrature;
+  Quadrature quadrature{QuadratureRule::Graded, 12};
+  bool automatic_intervals{true};    ///< doubled from those of `quadrature` on where the figures need more
   bool automatic_effects{true};
   std::vector<std::string> effects;  ///< switched on by hand where automatic_effects is false
   std::optional<double> accuracy;    ///< share that the rest shall keep, as far as it is not given; see choose_fidelity()
@@ -186,6 +187,12 @@ inline bool has_torque(const Study& study) {
 /// otherwise in an analysis, not beside an optimisation's many scenes; never where explicit phases are asked for.
 inline bool locates_peaks(const Study& study) {
   return study.cycle.phases.empty() && study.cycle.locate_peaks.value_or(study.task == Task::Analyse);
+}
+
+/// Whether the summary's extremes are sought between the positions: unless the study samples peaks or gives phases. Points at fixed places
+/// (all rules but Graded) enter and leave a line whole, and what they do between positions is no property of the gears.
+inline bool seeks_extremes(const Study& study) {
+  return study.cycle.phases.empty() && study.cycle.locate_peaks.value_or(true) && study.fidelity.quadrature.rule == QuadratureRule::Graded;
 }
 
 }  // namespace flankwright::studies

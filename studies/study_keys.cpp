@@ -84,8 +84,8 @@ std::vector<SchemaKey> working_condition_rows() {
       {.path = "unloaded.marking_thickness", .quantity = Quantity::Deviation, .range = above_zero(1000.0),
        .fallback = "6.35", .meaning = "of the compound that shows the bearing pattern; 6.35 um is 0.00025 in",
        .store = [](Draft& d, Member, const Value& v) { d.study.marking_thickness = v.number; }},
-      {.path = "cycle.positions", .kind = IntegerOrAuto, .range = {.low = 1, .high = 4096}, .fallback = "32",
-       .meaning = "mesh positions over one base pitch; auto doubles them, 32 .. 1024, until the harmonics of every loaded transmission error have converged",
+      {.path = "cycle.positions", .kind = IntegerOrAuto, .range = {.low = 1, .high = 4096}, .fallback = "\"auto\"",
+       .meaning = "mesh positions over one base pitch; auto is 32, and in an analysis under load up to 128 where the estimated errors ask for more",
        .store = [](Draft& d, Member, const Value& v) {
          d.study.cycle.automatic_positions = v.text == "auto";
          if (v.text != "auto") d.study.cycle.positions = static_cast<int>(v.integer);
@@ -107,13 +107,15 @@ std::vector<SchemaKey> working_condition_rows() {
        .meaning = "where contact is sought: where undisturbed flanks would touch, or over the whole flanks as they stand and are modified",
        .store = [](Draft& d, Member, const Value& v) { d.study.fidelity.gap = static_cast<GapModel>(v.integer); }},
       {.path = "fidelity.quadrature.rule", .kind = Word, .words = {"gauss2", "gauss3", "midpoint", "graded"},
-       .fallback = "\"gauss2\"", .meaning = "points in each interval of a contact line; graded: two Gauss points on intervals that end where the line does",
+       .fallback = "\"graded\"", .meaning = "points in each interval of a contact line; graded: two Gauss points on intervals that end where the line does; the others: at fixed places on the face, as Haddad's thesis has them",
        .store = [](Draft& d, Member, const Value& v) {
+         d.study.fidelity.automatic_intervals = false;
          d.study.fidelity.quadrature.rule = static_cast<QuadratureRule>(v.integer);
        }},
-      {.path = "fidelity.quadrature.intervals", .kind = Integer, .range = {.low = 1, .high = 500}, .fallback = "5",
-       .meaning = "intervals of a full contact line",
+      {.path = "fidelity.quadrature.intervals", .kind = Integer, .range = {.low = 1, .high = 500}, .fallback = "12",
+       .meaning = "intervals of a full contact line; left out, an analysis under load takes up to 48 where the estimated errors ask for more",
        .store = [](Draft& d, Member, const Value& v) {
+         d.study.fidelity.automatic_intervals = false;
          d.study.fidelity.quadrature.intervals = static_cast<int>(v.integer);
        }},
       {.path = "fidelity.effects", .kind = WordList,

@@ -63,13 +63,10 @@ Json used_gear_json(const StudyResults& results, Member member) {
 
 Json cycle_json(const StudyResults& results) {
   const Cycle& cycle = results.study.cycle;
-  const auto& chosen = results.resolution;
-  return {{"positions", chosen ? chosen->convergence.positions : cycle.positions},
+  return {{"positions", cycle.positions},
           {"phases", cycle.phases},
           {"peaks", locates_peaks(results.study) ? "located" : "sampled"},
-          {"automatic", chosen ? Json{{"converged", chosen->converged},
-                                      {"harmonic_change_um", in_um(chosen->convergence.harmonic_change)}}
-                               : Json(false)}};
+          {"automatic", cycle.automatic_positions && cycle.phases.empty()}};
 }
 
 }  // namespace

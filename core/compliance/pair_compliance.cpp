@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "core/compliance/interval_mean.hpp"
+
 namespace flankwright {
 
 Eigen::MatrixXd ThinSlicePair::influence(const std::vector<ContactPoint>& points, double) const {
@@ -46,16 +48,17 @@ Eigen::MatrixXd StructuralPair::influence_on_rigid_bodies(const std::vector<Cont
 
 Eigen::MatrixXd StructuralPair::sum(std::shared_ptr<const FlankCompliance> GearStructure::* of, const std::vector<ContactPoint>& points,
                                     double axial_offset) const {
-  const Eigen::Index n = static_cast<Eigen::Index>(points.size());
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
-  std::vector<FlankPlace> places(points.size());
+  const IntervalMean intervals(points);
+  const std::vector<ContactPoint>& fine = intervals.points();
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(std::ssize(fine), std::ssize(fine));
+  std::vector<FlankPlace> places(fine.size());
   for (Member member : {Member::Pinion, Member::Wheel}) {
     const GearStructure& gear = (*this)[member];
     assert(gear.*of);
-    for (std::size_t i = 0; i < points.size(); ++i) places[i] = flank_place(pair_, member, points[i], axial_offset);
+    for (std::size_t i = 0; i < fine.size(); ++i) places[i] = flank_place(pair_, member, fine[i], axial_offset);
     sum += (gear.*of)->evaluate(places) / (gear.youngs_modulus * pair_.data.normal_module);
   }
-  return sum;
+  return intervals.mean(sum);
 }
 
 }  // namespace flankwright

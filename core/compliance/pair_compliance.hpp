@@ -51,7 +51,8 @@ struct GearStructure {
   std::shared_ptr<const FlankCompliance> on_rigid_body{};  ///< GearBody::rigid; null: influence_on_rigid_bodies() must not be called
 };
 
-/// Both gears' structures side by side, K = K_1 + K_2, points on different teeth coupled.
+/// Both gears' structures side by side, K = K_1 + K_2, points on different teeth coupled; between intervals of contact lines where points
+/// have them, see IntervalMean.
 class StructuralPair final : public PairCompliance {
  public:
   StructuralPair(const GearPair& pair, GearStructure pinion, GearStructure wheel)

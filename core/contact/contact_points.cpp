@@ -208,12 +208,15 @@ std::vector<ContactPoint> contact_points(const GearPair& pair, const PathOfConta
   const int last = static_cast<int>(std::ceil(path.last_line_phase() - line_phase));
   std::vector<ContactPoint> points;
   for (int tooth = first; tooth <= last; ++tooth) {
+    int interval = -1;
     for (const LineInterval& part : line_intervals(path, quadrature, line_phase + tooth, face_start, face_end)) {
+      ++interval;
       for (const Node& node : rule) {
         const double width = part.end - part.begin;
         auto point = contact_point(pair, path, line_phase, tooth, part.begin + node.position * width, with_extended_region);
         if (!point) continue;
         point->weight = node.weight * width / cos_base_helix;
+        if (quadrature.rule == QuadratureRule::Graded) point->interval = interval;
         points.push_back(*point);
       }
     }

@@ -50,6 +50,7 @@ struct ContactPoint {
   double relative_radius{not_given};  ///< rho_1 rho_2 / (rho_1 + rho_2) / cos(beta_b), normal section [Haddad 1991, eq. 2.15]
   double pinion_depth{not_given}, wheel_depth{not_given};  ///< h = (s_yt/2) cos(beta_b) / cos(alpha_yt), flank to tooth centre
   double pinion_tip_distance{not_given}, wheel_tip_distance{not_given};  ///< (r_a - r_y) / cos(alpha_yt)
+  int interval{-1};        ///< of its line, where two Gauss points of the rule Graded share one; -1: none
   double clearance{0.0};   ///< c_n of the unmodified pair, normal to the flank; 0 on the theoretical path of contact
 };
 

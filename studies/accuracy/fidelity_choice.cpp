@@ -171,6 +171,7 @@ std::string unmet_accuracy(const FidelityChoice& choice) {
 
 Study with_choice(Study study, const FidelityChoice& choice) {
   study.fidelity = choice.fidelity;
+  study.fidelity.automatic_intervals = false;
   if (!choice.positions_given) {
     study.cycle.positions = choice.positions;
     study.cycle.automatic_positions = false;

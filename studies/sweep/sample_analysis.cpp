@@ -77,7 +77,11 @@ std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& conditi
   if (!cycle.usable()) {
     throw SampleFailure{"the load distribution did not converge at " + std::to_string(cycle.failures) + " mesh positions"};
   }
-  const CycleSummary summary = summarise(*model, cycle);
+  const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) {
+    return make_mesh_model(nominal_.pair, study.pinion_material, study.wheel_material, {study.fidelity.quadrature, phases}, nominal_.mesh_effects,
+                           placement, nominal_.structures.pair.get(), nullptr, nominal_.shafts.get());
+  };
+  const CycleSummary summary = resolve_cycle(*model, cycle, at, condition, torque, {.seek_extremes = seeks_extremes(study)}).summary;
   const IsoLoadFactors iso = iso_load_factors(model->pair, model->iso, iso_deviations(model->pair, condition), torque, model->face_width);
   std::vector<double> values{in_um(summary.te_peak_to_peak), in_um(summary.te_mean)};
   add_harmonics(values, summary.te_harmonics, in_um);

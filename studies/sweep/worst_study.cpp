@@ -40,6 +40,11 @@ std::string sample_study(const Study& study, const std::string& title, const std
   for (std::size_t j = 0; j < values.size(); ++j) {
     overrides.push_back({study.sweep.parameters[j].path, fmt::format("{}", values[j])});  // shortest text of the same number
   }
+  if (study.fidelity.automatic_intervals) {
+    overrides.push_back({"fidelity.quadrature.rule", "\"graded\""});
+    overrides.push_back({"fidelity.quadrature.intervals", fmt::format("{}", study.fidelity.quadrature.intervals)});
+  }
+  if (study.cycle.automatic_positions && study.cycle.phases.empty()) overrides.push_back({"cycle.positions", fmt::format("{}", study.cycle.positions)});
   add_grids(study, "pinion", study.pinion_grid, study.pinion_tooth_grids, overrides);
   add_grids(study, "wheel", study.wheel_grid, study.wheel_tooth_grids, overrides);
   std::vector<StudyProblem> problems;
