@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "studies/report/plain_names.hpp"
 #include "studies/results_folder.hpp"
 #include "studies/sweep/sweep_statistics.hpp"
 #include "studies/sweep/worst_study.hpp"
@@ -82,7 +83,7 @@ std::string sweep_summary(const StudyResults& results) {
   std::string out = fmt::format("{:<32}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>12}\n", "over the samples", "mean", "std", "1 %",
                                 "99 %", "worst", "of sample");
   for (const OutputStatistics& of : s.outputs) {
-    out += fmt::format("{:<32}  {:>11.5g}  {:>11.4g}  {:>11.5g}  {:>11.5g}  {:>11.5g}  {:>12}\n", of.output.name, of.mean, of.deviation,
+    out += fmt::format("{:<32}  {:>11.5g}  {:>11.4g}  {:>11.5g}  {:>11.5g}  {:>11.5g}  {:>12}\n", plain_name(of.output.name), of.mean, of.deviation,
                        of.quantiles.front(), of.quantiles.back(), of.output.smaller_is_worse ? of.smallest : of.largest,
                        of.worst);
   }
