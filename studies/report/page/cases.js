@@ -25,14 +25,37 @@ const designs_of = (load_case) => DESIGN_ORDER.filter((design) => load_case.desi
 const final_entry = (load_case) => load_case.designs[designs_of(load_case).pop()];
 const summary_of = (entry) => record(record(entry).summary);
 
-/** The load case that governs: of the largest objective after the optimisation, else of the largest stress. */
-function governing_case(cases, optimise) {
-  const severity = (load_case) => {
-    const scene = list(optimise.scenes).map(record).find((s) =>
-      s.name === load_case.scene && (!is_number(s.torque_Nm) || s.torque_Nm === load_case.torque));
-    if (scene && is_number(scene.after)) return scene.after;
-    return summary_of(final_entry(load_case)).peak_contact_stress_MPa;
-  };
+const same_scene = (scene, load_case) =>
+  scene.name === load_case.scene && (!is_number(scene.torque_Nm) || Math.abs(scene.torque_Nm - load_case.torque) <= 1e-5 * Math.abs(load_case.torque));
+
+/** The scenes of an optimisation, the one that governs first: by its weight at the optimum, then by its objective. */
+function scenes_by_rank(optimise) {
+  const weights = list(record(optimise.governing).scenes).map(record);
+  const scenes = list(optimise.scenes).map(record).map((scene) => {
+    const found = weights.find((w) => w.name === scene.name && (!is_number(w.torque_Nm) || w.torque_Nm === scene.torque_Nm));
+    return { ...scene, governs: found && is_number(found.weight) && Math.abs(found.weight) >= 0.005 ? found.weight : 0 };
+  });
+  const value = (scene) => (is_number(scene.after) ? scene.after : -Infinity);
+  return scenes.sort((a, b) => Math.abs(b.governs) - Math.abs(a.governs) || value(b) - value(a));
+}
+
+/** True where a study asks for transmission error alone: its objective, or all that it expects of the loaded contact. */
+function asks_for_te(results) {
+  const objective = record(results.optimise).objective_name;
+  if (objective) return /^te_/.test(objective);
+  const expected = list(results.given).map((given) => `${record(given).key ?? ""}`).filter((key) => /^expect\..*(te_|stress|load)/.test(key));
+  return expected.length > 0 && expected.every((key) => /te_/.test(key));
+}
+
+/** The load case that governs: by its weight at the optimum or its objective there; else of the largest stress, or TE where that is asked for. */
+function governing_case(cases, results) {
+  const ranked = scenes_by_rank(record(results.optimise)).filter((scene) => scene.governs !== 0 || is_number(scene.after));
+  for (const scene of ranked) {
+    const found = cases.find((load_case) => same_scene(scene, load_case));
+    if (found) return found;
+  }
+  const key = asks_for_te(results) ? "te_peak_to_peak_um" : "peak_contact_stress_MPa";
+  const severity = (load_case) => summary_of(final_entry(load_case))[key];
   return cases.reduce((worst, load_case) => {
     const value = severity(load_case);
     return worst === null || (is_number(value) && !(severity(worst) >= value)) ? load_case : worst;

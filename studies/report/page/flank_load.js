@@ -80,7 +80,7 @@ function draw_contact_lines(pen, points, { scale, rank }, to_x, to_y) {
 }
 
 /** @param wanted  phase of the mesh position, null: the whole cycle */
-function draw_flank_load(plot, load_case, quantity, wanted) {
+function draw_flank_load(plot, load_case, quantity, wanted, height = MAP_HEIGHT) {
   const clouds = flank_clouds(load_case, quantity);
   if (!clouds.area) {
     plot.append(el("p", { class: "empty" }, "No contact points are stored for this load case."));
@@ -106,7 +106,7 @@ function draw_flank_load(plot, load_case, quantity, wanted) {
       title: `${DESIGN_LABEL[design]}${phase === null ? "" : `, phase ${fmt(phase, 3)}`}${told ? `, ${told} ${quantity.unit}` : ""}`,
       overlay: phase === null ? null : (pen, to_x, to_y) => draw_contact_lines(pen, here, clouds, to_x, to_y) };
   });
-  flank_maps(plot, { maps, area, scale, unit: quantity.unit, r_title: "pinion radius [mm]" });
+  flank_maps(plot, { maps, area, scale, unit: quantity.unit, r_title: "pinion radius [mm]", height });
 }
 
 /** A slider over the mesh positions of the longest cycle; its first stop is the whole cycle. Calls back with the phase or null. */

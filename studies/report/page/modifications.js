@@ -57,18 +57,20 @@ function variable_table(body, optimise) {
     columns: [{ label: "Variable" }, { label: "Before" }, { label: "After" }, { label: "Change" }, { label: "Unit" }],
     rows: names.map((name) => {
       const from = record(before.variables)[name], to = record(after.variables)[name];
-      return [name, settled(from, units[name]), settled(to, units[name]), is_number(from) && is_number(to) ? settled(to - from, units[name]) : null,
+      return [words(name), settled(from, units[name]), settled(to, units[name]), is_number(from) && is_number(to) ? settled(to - from, units[name]) : null,
         pretty_unit(units[name])];
     }),
   });
 }
 
+/** Every stored topography: [{gear, design, grid}]. */
+const topographies = (results) => list(results.modifications).map(record)
+  .map((entry) => ({ gear: entry.gear, design: DESIGN_LABEL[entry.design] ? entry.design : "given", grid: topography_grid(entry) }))
+  .filter((entry) => entry.grid !== null);
+
 function build_modifications(results, body) {
   const grid = figure_grid(body);
-  const entries = list(results.modifications).map(record)
-    .map((entry) => ({ gear: entry.gear, design: DESIGN_LABEL[entry.design] ? entry.design : "given",
-      grid: topography_grid(entry) }))
-    .filter((entry) => entry.grid !== null);
+  const entries = topographies(results);
   for (const gear of unique(entries.map((entry) => entry.gear))) {
     const own = entries.filter((entry) => entry.gear === gear)
       .sort((a, b) => DESIGN_ORDER.indexOf(a.design) - DESIGN_ORDER.indexOf(b.design));

@@ -134,7 +134,7 @@ function scene_table(body, scenes) {
 
 function build_unloaded(results, body) {
   const scenes = unloaded_scenes(results);
-  const selection = case_selection(scenes, scenes[0], "");
+  const selection = case_selection(scenes, worst_unloaded(scenes), scenes.length > 1 ? " (largest TE)" : "");
   const teeth = (gear) => record(record(results.geometry)[gear]).teeth;
   const speed_ratio = teeth("pinion") / teeth("wheel");
   selection.add_choice(body);
