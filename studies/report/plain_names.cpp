@@ -132,7 +132,8 @@ std::string plain_name(std::string_view text) {
   std::string words;
   for (std::size_t at = 0; at <= text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
-    words += (at == 0 ? "" : " ") + word_in_words(std::string(text.substr(at, end - at)));
+    if (at > 0) words += ' ';
+    words += word_in_words(std::string(text.substr(at, end - at)));
     at = end + 1;
   }
   return words;

@@ -39,7 +39,7 @@ function error_facts(optimise) {
   return [
     ["Before", `${with_error(before.objective, before.objective_error, 4)} ${unit}`],
     ["After", `${with_error(after.objective, after.objective_error, 4)} ${unit}`],
-    ["Gain", `${with_error(gain, error, 3)} ${unit}, ${times >= 100 ? "more than 100" : fmt(times, 2)} times its error`, times < 2 ? "bad" : times >= 5 ? "good" : null],
+    ["Gain", `${with_error(gain, error, 3)} ${unit}, ${times >= 100 ? "over 100" : fmt(times, 2)} × its error`, times < 2 ? "bad" : times >= 5 ? "good" : null],
   ];
 }
 
@@ -47,16 +47,17 @@ function error_facts(optimise) {
 function starts_fact(optimise) {
   const starts = list(optimise.starts).length, optima = list(optimise.optima).map(record);
   if (starts === 0) return null;
+  if (starts > 1 && optima.length === 0) return ["Optimum", `none of ${starts} starts converged`, "bad"];
   if (starts === 1) return ["Optimum", "local, from one start"];
   return ["Optimum", optimise.multimodal ? `${fmt(record(optima[0]).found_by)} of ${starts} starts end here, others elsewhere`
-    : `all ${starts} starts that ended well end here`];
+    : `${fmt(record(optima[0]).found_by)} of ${starts} starts end here`];
 }
 
 function rule_fact(optimise) {
   const best = record(record(optimise.comparison).best_rule), after = record(optimise.after).objective;
   if (!is_number(best.objective) || !is_number(after)) return null;
-  const change = percent_change(after, best.objective);
-  return ["Best rule of thumb", el("span", { title: best.name }, `${fmt(best.objective, 3)} ${pretty_unit(optimise.objective_unit)} (${change})`)];
+  const percent = 100 * (best.objective / after - 1);
+  return ["Best rule of thumb", el("span", { title: best.name }, `${fmt(best.objective, 3)} ${pretty_unit(optimise.objective_unit)}, ${fmt(Math.abs(percent), 2)} % ${percent < 0 ? "less" : "more"}`), best.objective < after ? "bad" : null];
 }
 
 function assurance_panel(plot, results) {

@@ -7,13 +7,13 @@ const DESIGN_LABEL = { before: "Before", given: "As given", after: "After" };
 function load_cases(results) {
   const cases = new Map();
   const entries = list(results.loaded).map(record);
-  const several_torques = unique(entries.map((entry) => entry.torque_Nm)).length > 1;
+  const several_torques = unique(entries.map((entry) => entry.torque_Nm)).length > 1, several_scenes = unique(entries.map((entry) => entry.scene)).length > 1;
   for (const entry of entries) {
     const scene = typeof entry.scene === "string" && entry.scene !== "" ? entry.scene : "nominal";
     const key = JSON.stringify([scene, entry.torque_Nm ?? null]);
     if (!cases.has(key)) {
       const torque = is_number(entry.torque_Nm) ? `${fmt(entry.torque_Nm)} N·m` : "";
-      const label = several_torques && torque ? `${scene}, ${torque}` : scene;
+      const label = !several_torques || !torque ? scene : several_scenes ? `${scene}, ${torque}` : torque;
       cases.set(key, { key, scene, torque: entry.torque_Nm, label, designs: {} });
     }
     cases.get(key).designs[DESIGN_LABEL[entry.design] ? entry.design : "given"] = entry;

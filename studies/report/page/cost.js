@@ -16,13 +16,13 @@ function draw_steps(plot, results) {
   const rows = [...steps.map((step) => ({ label: label(step), seconds: step.seconds, kept: KEPT_STEPS.includes(step.name), why: step.why })),
     ...(rest > 0.01 * whole ? [{ label: "everything else", seconds: rest }] : [])]
     .filter((row) => row.seconds > 0.005 * whole).sort((a, b) => b.seconds - a.seconds).slice(0, 6);
-  const width = Math.max(240, plot.clientWidth || 320), row_height = 18, left = Math.min(0.48 * width, 14 + 6.8 * Math.max(...rows.map((row) => row.label.length)));
+  const width = Math.max(240, plot.clientWidth || 320), row_height = 18, left = Math.min(0.5 * width, 16 + 7.2 * Math.max(...rows.map((row) => row.label.length)));
   const picture = svg("svg", { viewBox: `0 0 ${width} ${row_height * rows.length + 2}`, width: "100%", role: "img", "aria-label": "Seconds of each step" });
   rows.forEach((row, i) => {
-    const y = row_height * i, size = ((width - left - 96) * row.seconds) / rows[0].seconds;
+    const y = row_height * i, size = ((width - left - 60) * row.seconds) / rows[0].seconds;
     picture.append(svg("text", { x: left - 8, y: y + 13, "text-anchor": "end", class: "small" }, row.label),
-      svg("rect", { x: left, y: y + 4, width: Math.max(1, size), height: 10, rx: 2, fill: css_colour(row.kept ? "axis" : "after") }, svg("title", {}, row.why ?? row.label)),
-      svg("text", { x: left + size + 6, y: y + 13, class: "muted" }, `${long_seconds(row.seconds)}${row.kept ? ", first run" : ""}`));
+      svg("rect", { x: left, y: y + 4, width: Math.max(1, size), height: 10, rx: 2, fill: css_colour(row.kept ? "axis" : "after") }, svg("title", {}, `${row.why ?? row.label}${row.kept ? "; kept for later runs" : ""}`)),
+      svg("text", { x: left + size + 6, y: y + 13, class: "muted" }, long_seconds(row.seconds)));
   });
   plot.append(picture);
 }
@@ -37,8 +37,9 @@ function resolution_words(of) {
 
 function resolution_facts(results) {
   const used = record(results.used), fidelity = record(used.fidelity), { search, assessed, searches } = record(record(results.optimise).assessment);
-  const compliance = fidelity.compliance ? ["Compliance", words(fidelity.compliance)] : null;
-  if (!search && !assessed) return [compliance, ["Resolution", resolution_words({ quadrature: fidelity.quadrature, positions: record(used.cycle).positions }) || null]];
+  const compliance = fidelity.compliance && (list(results.loaded).length > 0 || results.sweep) ? ["Compliance", words(fidelity.compliance)] : null;
+  const quadrature = compliance ? fidelity.quadrature : null;  // without a load nothing is integrated
+  if (!search && !assessed) return [compliance, ["Resolution", resolution_words({ quadrature, positions: record(used.cycle).positions }) || null]];
   return [compliance,
     search ? ["Searched at", resolution_words(record(search))] : null,
     assessed ? ["Shown at", resolution_words(record(assessed))] : null,

@@ -62,7 +62,7 @@ function with_error(value, error, digits = 3) {
 
 /** Units as they are printed: um -> µm, Nm -> N·m. */
 const pretty_unit = (unit) =>
-  (typeof unit === "string" ? unit : "").replace(/\bum\b/g, "µm").replace(/\bNm\b/g, "N·m").replace(/^deg$/, "°");
+  (typeof unit === "string" ? unit : "").replace(/\bum\b/g, "µm").replace(/\bNm\b/g, "N·m").replace(/^deg$/, "°").replace(/\^2\b/g, "²");
 
 /** Names that a person writes for keys and outputs, {name, symbol, sense} each; the page is given them with the results. */
 const NAMES = new Map();

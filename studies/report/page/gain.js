@@ -5,29 +5,29 @@ const MOST_SCENES = 8;
 const scene_label = (scene, several_torques) =>
   `${scene.name}${several_torques && is_number(scene.torque_Nm) ? `, ${fmt(scene.torque_Nm)} N·m` : ""}`;
 
-/** Pairs of bars, before above after, with whiskers of the error where it is known. @param rows [{label, before, after, before_error, after_error, strong}] */
+/** Bars of each row, before above after or after alone, with whiskers of the error where it is known. @param rows [{label, before?, after, before_error?, after_error?, strong?}] */
 function draw_pairs(plot, rows, unit) {
-  const width = Math.max(280, plot.clientWidth || 400), row_height = 23, bottom = 4, wide = 140;
-  const left = Math.min(0.42 * width, 14 + 6.9 * Math.max(...rows.map((row) => row.label.length)));
+  const width = Math.max(280, plot.clientWidth || 400), paired = rows.some((row) => is_number(row.before)), row_height = paired ? 22 : 20, bottom = 2, wide = 140;
+  const left = Math.min(0.45 * width, 16 + 7.2 * Math.max(...rows.map((row) => row.label.length)));
   const height = row_height * rows.length + bottom;
   const high = maximum(rows.flatMap((row) => [row.before, row.after])) || 1;
   const to_x = (value) => left + ((width - left - wide) * Math.max(0, value)) / high;
-  const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img", "aria-label": "Objective of each scene before and after" });
+  const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img", "aria-label": "A bar for each scene" });
   rows.forEach((row, i) => {
     const y = row_height * i + 3;
     picture.append(svg("text", { x: left - 8, y: y + 13, "text-anchor": "end", class: row.strong ? "small strong" : "small" }, row.label));
     ["before", "after"].forEach((design, k) => {
       if (!is_number(row[design])) return;
-      const top = y + 8 * k, error = row[`${design}_error`];
-      picture.append(svg("rect", { x: left, y: top, width: Math.max(1, to_x(row[design]) - left), height: 7, rx: 1.5, fill: design_colour(design) },
+      const top = paired ? y + 8 * k : y + 3, thickness = paired ? 7 : 11, error = row[`${design}_error`];
+      picture.append(svg("rect", { x: left, y: top, width: Math.max(1, to_x(row[design]) - left), height: thickness, rx: 1.5, fill: design_colour(design) },
         svg("title", {}, `${row.label}, ${design}: ${with_error(row[design], error, 4)} ${unit}`)));
       if (error > 0) {
-        picture.append(svg("line", { x1: to_x(row[design] - error), x2: to_x(row[design] + error), y1: top + 3.5, y2: top + 3.5, class: "whisker" }));
+        picture.append(svg("line", { x1: to_x(row[design] - error), x2: to_x(row[design] + error), y1: top + thickness / 2, y2: top + thickness / 2, class: "whisker" }));
       }
     });
     const change = percent_change(row.before, row.after);
     picture.append(svg("text", { x: to_x(maximum([row.before, row.after])) + 6, y: y + 13, class: row.after > row.before ? "small worse" : "small" },
-      `${fmt(row.before, 3)} → ${fmt(row.after, 3)}`, svg("tspan", { class: "muted" }, change ? ` ${change}` : "")));
+      paired ? `${fmt(row.before, 3)} → ${fmt(row.after, 3)}` : with_error(row.after, row.after_error, 3), svg("tspan", { class: "muted" }, change ? ` ${change}` : "")));
   });
   plot.append(picture);
 }

@@ -13,17 +13,17 @@ function grinding_step(results, key, unit) {
   return common > 0 ? common : DEFAULT_STEP[unit] ?? null;
 }
 
-/** A value on the grid of a step, with no more decimals than the step has; without a step at four digits. */
+/** A value on the grid of a step, with no more decimals than the step has; without a step at three digits. */
 function ground(value, step) {
-  if (!is_number(value) || !(step > 0)) return fmt(value);
+  if (!is_number(value) || !(step > 0)) return fmt(value, 3);
   if (Math.round(value / step) === 0) return "0";
   const decimals = [0, 1, 2, 3].find((places) => Math.abs(step * 10 ** places - Math.round(step * 10 ** places)) < 1e-9) ?? 4;
   return fixed(Math.round(value / step) * step, decimals);
 }
 
 /**
- * Everything that is to be ground: [{gear, key, before, after, unit, step, given, bound}] in the order of the names, amounts that are 0 in both
- * designs and were nobody's choice left out, with the heights and lengths that belong to them.
+ * Everything that is to be ground: [{gear, key, before, after, unit, step, given, bound}] in the order of the names. Left out: given amounts that
+ * are 0, and heights and lengths of reliefs that are not ground.
  */
 function grinding_rows(results) {
   const optimise = record(results.optimise), before = record(optimise.before), after = record(optimise.after);
@@ -42,10 +42,11 @@ function grinding_rows(results) {
   ];
   const is_nothing = (row) => ["before", "after"].every((side) => !(Math.abs(row[side]) >= 0.5 * (row.step ?? 1e-9)));
   const amount_of = (key) => rows.find((row) => row.key === key.replace(/\.(height|length|shape)$/, ".amount"));
+  const is_gone = (row) => !(Math.abs(row.after) >= 0.5 * (row.step ?? 1e-9));
   const shown = rows.filter((row) => {
-    if (!row.given) return true;
     const amount = amount_of(row.key);
-    return amount && amount !== row ? !is_nothing(amount) : row.text !== undefined || !is_nothing(row);
+    if (amount && amount !== row) return !is_gone(amount);
+    return !row.given || row.text !== undefined || !is_nothing(row);
   });
   const order = [...NAMES.keys()], place = (key) => (order.includes(key) ? order.indexOf(key) : order.length);
   return shown.map((row) => ({ ...row, gear: row.key.split(".")[0] })).sort((a, b) => place(a.key) - place(b.key));
@@ -58,8 +59,9 @@ function grinding_table(plot, results) {
   const rows = grinding_rows(results);
   if (rows.length === 0) return plot.append(el("p", { class: "empty" }, "No modification is varied."));
   const body = [];
-  for (const gear of unique(rows.map((row) => row.gear))) {
-    body.push(el("tr", { class: "group" }, el("th", { colspan: 5, scope: "rowgroup" }, capital(gear))));
+  for (const [i, gear] of unique(rows.map((row) => row.gear)).entries()) {
+    body.push(el("tr", { class: "group" }, el("th", { colspan: 2, scope: "rowgroup" }, capital(gear)),
+      ...["before", "grind"].map((design) => el("th", { class: "number" }, i === 0 ? design : "")), el("th")));
     for (const row of rows.filter((own) => own.gear === gear)) {
       const name = NAMES.get(row.key) ?? {}, tells = [name.sense && !/^Legendre/.test(name.sense) ? name.sense : null, row.bound ? `at its ${row.bound} bound` : null,
         row.given ? "as given" : null].filter(Boolean).join(", ");
@@ -74,11 +76,10 @@ function grinding_table(plot, results) {
     }
   }
   plot.append(el("table", { class: "grinding" },
-    el("thead", {}, el("tr", {}, el("th"), el("th"), el("th", { class: "number" }, "before"), el("th", { class: "number" }, "grind"), el("th"))),
     el("tbody", {}, ...body)));
   const rounded = record(record(results.optimise).rounded), stepped = results.optimise.rounded !== undefined && is_number(rounded.loss_percent);
-  plot.append(el("p", { class: "fine" }, stepped ? `In the grinder's steps, which cost ${fmt(Math.max(0, rounded.loss_percent), 2)} % of the objective. Amounts are material removed.`
-    : "Rounded to 0.1 µm and 0.1 mm; the exact optimum is below. Amounts are material removed."));
+  plot.append(el("p", { class: "fine" }, stepped ? `In the grinder's steps, at a cost of ${fmt(Math.max(0, rounded.loss_percent), 2)} %. Amounts are material removed.`
+    : "Rounded to 0.1 µm and 0.1 mm. Amounts are material removed."));
 }
 
 /** The flanks to grind, each as a small map with contour lines, on one scale. */
@@ -92,14 +93,14 @@ function small_topographies(plot, results, height) {
   for (const entry of entries) {
     const { gear, grid } = entry, peak = maximum(grid.rows.flat());
     const area = { z: [grid.z[0], grid.z[grid.z.length - 1]], r: [grid.r[0], grid.r[grid.r.length - 1]] };
-    const levels = round_ticks(scale.low, scale.high, 7).filter((level) => level > scale.low && level < scale.high);
+    const low = minimum(grid.rows.flat()), levels = round_ticks(low, peak, 6).filter((level) => level > low && level < peak);
     const { canvas, pen } = sharp_canvas(width, height, `Topography to grind on the ${gear}, contour lines in µm`);
     const frame = { left: 50, top: 24, width: width - 58, height: height - 62 };
     const to_x = (z) => frame.left + (frame.width * (z - area.z[0])) / (area.z[1] - area.z[0]);
     const to_y = (r) => frame.top + frame.height * (1 - (r - area.r[0]) / (area.r[1] - area.r[0]));
     paint_raster(pen, frame, grid_raster(grid, area), scale);
     draw_contours(pen, grid, levels, to_x, to_y);
-    draw_axes(pen, frame, { z: area.z, r: area.r, title: `${capital(gear)}, up to ${fmt(peak, 2)} µm`, r_title: "radius [mm]" });
+    draw_axes(pen, frame, { z: area.z, r: area.r, title: `${capital(gear)}, ${low < -0.05 ? `${fmt(low, 2)} to` : "up to"} ${fmt(peak, 2)} µm`, r_title: "radius [mm]" });
     row.append(canvas);
   }
   const bare = ["pinion", "wheel"].filter((gear) => entries.every((entry) => entry.gear !== gear));

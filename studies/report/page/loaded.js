@@ -37,8 +37,9 @@ function cycle_curves(selection, value_of, remove_mean) {
     designs_of(load_case).map((design) => curve(load_case, design, load_case === selection.current)));
 }
 
-/** Range of an axis that is wide enough for what its curves are known to: at least `least`, with room around the curves. */
-function readable_range(curves, least) {
+/** Range of an axis with room around its curves and at least `least` wide; curves in the background do not widen it where they stand apart. */
+function readable_range(all, least, with_background = false) {
+  const curves = with_background ? all : all.filter((curve) => !curve.quiet);
   const values = numbers(curves.flatMap((curve) => curve.points.map((point) => point.y)));
   if (values.length === 0) return {};
   const [low, high] = [minimum(values), maximum(values)];
@@ -59,7 +60,7 @@ function draw_te(plot, selection, remove_mean, height = 290) {
     curves,
     x: "phase [base pitches]",
     y: remove_mean ? "TE less its mean [µm]" : "TE [µm]",
-    y_range: readable_range(curves, least_te_range(selection.current)),
+    y_range: readable_range(curves, least_te_range(selection.current), remove_mean),
     read_x: (x) => `phase ${fmt(x)}`,
     read_y: (y) => `${fmt(y, remove_mean ? 3 : 5)} µm`,
     height,

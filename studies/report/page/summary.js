@@ -33,11 +33,11 @@ function loaded_headline(cases, results) {
   const stress = worst("peak_contact_stress_MPa"), te = worst("te_peak_to_peak_um");
   const parts = [];
   if (is_number(stress)) parts.push(`peak contact stress ${fmt(stress, 3)} MPa`);
-  if (is_number(te)) parts.push(`peak-to-peak TE ${fmt(te, 3)} µm under load`);
+  if (is_number(te)) parts.push(`peak-to-peak TE ${fmt(te, 3)} µm`);
   if (asks_for_te(results)) parts.reverse();
   if (parts.length === 0) return "The loaded contact was not obtained";
   const torques = unique(cases.map((load_case) => load_case.torque)).filter(is_number);
-  const where = cases.length > 1 ? `, the worst of ${cases.length} load cases`
+  const where = cases.length > 1 ? `: the worst of ${count_words(cases.length)} load cases`
     : torques.length === 1 ? ` at ${fmt(torques[0])} N·m` : "";
   return capital(parts.join(" and ")) + where;
 }
@@ -54,7 +54,7 @@ function unloaded_headline(results) {
   if (!is_number(te)) return "Unloaded tooth contact of the pair";
   // Below a millionth of an arcsec there is nothing but round-off.
   if (te < 1e-6) return "Without load the pair runs free of transmission error";
-  return `Unloaded transmission error ${fmt(te, 3)} arcsec peak to peak at the wheel${count > 1 ? `, the worst of ${count} scenes` : ""}`;
+  return `Unloaded TE ${fmt(te, 3)} arcsec peak to peak at the wheel${count > 1 ? `: the worst of ${count_words(count)} scenes` : ""}`;
 }
 
 /** Every constraint of the optimised design: {name, value, max, min, unit, met}. */
