@@ -39,7 +39,7 @@ function error_facts(optimise) {
   return [
     ["Before", `${with_error(before.objective, before.objective_error, 4)} ${unit}`],
     ["After", `${with_error(after.objective, after.objective_error, 4)} ${unit}`],
-    ["Gain", `${with_error(gain, error, 3)} ${unit}, ${times >= 100 ? "over 100" : fmt(times, 2)} × its error`, times < 2 ? "bad" : times >= 5 ? "good" : null],
+    ["Gain", `${with_error(gain, error, 3)} ${unit}, ${times >= 100 ? "over 100" : fmt(times, 2)} errors`, times < 2 ? "bad" : times >= 5 ? "good" : null],
   ];
 }
 
@@ -56,18 +56,19 @@ function starts_fact(optimise) {
 function rule_fact(optimise) {
   const best = record(record(optimise.comparison).best_rule), after = record(optimise.after).objective;
   if (!is_number(best.objective) || !is_number(after)) return null;
-  const percent = 100 * (best.objective / after - 1);
-  return ["Best rule of thumb", el("span", { title: best.name }, `${fmt(best.objective, 3)} ${pretty_unit(optimise.objective_unit)}, ${fmt(Math.abs(percent), 2)} % ${percent < 0 ? "less" : "more"}`), best.objective < after ? "bad" : null];
+  const times = best.objective / after, percent = 100 * (times - 1);
+  const beside = times > 3 ? `${fmt(times, 2)} times as much` : `${fmt(Math.abs(percent), 2)} % ${percent < 0 ? "less" : "more"}`;
+  return ["Best rule of thumb", el("span", { title: best.name }, `${fmt(best.objective, 3)} ${pretty_unit(optimise.objective_unit)}, ${beside}`), best.objective < after ? "bad" : null];
 }
 
 function assurance_panel(plot, results) {
   const optimise = record(results.optimise), unit = pretty_unit(optimise.objective_unit);
-  const seen = record(optimise.assessment).objective_seen_by_search, after = record(optimise.after).objective;
+  const seen = record(optimise.assessment).objective_seen_by_search;
   const validation = record(optimise.validation), share = validation.share_better_than_before;
   const ended = optimise.status ? [words(optimise.status), /converged|success|optimal/i.test(optimise.status) ? "" : "bad"] : null;
   plot.append(facts([
     ...error_facts(optimise),
-    is_number(seen) && is_number(after) ? ["Seen by the search", `${fmt(seen, 4)} ${unit}, assessed finer ${fmt(after, 4)}`] : null,
+    is_number(seen) ? ["Seen by the search", `${fmt(seen, 4)} ${unit}`] : null,
     rule_fact(optimise),
     ended ? ["Search", ...ended] : null,
     starts_fact(optimise),

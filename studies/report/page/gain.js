@@ -7,7 +7,9 @@ const scene_label = (scene, several_torques) =>
 
 /** Bars of each row, before above after or after alone, with whiskers of the error where it is known. @param rows [{label, before?, after, before_error?, after_error?, strong?}] */
 function draw_pairs(plot, rows, unit) {
-  const width = Math.max(280, plot.clientWidth || 400), paired = rows.some((row) => is_number(row.before)), row_height = paired ? 22 : 20, bottom = 2, wide = 140;
+  const width = Math.max(280, plot.clientWidth || 400), paired = rows.some((row) => is_number(row.before)), row_height = paired ? 22 : 20, bottom = 2;
+  const note = (row) => (paired ? `${fmt(row.before, 3)} → ${fmt(row.after, 3)}` : with_error(row.after, row.after_error, 3));
+  const wide = 10 + 7 * Math.max(...rows.map((row) => `${note(row)} ${percent_change(row.before, row.after) ?? ""}`.length));
   const left = Math.min(0.45 * width, 16 + 7.2 * Math.max(...rows.map((row) => row.label.length)));
   const height = row_height * rows.length + bottom;
   const high = maximum(rows.flatMap((row) => [row.before, row.after])) || 1;
@@ -27,7 +29,7 @@ function draw_pairs(plot, rows, unit) {
     });
     const change = percent_change(row.before, row.after);
     picture.append(svg("text", { x: to_x(maximum([row.before, row.after])) + 6, y: y + 13, class: row.after > row.before ? "small worse" : "small" },
-      paired ? `${fmt(row.before, 3)} → ${fmt(row.after, 3)}` : with_error(row.after, row.after_error, 3), svg("tspan", { class: "muted" }, change ? ` ${change}` : "")));
+      note(row), svg("tspan", { class: "muted" }, change ? ` ${change}` : "")));
   });
   plot.append(picture);
 }

@@ -52,6 +52,14 @@ function grinding_rows(results) {
   return shown.map((row) => ({ ...row, gear: row.key.split(".")[0] })).sort((a, b) => place(a.key) - place(b.key));
 }
 
+/** Where a relief sets in, as drawings say it: "from d_Ca 219.8 mm". */
+function relief_start(results, row) {
+  const gear = record(record(results.geometry)[row.gear]), height = Number(ground(row.after, row.step ?? 1e-3));
+  if (/tip_relief\.height$/.test(row.key) && is_number(gear.tip_diameter_mm)) return `from d_Ca ${fixed(gear.tip_diameter_mm - 2 * height, 2)} mm`;
+  if (/root_relief\.height$/.test(row.key) && is_number(gear.active_root_diameter_mm)) return `up to d_Cf ${fixed(gear.active_root_diameter_mm + 2 * height, 2)} mm`;
+  return null;
+}
+
 /** "pinion tip relief" -> "Tip relief" below the pinion's heading. */
 const without_gear = (key, gear) => capital(words(key).replace(new RegExp(`^${gear} `), ""));
 
@@ -63,13 +71,13 @@ function grinding_table(plot, results) {
     body.push(el("tr", { class: "group" }, el("th", { colspan: 2, scope: "rowgroup" }, capital(gear)),
       ...["before", "grind"].map((design) => el("th", { class: "number" }, i === 0 ? design : "")), el("th")));
     for (const row of rows.filter((own) => own.gear === gear)) {
-      const name = NAMES.get(row.key) ?? {}, tells = [name.sense && !/^Legendre/.test(name.sense) ? name.sense : null, row.bound ? `at its ${row.bound} bound` : null,
+      const name = NAMES.get(row.key) ?? {}, tells = [name.sense && !/^Legendre/.test(name.sense) ? name.sense : null, relief_start(results, row), row.bound ? `at its ${row.bound} bound` : null,
         row.given ? "as given" : null].filter(Boolean).join(", ");
       const moved = !row.given && ground(row.before, row.step) !== ground(row.after, row.step);
       const unit = pretty_unit(row.unit);
       body.push(el("tr", { title: name.sense || null },
         el("td", { class: "symbol" }, name.symbol ? symbols(name.symbol) : ""),
-        el("td", {}, without_gear(row.key, gear), tells ? el("small", {}, ` ${tells}`) : null),
+        el("td", {}, without_gear(row.key, gear), tells ? el("small", {}, " ", symbols(tells)) : null),
         el("td", { class: "number" }, row.text !== undefined ? "" : ground(row.before, row.step)),
         el("td", { class: moved ? "number grind" : "number" }, row.text ?? ground(row.after, row.step)),
         el("td", { class: "unit" }, unit)));

@@ -14,8 +14,8 @@ function sweep_headline(sweep) {
   const outputs = sweep_outputs(sweep), name = leading_output(outputs), of = record(record(sweep.statistics)[name]);
   if (!is_number(of.mean)) return "No sample of the sweep has results";
   const unit = sweep_unit(of.unit);
-  return `Mean ${words(name)} ${fmt(of.mean, 3)} ${unit}, σ ${fmt(of.std, 2)} ${unit}, over ${fmt(sweep.samples, 9)} samples; `
-    + `99 % of them below ${fmt(record(of.quantiles)["99 %"], 3)} ${unit}`;
+  return `${capital(words(name))} ${fmt(of.mean, 3)} ${unit} on average, σ ${fmt(of.std, 2)} ${unit}; `
+    + `99 % of ${fmt(sweep.samples, 9)} samples below ${fmt(record(of.quantiles)["99 %"], 3)} ${unit}`;
 }
 
 function sweep_tiles(sweep) {

@@ -79,7 +79,7 @@ function sweep_facts(sweep) {
   return [
     is_number(of.std) ? ["Mean of the samples", `${with_error(of.mean, of.std / Math.sqrt(samples), 4)} ${unit}`] : null,
     is_number(record(of.worst).value) ? ["Worst sample", `${fmt(record(of.worst).value, 4)} ${unit}, sample ${fmt(record(of.worst).sample, 9)}`] : null,
-    record(of.worst).study ? ["Its study", record(of.worst).study] : null,
+    record(of.worst).study ? ["Its study", el("code", {}, record(of.worst).study)] : null,
     ["Samples", `${fmt(samples, 9)} of ${fmt(sweep.samples, 9)} analysed, ${words(sweep.sampler)}`, sweep.failed > 0 ? "bad" : null],
     is_number(sweep.seconds) ? ["A sample takes", long_seconds(sweep.seconds / Math.max(1, sweep.samples))] : null,
   ];
@@ -88,8 +88,9 @@ function sweep_facts(sweep) {
 function sweep_first(first, results) {
   const sweep = record(results.sweep), outputs = sweep_outputs(sweep), leading = leading_output(outputs);
   const shown = SWEEP_FIRST.map((name) => outputs.find(([own]) => own === name)).filter(Boolean).slice(0, 4);
-  panel(first, { title: "How far the outputs scatter", span: 6, href: "scatter" }, (plot) => plot.append(el("div", { class: "small-multiples two" },
-    ...shown.map(([name, of]) => el("div", {}, draw_histogram(name, of))))));
+  panel(first, { title: "How far the outputs scatter", span: 6, href: "scatter" }, (plot) => plot.append(
+    el("div", { class: "small-multiples two" }, ...shown.map(([name, of]) => el("div", {}, draw_histogram(name, of)))),
+    el("p", { class: "fine" }, "Full line: mean; dashed: 1 % and 99 % of the samples.")));
   panel(first, { title: `Where the scatter of the ${words(leading)} comes from`, span: 6, href: "indices" },
     (plot) => draw_tornado(plot, record(record(record(sweep.statistics)[leading]).indices), 9));
   panel(first, { title: `How sure: ${words(leading)}`, span: 8, href: "scatter" }, (plot) => plot.append(facts(sweep_facts(sweep))));
