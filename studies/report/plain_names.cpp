@@ -85,6 +85,13 @@ constexpr std::array outputs{
     Row{"iso6336_K_Halpha", "K_Hα by ISO 6336"},
 };
 
+/// Effects and settings whose key is no English yet.
+constexpr std::array others{
+    Row{"hertzian_contact", "Hertzian contact"},
+    Row{"thin_slice", "thin slices"},
+    Row{"fe", "finite elements"},
+};
+
 constexpr std::array<std::string_view, 10> ordinals{"first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"};
 
 std::vector<PlainName> make_names() {
@@ -97,6 +104,7 @@ std::vector<PlainName> make_names() {
   }
   for (const Row& row : of_pair) add(std::string(row.key), std::string(row.name), row);
   for (const Row& row : outputs) add(std::string(row.key), std::string(row.name), row);
+  for (const Row& row : others) add(std::string(row.key), std::string(row.name), row);
   for (std::size_t i = 0; i < ordinals.size(); ++i) {
     const std::string name = std::string(ordinals[i]) + " harmonic of ", key = "te_harmonic_" + std::to_string(i + 1);
     names.push_back({key, name + "TE", "", ""});

@@ -15,7 +15,8 @@ struct PlainName {
   std::string sense;   ///< what a positive value does, where its sign can be mistaken; else empty
 };
 
-/// All keys that have one: modifications and manufacturing errors of both gears, misalignment, load and outputs, those of sweeps too.
+/// All keys that have one: modifications and manufacturing errors of both gears, misalignment, load, outputs, those of sweeps too, and what
+/// settings and effects a report names.
 const std::vector<PlainName>& plain_names();
 
 /// The words of a key. In a sum such as "2 * pinion.modification.lead_crowning - te_mean" every key becomes its words; a key without
