@@ -12,12 +12,13 @@ function draw_pairs(plot, rows, unit) {
   const wide = 10 + 7 * Math.max(...rows.map((row) => `${note(row)} ${percent_change(row.before, row.after) ?? ""}`.length));
   const left = Math.min(0.45 * width, 16 + 7.2 * Math.max(...rows.map((row) => row.label.length)));
   const height = row_height * rows.length + bottom;
+  const room = Math.floor((left - 14) / 7), shortened = (label) => (label.length > room ? `${label.slice(0, room - 1)}…` : label);
   const high = maximum(rows.flatMap((row) => [row.before, row.after])) || 1;
   const to_x = (value) => left + ((width - left - wide) * Math.max(0, value)) / high;
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img", "aria-label": "A bar for each scene" });
   rows.forEach((row, i) => {
     const y = row_height * i + 3;
-    picture.append(svg("text", { x: left - 8, y: y + 13, "text-anchor": "end", class: row.strong ? "small strong" : "small" }, row.label));
+    picture.append(svg("text", { x: left - 8, y: y + 13, "text-anchor": "end", class: row.strong ? "small strong" : "small" }, shortened(row.label), svg("title", {}, row.label)));
     ["before", "after"].forEach((design, k) => {
       if (!is_number(row[design])) return;
       const top = paired ? y + 8 * k : y + 3, thickness = paired ? 7 : 11, error = row[`${design}_error`];
