@@ -30,7 +30,9 @@ const same_scene = (scene, load_case) =>
 
 /** The scenes of an optimisation, the one that governs first: by its weight at the optimum, then by its objective. */
 function scenes_by_rank(optimise) {
-  const weights = list(record(optimise.governing).scenes).map(record);
+  const governing = record(optimise.governing);
+  // Of a list of objectives the multipliers are those of the last one.
+  const weights = (governing.objective_name ?? optimise.objective_name) === optimise.objective_name ? list(governing.scenes).map(record) : [];
   const scenes = list(optimise.scenes).map(record).map((scene) => {
     const found = weights.find((w) => w.name === scene.name && (!is_number(w.torque_Nm) || w.torque_Nm === scene.torque_Nm));
     return { ...scene, governs: found && is_number(found.weight) && Math.abs(found.weight) >= 0.005 ? found.weight : 0 };

@@ -56,6 +56,15 @@ function constraint_facts(optimise) {
   });
 }
 
+/** Of a list of objectives those behind the first: [[name, "0.393 → 0.09 µm"]]. */
+function later_facts(optimise) {
+  const from = list(record(optimise.before).later_objectives), to = list(record(optimise.after).later_objectives);
+  return list(optimise.stages).slice(1).map((stage, i) => {
+    const { objective } = record(stage), unit = /^te_[a-z_0-9]+$/.test(objective) ? " µm" : /^[a-z_]+_stress$/.test(objective) ? " MPa" : "";
+    return [`Then ${words(objective)}`, `${fmt(from[i], 3)} → ${fmt(to[i], 3)}${unit} (${percent_change(from[i], to[i]) ?? "–"})`];
+  });
+}
+
 function gain_panel(plot, results) {
   const optimise = record(results.optimise), unit = pretty_unit(optimise.objective_unit);
   const scenes = scenes_by_rank(optimise);
@@ -69,5 +78,5 @@ function gain_panel(plot, results) {
   const rest = scenes.length - shown.length;
   const sentence = [scenes_sentence(scenes, label), rest > 0 ? `${rest} more below.` : null].filter(Boolean).join(" ");
   if (sentence) plot.append(el("p", { class: "fine" }, sentence));
-  plot.append(facts(constraint_facts(optimise)));
+  plot.append(facts([...later_facts(optimise), ...constraint_facts(optimise)]));
 }
