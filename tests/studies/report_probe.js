@@ -53,6 +53,14 @@
     }
   }
 
+  // A harmonic smaller than its error is hollow, any other is not.
+  for (const canvas of document.querySelectorAll('main canvas[aria-label="Harmonics of the transmission error"]')) {
+    for (const { data, errors, backgroundColor } of Chart.getChart(canvas).data.datasets) {
+      (errors || []).forEach((error, i) => check((backgroundColor[i] === "transparent") === (error !== null && error >= Math.abs(data[i])),
+        `harmonic ${i + 1} is ${data[i]} with error ${error} and drawn ${backgroundColor[i]}`));
+    }
+  }
+
   let moved = 0;
   for (const input of document.querySelectorAll("input[type=range]")) {
     const section = input.closest("section"), before = picture(section), text = section.textContent;
