@@ -34,7 +34,7 @@
     for (const heading of ["What to grind", "How much better", "How sure", "What it costs"]) {
       check([...first.querySelectorAll("h3")].some((h3) => h3.textContent.startsWith(heading)), `the first screen does not say "${heading}"`);
     }
-    const bold = first.querySelector("svg text.strong")?.textContent;
+    const bold = first.querySelector("svg text.strong")?.firstChild.data.replace("…", "");
     for (const select of document.querySelectorAll("#flank-load select, #transmission-error select, #stiffness select")) {
       const chosen = select.selectedOptions[0].textContent;
       check(chosen.endsWith("(governs)") && (!bold || chosen.startsWith(bold)), `the chooser begins at "${chosen}", and "${bold}" governs`);

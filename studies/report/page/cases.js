@@ -3,18 +3,26 @@
 const DESIGN_ORDER = ["before", "given", "after"];
 const DESIGN_LABEL = { before: "Before", given: "As given", after: "After" };
 
+/** What tells scenes {name, torque_Nm} apart: their names, their torques, or both. @return scene -> label */
+function scene_labels(scenes) {
+  const several = (of) => unique(scenes.map(of)).length > 1;
+  const torques = several((scene) => scene.torque_Nm), names = several((scene) => scene.name);
+  return ({ name, torque_Nm }) => {
+    const torque = is_number(torque_Nm) ? `${fmt(torque_Nm)} N·m` : null;
+    return !torques || torque === null ? `${name}` : names ? `${name}, ${torque}` : torque;
+  };
+}
+
 /** [{key, scene, torque, label, designs: {before?, given?, after?}}] in the order of the results. */
 function load_cases(results) {
   const cases = new Map();
   const entries = list(results.loaded).map(record);
-  const several_torques = unique(entries.map((entry) => entry.torque_Nm)).length > 1, several_scenes = unique(entries.map((entry) => entry.scene)).length > 1;
+  const label_of = scene_labels(entries.map((entry) => ({ name: entry.scene, torque_Nm: entry.torque_Nm })));
   for (const entry of entries) {
     const scene = typeof entry.scene === "string" && entry.scene !== "" ? entry.scene : "nominal";
     const key = JSON.stringify([scene, entry.torque_Nm ?? null]);
     if (!cases.has(key)) {
-      const torque = is_number(entry.torque_Nm) ? `${fmt(entry.torque_Nm)} N·m` : "";
-      const label = !several_torques || !torque ? scene : several_scenes ? `${scene}, ${torque}` : torque;
-      cases.set(key, { key, scene, torque: entry.torque_Nm, label, designs: {} });
+      cases.set(key, { key, scene, torque: entry.torque_Nm, label: label_of({ name: scene, torque_Nm: entry.torque_Nm }), designs: {} });
     }
     cases.get(key).designs[DESIGN_LABEL[entry.design] ? entry.design : "given"] = entry;
   }

@@ -2,8 +2,6 @@
 
 const MOST_SCENES = 8;
 
-const scene_label = (scene, several_torques) =>
-  `${scene.name}${several_torques && is_number(scene.torque_Nm) ? `, ${fmt(scene.torque_Nm)} N·m` : ""}`;
 
 /** Bars of each row, before above after or after alone, with whiskers of the error where it is known. @param rows [{label, before?, after, before_error?, after_error?, strong?}] */
 function draw_pairs(plot, rows, unit) {
@@ -68,8 +66,7 @@ function later_facts(optimise) {
 function gain_panel(plot, results) {
   const optimise = record(results.optimise), unit = pretty_unit(optimise.objective_unit);
   const scenes = scenes_by_rank(optimise);
-  const several_torques = unique(scenes.map((scene) => scene.torque_Nm)).length > 1;
-  const label = (scene) => scene_label(scene, several_torques);
+  const label = scene_labels(scenes);
   const shown = scenes.slice(0, MOST_SCENES - Math.min(3, constraint_rows(optimise).length));
   plot.append(el("p", { class: "key" },
     el("span", { class: "dot", style: `background:${design_colour("before")}` }), " before   ",

@@ -46,12 +46,8 @@ function build_scenes(results, body) {
   const unit = pretty_unit(optimise.objective_unit), name = words(optimise.objective_name);
   const raw = list(optimise.scenes).map(record);
   const known = (value, error) => (is_number(value) && is_number(error) ? { value, text: with_error(value, error, 4) } : value ?? null);
-  const several_torques = unique(raw.map((scene) => scene.torque_Nm)).length > 1;
-  const scenes = raw.map((scene) => ({
-    ...scene,
-    label: `${scene.name}`
-      + (several_torques && is_number(scene.torque_Nm) ? `, ${fmt(scene.torque_Nm)} N·m` : ""),
-  }));
+  const label = scene_labels(raw);
+  const scenes = raw.map((scene) => ({ ...scene, label: label(scene) }));
   if (scenes.length > 0) {
     figure(figure_grid(body), {
       title: `${capital(name)} of every scene`,
