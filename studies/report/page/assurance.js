@@ -39,7 +39,8 @@ function error_facts(optimise) {
   return [
     ["Before", `${with_error(before.objective, before.objective_error, 4)} ${unit}`],
     ["After", `${with_error(after.objective, after.objective_error, 4)} ${unit}`],
-    ["Gain", `${with_error(gain, error, 3)} ${unit}, ${times >= 100 ? "over 100" : fmt(times, 2)} errors`, times < 2 ? "bad" : times >= 5 ? "good" : null],
+    ["Gain", `${with_error(gain, error, 3)} ${unit}`],
+    ["Gain / error", times >= 100 ? "above 100" : fmt(times, 2), times < 2 ? "bad" : times >= 5 ? "good" : null],
   ];
 }
 

@@ -64,11 +64,11 @@ function with_error(value, error, digits = 3) {
 const pretty_unit = (unit) =>
   (typeof unit === "string" ? unit : "").replace(/\bum\b/g, "µm").replace(/\bNm\b/g, "N·m").replace(/^deg$/, "°").replace(/\^2\b/g, "²");
 
-/** Names that a person writes for keys and outputs, {name, symbol, sense} each; the page is given them with the results. */
+/** Names that a person writes for keys and outputs, key -> {name, symbol, sense}, in the order of tables; the page is given them with the results. */
 const NAMES = new Map();
 
 function learn_names(names) {
-  for (const [key, [name, symbol, sense]] of Object.entries(record(names))) NAMES.set(key, { name, symbol, sense });
+  for (const [key, name, symbol, sense] of list(names)) NAMES.set(key, { name, symbol, sense });
 }
 
 /** A key, or a sum of keys, in words of the field. */
