@@ -7,7 +7,6 @@ const AXIS_STYLE = ["circle", "rect", "triangle", "rectRot", "star", "crossRot",
 /** Errors below this are drawn at it: a logarithmic axis has no 0 [%]. */
 const LEAST_DRAWN_ERROR = 1e-3;
 
-const seconds_text = (s) => (s < 0.1 ? `${fmt(1000 * s, 2)} ms` : `${fmt(s, 3)} s`);
 const is_best = (rung, figure) => (figure === "worst" ? rung.pareto_best : list(rung.pareto_best_in).includes(figure));
 
 function settings_text(settings) {
@@ -25,8 +24,8 @@ const cheapest_within = (rungs, percent) => rungs
 function accuracy_headline(accuracy) {
   const rungs = list(accuracy.rungs).map(record), finest = rungs.find((rung) => rung.axis === "finest") || {};
   const enough = cheapest_within(rungs, 5);
-  if (!enough) return `No rung of the ladder comes within 5 % of the finest, which takes ${seconds_text(finest.seconds)}`;
-  return `Within ${fmt(enough.error_percent.worst, 2)} % of the finest rung in ${seconds_text(enough.seconds)} instead of ${seconds_text(finest.seconds)}: “${enough.name}”`;
+  if (!enough) return `No rung of the ladder comes within 5 % of the finest, which takes ${time_text(finest.seconds)}`;
+  return `Within ${fmt(enough.error_percent.worst, 2)} % of the finest rung in ${time_text(enough.seconds)} instead of ${time_text(finest.seconds)}: “${enough.name}”`;
 }
 
 function draw_ladder(plot, rungs, figure, height = 460) {
@@ -47,7 +46,7 @@ function draw_ladder(plot, rungs, figure, height = 460) {
       })),
     ],
     x: "seconds of one thread, influence values known", y: "error [%]",
-    x_range: log_axis, y_range: log_axis, read_x: seconds_text, read_y: (y) => `${fmt(y, 3)} %`, nearest: "xy", height,
+    x_range: log_axis, y_range: log_axis, read_x: time_text, read_y: (y) => `${fmt(y, 3)} %`, nearest: "xy", height,
     labels: front.map((rung) => ({ ...point(rung), text: rung.name })),
   });
 }
@@ -107,7 +106,7 @@ function choice_of_figure(state, redraw) {
 function build_accuracy_choice(choice, body) {
   const estimate = record(choice.estimate_percent);
   body.append(el("p", { class: choice.kept ? "banner" : "banner bad" }, `Asked for ${fmt(choice.asked_percent, 3)} %, estimated ${fmt(estimate.worst, 2)} %`
-    + `${choice.kept ? "" : ": not kept"}. Chosen in ${seconds_text(choice.choosing_seconds)}; a run of all load cases takes ${seconds_text(choice.cycle_seconds)}.`));
+    + `${choice.kept ? "" : ": not kept"}. Chosen in ${time_text(choice.choosing_seconds)}; a run of all load cases takes ${time_text(choice.cycle_seconds)}.`));
   const quadrature = record(record(choice.quadrature).used);
   const used = { compliance: record(choice.compliance).used, gap: record(choice.gap).used,
     quadrature: `${quadrature.rule} ${fmt(quadrature.intervals)}`, positions: record(choice.positions).used,

@@ -22,7 +22,7 @@ function draw_steps(plot, results) {
     const y = row_height * i, size = ((width - left - 60) * row.seconds) / rows[0].seconds;
     picture.append(svg("text", { x: left - 8, y: y + 13, "text-anchor": "end", class: "small" }, row.label),
       svg("rect", { x: left, y: y + 4, width: Math.max(1, size), height: 10, rx: 2, fill: css_colour(row.kept ? "axis" : "after") }, svg("title", {}, `${row.why ?? row.label}${row.kept ? "; kept for later runs" : ""}`)),
-      svg("text", { x: left + size + 6, y: y + 13, class: "muted" }, long_seconds(row.seconds)));
+      svg("text", { x: left + size + 6, y: y + 13, class: "muted" }, time_text(row.seconds)));
   });
   plot.append(picture);
 }
@@ -50,9 +50,9 @@ function cost_panel(plot, results) {
   const optimise = record(results.optimise), scenes = list(optimise.scenes).length, steps = list(results.steps).map(record);
   const kept = steps.filter((step) => KEPT_STEPS.includes(step.name)).reduce((sum, step) => sum + (step.seconds ?? 0), 0);
   plot.append(facts([
-    ["This run", long_seconds(results.seconds), "strong"],
+    ["This run", time_text(results.seconds), "strong"],
     is_number(optimise.evaluations) ? ["Analyses", `${fmt(optimise.evaluations, 7)}${scenes > 1 ? ` of ${scenes} scenes` : ""}, ${optimise.solver ?? ""}`] : null,
-    kept > 0.01 * results.seconds ? ["First run only", long_seconds(kept)] : null,
+    kept > 0.01 * results.seconds ? ["First run only", time_text(kept)] : null,
     ...resolution_facts(results),
   ]));
   draw_steps(plot, results);

@@ -60,6 +60,9 @@ function with_error(value, error, digits = 3) {
   return `${fixed(value, decimals)} ± ${fixed(error, decimals)}`;
 }
 
+/** A time in the unit that it is spoken of. */
+const time_text = (s) => (!is_number(s) ? "–" : s < 0.1 ? `${fmt(1000 * s, 2)} ms` : s < 100 ? `${fmt(s, 2)} s` : s < 6000 ? `${fmt(s / 60, 2)} min` : `${fmt(s / 3600, 2)} h`);
+
 /** Units as they are printed: um -> µm, Nm -> N·m. */
 const pretty_unit = (unit) =>
   (typeof unit === "string" ? unit : "").replace(/\bum\b/g, "µm").replace(/\bNm\b/g, "N·m").replace(/^deg$/, "°").replace(/\^2\b/g, "²");

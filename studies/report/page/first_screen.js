@@ -18,8 +18,6 @@ function panel(parent, { title, span, href }, draw) {
 const facts = (rows) => el("dl", { class: "facts" }, ...rows.filter((row) => row && row[1] !== null && row[1] !== undefined)
   .flatMap(([name, value, style]) => [el("dt", {}, name), el("dd", { class: style ?? null }, value)]));
 
-const long_seconds = (s) => (!is_number(s) ? "–" : s < 0.1 ? `${fmt(1000 * s, 2)} ms` : s < 100 ? `${fmt(s, 2)} s` : s < 6000 ? `${fmt(s / 60, 2)} min` : `${fmt(s / 3600, 2)} h`);
-
 /** Panels of the task; what fails says so and leaves the rest of the page alone. */
 function draw_first_screen(results, selection) {
   const first = document.getElementById("first");

@@ -81,7 +81,7 @@ function sweep_facts(sweep) {
     is_number(record(of.worst).value) ? ["Worst sample", `${fmt(record(of.worst).value, 4)} ${unit}, sample ${fmt(record(of.worst).sample, 9)}`] : null,
     record(of.worst).study ? ["Its study", el("code", {}, record(of.worst).study)] : null,
     ["Samples", `${fmt(samples, 9)} of ${fmt(sweep.samples, 9)} analysed, ${words(sweep.sampler)}`, sweep.failed > 0 ? "bad" : null],
-    is_number(sweep.seconds) ? ["A sample takes", long_seconds(sweep.seconds / Math.max(1, sweep.samples))] : null,
+    is_number(sweep.seconds) ? ["A sample takes", time_text(sweep.seconds / Math.max(1, sweep.samples))] : null,
   ];
 }
 
@@ -104,8 +104,8 @@ function accuracy_first(first, results) {
     const rows = [10, 5, 2, 1, 0.5, 0.1].map((percent) => ({ percent, rung: cheapest_within(rungs, percent) })).filter(({ rung }) => rung);
     const tightest = rows.filter(({ rung }, i) => rows[i + 1]?.rung !== rung), finest = rungs.find((rung) => rung.axis === "finest");
     plot.append(facts(tightest.map(({ percent, rung }) => [`Within ${fmt(percent)} %`,
-      el("span", {}, el("b", {}, `${rung.name}, ${seconds_text(rung.seconds)}`), el("small", {}, ` ${settings_text(rung.settings)}`))])));
-    if (finest) plot.append(facts([["The finest", el("span", {}, el("b", {}, seconds_text(finest.seconds)), el("small", {}, ` ${settings_text(finest.settings)}`))]]));
+      el("span", {}, el("b", {}, `${rung.name}, ${time_text(rung.seconds)}`), el("small", {}, ` ${settings_text(rung.settings)}`))])));
+    if (finest) plot.append(facts([["The finest", el("span", {}, el("b", {}, time_text(finest.seconds)), el("small", {}, ` ${settings_text(finest.settings)}`))]]));
     plot.append(el("p", { class: "fine" }, "Seconds of one thread with influence values known. Errors against the finest rung, the worst figure of all load cases."));
   });
 }
@@ -117,7 +117,7 @@ function fit_first(first, results) {
     panel(first, { title: "What it costs", span: 5, href: "residuals" }, (plot) => {
       const elements = record(fit.finite_elements);
       plot.append(facts([["Status", fit.status], ["Coefficients", fmt(fit.coefficients)], ["Unknowns", fmt(elements.unknowns, 9)],
-        ["Mesh and factorisation", long_seconds(elements.model_seconds)], ["Loads solved", long_seconds(elements.loads_seconds)], ["Fit", long_seconds(fit.fit_seconds)]]));
+        ["Mesh and factorisation", time_text(elements.model_seconds)], ["Loads solved", time_text(elements.loads_seconds)], ["Fit", time_text(fit.fit_seconds)]]));
     });
   }
 }
