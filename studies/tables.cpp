@@ -11,6 +11,7 @@
 #include "studies/json_format.hpp"
 #include "studies/load_rating_tables.hpp"
 #include "studies/proof/proof_tables.hpp"
+#include "studies/report/plain_names.hpp"
 #include "studies/sweep/sweep_tables.hpp"
 #include "studies/unloaded_tables.hpp"
 
@@ -113,7 +114,7 @@ std::string design_table(const StudyResults& results) {
   const DesignTask& task = *results.design_task;
   const DesignResult& design = *results.design;
   std::vector<std::string> names;
-  for (const DesignVariable& v : task.variables) names.push_back(v.path);
+  for (const DesignVariable& v : task.variables) names.push_back(plain_name(v.path));
   std::set<double> torques;
   for (const DesignScene& s : task.scenes) torques.insert(s.torque);
   const auto label = [&](const DesignScene& s) {
@@ -125,10 +126,10 @@ std::string design_table(const StudyResults& results) {
   std::string out = fmt::format("{:<{}}  {:>12}  {:>12}  {:>9}\n", "", width, "before", "after", "change");
   for (std::size_t i = 0; i < task.variables.size(); ++i) {
     const DesignVariable& v = task.variables[i];
-    out += fmt::format("{:<{}}  {:>12.2f}  {:>12.2f}  {:>9}\n", v.path, width, design.before.variables[i] * v.outside_factor(),
+    out += fmt::format("{:<{}}  {:>12.2f}  {:>12.2f}  {:>9}\n", plain_name(v.path), width, design.before.variables[i] * v.outside_factor(),
                        design.after.variables[i] * v.outside_factor(), v.unit());
   }
-  out += fmt::format("\n{} [{}]\n", task.objective_name(), task.objective_unit());
+  out += fmt::format("\n{} [{}]\n", plain_name(task.objective_name()), task.objective_unit());
   for (std::size_t s = 0; s < task.scenes.size(); ++s) {
     const double before = design.before.scene_measures[s], after = design.after.scene_measures[s];
     out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", label(task.scenes[s]), width, before, after, change(before, after));
@@ -139,7 +140,7 @@ std::string design_table(const StudyResults& results) {
     const ObjectiveTerm& output = task.constraints[c].output;
     const OutputConstraint& bound = task.constraints[c];
     out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n",
-                       fmt::format("{} {} {:.5g} {}", output.name, bound.is_least() ? ">=" : "<=", bound.limit() * output.outside_factor(), output.unit()),
+                       fmt::format("{} {} {:.5g} {}", plain_name(output.name), bound.is_least() ? ">=" : "<=", bound.limit() * output.outside_factor(), output.unit()),
                        width, design.before.constraint_values[c] * output.outside_factor(),
                        design.after.constraint_values[c] * output.outside_factor(), "");
   }

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/base/stopwatch.hpp"
+#include "studies/report/plain_names.hpp"
 
 namespace flankwright::studies {
 
@@ -54,20 +55,20 @@ std::string bound_in_words(const Optimum::Bound& bound, const Optimum& optimum, 
   const DesignVariable& v = task.variables[static_cast<std::size_t>(bound.variable)];
   const double limit = (bound.upper ? v.upper : v.lower) * v.outside_factor();
   const double step = proof_step(v.unit());
-  const std::string stands = fmt::format("{} stands at its {} bound, {:.4g} {}", v.path, bound.upper ? "upper" : "lower", limit, v.unit());
+  const std::string stands = fmt::format("The {} is at its {} bound, {:.4g} {}", plain_name(v.path), bound.upper ? "upper" : "lower", limit, v.unit());
   return gain_in_words(bound.gain, fmt::format("{}: {:.2g} {} {}", stands, step, v.unit(), bound.upper ? "more" : "less"), optimum, task);
 }
 
 std::string constraint_in_words(const Optimum::Constraint& constraint, const Optimum& optimum, const DesignTask& task) {
   const OutputConstraint& c = task.constraints[static_cast<std::size_t>(constraint.constraint)];
-  const std::string move = fmt::format("The constraint {} {} {:.4g} {} is active: a limit one per cent {}", c.output.name, c.is_least() ? ">=" : "<=",
+  const std::string move = fmt::format("The constraint {} {} {:.4g} {} is active: a limit one per cent {}", plain_name(c.output.name), c.is_least() ? ">=" : "<=",
                                        c.limit() * c.output.outside_factor(), c.output.unit(), c.is_least() ? "lower" : "higher");
   return gain_in_words(constraint.gain, move, optimum, task);
 }
 
 std::string sum_in_words(const Optimum::Sum& sum, const Optimum& optimum, const DesignTask& task) {
   const ModificationConstraint& c = task.modification_constraints[static_cast<std::size_t>(sum.constraint)];
-  const std::string move = fmt::format("{} is at its {} limit, {:.4g} {}: {:.2g} {} {}", c.name, sum.upper ? "upper" : "lower",
+  const std::string move = fmt::format("The sum {} is at its {} limit, {:.4g} {}: {:.2g} {} {}", plain_name(c.name), sum.upper ? "upper" : "lower",
                                        (sum.upper ? c.maximum : c.minimum) * c.outside_factor(), c.unit(), proof_step(c.unit()), c.unit(),
                                        sum.upper ? "more" : "less");
   return gain_in_words(sum.gain, move, optimum, task);
@@ -75,7 +76,7 @@ std::string sum_in_words(const Optimum::Sum& sum, const Optimum& optimum, const 
 
 std::string goal_in_words(const Optimum::Goal& goal, const Optimum& optimum, const DesignTask& task) {
   const GoalBound& bound = task.goal_bounds[static_cast<std::size_t>(goal.bound)];
-  const std::string move = fmt::format("The objective before it, {}, stands at the {:.4g} {} that it keeps: one per cent more", bound.goal.name(),
+  const std::string move = fmt::format("The objective before it, {}, is at the {:.4g} {} that it keeps: one per cent more", plain_name(bound.goal.name()),
                                        bound.limit, bound.goal.unit());
   return gain_in_words(goal.gain, move, optimum, task);
 }

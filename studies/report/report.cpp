@@ -51,34 +51,37 @@ bool searched(const json& r) {
   return has(optimise, "starts") || has(optimise, "rounded") || has(optimise, "pareto");
 }
 
-/// In the order in which a gear engineer asks.
+bool optimised(const json& r) { return has(r, "optimise"); }
+
+/// In the order in which a gear engineer asks: what to grind and what it gains, the contact behind it, how sure that is, how it was found,
+/// and all numbers. The flanks of an analysis are given, so they come behind their contact.
 constexpr Section sections[] = {
     {"accuracy", "What accuracy costs", [](const json& r) { return has(r, "accuracy") || has(r, "accuracy_choice"); }},
     {"scatter", "Scatter over the samples", has_sweep},
     {"indices", "Where the scatter comes from", [](const json& r) { return has_sweep(r) && r.at("sweep").value("index_blocks", 0) > 1; }},
     {"response-maps", "Response maps", [](const json& r) { return has_sweep(r) && has(r.at("sweep"), "response_maps"); }},
+    {"modifications", "Flank modifications", optimised},
+    {"scenes", "Scenes", optimised},
+    {"flank-load", "Load on the flank", has_loaded},
     {"transmission-error", "Transmission error under load", has_loaded},
-    {"scenes", "Scenes", [](const json& r) { return has(r, "optimise"); }},
-    {"comparison", "Optimum and other designs", [](const json& r) { return has_proof(r, "comparison"); }},
+    {"stiffness", "Load sharing and mesh stiffness", has_loaded},
+    {"modifications", "Flank modifications", [](const json& r) { return has(r, "modifications") && !optimised(r); }},
     {"validation", "Scenes drawn afresh", [](const json& r) { return has_proof(r, "validation"); }},
+    {"comparison", "Optimum and other designs", [](const json& r) { return has_proof(r, "comparison"); }},
     {"governing", "What governs the optimum", [](const json& r) { return has_proof(r, "governing"); }},
     {"sensitivity", "Sensitivity of the optimum", [](const json& r) { return has_proof(r, "sensitivity"); }},
-    {"flank-load", "Load on the flank", has_loaded},
-    {"modifications", "Flank modifications",
-     [](const json& r) { return has(r, "modifications") || has(r, "optimise"); }},
-    {"stiffness", "Load sharing and mesh stiffness", has_loaded},
-    {"gradients", "Derivatives of the results", has_gradients},
+    {"search", "Search, rounding and compromises", searched},
     {"convergence", "Convergence",
      [](const json& r) {
        return has(r, "optimise") && r.at("optimise").is_object() && has(r.at("optimise"), "history");
      }},
-    {"search", "Search, rounding and compromises", searched},
+    {"gradients", "Derivatives of the results", has_gradients},
     {"load-cases", "Load cases in numbers", has_loaded},
     {"unloaded", "Unloaded contact", [](const json& r) { return has(r, "unloaded"); }},
     {"deflections", "Deflection of a tooth under load", [](const json& r) { return has(r, "fit") || has(r, "deflections"); }},
     {"residuals", "Fits beside finite elements", [](const json& r) { return has(r, "fit"); }},
     {"gear-pair", "Gear pair", [](const json& r) { return has(r, "geometry"); }},
-    {"effects", "Effects", [](const json& r) { return has(r, "effects"); }},
+    {"effects", "Effects and time", [](const json& r) { return has(r, "effects"); }},
     {"notes", "Notes", [](const json& r) { return has(r, "notes"); }},
     {"inputs", "Given and used", [](const json& r) { return has(r, "given") || has(r, "used"); }},
 };

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "studies/report/plain_names.hpp"
+
 namespace flankwright::studies {
 namespace {
 
@@ -68,6 +70,8 @@ nlohmann::json report_view(nlohmann::json results) {
     });
   });
   if (!results.is_object()) return results;
+  json& names = results["names"] = json::array();  // in the order in which tables list them
+  for (const PlainName& name : plain_names()) names.push_back({name.key, name.name, name.symbol, name.sense});
   for (auto& [key, section] : results.items()) {
     if (key != "given" && key != "used") round_numbers(section, significant_digits);
   }

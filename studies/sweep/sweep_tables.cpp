@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "studies/report/plain_names.hpp"
 #include "studies/results_folder.hpp"
 #include "studies/sweep/sweep_statistics.hpp"
 #include "studies/sweep/worst_study.hpp"
@@ -18,6 +19,12 @@ namespace {
 
 /// Empty for a value that there is not.
 std::string field(double value) { return std::isnan(value) ? std::string() : fmt::format("{}", value); }
+
+/// "peak contact stress [MPa]".
+std::string labelled(const SweepOutput& output) {
+  const std::string& unit = output.unit;
+  return plain_name(output.name) + (unit == "-" ? "" : " [" + unit + "]");
+}
 
 std::string statistics_csv(const SweepStatistics& statistics) {
   std::string csv = "output,unit,samples,mean,std,min,max";
@@ -79,10 +86,10 @@ std::vector<NamedText> sweep_tables(const StudyResults& results) {
 
 std::string sweep_summary(const StudyResults& results) {
   const SweepStatistics& s = *results.sweep;
-  std::string out = fmt::format("{:<32}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>12}\n", "over the samples", "mean", "std", "1 %",
+  std::string out = fmt::format("{:<36}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>12}\n", "over the samples", "mean", "std", "1 %",
                                 "99 %", "worst", "of sample");
   for (const OutputStatistics& of : s.outputs) {
-    out += fmt::format("{:<32}  {:>11.5g}  {:>11.4g}  {:>11.5g}  {:>11.5g}  {:>11.5g}  {:>12}\n", of.output.name, of.mean, of.deviation,
+    out += fmt::format("{:<36}  {:>11.5g}  {:>11.4g}  {:>11.5g}  {:>11.5g}  {:>11.5g}  {:>12}\n", labelled(of.output), of.mean, of.deviation,
                        of.quantiles.front(), of.quantiles.back(), of.output.smaller_is_worse ? of.smallest : of.largest,
                        of.worst);
   }

@@ -21,6 +21,46 @@
     check(card.scrollWidth <= card.clientWidth + 1, `a table is wider than its card: ${card.closest(".table-card").textContent.slice(0, 60)}`);
   }
 
+  // The first screen answers in words that a person writes, and every chooser begins at the scene that governs.
+  const first = document.getElementById("first");
+  check(first.querySelectorAll(".panel").length >= 2, "the first screen has no panels");
+  check(!document.querySelector("main .banner.bad"), `a part could not be built: ${document.querySelector("main .banner.bad")?.textContent}`);
+  for (const panel of first.querySelectorAll(".panel")) check(panel.querySelector(".plot").childElementCount > 0, `${panel.textContent} is empty`);
+  const spoken = first.cloneNode(true);
+  spoken.querySelectorAll("code").forEach((file) => file.remove());
+  const written = [document.getElementById("headline"), spoken].map((part) => part.textContent).join(" ");
+  check(!/[a-z]_[a-z]|modification\.|undefined|NaN/.test(written), `the first screen has a key in it: ${/\S*([a-z]_[a-z]|modification\.|undefined|NaN)\S*/.exec(written)?.[0]}`);
+  if (document.getElementById("scenes")) {
+    for (const heading of ["What to grind", "How much better", "How sure", "What it costs"]) {
+      check([...first.querySelectorAll("h3")].some((h3) => h3.textContent.startsWith(heading)), `the first screen does not say "${heading}"`);
+    }
+    const bold = first.querySelector("svg text.strong")?.firstChild.data.replace("…", "");
+    for (const select of document.querySelectorAll("#flank-load select, #transmission-error select, #stiffness select")) {
+      const chosen = select.selectedOptions[0].textContent;
+      check(chosen.endsWith("(governs)") && (!bold || chosen.startsWith(bold)), `the chooser begins at "${chosen}", and "${bold}" governs`);
+    }
+  }
+
+  // Curves over a whole mesh cycle close after one pitch, and nothing is smoothed.
+  for (const canvas of document.querySelectorAll("main canvas")) {
+    const chart = Chart.getChart(canvas);
+    if (!chart || chart.config.type !== "line") continue;
+    for (const { data, tension } of chart.data.datasets) {
+      check(tension === 0, `a curve of "${canvas.getAttribute("aria-label")}" is smoothed`);
+      if (!/over the mesh cycle/.test(canvas.getAttribute("aria-label"))) continue;
+      const [begin, end] = [data[0], data[data.length - 1]];
+      check(Math.abs(end.x - begin.x - 1) < 1e-9 && end.y === begin.y, `"${canvas.getAttribute("aria-label")}" does not close`);
+    }
+  }
+
+  // A harmonic smaller than its error is hollow, any other is not.
+  for (const canvas of document.querySelectorAll('main canvas[aria-label="Harmonics of the transmission error"]')) {
+    for (const { data, errors, backgroundColor } of Chart.getChart(canvas).data.datasets) {
+      (errors || []).forEach((error, i) => check((backgroundColor[i] === "transparent") === (error !== null && error >= Math.abs(data[i])),
+        `harmonic ${i + 1} is ${data[i]} with error ${error} and drawn ${backgroundColor[i]}`));
+    }
+  }
+
   let moved = 0;
   for (const input of document.querySelectorAll("input[type=range]")) {
     const section = input.closest("section"), before = picture(section), text = section.textContent;

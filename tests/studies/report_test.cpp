@@ -75,15 +75,15 @@ TEST_CASE("The page of an unloaded analysis has its pictures' data in every scen
 
 TEST_CASE("The report of a loaded analysis shows pictures before tables", "[studies][report]") {
   const std::vector<std::string> expected{
-      "transmission-error", "flank-load", "modifications", "stiffness", "load-cases",
-      "gear-pair",          "effects",    "notes",         "inputs"};
+      "flank-load", "transmission-error", "stiffness", "modifications", "load-cases",
+      "gear-pair",  "effects",            "notes",     "inputs"};
   CHECK(section_ids(render_report(sample::loaded_results(2).dump())) == expected);
 }
 
-TEST_CASE("The report of an optimisation has every section", "[studies][report]") {
-  const std::vector<std::string> expected{"transmission-error", "scenes",      "flank-load", "modifications",
-                                          "stiffness",          "convergence", "load-cases", "unloaded",
-                                          "gear-pair",          "effects",     "notes",      "inputs"};
+TEST_CASE("The report of an optimisation says first what to grind and what it gains, then everything else", "[studies][report]") {
+  const std::vector<std::string> expected{"modifications", "scenes",      "flank-load", "transmission-error",
+                                          "stiffness",     "convergence", "load-cases", "unloaded",
+                                          "gear-pair",     "effects",     "notes",      "inputs"};
   const std::string page = render_report(sample::optimise_results(2, 4).dump());
   CHECK(section_ids(page) == expected);
   for (const std::string& id : expected) {
@@ -93,6 +93,33 @@ TEST_CASE("The report of an optimisation has every section", "[studies][report]"
     CHECK((page.find("\"" + id + "\": build_") != std::string::npos ||
            page.find("  " + id + ": build_") != std::string::npos));
   }
+}
+
+TEST_CASE("The page is given the names that a person writes", "[studies][report]") {
+  const PlainJson names = report_view(sample::optimise_results(1, 2)).at("names");
+  const auto place_of = [&](const char* key) { return std::ranges::find_if(names, [&](const PlainJson& row) { return row.at(0) == key; }) - names.begin(); };
+  const auto crowning = place_of("pinion.modification.lead_crowning"), relief = place_of("pinion.modification.tip_relief.amount");
+  const auto wheel = place_of("wheel.modification.end_relief.amount");
+  REQUIRE(wheel < static_cast<std::ptrdiff_t>(names.size()));
+  CHECK((crowning < relief && relief < wheel));  // as tables list them
+  CHECK(names.at(static_cast<std::size_t>(relief)).at(1) == "pinion tip relief");
+  CHECK(names.at(static_cast<std::size_t>(place_of("pinion.modification.lead_slope"))) ==
+        PlainJson({"pinion.modification.lead_slope", "pinion lead slope", "C_Hβ", "+ removes at z = +b/2"}));
+}
+
+TEST_CASE("The first screen stands before the links to the sections", "[studies][report]") {
+  const std::string page = render_report(sample::optimise_results(1, 2).dump());
+  const std::size_t headline = page.find("id=\"headline\""), first = page.find("id=\"first\""), links = page.find("<nav"), sections = page.find("<section id=\"modifications\">");
+  CHECK((headline < first && first < links && links < sections && sections != std::string::npos));
+}
+
+TEST_CASE("Errors beside the figures reach the page", "[studies][report]") {
+  PlainJson results = sample::optimise_results(1, 2);
+  results["loaded"][0]["summary"]["te_harmonics_um_error"] = {0.0123456789, nullptr};
+  results["optimise"]["after"]["objective_error"] = 1.5;
+  const PlainJson data = embedded(render_report(results.dump()));
+  CHECK(data["loaded"][0]["summary"]["te_harmonics_um_error"] == PlainJson({0.0123457, nullptr}));
+  CHECK(data["optimise"]["after"]["objective_error"] == 1.5);
 }
 
 TEST_CASE("The report opens without a network", "[studies][report]") {

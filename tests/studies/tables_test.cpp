@@ -113,8 +113,8 @@ TEST_CASE("An optimisation adds the tables of its scenes and its history", "[stu
   CHECK(tables.at("history.csv").size() == 1 + results.design->history.size());
   CHECK(std::stod(tables.at("scenes.csv")[2][4]) == results.design->after.scene_measures[1]);
   const std::string summary = summary_table(results);
-  for (const char* said : {"pinion.modification.lead_crowning", "bent back", "over the scenes",
-                           "te_peak_to_peak <= 5 um", "ipopt: converged"}) {
+  for (const char* said : {"pinion lead crowning", "bent back", "over the scenes",
+                           "peak-to-peak TE <= 5 um", "ipopt: converged"}) {
     CHECK_THAT(summary, Catch::Contains(said));
   }
 }

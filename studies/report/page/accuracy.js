@@ -1,15 +1,12 @@
 // What accuracy costs: a ladder of rungs beside the finest, and what `fidelity.accuracy` has chosen.
 
-const FIGURE_LABEL = {
-  worst: "worst of all figures", te_mean: "TE mean", te_peak_to_peak: "TE peak to peak", te_harmonic_1: "TE harmonic 1",
-  te_harmonic_2: "TE harmonic 2", te_harmonic_3: "TE harmonic 3", te_harmonic_4: "TE harmonic 4", te_harmonic_5: "TE harmonic 5",
-  peak_contact_stress: "peak contact stress", peak_line_load: "peak line load", load_factor: "load factor",
-};
+const FIGURES = ["worst", "te_mean", "te_peak_to_peak", "te_harmonic_1", "te_harmonic_2", "te_harmonic_3", "te_harmonic_4", "te_harmonic_5",
+  "peak_contact_stress", "peak_line_load", "load_factor"];
+const figure_words = (name) => (name === "worst" ? "worst of all figures" : words(name));
 const AXIS_STYLE = ["circle", "rect", "triangle", "rectRot", "star", "crossRot", "cross", "rect", "triangle", "circle", "rectRot", "circle"];
 /** Errors below this are drawn at it: a logarithmic axis has no 0 [%]. */
 const LEAST_DRAWN_ERROR = 1e-3;
 
-const seconds_text = (s) => (s < 0.1 ? `${fmt(1000 * s, 2)} ms` : `${fmt(s, 3)} s`);
 const is_best = (rung, figure) => (figure === "worst" ? rung.pareto_best : list(rung.pareto_best_in).includes(figure));
 
 function settings_text(settings) {
@@ -27,11 +24,11 @@ const cheapest_within = (rungs, percent) => rungs
 function accuracy_headline(accuracy) {
   const rungs = list(accuracy.rungs).map(record), finest = rungs.find((rung) => rung.axis === "finest") || {};
   const enough = cheapest_within(rungs, 5);
-  if (!enough) return `No rung of the ladder comes within 5 % of the finest, which takes ${seconds_text(finest.seconds)}`;
-  return `Within ${fmt(enough.error_percent.worst, 2)} % of the finest rung in ${seconds_text(enough.seconds)} instead of ${seconds_text(finest.seconds)}: “${enough.name}”`;
+  if (!enough) return `No rung of the ladder comes within 5 % of the finest, which takes ${time_text(finest.seconds)}`;
+  return `Within ${fmt(enough.error_percent.worst, 2)} % of the finest rung in ${time_text(enough.seconds)} instead of ${time_text(finest.seconds)}: “${enough.name}”`;
 }
 
-function draw_ladder(plot, rungs, figure) {
+function draw_ladder(plot, rungs, figure, height = 460) {
   const shown = rungs.filter((rung) => rung.axis !== "finest" && is_number(rung.seconds) && is_number(record(rung.error_percent)[figure]));
   const point = (rung) => ({ x: rung.seconds, y: Math.max(record(rung.error_percent)[figure], LEAST_DRAWN_ERROR), note: rung.name });
   const axes = unique(shown.map((rung) => rung.axis));
@@ -39,7 +36,7 @@ function draw_ladder(plot, rungs, figure) {
   const decade = (value) => (Number.isInteger(Math.round(Math.log10(value) * 1e6) / 1e6) ? fmt(value) : "");
   const log_axis = { type: "logarithmic", ticks: { callback: decade } };
   xy_chart(plot, {
-    label: `Error of ${FIGURE_LABEL[figure]} against seconds`,
+    label: `Error of ${figure_words(figure)} against seconds`,
     curves: [
       { label: "Pareto-best", points: front.map(point), colour: css_colour("ink"), width: 1.2, dashed: true, order: 2 },
       { label: "Pareto-best rungs", quiet: true, points: front.map(point), colour: css_colour("ink"), fill: "transparent", scatter: true, hollow: true, size: 9, order: 2 },
@@ -49,7 +46,7 @@ function draw_ladder(plot, rungs, figure) {
       })),
     ],
     x: "seconds of one thread, influence values known", y: "error [%]",
-    x_range: log_axis, y_range: log_axis, read_x: seconds_text, read_y: (y) => `${fmt(y, 3)} %`, nearest: "xy", height: 460,
+    x_range: log_axis, y_range: log_axis, read_x: time_text, read_y: (y) => `${fmt(y, 3)} %`, nearest: "xy", height,
     labels: front.map((rung) => ({ ...point(rung), text: rung.name })),
   });
 }
@@ -90,14 +87,14 @@ function build_accuracy(results, body) {
       + "do not shrink as a power, or change sign. The last column is estimated from the same changes.",
     columns: [{ label: "Figure" }, ...list(accuracy.orders).map((axis) => ({ label: `${axis.axis} ${list(axis.levels).join(", ")}`, digits: 2 })),
       { label: "Left in the finest", unit: "%", digits: 2 }],
-    rows: Object.keys(FIGURE_LABEL).filter((name) => name !== "worst").map((name) =>
-      [FIGURE_LABEL[name], ...list(accuracy.orders).map((axis) => { const p = record(axis.order)[name]; return { text: is_number(p) ? fmt(p, 2) : "not regular", value: p }; }),
+    rows: FIGURES.filter((name) => name !== "worst").map((name) =>
+      [figure_words(name), ...list(accuracy.orders).map((axis) => { const p = record(axis.order)[name]; return { text: is_number(p) ? fmt(p, 2) : "not regular", value: p }; }),
         own[name] ?? null]),
   });
 }
 
 function choice_of_figure(state, redraw) {
-  const options = Object.entries(FIGURE_LABEL).map(([value, label]) => ({ value, label }));
+  const options = FIGURES.map((value) => ({ value, label: figure_words(value) }));
   const made = choice("Error of", options, state.figure, (value) => {
     state.figure = value;
     redraw();
@@ -109,7 +106,7 @@ function choice_of_figure(state, redraw) {
 function build_accuracy_choice(choice, body) {
   const estimate = record(choice.estimate_percent);
   body.append(el("p", { class: choice.kept ? "banner" : "banner bad" }, `Asked for ${fmt(choice.asked_percent, 3)} %, estimated ${fmt(estimate.worst, 2)} %`
-    + `${choice.kept ? "" : ": not kept"}. Chosen in ${seconds_text(choice.choosing_seconds)}; a run of all load cases takes ${seconds_text(choice.cycle_seconds)}.`));
+    + `${choice.kept ? "" : ": not kept"}. Chosen in ${time_text(choice.choosing_seconds)}; a run of all load cases takes ${time_text(choice.cycle_seconds)}.`));
   const quadrature = record(record(choice.quadrature).used);
   const used = { compliance: record(choice.compliance).used, gap: record(choice.gap).used,
     quadrature: `${quadrature.rule} ${fmt(quadrature.intervals)}`, positions: record(choice.positions).used,
@@ -118,11 +115,11 @@ function build_accuracy_choice(choice, body) {
     title: "What was chosen, and what it costs in accuracy",
     note: "Estimated errors in per cent, the worst of the load cases. What the study gives itself stays and is not judged. "
       + "Quadrature and positions together: their sum, at most five times what doubling both changes.",
-    columns: [{ label: "Setting" }, { label: "Used" }, ...Object.values(FIGURE_LABEL).map((label) => ({ label, digits: 2 }))],
+    columns: [{ label: "Setting" }, { label: "Used" }, ...FIGURES.map((name) => ({ label: figure_words(name), digits: 2 }))],
     rows: [...Object.entries(used).map(([name, value]) => {
       const part = record(choice[name]);
-      return [name, { text: `${fmt(value)}`.replace(/_/g, " ") + (part.given ? " (given)" : ""), value }, ...Object.keys(FIGURE_LABEL).map((f) => record(part.estimate_percent)[f] ?? null)];
-    }), ["all together", "", ...Object.keys(FIGURE_LABEL).map((f) => estimate[f] ?? null)]],
+      return [name, { text: `${fmt(value)}`.replace(/_/g, " ") + (part.given ? " (given)" : ""), value }, ...FIGURES.map((f) => record(part.estimate_percent)[f] ?? null)];
+    }), ["all together", "", ...FIGURES.map((f) => estimate[f] ?? null)]],
   });
   const tried = [...list(record(choice.compliance).candidates), ...list(record(choice.gap).candidates)].map(record)
     .map((c) => [`${c.name}`.replace(/_/g, " "), c.chosen ? "yes" : "", record(c.error_percent).worst ?? null, c.seconds ?? null]);

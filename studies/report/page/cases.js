@@ -3,18 +3,26 @@
 const DESIGN_ORDER = ["before", "given", "after"];
 const DESIGN_LABEL = { before: "Before", given: "As given", after: "After" };
 
+/** What tells scenes {name, torque_Nm} apart: their names, their torques, or both. @return scene -> label */
+function scene_labels(scenes) {
+  const several = (of) => unique(scenes.map(of)).length > 1;
+  const torques = several((scene) => scene.torque_Nm), names = several((scene) => scene.name);
+  return ({ name, torque_Nm }) => {
+    const torque = is_number(torque_Nm) ? `${fmt(torque_Nm)} N·m` : null;
+    return !torques || torque === null ? `${name}` : names ? `${name}, ${torque}` : torque;
+  };
+}
+
 /** [{key, scene, torque, label, designs: {before?, given?, after?}}] in the order of the results. */
 function load_cases(results) {
   const cases = new Map();
   const entries = list(results.loaded).map(record);
-  const several_torques = unique(entries.map((entry) => entry.torque_Nm)).length > 1;
+  const label_of = scene_labels(entries.map((entry) => ({ name: entry.scene, torque_Nm: entry.torque_Nm })));
   for (const entry of entries) {
     const scene = typeof entry.scene === "string" && entry.scene !== "" ? entry.scene : "nominal";
     const key = JSON.stringify([scene, entry.torque_Nm ?? null]);
     if (!cases.has(key)) {
-      const torque = is_number(entry.torque_Nm) ? `${fmt(entry.torque_Nm)} N·m` : "";
-      const label = several_torques && torque ? `${scene}, ${torque}` : scene;
-      cases.set(key, { key, scene, torque: entry.torque_Nm, label, designs: {} });
+      cases.set(key, { key, scene, torque: entry.torque_Nm, label: label_of({ name: scene, torque_Nm: entry.torque_Nm }), designs: {} });
     }
     cases.get(key).designs[DESIGN_LABEL[entry.design] ? entry.design : "given"] = entry;
   }
@@ -25,14 +33,39 @@ const designs_of = (load_case) => DESIGN_ORDER.filter((design) => load_case.desi
 const final_entry = (load_case) => load_case.designs[designs_of(load_case).pop()];
 const summary_of = (entry) => record(record(entry).summary);
 
-/** The load case that governs: of the largest objective after the optimisation, else of the largest stress. */
-function governing_case(cases, optimise) {
-  const severity = (load_case) => {
-    const scene = list(optimise.scenes).map(record).find((s) =>
-      s.name === load_case.scene && (!is_number(s.torque_Nm) || s.torque_Nm === load_case.torque));
-    if (scene && is_number(scene.after)) return scene.after;
-    return summary_of(final_entry(load_case)).peak_contact_stress_MPa;
-  };
+const same_scene = (scene, load_case) =>
+  scene.name === load_case.scene && (!is_number(scene.torque_Nm) || Math.abs(scene.torque_Nm - load_case.torque) <= 1e-5 * Math.abs(load_case.torque));
+
+/** The scenes of an optimisation, the one that governs first: by its weight at the optimum, then by its objective. */
+function scenes_by_rank(optimise) {
+  const governing = record(optimise.governing);
+  // Of a list of objectives the multipliers are those of the last one.
+  const weights = (governing.objective_name ?? optimise.objective_name) === optimise.objective_name ? list(governing.scenes).map(record) : [];
+  const scenes = list(optimise.scenes).map(record).map((scene) => {
+    const found = weights.find((w) => w.name === scene.name && (!is_number(w.torque_Nm) || w.torque_Nm === scene.torque_Nm));
+    return { ...scene, governs: found && is_number(found.weight) && Math.abs(found.weight) >= 0.005 ? found.weight : 0 };
+  });
+  const value = (scene) => (is_number(scene.after) ? scene.after : -Infinity);
+  return scenes.sort((a, b) => Math.abs(b.governs) - Math.abs(a.governs) || value(b) - value(a));
+}
+
+/** True where a study asks for transmission error alone: its objective, or all that it expects of the loaded contact. */
+function asks_for_te(results) {
+  const objective = record(results.optimise).objective_name;
+  if (objective) return /^te_/.test(objective);
+  const expected = list(results.given).map((given) => `${record(given).key ?? ""}`).filter((key) => /^expect\..*(te_|stress|load)/.test(key));
+  return expected.length > 0 && expected.every((key) => /te_/.test(key));
+}
+
+/** The load case that governs: by its weight at the optimum or its objective there; else of the largest stress, or TE where that is asked for. */
+function governing_case(cases, results) {
+  const ranked = scenes_by_rank(record(results.optimise)).filter((scene) => scene.governs !== 0 || is_number(scene.after));
+  for (const scene of ranked) {
+    const found = cases.find((load_case) => same_scene(scene, load_case));
+    if (found) return found;
+  }
+  const key = asks_for_te(results) ? "te_peak_to_peak_um" : "peak_contact_stress_MPa";
+  const severity = (load_case) => summary_of(final_entry(load_case))[key];
   return cases.reduce((worst, load_case) => {
     const value = severity(load_case);
     return worst === null || (is_number(value) && !(severity(worst) >= value)) ? load_case : worst;

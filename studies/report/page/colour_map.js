@@ -42,6 +42,7 @@ function colour_bar(scale, unit, height) {
   const width = 76, top = 26, bottom = 40;
   const { canvas, pen } = sharp_canvas(width, height,
     `Colour bar from ${fmt(scale.low)} to ${fmt(scale.high)} ${unit}`);
+  canvas.className = "colour-bar";
   const span = height - top - bottom;
   for (let row = 0; row < span; ++row) {
     pen.fillStyle = `rgb(${map_colour(1 - row / (span - 1)).join(",")})`;

@@ -17,7 +17,7 @@ function draw_bars(plot, { rows, unit, label, limit = Infinity }) {
   const low = Math.min(0, minimum(values)), high = Math.max(0, maximum(values)) || 1;
   const to_x = (value) => left + ((width - left - right) * (value - low)) / (high - low || 1);
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img", "aria-label": label });
-  for (const tick of round_ticks(low, high, 6)) {
+  for (const tick of round_ticks(low, high, width < 560 ? 4 : 6)) {
     picture.append(svg("line", { x1: to_x(tick), x2: to_x(tick), y1: top, y2: height - bottom, class: "grid-line" }),
       svg("text", { x: to_x(tick), y: height - bottom + 15, "text-anchor": "middle", class: "muted" }, fmt(tick)));
   }

@@ -38,24 +38,46 @@ function fmt(x, digits = 4) {
   return text.replace(/-/g, "−");
 }
 
-/** Units as they are printed: um -> µm, Nm -> N·m. */
-const pretty_unit = (unit) =>
-  (typeof unit === "string" ? unit : "").replace(/\bum\b/g, "µm").replace(/\bNm\b/g, "N·m").replace(/^deg$/, "°");
+/** A number with so many decimals, a true minus sign, and no minus before a 0. */
+function fixed(x, decimals) {
+  if (!is_number(x)) return "–";
+  const text = x.toFixed(Math.max(0, Math.min(decimals, 12)));
+  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", "−");
+}
 
-const WORDS = {
-  peak_contact_stress: "peak contact stress",
-  te_peak_to_peak: "peak-to-peak transmission error",
-  peak_root_stress: "peak root stress",
-  load_factor: "load factor",
-  peak_line_load: "peak line load",
+/** Decimals to which a value with this error is written: one digit of the error, two where it begins with 1. */
+const error_decimals = (error) => {
+  const power = Math.floor(Math.log10(error));
+  return (error / 10 ** power < 1.95 ? 1 : 0) - power;
 };
 
-/** Name of an output or a variable in words of the field. */
-function words(name) {
-  const text = typeof name === "string" ? name : "objective";
-  const harmonic = /^te_harmonic_(\d+)$/.exec(text);
-  if (harmonic) return `transmission error harmonic ${harmonic[1]}`;
-  return WORDS[text] || text.replace(/\.modification\./g, " ").replace(/[_.]/g, " ");
+/** "0.28 ± 0.01": a value rounded to the size of its error; without an error, at `digits` significant digits. */
+function with_error(value, error, digits = 3) {
+  if (!is_number(value) || !is_number(error) || !(error > 0)) return fmt(value, digits);
+  const decimals = error_decimals(error);
+  // An error below the fifth digit says no more than that the value is exact to what anyone reads.
+  if (error < 1e-5 * Math.abs(value)) return fmt(value, 5);
+  return `${fixed(value, decimals)} ± ${fixed(error, decimals)}`;
+}
+
+/** A time in the unit that it is spoken of. */
+const time_text = (s) => (!is_number(s) ? "–" : s < 0.1 ? `${fmt(1000 * s, 2)} ms` : s < 100 ? `${fmt(s, 2)} s` : s < 6000 ? `${fmt(s / 60, 2)} min` : `${fmt(s / 3600, 2)} h`);
+
+/** Units as they are printed: um -> µm, Nm -> N·m. */
+const pretty_unit = (unit) =>
+  (typeof unit === "string" ? unit : "").replace(/\bum\b/g, "µm").replace(/\bNm\b/g, "N·m").replace(/^deg$/, "°").replace(/\^2\b/g, "²");
+
+/** Names that a person writes for keys and outputs, key -> {name, symbol, sense}, in the order of tables; the page is given them with the results. */
+const NAMES = new Map();
+
+function learn_names(names) {
+  for (const [key, name, symbol, sense] of list(names)) NAMES.set(key, { name, symbol, sense });
+}
+
+/** A key, or a sum of keys, in words of the field. */
+function words(text) {
+  const of_word = (word) => NAMES.get(word)?.name ?? (/^\p{L}/u.test(word) ? word.replace(/_/g, " ").replace(/(\p{L})\.(?=\p{L})/gu, "$1 ") : word);
+  return (typeof text === "string" ? text : "objective").split(" ").map(of_word).join(" ");
 }
 
 /** Plain text with the field's symbols: "0.1 b and m_n, 10 um" -> 0.1 b and mₙ, 10 µm. */

@@ -12,15 +12,21 @@ const FLANK_QUANTITIES = [
   { unit: "µm", title: "Gap before the load on the pinion flank", is_gap: true,
     values_of: (position, columns) => list(columns.gap_um).map((gap) => (is_number(gap) ? gap - least_gap(position) : null)),
     caption: "Distance of the unloaded flanks along the flank normal, counted from where they touch first in that mesh position: what the "
-      + "load has to close; over the whole cycle the least at each place. Grey is further apart than twice what the load brings the "
-      + "flanks together." },
+      + "load has to close; over the whole cycle the least at each place. Grey the load does not "
+      + "close: a tenth more than the largest gap that it does." },
 ];
 
 const least_gap = (position) =>
   minimum(list(position.teeth).map((tooth) => minimum(list(record(record(tooth).points).gap_um))));
 
-/** How far the load brings the flanks together, the largest over the mesh cycle [um]. */
-const approach = (entry) => maximum(list(record(entry).cycle).map(record).map((position) => position.te_um - least_gap(position)));
+/** The largest gap that the load closes anywhere in the mesh cycle [um]. */
+const closed_gap = (entry) => maximum(list(record(entry).cycle).map(record).flatMap((position) => {
+  const least = least_gap(position);
+  return list(position.teeth).flatMap((tooth) => {
+    const { gap_um, load_N_per_mm } = record(record(tooth).points);
+    return list(gap_um).map((gap, i) => (list(load_N_per_mm)[i] > 0 && is_number(gap) ? gap - least : null));
+  });
+}));
 
 /** What the maps of a quantity in a load case share, worked out once: {area, scale, designs: [{design, points, raster}]}. */
 function flank_clouds(load_case, quantity) {
@@ -30,7 +36,7 @@ function flank_clouds(load_case, quantity) {
     .map((design) => ({ design, points: contact_points(load_case.designs[design], quantity.values_of) }));
   const all = designs.flatMap(({ points }) => points);
   const area = all.length ? area_of(all) : null;
-  const top = quantity.is_gap ? 2 * maximum(designs.map(({ design }) => approach(load_case.designs[design])))
+  const top = quantity.is_gap ? 1.1 * maximum(designs.map(({ design }) => closed_gap(load_case.designs[design])))
     : maximum(all.map((point) => point.value));
   const scale = { low: 0, high: is_number(top) && top > 0 ? top : 1 };
   const rank = quantity.is_gap ? { is_bare: (gap) => gap > scale.high, outranks: (a, b) => a < b }
@@ -80,7 +86,7 @@ function draw_contact_lines(pen, points, { scale, rank }, to_x, to_y) {
 }
 
 /** @param wanted  phase of the mesh position, null: the whole cycle */
-function draw_flank_load(plot, load_case, quantity, wanted) {
+function draw_flank_load(plot, load_case, quantity, wanted, height = MAP_HEIGHT) {
   const clouds = flank_clouds(load_case, quantity);
   if (!clouds.area) {
     plot.append(el("p", { class: "empty" }, "No contact points are stored for this load case."));
@@ -106,7 +112,7 @@ function draw_flank_load(plot, load_case, quantity, wanted) {
       title: `${DESIGN_LABEL[design]}${phase === null ? "" : `, phase ${fmt(phase, 3)}`}${told ? `, ${told} ${quantity.unit}` : ""}`,
       overlay: phase === null ? null : (pen, to_x, to_y) => draw_contact_lines(pen, here, clouds, to_x, to_y) };
   });
-  flank_maps(plot, { maps, area, scale, unit: quantity.unit, r_title: "pinion radius [mm]" });
+  flank_maps(plot, { maps, area, scale, unit: quantity.unit, r_title: "pinion radius [mm]", height });
 }
 
 /** A slider over the mesh positions of the longest cycle; its first stop is the whole cycle. Calls back with the phase or null. */

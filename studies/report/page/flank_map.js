@@ -63,7 +63,7 @@ function paint_raster(pen, frame, raster, scale, opacity = 1) {
  * @param maps  [{name, title, raster, opacity?, read(z, r) -> text, overlay?(pen, to_x, to_y)}]
  * @param area  {z: [low, high], r: [low, high]} in mm, common to the maps
  */
-function flank_maps(plot, { maps, area, scale, unit, r_title }) {
+function flank_maps(plot, { maps, area, scale, unit, r_title, height = MAP_HEIGHT }) {
   const row = el("div", { class: "maps" });
   const read_out = el("p", { class: "read-out", "aria-live": "off" }, "\u00a0");
   plot.append(row, read_out);
@@ -72,14 +72,14 @@ function flank_maps(plot, { maps, area, scale, unit, r_title }) {
   const width = Math.max(220, stacked ? available - bar_width - gap
     : Math.min(620, (available - bar_width) / maps.length - gap));
   const frame = { left: MAP_MARGIN.left, top: MAP_MARGIN.top, width: width - MAP_MARGIN.left - MAP_MARGIN.right,
-    height: MAP_HEIGHT - MAP_MARGIN.top - MAP_MARGIN.bottom };
+    height: height - MAP_MARGIN.top - MAP_MARGIN.bottom };
   const to_x = (z) => frame.left + (frame.width * (z - area.z[0])) / (area.z[1] - area.z[0]);
   const to_y = (r) => frame.top + frame.height * (1 - (r - area.r[0]) / (area.r[1] - area.r[0]));
 
   const point_at = (event) => {
     const box = event.currentTarget.getBoundingClientRect();
     const across = ((event.clientX - box.left) * (width / box.width) - frame.left) / frame.width;
-    const up = 1 - ((event.clientY - box.top) * (MAP_HEIGHT / box.height) - frame.top) / frame.height;
+    const up = 1 - ((event.clientY - box.top) * (height / box.height) - frame.top) / frame.height;
     if (across < 0 || across > 1 || up < 0 || up > 1) return null;
     return { z: area.z[0] + across * (area.z[1] - area.z[0]), r: area.r[0] + up * (area.r[1] - area.r[0]) };
   };
@@ -90,7 +90,7 @@ function flank_maps(plot, { maps, area, scale, unit, r_title }) {
         + maps.map((map) => (maps.length > 1 ? `${map.name} ` : "") + map.read(point.z, point.r)).join("   ·   ");
   };
   for (const map of maps) {
-    const { canvas, pen } = sharp_canvas(width, MAP_HEIGHT, `${map.title}, flank map in ${unit}`);
+    const { canvas, pen } = sharp_canvas(width, height, `${map.title}, flank map in ${unit}`);
     paint_raster(pen, frame, map.raster, scale, map.opacity);
     if (map.overlay) {
       pen.save();
@@ -105,5 +105,5 @@ function flank_maps(plot, { maps, area, scale, unit, r_title }) {
     canvas.addEventListener("pointerleave", () => (read_out.textContent = "\u00a0"));
     row.append(canvas);
   }
-  row.append(colour_bar(scale, unit, MAP_HEIGHT));
+  row.append(colour_bar(scale, unit, height));
 }

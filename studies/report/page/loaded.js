@@ -1,19 +1,32 @@
 // Transmission error, its harmonics, load sharing and mesh stiffness over the mesh cycle, before and after; load cases in numbers.
 
 /**
+ * A curve over the mesh cycle [{x, y}], closed by its first point one pitch later. A cycle at phases of one's own choice, which
+ * has no harmonics, stays open.
+ */
+function cycle_points(entry, value_of) {
+  const points = list(entry.cycle).map(record).map((position) => ({ x: position.phase, y: value_of(position) }))
+    .map((point) => ({ ...point, y: is_number(point.y) ? point.y : null }));
+  const is_whole = points.length > 1 && list(summary_of(entry).te_harmonics_um).length > 0 && points.every((point) => is_number(point.x));
+  return is_whole ? [...points, { x: points[0].x + 1, y: points[0].y }] : points;
+}
+
+/**
  * One curve a load case and design: the selected case bold, all others thin behind it.
  * @param value_of  position of the cycle -> number
  */
 function cycle_curves(selection, value_of, remove_mean) {
   const curve = (load_case, design, selected) => {
     const cycle = list(load_case.designs[design].cycle).map(record);
-    const values = cycle.map(value_of);
-    const known = numbers(values);
+    const known = numbers(cycle.map(value_of));
     const mean = remove_mean && known.length ? known.reduce((a, b) => a + b, 0) / known.length : 0;
     const colour = design_colour(design);
     return {
       label: DESIGN_LABEL[design],
-      points: cycle.map((position, i) => ({ x: position.phase, y: is_number(values[i]) ? values[i] - mean : null })),
+      points: cycle_points(load_case.designs[design], (position) => {
+        const value = value_of(position);
+        return is_number(value) ? value - mean : null;
+      }),
       colour: selected ? colour : faded(colour, 0.3),
       width: selected ? 2.6 : 1,
       quiet: !selected,
@@ -24,20 +37,43 @@ function cycle_curves(selection, value_of, remove_mean) {
     designs_of(load_case).map((design) => curve(load_case, design, load_case === selection.current)));
 }
 
+/** Range of an axis with room around its curves and at least `least` wide; curves in the background do not widen it where they stand apart. */
+function readable_range(all, least, with_background = false) {
+  const curves = with_background ? all : all.filter((curve) => !curve.quiet);
+  const values = numbers(curves.flatMap((curve) => curve.points.map((point) => point.y)));
+  if (values.length === 0) return {};
+  const [low, high] = [minimum(values), maximum(values)];
+  const half = Math.max(0.54 * (high - low), 0.5 * least), middle = 0.5 * (low + high);
+  return { min: middle - half, max: middle + half };
+}
+
+/** What is the smallest variation of TE worth drawing: four times its error, or a thousandth of its mean. */
+function least_te_range(load_case) {
+  const summaries = designs_of(load_case).map((design) => summary_of(load_case.designs[design]));
+  return maximum(summaries.flatMap((s) => [4 * (s.te_peak_to_peak_um_error ?? 0), 1e-3 * Math.abs(s.te_mean_um ?? 0), 1e-6]));
+}
+
+function draw_te(plot, selection, remove_mean, height = 290) {
+  const curves = cycle_curves(selection, (position) => position.te_um, remove_mean);
+  xy_chart(plot, {
+    label: "Transmission error over the mesh cycle",
+    curves,
+    x: "phase [base pitches]",
+    y: remove_mean ? "TE less its mean [µm]" : "TE [µm]",
+    y_range: readable_range(curves, least_te_range(selection.current), remove_mean),
+    read_x: (x) => `phase ${fmt(x)}`,
+    read_y: (y) => `${fmt(y, remove_mean ? 3 : 5)} µm`,
+    height,
+  });
+}
+
 function draw_te_cycle(plot, selection) {
   const box = el("input", { type: "checkbox" });
   box.checked = selection.remove_mean;
   const area = el("div");
   const draw = () => {
     clear_plot(area);
-    xy_chart(area, {
-      label: "Transmission error over the mesh cycle",
-      curves: cycle_curves(selection, (position) => position.te_um, box.checked),
-      x: "phase [base pitches]",
-      y: box.checked ? "TE less its mean [µm]" : "TE [µm]",
-      read_x: (x) => `phase ${fmt(x)}`,
-      read_y: (y) => `${fmt(y, 3)} µm`,
-    });
+    draw_te(area, selection, box.checked);
   };
   box.addEventListener("change", () => {
     selection.remove_mean = box.checked;
@@ -47,19 +83,20 @@ function draw_te_cycle(plot, selection) {
   draw();
 }
 
-function draw_te_harmonics(plot, load_case) {
+function draw_te_harmonics(plot, load_case, height = 290) {
   const designs = designs_of(load_case);
-  const harmonics = designs.map((design) => list(summary_of(load_case.designs[design]).te_harmonics_um));
-  const count = Math.max(0, ...harmonics.map((values) => values.length));
+  const of = (design, key) => list(summary_of(load_case.designs[design])[key]);
+  const count = Math.max(0, ...designs.map((design) => of(design, "te_harmonics_um").length));
   bar_chart(plot, {
     label: "Harmonics of the transmission error",
     labels: Array.from({ length: count }, (_, i) => String(i + 1)),
-    series: designs.map((design, i) => ({
-      label: DESIGN_LABEL[design], values: harmonics[i], colour: design_colour(design),
+    series: designs.map((design) => ({
+      label: DESIGN_LABEL[design], values: of(design, "te_harmonics_um"), errors: of(design, "te_harmonics_um_error"), colour: design_colour(design),
     })),
     x: "order of the tooth-mesh frequency",
     y: "amplitude [µm]",
     unit: "µm",
+    height,
   });
 }
 
@@ -75,11 +112,14 @@ function build_transmission_error(results, body, selection) {
   }, (plot) => draw_te_cycle(plot, selection));
   const has_harmonics = selection.cases.some((load_case) =>
     designs_of(load_case).some((design) => list(summary_of(load_case.designs[design]).te_harmonics_um).length > 0));
+  const has_errors = selection.cases.some((load_case) =>
+    designs_of(load_case).some((design) => numbers(summary_of(load_case.designs[design]).te_harmonics_um_error).length > 0));
   if (!has_harmonics) return; // phases of one's own choice have none
   case_figure(grid, selection, {
     title: "Harmonics of the transmission error",
-    caption: "Amplitudes at multiples of the tooth-mesh frequency: the first orders are the ones that are heard.",
-  }, draw_te_harmonics);
+    caption: "Amplitudes at multiples of the tooth-mesh frequency: the first orders are the ones that are heard."
+      + (has_errors ? " Whiskers are the estimated discretisation error; a hollow bar is smaller than its error." : ""),
+  }, (plot, load_case) => draw_te_harmonics(plot, load_case));
 }
 
 /** Share of the force that one tooth pair carries on its way through the mesh: the teeth of all positions, side by side. */
@@ -116,15 +156,19 @@ function build_stiffness(results, body, selection) {
     title: "Mesh stiffness over the mesh cycle",
     caption: "Load along the flank normal per unit of face width and of deflection, all tooth pairs together; "
       + "its steps are teeth that enter and leave the mesh.",
-  }, (plot) => xy_chart(plot, {
-    label: "Mesh stiffness over the mesh cycle",
-    curves: cycle_curves(selection, (position) => position.stiffness_N_per_mm_um, false),
-    x: "phase [base pitches]",
-    y: "stiffness [N/(mm µm)]",
-    read_x: (x) => `phase ${fmt(x)}`,
-    read_y: (y) => `${fmt(y)} N/(mm µm)`,
-    height: 250,
-  }));
+  }, (plot) => {
+    const curves = cycle_curves(selection, (position) => position.stiffness_N_per_mm_um, false);
+    xy_chart(plot, {
+      label: "Mesh stiffness over the mesh cycle",
+      curves,
+      x: "phase [base pitches]",
+      y: "stiffness [N/(mm µm)]",
+      y_range: readable_range(curves, 1e-3 * (summary_of(final_entry(selection.current)).mean_stiffness_N_per_mm_um ?? 0)),
+      read_x: (x) => `phase ${fmt(x)}`,
+      read_y: (y) => `${fmt(y)} N/(mm µm)`,
+      height: 250,
+    });
+  });
 }
 
 const percent = (share) => (is_number(share) ? 100 * share : null);
@@ -163,13 +207,22 @@ function load_factor_table(body, rows) {
 function build_load_cases(results, body, { cases }) {
   const iso = (key) => (entry) => record(summary_of(entry).iso6336)[key];
   const plain = (key) => (entry) => summary_of(entry)[key];
+  const known_to = (key) => (entry) => {
+    const value = summary_of(entry)[key], error = summary_of(entry)[`${key}_error`];
+    return is_number(value) && is_number(error) ? { value, text: with_error(value, error, 4) } : value;
+  };
+  const first_harmonic = (entry) => {
+    const value = list(summary_of(entry).te_harmonics_um)[0], error = list(summary_of(entry).te_harmonics_um_error)[0];
+    return is_number(value) && is_number(error) ? { value, text: with_error(value, error, 4) } : value;
+  };
   const residual = (entry) => {
     const worst = maximum(list(entry.cycle).map((position) => record(position).kkt_residual));
     return is_number(worst) ? worst : null;
   };
   const rows = cases.flatMap((load_case) => designs_of(load_case).map((design) => ({ load_case, design })));
+  const bare = (cell) => (cell !== null && typeof cell === "object" ? cell.value : cell);
   const numbers_table = (title, note, quantities) => {
-    const filled = quantities.filter(([, value]) => rows.some((row) => is_number(value(row.load_case.designs[row.design]))));
+    const filled = quantities.filter(([, value]) => rows.some((row) => is_number(bare(value(row.load_case.designs[row.design])))));
     if (filled.length === 0) return;
     table(body, {
       title, note,
@@ -178,14 +231,14 @@ function build_load_cases(results, body, { cases }) {
     });
   };
   numbers_table("Stress and transmission error over the mesh cycle",
-    "Peaks are the largest values over the positions and all teeth in contact.", [
-      [{ label: "Contact stress", unit: "MPa" }, plain("peak_contact_stress_MPa")],
-      [{ label: "Root stress", unit: "MPa" }, plain("peak_root_stress_MPa")],
-      [{ label: "Line load", unit: "N/mm" }, plain("peak_load_N_per_mm")],
-      [{ label: "Load factor" }, plain("load_factor")],
-      [{ label: "TE peak to peak", unit: "µm" }, plain("te_peak_to_peak_um")],
-      [{ label: "TE mean", unit: "µm" }, plain("te_mean_um")],
-      [{ label: "TE 1st harmonic", unit: "µm" }, (entry) => list(summary_of(entry).te_harmonics_um)[0]],
+    "Peaks are the largest values over the positions and all teeth in contact; ± is the estimated discretisation error.", [
+      [{ label: "Contact stress", unit: "MPa" }, known_to("peak_contact_stress_MPa")],
+      [{ label: "Root stress", unit: "MPa" }, known_to("peak_root_stress_MPa")],
+      [{ label: "Line load", unit: "N/mm" }, known_to("peak_load_N_per_mm")],
+      [{ label: "Load factor" }, known_to("load_factor")],
+      [{ label: "TE peak to peak", unit: "µm" }, known_to("te_peak_to_peak_um")],
+      [{ label: "TE mean", unit: "µm" }, known_to("te_mean_um")],
+      [{ label: "TE 1st harmonic", unit: "µm" }, first_harmonic],
     ]);
   numbers_table("Stiffness, and how far the numbers hold",
     symbols("c′ and c_γ are those of ISO 6336; f_sh is the misalignment by the shafts, its mean; the change of the harmonics is what the last "

@@ -29,10 +29,12 @@ const BUILDERS = {
 
 function main() {
   const results = JSON.parse(document.getElementById("results").textContent);
+  learn_names(results.names);
   const cases = load_cases(results);
-  const selection = case_selection(cases, governing_case(cases, record(results.optimise)),
-    results.optimise ? " (governs)" : " (largest stress)");
+  const selection = case_selection(cases, governing_case(cases, results),
+    results.optimise ? " (governs)" : asks_for_te(results) ? " (largest TE)" : " (largest stress)");
   draw_summary(results, cases);
+  draw_first_screen(results, selection);
   for (const [id, build] of Object.entries(BUILDERS)) {
     const body = document.querySelector(`#${id} > .body`);
     if (!body) continue;

@@ -19,6 +19,13 @@ const design_title = ({ design, grid }) => {
   return `${DESIGN_LABEL[design]}${peak > 0 ? `, up to ${fmt(peak, 3)} µm` : ", unmodified"}`;
 };
 
+/** The common levels that a grid reaches, or some of its own where it reaches none of them. */
+function levels_within(grid, levels) {
+  const [low, high] = [minimum(grid.rows.flat()), maximum(grid.rows.flat())];
+  const inside = (level) => level > low && level < high, common = levels.filter(inside);
+  return common.length > 0 ? common : round_ticks(low, high, 4).filter(inside);
+}
+
 function draw_topography(plot, gear, entries) {
   const grids = entries.map((entry) => entry.grid);
   const scale = removal_scale(entries);
@@ -37,7 +44,7 @@ function draw_topography(plot, gear, entries) {
         const removal = grid_value(grid, z, r);
         return removal === null ? "outside" : `${fmt(removal, 3)} µm`;
       },
-      overlay: (pen, to_x, to_y) => draw_contours(pen, grid, levels, to_x, to_y),
+      overlay: (pen, to_x, to_y) => draw_contours(pen, grid, levels_within(grid, levels), to_x, to_y),
     };
   });
   flank_maps(plot, { maps, area, scale, unit: "µm", r_title: `${gear} radius [mm]` });
@@ -48,7 +55,8 @@ const settled = (value, unit) => (Math.abs(value) < (unit === "um" ? 1e-3 : 1e-6
 
 function variable_table(body, optimise) {
   const before = record(optimise.before), after = record(optimise.after);
-  const names = unique([...Object.keys(record(before.variables)), ...Object.keys(record(after.variables))]);
+  const varied = unique([...Object.keys(record(before.variables)), ...Object.keys(record(after.variables))]);
+  const names = [...[...NAMES.keys()].filter((name) => varied.includes(name)), ...varied.filter((name) => !NAMES.has(name))];
   if (names.length === 0) return;
   const units = { ...record(before.variable_units), ...record(after.variable_units) };
   table(body, {
@@ -57,18 +65,20 @@ function variable_table(body, optimise) {
     columns: [{ label: "Variable" }, { label: "Before" }, { label: "After" }, { label: "Change" }, { label: "Unit" }],
     rows: names.map((name) => {
       const from = record(before.variables)[name], to = record(after.variables)[name];
-      return [name, settled(from, units[name]), settled(to, units[name]), is_number(from) && is_number(to) ? settled(to - from, units[name]) : null,
+      return [words(name), settled(from, units[name]), settled(to, units[name]), is_number(from) && is_number(to) ? settled(to - from, units[name]) : null,
         pretty_unit(units[name])];
     }),
   });
 }
 
+/** Every stored topography: [{gear, design, grid}]. */
+const topographies = (results) => list(results.modifications).map(record)
+  .map((entry) => ({ gear: entry.gear, design: DESIGN_LABEL[entry.design] ? entry.design : "given", grid: topography_grid(entry) }))
+  .filter((entry) => entry.grid !== null);
+
 function build_modifications(results, body) {
   const grid = figure_grid(body);
-  const entries = list(results.modifications).map(record)
-    .map((entry) => ({ gear: entry.gear, design: DESIGN_LABEL[entry.design] ? entry.design : "given",
-      grid: topography_grid(entry) }))
-    .filter((entry) => entry.grid !== null);
+  const entries = topographies(results);
   for (const gear of unique(entries.map((entry) => entry.gear))) {
     const own = entries.filter((entry) => entry.gear === gear)
       .sort((a, b) => DESIGN_ORDER.indexOf(a.design) - DESIGN_ORDER.indexOf(b.design));

@@ -45,12 +45,9 @@ function build_scenes(results, body) {
   const optimise = record(results.optimise);
   const unit = pretty_unit(optimise.objective_unit), name = words(optimise.objective_name);
   const raw = list(optimise.scenes).map(record);
-  const several_torques = unique(raw.map((scene) => scene.torque_Nm)).length > 1;
-  const scenes = raw.map((scene) => ({
-    ...scene,
-    label: `${scene.name}`
-      + (several_torques && is_number(scene.torque_Nm) ? `, ${fmt(scene.torque_Nm)} N·m` : ""),
-  }));
+  const known = (value, error) => (is_number(value) && is_number(error) ? { value, text: with_error(value, error, 4) } : value ?? null);
+  const label = scene_labels(raw);
+  const scenes = raw.map((scene) => ({ ...scene, label: label(scene) }));
   if (scenes.length > 0) {
     figure(figure_grid(body), {
       title: `${capital(name)} of every scene`,
@@ -62,7 +59,7 @@ function build_scenes(results, body) {
       title: `${capital(name)} by scene`,
       columns: [{ label: "Scene" }, { label: "Torque", unit: "N·m", digits: 6 }, { label: "Before", unit },
         { label: "After", unit }, { label: "Change" }],
-      rows: scenes.map((scene) => [`${scene.name}`, scene.torque_Nm ?? null, scene.before ?? null, scene.after ?? null,
+      rows: scenes.map((scene) => [`${scene.name}`, scene.torque_Nm ?? null, known(scene.before, scene.before_error), known(scene.after, scene.after_error),
         percent_change(scene.before, scene.after)]),
     });
   }
@@ -73,7 +70,8 @@ function build_scenes(results, body) {
       title: "Constraints",
       columns: [{ label: "Quantity" }, { label: "Before" }, { label: "After" }, { label: "At least" }, { label: "At most" }, { label: "Unit" },
         { label: "Met" }],
-      rows: rows.map((row) => [words(row.name), record(before[row.name]).value ?? null, row.value ?? null,
+      rows: rows.map((row) => [words(row.name), known(record(before[row.name]).value, record(record(optimise.before).constraints_error)[row.name]),
+        known(row.value, record(record(optimise.after).constraints_error)[row.name]),
         row.min ?? null, row.max ?? null, row.unit, { text: row.met === null ? "–" : row.met ? "yes" : "no",
           class: row.met === false ? "bad" : "" }]),
     });

@@ -6,11 +6,20 @@ Chart.defaults.maintainAspectRatio = false;
 // Twice the screen's resolution at least, so that the printed page stays sharp.
 Chart.defaults.devicePixelRatio = Math.max(2, window.devicePixelRatio || 1);
 
+/** A tick's number with as many decimals as tell it from its neighbours. */
+function tick_text(value, _, ticks) {
+  const step = ticks.length > 1 ? Math.abs(ticks[1].value - ticks[0].value) : 0;
+  const decimals = step > 0 ? Math.ceil(-Math.log10(step) - 1e-9) : -1;
+  if (!(decimals > 0)) return fmt(Number(value.toPrecision(12)), 5);
+  const is_whole = (places) => ticks.every((tick) => Math.abs(tick.value * 10 ** places - Math.round(tick.value * 10 ** places)) < 1e-6);
+  return fixed(value, is_whole(decimals) ? decimals : decimals + 1);
+}
+
 const axis = (title, more = {}) => ({
   title: { display: true, text: title },
   grid: { color: css_colour("grid"), borderColor: css_colour("axis") },
   ...more,
-  ticks: { callback: (value) => fmt(value, 5), maxRotation: 0, includeBounds: false, ...(more.ticks || {}) },
+  ticks: { callback: tick_text, maxRotation: 0, includeBounds: false, ...(more.ticks || {}) },
 });
 
 /** Legend entries that are dashed where their curve is. */
@@ -119,27 +128,58 @@ function xy_chart(plot, options) {
   }, height);
 }
 
-/** Bars side by side, one group a label. @param series  [{label, values, colour}] */
+/** Plugin that draws the error of every bar as a whisker, and leaves a bar hollow that is smaller than its error. */
+const error_whiskers = {
+  id: "error_whiskers",
+  afterDatasetsDraw: (chart) => {
+    const { ctx: pen, data, scales, chartArea } = chart;
+    pen.save();
+    pen.strokeStyle = css_colour("ink");
+    pen.lineWidth = 1.2;
+    data.datasets.forEach((dataset, k) => chart.getDatasetMeta(k).data.forEach((bar, i) => {
+      const error = list(dataset.errors)[i], value = dataset.data[i];
+      if (!(error > 0) || !is_number(value)) return;
+      const top = Math.max(chartArea.top, scales.y.getPixelForValue(value + error));
+      const bottom = scales.y.getPixelForValue(Math.max(0, value - error)), half = Math.min(4, 0.3 * bar.width);
+      pen.beginPath();
+      for (const y of [top, bottom]) {
+        pen.moveTo(bar.x - half, y);
+        pen.lineTo(bar.x + half, y);
+      }
+      pen.moveTo(bar.x, top);
+      pen.lineTo(bar.x, bottom);
+      pen.stroke();
+    }));
+    pen.restore();
+  },
+};
+
+/** Bars side by side, one group a label. @param series  [{label, values, errors?, colour}] */
 function bar_chart(plot, { label, labels, series, x, y, unit, height = 290 }) {
+  const drowned = (s, i) => list(s.errors)[i] >= Math.abs(s.values[i]);
+  const highest = maximum(series.flatMap((s) => s.values.map((value, i) => value + (list(s.errors)[i] ?? 0))));
   make_chart(plot, {
     label,
     type: "bar",
+    plugins: [error_whiskers],
     data: {
       labels,
       datasets: series.map((s) => ({
-        label: s.label, data: s.values, backgroundColor: s.colour, categoryPercentage: 0.7, barPercentage: 0.95,
-        maxBarThickness: 56,
+        label: s.label, data: s.values, errors: s.errors, categoryPercentage: 0.7, barPercentage: 0.95, maxBarThickness: 56,
+        backgroundColor: list(s.errors).length ? s.values.map((_, i) => (drowned(s, i) ? "transparent" : s.colour)) : s.colour,
+        borderColor: s.colour, borderWidth: list(s.errors).length ? s.values.map((_, i) => (drowned(s, i) ? 1 : 0)) : 0,
       })),
     },
     options: {
       interaction: { mode: "index", intersect: false },
       scales: {
         x: axis(x, { grid: { display: false }, ticks: { callback: (_, i) => labels[i] } }),
-        y: axis(y, { beginAtZero: true }),
+        y: axis(y, { beginAtZero: true, ...(is_number(highest) ? { suggestedMax: highest } : {}) }),
       },
       plugins: {
-        legend: { ...legend(series.length > 1), labels: { boxWidth: 12, boxHeight: 12 } },
-        tooltip: { callbacks: { label: (item) => `${item.dataset.label}: ${fmt(item.parsed.y)} ${unit}` } },
+        legend: { ...legend(series.length > 1), labels: { boxWidth: 12, boxHeight: 12,
+          generateLabels: () => series.map((s) => ({ text: s.label, fillStyle: s.colour, strokeStyle: s.colour, fontColor: css_colour("muted") })) } },
+        tooltip: { callbacks: { label: (item) => `${item.dataset.label}: ${with_error(item.parsed.y, list(item.dataset.errors)[item.dataIndex], 4)} ${unit}` } },
       },
     },
   }, height);

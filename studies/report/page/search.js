@@ -1,7 +1,7 @@
 // How widely an optimum was sought, what rounding it to the grinder's steps costs, and what a gain in one objective costs in another.
 
 /** The front over two of its objectives, by their places in the list; of two objectives in all its points are joined. */
-function draw_front(plot, front, [across, up]) {
+function draw_front(plot, front, [across, up], height = 320) {
   const objectives = list(front.objectives).map(record), [first, second] = [objectives[across], objectives[up]];
   const named = ({ name, unit }) => `${words(name)} [${pretty_unit(unit)}]`;
   const points = list(front.points).map(record)
@@ -21,7 +21,7 @@ function draw_front(plot, front, [across, up]) {
     curves: curves.filter((curve) => curve.points.length > 0),
     x: named(first), y: named(second), nearest: "xy",
     read_x: (x) => `${words(first.name)} ${fmt(x)} ${pretty_unit(first.unit)}`,
-    read_y: (y) => `${words(second.name)} ${fmt(y)} ${pretty_unit(second.unit)}`, height: 320,
+    read_y: (y) => `${words(second.name)} ${fmt(y)} ${pretty_unit(second.unit)}`, height,
   });
 }
 

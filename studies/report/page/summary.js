@@ -10,46 +10,51 @@ function aggregate_words(over) {
 
 const plural = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
 
+const COUNTS = ["no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten", "eleven", "twelve"];
+const count_words = (count) => COUNTS[count] ?? String(count);
+
+/** "Worst peak contact stress over nine scenes: 477 → 388 MPa (−19 %)". */
 function optimise_headline(optimise) {
   const from = record(optimise.before).objective, to = record(optimise.after).objective;
   const name = words(optimise.objective_name), unit = pretty_unit(optimise.objective_unit);
   const aggregate = aggregate_words(optimise.over);
-  const subject = aggregate ? `${aggregate} ${name}` : capital(name);
   const count = list(optimise.scenes).length;
-  const over = count > 1 ? (aggregate ? ` over ${count} scenes` : " in the nominal scene") : "";
-  if (!is_number(from) || !is_number(to)) return `${subject} was not obtained${over}`;
+  const over = count > 1 ? (aggregate ? ` over ${count_words(count)} scenes` : " in the nominal scene") : "";
+  const subject = `${aggregate && count > 1 ? `${aggregate} ${name}` : capital(name)}${over}`;
+  if (!is_number(from) || !is_number(to)) return `${subject} was not obtained`;
   const [a, b] = [fmt(from, 3), fmt(to, 3)];
-  if (a === b) return `${subject} stays at ${b} ${unit}${over}`;
+  if (a === b) return `${subject} stays at ${b} ${unit}`;
   const change = percent_change(from, to);
-  return `${subject} ${to < from ? "falls" : "rises"} from ${a} to ${b} ${unit}${change ? ` (${change})` : ""}${over}`;
+  return `${subject}: ${a} → ${b} ${unit}${change ? ` (${change})` : ""}`;
 }
 
-function loaded_headline(cases) {
+function loaded_headline(cases, results) {
   const worst = (key) => maximum(cases.map((load_case) => summary_of(final_entry(load_case))[key]));
   const stress = worst("peak_contact_stress_MPa"), te = worst("te_peak_to_peak_um");
   const parts = [];
   if (is_number(stress)) parts.push(`peak contact stress ${fmt(stress, 3)} MPa`);
-  if (is_number(te)) parts.push(`peak-to-peak transmission error ${fmt(te, 3)} µm under load`);
+  if (is_number(te)) parts.push(`peak-to-peak TE ${fmt(te, 3)} µm`);
+  if (asks_for_te(results)) parts.reverse();
   if (parts.length === 0) return "The loaded contact was not obtained";
   const torques = unique(cases.map((load_case) => load_case.torque)).filter(is_number);
-  const where = cases.length > 1 ? `, the worst of ${cases.length} load cases`
+  const where = cases.length > 1 ? `: the worst of ${count_words(cases.length)} load cases`
     : torques.length === 1 ? ` at ${fmt(torques[0])} N·m` : "";
   return capital(parts.join(" and ")) + where;
 }
 
 /** The scene of the unloaded contact with the largest transmission error. */
-function worst_unloaded(results) {
+function worst_unloaded(scenes) {
   const size = ({ data }) => record(data.mesh).peak_to_peak_arcsec ?? -Infinity;
-  return unloaded_scenes(results).reduce((worst, scene) => (size(scene) > size(worst) ? scene : worst));
+  return scenes.reduce((worst, scene) => (size(scene) > size(worst) ? scene : worst));
 }
 
 function unloaded_headline(results) {
-  const te = record(worst_unloaded(results).data.mesh).peak_to_peak_arcsec;
+  const te = record(worst_unloaded(unloaded_scenes(results)).data.mesh).peak_to_peak_arcsec;
   const count = unloaded_scenes(results).length;
   if (!is_number(te)) return "Unloaded tooth contact of the pair";
   // Below a millionth of an arcsec there is nothing but round-off.
   if (te < 1e-6) return "Without load the pair runs free of transmission error";
-  return `Unloaded transmission error ${fmt(te, 3)} arcsec peak to peak at the wheel${count > 1 ? `, the worst of ${count} scenes` : ""}`;
+  return `Unloaded TE ${fmt(te, 3)} arcsec peak to peak at the wheel${count > 1 ? `: the worst of ${count_words(count)} scenes` : ""}`;
 }
 
 /** Every constraint of the optimised design: {name, value, max, min, unit, met}. */
@@ -83,51 +88,44 @@ function draw_verdict(results) {
 }
 
 /** A tile: label, value with unit, and a small second line. before → value where before is given. */
-function tile(label, value, unit, { before, detail, digits = 3 } = {}) {
+function tile(label, value, unit, { before, detail, error, digits = 3 } = {}) {
   const has_before = is_number(before) && is_number(value);
   const change = has_before ? percent_change(before, value) : null;
   const second = has_before ? `from ${fmt(before, digits)}${change ? `, ${change}` : ""}` : detail;
   return el("div", { class: "tile" },
     el("span", { class: "label" }, symbols(label)),
-    el("span", { class: "value" }, fmt(value, digits), unit ? el("small", {}, ` ${unit}`) : ""),
+    el("span", { class: "value" }, with_error(value, error, digits), unit ? el("small", {}, ` ${unit}`) : ""),
     second ? el("span", { class: "detail" }, second) : null);
 }
 
-function loaded_tiles(cases) {
-  const worst = (key, design) => {
-    const entries = cases.map((c) => (design ? c.designs[design] : final_entry(c)));
-    return maximum(entries.map((entry) => summary_of(entry)[key]));
-  };
-  const quantities = [
-    ["Peak contact stress", "peak_contact_stress_MPa", "MPa"],
-    ["Peak root stress", "peak_root_stress_MPa", "MPa"],
-    ["TE peak to peak", "te_peak_to_peak_um", "µm"],
-    ["Peak line load", "peak_load_N_per_mm", "N/mm"],
-    ["Load factor", "load_factor", ""],
-  ];
-  const detail = cases.length > 1 ? "worst load case" : null;
-  return quantities.filter(([, key]) => is_number(worst(key)))
-    .map(([label, key, unit]) => tile(label, worst(key), unit, { before: worst(key, "before"), detail }));
+/** The largest of a summary's figure over the load cases {value, error, load_case}; null where none has it. */
+function worst_of(cases, key, design) {
+  const found = cases.map((load_case) => ({ load_case, summary: summary_of(design ? load_case.designs[design] : final_entry(load_case)) }))
+    .filter(({ summary }) => is_number(summary[key]));
+  if (found.length === 0) return null;
+  const { load_case, summary } = found.reduce((a, b) => (b.summary[key] > a.summary[key] ? b : a));
+  return { value: summary[key], error: summary[`${key}_error`], load_case };
 }
 
-function optimise_tiles(optimise) {
-  const rows = constraint_rows(optimise);
-  const tiles = [];
-  if (rows.length > 0) {
-    tiles.push(tile("Constraints met", `${rows.filter((row) => row.met).length} of ${rows.length}`));
-  }
-  const solver = [optimise.solver, is_number(optimise.seconds) ? `${fmt(optimise.seconds, 2)} s` : null];
-  tiles.push(tile("Evaluations", optimise.evaluations, "", { detail: solver.filter(Boolean).join(", "), digits: 6 }));
-  return tiles;
+function loaded_tiles(cases) {
+  const quantities = [
+    ["peak_contact_stress_MPa", "MPa"], ["peak_root_stress_MPa", "MPa"], ["te_peak_to_peak_um", "µm"], ["peak_load_N_per_mm", "N/mm"], ["load_factor", ""],
+  ];
+  return quantities.map(([key, unit]) => {
+    const worst = worst_of(cases, key);
+    if (!worst) return null;
+    return tile(capital(words(key)), worst.value, unit, { error: worst.error, before: worst_of(cases, key, "before")?.value,
+      detail: cases.length > 1 ? worst.load_case.label : null });
+  }).filter((made) => made !== null);
 }
 
 function pair_tiles(results) {
-  const geometry = record(results.geometry), mesh = record(worst_unloaded(results).data.mesh);
+  const geometry = record(results.geometry), mesh = record(worst_unloaded(unloaded_scenes(results)).data.mesh);
   const tiles = [];
   if (!list(results.loaded).length && is_number(mesh.peak_to_peak_arcsec)) {
-    tiles.push(tile("TE peak to peak", mesh.peak_to_peak_arcsec, "arcsec", { detail: "unloaded, at the wheel" }));
+    tiles.push(tile("Peak-to-peak TE", mesh.peak_to_peak_arcsec, "arcsec", { detail: "unloaded, at the wheel" }));
     if (is_number(mesh.peak_to_peak_um)) {
-      tiles.push(tile("TE peak to peak", mesh.peak_to_peak_um, "µm", { detail: "along the line of action" }));
+      tiles.push(tile("Peak-to-peak TE", mesh.peak_to_peak_um, "µm", { detail: "along the line of action" }));
     }
   }
   const add = (label, value, unit) => is_number(value) && tiles.push(tile(label, value, unit));
@@ -144,18 +142,16 @@ function draw_summary(results, cases) {
   const text = results.optimise ? optimise_headline(record(results.optimise))
     : results.sweep ? sweep_headline(record(results.sweep))
     : results.accuracy ? accuracy_headline(record(results.accuracy))
-    : cases.length ? loaded_headline(cases)
+    : cases.length ? loaded_headline(cases, results)
     : results.unloaded ? unloaded_headline(results)
     : list(results.fit).length ? fit_headline(list(results.fit).map(record))
     : "No analysis is stored in these results";
   document.getElementById("headline").textContent = text;
-  document.getElementById("task").textContent = results.task ? `· ${results.task}` : "";
-  const version = results.version ? `Flankwright ${results.version}` : null;
-  document.getElementById("origin").textContent = [results.file, version].filter(Boolean).join("  ·  ");
+    const version = results.version ? `Flankwright ${results.version}` : null;
+  document.getElementById("origin").textContent = [results.task, `${results.file ?? ""}`.split("/").pop(), version].filter(Boolean).join("  ·  ");
   draw_verdict(results);
   document.getElementById("tiles").append(
     ...(results.sweep ? sweep_tiles(record(results.sweep)) : cases.length ? loaded_tiles(cases) : []),
-    ...(results.optimise ? optimise_tiles(record(results.optimise)) : []),
     ...fit_tiles(list(results.fit).map(record)),
     ...(results.fit ? [] : pair_tiles(results)));
 }

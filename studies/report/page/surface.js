@@ -1,6 +1,6 @@
 // A grid of the flank as a surface in space, seen from above in parallel projection and turned by a slider.
 
-const SURFACE_HEIGHT = 300;
+const SURFACE_HEIGHT = 330;
 const SURFACE_TILT = (32 * Math.PI) / 180;  // of the view below the horizontal
 
 /**
@@ -15,7 +15,7 @@ function surface_view(grid, scale, turn, width) {
     const u = half_face * ((2 * (z - z0)) / (z1 - z0) - 1), v = half_depth * ((2 * (r - r0)) / (r1 - r0) - 1);
     const across = u * c - v * s, away = u * s + v * c;
     return { x: width / 2 + across, away,
-      y: 0.42 * SURFACE_HEIGHT - away * Math.sin(SURFACE_TILT) + drop * Math.cos(SURFACE_TILT) * ((removal - scale.low) / (scale.high - scale.low)) };
+      y: 0.38 * SURFACE_HEIGHT - away * Math.sin(SURFACE_TILT) + drop * Math.cos(SURFACE_TILT) * ((removal - scale.low) / (scale.high - scale.low)) };
   };
   return { place, z: [z0, z1], r: [r0, r1] };
 }

@@ -1,24 +1,7 @@
 // A sweep: how every output scatters over the samples, which parameter that comes from, and its mean over two of them.
 
-const SWEEP_WORDS = {
-  te_peak_to_peak_um: "TE peak to peak", te_mean_um: "TE mean", peak_load_N_per_mm: "peak line load",
-  peak_contact_stress_MPa: "peak contact stress", peak_root_stress_MPa: "peak root stress",
-  pinion_root_stress_MPa: "root stress, pinion", wheel_root_stress_MPa: "root stress, wheel",
-  mean_stiffness_N_per_mm_um: "mean mesh stiffness", least_stiffness_N_per_mm_um: "least mesh stiffness",
-  largest_stiffness_N_per_mm_um: "largest mesh stiffness", load_factor: "load factor", iso6336_K_Hbeta: "K_Hβ by ISO 6336",
-  iso6336_K_Halpha: "K_Hα by ISO 6336", peak_to_peak_arcsec: "unloaded TE peak to peak", peak_to_peak_um: "unloaded TE peak to peak",
-};
-
-function output_label(name) {
-  const harmonic = /^te_harmonic_(\d+)_/.exec(name);
-  return harmonic ? `TE harmonic ${harmonic[1]}` : SWEEP_WORDS[name] || words(name);
-}
-
 const sweep_unit = (unit) => (unit === "-" ? "" : pretty_unit(unit));
-const output_cell = (name) => ({ text: output_label(name), draw: () => symbols(output_label(name)) });
-
-const parameter_label = (path) => `${path}`.replace(/^misalignment\.|^load\./, "").replace(/\.(modification|error)\./, (_, kind) =>
-  (kind === "error" ? " error: " : ": ")).replace(/[_.]/g, " ");
+const output_cell = (name) => ({ text: words(name), draw: () => symbols(words(name)) });
 
 /** [[name, statistics]] of the outputs that some sample has. */
 const sweep_outputs = (sweep) => list(sweep.outputs).map((name) => [name, record(record(sweep.statistics)[name])])
@@ -31,14 +14,14 @@ function sweep_headline(sweep) {
   const outputs = sweep_outputs(sweep), name = leading_output(outputs), of = record(record(sweep.statistics)[name]);
   if (!is_number(of.mean)) return "No sample of the sweep has results";
   const unit = sweep_unit(of.unit);
-  return `${capital(output_label(name))} ${fmt(of.mean, 3)} ± ${fmt(of.std, 2)} ${unit} over ${fmt(sweep.samples, 9)} samples, `
-    + `99 % of them below ${fmt(record(of.quantiles)["99 %"], 3)} ${unit}`;
+  return `${capital(words(name))} ${fmt(of.mean, 3)} ${unit} on average, σ ${fmt(of.std, 2)} ${unit}; `
+    + `99 % of ${fmt(sweep.samples, 9)} samples below ${fmt(record(of.quantiles)["99 %"], 3)} ${unit}`;
 }
 
 function sweep_tiles(sweep) {
   const shown = ["peak_contact_stress_MPa", "peak_root_stress_MPa", "te_peak_to_peak_um", "peak_to_peak_arcsec", "load_factor"];
   return sweep_outputs(sweep).filter(([name]) => shown.includes(name)).map(([name, of]) =>
-    tile(`${capital(output_label(name))}, mean`, of.mean, sweep_unit(of.unit),
+    tile(`${capital(words(name))}, mean`, of.mean, sweep_unit(of.unit),
       { detail: `σ ${fmt(of.std, 2)}, worst ${fmt(record(of.worst).value, 3)}` }));
 }
 
@@ -55,8 +38,8 @@ function draw_histogram(name, of) {
   const bars = numbers(counts), highest = maximum(bars) || 1, unit = sweep_unit(of.unit);
   const to_x = (value) => left + ((width - left - right) * (value - low)) / (high - low || 1);
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img",
-    "aria-label": `Histogram of ${output_label(name)}` });
-  picture.append(svg("text", { x: left, y: 14, "font-weight": 600, "font-size": 13 }, ...subscripts(capital(output_label(name))), unit ? ` [${unit}]` : ""));
+    "aria-label": `Histogram of ${words(name)}` });
+  picture.append(svg("text", { x: left, y: 14, "font-weight": 600, "font-size": 13 }, ...subscripts(capital(words(name))), unit ? ` [${unit}]` : ""));
   const bar = (width - left - right) / bars.length;
   bars.forEach((count, i) => {
     const size = ((height - top - bottom) * count) / highest;
@@ -98,7 +81,7 @@ function build_scatter(results, body) {
     note: `Sampler ${words(sweep.sampler)}, seed ${sweep.seed}; every parameter independent of the others. Sections after the response maps show the `
       + "nominal sample: the study as it is written, and medians where it gives no value.",
     columns: [{ label: "Parameter" }, { label: "Unit" }, { label: "Distribution" }, { label: "Lowest drawn" }, { label: "Highest drawn" }],
-    rows: list(sweep.parameters).map(record).map((p) => [p.path, sweep_unit(p.unit), p.distribution, record(p.range).low ?? null,
+    rows: list(sweep.parameters).map(record).map((p) => [words(p.path), sweep_unit(p.unit), p.distribution, record(p.range).low ?? null,
       record(p.range).high ?? null]),
   });
 }
@@ -114,12 +97,12 @@ function sweep_choice(parent, label, options, state, key, redraw) {
 }
 
 /** Total indices as bars, the first-order part filled, both with their standard errors; largest on top. */
-function draw_tornado(plot, indices) {
+function draw_tornado(plot, indices, most = Infinity) {
   const rows = Object.entries(indices).map(([path, index]) => ({ path, ...record(index) })).filter((row) => is_number(row.total))
-    .sort((a, b) => b.total - a.total);
+    .sort((a, b) => b.total - a.total).slice(0, most);
   if (rows.length === 0) return plot.append(el("p", { class: "caption" }, "This output does not vary, or there are too few samples."));
   const width = Math.max(320, plot.clientWidth || 900), row_height = 28, top = 6, bottom = 42;
-  const left = Math.min(0.42 * width, 24 + 7 * Math.max(...rows.map((row) => parameter_label(row.path).length))), right = 64;
+  const left = Math.min(0.42 * width, 24 + 7 * Math.max(...rows.map((row) => words(row.path).length))), right = 64;
   const height = top + bottom + row_height * rows.length;
   const high = Math.max(1, maximum(rows.map((row) => row.total + row.total_error)));
   const to_x = (share) => left + ((width - left - right) * Math.max(0, share)) / high;
@@ -133,11 +116,11 @@ function draw_tornado(plot, indices) {
     const y = top + row_height * (i + 0.5), per_cent = (share) => fmt(100 * share, 3);
     const whisker = (value, error, at) => svg("line", { x1: to_x(value - error), x2: to_x(value + error), y1: at, y2: at,
       stroke: css_colour("ink"), "stroke-width": 1.2 });
-    picture.append(svg("text", { x: left - 10, y: y + 4, "text-anchor": "end" }, parameter_label(row.path)),
+    picture.append(svg("text", { x: left - 10, y: y + 4, "text-anchor": "end" }, words(row.path)),
       svg("rect", { x: left, y: y - 10, width: to_x(row.total) - left, height: 20, fill: faded(css_colour("after"), 0.35) },
-        svg("title", {}, `${row.path}: total ${per_cent(row.total)} ± ${per_cent(row.total_error)} %`)),
+        svg("title", {}, `${words(row.path)}: total ${per_cent(row.total)} ± ${per_cent(row.total_error)} %`)),
       svg("rect", { x: left, y: y - 10, width: to_x(row.first) - left, height: 20, fill: css_colour("after") },
-        svg("title", {}, `${row.path}: alone ${per_cent(row.first)} ± ${per_cent(row.first_error)} %`)),
+        svg("title", {}, `${words(row.path)}: alone ${per_cent(row.first)} ± ${per_cent(row.first_error)} %`)),
       whisker(row.first, row.first_error, y - 4), whisker(row.total, row.total_error, y + 4),
       svg("text", { x: to_x(Math.max(row.total + row.total_error, row.first + row.first_error)) + 8, y: y + 4, class: "muted" },
         `${fmt(100 * row.total, 2)} %`));
@@ -149,7 +132,7 @@ function draw_tornado(plot, indices) {
 function build_indices(results, body) {
   const sweep = record(results.sweep), outputs = sweep_outputs(sweep);
   const state = { output: leading_output(outputs) };
-  const options = outputs.map(([name]) => ({ value: name, label: output_label(name) }));
+  const options = outputs.map(([name]) => ({ value: name, label: words(name) }));
   figure(figure_grid(body), {
     title: "Which parameter the scatter comes from",
     wide: true,
@@ -170,7 +153,7 @@ function build_indices(results, body) {
   table(body, {
     title: "Total Sobol indices",
     note: "Share of the variance with all interactions; below a ten-thousandth of a per cent: 0.",
-    columns: [{ label: "Output" }, ...parameters.map((p) => ({ label: parameter_label(p.path), unit: "%", digits: 2 }))],
+    columns: [{ label: "Output" }, ...parameters.map((p) => ({ label: words(p.path), unit: "%", digits: 2 }))],
     rows: outputs.map(([name, of]) => [output_cell(name),
       ...parameters.map((p) => shown_total(record(record(of.indices)[p.path]).total))]),
   });
@@ -189,10 +172,10 @@ function draw_response(plot, sweep, state) {
   const values = [...Array(height_parts)].flatMap((_, iy) => [...Array(columns)].map((__, ix) => at(ix, iy)));
   const scale = { low: minimum(values), high: maximum(values) };
   const along = (path) => parameters.find((p) => p.path === path);
-  const titled = (p) => parameter_label(p.path) + (sweep_unit(p.unit) ? ` [${sweep_unit(p.unit)}]` : "");
+  const titled = (p) => words(p.path) + (sweep_unit(p.unit) ? ` [${sweep_unit(p.unit)}]` : "");
   const [x, y] = [along(state.x), along(state.y)].map((p) => ({ low: p.range.low, high: p.range.high, title: titled(p) }));
   const height = 380, width = Math.min(720, (plot.clientWidth || 900) - 100), left = 66, top = 26, right = 14, bottom = 44;
-  const { canvas, pen } = sharp_canvas(width, height, `Mean ${output_label(state.output)} over ${x.title} and ${y.title}`);
+  const { canvas, pen } = sharp_canvas(width, height, `Mean ${words(state.output)} over ${x.title} and ${y.title}`);
   const frame = { left, top, width: width - left - right, height: height - top - bottom };
   paint_raster(pen, frame, { columns, rows: height_parts, values }, scale);
   pen.strokeStyle = css_colour("axis");
@@ -241,8 +224,8 @@ function build_response_maps(results, body) {
       area.replaceChildren();
       draw_response(area, sweep, state);
     };
-    const parameters = paths.map((path) => ({ value: path, label: parameter_label(path) }));
-    sweep_choice(choices, "Output", outputs.map(([name]) => ({ value: name, label: output_label(name) })), state, "output", draw);
+    const parameters = paths.map((path) => ({ value: path, label: words(path) }));
+    sweep_choice(choices, "Output", outputs.map(([name]) => ({ value: name, label: words(name) })), state, "output", draw);
     sweep_choice(choices, "to the right", parameters, state, "x", draw);
     sweep_choice(choices, "upwards", parameters, state, "y", draw);
     plot.append(choices, area);

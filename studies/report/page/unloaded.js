@@ -35,7 +35,8 @@ const transfer_points = (mesh) => list(mesh.transfers).map(record).map((transfer
   };
 });
 
-function draw_unloaded_te(plot, scene) {
+/** @param pitch  angle of the pinion from one pair to the next, after which the mesh repeats [deg] */
+function draw_unloaded_te(plot, scene, pitch, height = 320) {
   const pairs = list(scene.pairs).map(record), mesh = record(scene.mesh);
   const datum = te_datum(list(mesh.te_arcsec));
   const from_datum = (te) => (is_number(te) ? te - datum : null);
@@ -50,7 +51,8 @@ function draw_unloaded_te(plot, scene) {
   const phi = list(mesh.phi1_deg), te = list(mesh.te_arcsec).map(from_datum);
   const transfers = transfer_points(mesh).map((transfer) => ({ ...transfer, y: from_datum(transfer.y) }));
   const margin = 0.02 * (maximum(phi) - minimum(phi));
-  const points = [...phi.map((x, i) => ({ x, y: te[i] })), ...transfers].filter((p) => is_number(p.x)).sort((a, b) => a.x - b.x);
+  const closing = phi.length > 1 && pitch > 0 ? [{ x: phi[0] + pitch, y: te[0] }] : [];
+  const points = [...phi.map((x, i) => ({ x, y: te[i] })), ...closing, ...transfers].filter((p) => is_number(p.x)).sort((a, b) => a.x - b.x);
   curves.push({ label: "mesh", points: points.map(({ x, y }) => ({ x, y })), colour: css_colour("ink"), width: 3, order: 1 });
   if (transfers.length) {
     curves.push({ label: "hand-over", points: transfers, colour: css_colour("ink"), fill: css_colour("surface"),
@@ -62,7 +64,7 @@ function draw_unloaded_te(plot, scene) {
     x: "pinion rotation φ₁ [deg]", y: datum === 0 ? "TE at the wheel [arcsec]" : `TE from ${fmt(datum, 6)} arcsec [arcsec]`,
     x_range: points.length > 1 ? { min: points[0].x - margin, max: points[points.length - 1].x + margin } : {},
     y_range: te_range(te, curves.slice(0, pairs.length).flatMap((curve) => curve.points.map((p) => p.y))),
-    read_x: (x) => `φ₁ ${fmt(x)}°`, read_y: (y) => `${fmt(y, 3)} arcsec`, nearest: "xy", height: 320,
+    read_x: (x) => `φ₁ ${fmt(x)}°`, read_y: (y) => `${fmt(y, 3)} arcsec`, nearest: "xy", height,
     labels: transfers.filter((transfer) => is_number(transfer.jump)).sort((a, b) => b.jump - a.jump)
       .map((transfer) => ({ x: transfer.x, y: transfer.y, text: `slope jumps by ${fmt(transfer.jump, 3)} arcsec/deg` })),
   });
@@ -134,7 +136,7 @@ function scene_table(body, scenes) {
 
 function build_unloaded(results, body) {
   const scenes = unloaded_scenes(results);
-  const selection = case_selection(scenes, scenes[0], "");
+  const selection = case_selection(scenes, worst_unloaded(scenes), scenes.length > 1 ? " (largest TE)" : "");
   const teeth = (gear) => record(record(results.geometry)[gear]).teeth;
   const speed_ratio = teeth("pinion") / teeth("wheel");
   selection.add_choice(body);
@@ -156,7 +158,7 @@ function build_unloaded(results, body) {
     wide: true,
     caption: "Each tooth pair alone, and the pair that leads at every instant as the bold line of the mesh; where two "
       + "pairs cross, the contact is handed over and the slope jumps. Negative where material is removed.",
-  }, (plot, { data }) => draw_unloaded_te(plot, data));
+  }, (plot, { data }) => draw_unloaded_te(plot, data, 360 / teeth("pinion")));
   if (scenes.some(({ data }) => data.bearing_pattern)) {
     for (const gear of ["pinion", "wheel"]) {
       case_figure(grid, selection, {

@@ -63,7 +63,7 @@ TEST_CASE("A sweep leaves its statistics, its samples and its worst samples, rea
   const Ending ending = run(folder, {"run", "sweep.toml", "--out", "out"});
   CAPTURE(ending.err);
   REQUIRE(ending.exit_code == 0);
-  CHECK_THAT(ending.out, Contains("peak_contact_stress_MPa") && Contains("50 samples"));
+  CHECK_THAT(ending.out, Contains("peak contact stress [MPa]") && Contains("50 samples"));
   const json sweep = json::parse(text_of(folder.path() / "out/results.json"))["sweep"];
   CHECK(sweep["samples"] == 50);
   CHECK(sweep["failed"] == 0);

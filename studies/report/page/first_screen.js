@@ -1,0 +1,35 @@
+// The first screen: panels that answer what a reader asks before anything else. Each task has its own; what a panel shows small stands large below.
+
+/**
+ * A panel of the first screen with a heading; draw(plot) is called now and whenever the colours change.
+ * @param span  of twelve columns
+ */
+function panel(parent, { title, span, href }, draw) {
+  const plot = el("div", { class: "plot" });
+  const heading = el("h3", {}, href && document.getElementById(href) ? el("a", { href: `#${href}` }, title) : title);
+  parent.append(el("div", { class: `panel span-${span}` }, heading, plot));
+  figures.push(() => {
+    clear_plot(plot);
+    draw(plot);
+  });
+}
+
+/** Rows of facts: [[name, value, class?]]; a value is text or an element. */
+const facts = (rows) => el("dl", { class: "facts" }, ...rows.filter((row) => row && row[1] !== null && row[1] !== undefined)
+  .flatMap(([name, value, style]) => [el("dt", {}, name), el("dd", { class: style ?? null }, value)]));
+
+/** Panels of the task; what fails says so and leaves the rest of the page alone. */
+function draw_first_screen(results, selection) {
+  const first = document.getElementById("first");
+  try {
+    if (results.optimise) optimise_first(first, results, selection);
+    else if (results.sweep) sweep_first(first, results, selection);
+    else if (list(record(results.accuracy).rungs).length) accuracy_first(first, results);
+    else if (list(results.fit).length) fit_first(first, results);
+    else if (selection.cases.length) analysis_first(first, results, selection);
+    else if (results.unloaded) unloaded_first(first, results);
+  } catch (failure) {
+    first.append(el("p", { class: "banner bad" }, `The first screen could not be built: ${failure.message}`));
+    console.error(failure);
+  }
+}

@@ -1,0 +1,79 @@
+// How much better, scene by scene, and against what a designer would have ground without an optimiser.
+
+const MOST_SCENES = 8;
+
+
+/** Bars of each row, before above after or after alone, with whiskers of the error where it is known. @param rows [{label, before?, after, before_error?, after_error?, strong?}] */
+function draw_pairs(plot, rows, unit) {
+  const width = Math.max(280, plot.clientWidth || 400), paired = rows.some((row) => is_number(row.before)), row_height = paired ? 22 : 20, bottom = 2;
+  const note = (row) => (paired ? `${fmt(row.before, 3)} → ${fmt(row.after, 3)}` : with_error(row.after, row.after_error, 3));
+  const wide = 10 + 7 * Math.max(...rows.map((row) => `${note(row)} ${percent_change(row.before, row.after) ?? ""}`.length));
+  const left = Math.min(0.45 * width, 16 + 7.2 * Math.max(...rows.map((row) => row.label.length)));
+  const height = row_height * rows.length + bottom;
+  const room = Math.floor((left - 14) / 7), shortened = (label) => (label.length > room ? `${label.slice(0, room - 1)}…` : label);
+  const high = maximum(rows.flatMap((row) => [row.before, row.after])) || 1;
+  const to_x = (value) => left + ((width - left - wide) * Math.max(0, value)) / high;
+  const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img", "aria-label": "A bar for each scene" });
+  rows.forEach((row, i) => {
+    const y = row_height * i + 3;
+    picture.append(svg("text", { x: left - 8, y: y + 13, "text-anchor": "end", class: row.strong ? "small strong" : "small" }, shortened(row.label), svg("title", {}, row.label)));
+    ["before", "after"].forEach((design, k) => {
+      if (!is_number(row[design])) return;
+      const top = paired ? y + 8 * k : y + 3, thickness = paired ? 7 : 11, error = row[`${design}_error`];
+      picture.append(svg("rect", { x: left, y: top, width: Math.max(1, to_x(row[design]) - left), height: thickness, rx: 1.5, fill: design_colour(design) },
+        svg("title", {}, `${row.label}, ${design}: ${with_error(row[design], error, 4)} ${unit}`)));
+      if (error > 0) {
+        picture.append(svg("line", { x1: to_x(row[design] - error), x2: to_x(row[design] + error), y1: top + thickness / 2, y2: top + thickness / 2, class: "whisker" }));
+      }
+    });
+    const change = percent_change(row.before, row.after);
+    picture.append(svg("text", { x: to_x(maximum([row.before, row.after])) + 6, y: y + 13, class: row.after > row.before ? "small worse" : "small" },
+      note(row), svg("tspan", { class: "muted" }, change ? ` ${change}` : "")));
+  });
+  plot.append(picture);
+}
+
+/** "26 of 27 scenes are better; most is lost in aligned, +9.7 %." */
+function scenes_sentence(scenes, label) {
+  const known = scenes.filter((scene) => is_number(scene.before) && is_number(scene.after));
+  if (known.length < 2) return null;
+  const better = known.filter((scene) => scene.after < scene.before).length;
+  if (better === known.length) return `All ${known.length} scenes are better.`;
+  const lost = known.reduce((a, b) => (b.after / b.before > a.after / a.before ? b : a));
+  return `${better} of ${known.length} scenes are better; “${label(lost)}” pays ${percent_change(lost.before, lost.after)}.`;
+}
+
+/** What each constraint is at, before and after, and its limit. */
+function constraint_facts(optimise) {
+  const before = record(record(optimise.before).constraints), errors = record(record(optimise.after).constraints_error);
+  return constraint_rows(optimise).map((row) => {
+    const limits = [is_number(row.min) ? `at least ${fmt(row.min)}` : null, is_number(row.max) ? `at most ${fmt(row.max)}` : null].filter(Boolean).join(", ");
+    const from = record(before[row.name]).value;
+    return [capital(words(row.name)), `${is_number(from) ? `${fmt(from, 3)} → ` : ""}${with_error(row.value, errors[row.name], 3)} ${row.unit}, ${limits}`,
+      row.met === false ? "bad" : row.met ? "good" : null];
+  });
+}
+
+/** Of a list of objectives those behind the first: [[name, "0.393 → 0.09 µm"]]. */
+function later_facts(optimise) {
+  const from = list(record(optimise.before).later_objectives), to = list(record(optimise.after).later_objectives);
+  return list(optimise.stages).slice(1).map((stage, i) => {
+    const { objective } = record(stage), unit = /^te_[a-z_0-9]+$/.test(objective) ? " µm" : /^[a-z_]+_stress$/.test(objective) ? " MPa" : "";
+    return [`Then ${words(objective)}`, `${fmt(from[i], 3)} → ${fmt(to[i], 3)}${unit} (${percent_change(from[i], to[i]) ?? "–"})`];
+  });
+}
+
+function gain_panel(plot, results) {
+  const optimise = record(results.optimise), unit = pretty_unit(optimise.objective_unit);
+  const scenes = scenes_by_rank(optimise);
+  const label = scene_labels(scenes);
+  const shown = scenes.slice(0, MOST_SCENES - Math.min(3, constraint_rows(optimise).length));
+  plot.append(el("p", { class: "key" },
+    el("span", { class: "dot", style: `background:${design_colour("before")}` }), " before   ",
+    el("span", { class: "dot", style: `background:${design_colour("after")}` }), ` after   [${unit}]${shown.some((s) => s.governs) ? "   bold: governs" : ""}`));
+  if (shown.length > 0) draw_pairs(plot, shown.map((scene) => ({ ...scene, label: label(scene), strong: scene.governs !== 0 })), unit);
+  const rest = scenes.length - shown.length;
+  const sentence = [scenes_sentence(scenes, label), rest > 0 ? `${rest} more below.` : null].filter(Boolean).join(" ");
+  if (sentence) plot.append(el("p", { class: "fine" }, sentence));
+  plot.append(facts([...later_facts(optimise), ...constraint_facts(optimise)]));
+}
