@@ -91,21 +91,26 @@ TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOption
   result.objective_seen_by_search = coarse.after.objective;
 
   const Stopwatch fine_clock;
-  const Eigen::VectorXd x = best_start(problem, coarse, problem.scaled_design(coarse.after.variables).cwiseMax(0.0).cwiseMin(1.0));
-  problem.set_start(x);
+  result.design = coarse;
+  problem.set_start(best_start(problem, coarse, problem.scaled_design(coarse.after.variables).cwiseMax(0.0).cwiseMin(1.0)));
+  go_on(problem, options, result);
+  result.fine.seconds = fine_clock.seconds();
+  result.design.seconds = clock.seconds();
+  return result;
+}
+
+void go_on(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
   DesignOptions finish = options;
   finish.starts = 1;
   finish.solver.name = options.solver.finisher == "none" ? options.solver.name : options.solver.finisher;
   finish.solver.finisher = "none";
-  finish.solver.max_evaluations = std::max(1, options.solver.max_evaluations - coarse.evaluations);
+  finish.solver.max_evaluations = std::max(1, options.solver.max_evaluations - found.design.evaluations);
+  finish.solver.max_seconds = std::max(1e-3, options.solver.max_seconds - found.design.seconds);
   finish.most_search_analyses = most_fine_analyses;
-  finish.solver.max_seconds = std::max(1e-3, options.solver.max_seconds - clock.seconds());
-  result.design = optimise_design(problem, finish);
-  result.fine.analyses = result.design.evaluations;
-  result.fine.seconds = fine_clock.seconds();
-  join(coarse, result.design);
-  result.design.seconds = clock.seconds();
-  return result;
+  DesignResult fine = optimise_design(problem, finish);
+  found.fine.analyses += fine.evaluations;
+  join(found.design, fine);
+  found.design = std::move(fine);
 }
 
 }  // namespace flankwright

@@ -31,4 +31,7 @@ bool can_be_coarser(const DesignTask& task);
 /// @throws InvalidInput as optimise_design()
 TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOptions& options);
 
+/// Goes on at the fine level from the problem's start, by the finisher; what it finds takes the place of the design's fine part.
+void go_on(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
+
 }  // namespace flankwright

@@ -24,12 +24,15 @@ void add(std::vector<SizeInStudy>& sizes, const SizeInStudy& other) {
   *known = std::move(larger);
 }
 
-/// Estimates are made at the study's own positions, or at this many where there are more.
-constexpr int most_positions = 32;
+/// Estimates are made at the study's own positions and intervals, or at this many where there are more: what an effect does is larger than what
+/// the resolution does to it.
+constexpr int most_positions = 16, most_estimate_intervals = 6;
 
 MeshResolution estimate_resolution(const StudyResults& results) {
   const bool few = std::ssize(results.phases) <= most_positions;
-  return {results.study.fidelity.quadrature, few ? results.phases : equally_spaced_phases(most_positions)};
+  Quadrature quadrature = results.study.fidelity.quadrature;
+  if (quadrature.rule == QuadratureRule::Graded) quadrature.intervals = std::min(quadrature.intervals, most_estimate_intervals);
+  return {quadrature, few ? results.phases : equally_spaced_phases(most_positions)};
 }
 
 EffectScene scene_of(const StudyResults& results, const FlankCondition& condition, double torque, const MeshResolution& resolution) {

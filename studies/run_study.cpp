@@ -135,11 +135,11 @@ class Run {
   }
 
   /// What a solved load case shows, with extremes between its positions and errors.
-  ResolvedCycle resolved(const DesignScene& scene, const MeshModel& model, const LoadedCycle& cycle) {
+  ResolvedCycle resolved(const DesignScene& scene, const MeshModel& model, const LoadedCycle& cycle, bool with_errors = true) {
     const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>& parameters) {
       return mesh_at(scene.condition.misalignment, parameters)(phases);
     };
-    const std::optional<LoadedCycle> coarse = coarse_cycle(scene);
+    const std::optional<LoadedCycle> coarse = with_errors ? coarse_cycle(scene) : std::nullopt;
     return resolve_cycle(model, cycle, at, scene.condition, scene.torque,
                          {.seek_extremes = seeks_extremes(results_.study), .coarse = coarse ? &*coarse : nullptr}, gradient_parameters());
   }
@@ -304,7 +304,8 @@ class Run {
     };
     DesignProblem problem(*results_.design_task);
     const DesignOptions choice{options, study.optimise.starts};
-    const TwoLevelDesign found = optimise_by_two_levels(problem, choice);
+    TwoLevelDesign found = optimise_by_two_levels(problem, choice);
+    keep_constraints_between_positions(problem, choice, found);
     results_.design = found.design;
     results_.search_work = {found.search, found.fine, found.objective_seen_by_search, found.design.after.objective};
     if (!study.optimise.pareto_goals.empty()) {
@@ -316,7 +317,7 @@ class Run {
     results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", results_.proof->seconds});
     results_.before_errors = show(problem, "before", results_.design->before);
     results_.after_errors = show(problem, "after", results_.design->after);
-    if (results_.design->exact) resolve_report(problem, resolved_cycles(problem, *results_.design->exact), *results_.design->exact);
+    if (results_.design->exact) resolve_report(problem, resolved_cycles(problem, *results_.design->exact, false), *results_.design->exact);
     rate();
     const bool ended_well = design.status == SolverStatus::Converged || design.status == SolverStatus::Stalled;
     if (!ended_well) {
@@ -343,6 +344,35 @@ class Run {
     }
   }
 
+  /// Extremes between the positions may exceed a constraint that is kept at the positions. It is then asked for at the positions with as much
+  /// to spare, and the search goes on from there; `problem` has these limits afterwards.
+  void keep_constraints_between_positions(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
+    constexpr int most_turns = 3;
+    for (int turn = 0; turn < most_turns && seeks_extremes(results_.study) && !problem.task().constraints.empty(); ++turn) {
+      const Stopwatch clock;
+      DesignReport shown = found.design.after;
+      resolve_report(problem, resolved_cycles(problem, shown, false), shown);
+      DesignTask tighter = problem.task();
+      bool violated = false;
+      for (std::size_t c = 0; c < tighter.constraints.size(); ++c) {
+        const double at_positions = found.design.after.constraint_values[c], value = shown.constraint_values[c];
+        if (!(results_.design_task->constraints[c].excess(value) > DesignLog::tolerance) || !(value > at_positions)) continue;
+        const double limit = results_.design_task->constraints[c].limit() - (1.0 + spare) * (value - at_positions);
+        violated = violated || limit < tighter.constraints[c].maximum;
+        tighter.constraints[c].maximum = std::min(tighter.constraints[c].maximum, limit);
+      }
+      if (!violated) return;
+      const Eigen::VectorXd x = problem.scaled_design((found.design.exact ? *found.design.exact : found.design.after).variables);
+      problem = DesignProblem(tighter);
+      problem.set_start(x.cwiseMax(0.0).cwiseMin(1.0));
+      go_on(problem, options, found);
+      found.fine.seconds += clock.seconds();
+      found.design.seconds += clock.seconds();
+    }
+  }
+  /// Of what is asked for to spare, so that one more turn is seldom needed.
+  static constexpr double spare = 0.1;
+
   /// The scenes of a design's report.
   DesignScene scene_of(const DesignReport& report, int s) const {
     DesignScene scene = results_.design_task->scenes[static_cast<std::size_t>(s)];
@@ -351,10 +381,10 @@ class Run {
     return scene;
   }
 
-  std::vector<ResolvedCycle> resolved_cycles(const DesignProblem& problem, const DesignReport& report) {
+  std::vector<ResolvedCycle> resolved_cycles(const DesignProblem& problem, const DesignReport& report, bool with_errors) {
     std::vector<ResolvedCycle> cycles;
     for (int s = 0; s < problem.scenes(); ++s) {
-      cycles.push_back(resolved(scene_of(report, s), problem.model(s), report.analysis.cycles[static_cast<std::size_t>(s)]));
+      cycles.push_back(resolved(scene_of(report, s), problem.model(s), report.analysis.cycles[static_cast<std::size_t>(s)], with_errors));
     }
     return cycles;
   }

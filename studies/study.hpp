@@ -91,7 +91,7 @@ struct FlankGrid {
 struct OptimiseTable {
   std::vector<ObjectiveTerm> objective;
   Aggregation over;
-  std::string solver{"ipopt"}, finisher{"nlopt:slsqp"};
+  std::string solver{"nlopt:slsqp"}, finisher{"nlopt:slsqp"};
   std::vector<DesignVariable> variables;
   std::vector<OutputConstraint> constraints;
   std::vector<DesignTie> ties;

@@ -161,7 +161,7 @@ std::vector<SchemaKey> task_rows() {
       {.path = "optimise.cvar_level", .range = {.low = 0.0, .high = 1.0, .high_open = true}, .fallback = "0.9",
        .meaning = "of over = \"cvar\": the mean over the worst 1 - level of the scenes' weight (conditional value at risk)",
        .store = [](Draft& d, Member, const Value& v) { d.study.optimise.over.level = v.number; }},
-      {.path = "optimise.solver", .kind = Word, .words = solver_names(), .fallback = "\"ipopt\"",
+      {.path = "optimise.solver", .kind = Word, .words = solver_names(), .fallback = "\"nlopt:slsqp\"",
        .meaning = "the optimiser",
        .store = [](Draft& d, Member, const Value& v) { d.study.optimise.solver = v.text; }},
       {.path = "optimise.finisher", .kind = Word, .words = finisher_names(), .fallback = "\"nlopt:slsqp\"",

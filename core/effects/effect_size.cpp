@@ -42,9 +42,15 @@ EffectInfluence EffectInfluence::between(const CycleOutputs& with, const CycleOu
   influence.te_peak_to_peak = with.te_peak_to_peak - without.te_peak_to_peak;
   influence.peak_contact_stress = with.peak_contact_stress - without.peak_contact_stress;
   influence.relative_stress = influence.peak_contact_stress / with.peak_contact_stress;
-  const std::array<std::pair<double, const char*>, 3> shares{{
+  influence.te_harmonic = 0.0;
+  for (std::size_t k = 0; k < std::min(with.te_harmonics.size(), without.te_harmonics.size()); ++k) {
+    influence.te_harmonic = std::max(influence.te_harmonic, std::abs(with.te_harmonics[k] - without.te_harmonics[k]));
+  }
+  const double variation = std::max(with.te_peak_to_peak, quiet * with.mean_approach);
+  const std::array<std::pair<double, const char*>, 4> shares{{
       {std::abs(influence.te_mean) / with.mean_approach, "the mean deflection"},
-      {std::abs(influence.te_peak_to_peak) / std::max(with.te_peak_to_peak, quiet * with.mean_approach), "the transmission error's variation"},
+      {std::abs(influence.te_peak_to_peak) / variation, "the transmission error's variation"},
+      {influence.te_harmonic / variation, "a harmonic of the transmission error"},
       {std::abs(influence.relative_stress), "the peak contact stress"},
   }};
   const auto& largest = *std::ranges::max_element(shares, {}, [](const auto& share) { return share.first; });

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,8 @@ struct CycleOutputs {
   double te_peak_to_peak{not_given};      ///< [mm]
   double peak_contact_stress{not_given};  ///< [MPa]
   double mean_approach{not_given};        ///< of f_t - min(g): what the mesh gives way [mm]
+  /// Of f_t, orders 1 .. 5 as far as the positions resolve them; amplitudes are their moduli [mm].
+  std::vector<std::complex<double>> te_harmonics{};
 };
 
 /// What an effect does: outputs with it less those without. NaN: not known.
@@ -21,8 +24,9 @@ struct EffectInfluence {
   double te_peak_to_peak{not_given};      ///< [mm]
   double peak_contact_stress{not_given};  ///< [MPa]
   double relative_stress{not_given};      ///< of the peak stress with the effect [-]
-  /// The largest of the three as shares [-]: of the mean approach, of the peak to peak (at least quiet of the mean approach, since shares
-  /// of next to nothing mean nothing), and of the peak stress, all with the effect.
+  double te_harmonic{not_given};          ///< largest change of a harmonic, amplitude and phase, over the orders 1 .. 5; 0 where none is resolved [mm]
+  /// The largest of these as shares [-]: of the mean approach, peak to peak and harmonics of the peak to peak (at least quiet of the mean
+  /// approach, since shares of next to nothing mean nothing), and of the peak stress, all with the effect.
   double share{not_given};
   std::string largest_in;                 ///< which of them that is, in words
 

@@ -66,7 +66,11 @@ CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, con
   const auto [low, high] = std::ranges::minmax(d);
   errors.te_mean = of_mean * std::abs(mean_of(d));
   errors.te_peak_to_peak = of_shape * (high - low);
-  for (std::size_t k = 1; k <= summary.te_harmonics.size(); ++k) errors.te_harmonics.push_back(of_shape * std::abs(phasor(d, static_cast<int>(k))));
+  double square = 0.0;
+  for (const double value : d) square += (value - mean_of(d)) * (value - mean_of(d)) / static_cast<double>(d.size());
+  for (std::size_t k = 1; k <= summary.te_harmonics.size(); ++k) {
+    errors.te_harmonics.push_back(of_shape * (std::abs(phasor(d, static_cast<int>(k))) + std::sqrt(square)));
+  }
   errors.peak_contact_stress = of_peaks * peak_difference(some(stress_of), curve(coarse, stress_of));
   errors.peak_line_load = of_peaks * peak_difference(some(load_of), curve(coarse, load_of));
   errors.load_factor = errors.peak_line_load * summary.load_factor / summary.peak_line_load;

@@ -60,6 +60,7 @@ class OutputSum {
     most_ = std::fmax(most_, transmission_error);
     sum_ += transmission_error;
     approach_ += transmission_error - least_gap;
+    te_.push_back(transmission_error);
     for (Eigen::Index i = 0; i < line_load.size(); ++i) {
       const double radius = at.points[static_cast<std::size_t>(i)].relative_radius;
       square_ = std::max(square_, line_load[i] * model_.contact_modulus / (units::pi * radius));
@@ -67,10 +68,23 @@ class OutputSum {
     ++count_;
   }
 
-  CycleOutputs outputs() const { return {sum_ / count_, most_ - least_, std::sqrt(square_), approach_ / count_}; }
+  CycleOutputs outputs() const { return {sum_ / count_, most_ - least_, std::sqrt(square_), approach_ / count_, harmonics()}; }
 
  private:
+  /// Over evenly spaced positions; orders below half their number.
+  std::vector<std::complex<double>> harmonics() const {
+    constexpr int most_orders = 5;
+    std::vector<std::complex<double>> found;
+    for (int k = 1; k <= most_orders && 2 * k < count_; ++k) {
+      std::complex<double> sum = 0.0;
+      for (int i = 0; i < count_; ++i) sum += std::polar(2.0 / count_, -2.0 * units::pi * k * i / count_) * te_[static_cast<std::size_t>(i)];
+      found.push_back(sum);
+    }
+    return found;
+  }
+
   const MeshModel& model_;
+  std::vector<double> te_;
   double least_{not_given}, most_{not_given}, sum_{0.0}, approach_{0.0}, square_{0.0};
   int count_{0};
 };
