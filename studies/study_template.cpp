@@ -89,11 +89,11 @@ torque = [0, 150, 300]               # N·m on the pinion; each is run, 0 is the
 # marking_thickness = 6.35           # um: of the compound that shows the bearing pattern
 
 [cycle]
-positions = 32                       # mesh positions over one base pitch
+# positions = 64                     # mesh positions over one base pitch; left out: as many as the figures need
 
 [fidelity]
 compliance = "fitted"                # finite elements of both gears, solved once; "fe": finer ones; "thin_slice": none, at once
-quadrature = { rule = "gauss2", intervals = 10 }                     # along a full contact line
+# quadrature = { rule = "graded", intervals = 24 }                   # along a full contact line; left out: as fine as the figures need
 # gap = "whole_surface"              # contact sought over the whole flanks, not only where undisturbed ones would touch
 # effects = ["bending", "hertzian_contact"]                          # "auto" decides from the study
 
@@ -112,11 +112,11 @@ constexpr std::string_view optimise_tail = R"(
 torque = 300                         # N·m on the pinion
 
 [cycle]
-positions = 16                       # mesh positions over one base pitch
+# positions = 64                     # mesh positions over one base pitch; left out: as many as the figures need
 
 [fidelity]
 compliance = "fitted"                # finite elements of both gears, solved once; "thin_slice": none, at once
-quadrature = { rule = "gauss2", intervals = 10 }                     # along a full contact line
+# quadrature = { rule = "graded", intervals = 24 }                   # along a full contact line; left out: as fine as the figures need
 
 # Each scene overrides what it names of [misalignment], [load], [pinion.error] and [wheel.error].
 [[scenes]]
@@ -135,7 +135,7 @@ load.torque = 120
 [optimise]
 objective = "peak_contact_stress"    # or te_peak_to_peak, te_harmonic_1 .. te_harmonic_10, load_factor, peak_line_load, peak_root_stress, edge_load
 over = "worst"                       # nominal | worst | mean | mean+2sigma of the scenes
-solver = "ipopt"                     # or nlopt:slsqp, nlopt:mma, nlopt:cobyla ...
+# solver = "ipopt"                   # left out: "nlopt:slsqp"; also nlopt:mma, nlopt:cobyla ...
 # max_evaluations = 500
 # max_seconds = "10 min"
 
@@ -158,11 +158,11 @@ constexpr std::string_view sweep_tail = R"(
 torque = 300                         # N·m on the pinion; one for a sweep, more in [sweep.parameters]
 
 [cycle]
-positions = 16                       # mesh positions over one base pitch
+# positions = 64                     # mesh positions over one base pitch; left out: as many as the figures need
 
 [fidelity]
 compliance = "fitted"                # finite elements of both gears, solved once; "thin_slice": none, at once
-quadrature = { rule = "gauss2", intervals = 10 }                     # along a full contact line
+# quadrature = { rule = "graded", intervals = 24 }                   # along a full contact line; left out: as fine as the figures need
 
 [sweep]
 samples = 1000
@@ -194,11 +194,11 @@ constexpr std::string_view accuracy_tail = R"(
 torque = 300                         # N·m on the pinion
 
 [cycle]
-positions = 32                       # mesh positions over one base pitch
+# positions = 64                     # mesh positions over one base pitch; left out: as many as the figures need
 
 [fidelity]                           # the study's own settings are a rung of the ladder, too
 compliance = "fitted"                # finite elements of both gears, solved once; "thin_slice": none, at once
-quadrature = { rule = "gauss2", intervals = 10 }                     # along a full contact line
+# quadrature = { rule = "graded", intervals = 24 }                   # along a full contact line; left out: as fine as the figures need
 # accuracy = "1 %"                   # chooses compliance, gap, quadrature and positions where they are not given
 
 [accuracy.finest]                    # the rung that the others are held against

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
-#include "core/load/contact_peaks.hpp"
+#include "core/gear/gear_data.hpp"
 
 namespace flankwright {
 
@@ -17,23 +16,5 @@ struct CycleConvergence {
 };
 /// @param transmission_error  f_t at equally spaced phases over one base pitch [mm]
 CycleConvergence cycle_convergence(const std::vector<double>& transmission_error);
-
-struct ResolutionSearch {
-  int fewest{32}, most{1024};  ///< positions, powers of two; fewest >= 32, so that n/2 - 1 resolve most of the 10 orders
-  /// Converged where harmonic_change <= max(relative * peak to peak, absolute).
-  double relative{0.01};   ///< [-], >= 0
-  double absolute{1e-6};   ///< [mm], > 0
-};
-
-/// Number of positions over one base pitch that resolves the harmonics of a transmission error.
-struct ResolutionChoice {
-  CycleConvergence convergence;  ///< at the positions chosen
-  bool converged{false};         ///< false: most positions, and still changing
-  int failures{0};               ///< positions without a usable load distribution; the search ends there, unconverged
-};
-
-/// Doubles from the fewest positions until the harmonics have converged; positions already solved are kept.
-ResolutionChoice choose_positions(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque,
-                                  const ResolutionSearch& search = {});
 
 }  // namespace flankwright

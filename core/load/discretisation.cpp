@@ -1,24 +1,10 @@
 #include "core/load/discretisation.hpp"
 
 #include <algorithm>
-#include <limits>
-#include <optional>
-#include <utility>
-
-#include "core/base/limit_estimate.hpp"
 
 namespace flankwright {
 
 namespace {
-
-/// Differences and estimates by differences are multiplied by this before they are called an error: sequences are not regular, and the
-/// largest of ten figures is asked for.
-constexpr double safety = 1.5;
-constexpr double quadrature_share = 0.5;  ///< of the accuracy, for the intervals
-/// An estimate of more than this many times the difference that was measured is held against one more level.
-constexpr double most_over_measured = 3.0;
-/// No estimate is more than this many times the difference from both doubled: from a first order on, twice that difference is the error.
-constexpr double most_over_doubled = 5.0;
 
 PerFigure sum(const PerFigure& a, const PerFigure& b) {
   PerFigure both{};
@@ -26,152 +12,49 @@ PerFigure sum(const PerFigure& a, const PerFigure& b) {
   return both;
 }
 
-PerFigure times(double factor, PerFigure errors) {
-  for (double& error : errors) error *= factor;
-  return errors;
-}
-
-PerFigure larger(const PerFigure& a, const PerFigure& b) {
-  PerFigure both{};
-  for (std::size_t i = 0; i < both.size(); ++i) both[i] = std::max(a[i], b[i]);
-  return both;
-}
-
-/// What figures change by when each moves by so much, in its unit.
-PerFigure change(const CycleFigures& figures, const PerFigure& moved) {
-  CycleFigures changed = figures;
-  for (std::size_t i = 0; i < moved.size(); ++i) changed.value[i] += moved[i];
-  return figure_errors(changed, figures);
-}
-
-/// Error of the last level by the last three; infinite where there are fewer: two may agree by chance.
-PerFigure error_of_last(const std::vector<ResolutionLevel>& levels) {
-  PerFigure error{};
-  error.fill(std::numeric_limits<double>::infinity());
-  const std::size_t n = levels.size();
-  if (n < 3) return error;
-  for (std::size_t i = 0; i < error.size(); ++i) {
-    error[i] = estimate_limit(levels[n - 3].figures.value[i], levels[n - 2].figures.value[i], levels[n - 1].figures.value[i]).error;
-  }
-  return times(safety, change(levels[n - 1].figures, error));
-}
-
-/// Gives every level its error by the last one, whose own stands in it, and finds the coarsest within the budget; the last where none is.
-std::size_t coarsest_within(std::vector<ResolutionLevel>& levels, double budget) {
-  for (ResolutionLevel& level : levels) level.error = sum(figure_errors(level.figures, levels.back().figures), levels.back().error);
-  const auto enough = std::ranges::find_if(levels, [&](const ResolutionLevel& level) { return largest(level.error) <= budget; });
-  return enough == levels.end() ? levels.size() - 1 : static_cast<std::size_t>(enough - levels.begin());
-}
-
-/// Of so many positions those between half as many.
-std::vector<double> every_other(int positions) {
-  const std::vector<double> phases = equally_spaced_phases(positions);
-  std::vector<double> odd;
-  for (std::size_t i = 1; i < phases.size(); i += 2) odd.push_back(phases[i]);
-  return odd;
-}
-
-/// A search under way; each step adds to what is chosen.
+/// A search under way; each step adds a level.
 class DiscretisationRun {
  public:
-  DiscretisationRun(const MeshOfResolution& mesh_for, QuadratureRule rule, const FlankCondition& condition, double pinion_torque,
-                   const DiscretisationSearch& search)
-      : mesh_for_(mesh_for), rule_(rule), condition_(condition), torque_(pinion_torque), search_(search) {
-    chosen_.quadrature = {rule, search.fewest_intervals};
-    chosen_.positions = search.fewest_positions;
-  }
+  DiscretisationRun(const MeshOfResolution& mesh_for, QuadratureRule rule, const FlankCondition& condition, double torque,
+                    const DiscretisationSearch& search)
+      : mesh_for_(mesh_for), rule_(rule), condition_(condition), torque_(torque), search_(search) {}
 
   Discretisation finish() {
-    if (search_.choose_intervals) search_intervals();
-    // Intervals whose error is large between the fewest positions may do at more of them: these have their share whatever is left.
-    settle(std::max(left(), (1 - quadrature_share) * search_.accuracy));
-    const bool both = search_.choose_intervals && search_.choose_positions;
-    if (both && !chosen_.kept && left() > 0) settle(left());
+    int intervals = search_.fewest_intervals, positions = search_.fewest_positions;
+    while (true) {
+      if (!add_level(intervals, positions)) break;
+      const ResolutionLevel& level = chosen_.levels.back();
+      chosen_.quadrature = {rule_, intervals};
+      chosen_.positions = positions;
+      chosen_.quadrature_error = level.quadrature_error;
+      chosen_.position_error = level.position_error;
+      chosen_.kept = largest(level.error()) <= search_.accuracy;
+      const bool more_intervals = search_.choose_intervals && 2 * intervals <= search_.most_intervals;
+      const bool more_positions = search_.choose_positions && 2 * positions <= search_.most_positions;
+      if (chosen_.kept || !(more_intervals || more_positions)) break;
+      const bool by_points = largest(level.quadrature_error) >= largest(level.position_error);
+      (more_intervals && (by_points || !more_positions) ? intervals : positions) *= 2;
+    }
     return std::move(chosen_);
   }
 
  private:
-  /// Of the accuracy, by the intervals.
-  double left() const { return search_.accuracy - largest(chosen_.quadrature_error); }
-
-  /// Positions within a budget, and the intervals at these.
-  void settle(double budget) {
-    if (search_.choose_positions && chosen_.failures == 0) search_positions(budget);
-    if (search_.choose_intervals && chosen_.failures == 0) confirm_intervals();
-    chosen_.kept = chosen_.failures == 0 && largest(chosen_.error()) <= search_.accuracy;
-  }
-
-  SampledCycle solve(int intervals, const std::vector<double>& phases) {
+  bool add_level(int intervals, int positions) {
+    const std::vector<double> phases = equally_spaced_phases(positions);
     const MeshModel model = mesh_for_({{rule_, intervals}, phases});
-    SampledCycle cycle(model, analyse_cycle(model, condition_, torque_));
-    chosen_.failures += cycle.failures();
-    return cycle;
-  }
-
-  /// At the fewest positions.
-  void search_intervals() {
-    const std::vector<double> phases = equally_spaced_phases(search_.fewest_positions);
-    const double budget = quadrature_share * search_.accuracy;
-    std::vector<ResolutionLevel>& levels = chosen_.by_intervals;
-    std::size_t taken = 0;
-    for (int n = search_.fewest_intervals; n <= 2 * search_.most_intervals; n *= 2) {
-      const SampledCycle cycle = solve(n, phases);
-      if (chosen_.failures > 0) return;
-      levels.push_back({n, cycle.positions(), cycle.figures()});
-      levels.back().error = error_of_last(levels);
-      taken = coarsest_within(levels, budget);
-      if (taken + 1 < levels.size()) break;
-    }
-    while (levels[taken].intervals > search_.most_intervals) --taken;
-    take_intervals(levels[taken]);
-  }
-
-  void take_intervals(const ResolutionLevel& level) {
-    chosen_.quadrature.intervals = level.intervals;
-    chosen_.quadrature_error = level.error;
-  }
-
-  /// At the intervals chosen.
-  void search_positions(double budget) {
-    std::vector<ResolutionLevel>& levels = chosen_.by_positions;
-    levels.clear();
-    const int intervals = chosen_.quadrature.intervals;
-    std::optional<SampledCycle> cycle;
-    std::size_t taken = 0;
-    for (int n = search_.fewest_positions; n <= 2 * search_.most_positions; n *= 2) {
-      cycle = cycle ? cycle->joined(solve(intervals, every_other(n))) : solve(intervals, equally_spaced_phases(n));
-      if (chosen_.failures > 0) return;
-      levels.push_back({intervals, n, cycle->figures()});
-      levels.back().error = larger(error_of_last(levels), change(cycle->figures(), cycle->unseen()));
-      taken = coarsest_within(levels, budget);
-      const double measured = largest(figure_errors(levels[taken].figures, levels.back().figures));
-      if (taken + 1 < levels.size() && largest(levels[taken].error) <= most_over_measured * measured) break;
-    }
-    while (levels[taken].positions > search_.most_positions) --taken;
-    chosen_.positions = levels[taken].positions;
-    chosen_.position_error = levels[taken].error;
-  }
-
-  /// At the positions chosen: where lines end shows between the fewest.
-  void confirm_intervals() {
-    const int positions = chosen_.positions;
-    SampledCycle coarse = solve(chosen_.quadrature.intervals, equally_spaced_phases(positions));
-    for (int n = chosen_.quadrature.intervals; n <= search_.most_intervals; n *= 2) {
-      const SampledCycle fine = solve(2 * n, equally_spaced_phases(positions));
-      if (chosen_.failures > 0) return;
-      chosen_.by_intervals.push_back({n, positions, coarse.figures(), times(safety, figure_errors(coarse.figures(), fine.figures()))});
-      take_intervals(chosen_.by_intervals.back());
-      const bool enough = largest(sum(chosen_.quadrature_error, chosen_.position_error)) <= search_.accuracy || 2 * n > search_.most_intervals;
-      if (enough && search_.choose_positions) double_positions(coarse, fine);
-      if (enough) return;
-      coarse = fine;
-    }
-  }
-
-  /// Of a cycle with twice the intervals of the one chosen.
-  void double_positions(const SampledCycle& chosen, const SampledCycle& fine) {
-    const SampledCycle doubled = fine.joined(solve(2 * chosen_.quadrature.intervals, every_other(2 * chosen_.positions)));
-    if (chosen_.failures == 0) chosen_.doubled_difference = largest(figure_errors(chosen.figures(), doubled.figures()));
+    const LoadedCycle cycle = analyse_cycle(model, condition_, torque_, {}, {}, RootStresses::Later);
+    const MeshModel coarse_model = mesh_for_({{rule_, std::max(1, intervals / 2)}, coarse_phases(phases)});
+    const LoadedCycle coarse = analyse_cycle(coarse_model, condition_, torque_, {}, {}, RootStresses::Later);
+    chosen_.failures += cycle.failures + coarse.failures;
+    if (chosen_.failures > 0) return false;
+    const MeshWithParameters at = [&](const std::vector<double>& some, const std::vector<MeshParameter>&) { return mesh_for_({{rule_, intervals}, some}); };
+    const ResolvedCycle resolved =
+        resolve_cycle(model, cycle, at, condition_, torque_, {.seek_extremes = rule_ == QuadratureRule::Graded, .coarse = &coarse});
+    ResolutionLevel level{intervals, positions, figures_of(model, cycle, resolved.summary)};
+    if (search_.choose_intervals) level.quadrature_error = error_shares(resolved.error_parts.points, level.figures);
+    if (search_.choose_positions) level.position_error = error_shares(resolved.error_parts.positions, level.figures);
+    chosen_.levels.push_back(level);
+    return true;
   }
 
   const MeshOfResolution& mesh_for_;
@@ -184,10 +67,30 @@ class DiscretisationRun {
 
 }  // namespace
 
-PerFigure Discretisation::error() const {
-  PerFigure error = sum(quadrature_error, position_error);
-  for (double& of_figure : error) of_figure = std::min(of_figure, most_over_doubled * doubled_difference);
-  return error;
+PerFigure ResolutionLevel::error() const { return sum(quadrature_error, position_error); }
+
+PerFigure Discretisation::error() const { return sum(quadrature_error, position_error); }
+
+CycleFigures figures_of(const MeshModel& model, const LoadedCycle& cycle, const CycleSummary& summary) {
+  CycleFigures figures = SampledCycle(model, cycle).figures();
+  figures[Figure::TePeakToPeak] = summary.te_peak_to_peak;
+  figures[Figure::PeakContactStress] = summary.peak_contact_stress;
+  figures[Figure::PeakLineLoad] = summary.peak_line_load;
+  figures[Figure::LoadFactor] = summary.load_factor;
+  return figures;
+}
+
+PerFigure error_shares(const CycleErrors& errors, const CycleFigures& figures) {
+  CycleFigures moved = figures;
+  moved[Figure::TeMean] += errors.te_mean;
+  moved[Figure::TePeakToPeak] += errors.te_peak_to_peak;
+  for (std::size_t k = 0; k < std::min<std::size_t>(figure_harmonics, errors.te_harmonics.size()); ++k) {
+    moved.value[static_cast<std::size_t>(Figure::TeHarmonic1) + k] += errors.te_harmonics[k];
+  }
+  moved[Figure::PeakContactStress] += errors.peak_contact_stress;
+  moved[Figure::PeakLineLoad] += errors.peak_line_load;
+  moved[Figure::LoadFactor] += errors.load_factor;
+  return figure_errors(moved, figures);
 }
 
 Discretisation choose_discretisation(const MeshOfResolution& mesh_for, QuadratureRule rule, const FlankCondition& condition, double pinion_torque,

@@ -78,7 +78,7 @@ Json candidates_json(const std::vector<ModelCandidate>& candidates) {
 
 Json levels_json(const std::vector<ResolutionLevel>& levels) {
   return list(levels, [](const ResolutionLevel& level) -> Json {
-    return {{"intervals", level.intervals}, {"positions", level.positions}, {"error_percent", errors_json(level.error)}, {"outputs", figures_json(level.figures)}};
+    return {{"intervals", level.intervals}, {"positions", level.positions}, {"error_percent", errors_json(level.error())}, {"outputs", figures_json(level.figures)}};
   });
 }
 
@@ -117,15 +117,12 @@ Json fidelity_choice_json(const FidelityChoice& choice) {
            {{"used", quadrature_json(choice.fidelity.quadrature)},
             {"given", choice.quadrature_given},
             {"estimate_percent", estimate(choice.quadrature_given, choice.quadrature_error)},
-            {"levels", levels_json(choice.discretisation.by_intervals)}}},
+            {"levels", levels_json(choice.discretisation.levels)}}},
           {"positions",
            {{"used", choice.positions},
             {"given", choice.positions_given},
-            {"estimate_percent", estimate(choice.positions_given, choice.position_error)},
-            {"levels", levels_json(choice.discretisation.by_positions)}}},
-          {"resolution",
-           {{"estimate_percent", estimate(choice.quadrature_given && choice.positions_given, choice.resolution_error)},
-            {"doubled_difference_percent", std::isfinite(choice.discretisation.doubled_difference) ? Json(percent * choice.discretisation.doubled_difference) : Json()}}},
+            {"estimate_percent", estimate(choice.positions_given, choice.position_error)}}},
+          {"resolution", {{"estimate_percent", estimate(choice.quadrature_given && choice.positions_given, choice.resolution_error)}}},
           {"governing", {{"scene", choice.governing}, {"torque_Nm", choice.governing_torque / units::newton_metre}}},
           {"choosing_seconds", choice.choosing_seconds},
           {"cycle_seconds", choice.cycle_seconds}};

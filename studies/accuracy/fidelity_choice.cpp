@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "core/base/stopwatch.hpp"
 
@@ -100,6 +102,23 @@ void choose_gap(RungRunner& runner, FidelityChoice& choice) {
   choice.fidelity.gap = plane_does ? GapModel::PlaneOfAction : GapModel::WholeSurface;
 }
 
+/// Meshes over whole cycles, kept by their resolution; those of a few positions are made as they are asked for.
+class MeshMemory {
+ public:
+  MeshOfResolution remembering(MeshOfResolution make) {
+    return [this, make = std::move(make)](const MeshResolution& resolution) {
+      constexpr std::size_t whole_cycle = 8;
+      if (resolution.phases.size() < whole_cycle) return make(resolution);
+      const auto key = std::pair(resolution.quadrature.intervals, resolution.phases.size());
+      const auto known = known_.find(key);
+      return known != known_.end() ? known->second : known_.emplace(key, make(resolution)).first->second;
+    };
+  }
+
+ private:
+  std::map<std::pair<int, std::size_t>, MeshModel> known_;
+};
+
 void choose_resolution(RungRunner& runner, FidelityChoice& choice, const ProgressReport& progress) {
   const std::vector<DesignScene>& scenes = runner.subject().scenes;
   DiscretisationSearch search;
@@ -113,9 +132,15 @@ void choose_resolution(RungRunner& runner, FidelityChoice& choice, const Progres
   if (!choice.positions_given) choice.positions = 0;
   const Rung rung = coarse_rung(choice.fidelity);
   const auto size = [](const Discretisation& d) { return static_cast<double>(d.quadrature.intervals) * d.positions; };
+  std::map<MeshPlacement, MeshMemory> memories;  // load cases of one placement share their meshes
   for (std::size_t s = 0; s < scenes.size(); ++s) {
     if (progress) progress("choosing accuracy", static_cast<int>(s), static_cast<int>(scenes.size()), scenes[s].name);
-    const Discretisation found = choose_discretisation(runner.mesh(rung, scenes[s]), rule, scenes[s].condition, scenes[s].torque, search);
+    MeshMemory& memory = memories[MeshPlacement::of(rung.gap, scenes[s].condition.misalignment)];
+    const MeshOfResolution mesh_for = memory.remembering(runner.mesh(rung, scenes[s]));
+    const Discretisation found = choose_discretisation(mesh_for, rule, scenes[s].condition, scenes[s].torque, search);
+    // What one load case needs the others have as well: they begin there.
+    if (search.choose_intervals) search.fewest_intervals = std::max(search.fewest_intervals, found.quadrature.intervals);
+    if (search.choose_positions) search.fewest_positions = std::max(search.fewest_positions, found.positions);
     choice.failures += found.failures;
     if (s == 0 || size(found) > size(choice.discretisation)) {
       choice.governing = scenes[s].name;

@@ -84,7 +84,7 @@ void add_whole_settings(const Rung& finest, const Study& study, std::vector<Rung
   add("quick", ThinSlice, {QuadratureRule::Graded, 4}, 16);
   add("thin slices, fine", ThinSlice, {QuadratureRule::Graded, 8}, 32, true);
   add("fitted, coarse", Fitted, {QuadratureRule::Graded, 2}, 12);
-  add("by default", Fitted, {}, 32);
+  add("by default", Fitted, Fidelity{}.quadrature, Cycle{}.positions, true);
   add("fitted, fair", Fitted, {QuadratureRule::Graded, 4}, 16);
   add("fitted, good", Fitted, {QuadratureRule::Graded, 8}, 32);
   add("fitted, fine", Fitted, {QuadratureRule::Graded, 8}, 32, true);

@@ -114,7 +114,7 @@ function build_accuracy_choice(choice, body) {
   table(body, {
     title: "What was chosen, and what it costs in accuracy",
     note: "Estimated errors in per cent, the worst of the load cases. What the study gives itself stays and is not judged. "
-      + "Quadrature and positions together: their sum, at most five times what doubling both changes.",
+        + "Quadrature and positions together: their sum.",
     columns: [{ label: "Setting" }, { label: "Used" }, ...FIGURES.map((name) => ({ label: figure_words(name), digits: 2 }))],
     rows: [...Object.entries(used).map(([name, value]) => {
       const part = record(choice[name]);
@@ -123,13 +123,9 @@ function build_accuracy_choice(choice, body) {
   });
   const tried = [...list(record(choice.compliance).candidates), ...list(record(choice.gap).candidates)].map(record)
     .map((c) => [`${c.name}`.replace(/_/g, " "), c.chosen ? "yes" : "", record(c.error_percent).worst ?? null, c.seconds ?? null]);
-  const positions = record(choice.positions).used;
   const level = (text, l, chosen) => [text, chosen ? "yes" : "", record(l.error_percent).worst ?? null, null];
-  // Intervals are confirmed at the positions chosen: theirs is the last level.
-  const levels = [
-    ...list(record(choice.quadrature).levels).map(record).map((l, i, all) => level(`${fmt(l.intervals)} intervals, by ${fmt(l.positions)} positions`, l, i === all.length - 1)),
-    ...list(record(choice.positions).levels).map(record).map((l) => level(`${fmt(l.positions)} positions, by ${fmt(l.intervals)} intervals`, l, l.positions === positions)),
-  ];
+  const levels = list(record(choice.quadrature).levels).map(record)
+    .map((l, i, all) => level(`${fmt(l.intervals)} intervals, ${fmt(l.positions)} positions`, l, i === all.length - 1));
   table(body, {
     title: "What was considered",
     note: "Models resolved coarsely, then the resolutions of the load case that asked for the finest one.",
