@@ -8,8 +8,8 @@
 
 #include "core/contact/condition_gap.hpp"
 #include "core/contact/transmission_error.hpp"
+#include "core/load/load_solver.hpp"
 #include "core/load/mesh_motion.hpp"
-#include "core/load/sensitivity.hpp"
 
 namespace flankwright {
 
@@ -67,7 +67,7 @@ struct MovedMesh {
 };
 
 /// Without force flanks touch at the nearest point, and move with it.
-void fill_derivatives(const LoadProblem& problem, const std::vector<MovedMesh>& moved, ParameterSlopes slopes, LoadedPosition& position) {
+void fill_derivatives(const LoadProblemView& problem, const LoadSolver& solver, const std::vector<MovedMesh>& moved, ParameterSlopes slopes, LoadedPosition& position) {
   const Eigen::Index n = problem.gap.size(), m = slopes.gap.cols();
   for (const auto& [p, slope] : moved) slopes.gap.col(p) = slope.gap;
   position.line_load_derivative = Eigen::MatrixXd::Zero(n, m);
@@ -82,7 +82,7 @@ void fill_derivatives(const LoadProblem& problem, const std::vector<MovedMesh>& 
     slopes.gap.col(p) += slope.deflection;
     slopes.force[p] -= slope.carried_force;
   }
-  auto derivatives = LoadSensitivity(problem, position.load).with(slopes.gap, slopes.force);
+  auto derivatives = solver.sensitivity().with(slopes.gap, slopes.force);
   position.line_load_derivative = std::move(derivatives.line_load);
   position.transmission_error_derivative = std::move(derivatives.transmission_error);
   position.approach_derivative = position.transmission_error_derivative - nearest_slope;
@@ -123,14 +123,15 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     cycle.face_width_change[p] = by.face_width() / model.face_width;
     cycle.line_length_change[p] = by.relative_line_length();
   }
+  LoadSolver solver;
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const MeshPosition& at = model.positions[i];
     LoadedPosition& position = cycle.positions[i];
     position.phase = at.phase;
     position.gap = gaps.at(at.points, at.phase);
-    const LoadProblem problem{at.influence, at.weight, position.gap.total, at.laws, cycle.force};
+    const LoadProblemView problem{at.influence, at.weight, position.gap.total, at.laws, cycle.force};
     const bool has_previous = i > 0 && cycle.positions[i - 1].load.usable();
-    position.load = solve_load_distribution(
+    position.load = solver.solve(
         problem, options,
         has_previous ? warm_start(model.positions[i - 1], cycle.positions[i - 1].load.line_load, at) : Eigen::VectorXd());
     if (!position.load.usable()) {
@@ -141,7 +142,7 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     cycle.force_derivative = slopes.force;
     std::vector<MovedMesh> moved;
     for (std::size_t k = 0; k < moving.size(); ++k) moved.push_back({moving[k], slopes_of[k].at(i, position.load, position.gap)});
-    fill_derivatives(problem, moved, std::move(slopes), position);
+    fill_derivatives(problem, solver, moved, std::move(slopes), position);
     fill_stress(model, at, position);
     if (!moved.empty()) add_moved_places(at, moved, position);
     const double approach = position.load.transmission_error - position.gap.total.minCoeff();
