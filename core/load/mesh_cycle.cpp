@@ -9,6 +9,7 @@
 #include "core/contact/condition_gap.hpp"
 #include "core/contact/transmission_error.hpp"
 #include "core/load/load_solver.hpp"
+#include "core/load/load_start.hpp"
 #include "core/load/mesh_motion.hpp"
 
 namespace flankwright {
@@ -16,29 +17,6 @@ namespace flankwright {
 namespace {
 
 constexpr double micrometre = units::um;
-
-/// Line loads of the previous position carried to the points of the next: those of the same tooth, linear between its
-/// points, 0 beyond them.
-Eigen::VectorXd warm_start(const MeshPosition& from, const Eigen::VectorXd& loads, const MeshPosition& to) {
-  Eigen::VectorXd start = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(to.points.size()));
-  const auto before = [](const ContactPoint& a, const ContactPoint& b) {
-    return a.tooth != b.tooth ? a.tooth < b.tooth : a.z < b.z;
-  };
-  for (std::size_t i = 0; i < to.points.size(); ++i) {
-    const ContactPoint& here = to.points[i];
-    const auto above = std::lower_bound(from.points.begin(), from.points.end(), here, before);
-    if (above == from.points.end() || above->tooth != here.tooth) continue;
-    const Eigen::Index j = above - from.points.begin();
-    const bool inside = above != from.points.begin() && (above - 1)->tooth == here.tooth;
-    if (above->z == here.z || !inside) {
-      start[static_cast<Eigen::Index>(i)] = above->z == here.z ? loads[j] : 0.0;
-      continue;
-    }
-    const double share = (here.z - (above - 1)->z) / (above->z - (above - 1)->z);
-    start[static_cast<Eigen::Index>(i)] = (1.0 - share) * loads[j - 1] + share * loads[j];
-  }
-  return start;
-}
 
 /// sigma_H = sqrt(w E' / (pi R)) and, from d(sigma)/dw = sigma / (2 w), its derivatives.
 void fill_stress(const MeshModel& model, const MeshPosition& at, LoadedPosition& position) {
@@ -109,7 +87,8 @@ Eigen::VectorXd LoadedCycle::transmission_error() const {
 }
 
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
-                          const std::vector<MeshParameter>& parameters, const LoadOptions& options, RootStresses root_stresses) {
+                          const std::vector<MeshParameter>& parameters, const LoadOptions& options, RootStresses root_stresses,
+                          const LoadedCycle* earlier) {
   LoadedCycle cycle;
   cycle.force = model.normal_force(pinion_torque);
   cycle.positions.resize(model.positions.size());
@@ -130,10 +109,7 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     position.phase = at.phase;
     position.gap = gaps.at(at.points, at.phase);
     const LoadProblemView problem{at.influence, at.weight, position.gap.total, at.laws, cycle.force};
-    const bool has_previous = i > 0 && cycle.positions[i - 1].load.usable();
-    position.load = solver.solve(
-        problem, options,
-        has_previous ? warm_start(model.positions[i - 1], cycle.positions[i - 1].load.line_load, at) : Eigen::VectorXd());
+    position.load = solver.solve(problem, options, starting_loads(model, cycle, i, earlier));
     if (!position.load.usable()) {
       ++cycle.failures;
       continue;
