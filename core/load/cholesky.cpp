@@ -7,7 +7,7 @@ namespace flankwright {
 namespace {
 
 /// Stands for an infinite pivot: what is divided by it is 0 beside anything else, and its square is still finite.
-constexpr double held = 1e150;
+constexpr double held_pivot = 1e150;
 
 }  // namespace
 
@@ -19,7 +19,7 @@ Eigen::MatrixXd& Cholesky::prepare(Eigen::Index n, Eigen::Index carried) {
 double Cholesky::pivot(double left, Eigen::Index column) {
   if (left > least_pivot * diagonal_[column]) return std::sqrt(left);
   ++singular_;
-  return held;
+  return held_pivot;
 }
 
 void Cholesky::factorise() {

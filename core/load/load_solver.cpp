@@ -12,19 +12,18 @@ namespace flankwright {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// The slope of the contact law is log-infinite at no load; the quadratic model uses it at this share of the mean load.
 constexpr double slope_floor = 1e-9;
 /// A Newton step is taken whole where slope(1) <= overshoot * |slope(0)|.
 constexpr double overshoot = 0.5;
 /// Where contact is stiff on a nearly singular structure, loads may be 1e-8 off when the residual has met its bound. With contact laws, which
 /// alone make them unique, either the last step must have moved no load by more than `last_step` of the largest: the next one, squared, would be
-/// lost in round-off. Or what the last factor makes of the residual that is left must be no more than `correction` of it.
+/// lost in round-off. Or what the last factor makes of the residual that is left must be no more than `last_correction` of it.
 /// Without laws, loads that cause no deflection are free.
 constexpr double last_step = 1e-7;
-constexpr double correction = 1e-11;
+constexpr double last_correction = 1e-11;
 /// Points join the working set that the start leaves less than this share of the approach away from contact.
-constexpr double reach = 0.05;
+constexpr double contact_reach = 0.05;
 /// The factor of the last step serves the derivatives too where no diagonal entry of H has changed by more than this share since.
 constexpr double same_factor = 1e-9;
 
@@ -87,7 +86,7 @@ LoadDistribution LoadSolver::solve(const LoadProblemView& problem, const LoadOpt
   first_touch_ = problem.gap.minCoeff();
   gap_ = problem.gap.array() - first_touch_;
   work_on(problem, loads, points_near_contact(problem, loads));
-  load_step_ = infinity;
+  load_step_ = std::numeric_limits<double>::infinity();
   result.iterations = result.factorisations = 0;
   bool converged = false;
   do {
@@ -114,7 +113,7 @@ LoadSolver::Flags LoadSolver::points_near_contact(const LoadProblemView& problem
   const double largest = loads.maxCoeff(&most);
   const double local = problem.laws.empty() ? 0.0 : problem.laws[static_cast<std::size_t>(most)].deflection(largest);
   const double approach = structural_[most] + gap_[most] + local;
-  return loads.array() > 0.0 || (structural_ + gap_).array() < (1.0 + reach) * approach;
+  return loads.array() > 0.0 || (structural_ + gap_).array() < (1.0 + contact_reach) * approach;
 }
 
 /// Points that the working set leaves out and its answer makes penetrate join it.
@@ -281,7 +280,7 @@ bool LoadSolver::settled() {
   if (!has_factor_) return false;
   Eigen::VectorXd remaining = weight_.cwiseProduct((at_.approach.array() - at_.multiplier).matrix())(model_.set());
   model_.factor().solve(remaining);
-  return remaining.lpNorm<Eigen::Infinity>() <= correction * at_.loads.maxCoeff();
+  return remaining.lpNorm<Eigen::Infinity>() <= last_correction * at_.loads.maxCoeff();
 }
 
 /// See LoadDistribution::condition.

@@ -7,17 +7,17 @@ namespace flankwright {
 namespace {
 
 /// Positions that are extrapolated from.
-constexpr std::size_t most_positions = 3;
+constexpr std::size_t history = 3;
 
 /// Points [begin, end) of one tooth pair's line; [core_begin, core_end) of them between A and E.
-struct Line {
+struct ToothLine {
   std::size_t begin, end, core_begin, core_end;
 
   bool has_core() const { return core_begin < core_end; }
 };
 
-Line line_from(const std::vector<ContactPoint>& points, std::size_t begin) {
-  Line line{begin, begin, begin, begin};
+ToothLine line_from(const std::vector<ContactPoint>& points, std::size_t begin) {
+  ToothLine line{begin, begin, begin, begin};
   for (; line.end < points.size() && points[line.end].tooth == points[begin].tooth; ++line.end) {
     if (points[line.end].clearance != 0.0) continue;
     if (!line.has_core()) line.core_begin = line.end;
@@ -27,7 +27,7 @@ Line line_from(const std::vector<ContactPoint>& points, std::size_t begin) {
 }
 
 /// What is counted from either end of the core, or from the line's own start where one of both has none.
-void match_by_count(const Line& from, const Line& to, std::vector<Eigen::Index>& found) {
+void match_by_count(const ToothLine& from, const ToothLine& to, std::vector<Eigen::Index>& found) {
   const bool by_core = from.has_core() && to.has_core();
   const auto offset = [](std::size_t a, std::size_t b) { return static_cast<std::ptrdiff_t>(a) - static_cast<std::ptrdiff_t>(b); };
   const std::ptrdiff_t first = by_core ? offset(from.core_begin, to.core_begin) : offset(from.begin, to.begin);
@@ -45,11 +45,11 @@ std::vector<Eigen::Index> corresponding_points(const MeshPosition& from, const M
   std::vector<Eigen::Index> found(to.points.size(), -1);
   std::size_t j = 0;
   for (std::size_t i = 0; i < to.points.size();) {
-    const Line here = line_from(to.points, i);
+    const ToothLine here = line_from(to.points, i);
     i = here.end;
     while (j < from.points.size() && from.points[j].tooth < to.points[here.begin].tooth) ++j;
     if (j == from.points.size() || from.points[j].tooth != to.points[here.begin].tooth) continue;
-    const Line there = line_from(from.points, j);
+    const ToothLine there = line_from(from.points, j);
     bool same_places = false;
     for (std::size_t k = here.begin, l = there.begin; k < here.end && l < there.end;) {
       const double z = to.points[k].z, other = from.points[l].z;
@@ -71,7 +71,7 @@ Eigen::VectorXd starting_loads(const MeshModel& model, const LoadedCycle& cycle,
   const bool follows = earlier != nullptr && earlier->positions.size() == model.positions.size() && solved(*earlier, i) &&
                        loads_of(*earlier, i).size() == std::ssize(model.positions[i].points);
   std::size_t known = 0;
-  while (known < std::min(i, most_positions) && solved(cycle, i - 1 - known) && (!follows || solved(*earlier, i - 1 - known))) ++known;
+  while (known < std::min(i, history) && solved(cycle, i - 1 - known) && (!follows || solved(*earlier, i - 1 - known))) ++known;
   if (known == 0) return follows ? loads_of(*earlier, i) : Eigen::VectorXd();
 
   std::vector<Eigen::VectorXd> change(known);      // of the k-th position before
@@ -82,7 +82,7 @@ Eigen::VectorXd starting_loads(const MeshModel& model, const LoadedCycle& cycle,
     at[k] = corresponding_points(model.positions[i - 1 - k], model.positions[i]);
   }
   // Lagrange's weights at this phase for the 1, 2 or 3 positions before.
-  double weights[most_positions][most_positions];
+  double weights[history][history];
   for (std::size_t count = 1; count <= known; ++count) {
     for (std::size_t k = 0; k < count; ++k) {
       double& weight = weights[count - 1][k] = 1.0;

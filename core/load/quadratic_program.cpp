@@ -1,6 +1,7 @@
 #include "core/load/quadratic_program.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace flankwright {
@@ -11,6 +12,10 @@ namespace {
 constexpr int block_patience = 3;
 /// A slack counts as negative below -round_off * (sum of the magnitudes of its terms).
 constexpr double round_off = 16.0 * std::numeric_limits<double>::epsilon();
+
+/// Loads are refined by what they leave of the linear system where |a'x - F| > balance * F: where H is nearly singular the first solution
+/// loses digits between large terms.
+constexpr double balance = 1e-14;
 
 }  // namespace
 
@@ -119,6 +124,20 @@ void QuadraticProgram::balance_on(const QuadraticProblem& problem, const Flags& 
     step_[i] = slack_[j];
     loads_[i] = x[i] + slack_[j];
   }
+  const double unbalanced = F - a.dot(loads_);
+  if (std::abs(unbalanced) > balance * F) refine(problem, unbalanced);
+}
+
+void QuadraticProgram::refine(const QuadraticProblem& problem, double unbalanced) {
+  const Eigen::VectorXd by_set = problem.a(set_);
+  Eigen::VectorXd left = (problem.H * step_ + problem.g - multiplier_ * problem.a)(set_), response = by_set;
+  factor_.solve(left);
+  factor_.solve(response);
+  const double rise = (unbalanced + by_set.dot(left)) / by_set.dot(response);
+  const Eigen::VectorXd change = rise * response - left;
+  multiplier_ += rise;
+  step_(set_) += change;
+  loads_(set_) += change;
 }
 
 /// Of all points; those in the set have none but round-off.

@@ -44,6 +44,7 @@ class QuadraticProgram {
  private:
   bool descend(const QuadraticProblem& problem);
   void balance_on(const QuadraticProblem& problem, const Flags& loaded);
+  void refine(const QuadraticProblem& problem, double unbalanced);
   void find_slacks(const QuadraticProblem& problem);
   Eigen::Index most_penetrating(const QuadraticProblem& problem, const Flags& loaded);
 
