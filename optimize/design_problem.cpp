@@ -147,13 +147,13 @@ void DesignProblem::apply(const Eigen::VectorXd& x, Modification& pinion, Modifi
 }
 
 LoadedCycle DesignProblem::analyse_scene(int scene, const Modification& pinion, const Modification& wheel,
-                                         const std::vector<MeshParameter>& parameters) const {
+                                         const std::vector<MeshParameter>& parameters, const LoadedCycle* earlier) const {
   const DesignScene& of_task = task_.scenes[static_cast<std::size_t>(scene)];
   FlankCondition condition = of_task.condition;
   condition.pinion_modification = pinion;
   condition.wheel_modification = wheel;
   const auto analyse = [&](const MeshModel& mesh_model) {
-    return analyse_cycle(mesh_model, condition, of_task.torque, parameters, {}, root_stresses_);
+    return analyse_cycle(mesh_model, condition, of_task.torque, parameters, {}, root_stresses_, earlier);
   };
   if (moving_among(task_.gap, parameters).empty()) return analyse(model(scene));
   const MeshPlaced placed = [this](const MeshPlacement& placement) { return mesh(placement); };
@@ -165,11 +165,12 @@ void DesignProblem::add_root_stress(DesignAnalysis& analysis) const {
   for (int s = 0; s < scenes(); ++s) flankwright::add_root_stress(model(s), analysis.cycles[static_cast<std::size_t>(s)]);
 }
 
-DesignAnalysis DesignProblem::run(const Modification& pinion, const Modification& wheel, bool with_derivatives) const {
+DesignAnalysis DesignProblem::run(const Modification& pinion, const Modification& wheel, bool with_derivatives, const DesignAnalysis& earlier) const {
   DesignAnalysis analysis{pinion, wheel, std::vector<LoadedCycle>(task_.scenes.size())};
   const std::vector<MeshParameter> none;
   const auto analyse = [&](int s) {
-    analysis.cycles[static_cast<std::size_t>(s)] = analyse_scene(s, pinion, wheel, with_derivatives ? parameters_ : none);
+    const auto at = static_cast<std::size_t>(s);
+    analysis.cycles[at] = analyse_scene(s, pinion, wheel, with_derivatives ? parameters_ : none, earlier.cycles.empty() ? nullptr : &earlier.cycles[at]);
   };
   // A thread that waits for its scenes must not take up another start of a multi-start meanwhile.
   tbb::this_task_arena::isolate([&] { tbb::parallel_for(0, scenes(), analyse); });
@@ -181,7 +182,7 @@ const DesignAnalysis& DesignProblem::analyse(const Eigen::VectorXd& x, bool with
   if (known) return last_;
   Modification pinion, wheel;
   apply(x, pinion, wheel);
-  last_ = run(pinion, wheel, with_derivatives);
+  last_ = run(pinion, wheel, with_derivatives, last_);
   last_x_ = x;
   last_has_derivatives_ = with_derivatives;
   ++analyses_;

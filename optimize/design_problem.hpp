@@ -47,7 +47,8 @@ class DesignProblem {
   void apply(const Eigen::VectorXd& x, Modification& pinion, Modification& wheel) const;
 
   /// Analyses every scene; derivatives are with respect to the unscaled variables and what is tied to them. The last analysis is kept and returned
-  /// again for the same x (upgraded by a new run where derivatives are missing).
+  /// again for the same x (upgraded by a new run where derivatives are missing). Loads start from those of the last analysis, which
+  /// takes half the time and shows in digits beyond the tolerance of LoadOptions alone.
   const DesignAnalysis& analyse(const Eigen::VectorXd& x, bool with_derivatives);
   /// Analyses the task's own modifications as given, whatever the bounds.
   DesignAnalysis analyse_given() const;
@@ -55,8 +56,9 @@ class DesignProblem {
   DesignAnalysis analyse_design(const Modification& pinion, const Modification& wheel) const { return run(pinion, wheel, false); }
   /// One scene of that, with derivatives by any parameters; those that move the mesh (moves_mesh()) have two more meshes made for them each, and
   /// not kept.
+  /// @param earlier  the scene's cycle for a design that differs by little, see analyse_cycle(); null: none
   LoadedCycle analyse_scene(int scene, const Modification& pinion, const Modification& wheel,
-                            const std::vector<MeshParameter>& parameters = {}) const;
+                            const std::vector<MeshParameter>& parameters = {}, const LoadedCycle* earlier = nullptr) const;
   /// Root stress is analysed where the task minimises or bounds it; this adds it where not, to be shown.
   void add_root_stress(DesignAnalysis& analysis) const;
 
@@ -86,7 +88,8 @@ class DesignProblem {
 
  private:
   MeshModel mesh(const MeshPlacement& placement) const;
-  DesignAnalysis run(const Modification& pinion, const Modification& wheel, bool with_derivatives) const;
+  /// @param earlier  one that loads start from; without cycles: none
+  DesignAnalysis run(const Modification& pinion, const Modification& wheel, bool with_derivatives, const DesignAnalysis& earlier = {}) const;
 
   DesignTask task_;
   RootStresses root_stresses_;  ///< with every analysis where the task asks for them

@@ -16,12 +16,24 @@ namespace flankwright {
 ///
 /// over the line loads w; Psi' = c is the local deflection. The multiplier of the force balance is the transmission
 /// error f_t.
+/// This looks at numbers that are kept elsewhere and must outlive it: influence and laws of a mesh serve many problems.
+struct LoadProblemView {
+  const Eigen::MatrixXd& influence;     ///< K, symmetric positive semi-definite, n x n [mm/N]
+  const Eigen::VectorXd& weight;        ///< a, contact-line length of each point, > 0, n [mm]
+  const Eigen::VectorXd& gap;           ///< g before load, n [mm]
+  const std::vector<ContactLaw>& laws;  ///< c, n; empty: no local deflection (then K must be positive definite)
+  double force;                         ///< F, normal to the flanks, >= 0 [N]
+};
+
+/// The same with numbers of its own.
 struct LoadProblem {
-  Eigen::MatrixXd influence;     ///< K, symmetric positive semi-definite, n x n [mm/N]
-  Eigen::VectorXd weight;        ///< a, contact-line length of each point, > 0, n [mm]
-  Eigen::VectorXd gap;           ///< g before load, n [mm]
-  std::vector<ContactLaw> laws;  ///< c, n; empty: no local deflection (then K must be positive definite)
-  double force{0.0};             ///< F, normal to the flanks, >= 0 [N]
+  Eigen::MatrixXd influence;
+  Eigen::VectorXd weight;
+  Eigen::VectorXd gap;
+  std::vector<ContactLaw> laws;
+  double force{0.0};
+
+  operator LoadProblemView() const { return {influence, weight, gap, laws, force}; }
 };
 
 enum class LoadStatus { NotRun, Converged, NoContactPoints, IterationLimit };
@@ -55,12 +67,10 @@ struct LoadOptions {
   int max_iterations{100};
 };
 
-/// Solves the programme by Newton's method in the loads: each step minimises the quadratic model over the feasible set
-/// exactly (see quadratic_program.hpp), then the convex objective along the step by its monotone slope.
-/// Both parts converge from any start; the minimiser is unique, so the answer depends on neither start nor point order.
+/// Solves the programme, see LoadSolver.
 /// @param start  line loads to start from (scaled to the force), size n, or empty
 /// @throws InvalidInput where sizes differ, a weight is not positive, the force is negative or anything is not finite
-LoadDistribution solve_load_distribution(const LoadProblem& problem, const LoadOptions& options = {},
+LoadDistribution solve_load_distribution(const LoadProblemView& problem, const LoadOptions& options = {},
                                          const Eigen::VectorXd& start = {});
 
 }  // namespace flankwright

@@ -8,37 +8,15 @@
 
 #include "core/contact/condition_gap.hpp"
 #include "core/contact/transmission_error.hpp"
+#include "core/load/load_solver.hpp"
+#include "core/load/load_start.hpp"
 #include "core/load/mesh_motion.hpp"
-#include "core/load/sensitivity.hpp"
 
 namespace flankwright {
 
 namespace {
 
 constexpr double micrometre = units::um;
-
-/// Line loads of the previous position carried to the points of the next: those of the same tooth, linear between its
-/// points, 0 beyond them.
-Eigen::VectorXd warm_start(const MeshPosition& from, const Eigen::VectorXd& loads, const MeshPosition& to) {
-  Eigen::VectorXd start = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(to.points.size()));
-  const auto before = [](const ContactPoint& a, const ContactPoint& b) {
-    return a.tooth != b.tooth ? a.tooth < b.tooth : a.z < b.z;
-  };
-  for (std::size_t i = 0; i < to.points.size(); ++i) {
-    const ContactPoint& here = to.points[i];
-    const auto above = std::lower_bound(from.points.begin(), from.points.end(), here, before);
-    if (above == from.points.end() || above->tooth != here.tooth) continue;
-    const Eigen::Index j = above - from.points.begin();
-    const bool inside = above != from.points.begin() && (above - 1)->tooth == here.tooth;
-    if (above->z == here.z || !inside) {
-      start[static_cast<Eigen::Index>(i)] = above->z == here.z ? loads[j] : 0.0;
-      continue;
-    }
-    const double share = (here.z - (above - 1)->z) / (above->z - (above - 1)->z);
-    start[static_cast<Eigen::Index>(i)] = (1.0 - share) * loads[j - 1] + share * loads[j];
-  }
-  return start;
-}
 
 /// sigma_H = sqrt(w E' / (pi R)) and, from d(sigma)/dw = sigma / (2 w), its derivatives.
 void fill_stress(const MeshModel& model, const MeshPosition& at, LoadedPosition& position) {
@@ -67,7 +45,7 @@ struct MovedMesh {
 };
 
 /// Without force flanks touch at the nearest point, and move with it.
-void fill_derivatives(const LoadProblem& problem, const std::vector<MovedMesh>& moved, ParameterSlopes slopes, LoadedPosition& position) {
+void fill_derivatives(const LoadProblemView& problem, const LoadSolver& solver, const std::vector<MovedMesh>& moved, ParameterSlopes slopes, LoadedPosition& position) {
   const Eigen::Index n = problem.gap.size(), m = slopes.gap.cols();
   for (const auto& [p, slope] : moved) slopes.gap.col(p) = slope.gap;
   position.line_load_derivative = Eigen::MatrixXd::Zero(n, m);
@@ -82,7 +60,7 @@ void fill_derivatives(const LoadProblem& problem, const std::vector<MovedMesh>& 
     slopes.gap.col(p) += slope.deflection;
     slopes.force[p] -= slope.carried_force;
   }
-  auto derivatives = LoadSensitivity(problem, position.load).with(slopes.gap, slopes.force);
+  auto derivatives = solver.sensitivity().with(slopes.gap, slopes.force);
   position.line_load_derivative = std::move(derivatives.line_load);
   position.transmission_error_derivative = std::move(derivatives.transmission_error);
   position.approach_derivative = position.transmission_error_derivative - nearest_slope;
@@ -109,7 +87,8 @@ Eigen::VectorXd LoadedCycle::transmission_error() const {
 }
 
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
-                          const std::vector<MeshParameter>& parameters, const LoadOptions& options, RootStresses root_stresses) {
+                          const std::vector<MeshParameter>& parameters, const LoadOptions& options, RootStresses root_stresses,
+                          const LoadedCycle* earlier) {
   LoadedCycle cycle;
   cycle.force = model.normal_force(pinion_torque);
   cycle.positions.resize(model.positions.size());
@@ -123,16 +102,14 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     cycle.face_width_change[p] = by.face_width() / model.face_width;
     cycle.line_length_change[p] = by.relative_line_length();
   }
+  LoadSolver solver;
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const MeshPosition& at = model.positions[i];
     LoadedPosition& position = cycle.positions[i];
     position.phase = at.phase;
     position.gap = gaps.at(at.points, at.phase);
-    const LoadProblem problem{at.influence, at.weight, position.gap.total, at.laws, cycle.force};
-    const bool has_previous = i > 0 && cycle.positions[i - 1].load.usable();
-    position.load = solve_load_distribution(
-        problem, options,
-        has_previous ? warm_start(model.positions[i - 1], cycle.positions[i - 1].load.line_load, at) : Eigen::VectorXd());
+    const LoadProblemView problem{at.influence, at.weight, position.gap.total, at.laws, cycle.force};
+    position.load = solver.solve(problem, options, starting_loads(model, cycle, i, earlier));
     if (!position.load.usable()) {
       ++cycle.failures;
       continue;
@@ -141,7 +118,7 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     cycle.force_derivative = slopes.force;
     std::vector<MovedMesh> moved;
     for (std::size_t k = 0; k < moving.size(); ++k) moved.push_back({moving[k], slopes_of[k].at(i, position.load, position.gap)});
-    fill_derivatives(problem, moved, std::move(slopes), position);
+    fill_derivatives(problem, solver, moved, std::move(slopes), position);
     fill_stress(model, at, position);
     if (!moved.empty()) add_moved_places(at, moved, position);
     const double approach = position.load.transmission_error - position.gap.total.minCoeff();

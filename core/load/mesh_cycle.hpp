@@ -46,7 +46,7 @@ struct LoadedCycle {
 /// Root stress follows from the loads, for more than half of what they cost: with them, or by add_root_stress() where it is read.
 enum class RootStresses { WithLoads, Later };
 
-/// Solves the load distribution at every position, each warm-started from the one before, and its exact derivatives.
+/// Solves the load distribution at every position, each started from those before it, see starting_loads(), and its exact derivatives.
 ///
 /// Mesh stiffness is Haddad's eq. 2.16b, (F/b) cos^2(beta_b) / f_t, with f_t counted from first touch, f_t - min(g), so that a
 /// gap common to all points (modified or displaced flanks) is not taken for compliance.
@@ -55,10 +55,12 @@ enum class RootStresses { WithLoads, Later };
 /// @param parameters     derivatives are computed for these; empty: none. Without torque there is none with respect to it: what
 ///                       the flanks yield first is infinite per unit load, and 0 stands in its place. Points' derivatives by what
 ///                       moves the mesh follow them, see MeshSlopes
+/// @param earlier        another cycle of the same model, of a design that differs by little, to start from; null: none. Only the time
+///                       depends on it, and digits beyond the tolerance
 /// @throws InvalidInput  where a parameter moves the mesh and the model knows no further meshes along it
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
                           const std::vector<MeshParameter>& parameters = {}, const LoadOptions& options = {},
-                          RootStresses root_stresses = RootStresses::WithLoads);
+                          RootStresses root_stresses = RootStresses::WithLoads, const LoadedCycle* earlier = nullptr);
 
 /// The largest principal stress at every place of MeshPosition::root_stress [MPa].
 Eigen::VectorXd root_stresses(const MeshPosition& at, const LoadDistribution& load);

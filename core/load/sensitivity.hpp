@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <vector>
 
+#include "core/load/cholesky.hpp"
 #include "core/load/load_problem.hpp"
 
 namespace flankwright {
@@ -16,7 +16,13 @@ namespace flankwright {
 class LoadSensitivity {
  public:
   /// @param distribution  usable() and with at least one loaded point
-  LoadSensitivity(const LoadProblem& problem, const LoadDistribution& distribution);
+  LoadSensitivity(const LoadProblemView& problem, const LoadDistribution& distribution);
+  /// The same by a factor that is there already, see LoadSolver.
+  /// @param size    number of points n
+  /// @param loaded  points that carry load, ascending
+  /// @param weight  a of these
+  /// @param factor  of aKa + a c' over these
+  LoadSensitivity(Eigen::Index size, std::vector<Eigen::Index> loaded, Eigen::VectorXd weight, Cholesky factor);
 
   /// With respect to m parameters.
   struct Derivatives {
@@ -36,10 +42,10 @@ class LoadSensitivity {
  private:
   Eigen::Index size_;
   std::vector<Eigen::Index> loaded_;
-  Eigen::VectorXd weight_;                 ///< of the loaded points
-  Eigen::LLT<Eigen::MatrixXd> factor_;
-  Eigen::VectorXd response_;               ///< H^-1 a
-  double stiffness_;                       ///< a' H^-1 a
+  Eigen::VectorXd weight_;    ///< of the loaded points
+  Cholesky factor_;
+  Eigen::VectorXd response_;  ///< H^-1 a
+  double stiffness_;          ///< a' H^-1 a
 };
 
 }  // namespace flankwright

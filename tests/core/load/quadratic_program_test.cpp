@@ -14,12 +14,24 @@ namespace {
 
 using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
 
+struct Minimum {
+  Eigen::VectorXd x;
+  double multiplier;
+  int factorisations;
+  bool solved;
+};
+
 struct Programme {
   Eigen::MatrixXd H;
   Eigen::VectorXd b, a;
   double F;
 
-  QuadraticMinimum solve(const Flags& guess) const { return minimise_quadratic(H, b, a, F, guess); }
+  /// From no load at all.
+  Minimum solve(const Flags& guess) const {
+    QuadraticProgram program;
+    const bool solved = program.minimise({H, b, a, F, Eigen::VectorXd::Zero(b.size())}, guess);
+    return {program.loads(), program.multiplier(), program.factorisations(), solved};
+  }
   double objective(const Eigen::VectorXd& x) const { return 0.5 * x.dot(H * x) + b.dot(x); }
 };
 
@@ -70,7 +82,7 @@ Eigen::VectorXd minimiser_by_enumeration(const Programme& p) {
 }
 
 /// Largest violation of the optimality conditions, relative to the terms of the gradient.
-double violation(const Programme& p, const QuadraticMinimum& m) {
+double violation(const Programme& p, const Minimum& m) {
   const Eigen::VectorXd slack = p.H * m.x + p.b - m.multiplier * p.a;
   const Eigen::VectorXd terms = p.H.cwiseAbs() * m.x + p.b.cwiseAbs() + std::abs(m.multiplier) * p.a;
   double worst = std::abs(p.a.dot(m.x) - p.F) / p.F;
@@ -88,7 +100,7 @@ TEST_CASE("The quadratic programme finds the best of all sets of loaded points",
   for (int trial = 0; trial < 300; ++trial) {
     const int n = random.integer(1, trial < 20 ? 10 : 7);
     const Programme p = random_programme(n, random, random.log_uniform(1e-3, 1.0));
-    const QuadraticMinimum found = p.solve(Flags::Constant(n, true));
+    const Minimum found = p.solve(Flags::Constant(n, true));
     CAPTURE(trial, n);
     REQUIRE(found.solved);
     CHECK(found.x.minCoeff() >= 0.0);
@@ -100,10 +112,10 @@ TEST_CASE("Every guess of the loaded points leads to the same minimiser", "[core
   constexpr double kRoundOff = 1e-12;
   Random random(18);
   const Programme p = random_programme(7, random, 0.05);
-  const QuadraticMinimum reference = p.solve(Flags::Constant(7, true));
+  const Minimum reference = p.solve(Flags::Constant(7, true));
   REQUIRE(reference.solved);
   for (unsigned bits = 0; bits < 128; ++bits) {  // 0 is "no idea"
-    const QuadraticMinimum found = p.solve(subset(7, bits));
+    const Minimum found = p.solve(subset(7, bits));
     CAPTURE(bits);
     REQUIRE(found.solved);
     CHECK((found.x - reference.x).norm() <= kRoundOff * reference.x.norm());
@@ -119,7 +131,7 @@ TEST_CASE("Points that just touch without load do not make the quadratic program
   Programme p{Eigen::MatrixXd::Identity(count, count), Eigen::VectorXd(count), Eigen::VectorXd::Ones(count), 2.0};
   p.b << 0.0, 0.0, 1.0, 1.0, 1.0;
   for (unsigned bits = 0; bits < 32; ++bits) {
-    const QuadraticMinimum found = p.solve(subset(count, bits));
+    const Minimum found = p.solve(subset(count, bits));
     CAPTURE(bits);
     REQUIRE(found.solved);
     CHECK(found.multiplier == Approx(1.0).epsilon(kRoundOff));
@@ -135,7 +147,7 @@ TEST_CASE("Points that just touch without load do not make the quadratic program
     Eigen::VectorXd x = first_half.select(random.vector(n, 0.5, 1.5), Eigen::VectorXd::Zero(n));
     tied.b = 0.7 * tied.a - tied.H * x;  // slack zero at every point, loaded or not
     tied.F = tied.a.dot(x);
-    const QuadraticMinimum found = tied.solve(Flags::Constant(n, true));
+    const Minimum found = tied.solve(Flags::Constant(n, true));
     CAPTURE(trial, n);
     REQUIRE(found.solved);
     CHECK(violation(tied, found) <= kRoundOff);
@@ -149,7 +161,7 @@ TEST_CASE("The quadratic programme is solved where H is nearly singular", "[core
   for (int trial = 0; trial < 60; ++trial) {
     const int n = random.integer(2, 120);
     const Programme p = random_programme(n, random, random.log_uniform(1e-8, 1e-4));
-    const QuadraticMinimum found = p.solve(Flags::Constant(n, true));
+    const Minimum found = p.solve(Flags::Constant(n, true));
     CAPTURE(trial, n);
     REQUIRE(found.solved);
     CHECK(found.x.minCoeff() >= 0.0);
