@@ -4,8 +4,16 @@ namespace flankwright::studies {
 
 namespace {
 
-Json size_json(const SizeInStudy* size) {
+/// Of a size that was left out; empty of another.
+std::string why_no_size(const StudyResults& results, const SizeInStudy& size) {
+  const bool rigid_bodies = results.structures.pair == nullptr || results.structures.pair->knows_rigid_bodies();
+  if (size.size.name != "gear_body_compliance" || rigid_bodies) return "";
+  return "takes finite elements of both gears with rigid bodies: fidelity.effect_sizes = \"exact\" solves them";
+}
+
+Json size_json(const StudyResults& results, const SizeInStudy* size) {
   if (size == nullptr) return nullptr;
+  if (const std::string why = why_no_size(results, *size); !why.empty()) return {{"why_no_size", why}};
   const EffectInfluence& influence = size->size.influence;
   Json json{{"scene", size->scene},
             {"torque_Nm", size->torque / units::newton_metre},
@@ -28,8 +36,8 @@ Json effects_json(const StudyResults& results) {
             {"on", effect.on},
             {"why", effect.why},
             {"seconds", effect.seconds},
-            {"estimate", size_json(size_of(results.effect_sizes.estimated, effect.name))},
-            {"exact", size_json(size_of(results.effect_sizes.exact, effect.name))}};
+            {"estimate", size_json(results, size_of(results.effect_sizes.estimated, effect.name))},
+            {"exact", size_json(results, size_of(results.effect_sizes.exact, effect.name))}};
   });
 }
 
