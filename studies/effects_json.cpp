@@ -13,7 +13,6 @@ std::string why_no_size(const StudyResults& results, const SizeInStudy& size) {
 
 Json size_json(const StudyResults& results, const SizeInStudy* size) {
   if (size == nullptr) return nullptr;
-  if (const std::string why = why_no_size(results, *size); !why.empty()) return {{"why_no_size", why}};
   const EffectInfluence& influence = size->size.influence;
   Json json{{"scene", size->scene},
             {"torque_Nm", size->torque / units::newton_metre},
@@ -24,6 +23,7 @@ Json size_json(const StudyResults& results, const SizeInStudy* size) {
             {"share_percent", percent * influence.share},
             {"largest_in", influence.largest_in},
             {"seconds", size->size.seconds}};
+  if (const std::string why = why_no_size(results, *size); !why.empty()) json["why_no_size"] = why;
   if (size->positions > 0) json["positions"] = {{"solved", size->positions}, {"solved_again", size->solved_again}};
   return json;
 }
