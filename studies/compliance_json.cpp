@@ -70,12 +70,13 @@ Json fits_json(const RefinementLibrary& library) {
     worst.share_95 = std::max(worst.share_95, entry.unseen.share_95);
     worst.worst = std::max(worst.worst, entry.unseen.worst);
   }
+  const RefinementGrid& standard = library.standard();
   const auto ends = [](const auto& values) { return Json{values.front(), values.back()}; };
   return {{"gears", library.entries().size()},
-          {"teeth", ends(library.teeth())},
-          {"helix_angle_deg", {library.helix_angles().front() / units::deg, library.helix_angles().back() / units::deg}},
-          {"profile_shift", ends(library.profile_shifts())},
-          {"interpolation", "polynomials through all gears in 1/z, helix angle and profile shift"},
+          {"teeth", ends(standard.teeth())},
+          {"helix_angle_deg", {standard.helix_angles().front() / units::deg, standard.helix_angles().back() / units::deg}},
+          {"profile_shift", ends(standard.profile_shifts())},
+          {"interpolation", "polynomials through all gears in 1/z, helix angle and profile shift; departures of other racks and pressure angles added"},
           {"largest_residual_percent", residuals_json(worst)}};
 }
 

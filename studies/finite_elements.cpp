@@ -1,6 +1,7 @@
 #include "studies/finite_elements.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <unistd.h>
@@ -220,7 +221,7 @@ bool wants_rigid_bodies(const Study& study) {
   if (study.task == Task::Fit || !couples_teeth(fidelity.compliance)) return false;
   const bool left_out =
       !fidelity.automatic_effects && std::ranges::find(fidelity.effects, "gear_body_compliance") == fidelity.effects.end();
-  return left_out || study.task == Task::Accuracy || fidelity.accuracy || fidelity.effect_sizes != EffectSizing::Off;
+  return left_out || study.task == Task::Accuracy || fidelity.accuracy || fidelity.effect_sizes == EffectSizing::Exact;
 }
 
 bool solves_finite_elements(const Study& study) {
@@ -269,6 +270,19 @@ std::string unknown_to_library(const Study& study, const InfluenceTableTask& tas
   return RefinementLibrary::shipped().unknown(task.gear, task.poissons_ratio);
 }
 
+std::vector<std::string> library_notes(const Study& study, const GearPair& pair) {
+  std::vector<std::string> notes;
+  for (const Member member : {Member::Pinion, Member::Wheel}) {
+    const InfluenceTableTask task = influence_table_task(study, pair, member);
+    const std::string unknown = unknown_to_library(study, task);
+    if (unknown.empty()) continue;
+    const bool narrower = task_of_fit(task).grid.face_width() < task.grid.face_width();
+    notes.push_back(fmt::format("the {} is outside the library of fits ({}): its first run takes {} finite-element models instead of one, and a fit of its own",
+                                name_of(member), unknown, narrower ? "three" : "two"));
+  }
+  return notes;
+}
+
 InfluenceTableTask task_of_fit(InfluenceTableTask coarse) {
   if (coarse.grid.face_width() <= widest_own_fit) return coarse;
   coarse.gear.gear.face_width = widest_own_fit * coarse.gear.normal_module;
@@ -285,6 +299,10 @@ FiniteElementRuns solve_finite_elements(const Study& study, const GearPair& pair
   std::vector<Job*> missing;
   for (Job& job : jobs) {
     if (!take(job, cache, runs.notes)) missing.push_back(&job);
+  }
+  for (const std::string& note : library_notes(study, pair)) {
+    runs.notes.push_back(note);
+    if (!missing.empty()) spdlog::info("{}", note);  // before the wait that it explains
   }
   if (!missing.empty()) solve_side_by_side(missing, study.fidelity.compliance, progress);
   for (Job* job : missing) {

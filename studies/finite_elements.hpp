@@ -49,8 +49,8 @@ struct FiniteElementRuns {
 /// or expectation names it, and the study's own list of effects, if it has one, does not leave it out.
 bool wants_root_stress(const Study& study);
 
-/// Whether the study asks what its gears do on rigid bodies: to size the effect `gear_body_compliance`, to leave it out on a rung, or
-/// because its list of effects does.
+/// Whether the study asks what its gears do on rigid bodies: to leave the effect `gear_body_compliance` out, by its list of effects, on a
+/// rung of a ladder or for an accuracy, or for that effect's exact size. An estimate of the size is not worth runs of their own.
 bool wants_rigid_bodies(const Study& study);
 
 /// Whether the study solves finite elements of its gears at all: for its task, or, where there is a torque, its compliance
@@ -65,6 +65,9 @@ InfluenceTableTask influence_table_task(const Study& study, const GearPair& pair
 /// What of a gear the library of fits does not know, RefinementLibrary::unknown(), where the study's compliance would use
 /// it: the gear then needs a fit of its own. Empty otherwise.
 std::string unknown_to_library(const Study& study, const InfluenceTableTask& task);
+
+/// What a gear outside the library costs and why, one line for each such gear.
+std::vector<std::string> library_notes(const Study& study, const GearPair& pair);
 
 /// What a gear's own fit is made from: the coarse task, with a face of at most widest_own_fit.
 InfluenceTableTask task_of_fit(InfluenceTableTask coarse);

@@ -12,7 +12,7 @@ namespace flankwright::studies {
 namespace {
 
 /// To be raised whenever the same influence values come to mean another fit: form, places, residuals.
-constexpr int fit_version = 2;
+constexpr int fit_version = 3;
 
 Json fit_key(InfluenceTableTask coarse, const std::vector<double>& start) {
   coarse.root_stress = false;
@@ -60,7 +60,7 @@ GearRefinement gear_refinement(const Study& study, const InfluenceTableTask& tas
   GearRefinement result;
   result.unknown = unknown_to_library(study, task);
   if (result.unknown.empty()) {
-    result.compliance = std::make_shared<const RefinedCompliance>(coarse, facts, library.coefficients(facts));
+    result.compliance = std::make_shared<const RefinedCompliance>(coarse, facts, library.coefficients(facts, profile_of(task.gear)));
     result.seconds = clock.seconds();
     return result;
   }
@@ -69,7 +69,7 @@ GearRefinement gear_refinement(const Study& study, const InfluenceTableTask& tas
   const InfluenceTable& fine = *runs.fine_run(member)->table;
   const std::shared_ptr<const InfluenceTable>& fit_coarse = runs.narrow_run(member) ? runs.narrow_run(member)->table : coarse;
   const RefinementSamples samples = refinement_samples(fit_facts, fine, *fit_coarse);
-  const std::vector<double> start = library.coefficients(library.nearest(facts));
+  const std::vector<double> start = library.coefficients(facts, profile_of(task.gear));
   const RunCache cache(RunCache::default_folder());
   const Json key = fit_key(fit_task, start);
   if (auto kept = take(key, cache, notes)) {

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace flankwright::studies {
@@ -9,7 +10,8 @@ namespace flankwright::studies {
 /// Progress of long work: a label, done and total steps (total 0: unknown), a remark.
 using ProgressReport = std::function<void(const std::string& label, int done, int total, const std::string& remark)>;
 
-/// Progress of long work on stderr: a bar that redraws itself on a terminal, a line every few seconds elsewhere.
+/// Progress of long work on stderr: a bar that redraws itself on a terminal, a line every few seconds elsewhere. It tells the time
+/// that is left as if the steps to come took as long as those done under the same label.
 class Progress {
  public:
   /// @param quiet  shows nothing at all
@@ -25,8 +27,14 @@ class Progress {
 
  private:
   using Clock = std::chrono::steady_clock;
+  /// None before a step is done, and at the end.
+  std::optional<double> seconds_left(Clock::time_point now, int done, int total) const;
+
   bool quiet_, terminal_, line_open_{false};
   Clock::time_point start_, last_shown_;
+  std::string label_;              ///< of the work at hand
+  Clock::time_point label_start_;  ///< of that
+  int done_before_{0};             ///< steps that were done then
 };
 
 }  // namespace flankwright::studies

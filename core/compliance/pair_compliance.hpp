@@ -21,7 +21,10 @@ class PairCompliance {
   /// @throws InvalidInput where the model does not know a point
   virtual Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const = 0;
 
-  /// The same where the gears' bodies are rigid. A model that knows of no body gives way as ever.
+  /// Whether influence_on_rigid_bodies() may be called: finite elements with rigid bodies take a run of their own.
+  virtual bool knows_rigid_bodies() const { return true; }
+
+  /// The same where the gears' bodies are rigid. A model that knows of no body gives way as ever. Needs knows_rigid_bodies().
   /// @throws InvalidInput as influence()
   virtual Eigen::MatrixXd influence_on_rigid_bodies(const std::vector<ContactPoint>& points, double axial_offset) const {
     return influence(points, axial_offset);
@@ -48,7 +51,7 @@ class ThinSlicePair final : public PairCompliance {
 struct GearStructure {
   std::shared_ptr<const FlankCompliance> compliance;
   double youngs_modulus{not_given};  ///< E [MPa], > 0
-  std::shared_ptr<const FlankCompliance> on_rigid_body{};  ///< GearBody::rigid; null: influence_on_rigid_bodies() must not be called
+  std::shared_ptr<const FlankCompliance> on_rigid_body{};  ///< GearBody::rigid; null: not known
 };
 
 /// Both gears' structures side by side, K = K_1 + K_2, points on different teeth coupled; between intervals of contact lines where points
@@ -58,6 +61,7 @@ class StructuralPair final : public PairCompliance {
   StructuralPair(const GearPair& pair, GearStructure pinion, GearStructure wheel)
       : pair_(pair), pinion_(std::move(pinion)), wheel_(std::move(wheel)) {}
   Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
+  bool knows_rigid_bodies() const override { return pinion_.on_rigid_body && wheel_.on_rigid_body; }
   Eigen::MatrixXd influence_on_rigid_bodies(const std::vector<ContactPoint>& points, double axial_offset) const override;
 
   const GearStructure& operator[](Member m) const { return m == Member::Pinion ? pinion_ : wheel_; }

@@ -39,6 +39,11 @@ class Cases {
             std::move(condition)};
   }
 
+  /// Whether the structure can be had with these effects: that on rigid bodies takes a run of its own.
+  bool knows(const EffectDecisions& decisions) const {
+    return scene_.structure == nullptr || scene_.structure->knows_rigid_bodies() || is_on(decisions, "gear_body_compliance");
+  }
+
   CycleOutputs outputs(const EffectDecisions& decisions) const {
     const Case made = with(decisions);
     return cycle_outputs(made.model, analyse_cycle(made.model, made.condition, scene_.pinion_torque));
@@ -142,7 +147,7 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
   const Stopwatch clock;
   EstimatedSize result{{name, {}, not_given}};
   const EffectDecisions rest = without(decisions, name, "left out");
-  if (!mesh_effects(rest).give_way()) return result;
+  if (!mesh_effects(rest).give_way() || !cases.knows(rest)) return result;
   const Case other = cases.with(rest);
   const ConditionGap gaps(other.model.pair, other.model.placement.gap, other.condition);
   OutputSum outputs(other.model);

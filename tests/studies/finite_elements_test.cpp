@@ -78,7 +78,9 @@ TEST_CASE("A study by finite elements: equal gears are solved once, kept, and ba
   CHECK(compliance["pinion"]["unknowns"] > 1000);
   CHECK(compliance["pinion"]["projection"] < 1e-12);  // round-off
   CHECK(results["used"]["pair"]["wheel"]["body"]["shaft_diameter_mm"] > 0);
-  CHECK(results["notes"].empty());
+  REQUIRE(results["notes"].size() == 2);  // one for each gear
+  CHECK_THAT(results["notes"][0].get<std::string>(),
+             Catch::Contains("the pinion is outside the library of fits (pressure_angle 17 deg") && Catch::Contains("two finite-element models"));
   bool told = false;
   for (const json& effect : results["steps"]) told = told || (effect["name"] == "finite_elements" && effect["seconds"] > 0);
   CHECK(told);
@@ -108,6 +110,22 @@ TEST_CASE("A study by finite elements: equal gears are solved once, kept, and ba
   CHECK(alone.loaded[0].summary.te_mean < kept.loaded[0].summary.te_mean);
   CHECK(alone.structures.finite_elements->gears[0].from_cache);  // a run that tells more will do
   CHECK(std::isnan(alone.loaded[0].summary.peak_root_stress));
+}
+
+TEST_CASE("The mere estimate of a size takes no run with rigid bodies, and says so", "[studies][fe]") {
+  const ScratchCache cache;
+  const StudyResults elastic = run_twins(twins, {{"fidelity.effect_sizes", "estimated"}});
+  CHECK(cache.files().size() == 1);
+  CHECK(!elastic.structures.pair->knows_rigid_bodies());
+  const json results = json::parse(results_json(elastic));
+  int told = 0;
+  for (const json& effect : results["effects"]) {
+    const bool of_body = effect["name"] == "gear_body_compliance";
+    if (of_body) CHECK_THAT(effect["estimate"]["why_no_size"].get<std::string>(), Catch::Contains("exact"));
+    if (effect["name"] == "hertzian_contact") CHECK(effect["estimate"]["share_percent"].is_number());
+    told += of_body;
+  }
+  CHECK(told == 1);
 }
 
 TEST_CASE("A study on rigid gear bodies: stiffer, by a run of its own, and sized beside the elastic ones", "[studies][fe]") {
@@ -243,18 +261,20 @@ TEST_CASE("A study by fitted compliance: a coarse mesh of its gears and the libr
 
 TEST_CASE("A gear that the library of fits does not know has a fit of its own, to the run that fe takes", "[studies][fitted]") {
   const ScratchCache cache;
-  const std::vector<Override> by_fit{{"fidelity.compliance", "fitted"}, {"pair.pressure_angle", "22"}};
+  const std::vector<Override> by_fit{{"fidelity.compliance", "fitted"}, {"pair.pressure_angle", "17"}};
   const StudyResults ours = run_twins(twins, by_fit);
   const json results = json::parse(results_json(ours));
   CHECK(results["compliance"].count("fits") == 1);
   CHECK(results["used"]["fidelity"]["fits"]["wheel"] == "own fit");
   const json& fit = results["compliance"]["pinion"]["fit"];
   CHECK(fit["source"] == "own fit");
-  CHECK(fit["why"] == "pressure_angle 22 deg, in the library 20 deg");
+  CHECK(fit["why"] == "pressure_angle 17 deg, in the library 17.5 .. 22.5 deg");
   CHECK(fit["status"] == "converged");
-  CHECK(results["notes"].empty());
+  REQUIRE(results["notes"].size() == 2);  // one for each gear
+  CHECK_THAT(results["notes"][0].get<std::string>(),
+             Catch::Contains("the pinion is outside the library of fits (pressure_angle 17 deg") && Catch::Contains("two finite-element models"));
   bool told = false;
-  for (const json& effect : results["steps"]) told = told || (effect["name"] == "fit_of_pinion" && effect["why"] == "own fit: pressure_angle 22 deg, in the library 20 deg");
+  for (const json& effect : results["steps"]) told = told || (effect["name"] == "fit_of_pinion" && effect["why"] == "own fit: pressure_angle 17 deg, in the library 17.5 .. 22.5 deg");
   CHECK(told);
   // Model, as asked of a gear's own fit; own tooth first, then its neighbours by the coarse mesh.
   const json& unseen = fit["residual_percent"]["unseen"];
@@ -276,7 +296,7 @@ TEST_CASE("A gear that the library of fits does not know has a fit of its own, t
   CHECK(again["loaded"] == results["loaded"]);
   CHECK(cache.files().size() == 3);
 
-  const StudyResults fe = run_twins(twins, {{"pair.pressure_angle", "22"}});
+  const StudyResults fe = run_twins(twins, {{"pair.pressure_angle", "17"}});
   CHECK(fe.structures.finite_elements->gears[0].from_cache);
   CHECK(ours.loaded[0].summary.te_mean == Approx(fe.loaded[0].summary.te_mean).epsilon(0.005));             // model
   CHECK(ours.loaded[0].summary.peak_root_stress == Approx(fe.loaded[0].summary.peak_root_stress).epsilon(0.005));  // by its loads
@@ -284,7 +304,7 @@ TEST_CASE("A gear that the library of fits does not know has a fit of its own, t
 
 TEST_CASE("A damaged fit is made anew from the runs that are kept", "[studies][fitted]") {
   const ScratchCache cache;
-  const std::vector<Override> by_fit{{"fidelity.compliance", "fitted"}, {"pair.pressure_angle", "22"}};
+  const std::vector<Override> by_fit{{"fidelity.compliance", "fitted"}, {"pair.pressure_angle", "17"}};
   const StudyResults first = run_twins(twins, by_fit);
   const std::string file = first.structures.refinement(Member::Pinion)->file;
   std::ofstream(file, std::ios::app) << "more";
@@ -292,15 +312,14 @@ TEST_CASE("A damaged fit is made anew from the runs that are kept", "[studies][f
   CHECK(!second.structures.refinement(Member::Pinion)->from_cache);
   CHECK(second.structures.finite_elements->gears[0].from_cache);
   CHECK(second.structures.refinement(Member::Pinion)->fit.coefficients == first.structures.refinement(Member::Pinion)->fit.coefficients);
-  REQUIRE(second.structures.finite_elements->notes.size() == 1);
-  CHECK_THAT(second.structures.finite_elements->notes[0], Catch::Contains("is not used"));
+  CHECK_THAT(second.structures.finite_elements->notes.back(), Catch::Contains("is not used"));
 }
 
 TEST_CASE("What cannot be meshed is refused by fitted compliance under the study's key", "[studies][fitted]") {
   const auto refused = [](const std::string& key, const std::string& value) {
     return twins_refusal({{"fidelity.compliance", "fitted"}, {key, value}});
   };
-  CHECK(refused("pair.pressure_angle", "22").empty());
+  CHECK(refused("pair.pressure_angle", "17").empty());
   CHECK_THAT(refused("pinion.body.shaft_diameter", "50"), Catch::Contains("pinion.body.shaft_diameter"));
   CHECK_THAT(refused("pinion.profile_shift", "1.2"), Catch::Contains("pinion"));
 }

@@ -134,18 +134,21 @@ GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options) {
     throw InvalidInput("options", "an element is folded", "element numbers and sizes that fit this tooth and body");
   }
 
+  std::vector<char> follows(static_cast<std::size_t>(mesh.solid.nodes.cols()), 0);
+  for (const TiedNode& tie : mesh.solid.tied) follows[static_cast<std::size_t>(tie.node)] = 1;
   if (body.rigid) {
     const double rim = rim_radius(mesh.form, body.shaft_diameter, mesh.normal_module) * (1 + 1e-9);  // round-off of its nodes
-    std::vector<char> follows(static_cast<std::size_t>(mesh.solid.nodes.cols()), 0);
-    for (const TiedNode& tie : mesh.solid.tied) follows[static_cast<std::size_t>(tie.node)] = 1;
     for (int node = 0; node < mesh.solid.nodes.cols(); ++node) {
       const bool in_body = mesh.solid.nodes.col(node).head<2>().norm() <= rim;
       if (in_body && !follows[static_cast<std::size_t>(node)]) mesh.supports.push_back({.node = node});
     }
     return mesh;
   }
-  for (const int node : held) mesh.supports.push_back({.node = node});
+  for (const int node : held) {
+    if (!follows[static_cast<std::size_t>(node)]) mesh.supports.push_back({.node = node});
+  }
   for (const int node : guided) {
+    if (follows[static_cast<std::size_t>(node)]) continue;
     const Eigen::Vector2d out = mesh.solid.nodes.col(node).head<2>().normalized();
     Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
     frame.topLeftCorner<2, 2>() << out.x(), -out.y(), out.y(), out.x();

@@ -1,6 +1,7 @@
 #include "core/compliance/finite_element/section_mesh.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
@@ -11,11 +12,18 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "core/compliance/finite_element/ring_division.hpp"
 
 namespace flankwright {
 namespace {
 
 using units::pi;
+
+constexpr double kWidest = 24 * units::deg;  // of one quadratic element around the axis
+
+/// Depth below the root circle down to which teeth keep their centre lines, which loads enter over [m_n]. A load's weights there are
+/// below h^3/R^3 = 0.002 of it, h = 0.4 m_n being its source's height above the centre surface at the root.
+constexpr double kCentreLines = 3;
 
 /// Polar coordinates, the angle counter-clockwise from +y.
 struct Polar {
@@ -324,6 +332,12 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
   std::vector<SectionTooth> lines;
   std::vector<double> angles;  // of the rim's nodes at half steps, counter-clockwise
   const double pitch = 2 * pi / teeth;
+  std::vector<double> centres;     // of the detailed teeth
+  std::vector<std::size_t> open;   // those whose centre line goes on
+  for (int m = -options.teeth_each_side; m <= options.teeth_each_side; ++m) {
+    open.push_back(centres.size());
+    centres.push_back(m * pitch);
+  }
 
   for (int m = -options.teeth_each_side; m <= options.teeth_each_side; ++m) {
     const HalfTooth half =
@@ -356,7 +370,6 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
   // Plain ring around the rest, from the last gap on to the first one's next turn.
   const double first = angles.front() + 2 * pi, last = (options.teeth_each_side + 0.5) * pitch;
   if (first - last > 0.5 * pitch) {
-    constexpr double kWidest = 24 * units::deg;  // of one quadratic element around the axis
     const double half_angle = (first - last) / 2;
     std::vector<double> ring = graded(half_angle, std::min(pitch / 3, half_angle), options.body_growth, kWidest);
     const auto n = static_cast<int>(ring.size()) - 1;
@@ -372,20 +385,28 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
   }
 
   // Rings down to the bore.
-  const auto around = static_cast<int>(angles.size()) / 2;
+  RingDivision around{std::move(angles)};
+  std::vector<SectionTie> ties;
   const auto rings = [&](double outer, double inner, const std::vector<double>& fractions, SectionPart part) {
-    const auto n = static_cast<int>(fractions.size()) - 1;
-    const auto radius = [&](int j) { return outer + (inner - outer) * at_half_step(fractions, j); };
-    builder.grid(around, n, part, [&](int i, int j) {
-      const auto k = static_cast<std::size_t>(i % (2 * around));
-      return Polar{radius(j), angles[k]}.point();
-    });
-    for (int m = 0; m < static_cast<int>(lines.size()); ++m) {
-      const double angle = (m - options.teeth_each_side) * pitch;
-      for (int j = 0; j < 2 * n; j += 2) {
-        lines[m].centre_line.push_back({builder.node(Polar{radius(j), angle}.point()),
-                                        builder.node(Polar{radius(j + 1), angle}.point()),
-                                        builder.node(Polar{radius(j + 2), angle}.point())});
+    for (std::size_t ring = 0; ring + 1 < fractions.size(); ++ring) {
+      const double from = outer + (inner - outer) * fractions[ring], to = outer + (inner - outer) * fractions[ring + 1];
+      const double depth = root - from;
+      const double longest = options.layer_share * std::min(depth, from) / from;
+      JoinedRing joined = join_neighbours(around, std::min(longest, kWidest), depth < kCentreLines * normal_module ? centres : std::vector<double>{});
+      for (const int joint : joined.joints) {
+        const auto node = [&](int place) { return builder.node(Polar{from, around.angle(place)}.point()); };
+        const SectionEdge edge{node(joint - 2), node(joint), node(joint + 2)};
+        ties.push_back({node(joint - 1), edge, -0.5});
+        ties.push_back({node(joint + 1), edge, 0.5});
+      }
+      around = std::move(joined.division);
+      const std::array<double, 3> at{from, 0.5 * (from + to), to};
+      builder.grid(around.elements(), 1, part,
+                   [&](int i, int j) { return Polar{at[static_cast<std::size_t>(j)], around.angle(i)}.point(); });
+      std::erase_if(open, [&](std::size_t m) { return !around.has_corner(centres[m]); });
+      for (const std::size_t m : open) {
+        const auto node = [&](double radius) { return builder.node(Polar{radius, centres[m]}.point()); };
+        lines[m].centre_line.push_back({node(at[0]), node(at[1]), node(at[2])});
       }
     }
   };
@@ -397,6 +418,7 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
 
   SectionMesh mesh = builder.take(std::move(lines));
   mesh.root_radius = root;
+  mesh.ties = std::move(ties);
   return mesh;
 }
 

@@ -24,7 +24,8 @@ struct GearMeshOptions {
   int shaft_elements{3};            ///< rings from the bore to the shaft's surface, >= 1
   /// Outside the loaded tooth layers are joined by twos, fours, ... as long as the longest joined one is at most this share of the
   /// longest side that the element has in the section, or of its depth below the root circle (but of its radius at most), >= 0; 0:
-  /// every layer runs all round. Next to the face ends the joined ones are of 1, 1, 2, 4, ... layers all the same.
+  /// every layer runs all round. Next to the face ends the joined ones are of 1, 1, 2, 4, ... layers all the same. Below the teeth
+  /// elements side by side are joined likewise, by twos from one ring to the next one inwards.
   double layer_share{0.75};
 
   /// Throws InvalidInput with field, value and violated bound.
@@ -65,9 +66,16 @@ using SectionEdge = std::array<int, 3>;
 
 /// Lines of one detailed tooth in the section.
 struct SectionTooth {
-  std::vector<SectionEdge> centre_line;  ///< tip to bore
+  std::vector<SectionEdge> centre_line;  ///< tip to bore, or to where elements below the teeth are joined across it
   std::vector<SectionEdge> flank;        ///< right-hand involute, tip to start of fillet
   std::vector<SectionEdge> fillet;       ///< right-hand fillet, down to its lowest point
+};
+
+/// A mid-side node where two elements of a ring meet one that is as long as both: it follows that one's edge.
+struct SectionTie {
+  int node{-1};
+  SectionEdge edge{};  ///< of the long element; its mid-side is the corner that the two share
+  double along{0};     ///< -1 at the edge's first corner, 1 at its last
 };
 
 /// What an element of the section belongs to. Where no tooth is detailed the plain ring counts as body, as adjacent teeth do.
@@ -81,6 +89,7 @@ struct SectionMesh {
   Eigen::Matrix<int, 8, Eigen::Dynamic> quads;
   std::vector<SectionPart> parts;   ///< of every quad
   std::vector<SectionTooth> teeth;  ///< -n .. n, counter-clockwise
+  std::vector<SectionTie> ties;     ///< ring by ring, inwards
 };
 
 /// Radii of shaft and bore, given or by their rules [mm].
@@ -98,7 +107,8 @@ SectionRadii section_radii(const ToothForm& form, int teeth, double normal_modul
 
 /// The toothed ring has one block per half tooth, spanned between the profile (flank, fillet, half the root land) and
 /// the line that comes down the tooth's centre and turns, on a circle below the root, towards the gap's centre; where
-/// there is no detailed tooth a plain ring ends at the root circle. Rings of elements follow, down to the bore.
+/// there is no detailed tooth a plain ring ends at the root circle. Rings of elements follow, down to the bore, of fewer and fewer
+/// elements (GearMeshOptions::layer_share).
 ///
 /// @throws InvalidInput  as section_radii()
 SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module, const GearBody& body,

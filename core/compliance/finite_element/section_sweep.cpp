@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <ranges>
 
 namespace flankwright {
 namespace {
@@ -49,7 +50,6 @@ void SectionSweep::set_levels(double layer_share) {
       if (on_face) longest.back() = std::max(longest.back(), planes_.z[ends[i + 1]] - planes_.z[ends[i]]);
     }
   }
-  node_levels_.assign(static_cast<std::size_t>(section_.nodes.cols()), 0);
   for (Eigen::Index quad = 0; quad < section_.quads.cols(); ++quad) {
     int level = 0;
     if (section_.parts[static_cast<std::size_t>(quad)] != SectionPart::LoadedTooth) {
@@ -57,17 +57,36 @@ void SectionSweep::set_levels(double layer_share) {
       while (level + 1 < static_cast<int>(longest.size()) && longest[static_cast<std::size_t>(level) + 1] <= most) ++level;
     }
     quad_levels_.push_back(level);
+  }
+  shorten_at_ties();
+  node_levels_.assign(static_cast<std::size_t>(section_.nodes.cols()), 0);
+  for (Eigen::Index quad = 0; quad < section_.quads.cols(); ++quad) {
     for (int i = 0; i < 8; ++i) {
       int& of_node = node_levels_[static_cast<std::size_t>(section_.quads(i, quad))];
-      of_node = std::max(of_node, level);
+      of_node = std::max(of_node, quad_levels_[static_cast<std::size_t>(quad)]);
     }
+  }
+  for (const SectionTie& tie : section_.ties) {
+    node_levels_[static_cast<std::size_t>(tie.node)] = node_levels_[static_cast<std::size_t>(tie.edge[1])];
+  }
+}
+
+/// What follows an element must not be longer along the axis than that. Ties run inwards, so that those of the inner ring come first here.
+void SectionSweep::shorten_at_ties() {
+  std::map<int, std::size_t> by_side;  // the quad that has a mid-side; of those at a long element's edge the long one, which alone has it
+  for (Eigen::Index quad = 0; quad < section_.quads.cols(); ++quad) {
+    for (int i = 4; i < 8; ++i) by_side[section_.quads(i, quad)] = static_cast<std::size_t>(quad);
+  }
+  for (const SectionTie& tie : section_.ties | std::views::reverse) {
+    int& level = quad_levels_[by_side.at(tie.node)];
+    level = std::min(level, quad_levels_[by_side.at(tie.edge[1])]);
   }
 }
 
 LayerSpan SectionSweep::span(int level, int layer) const {
   const std::vector<int>& ends = ends_[static_cast<std::size_t>(level)];
   const auto above = std::upper_bound(ends.begin(), ends.end(), layer);
-  return {*(above - 1), *above};
+  return {*(above - 1), above == ends.end() ? *(above - 1) : *above};
 }
 
 int SectionSweep::node(int section_node, LayerSpan span) {
@@ -110,13 +129,14 @@ std::vector<int> SectionSweep::on_plane(int plane) const {
   return nodes;
 }
 
-void SectionSweep::tie(int section_node, const SectionEdge* edge) {
+void SectionSweep::tie(int section_node, const SectionEdge* edge, double along) {
   const int level = node_levels_[static_cast<std::size_t>(section_node)];
   const std::map<LayerSpan, int> made = numbers_[static_cast<std::size_t>(section_node)];
   for (const auto& [span, number] : made) {
     const LayerSpan around = this->span(level, span.lower);
     const bool on_end = span.lower == span.upper && around.lower == span.lower;
-    if (on_end || span == around) continue;
+    const bool free = edge ? on_end && along == 0 : on_end || span == around;
+    if (free) continue;
     const double lower = planes_.z[around.lower], upper = planes_.z[around.upper];
     const double eta = (2 * height(span) - lower - upper) / (upper - lower);
 
@@ -131,9 +151,13 @@ void SectionSweep::tie(int section_node, const SectionEdge* edge) {
         for (const auto& [other, share] : tied.follows) follows[other] += weight * share;
       }
     };
-    if (edge) {
+    if (edge && on_end) {
+      add(node((*edge)[0], span), along * (along - 1) / 2);
+      add(node((*edge)[1], span), 1 - along * along);
+      add(node((*edge)[2], span), along * (along + 1) / 2);
+    } else if (edge) {
       const MeshFace face = this->face(*edge, around);
-      const FaceShape shape = face_shape(0, eta);
+      const FaceShape shape = face_shape(along, eta);
       for (int i = 0; i < 8; ++i) add(face[static_cast<std::size_t>(i)], shape.values[i]);
     } else {
       add(node(section_node, {around.lower, around.lower}), eta * (eta - 1) / 2);
@@ -159,11 +183,18 @@ SolidMesh SectionSweep::take() {
       sides.try_emplace(side, SectionEdge{corner, side, section_.quads((i + 1) % 4, quad)});
     }
   }
-  // Corners' first: mid-sides follow what these follow.
-  for (int i = 0; i < static_cast<int>(numbers_.size()); ++i) {
-    if (is_corner[static_cast<std::size_t>(i)]) tie(i, nullptr);
+  // Corners' first: mid-sides follow what these follow. Corners on a long element's edge come after those that the edge ends in.
+  const int count = static_cast<int>(numbers_.size());
+  for (const SectionTie& tied : section_.ties) sides.erase(tied.node);
+  for (int i = 0; i < count; ++i) {
+    if (is_corner[static_cast<std::size_t>(i)] && !sides.contains(i)) tie(i, nullptr, 0);
   }
-  for (const auto& [middle, edge] : sides) tie(middle, &edge);
+  for (const bool corners : {true, false}) {
+    for (const auto& [middle, edge] : sides) {
+      if ((is_corner[static_cast<std::size_t>(middle)] != 0) == corners) tie(middle, &edge, 0);
+    }
+  }
+  for (const SectionTie& tied : section_.ties) tie(tied.node, &tied.edge, tied.along);
 
   SolidMesh mesh;
   mesh.nodes.resize(3, static_cast<Eigen::Index>(points_.size()));

@@ -27,7 +27,7 @@ struct SweepPlanes {
 /// A section swept along the axis with the helix, in layers between planes. On the face width layers are joined by twos, fours, ...,
 /// counted from both face ends to mid face, where GearMeshOptions::layer_share allows. Where a quad with short elements
 /// meets one with long ones, the short ones' nodes in between are tied to the long one's: its quadratic displacement on the common
-/// face is theirs, so that the displacement is continuous.
+/// face is theirs, so that the displacement is continuous. So it is with two elements side by side that meet one (SectionTie).
 class SectionSweep {
  public:
   /// @param twist  turn of the section per length, on the face width [rad/mm]
@@ -51,7 +51,8 @@ class SectionSweep {
   int node(int section_node, LayerSpan span);
   void set_levels(double layer_share);
   double length_scale(Eigen::Index quad) const;
-  void tie(int section_node, const SectionEdge* edge);
+  void shorten_at_ties();
+  void tie(int section_node, const SectionEdge* edge, double along);
 
   const SectionMesh& section_;
   const SweepPlanes& planes_;

@@ -76,7 +76,7 @@ class TableSolver {
     statistics.peak_bytes = static_cast<double>(solid.factor().peak_bytes());
     statistics.model_seconds = clock.seconds();
     if (run_.status != FactorStatus::Factorised) return;
-    report(1);
+    report(kModelSteps);
     const Stopwatch loads;
     const RootStressReadings readings = task_.root_stress ? root_stress_readings(mesh, material) : RootStressReadings{};
     const FlankInfluence influence =
@@ -84,12 +84,12 @@ class TableSolver {
     run_.table.emplace(task_.grid, tables(influence.compliance.middleCols(task_.teeth_apart * task_.grid.size(), task_.grid.size())));
     if (task_.root_stress) run_.root_stress = root_stress_table(mesh, task_.grid, readings.fillet, influence.readings);
     statistics.solve_seconds = loads.seconds();
-    report(2);
+    report(kTableSteps);
   }
 
  private:
   void report(int done) const {
-    if (progress_) progress_(done, 2);
+    if (progress_) progress_(done, kTableSteps);
   }
 
   /// From deflections of all places on teeth -M .. M, by loads on tooth 0.

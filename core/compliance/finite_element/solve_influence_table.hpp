@@ -40,7 +40,8 @@ struct InfluenceTableRun {
 /// 288,000 unknowns): 0.79 to 0.94 of it.
 double expected_bytes(Eigen::Index unknowns);
 
-/// Steps of a run: the model, then the loads.
+/// Progress of a run in steps of about the same time: kModelSteps for the model, the rest for the loads.
+inline constexpr int kModelSteps = 6, kTableSteps = 10;
 using TableProgress = std::function<void(int done, int total)>;
 
 /// Solves a gear's finite elements for a load at every place of the grid on tooth 0, the one that is meshed finely, and

@@ -12,6 +12,9 @@ extern "C" {  // which some vendors' header leaves to us
 namespace flankwright {
 namespace {
 
+/// Rows below a supernode that are multiplied together: enough for BLAS-3, few enough that their product is a small part of the memory.
+constexpr int kRowsAtOnce = 512;
+
 using RowSparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// Columns of L that share a pattern below their diagonal block, as CHOLMOD stores them: a dense matrix by columns.
@@ -110,25 +113,32 @@ Eigen::MatrixXd supernodal_gram(const cholmod_factor& factor, const Eigen::Spars
     const double* l = supernodes.block(s);
     cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, size, count, 1.0, l, height, y.data(), size);
 
-    product.resize(count, count);
-    cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, count, size, 1.0, y.data(), size, 0.0, product.data(), count);
-    for (int j = 0; j < count; ++j) {
-      for (int i = j; i < count; ++i) gram(columns[s][i], columns[s][j]) += product(i, j);
+    if (count == k) {  // all columns, in their order
+      cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, count, size, 1.0, y.data(), size, 1.0, gram.data(), count);
+    } else {
+      product.resize(count, count);
+      cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, count, size, 1.0, y.data(), size, 0.0, product.data(), count);
+      for (int j = 0; j < count; ++j) {
+        for (int i = j; i < count; ++i) gram(columns[s][i], columns[s][j]) += product(i, j);
+      }
     }
 
-    if (below == 0) continue;
-    product.resize(below, count);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, below, count, size, 1.0, l + size, height, y.data(), size, 0.0, product.data(), below);
-    for (int i = 0; i < below;) {
-      const int above = supernodes.of_row(supernodes.row(s, size + i));
-      const std::vector<int> there = places_in(columns[above], columns[s]);
-      Eigen::MatrixXd& w = waiting_at(above);
-      int end = i;
-      while (end < below && supernodes.of_row(supernodes.row(s, size + end)) == above) ++end;
-      for (int j = 0; j < count; ++j) {
-        for (int r = i; r < end; ++r) w(supernodes.row(s, size + r) - supernodes.first_row(above), there[j]) -= product(r, j);
+    for (int begin = 0; begin < below; begin += kRowsAtOnce) {
+      const int rows = std::min(kRowsAtOnce, below - begin);
+      product.resize(rows, count);
+      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, count, size, 1.0, l + size + begin, height, y.data(), size, 0.0, product.data(), rows);
+      for (int i = 0; i < rows;) {
+        const auto row = [&](int r) { return supernodes.row(s, size + begin + r); };
+        const int above = supernodes.of_row(row(i));
+        const std::vector<int> there = places_in(columns[above], columns[s]);
+        Eigen::MatrixXd& w = waiting_at(above);
+        int end = i;
+        while (end < rows && supernodes.of_row(row(end)) == above) ++end;
+        for (int j = 0; j < count; ++j) {
+          for (int r = i; r < end; ++r) w(row(r) - supernodes.first_row(above), there[j]) -= product(r, j);
+        }
+        i = end;
       }
-      i = end;
     }
   }
   gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();

@@ -1,6 +1,5 @@
 #include "core/compliance/fitted/refinement_fit.hpp"
 
-#include "core/base/units.hpp"
 #include "core/compliance/flank_grid.hpp"
 #include "core/compliance/tooth_places.hpp"
 
@@ -17,20 +16,21 @@ GearMeshOptions coarse_mesh() {
   return options;
 }
 
-GearToMesh standard_gear(const GearFacts& facts) {
+GearToMesh standard_gear(const GearFacts& facts, const ReferenceProfile& profile) {
   GearToMesh gear;
   gear.gear.teeth = facts.teeth;
   gear.gear.face_width = facts.relative_face;
   gear.gear.profile_shift = facts.profile_shift;
   gear.normal_module = 1;
-  gear.pressure_angle = 20 * units::deg;
+  gear.gear.rack = profile.rack;
+  gear.pressure_angle = profile.pressure_angle;
   gear.helix_angle = facts.helix_angle;
   return gear;
 }
 
 InfluenceSample element_sample(const GearFacts& gear, const GearMeshOptions& mesh,
-                               const std::vector<FlankPlace>& places) {
-  const InfluenceModel model(standard_gear(gear), {1.0, 0.3}, mesh);
+                               const std::vector<FlankPlace>& places, const ReferenceProfile& profile) {
+  const InfluenceModel model(standard_gear(gear, profile), {1.0, 0.3}, mesh);
   const ToothForm& form = model.mesh().form;
   std::vector<FlankPoint> points;
   for (const FlankPlace& place : places) {

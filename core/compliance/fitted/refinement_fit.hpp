@@ -16,12 +16,12 @@ namespace flankwright {
 /// pointed; no sum of kernels, which are positive, takes that off again. How it compares is in the folder's README.
 GearMeshOptions coarse_mesh();
 
-/// The gear that a library's entry is made from: standard rack, 20 deg, m_n = 1, the body of GearBody's defaults.
-GearToMesh standard_gear(const GearFacts& gear);
+/// The gear that a library's entry is made from: m_n = 1, the body of GearBody's defaults.
+GearToMesh standard_gear(const GearFacts& gear, const ReferenceProfile& profile = {});
 
 /// Influence values between places of one tooth by the mesh given, E = 1, nu = 0.3.
 InfluenceSample element_sample(const GearFacts& gear, const GearMeshOptions& mesh,
-                               const std::vector<FlankPlace>& places);
+                               const std::vector<FlankPlace>& places, const ReferenceProfile& profile = {});
 
 /// A tensor grid of places on a tooth.
 std::vector<FlankPlace> places_on(const std::vector<double>& us, const std::vector<double>& zetas);

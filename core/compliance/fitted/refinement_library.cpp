@@ -1,11 +1,12 @@
 #include "core/compliance/fitted/refinement_library.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
 #include <sstream>
-#include <tuple>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
@@ -14,24 +15,10 @@
 namespace flankwright {
 namespace {
 
-/// Lagrange's polynomials through the nodes, at x.
-std::vector<double> cardinal_polynomials(const std::vector<double>& nodes, double x) {
-  std::vector<double> weights(nodes.size(), 1.0);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    for (std::size_t j = 0; j < nodes.size(); ++j) {
-      if (j != i) weights[i] *= (x - nodes[j]) / (nodes[i] - nodes[j]);
-    }
-  }
-  return weights;
-}
-
-template <class Value>
-void sort_unique(std::vector<Value>& values) {
-  std::ranges::sort(values);
-  values.erase(std::unique(values.begin(), values.end()), values.end());
-}
-
 constexpr double kRoundOff = 1e-9;  // of ranges' ends computed from degrees or millimetres
+
+/// Root radii this much beyond those of the entries are known, too: ISO 53 has 0.38 and 0.39 for the same rack.
+constexpr double kRootRadius = 0.01;
 
 /// A property's value and the range that it has in the library.
 struct Property {
@@ -49,58 +36,65 @@ struct Property {
   }
 };
 
+/// Lowest and highest of every property.
+std::pair<ReferenceProfile, ReferenceProfile> range(const std::vector<ReferenceProfile>& profiles) {
+  ReferenceProfile low = profiles.front(), high = low;
+  for (const ReferenceProfile& p : profiles) {
+    const auto widen = [](double& least, double& most, double value) {
+      least = std::min(least, value);
+      most = std::max(most, value);
+    };
+    widen(low.rack.addendum, high.rack.addendum, p.rack.addendum);
+    widen(low.rack.dedendum, high.rack.dedendum, p.rack.dedendum);
+    widen(low.rack.root_radius, high.rack.root_radius, p.rack.root_radius);
+    widen(low.pressure_angle, high.pressure_angle, p.pressure_angle);
+  }
+  return {low, high};
+}
+
+/// What a rack departs from the standard one by.
+Eigen::Vector3d departure(const RackProfile& rack) {
+  const RackProfile standard;
+  return {rack.addendum - standard.addendum, rack.dedendum - standard.dedendum, rack.root_radius - standard.root_radius};
+}
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw InvalidInput("library", what, "a grid of the standard profile, of none or three other racks, and of other pressure angles");
+}
+
 }  // namespace
 
 GearFacts facts_of(const GearToMesh& gear) {
   return {gear.gear.teeth, gear.helix_angle, gear.gear.face_width / gear.normal_module, gear.gear.profile_shift};
 }
 
-std::vector<double> mirrored(const KernelForm& form, const std::vector<double>& coefficients) {
-  std::vector<double> result = coefficients;
-  // The warp of the axis, counted from the other end.
-  result[0] = -coefficients[0];
-  std::swap(result[1], result[3]);
-  std::swap(result[2], result[4]);
-  auto at = result.begin() + KernelForm::kWarpCoefficients;
-  for (const Kernel& kernel : form.kernels) {
-    for (const EndPolynomial* polynomial : {&kernel.amplitude, &kernel.axial, &kernel.radial}) {
-      at += polynomial->middle;
-      for (const int powers : polynomial->end) {
-        std::swap_ranges(at, at + powers, at + powers);
-        at += 2 * powers;
-      }
-    }
-    if (kernel.couples_teeth()) {
-      ++at;
-      *at = -*at;
-      ++at;
-    }
-  }
-  return result;
-}
+ReferenceProfile profile_of(const GearToMesh& gear) { return {gear.gear.rack, gear.pressure_angle}; }
 
-RefinementLibrary::RefinementLibrary(std::vector<RefinementEntry> entries) : entries_(std::move(entries)) {
-  const auto wrong = [](const std::string& what) {
-    throw InvalidInput("library", what, "an entry for each combination of its teeth, helix angles from 0 and profile shifts");
-  };
-  if (entries_.empty()) wrong("no entries");
-  for (const RefinementEntry& entry : entries_) {
-    entry.gear.validate();
-    if (static_cast<int>(entry.coefficients.size()) != KernelForm::refinement().count()) wrong("coefficients of another form");
-    teeth_.push_back(entry.gear.teeth);
-    helix_angles_.push_back(entry.gear.helix_angle);
-    profile_shifts_.push_back(entry.gear.profile_shift);
+RefinementLibrary::RefinementLibrary(const std::vector<RefinementEntry>& entries) {
+  const ReferenceProfile standard;
+  profiles_.push_back(standard);
+  std::vector<ReferenceProfile> angles;
+  for (const RefinementEntry& entry : entries) {
+    const ReferenceProfile& p = entry.profile;
+    if (std::ranges::find(profiles_, p) != profiles_.end() || std::ranges::find(angles, p) != angles.end()) continue;
+    const bool other_angle = p.pressure_angle != standard.pressure_angle;
+    if (other_angle && !departure(p.rack).isZero(0)) refuse("rack and pressure angle differ at once");
+    (other_angle ? angles : profiles_).push_back(p);
   }
-  sort_unique(teeth_);
-  sort_unique(helix_angles_);
-  sort_unique(profile_shifts_);
-  const auto key = [](const RefinementEntry& entry) {
-    return std::tuple(entry.gear.teeth, entry.gear.helix_angle, entry.gear.profile_shift);
-  };
-  std::ranges::sort(entries_, {}, key);
-  if (std::ranges::adjacent_find(entries_, {}, key) != entries_.end()) wrong("an entry twice");
-  if (entries_.size() != teeth_.size() * helix_angles_.size() * profile_shifts_.size()) wrong("an entry missing");
-  if (helix_angles_.front() != 0) wrong("no spur gears");
+  racks_ = profiles_.size() - 1;
+  profiles_.insert(profiles_.end(), angles.begin(), angles.end());
+  if (racks_ != 0 && racks_ != 3) refuse(std::to_string(racks_) + " other racks");
+  for (const ReferenceProfile& profile : profiles_) {
+    std::vector<RefinementEntry> of_profile;
+    std::ranges::copy_if(entries, std::back_inserter(of_profile), [&](const RefinementEntry& entry) { return entry.profile == profile; });
+    grids_.emplace_back(std::move(of_profile));
+    entries_.insert(entries_.end(), grids_.back().entries().begin(), grids_.back().entries().end());
+  }
+  if (racks_ == 3) {
+    Eigen::Matrix3d departures;
+    for (int i = 0; i < 3; ++i) departures.col(i) = departure(profiles_[static_cast<std::size_t>(1 + i)].rack);
+    if (!Eigen::FullPivLU<Eigen::Matrix3d>(departures).isInvertible()) refuse("racks whose departures are not independent");
+  }
 }
 
 const RefinementLibrary& RefinementLibrary::shipped() {
@@ -112,15 +106,16 @@ std::string RefinementLibrary::unknown(const GearToMesh& gear, double poissons_r
   const GearData& data = gear.gear;
   const double module = gear.normal_module, radians = 1 / units::deg;
   const double tip = data.teeth / std::cos(gear.helix_angle) + 2 * (data.rack.addendum + data.profile_shift);
+  const auto [low, high] = range(profiles_);
   const std::array<Property, 10> properties{{
-      {"pressure_angle", gear.pressure_angle * radians, 20, 20, " deg"},
-      {"helix_angle", gear.helix_angle * radians, 0, helix_angles_.back() * radians, " deg"},
-      {"teeth", static_cast<double>(data.teeth), static_cast<double>(teeth_.front()), static_cast<double>(teeth_.back())},
-      {"profile_shift", data.profile_shift, profile_shifts_.front(), profile_shifts_.back()},
+      {"pressure_angle", gear.pressure_angle * radians, low.pressure_angle * radians, high.pressure_angle * radians, " deg"},
+      {"helix_angle", gear.helix_angle * radians, 0, standard().helix_angles().back() * radians, " deg"},
+      {"teeth", static_cast<double>(data.teeth), static_cast<double>(standard().teeth().front()), static_cast<double>(standard().teeth().back())},
+      {"profile_shift", data.profile_shift, standard().profile_shifts().front(), standard().profile_shifts().back()},
       {"face_width", data.face_width / module, 2, 30, " m_n"},
-      {"rack.addendum", data.rack.addendum, 1, 1},
-      {"rack.dedendum", data.rack.dedendum, 1.25, 1.25},
-      {"rack.root_radius", data.rack.root_radius, 0.38, 0.39},
+      {"rack.addendum", data.rack.addendum, low.rack.addendum, high.rack.addendum},
+      {"rack.dedendum", data.rack.dedendum, low.rack.dedendum, high.rack.dedendum},
+      {"rack.root_radius", data.rack.root_radius, low.rack.root_radius - kRootRadius, high.rack.root_radius + kRootRadius},
       {"poissons_ratio", poissons_ratio, 0.25, 0.35},
       {"tip_diameter", std::isnan(data.tip_diameter) ? tip : data.tip_diameter / module, tip - 0.2, tip + 0.02, " m_n"},
   }};
@@ -128,39 +123,39 @@ std::string RefinementLibrary::unknown(const GearToMesh& gear, double poissons_r
   return outside == properties.end() ? "" : outside->text();
 }
 
-GearFacts RefinementLibrary::nearest(GearFacts gear) const {
-  gear.teeth = std::clamp(gear.teeth, teeth_.front(), teeth_.back());
-  gear.helix_angle = std::clamp(gear.helix_angle, -helix_angles_.back(), helix_angles_.back());
-  gear.profile_shift = std::clamp(gear.profile_shift, profile_shifts_.front(), profile_shifts_.back());
-  return gear;
+ReferenceProfile RefinementLibrary::nearest(ReferenceProfile profile) const {
+  const auto [low, high] = range(profiles_);
+  profile.rack.addendum = std::clamp(profile.rack.addendum, low.rack.addendum, high.rack.addendum);
+  profile.rack.dedendum = std::clamp(profile.rack.dedendum, low.rack.dedendum, high.rack.dedendum);
+  profile.rack.root_radius = std::clamp(profile.rack.root_radius, low.rack.root_radius, high.rack.root_radius);
+  profile.pressure_angle = std::clamp(profile.pressure_angle, low.pressure_angle, high.pressure_angle);
+  return profile;
 }
 
-std::vector<double> RefinementLibrary::coefficients(const GearFacts& gear) const {
-  std::vector<double> inverse_teeth, angles;
-  for (const int z : teeth_) inverse_teeth.push_back(1.0 / z);
-  for (std::size_t i = helix_angles_.size(); i-- > 1;) angles.push_back(-helix_angles_[i]);
-  angles.insert(angles.end(), helix_angles_.begin(), helix_angles_.end());
-  const std::vector<double> of_teeth = cardinal_polynomials(inverse_teeth, 1.0 / gear.teeth),
-                            of_angle = cardinal_polynomials(angles, gear.helix_angle),
-                            of_shift = cardinal_polynomials(profile_shifts_, gear.profile_shift);
-  const KernelForm form = KernelForm::refinement();
-  const std::size_t centre = helix_angles_.size() - 1;
-  std::vector<double> sum(static_cast<std::size_t>(form.count()), 0.0);
-  const auto add = [&sum](double weight, const std::vector<double>& values) {
-    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * values[i];
-  };
-  auto entry = entries_.begin();
-  for (const double z : of_teeth) {
-    for (std::size_t b = 0; b <= centre; ++b) {
-      // beta = 0 stands for both of its halves.
-      const double here = b == 0 ? 0.5 * of_angle[centre] : of_angle[centre + b];
-      const double there = b == 0 ? 0.5 * of_angle[centre] : of_angle[centre - b];
-      for (const double x : of_shift) {
-        add(z * x * here, entry->coefficients);
-        add(z * x * there, mirrored(form, entry->coefficients));
-        ++entry;
-      }
-    }
+std::vector<double> RefinementLibrary::weights(const ReferenceProfile& profile) const {
+  std::vector<double> result;
+  if (racks_ == 3) {
+    Eigen::Matrix3d departures;
+    for (int i = 0; i < 3; ++i) departures.col(i) = departure(profiles_[static_cast<std::size_t>(1 + i)].rack);
+    const Eigen::Vector3d of_racks = departures.fullPivLu().solve(departure(profile.rack));
+    result.assign(of_racks.begin(), of_racks.end());
+  }
+  std::vector<double> angles{profiles_.front().pressure_angle};
+  for (std::size_t i = 1 + racks_; i < profiles_.size(); ++i) angles.push_back(profiles_[i].pressure_angle);
+  const std::vector<double> of_angles = cardinal_polynomials(angles, profile.pressure_angle);
+  result.insert(result.end(), of_angles.begin() + 1, of_angles.end());
+  return result;
+}
+
+std::vector<double> RefinementLibrary::coefficients(const GearFacts& gear, const ReferenceProfile& profile) const {
+  std::vector<double> sum = standard().coefficients(standard().nearest(gear));
+  const std::vector<double> of_grids = weights(nearest(profile));
+  for (std::size_t k = 0; k < of_grids.size(); ++k) {
+    if (of_grids[k] == 0) continue;
+    const RefinementGrid& grid = grids_[k + 1];
+    const GearFacts there = grid.nearest(standard().nearest(gear));
+    const std::vector<double> departs = grid.coefficients(there), from = standard().coefficients(there);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += of_grids[k] * (departs[i] - from[i]);
   }
   return sum;
 }

@@ -1,30 +1,13 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/compliance/finite_element/gear_mesh.hpp"
-#include "core/compliance/fitted/influence_sample.hpp"
-#include "core/compliance/fitted/kernel_form.hpp"
-#include "core/compliance/fitted/least_squares.hpp"
-#include "core/compliance/fitted/residual_statistics.hpp"
+#include "core/compliance/fitted/refinement_grid.hpp"
 
 namespace flankwright {
-
-/// One gear's fit of what a fine mesh adds to the compliance by a coarse one.
-struct RefinementEntry {
-  GearFacts gear;
-  FitStatus status{FitStatus::NotRun};
-  int iterations{-1};
-  int pairs{0};
-  double seconds{not_given};         ///< wall time of the finite elements and the fit
-  ResidualStatistics fitted;         ///< of coarse values plus fit against fine ones, on the places fitted
-  ResidualStatistics unseen;         ///< on places that the fit has not seen
-  std::vector<double> coefficients;  ///< of KernelForm::refinement()
-  Eigen::MatrixXd covariance;        ///< of the coefficients, FitResult::covariance; empty where the fit failed
-};
 
 /// A line of text for an entry and back, in full precision but for the covariance: its lower triangle, row by row, in four
 /// digits. Lines that start with # are remarks.
@@ -34,44 +17,47 @@ std::vector<RefinementEntry> entries_in(std::string_view text);
 
 /// What the library goes by.
 GearFacts facts_of(const GearToMesh& gear);
+ReferenceProfile profile_of(const GearToMesh& gear);
 
-/// Coefficients of the same fit with the ends of the face exchanged.
-std::vector<double> mirrored(const KernelForm& form, const std::vector<double>& coefficients);
-
-/// Fits over a tensor grid of gears, and between them: every coefficient is a polynomial through the entries in 1/Z, beta
-/// and x. An entry of beta stands, with its ends exchanged, for -beta as well, and one of beta = 0 is made alike at both
-/// ends: what both ends have in common is even in beta, what tells them apart is odd. The face width does not enter.
+/// Fits of gears of the standard reference profile, RefinementGrid, and what other profiles change of them:
+///
+///     c(gear, profile) = c_0(gear) + sum over grids k of w_k(profile) (c_k(gear_k) - c_0(gear_k)),    gear_k = nearest of grid k,
+///
+/// the other grids being of three other racks at the standard pressure angle, in whose departures from the standard one (addendum,
+/// dedendum, root radius) that of the profile is written as their weighted sum, and of other pressure angles with the standard rack,
+/// with the weights of Lagrange's polynomials. What rack and pressure angle change together is left out.
 ///
 /// Whatever the coefficients, the kernels are positive semi-definite.
 class RefinementLibrary {
  public:
-  /// @throws InvalidInput "library" where entries are not all combinations of their teeth, helix angles (the first 0)
-  ///         and profile shifts, once each, or have coefficients of another form
-  explicit RefinementLibrary(std::vector<RefinementEntry> entries);
+  /// @throws InvalidInput "library" as RefinementGrid; and where there is no standard profile, where others depart in rack and pressure
+  ///         angle at once, or where other racks are neither none nor three with independent departures
+  explicit RefinementLibrary(const std::vector<RefinementEntry>& entries);
 
   /// The one that comes with the program, from `library/teeth.txt`.
   static const RefinementLibrary& shipped();
 
+  /// Of all grids, that of the standard profile first.
   const std::vector<RefinementEntry>& entries() const { return entries_; }
-  const std::vector<int>& teeth() const { return teeth_; }                      ///< ascending
-  const std::vector<double>& helix_angles() const { return helix_angles_; }     ///< ascending [rad]
-  const std::vector<double>& profile_shifts() const { return profile_shifts_; }  ///< ascending
+  const RefinementGrid& standard() const { return grids_.front(); }
 
   /// What of a gear, or of its material, lies outside of what the library knows, as "helix_angle 38 deg, in the library 0 .. 35
-  /// deg"; empty where nothing does. It knows gears of its own rack, pressure angle and tip, within the ranges of its
+  /// deg"; empty where nothing does. It knows gears with the tip that their rack gives them, within the ranges of its
   /// entries, of material with nu = 0.25 .. 0.35 and faces of 2 to 30 modules.
   std::string unknown(const GearToMesh& gear, double poissons_ratio) const;
 
-  /// The gear itself, or what within the ranges of the entries is nearest in each fact.
-  GearFacts nearest(GearFacts gear) const;
-
-  /// Coefficients for a gear within the ranges.
-  std::vector<double> coefficients(const GearFacts& gear) const;
+  /// Coefficients for a gear within the ranges; outside them, those of the nearest gear within.
+  std::vector<double> coefficients(const GearFacts& gear, const ReferenceProfile& profile = {}) const;
 
  private:
-  std::vector<RefinementEntry> entries_;  ///< profile shift runs fastest, then the helix angle
-  std::vector<int> teeth_;
-  std::vector<double> helix_angles_, profile_shifts_;
+  /// Weights of the grids beside the standard one.
+  std::vector<double> weights(const ReferenceProfile& profile) const;
+  ReferenceProfile nearest(ReferenceProfile profile) const;
+
+  std::vector<RefinementEntry> entries_;
+  std::vector<RefinementGrid> grids_;  ///< the standard one, other racks, other pressure angles
+  std::vector<ReferenceProfile> profiles_;  ///< of the grids
+  std::size_t racks_{0};                    ///< how many other racks, 0 or 3
 };
 
 }  // namespace flankwright

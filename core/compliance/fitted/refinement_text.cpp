@@ -45,7 +45,7 @@ void append(std::string& text, const ResidualStatistics& residuals) {
   }
 }
 
-constexpr std::size_t kBeforeCoefficients = 16;
+constexpr std::size_t kBeforeCoefficients = 20;
 
 std::optional<RefinementEntry> entry_in(std::string_view line) {
   const std::vector<double> x = numbers_in(line);
@@ -56,13 +56,14 @@ std::optional<RefinementEntry> entry_in(std::string_view line) {
   };
   RefinementEntry entry;
   entry.gear = {static_cast<int>(x[0]), x[1] * units::deg, x[3], x[2]};
-  if (x[4] != 0 && x[4] != 1) return std::nullopt;
-  entry.status = x[4] == 1 ? FitStatus::Converged : FitStatus::IterationLimit;
-  entry.iterations = static_cast<int>(x[5]);
-  entry.pairs = static_cast<int>(x[6]);
-  entry.seconds = x[7];
-  entry.fitted = residuals(8);
-  entry.unseen = residuals(12);
+  entry.profile = {{x[4], x[5], x[6]}, x[7] * units::deg};
+  if (x[8] != 0 && x[8] != 1) return std::nullopt;
+  entry.status = x[8] == 1 ? FitStatus::Converged : FitStatus::IterationLimit;
+  entry.iterations = static_cast<int>(x[9]);
+  entry.pairs = static_cast<int>(x[10]);
+  entry.seconds = x[11];
+  entry.fitted = residuals(12);
+  entry.unseen = residuals(16);
   auto next = x.begin() + kBeforeCoefficients;
   entry.coefficients.assign(next, next + static_cast<std::ptrdiff_t>(count));
   next += static_cast<std::ptrdiff_t>(count);
@@ -79,9 +80,12 @@ std::string to_text(const RefinementEntry& entry) {
   std::string text;
   // Angles are whole tenths of a degree; the radians' last bits must not show.
   append(text, entry.gear.teeth);
-  append(text, std::round(entry.gear.helix_angle / units::deg * 1e9) / 1e9);
+  const auto degrees = [](double angle) { return std::round(angle / units::deg * 1e9) / 1e9; };
+  append(text, degrees(entry.gear.helix_angle));
   append(text, entry.gear.profile_shift);
   append(text, entry.gear.relative_face);
+  for (const double length : {entry.profile.rack.addendum, entry.profile.rack.dedendum, entry.profile.rack.root_radius}) append(text, length);
+  append(text, degrees(entry.profile.pressure_angle));
   append(text, entry.status == FitStatus::Converged ? 1.0 : 0.0);
   append(text, entry.iterations);
   append(text, entry.pairs);

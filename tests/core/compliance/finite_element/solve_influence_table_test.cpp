@@ -54,11 +54,11 @@ TEST_CASE("A solved table is the gear's influence matrix at the places of its gr
   const FlankGrid grid = coarse_grid(3);
   std::vector<int> steps;
   const InfluenceTableRun run = solve_influence_table(task_of(gear, grid), kNoLimit, [&](int done, int total) {
-    CHECK(total == 2);
+    CHECK(total == kTableSteps);
     steps.push_back(done);
   });
   REQUIRE(run.status == FactorStatus::Factorised);
-  CHECK(steps == std::vector<int>{0, 1, 2});
+  CHECK(steps == std::vector<int>{0, kModelSteps, kTableSteps});
   CHECK(run.statistics.peak_bytes < expected_bytes(run.statistics.unknowns));
 
   GearMeshOptions options = coarse();

@@ -20,13 +20,13 @@ using units::deg;
 
 namespace {
 
-std::shared_ptr<const RefinedCompliance> refined(const GearFacts& gear) {
-  InfluenceTableTask task{.gear = standard_gear(gear), .mesh = coarse_mesh(), .grid = flank_grid(gear.relative_face)};
+std::shared_ptr<const RefinedCompliance> refined(const GearFacts& gear, const ReferenceProfile& profile = {}) {
+  InfluenceTableTask task{.gear = standard_gear(gear, profile), .mesh = coarse_mesh(), .grid = flank_grid(gear.relative_face)};
   const InfluenceTableRun run = solve_influence_table(task, std::numeric_limits<double>::infinity());
   REQUIRE(run.table);
   CHECK(run.table->projection().added < 1e-4);  // discretisation: unlike meshes of neighbouring teeth
   return std::make_shared<const RefinedCompliance>(std::make_shared<const InfluenceTable>(*run.table), gear,
-                                                   RefinementLibrary::shipped().coefficients(gear));
+                                                   RefinementLibrary::shipped().coefficients(gear, profile));
 }
 
 /// The places of tooth 0, the only one that the fine mesh has finely: what it says of a neighbour's own values is no truth.
@@ -140,13 +140,27 @@ TEST_CASE("The coarse mesh takes gears of the whole range, pointed ones apart", 
 }
 
 TEST_CASE("Fitted gears that the library has not seen come close to finite elements", "[.soak][core][compliance][fitted]") {
-  const GearFacts gear = GENERATE(GearFacts{24, 25 * deg, 12, 0.2}, GearFacts{43, 10 * deg, 12, -0.2},
-                                  GearFacts{90, 30 * deg, 12, 0}, GearFacts{15, 20 * deg, 12, 0.4},
-                                  GearFacts{30, 20 * deg, 6, 0}, GearFacts{30, 20 * deg, 25, 0}, GearFacts{18, 30 * deg, 12, 0},
-                                  GearFacts{20, 15 * deg, 3, 0}, GearFacts{12, 5 * deg, 10, -0.3});
+  using Gear = std::pair<GearFacts, ReferenceProfile>;
+  const auto [gear, profile] = GENERATE(values<Gear>({
+      {{24, 25 * deg, 12, 0.2}, {}},
+      {{43, 10 * deg, 12, -0.2}, {}},
+      {{90, 30 * deg, 12, 0}, {}},
+      {{15, 20 * deg, 12, 0.4}, {}},
+      {{30, 20 * deg, 6, 0}, {}},
+      {{30, 20 * deg, 25, 0}, {}},
+      {{18, 30 * deg, 12, 0}, {}},
+      {{20, 15 * deg, 3, 0}, {}},
+      {{12, 5 * deg, 10, -0.3}, {}},
+      {{23, 28 * deg, 12, 0.25}, {.rack = {1.25, 1.6, 0.25}}},
+      {{67, 28 * deg, 12, 0.05}, {.rack = {1.25, 1.6, 0.25}}},
+      {{18, 12 * deg, 10, 0.3}, {.rack = {1.1, 1.4, 0.2}}},
+      {{40, 20 * deg, 10, -0.2}, {.rack = {1.4, 1.6, 0.2}, .pressure_angle = 17.5 * deg}},
+      {{30, 15 * deg, 10, 0.2}, {.rack = {1, 1.25, 0.3}, .pressure_angle = 22.5 * deg}},
+      {{14, 5 * deg, 8, 0.4}, {.rack = {1, 1.25, 0.25}, .pressure_angle = 19 * deg}},
+  }));
   const auto places = test_places(gear.relative_face);
-  const InfluenceSample fine = element_sample(gear, {}, places);
-  const auto model = refined(gear);
+  const InfluenceSample fine = element_sample(gear, {}, places, profile);
+  const auto model = refined(gear, profile);
   const InfluenceSample own = on_fine_tooth(fine);
   auto errors = residual_statistics(*model, {&fine, 1}, kScaleFloor);
   auto coarse = residual_statistics(model->coarse(), {&fine, 1}, kScaleFloor);
@@ -154,6 +168,8 @@ TEST_CASE("Fitted gears that the library has not seen come close to finite eleme
   coarse[0] = residual_statistics(model->coarse(), {&own, 1}, kScaleFloor).front();
   for (std::size_t m = 0; m < errors.size(); ++m) {
     WARN("Z " << gear.teeth << " beta " << gear.helix_angle / deg << " x " << gear.profile_shift << " b " << gear.relative_face
+              << " rack " << profile.rack.addendum << " / " << profile.rack.dedendum << " / " << profile.rack.root_radius << " at "
+              << profile.pressure_angle / deg << " deg"
               << ", " << m << " apart: " << 100 * errors[m].median << " / " << 100 * errors[m].share_95 << " / "
               << 100 * errors[m].worst << " %, coarse alone " << 100 * coarse[m].median << " / " << 100 * coarse[m].share_95
               << " / " << 100 * coarse[m].worst);

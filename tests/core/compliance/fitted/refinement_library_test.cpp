@@ -44,13 +44,14 @@ TEST_CASE("The library gives its own entries back, spur gears alike at both ends
   const auto places = places_on({-1, 0, 1}, {0, 0.3, 2, 4, 6, 7.7, 8});
   for (const RefinementEntry& entry : library.entries()) {
     CAPTURE(entry.gear.teeth, entry.gear.helix_angle / deg, entry.gear.profile_shift);
-    const std::vector<double> found = library.coefficients(entry.gear);
+    const std::vector<double> found = library.coefficients(entry.gear, entry.profile);
     if (entry.gear.helix_angle != 0) {
       for (std::size_t i = 0; i < found.size(); ++i) CHECK(found[i] == Approx(entry.coefficients[i]).margin(1e-12));
     }
     const Eigen::MatrixXd here = kernels_between(entry.gear, found, places),
                           fitted = kernels_between(entry.gear, entry.coefficients, places);
-    CHECK((here - fitted).norm() < 0.03 * fitted.norm());  // model: a spur gear's torque leaves at one of its ends
+    // Model: a spur gear's torque leaves at one of its ends.
+    CHECK((here - fitted).norm() < 0.03 * fitted.norm());
     if (entry.gear.helix_angle == 0) {
       auto turned = places;
       for (FlankPlace& place : turned) place.zeta = entry.gear.relative_face - place.zeta;
@@ -113,6 +114,20 @@ TEST_CASE("Between its entries the library neither overshoots nor does negative 
   }
 }
 
+TEST_CASE("Racks between those of the library change its kernels in proportion to what they depart by", "[core][compliance][fitted]") {
+  const RefinementLibrary& library = RefinementLibrary::shipped();
+  const GearFacts gear{40, 20 * deg, 10, 0.1};
+  const auto departs = [&](const RackProfile& rack) {
+    const std::vector<double> with = library.coefficients(gear, {.rack = rack}), standard = library.coefficients(gear);
+    return Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(with.data(), std::ssize(with)) -
+                           Eigen::Map<const Eigen::VectorXd>(standard.data(), std::ssize(standard)));
+  };
+  const Eigen::VectorXd addendum = departs({1.4, 1.25, 0.39}), root = departs({1, 1.25, 0.2}), dedendum = departs({1, 1.6, 0.25});
+  CHECK(std::min({addendum.norm(), root.norm(), dedendum.norm()}) > 0);
+  const Eigen::VectorXd sum = departs({1.2, 1.25 + 0.175, 0.39 - 0.095 - 0.07});
+  CHECK((sum - 0.5 * (addendum + root + dedendum)).norm() < 1e-12 * sum.norm());  // round-off
+}
+
 TEST_CASE("What the library does not know is said by name, with its range", "[core][compliance][fitted]") {
   const RefinementLibrary& library = RefinementLibrary::shipped();
   GearToMesh gear = standard_gear({24, 20 * deg, 10, 0.2});
@@ -129,20 +144,23 @@ TEST_CASE("What the library does not know is said by name, with its range", "[co
   };
   CHECK(unknown([](GearToMesh& g) { g.gear.teeth = 11; }) == "teeth 11, in the library 12 .. 150");
   CHECK(unknown([](GearToMesh& g) { g.helix_angle = 36 * deg; }) == "helix_angle 36 deg, in the library 0 .. 35 deg");
-  CHECK(unknown([](GearToMesh& g) { g.pressure_angle = 25 * deg; }) == "pressure_angle 25 deg, in the library 20 deg");
+  CHECK(unknown([](GearToMesh& g) { g.pressure_angle = 25 * deg; }) == "pressure_angle 25 deg, in the library 17.5 .. 22.5 deg");
   CHECK_THAT(unknown([](GearToMesh& g) { g.gear.profile_shift = 0.7; }), Catch::StartsWith("profile_shift"));
   CHECK_THAT(unknown([](GearToMesh& g) { g.gear.face_width = 1.9; }), Catch::StartsWith("face_width"));
-  CHECK_THAT(unknown([](GearToMesh& g) { g.gear.rack.dedendum = 1.4; }), Catch::StartsWith("rack.dedendum"));
+  CHECK_THAT(unknown([](GearToMesh& g) { g.gear.rack.dedendum = 1.7; }), Catch::StartsWith("rack.dedendum"));
   CHECK_THAT(unknown([](GearToMesh& g) { g.gear.tip_diameter = 20; }), Catch::StartsWith("tip_diameter"));
   CHECK_THAT(library.unknown(gear, 0.4), Catch::StartsWith("poissons_ratio"));
 }
 
 TEST_CASE("The nearest gear of the library is the gear itself within its ranges, and else at their ends", "[core][compliance][fitted]") {
-  const RefinementLibrary& library = RefinementLibrary::shipped();
+  const RefinementGrid& library = RefinementLibrary::shipped().standard();
   const GearFacts inside{24, 20 * deg, 10, 0.2};
   CHECK(library.nearest(inside) == inside);
   CHECK(library.nearest({10, 40 * deg, 3, 0.8}) == GearFacts{12, library.helix_angles().back(), 3, 0.6});
   CHECK(library.nearest({200, -40 * deg, 3, -0.5}) == GearFacts{150, -library.helix_angles().back(), 3, -0.4});
+  const RefinementLibrary& whole = RefinementLibrary::shipped();
+  CHECK(whole.coefficients({10, 40 * deg, 3, 0.8}) == whole.coefficients({12, library.helix_angles().back(), 3, 0.6}));
+  CHECK(whole.coefficients(inside, {.rack = {1.6, 1.25, 0.39}}) == whole.coefficients(inside, {.rack = {1.4, 1.25, 0.39}}));
 }
 
 TEST_CASE("A library is read as it was written, and refused where an entry is missing", "[core][compliance][fitted]") {
@@ -153,6 +171,7 @@ TEST_CASE("A library is read as it was written, and refused where an entry is mi
   REQUIRE(read.size() == library.entries().size());
   for (std::size_t i = 0; i < read.size(); ++i) {
     CHECK(read[i].gear == library.entries()[i].gear);
+    CHECK(read[i].profile == library.entries()[i].profile);
     CHECK(read[i].coefficients == library.entries()[i].coefficients);
     CHECK(read[i].unseen == library.entries()[i].unseen);
     CHECK(read[i].covariance == library.entries()[i].covariance);
@@ -164,5 +183,13 @@ TEST_CASE("A library is read as it was written, and refused where an entry is mi
   twice.back() = twice.front();
   CHECK_THROWS_AS(RefinementLibrary(twice), InvalidInput);
   CHECK_THROWS_AS(RefinementLibrary({}), InvalidInput);
+  auto two_racks = read;
+  std::erase_if(two_racks, [&](const RefinementEntry& entry) { return entry.profile.rack.addendum != RackProfile{}.addendum; });
+  CHECK_THROWS_AS(RefinementLibrary(two_racks), InvalidInput);
+  auto at_once = read;
+  for (RefinementEntry& entry : at_once) {
+    if (entry.profile.rack.addendum != RackProfile{}.addendum) entry.profile.pressure_angle = 15 * deg;
+  }
+  CHECK_THROWS_AS(RefinementLibrary(at_once), InvalidInput);
   CHECK_THROWS_WITH(entries_in("# remark\n1 2 3\n"), Catch::Contains("line 2"));
 }

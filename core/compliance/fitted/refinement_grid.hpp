@@ -1,0 +1,72 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "core/base/units.hpp"
+#include "core/compliance/fitted/influence_sample.hpp"
+#include "core/compliance/fitted/kernel_form.hpp"
+#include "core/compliance/fitted/least_squares.hpp"
+#include "core/compliance/fitted/residual_statistics.hpp"
+#include "core/gear/gear_data.hpp"
+
+namespace flankwright {
+
+/// Reference profile of a gear in the normal section; by default the standard one.
+struct ReferenceProfile {
+  RackProfile rack{};
+  double pressure_angle{20 * units::deg};  ///< alpha_n [rad]
+
+  bool operator==(const ReferenceProfile& other) const {
+    return rack.addendum == other.rack.addendum && rack.dedendum == other.rack.dedendum && rack.root_radius == other.rack.root_radius &&
+           pressure_angle == other.pressure_angle;
+  }
+};
+
+/// One gear's fit of what a fine mesh adds to the compliance by a coarse one.
+struct RefinementEntry {
+  GearFacts gear;
+  ReferenceProfile profile{};
+  FitStatus status{FitStatus::NotRun};
+  int iterations{-1};
+  int pairs{0};
+  double seconds{not_given};         ///< wall time of the finite elements and the fit
+  ResidualStatistics fitted;         ///< of coarse values plus fit against fine ones, on the places fitted
+  ResidualStatistics unseen;         ///< on places that the fit has not seen
+  std::vector<double> coefficients;  ///< of KernelForm::refinement()
+  Eigen::MatrixXd covariance;        ///< of the coefficients, FitResult::covariance; empty where the fit failed
+};
+
+/// Lagrange's polynomials through the nodes, at x.
+std::vector<double> cardinal_polynomials(const std::vector<double>& nodes, double x);
+
+/// Coefficients of the same fit with the ends of the face exchanged.
+std::vector<double> mirrored(const KernelForm& form, const std::vector<double>& coefficients);
+
+/// Fits over a tensor grid of gears of one reference profile, and between them: every coefficient is a polynomial through the entries in
+/// 1/Z, beta and x. An entry of beta stands, with its ends exchanged, for -beta as well, and one of beta = 0 is made alike at both
+/// ends: what both ends have in common is even in beta, what tells them apart is odd. The face width does not enter.
+class RefinementGrid {
+ public:
+  /// @throws InvalidInput "library" where entries are not all combinations of their teeth, helix angles (the first 0)
+  ///         and profile shifts, once each, or have coefficients of another form
+  explicit RefinementGrid(std::vector<RefinementEntry> entries);
+
+  const std::vector<RefinementEntry>& entries() const { return entries_; }
+  const std::vector<int>& teeth() const { return teeth_; }                      ///< ascending
+  const std::vector<double>& helix_angles() const { return helix_angles_; }     ///< ascending [rad]
+  const std::vector<double>& profile_shifts() const { return profile_shifts_; }  ///< ascending
+
+  /// The gear itself, or what within the ranges of the entries is nearest in each fact.
+  GearFacts nearest(GearFacts gear) const;
+
+  /// Coefficients for a gear within the ranges.
+  std::vector<double> coefficients(const GearFacts& gear) const;
+
+ private:
+  std::vector<RefinementEntry> entries_;  ///< profile shift runs fastest, then the helix angle
+  std::vector<int> teeth_;
+  std::vector<double> helix_angles_, profile_shifts_;
+};
+
+}  // namespace flankwright
