@@ -6,8 +6,10 @@
 
 #include "core/base/stopwatch.hpp"
 #include "core/load/mesh_motion.hpp"
+#include "studies/position_memory.hpp"
 #include "studies/proof/drawn_scenes.hpp"
 #include "studies/refine_resolution.hpp"
+#include "studies/requirements.hpp"
 #include "studies/study_effects.hpp"
 #include "studies/study_notes.hpp"
 #include "studies/study_shafts.hpp"
@@ -47,7 +49,7 @@ class Run {
     }
     size_effects();
     add_seconds(results_.effects, results_.mesh_effects, unloaded_seconds_);
-    check_results();
+    add_unmet_by_load_cases(results_);
     results_.seconds = clock.seconds();
     return std::move(results_);
   }
@@ -198,7 +200,10 @@ class Run {
   /// Located peaks with and without spikes, and the load factors that follow.
   void rate() {
     if (!locates_peaks(results_.study)) return;
-    const auto mesh = [this](const Misalignment& m, const std::vector<MeshParameter>& by) { return mesh_at(m, by); };
+    std::map<MeshPlacement, PositionMemory> memories;  // the parts of a condition are looked at in the same phases to begin with
+    const auto mesh = [&](const Misalignment& m, const std::vector<MeshParameter>& by) {
+      return by.empty() ? memories[placement_of(m)].remembering(mesh_at(m)) : mesh_at(m, by);
+    };
     for (LoadedResult& loaded : results_.loaded) {
       if (loaded.cycle.usable()) loaded.rating = rater_.rate(mesh, loaded.condition, loaded.torque, gradient_parameters());
     }
@@ -319,29 +324,7 @@ class Run {
     results_.after_errors = show(problem, "after", results_.design->after);
     if (results_.design->exact) resolve_report(problem, resolved_cycles(problem, *results_.design->exact, false), *results_.design->exact);
     rate();
-    const bool ended_well = design.status == SolverStatus::Converged || design.status == SolverStatus::Stalled;
-    if (!ended_well) {
-      results_.requirements.push_back("the optimisation ended early (" + to_string(design.status) + "): " + design.message);
-    }
-    for (std::size_t c = 0; c < study.optimise.constraints.size(); ++c) {
-      const OutputConstraint& constraint = study.optimise.constraints[c];
-      const double value = design.after.constraint_values[c];
-      if (constraint.excess(value) > DesignLog::tolerance) {
-        const double factor = constraint.output.outside_factor();
-        results_.requirements.push_back("the constraint " + constraint.output.name + (constraint.is_least() ? " >= " : " <= ") +
-                                        number(constraint.limit() * factor) + " is violated: " + number(value * factor) + " " +
-                                        constraint.output.unit());
-      }
-    }
-    for (std::size_t c = 0; c < study.optimise.modification_constraints.size(); ++c) {
-      const ModificationConstraint& constraint = study.optimise.modification_constraints[c];
-      const double value = design.after.modification_values[c];
-      const double slack = DesignLog::tolerance * problem.modification_scale(constraint);
-      if (value > constraint.maximum + slack || value < constraint.minimum - slack) {
-        results_.requirements.push_back("the constraint on " + constraint.name + " is violated: " +
-                                        number(value * constraint.outside_factor()) + " " + constraint.unit());
-      }
-    }
+    add_unmet_by_design(problem, results_);
   }
 
   /// Extremes between the positions may exceed a constraint that is kept at the positions. It is then asked for at the positions with as much
@@ -413,29 +396,6 @@ class Run {
     for (const GearFit& fit : results_.fits) {
       const std::string unmet = unmet_requirement(fit);
       if (!unmet.empty()) results_.requirements.push_back(unmet);
-    }
-  }
-
-  void check_results() {
-    for (const UnloadedResult& unloaded : results_.unloaded) {
-      if (unloaded.mesh.missing > 0) {
-        results_.requirements.push_back("scene \"" + unloaded.scene + "\": no tooth pair touches at " +
-                                        std::to_string(unloaded.mesh.missing) + " of the mesh positions");
-      }
-    }
-    for (const LoadedResult& loaded : results_.loaded) {
-      if (loaded.cycle.usable()) continue;
-      const auto apart = std::ranges::count_if(loaded.cycle.positions, [](const LoadedPosition& position) {
-        return position.load.status == LoadStatus::NoContactPoints;
-      });
-      if (apart > 0) {
-        results_.requirements.push_back("scene \"" + loaded.scene + "\": no point of the flanks can touch the mate at " + std::to_string(apart) +
-                                        " mesh positions; misalignment may have moved the faces past each other");
-      }
-      if (loaded.cycle.failures > apart) {
-        results_.requirements.push_back("scene \"" + loaded.scene + "\": the load distribution did not converge at " +
-                                        std::to_string(loaded.cycle.failures - apart) + " mesh positions");
-      }
     }
   }
 

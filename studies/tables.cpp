@@ -110,6 +110,15 @@ std::string change(double before, double after) {
   return before != 0.0 ? fmt::format("{:+.1f} %", 100.0 * (after / before - 1.0)) : std::string("-");
 }
 
+/// "± 0.012", two digits; empty where no error was estimated.
+std::string known_to(double error) { return std::isnan(error) ? std::string() : fmt::format("± {:.2g}", error); }
+
+/// A line below a row of figures: how far they are from those of infinitely many points and positions.
+std::string error_row(std::size_t width, double before, double after) {
+  if (std::isnan(before) && std::isnan(after)) return {};
+  return fmt::format("{:<{}}  {:>12}  {:>12}\n", "  known to", width, known_to(before), known_to(after));
+}
+
 std::string design_table(const StudyResults& results) {
   const DesignTask& task = *results.design_task;
   const DesignResult& design = *results.design;
@@ -136,6 +145,7 @@ std::string design_table(const StudyResults& results) {
   }
   out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", "over the scenes", width, design.before.objective,
                      design.after.objective, change(design.before.objective, design.after.objective));
+  out += error_row(width, results.before_errors.objective, results.after_errors.objective);
   for (std::size_t c = 0; c < task.constraints.size(); ++c) {
     const ObjectiveTerm& output = task.constraints[c].output;
     const OutputConstraint& bound = task.constraints[c];
@@ -143,10 +153,26 @@ std::string design_table(const StudyResults& results) {
                        fmt::format("{} {} {:.5g} {}", plain_name(output.name), bound.is_least() ? ">=" : "<=", bound.limit() * output.outside_factor(), output.unit()),
                        width, design.before.constraint_values[c] * output.outside_factor(),
                        design.after.constraint_values[c] * output.outside_factor(), "");
+    if (c < results.after_errors.constraint_values.size()) {
+      out += error_row(width, results.before_errors.constraint_values[c] * output.outside_factor(),
+                       results.after_errors.constraint_values[c] * output.outside_factor());
+    }
   }
   out += fmt::format("\n{}: {} after {} analyses of {} scenes in {:.1f} s\n", design.solver, to_string(design.status),
                      design.evaluations, task.scenes.size(), design.seconds);
-  return results.proof ? out + proof_summary(*results.proof, task, design.after.objective) : out;
+  if (results.search_work) {
+    const SearchWork& work = *results.search_work;
+    const auto level = [&](const LevelWork& w) {
+      const double cycles = static_cast<double>(w.analyses) * static_cast<double>(task.scenes.size());
+      return fmt::format("{:.0f} cycles of {} intervals and {} positions, {:.2g} ms each", cycles, w.resolution.quadrature.intervals,
+                         w.resolution.phases.size(), 1e3 * w.seconds / cycles);
+    };
+    const bool two = work.search.resolution.quadrature.intervals != work.fine.resolution.quadrature.intervals;
+    out += two ? fmt::format("searched by {}; finished by {}\n", level(work.search), level(work.fine)) : level(work.fine) + "\n";
+  }
+  // Other designs are judged at the positions: so is, beside them, the optimum.
+  const double compared = results.search_work ? results.search_work->objective_at_positions : design.after.objective;
+  return results.proof ? out + proof_summary(*results.proof, task, compared) : out;
 }
 
 std::string analysis_table(const StudyResults& results) {
@@ -170,6 +196,12 @@ std::string analysis_table(const StudyResults& results) {
                        in_um(l.summary.te_peak_to_peak), in_um(first), l.summary.peak_line_load,
                        l.summary.peak_contact_stress, root_column(fmt::format("{:.2f}", l.summary.peak_root_stress)),
                        l.summary.mean_stiffness);
+    const CycleErrors& errors = l.resolved.errors;
+    if (std::isnan(errors.te_peak_to_peak)) continue;
+    const double first_error = errors.te_harmonics.empty() ? not_given : errors.te_harmonics.front();
+    out += fmt::format("{:<{}}  {:>9}  {:>10}  {:>10}  {:>10}  {:>10}{}  {:>12}\n", "  known to", width, "", known_to(in_um(errors.te_peak_to_peak)),
+                       known_to(in_um(first_error)), known_to(errors.peak_line_load), known_to(errors.peak_contact_stress),
+                       root_column(known_to(errors.peak_root_stress)), known_to(errors.mean_stiffness));
   }
   return out + load_factors_table(results, width) + unloaded_summary(results, width);
 }

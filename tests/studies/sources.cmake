@@ -6,6 +6,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/study_mutation_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_problems_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_syntax_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/default_resolution_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_template_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_texts.cpp
      ${CMAKE_CURRENT_LIST_DIR}/value_with_unit_test.cpp)
