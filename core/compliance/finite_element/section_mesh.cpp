@@ -21,10 +21,6 @@ using units::pi;
 
 constexpr double kWidest = 24 * units::deg;  // of one quadratic element around the axis
 
-/// Depth below the root circle down to which teeth keep their centre lines, which loads enter over [m_n]. A load's weights there are
-/// below h^3/R^3 = 0.002 of it, h = 0.4 m_n being its source's height above the centre surface at the root.
-constexpr double kCentreLines = 3;
-
 /// Polar coordinates, the angle counter-clockwise from +y.
 struct Polar {
   double radius, angle;
@@ -332,12 +328,9 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
   std::vector<SectionTooth> lines;
   std::vector<double> angles;  // of the rim's nodes at half steps, counter-clockwise
   const double pitch = 2 * pi / teeth;
-  std::vector<double> centres;     // of the detailed teeth
-  std::vector<std::size_t> open;   // those whose centre line goes on
-  for (int m = -options.teeth_each_side; m <= options.teeth_each_side; ++m) {
-    open.push_back(centres.size());
-    centres.push_back(m * pitch);
-  }
+  // Centre lines of the detailed teeth go down to the bore: a load's moments are made up for over all of the centre surface.
+  std::vector<double> centres;
+  for (int m = -options.teeth_each_side; m <= options.teeth_each_side; ++m) centres.push_back(m * pitch);
 
   for (int m = -options.teeth_each_side; m <= options.teeth_each_side; ++m) {
     const HalfTooth half =
@@ -392,7 +385,7 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
       const double from = outer + (inner - outer) * fractions[ring], to = outer + (inner - outer) * fractions[ring + 1];
       const double depth = root - from;
       const double longest = options.layer_share * std::min(depth, from) / from;
-      JoinedRing joined = join_neighbours(around, std::min(longest, kWidest), depth < kCentreLines * normal_module ? centres : std::vector<double>{});
+      JoinedRing joined = join_neighbours(around, std::min(longest, kWidest), centres);
       for (const int joint : joined.joints) {
         const auto node = [&](int place) { return builder.node(Polar{from, around.angle(place)}.point()); };
         const SectionEdge edge{node(joint - 2), node(joint), node(joint + 2)};
@@ -403,8 +396,7 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
       const std::array<double, 3> at{from, 0.5 * (from + to), to};
       builder.grid(around.elements(), 1, part,
                    [&](int i, int j) { return Polar{at[static_cast<std::size_t>(j)], around.angle(i)}.point(); });
-      std::erase_if(open, [&](std::size_t m) { return !around.has_corner(centres[m]); });
-      for (const std::size_t m : open) {
+      for (std::size_t m = 0; m < centres.size(); ++m) {
         const auto node = [&](double radius) { return builder.node(Polar{radius, centres[m]}.point()); };
         lines[m].centre_line.push_back({node(at[0]), node(at[1]), node(at[2])});
       }

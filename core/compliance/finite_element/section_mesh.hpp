@@ -66,7 +66,7 @@ using SectionEdge = std::array<int, 3>;
 
 /// Lines of one detailed tooth in the section.
 struct SectionTooth {
-  std::vector<SectionEdge> centre_line;  ///< tip to bore, or to where elements below the teeth are joined across it
+  std::vector<SectionEdge> centre_line;  ///< tip to bore
   std::vector<SectionEdge> flank;        ///< right-hand involute, tip to start of fillet
   std::vector<SectionEdge> fillet;       ///< right-hand fillet, down to its lowest point
 };

@@ -200,7 +200,7 @@ TEST_CASE("A fit made on a narrower face serves a wide one", "[.soak][core][comp
   const RefinementLibrary& library = RefinementLibrary::shipped();
   const RefinementEntry narrow =
       fit_refinement(refinement_samples(facts, *table(gear, widest_own_fit, {}), *table(gear, widest_own_fit, coarse_mesh())),
-                     library.coefficients(library.nearest(facts)));
+                     library.coefficients(facts, profile_of(gear)));
   REQUIRE(narrow.status == FitStatus::Converged);
   facts.relative_face = face;
   const RefinedCompliance compliance(coarse, facts, narrow.coefficients);
