@@ -1,13 +1,14 @@
 #include "core/load/load_start.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flankwright {
 
 namespace {
 
-/// Positions that are extrapolated from.
-constexpr std::size_t history = 3;
+/// Positions count as no further apart than so many times what is between the two before.
+constexpr double farthest = 2.0;
 
 /// Points [begin, end) of one tooth pair's line; [core_begin, core_end) of them between A and E, where the clearance is 0. Where none is
 /// the core is an empty one at the end that comes nearest to it.
@@ -68,36 +69,31 @@ std::vector<Eigen::Index> corresponding_points(const MeshPosition& from, const M
 Eigen::VectorXd starting_loads(const MeshModel& model, const LoadedCycle& cycle, std::size_t i, const LoadedCycle* earlier) {
   const auto loads_of = [](const LoadedCycle& of, std::size_t k) -> const Eigen::VectorXd& { return of.positions[k].load.line_load; };
   const auto solved = [](const LoadedCycle& of, std::size_t k) { return of.positions[k].load.usable(); };
+  const Eigen::Index n = std::ssize(model.positions[i].points);
   const bool follows = earlier != nullptr && earlier->positions.size() == model.positions.size() && solved(*earlier, i) &&
-                       loads_of(*earlier, i).size() == std::ssize(model.positions[i].points);
-  std::size_t known = 0;
-  while (known < std::min(i, history) && solved(cycle, i - 1 - known) && (!follows || solved(*earlier, i - 1 - known))) ++known;
-  if (known == 0) return follows ? loads_of(*earlier, i) : Eigen::VectorXd();
+                       loads_of(*earlier, i).size() == n;
+  const auto known = [&](std::size_t back) { return i >= back && solved(cycle, i - back) && (!follows || solved(*earlier, i - back)); };
+  if (!known(1)) return follows ? loads_of(*earlier, i) : Eigen::VectorXd();
 
-  std::vector<Eigen::VectorXd> change(known);      // of the k-th position before
-  std::vector<std::vector<Eigen::Index>> at(known);  // where it has point j
-  for (std::size_t k = 0; k < known; ++k) {
-    change[k] = loads_of(cycle, i - 1 - k);
-    if (follows) change[k] -= loads_of(*earlier, i - 1 - k);
-    at[k] = corresponding_points(model.positions[i - 1 - k], model.positions[i]);
-  }
-  // Lagrange's weights at this phase for the 1, 2 or 3 positions before.
-  double weights[history][history];
-  for (std::size_t count = 1; count <= known; ++count) {
-    for (std::size_t k = 0; k < count; ++k) {
-      double& weight = weights[count - 1][k] = 1.0;
-      for (std::size_t l = 0; l < count; ++l) {
-        const auto phase = [&](std::size_t back) { return model.positions[i - 1 - back].phase; };
-        if (l != k) weight *= (model.positions[i].phase - phase(l)) / (phase(k) - phase(l));
-      }
-    }
-  }
-  Eigen::VectorXd start = follows ? loads_of(*earlier, i) : Eigen::VectorXd::Zero(std::ssize(model.positions[i].points));
-  for (Eigen::Index j = 0; j < start.size(); ++j) {
-    const auto point = static_cast<std::size_t>(j);
-    std::size_t count = 0;
-    while (count < known && at[count][point] >= 0) ++count;
-    for (std::size_t k = 0; k < count; ++k) start[j] += weights[count - 1][k] * change[k][at[k][point]];
+  // Loads, or what of them is new, of so many positions before, at the points of this one; quiet NaN where it has no such point.
+  const auto carried = [&](std::size_t back) {
+    Eigen::VectorXd change = loads_of(cycle, i - back);
+    if (follows) change -= loads_of(*earlier, i - back);
+    const std::vector<Eigen::Index> at = corresponding_points(model.positions[i - back], model.positions[i]);
+    return Eigen::VectorXd::NullaryExpr(n, [&](Eigen::Index j) {
+      const Eigen::Index k = at[static_cast<std::size_t>(j)];
+      return k < 0 ? not_given : change[k];
+    }).eval();
+  };
+  const Eigen::VectorXd last = carried(1);
+  const Eigen::VectorXd before = known(2) ? carried(2) : last;
+  const auto phase = [&](std::size_t back) { return model.positions[i - back].phase; };
+  const double between = known(2) ? phase(1) - phase(2) : 0.0;
+  const double further = between > 0.0 ? std::clamp((phase(0) - phase(1)) / between, -farthest, farthest) : 0.0;
+  Eigen::VectorXd start = follows ? loads_of(*earlier, i) : Eigen::VectorXd::Zero(n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    if (std::isnan(last[j])) continue;
+    start[j] += last[j] + (std::isnan(before[j]) ? 0.0 : further * (last[j] - before[j]));
   }
   return start.cwiseMax(0.0);
 }
