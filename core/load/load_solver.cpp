@@ -23,7 +23,7 @@ constexpr double overshoot = 0.5;
 constexpr double last_step = 1e-7;
 constexpr double last_correction = 1e-11;
 /// Points join the working set that the start leaves less than this share of the approach away from contact.
-constexpr double contact_reach = 0.05;
+constexpr double contact_reach = 0.02;
 /// The factor of the last step serves the derivatives too where no diagonal entry of H has changed by more than this share since.
 constexpr double same_factor = 1e-9;
 

@@ -16,7 +16,7 @@ std::vector<Eigen::Index> corresponding_points(const MeshPosition& from, const M
 
 /// Line loads near those of position i, to start its solution from, n; empty where nothing is known.
 ///
-/// Extrapolates the loads of up to three positions before it by a polynomial in the phase. With an earlier cycle what is extrapolated is
+/// Extrapolates the loads of the two positions before it along the phase. With an earlier cycle what is extrapolated is
 /// what has changed since, which is added to the earlier loads of position i itself: where the design has changed by little, the start
 /// is off by little of that.
 /// @param cycle    solved up to position i - 1

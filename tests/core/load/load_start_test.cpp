@@ -1,0 +1,74 @@
+#include "core/load/load_start.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/core/load/mesh_cases.hpp"
+
+using namespace flankwright;
+
+namespace {
+
+double mean_iterations(const LoadedCycle& cycle) {
+  double sum = 0.0;
+  for (const LoadedPosition& position : cycle.positions) sum += position.load.iterations;
+  return sum / static_cast<double>(cycle.positions.size());
+}
+
+}  // namespace
+
+TEST_CASE("Points of a graded line correspond by their place between its ends", "[core][load]") {
+  const GearPair gears = mesh_cases::pair(18, 54, 20.0, 3.0, 30.0);
+  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 6}, equally_spaced_phases(32)});
+  int compared = 0;
+  for (std::size_t i = 1; i < model.positions.size(); ++i) {
+    const MeshPosition &from = model.positions[i - 1], &to = model.positions[i];
+    const auto found = corresponding_points(from, to);
+    REQUIRE(found.size() == to.points.size());
+    for (std::size_t j = 0; j < found.size(); ++j) {
+      if (found[j] < 0) continue;
+      const ContactPoint &here = to.points[j], &there = from.points[static_cast<std::size_t>(found[j])];
+      CAPTURE(i, j);
+      CHECK(here.tooth == there.tooth);
+      CHECK((here.clearance == 0.0) == (there.clearance == 0.0));
+      if (j > 0 && found[j - 1] >= 0) CHECK(found[j] > found[j - 1]);
+      ++compared;
+    }
+  }
+  CHECK(compared > 1000);
+}
+
+TEST_CASE("Points at the same z correspond where the rule does not move with the line", "[core][load]") {
+  const GearPair gears = mesh_cases::pair(18, 54, 20.0, 3.0, 30.0);
+  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Gauss2, 12}, equally_spaced_phases(16)});
+  for (std::size_t i = 1; i < model.positions.size(); ++i) {
+    const auto found = corresponding_points(model.positions[i - 1], model.positions[i]);
+    for (std::size_t j = 0; j < found.size(); ++j) {
+      if (found[j] >= 0) CHECK(model.positions[i - 1].points[static_cast<std::size_t>(found[j])].z == model.positions[i].points[j].z);
+    }
+  }
+}
+
+TEST_CASE("A cycle that starts from an earlier one's loads ends at the same, sooner", "[core][load]") {
+  constexpr double kRoundOff = 1e-10;  // tolerance of the solver times the condition of the problem
+  const GearPair gears = mesh_cases::pair(18, 54, 20.0, 3.0, 30.0);
+  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 6}, equally_spaced_phases(32)});
+  const double torque = mesh_cases::torque_for(gears, 200.0);
+  FlankCondition condition;
+  condition.pinion_modification.lead_crowning = 6 * units::um;
+  condition.pinion_modification.tip_relief = {10 * units::um, 0.4, ReliefShape::Linear};
+  const LoadedCycle earlier = analyse_cycle(model, condition, torque);
+  const double change = GENERATE(1e-3, 0.1, 5.0);  // um
+  condition.pinion_modification.lead_crowning += change * units::um;
+  const LoadedCycle alone = analyse_cycle(model, condition, torque);
+  const LoadedCycle after = analyse_cycle(model, condition, torque, {}, {}, RootStresses::WithLoads, &earlier);
+  REQUIRE(alone.usable());
+  REQUIRE(after.usable());
+  for (std::size_t i = 0; i < alone.positions.size(); ++i) {
+    const LoadDistribution &a = alone.positions[i].load, &b = after.positions[i].load;
+    CAPTURE(change, i);
+    CHECK((a.line_load - b.line_load).lpNorm<Eigen::Infinity>() <= kRoundOff * a.line_load.maxCoeff());
+    CHECK(b.transmission_error == Approx(a.transmission_error).epsilon(1e-12));
+  }
+  if (change <= 0.1) CHECK(mean_iterations(after) < mean_iterations(alone));
+  CHECK(mean_iterations(alone) <= 4.0);
+}
