@@ -1,5 +1,7 @@
 #include "studies/effect_sizes.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -65,13 +67,19 @@ const SizeInStudy* size_of(const std::vector<SizeInStudy>& sizes, const std::str
 EffectSizes study_effect_sizes(const StudyResults& results) {
   EffectSizes sizes;
   const EffectSizing asked = results.study.fidelity.effect_sizes;
+  std::vector<const LoadedResult*> cases;
   for (const LoadedResult& loaded : results.loaded) {
-    if (asked == EffectSizing::Off || loaded.design == "before" || !loaded.cycle.usable()) continue;
-    const EffectScene scene = scene_of(results, loaded.condition, loaded.torque, estimate_resolution(results));
-    for (const EstimatedSize& estimate : estimate_effect_sizes(scene, results.effects)) {
-      add(sizes.estimated, {loaded.scene, loaded.torque, estimate.size, estimate.positions, estimate.solved_again});
+    if (asked != EffectSizing::Off && loaded.design != "before" && loaded.cycle.usable()) cases.push_back(&loaded);
+  }
+  std::vector<std::vector<EstimatedSize>> estimates(cases.size());
+  tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
+    estimates[i] = estimate_effect_sizes(scene_of(results, cases[i]->condition, cases[i]->torque, estimate_resolution(results)), results.effects);
+  });
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    for (const EstimatedSize& estimate : estimates[i]) {
+      add(sizes.estimated, {cases[i]->scene, cases[i]->torque, estimate.size, estimate.positions, estimate.solved_again});
     }
-    if (asked == EffectSizing::Exact) add_exact(results, loaded, sizes.exact);
+    if (asked == EffectSizing::Exact) add_exact(results, *cases[i], sizes.exact);
   }
   return sizes;
 }

@@ -1,5 +1,7 @@
 #include "studies/run_study.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <map>
 #include <sstream>
@@ -121,29 +123,44 @@ class Run {
     return it->second;
   }
 
-  /// A load case with half the intervals at every second position, to hold the study's own resolution against; nothing for phases that
-  /// were given, whose figures are of these phases.
-  std::optional<LoadedCycle> coarse_cycle(const DesignScene& scene) {
+  /// The mesh of a placement with half the intervals at every second position, to hold the study's own resolution against; null for phases
+  /// that were given, whose figures are of these phases.
+  const MeshModel* coarse_mesh_for(const Misalignment& misalignment) {
     Quadrature quadrature = results_.study.fidelity.quadrature;
-    if (!results_.study.cycle.phases.empty() || results_.phases.size() < 4 || quadrature.intervals < 2) return std::nullopt;
+    if (!results_.study.cycle.phases.empty() || results_.phases.size() < 4 || quadrature.intervals < 2) return nullptr;
     quadrature.intervals /= 2;
-    const MeshPlacement placement = placement_of(scene.condition.misalignment);
+    const MeshPlacement placement = placement_of(misalignment);
     auto known = coarse_models_.find(placement);
     if (known == coarse_models_.end()) {
       const MeshResolution resolution{quadrature, coarse_phases(results_.phases)};
       known = coarse_models_.emplace(placement, mesh(placement, resolution, structures().root_stress.get(), {})).first;
     }
-    return analyse_cycle(known->second, scene.condition, scene.torque);
+    return &known->second;
   }
 
-  /// What a solved load case shows, with extremes between its positions and errors.
-  ResolvedCycle resolved(const DesignScene& scene, const MeshModel& model, const LoadedCycle& cycle, bool with_errors = true) {
-    const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>& parameters) {
-      return mesh_at(scene.condition.misalignment, parameters)(phases);
-    };
-    const std::optional<LoadedCycle> coarse = with_errors ? coarse_cycle(scene) : std::nullopt;
-    return resolve_cycle(model, cycle, at, scene.condition, scene.torque,
-                         {.seek_extremes = seeks_extremes(results_.study), .coarse = coarse ? &*coarse : nullptr}, gradient_parameters());
+  /// A load case that was solved, and its mesh.
+  struct SolvedCase {
+    DesignScene scene;
+    const MeshModel* model;
+    const LoadedCycle* cycle;
+  };
+
+  /// What solved load cases show, with extremes between their positions, and errors where asked for.
+  std::vector<ResolvedCycle> resolved(const std::vector<SolvedCase>& cases, bool with_errors = true) {
+    std::vector<const MeshModel*> coarse;
+    for (const SolvedCase& of : cases) coarse.push_back(with_errors ? coarse_mesh_for(of.scene.condition.misalignment) : nullptr);
+    std::vector<ResolvedCycle> all(cases.size());
+    tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
+      const auto& [scene, model, cycle] = cases[i];
+      const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>& parameters) {
+        return mesh_at(scene.condition.misalignment, parameters)(phases);
+      };
+      std::optional<LoadedCycle> coarse_cycle;
+      if (coarse[i] != nullptr) coarse_cycle = analyse_cycle(*coarse[i], scene.condition, scene.torque);
+      const CycleResolving resolving{.seek_extremes = seeks_extremes(results_.study), .coarse = coarse_cycle ? &*coarse_cycle : nullptr};
+      all[i] = resolve_cycle(*model, *cycle, at, scene.condition, scene.torque, resolving, gradient_parameters());
+    });
+    return all;
   }
 
   /// Both gears' structure and root stress, made when first needed.
@@ -186,15 +203,20 @@ class Run {
     }
   }
 
-  void add_loaded(const DesignScene& scene, const std::string& design, LoadedCycle cycle) {
-    const FlankCondition& condition = scene.condition;
-    const std::size_t index = model_for(condition.misalignment);
-    const MeshModel& model = results_.models[index];
-    LoadedResult result{scene.name, scene.torque, design, std::move(cycle), {}, {}, index, condition,
-                        iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, condition), scene.torque, model.face_width)};
-    result.resolved = resolved(scene, model, result.cycle);
-    result.summary = result.resolved.summary;
-    results_.loaded.push_back(std::move(result));
+  /// Adds solved load cases of one design.
+  void add_loaded(const std::vector<DesignScene>& scenes, const std::string& design, std::vector<LoadedCycle> cycles) {
+    std::vector<std::size_t> models;
+    for (const DesignScene& scene : scenes) models.push_back(model_for(scene.condition.misalignment));
+    std::vector<SolvedCase> cases;
+    for (std::size_t i = 0; i < scenes.size(); ++i) cases.push_back({scenes[i], &results_.models[models[i]], &cycles[i]});
+    std::vector<ResolvedCycle> shown = resolved(cases);
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      const DesignScene& scene = scenes[i];
+      const MeshModel& model = results_.models[models[i]];
+      const IsoLoadFactors iso = iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, scene.condition), scene.torque, model.face_width);
+      const CycleSummary summary = shown[i].summary;
+      results_.loaded.push_back({scene.name, scene.torque, design, std::move(cycles[i]), std::move(shown[i]), summary, models[i], scene.condition, iso});
+    }
   }
 
   /// Located peaks with and without spikes, and the load factors that follow.
@@ -250,12 +272,14 @@ class Run {
 
   void analyse_loaded(const std::vector<DesignScene>& scenes) {
     const std::vector<MeshParameter> parameters = gradient_parameters();
-    int done = 0;
-    for (const DesignScene& scene : scenes) {
-      const std::size_t model = model_for(scene.condition.misalignment);
-      add_loaded(scene, "given", analyse_cycle(results_.models[model], scene.condition, scene.torque, parameters));
-      report("analysing", ++done, static_cast<int>(scenes.size()), scene.name);
-    }
+    std::vector<std::size_t> models;
+    for (const DesignScene& scene : scenes) models.push_back(model_for(scene.condition.misalignment));
+    std::vector<LoadedCycle> cycles(scenes.size());
+    tbb::parallel_for(std::size_t{0}, scenes.size(), [&](std::size_t i) {
+      cycles[i] = analyse_cycle(results_.models[models[i]], scenes[i].condition, scenes[i].torque, parameters);
+    });
+    report("analysing", static_cast<int>(scenes.size()), static_cast<int>(scenes.size()));
+    add_loaded(scenes, "given", std::move(cycles));
   }
 
   /// At another resolution all is made anew.
@@ -365,20 +389,21 @@ class Run {
   }
 
   std::vector<ResolvedCycle> resolved_cycles(const DesignProblem& problem, const DesignReport& report, bool with_errors) {
-    std::vector<ResolvedCycle> cycles;
+    std::vector<SolvedCase> cases;
     for (int s = 0; s < problem.scenes(); ++s) {
-      cycles.push_back(resolved(scene_of(report, s), problem.model(s), report.analysis.cycles[static_cast<std::size_t>(s)], with_errors));
+      cases.push_back({scene_of(report, s), &problem.model(s), &report.analysis.cycles[static_cast<std::size_t>(s)]});
     }
-    return cycles;
+    return resolved(cases, with_errors);
   }
 
   /// Adds a design's load cases, and puts what they show into its report.
   DesignErrors show(const DesignProblem& problem, const std::string& name, DesignReport& report) {
+    std::vector<DesignScene> scenes;
+    for (int s = 0; s < problem.scenes(); ++s) scenes.push_back(scene_of(report, s));
+    const std::size_t first = results_.loaded.size();
+    add_loaded(scenes, name, report.analysis.cycles);
     std::vector<ResolvedCycle> cycles;
-    for (int s = 0; s < problem.scenes(); ++s) {
-      add_loaded(scene_of(report, s), name, report.analysis.cycles[static_cast<std::size_t>(s)]);
-      cycles.push_back(results_.loaded.back().resolved);
-    }
+    for (std::size_t i = first; i < results_.loaded.size(); ++i) cycles.push_back(results_.loaded[i].resolved);
     return resolve_report(problem, cycles, report);
   }
 
