@@ -49,7 +49,8 @@ void Cholesky::factorise() {
       double *p = start + j * rows, *q = p + rows;
       const double u0 = c0[j], u1 = c1[j], u2 = c2[j], u3 = c3[j];
       const double v0 = c0[j + 1], v1 = c1[j + 1], v2 = c2[j + 1], v3 = c3[j + 1];
-      for (Eigen::Index i = j; i < rows; ++i) {
+      p[j] -= (u0 * u0 + u1 * u1) + (u2 * u2 + u3 * u3);  // above the second column's diagonal nothing is read
+      for (Eigen::Index i = j + 1; i < rows; ++i) {
         const double x0 = c0[i], x1 = c1[i], x2 = c2[i], x3 = c3[i];
         p[i] -= (x0 * u0 + x1 * u1) + (x2 * u2 + x3 * u3);
         q[i] -= (x0 * v0 + x1 * v1) + (x2 * v2 + x3 * v3);

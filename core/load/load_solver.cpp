@@ -236,10 +236,12 @@ bool LoadSolver::newton(const LoadOptions& options, LoadDistribution& result) {
 }
 
 void LoadSolver::step() {
-  gradient_ = weight_.cwiseProduct((at_.approach.array() - at_.multiplier).matrix());
+  // Counted from the least approach, which is f_t at the answer and which no point far away has a part in.
+  const double least = (at_.loads.array() > 0.0).select(at_.approach, at_.approach.maxCoeff()).minCoeff();
+  gradient_ = weight_.cwiseProduct((at_.approach.array() - least).matrix());
   hessian_.diagonal() = stiff_diagonal_ + weight_.cwiseProduct(at_.local_slope);
-  const Flags guess = at_.loads.array() > 0.0 || gradient_.array() < 0.0;
-  model_.minimise({hessian_, gradient_, weight_, force_, at_.loads, at_.multiplier}, guess);
+  const Flags guess = at_.loads.array() > 0.0 || at_.approach.array() < at_.multiplier;
+  model_.minimise({hessian_, gradient_, weight_, force_, at_.loads, least}, guess);
   next_.loads = model_.loads().cwiseMax(0.0);
   next_.loads *= force_ / weight_.dot(next_.loads);
   evaluate(next_);

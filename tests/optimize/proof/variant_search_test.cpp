@@ -48,7 +48,8 @@ TEST_CASE("The search finds the best of all combinations", "[optimize][proof]") 
   }
   constexpr double round_off = 1e-12;  // the same values scaled by other roundings
   CHECK(search.best.objective == Approx(least).epsilon(round_off));
-  CHECK(problem.objective(problem.analyse(search.x, false)) == search.best.objective);
+  // Loads start from another design's here: the solver's tolerance.
+  CHECK(problem.objective(problem.analyse(search.x, false)) == Approx(search.best.objective).epsilon(1e-11));
 }
 
 TEST_CASE("One thread and two find the same variant, of equals the first", "[optimize][proof][determinism]") {
