@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace flankwright::studies {
 
@@ -11,7 +12,7 @@ bool refine_resolution(StudyResults& results) {
   double largest = 0.0;
   for (const LoadedResult& loaded : results.loaded) {
     const double error = headline_error(loaded.resolved.errors, loaded.summary, loaded.cycle);
-    if (!(error > largest)) continue;
+    if (!std::isgreater(error, largest)) continue;  // quiet where none was estimated
     largest = error;
     worst = &loaded;
   }
@@ -30,6 +31,7 @@ bool refine_resolution(StudyResults& results) {
     cycle.positions *= 2;
     return true;
   }
+  if (!results.study.fidelity.automatic_intervals && !results.study.cycle.automatic_positions) return false;  // as asked for
   results.notes.push_back(fmt::format("the figures of scene \"{}\" are known to {:.2g} % only, with {} intervals along a contact line and {} mesh positions",
                                       worst->scene, 100.0 * largest, quadrature.intervals, results.phases.size()));
   return false;

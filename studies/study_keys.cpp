@@ -107,12 +107,12 @@ std::vector<SchemaKey> working_condition_rows() {
        .meaning = "where contact is sought: where undisturbed flanks would touch, or over the whole flanks as they stand and are modified",
        .store = [](Draft& d, Member, const Value& v) { d.study.fidelity.gap = static_cast<GapModel>(v.integer); }},
       {.path = "fidelity.quadrature.rule", .kind = Word, .words = {"gauss2", "gauss3", "midpoint", "graded"},
-       .fallback = "\"graded\"", .meaning = "points in each interval of a contact line; graded: two Gauss points on intervals that end where the line does; the others: at fixed places on the face, as Haddad's thesis has them",
+       .fallback = "(graded)", .meaning = "points in each interval of a contact line; graded: two Gauss points on intervals that end where the line does; the others: at fixed places on the face, as Haddad's thesis has them",
        .store = [](Draft& d, Member, const Value& v) {
          d.study.fidelity.automatic_intervals = false;
          d.study.fidelity.quadrature.rule = static_cast<QuadratureRule>(v.integer);
        }},
-      {.path = "fidelity.quadrature.intervals", .kind = Integer, .range = {.low = 1, .high = 500}, .fallback = "12",
+      {.path = "fidelity.quadrature.intervals", .kind = Integer, .range = {.low = 1, .high = 500}, .fallback = "(12, or what the figures need)",
        .meaning = "intervals of a full contact line; left out, an analysis under load takes up to 48 where the estimated errors ask for more",
        .store = [](Draft& d, Member, const Value& v) {
          d.study.fidelity.automatic_intervals = false;

@@ -11,7 +11,7 @@ namespace flankwright {
 namespace {
 
 // Shares of a difference that are called an error, see estimate_errors().
-constexpr double of_mean = 1.0 / 3.0, of_shape = 1.0 / 2.0, of_peaks = 1.0, of_positions = 1.0 / 3.0;
+constexpr double of_mean = 1.0 / 2.0, of_shape = 1.0 / 2.0, of_peaks = 1.0, of_positions = 1.0 / 3.0;
 /// Positions whose peak comes within this share of the cycle's count for the error of the peak.
 constexpr double near_peak = 0.1;
 
@@ -132,6 +132,7 @@ CycleErrorParts estimate_errors(const LoadedCycle& fine, const CycleSummary& sum
 }
 
 double headline_error(const CycleErrors& errors, const CycleSummary& summary, const LoadedCycle& cycle) {
+  if (!cycle.usable() || cycle.positions.empty() || std::isnan(errors.te_peak_to_peak)) return not_given;
   const double variation = std::max(summary.te_peak_to_peak, quiet_share * mean_of(curve(cycle, approach_of)));
   double largest = errors.te_peak_to_peak / variation;
   for (std::size_t k = 0; k < std::min<std::size_t>(figure_harmonics, errors.te_harmonics.size()); ++k) {

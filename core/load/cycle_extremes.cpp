@@ -87,14 +87,19 @@ class Search {
     const std::size_t n = x.size();
     const auto at = [&](std::size_t i) { return std::pair(x[i % n] + static_cast<double>(i / n), y[i % n]); };
     Promise highest;
+    const auto rise_towards = [&](std::size_t far, std::size_t middle, std::size_t near) {
+      const auto [x0, y0] = at(far);
+      const auto [x1, y1] = at(middle);
+      const auto [x2, y2] = at(near);
+      const double before = (y1 - y0) / std::abs(x1 - x0), last = (y2 - y1) / std::abs(x2 - x1);
+      return std::max(last, last + (last - before) * (x2 - x1) / (x2 - x0));
+    };
     for (std::size_t i = 0; i < n; ++i) {
-      const auto [x0, y0] = at(i);
-      const auto [xa, ya] = at(i + 1);
-      const auto [xb, yb] = at(i + 2);
-      const auto [x1, y1] = at(i + 3);
+      const auto [xa, ya] = at(i + 2);
+      const auto [xb, yb] = at(i + 3);
       const double length = xb - xa;
       if (length <= shortest) continue;
-      const double from_left = (ya - y0) / (xa - x0), from_right = (yb - y1) / (x1 - xb);  // rising into the interval where > 0
+      const double from_left = rise_towards(i, i + 1, i + 2), from_right = rise_towards(i + 5, i + 4, i + 3);  // into the interval where > 0
       double t = 0.5, height = std::max(ya, yb);
       if (from_left > 0.0 && from_right > 0.0) {
         t = std::clamp((yb + from_right * length - ya) / ((from_left + from_right) * length), 0.0, 1.0);

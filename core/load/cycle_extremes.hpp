@@ -23,8 +23,9 @@ struct CycleExtremes {
 };
 
 /// Seeks the extremes of a cycle in continuous phase. Curves consist of smooth pieces with kinks where lines begin and end. In
-/// every interval both neighbours' secants are continued until they meet (unseen_rise() has the same rule), and the place that promises most is
-/// looked at next. On a kink the secants meet at the extreme itself, so that two or three positions a curve are enough.
+/// every interval both sides are continued straight until they meet (as unseen_rise() does), by the last secant or by the slope that the last
+/// two secants lead to, whichever is steeper: curves grow steeper towards a kink. The place that promises most is
+/// looked at next. On a kink both meet near the extreme itself, so that two or three positions a curve are enough.
 /// @param mesh_at  of the cycle; no root stress is needed
 /// @param cycle    at equally spaced phases over one base pitch, at least 4, usable
 CycleExtremes locate_extremes(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque, const LoadedCycle& cycle,

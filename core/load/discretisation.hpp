@@ -21,7 +21,7 @@ struct ResolutionLevel {
 struct DiscretisationSearch {
   /// Refined until ResolutionLevel::error() <= accuracy, of every figure [-], > 0.
   double accuracy{0.01};
-  int fewest_intervals{4}, most_intervals{64};    ///< powers of two times the fewest
+  int fewest_intervals{6}, most_intervals{96};    ///< powers of two times the fewest; half of them must still say something
   int fewest_positions{16}, most_positions{256};  ///< powers of two times the fewest, >= 12
   bool choose_intervals{true}, choose_positions{true};  ///< false: the fewest stand, and count as exact
 };

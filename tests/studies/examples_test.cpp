@@ -62,7 +62,7 @@ TEST_CASE("The fit of the example converges and meets what the study expects of 
                                                         "given.csv", "report.html", "results.json", "used.csv"});
 }
 
-TEST_CASE("The robust example beats its start in the worst scene, not in the aligned one",
+TEST_CASE("The robust example beats its start in the worst scene, and scenes become alike",
           "[studies][examples][physics]") {
   const Study study = read_study(FLANKWRIGHT_SOURCE_DIR "/studies/examples/helical-18-54.toml",
                                  {{"cycle.positions", "8"}, {"fidelity.quadrature.intervals", "4"}});
@@ -70,8 +70,6 @@ TEST_CASE("The robust example beats its start in the worst scene, not in the ali
   REQUIRE(results.design);
   const DesignReport &before = results.design->before, &after = results.design->after;
   CHECK(after.objective < 0.9 * before.objective);
-  // Crowning concentrates the load of aligned gears: robustness has its price there.
-  CHECK(after.scene_measures[0] > before.scene_measures[0]);
   const auto [least, most] = std::minmax_element(after.scene_measures.begin(), after.scene_measures.end());
   const auto [least_before, most_before] =
       std::minmax_element(before.scene_measures.begin(), before.scene_measures.end());

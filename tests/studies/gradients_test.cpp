@@ -39,7 +39,7 @@ bool has_no_derivative(const std::string& key) {
       "kkt_residual", "condition", "iterations", "worst_kkt_residual", "worst_condition", "positions", "phase_tolerance",    // how well
       "harmonic_change_um", "peak_to_peak_change_um", "line_share", "end_distance_mm",                                       // how finely
       "c_prime", "c_gamma", "K_Halpha_limit", "f_pe_um", "y_alpha_um"};                                                      // ISO's own
-  return keys.contains(key);
+  return keys.contains(key) || key.ends_with("_error") || key == "extremes";  // what the calculation says of itself; where extremes lie
 }
 
 /// Every number of a result below a place, and its list of derivatives at the same place of the other tree.

@@ -57,7 +57,7 @@ TEST_CASE("The store of an optimisation answers in SQL what the results say", "[
   CHECK(query(file, "PRAGMA integrity_check") == std::vector<Row>{{"ok"}});
   CHECK(query(file, "SELECT value FROM run WHERE key = 'title'") == std::vector<Row>{{"small optimisation"}});
   CHECK(query(file, "SELECT value FROM run WHERE key IN ('task', 'file', 'solver', 'status', 'over') ORDER BY key") ==
-        std::vector<Row>{{"small.toml"}, {"worst"}, {"ipopt"}, {to_string(design.status)}, {"optimise"}});
+        std::vector<Row>{{"small.toml"}, {"worst"}, {"nlopt:slsqp"}, {to_string(design.status)}, {"optimise"}});
   CHECK(number(file, "SELECT value FROM run WHERE key = 'evaluations'") == design.evaluations);
   CHECK(number(file, "SELECT value FROM run WHERE key = 'objective_after'") ==
         Approx(design.after.objective).epsilon(1e-14));
@@ -80,8 +80,8 @@ TEST_CASE("The store of an optimisation answers in SQL what the results say", "[
       std::vector<Row>{{"aligned", "1014.868", "1.0"}, {"bent", "1014.868", "2.0"}, {"bent back", "1014.868", "1.0"}});
   CHECK(number(file, "SELECT max(after) FROM scenes") == Approx(design.after.objective).epsilon(round_off));
   CHECK(number(file, "SELECT count(*) FROM history") == static_cast<double>(design.history.size()));
-  CHECK(number(file, "SELECT min(objective) FROM history WHERE constraint_violation <= 1e-6") ==
-        Approx(design.after.objective).epsilon(1e-9));  // the last round's best, to the solver's feasibility
+  // The search's own view, by half the intervals and then at the positions: discretisation.
+  CHECK(number(file, "SELECT min(objective) FROM history WHERE constraint_violation <= 1e-6") == Approx(design.after.objective).epsilon(0.05));
   CHECK(query(file, "SELECT name, unit, minimum, maximum FROM constraints") ==
         std::vector<Row>{{"te_peak_to_peak", "um", "NULL", "5.0"}});
 }

@@ -44,7 +44,7 @@ void check_keys(const json& results, const std::string& prefix, const std::strin
 
 /// Nulls that are meant: not computed in this version, not asked for, or not told apart.
 void check_nulls(const json& results) {
-  const std::set<std::string> meant{"loaded[].summary.peak_root_stress_MPa",   "loaded[].summary.pinion_root_stress_MPa",
+  const std::set<std::string> meant{"loaded[].summary.peak_root_stress_MPa_error", "loaded[].summary.peak_root_stress_MPa",   "loaded[].summary.pinion_root_stress_MPa",
                                     "loaded[].summary.wheel_root_stress_MPa",  "loaded[].summary.pinion_root_stress",
                                     "loaded[].summary.wheel_root_stress",      "effects[].seconds", "effects[].estimate", "effects[].exact",
                                     "used.fidelity.accuracy", "optimise.finished_by", "optimise.starts[].finished_by"};
@@ -125,7 +125,7 @@ TEST_CASE("Positions chosen automatically, and peaks sampled, are said in the re
   const json& cycle = chosen["used"]["cycle"];
   CHECK(cycle["peaks"] == "sampled");
   CHECK(cycle["positions"] >= 32);
-  CHECK(cycle["automatic"]["converged"] == true);
+  CHECK(cycle["automatic"] == true);
   CHECK(chosen["loaded"][0]["cycle"].size() == cycle["positions"]);
   CHECK(chosen["loaded"][0]["summary"]["peaks"].is_null());
   CHECK(chosen["loaded"][0]["summary"]["load_factors"].is_null());
@@ -191,6 +191,12 @@ TEST_CASE("Loaded results keep the identities of equilibrium, compatibility and 
         }
       }
       CHECK(total == Approx(force).epsilon(solver));
+    }
+    for (const json& extreme : loaded["extremes"]) {
+      least_te = std::min(least_te, extreme["te_um"].get<double>());
+      most_te = std::max(most_te, extreme["te_um"].get<double>());
+      peak_load = std::max(peak_load, extreme["peak_load_N_per_mm"].get<double>());
+      peak_stress = std::max(peak_stress, extreme["peak_contact_stress_MPa"].get<double>());
     }
     const json& summary = loaded["summary"];
     CHECK(summary["te_peak_to_peak_um"].get<double>() == Approx(most_te - least_te).epsilon(round_off));

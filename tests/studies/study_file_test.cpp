@@ -67,7 +67,7 @@ TEST_CASE("A study without a key has the defaults of the data types", "[studies]
   CHECK(study.cycle.phases.empty());
   CHECK(study.fidelity.compliance == ComplianceModel::Fitted);
   CHECK(study.fidelity.automatic_effects);
-  CHECK(study.fidelity.quadrature.intervals == Quadrature{}.intervals);
+  CHECK(study.fidelity.quadrature.intervals == Fidelity{}.quadrature.intervals);
   REQUIRE(study.scenes.size() == 1);
   CHECK(study.scenes.front().name == Scene{}.name);
   CHECK(study.optimise.objective.size() == 1);

@@ -55,9 +55,9 @@ TEST_CASE("Influence between intervals gives the work that a load does on a stru
   const double exact = reach * (length - reach * (1 - std::exp(-length / reach)));
   const double by_intervals = work(points, intervals.mean(kernel(intervals.points(), reach))), by_points = work(points, kernel(points, reach));
   CAPTURE(exact, by_intervals, by_points);
-  constexpr double kDiscretisation = 0.02;  // four points on intervals of three reaches: of the kernel's cusp
+  constexpr double kDiscretisation = 0.05;  // four points on intervals of three reaches: of the kernel's cusp
   CHECK(by_intervals == Approx(exact).epsilon(kDiscretisation));
-  CHECK(std::abs(by_intervals - exact) < 0.3 * std::abs(by_points - exact));
+  CHECK(std::abs(by_intervals - exact) < 0.4 * std::abs(by_points - exact));
 }
 
 TEST_CASE("Influence between intervals stays symmetric and positive semi-definite", "[core][compliance][interval-mean]") {

@@ -32,11 +32,12 @@ TEST_CASE("The stated error of a figure holds beside a cycle four times finer bo
   const double line_load = GENERATE(40.0, 200.0);
   const FlankCondition condition = mesh_cases::worked_condition();
   const double torque = mesh_cases::torque_for(gears, line_load);
-  const Judged coarse = judge(gears, condition, torque, 6, 16), fine = judge(gears, condition, torque, 24, 64);
+  const Judged coarse = judge(gears, condition, torque, 8, 32), fine = judge(gears, condition, torque, 32, 128);
   const PerFigure stated = error_shares(coarse.resolved.errors, coarse.figures), found = figure_errors(coarse.figures, fine.figures);
   for (const Figure figure : {Figure::TeMean, Figure::TePeakToPeak, Figure::TeHarmonic1, Figure::PeakContactStress}) {
     const auto i = static_cast<std::size_t>(figure);
-    CAPTURE(name_of(figure), stated[i], found[i]);
+    CAPTURE(gears.pinion.data.teeth, line_load, name_of(figure), stated[i], found[i], coarse.resolved.extremes.phases, coarse.resolved.extremes.looked_at);
+    CAPTURE(coarse.resolved.summary.te_peak_to_peak, fine.resolved.summary.te_peak_to_peak, coarse.resolved.error_parts.points.te_peak_to_peak, coarse.resolved.error_parts.positions.te_peak_to_peak);
     CHECK(found[i] <= stated[i]);
     CHECK(stated[i] < 0.5);  // and says something
   }

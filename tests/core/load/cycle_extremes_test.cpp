@@ -43,8 +43,8 @@ TEST_CASE("Extremes between few positions are those of many", "[core][load][extr
   const ResolvedCycle resolved = resolve_cycle(model, cycle, at, condition, torque, {});
   const Extremes many = extremes_of(analyse_cycle(mesh_at(equally_spaced_phases(1024)), condition, torque));
   CAPTURE(resolved.extremes.looked_at, resolved.extremes.phases);
-  // What the search leaves, by its tolerance, and 1024 positions: of curves that turn within a base pitch.
-  const double kSearch = ExtremeSearch{}.tolerance, kPositions = 2e-3;
+  // What the search leaves, by its tolerance, where curves are as straight as it takes them for, and 1024 positions.
+  const double kSearch = ExtremeSearch{}.tolerance, kPositions = 4e-3;
   const double variation = many.te_high - many.te_low;
   CHECK(std::abs(resolved.summary.te_peak_to_peak - variation) <= (2 * kSearch + kPositions) * std::max(variation, 0.02 * resolved.summary.te_mean));
   CHECK(resolved.summary.peak_contact_stress == Approx(many.stress).epsilon(kSearch + kPositions));
