@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -84,15 +85,20 @@ std::pair<Study, fs::path> opened(const RunOptions& options) {
 
 int write_results(const Study& study, const StudyResults& results, const fs::path& folder) {
   const std::string json = results_json(results);
-  write_whole(folder / "results.json", json);
-  for (const NamedText& table : csv_tables(results)) write_whole(folder / table.name, table.text);
-  for (const NamedText& table : report_tables(json)) write_whole(folder / table.name, table.text);
-  if (results.design) write_results_store(folder / "results.sqlite", results);
-  write_whole(folder / "report.html", render_report(json));
+  std::string different;
+  const auto write_tables = [&](const std::vector<NamedText>& tables) {
+    for (const NamedText& table : tables) write_whole(folder / table.name, table.text);
+  };
+  tbb::parallel_invoke([&] { write_whole(folder / "report.html", render_report(json)); },
+                       [&] {
+                         write_whole(folder / "results.json", json);
+                         write_tables(csv_tables(results));
+                         if (results.design) write_results_store(folder / "results.sqlite", results);
+                       },
+                       [&] { write_tables(report_tables(json)); }, [&] { different = differences(compare(study.expect, json)); });
 
   for (const std::string& note : results.notes) spdlog::warn("{}", note);
   std::fputs(summary_table(results).c_str(), stdout);
-  const std::string different = differences(compare(study.expect, json));
   if (!different.empty()) fmt::print("\nnot as [expect] says:\n{}", different);
   fmt::print("\nreport: {}\n", (folder / "report.html").string());
   std::fflush(stdout);

@@ -203,16 +203,20 @@ void refuse_unsolved(const Job& job, ComplianceModel model) {
 
 }  // namespace
 
+bool asks_for_root_stress(const Study& study) {
+  if (study.task != Task::Optimise) return false;
+  const auto is_root_stress = [](const ObjectiveTerm& term) { return term.output == Output::PeakRootStress; };
+  const auto in_goal = [&](const Goal& goal) { return std::ranges::any_of(goal.terms, is_root_stress); };
+  const OptimiseTable& optimise = study.optimise;
+  return std::ranges::any_of(optimise.objective, is_root_stress) || std::ranges::any_of(optimise.constraints, is_root_stress, &OutputConstraint::output) ||
+         std::ranges::any_of(optimise.then, in_goal) || std::ranges::any_of(optimise.pareto_goals, in_goal);
+}
+
 bool wants_root_stress(const Study& study) {
   const Fidelity& fidelity = study.fidelity;
   if (fidelity.compliance == ComplianceModel::Rigid) return false;
   if (!fidelity.automatic_effects) return std::ranges::find(fidelity.effects, "root_stress") != fidelity.effects.end();
-  const auto is_root_stress = [](const ObjectiveTerm& term) { return term.output == Output::PeakRootStress; };
-  const bool optimised =
-      study.task == Task::Optimise &&
-      (std::ranges::any_of(study.optimise.objective, is_root_stress) ||
-       std::ranges::any_of(study.optimise.constraints, is_root_stress, &OutputConstraint::output));
-  return couples_teeth(fidelity.compliance) || optimised ||
+  return couples_teeth(fidelity.compliance) || asks_for_root_stress(study) ||
          std::ranges::any_of(study.expect, [](const Expectation& e) { return e.key.find("root_stress") != std::string::npos; });
 }
 

@@ -45,6 +45,9 @@ struct FiniteElementRuns {
   }
 };
 
+/// Whether an optimisation minimises or bounds root stress: a search that does not goes without it.
+bool asks_for_root_stress(const Study& study);
+
 /// Whether the study's finite elements shall tell root stress: where its compliance is "fitted" or "fe", or an objective, constraint
 /// or expectation names it, and the study's own list of effects, if it has one, does not leave it out.
 bool wants_root_stress(const Study& study);

@@ -1,5 +1,7 @@
 #include "studies/results_json.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <cmath>
 #include <map>
 
@@ -284,7 +286,10 @@ std::string results_json(const StudyResults& results) {
       json["unloaded_scenes"] = list(results.unloaded, [&](const UnloadedResult& u) { return unloaded_json(u, results.pair); });
     }
   }
-  json["loaded"] = list(results.loaded, [&](const LoadedResult& l) { return loaded_json(l, results); });
+  std::vector<Json> loaded(results.loaded.size());
+  tbb::parallel_for(std::size_t{0}, loaded.size(), [&](std::size_t i) { loaded[i] = loaded_json(results.loaded[i], results); });
+  json["loaded"] = Json::array();
+  for (Json& entry : loaded) json["loaded"].push_back(std::move(entry));
   if (results.structures.finite_elements) json["compliance"] = compliance_json(results.structures, study);
   json["modifications"] = modifications_json(results);
   json["effects"] = effects_json(results);

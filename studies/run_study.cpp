@@ -207,6 +207,10 @@ class Run {
   void add_loaded(const std::vector<DesignScene>& scenes, const std::string& design, std::vector<LoadedCycle> cycles) {
     std::vector<std::size_t> models;
     for (const DesignScene& scene : scenes) models.push_back(model_for(scene.condition.misalignment));
+    tbb::parallel_for(std::size_t{0}, scenes.size(), [&](std::size_t i) {
+      const bool has_none = !cycles[i].positions.empty() && cycles[i].positions.front().root_stress.size() == 0;
+      if (has_none) add_root_stress(results_.models[models[i]], cycles[i]);  // a search that did not ask for it has left it out
+    });
     std::vector<SolvedCase> cases;
     for (std::size_t i = 0; i < scenes.size(); ++i) cases.push_back({scenes[i], &results_.models[models[i]], &cycles[i]});
     std::vector<ResolvedCycle> shown = resolved(cases);
@@ -301,7 +305,6 @@ class Run {
     task.gap = gap_model(results_.effects);
     task.effects = results_.mesh_effects;
     task.structure = structures().pair;
-    task.root_stress = structures().root_stress;
     task.shafts = results_.shafts;
     task.pinion_modification = study.pinion_modification;
     task.wheel_modification = study.wheel_modification;
@@ -313,6 +316,7 @@ class Run {
     task.modification_constraints = study.optimise.modification_constraints;
     task.then = study.optimise.then;
     task.lexicographic_tolerance = study.optimise.lexicographic_tolerance;
+    if (asks_for_root_stress(study)) task.root_stress = structures().root_stress;
     task.scenes = all_scenes();  // an unloaded scene has no stress and no loaded transmission error to choose by
     return task;
   }
