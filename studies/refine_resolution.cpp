@@ -31,7 +31,8 @@ bool refine_resolution(StudyResults& results) {
     cycle.positions *= 2;
     return true;
   }
-  if (!results.study.fidelity.automatic_intervals && !results.study.cycle.automatic_positions) return false;  // as asked for
+  const bool is_given = by_points ? !results.study.fidelity.automatic_intervals : !cycle.automatic_positions;
+  if (is_given) return false;
   results.notes.push_back(fmt::format("the figures of scene \"{}\" are known to {:.2g} % only, with {} intervals along a contact line and {} mesh positions",
                                       worst->scene, 100.0 * largest, quadrature.intervals, results.phases.size()));
   return false;

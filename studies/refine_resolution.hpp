@@ -10,7 +10,7 @@ inline constexpr double headline_accuracy = 0.01;
 inline constexpr int most_intervals = 48, most_positions = 128;
 
 /// Doubles what brings most of the largest error, intervals or positions, as far as the study leaves them open, in results.study. False where the
-/// accuracy is kept or nothing is left to refine; what then stays above it is said in a note, unless the study itself asks for that resolution.
+/// accuracy is kept or nothing is left to refine; what then stays above it is said in a note, unless the study itself gives what brings it.
 bool refine_resolution(StudyResults& results);
 
 }  // namespace flankwright::studies

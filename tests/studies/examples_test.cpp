@@ -47,7 +47,9 @@ TEST_CASE("Every example is valid, meets its expectations and runs without a com
     CHECK(ending.exit_code == 0);
     // One example shows on purpose how a designed parabola is lost.
     const bool is_parabola = file.ends_with("/parabolic-te.toml");
-    CHECK(occurrences(ending.err, "warning") == (is_parabola ? 1 : 0));
+    // Some gears are said to need finite elements of their own.
+    const auto outside = occurrences(ending.err, "warning: the pinion is outside the library") + occurrences(ending.err, "warning: the wheel is outside the library");
+    CHECK(occurrences(ending.err, "warning") - outside == (is_parabola ? 1 : 0));
     CHECK(occurrences(ending.err, "\"beyond its limit\": the designed parabola") == (is_parabola ? 1 : 0));
   }
 }

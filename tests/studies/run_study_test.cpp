@@ -66,7 +66,7 @@ void check_nulls(const json& results) {
 
 void remove_seconds(json& node) {
   if (node.is_object()) {
-    for (const char* time : {"seconds", "proof_seconds"}) node.erase(time);
+    for (const char* time : {"seconds", "proof_seconds", "milliseconds_per_cycle"}) node.erase(time);
     if (node.contains("message")) node.erase("message");  // may quote a time
   }
   if (node.is_structured()) {
