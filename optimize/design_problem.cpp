@@ -1,6 +1,7 @@
 #include "optimize/design_problem.hpp"
 
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_for_each.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -80,11 +81,12 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_str
   std::map<MeshPlacement, std::shared_ptr<const MeshModel>> models;
   for (const DesignScene& scene : task_.scenes) {
     if (!(scene.torque > 0.0)) throw InvalidInput("load.torque", std::to_string(scene.torque), "above 0 to optimise");
-    const MeshPlacement placement = MeshPlacement::of(task_.gap, scene.condition.misalignment);
-    std::shared_ptr<const MeshModel>& model = models[placement];
-    if (!model) model = std::make_shared<const MeshModel>(mesh(placement));
-    models_.push_back(model);
+    models.try_emplace(MeshPlacement::of(task_.gap, scene.condition.misalignment));
   }
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for_each(models, [this](auto& known) { known.second = std::make_shared<const MeshModel>(mesh(known.first)); });
+  });
+  for (const DesignScene& scene : task_.scenes) models_.push_back(models.at(MeshPlacement::of(task_.gap, scene.condition.misalignment)));
   for (const ModificationConstraint& c : task_.modification_constraints) {
     if (modification_scale(c) == 0.0) throw InvalidInput("optimise.constraints." + c.name, "no variable in it", "a sum that a variable changes");
   }

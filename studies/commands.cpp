@@ -63,7 +63,7 @@ TestLine test_study(const fs::path& path) {
     if (study.expect.empty()) return {fmt::format("none  {}  (no [expect] table)\n", path.string())};
     StudyResults results = run_study(study);
     if (study.task == Task::Sweep) run_sweep(results, {}, {});
-    const std::vector<Comparison> comparisons = compare(study.expect, results_json(results));
+    const std::vector<Comparison> comparisons = compare(study.expect, results_document(results));
     const std::string different = differences(comparisons);
     std::string text = fmt::format("{}  {}  ({} expectation{}, {:.1f} s)\n", different.empty() ? "met " : "DIFF", path.string(),
                                    comparisons.size(), comparisons.size() == 1 ? "" : "s", results.seconds);
@@ -84,14 +84,14 @@ std::pair<Study, fs::path> opened(const RunOptions& options) {
 }
 
 int write_results(const Study& study, const StudyResults& results, const fs::path& folder) {
-  const std::string json = results_json(results);
+  const Json json = results_document(results);
   std::string different;
   const auto write_tables = [&](const std::vector<NamedText>& tables) {
     for (const NamedText& table : tables) write_whole(folder / table.name, table.text);
   };
   tbb::parallel_invoke([&] { write_whole(folder / "report.html", render_report(json)); },
                        [&] {
-                         write_whole(folder / "results.json", json);
+                         write_whole(folder / "results.json", json_text(json));
                          write_tables(csv_tables(results));
                          if (results.design) write_results_store(folder / "results.sqlite", results);
                        },
@@ -156,7 +156,7 @@ int new_command(const std::string& kind) {
 
 int report_command(const std::string& folder) {
   const fs::path page = fs::path(folder) / "report.html";
-  write_whole(page, render_report(read_results(folder)));
+  write_whole(page, render_stored_report(read_results(folder)));
   fmt::print("report: {}\n", page.string());
   return 0;
 }

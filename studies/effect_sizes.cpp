@@ -72,8 +72,9 @@ EffectSizes study_effect_sizes(const StudyResults& results) {
     if (asked != EffectSizing::Off && loaded.design != "before" && loaded.cycle.usable()) cases.push_back(&loaded);
   }
   std::vector<std::vector<EstimatedSize>> estimates(cases.size());
+  EffectMeshes meshes;
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
-    estimates[i] = estimate_effect_sizes(scene_of(results, cases[i]->condition, cases[i]->torque, estimate_resolution(results)), results.effects);
+    estimates[i] = estimate_effect_sizes(scene_of(results, cases[i]->condition, cases[i]->torque, estimate_resolution(results)), results.effects, {}, meshes);
   });
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const EstimatedSize& estimate : estimates[i]) {
@@ -87,9 +88,10 @@ EffectSizes study_effect_sizes(const StudyResults& results) {
 void drop_small_effects(StudyResults& results, const std::vector<DesignScene>& scenes, double budget) {
   if (!(budget > 0.0) || !results.study.fidelity.automatic_effects) return;
   std::vector<SizeInStudy> largest;
+  EffectMeshes meshes;
   for (const DesignScene& load_case : scenes) {
     const EffectScene scene = scene_of(results, load_case.condition, load_case.torque, estimate_resolution(results));
-    for (const EstimatedSize& estimate : estimate_effect_sizes(scene, results.effects)) {
+    for (const EstimatedSize& estimate : estimate_effect_sizes(scene, results.effects, {}, meshes)) {
       add(largest, {load_case.name, load_case.torque, estimate.size});
     }
   }

@@ -68,8 +68,7 @@ void follow(const Json* node, const std::string& path, const std::string& rest, 
 
 }  // namespace
 
-std::vector<Comparison> compare(const std::vector<Expectation>& expectations, const std::string& results_json) {
-  const Json results = Json::parse(results_json);
+std::vector<Comparison> compare(const std::vector<Expectation>& expectations, const Json& results) {
   std::vector<Comparison> comparisons;
   for (const Expectation& e : expectations) follow(&results, "", e.key, e, comparisons);
   return comparisons;

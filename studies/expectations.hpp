@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/json_format.hpp"
 #include "studies/study.hpp"
 
 namespace flankwright::studies {
@@ -19,7 +20,7 @@ struct Comparison {
 /// Compares results.json with the study's [expect] table. A key is a dotted path; where it passes through an array without naming
 /// an index ("loaded.summary.te_mean_um"), every entry must meet it. A key that is not there, or is null, or of another
 /// type is not met.
-std::vector<Comparison> compare(const std::vector<Expectation>& expectations, const std::string& results_json);
+std::vector<Comparison> compare(const std::vector<Expectation>& expectations, const Json& results);
 
 /// A table of those that are not met; empty where all are.
 std::string differences(const std::vector<Comparison>& comparisons);

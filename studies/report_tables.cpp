@@ -110,8 +110,7 @@ std::string given_csv(const Json& given) {
 
 }  // namespace
 
-std::vector<NamedText> report_tables(const std::string& results) {
-  const Json json = Json::parse(results);
+std::vector<NamedText> report_tables(const Json& json) {
   std::vector<NamedText> tables{{"gears.csv", gears_csv(json.at("geometry"))},
                                 {"given.csv", given_csv(json.at("given"))},
                                 {"used.csv", key_value_csv(json.at("used"))}};

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "studies/json_format.hpp"
 #include "studies/tables.hpp"
 
 namespace flankwright::studies {
@@ -11,7 +12,7 @@ namespace flankwright::studies {
 /// pair), summary.csv and harmonics.csv (a line a load case), design.csv (variables and constraints before and after), effects.csv,
 /// given.csv and used.csv (the study as written and with its defaults, a key and a value a line). A table without lines is left out.
 ///
-/// @param results  text of results.json
-std::vector<NamedText> report_tables(const std::string& results);
+/// @param results  results_document()
+std::vector<NamedText> report_tables(const Json& results);
 
 }  // namespace flankwright::studies

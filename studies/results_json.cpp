@@ -76,21 +76,30 @@ Json geometry_json(const GearPair& pair) {
           {"wheel", gear_json(pair, Member::Wheel)}};
 }
 
+/// Members in their order: what points have, without the copies that an initialiser list of Json makes.
+Json record(std::initializer_list<std::pair<const char*, double>> members) {
+  Json json = Json::object();
+  auto& object = json.get_ref<Json::object_t&>();
+  object.reserve(members.size() + 1);
+  for (const auto& [key, value] : members) object.emplace_back(key, value);
+  return json;
+}
+
 Json point_json(const ContactPoint& point, const LoadedPosition& position, Eigen::Index i) {
-  Json json{{"z_mm", point.z},
-            {"phase", point.phase},
-            {"pinion_radius_mm", point.pinion_radius},
-            {"wheel_radius_mm", point.wheel_radius},
-            {"length_mm", point.weight},
-            {"load_N_per_mm", position.load.line_load[i]},
-            {"contact_stress_MPa", position.contact_stress[i]},
-            {"contact_deflection_um", in_um(position.load.contact_deflection[i])},
-            {"structural_deflection_um", in_um(position.load.structural_deflection[i])},
-            {"gap_um", in_um(position.gap.total[i])},
-            {"error_um", in_um(position.gap.error[i])}};
+  Json json = record({{"z_mm", point.z},
+                      {"phase", point.phase},
+                      {"pinion_radius_mm", point.pinion_radius},
+                      {"wheel_radius_mm", point.wheel_radius},
+                      {"length_mm", point.weight},
+                      {"load_N_per_mm", position.load.line_load[i]},
+                      {"contact_stress_MPa", position.contact_stress[i]},
+                      {"contact_deflection_um", in_um(position.load.contact_deflection[i])},
+                      {"structural_deflection_um", in_um(position.load.structural_deflection[i])},
+                      {"gap_um", in_um(position.gap.total[i])},
+                      {"error_um", in_um(position.gap.error[i])}});
   if (!position.gap.nearest.empty()) {
     const NearestPlace& nearest = position.gap.nearest[static_cast<std::size_t>(i)];
-    json["nearest"] = {{"pinion_radius_mm", nearest.pinion_radius}, {"wheel_radius_mm", nearest.wheel_radius}};
+    json["nearest"] = record({{"pinion_radius_mm", nearest.pinion_radius}, {"wheel_radius_mm", nearest.wheel_radius}});
   }
   return json;
 }
@@ -265,11 +274,18 @@ Json units_json() {
           {"load", "N per mm of contact line"}, {"stress", "MPa"}, {"stiffness", "N/(mm um), transverse"}};
 }
 
+/// Numbers that were not computed are null, in the document as in its text.
+void put_null_for_nan(Json& node) {
+  if (node.is_number_float() && !std::isfinite(node.get<double>())) node = nullptr;
+  if (!node.is_structured()) return;
+  for (Json& child : node) put_null_for_nan(child);
+}
+
 }  // namespace
 
 const char* version() { return FLANKWRIGHT_VERSION; }
 
-std::string results_json(const StudyResults& results) {
+Json results_document(const StudyResults& results) {
   const Study& study = results.study;
   Json json{{"title", study.title},
             {"task", to_string(study.task)},
@@ -303,8 +319,40 @@ std::string results_json(const StudyResults& results) {
   if (!results.fits.empty()) json["fit"] = list(results.fits, fit_json);
   json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}, {"unit", unit_of_given(g)}}; });
   json["used"] = used_json(results);
-  // A file name need not be UTF-8, JSON must be: what is not becomes the replacement character.
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+  put_null_for_nan(json);
+  return json;
 }
+
+std::string json_text(const Json& document) {
+  // A file name need not be UTF-8, JSON must be: what is not becomes the replacement character.
+  const auto text_of = [](const Json& node) { return node.dump(-1, ' ', false, Json::error_handler_t::replace); };
+  if (!document.is_object()) return text_of(document) + "\n";
+  // Load cases are nearly all of it, and are written side by side.
+  std::string text;
+  for (const auto& [key, section] : document.items()) {
+    text += text.empty() ? '{' : ',';
+    text += text_of(key);
+    text += ':';
+    if (!section.is_array()) {
+      text += text_of(section);
+      continue;
+    }
+    std::vector<std::string> entries(section.size());
+    tbb::parallel_for(std::size_t{0}, entries.size(), [&](std::size_t i) { entries[i] = text_of(section[i]); });
+    std::size_t length = text.size() + 2;
+    for (const std::string& entry : entries) length += entry.size() + 1;
+    text.reserve(length);
+    char before = '[';
+    for (const std::string& entry : entries) {
+      text += before;
+      text += entry;
+      before = ',';
+    }
+    text += entries.empty() ? "[]" : "]";
+  }
+  return (text.empty() ? "{" : text) + "}\n";
+}
+
+std::string results_json(const StudyResults& results) { return json_text(results_document(results)); }
 
 }  // namespace flankwright::studies

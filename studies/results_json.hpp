@@ -2,12 +2,19 @@
 
 #include <string>
 
+#include "studies/json_format.hpp"
 #include "studies/run_study.hpp"
 
 namespace flankwright::studies {
 
-/// Text of results.json for a finished study. Units are in the key names; a number that was not computed is null.
+/// What results.json holds of a finished study. Units are in the key names; a number that was not computed is null.
 /// README.md describes every section.
+Json results_document(const StudyResults& results);
+
+/// The document as the text of a file.
+std::string json_text(const Json& document);
+
+/// Text of results.json.
 std::string results_json(const StudyResults& results);
 
 /// Version of the program, "0.1.0".

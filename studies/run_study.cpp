@@ -112,30 +112,45 @@ class Run {
     results_.phases = cycle.phases.empty() ? equally_spaced_phases(cycle.positions) : cycle.phases;
   }
 
-  /// The mesh model for a misalignment, built when first needed.
-  std::size_t model_for(const Misalignment& misalignment) {
-    const MeshPlacement placement = placement_of(misalignment);
-    const auto [it, is_new] = model_index_.try_emplace(placement, results_.models.size());
-    if (is_new) {
-      results_.models.push_back(
-          mesh(placement, {results_.study.fidelity.quadrature, results_.phases}, structures().root_stress.get(), gradient_parameters()));
+  /// The mesh models of load cases, those that are new built side by side.
+  std::vector<std::size_t> models_for(const std::vector<DesignScene>& scenes) {
+    std::vector<std::size_t> models;
+    std::vector<MeshPlacement> unknown;
+    for (const DesignScene& scene : scenes) {
+      const MeshPlacement placement = placement_of(scene.condition.misalignment);
+      const auto [it, is_new] = model_index_.try_emplace(placement, results_.models.size() + unknown.size());
+      if (is_new) unknown.push_back(placement);
+      models.push_back(it->second);
     }
-    return it->second;
+    for (MeshModel& model : meshes(unknown, {results_.study.fidelity.quadrature, results_.phases}, gradient_parameters())) {
+      results_.models.push_back(std::move(model));
+    }
+    return models;
   }
 
-  /// The mesh of a placement with half the intervals at every second position, to hold the study's own resolution against; null for phases
+  std::vector<MeshModel> meshes(const std::vector<MeshPlacement>& placements, const MeshResolution& resolution, const std::vector<MeshParameter>& parameters) {
+    std::vector<MeshModel> made(placements.size());
+    if (placements.empty()) return made;
+    const PairRootStress* root_stress = structures().root_stress.get();
+    tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t i) { made[i] = mesh(placements[i], resolution, root_stress, parameters); });
+    return made;
+  }
+
+  /// Meshes of the placements with half the intervals at every second position, to hold the study's own resolution against; null for phases
   /// that were given, whose figures are of these phases.
-  const MeshModel* coarse_mesh_for(const Misalignment& misalignment) {
+  std::vector<const MeshModel*> coarse_meshes_for(const std::vector<Misalignment>& misalignments) {
     Quadrature quadrature = results_.study.fidelity.quadrature;
-    if (!results_.study.cycle.phases.empty() || results_.phases.size() < 4 || quadrature.intervals < 2) return nullptr;
+    std::vector<const MeshModel*> coarse(misalignments.size(), nullptr);
+    if (!results_.study.cycle.phases.empty() || results_.phases.size() < 4 || quadrature.intervals < 2) return coarse;
     quadrature.intervals /= 2;
-    const MeshPlacement placement = placement_of(misalignment);
-    auto known = coarse_models_.find(placement);
-    if (known == coarse_models_.end()) {
-      const MeshResolution resolution{quadrature, coarse_phases(results_.phases)};
-      known = coarse_models_.emplace(placement, mesh(placement, resolution, structures().root_stress.get(), {})).first;
+    std::vector<MeshPlacement> unknown;
+    for (const Misalignment& misalignment : misalignments) {
+      if (coarse_models_.try_emplace(placement_of(misalignment)).second) unknown.push_back(placement_of(misalignment));
     }
-    return &known->second;
+    std::vector<MeshModel> made = meshes(unknown, {quadrature, coarse_phases(results_.phases)}, {});
+    for (std::size_t i = 0; i < unknown.size(); ++i) coarse_models_[unknown[i]] = std::move(made[i]);
+    for (std::size_t i = 0; i < coarse.size(); ++i) coarse[i] = &coarse_models_.at(placement_of(misalignments[i]));
+    return coarse;
   }
 
   /// A load case that was solved, and its mesh.
@@ -147,8 +162,9 @@ class Run {
 
   /// What solved load cases show, with extremes between their positions, and errors where asked for.
   std::vector<ResolvedCycle> resolved(const std::vector<SolvedCase>& cases, bool with_errors = true) {
-    std::vector<const MeshModel*> coarse;
-    for (const SolvedCase& of : cases) coarse.push_back(with_errors ? coarse_mesh_for(of.scene.condition.misalignment) : nullptr);
+    std::vector<Misalignment> misalignments;
+    for (const SolvedCase& of : cases) misalignments.push_back(of.scene.condition.misalignment);
+    const std::vector<const MeshModel*> coarse = with_errors ? coarse_meshes_for(misalignments) : std::vector<const MeshModel*>(cases.size(), nullptr);
     std::vector<ResolvedCycle> all(cases.size());
     tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
       const auto& [scene, model, cycle] = cases[i];
@@ -205,8 +221,7 @@ class Run {
 
   /// Adds solved load cases of one design.
   void add_loaded(const std::vector<DesignScene>& scenes, const std::string& design, std::vector<LoadedCycle> cycles) {
-    std::vector<std::size_t> models;
-    for (const DesignScene& scene : scenes) models.push_back(model_for(scene.condition.misalignment));
+    const std::vector<std::size_t> models = models_for(scenes);
     tbb::parallel_for(std::size_t{0}, scenes.size(), [&](std::size_t i) {
       const bool has_none = !cycles[i].positions.empty() && cycles[i].positions.front().root_stress.size() == 0;
       if (has_none) add_root_stress(results_.models[models[i]], cycles[i]);  // a search that did not ask for it has left it out
@@ -276,8 +291,7 @@ class Run {
 
   void analyse_loaded(const std::vector<DesignScene>& scenes) {
     const std::vector<MeshParameter> parameters = gradient_parameters();
-    std::vector<std::size_t> models;
-    for (const DesignScene& scene : scenes) models.push_back(model_for(scene.condition.misalignment));
+    const std::vector<std::size_t> models = models_for(scenes);
     std::vector<LoadedCycle> cycles(scenes.size());
     tbb::parallel_for(std::size_t{0}, scenes.size(), [&](std::size_t i) {
       cycles[i] = analyse_cycle(results_.models[models[i]], scenes[i].condition, scenes[i].torque, parameters);

@@ -16,27 +16,28 @@ namespace {
 
 /// A load case with some effects on: the mesh and the flanks that they leave.
 struct Case {
-  MeshModel model;
+  std::shared_ptr<const MeshModel> model;
   FlankCondition condition;
 };
 
 /// Makes the cases of one scene; what its gears alone settle is worked out once.
 class Cases {
  public:
-  explicit Cases(const EffectScene& scene)
-      : scene_(scene), slices_(ThinSlice(scene.pair, scene.pinion_material, scene.wheel_material)) {
+  Cases(const EffectScene& scene, EffectMeshes& meshes)
+      : scene_(scene), meshes_(meshes), slices_(ThinSlice(scene.pair, scene.pinion_material, scene.wheel_material)) {
     gears_.pair = scene.pair;
     gears_.pinion_material = scene.pinion_material;
     gears_.wheel_material = scene.wheel_material;
     gears_.contact_modulus = contact_modulus(scene.pinion_material, scene.wheel_material);
   }
 
-  Case with(const EffectDecisions& decisions) const {
+  /// @param left_out  name of what the decisions leave out; empty: nothing
+  Case with(const EffectDecisions& decisions, const std::string& left_out = {}) const {
     FlankCondition condition = apply_effects(decisions, scene_.condition);
     const MeshPlacement placement = MeshPlacement::of(gap_model(decisions), condition.misalignment);
     const PairCompliance& structure = scene_.structure != nullptr ? *scene_.structure : slices_;
-    return {mesh_with_effects(gears_, scene_.resolution, mesh_effects(decisions), placement, structure, nullptr, scene_.shafts),
-            std::move(condition)};
+    const auto make = [&] { return mesh_with_effects(gears_, scene_.resolution, mesh_effects(decisions), placement, structure, nullptr, scene_.shafts); };
+    return {meshes_.mesh(left_out, placement, make), std::move(condition)};
   }
 
   /// Whether the structure can be had with these effects: that on rigid bodies takes a run of its own.
@@ -44,13 +45,14 @@ class Cases {
     return scene_.structure == nullptr || scene_.structure->knows_rigid_bodies() || is_on(decisions, "gear_body_compliance");
   }
 
-  CycleOutputs outputs(const EffectDecisions& decisions) const {
-    const Case made = with(decisions);
-    return cycle_outputs(made.model, analyse_cycle(made.model, made.condition, scene_.pinion_torque));
+  CycleOutputs outputs(const EffectDecisions& decisions, const std::string& left_out = {}) const {
+    const Case made = with(decisions, left_out);
+    return cycle_outputs(*made.model, analyse_cycle(*made.model, made.condition, scene_.pinion_torque));
   }
 
  private:
   const EffectScene& scene_;
+  EffectMeshes& meshes_;
   ThinSlicePair slices_;
   MeshModel gears_;  ///< without positions
 };
@@ -148,15 +150,15 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
   EstimatedSize result{{name, {}, not_given}};
   const EffectDecisions rest = without(decisions, name, "left out");
   if (!mesh_effects(rest).give_way() || !cases.knows(rest)) return result;
-  const Case other = cases.with(rest);
-  const ConditionGap gaps(other.model.pair, other.model.placement.gap, other.condition);
-  OutputSum outputs(other.model);
+  const Case other = cases.with(rest, name);
+  const ConditionGap gaps(other.model->pair, other.model->placement.gap, other.condition);
+  OutputSum outputs(*other.model);
   for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
-    const MeshPosition& at = other.model.positions[i];
+    const MeshPosition& at = other.model->positions[i];
     const LoadDistribution& solved = cycle.positions[i].load;
     const Eigen::VectorXd gap = gaps.at(at.points, at.phase).total;
     const LoadProblem problem{at.influence, at.weight, gap, at.laws, cycle.force};
-    const Eigen::VectorXd loads = carried(all.model.positions[i], solved.line_load, at);
+    const Eigen::VectorXd loads = carried(all.model->positions[i], solved.line_load, at);
     std::optional<Solution> found = at.points.empty() ? std::nullopt : first_order(problem, loads, solved.transmission_error, trust);
     ++result.positions;
     if (!found) {
@@ -184,20 +186,40 @@ CycleOutputs cycle_outputs(const MeshModel& model, const LoadedCycle& cycle) {
   return outputs.outputs();
 }
 
-CycleOutputs outputs_with(const EffectScene& scene, const EffectDecisions& decisions) { return Cases(scene).outputs(decisions); }
+CycleOutputs outputs_with(const EffectScene& scene, const EffectDecisions& decisions) {
+  EffectMeshes meshes;
+  return Cases(scene, meshes).outputs(decisions);
+}
 
 EffectInfluence exact_influence(const EffectScene& scene, const EffectDecisions& decisions, const std::string& name) {
   const EffectDecisions rest = without(decisions, name, "left out");
   if (!mesh_effects(rest).give_way()) return {};
-  const Cases cases(scene);
-  return EffectInfluence::between(cases.outputs(decisions), cases.outputs(rest));
+  EffectMeshes meshes;
+  const Cases cases(scene, meshes);
+  return EffectInfluence::between(cases.outputs(decisions), cases.outputs(rest, name));
+}
+
+std::shared_ptr<const MeshModel> EffectMeshes::mesh(const std::string& left_out, const MeshPlacement& placement,
+                                                    const std::function<MeshModel()>& make) {
+  Entry* entry = nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    entry = &entries_[{left_out, placement}];
+  }
+  std::call_once(entry->made, [&] { entry->mesh = std::make_shared<const MeshModel>(make()); });
+  return entry->mesh;
 }
 
 std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options) {
-  const Cases cases(scene);
+  EffectMeshes meshes;
+  return estimate_effect_sizes(scene, decisions, options, meshes);
+}
+
+std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options, EffectMeshes& meshes) {
+  const Cases cases(scene, meshes);
   const Case all = cases.with(decisions);
-  const LoadedCycle cycle = analyse_cycle(all.model, all.condition, scene.pinion_torque);
-  const CycleOutputs with = cycle_outputs(all.model, cycle);
+  const LoadedCycle cycle = analyse_cycle(*all.model, all.condition, scene.pinion_torque);
+  const CycleOutputs with = cycle_outputs(*all.model, cycle);
   std::vector<EstimatedSize> sizes;
   for (const EffectDecision& decision : decisions) {
     if (!decision.on || !changes_mesh(decision.name)) continue;

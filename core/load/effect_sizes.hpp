@@ -1,5 +1,11 @@
 #pragma once
 
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/effects/effect_size.hpp"
@@ -16,6 +22,22 @@ struct EffectScene {
   const PairCompliance* shafts{nullptr};     ///< null: rigid
   FlankCondition condition;                  ///< with everything that there is, whatever effects are on
   double pinion_torque{not_given};           ///< [N mm], > 0
+};
+
+/// Meshes with one effect left out, each made once for all load cases that differ in torque, modifications and what else moves no point. Several threads may ask.
+/// All scenes that are estimated with it have the same gears, resolution, compliance and effects.
+class EffectMeshes {
+ public:
+  /// @param left_out  name of an effect; empty: none
+  std::shared_ptr<const MeshModel> mesh(const std::string& left_out, const MeshPlacement& placement, const std::function<MeshModel()>& make);
+
+ private:
+  struct Entry {
+    std::once_flag made;
+    std::shared_ptr<const MeshModel> mesh;
+  };
+  std::mutex mutex_;
+  std::map<std::pair<std::string, MeshPlacement>, Entry> entries_;
 };
 
 /// What a cycle says that effects are measured by; NaN where a position failed.
@@ -48,6 +70,8 @@ struct SizeOptions {
 /// one step of LoadSensitivity, a single factorisation, gives loads and f_t without the effect. Of f_t it is exact to first order in
 /// what changes, sum a_i (dw_i/dF) (dK a w + dg + dc)_i. (For a mesh without gaps and linear in its loads, dw/dF = w/F, the
 /// envelope theorem's sum a_i w_i (...)_i / F.) Where SizeOptions::trust is exceeded the position is solved again.
+/// @param meshes  shared between load cases
+std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options, EffectMeshes& meshes);
 std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options = {});
 
 }  // namespace flankwright

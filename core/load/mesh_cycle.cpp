@@ -128,25 +128,40 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
   return cycle;
 }
 
-Eigen::VectorXd root_stresses(const MeshPosition& at, const LoadDistribution& load) {
-  // Components are linear in the forces a w; principal stresses are their largest component.
-  const Eigen::VectorXd components = at.root_stress.components * at.weight.cwiseProduct(load.line_load);
-  Eigen::VectorXd stresses(static_cast<Eigen::Index>(at.root_stress.places.size()));
+namespace {
+
+/// Components are linear in the forces a w; principal stresses are their largest component.
+Eigen::VectorXd principal_stresses(const Eigen::VectorXd& components) {
+  Eigen::VectorXd stresses(components.size() / 3);
   for (Eigen::Index i = 0; i < stresses.size(); ++i) stresses[i] = largest_principal(components.segment<3>(3 * i)).value;
   return stresses;
 }
 
+}  // namespace
+
+Eigen::VectorXd root_stresses(const MeshPosition& at, const LoadDistribution& load) {
+  return principal_stresses(at.root_stress.components(at.weight.cwiseProduct(load.line_load)));
+}
+
 void add_root_stress(const MeshModel& model, LoadedCycle& cycle) {
+  std::vector<const RootStressInfluence*> influences;
+  std::vector<Eigen::VectorXd> forces;
+  std::vector<LoadedPosition*> loaded;
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const MeshPosition& at = model.positions[i];
     LoadedPosition& position = cycle.positions[i];
-    if (!at.root_stress.places.empty() && position.load.usable()) position.root_stress = root_stresses(at, position.load);
+    if (at.root_stress.places.empty() || !position.load.usable()) continue;
+    influences.push_back(&at.root_stress);
+    forces.push_back(at.weight.cwiseProduct(position.load.line_load));
+    loaded.push_back(&position);
   }
+  const std::vector<Eigen::VectorXd> components = RootStressInfluence::components(influences, forces);
+  for (std::size_t k = 0; k < loaded.size(); ++k) loaded[k]->root_stress = principal_stresses(components[k]);
 }
 
 Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPosition& position, Eigen::Index place) {
   // The direction of a principal stress is held at its optimum.
-  const auto influence = at.root_stress.components.middleRows<3>(3 * place);
+  const auto influence = at.root_stress.components_of(place);
   const PrincipalStress principal = largest_principal(influence * at.weight.cwiseProduct(position.load.line_load));
   Eigen::MatrixXd components = influence * at.weight.asDiagonal() * position.line_load_derivative;
   if (position.root_influence_derivative.size() > 0) components += position.root_influence_derivative.middleRows<3>(3 * place);

@@ -21,7 +21,7 @@ struct HeldLoads {
 HeldLoads held_loads(const MeshPosition& at, const Gap& gap, const Eigen::VectorXd& load) {
   const Eigen::VectorXd forces = at.weight.cwiseProduct(load);
   HeldLoads held{gap.total, at.influence * forces, Eigen::VectorXd(load.size()), {}, forces.sum()};
-  if (!at.root_stress.places.empty()) held.root_components = at.root_stress.components * forces;
+  if (!at.root_stress.places.empty()) held.root_components = at.root_stress.components(forces);
   for (Eigen::Index i = 0; i < load.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!at.laws.empty()) held.deflection[i] += at.laws[k].deflection(load[i]);

@@ -1,7 +1,6 @@
 #include "studies/report/report.hpp"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -13,27 +12,25 @@
 namespace flankwright::studies {
 namespace {
 
-using nlohmann::json;
-
-bool has(const json& results, const char* key) {
+bool has(const Json& results, const char* key) {
   const auto found = results.find(key);
   return found != results.end() && found->is_structured() && !found->empty();
 }
 
-bool has_loaded(const json& results) {
+bool has_loaded(const Json& results) {
   return has(results, "loaded") && results.at("loaded").is_array();
 }
 
-bool has_gradients(const json& results) {
-  return has_loaded(results) && std::ranges::any_of(results.at("loaded"), [](const json& entry) { return entry.is_object() && has(entry, "gradients"); });
+bool has_gradients(const Json& results) {
+  return has_loaded(results) && std::ranges::any_of(results.at("loaded"), [](const Json& entry) { return entry.is_object() && has(entry, "gradients"); });
 }
 
-bool has_sweep(const json& results) { return has(results, "sweep") && results.at("sweep").is_object(); }
+bool has_sweep(const Json& results) { return has(results, "sweep") && results.at("sweep").is_object(); }
 
 /// A part of the proof of an optimum; a comparison counts where there is something to compare with.
-bool has_proof(const json& results, const char* part) {
+bool has_proof(const Json& results, const char* part) {
   if (!has(results, "optimise") || !results.at("optimise").is_object() || !has(results.at("optimise"), part)) return false;
-  const json& found = results.at("optimise").at(part);
+  const Json& found = results.at("optimise").at(part);
   return !found.contains("rules") || has(found, "rules") || has(found, "variants");
 }
 
@@ -41,49 +38,49 @@ bool has_proof(const json& results, const char* part) {
 struct Section {
   const char* id;
   const char* title;
-  bool (*present)(const json& results);
+  bool (*present)(const Json& results);
 };
 
 /// True where an optimisation says from where it searched, rounded its optimum, or traced a front.
-bool searched(const json& r) {
+bool searched(const Json& r) {
   if (!has(r, "optimise") || !r.at("optimise").is_object()) return false;
-  const json& optimise = r.at("optimise");
+  const Json& optimise = r.at("optimise");
   return has(optimise, "starts") || has(optimise, "rounded") || has(optimise, "pareto");
 }
 
-bool optimised(const json& r) { return has(r, "optimise"); }
+bool optimised(const Json& r) { return has(r, "optimise"); }
 
 /// In the order in which a gear engineer asks: what to grind and what it gains, the contact behind it, how sure that is, how it was found,
 /// and all numbers. The flanks of an analysis are given, so they come behind their contact.
 constexpr Section sections[] = {
-    {"accuracy", "What accuracy costs", [](const json& r) { return has(r, "accuracy") || has(r, "accuracy_choice"); }},
+    {"accuracy", "What accuracy costs", [](const Json& r) { return has(r, "accuracy") || has(r, "accuracy_choice"); }},
     {"scatter", "Scatter over the samples", has_sweep},
-    {"indices", "Where the scatter comes from", [](const json& r) { return has_sweep(r) && r.at("sweep").value("index_blocks", 0) > 1; }},
-    {"response-maps", "Response maps", [](const json& r) { return has_sweep(r) && has(r.at("sweep"), "response_maps"); }},
+    {"indices", "Where the scatter comes from", [](const Json& r) { return has_sweep(r) && r.at("sweep").value("index_blocks", 0) > 1; }},
+    {"response-maps", "Response maps", [](const Json& r) { return has_sweep(r) && has(r.at("sweep"), "response_maps"); }},
     {"modifications", "Flank modifications", optimised},
     {"scenes", "Scenes", optimised},
     {"flank-load", "Load on the flank", has_loaded},
     {"transmission-error", "Transmission error under load", has_loaded},
     {"stiffness", "Load sharing and mesh stiffness", has_loaded},
-    {"modifications", "Flank modifications", [](const json& r) { return has(r, "modifications") && !optimised(r); }},
-    {"validation", "Scenes drawn afresh", [](const json& r) { return has_proof(r, "validation"); }},
-    {"comparison", "Optimum and other designs", [](const json& r) { return has_proof(r, "comparison"); }},
-    {"governing", "What governs the optimum", [](const json& r) { return has_proof(r, "governing"); }},
-    {"sensitivity", "Sensitivity of the optimum", [](const json& r) { return has_proof(r, "sensitivity"); }},
+    {"modifications", "Flank modifications", [](const Json& r) { return has(r, "modifications") && !optimised(r); }},
+    {"validation", "Scenes drawn afresh", [](const Json& r) { return has_proof(r, "validation"); }},
+    {"comparison", "Optimum and other designs", [](const Json& r) { return has_proof(r, "comparison"); }},
+    {"governing", "What governs the optimum", [](const Json& r) { return has_proof(r, "governing"); }},
+    {"sensitivity", "Sensitivity of the optimum", [](const Json& r) { return has_proof(r, "sensitivity"); }},
     {"search", "Search, rounding and compromises", searched},
     {"convergence", "Convergence",
-     [](const json& r) {
+     [](const Json& r) {
        return has(r, "optimise") && r.at("optimise").is_object() && has(r.at("optimise"), "history");
      }},
     {"gradients", "Derivatives of the results", has_gradients},
     {"load-cases", "Load cases in numbers", has_loaded},
-    {"unloaded", "Unloaded contact", [](const json& r) { return has(r, "unloaded"); }},
-    {"deflections", "Deflection of a tooth under load", [](const json& r) { return has(r, "fit") || has(r, "deflections"); }},
-    {"residuals", "Fits beside finite elements", [](const json& r) { return has(r, "fit"); }},
-    {"gear-pair", "Gear pair", [](const json& r) { return has(r, "geometry"); }},
-    {"effects", "Effects and time", [](const json& r) { return has(r, "effects"); }},
-    {"notes", "Notes", [](const json& r) { return has(r, "notes"); }},
-    {"inputs", "Given and used", [](const json& r) { return has(r, "given") || has(r, "used"); }},
+    {"unloaded", "Unloaded contact", [](const Json& r) { return has(r, "unloaded"); }},
+    {"deflections", "Deflection of a tooth under load", [](const Json& r) { return has(r, "fit") || has(r, "deflections"); }},
+    {"residuals", "Fits beside finite elements", [](const Json& r) { return has(r, "fit"); }},
+    {"gear-pair", "Gear pair", [](const Json& r) { return has(r, "geometry"); }},
+    {"effects", "Effects and time", [](const Json& r) { return has(r, "effects"); }},
+    {"notes", "Notes", [](const Json& r) { return has(r, "notes"); }},
+    {"inputs", "Given and used", [](const Json& r) { return has(r, "given") || has(r, "used"); }},
 };
 
 std::string replace_all(std::string_view text,
@@ -110,30 +107,31 @@ std::string escape_html(std::string_view text) {
 
 /// JSON that may stand inside a script element: pure ASCII (which also covers U+2028 and U+2029), and without '<',
 /// so that neither "</script" nor "<!--" can occur. '<' can only be inside a JSON string, where \u003c means the same.
-std::string script_safe(const json& value) {
-  return replace_all(value.dump(-1, ' ', true, json::error_handler_t::replace), {{"<", "\\u003c"}});
+std::string script_safe(const Json& value) {
+  return replace_all(value.dump(-1, ' ', true, Json::error_handler_t::replace), {{"<", "\\u003c"}});
 }
 
-std::string text_or(const json& results, const char* key, const char* fallback) {
+std::string text_or(const Json& results, const char* key, const char* fallback) {
   const auto found = results.find(key);
   return found != results.end() && found->is_string() ? found->get<std::string>() : fallback;
 }
 
-json parse(const std::string& text) {
-  json results;
+Json parse(const std::string& text) {
+  Json results;
   try {
-    results = json::parse(text);
-  } catch (const json::exception& failure) {
+    results = Json::parse(text);
+  } catch (const Json::exception& failure) {
     throw InvalidInput("results.json", failure.what(), "well-formed JSON");
   }
-  if (!results.is_object()) throw InvalidInput("results.json", results.type_name(), "a JSON object");
   return results;
 }
 
 }  // namespace
 
-std::string render_report(const std::string& results_json) {
-  const json results = parse(results_json);
+std::string render_stored_report(const std::string& results_json) { return render_report(parse(results_json)); }
+
+std::string render_report(const Json& results) {
+  if (!results.is_object()) throw InvalidInput("results.json", results.type_name(), "a JSON object");
 
   std::string links, bodies;
   for (const Section& section : sections) {

@@ -1,16 +1,13 @@
 #include "studies/report/report_view.hpp"
 
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "studies/report/plain_names.hpp"
 
 namespace flankwright::studies {
 namespace {
-
-using nlohmann::json;
 
 constexpr int significant_digits = 6;
 /// Of the unloaded transmission error: backlash may lift it by a thousand arcsec, and a thousandth is of interest.
@@ -20,62 +17,90 @@ constexpr int te_digits = 10;
 double rounded(double x, int digits) {
   if (!std::isfinite(x)) return x;
   std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*g", digits, x);
-  return std::strtod(text.data(), nullptr);
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), x, std::chars_format::scientific, digits - 1);
+  std::from_chars(text.data(), end.ptr, x);
+  return x;
 }
 
-void round_numbers(json& node, int digits) {
-  if (node.is_number_float()) {
-    node = rounded(node.get<double>(), digits);
-  } else if (node.is_object()) {
-    for (auto& [key, child] : node.items()) round_numbers(child, key == "te_arcsec" ? te_digits : digits);
-  } else if (node.is_array()) {
-    for (json& child : node) round_numbers(child, digits);
+/// A copy with its numbers rounded.
+Json drawn(const Json& node, int digits = significant_digits) {
+  if (node.is_number_float()) return rounded(node.get<double>(), digits);
+  if (!node.is_structured()) return node;
+  Json copy = node.is_object() ? Json::object() : Json::array();
+  if (node.is_array()) {
+    for (const Json& child : node) copy.push_back(drawn(child, digits));
+  } else {
+    for (const auto& [key, child] : node.items()) copy[key] = drawn(child, key == "te_arcsec" ? te_digits : digits);
   }
+  return copy;
+}
+
+/// A copy of an object, with one of its members drawn in its own way; anything else is drawn as it is.
+template <class Draw>
+Json drawn_with(const Json& node, const char* member, const Draw& draw_member) {
+  if (!node.is_object()) return drawn(node);
+  Json copy = Json::object();
+  for (const auto& [key, child] : node.items()) copy[key] = key == member ? draw_member(child) : drawn(child);
+  return copy;
+}
+
+template <class Draw>
+Json drawn_list(const Json& list, const Draw& draw_entry) {
+  if (!list.is_array()) return drawn(list);
+  Json copy = Json::array();
+  for (const Json& entry : list) copy.push_back(draw_entry(entry));
+  return copy;
 }
 
 /// List of points -> object of columns.
-json columns_of(const json& points) {
-  json columns = json::object();
+Json columns_of(const Json& points) {
+  if (!points.is_array()) return drawn(points);
+  Json columns = Json::object();
   for (const char* key : {"z_mm", "pinion_radius_mm", "load_N_per_mm", "contact_stress_MPa", "gap_um"}) {
-    json& column = columns[key] = json::array();
-    for (const json& point : points) column.push_back(point.is_object() ? point.value(key, json()) : json());
+    Json& column = columns[key] = Json::array();
+    for (const Json& point : points) {
+      const bool has = point.is_object() && point.contains(key);
+      column.push_back(has ? drawn(point.at(key)) : Json());
+    }
   }
   return columns;
 }
 
-/// Calls visit(child) for every element of the array node[key], where there is one.
-template <class Visitor>
-void for_each_in(json& node, const char* key, Visitor&& visit) {
-  if (!node.is_object()) return;
-  const auto found = node.find(key);
-  if (found == node.end() || !found->is_array()) return;
-  for (json& child : *found) visit(child);
+/// Without the ends of lines, which no picture draws.
+Json drawn_tooth(const Json& tooth) {
+  Json copy = drawn_with(tooth, "points", columns_of);
+  if (copy.is_object()) copy.erase("line_ends");
+  return copy;
+}
+
+Json drawn_position(const Json& position) {
+  return drawn_with(position, "teeth", [](const Json& teeth) { return drawn_list(teeth, drawn_tooth); });
+}
+
+/// Of the gradients the page has those of the summary.
+Json drawn_case(const Json& entry) {
+  Json copy = drawn_with(entry, "cycle", [](const Json& cycle) { return drawn_list(cycle, drawn_position); });
+  if (copy.is_object() && copy.contains("gradients") && copy["gradients"].is_object()) {
+    for (const char* part : {"cycle", "shafts"}) copy["gradients"].erase(part);
+  }
+  return copy;
 }
 
 }  // namespace
 
-nlohmann::json report_view(nlohmann::json results) {
-  for_each_in(results, "loaded", [](json& entry) {
-    if (entry.is_object() && entry.contains("gradients") && entry["gradients"].is_object()) {
-      for (const char* part : {"cycle", "shafts"}) entry["gradients"].erase(part);  // the page has those of the summary
+Json report_view(const Json& results) {
+  if (!results.is_object()) return drawn(results);
+  Json view = Json::object();
+  for (const auto& [key, section] : results.items()) {
+    if (key == "given" || key == "used") {
+      view[key] = section;
+    } else {
+      view[key] = key == "loaded" ? drawn_list(section, drawn_case) : drawn(section);
     }
-    for_each_in(entry, "cycle", [](json& position) {
-      for_each_in(position, "teeth", [](json& tooth) {
-        if (!tooth.is_object()) return;
-        const auto points = tooth.find("points");
-        if (points != tooth.end() && points->is_array()) *points = columns_of(*points);
-        tooth.erase("line_ends");  // no picture draws them
-      });
-    });
-  });
-  if (!results.is_object()) return results;
-  json& names = results["names"] = json::array();  // in the order in which tables list them
-  for (const PlainName& name : plain_names()) names.push_back({name.key, name.name, name.symbol, name.sense});
-  for (auto& [key, section] : results.items()) {
-    if (key != "given" && key != "used") round_numbers(section, significant_digits);
   }
-  return results;
+  Json& names = view["names"] = Json::array();  // in the order in which tables list them
+  for (const PlainName& name : plain_names()) names.push_back({name.key, name.name, name.symbol, name.sense});
+  return view;
 }
 
 }  // namespace flankwright::studies

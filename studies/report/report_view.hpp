@@ -1,6 +1,6 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include "studies/json_format.hpp"
 
 namespace flankwright::studies {
 
@@ -11,6 +11,6 @@ namespace flankwright::studies {
 /// lacks a number, or has none, gets null in that column. Of `loaded[].gradients` the summary's stay.
 ///
 /// @param results  results.json, any shape; parts that do not have the expected shape pass unchanged
-nlohmann::json report_view(nlohmann::json results);
+Json report_view(const Json& results);
 
 }  // namespace flankwright::studies

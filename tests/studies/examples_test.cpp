@@ -102,7 +102,7 @@ TEST_CASE("The unloaded examples are at their published figures, at any number o
       const Study study = read_study(std::string(FLANKWRIGHT_SOURCE_DIR "/studies/examples/") + name + ".toml",
                                      {{"cycle.positions", positions}});
       CHECK_FALSE(study.expect.empty());
-      CHECK(differences(compare(study.expect, results_json(run_study(study)))) == "");
+      CHECK(differences(compare(study.expect, results_document(run_study(study)))) == "");
     }
   }
 }

@@ -6,10 +6,10 @@
 namespace flankwright::studies {
 namespace {
 
-const std::string expected_results = R"({
+const Json expected_results = Json::parse(R"({
   "a": {"b": 2.0, "nothing": null, "text": "two", "truth": true, "list": [1, 2, 3]},
   "loaded": [{"summary": {"te": 1.0}}, {"summary": {"te": 2.0}}, {"summary": {}}],
-  "empty": []})";
+  "empty": []})");
 
 Expectation value(const std::string& key, double wanted, double relative = not_given, double absolute = not_given) {
   Expectation e;

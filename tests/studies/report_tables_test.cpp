@@ -16,7 +16,7 @@ namespace {
 
 std::map<std::string, std::string> tables_of(const std::string& study, const std::vector<Override>& overrides = {}) {
   std::map<std::string, std::string> tables;
-  for (const NamedText& table : report_tables(results_json(run_study(parse_study(study, "a", overrides))))) tables[table.name] = table.text;
+  for (const NamedText& table : report_tables(results_document(run_study(parse_study(study, "a", overrides))))) tables[table.name] = table.text;
   return tables;
 }
 
@@ -57,7 +57,7 @@ TEST_CASE("The tables hold the numbers of results.json", "[studies][tables]") {
   const std::string text = results_json(run_study(parse_study(small::optimisation(), "a", {{"optimise.max_evaluations", "5"}})));
   const nlohmann::json json = nlohmann::json::parse(text);
   std::map<std::string, std::string> tables;
-  for (const NamedText& table : report_tables(text)) tables[table.name] = table.text;
+  for (const NamedText& table : report_tables(Json::parse(text))) tables[table.name] = table.text;
   check_columns(tables.at("design.csv"));
   for (const auto& [name, value] : json["optimise"]["after"]["variables"].items()) {
     const std::string line = "variable," + name + ",um,";

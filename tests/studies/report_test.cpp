@@ -14,7 +14,6 @@
 namespace flankwright::studies {
 namespace {
 
-using PlainJson = nlohmann::json;  // what the report reads
 
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;
@@ -31,16 +30,16 @@ std::vector<std::string> section_ids(const std::string& page) {
 }
 
 /// The data block of the page, read back as a browser would: up to the first closing tag.
-PlainJson embedded(const std::string& page) {
+Json embedded(const std::string& page) {
   const std::string opening = "<script type=\"application/json\" id=\"results\">";
   const std::size_t from = page.find(opening) + opening.size();
-  return PlainJson::parse(page.substr(from, page.find("</script", from) - from));
+  return Json::parse(page.substr(from, page.find("</script", from) - from));
 }
 
-PlainJson stripped_of_numbers(PlainJson value) {
+Json stripped_of_numbers(Json value) {
   if (value.is_number()) return nullptr;
   if (value.is_structured()) {
-    for (PlainJson& child : value) child = stripped_of_numbers(child);
+    for (Json& child : value) child = stripped_of_numbers(child);
   }
   return value;
 }
@@ -49,22 +48,22 @@ PlainJson stripped_of_numbers(PlainJson value) {
 
 TEST_CASE("The report of an unloaded analysis has the sections of unloaded contact", "[studies][report]") {
   const std::vector<std::string> expected{"unloaded", "gear-pair", "effects", "notes", "inputs"};
-  CHECK(section_ids(render_report(sample::unloaded_results().dump())) == expected);
+  CHECK(section_ids(render_report(sample::unloaded_results())) == expected);
 }
 
 TEST_CASE("The page of an unloaded analysis has its pictures' data in every scene and the scripts that draw them",
           "[studies][report]") {
-  const PlainJson results = sample::unloaded_results();
-  const std::string page = render_report(results.dump());
+  const Json results = sample::unloaded_results();
+  const std::string page = render_report(results);
   for (const char* script : {"function draw_contact_paths(", "function draw_unloaded_te(", "function draw_pattern(",
                              "function draw_words(", "function scene_table("}) {
     CAPTURE(script);
     CHECK(count(page, script) == 1);
   }
-  const PlainJson data = embedded(page);
+  const Json data = embedded(page);
   REQUIRE(data["unloaded_scenes"].size() == 2);
   for (std::size_t i = 0; i < 2; ++i) {
-    const PlainJson &shown = data["unloaded_scenes"][i], &stored = results["unloaded_scenes"][i];
+    const Json &shown = data["unloaded_scenes"][i], &stored = results["unloaded_scenes"][i];
     CHECK(shown["sequence"] == stored["sequence"]);
     CHECK(shown["parabolic_te"]["why"] == stored["parabolic_te"]["why"]);
     CHECK(shown["bearing_pattern"]["pinion"]["separation_um"].size() == stored["bearing_pattern"]["pinion"]["radius_mm"].size());
@@ -77,14 +76,14 @@ TEST_CASE("The report of a loaded analysis shows pictures before tables", "[stud
   const std::vector<std::string> expected{
       "flank-load", "transmission-error", "stiffness", "modifications", "load-cases",
       "gear-pair",  "effects",            "notes",     "inputs"};
-  CHECK(section_ids(render_report(sample::loaded_results(2).dump())) == expected);
+  CHECK(section_ids(render_report(sample::loaded_results(2))) == expected);
 }
 
 TEST_CASE("The report of an optimisation says first what to grind and what it gains, then everything else", "[studies][report]") {
   const std::vector<std::string> expected{"modifications", "scenes",      "flank-load", "transmission-error",
                                           "stiffness",     "convergence", "load-cases", "unloaded",
                                           "gear-pair",     "effects",     "notes",      "inputs"};
-  const std::string page = render_report(sample::optimise_results(2, 4).dump());
+  const std::string page = render_report(sample::optimise_results(2, 4));
   CHECK(section_ids(page) == expected);
   for (const std::string& id : expected) {
     CAPTURE(id);
@@ -96,34 +95,34 @@ TEST_CASE("The report of an optimisation says first what to grind and what it ga
 }
 
 TEST_CASE("The page is given the names that a person writes", "[studies][report]") {
-  const PlainJson names = report_view(sample::optimise_results(1, 2)).at("names");
-  const auto place_of = [&](const char* key) { return std::ranges::find_if(names, [&](const PlainJson& row) { return row.at(0) == key; }) - names.begin(); };
+  const Json names = report_view(sample::optimise_results(1, 2)).at("names");
+  const auto place_of = [&](const char* key) { return std::ranges::find_if(names, [&](const Json& row) { return row.at(0) == key; }) - names.begin(); };
   const auto crowning = place_of("pinion.modification.lead_crowning"), relief = place_of("pinion.modification.tip_relief.amount");
   const auto wheel = place_of("wheel.modification.end_relief.amount");
   REQUIRE(wheel < static_cast<std::ptrdiff_t>(names.size()));
   CHECK((crowning < relief && relief < wheel));  // as tables list them
   CHECK(names.at(static_cast<std::size_t>(relief)).at(1) == "pinion tip relief");
   CHECK(names.at(static_cast<std::size_t>(place_of("pinion.modification.lead_slope"))) ==
-        PlainJson({"pinion.modification.lead_slope", "pinion lead slope", "C_Hβ", "+ removes at z = +b/2"}));
+        Json({"pinion.modification.lead_slope", "pinion lead slope", "C_Hβ", "+ removes at z = +b/2"}));
 }
 
 TEST_CASE("The first screen stands before the links to the sections", "[studies][report]") {
-  const std::string page = render_report(sample::optimise_results(1, 2).dump());
+  const std::string page = render_report(sample::optimise_results(1, 2));
   const std::size_t headline = page.find("id=\"headline\""), first = page.find("id=\"first\""), links = page.find("<nav"), sections = page.find("<section id=\"modifications\">");
   CHECK((headline < first && first < links && links < sections && sections != std::string::npos));
 }
 
 TEST_CASE("Errors beside the figures reach the page", "[studies][report]") {
-  PlainJson results = sample::optimise_results(1, 2);
+  Json results = sample::optimise_results(1, 2);
   results["loaded"][0]["summary"]["te_harmonics_um_error"] = {0.0123456789, nullptr};
   results["optimise"]["after"]["objective_error"] = 1.5;
-  const PlainJson data = embedded(render_report(results.dump()));
-  CHECK(data["loaded"][0]["summary"]["te_harmonics_um_error"] == PlainJson({0.0123457, nullptr}));
+  const Json data = embedded(render_report(results));
+  CHECK(data["loaded"][0]["summary"]["te_harmonics_um_error"] == Json({0.0123457, nullptr}));
   CHECK(data["optimise"]["after"]["objective_error"] == 1.5);
 }
 
 TEST_CASE("The report opens without a network", "[studies][report]") {
-  const std::string page = render_report(sample::optimise_results(1, 2).dump());
+  const std::string page = render_report(sample::optimise_results(1, 2));
   const std::regex external(R"((src|href|action|srcset)\s*=\s*["']?\s*(https?:)?//)", std::regex::icase);
   // The regular expression sees only what precedes the plot library, a minified line too long for it, and what follows.
   const std::size_t library = page.find("/*!\n * Chart.js"), end = page.find("</script", library);
@@ -139,21 +138,21 @@ TEST_CASE("The report opens without a network", "[studies][report]") {
 }
 
 TEST_CASE("The report keeps the licence notice of its plot library", "[studies][report]") {
-  const std::string page = render_report("{}");
+  const std::string page = render_stored_report("{}");
   CHECK(page.find("Released under the MIT License") != std::string::npos);
   CHECK(page.find("The above copyright notice and this permission notice shall be included") != std::string::npos);
 }
 
 TEST_CASE("A hostile study cannot bring script into its report", "[studies][report]") {
   const std::string attack = "</title></script><script>alert(1)</script><!-- {{results}} \" ' & \u2028 \u2029";
-  PlainJson results = sample::optimise_results(1, 2);
-  const std::size_t honest = count(render_report(results.dump()), "<script");
+  Json results = sample::optimise_results(1, 2);
+  const std::size_t honest = count(render_report(results), "<script");
   results["title"] = results["file"] = results["task"] = attack;
   results["notes"] = {attack};
   results["given"] = {{{"key", attack}, {"value", attack}}};
   results["loaded"][0]["scene"] = results["optimise"]["message"] = attack;
   results[attack] = attack;
-  const std::string page = render_report(results.dump());
+  const std::string page = render_report(results);
 
   CHECK(count(page, "<script") == honest);
   CHECK(count(page, "</script") == honest);
@@ -161,7 +160,7 @@ TEST_CASE("A hostile study cannot bring script into its report", "[studies][repo
   CHECK(page.find("&lt;script&gt;alert(1)&lt;/script&gt;") != std::string::npos);
   CHECK(page.find("<h1>&lt;/title&gt;") != std::string::npos);
 
-  const PlainJson data = embedded(page);
+  const Json data = embedded(page);
   CHECK(data["title"] == attack);
   CHECK(data["loaded"][0]["scene"] == attack);
   const std::string inlined = page.substr(page.find("id=\"results\">"), 200);
@@ -169,47 +168,47 @@ TEST_CASE("A hostile study cannot bring script into its report", "[studies][repo
 }
 
 TEST_CASE("A report survives numbers that did not run", "[studies][report]") {
-  for (const PlainJson& results : {sample::unloaded_results(), sample::loaded_results(1), sample::optimise_results(2, 2)}) {
-    const std::string whole = render_report(results.dump());
-    const std::string nulls = render_report(stripped_of_numbers(results).dump());
+  for (const Json& results : {sample::unloaded_results(), sample::loaded_results(1), sample::optimise_results(2, 2)}) {
+    const std::string whole = render_report(results);
+    const std::string nulls = render_report(stripped_of_numbers(results));
     CHECK(section_ids(nulls) == section_ids(whole));
   }
 }
 
 TEST_CASE("A report survives sections that are missing, empty or of another shape", "[studies][report]") {
-  const PlainJson full = sample::optimise_results(1, 2);
+  const Json full = sample::optimise_results(1, 2);
   for (const auto& item : full.items()) {
     CAPTURE(item.key());
-    PlainJson less = full;
+    Json less = full;
     less.erase(item.key());
-    CHECK_NOTHROW(render_report(less.dump()));
-    for (const PlainJson& odd : {PlainJson(), PlainJson::array(), PlainJson::object(), PlainJson(3.5), PlainJson("text"), PlainJson({1, "a", nullptr}),
-                            PlainJson({{"cycle", 1}})}) {
+    CHECK_NOTHROW(render_report(less));
+    for (const Json& odd : {Json(), Json::array(), Json::object(), Json(3.5), Json("text"), Json({1, "a", nullptr}),
+                            Json({{"cycle", 1}})}) {
       less[item.key()] = odd;
-      CHECK_NOTHROW(render_report(less.dump()));
+      CHECK_NOTHROW(render_report(less));
     }
   }
-  CHECK(section_ids(render_report("{}")).empty());
+  CHECK(section_ids(render_stored_report("{}")).empty());
 }
 
 TEST_CASE("What is not a JSON object is refused", "[studies][report]") {
-  CHECK_THROWS_AS(render_report(""), InvalidInput);
-  CHECK_THROWS_AS(render_report("[1, 2]"), InvalidInput);
-  CHECK_THROWS_AS(render_report("{\"title\": "), InvalidInput);
-  CHECK_THROWS_AS(render_report("{\"title\": \"\xff\"}"), InvalidInput);
-  CHECK_THROWS_AS(render_report("{\"x\": 1e999}"), InvalidInput);
+  CHECK_THROWS_AS(render_stored_report(""), InvalidInput);
+  CHECK_THROWS_AS(render_stored_report("[1, 2]"), InvalidInput);
+  CHECK_THROWS_AS(render_stored_report("{\"title\": "), InvalidInput);
+  CHECK_THROWS_AS(render_stored_report("{\"title\": \"\xff\"}"), InvalidInput);
+  CHECK_THROWS_AS(render_stored_report("{\"x\": 1e999}"), InvalidInput);
 }
 
 TEST_CASE("The page gets every contact point to six digits", "[studies][report]") {
-  const PlainJson results = sample::loaded_results(1);
-  const PlainJson view = report_view(results);
+  const Json results = sample::loaded_results(1);
+  const Json view = report_view(results);
   constexpr double round_off = 5.1e-6;  // half a unit of the sixth significant digit, relative
   std::size_t seen = 0;
-  const PlainJson& cycle = results["loaded"][0]["cycle"];
+  const Json& cycle = results["loaded"][0]["cycle"];
   for (std::size_t p = 0; p < cycle.size(); ++p) {
     for (std::size_t t = 0; t < cycle[p]["teeth"].size(); ++t) {
-      const PlainJson& points = cycle[p]["teeth"][t]["points"];
-      const PlainJson& columns = view["loaded"][0]["cycle"][p]["teeth"][t]["points"];
+      const Json& points = cycle[p]["teeth"][t]["points"];
+      const Json& columns = view["loaded"][0]["cycle"][p]["teeth"][t]["points"];
       for (const char* key : {"z_mm", "pinion_radius_mm", "load_N_per_mm", "contact_stress_MPa"}) {
         REQUIRE(columns[key].size() == points.size());
         for (std::size_t i = 0; i < points.size(); ++i, ++seen) {
@@ -224,28 +223,28 @@ TEST_CASE("The page gets every contact point to six digits", "[studies][report]"
 }
 
 TEST_CASE("The page has derivatives where some were asked for, those of the summary alone", "[studies][report][gradient]") {
-  PlainJson results = sample::loaded_results(1);
-  const auto sections_of = [&] { return section_ids(render_report(results.dump())); };
+  Json results = sample::loaded_results(1);
+  const auto sections_of = [&] { return section_ids(render_report(results)); };
   const auto has_gradients = [](const auto& ids) { return std::ranges::find(ids, "gradients") != ids.end(); };
   CHECK_FALSE(has_gradients(sections_of()));
   results["loaded"][0]["gradients"] = {{"parameters", {"load.torque"}}, {"units", {"N·m"}}, {"summary", {{"te_mean_um", {0.125}}}},
                                        {"cycle", {1, 2, 3}}, {"shafts", {4}}};
   CHECK(has_gradients(sections_of()));
-  const PlainJson seen = report_view(results)["loaded"][0]["gradients"];
-  CHECK(seen["summary"]["te_mean_um"] == PlainJson::array({0.125}));
+  const Json seen = report_view(results)["loaded"][0]["gradients"];
+  CHECK(seen["summary"]["te_mean_um"] == Json::array({0.125}));
   CHECK_FALSE(seen.contains("cycle"));
   CHECK_FALSE(seen.contains("shafts"));
 }
 
 TEST_CASE("The page sees a small transmission error on top of a large backlash", "[studies][report]") {
-  PlainJson results = sample::unloaded_results();
+  Json results = sample::unloaded_results();
   results["unloaded"]["mesh"]["te_arcsec"] = {-1167.23456, -1167.23321};
-  const PlainJson shown = report_view(results)["unloaded"]["mesh"]["te_arcsec"];
+  const Json shown = report_view(results)["unloaded"]["mesh"]["te_arcsec"];
   CHECK(shown[1].get<double>() - shown[0].get<double>() == Approx(0.00135).epsilon(1e-3));  // of ten digits, 1e-6 arcsec
 }
 
 TEST_CASE("The report of nine scenes at 32 positions stays below three megabytes", "[studies][report]") {
-  const std::string page = render_report(sample::optimise_results(9, 32).dump());
+  const std::string page = render_report(sample::optimise_results(9, 32));
   CHECK(page.size() < 3'000'000);
   CHECK(embedded(page)["loaded"].size() == 18);
 }

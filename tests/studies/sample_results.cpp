@@ -10,7 +10,7 @@
 namespace flankwright::studies::sample {
 namespace {
 
-using nlohmann::json;
+using json = Json;
 using units::deg;
 using units::pi;
 

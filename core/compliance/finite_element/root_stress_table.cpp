@@ -10,19 +10,9 @@
 
 namespace flankwright {
 
-Eigen::MatrixXd RootStressTable::evaluate(int tooth, std::span<const FlankPlace> forces) const {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * fillet.size(), static_cast<Eigen::Index>(forces.size()));
-  // All forces on one tooth together: a product of matrices reads its table once.
-  for (std::size_t begin = 0, end = 0; begin < forces.size(); begin = end) {
-    while (end < forces.size() && forces[end].tooth == forces[begin].tooth) ++end;
-    const int apart = forces[begin].tooth - tooth;
-    if (std::abs(apart) > teeth_each_side()) continue;
-    Eigen::MatrixXd weights(grid.size(), static_cast<Eigen::Index>(end - begin));
-    for (std::size_t i = begin; i < end; ++i) weights.col(static_cast<Eigen::Index>(i - begin)) = grid.weights(forces[i]);
-    result.middleCols(static_cast<Eigen::Index>(begin), weights.cols()).noalias() =
-        stress[static_cast<std::size_t>(apart + teeth_each_side())] * weights;
-  }
-  return result;
+const Eigen::MatrixXd* RootStressTable::response(int tooth, int loaded_tooth) const {
+  const int apart = loaded_tooth - tooth;
+  return std::abs(apart) > teeth_each_side() ? nullptr : &stress[static_cast<std::size_t>(apart + teeth_each_side())];
 }
 
 std::vector<double> fillet_zetas(double face_width) {

@@ -37,10 +37,8 @@ struct RootStressTable {
 
   int teeth_each_side() const { return static_cast<int>(stress.size() / 2); }
 
-  /// The same under unit forces at n places, of the fillet on a given tooth, 3 P x n. A force on a tooth further away
-  /// than teeth_each_side() counts as none there.
-  /// @throws InvalidInput  as FlankGrid::weights()
-  Eigen::MatrixXd evaluate(int tooth, std::span<const FlankPlace> forces) const;
+  /// The table for the fillet of one tooth and forces on another [m_n^2 MPa/N]; null further apart than teeth_each_side(), where forces count as none.
+  const Eigen::MatrixXd* response(int tooth, int loaded_tooth) const;
 };
 
 /// Places along the fillet where the stress is read: seven from 0.2 to 0.8, where its maximum lies, the nearest of them

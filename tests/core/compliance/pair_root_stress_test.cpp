@@ -50,8 +50,10 @@ TEST_CASE("Fillets of both gears feel forces where these are in the housing", "[
       contact_points(pair, PathOfContact(pair), {QuadratureRule::Gauss2, 3}, 0.8, false, -kStressWidth / 2, kStressWidth / 2);
   const TabulatedRootStress stress(pair, telltale(kStressWidth), telltale(kStressWidth + 8));
   const RootStressInfluence found = stress.influence(points, offset);
-  REQUIRE(found.components.rows() == 3 * static_cast<Eigen::Index>(found.places.size()));
-  REQUIRE(found.components.cols() == static_cast<Eigen::Index>(points.size()));
+  // All places together under arbitrary forces are what the places are one by one.
+  const Eigen::VectorXd forces = Eigen::VectorXd::LinSpaced(std::ssize(points), 1.0, 2.0);
+  const Eigen::VectorXd together = found.components(forces);
+  REQUIRE(together.size() == 3 * std::ssize(found.places));
   int tangents = 0;
   for (std::size_t p = 0; p < found.places.size(); ++p) {
     const RootPlace& place = found.places[p];
@@ -60,10 +62,11 @@ TEST_CASE("Fillets of both gears feel forces where these are in the housing", "[
     CHECK(place.tangent == (place.along == 0.5));
     const double half = pair[place.member].data.face_width / 2;
     CHECK(std::abs(place.z - (pinion ? 0 : offset)) <= half * (1 + 1e-12));
+    const Eigen::Matrix3Xd components = found.components_of(static_cast<Eigen::Index>(p));
+    REQUIRE(components.cols() == std::ssize(points));
+    CHECK((together.segment<3>(3 * static_cast<Eigen::Index>(p)) - components * forces).norm() <= 1e-12 * (1.0 + together.norm()));  // round-off
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const Eigen::Vector3d s =
-          found.components.block<3, 1>(3 * static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(i)) * kStressModule *
-          kStressModule;
+      const Eigen::Vector3d s = components.col(static_cast<Eigen::Index>(i)) * kStressModule * kStressModule;
       // The same number of teeth apart, in the mesh's own sense of counting on either gear; round-off of splines.
       CHECK(s[0] == Approx((pinion ? -1 : 1) * (points[i].tooth - place.tooth)).margin(1e-11));
       const double radius = pinion ? points[i].pinion_radius : points[i].wheel_radius;

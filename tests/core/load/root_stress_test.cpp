@@ -29,9 +29,8 @@ TEST_CASE("Root stress is the principal stress of what all forces do together", 
     for (std::size_t p = 0; p < at.root_stress.places.size(); ++p) {
       const auto row = static_cast<Eigen::Index>(p);
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (Eigen::Index i = 0; i < at.weight.size(); ++i) {
-        sum += at.root_stress.components.block<3, 1>(3 * row, i) * at.weight[i] * position.load.line_load[i];
-      }
+      const Eigen::Matrix3Xd components = at.root_stress.components_of(row);
+      for (Eigen::Index i = 0; i < at.weight.size(); ++i) sum += components.col(i) * at.weight[i] * position.load.line_load[i];
       Eigen::Matrix2d tensor;
       tensor << sum[0], sum[2], sum[2], sum[1];
       const double largest = symmetric_eigenvalues(tensor)[1];

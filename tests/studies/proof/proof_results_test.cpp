@@ -92,7 +92,7 @@ TEST_CASE("The proof in results.json hangs together", "[studies][proof]") {
   for (const char* name : {"comparison.csv", "sensitivity.csv", "validation.csv"}) CHECK(std::ranges::count(names, name) == 1);
   CHECK_THAT(summary_table(results), Catch::Contains("best rule of thumb") && Catch::Contains("governs with weight"));
 
-  const std::string page = render_report(results_json(results));
+  const std::string page = render_report(results_document(results));
   for (const char* section : {"comparison", "validation", "governing", "sensitivity"}) {
     CHECK(page.find("<section id=\"" + std::string(section) + "\">") != std::string::npos);
   }
@@ -110,7 +110,7 @@ TEST_CASE("Without rules there is nothing to compare with and no section for it"
   const json optimise = json::parse(results_json(results))["optimise"];
   CHECK(optimise["comparison"]["rules"].empty());
   CHECK_FALSE(optimise.contains("validation"));
-  CHECK(render_report(results_json(results)).find("<section id=\"comparison\">") == std::string::npos);
+  CHECK(render_report(results_document(results)).find("<section id=\"comparison\">") == std::string::npos);
 }
 
 TEST_CASE("Drawn scenes stand beside the listed ones and errors that only they have enter", "[studies][proof]") {

@@ -11,10 +11,10 @@ namespace {
 
 using Catch::Contains;
 
-std::string results_of(const std::string& settings) {
+Json results_of(const std::string& settings) {
   StudyResults results = run_study(parse_study(small::sweep(settings), "sweep.toml"));
   run_sweep(results, {}, {});
-  return results_json(results);
+  return results_document(results);
 }
 
 TEST_CASE("The report of a sweep has sections of its own; that of an analysis has not", "[studies][sweep][report]") {
@@ -24,7 +24,7 @@ TEST_CASE("The report of a sweep has sections of its own; that of an analysis ha
   const std::string without = render_report(results_of("samples = 50\nindices = \"off\""));
   CHECK_THAT(without, Contains("<section id=\"scatter\">") && !Contains("<section id=\"indices\">"));
   const std::string analysis =
-      render_report(results_json(run_study(parse_study(small::sweep("samples = 50"), "sweep.toml", {{"task", "analyse"}}))));
+      render_report(results_document(run_study(parse_study(small::sweep("samples = 50"), "sweep.toml", {{"task", "analyse"}}))));
   CHECK_THAT(analysis, !Contains("<section id=\"scatter\">"));
 }
 
