@@ -11,12 +11,12 @@
 #include <optional>
 #include <utility>
 
-#include "studies/command_docs.hpp"
-#include "studies/commands.hpp"
-#include "studies/exchange_commands.hpp"
-#include "studies/library_command.hpp"
-#include "studies/results_json.hpp"
-#include "studies/study_schema.hpp"
+#include "studies/base/version.hpp"
+#include "studies/command_line/command_docs.hpp"
+#include "studies/command_line/commands.hpp"
+#include "studies/command_line/exchange_commands.hpp"
+#include "studies/command_line/library_command.hpp"
+#include "studies/study_file/study_schema.hpp"
 
 namespace {
 

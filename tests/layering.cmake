@@ -3,20 +3,31 @@
 #   cmake -D ROOT=<source tree> -P layering.cmake          checks a tree
 #   cmake -D SELF_TEST=<scratch folder> -P layering.cmake  checks the check, on a tree with one include of every kind
 #
-# A folder sees itself and those before it in this list. Folders of core that are not in the list are an error.
+# A folder sees itself and those before it in this list; of nested folders the innermost in the list counts. A folder of core that is not in
+# the list is an error.
 cmake_minimum_required(VERSION 3.25)
 
-set(FLOW core/base core/gear core/flank core/contact core/compliance core/effects core/load optimize studies)
+set(FLOW core/base core/gear core/flank
+    core/contact/path core/contact/assembly core/contact/unloaded core/contact/gap
+    core/compliance/local core/compliance/tooth core/compliance/thin_slice core/compliance/finite_element core/compliance/pair
+    core/compliance/fitted core/compliance/plate core/compliance/shaft core/compliance/comparison
+    core/effects core/load/solve core/load/cycle core/rating core/fidelity
+    optimize/solvers optimize/sampling optimize/design optimize/assessment
+    studies/base studies/study studies/compliance studies/study_file
+    studies/tasks/analyse studies/tasks/accuracy studies/tasks/optimise studies/tasks studies/tasks/sweep
+    studies/results studies/report studies/exchange studies/command_line studies)
 
 # The place in FLOW of the folder that `path` (from the root) lies in, -1 where it lies in none.
 function(find_layer path result)
   set(${result} -1 PARENT_SCOPE)
   set(index 0)
+  set(innermost 0)
   foreach(folder IN LISTS FLOW)
     string(FIND "${path}" "${folder}/" position)
-    if(position EQUAL 0)
+    string(LENGTH "${folder}" length)
+    if(position EQUAL 0 AND length GREATER innermost)
       set(${result} ${index} PARENT_SCOPE)
-      return()
+      set(innermost ${length})
     endif()
     math(EXPR index "${index} + 1")
   endforeach()
@@ -52,21 +63,25 @@ endfunction()
 if(DEFINED SELF_TEST)
   file(REMOVE_RECURSE ${SELF_TEST})
   file(WRITE ${SELF_TEST}/core/base/error.hpp "#include <string>\n")
-  file(WRITE ${SELF_TEST}/core/gear/gear.hpp "#include \"core/base/error.hpp\"\n#include \"core/load/load.hpp\"\n")
-  file(WRITE ${SELF_TEST}/core/load/load.hpp "#  include <optimize/solver.hpp>\n#include \"core/gear/gear.hpp\"\n")
-  file(WRITE ${SELF_TEST}/core/load/load.cpp "#include \"load.hpp\"\n#include \"../gear/gear.hpp\"\n")
+  file(WRITE ${SELF_TEST}/core/gear/gear.hpp "#include \"core/base/error.hpp\"\n#include \"core/load/cycle/load.hpp\"\n")
+  file(WRITE ${SELF_TEST}/core/load/cycle/load.hpp "#  include <optimize/solvers/solver.hpp>\n#include \"core/gear/gear.hpp\"\n")
+  file(WRITE ${SELF_TEST}/core/load/cycle/load.cpp "#include \"load.hpp\"\n#include \"../../gear/gear.hpp\"\n")
   file(WRITE ${SELF_TEST}/core/odd/odd.hpp "\n")
-  file(WRITE ${SELF_TEST}/optimize/solver.hpp "#include \"studies/study.hpp\"\n// #include \"studies/study.hpp\"\n")
-  file(WRITE ${SELF_TEST}/studies/study.hpp "#include \"optimize/solver.hpp\"\n#include \"tests/problems/box.hpp\"\n")
+  file(WRITE ${SELF_TEST}/optimize/solvers/solver.hpp "#include \"studies/study/study.hpp\"\n// #include \"studies/study/study.hpp\"\n")
+  file(WRITE ${SELF_TEST}/studies/study/study.hpp "#include \"tests/problems/box.hpp\"\n#include \"studies/tasks/sweep/sweep.hpp\"\n")
+  file(WRITE ${SELF_TEST}/studies/tasks/sweep/sweep.hpp "#include \"studies/tasks/run.hpp\"\n")
+  file(WRITE ${SELF_TEST}/studies/tasks/run.hpp "#include \"studies/tasks/sweep/sweep.hpp\"\n")
   check_includes(${SELF_TEST} found)
   set(expected
-      "core/gear/gear.hpp: upward include of core/load/load.hpp"
-      "core/load/load.cpp: load.hpp is not included from the root"
-      "core/load/load.cpp: ../gear/gear.hpp is not included from the root"
-      "core/load/load.hpp: upward include of optimize/solver.hpp"
+      "core/gear/gear.hpp: upward include of core/load/cycle/load.hpp"
+      "core/load/cycle/load.cpp: load.hpp is not included from the root"
+      "core/load/cycle/load.cpp: ../../gear/gear.hpp is not included from the root"
+      "core/load/cycle/load.hpp: upward include of optimize/solvers/solver.hpp"
       "core/odd/odd.hpp: lies in no folder of the flow"
-      "optimize/solver.hpp: upward include of studies/study.hpp"
-      "studies/study.hpp: includes a test, tests/problems/box.hpp")
+      "optimize/solvers/solver.hpp: upward include of studies/study/study.hpp"
+      "studies/study/study.hpp: includes a test, tests/problems/box.hpp"
+      "studies/study/study.hpp: upward include of studies/tasks/sweep/sweep.hpp"
+      "studies/tasks/run.hpp: upward include of studies/tasks/sweep/sweep.hpp")
   if(NOT found STREQUAL expected)
     list(JOIN found "\n  " found)
     list(JOIN expected "\n  " expected)

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/contact/gap.hpp"
+#include "core/contact/gap/gap.hpp"
 #include "core/effects/mesh_draft.hpp"
 
 namespace flankwright {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/compliance/hertz_line.hpp"
+#include "core/compliance/local/hertz_line.hpp"
 #include "core/effects/effect.hpp"
 
 namespace flankwright {

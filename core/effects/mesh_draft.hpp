@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "core/compliance/contact_law.hpp"
-#include "core/compliance/pair_compliance.hpp"
-#include "core/compliance/pair_root_stress.hpp"
-#include "core/contact/contact_points.hpp"
-#include "core/contact/mesh_placement.hpp"
+#include "core/compliance/local/contact_law.hpp"
+#include "core/compliance/pair/pair_compliance.hpp"
+#include "core/compliance/pair/pair_root_stress.hpp"
+#include "core/contact/path/contact_points.hpp"
+#include "core/contact/gap/mesh_placement.hpp"
 
 namespace flankwright {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/contact/surface_gap.hpp"
+#include "core/contact/gap/surface_gap.hpp"
 #include "core/effects/effect.hpp"
 
 namespace flankwright {

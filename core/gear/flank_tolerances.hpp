@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/gear/gear_pair.hpp"
+#include "core/gear/pair_geometry.hpp"
 
 namespace flankwright {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/gear/gear_pair.hpp"
+#include "core/gear/pair_geometry.hpp"
 
 namespace flankwright {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/gear/gear_pair.hpp"
+#include "core/gear/pair_geometry.hpp"
 #include "core/gear/generation.hpp"
 
 namespace flankwright {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "studies/json_format.hpp"
+#include "studies/base/json_format.hpp"
 
 namespace flankwright::studies {
 

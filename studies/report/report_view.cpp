@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "studies/report/plain_names.hpp"
+#include "studies/base/plain_names.hpp"
 
 namespace flankwright::studies {
 namespace {

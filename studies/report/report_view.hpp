@@ -1,6 +1,6 @@
 #pragma once
 
-#include "studies/json_format.hpp"
+#include "studies/base/json_format.hpp"
 
 namespace flankwright::studies {
 

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <vector>
 
+#include "core/load/solve/load_solver.hpp"
 #include "tests/benchmarks/load_scene.hpp"
 #include "tests/benchmarks/reference_solvers.hpp"
 #include "tests/core/load/load_cases.hpp"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "core/load/mesh_cycle.hpp"
+#include "core/load/cycle/mesh_cycle.hpp"
 #include "tests/core/load/synthetic_root_stress.hpp"
 #include "tests/reference/haddad_18_54.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "core/load/load_problem.hpp"
+#include "core/load/solve/load_problem.hpp"
 
 /// The loaded-contact programme handed to general solvers that know nothing of contact.
 namespace flankwright::reference_solvers {

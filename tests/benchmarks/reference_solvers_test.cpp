@@ -1,3 +1,4 @@
+#include "core/load/solve/load_solver.hpp"
 #include "tests/benchmarks/reference_solvers.hpp"
 
 #include <catch2/catch.hpp>

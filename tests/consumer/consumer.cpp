@@ -1,9 +1,10 @@
 #include <cstdio>
 
 #include "core/gear/gear_pair.hpp"
-#include "studies/results_json.hpp"
-#include "studies/run_study.hpp"
-#include "studies/study_file.hpp"
+#include "studies/base/version.hpp"
+#include "studies/results/results_json.hpp"
+#include "studies/tasks/run_study.hpp"
+#include "studies/study_file/study_file.hpp"
 
 int main() {
   using namespace flankwright;

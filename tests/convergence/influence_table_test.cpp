@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "core/compliance/finite_element/solve_influence_table.hpp"
-#include "core/load/mesh_cycle.hpp"
+#include "core/load/cycle/mesh_cycle.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
 
 using namespace flankwright;

@@ -1,8 +1,8 @@
 #include "tests/fuzz/readers.hpp"
 
-#include "studies/grid_file.hpp"
-#include "studies/rexs/rexs_import.hpp"
-#include "studies/study_file.hpp"
+#include "studies/study_file/grid_file.hpp"
+#include "studies/exchange/rexs/rexs_import.hpp"
+#include "studies/study_file/study_file.hpp"
 
 namespace flankwright::studies::fuzz {
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "studies/results_folder.hpp"
+#include "studies/base/results_folder.hpp"
 #include "tests/fuzz/readers.hpp"
 
 using namespace flankwright::studies;

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "core/gear/gear_pair.hpp"
-#include "studies/value_with_unit.hpp"
+#include "studies/base/value_with_unit.hpp"
 #include "tests/core/load/load_cases.hpp"
 #include "tests/hard_cases/floating_point_traps.hpp"
 

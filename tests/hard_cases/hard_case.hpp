@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "studies/run_study.hpp"
-#include "studies/study_file.hpp"
+#include "studies/tasks/run_study.hpp"
+#include "studies/study_file/study_file.hpp"
 
 /// The studies of this folder, read and run as `flankwright run` does, with floating-point traps set.
 namespace flankwright::hard_cases {

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "optimize/design_problem.hpp"
-#include "studies/run_study.hpp"
-#include "studies/study_file.hpp"
+#include "optimize/design/design_problem.hpp"
+#include "studies/tasks/run_study.hpp"
+#include "studies/study_file/study_file.hpp"
 #include "tests/core/load/load_cases.hpp"
 
 using namespace flankwright;

@@ -6,12 +6,12 @@
 #include <filesystem>
 #include <optional>
 
-#include "core/contact/path_of_contact.hpp"
-#include "core/contact/transmission_error.hpp"
-#include "core/load/mesh_cycle.hpp"
-#include "core/load/mesh_motion.hpp"
-#include "studies/results_folder.hpp"
-#include "studies/study_file.hpp"
+#include "core/contact/path/path_of_contact.hpp"
+#include "core/contact/unloaded/transmission_error.hpp"
+#include "core/load/cycle/mesh_cycle.hpp"
+#include "core/load/cycle/mesh_motion.hpp"
+#include "studies/base/results_folder.hpp"
+#include "studies/study_file/study_file.hpp"
 #include "tests/hard_cases/floating_point_traps.hpp"
 
 namespace flankwright::hard_cases {

@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <map>
 
-#include "studies/results_folder.hpp"
+#include "studies/base/results_folder.hpp"
 #include "tests/hard_cases/random_study.hpp"
 #include "tests/hard_cases/scene_check.hpp"
 #include "tests/studies/command_line.hpp"

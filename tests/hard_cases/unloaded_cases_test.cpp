@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/contact/path_of_contact.hpp"
-#include "core/contact/tooth_contact.hpp"
+#include "core/contact/path/path_of_contact.hpp"
+#include "core/contact/unloaded/tooth_contact.hpp"
 #include "tests/hard_cases/hard_case.hpp"
 
 using namespace flankwright;

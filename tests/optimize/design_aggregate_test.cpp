@@ -2,7 +2,7 @@
 #include <cmath>
 #include <random>
 
-#include "optimize/aggregate.hpp"
+#include "optimize/design/aggregate.hpp"
 
 using namespace flankwright;
 

@@ -1,4 +1,4 @@
-#include "optimize/design_optimiser.hpp"
+#include "optimize/design/design_optimiser.hpp"
 
 #include <catch2/catch.hpp>
 #include <map>

@@ -4,8 +4,8 @@
 #include <map>
 #include <set>
 
-#include "core/contact/transmission_error.hpp"
-#include "optimize/scene_outputs.hpp"
+#include "core/contact/unloaded/transmission_error.hpp"
+#include "optimize/design/scene_outputs.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
 using namespace flankwright;

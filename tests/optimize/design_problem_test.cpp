@@ -1,4 +1,4 @@
-#include "optimize/design_problem.hpp"
+#include "optimize/design/design_problem.hpp"
 
 #include <tbb/global_control.h>
 

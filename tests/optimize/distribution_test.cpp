@@ -1,4 +1,4 @@
-#include "optimize/distribution.hpp"
+#include "optimize/sampling/distribution.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,10 +1,10 @@
-#include "optimize/multi_start.hpp"
+#include "optimize/design/multi_start.hpp"
 
 #include <tbb/global_control.h>
 
 #include <catch2/catch.hpp>
 
-#include "optimize/design_optimiser.hpp"
+#include "optimize/design/design_optimiser.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
 using namespace flankwright;

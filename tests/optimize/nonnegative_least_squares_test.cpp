@@ -1,4 +1,4 @@
-#include "optimize/nonnegative_least_squares.hpp"
+#include "optimize/solvers/nonnegative_least_squares.hpp"
 
 #include <catch2/catch.hpp>
 #include <random>

@@ -1,11 +1,11 @@
-#include "optimize/optimality.hpp"
+#include "optimize/design/optimality.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
 
-#include "optimize/design_optimiser.hpp"
+#include "optimize/design/design_optimiser.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
 using namespace flankwright;

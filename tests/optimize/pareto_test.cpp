@@ -1,4 +1,4 @@
-#include "optimize/pareto.hpp"
+#include "optimize/design/pareto.hpp"
 
 #include <tbb/global_control.h>
 

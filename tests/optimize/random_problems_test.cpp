@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "optimize/design_optimiser.hpp"
+#include "optimize/design/design_optimiser.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
 using namespace flankwright;

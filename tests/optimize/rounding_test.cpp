@@ -1,9 +1,9 @@
-#include "optimize/rounding.hpp"
+#include "optimize/design/rounding.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "optimize/design_optimiser.hpp"
+#include "optimize/design/design_optimiser.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
 using namespace flankwright;

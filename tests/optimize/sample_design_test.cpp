@@ -1,11 +1,11 @@
-#include "optimize/sample_design.hpp"
+#include "optimize/sampling/sample_design.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <set>
 
 #include "core/base/error.hpp"
-#include "optimize/sobol_sequence.hpp"
+#include "optimize/sampling/sobol_sequence.hpp"
 
 using namespace flankwright;
 

@@ -1,10 +1,10 @@
-#include "optimize/sobol_indices.hpp"
+#include "optimize/sampling/sobol_indices.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
 
-#include "optimize/sensitivity_design.hpp"
+#include "optimize/sampling/sensitivity_design.hpp"
 
 using namespace flankwright;
 

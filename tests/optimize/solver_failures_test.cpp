@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
-#include "optimize/solver.hpp"
+#include "optimize/solvers/solver.hpp"
 #include "tests/problems/library.hpp"
 
 namespace flankwright {

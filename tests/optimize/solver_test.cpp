@@ -1,4 +1,4 @@
-#include "optimize/solver.hpp"
+#include "optimize/solvers/solver.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

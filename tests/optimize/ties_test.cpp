@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "optimize/design_optimiser.hpp"
+#include "optimize/design/design_optimiser.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
 using namespace flankwright;

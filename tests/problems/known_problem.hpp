@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "optimize/nonlinear_program.hpp"
+#include "optimize/solvers/nonlinear_program.hpp"
 
 namespace flankwright::problems {
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <functional>
 
-#include "core/load/cycle_gradient.hpp"
-#include "studies/study_file.hpp"
+#include "core/load/cycle/cycle_gradient.hpp"
+#include "studies/study_file/study_file.hpp"
 
 using namespace flankwright;
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <memory>
 
-#include "core/contact/surface_gap.hpp"
+#include "core/contact/gap/surface_gap.hpp"
 
 using namespace flankwright;
 using units::um;

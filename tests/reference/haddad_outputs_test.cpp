@@ -1,3 +1,4 @@
+#include "core/load/solve/load_solver.hpp"
 #include "tests/reference/haddad_outputs.hpp"
 
 #include <algorithm>
@@ -7,8 +8,8 @@
 #include <vector>
 
 #include "core/compliance/finite_element/solve_influence_table.hpp"
-#include "core/compliance/hertz_line.hpp"
-#include "core/load/mesh_cycle.hpp"
+#include "core/compliance/local/hertz_line.hpp"
+#include "core/load/cycle/mesh_cycle.hpp"
 #include "tests/reference/haddad_18_54.hpp"
 
 using namespace flankwright;

@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "core/compliance/shaft/shaft_pair.hpp"
-#include "studies/run_study.hpp"
-#include "studies/study_file.hpp"
+#include "studies/tasks/run_study.hpp"
+#include "studies/study_file/study_file.hpp"
 #include "tests/reference/haddad_rig.hpp"
 
 using namespace flankwright;

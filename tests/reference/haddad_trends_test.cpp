@@ -4,9 +4,9 @@
 #include <memory>
 
 #include "core/compliance/plate/cantilever_plate.hpp"
-#include "core/load/load_factors.hpp"
-#include "studies/run_study.hpp"
-#include "studies/study_file.hpp"
+#include "core/rating/load_factors.hpp"
+#include "studies/tasks/run_study.hpp"
+#include "studies/study_file/study_file.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 /// What chapters 3 and 4 of C. D. Haddad's thesis (1991) say about loads and load distribution factors in words, where teeth as slices

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/contact/transmission_error.hpp"
+#include "core/contact/unloaded/transmission_error.hpp"
 
 namespace flankwright::reference {
 

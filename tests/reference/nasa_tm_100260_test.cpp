@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/contact/parabola_check.hpp"
+#include "core/contact/unloaded/parabola_check.hpp"
 #include "core/flank/revolution_tool.hpp"
 #include "tests/core/contact/contact_cases.hpp"
 #include "tests/reference/leading.hpp"

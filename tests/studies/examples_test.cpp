@@ -2,10 +2,10 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "studies/expectations.hpp"
-#include "studies/results_json.hpp"
-#include "studies/run_study.hpp"
-#include "studies/study_file.hpp"
+#include "studies/results/expectations.hpp"
+#include "studies/results/results_json.hpp"
+#include "studies/tasks/run_study.hpp"
+#include "studies/study_file/study_file.hpp"
 #include "tests/studies/command_line.hpp"
 
 namespace flankwright::studies {

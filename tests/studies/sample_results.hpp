@@ -1,6 +1,6 @@
 #pragma once
 
-#include "studies/json_format.hpp"
+#include "studies/base/json_format.hpp"
 
 /// Made-up results in the shape of results.json, plausible enough to look at, for testing what reads results.
 /// The gears are a real 18:54 helical pair; loads, stresses and errors are smooth formulas, not an analysis.

@@ -1,12 +1,6 @@
 list(APPEND FLANKWRIGHT_TEST_SOURCES
-     ${CMAKE_CURRENT_LIST_DIR}/fit_keys_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/given_units_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/study_file_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/study_flanks_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/study_mutation_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/study_problems_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/study_syntax_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/default_resolution_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/study_template_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/study_texts.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/value_with_unit_test.cpp)
+     ${CMAKE_CURRENT_LIST_DIR}/command_line.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/examples_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/sample_results.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/small_studies.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/study_texts.cpp)

@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "studies/results_json.hpp"
-#include "studies/run_study.hpp"
+#include "studies/results/results_json.hpp"
+#include "studies/tasks/run_study.hpp"
 
 namespace flankwright::studies::study_texts {
 

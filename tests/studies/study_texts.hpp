@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "studies/json_format.hpp"
-#include "studies/study_file.hpp"
+#include "studies/base/json_format.hpp"
+#include "studies/study_file/study_file.hpp"
 
 /// Studies as texts, and what the reader makes of them.
 namespace flankwright::studies::study_texts {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/compliance/flank_grid.hpp"
+#include "core/compliance/tooth/flank_grid.hpp"
 
 namespace flankwright {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/compliance/tooth_places.hpp"
+#include "core/compliance/tooth/tooth_places.hpp"
 
 namespace flankwright {
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "core/compliance/finite_element/influence.hpp"
-#include "core/compliance/flank_compliance.hpp"
+#include "core/compliance/tooth/flank_compliance.hpp"
 
 namespace flankwright {
 

@@ -8,9 +8,9 @@
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/compliance/comparison/finite_element_deflections.hpp"
-#include "core/compliance/flank_grid.hpp"
+#include "core/compliance/tooth/flank_grid.hpp"
 #include "core/compliance/plate/cantilever_plate.hpp"
-#include "core/compliance/thin_slice_tooth.hpp"
+#include "core/compliance/thin_slice/thin_slice_tooth.hpp"
 
 namespace flankwright {
 namespace {

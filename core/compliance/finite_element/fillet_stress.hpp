@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/compliance/finite_element/gear_mesh.hpp"
-#include "core/compliance/flank_grid.hpp"
+#include "core/compliance/tooth/flank_grid.hpp"
 
 namespace flankwright {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/compliance/flank_grid.hpp"
-#include "core/compliance/local_spline.hpp"
+#include "core/compliance/tooth/flank_grid.hpp"
+#include "core/compliance/tooth/local_spline.hpp"
 #include "core/gear/gear_data.hpp"
 
 namespace flankwright {

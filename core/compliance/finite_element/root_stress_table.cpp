@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "core/base/units.hpp"
-#include "core/compliance/tooth_places.hpp"
+#include "core/compliance/tooth/tooth_places.hpp"
 
 namespace flankwright {
 

@@ -7,7 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
-#include "core/contact/path_of_contact.hpp"
+#include "core/contact/path/path_of_contact.hpp"
 
 namespace flankwright {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/compliance/flank_compliance.hpp"
+#include "core/compliance/tooth/flank_compliance.hpp"
 #include "core/compliance/fitted/kernel_form.hpp"
 #include "core/compliance/fitted/residual_statistics.hpp"
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/compliance/flank_compliance.hpp"
+#include "core/compliance/tooth/flank_compliance.hpp"
 
 namespace flankwright {
 

@@ -1,7 +1,7 @@
 #include "core/compliance/fitted/refinement_fit.hpp"
 
-#include "core/compliance/flank_grid.hpp"
-#include "core/compliance/tooth_places.hpp"
+#include "core/compliance/tooth/flank_grid.hpp"
+#include "core/compliance/tooth/tooth_places.hpp"
 
 namespace flankwright {
 

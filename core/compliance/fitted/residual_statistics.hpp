@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "core/compliance/flank_compliance.hpp"
+#include "core/compliance/tooth/flank_compliance.hpp"
 #include "core/compliance/fitted/influence_sample.hpp"
 
 namespace flankwright {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/units.hpp"
-#include "core/compliance/tooth_places.hpp"
+#include "core/compliance/tooth/tooth_places.hpp"
 
 namespace flankwright {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/compliance/flank_compliance.hpp"
+#include "core/compliance/tooth/flank_compliance.hpp"
 #include "core/compliance/plate/tapered_plate.hpp"
 #include "core/gear/tooth_form.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "core/compliance/pair_compliance.hpp"
+#include "core/compliance/pair/pair_compliance.hpp"
 #include "core/compliance/shaft/shaft_beam.hpp"
 #include "core/compliance/shaft/shaft_data.hpp"
 

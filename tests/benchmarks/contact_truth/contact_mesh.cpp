@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "core/compliance/thin_slice.hpp"
+#include "core/compliance/thin_slice/thin_slice.hpp"
 
 namespace flankwright::contact_truth {
 namespace {

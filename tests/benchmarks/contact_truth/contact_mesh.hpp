@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "core/compliance/finite_element/solid_model.hpp"
-#include "core/contact/mesh_scene.hpp"
-#include "core/contact/path_of_contact.hpp"
+#include "core/contact/assembly/mesh_scene.hpp"
+#include "core/contact/path/path_of_contact.hpp"
 #include "core/gear/tooth_form.hpp"
 
 namespace flankwright::contact_truth {

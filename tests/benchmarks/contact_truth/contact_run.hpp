@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "core/contact/gap.hpp"
+#include "core/contact/gap/gap.hpp"
 #include "tests/benchmarks/contact_truth/contact_mesh.hpp"
 
 namespace flankwright::contact_truth {

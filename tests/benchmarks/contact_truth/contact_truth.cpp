@@ -5,8 +5,8 @@
 #include <string>
 
 #include "core/base/stopwatch.hpp"
-#include "studies/gear_structures.hpp"
-#include "studies/study_file.hpp"
+#include "studies/compliance/gear_structures.hpp"
+#include "studies/study_file/study_file.hpp"
 #include "tests/benchmarks/contact_truth/contact_cases.hpp"
 #include "tests/benchmarks/contact_truth/held_structure.hpp"
 #include "tests/benchmarks/contact_truth/own_answer.hpp"

@@ -4,7 +4,7 @@
 
 #include "core/compliance/finite_element/gear_mesh.hpp"
 #include "core/compliance/finite_element/influence_table.hpp"
-#include "core/compliance/pair_compliance.hpp"
+#include "core/compliance/pair/pair_compliance.hpp"
 #include "tests/benchmarks/contact_truth/contact_run.hpp"
 
 namespace flankwright::contact_truth {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include "core/compliance/hertz_line.hpp"
-#include "core/load/load_sharing.hpp"
+#include "core/compliance/local/hertz_line.hpp"
+#include "core/rating/load_sharing.hpp"
 
 namespace flankwright::contact_truth {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/load/mesh_cycle.hpp"
+#include "core/load/cycle/mesh_cycle.hpp"
 #include "tests/benchmarks/contact_truth/contact_run.hpp"
 
 namespace flankwright::contact_truth {

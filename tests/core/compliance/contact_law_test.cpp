@@ -1,11 +1,11 @@
-#include "core/compliance/contact_law.hpp"
+#include "core/compliance/local/contact_law.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
-#include "core/compliance/hertz_line.hpp"
+#include "core/compliance/local/hertz_line.hpp"
 
 using namespace flankwright;
 using units::deg;

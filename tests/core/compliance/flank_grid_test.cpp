@@ -1,4 +1,4 @@
-#include "core/compliance/flank_grid.hpp"
+#include "core/compliance/tooth/flank_grid.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,12 +1,12 @@
-#include "core/compliance/free_end.hpp"
+#include "core/compliance/local/free_end.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
 
 #include "core/base/units.hpp"
-#include "core/compliance/contact_law.hpp"
-#include "core/compliance/hertz_line.hpp"
+#include "core/compliance/local/contact_law.hpp"
+#include "core/compliance/local/hertz_line.hpp"
 #include "tests/core/compliance/finite_element/block_mesh.hpp"
 
 using namespace flankwright;

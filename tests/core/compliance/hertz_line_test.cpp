@@ -1,4 +1,4 @@
-#include "core/compliance/hertz_line.hpp"
+#include "core/compliance/local/hertz_line.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/compliance/interval_mean.hpp"
+#include "core/compliance/pair/interval_mean.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "core/compliance/iso_stiffness.hpp"
+#include "core/compliance/thin_slice/iso_stiffness.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,8 +1,8 @@
-#include "core/compliance/local_spline.hpp"
+#include "core/compliance/tooth/local_spline.hpp"
 
 #include <catch2/catch.hpp>
 
-#include "core/compliance/flank_grid.hpp"
+#include "core/compliance/tooth/flank_grid.hpp"
 
 using namespace flankwright;
 

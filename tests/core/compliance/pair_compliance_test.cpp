@@ -1,4 +1,4 @@
-#include "core/compliance/pair_compliance.hpp"
+#include "core/compliance/pair/pair_compliance.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

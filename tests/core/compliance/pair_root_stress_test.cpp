@@ -1,9 +1,9 @@
-#include "core/compliance/pair_root_stress.hpp"
+#include "core/compliance/pair/pair_root_stress.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/contact/path_of_contact.hpp"
+#include "core/contact/path/path_of_contact.hpp"
 
 using namespace flankwright;
 

@@ -1,12 +1,12 @@
-#include "core/compliance/thin_slice.hpp"
+#include "core/compliance/thin_slice/thin_slice.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "core/base/units.hpp"
-#include "core/compliance/contact_law.hpp"
-#include "core/compliance/hertz_line.hpp"
-#include "core/compliance/tooth_bending.hpp"
+#include "core/compliance/local/contact_law.hpp"
+#include "core/compliance/local/hertz_line.hpp"
+#include "core/compliance/thin_slice/tooth_bending.hpp"
 
 using namespace flankwright;
 using units::deg;

@@ -1,12 +1,12 @@
-#include "core/compliance/thin_slice_tooth.hpp"
+#include "core/compliance/thin_slice/thin_slice_tooth.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
-#include "core/compliance/tooth_bending.hpp"
-#include "core/compliance/tooth_places.hpp"
+#include "core/compliance/thin_slice/tooth_bending.hpp"
+#include "core/compliance/tooth/tooth_places.hpp"
 #include "tests/reference/eigenvalues.hpp"
 
 using namespace flankwright;

@@ -1,4 +1,4 @@
-#include "core/compliance/tooth_bending.hpp"
+#include "core/compliance/thin_slice/tooth_bending.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "core/compliance/tooth_places.hpp"
+#include "core/compliance/tooth/tooth_places.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
-#include "core/contact/bearing_pattern.hpp"
+#include "core/contact/unloaded/bearing_pattern.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/contact/contact_ellipse.hpp"
+#include "core/contact/unloaded/contact_ellipse.hpp"
 #include "tests/core/contact/contact_cases.hpp"
 #include "tests/reference/nasa_tm_107451.hpp"
 

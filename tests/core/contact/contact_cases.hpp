@@ -4,10 +4,10 @@
 #include <limits>
 #include <random>
 
-#include "core/contact/mesh_scene.hpp"
-#include "core/contact/path_of_contact.hpp"
-#include "core/contact/tooth_contact.hpp"
-#include "core/contact/transmission_error.hpp"
+#include "core/contact/assembly/mesh_scene.hpp"
+#include "core/contact/path/path_of_contact.hpp"
+#include "core/contact/unloaded/tooth_contact.hpp"
+#include "core/contact/unloaded/transmission_error.hpp"
 
 /// What the tests of unloaded contact share: pairs, scenes and an evaluation that knows nothing of the solver.
 namespace flankwright::contact_cases {

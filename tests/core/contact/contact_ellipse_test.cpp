@@ -1,4 +1,4 @@
-#include "core/contact/contact_ellipse.hpp"
+#include "core/contact/unloaded/contact_ellipse.hpp"
 
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>

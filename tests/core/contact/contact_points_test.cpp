@@ -1,4 +1,4 @@
-#include "core/contact/contact_points.hpp"
+#include "core/contact/path/contact_points.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-#include "core/contact/flank_meeting.hpp"
+#include "core/contact/unloaded/flank_meeting.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/contact/gap.hpp"
+#include "core/contact/gap/gap.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

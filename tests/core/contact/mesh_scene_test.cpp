@@ -1,4 +1,4 @@
-#include "core/contact/mesh_scene.hpp"
+#include "core/contact/assembly/mesh_scene.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "core/contact/misalignment_gap.hpp"
+#include "core/contact/gap/misalignment_gap.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "core/base/error.hpp"
-#include "core/contact/condition_gap.hpp"
+#include "core/contact/gap/condition_gap.hpp"
 #include "tests/core/load/load_cases.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 

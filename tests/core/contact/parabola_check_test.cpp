@@ -1,4 +1,4 @@
-#include "core/contact/parabola_check.hpp"
+#include "core/contact/unloaded/parabola_check.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

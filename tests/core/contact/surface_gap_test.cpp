@@ -1,4 +1,4 @@
-#include "core/contact/surface_gap.hpp"
+#include "core/contact/gap/surface_gap.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,9 +1,9 @@
-#include "core/contact/transmission_error.hpp"
+#include "core/contact/unloaded/transmission_error.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/contact/edge_reach.hpp"
+#include "core/contact/path/edge_reach.hpp"
 #include "tests/core/contact/contact_cases.hpp"
 
 using namespace flankwright;

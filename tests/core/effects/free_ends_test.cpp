@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "core/compliance/hertz_line.hpp"
+#include "core/compliance/local/hertz_line.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;

@@ -7,7 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/effects/decision.hpp"
-#include "core/load/mesh_cycle.hpp"
+#include "core/load/cycle/mesh_cycle.hpp"
 #include "tests/core/effects/instruction_count.hpp"
 
 using namespace flankwright;

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/contact/contact_ellipse.hpp"
-#include "core/contact/parabola_check.hpp"
+#include "core/contact/unloaded/contact_ellipse.hpp"
+#include "core/contact/unloaded/parabola_check.hpp"
 #include "core/flank/conjugate_field.hpp"
 #include "tests/core/contact/contact_cases.hpp"
 #include "tests/reference/nasa_tm_107451.hpp"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/contact/tooth_contact.hpp"
+#include "core/contact/unloaded/tooth_contact.hpp"
 #include "core/flank/generated_field.hpp"
 #include "core/gear/tool_section.hpp"
 #include "tests/core/flank/rolling.hpp"

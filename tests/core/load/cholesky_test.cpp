@@ -1,4 +1,4 @@
-#include "core/load/cholesky.hpp"
+#include "core/load/solve/cholesky.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

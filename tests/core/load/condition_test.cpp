@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/load/solve/load_solver.hpp"
 #include "tests/core/load/load_cases.hpp"
 
 using namespace flankwright;

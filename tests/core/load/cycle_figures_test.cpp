@@ -1,4 +1,4 @@
-#include "core/load/cycle_figures.hpp"
+#include "core/load/cycle/cycle_figures.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,9 +1,9 @@
-#include "core/load/cycle_gradient.hpp"
+#include "core/load/cycle/cycle_gradient.hpp"
 
 #include <catch2/catch.hpp>
 #include <functional>
 
-#include "core/load/position_gradient.hpp"
+#include "core/rating/position_gradient.hpp"
 #include "tests/core/load/load_cases.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 #include "tests/core/load/synthetic_root_stress.hpp"

@@ -1,8 +1,8 @@
 #include <catch2/catch.hpp>
 #include <optional>
 
-#include "core/compliance/hertz_line.hpp"
-#include "core/load/mesh_cycle.hpp"
+#include "core/compliance/local/hertz_line.hpp"
+#include "core/load/cycle/mesh_cycle.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 #include "tests/reference/haddad_18_54.hpp"
 #include "tests/reference/haddad_1991.hpp"

@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "core/compliance/hertz_line.hpp"
-#include "core/load/load_problem.hpp"
+#include "core/compliance/local/hertz_line.hpp"
+#include "core/load/solve/load_problem.hpp"
 
 /// Load problems for tests: steel contacts, influence matrices of every kind, and what proves a solution.
 namespace flankwright::load_cases {

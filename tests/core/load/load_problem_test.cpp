@@ -1,10 +1,11 @@
-#include "core/load/load_problem.hpp"
+#include "core/load/solve/load_problem.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <numeric>
 
 #include "core/base/error.hpp"
+#include "core/load/solve/load_solver.hpp"
 #include "tests/core/load/load_cases.hpp"
 
 using namespace flankwright;

@@ -1,4 +1,4 @@
-#include "core/load/load_solver.hpp"
+#include "core/load/solve/load_solver.hpp"
 
 #include <catch2/catch.hpp>
 

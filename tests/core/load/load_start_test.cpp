@@ -1,4 +1,4 @@
-#include "core/load/load_start.hpp"
+#include "core/load/cycle/load_start.hpp"
 
 #include <catch2/catch.hpp>
 

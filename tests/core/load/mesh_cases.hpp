@@ -5,8 +5,8 @@
 #include <map>
 #include <utility>
 
-#include "core/load/contact_peaks.hpp"
-#include "core/load/mesh_cycle.hpp"
+#include "core/rating/contact_peaks.hpp"
+#include "core/load/cycle/mesh_cycle.hpp"
 
 /// Gear pairs and readings of a loaded cycle that several tests share.
 namespace flankwright::mesh_cases {

@@ -1,10 +1,10 @@
-#include "core/load/mesh_cycle.hpp"
+#include "core/load/cycle/mesh_cycle.hpp"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "core/compliance/hertz_line.hpp"
+#include "core/compliance/local/hertz_line.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;

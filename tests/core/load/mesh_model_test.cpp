@@ -1,4 +1,4 @@
-#include "core/load/mesh_model.hpp"
+#include "core/load/cycle/mesh_model.hpp"
 
 #include <catch2/catch.hpp>
 

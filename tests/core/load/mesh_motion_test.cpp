@@ -1,11 +1,11 @@
-#include "core/load/mesh_motion.hpp"
+#include "core/load/cycle/mesh_motion.hpp"
 
 #include <catch2/catch.hpp>
 
 #include "core/base/error.hpp"
-#include "core/load/cycle_gradient.hpp"
-#include "core/load/peak_gradient.hpp"
-#include "core/load/position_gradient.hpp"
+#include "core/load/cycle/cycle_gradient.hpp"
+#include "core/rating/peak_gradient.hpp"
+#include "core/rating/position_gradient.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 #include "tests/core/load/synthetic_root_stress.hpp"
 

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "core/contact/path_of_contact.hpp"
+#include "core/contact/path/path_of_contact.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;

@@ -1,4 +1,4 @@
-#include "core/load/quadratic_program.hpp"
+#include "core/load/solve/quadratic_program.hpp"
 
 #include <Eigen/LU>
 #include <catch2/catch.hpp>

@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "core/load/solve/load_solver.hpp"
 #include "tests/core/load/load_cases.hpp"
 #include "tests/hard_cases/floating_point_traps.hpp"
 #include "tests/reference/eigenvalues.hpp"

@@ -1,4 +1,5 @@
-#include "core/load/sensitivity.hpp"
+#include "core/load/solve/load_solver.hpp"
+#include "core/load/solve/sensitivity.hpp"
 
 #include <catch2/catch.hpp>
 

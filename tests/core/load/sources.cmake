@@ -1,32 +1,22 @@
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/load_cases.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/cycle_figures_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/discretisation_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/cycle_gradient_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/haddad_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/load_problem_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/mesh_cycle_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/mesh_motion_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/mesh_model_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/mesh_stiffness_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/mesh_symmetry_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/quadratic_program_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/random_load_problems_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/root_stress_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/sensitivity_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/surface_cycle_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/surface_outputs_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/shafts_under_load_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/contact_peaks_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/peak_gradient_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/load_factors_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/iso_load_factors_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/line_ends_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/cycle_resolution_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/cycle_extremes_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/cycle_error_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/load_sharing_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/effect_sizes_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/condition_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/cholesky_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/load_solver_test.cpp)
-list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/load_start_test.cpp)
+list(APPEND FLANKWRIGHT_TEST_SOURCES
+     ${CMAKE_CURRENT_LIST_DIR}/cholesky_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/condition_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/cycle_figures_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/cycle_gradient_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/haddad_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/load_cases.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/load_problem_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/load_solver_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/load_start_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/mesh_cycle_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/mesh_model_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/mesh_motion_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/mesh_stiffness_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/mesh_symmetry_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/quadratic_program_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/random_load_problems_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/root_stress_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/sensitivity_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/shafts_under_load_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/surface_cycle_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/surface_outputs_test.cpp)

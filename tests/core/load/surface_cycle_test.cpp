@@ -1,10 +1,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/contact/gap.hpp"
-#include "core/contact/tooth_contact.hpp"
-#include "core/load/line_ends.hpp"
-#include "core/load/mesh_motion.hpp"
+#include "core/contact/gap/gap.hpp"
+#include "core/contact/unloaded/tooth_contact.hpp"
+#include "core/rating/line_ends.hpp"
+#include "core/load/cycle/mesh_motion.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;

@@ -1,8 +1,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/load/line_ends.hpp"
-#include "core/load/load_factors.hpp"
+#include "core/rating/line_ends.hpp"
+#include "core/rating/load_factors.hpp"
+#include "core/load/solve/load_solver.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 #include "tests/core/load/synthetic_root_stress.hpp"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "core/compliance/pair_root_stress.hpp"
+#include "core/compliance/pair/pair_root_stress.hpp"
 
 namespace flankwright::mesh_cases {
 

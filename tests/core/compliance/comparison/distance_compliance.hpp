@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/compliance/flank_compliance.hpp"
+#include "core/compliance/tooth/flank_compliance.hpp"
 
 namespace flankwright::testing {
 

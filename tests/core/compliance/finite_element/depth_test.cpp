@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/compliance/contact_law.hpp"
+#include "core/compliance/local/contact_law.hpp"
 #include "core/compliance/finite_element/load_functional.hpp"
-#include "core/compliance/hertz_line.hpp"
+#include "core/compliance/local/hertz_line.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
 
 using namespace flankwright;

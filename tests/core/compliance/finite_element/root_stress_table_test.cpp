@@ -6,7 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/compliance/finite_element/influence.hpp"
 #include "core/compliance/fitted/refinement_fit.hpp"
-#include "core/compliance/tooth_places.hpp"
+#include "core/compliance/tooth/tooth_places.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
 #include "tests/reference/iso_6336_root_stress.hpp"
 

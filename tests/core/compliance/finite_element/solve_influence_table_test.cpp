@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "core/base/error.hpp"
-#include "core/contact/contact_points.hpp"
+#include "core/contact/path/contact_points.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
 
 using namespace flankwright;

@@ -5,7 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
-#include "core/compliance/tooth_bending.hpp"
+#include "core/compliance/thin_slice/tooth_bending.hpp"
 #include "tests/reference/eigenvalues.hpp"
 
 using namespace flankwright;

@@ -1,0 +1,112 @@
+#include "core/compliance/local/contact_law.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <string>
+
+#include "core/base/error.hpp"
+#include "core/base/units.hpp"
+#include "core/compliance/local/hertz_line.hpp"
+
+namespace flankwright {
+namespace {
+
+// Haddad 1991, eq. 1.54.
+constexpr double kTipFactor0 = 1.627, kTipFactor1 = -0.282, kTipFactor2 = 0.03338;
+// The parabola holds for y <= kBlendStart, where it still falls; M = 1 for y >= kBlendEnd.
+constexpr double kBlendStart = 3.6, kBlendEnd = 5.0;
+
+/// The bracket of eq. 1.30, g(h') = asinh(h') - k h' (S - h'), S = sqrt(1 + h'^2), and its derivative (1 - k (S -
+/// h')^2) / S.
+struct DepthFunction {
+  double value, slope;
+};
+
+DepthFunction depth_function(double depth, double k) {
+  // Beyond this depth S = h' to the last bit, and h'^2 may overflow.
+  constexpr double kDeep = 1e9;
+  if (depth > kDeep) return {std::log(2 * depth) - k / 2, 1 / depth};
+  const double s = std::sqrt(1 + depth * depth);
+  const double gap = 1 / (s + depth);  // S - h' without cancellation
+  // asinh from the root at hand, where that costs no digits.
+  const double inverse_sine = depth > 0.5 ? std::log(s + depth) : std::asinh(depth);
+  return {inverse_sine - k * depth * gap, (1 - k * gap * gap) / s};
+}
+
+}  // namespace
+
+TipFactor tip_factor(double tip_distance) {
+  const double y = tip_distance;
+  if (y >= kBlendEnd) return {1, 0};
+  if (y <= kBlendStart) {
+    return {kTipFactor0 + y * (kTipFactor1 + y * kTipFactor2), kTipFactor1 + 2 * y * kTipFactor2};
+  }
+  // Quintic in t = (y - start) / width with value, slope and curvature of the parabola at t = 0 and (1, 0, 0) at t = 1,
+  // written as 1 + (1 - t)^3 (c0 + c1 t + c2 t^2).
+  constexpr double width = kBlendEnd - kBlendStart;
+  constexpr double value = kTipFactor0 + kBlendStart * (kTipFactor1 + kBlendStart * kTipFactor2) - 1;
+  constexpr double slope = (kTipFactor1 + 2 * kBlendStart * kTipFactor2) * width;
+  constexpr double curvature = 2 * kTipFactor2 * width * width;
+  constexpr double c0 = value;
+  constexpr double c1 = slope + 3 * c0;
+  constexpr double c2 = curvature / 2 + 3 * c1 - 3 * c0;
+  const double t = (y - kBlendStart) / width;
+  const double u = 1 - t;
+  const double polynomial = c0 + t * (c1 + t * c2);
+  return {1 + u * u * u * polynomial, u * u * (u * (c1 + 2 * c2 * t) - 3 * polynomial) / width};
+}
+
+ContactSide ContactSide::of(const Material& material, double depth, double tip_distance, const std::array<double, 2>& end_distances,
+                            double end_lean) {
+  validate(material);
+  if (!(depth > 0 && std::isfinite(depth))) throw InvalidInput("depth", std::to_string(depth), "more than 0 mm");
+  const double nu = material.poissons_ratio;
+  return {2 * (1 - nu * nu) / (units::pi * material.youngs_modulus), nu / (1 - nu), depth, tip_distance, end_distances, end_lean};
+}
+
+ContactLaw::ContactLaw(const ContactSide& pinion, const ContactSide& wheel, double relative_radius,
+                       double contact_modulus)
+    : half_width_at_unit_load_(hertz_line(1.0, relative_radius, contact_modulus).half_width) {
+  const auto distance = [](const char* field, double given) {
+    if (std::isnan(given)) throw InvalidInput(field, "nan", "a distance in mm or infinity");
+    return std::max(0.0, given);
+  };
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    ContactSide side = i == 0 ? pinion : wheel;
+    assert(side.coefficient > 0 && side.depth > 0 && side.lateral_ratio >= 0 && side.lateral_ratio < 1);
+    side.tip_distance = distance("tip_distance", side.tip_distance);
+    for (double& end : side.end_distances) end = distance("end_distances", end);
+    const double nu = side.lateral_ratio / (1 + side.lateral_ratio);
+    const bool endless = side.end_distances == ContactSide::no_ends;
+    sides_[i] = {side, FreeEnd(nu, side.end_lean), endless ? 0 : side.coefficient / (1 - nu * nu)};
+  }
+}
+
+double ContactLaw::half_width(double line_load) const {
+  return half_width_at_unit_load_ * std::sqrt(line_load);
+}
+
+ContactLaw::Response ContactLaw::evaluate(double line_load) const {
+  assert(line_load >= 0);
+  if (line_load == 0) return {0, std::numeric_limits<double>::infinity()};
+  const double l = half_width(line_load);
+  Response response{0, 0};
+  for (const auto& [side, free_end, end_coefficient] : sides_) {
+    // L grows as sqrt(w), so w d/dw of h' and of y are -h'/2 and -y/2.
+    const double h = side.depth / l;
+    const DepthFunction g = depth_function(h, side.lateral_ratio);
+    const double y = side.tip_distance / l;
+    const TipFactor m = tip_factor(y);
+    const double lengthening = m.slope == 0 ? 0 : m.slope * y * g.value;  // y may be infinite where the slope is zero
+    response.deflection += side.coefficient * line_load * m.value * g.value;
+    response.slope += side.coefficient * (m.value * (g.value - 0.5 * h * g.slope) - 0.5 * lengthening);
+    if (end_coefficient == 0) continue;
+    const FreeEnd::Softening f = free_end.at(side.end_distances, side.depth, l);
+    response.deflection += end_coefficient * line_load * f.value;
+    response.slope += end_coefficient * (f.value + 0.5 * f.widening);
+  }
+  return response;
+}
+
+}  // namespace flankwright

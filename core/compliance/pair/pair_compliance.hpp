@@ -1,0 +1,97 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "core/compliance/tooth/flank_compliance.hpp"
+#include "core/compliance/thin_slice/thin_slice.hpp"
+#include "core/contact/path/contact_points.hpp"
+
+namespace flankwright {
+
+/// Structural compliance of a pair of gears, whatever it is made from: the interface that load distribution sees.
+class PairCompliance {
+ public:
+  virtual ~PairCompliance() = default;
+
+  /// K between the contact points of one mesh position, n x n [mm/N]: how far both gears' structures give way at p,
+  /// normal to the flank, per unit force at q. Symmetric to the last bit, positive semi-definite to round-off.
+  /// @param axial_offset  of the wheel [mm]
+  /// @throws InvalidInput where the model does not know a point
+  virtual Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const = 0;
+
+  /// Whether influence_on_rigid_bodies() may be called: finite elements with rigid bodies take a run of their own.
+  virtual bool knows_rigid_bodies() const { return true; }
+
+  /// The same where the gears' bodies are rigid. A model that knows of no body gives way as ever. Needs knows_rigid_bodies().
+  /// @throws InvalidInput as influence()
+  virtual Eigen::MatrixXd influence_on_rigid_bodies(const std::vector<ContactPoint>& points, double axial_offset) const {
+    return influence(points, axial_offset);
+  }
+
+ protected:
+  PairCompliance() = default;
+  PairCompliance(const PairCompliance&) = default;
+  PairCompliance& operator=(const PairCompliance&) = default;
+};
+
+/// Slices that do not know of each other: a point gives way under its own line load F_i / a_i only, K diagonal.
+class ThinSlicePair final : public PairCompliance {
+ public:
+  explicit ThinSlicePair(ThinSlice slice) : slice_(std::move(slice)) {}
+  Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
+  const ThinSlice& slice() const { return slice_; }
+
+ private:
+  ThinSlice slice_;
+};
+
+/// One gear's structure with its material's modulus.
+struct GearStructure {
+  std::shared_ptr<const FlankCompliance> compliance;
+  double youngs_modulus{not_given};  ///< E [MPa], > 0
+  std::shared_ptr<const FlankCompliance> on_rigid_body{};  ///< GearBody::rigid; null: not known
+};
+
+/// Both gears' structures side by side, K = K_1 + K_2, points on different teeth coupled; between intervals of contact lines where points
+/// have them, see IntervalMean.
+class StructuralPair final : public PairCompliance {
+ public:
+  StructuralPair(const GearPair& pair, GearStructure pinion, GearStructure wheel)
+      : pair_(pair), pinion_(std::move(pinion)), wheel_(std::move(wheel)) {}
+  Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
+  bool knows_rigid_bodies() const override { return pinion_.on_rigid_body && wheel_.on_rigid_body; }
+  Eigen::MatrixXd influence_on_rigid_bodies(const std::vector<ContactPoint>& points, double axial_offset) const override;
+
+  const GearStructure& operator[](Member m) const { return m == Member::Pinion ? pinion_ : wheel_; }
+
+ private:
+  Eigen::MatrixXd sum(std::shared_ptr<const FlankCompliance> GearStructure::* of, const std::vector<ContactPoint>& points, double axial_offset) const;
+
+  GearPair pair_;
+  GearStructure pinion_, wheel_;
+};
+
+/// Where a contact point lies on one gear of a pair. The gear is seen as GearToMesh has it, as right-handed and loaded
+/// on its clockwise flanks, by half a turn about an axis across its own, or by a mirror:
+///
+/// - zeta counts from the sharp end of the face. The pinion's outward normal has an axial part of the sign of
+///   -contact_line_sense(), the wheel's of the opposite one, and the sharp end is where that part points away from the
+///   face: z = +b/2 of the pinion and -b/2 of the wheel where the sense is +1.
+/// - Tooth k of the mesh runs k pitches ahead: on the pinion the side that its loaded flank faces, so m = -k; on the
+///   wheel the side that it turns its back on, m = +k.
+///
+/// u is clamped to the flank: a tip edge that touches beyond it, by round-off, counts as on it.
+FlankPlace flank_place(const GearPair& pair, Member member, const ContactPoint& point, double axial_offset);
+
+/// The end of the face on which the sharp end lies: +1 for z = +b/2, -1 for the other; of a spur gear as if its sense were +1.
+int sharp_end(const GearPair& pair, Member member);
+
+/// The same of its tooth alone: where the mesh counts the gear's tooth of pair k.
+int gear_tooth(Member member, int tooth_pair);
+
+/// Back from zeta [m_n] to z in the pair's frame [mm].
+double axial_position(const GearPair& pair, Member member, double zeta, double axial_offset);
+
+}  // namespace flankwright

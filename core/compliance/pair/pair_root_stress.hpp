@@ -1,0 +1,92 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "core/compliance/finite_element/root_stress_table.hpp"
+#include "core/contact/path/contact_points.hpp"
+
+namespace flankwright {
+
+/// A place on the fillet of one gear's tooth, below its working flank.
+struct RootPlace {
+  Member member{Member::Pinion};
+  int tooth{0};             ///< of the tooth pair, as ContactPoint::tooth
+  double along{not_given};  ///< arc length from the fillet's start over the fillet's, 0 .. 1 [-]
+  double z{not_given};      ///< axial position, as ContactPoint::z [mm]
+  bool tangent{false};      ///< at the 30 deg tangent
+};
+
+/// What forces at the contact points of one mesh position do to the fillets of the teeth in contact.
+///
+/// The influence of n points on P places is a sum of products R W: a table R of the gear, which all positions of the cycle share, and the weights W with
+/// which the table's forces stand for those at the points. It is kept as these factors; P is ten times n, and loads are applied a few times only.
+class RootStressInfluence {
+ public:
+  std::vector<RootPlace> places;
+
+  /// Points `begin` .. `begin` + columns of `weights`, as forces of a table.
+  struct Forces {
+    Eigen::Index begin{0};
+    Eigen::MatrixXd weights;  ///< forces of the table x points [-]
+  };
+  /// A table for the stress of some places.
+  struct Response {
+    Eigen::Index first_place{0};                    ///< of rows / 3 places
+    std::size_t forces{0};                          ///< which of the Forces
+    std::shared_ptr<const Eigen::MatrixXd> table;   ///< (s_tt, s_aa, s_ta) of every place, three rows each, x forces of the table [MPa/N]
+  };
+  /// @param points  n
+  RootStressInfluence(std::vector<RootPlace> of_places, Eigen::Index points, std::vector<Forces> forces, std::vector<Response> responses)
+      : places(std::move(of_places)), points_(points), forces_(std::move(forces)), responses_(std::move(responses)) {}
+  RootStressInfluence() = default;
+
+  /// (s_tt, s_aa, s_ta) of every place, three rows each, see FilletStress [MPa].
+  /// @param forces  normal to the flank at every point, n [N]
+  Eigen::VectorXd components(const Eigen::VectorXd& forces) const;
+  /// The same at several positions: every table is read once for all of them.
+  /// @param forces  a list for each of the positions
+  static std::vector<Eigen::VectorXd> components(const std::vector<const RootStressInfluence*>& positions, const std::vector<Eigen::VectorXd>& forces);
+
+  /// The three components of one place per unit force at every point, 3 x n [MPa/N].
+  Eigen::Matrix3Xd components_of(Eigen::Index place) const;
+
+ private:
+  Eigen::Index points_{0};
+  std::vector<Forces> forces_;
+  std::vector<Response> responses_;
+};
+
+/// Root stress of a pair of gears, whatever it is made from: the interface that load distribution sees, beside
+/// PairCompliance.
+class PairRootStress {
+ public:
+  virtual ~PairRootStress() = default;
+
+  /// @param axial_offset  of the wheel [mm]
+  /// @throws InvalidInput where the model does not know a point
+  virtual RootStressInfluence influence(const std::vector<ContactPoint>& points, double axial_offset) const = 0;
+
+ protected:
+  PairRootStress() = default;
+  PairRootStress(const PairRootStress&) = default;
+  PairRootStress& operator=(const PairRootStress&) = default;
+};
+
+/// From the tables of both gears.
+class TabulatedRootStress final : public PairRootStress {
+ public:
+  TabulatedRootStress(const GearPair& pair, std::shared_ptr<const RootStressTable> pinion,
+                      std::shared_ptr<const RootStressTable> wheel)
+      : pair_(pair), pinion_(std::move(pinion)), wheel_(std::move(wheel)) {}
+  RootStressInfluence influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
+
+  const RootStressTable& operator[](Member m) const { return m == Member::Pinion ? *pinion_ : *wheel_; }
+
+ private:
+  GearPair pair_;
+  std::shared_ptr<const RootStressTable> pinion_, wheel_;
+};
+
+}  // namespace flankwright

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cmath>
+
+#include "core/contact/path/contact_points.hpp"
+#include "core/contact/assembly/misalignment.hpp"
+#include "core/contact/path/path_of_contact.hpp"
+#include "core/gear/gear_pair.hpp"
+
+namespace flankwright {
+
+/// How far a misaligned wheel recedes along the pinion's outward normal n = (cos b_b L, -s sin b_b), L = (sin a, cos a, 0), first
+/// order in the angles: linear in all of a misalignment but the axial offset, which shifts the levers too. The errors of the
+/// pinion take no part.
+class WheelDisplacement {
+ public:
+  WheelDisplacement(const GearPair& pair, const Misalignment& m) : WheelDisplacement(pair, m, m.axial_offset) {}
+  /// @param axial_offset  where the wheel's mid face stands, the centre of its rotations [mm]
+  WheelDisplacement(const GearPair& pair, const Misalignment& m, double axial_offset)
+      : pair_(pair), path_(pair), misalignment_(m), centre_(axial_offset), alpha_(pair.working_transverse_pressure_angle) {
+    const double mirror = pair.data.working_flank == WorkingFlank::Right ? 1.0 : -1.0;
+    about_x_ = mirror * m.crossing;
+    about_y_ = m.intersecting;
+  }
+
+  /// At a contact point [mm].
+  double along_normal(const ContactPoint& point) const {
+    // Contact point relative to the wheel's centre: pitch point plus its distance s along the line of action.
+    const double s = path_.roll_at(point.phase) - pair_.pitch_point;
+    const double x = -pair_.wheel.working_pitch_radius + s * std::sin(alpha_), y = s * std::cos(alpha_);
+    const double z = point.z - centre_;
+    const double dx = about_y_ * z + misalignment_.centre_distance, dy = -about_x_ * z;
+    const double dz = about_x_ * y - about_y_ * x + misalignment_.axial_offset;
+    const double beta = pair_.base_helix_angle;
+    const double opened = misalignment_.mesh_misalignment * z / pair_.face_width;
+    return std::cos(beta) * (dx * std::sin(alpha_) + dy * std::cos(alpha_) + opened) -
+           pair_.contact_line_sense() * std::sin(beta) * dz;
+  }
+
+ private:
+  const GearPair& pair_;
+  PathOfContact path_;
+  Misalignment misalignment_;
+  double centre_, alpha_, about_x_, about_y_;
+};
+
+}  // namespace flankwright

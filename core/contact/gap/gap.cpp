@@ -1,0 +1,78 @@
+#include "core/contact/gap/gap.hpp"
+
+#include <cmath>
+
+#include "core/contact/assembly/mesh_scene.hpp"
+#include "core/contact/assembly/wheel_displacement.hpp"
+#include "core/gear/involute.hpp"
+
+namespace flankwright {
+
+namespace {
+
+double radius_of(const ContactPoint& point, Member m) { return m == Member::Pinion ? point.pinion_radius : point.wheel_radius; }
+
+/// Axial position on the gear's own face: the wheel carries its flank along when it is displaced.
+double own_z(const ContactPoint& point, Member m, const Misalignment& misalignment) {
+  return m == Member::Pinion ? point.z : point.z - misalignment.axial_offset;
+}
+
+/// The flank with its predesigned parabola as the lag that it gives in the plane of action, see removal().
+Flank flank_in_plane_of_action(const GearPair& pair, Member m, const FlankCondition& condition) {
+  Modification modification = condition.modification(m);
+  modification.parabolic_te = 0.0;
+  Flank flank = make_flank(pair, m, modification, condition.error(m));
+  flank.modification.parabolic_te = condition.modification(m).parabolic_te;
+  return flank;
+}
+
+/// Angle by which the changed pinion flank leads the nominal one at a point [rad].
+double pinion_lead(const Flank& changed, const Flank& nominal, const ContactPoint& point) {
+  const auto polar = [&](const Flank& flank) {
+    const double cosine = std::min(1.0, flank.base_radius / point.pinion_radius);
+    return flank.origin + flank.helix_rate * point.z - involute(std::acos(cosine));
+  };
+  return polar(changed) - polar(nominal);
+}
+
+}  // namespace
+
+const char* to_string(GapModel model) { return model == GapModel::PlaneOfAction ? "plane_of_action" : "whole_surface"; }
+
+Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition) {
+  const int n = static_cast<int>(points.size());
+  const double cos_base_helix = std::cos(pair.base_helix_angle);
+  const WheelDisplacement displacement(pair, condition.misalignment);
+  const Flank pinion = flank_in_plane_of_action(pair, Member::Pinion, condition);
+  const Flank wheel = flank_in_plane_of_action(pair, Member::Wheel, condition);
+  const Flank nominal = make_flank(pair, Member::Pinion, {}, {});
+  const Flank changed = make_mesh_scene(pair, condition.misalignment, {}, {}, {}, {}).pinion;
+  const bool is_nominal = condition.misalignment.pinion_lead_angle == 0.0 && condition.misalignment.pinion_pressure_angle == 0.0;
+  Gap gap{Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  for (int i = 0; i < n; ++i) {
+    const ContactPoint& point = points[i];
+    double removed = 0.0;
+    for (Member m : {Member::Pinion, Member::Wheel}) {
+      const Flank& flank = m == Member::Pinion ? pinion : wheel;
+      removed += flank.deviation(flank.roll_at(radius_of(point, m)), own_z(point, m, condition.misalignment), point.tooth);
+    }
+    gap.error[i] = -cos_base_helix * removed - displacement.along_normal(point) +
+                   (is_nominal ? 0.0 : cos_base_helix * pair.pinion.base_radius * pinion_lead(changed, nominal, point));
+    gap.total[i] = point.clearance - gap.error[i];
+  }
+  return gap;
+}
+
+Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition,
+                               Member member, ModificationParameter parameter) {
+  const double cos_base_helix = std::cos(pair.base_helix_angle);
+  const RemovalDerivative removed(condition.modification(member), pair.flank_frame(member), parameter);
+  Eigen::VectorXd derivative(points.size());
+  for (Eigen::Index i = 0; i < derivative.size(); ++i) {
+    const ContactPoint& point = points[static_cast<std::size_t>(i)];
+    derivative[i] = cos_base_helix * removed.at(radius_of(point, member), own_z(point, member, condition.misalignment));
+  }
+  return derivative;
+}
+
+}  // namespace flankwright

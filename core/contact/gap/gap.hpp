@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "core/contact/path/contact_points.hpp"
+#include "core/contact/assembly/misalignment.hpp"
+#include "core/flank/removal.hpp"
+
+namespace flankwright {
+
+/// What of a working condition shapes the gap between the flanks.
+struct FlankCondition {
+  Modification pinion_modification, wheel_modification;
+  ManufacturingError pinion_error, wheel_error;
+  Misalignment misalignment;
+
+  const Modification& modification(Member m) const { return m == Member::Pinion ? pinion_modification : wheel_modification; }
+  const ManufacturingError& error(Member m) const { return m == Member::Pinion ? pinion_error : wheel_error; }
+  bool operator==(const FlankCondition&) const = default;
+};
+
+/// Where the gap between the flanks is sought.
+enum class GapModel {
+  PlaneOfAction,  ///< where undisturbed flanks would touch, see plane_of_action_gap()
+  WholeSurface,   ///< over the whole flanks, see SurfaceGap
+};
+
+/// Name of the model in a study file ("whole_surface").
+const char* to_string(GapModel model);
+
+/// Where flanks are nearest in one section, and how their gap there follows what is removed from either of them.
+struct NearestPlace {
+  double pinion_radius{not_given}, wheel_radius{not_given};  ///< [mm]
+  /// A place with its share of the derivative: one, or on a kink of a flank one on either side of it.
+  struct Side {
+    double pinion_radius{not_given}, pinion_z{not_given};  ///< of the involute's point, what D is a function of [mm]
+    double wheel_radius{not_given}, wheel_z{not_given};
+    double by_pinion{0.0}, by_wheel{0.0};  ///< d(gap)/dD of either flank [-]
+    double share{0.0};                     ///< of the derivative [-]; both sides' add up to 1
+  };
+  std::array<Side, 2> sides;
+};
+
+/// Gap of unloaded flanks at each contact point, normal to the flank, before load.
+struct Gap {
+  Eigen::VectorXd total;     ///< g [mm]
+  Eigen::VectorXd error;     ///< the part that is not clearance, sign of Haddad's delta_e: metal added is positive [mm]
+  std::vector<NearestPlace> nearest{};  ///< of each point; WholeSurface only
+};
+
+/// Gap of unloaded flanks at each contact point, normal to the flank, at the angle at which the undisturbed pair would touch [mm]:
+///
+///     g = c_n + cos(beta_b) sum over both gears of D (see Flank) + misalignment
+///
+/// Contact stays where the undisturbed flanks would touch (plane of action). Misalignment is the wheel's displacement
+/// along the pinion's outward normal, first order in the angles; a changed pinion helicoid (lead or pressure-angle error) enters by the
+/// exact angle between the changed and the nominal flank. Negative where metal is added or the wheel is pushed into the pinion.
+Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition);
+
+/// dg/dp at each point for one modification parameter of one gear [mm/mm; parabolic_te mm rad], exact.
+Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition,
+                               Member member, ModificationParameter parameter);
+
+}  // namespace flankwright

@@ -1,0 +1,118 @@
+#include "core/contact/gap/surface_gap.hpp"
+
+#include <cmath>
+#include <optional>
+
+namespace flankwright {
+
+SurfaceGap::SurfaceGap(const GearPair& pair, const FlankCondition& condition)
+    : pair_(pair),
+      condition_(condition),
+      scene_(make_mesh_scene(pair, condition.misalignment, condition.pinion_modification, condition.wheel_modification,
+                             condition.pinion_error, condition.wheel_error)),
+      density_(search_density(scene_)) {
+  for (Member m : {Member::Pinion, Member::Wheel}) {
+    const double coefficient = condition.modification(m).parabolic_te;
+    if (coefficient != 0.0) parabola_[static_cast<std::size_t>(m)] = make_conjugate_field(pair, m, coefficient);
+  }
+}
+
+std::vector<SectionMaximum> SurfaceGap::maxima(const std::vector<ContactPoint>& points, double line_phase) const {
+  const double phi1 = PathOfContact(pair_).pinion_angle_at(line_phase, pair_);
+  std::vector<SectionMaximum> found;
+  found.reserve(points.size());
+  std::optional<FlankMeeting> meeting;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool same_tooth = i > 0 && points[i].tooth == points[i - 1].tooth;
+    if (!same_tooth) meeting.emplace(scene_, points[i].tooth, phi1);
+    const SectionSearch search(*meeting, density_.cells);
+    SectionMaximum best = search.at(points[i].z, same_tooth ? found.back() : SectionMaximum{}, SectionAccuracy::Full);
+    if (!best.exists) {
+      best.at = meeting->at(scene_.pinion.roll_at(points[i].pinion_radius), points[i].z);
+      best.phi2 = meeting->phi2(best.at);
+      best.slope_phi1 = best.at.angle.phi1;
+    }
+    found.push_back(best);
+  }
+  return found;
+}
+
+/// What is removed from the pinion moves its point as a turn backwards by D/r_b1 and, with the slope of D, a step along the
+/// profile do: per unit of D, 1/(1 - D') of either. What is removed from the wheel lets it turn on by D/r_b2 times its pace.
+NearestPlace SurfaceGap::nearest_place(const SectionMaximum& found, int tooth) const {
+  const Flank &pinion = scene_.pinion, &wheel = scene_.wheel;
+  const double scale = wheel.base_radius * std::cos(pair_.base_helix_angle);
+  const bool on_wheel_circle = found.bound == SectionBound::WheelTip || found.bound == SectionBound::WheelRoot;
+  const auto side = [&](const Touch& touch, double share) {
+    // On a circle of the wheel the point slides along it: that is in the slope of the path already.
+    const double turning = on_wheel_circle ? found.slope_phi1 : touch.slope_phi1;
+    const double stepping = on_wheel_circle ? 0.0 : touch.slope_rho;
+    const Dual<1> removed = pinion.deviation(Dual<1>::variable(touch.rho, 0), Dual<1>(touch.z), tooth);
+    const double by_pinion = (turning / pinion.base_radius + stepping) / (1.0 - removed.gradient[0]);
+    return NearestPlace::Side{std::hypot(pinion.base_radius, touch.rho),     touch.z,
+                              std::hypot(wheel.base_radius, touch.wheel_rho), touch.wheel_z,
+                              scale * by_pinion,                              scale * touch.wheel_pace / wheel.base_radius, share};
+  };
+  NearestPlace place;
+  place.sides[0] = side(touch_at(found.at), 1.0 - found.share_beyond);
+  if (found.share_beyond != 0.0) place.sides[1] = side(found.beyond, found.share_beyond);
+  place.pinion_radius = place.sides[0].pinion_radius;
+  place.wheel_radius = found.at.wheel_radius;
+  return place;
+}
+
+Gap SurfaceGap::at(const std::vector<ContactPoint>& points, double line_phase) const {
+  const std::vector<SectionMaximum> found = maxima(points, line_phase);
+  const double phi1 = PathOfContact(pair_).pinion_angle_at(line_phase, pair_);
+  const double scale = scene_.wheel.base_radius * std::cos(pair_.base_helix_angle);
+  const Eigen::Index n = static_cast<Eigen::Index>(points.size());
+  Gap gap{Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  gap.nearest.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Index k = static_cast<Eigen::Index>(i);
+    gap.total[k] = scale * (scene_.speed_ratio() * phi1 - found[i].phi2);
+    gap.error[k] = points[i].clearance - gap.total[k];
+    gap.nearest.push_back(nearest_place(found[i], points[i].tooth));
+  }
+  return gap;
+}
+
+Eigen::VectorXd SurfaceGap::derivative(const Gap& gap, Member member, ModificationParameter parameter) const {
+  const Flank& flank = member == Member::Pinion ? scene_.pinion : scene_.wheel;
+  const bool of_parabola = parameter == ModificationParameter::ParabolicTe;  // a field of the roll length, see Flank
+  const auto& parabola = parabola_[static_cast<std::size_t>(member)];
+  const auto by_parameter = [&](double radius, double z) {
+    const double roll = flank.roll_at(radius);
+    if (of_parabola && parabola) return parabola->coefficient_slope(roll, z);
+    return removal_derivative(condition_.modification(member), flank.frame, parameter,
+                              of_parabola ? std::hypot(flank.frame.base_radius, roll) : radius, z);
+  };
+  Eigen::VectorXd derivative = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gap.nearest.size()));
+  for (std::size_t i = 0; i < gap.nearest.size(); ++i) {
+    for (const NearestPlace::Side& side : gap.nearest[i].sides) {
+      if (side.share == 0.0) continue;
+      derivative[static_cast<Eigen::Index>(i)] +=
+          side.share * (member == Member::Pinion ? side.by_pinion * by_parameter(side.pinion_radius, side.pinion_z)
+                                                 : side.by_wheel * by_parameter(side.wheel_radius, side.wheel_z));
+    }
+  }
+  return derivative;
+}
+
+std::vector<ContactPoint> SurfaceGap::place(const std::vector<ContactPoint>& points, double line_phase) const {
+  const std::vector<SectionMaximum> found = maxima(points, line_phase);
+  const Gap aligned = SurfaceGap(pair_, {}).at(points, line_phase);
+  std::vector<ContactPoint> placed;
+  placed.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!found[i].exists) continue;
+    const NearestPlace place = nearest_place(found[i], points[i].tooth);
+    ContactPoint point = points[i];
+    if (point.clearance > 0.0) point.clearance = aligned.total[static_cast<Eigen::Index>(i)];
+    set_rolls(pair_, pair_.pinion.roll_length_at(place.pinion_radius), pair_.wheel.roll_length_at(place.wheel_radius), point);
+    placed.push_back(point);
+  }
+  return placed;
+}
+
+}  // namespace flankwright

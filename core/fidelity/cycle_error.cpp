@@ -1,0 +1,144 @@
+#include "core/fidelity/cycle_error.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+
+#include "core/contact/unloaded/transmission_error.hpp"
+
+namespace flankwright {
+
+namespace {
+
+// Shares of a difference that are called an error, see estimate_errors().
+constexpr double of_mean = 1.0 / 2.0, of_shape = 1.0 / 3.0, of_root_stress = 1.0 / 2.0, of_peaks = 1.0, of_positions = 1.0 / 3.0;
+/// Positions whose peak comes within this share of the cycle's count for the error of the peak.
+constexpr double near_peak = 0.1;
+
+std::complex<double> phasor(const std::vector<double>& samples, int order) {
+  const double n = static_cast<double>(samples.size());
+  std::complex<double> sum = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i) sum += std::polar(2.0 / n, -2.0 * units::pi * order * static_cast<double>(i) / n) * samples[i];
+  return sum;
+}
+
+double mean_of(const std::vector<double>& samples) {
+  double sum = 0.0;
+  for (const double s : samples) sum += s;
+  return sum / static_cast<double>(samples.size());
+}
+
+std::vector<double> every(const std::vector<double>& samples, std::size_t stride) {
+  std::vector<double> some;
+  for (std::size_t i = 0; i < samples.size(); i += stride) some.push_back(samples[i]);
+  return some;
+}
+
+/// A reading of every position.
+std::vector<double> curve(const LoadedCycle& cycle, const auto& reading) {
+  std::vector<double> values;
+  for (const LoadedPosition& position : cycle.positions) values.push_back(reading(position));
+  return values;
+}
+
+double peak_difference(const std::vector<double>& fine, const std::vector<double>& coarse) {
+  const double peak = *std::ranges::max_element(fine);
+  double largest = std::abs(peak - *std::ranges::max_element(coarse));
+  for (std::size_t i = 0; i < fine.size(); ++i) {
+    if (fine[i] >= (1.0 - near_peak) * peak) largest = std::max(largest, std::abs(fine[i] - coarse[i]));
+  }
+  return largest;
+}
+
+double approach_of(const LoadedPosition& position) { return position.load.transmission_error - position.gap.total.minCoeff(); }
+double te_of(const LoadedPosition& position) { return position.load.transmission_error; }
+double stress_of(const LoadedPosition& position) { return position.contact_stress.maxCoeff(); }
+double load_of(const LoadedPosition& position) { return position.load.line_load.maxCoeff(); }
+double root_of(const LoadedPosition& position) { return position.root_stress.size() > 0 ? position.root_stress.maxCoeff() : not_given; }
+
+CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, const CycleSummary& summary) {
+  CycleErrors errors;
+  const std::size_t stride = fine.positions.size() / coarse.positions.size();
+  const auto some = [&](const auto& reading) { return every(curve(fine, reading), stride); };
+  std::vector<double> d = some(te_of);
+  const std::vector<double> te = curve(coarse, te_of);
+  for (std::size_t i = 0; i < d.size(); ++i) d[i] -= te[i];
+  const auto [low, high] = std::ranges::minmax(d);
+  errors.te_mean = of_mean * std::abs(mean_of(d));
+  errors.te_peak_to_peak = of_shape * (high - low);
+  double square = 0.0;
+  for (const double value : d) square += (value - mean_of(d)) * (value - mean_of(d)) / static_cast<double>(d.size());
+  for (std::size_t k = 1; k <= summary.te_harmonics.size(); ++k) {
+    errors.te_harmonics.push_back(of_shape * (std::abs(phasor(d, static_cast<int>(k))) + std::sqrt(square)));
+  }
+  errors.peak_contact_stress = of_peaks * peak_difference(some(stress_of), curve(coarse, stress_of));
+  errors.peak_line_load = of_peaks * peak_difference(some(load_of), curve(coarse, load_of));
+  errors.load_factor = errors.peak_line_load * summary.load_factor / summary.peak_line_load;
+  if (!std::isnan(summary.peak_root_stress) && coarse.positions.front().root_stress.size() > 0) {
+    errors.peak_root_stress = of_root_stress * peak_difference(some(root_of), curve(coarse, root_of));
+  }
+  errors.mean_stiffness = errors.te_mean / mean_of(curve(fine, approach_of)) * summary.mean_stiffness;
+  return errors;
+}
+
+CycleErrors position_errors(const LoadedCycle& fine, const CycleSummary& summary, const CycleExtremes* extremes) {
+  CycleErrors errors;
+  const std::vector<double> te = curve(fine, te_of);
+  const bool halved = te.size() % 2 == 0 && te.size() >= 8;
+  const std::vector<double> half = halved ? every(te, 2) : te;
+  errors.te_mean = of_positions * std::abs(mean_of(te) - mean_of(half));
+  for (std::size_t k = 1; k <= summary.te_harmonics.size(); ++k) {
+    // Beyond what half the positions resolve, the aliases of the orders that are.
+    const bool resolved = 2 * k < half.size();
+    const int order = static_cast<int>(k);
+    errors.te_harmonics.push_back(of_positions * (resolved ? std::abs(phasor(te, order) - phasor(half, order)) : summary.te_harmonics[k - 1]));
+  }
+  const auto unseen = [&](Figure figure, const std::vector<double>& samples) {
+    return extremes != nullptr ? extremes->unseen[static_cast<std::size_t>(figure)] : unseen_rise(samples);
+  };
+  std::vector<double> turned;
+  for (const double f : te) turned.push_back(-f);
+  errors.te_peak_to_peak = unseen(Figure::TePeakToPeak, te) + (extremes != nullptr ? 0.0 : unseen_rise(turned));
+  errors.peak_contact_stress = unseen(Figure::PeakContactStress, curve(fine, stress_of));
+  errors.peak_line_load = unseen(Figure::PeakLineLoad, curve(fine, load_of));
+  errors.load_factor = errors.peak_line_load * summary.load_factor / summary.peak_line_load;
+  if (!std::isnan(summary.peak_root_stress)) errors.peak_root_stress = unseen_rise(curve(fine, root_of));
+  errors.mean_stiffness = errors.te_mean / mean_of(curve(fine, approach_of)) * summary.mean_stiffness;
+  return errors;
+}
+
+}  // namespace
+
+CycleErrors CycleErrorParts::sum() const {
+  CycleErrors both;
+  both.te_mean = points.te_mean + positions.te_mean;
+  both.te_peak_to_peak = points.te_peak_to_peak + positions.te_peak_to_peak;
+  for (std::size_t k = 0; k < points.te_harmonics.size(); ++k) both.te_harmonics.push_back(points.te_harmonics[k] + positions.te_harmonics[k]);
+  both.peak_line_load = points.peak_line_load + positions.peak_line_load;
+  both.peak_contact_stress = points.peak_contact_stress + positions.peak_contact_stress;
+  both.peak_root_stress = points.peak_root_stress + positions.peak_root_stress;
+  both.load_factor = points.load_factor + positions.load_factor;
+  both.mean_stiffness = points.mean_stiffness + positions.mean_stiffness;
+  return both;
+}
+
+std::vector<double> coarse_phases(const std::vector<double>& phases) {
+  return phases.size() % 2 == 0 && phases.size() >= 8 ? every(phases, 2) : phases;
+}
+
+CycleErrorParts estimate_errors(const LoadedCycle& fine, const CycleSummary& summary, const LoadedCycle& coarse, const CycleExtremes* extremes) {
+  if (!fine.usable() || !coarse.usable() || fine.positions.empty() || coarse.positions.empty() || !(fine.force > 0.0)) return {};
+  return {point_errors(fine, coarse, summary), position_errors(fine, summary, extremes)};
+}
+
+double headline_error(const CycleErrors& errors, const CycleSummary& summary, const LoadedCycle& cycle) {
+  if (!cycle.usable() || cycle.positions.empty() || std::isnan(errors.te_peak_to_peak)) return not_given;
+  const double variation = std::max(summary.te_peak_to_peak, quiet_share * mean_of(curve(cycle, approach_of)));
+  double largest = errors.te_peak_to_peak / variation;
+  for (std::size_t k = 0; k < std::min<std::size_t>(figure_harmonics, errors.te_harmonics.size()); ++k) {
+    largest = std::max(largest, errors.te_harmonics[k] / variation);
+  }
+  return std::max(largest, errors.peak_contact_stress / summary.peak_contact_stress);
+}
+
+}  // namespace flankwright

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "core/fidelity/cycle_extremes.hpp"
+
+namespace flankwright {
+
+/// Estimated discretisation errors of a CycleSummary, each in its figure's unit and >= 0; NaN: not estimated.
+struct CycleErrors {
+  double te_mean{not_given}, te_peak_to_peak{not_given};  ///< [mm]
+  std::vector<double> te_harmonics;                       ///< orders 1 .. 10 [mm]; empty: not estimated
+  double peak_line_load{not_given};                       ///< [N/mm]
+  double peak_contact_stress{not_given}, peak_root_stress{not_given};  ///< [MPa]
+  double load_factor{not_given};                          ///< [-]
+  double mean_stiffness{not_given};                       ///< [N/(mm um)]
+};
+
+/// Errors by what brings them: points along the contact lines, or positions over the cycle.
+struct CycleErrorParts {
+  CycleErrors points, positions;
+  CycleErrors sum() const;
+};
+
+/// Which positions of an evenly spaced cycle the coarser one is solved at: every second where their number is even and at least 8, else all.
+std::vector<double> coarse_phases(const std::vector<double>& phases);
+
+/// How far a cycle's figures are from those of infinitely many points and positions, by an embedded comparison: the same contact
+/// problem with half the intervals at every second position.
+///
+/// - Points: with d the difference of f_t at a position, fine less coarse, the mean is off by |mean d|/2, the peak to peak by
+///   (max d - min d)/3 and harmonic k by (|DFT_k d| + rms(d - mean d))/3: what one order shows may be small by chance. The integrals
+///   converge with order two and better, so that a third of the difference is left at most, more often a tenth. Peaks of stress and load, which lie at the ends of lines more often than not, converge with order one at
+///   least: they are off by the largest difference at any position that comes within a tenth of the peak.
+/// - Positions: amplitudes of a curve with kinks converge with order two: a third of what leaving out every second position changes.
+///   Extremes are off by what the search left, CycleExtremes::unseen, or without one by unseen_rise().
+///
+/// @param fine      evenly spaced, with its summary
+/// @param coarse    at coarse_phases() of it, half the intervals
+/// @param extremes  of the fine cycle; null: not sought
+CycleErrorParts estimate_errors(const LoadedCycle& fine, const CycleSummary& summary, const LoadedCycle& coarse,
+                                const CycleExtremes* extremes = nullptr);
+
+/// The largest error of what a study is judged by, as figure_errors() counts it: peak to peak and harmonics 1 to 5 in units of the peak to
+/// peak, at least quiet_share of the mean deflection; contact stress in units of itself. NaN where it was not estimated.
+double headline_error(const CycleErrors& errors, const CycleSummary& summary, const LoadedCycle& cycle);
+
+}  // namespace flankwright

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "core/rating/contact_peaks.hpp"
+#include "core/load/cycle/cycle_figures.hpp"
+
+namespace flankwright {
+
+struct ExtremeSearch {
+  /// Located where no interval between positions looks as if the extreme rose by more than this [-], > 0: of the peak to peak (at least
+  /// quiet_share of the mean deflection) for the transmission error, of the peak for stress and line load.
+  double tolerance{2e-3};
+  int most{32};  ///< positions looked at before the search gives up, >= 1
+};
+
+/// Where a cycle's extremes lie between its positions: each position carries the largest or smallest transmission error, the largest
+/// contact stress or the largest line load of all that were looked at.
+struct CycleExtremes {
+  std::vector<double> phases;  ///< [base pitches], rising; empty where the cycle's own positions have all extremes
+  PerFigure unseen{};          ///< by how much extremes may still be larger, in the figures' units; 0 for what is no extreme
+  int looked_at{0};            ///< positions solved
+};
+
+/// Seeks the extremes of a cycle in continuous phase. Curves consist of smooth pieces with kinks where lines begin and end. In
+/// every interval both sides are continued straight until they meet (as unseen_rise() does), by the last secant or by the slope that the last
+/// two secants lead to, whichever is steeper: curves grow steeper towards a kink. The place that promises most is
+/// looked at next. On a kink both meet near the extreme itself, so that two or three positions a curve are enough.
+/// @param mesh_at  of the cycle; no root stress is needed
+/// @param cycle    at equally spaced phases over one base pitch, at least 4, usable
+CycleExtremes locate_extremes(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque, const LoadedCycle& cycle,
+                              const ExtremeSearch& search = {});
+
+}  // namespace flankwright

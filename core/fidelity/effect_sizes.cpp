@@ -1,0 +1,236 @@
+#include "core/fidelity/effect_sizes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/base/stopwatch.hpp"
+#include "core/compliance/local/hertz_line.hpp"
+#include "core/contact/gap/condition_gap.hpp"
+#include "core/load/solve/load_solver.hpp"
+#include "core/load/cycle/mesh_model.hpp"
+#include "core/load/solve/sensitivity.hpp"
+
+namespace flankwright {
+
+namespace {
+
+/// A load case with some effects on: the mesh and the flanks that they leave.
+struct Case {
+  std::shared_ptr<const MeshModel> model;
+  FlankCondition condition;
+};
+
+/// Makes the cases of one scene; what its gears alone settle is worked out once.
+class Cases {
+ public:
+  Cases(const EffectScene& scene, EffectMeshes& meshes)
+      : scene_(scene), meshes_(meshes), slices_(ThinSlice(scene.pair, scene.pinion_material, scene.wheel_material)) {
+    gears_.pair = scene.pair;
+    gears_.pinion_material = scene.pinion_material;
+    gears_.wheel_material = scene.wheel_material;
+    gears_.contact_modulus = contact_modulus(scene.pinion_material, scene.wheel_material);
+  }
+
+  /// @param left_out  name of what the decisions leave out; empty: nothing
+  Case with(const EffectDecisions& decisions, const std::string& left_out = {}) const {
+    FlankCondition condition = apply_effects(decisions, scene_.condition);
+    const MeshPlacement placement = MeshPlacement::of(gap_model(decisions), condition.misalignment);
+    const PairCompliance& structure = scene_.structure != nullptr ? *scene_.structure : slices_;
+    const auto make = [&] { return mesh_with_effects(gears_, scene_.resolution, mesh_effects(decisions), placement, structure, nullptr, scene_.shafts); };
+    return {meshes_.mesh(left_out, placement, make), std::move(condition)};
+  }
+
+  /// Whether the structure can be had with these effects: that on rigid bodies takes a run of its own.
+  bool knows(const EffectDecisions& decisions) const {
+    return scene_.structure == nullptr || scene_.structure->knows_rigid_bodies() || is_on(decisions, "gear_body_compliance");
+  }
+
+  CycleOutputs outputs(const EffectDecisions& decisions, const std::string& left_out = {}) const {
+    const Case made = with(decisions, left_out);
+    return cycle_outputs(*made.model, analyse_cycle(*made.model, made.condition, scene_.pinion_torque));
+  }
+
+ private:
+  const EffectScene& scene_;
+  EffectMeshes& meshes_;
+  ThinSlicePair slices_;
+  MeshModel gears_;  ///< without positions
+};
+
+/// Outputs as positions come in.
+class OutputSum {
+ public:
+  explicit OutputSum(const MeshModel& model) : model_(model) {}
+
+  void add(const MeshPosition& at, const Eigen::VectorXd& line_load, double transmission_error, double least_gap) {
+    least_ = std::fmin(least_, transmission_error);
+    most_ = std::fmax(most_, transmission_error);
+    sum_ += transmission_error;
+    approach_ += transmission_error - least_gap;
+    te_.push_back(transmission_error);
+    for (Eigen::Index i = 0; i < line_load.size(); ++i) {
+      const double radius = at.points[static_cast<std::size_t>(i)].relative_radius;
+      square_ = std::max(square_, line_load[i] * model_.contact_modulus / (units::pi * radius));
+    }
+    ++count_;
+  }
+
+  CycleOutputs outputs() const { return {sum_ / count_, most_ - least_, std::sqrt(square_), approach_ / count_, harmonics()}; }
+
+ private:
+  /// Over evenly spaced positions; orders below half their number.
+  std::vector<std::complex<double>> harmonics() const {
+    constexpr int most_orders = 5;
+    std::vector<std::complex<double>> found;
+    for (int k = 1; k <= most_orders && 2 * k < count_; ++k) {
+      std::complex<double> sum = 0.0;
+      for (int i = 0; i < count_; ++i) sum += std::polar(2.0 / count_, -2.0 * units::pi * k * i / count_) * te_[static_cast<std::size_t>(i)];
+      found.push_back(sum);
+    }
+    return found;
+  }
+
+  const MeshModel& model_;
+  std::vector<double> te_;
+  double least_{not_given}, most_{not_given}, sum_{0.0}, approach_{0.0}, square_{0.0};
+  int count_{0};
+};
+
+/// Loads of one position carried to the points of another: those of the same tooth at the same z, 0 where there is none.
+Eigen::VectorXd carried(const MeshPosition& from, const Eigen::VectorXd& loads, const MeshPosition& to) {
+  Eigen::VectorXd carried = Eigen::VectorXd::Zero(std::ssize(to.points));
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < to.points.size(); ++i) {
+    const ContactPoint& here = to.points[i];
+    const auto is_here = [&](const ContactPoint& point) { return point.tooth == here.tooth && point.z == here.z; };
+    const auto found = std::find_if(from.points.begin() + static_cast<std::ptrdiff_t>(j), from.points.end(), is_here);
+    if (found == from.points.end()) continue;
+    j = static_cast<std::size_t>(found - from.points.begin());
+    carried[static_cast<Eigen::Index>(i)] = loads[static_cast<Eigen::Index>(j)];
+  }
+  return carried;
+}
+
+struct Solution {
+  Eigen::VectorXd line_load;
+  double transmission_error;
+};
+
+Eigen::VectorXd approach(const LoadProblem& problem, const Eigen::VectorXd& loads) {
+  Eigen::VectorXd approach = problem.influence * problem.weight.cwiseProduct(loads) + problem.gap;
+  for (std::size_t i = 0; i < problem.laws.size(); ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    approach[row] += problem.laws[i].deflection(loads[row]);
+  }
+  return approach;
+}
+
+/// One step from loads that solve another problem; nothing where it goes too far.
+std::optional<Solution> first_order(const LoadProblem& problem, const Eigen::VectorXd& loads, double transmission_error, double trust) {
+  if (!(loads.maxCoeff() > 0.0)) return std::nullopt;
+  LoadDistribution start;
+  start.status = LoadStatus::Converged;
+  start.line_load = loads;
+  const Eigen::VectorXd residual = approach(problem, loads).array() - transmission_error;
+  const Eigen::RowVectorXd missing = Eigen::RowVectorXd::Constant(1, problem.force - problem.weight.dot(loads));
+  const auto step = LoadSensitivity(problem, start).with(residual, missing);
+  const Solution next{loads + step.line_load.col(0), transmission_error + step.transmission_error[0]};
+  const bool small = step.line_load.cwiseAbs().maxCoeff() <= trust * loads.maxCoeff();  // false where it is NaN
+  if (!small || next.line_load.minCoeff() < 0.0) return std::nullopt;
+  const Eigen::VectorXd reached = approach(problem, next.line_load);
+  for (Eigen::Index i = 0; i < loads.size(); ++i) {
+    if (loads[i] == 0.0 && reached[i] < next.transmission_error) return std::nullopt;
+  }
+  return next;
+}
+
+EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, const std::string& name, const Case& all,
+                       const LoadedCycle& cycle, const CycleOutputs& with, double trust) {
+  const Stopwatch clock;
+  EstimatedSize result{{name, {}, not_given}};
+  const EffectDecisions rest = without(decisions, name, "left out");
+  if (!mesh_effects(rest).give_way() || !cases.knows(rest)) return result;
+  const Case other = cases.with(rest, name);
+  const ConditionGap gaps(other.model->pair, other.model->placement.gap, other.condition);
+  OutputSum outputs(*other.model);
+  for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
+    const MeshPosition& at = other.model->positions[i];
+    const LoadDistribution& solved = cycle.positions[i].load;
+    const Eigen::VectorXd gap = gaps.at(at.points, at.phase).total;
+    const LoadProblem problem{at.influence, at.weight, gap, at.laws, cycle.force};
+    const Eigen::VectorXd loads = carried(all.model->positions[i], solved.line_load, at);
+    std::optional<Solution> found = at.points.empty() ? std::nullopt : first_order(problem, loads, solved.transmission_error, trust);
+    ++result.positions;
+    if (!found) {
+      ++result.solved_again;
+      const LoadDistribution again = solve_load_distribution(problem, {}, loads.size() > 0 && loads.maxCoeff() > 0.0 ? loads : Eigen::VectorXd());
+      if (!again.usable()) return result;
+      found = Solution{again.line_load, again.transmission_error};
+    }
+    outputs.add(at, found->line_load, found->transmission_error, gap.minCoeff());
+  }
+  result.size.influence = EffectInfluence::between(with, outputs.outputs());
+  result.size.seconds = clock.seconds();
+  return result;
+}
+
+}  // namespace
+
+CycleOutputs cycle_outputs(const MeshModel& model, const LoadedCycle& cycle) {
+  if (!cycle.usable() || cycle.positions.empty()) return {};
+  OutputSum outputs(model);
+  for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
+    const LoadedPosition& position = cycle.positions[i];
+    outputs.add(model.positions[i], position.load.line_load, position.load.transmission_error, position.gap.total.minCoeff());
+  }
+  return outputs.outputs();
+}
+
+CycleOutputs outputs_with(const EffectScene& scene, const EffectDecisions& decisions) {
+  EffectMeshes meshes;
+  return Cases(scene, meshes).outputs(decisions);
+}
+
+EffectInfluence exact_influence(const EffectScene& scene, const EffectDecisions& decisions, const std::string& name) {
+  const EffectDecisions rest = without(decisions, name, "left out");
+  if (!mesh_effects(rest).give_way()) return {};
+  EffectMeshes meshes;
+  const Cases cases(scene, meshes);
+  return EffectInfluence::between(cases.outputs(decisions), cases.outputs(rest, name));
+}
+
+std::shared_ptr<const MeshModel> EffectMeshes::mesh(const std::string& left_out, const MeshPlacement& placement,
+                                                    const std::function<MeshModel()>& make) {
+  Entry* entry = nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    entry = &entries_[{left_out, placement}];
+  }
+  std::call_once(entry->made, [&] { entry->mesh = std::make_shared<const MeshModel>(make()); });
+  return entry->mesh;
+}
+
+std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options) {
+  EffectMeshes meshes;
+  return estimate_effect_sizes(scene, decisions, options, meshes);
+}
+
+std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options, EffectMeshes& meshes) {
+  const Cases cases(scene, meshes);
+  const Case all = cases.with(decisions);
+  const LoadedCycle cycle = analyse_cycle(*all.model, all.condition, scene.pinion_torque);
+  const CycleOutputs with = cycle_outputs(*all.model, cycle);
+  std::vector<EstimatedSize> sizes;
+  for (const EffectDecision& decision : decisions) {
+    if (!decision.on || !changes_mesh(decision.name)) continue;
+    if (!cycle.usable()) {
+      sizes.push_back({{decision.name, {}, not_given}});
+      continue;
+    }
+    sizes.push_back(estimate(cases, decisions, decision.name, all, cycle, with, options.trust));
+  }
+  return sizes;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,78 @@
+#include "core/fidelity/resolved_cycle.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flankwright {
+
+namespace {
+
+/// Of a cycle's summary, with what further positions show.
+void include(const MeshModel& model, const LoadedCycle& cycle, const LoadedCycle& extremes, CycleSummary& summary) {
+  const Eigen::VectorXd te = cycle.transmission_error(), further = extremes.transmission_error();
+  summary.te_peak_to_peak = std::max(te.maxCoeff(), further.maxCoeff()) - std::min(te.minCoeff(), further.minCoeff());
+  for (const LoadedPosition& position : extremes.positions) {
+    summary.peak_line_load = std::max(summary.peak_line_load, position.load.line_load.maxCoeff());
+    summary.peak_contact_stress = std::max(summary.peak_contact_stress, position.contact_stress.maxCoeff());
+    summary.worst_kkt_residual = std::max(summary.worst_kkt_residual, position.load.kkt_residual);
+  }
+  summary.load_factor = summary.peak_line_load / model.mean_line_load(cycle.force);
+}
+
+/// The position of either cycle at which a reading is largest.
+const LoadedPosition& position_of_largest(const LoadedCycle& cycle, const LoadedCycle& extremes, const auto& reading) {
+  const LoadedPosition* best = nullptr;
+  for (const LoadedCycle* of : {&cycle, &extremes}) {
+    for (const LoadedPosition& position : of->positions) {
+      if (best == nullptr || reading(position) > reading(*best)) best = &position;
+    }
+  }
+  return *best;
+}
+
+Eigen::Index largest_entry(const Eigen::VectorXd& values) {
+  Eigen::Index index = 0;
+  values.maxCoeff(&index);
+  return index;
+}
+
+}  // namespace
+
+ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, const MeshWithParameters& mesh_at, const FlankCondition& condition,
+                            double pinion_torque, const CycleResolving& resolving, const std::vector<MeshParameter>& parameters) {
+  ResolvedCycle resolved;
+  resolved.summary = summarise(model, cycle);
+  if (!cycle.usable() || !(cycle.force > 0.0)) return resolved;
+  const MeshAt without_parameters = [&](const std::vector<double>& phases) { return mesh_at(phases, {}); };
+  if (resolving.seek_extremes) resolved.extremes = locate_extremes(without_parameters, condition, pinion_torque, cycle);
+  if (!resolved.extremes.phases.empty()) {
+    const auto mesh = std::make_shared<const MeshModel>(mesh_at(resolved.extremes.phases, parameters));
+    resolved.extreme_cycle = analyse_cycle(*mesh, condition, pinion_torque, parameters);
+    resolved.extreme_mesh = mesh;
+    include(model, cycle, resolved.extreme_cycle, resolved.summary);
+  }
+  if (resolving.coarse != nullptr) {
+    resolved.error_parts = estimate_errors(cycle, resolved.summary, *resolving.coarse, resolving.seek_extremes ? &resolved.extremes : nullptr);
+    resolved.errors = resolved.error_parts.sum();
+  }
+  return resolved;
+}
+
+CycleGradient resolved_gradient(const MeshModel& model, const LoadedCycle& cycle, const ResolvedCycle& resolved) {
+  CycleGradient gradient = summary_gradient(model, cycle, summarise(model, cycle));
+  if (!resolved.extreme_mesh) return gradient;
+  const LoadedCycle& extremes = resolved.extreme_cycle;
+  const auto te = [](const LoadedPosition& p) { return p.load.transmission_error; };
+  gradient.te_peak_to_peak = position_of_largest(cycle, extremes, te).transmission_error_derivative -
+                             position_of_largest(cycle, extremes, [&](const LoadedPosition& p) { return -te(p); }).transmission_error_derivative;
+  const LoadedPosition& loaded = position_of_largest(cycle, extremes, [](const LoadedPosition& p) { return p.load.line_load.maxCoeff(); });
+  const Eigen::Index point = largest_entry(loaded.load.line_load);
+  gradient.peak_line_load = loaded.line_load_derivative.row(point);
+  const Eigen::RowVectorXd mean_change = cycle.force_derivative / cycle.force - cycle.line_length_change;
+  gradient.load_factor = (gradient.peak_line_load - loaded.load.line_load[point] * mean_change) / model.mean_line_load(cycle.force);
+  const LoadedPosition& stressed = position_of_largest(cycle, extremes, [](const LoadedPosition& p) { return p.contact_stress.maxCoeff(); });
+  gradient.peak_contact_stress = stressed.contact_stress_derivative.row(largest_entry(stressed.contact_stress));
+  return gradient;
+}
+
+}  // namespace flankwright

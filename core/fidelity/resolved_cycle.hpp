@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+
+#include "core/fidelity/cycle_error.hpp"
+#include "core/load/cycle/cycle_gradient.hpp"
+
+namespace flankwright {
+
+/// What a cycle is known to show: its figures with extremes between its positions, and the error of each.
+struct ResolvedCycle {
+  CycleSummary summary;        ///< of positions and extremes together
+  CycleErrorParts error_parts; ///< NaN where no coarser cycle was given
+  CycleErrors errors;          ///< their sum
+  CycleExtremes extremes;
+  std::shared_ptr<const MeshModel> extreme_mesh;  ///< at extremes.phases, without root stress; null where there are none
+  LoadedCycle extreme_cycle;   ///< of it
+};
+
+/// The mesh at phases of one's choice [base pitches], with what derivatives by these parameters need.
+using MeshWithParameters = std::function<MeshModel(const std::vector<double>& phases, const std::vector<MeshParameter>& parameters)>;
+
+/// What of a cycle is to be resolved beyond its positions.
+struct CycleResolving {
+  bool seek_extremes{true};          ///< false: extremes are those of the positions
+  const LoadedCycle* coarse{nullptr};  ///< at coarse_phases() or at all phases of the cycle, with fewer intervals; null: no error is estimated
+};
+
+/// Seeks the extremes of a solved cycle and holds it against a coarser one.
+/// @param cycle    evenly spaced over one base pitch, of `model`
+/// @param mesh_at  the same mesh at other phases
+ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, const MeshWithParameters& mesh_at, const FlankCondition& condition,
+                            double pinion_torque, const CycleResolving& resolving, const std::vector<MeshParameter>& parameters = {});
+
+/// Derivatives of ResolvedCycle::summary: as summary_gradient(), of the position that has the extreme, whose phase is held. Where a curve is
+/// smooth that is exact, for at its extreme the phase does not matter; where a kink moves with the parameter, what the kink's motion
+/// changes is left out.
+CycleGradient resolved_gradient(const MeshModel& model, const LoadedCycle& cycle, const ResolvedCycle& resolved);
+
+}  // namespace flankwright

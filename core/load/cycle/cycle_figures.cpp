@@ -1,0 +1,116 @@
+#include "core/load/cycle/cycle_figures.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "core/contact/unloaded/transmission_error.hpp"
+
+namespace flankwright {
+
+const char* name_of(Figure figure) {
+  constexpr std::array<const char*, figure_count> names{
+      "te_mean",        "te_peak_to_peak", "te_harmonic_1",       "te_harmonic_2",  "te_harmonic_3",
+      "te_harmonic_4",  "te_harmonic_5",   "peak_contact_stress", "peak_line_load", "load_factor"};
+  return names[static_cast<std::size_t>(figure)];
+}
+
+double largest(const PerFigure& values) { return *std::ranges::max_element(values); }
+
+PerFigure figure_errors(const CycleFigures& figures, const CycleFigures& reference) {
+  const double variation = std::max(reference[Figure::TePeakToPeak], quiet_share * reference.mean_approach);
+  PerFigure errors{};
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const Figure figure = static_cast<Figure>(i);
+    const double scale = figure == Figure::TeMean              ? reference.mean_approach
+                         : figure < Figure::PeakContactStress ? variation
+                                                               : reference.value[i];
+    errors[i] = std::abs(figures.value[i] - reference.value[i]) / scale;
+  }
+  return errors;
+}
+
+double unseen_rise(const std::vector<double>& samples) {
+  const std::size_t n = samples.size();
+  const double seen = *std::ranges::max_element(samples);
+  double highest = seen;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double a = samples[i], b = samples[(i + 1) % n];
+    const double rise_to_a = a - samples[(i + n - 1) % n], rise_to_b = b - samples[(i + 2) % n];  // towards the interval from either side
+    if (rise_to_a > 0.0 && rise_to_b > 0.0) {
+      const double t = std::clamp((b + rise_to_b - a) / (rise_to_a + rise_to_b), 0.0, 1.0);
+      highest = std::max(highest, std::min(a + rise_to_a * t, b + rise_to_b * (1.0 - t)));
+    } else if (rise_to_a > 0.0 && b < a) {
+      highest = std::max(highest, a + rise_to_a);
+    } else if (rise_to_b > 0.0 && a < b) {
+      highest = std::max(highest, b + rise_to_b);
+    }
+  }
+  return highest - seen;
+}
+
+SampledCycle::SampledCycle(const MeshModel& model, const LoadedCycle& cycle) : force_(cycle.force), failures_(cycle.failures) {
+  for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
+    const LoadedPosition& position = cycle.positions[i];
+    te_.push_back(position.load.transmission_error);
+    peak_load_.push_back(0.0);
+    peak_stress_.push_back(0.0);
+    if (!position.load.usable()) continue;
+    approach_ += position.load.transmission_error - position.gap.total.minCoeff();
+    peak_load_.back() = position.load.line_load.maxCoeff();
+    peak_stress_.back() = position.contact_stress.maxCoeff();
+    for (const ContactPoint& point : model.positions[i].points) line_length_ += point.clearance == 0.0 ? point.weight : 0.0;
+  }
+}
+
+SampledCycle SampledCycle::joined(const SampledCycle& between) const {
+  assert(between.te_.size() == te_.size());
+  SampledCycle both = *this;
+  const auto interleave = [](std::vector<double>& into, const std::vector<double>& a, const std::vector<double>& b) {
+    into.clear();
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      into.push_back(a[i]);
+      into.push_back(b[i]);
+    }
+  };
+  interleave(both.te_, te_, between.te_);
+  interleave(both.peak_stress_, peak_stress_, between.peak_stress_);
+  interleave(both.peak_load_, peak_load_, between.peak_load_);
+  both.approach_ += between.approach_;
+  both.line_length_ += between.line_length_;
+  both.failures_ += between.failures_;
+  return both;
+}
+
+CycleFigures SampledCycle::figures() const {
+  const double n = static_cast<double>(te_.size());
+  CycleFigures figures;
+  const auto [low, high] = std::ranges::minmax(te_);
+  double sum = 0.0;
+  for (double te : te_) sum += te;
+  figures[Figure::TeMean] = sum / n;
+  figures[Figure::TePeakToPeak] = high - low;
+  const std::vector<double> harmonics = harmonic_amplitudes(te_);
+  for (std::size_t k = 0; k < figure_harmonics; ++k) {
+    figures.value[static_cast<std::size_t>(Figure::TeHarmonic1) + k] = k < harmonics.size() ? harmonics[k] : not_given;
+  }
+  figures[Figure::PeakContactStress] = *std::ranges::max_element(peak_stress_);
+  figures[Figure::PeakLineLoad] = *std::ranges::max_element(peak_load_);
+  figures[Figure::LoadFactor] = figures[Figure::PeakLineLoad] * line_length_ / n / force_;
+  figures.mean_approach = approach_ / n;
+  return figures;
+}
+
+PerFigure SampledCycle::unseen() const {
+  PerFigure rise{};
+  const auto of = [&rise](Figure f) -> double& { return rise[static_cast<std::size_t>(f)]; };
+  std::vector<double> mirrored;
+  for (double te : te_) mirrored.push_back(-te);
+  of(Figure::TePeakToPeak) = unseen_rise(te_) + unseen_rise(mirrored);
+  of(Figure::PeakContactStress) = unseen_rise(peak_stress_);
+  of(Figure::PeakLineLoad) = unseen_rise(peak_load_);
+  of(Figure::LoadFactor) = of(Figure::PeakLineLoad) * line_length_ / static_cast<double>(te_.size()) / force_;
+  return rise;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/load/cycle/mesh_cycle.hpp"
+
+namespace flankwright {
+
+/// What accuracy of a loaded cycle is counted in.
+enum class Figure {
+  TeMean, TePeakToPeak, TeHarmonic1, TeHarmonic2, TeHarmonic3, TeHarmonic4, TeHarmonic5, PeakContactStress, PeakLineLoad, LoadFactor
+};
+inline constexpr int figure_count = 10;
+inline constexpr int figure_harmonics = 5;
+
+/// As a study names it: "te_mean", "te_harmonic_1".
+const char* name_of(Figure figure);
+
+/// A number for each figure, in the order of Figure.
+using PerFigure = std::array<double, figure_count>;
+double largest(const PerFigure& values);
+
+struct CycleFigures {
+  PerFigure value{};              ///< transmission error [mm], stress [MPa], line load [N/mm], load factor [-]
+  double mean_approach{not_given};  ///< mean of f_t - min(g): what the mesh gives way [mm]
+
+  double operator[](Figure f) const { return value[static_cast<std::size_t>(f)]; }
+  double& operator[](Figure f) { return value[static_cast<std::size_t>(f)]; }
+};
+
+/// A transmission error that varies by less than this share of what the mesh gives way counts as if it varied by that much [-]:
+/// harmonics of a quiet mesh are near 0, and shares of them no measure.
+inline constexpr double quiet_share = 0.02;
+
+/// |figures - reference| as shares: the mean of the transmission error in units of the reference's mean_approach (a gap common to
+/// all positions is no deflection), its peak to peak and harmonics in units of the reference's peak to peak, at least quiet_share of
+/// the approach; stress, load and factor in units of their own.
+PerFigure figure_errors(const CycleFigures& figures, const CycleFigures& reference);
+
+/// How far a periodic curve, known at equal distances, may rise above its samples in between, where it consists of smooth pieces with
+/// kinks and jumps: both neighbours' straight continuations into each interval, up to where they meet, or, where one of them falls
+/// towards the other sample (a jump), the other's all the way. >= 0. Samples that catch a kink by chance do not deceive it, as they
+/// do differences of successive maxima.
+double unseen_rise(const std::vector<double>& samples);
+
+/// Positions of a cycle at equal distances, as far as the figures go; two of the same number that lie between each other's join to one
+/// of twice as many.
+class SampledCycle {
+ public:
+  SampledCycle(const MeshModel& model, const LoadedCycle& cycle);
+
+  /// Of positions between this one's, each behind its own.
+  SampledCycle joined(const SampledCycle& between) const;
+  int positions() const { return static_cast<int>(te_.size()); }
+  int failures() const { return failures_; }
+  CycleFigures figures() const;
+  /// How far extremes may lie above (or below) all positions, by unseen_rise(); 0 for what is no extreme. In the figures' units.
+  PerFigure unseen() const;
+
+ private:
+  std::vector<double> te_;                   ///< f_t [mm]
+  std::vector<double> peak_stress_, peak_load_;  ///< of each position [MPa], [N/mm]
+  double approach_{0.0};         ///< sum over the positions [mm]
+  double line_length_{0.0};      ///< on the theoretical path, sum over the positions [mm]
+  double force_{not_given};      ///< [N]
+  int failures_{0};
+};
+
+}  // namespace flankwright

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <complex>
+
+#include "core/load/cycle/mesh_cycle.hpp"
+
+namespace flankwright {
+
+/// Amplitude of one order of f_t over equally spaced positions.
+struct TeHarmonic {
+  double amplitude{not_given};     ///< [mm]
+  Eigen::RowVectorXd derivative;   ///< 1 x m; at amplitude 0, where it has a kink, 0, one of its subgradients
+  std::complex<double> phasor;     ///< whose modulus the amplitude is [mm]
+  Eigen::RowVectorXcd phasor_derivative;  ///< 1 x m; smooth at amplitude 0 as well
+};
+/// @param order  below half the number of positions, >= 1
+TeHarmonic te_harmonic(const LoadedCycle& cycle, int order);
+
+/// d/dp of a line load over the mean line load.
+Eigen::RowVectorXd load_factor_derivative(const MeshModel& model, const LoadedCycle& cycle, int position, Eigen::Index point);
+
+/// Derivatives of a CycleSummary with respect to the parameters of analyse_cycle(), 1 x m each, exact while points keep their contact and
+/// peaks their place: a peak's is that of the point and position where it is (the first of equals), by which a maximum over fixed
+/// positions rises on one side at least.
+struct CycleGradient {
+  Eigen::RowVectorXd te_peak_to_peak, te_mean;
+  Eigen::MatrixXd te_harmonics;  ///< row per order of CycleSummary::te_harmonics
+  Eigen::RowVectorXd peak_line_load, peak_contact_stress, load_factor;
+  Eigen::RowVectorXd mean_stiffness, least_stiffness, largest_stiffness, stiffness_variation;
+  /// Of RootStressPeak; empty where the model has no root stress.
+  struct Root {
+    Eigen::RowVectorXd stress, tangent_stress;
+  };
+  Root pinion_root_stress, wheel_root_stress;
+  Eigen::RowVectorXd peak_root_stress;  ///< empty where the model has no root stress
+};
+/// @param cycle  usable()
+CycleGradient summary_gradient(const MeshModel& model, const LoadedCycle& cycle, const CycleSummary& summary);
+
+/// d(stiffness)/dp of one position, 1 x m.
+Eigen::RowVectorXd stiffness_derivative(const LoadedCycle& cycle, const LoadedPosition& position);
+
+}  // namespace flankwright

@@ -1,0 +1,216 @@
+#include "core/load/cycle/mesh_cycle.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <deque>
+#include <limits>
+
+#include "core/contact/gap/condition_gap.hpp"
+#include "core/contact/unloaded/transmission_error.hpp"
+#include "core/load/solve/load_solver.hpp"
+#include "core/load/cycle/load_start.hpp"
+#include "core/load/cycle/mesh_motion.hpp"
+
+namespace flankwright {
+
+namespace {
+
+constexpr double micrometre = units::um;
+
+/// sigma_H = sqrt(w E' / (pi R)) and, from d(sigma)/dw = sigma / (2 w), its derivatives.
+void fill_stress(const MeshModel& model, const MeshPosition& at, LoadedPosition& position) {
+  const Eigen::VectorXd& w = position.load.line_load;
+  position.contact_stress = Eigen::VectorXd::Zero(w.size());
+  position.contact_stress_derivative = Eigen::MatrixXd::Zero(w.size(), position.line_load_derivative.cols());
+  for (Eigen::Index i = 0; i < w.size(); ++i) {
+    if (w[i] <= 0.0) continue;
+    const double radius = at.points[static_cast<std::size_t>(i)].relative_radius;
+    position.contact_stress[i] = std::sqrt(w[i] * model.contact_modulus / (units::pi * radius));
+    position.contact_stress_derivative.row(i) =
+        position.contact_stress[i] / (2.0 * w[i]) * position.line_load_derivative.row(i);
+  }
+}
+
+void raise(RootStressPeak& peak, const RootStressPeak& other) {
+  const double tangent = std::fmax(peak.tangent_stress, other.tangent_stress);
+  if (std::isgreater(other.stress, peak.stress) || std::isnan(peak.stress)) peak = other;  // quiet where stresses are not computed
+  peak.tangent_stress = tangent;
+}
+
+/// What a parameter that moves the mesh changes, and which it is.
+struct MovedMesh {
+  Eigen::Index column;
+  MeshSlope slope;
+};
+
+/// Without force flanks touch at the nearest point, and move with it.
+void fill_derivatives(const LoadProblemView& problem, const LoadSolver& solver, const std::vector<MovedMesh>& moved, ParameterSlopes slopes, LoadedPosition& position) {
+  const Eigen::Index n = problem.gap.size(), m = slopes.gap.cols();
+  for (const auto& [p, slope] : moved) slopes.gap.col(p) = slope.gap;
+  position.line_load_derivative = Eigen::MatrixXd::Zero(n, m);
+  position.approach_derivative = Eigen::RowVectorXd::Zero(m);
+  Eigen::Index nearest = 0;
+  problem.gap.minCoeff(&nearest);
+  const Eigen::RowVectorXd nearest_slope = slopes.gap.row(nearest);
+  position.transmission_error_derivative = nearest_slope;
+  position.gap_derivative = slopes.gap;
+  if (m == 0 || problem.force == 0.0) return;
+  for (const auto& [p, slope] : moved) {
+    slopes.gap.col(p) += slope.deflection;
+    slopes.force[p] -= slope.carried_force;
+  }
+  auto derivatives = solver.sensitivity().with(slopes.gap, slopes.force);
+  position.line_load_derivative = std::move(derivatives.line_load);
+  position.transmission_error_derivative = std::move(derivatives.transmission_error);
+  position.approach_derivative = position.transmission_error_derivative - nearest_slope;
+}
+
+/// What remains where loads are held: stress follows the curvature, root stress the places of the points.
+void add_moved_places(const MeshPosition& at, const std::vector<MovedMesh>& moved, LoadedPosition& position) {
+  position.root_influence_derivative = Eigen::MatrixXd::Zero(moved.front().slope.root_components.size(), position.line_load_derivative.cols());
+  for (const auto& [p, slope] : moved) {
+    for (Eigen::Index i = 0; i < position.contact_stress.size(); ++i) {
+      const double radius = at.points[static_cast<std::size_t>(i)].relative_radius;
+      position.contact_stress_derivative(i, p) -= position.contact_stress[i] / (2.0 * radius) * slope.relative_radius[i];
+    }
+    position.root_influence_derivative.col(p) = slope.root_components;
+  }
+}
+
+}  // namespace
+
+LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
+                          const std::vector<MeshParameter>& parameters, const LoadOptions& options, RootStresses root_stresses,
+                          const LoadedCycle* earlier) {
+  LoadedCycle cycle;
+  cycle.force = model.normal_force(pinion_torque);
+  cycle.positions.resize(model.positions.size());
+  const double cos_base_helix = std::cos(model.pair.base_helix_angle);
+  const ConditionGap gaps(model.pair, model.placement.gap, condition);
+  const std::vector<Eigen::Index> moving = moving_among(model.placement.gap, parameters);
+  std::deque<MeshSlopes> slopes_of;  // of each of them
+  cycle.face_width_change = cycle.line_length_change = Eigen::RowVectorXd::Zero(std::ssize(parameters));
+  for (const Eigen::Index p : moving) {
+    const MeshSlopes& by = slopes_of.emplace_back(model, condition, std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]));
+    cycle.face_width_change[p] = by.face_width() / model.face_width;
+    cycle.line_length_change[p] = by.relative_line_length();
+  }
+  LoadSolver solver;
+  for (std::size_t i = 0; i < model.positions.size(); ++i) {
+    const MeshPosition& at = model.positions[i];
+    LoadedPosition& position = cycle.positions[i];
+    position.phase = at.phase;
+    position.gap = gaps.at(at.points, at.phase);
+    const LoadProblemView problem{at.influence, at.weight, position.gap.total, at.laws, cycle.force};
+    position.load = solver.solve(problem, options, starting_loads(model, cycle, i, earlier));
+    if (!position.load.usable()) {
+      ++cycle.failures;
+      continue;
+    }
+    ParameterSlopes slopes = parameter_slopes(model, at, gaps, position.gap, parameters);
+    cycle.force_derivative = slopes.force;
+    std::vector<MovedMesh> moved;
+    for (std::size_t k = 0; k < moving.size(); ++k) moved.push_back({moving[k], slopes_of[k].at(i, position.load, position.gap)});
+    fill_derivatives(problem, solver, moved, std::move(slopes), position);
+    fill_stress(model, at, position);
+    if (!moved.empty()) add_moved_places(at, moved, position);
+    const double approach = position.load.transmission_error - position.gap.total.minCoeff();
+    position.stiffness = cycle.force / model.face_width * cos_base_helix * cos_base_helix / (approach / micrometre);
+  }
+  if (root_stresses == RootStresses::WithLoads) add_root_stress(model, cycle);
+  return cycle;
+}
+
+namespace {
+
+/// Components are linear in the forces a w; principal stresses are their largest component.
+Eigen::VectorXd principal_stresses(const Eigen::VectorXd& components) {
+  Eigen::VectorXd stresses(components.size() / 3);
+  for (Eigen::Index i = 0; i < stresses.size(); ++i) stresses[i] = largest_principal(components.segment<3>(3 * i)).value;
+  return stresses;
+}
+
+}  // namespace
+
+Eigen::VectorXd root_stresses(const MeshPosition& at, const LoadDistribution& load) {
+  return principal_stresses(at.root_stress.components(at.weight.cwiseProduct(load.line_load)));
+}
+
+void add_root_stress(const MeshModel& model, LoadedCycle& cycle) {
+  std::vector<const RootStressInfluence*> influences;
+  std::vector<Eigen::VectorXd> forces;
+  std::vector<LoadedPosition*> loaded;
+  for (std::size_t i = 0; i < model.positions.size(); ++i) {
+    const MeshPosition& at = model.positions[i];
+    LoadedPosition& position = cycle.positions[i];
+    if (at.root_stress.places.empty() || !position.load.usable()) continue;
+    influences.push_back(&at.root_stress);
+    forces.push_back(at.weight.cwiseProduct(position.load.line_load));
+    loaded.push_back(&position);
+  }
+  const std::vector<Eigen::VectorXd> components = RootStressInfluence::components(influences, forces);
+  for (std::size_t k = 0; k < loaded.size(); ++k) loaded[k]->root_stress = principal_stresses(components[k]);
+}
+
+Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPosition& position, Eigen::Index place) {
+  // The direction of a principal stress is held at its optimum.
+  const auto influence = at.root_stress.components_of(place);
+  const PrincipalStress principal = largest_principal(influence * at.weight.cwiseProduct(position.load.line_load));
+  Eigen::MatrixXd components = influence * at.weight.asDiagonal() * position.line_load_derivative;
+  if (position.root_influence_derivative.size() > 0) components += position.root_influence_derivative.middleRows<3>(3 * place);
+  return principal_slope(principal) * components;
+}
+
+RootStressPeak root_stress_peak(const MeshPosition& at, const LoadedPosition& position, Member member) {
+  RootStressPeak peak;
+  if (const Eigen::Index i = highest_root_stress(at, position, {.member = member}); i >= 0) {
+    peak = {position.root_stress[i], at.root_stress.places[static_cast<std::size_t>(i)], position.phase};
+  }
+  if (const Eigen::Index i = highest_root_stress(at, position, {.member = member, .tangent_only = true}); i >= 0) {
+    peak.tangent_stress = position.root_stress[i];
+  }
+  return peak;
+}
+
+Eigen::Index highest_root_stress(const MeshPosition& at, const LoadedPosition& position, const RootPlaces& among) {
+  Eigen::Index highest = -1;
+  for (Eigen::Index i = 0; i < position.root_stress.size(); ++i) {
+    const RootPlace& place = at.root_stress.places[static_cast<std::size_t>(i)];
+    const bool counts = place.member == among.member && (!among.tooth || place.tooth == *among.tooth) && (place.tangent || !among.tangent_only);
+    if (counts && (highest < 0 || position.root_stress[i] > position.root_stress[highest])) highest = i;
+  }
+  return highest;
+}
+
+CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
+  CycleSummary summary;
+  if (!cycle.usable() || cycle.positions.empty()) return summary;
+  const Eigen::VectorXd te = cycle.transmission_error();
+  summary.te_peak_to_peak = te.maxCoeff() - te.minCoeff();
+  summary.te_mean = te.mean();
+  summary.te_harmonics = harmonic_amplitudes({te.begin(), te.end()});
+  summary.peak_line_load = summary.peak_contact_stress = summary.worst_kkt_residual = 0.0;
+  double mean_approach = 0.0;
+  for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
+    const LoadedPosition& position = cycle.positions[i];
+    summary.peak_line_load = std::max(summary.peak_line_load, position.load.line_load.maxCoeff());
+    summary.peak_contact_stress = std::max(summary.peak_contact_stress, position.contact_stress.maxCoeff());
+    summary.worst_kkt_residual = std::max(summary.worst_kkt_residual, position.load.kkt_residual);
+    summary.worst_condition = std::fmax(summary.worst_condition, position.load.condition);
+    raise(summary.pinion_root_stress, root_stress_peak(model.positions[i], position, Member::Pinion));
+    raise(summary.wheel_root_stress, root_stress_peak(model.positions[i], position, Member::Wheel));
+    summary.least_stiffness = std::fmin(summary.least_stiffness, position.stiffness);
+    summary.largest_stiffness = std::fmax(summary.largest_stiffness, position.stiffness);
+    mean_approach += position.load.transmission_error - position.gap.total.minCoeff();
+  }
+  summary.peak_root_stress = std::fmax(summary.pinion_root_stress.stress, summary.wheel_root_stress.stress);
+  const double n = static_cast<double>(cycle.positions.size());
+  mean_approach /= n;
+  const double cos_base_helix = std::cos(model.pair.base_helix_angle);
+  summary.mean_stiffness = cycle.force / model.face_width * cos_base_helix * cos_base_helix / (mean_approach / micrometre);
+  summary.load_factor = summary.peak_line_load / model.mean_line_load(cycle.force);
+  return summary;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "core/load/solve/load_problem.hpp"
+#include "core/load/cycle/loaded_cycle.hpp"
+#include "core/load/cycle/mesh_model.hpp"
+#include "core/load/cycle/mesh_parameter.hpp"
+
+namespace flankwright {
+
+/// Root stress follows from the loads, for more than half of what they cost: with them, or by add_root_stress() where it is read.
+enum class RootStresses { WithLoads, Later };
+
+/// Solves the load distribution at every position, each started from those before it, see starting_loads(), and its exact derivatives.
+///
+/// Mesh stiffness is Haddad's eq. 2.16b, (F/b) cos^2(beta_b) / f_t, with f_t counted from first touch, f_t - min(g), so that a
+/// gap common to all points (modified or displaced flanks) is not taken for compliance.
+/// @param condition      GapModel::WholeSurface: with the misalignment that the model was placed for
+/// @param pinion_torque  [N mm], >= 0
+/// @param parameters     derivatives are computed for these; empty: none. Without torque there is none with respect to it: what
+///                       the flanks yield first is infinite per unit load, and 0 stands in its place. Points' derivatives by what
+///                       moves the mesh follow them, see MeshSlopes
+/// @param earlier        another cycle of the same model, of a design that differs by little, to start from; null: none. Only the time
+///                       depends on it, and digits beyond the tolerance
+/// @throws InvalidInput  where a parameter moves the mesh and the model knows no further meshes along it
+LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
+                          const std::vector<MeshParameter>& parameters = {}, const LoadOptions& options = {},
+                          RootStresses root_stresses = RootStresses::WithLoads, const LoadedCycle* earlier = nullptr);
+
+/// The largest principal stress at every place of MeshPosition::root_stress [MPa].
+Eigen::VectorXd root_stresses(const MeshPosition& at, const LoadDistribution& load);
+/// Completes a cycle whose root stress was left for later.
+void add_root_stress(const MeshModel& model, LoadedCycle& cycle);
+
+/// d(root_stress[place])/dp of one position, 1 x m. Worked out when asked for: places are many, those that matter few.
+Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPosition& position, Eigen::Index place);
+
+/// Where one gear's root is stressed most: tension side, largest principal stress at the surface.
+struct RootStressPeak {
+  double stress{not_given};          ///< over all teeth and places [MPa]
+  RootPlace place{};                 ///< where; the pair's tooth and z
+  double phase{not_given};           ///< of the position [base pitches]
+  double tangent_stress{not_given};  ///< the same over the places at the 30 deg tangent only [MPa]
+};
+
+/// Of one gear at one mesh position; NaN where there is none.
+RootStressPeak root_stress_peak(const MeshPosition& at, const LoadedPosition& position, Member member);
+
+/// Some of the places of MeshPosition::root_stress.
+struct RootPlaces {
+  Member member{Member::Pinion};
+  std::optional<int> tooth{};  ///< of the tooth pair; nothing: all teeth
+  bool tangent_only{false};    ///< those at the 30 deg tangent
+};
+/// Which of these places is stressed most at one position, the first of equals; -1 where there is none.
+Eigen::Index highest_root_stress(const MeshPosition& at, const LoadedPosition& position, const RootPlaces& among);
+
+/// What a designer reads off a cycle first.
+struct CycleSummary {
+  double te_peak_to_peak{not_given};           ///< of f_t over the positions [mm]
+  std::vector<double> te_harmonics;            ///< amplitudes of orders 1 .. 10 of the base pitch [mm]; empty for explicit phases
+  double te_mean{not_given};                   ///< [mm]
+  double peak_line_load{not_given};            ///< [N/mm]
+  double peak_contact_stress{not_given};       ///< [MPa]
+  double mean_stiffness{not_given};            ///< Haddad eq. 2.17b [N/(mm um)]
+  double least_stiffness{not_given}, largest_stiffness{not_given};  ///< eq. 2.16b over the positions [N/(mm um)]
+  double stiffness_variation() const { return (largest_stiffness - least_stiffness) / mean_stiffness; }  ///< [-]
+  /// Peak line load over the mean line load F / (mean length of the contact lines on the theoretical path) [-].
+  double load_factor{not_given};
+  double worst_kkt_residual{not_given};
+  double worst_condition{not_given};           ///< largest LoadDistribution::condition [-]
+  RootStressPeak pinion_root_stress, wheel_root_stress;  ///< over the positions; NaN where the model has none
+  double peak_root_stress{not_given};                    ///< the larger of both [MPa]
+};
+CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle);
+
+}  // namespace flankwright

@@ -1,0 +1,112 @@
+#include "core/load/cycle/mesh_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/base/error.hpp"
+#include "core/compliance/local/hertz_line.hpp"
+
+namespace flankwright {
+
+namespace {
+
+constexpr std::initializer_list<EffectStage> local_stages{EffectStage::ContactSite, EffectStage::ContactLaw};
+
+MeshPosition make_position(const MeshModel& model, const MeshParts& parts, const PathOfContact& path, const Quadrature& quadrature,
+                           double phase, const LineInterval& face) {
+  MeshDraft draft(parts, phase);
+  model.effects.act(EffectStage::Region, draft);
+  draft.set_points(contact_points(model.pair, path, quadrature, phase, draft.with_extended_region, face.begin, face.end));
+  model.effects.act({EffectStage::Placement, EffectStage::Body, EffectStage::Structure, EffectStage::Coupling}, draft);
+  model.effects.act(local_stages, draft);
+  model.effects.act(EffectStage::Roots, draft);
+  MeshPosition position{phase, std::move(draft.points), {}, std::move(draft.influence), std::move(draft.laws), std::move(draft.root_stress)};
+  position.weight.resize(std::ssize(position.points));
+  for (Eigen::Index i = 0; i < position.weight.size(); ++i) position.weight[i] = position.points[static_cast<std::size_t>(i)].weight;
+  return position;
+}
+
+}  // namespace
+
+std::vector<double> equally_spaced_phases(int n) {
+  std::vector<double> phases(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) phases[static_cast<std::size_t>(i)] = static_cast<double>(i) / n;
+  return phases;
+}
+
+std::optional<ContactPoint> MeshModel::place(const PathOfContact& path, double phase, int tooth, double z) const {
+  const MeshParts parts{pair, pinion_material, wheel_material, placement};
+  MeshDraft draft(parts, phase);
+  effects.act(EffectStage::Region, draft);
+  const auto point = contact_point(pair, path, phase, tooth, z, draft.with_extended_region);
+  if (!point) return std::nullopt;
+  draft.set_points({*point});
+  effects.act(EffectStage::Placement, draft);
+  return draft.points.empty() ? std::nullopt : std::optional(draft.points.front());
+}
+
+std::optional<ContactLaw> MeshModel::contact_law(const ContactPoint& point) const {
+  const MeshParts parts{pair, pinion_material, wheel_material, placement};
+  MeshDraft draft(parts, point.phase);
+  draft.set_points({point});
+  effects.act(local_stages, draft);
+  return draft.laws.empty() ? std::nullopt : std::optional(draft.laws.front());
+}
+
+double MeshModel::normal_force(double pinion_torque) const {
+  return pinion_torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle));
+}
+
+double MeshModel::mean_line_load(double force) const {
+  double length = 0.0;
+  for (const MeshPosition& position : positions) {
+    for (const ContactPoint& point : position.points) length += point.clearance == 0.0 ? point.weight : 0.0;
+  }
+  return length > 0.0 ? force * static_cast<double>(positions.size()) / length : not_given;
+}
+
+MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
+                          const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
+                          const PairCompliance* structure, const PairRootStress* root_stress,
+                          const PairCompliance* shafts) {
+  const ThinSlicePair slices(ThinSlice(pair, pinion_material, wheel_material));
+  MeshModel model;
+  model.pair = pair;
+  model.pinion_material = pinion_material;
+  model.wheel_material = wheel_material;
+  model.contact_modulus = contact_modulus(pinion_material, wheel_material);
+  model.calibration = slices.slice().calibration();
+  model.iso = slices.slice().iso();
+  return mesh_with_effects(std::move(model), resolution, effects, placement, structure != nullptr ? *structure : slices, root_stress, shafts);
+}
+
+MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
+                            const PairCompliance& structure, const PairRootStress* root_stress, const PairCompliance* shafts) {
+  if (!effects.give_way()) throw InvalidInput("fidelity.effects", "neither bending nor hertzian_contact", "at least one of them under load");
+  if (resolution.phases.empty()) throw InvalidInput("cycle.phases", "none", "at least one phase");
+  if (resolution.quadrature.intervals < 1) {
+    throw InvalidInput("fidelity.quadrature.intervals", std::to_string(resolution.quadrature.intervals), "at least 1");
+  }
+  const GearPair& pair = model.pair;
+  const double axial_offset = placement.misalignment.axial_offset;
+  const double face_start = std::max(-0.5 * pair.pinion.data.face_width, axial_offset - 0.5 * pair.wheel.data.face_width);
+  const double face_end = std::min(0.5 * pair.pinion.data.face_width, axial_offset + 0.5 * pair.wheel.data.face_width);
+  if (!(face_start < face_end)) {
+    throw InvalidInput("misalignment.axial_offset", std::to_string(axial_offset), "one that leaves a common face width");
+  }
+  model.effects = effects;
+  model.placement = placement;
+  model.axial_offset = axial_offset;
+  model.face_width = face_end - face_start;
+  const MeshParts parts{pair, model.pinion_material, model.wheel_material, placement, &structure, shafts, root_stress};
+  const PathOfContact path(pair);
+  model.positions.clear();
+  model.positions.reserve(resolution.phases.size());
+  for (double phase : resolution.phases) {
+    model.positions.push_back(make_position(model, parts, path, resolution.quadrature, phase, {face_start, face_end}));
+  }
+  return model;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include "core/contact/gap/misalignment_gap.hpp"
+#include "core/contact/path/path_of_contact.hpp"
+#include "core/effects/mesh_effects.hpp"
+#include "core/gear/gear_pair.hpp"
+
+namespace flankwright {
+
+/// How finely a mesh cycle is resolved.
+struct MeshResolution {
+  Quadrature quadrature;
+  /// Phases of the reference tooth pair's line [base pitches]; see equally_spaced_phases().
+  std::vector<double> phases;
+};
+
+/// n phases of the reference pair over one base pitch, from 0 (its leading end enters at A0): 0, 1/n, ...
+std::vector<double> equally_spaced_phases(int n);
+
+/// What does not change while modifications, torque and, with GapModel::PlaneOfAction, misalignment vary: points, influence and
+/// contact laws per position.
+///
+/// With GapModel::WholeSurface points lie where the flanks of the misaligned, unmodified pair are nearest (SurfaceGap::place), and
+/// stay there while modifications change: the gap is that of the modified flanks at their own nearest places, while curvature,
+/// depths and influence are kept. A modification moves the place along the profile by D'/kappa, with D' the slope of D over the
+/// arc and kappa the relative curvature: they are wrong by first order in the slope of a modification, as in the plane
+/// of action, the gap and its derivatives by nothing.
+struct MeshPosition {
+  double phase{not_given};
+  std::vector<ContactPoint> points;
+  Eigen::VectorXd weight;
+  Eigen::MatrixXd influence;
+  std::vector<ContactLaw> laws;
+  RootStressInfluence root_stress{};  ///< no places: not asked for
+};
+
+struct MeshModel;
+
+/// The same mesh one and two steps further along a parameter that moves it, see MeshSlopes.
+struct FurtherMeshes {
+  MisalignmentParameter parameter;
+  double step;  ///< [mm or rad]
+  std::vector<MeshModel> meshes;
+};
+
+struct MeshModel {
+  GearPair pair;
+  Material pinion_material, wheel_material;
+  MeshEffects effects;
+  MeshPlacement placement;
+  double axial_offset{0.0};      ///< of the wheel, which shortens the common face [mm]
+  double face_width{not_given};  ///< in contact [mm]
+  double contact_modulus{not_given};  ///< E' [MPa]
+  double calibration{not_given};      ///< kappa of the thin slice
+  IsoStiffness iso;
+  std::vector<MeshPosition> positions;
+  std::vector<FurtherMeshes> further{};  ///< along each parameter that derivatives are asked for by and that moves the mesh
+
+  /// Force normal to the flanks for a torque on the pinion [N]; torque in N mm.
+  double normal_force(double pinion_torque) const;
+  /// Force over the mean length of the contact lines on the theoretical path [N/mm]; NaN where no point lies on it.
+  double mean_line_load(double force) const;
+  /// A place of tooth pair `tooth`'s line, where the effects put it; nothing where no contact can be.
+  std::optional<ContactPoint> place(const PathOfContact& path, double phase, int tooth, double z) const;
+  /// How a place gives way locally; nothing where that is left out.
+  std::optional<ContactLaw> contact_law(const ContactPoint& point) const;
+  /// The common face, z [mm].
+  double face_start() const { return std::max(-0.5 * pair.pinion.data.face_width, axial_offset - 0.5 * pair.wheel.data.face_width); }
+  double face_end() const { return face_start() + face_width; }
+};
+
+/// Builds points, influence matrix and contact laws at every phase: asks the effects, stage by stage.
+/// @param effects      those that are on
+/// @param placement    as MeshPlacement::of() makes it
+/// @param structure    what yields structurally; null: thin slices
+/// @param root_stress  null: none
+/// @param shafts       added to it, coupling all points; null: rigid shafts
+/// @throws InvalidInput where no effect lets the points give way, no phase is given, or the gears do not overlap axially
+MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
+                          const MeshResolution& resolution, const MeshEffects& effects = {}, const MeshPlacement& placement = {},
+                          const PairCompliance* structure = nullptr, const PairRootStress* root_stress = nullptr,
+                          const PairCompliance* shafts = nullptr);
+
+/// The same gears with other effects or another placement: what gears and materials alone settle is taken from the model, the rest is made
+/// anew as make_mesh_model() makes it.
+/// @throws InvalidInput  as make_mesh_model()
+MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
+                            const PairCompliance& structure, const PairRootStress* root_stress, const PairCompliance* shafts);
+
+}  // namespace flankwright

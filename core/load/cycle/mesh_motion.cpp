@@ -1,0 +1,171 @@
+#include "core/load/cycle/mesh_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "core/base/error.hpp"
+
+namespace flankwright {
+
+namespace {
+
+/// What MeshSlope is the slope of, for the points of a position as a further mesh has them.
+struct HeldLoads {
+  Eigen::VectorXd gap, deflection, relative_radius, root_components;
+  double force;
+};
+
+/// @param load  of all points
+HeldLoads held_loads(const MeshPosition& at, const Gap& gap, const Eigen::VectorXd& load) {
+  const Eigen::VectorXd forces = at.weight.cwiseProduct(load);
+  HeldLoads held{gap.total, at.influence * forces, Eigen::VectorXd(load.size()), {}, forces.sum()};
+  if (!at.root_stress.places.empty()) held.root_components = at.root_stress.components(forces);
+  for (Eigen::Index i = 0; i < load.size(); ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (!at.laws.empty()) held.deflection[i] += at.laws[k].deflection(load[i]);
+    held.relative_radius[i] = at.points[k].relative_radius;
+  }
+  return held;
+}
+
+}  // namespace
+
+double mesh_step_of(const GearPair& pair, MisalignmentParameter parameter) {
+  const double length = mesh_step * pair.data.normal_module;
+  const MisalignmentParameter angles[] = {&Misalignment::crossing, &Misalignment::intersecting, &Misalignment::pinion_lead_angle,
+                                          &Misalignment::pinion_pressure_angle};
+  return std::ranges::find(angles, parameter) == std::end(angles) ? length : length / (0.5 * pair.face_width);
+}
+
+MeshModel with_further_meshes(MeshModel model, const MeshPlaced& mesh, const std::vector<MeshParameter>& parameters) {
+  model.further.clear();
+  for (const Eigen::Index p : moving_among(model.placement.gap, parameters)) {
+    const auto parameter = std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]);
+    if (std::ranges::find(model.further, parameter, &FurtherMeshes::parameter) != model.further.end()) continue;
+    FurtherMeshes along{parameter, mesh_step_of(model.pair, parameter), {}};
+    for (int steps : {1, 2}) {
+      MeshPlacement further = model.placement;
+      further.misalignment.*parameter += steps * along.step;
+      along.meshes.push_back(mesh(further));
+    }
+    model.further.push_back(std::move(along));
+  }
+  return model;
+}
+
+const FurtherMeshes& further_meshes(const MeshModel& model, MisalignmentParameter parameter) {
+  const auto found = std::ranges::find(model.further, parameter, &FurtherMeshes::parameter);
+  if (found == model.further.end()) {
+    throw InvalidInput("misalignment." + std::string(name_of(parameter)), "a derivative", "a mesh that knows itself further along");
+  }
+  return *found;
+}
+
+FlankCondition placed_as(const MeshModel& mesh, MisalignmentParameter parameter, FlankCondition condition) {
+  condition.misalignment.*parameter = mesh.placement.misalignment.*parameter;
+  return condition;
+}
+
+Eigen::VectorXd as_at(const std::vector<Eigen::Index>& same, const Eigen::VectorXd& values) {
+  Eigen::VectorXd sorted = Eigen::VectorXd::Zero(std::ssize(same));
+  for (Eigen::Index i = 0; i < sorted.size(); ++i) {
+    if (const Eigen::Index k = same[static_cast<std::size_t>(i)]; k >= 0) sorted[i] = values[k];
+  }
+  return sorted;
+}
+
+Eigen::VectorXd as_further(const std::vector<Eigen::Index>& same, const Eigen::VectorXd& values, Eigen::Index points) {
+  Eigen::VectorXd sorted = Eigen::VectorXd::Zero(points);
+  for (Eigen::Index i = 0; i < values.size(); ++i) {
+    if (const Eigen::Index k = same[static_cast<std::size_t>(i)]; k >= 0) sorted[k] = values[i];
+  }
+  return sorted;
+}
+
+std::vector<Eigen::Index> same_points(const MeshPosition& at, const MeshPosition& further) {
+  const std::vector<ContactPoint>&from = at.points, &to = further.points;
+  std::vector<Eigen::Index> same(from.size(), -1);
+  const auto end_of_line = [](const std::vector<ContactPoint>& points, std::size_t begin) {
+    std::size_t end = begin;
+    while (end < points.size() && points[end].tooth == points[begin].tooth) ++end;
+    return end;
+  };
+  for (std::size_t begin = 0, end = 0, other = 0; begin < from.size(); begin = end) {
+    end = end_of_line(from, begin);
+    while (other < to.size() && to[other].tooth < from[begin].tooth) ++other;
+    if (other == to.size() || to[other].tooth != from[begin].tooth) continue;
+    // Where a line has gained or lost points it did so at one of its ends.
+    const std::ptrdiff_t more = static_cast<std::ptrdiff_t>(end_of_line(to, other) - other) - static_cast<std::ptrdiff_t>(end - begin);
+    const std::size_t skipped = more < 0 ? static_cast<std::size_t>(-more) : 0, added = more > 0 ? static_cast<std::size_t>(more) : 0;
+    const bool at_start = std::abs(to[other + added].z - from[begin + skipped].z) < std::abs(to[other].z - from[begin].z);
+    const std::size_t first = begin + (at_start ? skipped : 0), last = end - (at_start ? 0 : skipped);
+    for (std::size_t i = first; i < last; ++i) same[i] = static_cast<Eigen::Index>(other + (at_start ? added : 0) + (i - first));
+  }
+  return same;
+}
+
+MeshSlopes::Further::Further(const MeshModel& mesh, MisalignmentParameter parameter, const FlankCondition& of)
+    : model(mesh), condition(placed_as(mesh, parameter, of)), gaps(mesh.pair, mesh.placement.gap, condition) {}
+
+MeshSlopes::MeshSlopes(const MeshModel& model, const FlankCondition& condition, MisalignmentParameter parameter)
+    : model_(model),
+      further_(further_meshes(model, parameter)),
+      one_(further_.meshes[0], parameter, condition),
+      two_(further_.meshes[1], parameter, condition) {}
+
+MeshSlopes::Same MeshSlopes::same(std::size_t position) const {
+  const MeshPosition& here = model_.positions[position];
+  Same both{same_points(here, one_.model.positions[position]), same_points(here, two_.model.positions[position]),
+            Eigen::VectorXd::Ones(here.weight.size())};
+  for (std::size_t i = 0; i < here.points.size(); ++i) {
+    if (both.one[i] < 0 || both.two[i] < 0) both.known[static_cast<Eigen::Index>(i)] = 0.0;
+  }
+  return both;
+}
+
+MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load, const Gap& gap) const {
+  const Same same_as = same(position);
+  const Eigen::VectorXd loads = load.line_load.cwiseProduct(same_as.known);
+  const auto further = [&](const Further& mesh, const std::vector<Eigen::Index>& same) {
+    const MeshPosition& there = mesh.model.positions[position];
+    HeldLoads held = held_loads(there, mesh.gaps.at(there.points, there.phase), as_further(same, loads, there.weight.size()));
+    for (Eigen::VectorXd* values : {&held.gap, &held.deflection, &held.relative_radius}) *values = as_at(same, *values);
+    return held;
+  };
+  const HeldLoads here = held_loads(model_.positions[position], gap, loads);
+  const HeldLoads one = further(one_, same_as.one), two = further(two_, same_as.two);
+  const auto slope = [&](Eigen::VectorXd HeldLoads::* what) -> Eigen::VectorXd {
+    return first_slope(here.*what, one.*what, two.*what, further_.step).cwiseProduct(same_as.known);
+  };
+  MeshSlope by{slope(&HeldLoads::gap), slope(&HeldLoads::deflection), first_slope(here.force, one.force, two.force, further_.step),
+               slope(&HeldLoads::relative_radius), {}};
+  by.root_components = Eigen::VectorXd::Zero(here.root_components.size());
+  if (here.root_components.size() == one.root_components.size() && here.root_components.size() == two.root_components.size()) {
+    by.root_components = first_slope(here.root_components, one.root_components, two.root_components, further_.step);
+  }
+  return by;
+}
+
+double MeshSlopes::face_width() const {
+  return first_slope(model_.face_width, one_.model.face_width, two_.model.face_width, further_.step);
+}
+
+double MeshSlopes::relative_line_length() const {
+  double length = 0.0, slope = 0.0;
+  for (std::size_t p = 0; p < model_.positions.size(); ++p) {
+    const MeshPosition& here = model_.positions[p];
+    const Same same_as = same(p);
+    const Eigen::VectorXd by = first_slope(here.weight, as_at(same_as.one, one_.model.positions[p].weight),
+                                           as_at(same_as.two, two_.model.positions[p].weight), further_.step);
+    for (Eigen::Index i = 0; i < here.weight.size(); ++i) {
+      if (here.points[static_cast<std::size_t>(i)].clearance != 0.0) continue;
+      length += here.weight[i];
+      slope += same_as.known[i] * by[i];
+    }
+  }
+  return length > 0.0 ? slope / length : not_given;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <variant>
+#include <vector>
+
+#include "core/contact/gap/condition_gap.hpp"
+#include "core/load/cycle/mesh_model.hpp"
+
+namespace flankwright {
+
+/// A modification parameter of one gear [mm; parabolic_te 1/rad].
+struct GearParameter {
+  Member member{Member::Pinion};
+  ModificationParameter parameter{ModificationParameter::LeadCrowning};
+};
+
+/// The torque on the pinion [N mm].
+struct PinionTorque {};
+
+/// What loaded contact is differentiated with respect to: what a designer chooses, what a housing does, what is transmitted.
+using MeshParameter = std::variant<GearParameter, MisalignmentParameter, PinionTorque>;
+
+/// How parameters enter the load problem of one mesh position.
+struct ParameterSlopes {
+  Eigen::MatrixXd gap;       ///< dg/dp, points x parameters; 0 for what moves the mesh, see MeshSlope
+  Eigen::RowVectorXd force;  ///< dF/dp
+};
+/// @param gap  as gaps has it at this position
+ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at, const ConditionGap& gaps, const Gap& gap,
+                                 const std::vector<MeshParameter>& parameters);
+
+/// Whether a parameter changes more than gap and force: what a mesh is placed by, see MeshPlacement.
+bool moves_mesh(GapModel gap, const MeshParameter& parameter);
+/// Where among the parameters those stand.
+std::vector<Eigen::Index> moving_among(GapModel gap, const std::vector<MeshParameter>& parameters);
+
+}  // namespace flankwright

@@ -1,0 +1,160 @@
+#include "core/rating/iso_load_factors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/contact/gap/condition_gap.hpp"
+#include "core/contact/path/path_of_contact.hpp"
+#include "core/load/cycle/mesh_motion.hpp"
+#include "core/rating/load_factors.hpp"
+
+namespace flankwright {
+
+namespace {
+
+/// Places of the plane of action on tooth pair k by roll length of the pinion and z.
+std::vector<ContactPoint> at_places(const GearPair& pair, int tooth, const std::vector<std::pair<double, double>>& places) {
+  const PathOfContact path(pair);
+  std::vector<ContactPoint> points;
+  for (const auto& [roll, z] : places) {
+    ContactPoint point;
+    point.tooth = tooth;
+    point.z = z;
+    point.phase = (roll - path.roll_at_start) / path.base_pitch;
+    point.pinion_radius = std::hypot(pair.pinion.base_radius, roll);
+    point.wheel_radius = std::hypot(pair.wheel.base_radius, pair.path_length - roll);
+    points.push_back(point);
+  }
+  return points;
+}
+
+/// Metal added there, transverse base tangent [mm].
+Eigen::VectorXd added(const GearPair& pair, const FlankCondition& condition, const std::vector<ContactPoint>& places) {
+  return plane_of_action_gap(pair, places, condition).error / std::cos(pair.base_helix_angle);
+}
+
+/// Both ends of the common face.
+std::vector<ContactPoint> face_ends(const GearPair& pair, const FlankCondition& condition, int tooth) {
+  const double half = 0.5 * pair.face_width, middle = condition.misalignment.axial_offset / 2.0;
+  return at_places(pair, tooth, {{pair.pitch_point, middle - half}, {pair.pitch_point, middle + half}});
+}
+
+/// What the lead part adds at one end beyond the other, signed [mm].
+double linear_part(const GearPair& pair, const FlankCondition& condition, int tooth) {
+  const Eigen::VectorXd ends = added(pair, lead_part(condition), face_ends(pair, condition, tooth));
+  return ends[1] - ends[0];
+}
+
+/// Tooth pairs after which slopes repeat on the gear with the longer list.
+int teeth_told_apart(const FlankCondition& condition) {
+  std::size_t most = 1;
+  for (const ManufacturingError* error : {&condition.pinion_error, &condition.wheel_error}) {
+    most = std::max({most, error->helix_slopes.size(), error->profile_slopes.size()});
+  }
+  return static_cast<int>(most);
+}
+
+double largest_pitch_step(const ManufacturingError& error) {
+  const std::vector<double>& list = error.cumulative_pitch;
+  if (list.empty()) return std::abs(error.pitch_step);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < list.size(); ++i) largest = std::max(largest, std::abs(list[(i + 1) % list.size()] - list[i]));
+  return largest;
+}
+
+/// Peak to peak of the errors' profile deviation of both gears at mid face, tooth pair k.
+double profile_deviation(const GearPair& pair, const FlankCondition& condition, int tooth) {
+  constexpr int sections = 16;  // the errors' profiles are straight in the radius, curved a little in the roll length
+  FlankCondition errors;
+  errors.pinion_error.profile_slope = tooth_error(condition.pinion_error, tooth).profile_slope;
+  errors.wheel_error.profile_slope = tooth_error(condition.wheel_error, tooth).profile_slope;
+  std::vector<std::pair<double, double>> places;
+  for (int i = 0; i <= sections; ++i) {
+    places.emplace_back(pair.path_start + (pair.path_end - pair.path_start) * i / sections, 0.0);
+  }
+  const Eigen::VectorXd deviation = added(pair, errors, at_places(pair, 0, places));
+  return deviation.maxCoeff() - deviation.minCoeff();
+}
+
+/// dF_beta_y, by the tooth pair that counts.
+Eigen::RowVectorXd misalignment_derivative(const MeshModel& model, const FlankCondition& condition, const std::vector<MeshParameter>& parameters) {
+  const GearPair& pair = model.pair;
+  int worst = 0;
+  double sign = 0.0, largest = 0.0;
+  for (int tooth = 0; tooth < teeth_told_apart(condition); ++tooth) {
+    const double step = linear_part(pair, condition, tooth);
+    if (std::abs(step) <= largest) continue;
+    worst = tooth;
+    largest = std::abs(step);
+    sign = step < 0.0 ? -1.0 : 1.0;
+  }
+  const FlankCondition lead = lead_part(condition);
+  const ConditionGap gaps(pair, GapModel::PlaneOfAction, lead);
+  MeshPosition ends;
+  ends.points = face_ends(pair, condition, worst);
+  const Eigen::MatrixXd slopes = parameter_slopes(model, ends, gaps, {}, parameters).gap;
+  Eigen::RowVectorXd derivative = sign * (slopes.row(0) - slopes.row(1)) / std::cos(pair.base_helix_angle);
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    if (!acts(parameters[p], lead_part)) derivative[static_cast<Eigen::Index>(p)] = 0.0;
+  }
+  for (const Eigen::Index p : moving_among(GapModel::PlaneOfAction, parameters)) {
+    const auto parameter = std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]);
+    const FurtherMeshes& further = further_meshes(model, parameter);
+    const auto moved = [&](std::size_t k) { return linear_part(pair, placed_as(further.meshes[k], parameter, condition), worst); };
+    derivative[p] = sign * first_slope(linear_part(pair, condition, worst), moved(0), moved(1), further.step);
+  }
+  return derivative;
+}
+
+}  // namespace
+
+IsoDeviations iso_deviations(const GearPair& pair, const FlankCondition& condition) {
+  IsoDeviations deviations{0.0, std::max(largest_pitch_step(condition.pinion_error), largest_pitch_step(condition.wheel_error))};
+  for (int tooth = 0; tooth < teeth_told_apart(condition); ++tooth) {
+    deviations.misalignment = std::max(deviations.misalignment, std::abs(linear_part(pair, condition, tooth)));
+    deviations.base_pitch = std::max(deviations.base_pitch, profile_deviation(pair, condition, tooth));
+  }
+  return deviations;
+}
+
+IsoLoadFactors iso_load_factors(const GearPair& pair, const IsoStiffness& stiffness, const IsoDeviations& deviations,
+                                double pinion_torque, double face_width) {
+  IsoLoadFactors factors;
+  factors.deviations = deviations;
+  factors.specific_load = pinion_torque / pair.pinion.reference_radius / face_width;
+  factors.running_in = std::min(0.075 * deviations.base_pitch, 3.0 * units::um);
+  const double c = stiffness.c_gamma / units::um;  // N/mm^2
+
+  const double q = deviations.misalignment * c / factors.specific_load;
+  factors.lead = q <= 2.0 ? 1.0 + 0.5 * q : std::sqrt(2.0 * q);
+
+  const double alpha = pair.transverse_contact_ratio, beta = std::min(1.0, pair.overlap_ratio);
+  const double total = pair.total_contact_ratio();
+  const double z_squared = (4.0 - alpha) * (1.0 - beta) / 3.0 + beta / alpha;
+  factors.profile_limit = std::max(1.0, total / (alpha * z_squared));
+  const double pitch = 0.4 * c * (deviations.base_pitch - factors.running_in) / (factors.specific_load * factors.lead);
+  const double free = total <= 2.0 ? 0.5 * total * (0.9 + pitch) : 0.9 + std::sqrt(2.0 * (total - 1.0) / total) * pitch;
+  factors.profile = std::clamp(free, 1.0, factors.profile_limit);
+  return factors;
+}
+
+IsoGradient iso_gradient(const MeshModel& model, const FlankCondition& condition, const IsoLoadFactors& factors, const LoadedCycle& cycle,
+                         const std::vector<MeshParameter>& parameters) {
+  IsoGradient gradient;
+  gradient.misalignment = misalignment_derivative(model, condition, parameters);
+  const Eigen::RowVectorXd load = cycle.force_derivative / cycle.force - cycle.face_width_change;  // relative
+  gradient.specific_load = factors.specific_load * load;
+
+  const double c = model.iso.c_gamma / units::um, q = factors.deviations.misalignment * c / factors.specific_load;
+  const Eigen::RowVectorXd dq = gradient.misalignment * c / factors.specific_load - q * load;
+  gradient.lead = (q <= 2.0 ? 0.5 : 1.0 / factors.lead) * dq;
+
+  // K_Halpha is linear in f_pe/(s K_Hbeta), from `without`, its value for no deviation.
+  const double total = model.pair.total_contact_ratio(), without = total <= 2.0 ? 0.45 * total : 0.9;
+  const bool is_free = factors.profile > 1.0 && factors.profile < factors.profile_limit;
+  gradient.profile = (is_free ? without - factors.profile : 0.0) * (load + gradient.lead / factors.lead);
+  gradient.combined = gradient.lead * factors.profile + factors.lead * gradient.profile;
+  return gradient;
+}
+
+}  // namespace flankwright

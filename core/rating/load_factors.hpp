@@ -1,0 +1,49 @@
+#pragma once
+
+#include "core/contact/gap/gap.hpp"
+#include "core/rating/contact_peaks.hpp"
+#include "core/load/cycle/mesh_parameter.hpp"
+
+namespace flankwright {
+
+/// The parts of a condition that load distribution factors tell apart. An axial offset stays in each: it belongs to the pair as it
+/// is mounted, not to the shape of its flanks.
+///
+/// perfect: nothing else. lead: what changes along the face (lead crowning and slope, end relief, helix slope errors, crossing and
+/// intersecting axes, lead angle, mesh misalignment). profile: what changes along the profile or from tooth to tooth (profile
+/// crowning and slope, tip and root relief, profile slope and pitch errors, pressure angle). Twist, topography, a predesigned
+/// parabola and a changed centre distance are neither and enter the whole condition only.
+FlankCondition perfect_part(const FlankCondition& condition);
+FlankCondition lead_part(const FlankCondition& condition);
+FlankCondition profile_part(const FlankCondition& condition);
+FlankCondition whole_condition(const FlankCondition& condition);
+/// One of these.
+using ConditionPart = FlankCondition (*)(const FlankCondition&);
+/// Whether a parameter moves a part of a condition: something of it alone is left there.
+bool acts(const MeshParameter& parameter, ConditionPart part);
+/// Some of the condition is neither lead nor profile.
+bool has_other_part(const FlankCondition& condition);
+
+/// Load distribution factors from calculated contact stress, each the square of a ratio of peaks over the whole mesh cycle,
+///
+///     K = (sigma_Hmax / sigma_Hmax0)^2,      0: the perfect pair under the same torque,
+///
+/// K_Hbeta of the lead part alone [Haddad 1991, eqs 4.2 and 4.5], K_Halpha of the profile part alone [4.8 and 4.11], K_H of the whole
+/// condition [4.19 and 4.22]; spikes left out (4.2, 4.8, 4.19) as SpikeRule says, or included (4.5, 4.11, 4.22). K_H is not the
+/// product of the other two, which is given beside it [4.25 and 4.28]. The thesis also forms ratios of line loads (4.1, 4.7 and
+/// 4.18 ...); pitting follows stress, so that it prefers those here.
+struct LoadFactors {
+  struct Triple {
+    double lead{not_given};      ///< K_Hbeta [-]
+    double profile{not_given};   ///< K_Halpha [-]
+    double combined{not_given};  ///< K_H [-]
+    double product() const { return lead * profile; }  ///< K_Hbeta K_Halpha [-]
+  };
+  Triple without_spikes, with_spikes;
+};
+
+/// From the peaks of the four conditions at one torque; NaN where one of them has none, or failed at some position.
+LoadFactors load_factors(const ContactPeaks& perfect, const ContactPeaks& lead, const ContactPeaks& profile,
+                         const ContactPeaks& combined);
+
+}  // namespace flankwright

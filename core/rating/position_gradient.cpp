@@ -1,0 +1,133 @@
+#include "core/rating/position_gradient.hpp"
+
+#include <cassert>
+
+#include "core/base/natural_spline.hpp"
+#include "core/contact/gap/condition_gap.hpp"
+#include "core/load/cycle/mesh_way.hpp"
+
+namespace flankwright {
+
+namespace {
+
+/// Structural deflection is extrapolated to a line's end by a spline through those of its points; so are derivatives.
+Eigen::RowVectorXd extrapolated(const MeshPosition& at, const LineEnd& end, const Eigen::MatrixXd& values) {
+  std::vector<double> z;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t i = 0; i < at.points.size(); ++i) {
+    if (at.points[i].tooth != end.tooth) continue;
+    z.push_back(at.points[i].z);
+    rows.push_back(static_cast<Eigen::Index>(i));
+  }
+  Eigen::RowVectorXd there(values.cols());
+  for (Eigen::Index p = 0; p < there.size(); ++p) {
+    const Eigen::VectorXd column = values(rows, p);
+    there[p] = NaturalSpline(z, {column.begin(), column.end()})(end.z);
+  }
+  return there;
+}
+
+/// How the gap changes where lines end, row per end.
+Eigen::MatrixXd end_gaps(const MeshModel& model, const FlankCondition& condition, double phase, const std::vector<LineEnd>& ends,
+                         const std::vector<MeshParameter>& parameters) {
+  MeshPosition at;
+  at.phase = phase;
+  for (const LineEnd& end : ends) at.points.push_back(end.place);
+  const ConditionGap gaps(model.pair, model.placement.gap, condition);
+  return parameter_slopes(model, at, gaps, gaps.at(at.points, phase), parameters).gap;
+}
+
+void add_line_ends(const MeshModel& model, const FlankCondition& condition, const MeshPosition& at, const LoadedPosition& loaded,
+                   const std::vector<LineEnd>& ends, const std::vector<MeshParameter>& parameters, PositionGradient& gradient) {
+  const Eigen::MatrixXd gap = end_gaps(model, condition, loaded.phase, ends, parameters);
+  gradient.line_end_load = gradient.line_end_stress = Eigen::MatrixXd::Zero(gap.rows(), gap.cols());
+  for (Eigen::Index i = 0; i < gap.rows(); ++i) {
+    const LineEnd& end = ends[static_cast<std::size_t>(i)];
+    if (!(end.line_load > 0.0)) continue;
+    const Eigen::RowVectorXd deflection =
+        loaded.transmission_error_derivative - gap.row(i) - extrapolated(at, end, gradient.structural_deflection);
+    gradient.line_end_load.row(i) = deflection / model.contact_law(end.place)->slope(end.line_load);
+    gradient.line_end_stress.row(i) = end.contact_stress / (2.0 * end.line_load) * gradient.line_end_load.row(i);
+  }
+}
+
+void add_shares(const MeshPosition& at, const LoadedPosition& loaded, PositionGradient& gradient) {
+  const std::vector<ToothShare> shares = load_sharing(at, loaded);
+  const double force = at.weight.dot(loaded.load.line_load);
+  const Eigen::RowVectorXd whole = gradient.point_force.colwise().sum();
+  gradient.shares.resize(std::ssize(shares), whole.size());
+  for (Eigen::Index k = 0, i = 0; k < gradient.shares.rows(); ++k) {
+    const ToothShare& share = shares[static_cast<std::size_t>(k)];
+    Eigen::RowVectorXd carried = Eigen::RowVectorXd::Zero(whole.size());
+    for (; i < std::ssize(at.points) && at.points[static_cast<std::size_t>(i)].tooth == share.tooth; ++i) carried += gradient.point_force.row(i);
+    gradient.shares.row(k) = (carried - share.share * whole) / force;
+  }
+}
+
+Eigen::VectorXd clearances(const MeshPosition& at) {
+  Eigen::VectorXd all(std::ssize(at.points));
+  for (Eigen::Index i = 0; i < all.size(); ++i) all[i] = at.points[static_cast<std::size_t>(i)].clearance;
+  return all;
+}
+
+/// Of the ends of lines, one after the other: approach, contact deflection under these ends' loads, relative radius [mm]; empty where their number is another.
+Eigen::VectorXd end_readings(const MeshWay::Stage& stage, const std::vector<LineEnd>& held) {
+  const std::vector<LineEnd> ends = line_ends(stage.model, stage.at, stage.loaded, stage.condition);
+  if (ends.size() != held.size()) return {};
+  const Eigen::Index n = std::ssize(ends);
+  Eigen::VectorXd readings(3 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const LineEnd& end = ends[static_cast<std::size_t>(i)];
+    readings[i] = end.approach;
+    readings[n + i] = stage.model.contact_law(end.place)->deflection(held[static_cast<std::size_t>(i)].line_load);
+    readings[2 * n + i] = end.place.relative_radius;
+  }
+  return readings;
+}
+
+/// Where the mesh moves, with it an end's place and law: dw = (d(f_t - g - S) - dc at w held)/c', and the stress follows the curvature.
+void move_line_ends(const MeshModel& model, const MeshWay& way, const std::vector<LineEnd>& ends, Eigen::Index column, PositionGradient& gradient) {
+  const Eigen::VectorXd slopes = way.slope([&](const MeshWay::Stage& s) { return end_readings(s, ends); });
+  const Eigen::Index n = std::ssize(ends);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const LineEnd& end = ends[static_cast<std::size_t>(i)];
+    if (!(end.line_load > 0.0)) continue;
+    const double load = (slopes[i] - slopes[n + i]) / model.contact_law(end.place)->slope(end.line_load);
+    gradient.line_end_load(i, column) = load;
+    gradient.line_end_stress(i, column) = 0.5 * end.contact_stress * (load / end.line_load - slopes[2 * n + i] / end.place.relative_radius);
+  }
+}
+
+}  // namespace
+
+PositionGradient position_gradient(const MeshModel& model, const FlankCondition& condition, const LoadedCycle& cycle, std::size_t position,
+                                   const std::vector<LineEnd>& ends, const std::vector<MeshParameter>& parameters) {
+  const MeshPosition& at = model.positions[position];
+  const LoadedPosition& loaded = cycle.positions[position];
+  assert(loaded.load.usable() && loaded.gap_derivative.cols() == std::ssize(parameters));
+  PositionGradient gradient;
+  gradient.point_force = at.weight.asDiagonal() * loaded.line_load_derivative;
+  gradient.structural_deflection = at.influence * gradient.point_force;
+  gradient.gap = loaded.gap_derivative;
+  gradient.error = -gradient.gap;
+  add_line_ends(model, condition, at, loaded, ends, parameters, gradient);
+  for (const Eigen::Index p : moving_among(model.placement.gap, parameters)) {
+    const MeshWay way(model, condition, loaded, position, std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]), p);
+    gradient.point_force.col(p) = way.point_slope([](const MeshWay::Stage& s) { return Eigen::VectorXd(s.at.weight.cwiseProduct(s.loaded.load.line_load)); });
+    gradient.structural_deflection.col(p) = way.point_slope([](const MeshWay::Stage& s) { return s.loaded.load.structural_deflection; });
+    gradient.error.col(p) += way.point_slope([](const MeshWay::Stage& s) { return clearances(s.at); });
+    move_line_ends(model, way, ends, p, gradient);
+  }
+  gradient.contact_deflection = -gradient.gap - gradient.structural_deflection;
+  for (Eigen::Index i = 0; i < gradient.contact_deflection.rows(); ++i) {
+    if (loaded.load.line_load[i] > 0.0) {
+      gradient.contact_deflection.row(i) += loaded.transmission_error_derivative;
+    } else {
+      gradient.contact_deflection.row(i).setZero();
+    }
+  }
+  add_shares(at, loaded, gradient);
+  return gradient;
+}
+
+}  // namespace flankwright

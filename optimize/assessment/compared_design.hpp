@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "optimize/design/design_problem.hpp"
+
+namespace flankwright {
+
+/// A design to be held against the optimum.
+struct NamedDesign {
+  std::string name;
+  std::string basis;  ///< the rule it follows, with its source, or where it comes from
+  Modification pinion, wheel;
+};
+
+/// What a design comes to over the scenes of a task.
+struct ComparedDesign {
+  NamedDesign design;
+  double objective{not_given};             ///< outside units
+  double constraint_violation{not_given};  ///< DesignProblem::violation() [-]
+  std::vector<double> scene_measures;      ///< per scene, outside units
+  std::string failure;                     ///< why it could not be analysed; empty: it was
+
+  /// Analysed, and no bound exceeded by more than DesignLog::tolerance.
+  bool feasible() const;
+};
+
+/// Analyses designs over the scenes of a task, many at a time; the same bits whatever the number of threads. A design whose load
+/// distribution does not converge is kept with its failure.
+std::vector<ComparedDesign> compare_designs(const DesignProblem& problem, const std::vector<NamedDesign>& designs);
+
+/// The feasible design of least objective, the first of equals; null where none is feasible.
+const ComparedDesign* best_of(const std::vector<ComparedDesign>& designs);
+
+}  // namespace flankwright

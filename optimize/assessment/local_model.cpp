@@ -1,0 +1,133 @@
+#include "optimize/assessment/local_model.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flankwright {
+
+namespace {
+
+constexpr std::size_t most_candidates = 400;  // of one peak
+
+ProofParameter of_variable(const DesignVariable& v, int index) {
+  const double step = proof_step(v.unit());
+  return {v.path, step, v.unit(), GearParameter{v.member, v.parameter}, step / v.outside_factor(), index};
+}
+
+ProofParameter of_error(Member member, const char* name, ModificationParameter removed) {
+  return {name_of(member) + std::string(".error.") + name, 1.0, "um", GearParameter{member, removed}, -units::um};
+}
+
+/// One step of a parameter in one scene, in internal units.
+double step_in(const DesignScene& scene, const ProofParameter& p) {
+  return std::holds_alternative<PinionTorque>(p.parameter) ? p.inside * scene.torque : p.inside;
+}
+
+/// The output that a row with a candidate is about: of what is minimised, of a bounded goal, or of a bounded output.
+const ObjectiveTerm& term_of(const EpigraphRow& row, const DesignTask& task) {
+  const auto index = static_cast<std::size_t>(row.index);
+  if (row.kind == EpigraphRow::Kind::OutputBound) return task.constraints[index].output;
+  return row.goal == 0 ? task.objective[index] : task.goal_bounds[static_cast<std::size_t>(row.goal - 1)].goal.terms[index];
+}
+
+}  // namespace
+
+double proof_step(const std::string& unit) { return unit == "um" ? 1.0 : unit == "mm" ? 0.1 : 0.01; }
+
+std::vector<ProofParameter> proof_parameters(const DesignTask& task) {
+  using enum ModificationParameter;
+  std::vector<ProofParameter> parameters;
+  for (std::size_t i = 0; i < task.variables.size(); ++i) parameters.push_back(of_variable(task.variables[i], static_cast<int>(i)));
+  const auto misalignment = [&](const char* name, double step, const char* unit, MisalignmentParameter parameter, double inside) {
+    parameters.push_back({std::string("misalignment.") + name, step, unit, parameter, inside});
+  };
+  misalignment("mesh_misalignment", 1.0, "um", &Misalignment::mesh_misalignment, units::um);
+  misalignment("crossing", 0.1, "arcmin", &Misalignment::crossing, 0.1 * units::arcmin);
+  misalignment("intersecting", 0.1, "arcmin", &Misalignment::intersecting, 0.1 * units::arcmin);
+  misalignment("centre_distance", 0.01, "mm", &Misalignment::centre_distance, 0.01);
+  for (const Member member : {Member::Pinion, Member::Wheel}) {
+    parameters.push_back(of_error(member, "helix_slope", LeadSlope));
+    parameters.push_back(of_error(member, "profile_slope", ProfileSlope));
+  }
+  parameters.push_back({"load.torque", 1.0, "%", PinionTorque{}, 0.01});
+  return parameters;
+}
+
+double LocalModel::Peak::at(const Eigen::VectorXd& steps) const {
+  double largest = -INFINITY;
+  for (const Candidate& c : candidates) largest = std::max(largest, c.value + c.slope.dot(steps));
+  return largest;
+}
+
+LocalModel::LocalModel(const DesignProblem& problem, const Modification& pinion, const Modification& wheel,
+                       const std::vector<ProofParameter>& parameters, const std::vector<ActiveBound>& active)
+    : task_(problem.task()),
+      parameters_(static_cast<int>(parameters.size())),
+      measures_(task_.scenes.size()),
+      constraints_(task_.constraints.size(), std::vector<Peak>(task_.scenes.size())) {
+  std::vector<Eigen::VectorXd> lagrangian(task_.scenes.size(), Eigen::VectorXd::Zero(parameters_));
+  std::vector<MeshParameter> of_mesh;
+  for (const ProofParameter& p : parameters) of_mesh.push_back(p.parameter);
+  for (const DesignTie& tie : task_.ties) of_mesh.push_back(GearParameter{tie.tied.member, tie.tied.parameter});
+  tbb::parallel_for(0, problem.scenes(), [&](int s) {
+    const LoadedCycle cycle = problem.analyse_scene(s, pinion, wheel, of_mesh);
+    const MeshModel& model = problem.model(s);
+    const auto slope_of = [&](const Eigen::VectorXd& gradient) {
+      Eigen::VectorXd slope = gradient.head(parameters_);
+      for (int i = 0; i < parameters_; ++i) {
+        const ProofParameter& p = parameters[static_cast<std::size_t>(i)];
+        for (std::size_t t = 0; t < task_.ties.size(); ++t) {
+          const bool follows = p.variable >= 0 && task_.ties[t].as == static_cast<std::size_t>(p.variable);
+          if (follows) slope[i] += task_.ties[t].factor * gradient[parameters_ + static_cast<Eigen::Index>(t)];
+        }
+        slope[i] *= step_in(task_.scenes[static_cast<std::size_t>(s)], p);
+      }
+      return slope;
+    };
+    const auto peak_of = [&](const ObjectiveTerm& term, double factor, double shift) {
+      Peak peak;
+      for (const PeakCandidate& candidate : leading_candidates(term, model, cycle, reach, most_candidates)) {
+        const SmoothValue found = candidate_value(term, candidate, model, cycle);
+        peak.candidates.push_back({factor * found.value + shift, factor * slope_of(found.gradient)});
+      }
+      return peak;
+    };
+    for (const ObjectiveTerm& term : task_.objective) {
+      measures_[static_cast<std::size_t>(s)].push_back(peak_of(term, term.weight * term.outside_factor(), 0.0));
+    }
+    for (std::size_t c = 0; c < task_.constraints.size(); ++c) {
+      const OutputConstraint& bound = task_.constraints[c];
+      const double sign = bound.is_least() ? -1.0 : 1.0;
+      Peak& peak = constraints_[c][static_cast<std::size_t>(s)];
+      peak = peak_of(bound.output, sign / std::abs(bound.limit()), -sign * bound.limit() / std::abs(bound.limit()));
+      if (bound.is_least()) peak.candidates.resize(1);  // the leading one is the output: the others are below it, not above
+    }
+    for (const ActiveBound& felt : active) {
+      if (felt.row.scene != s || felt.by_output == 0.0) continue;
+      const SmoothValue found = candidate_value(term_of(felt.row, task_), felt.row.candidate, model, cycle);
+      lagrangian[static_cast<std::size_t>(s)] += felt.multiplier * felt.by_output * slope_of(found.gradient);
+    }
+  });
+  lagrangian_slope_ = Eigen::VectorXd::Zero(parameters_);
+  for (const Eigen::VectorXd& of_scene : lagrangian) lagrangian_slope_ += of_scene;
+}
+
+std::vector<double> LocalModel::scene_measures(const Eigen::VectorXd& steps) const {
+  std::vector<double> measures;
+  for (const std::vector<Peak>& of_scene : measures_) {
+    double sum = 0.0;
+    for (const Peak& peak : of_scene) sum += peak.at(steps);
+    measures.push_back(sum);
+  }
+  return measures;
+}
+
+double LocalModel::objective(const Eigen::VectorXd& steps) const {
+  std::vector<double> weights;
+  for (const DesignScene& scene : task_.scenes) weights.push_back(scene.weight);
+  return aggregate(task_.over, scene_measures(steps), weights);
+}
+
+}  // namespace flankwright

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "optimize/design/design_problem.hpp"
+#include "optimize/design/optimality.hpp"
+
+namespace flankwright {
+
+/// A number whose influence on a design is asked for, counted in steps of a size that a workshop knows.
+struct ProofParameter {
+  std::string name;   ///< as the study names it: "pinion.modification.lead_crowning", "misalignment.crossing"
+  double step{1.0};   ///< one step [unit]
+  std::string unit;   ///< "um", "mm", "arcmin", "%"
+  MeshParameter parameter;
+  double inside{1.0};     ///< one step in internal units, added metal with its sign; torque: share of each scene's
+  int variable{-1};       ///< index of the design variable it is; -1: a tolerance
+};
+
+/// One step of a modification in its outside unit, see proof_parameters(). @param unit  DesignVariable::unit()
+double proof_step(const std::string& unit);
+
+/// The task's variables with what is tied to them, then what housing and workshop do, the same in every scene: misalignment 1 um, crossing and intersecting 0.1
+/// arcmin, centre distance 0.01 mm, helix and profile slope of either gear 1 um, torque 1 %. Amounts of a modification step by 1 um,
+/// extents by 0.1 mm, parabolic_te by 0.01 arcsec/deg^2.
+///
+/// An error of helix or profile slope is the negative of that modification; the profile's differs by the same shift on all teeth,
+/// reference for pitch circle, which moves the transmission error's mean only.
+std::vector<ProofParameter> proof_parameters(const DesignTask& task);
+
+/// Objective and bounded outputs of one design to first order: each peak the largest of its leading candidates, each of them with its
+/// exact derivatives,
+///
+///     measure_s(p) = sum_k w_k max_j (c_skj + g_skj . p)          p in steps of the parameters.
+///
+/// Where a peak is at a kink, one-sided derivatives follow by themselves; off it, a second candidate is seen before it leads.
+/// Candidates within `reach` of their peak take part.
+class LocalModel {
+ public:
+  static constexpr double reach = 0.2;  ///< candidate >= (1 - reach) peak
+
+  /// A smooth function: value [outside units; bounded outputs: excess over the bound] and its change by a step of each parameter.
+  struct Candidate {
+    double value{not_given};
+    Eigen::VectorXd slope;
+  };
+  /// The largest of its candidates, first the leading one.
+  struct Peak {
+    std::vector<Candidate> candidates;
+    double at(const Eigen::VectorXd& steps) const;
+  };
+
+  /// @param active  what has a multiplier at this design, for lagrangian_slope()
+  /// @throws std::runtime_error where a scene's load distribution does not converge
+  LocalModel(const DesignProblem& problem, const Modification& pinion, const Modification& wheel,
+             const std::vector<ProofParameter>& parameters, const std::vector<ActiveBound>& active = {});
+
+  int scenes() const { return static_cast<int>(measures_.size()); }
+  int parameters() const { return parameters_; }
+  /// Weighted peaks of the objective's terms in a scene.
+  const std::vector<Peak>& measure(int scene) const { return measures_[static_cast<std::size_t>(scene)]; }
+  /// Bounded output c in every scene: OutputConstraint::excess().
+  const std::vector<Peak>& constraint(int c) const { return constraints_[static_cast<std::size_t>(c)]; }
+  int constraints() const { return static_cast<int>(constraints_.size()); }
+
+  std::vector<double> scene_measures(const Eigen::VectorXd& steps) const;
+  /// The scenes' measures combined as the task says, outside units.
+  double objective(const Eigen::VectorXd& steps) const;
+  /// Change of the Lagrangian's outputs by a step of each parameter, sum of multiplier * by_output * slope [in Optimality::objective_scale].
+  const Eigen::VectorXd& lagrangian_slope() const { return lagrangian_slope_; }
+
+ private:
+  const DesignTask& task_;
+  int parameters_{0};
+  std::vector<std::vector<Peak>> measures_;     ///< [scene][term]
+  std::vector<std::vector<Peak>> constraints_;  ///< [constraint][scene]
+  Eigen::VectorXd lagrangian_slope_;
+};
+
+}  // namespace flankwright

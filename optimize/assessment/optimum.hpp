@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "optimize/assessment/local_model.hpp"
+
+namespace flankwright {
+
+/// How the objective answers to one parameter, outside units.
+struct Sensitivity {
+  ProofParameter parameter;
+  double less{not_given}, more{not_given};  ///< change by one step down and up, all else held
+  bool can_less{true}, can_more{true};      ///< false: the step would leave the bounds of a design variable
+  /// Tolerances only: change by one step up where the design is optimised anew, to first order: the slope of the Lagrangian.
+  double optimised_anew{not_given};
+};
+
+/// What holds an optimum where it is, in terms of the task: the multipliers of first_order_optimality(), which balance the gradients of
+/// all that is active, whatever the solver was,
+///
+///     sum_j y_j grad c_j + sum_i m_i grad h_i + upper bounds - lower bounds = 0,   all of them >= 0,
+///
+/// c_j the leading candidates of the governing scenes, h_i of bounded outputs, goals and sums.
+struct Optimum {
+  struct Scene {
+    int scene{-1};
+    double weight{not_given};  ///< share in the objective's slope; one together, below 0 where mean + k sigma falls with the scene
+  };
+  /// A design variable at a bound.
+  struct Bound {
+    int variable{-1};
+    bool upper{false};
+    double gain{not_given};  ///< change of the objective where the bound moves out by one step and all else follows, <= 0 [outside units]
+  };
+  /// A bounded output at its limit.
+  struct Constraint {
+    int constraint{-1};
+    double gain{not_given};  ///< change of the objective where the limit moves out by one per cent and all else follows, <= 0
+  };
+  /// A bounded sum of modifications at its limit.
+  struct Sum {
+    int constraint{-1};      ///< of the task's modification constraints
+    bool upper{false};
+    double gain{not_given};  ///< change of the objective where the limit moves out by one step (as of its first modification), <= 0
+  };
+  /// An earlier objective of a list at the limit that it keeps.
+  struct Goal {
+    int bound{-1};           ///< of the task's goal bounds
+    double gain{not_given};  ///< change of the objective where the limit moves out by one per cent and all else follows, <= 0
+  };
+  std::vector<Scene> scenes;            ///< heaviest first; those without weight left out
+  std::vector<Bound> bounds;            ///< largest gain first; every variable at a bound
+  std::vector<Constraint> constraints;  ///< largest gain first
+  std::vector<Sum> sums;                ///< largest gain first
+  std::vector<Goal> goals;              ///< largest gain first
+  double residual{not_given};  ///< Optimality::residual: a share of the start's objective [-]; 0 is first-order optimal
+  /// How well the objective of the optimum is known [outside units]: a gain below it is not told apart from none. The residual, or
+  /// `asked` where it is smaller, of the start's objective.
+  double resolution{not_given};
+  std::vector<Sensitivity> sensitivities;  ///< in the order of the parameters
+
+  static constexpr double asked = 1e-6;     ///< first-order residual that is as good as none
+  static constexpr double at_bound = 1e-4;  ///< a variable within this share of its range stands at its bound
+};
+
+/// @param problem     of a single objective; of a list the last one's, with the limits of those before it
+/// @param optimality  of the design
+/// @param model       about the design, with what is active there
+/// @param parameters  as the model has them, the design variables among them
+/// @param values      of the design variables [mm; parabolic_te 1/rad], in their order
+Optimum find_optimum(const DesignProblem& problem, const Optimality& optimality, const LocalModel& model,
+                     const std::vector<ProofParameter>& parameters, const std::vector<double>& values);
+
+}  // namespace flankwright

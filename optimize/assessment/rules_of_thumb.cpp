@@ -1,0 +1,121 @@
+#include "optimize/assessment/rules_of_thumb.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "core/rating/iso_load_factors.hpp"
+
+namespace flankwright {
+
+namespace {
+
+/// Adds one rule's modification to both gears.
+struct Rule {
+  std::string name;   ///< empty: nothing is changed
+  std::string basis;
+  std::function<void(Modification& pinion, Modification& wheel)> apply;
+};
+
+Rule nothing() {
+  return {"", "", [](Modification&, Modification&) {}};
+}
+
+Rule tip_relief(const std::string& name, const std::string& basis, double amount, double pinion_height, double wheel_height) {
+  return {name, basis, [=](Modification& pinion, Modification& wheel) {
+            pinion.tip_relief = {amount, pinion_height, ReliefShape::Linear};
+            wheel.tip_relief = {amount, wheel_height, ReliefShape::Linear};
+          }};
+}
+
+std::vector<Rule> profile_rules(const GearPair& pair, const RuleBasis& basis) {
+  std::vector<Rule> rules{nothing()};
+  if (!(basis.deflection > 0.0)) return rules;
+  const double overlap = (pair.transverse_contact_ratio - 1.0) * pair.transverse_base_pitch;  // path with two pairs, each end
+  const auto over = [&](double length) { return std::pair{relief_height(pair.pinion, length), relief_height(pair.wheel, length)}; };
+  const bool one_or_two_pairs = pair.transverse_contact_ratio > 1.0 && pair.transverse_contact_ratio < 2.0;
+  if (one_or_two_pairs) {
+    const auto [pinion, wheel] = over(0.5 * overlap);
+    rules.push_back(tip_relief("short tip relief", "Munro, Haddad 1991 eq. 4.13; mean deflection", basis.deflection, pinion, wheel));
+  }
+  rules.push_back(tip_relief("long tip relief", "Munro, Haddad 1991 section 4.3.3: from the pitch point; mean deflection",
+                             basis.deflection, pair.pinion.tip_radius - pair.pinion.working_pitch_radius,
+                             pair.wheel.tip_radius - pair.wheel.working_pitch_radius));
+  if (one_or_two_pairs) {
+    const auto [pinion, wheel] = over(overlap);
+    rules.push_back(tip_relief("tip relief to single contact", "as sizing programs propose; deflection of a single pair, ISO 6336-1",
+                               basis.single_pair_deflection, pinion, wheel));
+  }
+  rules.push_back({"profile crowning", "Haddad 1991 section 4.3.3; mean deflection", [amount = basis.deflection](Modification& pinion, Modification&) {
+                     set(pinion, ModificationParameter::ProfileCrowning, amount);
+                   }});
+  return rules;
+}
+
+std::vector<Rule> lead_rules(const GearPair& pair, const RuleBasis& basis) {
+  std::vector<Rule> rules{nothing()};
+  if (!(basis.misalignment > 0.0)) return rules;
+  const auto crowning = [](const std::string& name, const std::string& source, double amount) {
+    return Rule{name, source, [amount](Modification& pinion, Modification&) { pinion.lead_crowning = amount; }};
+  };
+  rules.push_back(crowning("crowning of half the misalignment", "Munro and Myers, Haddad 1991 section 4.2.4", 0.5 * basis.misalignment));
+  rules.push_back(crowning("crowning after ISO 6336-1", "annex B: half the misalignment, 10 .. 40 um",
+                           std::clamp(0.5 * basis.misalignment, 10.0 * units::um, 40.0 * units::um)));
+  const double length = std::min(0.1 * pair.face_width, pair.data.normal_module);
+  rules.push_back({"end relief after ISO 6336-1", "annex B: the misalignment, over the smaller of 0.1 b and m_n",
+                   [amount = basis.misalignment, length](Modification& pinion, Modification&) { pinion.end_relief = {amount, length}; }});
+  return rules;
+}
+
+std::string joined(const std::string& a, const std::string& b, const char* between) {
+  return a.empty() || b.empty() ? a + b : a + between + b;
+}
+
+}  // namespace
+
+RuleBasis rule_basis(const DesignProblem& problem) {
+  const DesignTask& task = problem.task();
+  RuleBasis basis{.torque = 0.0, .misalignment = 0.0};
+  int chosen = 0;
+  double least = INFINITY;
+  for (const DesignScene& scene : task.scenes) basis.torque = std::max(basis.torque, scene.torque);
+  for (int s = 0; s < problem.scenes(); ++s) {
+    const DesignScene& scene = task.scenes[static_cast<std::size_t>(s)];
+    FlankCondition condition = scene.condition;
+    condition.pinion_modification = condition.wheel_modification = {};
+    const double misalignment = iso_deviations(task.pair, condition).misalignment;
+    basis.misalignment = std::max(basis.misalignment, misalignment);
+    if (scene.torque == basis.torque && misalignment < least) {
+      least = misalignment;
+      chosen = s;
+    }
+  }
+  const double specific_load = basis.torque / task.pair.pinion.base_radius / problem.model(chosen).face_width;
+  basis.single_pair_deflection = specific_load / problem.model(chosen).iso.c_prime * units::um;
+  const LoadedCycle cycle = problem.analyse_scene(chosen, {}, {});
+  if (cycle.usable()) basis.deflection = specific_load / summarise(problem.model(chosen), cycle).mean_stiffness * units::um;
+  return basis;
+}
+
+double relief_height(const Gear& gear, double length) {
+  const double start = gear.roll_length_at(gear.tip_radius) - length;
+  return gear.tip_radius - std::hypot(gear.base_radius, start);
+}
+
+std::vector<NamedDesign> rules_of_thumb(const DesignTask& task, const RuleBasis& basis) {
+  std::vector<NamedDesign> designs;
+  for (const Rule& profile : profile_rules(task.pair, basis)) {
+    for (const Rule& lead : lead_rules(task.pair, basis)) {
+      NamedDesign design{joined(profile.name, lead.name, " and "), joined(profile.basis, lead.basis, "; "), {}, {}};
+      if (design.name.empty()) design.name = "unmodified";
+      design.pinion.topography = task.pinion_modification.topography;
+      design.wheel.topography = task.wheel_modification.topography;
+      profile.apply(design.pinion, design.wheel);
+      lead.apply(design.pinion, design.wheel);
+      designs.push_back(std::move(design));
+    }
+  }
+  return designs;
+}
+
+}  // namespace flankwright

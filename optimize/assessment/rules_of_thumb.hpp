@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "optimize/assessment/compared_design.hpp"
+
+namespace flankwright {
+
+/// What the rules of thumb are worked out from.
+struct RuleBasis {
+  double torque{not_given};        ///< design torque: the largest of the scenes [N mm]
+  double misalignment{not_given};  ///< largest F_beta_y over the scenes, of housing and errors, see IsoDeviations [mm]
+  double deflection{not_given};    ///< F_bt/(b c_m): c_m mean mesh stiffness of the unmodified pair, Haddad eq. 2.17b [mm]
+  double single_pair_deflection{not_given};  ///< F_bt/(b c'): c' of ISO 6336-1, method B [mm]
+};
+
+/// c_m is taken in the scene with the design torque, of several such the least misaligned. NaN deflection where it cannot be analysed.
+RuleBasis rule_basis(const DesignProblem& problem);
+
+/// Radial height below the tip at which a relief starts that is `length` long on the path of contact:
+///
+///     h = r_a - sqrt(r_b^2 + (rho_a - length)^2),   rho_a = sqrt(r_a^2 - r_b^2)        [mm]
+///
+/// @param length  [mm], 0 .. rho_a
+double relief_height(const Gear& gear, double length);
+
+/// The designs that a designer would grind without an optimiser: every profile rule beside every lead rule, the first of them
+/// unmodified flanks. What is measured on a flank (a grid) stays; every other modification of the task is left out.
+///
+/// Profile rules. Relief is linear and on the tips of both gears; amounts are along the transverse base tangent.
+/// - Short tip relief, Munro [47 in Haddad 1991; eq. 4.13]: over (eps_alpha - 1)/2 p_bt of the path, by the mean deflection.
+/// - Long tip relief, Munro [ibid., section 4.3.3]: from the pitch point on, by the mean deflection.
+/// - Tip relief to single contact: from the highest point of single tooth contact, over (eps_alpha - 1) p_bt, by the deflection of a
+///   single pair of ISO 6336-1, as much as a pair yields that carries alone. It is what sizing programs propose for
+///   1 < eps_alpha < 2.
+/// - Profile crowning by the mean deflection, on the pinion [preferred to relief in Haddad 1991, section 4.3.3].
+///
+/// Lead rules, on the pinion, left out where no scene is misaligned.
+/// - Crowning of half the misalignment, Munro and Myers [46, 47 in Haddad 1991, section 4.2.4]: C_beta = 0.5 F_beta_y.
+/// - Crowning after ISO 6336-1:2006, annex B (informative): C_beta = 0.5 F_beta_y, within 10 .. 40 um.
+/// - End relief after the same annex: C_I(II) = F_beta_y, over the smaller of 0.1 b and m_n. The annex is followed as it is
+///   customarily quoted, without its allowance for manufacturing tolerances.
+///
+/// Short relief and relief to single contact are rules of pairs with 1 < eps_alpha < 2 and left out of others.
+std::vector<NamedDesign> rules_of_thumb(const DesignTask& task, const RuleBasis& basis);
+
+}  // namespace flankwright

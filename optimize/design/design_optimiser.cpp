@@ -1,0 +1,166 @@
+#include "optimize/design/design_optimiser.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/stopwatch.hpp"
+
+namespace flankwright {
+
+namespace {
+
+/// Steps of one unit and of pairs around an optimum end before this many analyses where there are up to ten variables.
+constexpr int most_rounding_analyses = 1000;
+
+void append(std::vector<SolverStep>& history, const std::vector<SolverStep>& more) {
+  const int offset = history.empty() ? 0 : history.back().evaluation;
+  for (SolverStep step : more) {
+    step.evaluation += offset;
+    history.push_back(step);
+  }
+}
+
+/// The whole run, its books and what is left of the budget.
+class DesignRun {
+ public:
+  DesignRun(DesignProblem& problem, const DesignOptions& options) : problem_(problem), options_(options) {}
+
+  DesignResult finish() {
+    result_.solver = options_.solver.name;
+    result_.finisher = options_.solver.finisher;
+    result_.before = report_design(problem_, problem_.analyse_given());
+    result_.evaluations = result_.failures = 0;
+    first_objective();
+    DesignProblem last = later_objectives();
+    result_.optimality = first_order_optimality(last, x_);
+    judge_stall();
+    result_.gradient_evaluations = uses_gradients(options_.solver.name) ? result_.evaluations : 0;
+    result_.after = report_design(problem_, problem_.analyse(x_, false));
+    if (has_steps(problem_.task())) round(last);
+    result_.seconds = clock_.seconds();
+    return std::move(result_);
+  }
+
+ private:
+  SolverOptions left() const {
+    SolverOptions options = options_.solver;
+    options.max_evaluations = std::max(1, options.max_evaluations - result_.evaluations);
+    options.max_seconds = std::max(1e-3, options.max_seconds - clock_.seconds());
+    return options;
+  }
+
+  bool is_spent() const {
+    return result_.evaluations >= options_.solver.max_evaluations || clock_.seconds() >= options_.solver.max_seconds;
+  }
+
+  void take(const LocalRun& run) {
+    result_.status = run.status;
+    result_.message = run.message;
+    result_.finished_by = run.finished_by;
+    append(result_.history, run.history);
+    x_ = run.x;
+  }
+
+  /// A search that no longer gained has converged where the first-order conditions of the task itself hold.
+  void judge_stall() {
+    if (result_.status != SolverStatus::Stalled || !result_.optimality.satisfied()) return;
+    result_.status = SolverStatus::Converged;
+    result_.message += "; but the first-order conditions hold to 1e-4: an optimum on it";
+  }
+
+  void first_objective() {
+    SolverOptions search = options_.solver;
+    search.max_evaluations = std::min(search.max_evaluations, options_.most_search_analyses);
+    result_.runs = run_from_starts(problem_, search, options_.starts);
+    result_.optima = distinct_optima(result_.runs, DesignResult::same_objective);
+    for (const LocalRun& run : result_.runs) {
+      result_.evaluations += run.evaluations;
+      result_.failures += run.failures;
+    }
+    const LocalRun& best = result_.runs[best_run(result_.runs)];
+    result_.formulation = best.epigraph ? "epigraph" : "direct";
+    result_.rounds = best.rounds;
+    take(best);
+  }
+
+  /// The problem of the last objective, at x_.
+  DesignProblem later_objectives() {
+    const DesignTask& task = problem_.task();
+    DesignProblem stage = problem_;
+    if (task.then.empty()) return stage;
+    std::vector<GoalBound> bounds = task.goal_bounds;
+    Goal goal = task.goal();
+    for (const Goal& next : task.then) {
+      const double least = stage.value(goal, stage.analyse(x_, false));
+      const double limit = (1.0 + task.lexicographic_tolerance) * least;
+      result_.stages.push_back({goal.name(), least, limit});
+      bounds.push_back({goal, limit});
+      goal = next;
+      stage = problem_.judged_by(goal, bounds);
+      stage.set_start(x_);
+      if (is_spent()) continue;
+      const LocalRun run = run_local(stage, left());
+      result_.evaluations += run.evaluations;
+      result_.failures += run.failures;
+      take(run);
+    }
+    result_.stages.push_back({goal.name(), stage.value(goal, stage.analyse(x_, false))});
+    return stage;
+  }
+
+  void round(DesignProblem& last) {
+    result_.exact = result_.after;
+    const int budget = std::clamp(options_.solver.max_evaluations - result_.evaluations, 1, most_rounding_analyses);
+    const RoundedDesign rounded = round_design(last, x_, budget);
+    result_.evaluations += rounded.analyses;
+    result_.after = report_design(problem_, problem_.analyse(rounded.x, false));
+  }
+
+  DesignProblem& problem_;
+  const DesignOptions& options_;
+  const Stopwatch clock_;
+  DesignResult result_;
+  Eigen::VectorXd x_;
+};
+
+}  // namespace
+
+DesignProblem last_stage(const DesignProblem& problem, const std::vector<LexicographicStage>& stages) {
+  const DesignTask& task = problem.task();
+  if (task.then.empty()) return problem;
+  std::vector<GoalBound> bounds = task.goal_bounds;
+  Goal goal = task.goal();
+  for (std::size_t i = 0; i < task.then.size(); ++i) {
+    bounds.push_back({goal, stages[i].limit});
+    goal = task.then[i];
+  }
+  return problem.judged_by(goal, bounds);
+}
+
+DesignReport report_design(const DesignProblem& problem, DesignAnalysis analysis) {
+  const DesignTask& task = problem.task();
+  const auto value_of = [&](const DesignVariable& v) {
+    return get(v.member == Member::Pinion ? analysis.pinion_modification : analysis.wheel_modification, v.parameter);
+  };
+  DesignReport report;
+  for (const DesignVariable& v : task.variables) report.variables.push_back(value_of(v));
+  for (const DesignTie& tie : task.ties) report.tied.push_back(value_of(tie.tied));
+  for (int s = 0; s < problem.scenes(); ++s) report.scene_measures.push_back(problem.scene_measure(analysis, s));
+  for (const OutputConstraint& c : task.constraints) report.constraint_values.push_back(problem.constraint_value(analysis, c));
+  for (const ModificationConstraint& c : task.modification_constraints) {
+    report.modification_values.push_back(c.value(analysis.pinion_modification, analysis.wheel_modification));
+  }
+  for (const Goal& goal : task.then) report.later_objectives.push_back(problem.value(goal, analysis));
+  report.objective = problem.objective(analysis);
+  problem.add_root_stress(analysis);
+  report.analysis = std::move(analysis);
+  return report;
+}
+
+DesignResult optimise_design(DesignProblem& problem, const DesignOptions& options) {
+  options.solver.validate();
+  if (options.starts < 1) throw InvalidInput("optimise.starts", std::to_string(options.starts), "an integer of at least 1");
+  return DesignRun(problem, options).finish();
+}
+
+}  // namespace flankwright

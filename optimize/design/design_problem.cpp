@@ -1,0 +1,283 @@
+#include "optimize/design/design_problem.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_for_each.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "core/load/cycle/mesh_motion.hpp"
+
+namespace flankwright {
+
+namespace {
+
+/// Every output that is minimised or bounded.
+std::vector<ObjectiveTerm> terms_of(const DesignTask& task) {
+  std::vector<ObjectiveTerm> terms = task.objective;
+  const auto add = [&](const Goal& goal) { terms.insert(terms.end(), goal.terms.begin(), goal.terms.end()); };
+  for (const GoalBound& bound : task.goal_bounds) add(bound.goal);
+  for (const TradedGoal& traded : task.trade) add(traded.goal);
+  for (const Goal& goal : task.then) add(goal);
+  for (const OutputConstraint& constraint : task.constraints) terms.push_back(constraint.output);
+  return terms;
+}
+
+/// Harmonics can be told apart only where positions are equally spaced over a pitch and more than two to a period.
+void check_harmonics(const DesignTask& task) {
+  const std::vector<double>& phases = task.resolution.phases;
+  const int n = static_cast<int>(phases.size());
+  const auto check = [&](const ObjectiveTerm& term) {
+    if (term.output != Output::TeHarmonic) return;
+    if (phases != equally_spaced_phases(n)) {
+      throw InvalidInput("cycle.phases", "a list", "none for " + term.name + ": set cycle.positions");
+    }
+    const int least = 2 * term.harmonic + 1;
+    if (n < least) {
+      throw InvalidInput("cycle.positions", std::to_string(n), "at least " + std::to_string(least) + " for " + term.name);
+    }
+  };
+  for (const ObjectiveTerm& term : terms_of(task)) check(term);
+}
+
+bool asks_for_root_stress(const DesignTask& task) {
+  const std::vector<ObjectiveTerm> terms = terms_of(task);
+  return std::any_of(terms.begin(), terms.end(), [](const ObjectiveTerm& t) { return t.output == Output::PeakRootStress; });
+}
+
+RootStresses root_stresses_for(const DesignTask& task) {
+  return asks_for_root_stress(task) ? RootStresses::WithLoads : RootStresses::Later;
+}
+
+void check_root_stress(const DesignTask& task) {
+  if (asks_for_root_stress(task) && !task.root_stress) {
+    throw InvalidInput("peak_root_stress", "no model of root stress", "the effect root_stress");
+  }
+}
+
+/// What is asked must be there to be analysed.
+void check(const DesignTask& task) {
+  if (task.objective.empty()) throw InvalidInput("optimise.objective", "none", "at least one output");
+  check_harmonics(task);
+  check_root_stress(task);
+}
+
+}  // namespace
+
+DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_stresses_(root_stresses_for(task_)) {
+  check(task_);
+  if (task_.scenes.empty()) throw InvalidInput("scenes", "none", "at least one scene");
+  if (task_.variables.empty()) throw InvalidInput("optimise.variables", "none", "at least one variable");
+  for (const DesignVariable& v : task_.variables) {
+    if (!(v.lower < v.upper)) throw InvalidInput("optimise.variables." + v.path, "an empty range", "lower < upper");
+    parameters_.push_back(GearParameter{v.member, v.parameter});
+  }
+  for (const DesignTie& tie : task_.ties) {
+    if (tie.as >= task_.variables.size()) throw InvalidInput("optimise.ties." + tie.tied.path, "no variable", "the index of a variable");
+    parameters_.push_back(GearParameter{tie.tied.member, tie.tied.parameter});
+  }
+  std::map<MeshPlacement, std::shared_ptr<const MeshModel>> models;
+  for (const DesignScene& scene : task_.scenes) {
+    if (!(scene.torque > 0.0)) throw InvalidInput("load.torque", std::to_string(scene.torque), "above 0 to optimise");
+    models.try_emplace(MeshPlacement::of(task_.gap, scene.condition.misalignment));
+  }
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for_each(models, [this](auto& known) { known.second = std::make_shared<const MeshModel>(mesh(known.first)); });
+  });
+  for (const DesignScene& scene : task_.scenes) models_.push_back(models.at(MeshPlacement::of(task_.gap, scene.condition.misalignment)));
+  for (const ModificationConstraint& c : task_.modification_constraints) {
+    if (modification_scale(c) == 0.0) throw InvalidInput("optimise.constraints." + c.name, "no variable in it", "a sum that a variable changes");
+  }
+}
+
+MeshModel DesignProblem::mesh(const MeshPlacement& placement) const {
+  return make_mesh_model(task_.pair, task_.pinion_material, task_.wheel_material, task_.resolution, task_.effects, placement,
+                         task_.structure.get(), task_.root_stress.get(), task_.shafts.get());
+}
+
+DesignProblem DesignProblem::judged_by(const Goal& goal, std::vector<GoalBound> bounds, std::vector<TradedGoal> trade) const {
+  DesignProblem other = *this;
+  other.task_.objective = goal.terms;
+  other.task_.over = goal.over;
+  other.task_.goal_bounds = std::move(bounds);
+  other.task_.trade = std::move(trade);
+  other.task_.then.clear();
+  check(other.task_);
+  other.root_stresses_ = root_stresses_for(other.task_);
+  if (other.root_stresses_ != root_stresses_) other.last_x_.resize(0);
+  other.analyses_ = 0;
+  return other;
+}
+
+Eigen::VectorXd DesignProblem::start() const {
+  if (start_.size() > 0) return start_;
+  Eigen::VectorXd x(variables());
+  for (int i = 0; i < variables(); ++i) {
+    const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
+    const Modification& given = v.member == Member::Pinion ? task_.pinion_modification : task_.wheel_modification;
+    x[i] = std::clamp(v.scaled(get(given, v.parameter)), 0.0, 1.0);
+  }
+  return x;
+}
+
+Eigen::VectorXd DesignProblem::scaled_design(const std::vector<double>& values) const {
+  Eigen::VectorXd x(variables());
+  for (int i = 0; i < variables(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    x[i] = task_.variables[at].scaled(values[at]);
+  }
+  return x;
+}
+
+double DesignProblem::unscaled(const Eigen::VectorXd& x, int i) const {
+  return task_.variables[static_cast<std::size_t>(i)].unscaled(x[i]);
+}
+
+void DesignProblem::apply(const Eigen::VectorXd& x, Modification& pinion, Modification& wheel) const {
+  pinion = task_.pinion_modification;
+  wheel = task_.wheel_modification;
+  for (int i = 0; i < variables(); ++i) {
+    const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
+    set(v.member == Member::Pinion ? pinion : wheel, v.parameter, unscaled(x, i));
+  }
+  for (const DesignTie& tie : task_.ties) {
+    set(tie.tied.member == Member::Pinion ? pinion : wheel, tie.tied.parameter,
+        tie.factor * unscaled(x, static_cast<int>(tie.as)) + tie.offset);
+  }
+}
+
+LoadedCycle DesignProblem::analyse_scene(int scene, const Modification& pinion, const Modification& wheel,
+                                         const std::vector<MeshParameter>& parameters, const LoadedCycle* earlier) const {
+  const DesignScene& of_task = task_.scenes[static_cast<std::size_t>(scene)];
+  FlankCondition condition = of_task.condition;
+  condition.pinion_modification = pinion;
+  condition.wheel_modification = wheel;
+  const auto analyse = [&](const MeshModel& mesh_model) {
+    return analyse_cycle(mesh_model, condition, of_task.torque, parameters, {}, root_stresses_, earlier);
+  };
+  if (moving_among(task_.gap, parameters).empty()) return analyse(model(scene));
+  const MeshPlaced placed = [this](const MeshPlacement& placement) { return mesh(placement); };
+  return analyse(with_further_meshes(model(scene), placed, parameters));
+}
+
+void DesignProblem::add_root_stress(DesignAnalysis& analysis) const {
+  if (root_stresses_ == RootStresses::WithLoads) return;
+  for (int s = 0; s < scenes(); ++s) flankwright::add_root_stress(model(s), analysis.cycles[static_cast<std::size_t>(s)]);
+}
+
+DesignAnalysis DesignProblem::run(const Modification& pinion, const Modification& wheel, bool with_derivatives, const DesignAnalysis& earlier) const {
+  DesignAnalysis analysis{pinion, wheel, std::vector<LoadedCycle>(task_.scenes.size())};
+  const std::vector<MeshParameter> none;
+  const auto analyse = [&](int s) {
+    const auto at = static_cast<std::size_t>(s);
+    analysis.cycles[at] = analyse_scene(s, pinion, wheel, with_derivatives ? parameters_ : none, earlier.cycles.empty() ? nullptr : &earlier.cycles[at]);
+  };
+  // A thread that waits for its scenes must not take up another start of a multi-start meanwhile.
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for(0, scenes(), analyse); });
+  return analysis;
+}
+
+const DesignAnalysis& DesignProblem::analyse(const Eigen::VectorXd& x, bool with_derivatives) {
+  const bool known = last_x_.size() == x.size() && last_x_ == x && (last_has_derivatives_ || !with_derivatives);
+  if (known) return last_;
+  Modification pinion, wheel;
+  apply(x, pinion, wheel);
+  last_ = run(pinion, wheel, with_derivatives, last_);
+  last_x_ = x;
+  last_has_derivatives_ = with_derivatives;
+  ++analyses_;
+  return last_;
+}
+
+DesignAnalysis DesignProblem::analyse_given() const {
+  return run(task_.pinion_modification, task_.wheel_modification, false);
+}
+
+double DesignProblem::scene_measure(const Goal& goal, const LoadedCycle& cycle, int scene) const {
+  double sum = 0.0;
+  for (const ObjectiveTerm& term : goal.terms) {
+    sum += term.weight * term.outside_factor() * output_value(term, model(scene), cycle);
+  }
+  return sum;
+}
+
+double DesignProblem::scene_measure(const DesignAnalysis& analysis, int scene) const {
+  return scene_measure(task_.goal(), analysis, scene);
+}
+
+double DesignProblem::scene_measure(const Goal& goal, const DesignAnalysis& analysis, int scene) const {
+  return scene_measure(goal, analysis.cycles[static_cast<std::size_t>(scene)], scene);
+}
+
+double DesignProblem::value(const Goal& goal, const DesignAnalysis& analysis) const {
+  std::vector<double> measures;
+  for (int s = 0; s < scenes(); ++s) measures.push_back(scene_measure(goal, analysis, s));
+  return aggregate(goal.over, measures, scene_weights());
+}
+
+double DesignProblem::objective(const DesignAnalysis& analysis) const {
+  if (task_.trade.empty()) return value(task_.goal(), analysis);
+  double largest = -INFINITY;
+  for (const TradedGoal& traded : task_.trade) {
+    largest = std::max(largest, (value(traded.goal, analysis) - traded.origin) / traded.range);
+  }
+  return largest;
+}
+
+double DesignProblem::constraint_value(const DesignAnalysis& analysis, const OutputConstraint& constraint) const {
+  double extreme = not_given;
+  for (int s = 0; s < scenes(); ++s) {
+    const double value = output_value(constraint.output, model(s), analysis.cycles[static_cast<std::size_t>(s)]);
+    extreme = constraint.is_least() ? std::fmin(extreme, value) : std::fmax(extreme, value);
+  }
+  return extreme;
+}
+
+double DesignProblem::violation(const DesignAnalysis& analysis) const {
+  double worst = 0.0;
+  for (const OutputConstraint& c : task_.constraints) worst = std::max(worst, c.excess(constraint_value(analysis, c)));
+  for (const GoalBound& bound : task_.goal_bounds) worst = std::max(worst, value(bound.goal, analysis) / bound.limit - 1.0);
+  for (const ModificationConstraint& c : task_.modification_constraints) {
+    const double sum = c.value(analysis.pinion_modification, analysis.wheel_modification);
+    worst = std::max(worst, std::max(sum - c.maximum, c.minimum - sum) / modification_scale(c));
+  }
+  return worst;
+}
+
+Eigen::VectorXd DesignProblem::modification_slope(const ModificationConstraint& constraint) const {
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(variables() + static_cast<Eigen::Index>(task_.ties.size()));
+  for (const ModificationConstraint::Term& term : constraint.terms) {
+    for (std::size_t p = 0; p < parameters_.size(); ++p) {
+      const auto& parameter = std::get<GearParameter>(parameters_[p]);
+      if (parameter.member == term.member && parameter.parameter == term.parameter) slope[static_cast<Eigen::Index>(p)] += term.factor;
+    }
+  }
+  return scaled(slope);
+}
+
+double DesignProblem::modification_scale(const ModificationConstraint& constraint) const {
+  return modification_slope(constraint).cwiseAbs().sum();
+}
+
+std::vector<double> DesignProblem::scene_weights() const {
+  std::vector<double> weights;
+  for (const DesignScene& scene : task_.scenes) weights.push_back(scene.weight);
+  return weights;
+}
+
+Eigen::VectorXd DesignProblem::scaled(const Eigen::VectorXd& gradient) const {
+  const Eigen::Index n = variables();
+  Eigen::VectorXd result = gradient.head(n);
+  for (std::size_t t = 0; t < task_.ties.size(); ++t) {
+    result[static_cast<Eigen::Index>(task_.ties[t].as)] += task_.ties[t].factor * gradient[n + static_cast<Eigen::Index>(t)];
+  }
+  for (int i = 0; i < n; ++i) {
+    const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
+    result[i] *= v.upper - v.lower;
+  }
+  return result;
+}
+
+}  // namespace flankwright

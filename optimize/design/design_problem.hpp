@@ -1,0 +1,105 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "optimize/design/design_task.hpp"
+#include "optimize/design/scene_outputs.hpp"
+
+namespace flankwright {
+
+/// All scenes of a task analysed for one design.
+struct DesignAnalysis {
+  Modification pinion_modification, wheel_modification;
+  std::vector<LoadedCycle> cycles;  ///< one per scene
+};
+
+/// A design task ready to be analysed: mesh models built once, scenes analysed in parallel. A copy shares the models and
+/// counts its own analyses, so that copies may be used in different threads.
+///
+/// Designs are given scaled: x_i = DesignVariable::scaled(), 0 .. 1.
+class DesignProblem {
+ public:
+  /// @throws InvalidInput where the task has no scene, variable or objective, a bound pair is empty, the
+  /// mesh positions do not resolve a harmonic asked for, root stress is asked for without a model of it, or the models
+  /// cannot be built
+  explicit DesignProblem(DesignTask task);
+
+  const DesignTask& task() const { return task_; }
+  int variables() const { return static_cast<int>(task_.variables.size()); }
+  int scenes() const { return static_cast<int>(task_.scenes.size()); }
+  const MeshModel& model(int scene) const { return *models_[static_cast<std::size_t>(scene)]; }
+
+  /// The same scenes and variables judged by other goals, models shared; nothing analysed yet.
+  DesignProblem judged_by(const Goal& goal, std::vector<GoalBound> bounds, std::vector<TradedGoal> trade = {}) const;
+
+  /// Where a search begins: set_start(), or the scaled design that the task's own modifications stand for, moved into the bounds
+  /// where it lies outside.
+  Eigen::VectorXd start() const;
+  void set_start(const Eigen::VectorXd& x) { start_ = x; }
+  /// The scaled design of a value for each variable [mm; parabolic_te 1/rad], such as DesignReport::variables; outside 0 .. 1 where a value is out
+  /// of bounds.
+  Eigen::VectorXd scaled_design(const std::vector<double>& values) const;
+  /// Value of variable i [mm; parabolic_te 1/rad].
+  double unscaled(const Eigen::VectorXd& x, int i) const;
+  /// Modifications of a scaled design.
+  void apply(const Eigen::VectorXd& x, Modification& pinion, Modification& wheel) const;
+
+  /// Analyses every scene; derivatives are with respect to the unscaled variables and what is tied to them. The last analysis is kept and returned
+  /// again for the same x (upgraded by a new run where derivatives are missing). Loads start from those of the last analysis, which
+  /// takes half the time and shows in digits beyond the tolerance of LoadOptions alone.
+  const DesignAnalysis& analyse(const Eigen::VectorXd& x, bool with_derivatives);
+  /// Analyses the task's own modifications as given, whatever the bounds.
+  DesignAnalysis analyse_given() const;
+  /// Analyses any modifications; neither remembered nor counted.
+  DesignAnalysis analyse_design(const Modification& pinion, const Modification& wheel) const { return run(pinion, wheel, false); }
+  /// One scene of that, with derivatives by any parameters; those that move the mesh (moves_mesh()) have two more meshes made for them each, and
+  /// not kept.
+  /// @param earlier  the scene's cycle for a design that differs by little, see analyse_cycle(); null: none
+  LoadedCycle analyse_scene(int scene, const Modification& pinion, const Modification& wheel,
+                            const std::vector<MeshParameter>& parameters = {}, const LoadedCycle* earlier = nullptr) const;
+  /// Root stress is analysed where the task minimises or bounds it; this adds it where not, to be shown.
+  void add_root_stress(DesignAnalysis& analysis) const;
+
+  /// Runs of analyse() that were computed, not remembered.
+  int analyses() const { return analyses_; }
+
+  /// Weighted sum of the objective's outputs in one scene, outside units.
+  double scene_measure(const DesignAnalysis& analysis, int scene) const;
+  double scene_measure(const Goal& goal, const DesignAnalysis& analysis, int scene) const;
+  double scene_measure(const Goal& goal, const LoadedCycle& cycle, int scene) const;
+  /// A goal's measures of all scenes combined, outside unit.
+  double value(const Goal& goal, const DesignAnalysis& analysis) const;
+  /// What is minimised: the objective over the scenes as the task says, or the trade.
+  double objective(const DesignAnalysis& analysis) const;
+  /// Value of a bounded output in the scene that is nearest to the bound or farthest beyond it, inside unit.
+  double constraint_value(const DesignAnalysis& analysis, const OutputConstraint& constraint) const;
+  /// Largest excess over all bounds, relative to each (modification constraints: to modification_scale()); 0 where all are kept [-].
+  double violation(const DesignAnalysis& analysis) const;
+  /// What an excess of a modification constraint counts in: the range that the variables give its sum [mm].
+  double modification_scale(const ModificationConstraint& constraint) const;
+  /// d(constraint's sum)/dx, scaled variables.
+  Eigen::VectorXd modification_slope(const ModificationConstraint& constraint) const;
+  /// Gradient of a candidate of one scene with respect to the scaled variables, by the chain rule through the ties.
+  Eigen::VectorXd scaled(const Eigen::VectorXd& gradient) const;
+
+  std::vector<double> scene_weights() const;
+
+ private:
+  MeshModel mesh(const MeshPlacement& placement) const;
+  /// @param earlier  one that loads start from; without cycles: none
+  DesignAnalysis run(const Modification& pinion, const Modification& wheel, bool with_derivatives, const DesignAnalysis& earlier = {}) const;
+
+  DesignTask task_;
+  RootStresses root_stresses_;  ///< with every analysis where the task asks for them
+    std::vector<std::shared_ptr<const MeshModel>> models_;  ///< per scene; copies of the problem share them
+  std::vector<MeshParameter> parameters_;  ///< variables, then ties
+  Eigen::VectorXd start_;  ///< empty: the task's own
+  Eigen::VectorXd last_x_;
+  bool last_has_derivatives_{false};
+  DesignAnalysis last_;
+  int analyses_{0};
+};
+
+}  // namespace flankwright

@@ -1,0 +1,159 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/contact/gap/gap.hpp"
+#include "core/load/cycle/mesh_cycle.hpp"
+#include "core/load/cycle/mesh_model.hpp"
+#include "optimize/design/aggregate.hpp"
+
+namespace flankwright {
+
+/// A quantity of the loaded analysis that can be minimised or bounded. Units inside: MPa, mm, N/mm.
+enum class Output {
+  PeakContactStress,  ///< [MPa]
+  TePeakToPeak,       ///< of f_t, along the flank normal [mm]
+  TeHarmonic,         ///< amplitude of one order of f_t [mm]
+  LoadFactor,         ///< peak line load / mean line load [-]
+  PeakLineLoad,       ///< [N/mm]
+  PeakRootStress,     ///< of both gears' fillets; needs DesignTask::root_stress [MPa]
+  /// How many tooth pairs share the load, mean over the positions of 1 / sum of squared shares: their number where they carry alike,
+  /// less where one carries most; smooth, unlike their count [-]
+  EffectiveContactRatio,
+  EdgeLoad            ///< peak line load within ObjectiveTerm::edge_margin of a tip edge or a face end [N/mm]
+};
+
+/// One output with its place in a weighted objective.
+struct ObjectiveTerm {
+  Output output{Output::PeakContactStress};
+  int harmonic{0};      ///< order for TeHarmonic, 1 .. 10
+  double weight{1.0};   ///< per unit of the output outside (MPa, um, N/mm), > 0
+  std::string name;     ///< as the study names it: "te_harmonic_1"
+  double edge_margin{0.05};  ///< of EdgeLoad: share of the common face width and of either gear's active height, 0 .. 0.5
+
+  /// Factor from the inside unit to the unit that the weight and every report refer to (MPa, um, N/mm, 1).
+  double outside_factor() const {
+    return output == Output::TePeakToPeak || output == Output::TeHarmonic ? 1.0 / units::um : 1.0;
+  }
+  const char* unit() const;
+};
+
+/// A modification parameter that the optimiser may choose.
+struct DesignVariable {
+  std::string path;  ///< as the study names it: "pinion.modification.lead_crowning"
+  Member member{Member::Pinion};
+  ModificationParameter parameter{ModificationParameter::LeadCrowning};
+  double lower{0.0}, upper{0.0};  ///< [mm; parabolic_te 1/rad], lower < upper
+  double step{0.0};  ///< what the grinder can set is a multiple of this, unit as the bounds; 0: anything
+
+  /// Place of a value in the range: 0 at the lower bound, 1 at the upper [-].
+  double scaled(double value) const { return (value - lower) / (upper - lower); }
+  double unscaled(double x) const { return lower + x * (upper - lower); }
+  /// Factor from the inside unit to that of reports: um, but mm for the extent of a relief, arcsec/deg^2 for parabolic_te.
+  double outside_factor() const;
+  const char* unit() const;
+};
+
+/// A modification parameter that follows a variable: factor * variable + offset.
+struct DesignTie {
+  DesignVariable tied;    ///< bounds as the variable's give them; no step
+  std::size_t as{0};      ///< index of the variable
+  double factor{1.0};     ///< between the inside units [-]
+  double offset{0.0};     ///< [mm; parabolic_te 1/rad]
+};
+
+/// A bound on an output, to hold in every scene: one of the two is finite and not 0.
+struct OutputConstraint {
+  ObjectiveTerm output;
+  double maximum{std::numeric_limits<double>::infinity()};   ///< inside unit
+  double minimum{-std::numeric_limits<double>::infinity()};  ///< inside unit
+
+  bool is_least() const { return minimum > -std::numeric_limits<double>::infinity(); }
+  double limit() const { return is_least() ? minimum : maximum; }
+  /// Relative distance beyond the bound, below 0 where it is kept [-].
+  double excess(double value) const { return (is_least() ? limit() - value : value - limit()) / std::abs(limit()); }
+};
+
+/// A bound on a sum of modifications: minimum <= sum of factor * value <= maximum [mm; all of one unit].
+struct ModificationConstraint {
+  struct Term {
+    Member member{Member::Pinion};
+    ModificationParameter parameter{ModificationParameter::LeadCrowning};
+    double factor{1.0};
+  };
+  std::string name;  ///< as the study writes it: "pinion.modification.lead_crowning + wheel.modification.lead_crowning"
+  std::vector<Term> terms;
+  double maximum{std::numeric_limits<double>::infinity()};
+  double minimum{-std::numeric_limits<double>::infinity()};
+
+  double value(const Modification& pinion, const Modification& wheel) const;
+  /// As DesignVariable has them, of the first term.
+  double outside_factor() const;
+  const char* unit() const;
+};
+
+/// One number that a design is judged by: outputs weighted and summed in each scene, combined over the scenes.
+struct Goal {
+  std::vector<ObjectiveTerm> terms;
+  Aggregation over;
+
+  std::string name() const;   ///< "te_harmonic_1 + te_harmonic_2"
+  const char* unit() const;   ///< of its values outside; "weighted sum" of several terms
+};
+
+/// A goal that may not exceed a limit.
+struct GoalBound {
+  Goal goal;
+  double limit{std::numeric_limits<double>::infinity()};  ///< outside unit, > 0
+};
+
+/// A goal's part in a trade: the largest (value - origin) / range of all is minimised.
+struct TradedGoal {
+  Goal goal;
+  double origin{0.0};  ///< outside unit
+  double range{1.0};   ///< outside unit, > 0
+};
+
+/// One working condition at one torque. Modifications inside `condition` are replaced by the design's.
+struct DesignScene {
+  std::string name;
+  double weight{1.0};  ///< > 0, of mean and mean + 2 sigma
+  double torque{0.0};  ///< on the pinion [N mm], > 0
+  FlankCondition condition;
+};
+
+/// What shall be chosen and what it shall achieve.
+struct DesignTask {
+  GearPair pair;
+  Material pinion_material, wheel_material;
+  MeshResolution resolution;
+  MeshEffects effects;
+  GapModel gap{GapModel::PlaneOfAction};
+  std::shared_ptr<const PairCompliance> structure;       ///< null: thin slices
+  std::shared_ptr<const PairRootStress> root_stress;     ///< null: none
+  std::shared_ptr<const PairCompliance> shafts;          ///< null: rigid
+  Modification pinion_modification, wheel_modification;  ///< values of what is not varied, and the start of what is
+  std::vector<DesignScene> scenes;                       ///< the first is the nominal one
+  std::vector<DesignVariable> variables;
+  std::vector<ObjectiveTerm> objective;
+  Aggregation over;
+  std::vector<OutputConstraint> constraints;
+  std::vector<DesignTie> ties;
+  std::vector<ModificationConstraint> modification_constraints;
+  std::vector<GoalBound> goal_bounds;
+  std::vector<TradedGoal> trade;  ///< minimised instead of the objective where not empty
+  /// Minimised one after the other once the objective is, each while those before it stay within lexicographic_tolerance of their
+  /// least values.
+  std::vector<Goal> then;
+  double lexicographic_tolerance{0.01};  ///< value <= (1 + tolerance) least [-], > 0
+
+  Goal goal() const { return {objective, over}; }
+  std::string objective_name() const { return goal().name(); }
+  const char* objective_unit() const { return goal().unit(); }
+};
+
+}  // namespace flankwright

@@ -1,0 +1,90 @@
+#include "optimize/design/direct_program.hpp"
+
+#include <algorithm>
+
+namespace flankwright {
+
+namespace {
+
+constexpr double no_limit = std::numeric_limits<double>::infinity();
+
+/// Rows of a modification constraint: one for each side that it bounds.
+int rows_of(const ModificationConstraint& c) { return (c.maximum < no_limit ? 1 : 0) + (c.minimum > -no_limit ? 1 : 0); }
+
+}  // namespace
+
+int DirectProgram::constraints() const {
+  const DesignTask& task = problem_.task();
+  int rows = static_cast<int>(task.constraints.size() + task.goal_bounds.size());
+  for (const ModificationConstraint& c : task.modification_constraints) rows += rows_of(c);
+  return rows;
+}
+
+Eigen::VectorXd DirectProgram::leading_gradient(const ObjectiveTerm& term, const DesignAnalysis& analysis, int scene) const {
+  const LoadedCycle& cycle = analysis.cycles[static_cast<std::size_t>(scene)];
+  const PeakCandidate leader = leading_candidates(term, problem_.model(scene), cycle, 0.0, 1).front();
+  return problem_.scaled(candidate_value(term, leader, problem_.model(scene), cycle).gradient);
+}
+
+Eigen::VectorXd DirectProgram::goal_gradient(const Goal& goal, const DesignAnalysis& analysis) const {
+  std::vector<double> measures;
+  for (int s = 0; s < problem_.scenes(); ++s) measures.push_back(problem_.scene_measure(goal, analysis, s));
+  const std::vector<double> slope = aggregate_weights(goal.over, measures, problem_.scene_weights());
+  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(variables());
+  for (int s = 0; s < problem_.scenes(); ++s) {
+    const double share = slope[static_cast<std::size_t>(s)];
+    if (share == 0.0) continue;
+    for (const ObjectiveTerm& term : goal.terms) {
+      gradient += share * term.weight * term.outside_factor() * leading_gradient(term, analysis, s);
+    }
+  }
+  return gradient;
+}
+
+Eigen::VectorXd DirectProgram::objective_gradient(const DesignAnalysis& analysis) const {
+  const DesignTask& task = problem_.task();
+  if (task.trade.empty()) return goal_gradient(task.goal(), analysis);
+  const auto share = [&](const TradedGoal& traded) { return (problem_.value(traded.goal, analysis) - traded.origin) / traded.range; };
+  const auto largest = std::max_element(task.trade.begin(), task.trade.end(),
+                                        [&](const TradedGoal& a, const TradedGoal& b) { return share(a) < share(b); });
+  return goal_gradient(largest->goal, analysis) / largest->range;
+}
+
+ProgramValues DirectProgram::evaluate(const Eigen::VectorXd& x, bool with_gradients) {
+  const DesignAnalysis& analysis = problem_.analyse(x, with_gradients);
+  log_.record(problem_, x, analysis);
+  const DesignTask& task = problem_.task();
+  ProgramValues values;
+  values.objective = problem_.objective(analysis);
+  if (with_gradients) values.objective_gradient = objective_gradient(analysis);
+  values.constraints.resize(constraints());
+  values.constraint_jacobian = Eigen::MatrixXd::Zero(with_gradients ? constraints() : 0, with_gradients ? variables() : 0);
+  int row = 0;
+  const auto add = [&](double value, const auto& gradient_of) {
+    values.constraints[row] = value;
+    if (with_gradients) values.constraint_jacobian.row(row) = gradient_of();
+    ++row;
+  };
+  for (const OutputConstraint& bound : task.constraints) {
+    const double extreme = problem_.constraint_value(analysis, bound);
+    add(bound.excess(extreme), [&] {
+      int scene = 0;
+      while (output_value(bound.output, problem_.model(scene), analysis.cycles[static_cast<std::size_t>(scene)]) != extreme) ++scene;
+      const double sign = bound.is_least() ? -1.0 : 1.0;
+      return Eigen::VectorXd(sign / std::abs(bound.limit()) * leading_gradient(bound.output, analysis, scene));
+    });
+  }
+  for (const GoalBound& bound : task.goal_bounds) {
+    add(problem_.value(bound.goal, analysis) / bound.limit - 1.0,
+        [&] { return Eigen::VectorXd(goal_gradient(bound.goal, analysis) / bound.limit); });
+  }
+  for (const ModificationConstraint& c : task.modification_constraints) {
+    const double sum = c.value(analysis.pinion_modification, analysis.wheel_modification), scale = problem_.modification_scale(c);
+    const auto slope = [&](double sign) { return Eigen::VectorXd(sign / scale * problem_.modification_slope(c)); };
+    if (c.maximum < no_limit) add((sum - c.maximum) / scale, [&] { return slope(1.0); });
+    if (c.minimum > -no_limit) add((c.minimum - sum) / scale, [&] { return slope(-1.0); });
+  }
+  return values;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "optimize/design/design_log.hpp"
+#include "optimize/solvers/nonlinear_program.hpp"
+
+namespace flankwright {
+
+/// The design task as it stands: objective and bounded outputs of the true peaks. For derivative-free solvers; with gradients it
+/// offers those of the leading candidate, a gradient wherever the maximum is smooth.
+class DirectProgram : public NonlinearProgram {
+ public:
+  DirectProgram(DesignProblem& problem, DesignLog& log) : problem_(problem), log_(log) {}
+  int variables() const override { return problem_.variables(); }
+  int constraints() const override;
+  Eigen::VectorXd lower() const override { return Eigen::VectorXd::Zero(variables()); }
+  Eigen::VectorXd upper() const override { return Eigen::VectorXd::Ones(variables()); }
+  Eigen::VectorXd start() const override { return problem_.start(); }
+  ProgramValues evaluate(const Eigen::VectorXd& x, bool with_gradients) override;
+
+ private:
+  Eigen::VectorXd leading_gradient(const ObjectiveTerm& term, const DesignAnalysis& analysis, int scene) const;
+  Eigen::VectorXd goal_gradient(const Goal& goal, const DesignAnalysis& analysis) const;
+  Eigen::VectorXd objective_gradient(const DesignAnalysis& analysis) const;
+
+  DesignProblem& problem_;
+  DesignLog& log_;
+};
+
+}  // namespace flankwright

@@ -1,0 +1,278 @@
+#include "optimize/design/epigraph_program.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flankwright {
+
+namespace {
+
+using Kind = EpigraphRow::Kind;
+
+/// Which candidates add_candidates() takes: within `margin` of the peak, at most `most` per output and scene.
+struct CandidateChoice {
+  double margin;
+  std::size_t most;
+};
+
+/// Stresses and loads: half the peak, which on the design problems tried is one round of solving instead of three. Differences of
+/// f_t come in pairs of positions, of which the leading ones are enough.
+CandidateChoice choice_for(Output output) {
+  return output == Output::TePeakToPeak ? CandidateChoice{0.15, 60} : CandidateChoice{0.5, 400};
+}
+
+constexpr double auxiliary_limit = 100.0;  // u <= 100 of what it is counted in: no active bound at any sensible design
+
+/// A harmonic's amplitude is a candidate of its own where it exceeds this share of its largest at the start: far from its kink.
+constexpr double away_from_zero = 0.01;
+
+/// Largest over the scenes that count, or one outside unit where an output is 0 there.
+double largest_peak(const DesignProblem& problem, const DesignAnalysis& analysis, const Goal& goal, const ObjectiveTerm& term) {
+  double largest = 0.0;
+  for (int s = 0; s < (goal.over == Aggregate::Nominal ? 1 : problem.scenes()); ++s) {
+    largest = std::max(largest, output_value(term, problem.model(s), analysis.cycles[static_cast<std::size_t>(s)]));
+  }
+  return largest > 0.0 ? largest : 1.0 / term.outside_factor();
+}
+
+/// What the outputs of a goal are counted in [inside units]: their peaks at the start, but no less than a tenth of what the goal is there or
+/// is to range over [outside unit], which an output that is next to nothing at the start may rise to.
+std::vector<double> units_of(const DesignProblem& problem, const DesignAnalysis& analysis, const Goal& goal, double range) {
+  constexpr double least_share = 0.1;
+  std::vector<double> units, outside;
+  double total = 0.0;
+  for (const ObjectiveTerm& term : goal.terms) {
+    units.push_back(largest_peak(problem, analysis, goal, term));
+    outside.push_back(term.weight * term.outside_factor());
+    total += outside.back() * units.back();
+  }
+  for (std::size_t k = 0; k < units.size(); ++k) units[k] = std::max(units[k], least_share * std::max(total, range) / outside[k]);
+  return units;
+}
+
+}  // namespace
+
+EpigraphProgram::EpigraphProgram(DesignProblem& problem, DesignLog& log) : problem_(problem), log_(log) {
+  const Eigen::VectorXd x = problem.start();
+  const DesignAnalysis& analysis = problem.analyse(x, true);
+  log.record(problem, x, analysis);
+  const DesignTask& task = problem.task();
+  variables_ = problem.variables();
+  const auto add_block = [&](const Goal& goal, double range) {
+    blocks_.emplace_back(goal, problem.scene_weights(), units_of(problem, analysis, goal, range), variables_);
+    variables_ += blocks_.back().variables();
+  };
+  for (const TradedGoal& traded : task.trade) add_block(traded.goal, traded.range);
+  if (!trades()) add_block(task.goal(), 0.0);
+  for (const GoalBound& bound : task.goal_bounds) add_block(bound.goal, bound.limit);
+  if (trades()) {
+    ++variables_;  // tau, the last
+  } else {
+    objective_scale_ = blocks_.front().scale();
+  }
+  add_candidates(x);
+  restart_from(x);
+}
+
+const ObjectiveTerm& EpigraphProgram::term_of(const EpigraphRow& row) const {
+  return row.kind == Kind::OutputBound ? problem_.task().constraints[static_cast<std::size_t>(row.index)].output
+                                       : blocks_[static_cast<std::size_t>(row.goal)].goal().terms[static_cast<std::size_t>(row.index)];
+}
+
+Eigen::VectorXd EpigraphProgram::lower() const {
+  Eigen::VectorXd bound = Eigen::VectorXd::Zero(variables());
+  if (trades()) bound[variables() - 1] = -auxiliary_limit;
+  return bound;
+}
+
+Eigen::VectorXd EpigraphProgram::upper() const {
+  Eigen::VectorXd bound = (2.0 * start_).cwiseMax(auxiliary_limit);  // a restart may stand beyond it
+  bound.head(problem_.variables()).setOnes();
+  return bound;
+}
+
+int EpigraphProgram::add_candidates(const Eigen::VectorXd& x) {
+  const DesignAnalysis& analysis = problem_.analyse(x, true);
+  const std::size_t before = candidates_.size();
+  const bool first = candidates_.empty();
+  const auto add = [&](EpigraphRow row, double reference) {
+    const ObjectiveTerm& term = term_of(row);
+    const LoadedCycle& cycle = analysis.cycles[static_cast<std::size_t>(row.scene)];
+    const CandidateChoice choice = choice_for(term.output);
+    for (const PeakCandidate& candidate : leading_candidates(term, problem_.model(row.scene), cycle, choice.margin, choice.most)) {
+      row.candidate = candidate;
+      candidates_.insert(row);
+    }
+    if (first || term.output != Output::TeHarmonic) return;
+    if (output_value(term, problem_.model(row.scene), cycle) < away_from_zero * reference) return;
+    row.candidate = whole_output;
+    candidates_.insert(row);
+  };
+  for (int g = 0; g < static_cast<int>(blocks_.size()); ++g) {
+    const GoalBlock& block = blocks_[static_cast<std::size_t>(g)];
+    for (int s = 0; s < block.scenes(); ++s) {
+      for (int k = 0; k < static_cast<int>(block.goal().terms.size()); ++k) add({Kind::Floor, s, k, g}, block.peak(k));
+    }
+  }
+  for (int c = 0; c < static_cast<int>(problem_.task().constraints.size()); ++c) {
+    const OutputConstraint& bound = problem_.task().constraints[static_cast<std::size_t>(c)];
+    if (bound.is_least()) continue;
+    for (int s = 0; s < problem_.scenes(); ++s) add({Kind::OutputBound, s, c}, bound.maximum);
+  }
+  return static_cast<int>(candidates_.size() - before);
+}
+
+void EpigraphProgram::restart_from(const Eigen::VectorXd& x) {
+  const DesignAnalysis& analysis = problem_.analyse(x, true);
+  start_ = Eigen::VectorXd::Zero(variables());
+  start_.head(problem_.variables()) = x;
+  for (const GoalBlock& block : blocks_) {
+    for (int s = 0; s < block.scenes(); ++s) {
+      for (int k = 0; k < static_cast<int>(block.goal().terms.size()); ++k) {
+        const double peak = output_value(block.goal().terms[static_cast<std::size_t>(k)], problem_.model(s),
+                                         analysis.cycles[static_cast<std::size_t>(s)]);
+        double& slot = start_[block.bound(s, k)];
+        slot = std::max(slot, peak / block.peak(k));
+      }
+    }
+    block.complete(start_);
+  }
+  if (trades()) {
+    double& tau = start_[variables() - 1];
+    tau = problem_.objective(analysis);
+  }
+  choose_rows(analysis);
+}
+
+void EpigraphProgram::choose_rows(const DesignAnalysis& analysis) {
+  const DesignTask& task = problem_.task();
+  rows_.clear();
+  const auto leader = [&](EpigraphRow row) {
+    row.candidate = leading_candidates(term_of(row), problem_.model(row.scene),
+                                       analysis.cycles[static_cast<std::size_t>(row.scene)], 0.0, 1).front();
+    return row;
+  };
+  for (const EpigraphRow& row : candidates_) {
+    const bool falls = row.kind == Kind::Floor && blocks_[static_cast<std::size_t>(row.goal)].falls_with(start_, row.scene);
+    if (!falls) rows_.push_back(row);
+  }
+  for (int g = 0; g < static_cast<int>(blocks_.size()); ++g) {
+    const GoalBlock& block = blocks_[static_cast<std::size_t>(g)];
+    for (int s = 0; s < block.scenes(); ++s) {
+      if (!block.falls_with(start_, s)) continue;
+      for (int k = 0; k < static_cast<int>(block.goal().terms.size()); ++k) rows_.push_back(leader({Kind::Ceiling, s, k, g}));
+    }
+    for (int r = 0; r < block.rows(); ++r) rows_.push_back({Kind::GoalHelper, r, -1, g});
+  }
+  for (int c = 0; c < static_cast<int>(task.constraints.size()); ++c) {
+    if (!task.constraints[static_cast<std::size_t>(c)].is_least()) continue;
+    for (int s = 0; s < problem_.scenes(); ++s) rows_.push_back(leader({Kind::OutputBound, s, c}));
+  }
+  for (int i = 0; i < static_cast<int>(task.goal_bounds.size()); ++i) rows_.push_back({Kind::GoalBound, -1, i, goals_minimised() + i});
+  for (int i = 0; i < static_cast<int>(task.trade.size()); ++i) rows_.push_back({Kind::TradedGoal, -1, i, i});
+  for (int c = 0; c < static_cast<int>(task.modification_constraints.size()); ++c) {
+    const ModificationConstraint& bound = task.modification_constraints[static_cast<std::size_t>(c)];
+    if (std::isfinite(bound.maximum)) rows_.push_back({Kind::ModificationBound, -1, c, -1, {}, 1});
+    if (std::isfinite(bound.minimum)) rows_.push_back({Kind::ModificationBound, -1, c, -1, {}, -1});
+  }
+}
+
+bool EpigraphProgram::is_majorant() const {
+  return std::any_of(rows_.begin(), rows_.end(), [&](const EpigraphRow& row) {
+    return row.kind == Kind::Ceiling ||
+           (row.kind == Kind::OutputBound && problem_.task().constraints[static_cast<std::size_t>(row.index)].is_least());
+  });
+}
+
+double EpigraphProgram::by_output(const EpigraphRow& row) const {
+  if (row.kind == Kind::OutputBound) {
+    const OutputConstraint& bound = problem_.task().constraints[static_cast<std::size_t>(row.index)];
+    return (bound.is_least() ? -1.0 : 1.0) / std::abs(bound.limit());
+  }
+  if (row.kind != Kind::Floor && row.kind != Kind::Ceiling) return 0.0;
+  return (row.kind == Kind::Floor ? 1.0 : -1.0) / blocks_[static_cast<std::size_t>(row.goal)].peak(row.index);
+}
+
+void EpigraphProgram::write_goal(int at, const GoalBlock& block, const Eigen::VectorXd& y, double factor, double shift,
+                                 ProgramValues& values) const {
+  const SmoothValue value = block.value(y);
+  values.constraints[at] = factor * value.value * block.scale() - shift;
+  values.constraint_jacobian.row(at) = factor * block.scale() * value.gradient;
+}
+
+void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::VectorXd& y, const DesignAnalysis& analysis,
+                                ProgramValues& values) const {
+  const DesignTask& task = problem_.task();
+  const int n = problem_.variables();
+  auto jacobian = values.constraint_jacobian.row(at);
+  switch (row.kind) {
+    case Kind::Floor:
+    case Kind::Ceiling: {
+      const GoalBlock& block = blocks_[static_cast<std::size_t>(row.goal)];
+      const SmoothValue value = candidate_value(term_of(row), row.candidate, problem_.model(row.scene),
+                                                analysis.cycles[static_cast<std::size_t>(row.scene)]);
+      const double sign = row.kind == Kind::Floor ? 1.0 : -1.0;
+      const int u = block.bound(row.scene, row.index);
+      values.constraints[at] = sign * (value.value / block.peak(row.index) - y[u]);
+      jacobian.head(n) = by_output(row) * problem_.scaled(value.gradient);
+      jacobian[u] = -sign;
+      return;
+    }
+    case Kind::OutputBound: {
+      const OutputConstraint& bound = task.constraints[static_cast<std::size_t>(row.index)];
+      const SmoothValue value = candidate_value(bound.output, row.candidate, problem_.model(row.scene),
+                                                analysis.cycles[static_cast<std::size_t>(row.scene)]);
+      values.constraints[at] = bound.excess(value.value);
+      jacobian.head(n) = by_output(row) * problem_.scaled(value.gradient);
+      return;
+    }
+    case Kind::GoalBound:
+      return write_goal(at, blocks_[static_cast<std::size_t>(row.goal)], y, 1.0 / task.goal_bounds[static_cast<std::size_t>(row.index)].limit,
+                        1.0, values);
+    case Kind::TradedGoal: {
+      const TradedGoal& traded = task.trade[static_cast<std::size_t>(row.index)];
+      write_goal(at, blocks_[static_cast<std::size_t>(row.goal)], y, 1.0 / traded.range, traded.origin / traded.range, values);
+      values.constraints[at] -= y[variables() - 1];
+      jacobian[variables() - 1] = -1.0;
+      return;
+    }
+    case Kind::ModificationBound: {
+      const ModificationConstraint& bound = task.modification_constraints[static_cast<std::size_t>(row.index)];
+      const double sum = bound.value(analysis.pinion_modification, analysis.wheel_modification);
+      const double scale = problem_.modification_scale(bound), sign = row.side;
+      values.constraints[at] = sign * (sum - (row.side > 0 ? bound.maximum : bound.minimum)) / scale;
+      jacobian.head(n) = sign / scale * problem_.modification_slope(bound);
+      return;
+    }
+    case Kind::GoalHelper: return;  // written by the block
+  }
+}
+
+ProgramValues EpigraphProgram::evaluate(const Eigen::VectorXd& y, bool with_gradients) {
+  const Eigen::VectorXd x = design(y);
+  const DesignAnalysis& analysis = problem_.analyse(x, true);
+  log_.record(problem_, x, analysis);
+  ProgramValues values;
+  values.constraints = Eigen::VectorXd::Zero(constraints());
+  values.constraint_jacobian = Eigen::MatrixXd::Zero(constraints(), variables());
+  for (int at = 0; at < constraints(); ++at) {
+    const EpigraphRow& row = rows_[static_cast<std::size_t>(at)];
+    if (row.kind == Kind::GoalHelper && row.scene == 0) blocks_[static_cast<std::size_t>(row.goal)].write_rows(y, at, values);
+    write_row(row, at, y, analysis, values);
+  }
+  if (trades()) {
+    values.objective = y[variables() - 1];
+    values.objective_gradient = Eigen::VectorXd::Unit(variables(), variables() - 1);
+  } else {
+    SmoothValue value = blocks_.front().value(y);
+    values.objective = value.value;
+    values.objective_gradient = std::move(value.gradient);
+  }
+  if (!with_gradients) {
+    values.objective_gradient.resize(0);
+    values.constraint_jacobian.resize(0, 0);
+  }
+  return values;
+}
+
+}  // namespace flankwright

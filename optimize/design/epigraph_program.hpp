@@ -1,0 +1,86 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "optimize/design/design_log.hpp"
+#include "optimize/design/goal_block.hpp"
+#include "optimize/solvers/nonlinear_program.hpp"
+
+namespace flankwright {
+
+/// A row of an EpigraphProgram in terms of the design.
+struct EpigraphRow {
+  enum class Kind {
+    Floor,         ///< candidate <= u of a goal's output in a scene
+    Ceiling,       ///< u <= candidate, where the goal falls with u
+    OutputBound,   ///< an OutputConstraint
+    GoalHelper,    ///< a row of GoalBlock
+    GoalBound, TradedGoal, ModificationBound
+  };
+  Kind kind{Kind::Floor};
+  int scene{-1};  ///< -1: none
+  int index{-1};  ///< of the term within its goal, or of the constraint, bound or traded goal
+  int goal{-1};   ///< of Floor, Ceiling and GoalHelper: block
+  PeakCandidate candidate{};
+  int side{1};    ///< ModificationBound: 1 maximum, -1 minimum
+
+  auto operator<=>(const EpigraphRow&) const = default;
+};
+
+/// The design task as an epigraph: every peak becomes a variable u that may not lie below its candidates,
+///
+///     minimise  f(u)   subject to   candidate_j(x) <= u_sk (all leading candidates j of output k in scene s),
+///                                   rows of the goals (GoalBlock),   bounds on outputs, goals and modifications,
+///
+/// so that a solver sees smooth functions only, f being the objective's value or tau >= (value - origin) / range of every traded
+/// goal. Candidates are those near a peak at the designs given to add_candidates(); optimise_design() repeats until no other
+/// candidate rises above them. Exact where f grows with every u: all but mean + k sigma. Where that falls with a scene's u, the
+/// scene's leading candidate at the last restart bounds u from above instead: a majorant, exact at that design, so
+/// that rounds descend. A least value of an output is likewise asked of its leading candidate at the last restart, which is
+/// sufficient.
+class EpigraphProgram : public NonlinearProgram {
+ public:
+  EpigraphProgram(DesignProblem& problem, DesignLog& log);
+
+  /// Adds the leading candidates at design x (scaled); returns how many were new.
+  int add_candidates(const Eigen::VectorXd& x);
+  /// Designs start here from now on, with every u at its peak.
+  void restart_from(const Eigen::VectorXd& x);
+  Eigen::VectorXd design(const Eigen::VectorXd& y) const { return y.head(problem_.variables()); }
+  /// The task's objective in outside units is the programme's times this.
+  double objective_scale() const { return objective_scale_; }
+  /// Whether rows hold that bound from above by a leading candidate: the programme is then no better than the task elsewhere.
+  bool is_majorant() const;
+  /// What each constraint of the programme is, in their order.
+  const std::vector<EpigraphRow>& rows() const { return rows_; }
+  /// Change of a Floor, Ceiling or OutputBound by its output [1/inside unit]; 0 of other rows.
+  double by_output(const EpigraphRow& row) const;
+
+  int variables() const override { return variables_; }
+  int constraints() const override { return static_cast<int>(rows_.size()); }
+  Eigen::VectorXd lower() const override;
+  Eigen::VectorXd upper() const override;
+  Eigen::VectorXd start() const override { return start_; }
+  ProgramValues evaluate(const Eigen::VectorXd& y, bool with_gradients) override;
+
+ private:
+  bool trades() const { return !problem_.task().trade.empty(); }
+  int goals_minimised() const { return trades() ? static_cast<int>(problem_.task().trade.size()) : 1; }
+  const ObjectiveTerm& term_of(const EpigraphRow& row) const;
+  void write_row(const EpigraphRow& row, int at, const Eigen::VectorXd& y, const DesignAnalysis& analysis, ProgramValues& values) const;
+  void write_goal(int at, const GoalBlock& block, const Eigen::VectorXd& y, double factor, double shift, ProgramValues& values) const;
+  void choose_rows(const DesignAnalysis& analysis);
+
+  DesignProblem& problem_;
+  DesignLog& log_;
+  std::vector<GoalBlock> blocks_;    ///< what is minimised, then what is bounded
+  std::set<EpigraphRow> candidates_; ///< floors and upper output bounds met so far
+  std::vector<EpigraphRow> rows_;
+  int variables_{0};
+  double objective_scale_{1.0};
+  Eigen::VectorXd start_;
+};
+
+}  // namespace flankwright

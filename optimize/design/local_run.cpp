@@ -1,0 +1,127 @@
+#include "optimize/design/local_run.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
+#include "optimize/design/direct_program.hpp"
+#include "optimize/design/epigraph_program.hpp"
+
+namespace flankwright {
+
+namespace {
+
+constexpr int most_rounds = 20;
+constexpr double round_tolerance = 1e-6;  // see run_local()
+
+/// A solver that gains less than stall_gain of the objective at the start in stall_analyses has met a kink that it cannot follow: a
+/// contact point that comes and goes, or the start of a relief that passes one.
+constexpr int stall_analyses = 80;
+constexpr double stall_gain = 1e-5;
+
+/// Says so, judged by the true objective.
+std::function<std::string()> when_stalled(const DesignLog& log) {
+  return [&log, at = std::size_t{0}, best = not_given]() mutable -> std::string {
+    if (log.best() == nullptr) return {};
+    const double gain = stall_gain * std::abs(log.entries().front().objective);
+    const bool gained = !(log.best()->objective >= best - gain) || log.best()->constraint_violation > DesignLog::tolerance;
+    if (gained) {
+      best = log.best()->objective;
+      at = log.entries().size();
+    }
+    return log.entries().size() < at + stall_analyses ? "" : "no gain of 1e-5 of the first objective in 80 analyses: a kink";
+  };
+}
+
+/// What is left of the budget for the next round.
+SolverOptions remaining(const SolverOptions& options, int used, double seconds) {
+  SolverOptions left = options;
+  left.max_evaluations = std::max(1, options.max_evaluations - used);
+  left.max_seconds = std::max(1e-3, options.max_seconds - seconds);
+  left.progress = nullptr;  // the design log reports progress
+  return left;
+}
+
+/// Rounds of the epigraph; fills status, message, failures and rounds.
+void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& options, LocalRun& run) {
+  const Stopwatch clock;
+  const int analyses_before = problem.analyses();
+  EpigraphProgram program(problem, log);
+  double last = std::numeric_limits<double>::infinity();
+  std::string solver = options.name;
+  const bool has_finisher = options.finisher != "none" && options.finisher != options.name;
+  for (run.rounds = 1; run.rounds <= most_rounds; ++run.rounds) {
+    SolverOptions round = remaining(options, problem.analyses() - analyses_before, clock.seconds());
+    round.name = solver;
+    round.stop_when = when_stalled(log);
+    const SolverResult solved = solve(program, round);
+    run.status = solved.status;
+    run.message = run.finished_by.empty() ? solved.message : solved.message + " (after " + options.name + " stalled on a kink: " + solver + ")";
+    run.failures += solved.failures;
+    if (solved.x.size() == 0 || solved.status == SolverStatus::EvaluationLimit || solved.status == SolverStatus::TimeLimit) break;
+    const Eigen::VectorXd x = program.design(solved.x);
+    const DesignAnalysis& analysis = problem.analyse(x, true);
+    log.record(problem, x, analysis);
+    const bool stalled = solved.status == SolverStatus::Stalled;
+    // Done when the true peaks are what the candidates promised, or a stalled round has gained nothing.
+    const double excess = log.entries().back().objective - solved.objective * program.objective_scale();
+    const bool holds = excess <= round_tolerance * program.objective_scale() &&
+                       log.entries().back().constraint_violation <= DesignLog::tolerance;
+    const double gain = (last - log.best()->objective) / program.objective_scale();
+    // A majorant has a next one, as long as rounds descend.
+    const bool settled = !program.is_majorant() || gain <= round_tolerance;
+    last = log.best()->objective;
+    const bool is_done = ((program.add_candidates(x) == 0 || holds) && settled) || (stalled && gain <= stall_gain);
+    if (stalled && has_finisher && run.finished_by.empty()) {
+      run.finished_by = solver = options.finisher;
+    } else if (is_done) {
+      break;
+    }
+    program.restart_from(log.best()->x);
+  }
+}
+
+}  // namespace
+
+LocalRun run_local(DesignProblem& problem, const SolverOptions& options) {
+  const Stopwatch clock;
+  const int analyses_before = problem.analyses();
+  LocalRun run;
+  run.start = problem.start();
+  run.failures = 0;
+  run.epigraph = uses_gradients(options.name) && accepts_constraints(options.name);
+  DesignLog log(options.progress);
+  if (run.epigraph) {
+    try {
+      run_epigraph(problem, log, options, run);
+    } catch (const InvalidInput&) {
+      throw;
+    } catch (const std::runtime_error& error) {
+      run.status = SolverStatus::Failed;
+      run.message = std::string("the start cannot be analysed: ") + error.what();
+      ++run.failures;
+    }
+  } else {
+    DirectProgram program(problem, log);
+    const SolverResult solved = solve(program, remaining(options, 0, 0.0));
+    run.status = solved.status;
+    run.message = solved.message;
+    run.failures = solved.failures;
+    run.rounds = 1;
+  }
+  run.evaluations = problem.analyses() - analyses_before;
+  for (std::size_t i = 0; i < log.entries().size(); ++i) {
+    run.history.push_back({static_cast<int>(i) + 1, log.entries()[i].objective, log.entries()[i].constraint_violation});
+  }
+  run.x = run.start;
+  if (const DesignLog::Entry* best = log.best()) {
+    run.x = best->x;
+    run.objective = best->objective;
+    run.constraint_violation = best->constraint_violation;
+  }
+  run.seconds = clock.seconds();
+  return run;
+}
+
+}  // namespace flankwright

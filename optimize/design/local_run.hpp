@@ -1,0 +1,32 @@
+#pragma once
+
+#include "optimize/design/design_log.hpp"
+#include "optimize/solvers/solver.hpp"
+
+namespace flankwright {
+
+/// How one search from one start went.
+struct LocalRun {
+  SolverStatus status{SolverStatus::NotRun};
+  std::string message;
+  std::string finished_by;                 ///< the finisher where it went on from a kink, else empty
+  bool epigraph{false};  ///< smooth, exact gradients; else values of the true peaks
+  Eigen::VectorXd start, x;                ///< scaled designs: first and best
+  double objective{not_given};             ///< at x, outside units
+  double constraint_violation{not_given};  ///< at x [-]
+  int evaluations{-1};                     ///< analyses of the whole scene set
+  int failures{-1};                        ///< analyses that did not converge; survived
+  int rounds{-1};                          ///< of candidate generation (1 without epigraph)
+  double seconds{not_given};
+  std::vector<SolverStep> history;         ///< one entry per analysis: true objective and violation
+};
+
+/// Searches from problem.start().
+///
+/// Solvers with gradients that take constraints get the epigraph form, re-solved from its own optimum until no peak outside its
+/// candidates exceeds them by 1e-6 of the objective at the start, or 20 rounds are done; where the solver no
+/// longer gains on a kink, options.finisher goes on from its best design, as `finished_by` and `message` then say; the others the direct form.
+/// The best design met under the true outputs is returned, whatever the solver stopped at.
+LocalRun run_local(DesignProblem& problem, const SolverOptions& options);
+
+}  // namespace flankwright

@@ -1,0 +1,278 @@
+#include "optimize/design/pareto.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "core/base/stopwatch.hpp"
+
+namespace flankwright {
+
+namespace {
+
+/// How far a goal may rise above its least so that the others fall where it alone is best, see add_anchor() [-].
+constexpr double anchor_slack = 1e-3;
+
+class FrontTracing {
+ public:
+  FrontTracing(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const DesignOptions& options)
+      : problem_(problem), points_(points), options_(options.solver), starts_(options.starts) {
+    front_.goals = goals;
+  }
+
+  ParetoFront trace() {
+    const std::vector<ParetoPoint> bests = best_of_each_goal();
+    for (std::size_t g = 0; g < bests.size() && !is_spent(); ++g) add_anchor(g, bests);
+    if (front_.points.size() == front_.goals.size()) {
+      choose_ranges();
+      if (front_.goals.size() == 2) {
+        halve_gaps();
+        space_evenly();
+      } else {
+        fill_triangle();
+      }
+    }
+    mark_dominated();
+    front_.seconds = clock_.seconds();
+    return std::move(front_);
+  }
+
+ private:
+  SolverOptions left() const {
+    SolverOptions options = options_;
+    options.max_evaluations = std::max(1, options_.max_evaluations - front_.evaluations);
+    options.max_seconds = std::max(1e-3, options_.max_seconds - clock_.seconds());
+    if (options_.progress) {
+      options.progress = [this](int analyses, double best) { options_.progress(front_.evaluations + analyses, best); };
+    }
+    return options;
+  }
+
+  bool is_out_of_budget() const {
+    return front_.evaluations >= options_.max_evaluations || clock_.seconds() >= options_.max_seconds;
+  }
+
+  bool is_spent() {
+    const bool spent = is_out_of_budget();
+    if (spent) front_.message = "the budget ended the front after " + std::to_string(front_.points.size()) + " points";
+    return spent;
+  }
+
+  void count(const LocalRun& run) {
+    front_.evaluations += run.evaluations;
+    front_.failures += run.failures;
+  }
+
+  LocalRun search(DesignProblem& problem) {
+    LocalRun run = run_local(problem, left());
+    count(run);
+    return run;
+  }
+
+  ParetoPoint point(const LocalRun& run) const {
+    ParetoPoint point{run.x, {}, run.status, run.constraint_violation};
+    DesignProblem problem = problem_;
+    const DesignAnalysis& analysis = problem.analyse(run.x, false);
+    for (const Goal& goal : front_.goals) point.values.push_back(problem.value(goal, analysis));
+    return point;
+  }
+
+  DesignProblem alone(std::size_t g) const { return problem_.judged_by(front_.goals[g], problem_.task().goal_bounds); }
+
+  /// The best design of each goal, from all starts and from the best of every other goal: a local optimum where another goal's best lies
+  /// lower would be an end that the front never reaches. Empty where the budget is spent before each has one.
+  std::vector<ParetoPoint> best_of_each_goal() {
+    const std::size_t goals = front_.goals.size();
+    std::vector<LocalRun> bests;
+    for (std::size_t g = 0; g < goals; ++g) {
+      if (is_spent()) return {};
+      const std::vector<LocalRun> runs = run_from_starts(alone(g), left(), starts_);
+      for (const LocalRun& run : runs) count(run);
+      bests.push_back(runs[best_run(runs)]);
+    }
+    for (std::size_t g = 0; g < goals; ++g) {
+      for (std::size_t k = 0; k < goals; ++k) {
+        if (k == g || is_out_of_budget()) continue;
+        DesignProblem problem = alone(g);
+        problem.set_start(bests[k].x);
+        const LocalRun run = search(problem);
+        if (best_run({bests[g], run}) == 1) bests[g] = run;
+      }
+    }
+    std::vector<ParetoPoint> points;
+    for (const LocalRun& best : bests) points.push_back(point(best));
+    return points;
+  }
+
+  /// The best of goal g; then the others, as a trade in units of their largest among the bests, while g stays within anchor_slack of its
+  /// least, or of its own largest among them where its least is (nearly) 0.
+  void add_anchor(std::size_t g, const std::vector<ParetoPoint>& bests) {
+    const auto largest = [&](std::size_t k) {
+      return std::ranges::max(bests, {}, [k](const ParetoPoint& best) { return best.values[k]; }).values[k];
+    };
+    ParetoPoint anchor = bests[g];
+    std::vector<GoalBound> held = problem_.task().goal_bounds;
+    held.push_back({front_.goals[g], std::max((1.0 + anchor_slack) * anchor.values[g], anchor_slack * largest(g))});
+    std::vector<TradedGoal> others;
+    for (std::size_t k = 0; k < front_.goals.size(); ++k) {
+      if (k != g && largest(k) > 0.0) others.push_back({front_.goals[k], 0.0, largest(k)});
+    }
+    if (largest(g) > 0.0 && !others.empty() && !is_spent()) {
+      DesignProblem rest = problem_.judged_by(front_.goals[g], held, others);
+      rest.set_start(anchor.x);
+      const LocalRun run = search(rest);
+      if (run.constraint_violation <= DesignLog::tolerance) anchor = point(run);
+    }
+    front_.points.push_back(anchor);
+  }
+
+  void choose_ranges() {
+    for (std::size_t k = 0; k < front_.goals.size(); ++k) {
+      const auto by = [k](const ParetoPoint& a, const ParetoPoint& b) { return a.values[k] < b.values[k]; };
+      front_.ideal.push_back(std::min_element(front_.points.begin(), front_.points.end(), by)->values[k]);
+      front_.worst.push_back(std::max_element(front_.points.begin(), front_.points.end(), by)->values[k]);
+    }
+  }
+
+  double range(std::size_t k) const { return std::max(front_.worst[k] - front_.ideal[k], 1e-9 * std::abs(front_.worst[k]) + 1e-300); }
+
+  Eigen::VectorXd normalised(const ParetoPoint& point) const {
+    Eigen::VectorXd f(static_cast<Eigen::Index>(point.values.size()));
+    for (std::size_t k = 0; k < point.values.size(); ++k) {
+      f[static_cast<Eigen::Index>(k)] = (point.values[k] - front_.ideal[k]) / range(k);
+    }
+    return f;
+  }
+
+  /// The compromise seen from a reference point.
+  ParetoPoint compromise(const Eigen::VectorXd& reference) {
+    std::vector<TradedGoal> trade;
+    for (std::size_t k = 0; k < front_.goals.size(); ++k) {
+      trade.push_back({front_.goals[k], front_.ideal[k] + reference[static_cast<Eigen::Index>(k)] * range(k), range(k)});
+    }
+    DesignProblem problem = problem_.judged_by(front_.goals.front(), problem_.task().goal_bounds, trade);
+    const auto nearest = std::min_element(front_.points.begin(), front_.points.end(), [&](const ParetoPoint& a, const ParetoPoint& b) {
+      return (normalised(a) - reference).norm() < (normalised(b) - reference).norm();
+    });
+    problem.set_start(nearest->x);
+    return point(search(problem));
+  }
+
+  void halve_gaps() {
+    std::vector<bool> closed(front_.points.size(), false);  // gap after each point: nothing new is found in it
+    while (static_cast<int>(front_.points.size()) < points_ && !is_spent()) {
+      std::size_t widest = front_.points.size();
+      double width = 0.0;
+      for (std::size_t i = 0; i + 1 < front_.points.size(); ++i) {
+        const double gap = (normalised(front_.points[i + 1]) - normalised(front_.points[i])).norm();
+        if (!closed[i] && gap > width) {
+          width = gap;
+          widest = i;
+        }
+      }
+      if (widest == front_.points.size()) {
+        front_.message = "the front has gaps that no design fills";
+        return;
+      }
+      const Eigen::VectorXd from = normalised(front_.points[widest]), to = normalised(front_.points[widest + 1]);
+      const ParetoPoint found = compromise(0.5 * (from + to));
+      const Eigen::VectorXd at = normalised(found);
+      constexpr double apart = 0.05;  // of the gap: a new point lies at least so far from both of its ends
+      if (std::min((at - from).norm(), (at - to).norm()) < apart * width) {
+        closed[widest] = true;
+        continue;
+      }
+      front_.points.insert(front_.points.begin() + static_cast<std::ptrdiff_t>(widest) + 1, found);
+      closed.insert(closed.begin() + static_cast<std::ptrdiff_t>(widest) + 1, false);
+    }
+  }
+
+  /// Seeks the points between the ends once more, from equal steps of arc length along the broken line through them; one that stands
+  /// there already is kept. Taken where the front has grown more even by it.
+  void space_evenly() {
+    constexpr double there = 0.1;  // of a step
+    const std::size_t n = front_.points.size();
+    if (n < 4) return;
+    std::vector<Eigen::VectorXd> line;
+    std::vector<double> along{0.0};
+    for (const ParetoPoint& p : front_.points) line.push_back(normalised(p));
+    for (std::size_t i = 1; i < n; ++i) along.push_back(along.back() + (line[i] - line[i - 1]).norm());
+    const double step = along.back() / static_cast<double>(n - 1);
+    ParetoFront even = front_;
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+      const double wanted = step * static_cast<double>(i);
+      const std::size_t end = static_cast<std::size_t>(std::upper_bound(along.begin() + 1, along.end() - 1, wanted) - along.begin());
+      const std::size_t nearest = wanted - along[end - 1] < along[end] - wanted ? end - 1 : end;
+      if (std::abs(along[nearest] - wanted) <= there * step) {
+        even.points[i] = front_.points[nearest];
+        continue;
+      }
+      if (is_out_of_budget()) return;
+      const double share = (wanted - along[end - 1]) / (along[end] - along[end - 1]);
+      even.points[i] = compromise((1.0 - share) * line[end - 1] + share * line[end]);
+      if (even.points[i].constraint_violation > DesignLog::tolerance) return;
+    }
+    if (even.unevenness() < front_.unevenness()) front_.points = even.points;
+  }
+
+  void fill_triangle() {
+    int sides = 1;
+    while ((sides + 2) * (sides + 3) / 2 <= points_) ++sides;
+    const std::vector<ParetoPoint> anchors = front_.points;
+    for (int i = 0; i <= sides; ++i) {
+      for (int j = 0; i + j <= sides; ++j) {
+        if (i == sides || j == sides || (i == 0 && j == 0)) continue;  // the anchors themselves
+        if (is_spent()) return;
+        const double a = static_cast<double>(i) / sides, b = static_cast<double>(j) / sides;
+        const Eigen::VectorXd reference = a * normalised(anchors[0]) + b * normalised(anchors[1]) + (1.0 - a - b) * normalised(anchors[2]);
+        front_.points.push_back(compromise(reference));
+      }
+    }
+  }
+
+  void mark_dominated() {
+    if (front_.ideal.empty()) return;
+    for (ParetoPoint& a : front_.points) {
+      a.dominated = std::any_of(front_.points.begin(), front_.points.end(), [&](const ParetoPoint& b) {
+        const Eigen::VectorXd ahead = normalised(a) - normalised(b);
+        return ahead.minCoeff() >= 0.0 && ahead.maxCoeff() > ParetoFront::same;
+      });
+    }
+  }
+
+  const DesignProblem& problem_;
+  const int points_;
+  const SolverOptions& options_;
+  const int starts_;
+  const Stopwatch clock_;
+  ParetoFront front_;
+};
+
+}  // namespace
+
+double ParetoFront::unevenness() const {
+  if (goals.size() != 2 || points.size() < 3 || ideal.empty()) return not_given;
+  double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    double square = 0.0;
+    for (std::size_t k = 0; k < 2; ++k) square += std::pow((points[i + 1].values[k] - points[i].values[k]) / (worst[k] - ideal[k]), 2);
+    shortest = std::min(shortest, std::sqrt(square));
+    longest = std::max(longest, std::sqrt(square));
+  }
+  return longest / shortest;
+}
+
+ParetoFront trace_front(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const DesignOptions& options) {
+  options.solver.validate();
+  if (goals.size() < 2 || goals.size() > 3) throw InvalidInput("optimise.pareto.objectives", std::to_string(goals.size()), "two or three");
+  if (points < static_cast<int>(goals.size())) {
+    throw InvalidInput("optimise.pareto.points", std::to_string(points), "at least one for each objective");
+  }
+  const std::string& solver = options.solver.name;
+  if (!uses_gradients(solver) || !accepts_constraints(solver)) {
+    throw InvalidInput("optimise.solver", solver, "a solver with gradients and constraints for a Pareto front, such as ipopt");
+  }
+  return FrontTracing(problem, goals, points, options).trace();
+}
+
+}  // namespace flankwright

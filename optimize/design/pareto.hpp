@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "optimize/design/design_optimiser.hpp"
+
+namespace flankwright {
+
+/// One compromise between several goals.
+struct ParetoPoint {
+  Eigen::VectorXd x;           ///< scaled design
+  std::vector<double> values;  ///< of the goals, outside units
+  SolverStatus status{SolverStatus::NotRun};
+  double constraint_violation{not_given};  ///< [-]
+  bool dominated{false};       ///< another point is no worse in every goal and better in one, beyond `same`
+};
+
+/// Designs of which no goal can be improved without another's loss.
+struct ParetoFront {
+  std::vector<Goal> goals;
+  std::vector<ParetoPoint> points;    ///< of two goals along the front, from the best of the first to the best of the second
+  std::vector<double> ideal, worst;   ///< per goal over the points where each goal alone is best, outside units
+  int evaluations{0}, failures{0};
+  double seconds{not_given};
+  std::string message;                ///< why there are fewer points than asked for; empty where there are not
+
+  static constexpr double same = 1e-4;  ///< of a goal's range [-]
+  /// Longest over shortest distance between neighbours of a front of two goals, goals in their ranges; 1 is even; NaN below 3 points.
+  double unevenness() const;
+};
+
+/// Traces a front: each goal alone first, from options.starts and from the others' best, every other held to the least that allows it; then
+/// compromises
+///
+///     minimise tau   subject to   (goal_i(x) - ideal_i) / range_i - a_i <= tau         [Pascoletti, Serafini, JOTA 42 (1984)]
+///
+/// from reference points a. Of two goals a is the middle of the widest gap between neighbours so far; then the points between the ends are
+/// sought once more from equal steps of arc length along what was found, where that makes the spacing more even. Of
+/// three, a regular grid on the triangle of the single optima. Each search starts from the nearest design found before.
+/// @param goals    two or three
+/// @param points   >= number of goals; of three goals the largest triangular number within it
+/// @param options  a solver that takes gradients and constraints; its budget is that of the whole front
+/// @throws InvalidInput for another number of goals, or a solver that cannot do it
+ParetoFront trace_front(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const DesignOptions& options);
+inline ParetoFront trace_front(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const SolverOptions& options) {
+  return trace_front(problem, goals, points, DesignOptions{options});
+}
+
+}  // namespace flankwright

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "optimize/design/design_problem.hpp"
+
+namespace flankwright {
+
+/// A design on the grinder's steps.
+struct RoundedDesign {
+  Eigen::VectorXd x;                        ///< scaled; variables with a step are multiples of it within their bounds
+  double objective{not_given};              ///< outside units
+  double constraint_violation{not_given};   ///< [-]
+  int analyses{0};                          ///< of the whole scene set, those included that ended at a scene too bad for a worst case
+};
+
+/// Best neighbour of a design on the steps of its variables: from the nearest values, single variables and then pairs of them move by
+/// one step as long as that helps (feasible first, then the objective). No global search: the best of all
+/// combinations may be missed, not by much near a flat optimum.
+/// @param most_analyses  >= 1; the search ends in order with the best so far
+RoundedDesign round_design(DesignProblem& problem, const Eigen::VectorXd& x, int most_analyses);
+
+/// True where some variable has a step.
+bool has_steps(const DesignTask& task);
+
+}  // namespace flankwright

@@ -1,0 +1,116 @@
+#include "optimize/design/two_level.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/stopwatch.hpp"
+#include "optimize/design/design_log.hpp"
+
+namespace flankwright {
+
+namespace {
+
+/// The finisher needs some five to fifteen analyses from a neighbouring optimum; a kink may hold it up for longer than it is worth.
+constexpr int most_fine_analyses = 40;
+
+/// The best of the coarse optima, judged by the fine problem: feasible before infeasible, then by the objective.
+Eigen::VectorXd best_start(DesignProblem& fine, const DesignResult& coarse, const Eigen::VectorXd& coarse_best) {
+  std::vector<Eigen::VectorXd> candidates{coarse_best};
+  for (const LocalOptimum& optimum : coarse.optima) candidates.push_back(coarse.runs[optimum.run].x);
+  Eigen::VectorXd best = coarse_best;
+  double least = INFINITY, least_violation = INFINITY;
+  for (const Eigen::VectorXd& x : candidates) {
+    const DesignAnalysis& analysis = fine.analyse(x, false);
+    if (!std::ranges::all_of(analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) continue;
+    const double objective = fine.objective(analysis), violation = std::max(0.0, fine.violation(analysis) - DesignLog::tolerance);
+    if (!(violation < least_violation || (violation == least_violation && objective < least))) continue;
+    best = x;
+    least = objective;
+    least_violation = violation;
+  }
+  return best;
+}
+
+void join(const DesignResult& coarse, DesignResult& fine) {
+  const int fine_runs_start = coarse.history.empty() ? 0 : coarse.history.back().evaluation;
+  fine.solver = coarse.solver;
+  fine.finisher = coarse.finisher;
+  fine.runs = coarse.runs;
+  fine.optima = coarse.optima;
+  fine.rounds = coarse.rounds;
+  fine.formulation = coarse.formulation;
+  if (fine.finished_by.empty()) fine.finished_by = coarse.finished_by;
+  const bool search_ended = coarse.status == SolverStatus::Converged || coarse.status == SolverStatus::Stalled;
+  if (!search_ended) {
+    fine.status = coarse.status;
+    fine.message = coarse.message;
+  } else if (fine.status == SolverStatus::EvaluationLimit) {
+    // The finisher's own limit: the coarse optimum had been found, and the best design that was met from there on is kept.
+    fine.status = fine.optimality.satisfied() ? SolverStatus::Converged : SolverStatus::Stalled;
+    fine.message = coarse.message + "; the fine level ended after " + std::to_string(most_fine_analyses) + " analyses with the best design it had met";
+  }
+  fine.evaluations += coarse.evaluations;
+  fine.gradient_evaluations += coarse.gradient_evaluations;
+  fine.failures += coarse.failures;
+  std::vector<SolverStep> history = coarse.history;
+  for (SolverStep step : fine.history) {
+    step.evaluation += fine_runs_start;
+    history.push_back(step);
+  }
+  fine.history = std::move(history);
+}
+
+}  // namespace
+
+bool can_be_coarser(const DesignTask& task) {
+  const Quadrature& quadrature = task.resolution.quadrature;
+  return quadrature.rule == QuadratureRule::Graded && quadrature.intervals >= 2 * fewest_search_intervals;
+}
+
+DesignTask coarser(DesignTask task) {
+  task.resolution.quadrature.intervals /= 2;
+  for (DesignVariable& variable : task.variables) variable.step = 0.0;
+  return task;
+}
+
+TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOptions& options) {
+  const Stopwatch clock;
+  TwoLevelDesign result;
+  result.fine.resolution = problem.task().resolution;
+  if (!can_be_coarser(problem.task())) {
+    result.design = optimise_design(problem, options);
+    result.fine.analyses = result.design.evaluations;
+    result.fine.seconds = clock.seconds();
+    result.search = result.fine;
+    result.objective_seen_by_search = (result.design.exact ? *result.design.exact : result.design.after).objective;
+    return result;
+  }
+  DesignProblem coarse_problem(coarser(problem.task()));
+  const DesignResult coarse = optimise_design(coarse_problem, options);
+  result.search = {coarse_problem.task().resolution, coarse.evaluations, clock.seconds()};
+  result.objective_seen_by_search = coarse.after.objective;
+
+  const Stopwatch fine_clock;
+  result.design = coarse;
+  problem.set_start(best_start(problem, coarse, problem.scaled_design(coarse.after.variables).cwiseMax(0.0).cwiseMin(1.0)));
+  go_on(problem, options, result);
+  result.fine.seconds = fine_clock.seconds();
+  result.design.seconds = clock.seconds();
+  return result;
+}
+
+void go_on(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
+  DesignOptions finish = options;
+  finish.starts = 1;
+  finish.solver.name = options.solver.finisher == "none" ? options.solver.name : options.solver.finisher;
+  finish.solver.finisher = "none";
+  finish.solver.max_evaluations = std::max(1, options.solver.max_evaluations - found.design.evaluations);
+  finish.solver.max_seconds = std::max(1e-3, options.solver.max_seconds - found.design.seconds);
+  finish.most_search_analyses = most_fine_analyses;
+  DesignResult fine = optimise_design(problem, finish);
+  found.fine.analyses += fine.evaluations;
+  join(found.design, fine);
+  found.design = std::move(fine);
+}
+
+}  // namespace flankwright

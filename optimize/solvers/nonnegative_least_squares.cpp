@@ -1,0 +1,65 @@
+#include "optimize/solvers/nonnegative_least_squares.hpp"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <vector>
+
+namespace flankwright {
+
+namespace {
+
+/// Least squares over the columns that are in; zero elsewhere.
+Eigen::VectorXd solve_over(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const std::vector<Eigen::Index>& in) {
+  Eigen::MatrixXd of_in(A.rows(), static_cast<Eigen::Index>(in.size()));
+  for (std::size_t k = 0; k < in.size(); ++k) of_in.col(static_cast<Eigen::Index>(k)) = A.col(in[k]);
+  const Eigen::VectorXd found = of_in.completeOrthogonalDecomposition().solve(b);
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(A.cols());
+  for (std::size_t k = 0; k < in.size(); ++k) y[in[k]] = found[static_cast<Eigen::Index>(k)];
+  return y;
+}
+
+}  // namespace
+
+Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+  Eigen::VectorXd y = Eigen::VectorXd::Zero(A.cols());
+  if (A.cols() == 0 || A.rows() == 0) return y;
+  // A column may enter where a_j . r > descent |a_j| |b|: what is less is round-off.
+  constexpr double descent = 1e-12;
+  const Eigen::VectorXd least = descent * b.norm() * A.colwise().norm().transpose();
+  std::vector<Eigen::Index> in;
+  std::vector<bool> barred(static_cast<std::size_t>(A.cols()), false);  // entered in vain; free again after any progress
+  const Eigen::Index most_steps = 10 * A.cols() + 10;                   // Lawson and Hanson met 3 n at most
+  for (Eigen::Index step = 0; step < most_steps; ++step) {
+    const Eigen::VectorXd slope = A.transpose() * (b - A * y);
+    Eigen::Index entering = -1;
+    for (Eigen::Index j = 0; j < A.cols(); ++j) {
+      const bool is_in = std::find(in.begin(), in.end(), j) != in.end();
+      if (is_in || barred[static_cast<std::size_t>(j)] || slope[j] <= least[j]) continue;
+      if (entering < 0 || slope[j] > slope[entering]) entering = j;
+    }
+    if (entering < 0) return y;
+    in.push_back(entering);
+    Eigen::VectorXd z = solve_over(A, b, in);
+    if (z[entering] <= 0.0) {  // depends on those that are in
+      in.pop_back();
+      barred[static_cast<std::size_t>(entering)] = true;
+      continue;
+    }
+    std::fill(barred.begin(), barred.end(), false);
+    const auto negative = [&](Eigen::Index j) { return z[j] <= 0.0; };
+    while (std::any_of(in.begin(), in.end(), negative)) {
+      double share = 1.0;  // of the way to z before the first turns negative
+      for (const Eigen::Index j : in) {
+        if (z[j] <= 0.0) share = std::min(share, y[j] / (y[j] - z[j]));
+      }
+      y += share * (z - y);
+      const double smallest = descent * y.lpNorm<Eigen::Infinity>();
+      std::erase_if(in, [&](Eigen::Index j) { return z[j] <= 0.0 && y[j] <= smallest; });
+      z = solve_over(A, b, in);
+    }
+    y = z;
+  }
+  return y;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,72 @@
+#include "studies/base/results_folder.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+
+#include "core/base/error.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& reason) {
+  throw InvalidInput("output folder", path.string(), "a place that can be written (" + reason + ")");
+}
+
+}  // namespace
+
+void write_whole(const std::filesystem::path& file, const std::string& text) {
+  const std::filesystem::path temporary = file.string() + ".tmp" + std::to_string(::getpid());
+  const int handle = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (handle < 0) refuse(file, std::strerror(errno));
+  const auto give_up = [&](int error) {
+    ::close(handle);
+    ::unlink(temporary.c_str());
+    refuse(file, std::strerror(error));
+  };
+  for (std::size_t written = 0; written < text.size();) {
+    const ssize_t step = ::write(handle, text.data() + written, text.size() - written);
+    if (step < 0 && errno == EINTR) continue;
+    if (step < 0) give_up(errno);
+    written += static_cast<std::size_t>(step);
+  }
+  if (::fsync(handle) != 0) give_up(errno);
+  ::close(handle);
+  std::error_code error;
+  std::filesystem::rename(temporary, file, error);
+  if (error) {
+    ::unlink(temporary.c_str());
+    refuse(file, error.message());
+  }
+}
+
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || !std::filesystem::is_directory(folder)) refuse(folder, error ? error.message() : "not a folder");
+}
+
+std::string read_whole(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (in) text << in.rdbuf();
+  if (!in || std::filesystem::is_directory(file)) throw InvalidInput("file", file.string(), "a file that can be read");
+  return text.str();
+}
+
+std::string read_results(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "results.json";
+  std::error_code no_status;
+  if (!std::filesystem::exists(file, no_status)) {
+    throw InvalidInput("folder", folder.string(), "a folder with results.json, as `flankwright run` leaves it");
+  }
+  return read_whole(file);
+}
+
+}  // namespace flankwright::studies

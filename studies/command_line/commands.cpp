@@ -1,0 +1,186 @@
+#include "studies/command_line/commands.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "studies/results/expectations.hpp"
+#include "studies/base/progress.hpp"
+#include "studies/report/report.hpp"
+#include "studies/results/report_tables.hpp"
+#include "studies/base/results_folder.hpp"
+#include "studies/results/results_json.hpp"
+#include "studies/results/results_store.hpp"
+#include "studies/tasks/run_study.hpp"
+#include "studies/tasks/analyse/study_notes.hpp"
+#include "studies/study_file/study_template.hpp"
+#include "studies/tasks/sweep/run_sweep.hpp"
+#include "studies/tasks/sweep/shards.hpp"
+#include "studies/results/tables.hpp"
+
+namespace flankwright::studies {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Studies named directly and all *.toml of named folders, in order of their names.
+std::vector<fs::path> collect_studies(const std::vector<std::string>& paths) {
+  std::vector<fs::path> studies;
+  for (const std::string& path : paths) {
+    if (!fs::is_directory(path)) {
+      studies.emplace_back(path);
+      continue;
+    }
+    std::vector<fs::path> inside;
+    for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+      if (entry.path().extension() == ".toml") inside.push_back(entry.path());
+    }
+    std::sort(inside.begin(), inside.end());
+    studies.insert(studies.end(), inside.begin(), inside.end());
+  }
+  return studies;
+}
+
+/// One tested study: its line, and whether everything was met.
+struct TestLine {
+  std::string text;
+  bool met{true};
+  bool bad_input{false};
+};
+
+TestLine test_study(const fs::path& path) {
+  try {
+    const Study study = read_study(path.string());
+    if (study.expect.empty()) return {fmt::format("none  {}  (no [expect] table)\n", path.string())};
+    StudyResults results = run_study(study);
+    if (study.task == Task::Sweep) run_sweep(results, {}, {});
+    const std::vector<Comparison> comparisons = compare(study.expect, results_document(results));
+    const std::string different = differences(comparisons);
+    std::string text = fmt::format("{}  {}  ({} expectation{}, {:.1f} s)\n", different.empty() ? "met " : "DIFF", path.string(),
+                                   comparisons.size(), comparisons.size() == 1 ? "" : "s", results.seconds);
+    return {text + different, different.empty()};
+  } catch (const InvalidInput& problem) {
+    return {fmt::format("BAD   {}\n{}\n", path.string(), problem.what()), false, true};
+  }
+}
+
+/// The study of a command, and the folder for its results, which is made.
+std::pair<Study, fs::path> opened(const RunOptions& options) {
+  const Study study = read_study(options.study, options.overrides);
+  const fs::path folder =
+      options.folder.empty() ? fs::path("results") / fs::path(options.study).stem() : fs::path(options.folder);
+  make_folder(folder);
+  spdlog::info("{} ({})", study.title, options.study);
+  return {study, folder};
+}
+
+int write_results(const Study& study, const StudyResults& results, const fs::path& folder) {
+  const Json json = results_document(results);
+  std::string different;
+  const auto write_tables = [&](const std::vector<NamedText>& tables) {
+    for (const NamedText& table : tables) write_whole(folder / table.name, table.text);
+  };
+  tbb::parallel_invoke([&] { write_whole(folder / "report.html", render_report(json)); },
+                       [&] {
+                         write_whole(folder / "results.json", json_text(json));
+                         write_tables(csv_tables(results));
+                         if (results.design) write_results_store(folder / "results.sqlite", results);
+                       },
+                       [&] { write_tables(report_tables(json)); }, [&] { different = differences(compare(study.expect, json)); });
+
+  for (const std::string& note : results.notes) spdlog::warn("{}", note);
+  std::fputs(summary_table(results).c_str(), stdout);
+  if (!different.empty()) fmt::print("\nnot as [expect] says:\n{}", different);
+  fmt::print("\nreport: {}\n", (folder / "report.html").string());
+  std::fflush(stdout);
+  for (const std::string& requirement : results.requirements) spdlog::error("{}", requirement);
+  return results.requirements.empty() && different.empty() ? 0 : 1;
+}
+
+int run_shard(const StudyResults& nominal, const fs::path& folder, Shard shard, const ProgressReport& report) {
+  const fs::path file = folder / shard_file(shard);
+  make_folder(file.parent_path());
+  run_sweep_shard(nominal, file, shard, report);
+  fmt::print("shard: {}\n", file.string());
+  return 0;
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options) {
+  const std::optional<Shard> shard = options.shard.empty() ? std::nullopt : std::optional(parse_shard(options.shard));
+  const auto [study, folder] = opened(options);
+  if (shard && study.task != Task::Sweep) throw InvalidInput("--shard", to_string(study.task), "a study of the task \"sweep\"");
+  Progress progress;
+  const ProgressReport report = [&](const std::string& label, int done, int total, const std::string& remark) {
+    progress.show(label, done, total, remark);
+  };
+  StudyResults results = run_study(study, report);
+  if (shard) return run_shard(results, folder, *shard, report);
+  if (study.task == Task::Sweep) run_sweep(results, folder, report);
+  progress.finish();
+  return write_results(study, results, folder);
+}
+
+int merge_command(const RunOptions& options) {
+  const auto [study, folder] = opened(options);
+  if (study.task != Task::Sweep) throw InvalidInput("task", to_string(study.task), "\"sweep\": shards are parts of a sweep");
+  StudyResults results = run_study(study);
+  merge_shards(folder, study, SampleAnalysis(results).outputs());
+  run_sweep(results, folder, {});
+  return write_results(study, results, folder);
+}
+
+int check_command(const std::string& path, const std::vector<Override>& overrides) {
+  const Study study = read_study(path, overrides);
+  fmt::print("{}: valid, task {}, {} scene{}\n", path, to_string(study.task), study.scenes.size(),
+             study.scenes.size() == 1 ? "" : "s");
+  std::fflush(stdout);
+  for (const std::string& note : study_notes(study, make_gear_pair(study.pair))) spdlog::warn("{}", note);
+  return 0;
+}
+
+int new_command(const std::string& kind) {
+  std::fputs(study_template(kind).c_str(), stdout);
+  return 0;
+}
+
+int report_command(const std::string& folder) {
+  const fs::path page = fs::path(folder) / "report.html";
+  write_whole(page, render_stored_report(read_results(folder)));
+  fmt::print("report: {}\n", page.string());
+  return 0;
+}
+
+int test_command(const std::vector<std::string>& paths) {
+  const std::vector<fs::path> studies = collect_studies(paths);
+  if (studies.empty()) throw InvalidInput("test", "no study", "folders with *.toml files, or study files");
+  std::vector<TestLine> lines(studies.size());
+  Progress progress;
+  std::mutex mutex;
+  int done = 0;
+  tbb::parallel_for(std::size_t{0}, studies.size(), [&](std::size_t i) {
+    lines[i] = test_study(studies[i]);
+    const std::lock_guard lock(mutex);
+    progress.show("testing", ++done, static_cast<int>(studies.size()), studies[i].filename().string());
+  });
+  progress.finish();
+  bool met = true, bad_input = false;
+  for (const TestLine& line : lines) {
+    std::fputs(line.text.c_str(), stdout);
+    met = met && line.met;
+    bad_input = bad_input || line.bad_input;
+  }
+  return bad_input ? 2 : met ? 0 : 1;
+}
+
+}  // namespace flankwright::studies

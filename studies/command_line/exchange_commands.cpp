@@ -1,0 +1,98 @@
+#include "studies/command_line/exchange_commands.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+
+#include "studies/exchange/grid/grid_table.hpp"
+#include "studies/exchange/vtk/vtk_series.hpp"
+#include "studies/base/results_folder.hpp"
+#include "studies/exchange/rexs/rexs_export.hpp"
+#include "studies/exchange/rexs/rexs_import.hpp"
+#include "studies/study_file/stored_study.hpp"
+
+namespace flankwright::studies {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// When a file was last written, as REXS dates are: the same file exports to the same bytes.
+std::string date_of(const fs::path& file) {
+  const auto seconds = std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::file_clock::to_sys(fs::last_write_time(file)));
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}+00:00", fmt::gmtime(std::chrono::system_clock::to_time_t(seconds)));
+}
+
+void write_export(const fs::path& file, const std::string& text) {
+  write_whole(file, text);
+  fmt::print("{}\n", file.string());
+}
+
+/// Every file of the series; the collections, which name the others, are written behind these and told.
+void export_vtk(const std::string& json, const fs::path& results, const fs::path& folder) {
+  for (const ExportedFile& file : vtk_series(json, results.string())) {
+    const fs::path path = folder / file.name;
+    make_folder(path.parent_path());
+    write_whole(path, file.text);
+    if (path.extension() == ".pvd") fmt::print("{}\n", path.string());
+  }
+}
+
+}  // namespace
+
+int import_command(const ImportOptions& options) {
+  const fs::path study = options.study;
+  const rexs::ImportedStudy imported = rexs::import_stage(
+      read_whole(options.file), options.file,
+      {.stage = options.stage,
+       .slope_end = options.slope_end == "datum" ? rexs::SlopeEnd::DatumFace : rexs::SlopeEnd::NonDatumFace,
+       .grid_stem = (options.study.empty() ? fs::path(options.file) : study).stem().string()});
+  if (options.study.empty()) {
+    if (!imported.grids.empty()) throw InvalidInput("--out", "not given", "a study file: the stage has flank grids that are stored beside it");
+    std::fputs(imported.text.c_str(), stdout);
+  } else {
+    if (study.has_parent_path()) make_folder(study.parent_path());
+    for (const rexs::ImportedGrid& grid : imported.grids) write_whole(study.parent_path() / grid.name, grid.text);
+    write_whole(study, imported.text);
+    fmt::print("study: {}\n", study.string());
+  }
+  std::fflush(stdout);
+  for (const std::string& warning : imported.warnings) spdlog::warn("{}", warning);
+  return 0;
+}
+
+int export_command(const ExportOptions& options) {
+  if (!options.rexs && !options.rexsj && !options.grid && !options.vtk) {
+    throw InvalidInput("export", "no format", "--rexs, --rexsj, --grid or --vtk, or several of them");
+  }
+  const GridLayout layout = grid_layout(options.grid_points, options.grid_margin);
+  const fs::path results = fs::path(options.results) / "results.json";
+  const std::string json = read_results(options.results);
+  const fs::path folder = options.folder.empty() ? options.results : options.folder;
+  make_folder(folder);
+  std::vector<std::string> notes;
+  if (options.rexs || options.rexsj || options.grid) {
+    const Study study = stored_study(json, results.string(), options.given ? StoredFlanks::Given : StoredFlanks::Final);
+    if (options.rexs || options.rexsj) {
+      rexs::ExportedStage stage = rexs::export_stage(study, {options.rexs_version, date_of(results)});
+      if (options.rexs) write_export(folder / "stage.rexs", model_text(stage.model, rexs::Form::Xml));
+      if (options.rexsj) write_export(folder / "stage.rexsj", model_text(stage.model, rexs::Form::Json));
+      notes = std::move(stage.notes);
+    }
+    if (options.grid) {
+      const GearPair pair = make_gear_pair(study.pair);
+      write_export(folder / "grid-pinion.csv", grid_table(pair, Member::Pinion, study.pinion_modification, layout, study.title));
+      write_export(folder / "grid-wheel.csv", grid_table(pair, Member::Wheel, study.wheel_modification, layout, study.title));
+    }
+  }
+  if (options.vtk) export_vtk(json, results, folder / "vtk");
+  std::fflush(stdout);
+  for (const std::string& note : notes) spdlog::info("{}", note);
+  return 0;
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/compliance/comparison/gear_fit.hpp"
+#include "studies/base/progress.hpp"
+#include "studies/study/study.hpp"
+
+namespace flankwright::studies {
+
+/// One gear's fit, as the task "fit" makes it.
+struct GearFit {
+  Member member{Member::Pinion};
+  GearFitResult result;
+  bool several_teeth{true};    ///< form used
+  double seconds{not_given};   ///< wall time
+};
+
+/// What is to be solved and fitted for one gear of a study.
+/// @throws InvalidInput  as influence_table_task()
+GearFitTask gear_fit_task(const Study& study, const GearPair& pair, Member member);
+
+/// Fits the gears that the study names, one after the other.
+/// @throws InvalidInput  as gear_fit_task(), and under the study's keys where a gear cannot be meshed
+std::vector<GearFit> fit_gears(const Study& study, const GearPair& pair, const ProgressReport& progress);
+
+/// What was not met, in one line: finite elements that could not be factorised, or a fit that failed or did not
+/// converge; empty where all was. How close a fit comes is no requirement, but can be made one by [expect].
+std::string unmet_requirement(const GearFit& fit);
+
+const char* to_string(FitStatus status);
+
+}  // namespace flankwright::studies

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/compliance/fitted/refined_compliance.hpp"
+#include "core/compliance/fitted/refinement_library.hpp"
+#include "studies/compliance/finite_elements.hpp"
+
+namespace flankwright::studies {
+
+/// One gear's compliance "fitted": where the kernels that complete its coarse influence values come from.
+struct GearRefinement {
+  std::shared_ptr<const RefinedCompliance> compliance;
+  /// Why the library of fits does not do, RefinementLibrary::unknown(); empty where the kernels are the library's.
+  std::string unknown;
+  /// Of the gear's own fit, if it has one: the fit and, of the compliance that comes out, the residuals against the fine
+  /// run on places that it has not seen, by teeth apart.
+  RefinementEntry fit;
+  std::vector<ResidualStatistics> residuals;
+  bool from_cache{false};
+  std::string file;           ///< where the fit is kept; empty: nowhere
+  double seconds{not_given};  ///< wall time in this study
+
+  /// Another coarse compliance of the same gear, completed by the same kernels: they are the tooth's, whatever it stands on.
+  std::shared_ptr<const RefinedCompliance> completed(std::shared_ptr<const FlankCompliance> coarse) const {
+    return std::make_shared<const RefinedCompliance>(std::move(coarse), compliance->gear(), compliance->coefficients());
+  }
+
+  const char* source() const { return unknown.empty() ? "library" : "own fit"; }
+};
+
+/// Completes a gear's coarse run by the library of fits, or, where that does not know the gear, by a fit to its fine run,
+/// which is kept for another time.
+/// @param task  of the coarse run
+/// @param notes  what went wrong with the folder, and a fit that did not converge
+/// @throws InvalidInput "fidelity.compliance" where a fit failed
+GearRefinement gear_refinement(const Study& study, const InfluenceTableTask& task, const FiniteElementRuns& runs, Member member,
+                               std::vector<std::string>& notes, const ProgressReport& progress);
+
+}  // namespace flankwright::studies

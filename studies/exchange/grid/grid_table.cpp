@@ -1,0 +1,61 @@
+#include "studies/exchange/grid/grid_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/units.hpp"
+#include "core/flank/flank.hpp"
+#include "core/flank/measured_grid.hpp"
+#include "studies/exchange/rexs/rexs_model.hpp"
+
+namespace flankwright::studies {
+
+void GridLayout::validate() const {
+  for (const int points : {profile_points, face_points}) {
+    if (points < 2 || points > most_grid_lines) {
+      throw InvalidInput("grid points", std::to_string(points), fmt::format("2 .. {} along the profile and along the face", most_grid_lines));
+    }
+  }
+  if (!(margin >= 0.0 && margin <= 0.4)) throw InvalidInput("grid margin", fmt::format("{}", margin), "a share 0 .. 0.4");
+}
+
+GridLayout grid_layout(const std::string& points, double margin) {
+  const std::size_t cross = std::min(points.find('x'), points.size());
+  const auto profile = rexs::whole_number(points.substr(0, cross));
+  const auto face = cross < points.size() ? rexs::whole_number(points.substr(cross + 1)) : std::nullopt;
+  if (!profile || !face) throw InvalidInput("--grid-points", points, "points along the profile x along the face, as 9x15");
+  GridLayout layout{*profile, *face, margin};
+  layout.validate();
+  return layout;
+}
+
+std::string grid_table(const GearPair& pair, Member member, const Modification& modification, const GridLayout& layout, const std::string& title) {
+  layout.validate();
+  const Gear& gear = pair[member];
+  const Flank flank = make_flank(pair, member, modification, {});
+  std::string name = title;
+  std::ranges::replace_if(name, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  const auto at = [&](int i, int points, double low, double high) {
+    return std::lerp(low, high, std::lerp(layout.margin, 1.0 - layout.margin, static_cast<double>(i) / (points - 1)));
+  };
+  std::string table = fmt::format(
+      "# {}: {}, {} flank, {} teeth, {} x {} points (profile x face)\n"
+      "# Start of active profile at diameter {:.6f} mm, tip at {:.6f} mm, face width {:.6f} mm; z from mid face.\n"
+      "# Design against the involute, normal to the flank, + = metal added; manufacturing errors are not in it.\n"
+      "radius_mm,z_mm,deviation_um\n",
+      name, name_of(member), pair.data.working_flank == WorkingFlank::Right ? "right" : "left", gear.data.teeth,
+      layout.profile_points, layout.face_points, 2.0 * gear.active_root_radius, 2.0 * gear.tip_radius, gear.data.face_width);
+  for (int i = 0; i < layout.profile_points; ++i) {
+    const double radius = at(i, layout.profile_points, gear.active_root_radius, gear.tip_radius);
+    for (int j = 0; j < layout.face_points; ++j) {
+      const double z = at(j, layout.face_points, -0.5 * gear.data.face_width, 0.5 * gear.data.face_width);
+      const double normal = -flank.deviation(flank.roll_at(radius), z, 0) * std::cos(pair.base_helix_angle);
+      table += fmt::format("{:.6f},{:.6f},{:.4f}\n", radius, z, normal / units::um + 0.0);
+    }
+  }
+  return table;
+}
+
+}  // namespace flankwright::studies

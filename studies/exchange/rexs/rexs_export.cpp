@@ -1,0 +1,300 @@
+#include "studies/base/version.hpp"
+#include "studies/exchange/rexs/rexs_export.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "core/flank/flank.hpp"
+#include "studies/study_file/grid_file.hpp"
+#include "studies/exchange/rexs/study_text.hpp"
+
+namespace flankwright::studies::rexs {
+
+namespace {
+
+constexpr std::array<std::string_view, 9> versions{"1.0", "1.1", "1.2", "1.3", "1.4", "1.5", "1.6", "1.7", "2.0"};
+constexpr int topography_points = 25;  ///< along the profile and along the face, where no grid says otherwise
+
+class Export {
+ public:
+  Export(const Study& study, const ExportOptions& options) : study_(study), pair_(make_gear_pair(study.pair)), version_(options.version) {
+    if (std::ranges::find(versions, version_) == versions.end()) {
+      throw InvalidInput("version of REXS", version_, fmt::format("{}", fmt::join(versions, ", ")));
+    }
+    result_.model.version = version_;
+    result_.model.application = "Flankwright";
+    result_.model.application_version = version();
+    result_.model.date = options.date;
+  }
+
+  ExportedStage stage() {
+    const int unit = add("gear_unit", study_.title);
+    const int stage = add("cylindrical_stage", study_.title);
+    length("center_distance", pair_.centre_distance);
+    length("common_face_width", pair_.face_width);
+    const std::array<int, 2> gears{add_gear(Member::Pinion), add_gear(Member::Wheel)};
+    relate("assembly", {{unit, "assembly", "gear_unit"}, {stage, "part", "cylindrical_stage"}});
+    relate("stage", {{stage, "stage", "cylindrical_stage"}, {gears[0], "gear_1", "cylindrical_gear"}, {gears[1], "gear_2", "cylindrical_gear"}});
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      const int gear = gears[m == Member::Pinion ? 0 : 1];
+      add_data(m, stage, gear);
+      add_flanks(m, gear);
+      add_material(m, gear);
+    }
+    add_load_cases();
+    add_notes();
+    return std::move(result_);
+  }
+
+ private:
+  bool before(std::string_view version) const { return version_ < version; }
+
+  int add(const std::string& type, const std::string& name = {}) {
+    const int id = static_cast<int>(result_.model.components.size()) + 1;
+    result_.model.components.push_back({.id = id, .type = type, .name = name});
+    return id;
+  }
+  void attribute(const std::string& id, const std::string& unit, ValueType type, std::string text) {
+    result_.model.components.back().attributes.push_back({id, unit, type, std::move(text)});
+  }
+  void length(const std::string& id, double mm) { attribute(id, "mm", ValueType::Number, number_text(mm)); }
+  void number(const std::string& id, double value) { attribute(id, "none", ValueType::Number, number_text(value)); }
+  void word(const std::string& id, const std::string& value) { attribute(id, "none", ValueType::Word, value); }
+  void flag(const std::string& id, bool value) { attribute(id, "none", ValueType::Boolean, value ? "true" : "false"); }
+  void angle(const std::string& id, double rad) {
+    attribute(id, before("1.4") ? "\xc2\xb0" : "deg", ValueType::Number, number_text(rad / units::deg));
+  }
+  void torque(const std::string& id, double newton_mm) { attribute(id, "N m", ValueType::Number, number_text(newton_mm / units::newton_metre)); }
+  void lengths(const std::string& id, const std::vector<double>& mm) {
+    Attribute array{.id = id, .unit = "mm", .type = ValueType::NumberArray};
+    for (const double value : mm) array.array.push_back(number_text(value));
+    result_.model.components.back().attributes.push_back(std::move(array));
+  }
+  void relate(const std::string& type, std::vector<Reference> refs, std::optional<int> order = {}) {
+    const int id = static_cast<int>(result_.model.relations.size()) + 1;
+    result_.model.relations.push_back({.id = id, .type = type, .order = order, .refs = std::move(refs)});
+  }
+
+  const Modification& modification(Member m) const { return m == Member::Pinion ? study_.pinion_modification : study_.wheel_modification; }
+  const FlankGrid& grid(Member m) const { return m == Member::Pinion ? study_.pinion_grid : study_.wheel_grid; }
+
+  int add_gear(Member m) {
+    const Gear& gear = pair_[m];
+    const int id = add("cylindrical_gear", name_of(m));
+    attribute("number_of_teeth", "none", ValueType::Integer, std::to_string(gear.data.teeth));
+    length("normal_module", study_.pair.normal_module);
+    angle("helix_angle_reference_diameter", gear.hand == Hand::Right ? study_.pair.helix_angle : -study_.pair.helix_angle);
+    length("face_width", gear.data.face_width);
+    length("tip_diameter", 2.0 * gear.tip_radius);
+    length("root_diameter", 2.0 * gear.root_radius);
+    length("root_form_diameter", 2.0 * gear.form_radius);
+    word("datum_face_orientation", "negative");
+    return id;
+  }
+
+  void add_data(Member m, int stage, int gear) {
+    const std::string type = before("1.3") ? "stage_gear_data" : "cylindrical_stage_gear_data";
+    const int id = add(type);
+    flag("is_driving_gear", study_.pair.driver == m);
+    word("loaded_tooth_flank", study_.pair.working_flank == WorkingFlank::Right ? "right" : "left");
+    length("active_root_diameter", 2.0 * pair_[m].active_root_radius);
+    length("active_tip_diameter", 2.0 * pair_[m].tip_radius);
+    const double ratio = m == Member::Pinion ? 1.0 : pair_.gear_ratio();
+    if (study_.torques.front() > 0.0) torque("torque", ratio * study_.torques.front());
+    relate("stage_gear_data", {{stage, "stage", "cylindrical_stage"}, {gear, "gear", "cylindrical_gear"}, {id, "stage_gear_data", type}});
+    if (m == Member::Pinion) pinion_data_ = id;
+  }
+
+  int add_flank(Member m, const std::string& side) {
+    const int id = add(before("1.3") ? "flank_geometry" : "cylindrical_gear_flank", (m == Member::Pinion ? "pinion, " : "wheel, ") + side + " flank");
+    angle("normal_pressure_angle", study_.pair.pressure_angle);
+    number("addendum_modification_coefficient", pair_[m].data.profile_shift);
+    number("addendum_coefficient_basic_profile", pair_[m].data.rack.addendum);
+    return id;
+  }
+
+  void add_flanks(Member m, int gear) {
+    const int left = add_flank(m, "left"), right = add_flank(m, "right");
+    const std::string type = result_.model.components.back().type;
+    relate("flank", {{gear, "gear", "cylindrical_gear"}, {left, "left", type}, {right, "right", type}});
+    const RackProfile& rack = pair_[m].data.rack;
+    const int tool = add("rack_shaped_tool");
+    number("addendum_coefficient_reference_profile", rack.dedendum);
+    number(before("2.0") ? "tip_radius_factor" : "tip_corner_radius_factor_reference_profile", rack.root_radius);
+    if (before("1.3")) {
+      relate("ordered_reference", {{gear, "origin", "cylindrical_gear"}, {tool, "referenced", "rack_shaped_tool"}}, 1);
+    } else {
+      const std::string settings_type = "cylindrical_gear_manufacturing_settings";
+      for (const int flank : {left, right}) {
+        const int settings = add(settings_type);
+        number("generated_addendum_modification_coefficient", pair_[m].data.profile_shift);
+        length("machining_allowance", 0.0);
+        relate("manufacturing_step", {{flank, "workpiece", type}, {tool, "tool", "rack_shaped_tool"}, {settings, "manufacturing_settings", settings_type}}, 1);
+      }
+    }
+    flank_ = study_.pair.working_flank == WorkingFlank::Right ? right : left;
+    flank_type_ = type;
+    add_modifications(m);
+  }
+
+  /// A component at the working flank; its attributes follow.
+  void add_modification(const std::string& type) {
+    const int id = add(type);
+    relate("reference", {{flank_, "origin", flank_type_}, {id, "referenced", type}});
+    flag("is_additive_modification", true);
+  }
+
+  void add_modifications(Member m) {
+    const Modification& mod = modification(m);
+    const double half = 0.5 * pair_[m].data.face_width, tip = 2.0 * pair_[m].tip_radius, root = 2.0 * pair_[m].active_root_radius;
+    if (mod.lead_crowning != 0.0) {
+      add_modification("helix_crowning");
+      length("helix_crowning_amount_datum_face", mod.lead_crowning);
+      length("helix_crowning_amount_non_datum_face", mod.lead_crowning);
+      length("coordinate_where_helix_crowning_is_specified_datum_face", -half);
+      length("coordinate_where_helix_crowning_is_specified_non_datum_face", half);
+      length("helix_highest_point", 0.0);
+      word("shape_of_helix_crowning", "parabolic");
+    }
+    if (mod.lead_slope != 0.0) {
+      add_modification("helix_slope");
+      length("helix_slope", mod.lead_slope);
+      length("helix_evaluation_start", -half);
+      length("helix_evaluation_end", half);
+    }
+    if (mod.addendum_crowning != 0.0 || mod.dedendum_crowning != 0.0) {
+      add_modification("profile_crowning");
+      length("profile_crowning_at_tip", mod.addendum_crowning);
+      length("profile_crowning_at_root", mod.dedendum_crowning);
+      length("diameter_where_profile_crowning_tip_is_specified", tip);
+      length("diameter_where_profile_crowning_root_is_specified", root);
+      length("profile_highest_point", 2.0 * pair_[m].working_pitch_radius);
+      word("shape_of_profile_crowning", "parabolic");
+    }
+    if (mod.profile_slope != 0.0) {
+      add_modification("profile_slope");
+      length("profile_slope", mod.profile_slope);
+      length("profile_evaluation_start", root);
+      length("profile_evaluation_end", tip);
+    }
+    if (mod.tip_relief.amount != 0.0) add_relief("tip_relief", mod.tip_relief, tip - 2.0 * mod.tip_relief.height, tip);
+    if (mod.root_relief.amount != 0.0) add_relief("root_relief", mod.root_relief, root + 2.0 * mod.root_relief.height, root);
+    if (mod.end_relief.amount != 0.0) {
+      for (const auto& [side, end] : {std::pair{std::string("datum_face"), -half}, std::pair{std::string("non_datum_face"), half}}) {
+        add_modification("end_relief_" + side);
+        length("end_relief_depth_" + side, mod.end_relief.amount);
+        length("end_relief_length_" + side, mod.end_relief.length);
+        length("end_relief_evaluation_reference_" + side, end);
+        word("shape_of_relief", "linear");
+      }
+    }
+    if (mod.twist != 0.0) {
+      add_modification("profile_twist");
+      length("profile_twist", mod.twist);
+      length("position_of_profile_twist_datum_face", -half);
+      length("position_of_profile_twist_non_datum_face", half);
+    }
+    add_topography(m);
+  }
+
+  void add_relief(const std::string& name, const ProfileRelief& relief, double datum_diameter, double end_diameter) {
+    add_modification(name);
+    length(name + "_depth", relief.amount);
+    length(name + "_datum_diameter", datum_diameter);
+    length(name + "_evaluation_reference", end_diameter);
+    word("shape_of_relief", relief.shape == ReliefShape::Linear ? "linear" : "parabolic");
+    flag("specify_tangential_transition", false);
+  }
+
+  /// Everything of a flank that is a field and no number of Modification.
+  void add_topography(Member m) {
+    Modification rest = modification(m);
+    rest.topography = nullptr;
+    const Flank flank = make_flank(pair_, m, rest, {});
+    MeasuredGrid points;
+    if (!grid(m).file.empty()) {
+      points = read_grid((std::filesystem::path(study_.file).parent_path() / grid(m).file).string());
+    } else if (!flank.fields.empty()) {
+      points = even_points(m);
+    } else {
+      return;
+    }
+    std::vector<double> z, diameters, amounts;
+    for (std::size_t i = 0; i < points.radii.size(); ++i) {
+      for (std::size_t j = 0; j < points.z.size(); ++j) {
+        double amount = -points.deviation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) / std::cos(pair_.base_helix_angle);
+        for (const auto& field : flank.fields) amount += field->at(flank.roll_at(points.radii[i]), points.z[j]).value;
+        z.push_back(points.z[j]);
+        diameters.push_back(2.0 * points.radii[i]);
+        amounts.push_back(amount);
+      }
+    }
+    add_modification("topographical_modification");
+    lengths("coordinates_of_topographical_modification", z);
+    lengths("diameters_of_topographical_modification", diameters);
+    lengths("topographical_modification_amounts", amounts);
+    word("type_of_interpolation_topographical_modification", "spline");
+    if (!flank.fields.empty()) {
+      result_.notes.push_back(fmt::format("{}: generation and parabolic_te are exported as {} points of a topographical_modification", name_of(m), amounts.size()));
+    }
+  }
+
+  /// Over the active flank, without deviation.
+  MeasuredGrid even_points(Member m) const {
+    MeasuredGrid points;
+    const Gear& gear = pair_[m];
+    for (int i = 0; i < topography_points; ++i) {
+      const double share = static_cast<double>(i) / (topography_points - 1);
+      points.radii.push_back(std::lerp(gear.active_root_radius, gear.tip_radius, share));
+      points.z.push_back((share - 0.5) * gear.data.face_width);
+    }
+    points.deviation = Eigen::MatrixXd::Zero(topography_points, topography_points);
+    return points;
+  }
+
+  void add_material(Member m, int gear) {
+    const Material& material = m == Member::Pinion ? study_.pinion_material : study_.wheel_material;
+    const int id = add("material");
+    attribute("elastic_modulus", before("2.0") ? "N / mm^2" : "MPa", ValueType::Number, number_text(material.youngs_modulus));
+    number("poisson_ratio", material.poissons_ratio);
+    relate("reference", {{gear, "origin", "cylindrical_gear"}, {id, "referenced", "material"}});
+  }
+
+  void add_load_cases() {
+    std::vector<double> torques;
+    for (const Scene& scene : study_.scenes) {
+      for (const double torque : scene.torques) {
+        if (std::ranges::find(torques, torque) == torques.end()) torques.push_back(torque);
+      }
+    }
+    if (torques.size() < 2) return;
+    for (const double torque : torques) {
+      Component varied{.id = pinion_data_, .type = result_.model.find(pinion_data_)->type};
+      varied.attributes.push_back({"torque", "N m", ValueType::Number, number_text(torque / units::newton_metre)});
+      result_.model.load_cases.push_back({static_cast<int>(result_.model.load_cases.size()) + 1, {varied}});
+    }
+  }
+
+  void add_notes() {
+    result_.notes.push_back("modifications are those of the working flanks; the flanks at the back are exported without");
+    if (before("1.3")) result_.notes.push_back("modifications are part of the format since 1.3; older readers pass over them");
+    result_.notes.push_back("misalignment, shafts and errors of teeth are not exported");
+  }
+
+  const Study& study_;
+  GearPair pair_;
+  std::string version_;
+  ExportedStage result_;
+  int flank_{0}, pinion_data_{0};
+  std::string flank_type_;
+};
+
+}  // namespace
+
+ExportedStage export_stage(const Study& study, const ExportOptions& options) { return Export(study, options).stage(); }
+
+}  // namespace flankwright::studies::rexs

@@ -1,0 +1,174 @@
+#include "studies/exchange/rexs/rexs_import.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "core/base/units.hpp"
+#include "studies/exchange/rexs/rexs_load.hpp"
+#include "studies/exchange/rexs/rexs_shaft.hpp"
+#include "studies/study_file/study_file.hpp"
+
+namespace flankwright::studies::rexs {
+
+namespace {
+
+/// Types that are looked into for one stage: what of these is not taken is listed by name.
+bool belongs_to_stage(const StageParts& parts, const Component& component) {
+  for (const GearParts& gear : parts.gears) {
+    for (const Component* part : {gear.gear, gear.data, gear.flank, gear.other_flank, gear.tool, gear.material}) {
+      if (part == &component) return true;
+    }
+  }
+  return &component == parts.stage;
+}
+
+/// "version 1.6", and whether it is one that was known when this was written.
+void check_version(Reading& reading) {
+  const std::string& version = reading.model().version;
+  const bool known = version.size() >= 3 && (version.starts_with("1.") || version == "2.0" || version.starts_with("2.0.")) &&
+                     std::ranges::all_of(version, [](char c) { return c == '.' || (c >= '0' && c <= '9'); });
+  if (!known) reading.warn(fmt::format("version \"{}\" of the format is not known here (known: 1.0 to 2.0), read as if it were", version));
+}
+
+class Import {
+ public:
+  Import(Reading& reading, const ImportOptions& options) : reading_(reading), options_(options), parts_(find_stage(reading, options.stage)) {}
+
+  ImportedStudy study() {
+    check_version(reading_);
+    const ImportedPair pair = read_pair(reading_, parts_);
+    const GearPair geometry = build(pair);
+    StudyText body;
+    write_pair(pair, body);
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      add_modification(read_modification(reading_, parts_[m], geometry, m, options_.slope_end), m, body);
+    }
+    write_materials(body);
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      if (const auto shaft = read_shaft(reading_, parts_[m], geometry[m].data.face_width)) write_shaft(*shaft, m, body);
+    }
+    write_torques(read_torques(reading_, parts_), body);
+    write_rest(body);
+    return {head() + body.text(), std::move(grids_), reading_.warnings()};
+  }
+
+ private:
+  GearPair build(const ImportedPair& pair) const {
+    const std::vector<InvalidInput> problems = find_problems(pair.data);
+    if (problems.empty()) return make_gear_pair(pair.data);
+    std::vector<StudyProblem> all;
+    for (const InvalidInput& problem : problems) {
+      const auto source = pair.remarks.find(problem.field());
+      const std::string from = source == pair.remarks.end() ? "" : " (" + source->second + ")";
+      all.push_back({reading_.file(), parts_.stage->line, parts_.stage->line > 0 ? 1 : 0,
+                     Reading::name_of(*parts_.stage) + ": " + problem.field() + from, problem.value(), "allowed is " + problem.allowed()});
+    }
+    throw StudyErrors(std::move(all));
+  }
+
+  /// Written last: what is to be said is known only then.
+  std::string head() const {
+    const Model& model = reading_.model();
+    const std::string file = std::filesystem::path(reading_.file()).filename().string();
+    StudyText text;
+    text.comment(fmt::format("Stage {} of {}, REXS {}{}.", parts_.stage->id, file, model.version,
+                             model.application.empty() ? "" : ", written by " + model.application + " " + model.application_version));
+    text.comment("Behind each value stands the attribute that it came from. Amounts of modifications count as removed along the transverse");
+    text.comment("base tangent; z runs along the pinion's u axis, from mid face.");
+    if (!reading_.warnings().empty()) {
+      text.comment("");
+      text.comment("Not as in the file:");
+      for (const std::string& warning : reading_.warnings()) text.comment("  - " + warning);
+    }
+    text.key("title", quoted((parts_.stage->name.empty() ? Reading::name_of(*parts_.stage) : parts_.stage->name) + ", " + file));
+    text.key("task", "\"analyse\"");
+    return text.text();
+  }
+
+  void add_modification(const ImportedModification& modification, Member m, StudyText& text) {
+    const std::string name = options_.grid_stem + (m == Member::Pinion ? "-pinion.csv" : "-wheel.csv");
+    write_modification(modification, m, name, text);
+    if (!modification.grid.empty()) grids_.push_back({name, modification.grid});
+  }
+
+  void write_materials(StudyText& text) {
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      const Component* material = parts_[m].material;
+      const auto modulus = reading_.number(material, "elastic_modulus", Dimension::Stress);
+      const auto poisson = reading_.number(material, "poisson_ratio", Dimension::None);
+      if (!modulus && !poisson) continue;
+      text.table(m == Member::Pinion ? "pinion.material" : "wheel.material");
+      if (modulus) text.key("youngs_modulus", number_text(modulus->value), modulus->source);
+      if (poisson) text.key("poissons_ratio", number_text(poisson->value), poisson->source);
+    }
+  }
+
+  void write_torques(const std::vector<ImportedTorque>& torques, StudyText& text) {
+    text.table("load");
+    const auto value = [](const ImportedTorque& torque) { return number_text(torque.torque / units::newton_metre); };
+    if (torques.empty()) {
+      text.key("torque", "0", "the file does not tell the torque on the pinion");
+      return;
+    }
+    text.key("torque", value(torques.front()), torques.front().source);
+    if (torques.size() == 1) return;
+    for (const ImportedTorque& torque : torques) {
+      text.scene();
+      text.key("name", quoted(torque.name));
+      text.key("load.torque", value(torque), torque.source);
+      if (torque.time_share > 0.0) text.key("weight", number_text(torque.time_share), "operating_time_fraction");
+    }
+  }
+
+  /// Attributes that were not read of components that belong to the stage or were looked at, and how many there are of the others.
+  void write_rest(StudyText& text) {
+    std::map<std::string, int> others;
+    text.blank();
+    text.comment("Not taken, as a study has no key for it or it follows from what was taken:");
+    for (const Component& component : reading_.model().components) {
+      const std::vector<std::string> unread = reading_.unread(component);
+      if (unread.size() == component.attributes.size() && !belongs_to_stage(parts_, component)) {
+        ++others[component.type];
+      } else if (!unread.empty()) {
+        text.comment(fmt::format("  {}: {}", Reading::name_of(component), fmt::join(unread, ", ")));
+      }
+    }
+    for (const auto& [type, count] : others) text.comment(fmt::format("  {} x {}", count, type));
+  }
+
+  Reading& reading_;
+  const ImportOptions& options_;
+  StageParts parts_;
+  std::vector<ImportedGrid> grids_;
+};
+
+}  // namespace
+
+ImportedStudy import_stage(const std::string& text, const std::string& name, const ImportOptions& options) {
+  const Model model = parse_model(text, name);
+  Reading reading(model, name);
+  ImportedStudy study = Import(reading, options).study();
+  // The schema's own limits (a module of 2 m, a helix angle of 60 deg) are checked where they are kept; grids stand in files yet to be.
+  std::string without_grids;
+  for (std::size_t at = 0; at < study.text.size();) {
+    const std::size_t end = std::min(study.text.find('\n', at), study.text.size());
+    const std::string line = study.text.substr(at, end - at);
+    if (!line.starts_with("grid = ")) without_grids += line;
+    without_grids += "\n";
+    at = end + 1;
+  }
+  try {
+    parse_study(without_grids, name);
+  } catch (const StudyErrors& errors) {
+    std::vector<StudyProblem> problems = errors.problems();
+    for (StudyProblem& problem : problems) problem.line = problem.column = 0;  // places of a file that nobody has
+    throw StudyErrors(std::move(problems));
+  }
+  return study;
+}
+
+}  // namespace flankwright::studies::rexs

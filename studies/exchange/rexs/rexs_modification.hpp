@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+
+#include "core/gear/gear_pair.hpp"
+#include "core/gear/microgeometry.hpp"
+#include "studies/exchange/rexs/rexs_pair.hpp"
+
+namespace flankwright::studies::rexs {
+
+/// Types of the components that say how a flank is modified.
+bool is_modification(std::string_view type);
+
+/// End of the face at which a positive helix_slope removes material. The format does not say; programs differ.
+enum class SlopeEnd { NonDatumFace, DatumFace };
+
+/// The modification of one gear's working flank.
+struct ImportedModification {
+  Modification modification;  ///< without topography
+  Remarks remarks;            ///< by key below [pinion.modification]
+  std::string grid;           ///< measurement grid (see grid_file.hpp) of a topographical_modification; empty: none
+};
+
+/// Reads the modifications of a flank, states them in the terms of Modification, and warns of all that these cannot say.
+///
+/// Amounts of the format are taken as material removed along the transverse base tangent, crownings and slopes as those of the whole
+/// flank where no range is given; a slope or crowning of another range is carried on to the borders of the flank.
+/// @throws StudyErrors where an attribute is no number or of a wrong unit
+ImportedModification read_modification(Reading& reading, const GearParts& parts, const GearPair& pair, Member member, SlopeEnd slope_end);
+
+/// [pinion.modification] or [wheel.modification] of a study.
+/// @param grid_file  name under which the grid will be stored; not used where there is none
+void write_modification(const ImportedModification& modification, Member member, const std::string& grid_file, StudyText& text);
+
+}  // namespace flankwright::studies::rexs

@@ -1,0 +1,259 @@
+#include "studies/exchange/rexs/rexs_pair.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace flankwright::studies::rexs {
+
+namespace {
+
+constexpr double same = 1e-9;  ///< two gears of a stage agree where |a - b| <= same * (1 + |a|)
+
+bool agree(double a, double b) { return std::abs(a - b) <= same * (1.0 + std::abs(a)); }
+
+/// Largest root radius that a rack's space has room for, in modules: the full rounding of the tool's tip.
+double full_rounding(double dedendum, double pressure_angle) {
+  return (std::numbers::pi / 4.0 - dedendum * std::tan(pressure_angle)) * std::cos(pressure_angle) / (1.0 - std::sin(pressure_angle));
+}
+
+class PairReading {
+ public:
+  PairReading(Reading& reading, const StageParts& parts) : reading_(reading), parts_(parts) {}
+
+  ImportedPair read() {
+    PairData& data = pair_.data;
+    data.normal_module = required_of_both("normal_module", "pair.normal_module");
+    read_pressure_angle();
+    read_helix();
+    read_stage();
+    for (const Member m : {Member::Pinion, Member::Wheel}) read_gear(m);
+    return std::move(pair_);
+  }
+
+ private:
+  const Component& gear(Member m) const { return *parts_[m].gear; }
+  GearData& data(Member m) { return m == Member::Pinion ? pair_.data.pinion : pair_.data.wheel; }
+  static std::string prefix(Member m) { return m == Member::Pinion ? "pinion." : "wheel."; }
+  void remark(const std::string& key, const std::string& text) { pair_.remarks[key] = text; }
+  std::optional<Taken> number(const Component* component, std::string_view id, Dimension dimension = Dimension::None) {
+    return reading_.number(component, id, dimension);
+  }
+
+  Taken required(const Component& component, std::string_view id, Dimension dimension) {
+    const auto taken = reading_.number(&component, id, dimension);
+    if (!taken) reading_.refuse_attribute(component, id, "not given", "a number: a study needs it");
+    return *taken;
+  }
+
+  /// A length that both gears state alike; one of them may be silent.
+  double required_of_both(std::string_view id, const std::string& key) {
+    const auto of_pinion = number(&gear(Member::Pinion), id, Dimension::Length), of_wheel = number(&gear(Member::Wheel), id, Dimension::Length);
+    if (!of_pinion && !of_wheel) required(gear(Member::Pinion), id, Dimension::Length);
+    if (of_pinion && of_wheel && !agree(of_pinion->value, of_wheel->value)) {
+      reading_.refuse_attribute(gear(Member::Wheel), id, number_text(of_wheel->value), "that of the mate, " + number_text(of_pinion->value));
+    }
+    const Taken& taken = of_pinion ? *of_pinion : *of_wheel;
+    remark(key, taken.source);
+    return taken.value;
+  }
+
+  void read_pressure_angle() {
+    std::optional<Taken> found;
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      for (const Component* at : {parts_[m].flank, parts_[m].gear, parts_[m].tool}) {
+        const auto angle = number(at, "normal_pressure_angle", Dimension::Angle);
+        if (angle && found && !agree(angle->value, found->value)) {
+          reading_.refuse_attribute(*at, "normal_pressure_angle", number_text(angle->value / units::deg),
+                                    number_text(found->value / units::deg) + " deg, as " + found->source + " says");
+        }
+        if (!found) found = angle;
+      }
+    }
+    if (found) pair_.data.pressure_angle = found->value;
+    remark("pair.pressure_angle", found ? found->source : "not in the file");
+  }
+
+  void read_helix() {
+    const Component &pinion = gear(Member::Pinion), &wheel = gear(Member::Wheel);
+    constexpr std::string_view id = "helix_angle_reference_diameter";
+    const auto of_pinion = number(&pinion, id, Dimension::Angle), of_wheel = number(&wheel, id, Dimension::Angle);
+    if (of_pinion && of_wheel && !agree(of_pinion->value, -of_wheel->value)) {
+      reading_.refuse_attribute(wheel, id, number_text(of_wheel->value / units::deg),
+                                number_text(-of_pinion->value / units::deg) + " deg, opposite to the mate's: axes are parallel");
+    }
+    const double beta = of_pinion ? of_pinion->value : of_wheel ? -of_wheel->value : 0.0;
+    pair_.data.helix_angle = std::abs(beta);
+    pair_.data.pinion_hand = beta < 0.0 ? Hand::Left : Hand::Right;
+    remark("pair.helix_angle", of_pinion ? of_pinion->source : of_wheel ? of_wheel->source : "not in the file: spur");
+    remark("pinion.hand", beta == 0.0 ? "of no meaning for spur gears" : "positive helix angles are right-handed");
+  }
+
+  void read_stage() {
+    if (const auto distance = number(parts_.stage, "center_distance", Dimension::Length)) {
+      pair_.data.centre_distance = distance->value;
+      remark("pair.centre_distance", distance->source);
+    }
+    const auto drives = [&](Member m) {
+      const std::string word = reading_.word(parts_[m].data, "is_driving_gear");
+      return word == "true" || word == "True" || word == "1";
+    };
+    const bool pinion = drives(Member::Pinion), wheel = drives(Member::Wheel);
+    pair_.data.driver = wheel && !pinion ? Member::Wheel : Member::Pinion;
+    remark("pair.driver", pinion != wheel ? Reading::name_of(*(pinion ? parts_.gears[0] : parts_.gears[1]).data) + " is_driving_gear"
+                                          : "not in the file");
+    pair_.data.working_flank = parts_.working_flank;
+    remark("pair.working_flank", parts_.flank_is_given ? Reading::name_of(*parts_.gears[0].data) + " loaded_tooth_flank" : "not in the file");
+  }
+
+  void read_gear(Member m) {
+    data(m).teeth = parts_.teeth[m == Member::Pinion ? 0 : 1];
+    remark(prefix(m) + "teeth", Reading::name_of(gear(m)) + " number_of_teeth");
+    const Taken width = required(gear(m), "face_width", Dimension::Length);
+    data(m).face_width = width.value;
+    remark(prefix(m) + "face_width", width.source);
+    read_profile_shift(m);
+    read_tip_diameter(m);
+    read_rack(m);
+  }
+
+  void read_profile_shift(Member m) {
+    const Component* flank = parts_[m].flank;
+    const std::string key = prefix(m) + "profile_shift";
+    const double module = pair_.data.normal_module;
+    if (auto x = number(flank, "addendum_modification_coefficient")) {
+      data(m).profile_shift = x->value;
+      remark(key, x->source);
+    } else if (auto length = number(flank, "addendum_modification", Dimension::Length)) {
+      data(m).profile_shift = length->value / module;
+      remark(key, length->source + " in modules");
+    } else {
+      remark(key, "not in the file");
+    }
+  }
+
+  void read_tip_diameter(Member m) {
+    const auto tip = number(&gear(m), "tip_diameter", Dimension::Length);
+    if (!tip) return;
+    const double module = pair_.data.normal_module;
+    const double reference = data(m).teeth * module / std::cos(pair_.data.helix_angle);
+    // A tip below the reference circle less a module's dedendum, or three modules above what profile shift asks for, is a placeholder.
+    const double lowest = reference - 2.0 * module, highest = reference + 2.0 * (3.0 + std::max(0.0, data(m).profile_shift)) * module;
+    if (tip->value > lowest && tip->value < highest) {
+      data(m).tip_diameter = tip->value;
+      remark(prefix(m) + "tip_diameter", tip->source);
+    } else {
+      reading_.warn(fmt::format("{} = {} mm cannot be that of a gear with reference diameter {} mm: not taken, it follows from the rack",
+                                tip->source, number_text(tip->value), difference_text(reference)));
+    }
+  }
+
+  /// A coefficient, or a length in modules; moved to `value` with its remark.
+  bool read_coefficient(const Component* component, std::initializer_list<std::string_view> coefficients, std::string_view length,
+                        double& value, const std::string& key) {
+    if (const auto taken = reading_.first_of(component, coefficients, Dimension::None)) {
+      value = taken->value;
+      remark(key, taken->source);
+      return true;
+    }
+    if (const auto taken = number(component, length, Dimension::Length)) {
+      value = taken->value / pair_.data.normal_module;
+      remark(key, taken->source + " in modules");
+      return true;
+    }
+    return false;
+  }
+
+  void read_rack(Member m) {
+    RackProfile& rack = data(m).rack;
+    const GearParts& parts = parts_[m];
+    const std::string key = prefix(m) + "rack.";
+    if (!read_coefficient(parts.flank, {"addendum_coefficient_basic_profile"}, "", rack.addendum, key + "addendum")) {
+      remark(key + "addendum", "not in the file");
+    }
+    // The tool's addendum cuts the gear's dedendum.
+    if (!read_coefficient(parts.tool, {"addendum_coefficient_reference_profile"}, "addendum_reference_profile", rack.dedendum, key + "dedendum")) {
+      read_dedendum(m);
+    }
+    if (!read_coefficient(parts.tool, {"tip_corner_radius_factor_reference_profile", "tip_radius_factor"}, "tip_corner_radius_reference_profile",
+                          rack.root_radius, key + "root_radius")) {
+      remark(key + "root_radius", "not in the file");
+    }
+    const double most = full_rounding(rack.dedendum, pair_.data.pressure_angle);
+    if (rack.root_radius > most && most > 0.0) {
+      const bool given = pair_.remarks[key + "root_radius"] != "not in the file";
+      // Rounded down: digits must not carry it over the limit.
+      rack.root_radius = std::floor(most * 1e6) * 1e-6;
+      const std::string words = pair_.remarks[key + "root_radius"] + ": the full rounding of the tool's tip";
+      remark(key + "root_radius", words);
+      if (given) reading_.warn(words + ", which is less than the file has, is taken for " + key + "root_radius");
+    }
+    for (const auto& amount : {number(parts.tool, "protuberance_amount", Dimension::Length), number(parts.tool, "protuberance_amount_factor")}) {
+      if (amount && amount->value != 0.0) reading_.warn(amount->source + ": protuberance is not modelled, not taken");
+    }
+  }
+
+  /// Without a tool the root diameter tells the dedendum.
+  void read_dedendum(Member m) {
+    RackProfile& rack = data(m).rack;
+    const std::string key = prefix(m) + "rack.dedendum";
+    remark(key, "not in the file");
+    const auto root = number(&gear(m), "root_diameter", Dimension::Length);
+    if (!root) return;
+    const double reference = data(m).teeth * pair_.data.normal_module / std::cos(pair_.data.helix_angle);
+    const double dedendum = data(m).profile_shift + (reference - root->value) / (2.0 * pair_.data.normal_module);
+    if (dedendum > 0.5 && dedendum < 2.5) {
+      rack.dedendum = std::round(dedendum * 1e9) * 1e-9;
+      remark(key, "from " + root->source);
+    } else {
+      reading_.warn(fmt::format("{} = {} mm is no root of this gear: not taken", root->source, number_text(root->value)));
+    }
+  }
+
+  Reading& reading_;
+  const StageParts& parts_;
+  ImportedPair pair_;
+};
+
+void write_gear(const ImportedPair& pair, Member m, StudyText& text) {
+  const GearData& gear = pair.data[m];
+  const std::string name = name_of(m);
+  const auto remark = [&](const std::string& key) {
+    const auto found = pair.remarks.find(name + "." + key);
+    return found == pair.remarks.end() ? std::string() : found->second;
+  };
+  text.table(name);
+  text.key("teeth", std::to_string(gear.teeth), remark("teeth"));
+  text.key("face_width", number_text(gear.face_width), remark("face_width"));
+  if (m == Member::Pinion) text.key("hand", pair.data.pinion_hand == Hand::Right ? "\"right\"" : "\"left\"", remark("hand"));
+  text.key("profile_shift", number_text(gear.profile_shift), remark("profile_shift"));
+  if (!std::isnan(gear.tip_diameter)) text.key("tip_diameter", number_text(gear.tip_diameter), remark("tip_diameter"));
+  text.key("rack.addendum", number_text(gear.rack.addendum), remark("rack.addendum"));
+  text.key("rack.dedendum", number_text(gear.rack.dedendum), remark("rack.dedendum"));
+  text.key("rack.root_radius", number_text(gear.rack.root_radius), remark("rack.root_radius"));
+}
+
+}  // namespace
+
+ImportedPair read_pair(Reading& reading, const StageParts& parts) { return PairReading(reading, parts).read(); }
+
+void write_pair(const ImportedPair& pair, StudyText& text) {
+  const PairData& data = pair.data;
+  const auto remark = [&](const std::string& key) {
+    const auto found = pair.remarks.find("pair." + key);
+    return found == pair.remarks.end() ? std::string() : found->second;
+  };
+  text.table("pair");
+  text.key("normal_module", number_text(data.normal_module), remark("normal_module"));
+  text.key("pressure_angle", number_text(data.pressure_angle / units::deg), remark("pressure_angle"));
+  text.key("helix_angle", number_text(data.helix_angle / units::deg), remark("helix_angle"));
+  if (!std::isnan(data.centre_distance)) text.key("centre_distance", number_text(data.centre_distance), remark("centre_distance"));
+  text.key("driver", data.driver == Member::Pinion ? "\"pinion\"" : "\"wheel\"", remark("driver"));
+  text.key("working_flank", data.working_flank == WorkingFlank::Right ? "\"right\"" : "\"left\"", remark("working_flank"));
+  write_gear(pair, Member::Pinion, text);
+  write_gear(pair, Member::Wheel, text);
+}
+
+}  // namespace flankwright::studies::rexs

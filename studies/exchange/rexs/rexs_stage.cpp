@@ -1,0 +1,145 @@
+#include "studies/exchange/rexs/rexs_stage.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flankwright::studies::rexs {
+
+namespace {
+
+/// Relations "stage" of external cylindrical stages; of rings and planet carriers by themselves there is nothing to import.
+std::vector<const Relation*> stages_of(const Reading& reading) {
+  std::vector<const Relation*> stages;
+  for (const Relation& relation : reading.model().relations) {
+    const std::optional<int> id = relation.type == "stage" ? relation.role("stage") : std::nullopt;
+    const Component* stage = id ? reading.model().find(*id) : nullptr;
+    if (stage != nullptr && stage->type == "cylindrical_stage") stages.push_back(&relation);
+  }
+  return stages;
+}
+
+std::string teeth_in_words(const Reading& reading, const Relation& stage, std::string_view role) {
+  const Component& gear = reading.in_role(stage, role);
+  const Attribute* teeth = gear.find("number_of_teeth");
+  std::string number = teeth == nullptr ? "?" : teeth->text;
+  if (number.ends_with(".0")) number.resize(number.size() - 2);  // as some write whole numbers
+  return fmt::format("{} {} with {} teeth", gear.type, gear.id, number);
+}
+
+std::string list_of(const Reading& reading, const std::vector<const Relation*>& stages) {
+  std::string lines;
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const Component& stage = reading.in_role(*stages[i], "stage");
+    lines += fmt::format("\n  --stage {}   cylindrical_stage {}{}: {}, {}", i + 1, stage.id, stage.name.empty() ? "" : " \"" + stage.name + "\"",
+                         teeth_in_words(reading, *stages[i], "gear_1"), teeth_in_words(reading, *stages[i], "gear_2"));
+  }
+  return lines;
+}
+
+const Relation& choose(const Reading& reading, std::optional<int> number) {
+  const std::vector<const Relation*> stages = stages_of(reading);
+  if (stages.empty()) refuse(reading.file(), 0, "model", "no relation \"stage\" of a cylindrical_stage", "a file with a cylindrical stage");
+  if (!number && stages.size() == 1) return *stages.front();
+  const std::string allowed = "one of" + list_of(reading, stages);
+  if (!number) refuse(reading.file(), 0, "--stage", "not given, and several stages", allowed);
+  if (*number >= 1 && static_cast<std::size_t>(*number) <= stages.size()) return *stages[static_cast<std::size_t>(*number) - 1];
+  for (const Relation* stage : stages) {
+    if (stage->role("stage") == *number) return *stage;
+  }
+  refuse(reading.file(), 0, "--stage", std::to_string(*number), allowed);
+}
+
+int teeth_of(Reading& reading, const Component& gear) {
+  if (gear.type != "cylindrical_gear") {
+    refuse(reading.file(), gear.line, Reading::name_of(gear), "in the stage", "a cylindrical_gear: internal gears are not modelled");
+  }
+  const std::optional<Taken> teeth = reading.number(&gear, "number_of_teeth", Dimension::None);
+  const std::string allowed = "a whole number of teeth, 5 .. 1000 (internal gears are not modelled)";
+  if (!teeth) reading.refuse_attribute(gear, "number_of_teeth", "not given", allowed);
+  if (std::floor(teeth->value) != teeth->value || teeth->value < 5.0 || teeth->value > 1000.0) {
+    reading.refuse_attribute(gear, "number_of_teeth", fmt::format("{}", teeth->value), allowed);
+  }
+  return static_cast<int>(teeth->value);
+}
+
+/// What the stage says of one gear: stage_gear_data up to 1.2, cylindrical_stage_gear_data since.
+const Component* gear_data(const Reading& reading, const Component& stage, const Component& gear) {
+  for (const Relation& relation : reading.model().relations) {
+    if (relation.type != "stage_gear_data") continue;
+    if (relation.role("stage") == stage.id && relation.role("gear") == gear.id) return &reading.in_role(relation, "stage_gear_data");
+  }
+  return nullptr;
+}
+
+/// Direction of the component's u axis, (1, 0, 0) where it is not said.
+std::array<double, 3> u_axis(Reading& reading, const Component& component) {
+  const auto vector = reading.numbers(&component, "u_axis_vector", Dimension::Length);
+  if (!vector || vector->size() != 3) return {1.0, 0.0, 0.0};
+  return {(*vector)[0], (*vector)[1], (*vector)[2]};
+}
+
+bool against_z(const std::array<double, 3>& z, const std::array<double, 3>& u) { return z[0] * u[0] + z[1] * u[1] + z[2] * u[2] < 0.0; }
+
+void find_flanks(const Reading& reading, GearParts& parts, bool left) {
+  for (const Relation& relation : reading.model().relations) {
+    if (relation.type != "flank" || relation.role("gear") != parts.gear->id) continue;
+    const auto side = [&](const char* role) { return relation.role(role) ? &reading.in_role(relation, role) : nullptr; };
+    parts.flank = side(left ? "left" : "right");
+    parts.other_flank = side(left ? "right" : "left");
+    return;
+  }
+}
+
+void find_rest(Reading& reading, GearParts& parts) {
+  // Up to 1.2 the tool stands at the gear, then at the flank, through a manufacturing step.
+  for (const Component* of : {parts.flank, parts.gear}) {
+    if (of == nullptr || parts.tool != nullptr) continue;
+    const auto tools = reading.related(*of, {"rack_shaped_tool"});
+    if (!tools.empty()) parts.tool = tools.front();
+  }
+  const auto shafts = reading.related(*parts.gear, {"shaft"});
+  if (!shafts.empty()) parts.shaft = shafts.front();
+  for (const Component* of : {parts.gear, parts.shaft}) {
+    if (of == nullptr || parts.material != nullptr) continue;
+    const auto materials = reading.related(*of, {"material"});
+    if (!materials.empty()) parts.material = materials.front();
+  }
+}
+
+}  // namespace
+
+StageParts find_stage(Reading& reading, std::optional<int> number) {
+  const Relation& relation = choose(reading, number);
+  StageParts parts{.stage = &reading.in_role(relation, "stage")};
+  parts.gears[0].gear = &reading.in_role(relation, "gear_1");
+  parts.gears[1].gear = &reading.in_role(relation, "gear_2");
+  for (std::size_t i = 0; i < 2; ++i) parts.teeth[i] = teeth_of(reading, *parts.gears[i].gear);
+  if (parts.teeth[1] < parts.teeth[0]) {
+    std::swap(parts.gears[0], parts.gears[1]);
+    std::swap(parts.teeth[0], parts.teeth[1]);
+  }
+  const std::array<double, 3> z = u_axis(reading, *parts.gears[0].gear);
+  for (GearParts& gear : parts.gears) {
+    gear.data = gear_data(reading, *parts.stage, *gear.gear);
+    const bool against = against_z(z, u_axis(reading, *gear.gear));
+    const bool positive = reading.word(gear.gear, "datum_face_orientation") == "positive";
+    gear.datum_at_low_z = positive == against;
+  }
+  // Right flanks mesh with right flanks when both are seen from the same end.
+  std::string loaded = reading.word(parts.gears[0].data, "loaded_tooth_flank");
+  if (loaded == "left" || loaded == "right") {
+    parts.flank_is_given = true;
+    parts.working_flank = (loaded == "right") == parts.gears[0].datum_at_low_z ? WorkingFlank::Right : WorkingFlank::Left;
+  }
+  reading.word(parts.gears[1].data, "loaded_tooth_flank");
+  for (GearParts& gear : parts.gears) {
+    find_flanks(reading, gear, (parts.working_flank == WorkingFlank::Left) == gear.datum_at_low_z);
+    find_rest(reading, gear);
+    if (gear.shaft != nullptr) gear.shaft_against_z = against_z(z, u_axis(reading, *gear.shaft));
+  }
+  return parts;
+}
+
+}  // namespace flankwright::studies::rexs

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/gear/gear_data.hpp"
+#include "studies/exchange/rexs/rexs_reading.hpp"
+
+namespace flankwright::studies::rexs {
+
+/// The components of a model that belong to one gear of a stage.
+struct GearParts {
+  const Component* gear{nullptr};
+  const Component* data{nullptr};         ///< what the stage says of this gear; null where nothing
+  const Component* flank{nullptr};        ///< the working one; null where the file has none
+  const Component* other_flank{nullptr};  ///< the one at the back
+  const Component* tool{nullptr};         ///< rack that generates it; null where none is named
+  const Component* material{nullptr};
+  const Component* shaft{nullptr};
+  /// The datum face is the end of lowest z, seen from where left and right are named; z runs along the pinion's u axis.
+  bool datum_at_low_z{true};
+  bool shaft_against_z{false};  ///< the shaft's u axis runs the other way
+};
+
+/// A cylindrical stage of a model. The pinion is the gear with fewer teeth, gear_1 where both have the same.
+struct StageParts {
+  const Component* stage{nullptr};
+  std::array<GearParts, 2> gears{};  ///< pinion, wheel
+  std::array<int, 2> teeth{};
+  WorkingFlank working_flank{WorkingFlank::Right};  ///< of the pinion, as a study names it: seen from the end of lowest z
+  bool flank_is_given{false};
+
+  GearParts& operator[](Member m) { return gears[m == Member::Pinion ? 0 : 1]; }
+  const GearParts& operator[](Member m) const { return gears[m == Member::Pinion ? 0 : 1]; }
+};
+
+/// Finds the stage with everything that hangs on it.
+///
+/// @param number  of the stage among those of the file, counted from 1, or else the id of its component; empty: the only one
+/// @throws StudyErrors with one problem: no cylindrical stage; several and none chosen, each in a line; internal gears; what the
+/// relations refer to does not exist
+StageParts find_stage(Reading& reading, std::optional<int> number);
+
+}  // namespace flankwright::studies::rexs

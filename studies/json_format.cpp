@@ -1,3 +1,0 @@
-#include "studies/json_format.hpp"
-
-template class nlohmann::basic_json<nlohmann::ordered_map>;

@@ -1,0 +1,130 @@
+#include "studies/results/compliance_json.hpp"
+
+#include <algorithm>
+
+#include "core/base/units.hpp"
+#include "core/compliance/fitted/refinement_library.hpp"
+#include "studies/compliance/fit_task.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+Json gear_run_json(const GearRun& run, const Material& material) {
+  const RunStatistics& statistics = run.statistics;
+  const InfluenceTable& table = *run.table;
+  return {{"source", run.from_cache ? "cache" : "solved"},
+          {"file", run.file},
+          {"seconds", run.seconds},
+          {"bricks", statistics.bricks},
+          {"unknowns", statistics.unknowns},
+          {"factor_entries", statistics.factor_entries},
+          {"peak_memory_bytes", statistics.peak_bytes},
+          {"model_seconds", statistics.model_seconds},
+          {"loads_seconds", statistics.solve_seconds},
+          {"teeth_apart", table.teeth_apart()},
+          {"root_stress", run.root_stress != nullptr},
+          {"grid", {{"radii", table.grid().us().size()}, {"axial_positions", table.grid().zetas().size()}}},
+          {"removed_shaft_motion", name_of(run.removed)},
+          {"lowest_eigenvalue", table.projection().lowest_eigenvalue},
+          {"projection", table.projection().added},
+          {"youngs_modulus_MPa", material.youngs_modulus},
+          {"poissons_ratio", material.poissons_ratio},
+          {"body", body_json(run.body)}};
+}
+
+Json residuals_json(const ResidualStatistics& residuals) {
+  return {{"teeth_apart", residuals.teeth_apart},
+          {"pairs", residuals.pairs},
+          {"median", 100 * residuals.median},
+          {"share_95", 100 * residuals.share_95},
+          {"worst", 100 * residuals.worst}};
+}
+
+/// Where the kernels of one gear come from, and how close its own fit comes.
+Json refinement_json(const GearRefinement& refinement) {
+  Json json{{"source", refinement.source()}};
+  if (refinement.unknown.empty()) return json;
+  json["why"] = refinement.unknown;
+  json["file"] = refinement.file;
+  json["from_cache"] = refinement.from_cache;
+  json["seconds"] = refinement.seconds;
+  json["status"] = to_string(refinement.fit.status);
+  json["steps"] = refinement.fit.iterations;
+  json["fit_seconds"] = refinement.fit.seconds;
+  json["range"] = {{"u", {-1, 1}}, {"zeta", {0, refinement.fit.gear.relative_face}}};
+  json["residual_percent"] = {{"fitted", residuals_json(refinement.fit.fitted)}, {"unseen", Json::array()}};
+  for (const ResidualStatistics& residuals : refinement.residuals) {
+    json["residual_percent"]["unseen"].push_back(residuals_json(residuals));
+  }
+  json["covariance"] = covariance_json(KernelForm::refinement(), refinement.fit.coefficients, refinement.fit.covariance);
+  return json;
+}
+
+/// The library that completes the coarse values, and how close its own gears come, the least close of each figure.
+Json fits_json(const RefinementLibrary& library) {
+  ResidualStatistics worst{0, 0, 0, 0, 0};
+  for (const RefinementEntry& entry : library.entries()) {
+    worst.pairs += entry.unseen.pairs;
+    worst.median = std::max(worst.median, entry.unseen.median);
+    worst.share_95 = std::max(worst.share_95, entry.unseen.share_95);
+    worst.worst = std::max(worst.worst, entry.unseen.worst);
+  }
+  const RefinementGrid& standard = library.standard();
+  const auto ends = [](const auto& values) { return Json{values.front(), values.back()}; };
+  return {{"gears", library.entries().size()},
+          {"teeth", ends(standard.teeth())},
+          {"helix_angle_deg", {standard.helix_angles().front() / units::deg, standard.helix_angles().back() / units::deg}},
+          {"profile_shift", ends(standard.profile_shifts())},
+          {"interpolation", "polynomials through all gears in 1/z, helix angle and profile shift; departures of other racks and pressure angles added"},
+          {"largest_residual_percent", residuals_json(worst)}};
+}
+
+}  // namespace
+
+const char* name_of(RemovedMotion removed) {
+  switch (removed) {
+    case RemovedMotion::None: return "none";
+    case RemovedMotion::TranslationAndTorsion: return "transverse translation and torsion";
+    case RemovedMotion::TranslationTorsionAndTilt: return "transverse translation, torsion and tilt";
+    case RemovedMotion::WholeTranslationTorsionAndTilt: return "translation, torsion and tilt";
+  }
+  __builtin_unreachable();
+}
+
+Json compliance_json(const GearStructures& structures, const Study& study) {
+  const FiniteElementRuns& runs = *structures.finite_elements;
+  const auto gear = [&](Member member, const Material& material) {
+    Json json = gear_run_json(runs[member], material);
+    if (const auto& fine = runs.fine_run(member)) json["fine_mesh"] = gear_run_json(*fine, material);
+    if (const auto& rigid = runs.rigid_body_run(member)) json["rigid_body"] = gear_run_json(*rigid, material);
+    if (const auto& narrow = runs.narrow_run(member)) json["coarse_mesh_of_fit"] = gear_run_json(*narrow, material);
+    if (const auto& refinement = structures.refinement(member)) json["fit"] = refinement_json(*refinement);
+    return json;
+  };
+  Json json{{"model", to_string(study.fidelity.compliance)},
+            {"seconds", runs.seconds},
+            {"pinion", gear(Member::Pinion, study.pinion_material)},
+            {"wheel", gear(Member::Wheel, study.wheel_material)}};
+  if (structures.refinement(Member::Pinion)) json["fits"] = fits_json(RefinementLibrary::shipped());
+  return json;
+}
+
+Json covariance_json(const KernelForm& form, const std::vector<double>& coefficients, const Eigen::MatrixXd& covariance) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j <= i; ++j) row.push_back(covariance(i, j));
+    rows.push_back(std::move(row));
+  }
+  return {{"coefficient", form.coefficient_names()}, {"value", coefficients}, {"lower_triangle", std::move(rows)}};
+}
+
+Json body_json(const GearBody& body) {
+  return {{"shaft_diameter_mm", body.shaft_diameter},
+          {"bore_diameter_mm", body.bore_diameter},
+          {"shaft_overhang_mm", body.shaft_overhang},
+          {"torque_end", body.torque_end == FaceEnd::Blunt ? "blunt" : "sharp"}};
+}
+
+}  // namespace flankwright::studies

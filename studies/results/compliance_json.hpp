@@ -1,0 +1,21 @@
+#pragma once
+
+#include "core/compliance/fitted/kernel_form.hpp"
+#include "studies/compliance/gear_structures.hpp"
+#include "studies/base/json_format.hpp"
+
+namespace flankwright::studies {
+
+/// The section `compliance` of results.json: what the finite elements of both gears are and took.
+Json compliance_json(const GearStructures& structures, const Study& study);
+
+/// The motion of the shaft that is taken out of influence values, in words.
+const char* name_of(RemovedMotion removed);
+
+/// Coefficients of a fit by name, and the lower triangle of their covariance, row by row.
+Json covariance_json(const KernelForm& form, const std::vector<double>& coefficients, const Eigen::MatrixXd& covariance);
+
+/// A gear's body as used, of `used` in results.json.
+Json body_json(const GearBody& body);
+
+}  // namespace flankwright::studies

@@ -1,0 +1,15 @@
+#pragma once
+
+#include "studies/compliance/fit_task.hpp"
+#include "studies/compliance/gear_deflections.hpp"
+#include "studies/base/json_format.hpp"
+
+namespace flankwright::studies {
+
+/// One entry of fit[] of results.json; README.md describes it.
+Json fit_json(const GearFit& fit);
+
+/// One entry of deflections[] of results.json.
+Json deflections_json(const GearDeflections& deflections);
+
+}  // namespace flankwright::studies

@@ -1,0 +1,83 @@
+#include "studies/base/csv.hpp"
+#include "studies/results/load_rating_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/rating/load_sharing.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+/// One way to define the factors; NaN where a case has no value by it.
+struct Definition {
+  const char* name;
+  const char* label;
+  std::array<double, 4> (*values)(const LoadedResult&);  ///< K_Hbeta, K_Halpha, K_H, the product of the first two
+};
+
+std::array<double, 4> values_of(const std::optional<LoadRating>& rating, LoadFactors::Triple LoadFactors::* which) {
+  const LoadFactors::Triple factors = rating ? rating->factors.*which : LoadFactors::Triple{};
+  return {factors.lead, factors.profile, factors.combined, factors.product()};
+}
+
+constexpr std::array<Definition, 3> definitions{{
+    {"without_spikes", "without spikes", [](const LoadedResult& l) { return values_of(l.rating, &LoadFactors::without_spikes); }},
+    {"with_spikes", "with spikes", [](const LoadedResult& l) { return values_of(l.rating, &LoadFactors::with_spikes); }},
+    {"iso6336", "ISO 6336",
+     [](const LoadedResult& l) { return std::array{l.iso.lead, l.iso.profile, l.iso.combined(), l.iso.combined()}; }},
+}};
+
+/// Empty where there is none.
+std::string field(double value) { return std::isnan(value) ? std::string() : fmt::format("{}", value); }
+
+double in_Nm(double torque) { return torque / units::newton_metre; }
+
+}  // namespace
+
+std::string load_factors_csv(const StudyResults& results) {
+  std::string csv = "scene,torque_Nm,design,definition,K_Hbeta,K_Halpha,K_H,K_Hbeta_times_K_Halpha\n";
+  for (const LoadedResult& loaded : results.loaded) {
+    for (const Definition& definition : definitions) {
+      const auto k = definition.values(loaded);
+      csv += fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, definition.name,
+                         field(k[0]), field(k[1]), field(k[2]), field(k[3]));
+    }
+  }
+  return csv;
+}
+
+std::string load_sharing_csv(const StudyResults& results) {
+  std::string csv = "scene,torque_Nm,design,phase,tooth,line_phase,share\n";
+  for (const LoadedResult& loaded : results.loaded) {
+    const MeshModel& model = results.models[loaded.model];
+    for (std::size_t k = 0; k < loaded.cycle.positions.size(); ++k) {
+      const double phase = loaded.cycle.positions[k].phase;
+      for (const ToothShare& tooth : load_sharing(model.positions[k], loaded.cycle.positions[k])) {
+        csv += fmt::format("{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, phase, tooth.tooth,
+                           phase + tooth.tooth, tooth.share);
+      }
+    }
+  }
+  return csv;
+}
+
+std::string load_factors_table(const StudyResults& results, std::size_t width) {
+  if (std::ranges::none_of(results.loaded, [](const LoadedResult& l) { return l.rating.has_value(); })) return {};
+  std::string out = fmt::format("\n{:<{}}  {:<14}  {:>8}  {:>8}  {:>8}  {:>15}\n", "load factors", width, "by", "K_Hbeta", "K_Halpha", "K_H",
+                                "K_Hbeta*K_Halpha");
+  for (const LoadedResult& loaded : results.loaded) {
+    for (const Definition& definition : definitions) {
+      const auto k = definition.values(loaded);
+      out += fmt::format("{:<{}}  {:<14}  {:>8.3f}  {:>8.3f}  {:>8.3f}  {:>15.3f}\n", loaded.scene, width, definition.label, k[0], k[1],
+                         k[2], k[3]);
+    }
+  }
+  return out;
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "studies/tasks/study_results.hpp"
+
+namespace flankwright::studies {
+
+/// load_factors.csv: K_Hbeta, K_Halpha, K_H of every load case by each definition, three rows a case: without spikes, with
+/// spikes, ISO 6336.
+std::string load_factors_csv(const StudyResults& results);
+
+/// load_sharing.csv: every tooth's share of the force at every position.
+std::string load_sharing_csv(const StudyResults& results);
+
+/// The same factors as load_factors.csv, for reading; empty where no case was rated.
+/// @param width  of the first column
+std::string load_factors_table(const StudyResults& results, std::size_t width);
+
+}  // namespace flankwright::studies

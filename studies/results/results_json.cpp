@@ -1,0 +1,357 @@
+#include "studies/results/results_json.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <map>
+
+#include "core/compliance/thin_slice/thin_slice.hpp"
+#include "core/gear/tooth_form.hpp"
+#include "studies/results/accuracy_json.hpp"
+#include "studies/results/compliance_json.hpp"
+#include "studies/results/effects_json.hpp"
+#include "studies/results/fit_json.hpp"
+#include "studies/study_file/given_units.hpp"
+#include "studies/results/gradients_json.hpp"
+#include "studies/base/json_format.hpp"
+#include "studies/base/version.hpp"
+#include "studies/results/load_rating_json.hpp"
+#include "studies/results/optimise_json.hpp"
+#include "studies/results/proof_json.hpp"
+#include "studies/results/shafts_json.hpp"
+#include "studies/results/sweep_json.hpp"
+#include "studies/results/unloaded_json.hpp"
+#include "studies/results/used_json.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+constexpr int topography_sections = 41;  // grid of the modification maps, radius by face width
+constexpr int profile_points = 80;       // of a drawn tooth
+
+Json gear_json(const GearPair& pair, Member member) {
+  const Gear& gear = pair[member];
+  Json json{{"teeth", gear.data.teeth},
+            {"hand", gear.hand == Hand::Right ? "right" : "left"},
+            {"reference_diameter_mm", 2.0 * gear.reference_radius},
+            {"base_diameter_mm", 2.0 * gear.base_radius},
+            {"tip_diameter_mm", 2.0 * gear.tip_radius},
+            {"root_diameter_mm", 2.0 * gear.root_radius},
+            {"form_diameter_mm", 2.0 * gear.form_radius},
+            {"active_root_diameter_mm", 2.0 * gear.active_root_radius},
+            {"working_pitch_diameter_mm", 2.0 * gear.working_pitch_radius},
+            {"tooth_thickness_mm", gear.tooth_thickness},
+            {"tip_thickness_mm", gear.tip_thickness},
+            {"virtual_teeth", gear.virtual_teeth},
+            {"undercut", gear.undercut}};
+  // One tooth as a continuous line: up the left flank, over the tip, down the right flank.
+  Json x = Json::array(), y = Json::array();
+  const std::vector<ProfilePoint> right = tooth_form(pair, member).profile(profile_points);
+  for (const ProfilePoint& point : right) {
+    x.push_back(-point.x);
+    y.push_back(point.y);
+  }
+  for (auto point = right.rbegin(); point != right.rend(); ++point) {
+    x.push_back(point->x);
+    y.push_back(point->y);
+  }
+  json["profile"] = {{"x_mm", x}, {"y_mm", y}};
+  return json;
+}
+
+Json geometry_json(const GearPair& pair) {
+  return {{"centre_distance_mm", pair.centre_distance},
+          {"backlash_free_centre_distance_mm", pair.backlash_free_centre_distance},
+          {"backlash_um", in_um(pair.backlash)},
+          {"transverse_pressure_angle_deg", in_deg(pair.transverse_pressure_angle)},
+          {"working_transverse_pressure_angle_deg", in_deg(pair.working_transverse_pressure_angle)},
+          {"base_helix_angle_deg", in_deg(pair.base_helix_angle)},
+          {"transverse_base_pitch_mm", pair.transverse_base_pitch},
+          {"transverse_contact_ratio", pair.transverse_contact_ratio},
+          {"overlap_ratio", pair.overlap_ratio},
+          {"total_contact_ratio", pair.total_contact_ratio()},
+          {"path_of_contact_mm",
+           {{"T1_A", pair.path_start}, {"T1_C", pair.pitch_point}, {"T1_E", pair.path_end}, {"T1_T2", pair.path_length}}},
+          {"pinion", gear_json(pair, Member::Pinion)},
+          {"wheel", gear_json(pair, Member::Wheel)}};
+}
+
+/// Members in their order: what points have, without the copies that an initialiser list of Json makes.
+Json record(std::initializer_list<std::pair<const char*, double>> members) {
+  Json json = Json::object();
+  auto& object = json.get_ref<Json::object_t&>();
+  object.reserve(members.size() + 1);
+  for (const auto& [key, value] : members) object.emplace_back(key, value);
+  return json;
+}
+
+Json point_json(const ContactPoint& point, const LoadedPosition& position, Eigen::Index i) {
+  Json json = record({{"z_mm", point.z},
+                      {"phase", point.phase},
+                      {"pinion_radius_mm", point.pinion_radius},
+                      {"wheel_radius_mm", point.wheel_radius},
+                      {"length_mm", point.weight},
+                      {"load_N_per_mm", position.load.line_load[i]},
+                      {"contact_stress_MPa", position.contact_stress[i]},
+                      {"contact_deflection_um", in_um(position.load.contact_deflection[i])},
+                      {"structural_deflection_um", in_um(position.load.structural_deflection[i])},
+                      {"gap_um", in_um(position.gap.total[i])},
+                      {"error_um", in_um(position.gap.error[i])}});
+  if (!position.gap.nearest.empty()) {
+    const NearestPlace& nearest = position.gap.nearest[static_cast<std::size_t>(i)];
+    json["nearest"] = record({{"pinion_radius_mm", nearest.pinion_radius}, {"wheel_radius_mm", nearest.wheel_radius}});
+  }
+  return json;
+}
+
+/// Largest over a tooth's fillet [MPa]; NaN without.
+double root_stress_of_tooth(const MeshPosition& at, const LoadedPosition& position, Member member, int tooth) {
+  const Eigen::Index highest = highest_root_stress(at, position, {member, tooth});
+  return highest < 0 ? not_given : position.root_stress[highest];
+}
+
+Json position_json(const MeshModel& model, const MeshPosition& at, const LoadedPosition& position, const FlankCondition& condition) {
+  const double cos_base_helix = std::cos(model.pair.base_helix_angle);
+  const LoadDistribution& load = position.load;
+  Json json{{"phase", position.phase},
+            {"te_um", in_um(load.transmission_error)},
+            {"te_base_tangent_um", in_um(load.transmission_error) / cos_base_helix},
+            {"stiffness_N_per_mm_um", position.stiffness},
+            {"kkt_residual", load.kkt_residual},
+            {"condition", load.condition},
+            {"iterations", load.iterations},
+            {"message", load.message}};
+  std::map<int, Json> teeth;
+  if (load.usable()) {
+    for (std::size_t i = 0; i < at.points.size(); ++i) {
+      Json& points = teeth.try_emplace(at.points[i].tooth, Json::array()).first->second;
+      points.push_back(point_json(at.points[i], position, static_cast<Eigen::Index>(i)));
+    }
+  }
+  const std::map<int, double> shares = shares_by_tooth(at, position);
+  std::map<int, Json> ends = line_ends_json(line_ends(model, at, position, condition));
+  json["teeth"] = Json::array();
+  for (auto& [tooth, points] : teeth) {
+    Json entry{{"tooth", tooth}, {"points", std::move(points)}, {"line_ends", Json::array()}};
+    if (ends.contains(tooth)) entry["line_ends"] = std::move(ends.at(tooth));
+    entry["share"] = shares.contains(tooth) ? Json(shares.at(tooth)) : Json();
+    if (position.root_stress.size() > 0) {
+      entry["pinion_root_stress_MPa"] = root_stress_of_tooth(at, position, Member::Pinion, tooth);
+      entry["wheel_root_stress_MPa"] = root_stress_of_tooth(at, position, Member::Wheel, tooth);
+    }
+    json["teeth"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+/// Null where there is no root stress.
+Json root_stress_json(const RootStressPeak& peak) {
+  if (std::isnan(peak.stress)) return nullptr;
+  return {{"tooth", peak.place.tooth},
+          {"z_mm", peak.place.z},
+          {"along_fillet", peak.place.along},
+          {"phase", peak.phase},
+          {"at_30_deg_tangent_MPa", peak.tangent_stress}};
+}
+
+/// Estimated discretisation errors, each beside its figure and in its unit; null where none was estimated.
+void add_errors(const CycleErrors& errors, Json& json) {
+  json["te_peak_to_peak_um_error"] = in_um(errors.te_peak_to_peak);
+  json["te_harmonics_um_error"] = list(errors.te_harmonics, in_um);
+  json["te_mean_um_error"] = in_um(errors.te_mean);
+  json["peak_load_N_per_mm_error"] = errors.peak_line_load;
+  json["peak_contact_stress_MPa_error"] = errors.peak_contact_stress;
+  json["peak_root_stress_MPa_error"] = errors.peak_root_stress;
+  json["mean_stiffness_N_per_mm_um_error"] = errors.mean_stiffness;
+  json["load_factor_error"] = errors.load_factor;
+}
+
+Json summary_json(const LoadedResult& loaded, const MeshModel& model, bool full_cycle) {
+  const CycleSummary& summary = loaded.summary;
+  Json json{{"te_peak_to_peak_um", in_um(summary.te_peak_to_peak)},
+          {"te_harmonics_um", full_cycle ? list(summary.te_harmonics, in_um) : Json::array()},
+          {"te_convergence", full_cycle ? te_convergence_json(loaded.cycle) : Json()},
+          {"te_mean_um", in_um(summary.te_mean)},
+          {"peak_load_N_per_mm", summary.peak_line_load},
+          {"peak_contact_stress_MPa", summary.peak_contact_stress},
+          {"peak_root_stress_MPa", summary.peak_root_stress},
+          {"pinion_root_stress_MPa", summary.pinion_root_stress.stress},
+          {"wheel_root_stress_MPa", summary.wheel_root_stress.stress},
+          {"pinion_root_stress", root_stress_json(summary.pinion_root_stress)},
+          {"wheel_root_stress", root_stress_json(summary.wheel_root_stress)},
+          {"mean_stiffness_N_per_mm_um", summary.mean_stiffness},
+          {"least_stiffness_N_per_mm_um", summary.least_stiffness},
+          {"largest_stiffness_N_per_mm_um", summary.largest_stiffness},
+          {"stiffness_variation", summary.stiffness_variation()},
+          {"load_factor", summary.load_factor},
+          {"worst_kkt_residual", summary.worst_kkt_residual},
+          {"worst_condition", summary.worst_condition},
+          {"peaks", loaded.rating ? peaks_json(*loaded.rating, model) : Json()},
+          {"load_factors", loaded.rating ? load_factors_json(*loaded.rating) : Json()},
+          {"iso6336", iso_json(model.iso, loaded.iso)}};
+  add_errors(loaded.resolved.errors, json);
+  return json;
+}
+
+/// Where the extremes lie that no position of the cycle has.
+Json extremes_json(const LoadedResult& loaded) {
+  return list(loaded.resolved.extreme_cycle.positions, [](const LoadedPosition& position) -> Json {
+    return {{"phase", position.phase},
+            {"te_um", in_um(position.load.transmission_error)},
+            {"peak_load_N_per_mm", position.load.line_load.maxCoeff()},
+            {"peak_contact_stress_MPa", position.contact_stress.maxCoeff()}};
+  });
+}
+
+Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
+  const MeshModel& model = results.models[loaded.model];
+  Json cycle = Json::array();
+  for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
+    cycle.push_back(position_json(model, model.positions[i], loaded.cycle.positions[i], loaded.condition));
+  }
+  Json json{{"scene", loaded.scene},
+            {"torque_Nm", loaded.torque / units::newton_metre},
+            {"normal_force_N", loaded.cycle.force},
+            {"design", loaded.design},
+            {"summary", summary_json(loaded, model, results.study.cycle.phases.empty())},
+            {"cycle", std::move(cycle)},
+            {"extremes", extremes_json(loaded)}};
+  if (results.shafts) add_shaft_motion(loaded, results, json);
+  const bool asked = results.study.task == Task::Analyse && !results.study.gradients.empty();
+  if (asked && loaded.cycle.usable()) json["gradients"] = gradients_json(loaded, results);
+  return json;
+}
+
+/// How one flank differs from the involute by generation, modification and grid, as a map; nothing where it does not.
+void add_topography(const GearPair& pair, Member member, const Modification& modification, const char* design, Json& maps) {
+  const Gear& gear = pair[member];
+  const Flank flank = make_flank(pair, member, modification, {});
+  Json z = Json::array(), radius = Json::array(), removal_um = Json::array();
+  bool modified = false;
+  for (int i = 0; i < topography_sections; ++i) {
+    z.push_back((static_cast<double>(i) / (topography_sections - 1) - 0.5) * gear.data.face_width);
+  }
+  for (int j = 0; j < topography_sections; ++j) {
+    const double r = gear.active_root_radius +
+                     (gear.tip_radius - gear.active_root_radius) * j / (topography_sections - 1);
+    radius.push_back(r);
+    Json row = Json::array();
+    for (const auto& position : z) {
+      const double removed = flank.deviation(flank.roll_at(r), position.get<double>(), 0);
+      modified = modified || removed != 0.0;
+      row.push_back(in_um(removed));
+    }
+    removal_um.push_back(std::move(row));
+  }
+  if (!modified) return;
+  maps.push_back({{"gear", name_of(member)},
+                  {"design", design},
+                  {"z_mm", std::move(z)},
+                  {"radius_mm", std::move(radius)},
+                  {"removal_um", std::move(removal_um)}});
+}
+
+Json modifications_json(const StudyResults& results) {
+  Json maps = Json::array();
+  const auto add_both = [&](const Modification& pinion, const Modification& wheel, const char* design) {
+    add_topography(results.pair, Member::Pinion, pinion, design, maps);
+    add_topography(results.pair, Member::Wheel, wheel, design, maps);
+  };
+  if (results.design) {
+    for (const auto& [report, name] : {std::pair{&results.design->before, "before"}, std::pair{&results.design->after, "after"}}) {
+      add_both(report->analysis.pinion_modification, report->analysis.wheel_modification, name);
+    }
+  } else {
+    add_both(results.study.pinion_modification, results.study.wheel_modification, "given");
+  }
+  return maps;
+}
+
+Json units_json() {
+  return {{"length", "mm"},        {"modification", "um"},      {"deflection", "um"},
+          {"te_um", "along the flank normal, positive: the wheel lags"},
+          {"te_arcsec", "phi2 - (N1/N2) phi1 at the wheel, negative where material is removed"},
+          {"load", "N per mm of contact line"}, {"stress", "MPa"}, {"stiffness", "N/(mm um), transverse"}};
+}
+
+/// Numbers that were not computed are null, in the document as in its text.
+void put_null_for_nan(Json& node) {
+  if (node.is_number_float() && !std::isfinite(node.get<double>())) node = nullptr;
+  if (!node.is_structured()) return;
+  for (Json& child : node) put_null_for_nan(child);
+}
+
+}  // namespace
+
+Json results_document(const StudyResults& results) {
+  const Study& study = results.study;
+  Json json{{"title", study.title},
+            {"task", to_string(study.task)},
+            {"version", version()},
+            {"file", study.file},
+            {"seconds", results.seconds},
+            {"units", units_json()},
+            {"notes", results.notes},
+            {"requirements_not_met", results.requirements},
+            {"geometry", geometry_json(results.pair)}};
+  if (!results.unloaded.empty()) {
+    json["unloaded"] = unloaded_json(results.unloaded.front(), results.pair);
+    if (results.unloaded.size() > 1) {
+      json["unloaded_scenes"] = list(results.unloaded, [&](const UnloadedResult& u) { return unloaded_json(u, results.pair); });
+    }
+  }
+  std::vector<Json> loaded(results.loaded.size());
+  tbb::parallel_for(std::size_t{0}, loaded.size(), [&](std::size_t i) { loaded[i] = loaded_json(results.loaded[i], results); });
+  json["loaded"] = Json::array();
+  for (Json& entry : loaded) json["loaded"].push_back(std::move(entry));
+  if (results.structures.finite_elements) json["compliance"] = compliance_json(results.structures, study);
+  json["modifications"] = modifications_json(results);
+  json["effects"] = effects_json(results);
+  json["steps"] = list(results.steps, [](const RunStep& s) -> Json { return {{"name", s.name}, {"why", s.why}, {"seconds", s.seconds}}; });
+  if (results.fidelity_choice) json["accuracy_choice"] = fidelity_choice_json(*results.fidelity_choice);
+  if (results.ladder) json["accuracy"] = ladder_json(*results.ladder);
+  if (results.design) json["optimise"] = optimise_json(results);
+  if (results.proof) add_proof(*results.proof, *results.design_task, study.optimise.proof, json["optimise"]);
+  if (results.sweep) json["sweep"] = sweep_json(results);
+  if (!results.deflections.empty()) json["deflections"] = list(results.deflections, deflections_json);
+  if (!results.fits.empty()) json["fit"] = list(results.fits, fit_json);
+  json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}, {"unit", unit_of_given(g)}}; });
+  json["used"] = used_json(results);
+  put_null_for_nan(json);
+  return json;
+}
+
+std::string json_text(const Json& document) {
+  // A file name need not be UTF-8, JSON must be: what is not becomes the replacement character.
+  const auto text_of = [](const Json& node) { return node.dump(-1, ' ', false, Json::error_handler_t::replace); };
+  if (!document.is_object()) return text_of(document) + "\n";
+  // Load cases are nearly all of it, and are written side by side.
+  std::string text;
+  for (const auto& [key, section] : document.items()) {
+    text += text.empty() ? '{' : ',';
+    text += text_of(key);
+    text += ':';
+    if (!section.is_array()) {
+      text += text_of(section);
+      continue;
+    }
+    std::vector<std::string> entries(section.size());
+    tbb::parallel_for(std::size_t{0}, entries.size(), [&](std::size_t i) { entries[i] = text_of(section[i]); });
+    std::size_t length = text.size() + 2;
+    for (const std::string& entry : entries) length += entry.size() + 1;
+    text.reserve(length);
+    char before = '[';
+    for (const std::string& entry : entries) {
+      text += before;
+      text += entry;
+      before = ',';
+    }
+    text += entries.empty() ? "[]" : "]";
+  }
+  return (text.empty() ? "{" : text) + "}\n";
+}
+
+std::string results_json(const StudyResults& results) { return json_text(results_document(results)); }
+
+}  // namespace flankwright::studies

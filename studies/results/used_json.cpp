@@ -1,0 +1,113 @@
+#include "studies/results/used_json.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "studies/results/compliance_json.hpp"
+#include "studies/compliance/fit_task.hpp"
+#include "studies/results/shafts_json.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+Json generation_json(const Generation& generation) {
+  if (const auto* rack = std::get_if<ParabolicRack>(&generation)) {
+    return {{"kind", "parabolic_rack"}, {"coefficient_per_mm", rack->coefficient}};
+  }
+  if (const auto* tool = std::get_if<RevolutionTool>(&generation)) {
+    return {{"kind", "revolution"},
+            {"half_apex_deg", in_deg(tool->half_apex)},
+            {"distance_mm", tool->distance},
+            {"arc_radius_mm", std::isfinite(tool->arc_radius) ? Json(tool->arc_radius) : Json("infinite: a cone")}};
+  }
+  return {{"kind", "rack"}};
+}
+
+Json pieces_json(const std::optional<int>& pieces) { return pieces ? Json(*pieces) : Json("through every point"); }
+
+/// False where the gear has no grid.
+Json grid_json(const FlankGrid& grid) {
+  if (grid.file.empty()) return false;
+  return {{"file", grid.file},
+          {"radii", grid.rows},
+          {"axial_positions", grid.columns},
+          {"radius_mm", {grid.lowest_radius, grid.highest_radius}},
+          {"z_mm", {grid.lowest_z, grid.highest_z}},
+          {"profile_pieces", pieces_json(grid.profile_pieces)},
+          {"face_pieces", pieces_json(grid.face_pieces)},
+          {"residual_rms_um", in_um(grid.rms)},
+          {"residual_largest_um", in_um(grid.largest)}};
+}
+
+Json macro_json(const StudyResults& results, Member member) {
+  const Gear& gear = results.pair[member];
+  const Material& material = member == Member::Pinion ? results.study.pinion_material : results.study.wheel_material;
+  return {{"teeth", gear.data.teeth},
+          {"face_width_mm", gear.data.face_width},
+          {"profile_shift", gear.data.profile_shift},
+          {"tip_diameter_mm", 2.0 * gear.tip_radius},
+          {"rack", {{"addendum", gear.data.rack.addendum}, {"dedendum", gear.data.rack.dedendum}, {"root_radius", gear.data.rack.root_radius}}},
+          {"generation", generation_json(gear.data.generation)},
+          {"grid", grid_json(member == Member::Pinion ? results.study.pinion_grid : results.study.wheel_grid)},
+          {"youngs_modulus_MPa", material.youngs_modulus},
+          {"poissons_ratio", material.poissons_ratio}};
+}
+
+Json used_gear_json(const StudyResults& results, Member member) {
+  Json json = macro_json(results, member);
+  if (const auto& runs = results.structures.finite_elements) json["body"] = body_json((*runs)[member].body);
+  json["shaft"] = shaft_json(member == Member::Pinion ? results.study.pinion_shaft : results.study.wheel_shaft);
+  return json;
+}
+
+Json cycle_json(const StudyResults& results) {
+  const Cycle& cycle = results.study.cycle;
+  return {{"positions", cycle.positions},
+          {"phases", cycle.phases},
+          {"peaks", locates_peaks(results.study) ? "located" : "sampled"},
+          {"automatic", cycle.automatic_positions && cycle.phases.empty()}};
+}
+
+}  // namespace
+
+Json quadrature_json(const Quadrature& quadrature) {
+  constexpr std::array names{"gauss2", "gauss3", "midpoint", "graded"};  // in the order of QuadratureRule
+  return {{"rule", names[static_cast<std::size_t>(quadrature.rule)]}, {"intervals", quadrature.intervals}};
+}
+
+Json used_json(const StudyResults& results) {
+  const Study& study = results.study;
+  const PairData& data = study.pair;
+  Json used{{"pair",
+             {{"normal_module_mm", data.normal_module},
+              {"pressure_angle_deg", in_deg(data.pressure_angle)},
+              {"helix_angle_deg", in_deg(data.helix_angle)},
+              {"centre_distance_mm", results.pair.centre_distance},
+              {"driver", name_of(data.driver)},
+              {"working_flank", data.working_flank == WorkingFlank::Right ? "right" : "left"},
+              {"pinion", used_gear_json(results, Member::Pinion)},
+              {"wheel", used_gear_json(results, Member::Wheel)}}},
+            {"unloaded", {{"marking_thickness_um", in_um(study.marking_thickness)}}},
+            {"cycle", cycle_json(results)},
+            {"fidelity",
+             {{"compliance", to_string(study.fidelity.compliance)},
+              {"gap", to_string(study.fidelity.gap)},
+              {"quadrature", quadrature_json(study.fidelity.quadrature)},
+              {"accuracy", study.fidelity.accuracy ? Json(*study.fidelity.accuracy) : Json()},
+             {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
+  if (study.misalignment.pinion_lead_angle != 0.0) {
+    used["misalignment"] = {{"pinion_lead_angle", "lead angle changed, normal pressure angle kept: pitch radius, base radius and screw parameter follow"}};
+  }
+  for (const Member member : {Member::Pinion, Member::Wheel}) {
+    if (const auto& refinement = results.structures.refinement(member)) {
+      used["fidelity"]["fits"][name_of(member)] = refinement->source();
+    }
+  }
+  if (!results.models.empty() && results.structures.pair == nullptr) {
+    used["thin_slice"] = {{"calibration", results.models.front().calibration}};
+  }
+  return used;
+}
+
+}  // namespace flankwright::studies

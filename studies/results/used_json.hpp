@@ -1,0 +1,14 @@
+#pragma once
+
+#include "studies/base/json_format.hpp"
+#include "studies/tasks/study_results.hpp"
+
+namespace flankwright::studies {
+
+/// The section `used` of results.json: what the run took, defaults and derived values included.
+Json used_json(const StudyResults& results);
+
+/// A quadrature as settings name it: rule and intervals.
+Json quadrature_json(const Quadrature& quadrature);
+
+}  // namespace flankwright::studies

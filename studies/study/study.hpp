@@ -1,0 +1,198 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/compliance/finite_element/section_mesh.hpp"
+#include "core/compliance/shaft/shaft_data.hpp"
+#include "core/contact/path/contact_points.hpp"
+#include "core/contact/assembly/misalignment.hpp"
+#include "core/gear/gear_data.hpp"
+#include "core/gear/microgeometry.hpp"
+#include "core/load/cycle/mesh_parameter.hpp"
+#include "optimize/design/design_task.hpp"
+#include "studies/study/proof_table.hpp"
+#include "studies/study/sweep_table.hpp"
+
+/// A study as pure data: what a study file says, validated, in internal units (mm, N, rad, MPa); study_file.hpp reads.
+namespace flankwright::studies {
+
+enum class Task { Analyse, Optimise, Sweep, Accuracy, Fit };
+
+/// As a study names it: "analyse", "optimise", "sweep", "accuracy", "fit".
+inline const char* to_string(Task task) {
+  switch (task) {
+    case Task::Analyse: return "analyse";
+    case Task::Optimise: return "optimise";
+    case Task::Sweep: return "sweep";
+    case Task::Accuracy: return "accuracy";
+    case Task::Fit: return "fit";
+  }
+  __builtin_unreachable();
+}
+
+/// Ladder of compliance models.
+enum class ComplianceModel { Rigid, ThinSlice, Fitted, Fe };
+
+/// As a study names it: "rigid", "thin_slice", "fitted", "fe".
+const char* to_string(ComplianceModel model);
+/// The model of one of these names.
+ComplianceModel compliance_model(std::string_view name);
+
+/// Whether the model knows how a load on one tooth moves another, and the gear's body: both solve finite elements.
+inline bool couples_teeth(ComplianceModel model) {
+  return model == ComplianceModel::Fitted || model == ComplianceModel::Fe;
+}
+
+struct Cycle {
+  int positions{32};           ///< mesh positions over one base pitch, >= 1
+  bool automatic_positions{true};  ///< doubled from `positions` on where the figures need more; `positions` without load
+  std::optional<bool> locate_peaks;  ///< as the study says; see locates_peaks()
+  std::vector<double> phases;  ///< explicit phases of the reference tooth pair [base pitches]; empty: use `positions`
+};
+
+/// Whether and how the sizes of effects are found.
+enum class EffectSizing { Off, Estimated, Exact };
+
+struct Fidelity {
+  ComplianceModel compliance{ComplianceModel::Fitted};
+  GapModel gap{GapModel::PlaneOfAction};
+  Quadrature quadrature{QuadratureRule::Graded, 12};
+  bool automatic_intervals{true};    ///< doubled from those of `quadrature` on where the figures need more
+  bool automatic_effects{true};
+  std::vector<std::string> effects;  ///< switched on by hand where automatic_effects is false
+  std::optional<double> accuracy;    ///< share that the rest shall keep, as far as it is not given; see choose_fidelity()
+  EffectSizing effect_sizes{EffectSizing::Estimated};
+};
+
+/// One working condition: base tables of the study with the scene's overrides applied.
+struct Scene {
+  std::string name{"nominal"};
+  double weight{1.0};
+  Misalignment misalignment;
+  std::vector<double> torques;  ///< on the pinion [N mm], >= 0
+  ManufacturingError pinion_error, wheel_error;
+};
+
+/// A measured or topological flank: the file that the study names and what was read from it.
+struct FlankGrid {
+  std::string file;              ///< as written; empty: none
+  std::optional<int> profile_pieces, face_pieces;  ///< of a smoothed surface; empty: it passes through every point
+  int rows{0}, columns{0};       ///< radii and axial positions
+  double lowest_radius{not_given}, highest_radius{not_given};  ///< [mm]
+  double lowest_z{not_given}, highest_z{not_given};            ///< [mm]
+  double rms{not_given}, largest{not_given};                   ///< distance of the fitted surface from the points [mm]
+};
+
+struct OptimiseTable {
+  std::vector<ObjectiveTerm> objective;
+  Aggregation over;
+  std::string solver{"nlopt:slsqp"}, finisher{"nlopt:slsqp"};
+  std::vector<DesignVariable> variables;
+  std::vector<OutputConstraint> constraints;
+  std::vector<DesignTie> ties;
+  std::vector<ModificationConstraint> modification_constraints;
+  std::vector<Goal> then;                 ///< later objectives of a list
+  double lexicographic_tolerance{0.01};
+  double edge_margin{0.05};
+  double step{0.0};                       ///< of variables that have none of their own [mm]; amounts only
+  int starts{1};
+  std::vector<Goal> pareto_goals;         ///< empty: no front
+  int pareto_points{9};
+  int max_evaluations{2000};
+  double max_seconds{std::numeric_limits<double>::infinity()};
+  unsigned long seed{1};
+  ProofTable proof;
+};
+
+/// One parameter of analyse.gradients.
+struct GradientParameter {
+  std::string path;         ///< as the study names it: "misalignment.crossing"
+  MeshParameter parameter;
+  std::string unit;         ///< of a bare number of that key
+  double unit_size{1.0};    ///< one such unit in internal ones
+};
+
+/// [fit]: which gears' compliance is fitted, and how.
+struct FitChoice {
+  bool pinion{true}, wheel{true};
+  bool several_teeth{false};  ///< KernelForm::several_teeth(), else one_tooth_accurate()
+  bool test_grid{true};      ///< compared on places that the fit has not seen
+  int max_iterations{300};   ///< trust-region steps
+};
+
+/// [accuracy]: the finest rung of a ladder, which the others are held against; graded quadrature, located peaks.
+struct AccuracyTable {
+  ComplianceModel compliance{ComplianceModel::Fitted};
+  GapModel gap{GapModel::WholeSurface};
+  int intervals{16};  ///< >= 8
+  int positions{64};  ///< >= 16
+};
+
+/// [expect]: one key of results.json and what it must be.
+struct Expectation {
+  std::string key;      ///< dotted path, array indices as numbers; "loaded.summary.x" means every entry of loaded
+  double value{std::numeric_limits<double>::quiet_NaN()};
+  double within_relative{std::numeric_limits<double>::quiet_NaN()};  ///< "2 %" -> 0.02
+  double within_absolute{std::numeric_limits<double>::quiet_NaN()};
+  double minimum{-std::numeric_limits<double>::infinity()};
+  double maximum{std::numeric_limits<double>::infinity()};
+  std::string is{};  ///< text as it is, or "true" / "false"; empty: a number is expected
+};
+
+/// A key as it stands in the file or on the command line, for the `given` part of the results.
+struct GivenValue {
+  std::string key;    ///< dotted path
+  std::string value;  ///< as written
+};
+
+struct Study {
+  std::string title;
+  std::string file;  ///< path as given
+  Task task{Task::Analyse};
+  PairData pair;
+  Modification pinion_modification, wheel_modification;  ///< with the field of the grid below
+  FlankGrid pinion_grid, wheel_grid;
+  std::vector<std::string> pinion_tooth_grids, wheel_tooth_grids;  ///< files of single teeth's errors, empty: none of this tooth
+  ManufacturingError pinion_error, wheel_error;
+  Misalignment misalignment;
+  Material pinion_material, wheel_material;
+  GearBody pinion_body, wheel_body;  ///< that the finite elements' teeth stand on
+  std::optional<ShaftData> pinion_shaft, wheel_shaft;  ///< empty: rigid
+  std::vector<double> torques;  ///< base [load] torque list [N mm]; {0} where [load] is absent
+  double marking_thickness{6.35e-3};  ///< of the compound that shows the bearing pattern [mm], > 0
+  Cycle cycle;
+  Fidelity fidelity;
+  std::vector<Scene> scenes;    ///< never empty: without [[scenes]] the one nominal scene of the base tables
+  std::vector<GradientParameter> gradients;  ///< derivatives asked for; meaningful where task is Analyse
+  OptimiseTable optimise;       ///< meaningful where task is Optimise
+  SweepTable sweep;             ///< meaningful where task is Sweep
+  AccuracyTable accuracy;       ///< meaningful where task is Accuracy
+  FitChoice fit;                ///< meaningful where task is Fit
+  std::vector<Expectation> expect;
+  std::vector<GivenValue> given;
+  std::string text;  ///< all of it as TOML, with what the command line set
+};
+
+/// Whether any scene has a torque.
+inline bool has_torque(const Study& study) {
+  return std::ranges::any_of(study.scenes, [](const Scene& scene) { return std::ranges::any_of(scene.torques, [](double torque) { return torque > 0.0; }); });
+}
+
+/// Whether peaks between the positions, and the load distribution factors that follow, belong to the results: unless the study says
+/// otherwise in an analysis, not beside an optimisation's many scenes; never where explicit phases are asked for.
+inline bool locates_peaks(const Study& study) {
+  return study.cycle.phases.empty() && study.cycle.locate_peaks.value_or(study.task == Task::Analyse);
+}
+
+/// Whether the summary's extremes are sought between the positions: unless the study samples peaks or gives phases. Points at fixed places
+/// (all rules but Graded) enter and leave a line whole, and what they do between positions is no property of the gears.
+inline bool seeks_extremes(const Study& study) {
+  return study.cycle.phases.empty() && study.cycle.locate_peaks.value_or(true) && study.fidelity.quadrature.rule == QuadratureRule::Graded;
+}
+
+}  // namespace flankwright::studies

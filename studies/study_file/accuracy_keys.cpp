@@ -1,0 +1,31 @@
+#include "studies/study_file/key_rows.hpp"
+
+namespace flankwright::studies {
+
+// A row is read as a row:
+// clang-format off
+
+std::vector<SchemaKey> accuracy_rows() {
+  using enum ValueKind;
+  return {
+      {.path = "fidelity.accuracy", .kind = Percentage, .range = above_zero(50.0), .fallback = "(none)",
+       .meaning = "\"1 %\": compliance, gap, quadrature and positions, as far as they are not given, are the cheapest whose estimated error in transmission error, peak stress and load is within it; the estimates and their cost stand in `accuracy_choice`",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fidelity.accuracy = v.number; }},
+      {.path = "accuracy.finest.compliance", .kind = Word, .words = {"thin_slice", "fitted", "fe"}, .fallback = "\"fitted\"",
+       .meaning = "task \"accuracy\": of the finest rung, which the others are held against",
+       .store = [](Draft& d, Member, const Value& v) { d.study.accuracy.compliance = compliance_model(v.text); }},
+      {.path = "accuracy.finest.gap", .kind = Word, .words = {"plane_of_action", "whole_surface"}, .fallback = "\"whole_surface\"",
+       .meaning = "of the finest rung",
+       .store = [](Draft& d, Member, const Value& v) { d.study.accuracy.gap = static_cast<GapModel>(v.integer); }},
+      {.path = "accuracy.finest.intervals", .kind = Integer, .range = {.low = 8, .high = 128}, .fallback = "16",
+       .meaning = "of the finest rung, graded; halved down to 2 for the others",
+       .store = [](Draft& d, Member, const Value& v) { d.study.accuracy.intervals = static_cast<int>(v.integer); }},
+      {.path = "accuracy.finest.positions", .kind = Integer, .range = {.low = 16, .high = 1024}, .fallback = "64",
+       .meaning = "of the finest rung; halved down to 12 for the others, the peaks located between them all the same",
+       .store = [](Draft& d, Member, const Value& v) { d.study.accuracy.positions = static_cast<int>(v.integer); }},
+  };
+}
+
+// clang-format on
+
+}  // namespace flankwright::studies

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <vector>
+
+#include "studies/study_file/study_schema.hpp"
+
+/// What the parts of the table of keys share. One row says everything about a key; a row "gear.x" stands for "pinion.x" and "wheel.x".
+namespace flankwright::studies {
+
+std::vector<SchemaKey> geometry_rows();           ///< title, task, pair, gears and how they are generated
+std::vector<SchemaKey> flank_rows();              ///< modifications and manufacturing errors
+std::vector<SchemaKey> working_condition_rows();  ///< misalignment, material, load and how it is analysed
+std::vector<SchemaKey> shaft_rows();              ///< shafts and their bearings
+std::vector<SchemaKey> proof_rows();              ///< what an optimum is held against
+std::vector<SchemaKey> accuracy_rows();           ///< accuracy asked for, and the ladder
+std::vector<SchemaKey> sweep_rows();              ///< samples of a parameter space
+std::vector<SchemaKey> task_rows();               ///< scenes, optimisation, expectations
+
+constexpr Range above_zero(double high) {
+  return {.low = 0.0, .high = high, .low_open = true};
+}
+constexpr Range from_zero(double high) {
+  return {.low = 0.0, .high = high};
+}
+constexpr Range within(double magnitude) {
+  return {.low = -magnitude, .high = magnitude};
+}
+
+inline constexpr Range removal_range = within(1000.0);                // um: beyond a millimetre it is no micro-geometry
+inline constexpr Range any_length = {.low = 0.001, .high = 10000.0};  // mm: from watches to girth gears
+
+}  // namespace flankwright::studies

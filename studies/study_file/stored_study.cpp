@@ -1,0 +1,61 @@
+#include "studies/study_file/stored_study.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include "studies/base/json_format.hpp"
+#include "studies/study_file/study_file.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+constexpr std::array<std::string_view, 8> kept{"title", "pair.", "pinion.", "wheel.", "material.", "misalignment.", "load.", "scenes."};
+constexpr std::array<std::string_view, 4> left_out{"pinion.shaft.", "wheel.shaft.", "pinion.error.", "wheel.error."};
+
+bool starts_with_one_of(const std::string& key, const auto& beginnings) {
+  return std::ranges::any_of(beginnings, [&](std::string_view beginning) { return key.starts_with(beginning); });
+}
+
+/// "scenes.1.load.torque" -> 1, "load.torque"
+std::pair<int, std::string> scene_key(const std::string& key) {
+  const std::size_t start = key.find('.') + 1, end = key.find('.', start);
+  return {std::stoi(key.substr(start, end - start)), key.substr(end + 1)};
+}
+
+std::string study_text(const Json& given) {
+  std::string text;
+  std::map<int, std::string> scenes;
+  for (const Json& entry : given) {
+    const std::string key = entry.at("key"), value = entry.at("value");
+    if (!starts_with_one_of(key, kept) || starts_with_one_of(key, left_out)) continue;
+    if (!key.starts_with("scenes.")) {
+      text += key + " = " + value + "\n";
+    } else if (const auto [scene, name] = scene_key(key); !name.starts_with("pinion.error") && !name.starts_with("wheel.error")) {
+      scenes[scene] += name + " = " + value + "\n";
+    }
+  }
+  for (const auto& [scene, keys] : scenes) text += "[[scenes]]\n" + keys;
+  return text;
+}
+
+}  // namespace
+
+Study stored_study(const std::string& results, const std::string& file, StoredFlanks flanks) {
+  std::string text, name;
+  std::vector<Override> variables;
+  try {
+    const Json json = Json::parse(results);
+    text = study_text(json.at("given"));
+    name = json.at("file");
+    if (flanks == StoredFlanks::Final && json.contains("optimise")) {
+      for (const auto& [key, value] : json["optimise"]["after"]["variables"].items()) variables.push_back({key, value.dump()});
+    }
+  } catch (const std::exception& error) {
+    throw InvalidInput(file, error.what(), "results.json of a study that has run");
+  }
+  return parse_study(text, name, variables);
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "studies/study/study.hpp"
+
+namespace flankwright::studies {
+
+/// Which flanks of a results folder: those of the study file, or what an optimisation made of them.
+enum class StoredFlanks { Final, Given };
+
+/// Pair, flanks, material, torques and scenes of a study that has run, from `given` of its results.json; Final: with the variables
+/// that an optimisation ended at. Task, fidelity, errors of teeth and shafts are left out, so that nothing is needed but the grids.
+///
+/// @param results  text of results.json
+/// @param file     its path, for messages
+/// @throws InvalidInput where it is none of this program's, StudyErrors where a grid that the study names is no longer there
+Study stored_study(const std::string& results, const std::string& file, StoredFlanks flanks);
+
+}  // namespace flankwright::studies

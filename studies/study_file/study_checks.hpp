@@ -1,0 +1,17 @@
+#pragma once
+
+#include "studies/study_file/study_reading.hpp"
+
+/// Inside the reader: what several keys must satisfy together.
+namespace flankwright::studies {
+
+/// Keys that must be there, and keys of which a file may give only one.
+void check_presence(StudyReading& reading);
+
+/// The pair can be built: hands, pitch lists and find_problems(). Only where its own keys were without a problem.
+void check_pair(StudyReading& reading);
+
+/// Reliefs have an extent; variables, solver and scenes fit the task.
+void check_task(StudyReading& reading);
+
+}  // namespace flankwright::studies

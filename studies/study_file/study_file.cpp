@@ -1,0 +1,90 @@
+#include "studies/study_file/study_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <tuple>
+
+#include "studies/study_file/study_checks.hpp"
+#include "studies/study_file/proof_reading.hpp"
+#include "studies/study_file/study_document.hpp"
+#include "studies/study_file/study_flanks.hpp"
+#include "studies/study_file/study_reading.hpp"
+#include "studies/study_file/study_schema.hpp"
+#include "studies/study_file/study_shafts.hpp"
+#include "studies/study_file/study_tables.hpp"
+#include "studies/study_file/sweep_reading.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+/// In the order of the file; what has no line there (the command line) comes last.
+void sort_by_line(std::vector<StudyProblem>& problems) {
+  const auto order = [](const StudyProblem& p) { return std::tuple(p.line == 0, p.line, p.column); };
+  std::ranges::stable_sort(problems, [&](const auto& a, const auto& b) { return order(a) < order(b); });
+}
+
+/// Reads the keys with fixed names, common before particular ones.
+void read_keys(StudyReading& reading) {
+  reading.matches = match_keys(reading, reading.document.root(), study_keys(), "");
+  for (const SchemaKey& key : study_schema()) {
+    if (const Match* match = reading.find(key.path)) read_into(reading, *match, reading.draft.base);
+  }
+}
+
+/// Copies the base working condition into the study's own tables.
+void settle_base(Draft& draft) {
+  draft.study.misalignment = draft.base.misalignment;
+  draft.study.torques = draft.base.torques;
+  draft.study.pinion_error = draft.base.pinion_error;
+  draft.study.wheel_error = draft.base.wheel_error;
+}
+
+}  // namespace
+
+Study parse_study(std::string_view text, const std::string& name, const std::vector<Override>& overrides) {
+  std::vector<StudyProblem> problems;
+  const StudyDocument document(text, name, overrides, problems);
+  StudyReading reading{document, problems};
+  store_defaults(reading.draft);
+  read_keys(reading);
+  settle_base(reading.draft);
+  check_presence(reading);
+  read_generation(reading);
+  read_scenes(reading);
+  read_gradients(reading);
+  read_optimise(reading);
+  read_expectations(reading);
+  check_pair(reading);
+  read_sweep(reading);
+  read_proof(reading);
+  read_shafts(reading);
+  check_task(reading);
+  read_grids(reading);
+  if (!problems.empty()) {
+    sort_by_line(problems);
+    throw StudyErrors(std::move(problems));
+  }
+  Study study = std::move(reading.draft.study);
+  study.file = name;
+  if (study.title.empty()) study.title = std::filesystem::path(name).stem().string();
+  study.given = document.given();
+  study.text = document.text();
+  return study;
+}
+
+Study read_study(const std::string& path, const std::vector<Override>& overrides) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  std::error_code no_status;
+  if (!file || std::filesystem::is_directory(path, no_status)) {
+    throw StudyErrors({{path, 0, 0, "", "", "the file cannot be read"}});
+  }
+  return parse_study(text.str(), path, overrides);
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,272 @@
+#include <string_view>
+
+#include "core/effects/decision.hpp"
+#include "optimize/solvers/solver.hpp"
+#include "studies/study_file/key_rows.hpp"
+
+/// The table of keys.
+namespace flankwright::studies {
+
+namespace {
+
+GearBody& body(Draft& draft, Member m) {
+  return m == Member::Pinion ? draft.study.pinion_body : draft.study.wheel_body;
+}
+Material& material(Draft& draft, Member m) {
+  return m == Member::Pinion ? draft.study.pinion_material : draft.study.wheel_material;
+}
+
+constexpr Range misalignment_angle = within(60.0);  // arcmin: a degree, far beyond any housing
+
+using enum ValueKind;
+
+}  // namespace
+
+// A row is read as a row:
+// clang-format off
+
+std::vector<SchemaKey> working_condition_rows() {
+  return {
+      {.path = "misalignment.crossing", .quantity = Quantity::SmallAngle, .range = misalignment_angle, .fallback = "0",
+       .meaning = "f_Sigma_beta, about the line of centres, out of plane; + closes the mesh at +z",
+       .store = [](Scene& s, Member, const Value& v) { s.misalignment.crossing = v.number; }},
+      {.path = "misalignment.intersecting", .quantity = Quantity::SmallAngle, .range = misalignment_angle,
+       .fallback = "0", .meaning = "f_Sigma_delta, in the plane of the axes; + opens the mesh at +z",
+       .store = [](Scene& s, Member, const Value& v) { s.misalignment.intersecting = v.number; }},
+      {.path = "misalignment.centre_distance", .quantity = Quantity::Length, .range = within(100.0), .fallback = "0",
+       .meaning = "delta E, added to the pair's; + apart",
+       .store = [](Scene& s, Member, const Value& v) { s.misalignment.centre_distance = v.number; }},
+      {.path = "misalignment.axial_offset", .quantity = Quantity::Length, .range = within(1000.0), .fallback = "0",
+       .meaning = "wheel towards +z",
+       .store = [](Scene& s, Member, const Value& v) { s.misalignment.axial_offset = v.number; }},
+      {.path = "misalignment.pinion_lead_angle", .quantity = Quantity::SmallAngle, .range = misalignment_angle,
+       .fallback = "0", .meaning = "delta lambda_p1 of the pinion, Litvin's appendix 2 in full",
+       .store = [](Scene& s, Member, const Value& v) { s.misalignment.pinion_lead_angle = v.number; }},
+      {.path = "misalignment.pinion_pressure_angle", .quantity = Quantity::SmallAngle, .range = misalignment_angle,
+       .fallback = "0", .meaning = "delta alpha_n1 of the pinion",
+       .store = [](Scene& s, Member, const Value& v) { s.misalignment.pinion_pressure_angle = v.number; }},
+      {.path = "misalignment.mesh_misalignment", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
+       .meaning = "F_beta_y over the common face width, transverse base tangent; + opens at +z",
+       .store = [](Scene& s, Member, const Value& v) { s.misalignment.mesh_misalignment = v.number; }},
+
+      {.path = "material.youngs_modulus", .quantity = Quantity::Stress, .range = above_zero(1e7), .fallback = "206000",
+       .meaning = "E of both gears",
+       .store = [](Draft& d, Member, const Value& v) {
+         d.study.pinion_material.youngs_modulus = d.study.wheel_material.youngs_modulus = v.number;
+       }},
+      {.path = "material.poissons_ratio", .range = {.low = 0.0, .high = 0.5, .high_open = true}, .fallback = "0.3",
+       .meaning = "nu of both gears",
+       .store = [](Draft& d, Member, const Value& v) {
+         d.study.pinion_material.poissons_ratio = d.study.wheel_material.poissons_ratio = v.number;
+       }},
+      {.path = "gear.material.youngs_modulus", .quantity = Quantity::Stress, .range = above_zero(1e7),
+       .fallback = "(as [material])", .meaning = "E of this gear",
+       .store = [](Draft& d, Member m, const Value& v) { material(d, m).youngs_modulus = v.number; }},
+      {.path = "gear.material.poissons_ratio", .range = {.low = 0.0, .high = 0.5, .high_open = true},
+       .fallback = "(as [material])", .meaning = "nu of this gear",
+       .store = [](Draft& d, Member m, const Value& v) { material(d, m).poissons_ratio = v.number; }},
+
+      {.path = "gear.body.shaft_diameter", .quantity = Quantity::Length, .range = any_length,
+       .fallback = "(0.8 d, at most 25 m_n/cos(beta) and d_f - 1.2 m_n)",
+       .meaning = "of the shaft that the gear, a solid disc, is one with; at most d_f - m_n; compliances \"fitted\" and \"fe\" and task \"fit\"",
+       .store = [](Draft& d, Member m, const Value& v) { body(d, m).shaft_diameter = v.number; }},
+      {.path = "gear.body.bore_diameter", .quantity = Quantity::Length, .range = any_length,
+       .fallback = "(0.05 of the shaft)", .meaning = "of the shaft; below 0.9 of it; compliances \"fitted\" and \"fe\" and task \"fit\"",
+       .store = [](Draft& d, Member m, const Value& v) { body(d, m).bore_diameter = v.number; }},
+      {.path = "gear.body.shaft_overhang", .quantity = Quantity::Length, .range = any_length,
+       .fallback = "(0.5 of the shaft)", .meaning = "length of the shaft beyond each face end; compliances \"fitted\" and \"fe\" and task \"fit\"",
+       .store = [](Draft& d, Member m, const Value& v) { body(d, m).shaft_overhang = v.number; }},
+
+      {.path = "load.torque", .kind = NumberOrList, .quantity = Quantity::Torque, .range = from_zero(1e9),
+       .fallback = "0", .meaning = "on the pinion; a list runs each, 0 is unloaded",
+       .hint = "for torque the other way round write pair.working_flank = \"left\"",
+       .store = [](Scene& s, Member, const Value& v) { s.torques = v.numbers; }},
+      {.path = "unloaded.marking_thickness", .quantity = Quantity::Deviation, .range = above_zero(1000.0),
+       .fallback = "6.35", .meaning = "of the compound that shows the bearing pattern; 6.35 um is 0.00025 in",
+       .store = [](Draft& d, Member, const Value& v) { d.study.marking_thickness = v.number; }},
+      {.path = "cycle.positions", .kind = IntegerOrAuto, .range = {.low = 1, .high = 4096}, .fallback = "\"auto\"",
+       .meaning = "mesh positions over one base pitch; auto is 32, and in an analysis under load up to 128 where the estimated errors ask for more",
+       .store = [](Draft& d, Member, const Value& v) {
+         d.study.cycle.automatic_positions = v.text == "auto";
+         if (v.text != "auto") d.study.cycle.positions = static_cast<int>(v.integer);
+       }},
+      {.path = "cycle.peaks", .kind = Word, .words = {"located", "sampled"}, .fallback = "(located; sampled where the task is to optimise)",
+       .meaning = "located: peaks with and without spikes, sought between the positions, and the load distribution factors K_H that follow; sampled: those of the positions only",
+       .store = [](Draft& d, Member, const Value& v) { d.study.cycle.locate_peaks = v.text == "located"; }},
+      {.path = "cycle.phases", .kind = NumberList, .range = within(100.0), .fallback = "(evenly spaced positions)",
+       .meaning = "explicit phases of the reference tooth pair, in base pitches; 0 where its contact line enters",
+       .store = [](Draft& d, Member, const Value& v) { d.study.cycle.phases = v.numbers; }},
+
+      {.path = "fidelity.compliance", .kind = Word, .words = {"rigid", "thin_slice", "fitted", "fe"},
+       .fallback = "\"fitted\"", .meaning = "rung of the ladder of compliance models; without a torque none is used",
+       .store = [](Draft& d, Member, const Value& v) {
+         d.study.fidelity.compliance = compliance_model(v.text);
+       }},
+      {.path = "fidelity.gap", .kind = Word, .words = {"plane_of_action", "whole_surface"},
+       .fallback = "\"plane_of_action\"",
+       .meaning = "where contact is sought: where undisturbed flanks would touch, or over the whole flanks as they stand and are modified",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fidelity.gap = static_cast<GapModel>(v.integer); }},
+      {.path = "fidelity.quadrature.rule", .kind = Word, .words = {"gauss2", "gauss3", "midpoint", "graded"},
+       .fallback = "(graded)", .meaning = "points in each interval of a contact line; graded: two Gauss points on intervals that end where the line does; the others: at fixed places on the face, as Haddad's thesis has them",
+       .store = [](Draft& d, Member, const Value& v) {
+         d.study.fidelity.automatic_intervals = false;
+         d.study.fidelity.quadrature.rule = static_cast<QuadratureRule>(v.integer);
+       }},
+      {.path = "fidelity.quadrature.intervals", .kind = Integer, .range = {.low = 1, .high = 500}, .fallback = "(12, or what the figures need)",
+       .meaning = "intervals of a full contact line; left out, an analysis under load takes up to 48 where the estimated errors ask for more",
+       .store = [](Draft& d, Member, const Value& v) {
+         d.study.fidelity.automatic_intervals = false;
+         d.study.fidelity.quadrature.intervals = static_cast<int>(v.integer);
+       }},
+      {.path = "fidelity.effects", .kind = WordList,
+       .words = listed_effect_names(), .fallback = "\"auto\"",
+       .meaning = "what enters the run; auto decides from the study, a list switches by hand",
+       .store = [](Draft& d, Member, const Value& v) {
+         d.study.fidelity.automatic_effects = !v.is_list;
+         d.study.fidelity.effects = v.words;
+       }},
+      {.path = "fidelity.effect_sizes", .kind = Word, .words = {"off", "estimated", "exact"}, .fallback = "\"estimated\"",
+       .meaning = "what each effect does to transmission error and contact stress: to first order at a few positions, or by leaving it out at the study's resolution as well",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fidelity.effect_sizes = static_cast<EffectSizing>(v.integer); }},
+  };
+}
+
+std::vector<SchemaKey> task_rows() {
+  return {
+      {.path = "scenes", .kind = Scenes, .fallback = "(one scene, nominal)",
+       .meaning = "working conditions; each overrides `misalignment.*`, `load.torque` or either gear's `error.*`"},
+      {.path = "scenes[].name", .kind = Text, .fallback = "(scene 1, scene 2 ...)",
+       .meaning = "names the scene in results",
+       .store = [](Scene& s, Member, const Value& v) { s.name = v.text; }},
+      {.path = "scenes[].weight", .range = above_zero(1e9), .fallback = "1",
+       .meaning = "its share in mean and mean+2sigma",
+       .store = [](Scene& s, Member, const Value& v) { s.weight = v.number; }},
+
+      {.path = "analyse.gradients", .kind = Parameters, .fallback = "(none)",
+       .meaning = "derivatives of every loaded output by these keys, each per its unit: `loaded[].gradients`; task \"analyse\""},
+
+      {.path = "optimise.objective", .kind = Objective, .fallback = "\"peak_contact_stress\"",
+       .meaning = "minimised; a table of names and weights minimises the sum of weight * value (um, MPa, N/mm); of a list each while those before it stay near their least"},
+      {.path = "optimise.lexicographic_tolerance", .range = above_zero(10.0), .fallback = "0.01",
+       .meaning = "of a list of objectives: how far one may rise above its least while the next is minimised, as a share of it",
+       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.lexicographic_tolerance = v.number; }},
+      {.path = "optimise.over", .kind = Word, .words = {"nominal", "worst", "mean", "mean+sigmas", "cvar", "mean+2sigma"},
+       .fallback = "\"worst\"", .meaning = "of the scenes; nominal is the first, mean+2sigma is mean+sigmas with sigmas = 2, cvar the mean over the worst of them",
+       .store = [](Draft& d, Member, const Value& v) {
+         const bool two_sigmas = v.text == "mean+2sigma";
+         d.study.optimise.over.kind = two_sigmas ? Aggregate::MeanPlusSigmas : static_cast<Aggregate>(v.integer);
+       }},
+      {.path = "optimise.sigmas", .range = above_zero(100.0), .fallback = "2", .meaning = "k of over = \"mean+sigmas\": mean + k standard deviations",
+       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.over.sigmas = v.number; }},
+      {.path = "optimise.cvar_level", .range = {.low = 0.0, .high = 1.0, .high_open = true}, .fallback = "0.9",
+       .meaning = "of over = \"cvar\": the mean over the worst 1 - level of the scenes' weight (conditional value at risk)",
+       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.over.level = v.number; }},
+      {.path = "optimise.solver", .kind = Word, .words = solver_names(), .fallback = "\"nlopt:slsqp\"",
+       .meaning = "the optimiser",
+       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.solver = v.text; }},
+      {.path = "optimise.finisher", .kind = Word, .words = finisher_names(), .fallback = "\"nlopt:slsqp\"",
+       .meaning = "what goes on from the best design where a solver with gradients and constraints stalls on a kink; none: the search ends there",
+       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.finisher = v.text; }},
+      {.path = "optimise.variables", .kind = Variables, .fallback = "(none)",
+       .meaning = "\"pinion.modification.lead_crowning\" = [0, 40]: what may change, in the unit of its key; { range = [0, 40], step = 1 }: and is ground in such steps"},
+      {.path = "optimise.step", .quantity = Quantity::Deviation, .range = above_zero(100.0), .fallback = "(none)",
+       .meaning = "what the grinder can set: the optimum is rounded to multiples of it, in variables that are amounts and have no step of their own",
+       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.step = v.number; }},
+      {.path = "optimise.ties", .kind = Ties, .fallback = "(none)",
+       .meaning = "\"wheel.modification.lead_crowning\" = { as = \"pinion.modification.lead_crowning\", factor = 1, offset = 0 }: follows a variable, factor * value + offset"},
+      {.path = "optimise.constraints", .kind = Constraints, .fallback = "(none)",
+       .meaning = "\"te_peak_to_peak\" = { max = 1.5 }: transmission error in um, stress in MPa, line load in N/mm, in every scene; \"pinion.modification.lead_crowning + wheel.modification.lead_crowning\" = { max = 30 }"},
+      {.path = "optimise.edge_margin", .range = {.low = 0.0, .high = 0.5, .low_open = true}, .fallback = "0.05",
+       .meaning = "of edge_load: share of the face width at either end and of the active height at either tip",
+       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.edge_margin = v.number; }},
+      {.path = "optimise.starts", .kind = Integer, .range = {.low = 1, .high = 1000}, .fallback = "1",
+       .meaning = "searches, side by side: from the file's values and from a space-filling set; max_evaluations is shared among them; of a front for the best of each objective",
+       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.starts = static_cast<int>(v.integer); }},
+      {.path = "optimise.pareto.objectives", .kind = Objectives, .fallback = "(none)",
+       .meaning = "a front of compromises between these as well, with a budget of its own of the same size"},
+      {.path = "optimise.pareto.points", .kind = Integer, .range = {.low = 3, .high = 200}, .fallback = "9",
+       .meaning = "of the front; of three objectives the largest of 3, 6, 10, 15 ... within it",
+       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.pareto_points = static_cast<int>(v.integer); }},
+      {.path = "optimise.max_evaluations", .kind = Integer, .range = {.low = 1, .high = 10'000'000}, .fallback = "2000",
+       .meaning = "then an orderly stop with the best so far",
+       .store = [](Draft& d, Member, const Value& v) {
+         d.study.optimise.max_evaluations = static_cast<int>(v.integer);
+       }},
+      {.path = "optimise.max_seconds", .quantity = Quantity::Time, .range = above_zero(1e8), .fallback = "(no limit)",
+       .meaning = "then an orderly stop with the best so far",
+       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.max_seconds = v.number; }},
+      {.path = "optimise.seed", .kind = Integer, .range = {.low = 0, .high = 2147483647}, .fallback = "1",
+       .meaning = "of the stochastic solvers and of the starts",
+       .store = [](Draft& d, Member, const Value& v) {
+         d.study.optimise.seed = static_cast<unsigned long>(v.integer);
+       }},
+
+      {.path = "fit.gear", .kind = Word, .words = {"both", "pinion", "wheel"}, .fallback = "\"both\"",
+       .meaning = "whose compliance is fitted",
+       .store = [](Draft& d, Member, const Value& v) {
+         d.study.fit.pinion = v.text != "wheel";
+         d.study.fit.wheel = v.text != "pinion";
+       }},
+      {.path = "fit.form", .kind = Word, .words = {"one_tooth_accurate", "several_teeth"},
+       .fallback = "\"one_tooth_accurate\"", .meaning = "sum of kernels that is fitted: one tooth, or several that are coupled",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fit.several_teeth = v.text == "several_teeth"; }},
+      {.path = "fit.test_grid", .kind = Word, .words = {"on", "off"}, .fallback = "\"on\"",
+       .meaning = "on: compared with finite elements on places that the fit has not seen as well",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fit.test_grid = v.text == "on"; }},
+      {.path = "fit.max_iterations", .kind = Integer, .range = {.low = 1, .high = 100'000}, .fallback = "300",
+       .meaning = "steps of the least squares, then it ends unconverged with the best so far",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fit.max_iterations = static_cast<int>(v.integer); }},
+
+      {.path = "expect", .kind = Expectations, .fallback = "(none)",
+       .meaning = "\"loaded.summary.te_peak_to_peak_um\" = { max = 3 }: what results.json must say"},
+  };
+}
+
+// clang-format on
+
+namespace {
+
+/// Appends the rows, a gear's once for each gear.
+void append(std::vector<SchemaKey>& schema, const std::vector<SchemaKey>& rows) {
+  constexpr std::string_view any_gear = "gear.";
+  for (const SchemaKey& row : rows) {
+    schema.push_back(row);
+    if (!row.path.starts_with(any_gear)) continue;
+    schema.push_back(row);
+    const std::string rest = row.path.substr(any_gear.size());
+    SchemaKey& of_pinion = schema[schema.size() - 2];
+    SchemaKey& of_wheel = schema.back();
+    of_pinion.path = "pinion." + rest;
+    of_wheel.path = "wheel." + rest;
+    of_wheel.member = Member::Wheel;
+  }
+}
+
+std::vector<SchemaKey> make_schema() {
+  std::vector<SchemaKey> schema;
+  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), shaft_rows(), task_rows(), proof_rows(), sweep_rows(), accuracy_rows()}) {
+    append(schema, rows);
+  }
+  return schema;
+}
+
+}  // namespace
+
+const std::vector<SchemaKey>& study_schema() {
+  static const std::vector<SchemaKey> schema = make_schema();
+  return schema;
+}
+
+const std::vector<ExclusiveKeys>& exclusive_keys() {
+  static const std::vector<ExclusiveKeys> pairs{
+      {"pair.normal_module", "pair.normal_diametral_pitch"},
+      {"cycle.positions", "cycle.phases"},
+      {"pinion.modification.profile_crowning", "pinion.modification.addendum_crowning"},
+      {"pinion.modification.profile_crowning", "pinion.modification.dedendum_crowning"},
+      {"wheel.modification.profile_crowning", "wheel.modification.addendum_crowning"},
+      {"wheel.modification.profile_crowning", "wheel.modification.dedendum_crowning"},
+  };
+  return pairs;
+}
+
+}  // namespace flankwright::studies

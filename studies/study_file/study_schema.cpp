@@ -1,0 +1,244 @@
+#include "studies/study_file/study_schema.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+#include <set>
+
+namespace flankwright::studies {
+
+namespace {
+
+constexpr int highest_te_harmonic = 10;
+constexpr std::string_view scene_prefix = "scenes[].";
+
+std::string number_text(double value) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), "%.10g", value);
+  return buffer.data();
+}
+
+std::string quoted_list(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "\"" : ", \"") + word + "\"";
+  return list;
+}
+
+/// Letters to insert, delete or replace to get from one word to the other (Levenshtein).
+std::size_t edit_distance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({replaced, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string parent_of(const std::string& path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string::npos ? "" : path.substr(0, dot + 1);
+}
+
+KeyIndex make_study_keys() {
+  KeyIndex keys;
+  for (const SchemaKey& key : study_schema()) {
+    if (key.path.find("[].") == std::string::npos) keys.emplace(key.path, &key);
+  }
+  return keys;
+}
+
+KeyIndex make_scene_keys() {
+  KeyIndex keys;
+  for (const SchemaKey& key : study_schema()) {
+    if (!std::holds_alternative<StoreInScene>(key.store)) continue;
+    const bool own = key.path.starts_with(scene_prefix);
+    keys.emplace(own ? key.path.substr(scene_prefix.size()) : key.path, &key);
+  }
+  return keys;
+}
+
+}  // namespace
+
+const KeyIndex& study_keys() {
+  static const KeyIndex keys = make_study_keys();
+  return keys;
+}
+
+const KeyIndex& scene_keys() {
+  static const KeyIndex keys = make_scene_keys();
+  return keys;
+}
+
+KeyIndex element_keys(const std::string& list) {
+  const std::string prefix = list + "[].";
+  KeyIndex keys;
+  for (const SchemaKey& key : study_schema()) {
+    if (key.path.starts_with(prefix)) keys.emplace(key.path.substr(prefix.size()), &key);
+  }
+  return keys;
+}
+
+bool is_table(const KeyIndex& keys, const std::string& path) {
+  const auto next = keys.lower_bound(path + ".");
+  return next != keys.end() && next->first.starts_with(path + ".");
+}
+
+std::string nearest_word(const std::string& word, const std::vector<std::string>& words) {
+  // A third of the letters may be wrong, and two always; longer words than any key are not worth the comparison.
+  constexpr std::size_t longest = 100;
+  if (word.empty() || word.size() > longest) return "";
+  std::size_t nearest = std::max<std::size_t>(2, word.size() / 3) + 1;
+  std::string found;
+  for (const std::string& candidate : words) {
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < nearest && distance < candidate.size()) {
+      nearest = distance;
+      found = candidate;
+    }
+  }
+  return found;
+}
+
+std::string nearest_key_hint(const KeyIndex& keys, const std::string& path) {
+  const std::string parent = parent_of(path);
+  const std::string last = path.substr(parent.size());
+  std::vector<std::string> siblings;
+  for (const auto& [name, key] : keys) {
+    if (name.starts_with(parent))
+      siblings.push_back(name.substr(parent.size(), name.find('.', parent.size()) - parent.size()));
+  }
+  const std::string sibling = nearest_word(last, siblings);
+  if (!sibling.empty()) return ", did you mean " + sibling + "?";
+  std::set<std::string> longer;  // of which the word is one end: module, normal_module
+  for (const std::string& name : siblings) {
+    if (name.starts_with(last + "_") || name.ends_with("_" + last)) longer.insert(name);
+  }
+  if (longer.size() == 1) return ", did you mean " + *longer.begin() + "?";
+  std::string namesake;  // the one that lies least deep
+  for (const auto& [name, key] : keys) {
+    const bool is_namesake = name == last || name.ends_with("." + last);
+    if (is_namesake && (namesake.empty() || std::ranges::count(name, '.') < std::ranges::count(namesake, '.'))) namesake = name;
+  }
+  return namesake.empty() ? "" : ", did you mean " + namesake + "?";
+}
+
+bool is_described_fallback(const SchemaKey& key) {
+  return key.fallback.starts_with('(');
+}
+
+bool is_required(const SchemaKey& key) {
+  return key.fallback.starts_with("(required");
+}
+
+std::string range_in_words(const Range& range, Quantity quantity) {
+  const bool has_low = std::isfinite(range.low);
+  const bool has_high = std::isfinite(range.high);
+  const std::string low = number_text(range.low);
+  const std::string high = number_text(range.high);
+  std::string words;
+  if (has_low && has_high && !range.low_open && !range.high_open) {
+    words.append(" ").append(low).append(" .. ").append(high);
+  } else {
+    if (has_low) words += (range.low_open ? " above " : " of at least ") + low;
+    if (has_low && has_high) words += " and";
+    if (has_high) words += (range.high_open ? " below " : " at most ") + high;
+  }
+  if (quantity != Quantity::Number) words.append(" ").append(default_unit(quantity));
+  return words;
+}
+
+std::string allowed_values(const SchemaKey& key) {
+  const std::string range = range_in_words(key.range, key.quantity);
+  switch (key.kind) {
+    case ValueKind::Number:
+      return "a number" + range;
+    case ValueKind::NumberOrList:
+      return "a number" + range + ", or a list of them";
+    case ValueKind::NumberList:
+      return "a list of numbers" + range;
+    case ValueKind::Integer:
+      return "an integer" + range;
+    case ValueKind::Percentage:
+      return "a percentage" + range + ", such as \"1 %\"";
+    case ValueKind::IntegerOrAuto:
+      return "an integer" + range + ", or \"auto\"";
+    case ValueKind::Text:
+      return "a text";
+    case ValueKind::TextList:
+      return "a list of texts";
+    case ValueKind::Word:
+      return quoted_list(key.words);
+    case ValueKind::WordOrTable:
+      return quoted_list(key.words) + ", or a table of the keys below it";
+    case ValueKind::WordList:
+      return "\"auto\", or a list of " + quoted_list(key.words);
+    case ValueKind::TableList:
+      return "a list of tables of the keys below it, at least one";
+    case ValueKind::Scenes:
+      return "[[scenes]] tables";
+    case ValueKind::Objective:
+      return quoted_list(output_names()) + ", a table of them, or a list in the order of importance";
+    case ValueKind::Objectives:
+      return "a list of two or three outputs, or tables of them";
+    case ValueKind::Variables:
+      return "a table of keys below pinion.modification or wheel.modification, each with [low, high] or { range = [low, high], step = ... }";
+    case ValueKind::Ties:
+      return "a table of keys below pinion.modification or wheel.modification, each with { as = a variable } and factor, offset";
+    case ValueKind::Distributions:
+      return "a table of keys below misalignment, load, modification or error, each with { normal = [mean, deviation] }, "
+             "{ truncated_normal = [mean, deviation, low, high] }, { uniform = [low, high] }, { grid = [low, high, levels] }, "
+             "{ values = [...] } or { iso_1328_class = 1 .. 11 }";
+    case ValueKind::Parameters:
+      return "a list of keys below pinion.modification, wheel.modification or misalignment, and load.torque";
+    case ValueKind::Constraints:
+      return "a table of outputs, or sums of keys below pinion.modification and wheel.modification, each with { max = ... }, { min = ... } or both";
+    case ValueKind::Expectations:
+      return "a table of keys of results.json, each with { value, within }, { min, max } or { is }";
+  }
+  return "";
+}
+
+std::string schema_markdown() {
+  std::string table = "| key | unit | default | allowed | meaning |\n|---|---|---|---|---|\n";
+  for (const SchemaKey& key : study_schema()) {
+    const std::string fallback =
+        is_described_fallback(key) ? key.fallback.substr(1, key.fallback.size() - 2) : "`" + key.fallback + "`";
+    table += "| `" + key.path + "` | " + std::string(default_unit(key.quantity)) + " | " + fallback + " | " + allowed_values(key) +
+             " | " + key.meaning + " |\n";
+  }
+  return table;
+}
+
+std::optional<NamedOutput> find_output(const std::string& name) {
+  const auto found = [&name](Output output, Quantity quantity, int harmonic = 0) {
+    return NamedOutput{{.output = output, .harmonic = harmonic, .weight = 1.0, .name = name}, quantity};
+  };
+  if (name == "peak_contact_stress") return found(Output::PeakContactStress, Quantity::Stress);
+  if (name == "te_peak_to_peak") return found(Output::TePeakToPeak, Quantity::Deviation);
+  if (name == "load_factor") return found(Output::LoadFactor, Quantity::Number);
+  if (name == "peak_line_load") return found(Output::PeakLineLoad, Quantity::LineLoad);
+  if (name == "peak_root_stress") return found(Output::PeakRootStress, Quantity::Stress);
+  if (name == "effective_contact_ratio") return found(Output::EffectiveContactRatio, Quantity::Number);
+  if (name == "edge_load") return found(Output::EdgeLoad, Quantity::LineLoad);
+  for (int order = 1; order <= highest_te_harmonic; ++order) {
+    if (name == "te_harmonic_" + std::to_string(order)) return found(Output::TeHarmonic, Quantity::Deviation, order);
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> output_names() {
+  std::vector<std::string> names{"peak_contact_stress", "te_peak_to_peak", "load_factor", "peak_line_load",
+                                 "peak_root_stress",    "effective_contact_ratio", "edge_load"};
+  for (int order = 1; order <= highest_te_harmonic; ++order) names.push_back("te_harmonic_" + std::to_string(order));
+  return names;
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,59 @@
+#include "studies/study_file/sweep_value.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace flankwright::studies {
+
+namespace {
+
+bool is_extent(const SchemaKey& key) {
+  using enum ModificationParameter;
+  const auto* parameter = std::get_if<ModificationParameter>(&key.store);
+  return parameter != nullptr && (*parameter == TipReliefHeight || *parameter == RootReliefHeight || *parameter == EndReliefLength);
+}
+
+}  // namespace
+
+bool is_sweepable(const SchemaKey& key) {
+  const bool is_number = key.kind == ValueKind::Number || key.kind == ValueKind::NumberOrList;
+  return is_number && (std::holds_alternative<StoreInScene>(key.store) || std::holds_alternative<ModificationParameter>(key.store));
+}
+
+bool is_in_range(const SchemaKey& key, double value) {
+  const bool above = key.range.low_open || is_extent(key) ? value > key.range.low : value >= key.range.low;
+  const bool below = key.range.high_open ? value < key.range.high : value <= key.range.high;
+  return std::isfinite(value) && above && below;
+}
+
+std::vector<SweptCondition> extreme_conditions(const Study& study) {
+  constexpr double outer_share = 1e-6;  // beyond either end
+  std::vector<SweptCondition> conditions;
+  for (const SweepParameter& p : study.sweep.parameters) {
+    const SchemaKey& key = *study_keys().at(p.path);
+    for (const double u : {outer_share, 1.0 - outer_share}) {
+      const double value = p.distribution.quantile(u);
+      if (!is_in_range(key, value)) continue;
+      conditions.push_back(SweptCondition::of(study));
+      set_swept(conditions.back(), key, value);
+    }
+  }
+  return conditions;
+}
+
+void set_swept(SweptCondition& condition, const SchemaKey& key, double value) {
+  if (!is_in_range(key, value)) throw InvalidInput(key.path, fmt::format("{:.6g}", value), allowed_values(key));
+  const double inside = internal_value(value, key.quantity);
+  if (const auto* in_scene = std::get_if<StoreInScene>(&key.store)) {
+    Value stored;
+    stored.number = inside;
+    stored.numbers = {inside};
+    (*in_scene)(condition.scene, key.member, stored);
+  } else {
+    set(key.member == Member::Pinion ? condition.pinion_modification : condition.wheel_modification,
+        std::get<ModificationParameter>(key.store), inside);
+  }
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <string>
+
+#include "core/contact/gap/gap.hpp"
+#include "studies/study/study.hpp"
+#include "studies/study_file/study_schema.hpp"
+
+namespace flankwright::studies {
+
+/// True for keys that a sweep may vary: the numbers of a working condition (misalignment, torque, errors) and of a modification. All
+/// else changes the gears or how they are analysed.
+bool is_sweepable(const SchemaKey& key);
+
+/// True where the value is allowed for a key; both in the unit of a bare number. A relief's height and length must be above 0.
+bool is_in_range(const SchemaKey& key, double value);
+
+/// What a study says of a swept key, and where the sample puts its own value.
+struct SweptCondition {
+  Scene scene;
+  Modification pinion_modification, wheel_modification;
+
+  /// Of the study itself, the nominal sample.
+  static SweptCondition of(const Study& study) { return {study.scenes.front(), study.pinion_modification, study.wheel_modification}; }
+  FlankCondition flanks() const {
+    return {pinion_modification, wheel_modification, scene.pinion_error, scene.wheel_error, scene.misalignment};
+  }
+};
+
+/// What a sweep's parameters do at the low and at the high end of their distributions, one by one; what is out of range there is left out. For
+/// decisions that must hold for every sample.
+std::vector<SweptCondition> extreme_conditions(const Study& study);
+
+/// Puts a value, in the unit of a bare number, in the place of a sweepable key's.
+/// @throws InvalidInput where it is out of the key's range
+void set_swept(SweptCondition& condition, const SchemaKey& key, double value);
+
+}  // namespace flankwright::studies

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/rating/peak_gradient.hpp"
+
+namespace flankwright::studies {
+
+/// Located peaks of one load case, and what load distribution factors compare them with.
+struct LoadRating {
+  SpikeRule spikes;
+  ContactPeaks perfect, lead, profile, combined;  ///< of the parts of the condition, see load_factors.hpp
+  LoadFactors factors;
+  PeakGradients peak_gradients, perfect_gradients;  ///< of the whole condition and of the perfect part
+  LoadFactorGradients factor_gradients;      ///< empty rows where no derivatives were asked for
+};
+
+/// The mesh for a misalignment, see MeshPlacement, with what derivatives by these parameters need, see with_further_meshes().
+using MeshFor = std::function<MeshAt(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters)>;
+
+/// Rates load cases of one pair. Peaks of a condition are sought once: the perfect pair's serve every scene at the same torque.
+class LoadRater {
+ public:
+  /// @param parameters  derivatives are given with respect to these; none by default
+  LoadRating rate(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque,
+                  const std::vector<MeshParameter>& parameters = {});
+
+ private:
+  const ContactPeaks& peaks_of(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque);
+
+  struct Known {
+    FlankCondition condition;
+    double torque;
+    ContactPeaks peaks;
+  };
+  std::vector<Known> known_;
+};
+
+}  // namespace flankwright::studies

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/tasks/study_results.hpp"
+#include "studies/study_file/study_schema.hpp"
+#include "studies/study_file/sweep_value.hpp"
+
+namespace flankwright::studies {
+
+/// A figure that every sample has.
+struct SweepOutput {
+  std::string name;            ///< as in `loaded.summary` of results.json, or of `unloaded.mesh`; harmonics te_harmonic_1_um ...
+  std::string unit;
+  bool smaller_is_worse{false};  ///< of the worst sample: stiffness
+};
+
+/// What became of one sample.
+struct SampleResult {
+  std::string failure;          ///< why there are no outputs; empty: there are
+  std::vector<double> outputs;  ///< in the units of the outputs; empty where it failed
+};
+
+/// Analyses single samples of a sweep against what the nominal run built once: gears, compliance, influence matrices. Those hold for every
+/// sample of a placement (MeshPlacement); a sample with another one has its influence matrices built for itself. Every call stands alone,
+/// from any thread.
+class SampleAnalysis {
+ public:
+  /// @param nominal  of a study of the task Sweep; must live as long as this
+  explicit SampleAnalysis(const StudyResults& nominal);
+
+  const std::vector<SweepOutput>& outputs() const { return outputs_; }
+  /// @param values  of the parameters, in the units of bare numbers
+  SampleResult analyse(const std::vector<double>& values) const;
+
+ private:
+  std::vector<double> loaded_outputs(const FlankCondition& condition, double torque) const;
+  std::vector<double> unloaded_outputs(const FlankCondition& condition) const;
+  bool is_loaded() const { return !nominal_.loaded.empty(); }
+
+  const StudyResults& nominal_;
+  std::vector<const SchemaKey*> keys_;  ///< of the parameters
+  std::vector<SweepOutput> outputs_;
+};
+
+}  // namespace flankwright::studies

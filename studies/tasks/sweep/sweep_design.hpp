@@ -1,0 +1,30 @@
+#pragma once
+
+#include <variant>
+
+#include "optimize/sampling/sensitivity_design.hpp"
+#include "studies/study/sweep_table.hpp"
+
+namespace flankwright::studies {
+
+/// The samples of a sweep, each from its number alone.
+class SweepDesign {
+ public:
+  explicit SweepDesign(const SweepTable& sweep);
+
+  long long samples() const { return samples_; }
+  std::size_t parameters() const { return parameters_.size(); }
+  /// Levels of a parameter; 0: continuous.
+  std::size_t levels(std::size_t parameter) const { return static_cast<std::size_t>(parameters_[parameter].distribution.levels()); }
+  /// Consecutive samples that belong together for Sobol indices; 0: the design gives none.
+  int block_size() const;
+  /// Values of the parameters, in the units of bare numbers. @param i  0 .. samples() - 1
+  std::vector<double> values(long long i) const;
+
+ private:
+  std::vector<SweepParameter> parameters_;
+  std::variant<SampleDesign, SensitivityDesign> design_;
+  long long samples_;
+};
+
+}  // namespace flankwright::studies

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+
+#include "optimize/sampling/sobol_indices.hpp"
+#include "studies/tasks/sweep/sweep_design.hpp"
+#include "studies/tasks/sweep/sweep_store.hpp"
+
+namespace flankwright::studies {
+
+/// Probabilities of the quantiles that are reported.
+inline constexpr std::array<double, 7> quantile_shares{0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99};
+
+/// Counts over equal parts of low .. high.
+struct Histogram {
+  double low{not_given}, high{not_given};
+  std::vector<long long> counts;
+  /// Which part a value falls to; the ends belong to the first and the last.
+  std::size_t part(double value) const;
+};
+
+/// What a sweep says of one output, over the samples that have it; NaN where none does.
+struct OutputStatistics {
+  SweepOutput output;
+  long long count{0};
+  double mean{not_given};
+  double deviation{not_given};  ///< standard deviation, n - 1 below the root; NaN of fewer than two
+  double smallest{not_given}, largest{not_given};
+  std::array<double, quantile_shares.size()> quantiles{};  ///< the value of rank share (n - 1), between two ranks linearly
+  long long worst{-1};          ///< number of the sample with the worst value, the first of equal ones
+  Histogram histogram;
+  std::vector<SobolIndex> indices;  ///< one a parameter; empty where the design has no blocks
+};
+
+/// Mean of an output over parts of two parameters' ranges.
+struct ResponseMap {
+  std::size_t output{0}, x{0}, y{0};  ///< indices; x < y
+  std::size_t columns{0};             ///< parts of x
+  std::vector<double> sums;           ///< row by row of y, x fastest
+  std::vector<long long> counts;
+  double mean(std::size_t ix, std::size_t iy) const;  ///< NaN of an empty part
+};
+
+/// How often samples failed for a reason.
+struct FailureCount {
+  std::string reason;
+  long long count{0}, first{-1};  ///< first: a sample that did
+};
+
+struct SweepStatistics {
+  long long samples{0}, failed{0};
+  double seconds{not_given};  ///< of computing the samples, over all runs that did
+  long long blocks{0};  ///< that the Sobol indices are from: none of their samples failed
+  std::vector<StoredSample> worst;    ///< of each output; an id of -1 where there is none
+  std::vector<OutputStatistics> outputs;
+  /// How the samples lie over each parameter's range; the parts are those of the maps, and where there are few levels the levels.
+  std::vector<Histogram> parameters;
+  std::vector<ResponseMap> maps;      ///< of every output over every two parameters
+  std::vector<FailureCount> failures; ///< most frequent first, at most 20
+};
+
+/// Reads the samples below design.samples() three times in their order and once sorted for each output; memory does not grow with
+/// their number.
+SweepStatistics sweep_statistics(SweepStore& store, const SweepDesign& design, const std::vector<SweepOutput>& outputs);
+
+}  // namespace flankwright::studies

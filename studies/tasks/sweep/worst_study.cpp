@@ -1,0 +1,61 @@
+#include "studies/tasks/sweep/worst_study.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+#include <filesystem>
+#include <sstream>
+
+#include "studies/study_file/study_document.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+/// A text as TOML writes it.
+std::string quoted(const std::string& text) {
+  std::ostringstream out;
+  out << toml::toml_formatter{toml::value<std::string>{text}};
+  return out.str();
+}
+
+std::string absolute(const Study& study, const std::string& file) {
+  if (file.empty()) return file;
+  return std::filesystem::absolute(std::filesystem::path(study.file).parent_path() / file).lexically_normal().string();
+}
+
+void add_grids(const Study& study, const std::string& gear, const FlankGrid& grid, const std::vector<std::string>& teeth,
+               std::vector<Override>& overrides) {
+  if (!grid.file.empty()) overrides.push_back({gear + ".modification.grid", quoted(absolute(study, grid.file))});
+  if (teeth.empty()) return;
+  std::string list;
+  for (const std::string& file : teeth) list += (list.empty() ? "[" : ", ") + quoted(absolute(study, file));
+  overrides.push_back({gear + ".error.grids", list + "]"});
+}
+
+}  // namespace
+
+std::string sample_study(const Study& study, const std::string& title, const std::vector<double>& values) {
+  std::vector<Override> overrides{{"task", "\"analyse\""}, {"title", quoted(title)}};
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    overrides.push_back({study.sweep.parameters[j].path, fmt::format("{}", values[j])});  // shortest text of the same number
+  }
+  if (study.fidelity.automatic_intervals) {
+    overrides.push_back({"fidelity.quadrature.rule", "\"graded\""});
+    overrides.push_back({"fidelity.quadrature.intervals", fmt::format("{}", study.fidelity.quadrature.intervals)});
+  }
+  if (study.cycle.automatic_positions && study.cycle.phases.empty()) overrides.push_back({"cycle.positions", fmt::format("{}", study.cycle.positions)});
+  add_grids(study, "pinion", study.pinion_grid, study.pinion_tooth_grids, overrides);
+  add_grids(study, "wheel", study.wheel_grid, study.wheel_tooth_grids, overrides);
+  std::vector<StudyProblem> problems;
+  const StudyDocument document(study.text, study.file, overrides, problems);
+  assert(problems.empty());
+  toml::table root = document.root();
+  root.erase("sweep");
+  root.erase("expect");
+  std::ostringstream out;
+  out << toml::toml_formatter{root} << "\n";
+  return out.str();
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,57 @@
+#include "core/fidelity/cycle_error.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "core/fidelity/discretisation.hpp"
+#include "tests/core/load/mesh_cases.hpp"
+
+using namespace flankwright;
+
+namespace {
+
+/// A cycle with `intervals`, held against half of them.
+struct Judged {
+  ResolvedCycle resolved;
+  CycleFigures figures;
+};
+
+Judged judge(const GearPair& gears, const FlankCondition& condition, double torque, int intervals, int positions) {
+  const std::vector<double> phases = equally_spaced_phases(positions);
+  const auto mesh = [&](int n, const std::vector<double>& at) { return mesh_cases::model(gears, {{QuadratureRule::Graded, n}, at}); };
+  const MeshModel model = mesh(intervals, phases);
+  const LoadedCycle cycle = analyse_cycle(model, condition, torque), coarse = analyse_cycle(mesh(intervals / 2, coarse_phases(phases)), condition, torque);
+  const MeshWithParameters at = [&](const std::vector<double>& some, const std::vector<MeshParameter>&) { return mesh(intervals, some); };
+  const ResolvedCycle resolved = resolve_cycle(model, cycle, at, condition, torque, {.coarse = &coarse});
+  return {resolved, figures_of(model, cycle, resolved.summary)};
+}
+
+}  // namespace
+
+TEST_CASE("The stated error of a figure holds beside a cycle four times finer both ways", "[core][load][cycle-error]") {
+  const GearPair gears = GENERATE(mesh_cases::pair(25, 50, 0, 3, 30), mesh_cases::pair(18, 54, 30, 10, 120), mesh_cases::pair(23, 67, 12, 2, 40));
+  const double line_load = GENERATE(40.0, 200.0);
+  const FlankCondition condition = mesh_cases::worked_condition();
+  const double torque = mesh_cases::torque_for(gears, line_load);
+  const Judged coarse = judge(gears, condition, torque, 8, 32), fine = judge(gears, condition, torque, 32, 128);
+  const PerFigure stated = error_shares(coarse.resolved.errors, coarse.figures), found = figure_errors(coarse.figures, fine.figures);
+  for (const Figure figure : {Figure::TeMean, Figure::TePeakToPeak, Figure::TeHarmonic1, Figure::PeakContactStress}) {
+    const auto i = static_cast<std::size_t>(figure);
+    CAPTURE(gears.pinion.data.teeth, line_load, name_of(figure), stated[i], found[i], coarse.resolved.extremes.phases, coarse.resolved.extremes.looked_at);
+    CAPTURE(coarse.resolved.summary.te_peak_to_peak, fine.resolved.summary.te_peak_to_peak, coarse.resolved.error_parts.points.te_peak_to_peak, coarse.resolved.error_parts.positions.te_peak_to_peak);
+    CHECK(found[i] <= stated[i]);
+    CHECK(stated[i] < 0.5);  // and says something
+  }
+  // What four times finer leaves is less than what is stated coarsely.
+  CHECK(largest(error_shares(fine.resolved.errors, fine.figures)) < largest(stated));
+}
+
+TEST_CASE("Errors are those of points and of positions together, and not known without a coarser cycle", "[core][load][cycle-error]") {
+  const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
+  const Judged judged = judge(gears, mesh_cases::worked_condition(), mesh_cases::torque_for(gears, 100), 6, 16);
+  const CycleErrorParts& parts = judged.resolved.error_parts;
+  CHECK(judged.resolved.errors.te_peak_to_peak == parts.points.te_peak_to_peak + parts.positions.te_peak_to_peak);
+  CHECK(judged.resolved.errors.te_harmonics.size() == judged.resolved.summary.te_harmonics.size());
+  CHECK(std::isnan(CycleErrors{}.te_mean));
+  CHECK(coarse_phases(equally_spaced_phases(16)).size() == 8);
+  CHECK(coarse_phases(equally_spaced_phases(9)).size() == 9);
+}

@@ -1,0 +1,76 @@
+#include "core/fidelity/cycle_extremes.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "core/fidelity/resolved_cycle.hpp"
+#include "tests/core/load/mesh_cases.hpp"
+
+using namespace flankwright;
+using mesh_cases::mesh_of;
+using mesh_cases::torque_for;
+
+namespace {
+
+struct Extremes {
+  double te_high, te_low, stress, load;
+};
+
+Extremes extremes_of(const LoadedCycle& cycle) {
+  const Eigen::VectorXd te = cycle.transmission_error();
+  Extremes found{te.maxCoeff(), te.minCoeff(), 0.0, 0.0};
+  for (const LoadedPosition& position : cycle.positions) {
+    found.stress = std::max(found.stress, position.contact_stress.maxCoeff());
+    found.load = std::max(found.load, position.load.line_load.maxCoeff());
+  }
+  return found;
+}
+
+/// Spur and helical, crowned, misaligned and relieved: kinks of every sort.
+GearPair drawn_pair() { return GENERATE(mesh_cases::pair(25, 50, 0, 3, 30), mesh_cases::pair(18, 54, 30, 10, 120), mesh_cases::pair(23, 67, 12, 2, 40)); }
+
+}  // namespace
+
+TEST_CASE("Extremes between few positions are those of many", "[core][load][extremes]") {
+  const GearPair gears = drawn_pair();
+  const bool modified = GENERATE(false, true);
+  const FlankCondition condition = modified ? mesh_cases::worked_condition() : FlankCondition{};
+  const MeshAt mesh_at = mesh_of(gears, {QuadratureRule::Graded, 4});
+  const double torque = torque_for(gears, 120);
+  const MeshModel model = mesh_at(equally_spaced_phases(32));
+  const LoadedCycle cycle = analyse_cycle(model, condition, torque);
+  const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh_at(phases); };
+  const ResolvedCycle resolved = resolve_cycle(model, cycle, at, condition, torque, {});
+  const Extremes many = extremes_of(analyse_cycle(mesh_at(equally_spaced_phases(1024)), condition, torque));
+  CAPTURE(resolved.extremes.looked_at, resolved.extremes.phases);
+  // What the search leaves, by its tolerance, where curves are as straight as it takes them for, and 1024 positions.
+  const double kSearch = ExtremeSearch{}.tolerance, kPositions = 4e-3;
+  const double variation = many.te_high - many.te_low;
+  CHECK(std::abs(resolved.summary.te_peak_to_peak - variation) <= (2 * kSearch + kPositions) * std::max(variation, 0.02 * resolved.summary.te_mean));
+  CHECK(resolved.summary.peak_contact_stress == Approx(many.stress).epsilon(kSearch + kPositions));
+  CHECK(resolved.summary.peak_line_load == Approx(many.load).epsilon(kSearch + 2 * kPositions));  // stress is its root
+  CHECK(resolved.extremes.looked_at <= ExtremeSearch{}.most + 4);
+}
+
+TEST_CASE("Extremes are never smaller than those of the positions, and are solved for", "[core][load][extremes]") {
+  const GearPair gears = drawn_pair();
+  const FlankCondition condition = mesh_cases::worked_condition();
+  const MeshAt mesh_at = mesh_of(gears, {QuadratureRule::Graded, 4});
+  const double torque = torque_for(gears, 60);
+  const LoadedCycle cycle = analyse_cycle(mesh_at(equally_spaced_phases(16)), condition, torque);
+  const CycleExtremes found = locate_extremes(mesh_at, condition, torque, cycle);
+  CHECK(std::ranges::is_sorted(found.phases));
+  for (const double rise : found.unseen) CHECK(rise >= 0.0);
+  if (found.phases.empty()) return;
+  const Extremes at_positions = extremes_of(cycle), further = extremes_of(analyse_cycle(mesh_at(found.phases), condition, torque));
+  const bool some = further.te_high > at_positions.te_high || further.te_low < at_positions.te_low || further.stress > at_positions.stress ||
+                    further.load > at_positions.load;
+  CHECK(some);
+}
+
+TEST_CASE("Without load, or with too few positions, there is nothing to seek", "[core][load][extremes]") {
+  const GearPair gears = mesh_cases::pair(25, 50, 0, 3, 30);
+  const MeshAt mesh_at = mesh_of(gears);
+  CHECK(locate_extremes(mesh_at, {}, 0.0, analyse_cycle(mesh_at(equally_spaced_phases(8)), {}, 0.0)).looked_at == 0);
+  CHECK(locate_extremes(mesh_at, {}, 1e5, analyse_cycle(mesh_at(equally_spaced_phases(3)), {}, 1e5)).looked_at == 0);
+}

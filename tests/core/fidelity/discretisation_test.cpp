@@ -1,0 +1,130 @@
+#include "core/fidelity/discretisation.hpp"
+
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "tests/core/load/mesh_cases.hpp"
+
+using namespace flankwright;
+
+namespace {
+
+struct LoadCase {
+  GearPair gears;
+  FlankCondition condition;
+  double torque{0.0};
+
+  MeshOfResolution mesh() const {
+    return [this](const MeshResolution& resolution) { return mesh_cases::model(gears, resolution); };
+  }
+  CycleFigures figures(const Quadrature& quadrature, int positions) const {
+    const MeshModel model = mesh()({quadrature, equally_spaced_phases(positions)});
+    const LoadedCycle cycle = analyse_cycle(model, condition, torque);
+    const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh()({quadrature, phases}); };
+    return figures_of(model, cycle, resolve_cycle(model, cycle, at, condition, torque, {}).summary);
+  }
+};
+
+/// Pairs, flanks, misalignments and torques of all sorts; a quarter of the pairs are spur gears.
+/// @param widest  face width [m_n]
+LoadCase random_case(unsigned seed, double widest = 15.0) {
+  std::mt19937 random(seed);
+  const auto uniform = [&](double low, double high) { return low + (high - low) * std::generate_canonical<double, 53>(random); };
+  const auto amount = [&](double low, double high) { return uniform(low, high) * units::um; };
+  const auto in_one_of = [&](double share) { return uniform(0.0, 1.0) < share; };
+  const double module = uniform(1.0, 10.0), helix = in_one_of(0.25) ? 0.0 : uniform(5.0, 32.0);
+  const int teeth = static_cast<int>(uniform(17.0, 50.0));
+  LoadCase drawn{mesh_cases::pair(teeth, static_cast<int>(teeth * uniform(1.0, 4.0)), helix, module, module * uniform(4.0, widest)), {}};
+  FlankCondition& c = drawn.condition;
+  if (in_one_of(0.6)) c.pinion_modification.lead_crowning = amount(2, 15);
+  if (in_one_of(0.4)) c.pinion_modification.addendum_crowning = c.pinion_modification.dedendum_crowning = amount(1, 10);
+  for (Modification* modification : {&c.pinion_modification, &c.wheel_modification}) {
+    if (!in_one_of(0.4)) continue;
+    const ReliefShape shape = in_one_of(0.5) ? ReliefShape::Linear : ReliefShape::Parabolic;
+    modification->tip_relief = {amount(3, 30), module * uniform(0.2, 0.6), shape};
+  }
+  if (in_one_of(0.7)) c.misalignment.mesh_misalignment = amount(-20, 20);
+  if (in_one_of(0.3)) c.pinion_error.helix_slope = amount(-8, 8);
+  drawn.torque = mesh_cases::torque_for(drawn.gears, module * uniform(4.0, 40.0));
+  return drawn;
+}
+
+struct Honesty {
+  int drawn{0}, within{0}, not_kept{0};
+  int honest{0};  ///< within the stated error, and not less than a tenth of it
+  int over_tenfold{0};
+};
+
+/// Chooses for random load cases and compares with at least three times the intervals and four times the positions.
+Honesty honesty(unsigned first, int count, double widest, const DiscretisationSearch& search) {
+  Honesty result;
+  for (unsigned seed = first; seed < first + static_cast<unsigned>(count); ++seed) {
+    const LoadCase drawn = random_case(seed, widest);
+    const Discretisation chosen = choose_discretisation(drawn.mesh(), QuadratureRule::Graded, drawn.condition, drawn.torque, search);
+    const Quadrature finer{QuadratureRule::Graded, std::max(16, 3 * chosen.quadrature.intervals)};
+    const CycleFigures truth = drawn.figures(finer, std::max(64, 4 * chosen.positions));
+    const double error = largest(figure_errors(drawn.figures(chosen.quadrature, chosen.positions), truth));
+    const double stated = largest(chosen.error());
+    UNSCOPED_INFO(seed << ": stated " << 100 * stated << " %, found " << 100 * error << " % with " << chosen.quadrature.intervals << " intervals, "
+                       << chosen.positions << " positions" << (chosen.kept ? "" : ", not kept"));
+    ++result.drawn;
+    const bool within = error <= stated, tenfold = stated > 10.0 * error;
+    result.within += within ? 1 : 0;
+    result.honest += within && !tenfold ? 1 : 0;
+    result.over_tenfold += tenfold ? 1 : 0;
+    result.not_kept += chosen.kept ? 0 : 1;
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("Estimated errors of a resolution hold on random load cases", "[core][load][discretisation]") {
+  const Honesty found = honesty(1000, 20, 6.0, {.accuracy = 0.05, .most_intervals = 24, .most_positions = 64});
+  CAPTURE(found.within, found.over_tenfold, found.not_kept);
+  CHECK(found.within >= 19);  // 95 %: differences may cancel by chance
+  CHECK(found.over_tenfold <= 5);
+}
+
+TEST_CASE("Estimated errors of a resolution hold on 200 random load cases", "[core][load][discretisation][.soak]") {
+  const Honesty found = honesty(0, 200, 15.0, {.accuracy = 0.01});
+  WARN("within " << found.within << " of " << found.drawn << ", honest " << found.honest << ", over tenfold " << found.over_tenfold << ", not kept " << found.not_kept);
+  CHECK(found.within >= 190);  // 95 %: differences may cancel by chance
+  CHECK(found.over_tenfold <= 50);
+}
+
+TEST_CASE("A line that is loaded evenly needs no more than the fewest intervals", "[core][load][discretisation]") {
+  // Aligned, unmodified spur flanks without free ends: the load is the same along the line, whatever the quadrature.
+  const LoadCase even{mesh_cases::pair(20, 40, 0, 4, 30), {}, 200e3};
+  const MeshOfResolution endless = [&](const MeshResolution& resolution) {
+    return mesh_cases::model(even.gears, resolution, MeshEffects::all_but({"free_ends"}));
+  };
+  const DiscretisationSearch search{.accuracy = 0.01};
+  const Discretisation chosen = choose_discretisation(endless, QuadratureRule::Graded, even.condition, even.torque, search);
+  CHECK(chosen.quadrature.intervals == search.fewest_intervals);
+  constexpr double kRoundOff = 1e-9;
+  CHECK(largest(chosen.quadrature_error) < kRoundOff);
+  CHECK(largest(chosen.position_error) > kRoundOff);  // teeth come and go between positions
+}
+
+TEST_CASE("More accuracy never takes a coarser resolution, and what is kept is within it", "[core][load][discretisation]") {
+  const LoadCase drawn = random_case(7, 6.0);
+  int cost = 0;
+  for (double accuracy : {0.3, 0.1, 0.03}) {
+    const Discretisation chosen = choose_discretisation(drawn.mesh(), QuadratureRule::Graded, drawn.condition, drawn.torque, {.accuracy = accuracy});
+    CAPTURE(accuracy, chosen.quadrature.intervals, chosen.positions);
+    CHECK(chosen.kept == (largest(chosen.error()) <= accuracy));
+    CHECK(chosen.quadrature.intervals * chosen.positions >= cost);
+    cost = chosen.quadrature.intervals * chosen.positions;
+  }
+}
+
+TEST_CASE("What is not to be chosen stands", "[core][load][discretisation]") {
+  const LoadCase drawn = random_case(3, 6.0);
+  const DiscretisationSearch search{.accuracy = 0.05, .fewest_intervals = 5, .choose_intervals = false};
+  const Discretisation chosen = choose_discretisation(drawn.mesh(), QuadratureRule::Gauss2, drawn.condition, drawn.torque, search);
+  CHECK(chosen.quadrature.rule == QuadratureRule::Gauss2);
+  CHECK(chosen.quadrature.intervals == 5);
+  CHECK(largest(chosen.quadrature_error) == 0.0);  // what is given counts as exact
+  CHECK(chosen.positions >= search.fewest_positions);
+}

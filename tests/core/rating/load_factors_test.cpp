@@ -1,0 +1,126 @@
+#include "core/rating/load_factors.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <set>
+
+#include "tests/core/load/mesh_cases.hpp"
+
+using namespace flankwright;
+using mesh_cases::mesh_of;
+using mesh_cases::torque_for;
+
+namespace {
+
+LoadFactors factors_of(const GearPair& gears, const FlankCondition& condition, double line_load = 100) {
+  const auto located = [&](const FlankCondition& part) {
+    return locate_peaks(mesh_of(gears), part, torque_for(gears, line_load));
+  };
+  const ContactPeaks perfect = located(perfect_part(condition)), whole = located(condition);
+  const auto peaks = [&](const FlankCondition& part) {
+    return part == condition ? whole : part == perfect_part(condition) ? perfect : located(part);
+  };
+  return load_factors(perfect, peaks(lead_part(condition)), peaks(profile_part(condition)), whole);
+}
+
+FlankCondition lead_and_profile() {
+  FlankCondition c;
+  c.pinion_modification.lead_crowning = 6 * units::um;
+  c.wheel_modification.lead_slope = -4 * units::um;
+  c.pinion_modification.end_relief = {8 * units::um, 10};
+  c.wheel_modification.tip_relief = {10 * units::um, 3, ReliefShape::Linear};
+  c.pinion_modification.root_relief = {5 * units::um, 2, ReliefShape::Parabolic};
+  set(c.wheel_modification, ModificationParameter::ProfileCrowning, 4 * units::um);
+  c.pinion_modification.profile_slope = 2 * units::um;
+  c.pinion_error.helix_slope = 3 * units::um;
+  c.pinion_error.profile_slope = -4 * units::um;
+  c.pinion_error.pitch_step = 2 * units::um;
+  c.pinion_error.helix_slopes = {0, 2 * units::um, -1 * units::um};
+  c.wheel_error.profile_slopes = {1 * units::um, 0};
+  c.wheel_error.cumulative_pitch = {1 * units::um, -2 * units::um, 0, 3 * units::um};
+  c.misalignment.crossing = 10 * units::arcsec;
+  c.misalignment.intersecting = -20 * units::arcsec;
+  c.misalignment.mesh_misalignment = 5 * units::um;
+  return c;
+}
+
+}  // namespace
+
+TEST_CASE("A condition of leads and profiles is the sum of its parts", "[core][load][load-factors]") {
+  constexpr double kRoundOff = 1e-15;  // mm
+  const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
+  const FlankCondition whole = lead_and_profile();
+  REQUIRE_FALSE(has_other_part(whole));
+  const MeshModel model = mesh_of(gears)({0.3});
+  const auto error = [&](const FlankCondition& c) { return plane_of_action_gap(gears, model.positions[0].points, c).error; };
+  const Eigen::VectorXd sum = error(lead_part(whole)) + error(profile_part(whole)) - error(perfect_part(whole));
+  CHECK(error(perfect_part(whole)).cwiseAbs().maxCoeff() < kRoundOff);
+  CHECK((sum - error(whole)).cwiseAbs().maxCoeff() < 20 * kRoundOff);
+}
+
+TEST_CASE("Every modification parameter belongs to one part", "[core][load][load-factors]") {
+  for (const NamedModificationParameter& named : modification_parameters) {
+    CAPTURE(named.name);
+    FlankCondition condition;
+    set(condition.pinion_modification, named.parameter, 1e-3);
+    const bool lead = lead_part(condition) == condition, profile = profile_part(condition) == condition;
+    CHECK(lead + profile + has_other_part(condition) == 1);
+    CHECK((perfect_part(condition) == FlankCondition{}));
+  }
+}
+
+TEST_CASE("Factors of a perfect pair are 1, those of a lead deviation are all its own", "[core][load][load-factors]") {
+  const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
+  const LoadFactors perfect = factors_of(gears, {});
+  for (const LoadFactors::Triple& k : {perfect.without_spikes, perfect.with_spikes}) {
+    CHECK(k.lead == 1);
+    CHECK(k.profile == 1);
+    CHECK(k.combined == 1);
+  }
+  FlankCondition misaligned;
+  misaligned.misalignment.mesh_misalignment = 8 * units::um;
+  const LoadFactors lead = factors_of(gears, misaligned);
+  for (const LoadFactors::Triple& k : {lead.without_spikes, lead.with_spikes}) {
+    CHECK(k.lead > 1.1);
+    CHECK(k.profile == 1);
+    CHECK(k.combined == k.lead);
+    CHECK(k.product() == k.lead);
+  }
+  // The heavier the load, the less the same deviation matters.
+  CHECK(factors_of(gears, misaligned, 1000).without_spikes.lead < lead.without_spikes.lead);
+}
+
+TEST_CASE("Bending slices under a misalignment have the linear load of ISO 6336's model", "[core][load][load-factors]") {
+  // Without Hertzian deflection a slice of stiffness c yields w = c (f_t - g): on a spur pair with one pair of teeth in
+  // contact w = F/b - c_n (opening) z/b, and stress follows its root.
+  constexpr double kRoundOff = 1e-9;
+  const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
+  const double phase = (gears.pitch_point - gears.path_start) / gears.transverse_base_pitch + PathOfContact::extension;
+  const MeshModel model =
+      mesh_cases::model(gears, {{QuadratureRule::Gauss2, 8}, {phase}}, MeshEffects::all_but({"hertzian_contact", "extended_contact_region"}));
+  const double torque = torque_for(gears, 300);
+  FlankCondition misaligned;
+  misaligned.misalignment.mesh_misalignment = 4 * units::um;
+  const auto peaks = [&](const FlankCondition& c) {
+    return peaks_at(model, model.positions[0], analyse_cycle(model, c, torque).positions[0]);
+  };
+  const LoadedPosition perfect = analyse_cycle(model, {}, torque).positions[0];
+  const double mean = perfect.load.line_load[0], stiffness = mean / perfect.load.transmission_error;
+  const double outermost = -model.positions[0].points.front().z;
+  const double expected = 1 + stiffness * 4 * units::um * outermost / 30 / mean;
+  const LoadFactors factors = load_factors(peaks({}), peaks(misaligned), peaks({}), peaks(misaligned));
+  CHECK(factors.with_spikes.lead == Approx(expected).epsilon(kRoundOff));
+  CHECK(factors.without_spikes.lead == Approx(expected).epsilon(kRoundOff));
+  CHECK(expected > 1.05);
+}
+
+TEST_CASE("A failed position leaves no factor", "[core][load][load-factors]") {
+  ContactPeaks good, failed;
+  good.with_spikes.contact_stress.value = good.without_spikes.contact_stress.value = 300;
+  failed = good;
+  failed.failures = 1;
+  const LoadFactors factors = load_factors(good, failed, good, good);
+  CHECK(std::isnan(factors.with_spikes.lead));
+  CHECK(factors.with_spikes.combined == 1);
+  CHECK(std::isnan(load_factors(failed, good, good, good).without_spikes.combined));
+}

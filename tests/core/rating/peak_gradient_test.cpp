@@ -1,0 +1,147 @@
+#include "core/rating/peak_gradient.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "tests/core/load/mesh_cases.hpp"
+
+using namespace flankwright;
+using mesh_cases::mesh_of;
+using mesh_cases::torque_for;
+
+namespace {
+
+constexpr double kTorque = 100;  // N/mm of mean line load
+constexpr double kStep = 0.05 * units::um;
+constexpr double kFineSearch = 2e-6;  // base pitches: what moves with a step must move further than the search resolves
+
+FlankCondition crowned_and_relieved() {
+  FlankCondition condition;
+  condition.pinion_modification.lead_crowning = 5 * units::um;
+  condition.wheel_modification.tip_relief = {8 * units::um, 3, ReliefShape::Linear};
+  condition.misalignment.mesh_misalignment = 6 * units::um;
+  return condition;
+}
+
+/// Parameters with a way to move each in a condition by one step.
+struct Moved {
+  MeshParameter parameter;
+  std::function<void(FlankCondition&, double)> move;
+};
+
+std::vector<Moved> movable() {
+  return {{GearParameter{Member::Pinion, ModificationParameter::LeadCrowning},
+           [](FlankCondition& c, double by) { c.pinion_modification.lead_crowning += by; }},
+          {GearParameter{Member::Wheel, ModificationParameter::TipReliefAmount},
+           [](FlankCondition& c, double by) { c.wheel_modification.tip_relief.amount += by; }},
+          {&Misalignment::mesh_misalignment, [](FlankCondition& c, double by) { c.misalignment.mesh_misalignment += by; }}};
+}
+
+RatedPeaks rated(const GearPair& gears, const FlankCondition& condition, ConditionPart part, const std::vector<MeshParameter>& parameters) {
+  const double torque = torque_for(gears, kTorque);
+  const MeshAt mesh = mesh_of(gears, {QuadratureRule::Graded, 3});
+  const ContactPeaks peaks = locate_peaks(mesh, part(condition), torque, {.step = 1.0 / 12, .phase_tolerance = kFineSearch, .worth = 0.995});
+  return {peaks, peak_gradients_of_part(mesh, condition, part, torque, peaks, parameters)};
+}
+
+/// All parameters move at once, by a step each: what errors there are would have to cancel in every output.
+void check_located(const GearPair& gears) {
+  // Step^2 of the differences times curvature, and what the search resolves over the step.
+  constexpr double kLocated = 2e-3;
+  const FlankCondition condition = crowned_and_relieved();
+  const std::vector<Moved> moved = movable();
+  std::vector<MeshParameter> parameters;
+  for (const Moved& m : moved) parameters.push_back(m.parameter);
+  const ConditionPart parts[] = {perfect_part, lead_part, profile_part, whole_condition};
+  std::vector<RatedPeaks> here;
+  for (const ConditionPart part : parts) here.push_back(rated(gears, condition, part, parameters));
+  const LoadFactorGradients gradients = load_factor_gradients(here[0], here[1], here[2], here[3]);
+  const auto at = [&](double by) {
+    FlankCondition c = condition;
+    for (const Moved& m : moved) m.move(c, by);
+    std::vector<RatedPeaks> list{here[0]};  // the perfect part stays
+    for (std::size_t k = 1; k < here.size(); ++k) list.push_back(rated(gears, c, parts[k], {}));
+    return list;
+  };
+  const std::vector<RatedPeaks> up = at(kStep), down = at(-kStep);
+  const double scale = 0.1 * here[3].peaks.with_spikes.contact_stress.value / condition.misalignment.mesh_misalignment;
+  for (const auto& pair : {std::pair{&ContactPeaks::with_spikes, &PeakGradients::with_spikes}, std::pair{&ContactPeaks::without_spikes, &PeakGradients::without_spikes}}) {
+    for (std::size_t k = 0; k < here.size(); ++k) {
+      CAPTURE(k, gears.data.helix_angle);
+      const auto stress = [&](const RatedPeaks& r) { return (r.peaks.*pair.first).contact_stress.value; };
+      const double difference = (stress(up[k]) - stress(down[k])) / (2 * kStep);
+      CHECK(std::abs((here[k].gradients.*pair.second).contact_stress.sum() - difference) <= kLocated * (std::abs(difference) + scale));
+    }
+  }
+  const LoadFactors high = load_factors(up[0].peaks, up[1].peaks, up[2].peaks, up[3].peaks);
+  const LoadFactors low = load_factors(down[0].peaks, down[1].peaks, down[2].peaks, down[3].peaks);
+  for (const auto& [exact, factor] : {std::pair{&LoadFactorGradients::Triple::lead, &LoadFactors::Triple::lead}, std::pair{&LoadFactorGradients::Triple::profile, &LoadFactors::Triple::profile},
+                                      std::pair{&LoadFactorGradients::Triple::combined, &LoadFactors::Triple::combined}}) {
+    const double difference = (high.without_spikes.*factor - low.without_spikes.*factor) / (2 * kStep);
+    CHECK(std::abs((gradients.without_spikes.*exact).sum() - difference) <= kLocated * (std::abs(difference) + 0.1 / condition.misalignment.mesh_misalignment));
+  }
+  // Tip relief is no lead, crowning no profile, and none of them moves the perfect pair.
+  CHECK(gradients.without_spikes.lead[1] == 0.0);
+  CHECK(gradients.without_spikes.profile[0] == 0.0);
+  CHECK(here[0].gradients.with_spikes.contact_stress.isZero());
+}
+
+}  // namespace
+
+TEST_CASE("Derivatives of located peaks and load factors are those of peaks sought again", "[core][load][peaks][gradient]") {
+  check_located(mesh_cases::pair(20, 30, 20, 4, 30));
+}
+
+TEST_CASE("The same for a wide helical and a spur pair", "[.soak][core][load][peaks][gradient]") {
+  check_located(GENERATE(mesh_cases::pair(18, 54, 30, 10, 120), mesh_cases::pair(20, 40, 0, 4, 30)));
+}
+
+TEST_CASE("Where one spur pair carries all, peak stress follows the root of the torque", "[core][load][peaks][gradient]") {
+  constexpr double kRoundOff = 1e-9;
+  const GearPair gears = mesh_cases::pair(40, 60, 0, 4, 30);
+  const MeshAt mesh = [&](const std::vector<double>& phases) {
+    return mesh_cases::model(gears, {{QuadratureRule::Graded, 5}, phases}, MeshEffects::all_but({"extended_contact_region", "free_ends"}));
+  };
+  const double torque = torque_for(gears, kTorque);
+  const ContactPeaks peaks = locate_peaks(mesh, {}, torque);
+  const PeakGradients gradients = peak_gradients(mesh, {}, torque, peaks, {PinionTorque{}});
+  CHECK(gradients.without_spikes.contact_stress[0] * torque / peaks.without_spikes.contact_stress.value == Approx(0.5).margin(kRoundOff));
+  CHECK(gradients.without_spikes.line_load[0] * torque / peaks.without_spikes.line_load.value == Approx(1.0).margin(kRoundOff));
+}
+
+TEST_CASE("A peak at which another point just gains contact follows every parameter with both its sides", "[core][load][peaks][gradient]") {
+  // Step^2 of the differences times curvature, and what the search resolves over the step.
+  constexpr double kDifference = 5e-3;
+  const GearPair gears = mesh_cases::pair(20, 30, 20, 4, 40);
+  const double torque = torque_for(gears, 200);
+  // At fixed places along the face few points stand for a line: each that gains contact takes load off the others.
+  const MeshAt mesh = mesh_of(gears, {QuadratureRule::Gauss2, 4});
+  FlankCondition condition = crowned_and_relieved();
+  std::vector<Moved> moved = movable();
+  std::vector<MeshParameter> parameters;
+  for (const Moved& m : moved) parameters.push_back(m.parameter);
+  parameters.push_back(PinionTorque{});
+  const auto peaks = [&](const FlankCondition& c, double by_torque) { return locate_peaks(mesh, c, by_torque, {.step = 1.0 / 12, .phase_tolerance = kFineSearch, .worth = 0.995}); };
+  const ContactPeaks here = peaks(condition, torque);
+  const PeakGradients gradients = peak_gradients(mesh, condition, torque, here, parameters);
+  int kinks = 0;
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const double step = p < moved.size() ? kStep : 2e-3 * torque;
+    const auto at = [&](double by) {
+      FlankCondition c = condition;
+      if (p < moved.size()) moved[p].move(c, by);
+      return peaks(c, p < moved.size() ? torque : torque + by);
+    };
+    const ContactPeaks up = at(step), down = at(-step);
+    for (const auto& [pair, exact] : {std::pair{&ContactPeaks::with_spikes, &gradients.with_spikes}, std::pair{&ContactPeaks::without_spikes, &gradients.without_spikes}}) {
+      for (const auto& [of, slopes] : {std::pair{&ContactPeaks::Pair::contact_stress, &exact->contact_stress}, std::pair{&ContactPeaks::Pair::line_load, &exact->line_load}}) {
+        const auto read = [&, pair = pair, of = of](const ContactPeaks& found) -> const LinePeak& { return (found.*pair).*of; };
+        const double difference = (read(up).value - read(down).value) / (2 * step);
+        CAPTURE(p, read(here).phase, read(up).phase, read(here).value);
+        CHECK(std::abs((*slopes)[static_cast<Eigen::Index>(p)] - difference) <= kDifference * (std::abs(difference) + 1e-4 * read(here).value / step));
+        // Only geometry holds a phase; one that goes with the torque is that of contact just gained or lost, or of a smooth summit.
+        if (p == moved.size()) kinks += std::abs(read(up).phase - read(down).phase) > 10 * kFineSearch ? 1 : 0;
+      }
+    }
+  }
+  CHECK(kinks > 0);
+}

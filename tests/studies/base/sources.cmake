@@ -1,0 +1,3 @@
+list(APPEND FLANKWRIGHT_TEST_SOURCES
+     ${CMAKE_CURRENT_LIST_DIR}/results_folder_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/value_with_unit_test.cpp)

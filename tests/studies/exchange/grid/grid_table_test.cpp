@@ -1,0 +1,65 @@
+#include "studies/exchange/grid/grid_table.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/base/units.hpp"
+#include "core/flank/flank.hpp"
+#include "core/flank/measured_grid.hpp"
+#include "studies/study_file/grid_file.hpp"
+#include "tests/studies/study_texts.hpp"
+
+using namespace flankwright;
+using namespace flankwright::studies;
+
+namespace {
+
+PairData pair_data() {
+  PairData data;
+  data.normal_module = 5.0;
+  data.helix_angle = 20 * units::deg;
+  data.pinion.teeth = 20;
+  data.pinion.face_width = 50.0;
+  data.wheel.teeth = 43;
+  data.wheel.face_width = 48.0;
+  return data;
+}
+
+}  // namespace
+
+TEST_CASE("A grid for the grinder, read as a measured grid, is the modification", "[studies][grid-table]") {
+  const GearPair pair = make_gear_pair(pair_data());
+  Modification m;
+  m.lead_crowning = 0.012;
+  m.lead_slope = -0.005;
+  m.tip_relief = {0.015, 1.5, ReliefShape::Parabolic};
+  const MeasuredGrid grid = parse_grid(grid_table(pair, Member::Pinion, m, {}, "a\nb"), "grid.csv");
+  REQUIRE(grid.radii.size() == 9);
+  REQUIRE(grid.z.size() == 15);
+  CHECK(grid.radii.front() == Approx(pair.pinion.active_root_radius).margin(1e-6));
+  CHECK(grid.radii.back() == Approx(pair.pinion.tip_radius).margin(1e-6));
+  CHECK(grid.z.back() == 25.0);
+  CHECK_NOTHROW(check_coverage(grid, pair.flank_frame(Member::Pinion)));
+  const Flank designed = make_flank(pair, Member::Pinion, m, {});
+  Modification measured;
+  measured.topography = make_grid_field(grid, pair.pinion.base_radius, pair.base_helix_angle).field;
+  const Flank read = make_flank(pair, Member::Pinion, measured, {});
+  for (std::size_t i = 0; i < 9; ++i) {
+    for (std::size_t j = 0; j < 15; ++j) {
+      const double rho = designed.roll_at(grid.radii[i]);
+      // Half of the last digit written, 1e-4 um, along the transverse base tangent, and radii to 1e-6 mm times the relief's slope.
+      CHECK(std::abs(designed.deviation(rho, grid.z[j], 0) - read.deviation(rho, grid.z[j], 0)) < 1.1e-7);
+    }
+  }
+}
+
+TEST_CASE("Points and margin of a grid are as asked for", "[studies][grid-table]") {
+  const GearPair pair = make_gear_pair(pair_data());
+  const MeasuredGrid grid = parse_grid(grid_table(pair, Member::Wheel, {}, grid_layout("5x7", 0.1), ""), "grid.csv");
+  CHECK(grid.radii.size() == 5);
+  REQUIRE(grid.z.size() == 7);
+  CHECK(grid.z.front() == Approx(-24.0 + 4.8));
+  CHECK(grid.deviation.cwiseAbs().maxCoeff() == 0.0);
+  for (const std::string bad : {"", "9", "9x", "x15", "1x15", "9x501", "9x15x3", "-9x15", "9 x 15"}) CHECK_THROWS_AS(grid_layout(bad, 0.0), InvalidInput);
+  CHECK_THROWS_AS(grid_layout("9x15", 0.5), InvalidInput);
+}

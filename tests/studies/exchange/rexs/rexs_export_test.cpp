@@ -1,0 +1,135 @@
+#include "studies/exchange/rexs/rexs_export.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "core/base/units.hpp"
+#include "core/flank/flank.hpp"
+#include "studies/study_file/grid_file.hpp"
+#include "studies/exchange/rexs/rexs_import.hpp"
+#include "studies/study_file/study_file.hpp"
+
+using namespace flankwright;
+using namespace flankwright::studies;
+using Catch::Contains;
+
+namespace {
+
+/// A study whose every number is drawn, in the digits that people write.
+std::string random_study(unsigned seed) {
+  std::mt19937 random(seed);
+  const auto number = [&](double low, double high) {
+    return std::to_string(std::round(100.0 * std::uniform_real_distribution(low, high)(random)) / 100.0);
+  };
+  const auto relief = [&](double height) { return "{ amount = " + number(1, 30) + ", height = " + number(0.3, height) + (random() % 2 == 0U ? ", shape = \"parabolic\" }" : " }"); };
+  std::string text = "[pair]\nnormal_module = 5\nhelix_angle = " + number(0, 30) + "\npressure_angle = " + number(18, 25) +
+                     "\nworking_flank = " + (random() % 2 == 0U ? "\"right\"" : "\"left\"") + "\ndriver = " + (random() % 2 == 0U ? "\"pinion\"" : "\"wheel\"") +
+                     "\n[load]\ntorque = [" + number(10, 500) + ", " + number(501, 900) + "]\n";
+  for (const std::string gear : {"pinion", "wheel"}) {
+    text += "[" + gear + "]\nteeth = " + (gear == "pinion" ? "20" : "43") + "\nface_width = " + number(30, 60) + "\nprofile_shift = " + number(-0.1, 0.3) +
+            (gear == "pinion" ? std::string("\nhand = ") + (random() % 2 == 0U ? "\"right\"" : "\"left\"") : "") + "\nrack = { dedendum = " + number(1.2, 1.3) +
+            ", root_radius = " + number(0.1, 0.2) + " }\n[" + gear + ".material]\nyoungs_modulus = " + number(1e5, 2e5) + "\n[" + gear +
+            ".modification]\nlead_crowning = " + number(-10, 20) + "\nlead_slope = " + number(-20, 20) + "\naddendum_crowning = " + number(0, 9) +
+            "\ndedendum_crowning = " + number(0, 9) + "\nprofile_slope = " + number(-9, 9) + "\ntip_relief = " + relief(2.0) + "\nroot_relief = " + relief(1.0) +
+            "\nend_relief = { amount = " + number(1, 9) + ", length = " + number(2, 9) + " }\ntwist = " + number(-9, 9) + "\n";
+  }
+  return text;
+}
+
+/// Equal but for the last of fifteen digits, which is rounded on each of the two ways, or, of differences, for 1e-9 mm.
+void check_same(double a, double b) { CHECK(std::abs(a - b) <= 1.1e-14 * std::abs(a)); }
+void check_same_length(double a, double b) { CHECK(std::abs(a - b) <= 0.5e-9); }
+
+void check_same(const Modification& a, const Modification& b) {
+  check_same(a.lead_crowning, b.lead_crowning);
+  check_same(a.lead_slope, b.lead_slope);
+  check_same(a.addendum_crowning, b.addendum_crowning);
+  check_same(a.dedendum_crowning, b.dedendum_crowning);
+  check_same(a.profile_slope, b.profile_slope);
+  check_same(a.tip_relief.amount, b.tip_relief.amount);
+  check_same_length(a.tip_relief.height, b.tip_relief.height);
+  CHECK(a.tip_relief.shape == b.tip_relief.shape);
+  check_same(a.root_relief.amount, b.root_relief.amount);
+  check_same_length(a.root_relief.height, b.root_relief.height);
+  CHECK(a.root_relief.shape == b.root_relief.shape);
+  check_same(a.end_relief.amount, b.end_relief.amount);
+  check_same(a.end_relief.length, b.end_relief.length);
+  check_same(a.twist, b.twist);
+}
+
+void check_same(const GearData& a, const GearData& b) {
+  CHECK(a.teeth == b.teeth);
+  check_same(a.face_width, b.face_width);
+  check_same(a.profile_shift, b.profile_shift);
+  check_same(a.rack.addendum, b.rack.addendum);
+  check_same(a.rack.dedendum, b.rack.dedendum);
+  check_same(a.rack.root_radius, b.rack.root_radius);
+}
+
+}  // namespace
+
+TEST_CASE("A study survives the way to REXS and back to its last digit", "[studies][rexs][export]") {
+  const unsigned seed = GENERATE(range(1U, 41U));
+  const rexs::Form form = seed % 2 == 0U ? rexs::Form::Json : rexs::Form::Xml;
+  const std::vector<std::string> versions{"1.0", "1.2", "1.3", "1.4", "1.7", "2.0"};
+  const std::string version = versions[seed % versions.size()];
+  CAPTURE(seed, version);
+  const Study study = parse_study(random_study(seed), "there.toml");
+  const rexs::Model model = rexs::export_stage(study, {version, "2026-01-01T00:00:00+00:00"}).model;
+  const rexs::ImportedStudy imported = rexs::import_stage(rexs::model_text(model, form), "there.rexs", {});
+  CHECK(imported.warnings.empty());
+  const Study back = parse_study(imported.text, "back.toml");
+
+  check_same(study.pair.normal_module, back.pair.normal_module);
+  check_same(study.pair.helix_angle, back.pair.helix_angle);
+  check_same(study.pair.pressure_angle, back.pair.pressure_angle);
+  CHECK(study.pair.pinion_hand == back.pair.pinion_hand);
+  CHECK(study.pair.working_flank == back.pair.working_flank);
+  CHECK(study.pair.driver == back.pair.driver);
+  check_same(study.pair.pinion, back.pair.pinion);
+  check_same(study.pair.wheel, back.pair.wheel);
+  check_same(make_gear_pair(study.pair).centre_distance, make_gear_pair(back.pair).centre_distance);
+  check_same(make_gear_pair(study.pair).pinion.tip_radius, make_gear_pair(back.pair).pinion.tip_radius);
+  check_same(study.pinion_modification, back.pinion_modification);
+  check_same(study.wheel_modification, back.wheel_modification);
+  check_same(study.pinion_material.youngs_modulus, back.pinion_material.youngs_modulus);
+  check_same(study.wheel_material.youngs_modulus, back.wheel_material.youngs_modulus);
+  REQUIRE(back.scenes.size() == 2);
+  check_same(study.torques[0], back.scenes[0].torques.front());
+  check_same(study.torques[1], back.scenes[1].torques.front());
+}
+
+TEST_CASE("A generated flank comes back as the grid of its points", "[studies][rexs][export]") {
+  const Study study = parse_study("[pair]\nnormal_module = 5\nhelix_angle = 20\n[pinion]\nteeth = 20\nface_width = 40\n"
+                                  "generation = { kind = \"parabolic_rack\", coefficient = 0.0008 }\n[wheel]\nteeth = 43\nface_width = 40\n", "a.toml");
+  const rexs::ExportedStage stage = rexs::export_stage(study, {});
+  CHECK_THAT(stage.notes.front(), Contains("pinion: generation and parabolic_te are exported as 625 points"));
+  const rexs::ImportedStudy imported = rexs::import_stage(rexs::model_text(stage.model, rexs::Form::Xml), "a.rexs", {.grid_stem = "a"});
+  CHECK_THAT(imported.text, Contains("grid = \"a-pinion.csv\""));
+  REQUIRE(imported.grids.size() == 1);
+  CHECK(imported.grids.front().name == "a-pinion.csv");
+  const MeasuredGrid grid = parse_grid(imported.grids.front().text, "a-pinion.csv");
+  const GearPair pair = make_gear_pair(study.pair);
+  const Flank flank = make_flank(pair, Member::Pinion, {}, {});
+  double largest = 0.0;
+  for (int i = 0; i < grid.deviation.rows(); ++i) {
+    for (int j = 0; j < grid.deviation.cols(); ++j) {
+      const double removed = flank.deviation(flank.roll_at(grid.radii[static_cast<std::size_t>(i)]), grid.z[static_cast<std::size_t>(j)], 0);
+      // The tool's field is found by iteration; 15 digits of the radius move it by less than that.
+      CHECK(std::abs(grid.deviation(i, j) + removed * std::cos(pair.base_helix_angle)) < 1e-12);
+      largest = std::max(largest, std::abs(removed));
+    }
+  }
+  CHECK(largest > 1e-3);
+}
+
+TEST_CASE("Names and units are those of the version; another version is refused", "[studies][rexs][export]") {
+  const Study study = parse_study(random_study(3), "a.toml");
+  const auto text = [&](const std::string& version) { return rexs::model_text(rexs::export_stage(study, {version, ""}).model, rexs::Form::Xml); };
+  CHECK_THAT(text("1.2"), Contains("\"flank_geometry\"") && Contains("\"stage_gear_data\"") && Contains("unit=\"\xc2\xb0\"") && Contains("N / mm^2"));
+  CHECK_THAT(text("1.4"), Contains("\"cylindrical_gear_flank\"") && Contains("unit=\"deg\"") && Contains("tip_radius_factor"));
+  CHECK_THAT(text("2.0"), Contains("MPa") && Contains("tip_corner_radius_factor_reference_profile"));
+  CHECK_THROWS_AS(text("3.0"), InvalidInput);
+}

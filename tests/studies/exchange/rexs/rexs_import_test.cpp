@@ -1,0 +1,293 @@
+#include "studies/exchange/rexs/rexs_import.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "core/base/units.hpp"
+#include "core/flank/measured_grid.hpp"
+#include "core/gear/gear_pair.hpp"
+#include "studies/study_file/grid_file.hpp"
+#include "studies/base/results_folder.hpp"
+#include "studies/exchange/rexs/rexs_export.hpp"
+#include "studies/study_file/study_file.hpp"
+#include "tests/studies/study_texts.hpp"
+
+using namespace flankwright;
+using namespace flankwright::studies;
+using Catch::Contains;
+using study_texts::replaced;
+
+namespace {
+
+std::string sample_file(const std::string& name) {
+  return read_whole(std::filesystem::path(FLANKWRIGHT_SOURCE_DIR) / "tests/studies/rexs/data" / name);
+}
+
+rexs::ImportedStudy import_text(const std::string& text, const rexs::ImportOptions& options = {.grid_stem = "s"}) {
+  return rexs::import_stage(text, "gears.rexs", options);
+}
+Study study_of(const rexs::ImportedStudy& imported) { return parse_study(imported.text, "gears.toml"); }
+
+std::string refusal(const std::string& text, const rexs::ImportOptions& options = {}) {
+  try {
+    import_text(text, options);
+  } catch (const StudyErrors& errors) {
+    return errors.what();
+  }
+  return "";
+}
+
+std::string attribute(const std::string& id, const std::string& value, const std::string& unit = "mm") {
+  return "<attribute id=\"" + id + "\" unit=\"" + unit + "\">" + value + "</attribute>\n";
+}
+
+/// A spur pair in XML; `more` stands among the components, at the pinion's right flank (id 6) where `at_flank` refers to it.
+std::string small_file(const std::string& more = "", const std::string& relations = "") {
+  const auto gear = [](const std::string& id, const std::string& teeth) {
+    return "<component id=\"" + id + "\" type=\"cylindrical_gear\">\n" + attribute("number_of_teeth", teeth, "none") + attribute("normal_module", "4") +
+           attribute("face_width", "40") + attribute("helix_angle_reference_diameter", "0", "deg") + "</component>\n";
+  };
+  return "<model version=\"1.6\">\n<relations>\n<relation id=\"1\" type=\"stage\">"
+         "<ref id=\"1\" role=\"stage\"/><ref id=\"2\" role=\"gear_1\"/><ref id=\"3\" role=\"gear_2\"/></relation>\n"
+         "<relation id=\"2\" type=\"flank\"><ref id=\"2\" role=\"gear\"/><ref id=\"5\" role=\"left\"/><ref id=\"6\" role=\"right\"/></relation>\n" +
+         relations + "</relations>\n<components>\n<component id=\"1\" type=\"cylindrical_stage\"/>\n" + gear("2", "20") + gear("3", "40") +
+         "<component id=\"5\" type=\"cylindrical_gear_flank\"/>\n<component id=\"6\" type=\"cylindrical_gear_flank\"/>\n" + more +
+         "</components>\n</model>\n";
+}
+
+/// The small file with modifications at the working flank of the pinion: components 20, 21 ...
+std::string modified(const std::vector<std::string>& components) {
+  std::string more, relations;
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    const std::string id = std::to_string(20 + i);
+    more += "<component id=\"" + id + "\" " + components[i] + "</component>\n";
+    relations += "<relation id=\"" + id + "\" type=\"reference\"><ref id=\"6\" role=\"origin\"/><ref id=\"" + id + "\" role=\"referenced\"/></relation>\n";
+  }
+  return small_file(more, relations);
+}
+
+constexpr double round_off = 1e-12;
+
+}  // namespace
+
+TEST_CASE("A file of two stages asks which, then gives either", "[studies][rexs][import]") {
+  const std::string text = sample_file("two_stages.rexs");
+  CHECK_THAT(refusal(text), Contains("--stage 1   cylindrical_stage 10") && Contains("cylindrical_gear 7 with 21 teeth"));
+  CHECK_THAT(refusal(text, {.stage = 3}), Contains("--stage = 3") && Contains("--stage 2"));
+
+  const Study first = study_of(import_text(text, {.stage = 1}));
+  CHECK(first.pair.pinion.teeth == 19);
+  CHECK(first.pair.wheel.teeth == 47);
+  CHECK(first.pair.pinion_hand == Hand::Right);
+  CHECK(first.torques == std::vector{420e3});
+
+  const rexs::ImportedStudy second = import_text(text, {.stage = 2});
+  const Study study = study_of(second);
+  CHECK(study.pair.normal_module == 6.0);
+  CHECK(study.pair.pinion.teeth == 21);
+  CHECK(study.pair.wheel.teeth == 38);
+  CHECK(study.pair.pinion_hand == Hand::Left);
+  CHECK(study.pair.helix_angle == Approx(10 * units::deg).epsilon(round_off));
+  CHECK(study.pair.centre_distance == 180.0);
+  CHECK(study.pair.pinion.profile_shift == 0.12);
+  CHECK(study.pinion_material.youngs_modulus == 208000.0);
+  // A tip diameter of 1 mm is a placeholder, and said to be none.
+  CHECK(std::isnan(study.pair.pinion.tip_diameter));
+  REQUIRE(second.warnings.size() == 1);
+  CHECK_THAT(second.warnings.front(), Contains("cylindrical_gear 7 tip_diameter = 1 mm") && Contains("not taken"));
+  CHECK_THAT(second.text, Contains("#   - cylindrical_gear 7 tip_diameter = 1 mm"));
+  // Power flows from shaft to shaft through the first stage; a load case each, with its share of time.
+  REQUIRE(study.scenes.size() == 3);
+  CHECK(study.scenes[1].torques.front() == Approx(260e3 * 47 / 19).epsilon(round_off));
+  CHECK(study.scenes[1].weight == 0.6);
+  CHECK_THAT(second.text, Contains("external_load 30 torque_around_u_axis, through cylindrical_stage 10"));
+  CHECK(import_text(text, {.stage = 11}).text == second.text);
+}
+
+TEST_CASE("A planetary gear unit gives sun and planet, and says what it lacks", "[studies][rexs][import]") {
+  const std::string text = sample_file("planetary.rexsj");
+  const rexs::ImportedStudy imported = import_text(text, {.stage = 1});
+  const Study study = study_of(imported);
+  CHECK(study.pair.pinion.teeth == 17);
+  CHECK(study.pair.wheel.teeth == 22);
+  CHECK(study.pinion_modification.lead_crowning == Approx(0.004).epsilon(round_off));
+  CHECK(study.pinion_modification.lead_slope == Approx(-0.007).epsilon(round_off));
+  CHECK(study.wheel_modification == Modification{});
+  CHECK(study_of(import_text(text, {.stage = 1, .slope_end = rexs::SlopeEnd::DatumFace})).pinion_modification.lead_slope == -study.pinion_modification.lead_slope);
+  // The sun's torque is shared by three planets, how the file does not say.
+  CHECK(study.torques == std::vector{0.0});
+  CHECK_THAT(imported.text, Contains("not tell the torque"));
+  // Every attribute of the stage that was not taken is named.
+  CHECK_THAT(imported.text, Contains("cylindrical_stage 11:") && Contains("tooth_tip_chamfer") && Contains("10 x coupling"));
+  CHECK_THAT(refusal(text, {.stage = 4}), Contains("ring_gear 58") && Contains("internal gears are not modelled"));
+}
+
+TEST_CASE("The same stage in other units is the same study", "[studies][rexs][import][units]") {
+  std::string text = modified({"type=\"tip_relief\">" + attribute("tip_relief_depth", "0.025") + attribute("tip_relief_datum_diameter", "85")});
+  const Study study = study_of(import_text(text));
+  CHECK(study.pinion_modification.tip_relief.amount == Approx(0.025).epsilon(round_off));
+  CHECK(study.pinion_modification.tip_relief.height == Approx(1.5).epsilon(round_off));  // d_a = 88 mm
+  text = replaced(text, attribute("tip_relief_depth", "0.025"), attribute("tip_relief_depth", "25", "mum"));
+  text = replaced(text, attribute("tip_relief_datum_diameter", "85"), attribute("tip_relief_datum_diameter", "0.085", "m"));
+  text = replaced(text, attribute("normal_module", "4"), attribute("normal_module", "0.4", "cm"));
+  text = replaced(text, attribute("helix_angle_reference_diameter", "0", "deg"), attribute("helix_angle_reference_diameter", "0", "\xc2\xb0"));
+  const Study other = study_of(import_text(text));
+  CHECK(other.pair.normal_module == Approx(study.pair.normal_module).epsilon(round_off));
+  CHECK(other.pinion_modification.tip_relief.amount == Approx(0.025).epsilon(round_off));
+  CHECK(other.pinion_modification.tip_relief.height == Approx(1.5).epsilon(round_off));
+}
+
+TEST_CASE("Ends and flanks follow the datum face", "[studies][rexs][import]") {
+  const std::vector<std::string> at_flank{"type=\"helix_slope\">" + attribute("helix_slope", "0.010"),
+                                          "type=\"profile_twist\">" + attribute("profile_twist", "0.003")};
+  const std::string negative = modified(at_flank);
+  const Modification from_low = study_of(import_text(negative)).pinion_modification;
+  CHECK(from_low.lead_slope == Approx(0.010));
+  CHECK(from_low.twist == Approx(0.003));
+  // The datum face at the other end: what was seen as the right flank is now the left one, and both amounts turn round.
+  std::string positive = replaced(negative, "role=\"left\"", "role=\"held\"");
+  positive = replaced(positive, "role=\"right\"", "role=\"left\"");
+  positive = replaced(positive, "role=\"held\"", "role=\"right\"");
+  for (const std::string id : {"2", "3"}) {
+    const std::string start = "<component id=\"" + id + "\" type=\"cylindrical_gear\">\n";
+    positive = replaced(positive, start, start + attribute("datum_face_orientation", "positive", "none"));
+  }
+  const Modification from_high = study_of(import_text(positive)).pinion_modification;
+  CHECK(from_high.lead_slope == -from_low.lead_slope);
+  CHECK(from_high.twist == -from_low.twist);
+}
+
+TEST_CASE("Amounts of another range are carried on to the borders of the flank", "[studies][rexs][import]") {
+  const auto flank = [](const std::string& component) { return study_of(import_text(modified({component}))).pinion_modification; };
+  // Crowning 8 um at 10 mm off centre is 32 um at the ends of a 40 mm face: a parabola.
+  CHECK(flank("type=\"helix_crowning\">" + attribute("helix_crowning_amount_datum_face", "0.008") + attribute("helix_crowning_amount_non_datum_face", "0.008") +
+              attribute("coordinate_where_helix_crowning_is_specified_datum_face", "-10") +
+              attribute("coordinate_where_helix_crowning_is_specified_non_datum_face", "10"))
+            .lead_crowning == Approx(0.032));
+  // K = 1e-4/mm from the apex at z = 4: C = K 20^2, slope -2 K 4 b.
+  const Modification off_centre = flank("type=\"helix_crowning\">" + attribute("helix_crowning_amount_datum_face", "0.0576") +
+                                        attribute("helix_crowning_amount_non_datum_face", "0.0256") + attribute("helix_highest_point", "4"));
+  CHECK(off_centre.lead_crowning == Approx(1e-4 * 400.0));
+  CHECK(off_centre.lead_slope == Approx(-2e-4 * 4.0 * 40.0));
+  CHECK(flank("type=\"helix_slope\">" + attribute("helix_slope", "0.010") + attribute("helix_evaluation_start", "-16") + attribute("helix_evaluation_end", "16"))
+            .lead_slope == Approx(0.0125));
+  // Linear relief from d = 84 to 88 mm, 10 um at d = 86.
+  CHECK(flank("type=\"tip_relief\">" + attribute("tip_relief_depth", "0.010") + attribute("tip_relief_datum_diameter", "84") + attribute("tip_relief_evaluation_reference", "86"))
+            .tip_relief.amount == Approx(0.020));
+  // By roll length from the tip: the radius where the involute is that much shorter.
+  const double rb = 40.0 * std::cos(20 * units::deg), roll = std::sqrt(44.0 * 44.0 - rb * rb) - 5.0;
+  CHECK(flank("type=\"tip_relief\">" + attribute("tip_relief_depth", "0.010") + attribute("tip_relief_datum_length", "5")).tip_relief.height ==
+        Approx(44.0 - std::hypot(rb, roll)).epsilon(1e-9));
+}
+
+TEST_CASE("What no key of a study says is named and not lost", "[studies][rexs][import]") {
+  const std::string component = GENERATE(
+      "type=\"triangular_tip_relief\">" + attribute("triangular_tip_relief_depth", "0.01"),
+      "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01") + attribute("tip_relief_datum_diameter", "85") + attribute("shape_of_relief", "logarithmic", "none"),
+      "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01") + attribute("tip_relief_datum_diameter", "99"),
+      "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01"),
+      "type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") + attribute("end_relief_length_datum_face", "5") + attribute("shape_of_relief", "exponential", "none"),
+      "type=\"topographical_modification\">" + attribute("coordinates_of_topographical_modification", "<array><c>1</c></array>"));
+  CAPTURE(component);
+  const rexs::ImportedStudy imported = import_text(modified({component}));
+  CHECK(study_of(imported).pinion_modification == Modification{});
+  REQUIRE(imported.warnings.size() == 1);
+  CHECK_THAT(imported.warnings.front(), Contains(" 20: not taken, "));
+  CHECK_THAT(imported.text, Contains("#   - " + imported.warnings.front()));
+}
+
+TEST_CASE("Equal end reliefs are one, modifications of one kind add up", "[studies][rexs][import]") {
+  const Modification m = study_of(import_text(modified({
+                                      "type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") + attribute("end_relief_length_datum_face", "5"),
+                                      "type=\"end_relief_non_datum_face\">" + attribute("end_relief_depth_non_datum_face", "0.01") + attribute("end_relief_length_non_datum_face", "5"),
+                                      "type=\"helix_slope\">" + attribute("helix_slope", "0.004"),
+                                      "type=\"helix_slope\">" + attribute("helix_slope", "0.003"),
+                                  })))
+                             .pinion_modification;
+  CHECK(m.end_relief.amount == Approx(0.010));
+  CHECK(m.end_relief.length == 5.0);
+  CHECK(m.lead_slope == Approx(0.007));
+}
+
+namespace {
+
+/// Deepest departure of the imported grid's surface from a removal, at 21 x 21 places between the lines of the grid [mm].
+template <typename Removed>
+double worst_departure(const rexs::ImportedStudy& imported, const Removed& removed) {
+  REQUIRE(imported.grids.size() == 1);
+  const GearPair pair = make_gear_pair(parse_study(study_texts::replaced(imported.text, "grid = ", "# grid = "), "gears.toml").pair);
+  const auto field = make_grid_field(parse_grid(imported.grids.front().text, "g"), pair.pinion.base_radius, pair.base_helix_angle).field;
+  double worst = 0.0;
+  for (int i = 0; i <= 20; ++i) {
+    for (int j = 0; j <= 20; ++j) {
+      const double r = std::lerp(pair.pinion.active_root_radius, pair.pinion.tip_radius, (i + 0.37) / 21.0), z = 40.0 * ((j + 0.37) / 21.0 - 0.5);
+      worst = std::max(worst, std::abs(field->at(pair.pinion.roll_length_at(r), z).value - removed(r, z)));
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("What no key says but a grid can is laid as a grid, and how near is said", "[studies][rexs][import]") {
+  constexpr double smooth = 1e-9;         // [mm] a parabola is a cubic spline's own; decimals of the table
+  constexpr double beside_a_kink = 1e-4;  // [mm] discretisation: slope 2 um/mm jumps between lines half a millimetre apart
+  const auto relief = [](double amount, double share) { return share > 0.0 ? amount * share : 0.0; };
+  {
+    const auto imported = import_text(modified({"type=\"helix_crowning\">" + attribute("helix_crowning_amount_datum_face", "0.01") + attribute("helix_crowning_amount_non_datum_face", "0.02")}));
+    // The curvature jumps at mid face, a line of the grid.
+    CHECK(worst_departure(imported, [](double, double z) { return (z < 0.0 ? 0.01 : 0.02) * z * z / 400.0; }) < 1e-6);
+    CHECK_THAT(imported.warnings.front(), Contains("helix_crowning 20: taken as a grid of 3 radii and 81 axial positions") && Contains("departs from it by at most "));
+  }
+  const auto one_end = import_text(modified({"type=\"end_relief_non_datum_face\">" + attribute("end_relief_depth_non_datum_face", "0.01") + attribute("end_relief_length_non_datum_face", "5")}));
+  CHECK(worst_departure(one_end, [&](double, double z) { return relief(0.01, (z - 15.0) / 5.0); }) < beside_a_kink);
+  CHECK(worst_departure(one_end, [&](double, double z) { return relief(0.01, (-z - 15.0) / 5.0); }) > 0.008);  // at that end, not at the other
+
+  // Parabolic ends, 5 mm and 8 mm, a slope that a study has a key for, and a topography on top of them.
+  const std::string array = "<array><c>-20</c><c>20</c><c>-20</c><c>20</c></array>";
+  const auto sum = import_text(modified(
+      {"type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") + attribute("end_relief_length_datum_face", "5") + attribute("shape_of_relief", "parabolic", "none"),
+       "type=\"end_relief_non_datum_face\">" + attribute("end_relief_depth_non_datum_face", "0.02") + attribute("end_relief_length_non_datum_face", "8") + attribute("shape_of_relief", "parabolic", "none"),
+       "type=\"helix_slope\">" + attribute("helix_slope", "0.004"),
+       "type=\"topographical_modification\">" + attribute("coordinates_of_topographical_modification", array) +
+           attribute("diameters_of_topographical_modification", "<array><c>76</c><c>76</c><c>88</c><c>88</c></array>") +
+           attribute("topographical_modification_amounts", "<array><c>0.001</c><c>0.003</c><c>0.001</c><c>0.003</c></array>")}));
+  CHECK_THAT(sum.text, Contains("lead_slope = 4"));
+  const auto squared = [](double amount, double share) { return share > 0.0 ? amount * share * share : 0.0; };
+  CHECK(worst_departure(sum, [&](double, double z) { return squared(0.01, (-z - 15.0) / 5.0) + squared(0.02, (z - 12.0) / 8.0) + 0.002 + 0.001 * z / 20.0; }) < 3e-5);
+
+  // A second tip relief of another height; the first stays a key.
+  const auto two = import_text(modified({"type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01") + attribute("tip_relief_datum_diameter", "84"),
+                                         "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.006") + attribute("tip_relief_datum_diameter", "86") + attribute("shape_of_relief", "parabolic", "none")}));
+  CHECK_THAT(two.text, Contains("tip_relief = { amount = 10, height = 2"));
+  CHECK(worst_departure(two, [&](double r, double) { return squared(0.006, r - 43.0); }) < 3e-5);
+  // Smooth all over: nothing is lost but decimals.
+  CHECK(worst_departure(import_text(modified({"type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") + attribute("end_relief_length_datum_face", "40") +
+                                              attribute("shape_of_relief", "parabolic", "none")})),
+                        [&](double, double z) { return squared(0.01, (20.0 - z) / 40.0); }) < smooth);
+}
+
+TEST_CASE("What cannot be a study is refused with component and attribute", "[studies][rexs][import][errors]") {
+  const std::string good = small_file();
+  REQUIRE(refusal(good).empty());
+  CHECK_THAT(refusal(replaced(good, attribute("number_of_teeth", "20", "none"), attribute("number_of_teeth", "20.5", "none"))),
+             Contains("gears.rexs:9:1: cylindrical_gear 2 number_of_teeth = 20.5"));
+  CHECK_THAT(refusal(replaced(good, attribute("number_of_teeth", "40", "none"), attribute("number_of_teeth", "-40", "none"))), Contains("internal gears are not modelled"));
+  CHECK_THAT(refusal(replaced(good, attribute("face_width", "40"), "")), Contains("cylindrical_gear 2 face_width = not given"));
+  CHECK_THAT(refusal(replaced(good, attribute("face_width", "40"), attribute("face_width", "wide"))), Contains("face_width = wide: allowed is a finite number"));
+  CHECK_THAT(refusal(replaced(good, attribute("face_width", "40"), attribute("face_width", "40", "kg"))), Contains("face_width = a value in kg: allowed is a unit of mm, m, cm"));
+  CHECK_THAT(refusal(replaced(good, attribute("normal_module", "4"), attribute("normal_module", "5"))), Contains("cylindrical_gear 3 normal_module = 4: allowed is that of the mate, 5"));
+  CHECK_THAT(refusal(replaced(good, attribute("helix_angle_reference_diameter", "0", "deg"), attribute("helix_angle_reference_diameter", "12", "deg"))),
+             Contains("cylindrical_gear 3 helix_angle_reference_diameter = 0: allowed is -12 deg, opposite"));
+  CHECK_THAT(refusal(replaced(good, "type=\"stage\"", "type=\"side\"")), Contains("no relation \"stage\""));
+  CHECK_THAT(refusal(replaced(good, "<ref id=\"3\" role=\"gear_2\"/>", "<ref id=\"33\" role=\"gear_2\"/>")), Contains("relation 1 role gear_2 = 33"));
+  CHECK_THAT(refusal(replaced(good, "<ref id=\"3\" role=\"gear_2\"/>", "")), Contains("without gear_2"));
+  // Well-formed JSON, but its number is no double.
+  const std::string overflow = R"({"model":{"components":[{"id":2,"type":"cylindrical_gear","attributes":[{"id":"face_width","floating_point":4e400}]}]}})";
+  CHECK_THAT(refusal(overflow), Contains("JSON = number overflow parsing '4e400'"));
+  // A pair that cannot run: the reason, and what of the file it came from.
+  CHECK_THAT(refusal(replaced(good, "type=\"cylindrical_stage\"/>", "type=\"cylindrical_stage\">" + attribute("center_distance", "500") + "</component>")),
+             Contains("cylindrical_stage 1: pair.centre_distance (cylindrical_stage 1 center_distance) = 500"));
+}

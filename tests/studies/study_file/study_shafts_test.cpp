@@ -1,0 +1,202 @@
+#include "studies/study_file/study_shafts.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "studies/compliance/finite_elements.hpp"
+#include "studies/base/json_format.hpp"
+#include "studies/results/results_json.hpp"
+#include "studies/tasks/run_study.hpp"
+#include "studies/study_file/study_file.hpp"
+
+namespace flankwright::studies {
+namespace {
+
+using json = Json;
+
+constexpr double shaft_round_off = 1e-14;
+
+const std::string pair_text = R"([pair]
+normal_module = 4
+helix_angle = 15
+[pinion]
+teeth = 21
+face_width = 40
+[wheel]
+teeth = 40
+face_width = 40
+[load]
+torque = 300
+[cycle]
+positions = 4
+[fidelity]
+compliance = "thin_slice"
+)";
+
+const std::string shaft_text = R"([pinion.shaft]
+sections = [{ length = 80, outer_diameter = 50 }, { length = "100 mm", outer_diameter = 60, inner_diameter = 20 }]
+bearings = [{ position = 10, radial_stiffness = 800 }, { position = 170, radial_stiffness = "400 kN/mm", tilting_stiffness = 5 }]
+gear_position = 90
+torque_position = 0
+)";
+
+Study read_shafts(const std::string& text, const std::vector<Override>& overrides = {}) { return parse_study(text, "shaft.toml", overrides); }
+
+json run_shafts(const std::string& text, const std::vector<Override>& overrides = {}) {
+  return json::parse(results_json(run_study(read_shafts(text, overrides))));
+}
+
+const json& effect(const json& results, const std::string& name) {
+  for (const json& one : results.at("effects")) {
+    if (one.at("name") == name) return one;
+  }
+  throw std::runtime_error(name);
+}
+
+/// The problems of a study that must be refused.
+std::vector<StudyProblem> shaft_problems(const std::string& text, const std::vector<Override>& overrides = {}) {
+  try {
+    read_shafts(text, overrides);
+  } catch (const StudyErrors& errors) {
+    return errors.problems();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("A shaft is read with its units, the gear's material and one bearing that holds axially", "[studies][shaft]") {
+  const Study study = read_shafts(pair_text + shaft_text, {{"material.youngs_modulus", "210000"}});
+  REQUIRE(study.pinion_shaft);
+  CHECK_FALSE(study.wheel_shaft);
+  const ShaftData& shaft = *study.pinion_shaft;
+  REQUIRE(shaft.sections.size() == 2);
+  CHECK(shaft.sections[0].outer_diameter == 50.0);
+  CHECK(shaft.sections[0].inner_diameter == 0.0);
+  CHECK(shaft.sections[1].length == 100.0);
+  CHECK(shaft.sections[1].inner_diameter == 20.0);
+  REQUIRE(shaft.bearings.size() == 2);
+  CHECK(shaft.bearings[0].radial_stiffness == Approx(8e5).epsilon(shaft_round_off));
+  CHECK(shaft.bearings[1].radial_stiffness == Approx(4e5).epsilon(shaft_round_off));
+  CHECK(shaft.bearings[1].tilting_stiffness == Approx(5e3).epsilon(shaft_round_off));
+  CHECK(std::isinf(shaft.bearings[0].axial_stiffness));
+  CHECK(shaft.bearings[1].axial_stiffness == 0.0);
+  CHECK(shaft.gear_stiffens);
+  CHECK(shaft.material.youngs_modulus == 210000.0);
+  CHECK_FALSE(read_shafts(pair_text + shaft_text + "gear_stiffens = \"no\"\n").pinion_shaft->gear_stiffens);
+  CHECK(read_shafts(pair_text + shaft_text, {{"pinion.shaft.bearings.1.axial_stiffness", "5"}}).pinion_shaft->bearings[0].axial_stiffness == 0.0);
+}
+
+TEST_CASE("Shafts that cannot be are refused with the place that says so", "[studies][shaft]") {
+  CHECK(shaft_problems(pair_text + shaft_text).empty());
+  const int lines = static_cast<int>(std::count(pair_text.begin(), pair_text.end(), '\n'));
+  struct Case {
+    std::string from, to, key;
+    int line;  ///< of the shaft's table
+  };
+  const Case wrong = GENERATE(Case{", outer_diameter = 50 ", " ", "pinion.shaft.sections.0.outer_diameter", 2},
+                              Case{"inner_diameter = 20", "inner_diameter = 70", "pinion.shaft.sections.1.inner_diameter", 2},
+                              Case{"length = 80", "lenght = 80", "pinion.shaft.sections.0.lenght", 2},
+                              Case{"position = 170", "position = 190", "pinion.shaft.bearings.1.position", 3},
+                              Case{"gear_position = 90", "gear_position = 10", "pinion.shaft.gear_position", 4},
+                              Case{"torque_position = 0", "torque_position = 95", "pinion.shaft.torque_position", 5},
+                              Case{"torque_position = 0", "", "pinion.shaft.torque_position", 1},
+                              Case{"[{ position = 10, radial_stiffness = 800 }, ", "[", "pinion.shaft.bearings", 3});
+  std::string text = shaft_text;
+  const std::size_t at = text.find(wrong.from);
+  REQUIRE(at != std::string::npos);
+  text.replace(at, wrong.from.size(), wrong.to);
+  if (wrong.key.ends_with("bearings")) text.replace(text.find(", tilting_stiffness = 5"), 23, "");
+  CAPTURE(text);
+  const std::vector<StudyProblem> problems = shaft_problems(pair_text + text);
+  REQUIRE_FALSE(problems.empty());
+  CHECK(problems.front().key == wrong.key);
+  CHECK(problems.front().line == lines + wrong.line);
+}
+
+TEST_CASE("The effect shafts is on where a shaft is described and load runs, and says so", "[studies][shaft]") {
+  const json rigid = run_shafts(pair_text), with = run_shafts(pair_text + shaft_text);
+  CHECK(effect(rigid, "shafts").at("on") == false);
+  CHECK(effect(with, "shafts").at("on") == true);
+  CHECK(effect(with, "shafts").at("seconds").get<double>() >= 0.0);
+  CHECK_FALSE(rigid.at("loaded")[0].contains("shafts"));
+  CHECK(with.at("used").at("pair").at("pinion").at("shaft").at("bearings")[0].at("axial_stiffness_N_per_um") == "rigid");
+  CHECK(with.at("used").at("pair").at("wheel").at("shaft") == false);
+  // Shafts yield beside the teeth: the wheel lags further by what they move, and only where they are on.
+  const double lag = with.at("loaded")[0].at("summary").at("te_mean_um").get<double>() -
+                     rigid.at("loaded")[0].at("summary").at("te_mean_um").get<double>();
+  CHECK(lag > 0.0);
+  const json& motion = with.at("loaded")[0].at("shafts");
+  REQUIRE(motion.size() == 4);
+  double moved = 0.0;
+  for (const json& position : motion) {
+    moved += position.at("pinion").at("displacement_um").get<double>() / 4;
+    CHECK(position.at("wheel").is_null());
+    CHECK(position.at("mesh_misalignment_um") == position.at("pinion").at("misalignment_um"));
+  }
+  CHECK(lag == Approx(moved).epsilon(0.1));  // model: the motion of one place stands for all, along the normal
+  const json off = run_shafts(pair_text + shaft_text, {{"fidelity.effects", "[\"bending\", \"hertzian_contact\", \"free_ends\", \"tip_corner\", \"extended_contact_region\"]"}});
+  CHECK(effect(off, "shafts").at("on") == false);
+  CHECK(off.at("loaded")[0].at("summary").at("te_mean_um") == rigid.at("loaded")[0].at("summary").at("te_mean_um"));
+  const std::vector<StudyProblem> problems = shaft_problems(pair_text, {{"fidelity.effects", "[\"bending\", \"shafts\"]"}});
+  REQUIRE(problems.size() == 1);
+  CHECK(problems.front().key == "fidelity.effects");
+}
+
+TEST_CASE("The best lead slope takes back what the shafts do", "[studies][shaft][physics]") {
+  // Thin enough to open the mesh by some 20 um; one gear is corrected for both.
+  const json results = run_shafts("task = \"optimise\"\n" + pair_text + shaft_text +
+                               "[optimise.variables]\n\"pinion.modification.lead_slope\" = [-60, 60]\n"
+                               "\"pinion.modification.lead_crowning\" = [0, 40]\n",
+                           {{"pinion.face_width", "60"}, {"wheel.face_width", "60"}, {"load.torque", "700"}, {"cycle.positions", "8"},
+                            {"pinion.shaft.sections.0.outer_diameter", "45"}, {"pinion.shaft.sections.1.outer_diameter", "50"},
+                            {"pinion.shaft.gear_stiffens", "no"}, {"fidelity.quadrature.intervals", "10"}});
+  const json& optimise = results.at("optimise");
+  const double slope = optimise.at("after").at("variables").at("pinion.modification.lead_slope").get<double>();
+  const json& after = results.at("loaded").back();
+  REQUIRE(after.at("design") == "after");
+  const double opened = after.at("summary").at("shaft_misalignment_um").get<double>();
+  CHECK(opened > 10.0);
+  CHECK(slope == Approx(-opened).epsilon(0.1));  // model: the shaft's line is not quite straight
+  CHECK(optimise.at("after").at("objective").get<double>() < 0.85 * optimise.at("before").at("objective").get<double>());
+}
+
+TEST_CASE("Finite elements leave their wind-up to start where the study's torque leaves the gear", "[studies][shaft][fe]") {
+  const auto task = [](const std::string& text, Member member, const std::vector<Override>& overrides = {}) {
+    std::vector<Override> all = overrides;
+    all.push_back({"fidelity.compliance", "fe"});
+    const Study study = read_shafts(text, all);
+    return influence_table_task(study, make_gear_pair(study.pair), member);
+  };
+  const auto end = [&](auto&&... of) { return task(of...).gear.body.torque_end; };
+  using Overrides = std::vector<Override>;
+  // The sharp end of a right-hand pinion is at +b/2, its mate's at -b/2.
+  CHECK(end(pair_text, Member::Pinion) == FaceEnd::Blunt);
+  CHECK(end(pair_text + shaft_text, Member::Pinion) == FaceEnd::Blunt);
+  CHECK(end(pair_text + shaft_text, Member::Wheel) == FaceEnd::Blunt);
+  CHECK(end(pair_text + shaft_text, Member::Pinion, Overrides{{"pinion.shaft.torque_position", "180"}}) == FaceEnd::Sharp);
+  CHECK(end(pair_text + shaft_text, Member::Pinion, Overrides{{"pair.working_flank", "left"}}) == FaceEnd::Sharp);
+  // Its bearings hold it axially.
+  CHECK(task(pair_text, Member::Pinion).removed == RemovedMotion::TranslationTorsionAndTilt);
+  CHECK(task(pair_text + shaft_text, Member::Pinion).removed == RemovedMotion::WholeTranslationTorsionAndTilt);
+}
+
+TEST_CASE("Errors of single teeth are read as lists, one value a tooth", "[studies][shaft]") {
+  std::string values = "[1, -2, 3";
+  for (int tooth = 3; tooth < 21; ++tooth) values += ", 0";
+  values += "]";
+  const Study study = read_shafts(pair_text + "[pinion.error]\nhelix_slope = " + values + "\nprofile_slope = 5\ntwist = " + values + "\n");
+  CHECK(study.pinion_error.helix_slope == 0.0);
+  REQUIRE(study.pinion_error.helix_slopes.size() == 21);
+  CHECK(study.pinion_error.helix_slopes[1] == Approx(-0.002).epsilon(shaft_round_off));
+  CHECK(study.pinion_error.profile_slope == Approx(0.005).epsilon(shaft_round_off));
+  CHECK(study.pinion_error.profile_slopes.empty());
+  CHECK(study.pinion_error.twists[2] == Approx(0.003).epsilon(shaft_round_off));
+  for (const char* key : {"helix_slope", "profile_slope", "twist", "pitch"}) {
+    const std::vector<StudyProblem> problems = shaft_problems(pair_text + "[pinion.error]\n" + key + " = [1, 2, 3]\n");
+    REQUIRE(problems.size() == 1);
+    CHECK(problems.front().key == std::string("pinion.error.") + key);
+  }
+}
+
+}  // namespace flankwright::studies

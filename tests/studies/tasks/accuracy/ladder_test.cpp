@@ -1,0 +1,116 @@
+#include "studies/tasks/accuracy/ladder.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "studies/results/accuracy_json.hpp"
+#include "studies/results/accuracy_tables.hpp"
+#include "studies/tasks/run_study.hpp"
+#include "studies/study_file/study_file.hpp"
+
+using namespace flankwright;
+using namespace flankwright::studies;
+
+namespace {
+
+/// A pair by thin slices, coarse enough for a fraction of a second.
+Ladder ladder_of(double helix_angle_deg, const std::string& modification = "", const std::string& fidelity = "") {
+  const std::string text = R"(task = "accuracy"
+[pair]
+normal_module = 4
+helix_angle = )" + std::to_string(helix_angle_deg) +
+                           R"(
+[pinion]
+teeth = 20
+face_width = 30
+[pinion.modification]
+)" + modification + R"(
+[wheel]
+teeth = 40
+face_width = 30
+[load]
+torque = 200
+[cycle]
+positions = 12
+[fidelity]
+compliance = "thin_slice"
+)" + fidelity + R"(
+[accuracy.finest]
+compliance = "thin_slice"
+gap = "plane_of_action"
+intervals = 8
+positions = 48
+)";
+  const StudyResults results = run_study(parse_study(text, "ladder.toml"));
+  REQUIRE(results.requirements.empty());
+  REQUIRE(results.ladder);
+  return *results.ladder;
+}
+
+const LadderStep& step(const Ladder& ladder, const std::string& name) {
+  const auto found = std::ranges::find_if(ladder.steps, [&](const LadderStep& s) { return s.result.rung.name == name; });
+  REQUIRE(found != ladder.steps.end());
+  return *found;
+}
+
+double error(const LadderStep& step, Figure figure) { return step.error[static_cast<std::size_t>(figure)]; }
+
+}  // namespace
+
+TEST_CASE("The finest rung has no error, every other one has its own, and these fall with intervals and positions", "[studies][accuracy][ladder]") {
+  const Ladder ladder = ladder_of(20.0, "lead_crowning = 6\n");
+  CHECK(largest(ladder.reference.error) == 0.0);
+  CHECK(ladder.reference.best);
+  for (const LadderStep& s : ladder.steps) {
+    CAPTURE(s.result.rung.name);
+    CHECK(s.result.usable());
+    CHECK(s.result.seconds > 0.0);
+    CHECK(s.first_seconds == s.result.seconds);  // thin slices keep nothing
+    CHECK(std::isfinite(largest(s.error)));
+  }
+  // Rigid teeth give way by the flanks' contact alone, less than half of what the mesh does.
+  CHECK(error(step(ladder, "rigid"), Figure::TeMean) > 0.5);
+  CHECK(error(step(ladder, "rigid"), Figure::TeMean) < 1.0);
+
+  CHECK(error(step(ladder, "graded 4"), Figure::PeakLineLoad) <= error(step(ladder, "graded 2"), Figure::PeakLineLoad));
+  constexpr double round_off = 1e-12;  // where extremes lie at positions of either
+  CHECK(error(step(ladder, "24 positions"), Figure::TePeakToPeak) <= error(step(ladder, "12 positions"), Figure::TePeakToPeak) + round_off);
+  // Integrals over lines and over the cycle are close from the start, and need not come closer with every step.
+  constexpr double discretisation = 2e-3;
+  for (const char* rung : {"graded 2", "graded 4"}) CHECK(error(step(ladder, rung), Figure::TeMean) < discretisation);
+  for (const char* rung : {"12 positions", "24 positions"}) CHECK(error(step(ladder, rung), Figure::TeHarmonic1) < discretisation);
+  // Ends of lines within intervals cost more than intervals that end there.
+  CHECK(error(step(ladder, "gauss2 5"), Figure::TePeakToPeak) > error(step(ladder, "graded 4"), Figure::TePeakToPeak));
+}
+
+TEST_CASE("Without modification, misalignment and free ends spur lines carry evenly: quadrature has no error", "[studies][accuracy][ladder][closed-form]") {
+  const Ladder ladder = ladder_of(0.0, "", R"(effects = ["bending", "hertzian_contact", "tip_corner", "extended_contact_region"])");
+  constexpr double kRoundOff = 1e-9;
+  for (const LadderStep& s : ladder.steps) {
+    const Rung& rung = s.result.rung;
+    const bool quadrature_only = rung.kind == ErrorKind::Discretisation && rung.positions == 48 && rung.located_peaks;
+    CAPTURE(rung.name);
+    if (quadrature_only) CHECK(largest(s.error) < kRoundOff);
+  }
+  // The finest's peak line load is the force over the face width of one tooth pair.
+  const GearPair pair = make_gear_pair(parse_study("[pair]\nnormal_module = 4\n[pinion]\nteeth = 20\nface_width = 30\n[wheel]\nteeth = 40\nface_width = 30\n", "spur.toml").pair);
+  const double force = 200e3 / pair.pinion.base_radius;
+  CHECK(ladder.reference.result.scenes[0][Figure::PeakLineLoad] == Approx(force / 30.0).epsilon(kRoundOff));
+}
+
+TEST_CASE("What is as good in cost and error as another one and better in one keeps it from the front", "[studies][accuracy][ladder]") {
+  CHECK(pareto_best({1, 2, 3, 2}, {5, 3, 4, 3}) == std::vector<bool>{true, true, false, true});
+  CHECK(pareto_best({1, 1}, {2, 1}) == std::vector<bool>{false, true});
+}
+
+TEST_CASE("A ladder's JSON and tables name every rung once", "[studies][accuracy][ladder]") {
+  const Ladder ladder = ladder_of(0.0);
+  const Json json = ladder_json(ladder);
+  REQUIRE(json.at("rungs").size() == ladder.steps.size() + 1);
+  CHECK(json.at("rungs").at(0).at("name") == json.at("reference"));
+  CHECK(json.at("rungs").at(1).at("error_percent").contains("te_harmonic_5"));
+  CHECK(json.at("rungs").at(1).at("outputs").size() == 1);
+  const std::vector<NamedText> tables = ladder_tables(ladder);
+  REQUIRE(tables.size() == 2);
+  CHECK(std::ranges::count(tables[0].text, '\n') == static_cast<long>(ladder.steps.size()) + 2);
+}

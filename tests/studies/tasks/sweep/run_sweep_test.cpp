@@ -1,0 +1,132 @@
+#include "studies/tasks/sweep/run_sweep.hpp"
+
+#include <tbb/global_control.h>
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "studies/study_file/study_file.hpp"
+#include "studies/tasks/sweep/sweep_statistics.hpp"
+#include "studies/tasks/sweep/worst_study.hpp"
+#include "tests/studies/tasks/sweep/small_sweep.hpp"
+
+namespace flankwright::studies {
+namespace {
+
+Study sweep_study(const std::string& settings, const std::string& more = "", const std::vector<Override>& overrides = {}) {
+  return parse_study(small::sweep(settings, more), "sweep.toml", overrides);
+}
+
+/// All samples of a study's shard.
+std::vector<StoredSample> samples_of(const Study& study, Shard shard = {}) {
+  const StudyResults nominal = run_study(study);
+  const SampleAnalysis analysis(nominal);
+  SweepStore store(":memory:", study, analysis.outputs(), shard);
+  run_samples(store, SweepDesign(study.sweep), analysis, shard, {});
+  std::vector<StoredSample> samples;
+  store.for_each(study.sweep.samples, [&](const StoredSample& sample) { samples.push_back(sample); });
+  return samples;
+}
+
+TEST_CASE("A sample of a sweep is the analysis of its own study, bit for bit", "[studies][sweep]") {
+  // Everything that is zero in the study itself: its effect must be on for the samples all the same.
+  const Study study = sweep_study("samples = 24", "\"wheel.error\" = { iso_1328_class = 7 }\n\"misalignment.axial_offset\" = { uniform = [0, 3] }\n");
+  const std::vector<StoredSample> samples = samples_of(study);
+  REQUIRE(samples.size() == 24);
+  const StudyResults nominal = run_study(study);
+  const auto outputs = SampleAnalysis(nominal).outputs();
+  for (const std::size_t i : {std::size_t{0}, std::size_t{3}, std::size_t{23}}) {
+    const StoredSample& sample = samples[i];
+    REQUIRE(sample.result.failure.empty());
+    const Study alone = parse_study(sample_study(study, "one", sample.values), "one.toml", {{"cycle.peaks", "sampled"}});
+    CHECK(alone.task == Task::Analyse);
+    const StudyResults results = run_study(alone);
+    const CycleSummary& summary = results.loaded.at(0).summary;
+    CHECK(sample.result.outputs[0] == summary.te_peak_to_peak / units::um);
+    CHECK(sample.result.outputs[2] == summary.te_harmonics.at(0) / units::um);
+    for (std::size_t k = 0; k < outputs.size(); ++k) {
+      if (outputs[k].name == "peak_contact_stress_MPa") CHECK(sample.result.outputs[k] == summary.peak_contact_stress);
+      if (outputs[k].name == "load_factor") CHECK(sample.result.outputs[k] == summary.load_factor);
+    }
+  }
+  CHECK(samples[0].result.outputs[0] != samples[3].result.outputs[0]);
+}
+
+TEST_CASE("A sample's own study finds the measured grids of the sweep's from anywhere", "[studies][sweep]") {
+  Study study = sweep_study("samples = 24");
+  study.file = "/gears/pump/sweep.toml";
+  study.wheel_grid.file = "../flanks/wheel.csv";
+  study.pinion_tooth_grids = {"a.csv", "", "/b.csv"};
+  const std::string text = sample_study(study, "one \"worst\"", {0.5, 1000.0, 8.0});
+  CHECK_THAT(text, Catch::Contains("'/gears/flanks/wheel.csv'") && Catch::Contains("[ '/gears/pump/a.csv', '', '/b.csv' ]"));
+  CHECK_THAT(text, !Catch::Contains("[sweep") && Catch::Contains("one \"worst\""));
+}
+
+TEST_CASE("Samples do not depend on the number of threads, nor on the shard they are analysed in", "[studies][sweep]") {
+  const Study study = sweep_study("samples = 60\nsampler = \"latin_hypercube\"");
+  const auto with_threads = [&](std::size_t threads) {
+    const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+    return samples_of(study);
+  };
+  const std::vector<StoredSample> one = with_threads(1), four = with_threads(4);
+  REQUIRE(one.size() == four.size());
+  std::vector<StoredSample> shards;
+  for (long long k = 0; k < 3; ++k) {
+    for (const StoredSample& sample : samples_of(study, {k, 3})) {
+      CHECK(sample.id % 3 == k);
+      shards.push_back(sample);
+    }
+  }
+  std::ranges::sort(shards, {}, &StoredSample::id);
+  REQUIRE(shards.size() == one.size());
+  for (std::size_t i = 0; i < one.size(); ++i) {
+    CHECK(one[i].values == four[i].values);
+    CHECK(one[i].result.outputs == four[i].result.outputs);
+    CHECK(one[i].result.outputs == shards[i].result.outputs);
+  }
+}
+
+TEST_CASE("A sweep without torque has the outputs of unloaded contact", "[studies][sweep]") {
+  const Study study = parse_study(small::sweep("samples = 10"), "sweep.toml",
+                                  {{"load.torque", "0"}, {"sweep.parameters", "{ misalignment.crossing = { values = [0, 2] } }"}});
+  const std::vector<StoredSample> samples = samples_of(study);
+  const StudyResults nominal = run_study(study);  // crossing at its median, the second value
+  for (const StoredSample& sample : samples) {
+    REQUIRE(sample.result.failure.empty());
+    if (sample.values[0] == 2.0) CHECK(sample.result.outputs[0] == nominal.unloaded.at(0).mesh.peak_to_peak / units::arcsec);
+  }
+  CHECK(std::ranges::any_of(samples, [](const StoredSample& s) { return s.values[0] == 2.0; }));
+}
+
+TEST_CASE("A sample that cannot be analysed fails with its reason and stops no other", "[studies][sweep]") {
+  const Study study = sweep_study("samples = 40", "", {{"sweep.parameters.load.torque", "{ normal = [100, 200] }"}});
+  StudyResults nominal = run_study(study);
+  run_sweep(nominal, {}, {});
+  const SweepStatistics& sweep = *nominal.sweep;
+  CHECK(sweep.samples == 40);
+  CHECK(sweep.failed > 5);  // a third of the torques is below 0
+  CHECK(sweep.failed < 25);
+  CHECK_THAT(sweep.failures.front().reason, Catch::Contains("load.torque"));
+  CHECK(sweep.outputs[0].count == 40 - sweep.failed);
+  CHECK(nominal.requirements.empty());
+}
+
+TEST_CASE("Mean peak stress of a sweep is between what its parameters' ends give", "[studies][sweep]") {
+  // Contact stress grows with the torque: over torque alone, quantiles of stress are stresses at quantiles of torque.
+  const Study study = parse_study(small::sweep("samples = 33\nindices = \"off\""), "sweep.toml",
+                                  {{"sweep.parameters", "{ load.torque = { grid = [800, 1200, 33] } }"}, {"sweep.sampler", "latin_hypercube"}});
+  StudyResults nominal = run_study(study);
+  run_sweep(nominal, {}, {});
+  const auto stress_at = [&](double torque) {
+    return run_study(parse_study(sample_study(study, "t", {torque}), "t.toml", {{"cycle.peaks", "sampled"}})).loaded.at(0).summary.peak_contact_stress;
+  };
+  for (const OutputStatistics& of : nominal.sweep->outputs) {
+    if (of.output.name != "peak_contact_stress_MPa") continue;
+    CHECK(of.smallest == stress_at(800.0));
+    CHECK(of.largest == stress_at(1200.0));
+    CHECK(of.quantiles[3] == stress_at(1000.0));  // the median: all 33 levels once
+  }
+}
+
+}  // namespace
+}  // namespace flankwright::studies
