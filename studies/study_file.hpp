@@ -7,7 +7,7 @@
 #include "core/base/error.hpp"
 #include "studies/study.hpp"
 
-/// Reads a study file (TOML) into a Study. Every key, its unit and range: README.md and study_schema.hpp.
+/// Reads a study file (TOML) into a Study. Every key, its unit and range: keys.md and study_schema.hpp.
 namespace flankwright::studies {
 
 /// One thing in a study file that is not allowed.
