@@ -16,6 +16,7 @@
 #include "studies/command_line/commands.hpp"
 #include "studies/command_line/exchange_commands.hpp"
 #include "studies/command_line/library_command.hpp"
+#include "studies/study_file/key_page.hpp"
 #include "studies/study_file/study_schema.hpp"
 
 namespace {
@@ -84,6 +85,10 @@ int dispatch(int argc, char** argv) {
                "  flankwright new optimise > pump.toml                        modifications that hold over many conditions\n"
                "  flankwright new slurm > pump.sbatch                         a job script for the shards of a sweep");
   make->add_option("kind", kind, "analyse, optimise, sweep, accuracy or fit; slurm: a job script for the shards of a sweep")->required();
+  CLI::App* keys = app.add_subcommand("keys", "print the reference of all keys of a study file, in Markdown");
+  keys->footer("Examples:\n"
+               "  flankwright keys | less\n"
+               "  flankwright keys > studies/keys.md                          the page of the repository");
   CLI::App* report = app.add_subcommand("report", "rebuild report.html from a results folder");
   report->footer("Example:\n"
                "  flankwright report results/pump");
@@ -157,6 +162,10 @@ int dispatch(int argc, char** argv) {
   }
   if (check->parsed()) return check_command(study, overrides_of(settings));
   if (make->parsed()) return new_command(kind);
+  if (keys->parsed()) {
+    std::fputs(key_page().c_str(), stdout);
+    return 0;
+  }
   if (report->parsed()) return report_command(folder);
   if (library->parsed()) return library_command(study);
   if (completion->parsed()) {

@@ -6,7 +6,7 @@
 
 namespace flankwright::studies {
 
-/// Section `accuracy` of results.json: every rung beside the finest; see README.md of this folder.
+/// Section `accuracy` of results.json: every rung beside the finest; see results.md.
 Json ladder_json(const Ladder& ladder);
 /// Section `accuracy_choice`: what `fidelity.accuracy` has chosen, its estimates and cost.
 Json fidelity_choice_json(const FidelityChoice& choice);

@@ -6,7 +6,7 @@
 
 namespace flankwright::studies {
 
-/// One entry of fit[] of results.json; README.md describes it.
+/// One entry of fit[] of results.json; results.md describes it.
 Json fit_json(const GearFit& fit);
 
 /// One entry of deflections[] of results.json.

@@ -8,7 +8,7 @@
 namespace flankwright::studies {
 
 /// What results.json holds of a finished study. Units are in the key names; a number that was not computed is null.
-/// README.md describes every section.
+/// results.md describes every section.
 Json results_document(const StudyResults& results);
 
 /// The document as the text of a file.

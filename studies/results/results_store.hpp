@@ -6,7 +6,7 @@
 
 namespace flankwright::studies {
 
-/// Writes an optimisation's results.sqlite, for whoever compares many runs with SQL; README.md describes its tables.
+/// Writes an optimisation's results.sqlite, for whoever compares many runs with SQL; results.md describes its tables.
 ///
 /// Units are those of the report (um, mm, MPa, N/mm, N·m, s) and stand beside each value; a number that was not
 /// computed is NULL. The file appears whole or not at all: one transaction into a temporary file in the same folder,

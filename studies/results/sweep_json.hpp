@@ -5,7 +5,7 @@
 
 namespace flankwright::studies {
 
-/// The `sweep` section of results.json; see README.md of this folder. Five significant digits in the response maps, all digits elsewhere.
+/// The `sweep` section of results.json; see results.md. Five significant digits in the response maps, all digits elsewhere.
 Json sweep_json(const StudyResults& results);
 
 }  // namespace flankwright::studies

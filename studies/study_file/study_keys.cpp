@@ -98,7 +98,7 @@ std::vector<SchemaKey> working_condition_rows() {
        .store = [](Draft& d, Member, const Value& v) { d.study.cycle.phases = v.numbers; }},
 
       {.path = "fidelity.compliance", .kind = Word, .words = {"rigid", "thin_slice", "fitted", "fe"},
-       .fallback = "\"fitted\"", .meaning = "rung of the ladder of compliance models; without a torque none is used",
+       .fallback = "\"fitted\"", .meaning = "compliance model, in the order of cost; without a torque none is used",
        .store = [](Draft& d, Member, const Value& v) {
          d.study.fidelity.compliance = compliance_model(v.text);
        }},

@@ -206,17 +206,6 @@ std::string allowed_values(const SchemaKey& key) {
   return "";
 }
 
-std::string schema_markdown() {
-  std::string table = "| key | unit | default | allowed | meaning |\n|---|---|---|---|---|\n";
-  for (const SchemaKey& key : study_schema()) {
-    const std::string fallback =
-        is_described_fallback(key) ? key.fallback.substr(1, key.fallback.size() - 2) : "`" + key.fallback + "`";
-    table += "| `" + key.path + "` | " + std::string(default_unit(key.quantity)) + " | " + fallback + " | " + allowed_values(key) +
-             " | " + key.meaning + " |\n";
-  }
-  return table;
-}
-
 std::optional<NamedOutput> find_output(const std::string& name) {
   const auto found = [&name](Output output, Quantity quantity, int harmonic = 0) {
     return NamedOutput{{.output = output, .harmonic = harmonic, .weight = 1.0, .name = name}, quantity};

@@ -12,7 +12,7 @@
 #include "studies/base/value_with_unit.hpp"
 
 /// Every key of a study file in one table: what it is called, what it may be, what it means and where it is stored.
-/// Reading, --set, the hints at misspelt keys, the key table of README.md and the scenes all follow from it.
+/// Reading, --set, the hints at misspelt keys, the key reference (key_page.hpp) and the scenes all follow from it.
 namespace flankwright::studies {
 
 /// Values that a number may take, in the unit of a bare number.
@@ -129,9 +129,6 @@ std::string allowed_values(const SchemaKey& key);
 
 /// The words after "a number", or "an integer", for a range: " 10 .. 35 deg".
 std::string range_in_words(const Range& range, Quantity quantity);
-
-/// The table of keys in README.md: key, unit, default, allowed, meaning; a line each, in Markdown.
-std::string schema_markdown();
 
 /// A quantity of the results that can be minimised or bounded, under its name in a study file.
 struct NamedOutput {

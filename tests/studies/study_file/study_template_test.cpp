@@ -1,7 +1,6 @@
 #include "studies/study_file/study_template.hpp"
 
 #include <catch2/catch.hpp>
-#include <fstream>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -68,17 +67,6 @@ TEST_CASE("Every line that a template offers in a comment can be switched on", "
 
 TEST_CASE("Unknown templates are refused by name", "[studies][template]") {
   CHECK_THROWS_AS(study_template("anything"), InvalidInput);
-}
-
-TEST_CASE("The README lists every key with its unit, default, range and meaning", "[studies][readme]") {
-  std::ifstream file(FLANKWRIGHT_SOURCE_DIR "/studies/README.md");
-  REQUIRE(file);
-  std::ostringstream readme;
-  readme << file.rdbuf();
-  for (const std::string& row : lines_of(schema_markdown())) {
-    CAPTURE(row);
-    CHECK(readme.str().find(row + "\n") != std::string::npos);
-  }
 }
 
 TEST_CASE("Every default of the schema is a value that its key accepts", "[studies][schema]") {

@@ -22,7 +22,7 @@ using study_texts::replaced;
 namespace {
 
 std::string sample_file(const std::string& name) {
-  return read_whole(std::filesystem::path(FLANKWRIGHT_SOURCE_DIR) / "tests/studies/rexs/data" / name);
+  return read_whole(std::filesystem::path(FLANKWRIGHT_SOURCE_DIR) / "tests/studies/exchange/rexs/data" / name);
 }
 
 rexs::ImportedStudy import_text(const std::string& text, const rexs::ImportOptions& options = {.grid_stem = "s"}) {

@@ -1,5 +1,5 @@
-# What `cmake --install` and the Debian packages contain: the program with its manual page, completions and examples (flankwright), and
-# the libraries with headers and CMake configuration (flankwright-dev).
+# What `cmake --install` and the Debian packages contain: the program with its manual page, completions, pages and examples (flankwright),
+# and the libraries with headers and CMake configuration (flankwright-dev). Included from the root, which relative paths count from.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -15,12 +15,13 @@ install(DIRECTORY core optimize studies DESTINATION ${headers} COMPONENT dev FIL
         PATTERN page EXCLUDE PATTERN library EXCLUDE)
 install(EXPORT flankwright NAMESPACE flankwright:: FILE flankwright-targets.cmake DESTINATION ${config} COMPONENT dev)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/flankwright-config-version.cmake COMPATIBILITY SameMinorVersion)
-install(FILES flankwright-config.cmake core/compliance/fitted/find_ceres.cmake ${PROJECT_BINARY_DIR}/flankwright-config-version.cmake DESTINATION ${config} COMPONENT dev)
+install(FILES .cmake/flankwright-config.cmake core/compliance/fitted/find_ceres.cmake ${PROJECT_BINARY_DIR}/flankwright-config-version.cmake DESTINATION ${config} COMPONENT dev)
 
 install(TARGETS flankwright RUNTIME COMPONENT program)
 install(DIRECTORY studies/examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program PATTERN pictures EXCLUDE)
 install(FILES README.md CHANGELOG.md LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
-install(FILES studies/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME studies.md COMPONENT program)
+install(FILES studies/README.md studies/keys.md studies/results.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/studies COMPONENT program)
+install(FILES core/notation.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/core COMPONENT program)
 
 # Manual page and completions are what the program says of itself.
 set(docs ${PROJECT_BINARY_DIR}/docs)
