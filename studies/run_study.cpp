@@ -278,7 +278,7 @@ class Run {
     if (scenes.empty()) return;
     const Stopwatch clock;
     set_phases();
-    if (study.task == Task::Analyse) drop_small_effects(results_, scenes, budget_);
+    if (study.task == Task::Analyse) results_.left_out = drop_small_effects(results_, scenes, budget_);
     analyse_loaded(scenes);
     while (refine_resolution(results_)) {
       forget_loaded();
@@ -467,6 +467,7 @@ StudyResults run_study(const Study& study, const ProgressReport& progress) {
   StudyResults results = choice ? Run(with_choice(study, *choice), progress, choice->effects_budget()).finish() : Run(study, progress).finish();
   if (!choice) return results;
   results.fidelity_choice = choice;
+  results.fidelity_choice->left_out = results.left_out;
   results.steps.insert(results.steps.begin(), {"accuracy_choice", "an accuracy is asked for: models and resolution by estimates", choice->choosing_seconds});
   results.seconds += choice->choosing_seconds;
   if (!choice->kept) results.requirements.push_back(unmet_accuracy(*choice));
