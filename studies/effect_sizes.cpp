@@ -125,6 +125,19 @@ PerFigure worst_change(const std::vector<CycleFigures>& without, const std::vect
   return worst;
 }
 
+double least_headline(const PerFigure& values) {
+  PerFigure turned = values;
+  for (double& value : turned) value = -value;
+  return -headline(turned);
+}
+
+/// Whether every figure of headline() keeps its budget.
+bool within(const PerFigure& change, const PerFigure& budgets) {
+  PerFigure excess{};
+  for (std::size_t i = 0; i < excess.size(); ++i) excess[i] = change[i] - budgets[i];
+  return headline(excess) <= 0.0;
+}
+
 /// Names of what is on before and off after.
 std::vector<std::string> switched_off(const EffectDecisions& before, const EffectDecisions& after) {
   std::vector<std::string> names;
@@ -162,8 +175,9 @@ EffectSizes study_effect_sizes(const StudyResults& results) {
   return sizes;
 }
 
-LeftOutEffects drop_small_effects(StudyResults& results, const std::vector<DesignScene>& scenes, double budget) {
+LeftOutEffects drop_small_effects(StudyResults& results, const std::vector<DesignScene>& scenes, const PerFigure& budgets) {
   LeftOutEffects left_out;
+  const double budget = least_headline(budgets);
   if (!(budget > 0.0) || !results.study.fidelity.automatic_effects) return left_out;
   std::vector<EffectSize> sizes = small_sizes(results, scenes, budget);
   const std::vector<CycleFigures> with = sizes.empty() ? std::vector<CycleFigures>() : figures_with(results, scenes, results.effects);
@@ -172,7 +186,7 @@ LeftOutEffects drop_small_effects(StudyResults& results, const std::vector<Desig
     const std::vector<std::string> names = switched_off(results.effects, rest);
     if (names.empty()) return left_out;
     const PerFigure change = worst_change(figures_with(results, scenes, rest), with);
-    if (headline(change) <= budget) {
+    if (within(change, budgets)) {
       results.effects = rest;
       results.mesh_effects = mesh_effects(rest);
       return {names, change};

@@ -30,8 +30,8 @@ std::string number(double value, int digits = 4) {
 /// Runs one study; each step adds to the results.
 class Run {
  public:
-  /// @param budget  relative error that effects may be left out for [-], see drop_small_effects()
-  Run(const Study& study, const ProgressReport& progress, double budget = 0.0) : progress_(progress), budget_(budget) {
+  /// @param budget  error of each figure that effects may be left out for [-], see drop_small_effects()
+  Run(const Study& study, const ProgressReport& progress, const PerFigure& budget = {}) : progress_(progress), budget_(budget) {
     results_.study = study;
     results_.pair = make_gear_pair(study.pair);
     results_.effects = study_effects(study);
@@ -443,7 +443,7 @@ class Run {
   }
 
   const ProgressReport& progress_;
-  double budget_;
+  PerFigure budget_;
   StudyResults results_;
   std::map<MeshPlacement, std::size_t> model_index_;
   std::map<MeshPlacement, MeshModel> coarse_models_;  ///< half the intervals, every second position

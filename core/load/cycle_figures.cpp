@@ -21,6 +21,12 @@ double headline(const PerFigure& values) {
   return *std::max_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(Figure::PeakContactStress) + 1);
 }
 
+PerFigure root_sum_square(const PerFigure& a, const PerFigure& b) {
+  PerFigure both{};
+  for (std::size_t i = 0; i < both.size(); ++i) both[i] = std::hypot(a[i], b[i]);
+  return both;
+}
+
 PerFigure figure_errors(const CycleFigures& figures, const CycleFigures& reference) {
   const double variation = std::max(reference[Figure::TePeakToPeak], quiet_share * reference.mean_approach);
   PerFigure errors{};

@@ -24,6 +24,8 @@ double largest(const PerFigure& values);
 /// The largest of those that a mesh is judged by: transmission error, its harmonics and contact stress. The line load's peak, often at
 /// the very end of a line, where it has half the order of the stress, and the factor that follows from it are not among them.
 double headline(const PerFigure& values);
+/// Errors of two causes that have nothing to do with each other: sqrt(a^2 + b^2) of each figure.
+PerFigure root_sum_square(const PerFigure& a, const PerFigure& b);
 
 struct CycleFigures {
   PerFigure value{};              ///< transmission error [mm], stress [MPa], line load [N/mm], load factor [-]

@@ -29,6 +29,7 @@ class DiscretisationRun {
   Discretisation finish() {
     int intervals = search_.fewest_intervals, positions = search_.fewest_positions;
     while (!open_.empty()) {
+      if (search_.starting) search_.starting(intervals, positions, static_cast<int>(open_.size()));
       solve_level(intervals, positions);
       for (const int failed : failures_) chosen_.failures += failed;
       if (chosen_.failures > 0) break;
@@ -54,12 +55,12 @@ class DiscretisationRun {
   }
 
  private:
-  double counted(const ResolutionLevel& level) const { return headline(sum(search_.spent, level.error())); }
+  double counted(const ResolutionLevel& level) const { return headline(root_sum_square(search_.spent, level.error())); }
   bool keeps(const ResolutionLevel& level) const { return counted(level) <= search_.accuracy; }
 
   /// Of the figure that is farthest from being kept.
   bool points_bring_most(const ResolutionLevel& level) const {
-    const PerFigure counted = sum(search_.spent, level.error());
+    const PerFigure counted = root_sum_square(search_.spent, level.error());
     const auto figure = static_cast<std::size_t>(std::ranges::find(counted, headline(counted)) - counted.begin());
     return level.quadrature_error[figure] >= level.position_error[figure];
   }

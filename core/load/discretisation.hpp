@@ -31,13 +31,14 @@ struct ResolutionLevel {
 using ForEachIndex = std::function<void(std::size_t count, const std::function<void(std::size_t)>& work)>;
 
 struct DiscretisationSearch {
-  /// Refined until headline(spent + ResolutionLevel::error()) <= accuracy in every load case [-], > 0.
+  /// Refined until headline(root_sum_square(spent, ResolutionLevel::error())) <= accuracy in every load case [-], > 0.
   double accuracy{0.01};
-  PerFigure spent{};  ///< errors that no resolution lessens, as shares
+  PerFigure spent{};  ///< errors of other causes, which no resolution lessens, as shares
   int fewest_intervals{6}, most_intervals{96};    ///< powers of two times the fewest; half of them must still say something
   int fewest_positions{16}, most_positions{256};  ///< powers of two times the fewest, >= 12
   bool choose_intervals{true}, choose_positions{true};  ///< false: the fewest stand, and count as exact
   bool seek_extremes{true};    ///< false: extremes are those of the positions, as they are with any rule but Graded
+  std::function<void(int intervals, int positions, int load_cases)> starting{};  ///< told of every level before it is solved; empty: nobody
   ForEachIndex for_each{};     ///< over load cases; empty: one after the other. Changes nothing but the time
 };
 
@@ -49,7 +50,7 @@ struct Discretisation {
   PerFigure quadrature_error{}, position_error{}, total_error{};
   std::size_t governing{0};             ///< load case that asked for the finest resolution
   std::vector<ResolutionLevel> levels;  ///< what was solved of it, coarse to fine
-  bool kept{false};       ///< headline(spent + error()) <= accuracy
+  bool kept{false};       ///< headline(root_sum_square(spent, error())) <= accuracy
   int failures{0};        ///< positions without a usable load distribution; the search ends there
 
   /// Of quadrature and positions together.

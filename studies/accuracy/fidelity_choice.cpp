@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 
@@ -18,7 +19,7 @@ namespace {
 /// finite elements it was up to 1.09 times as large.
 constexpr double safety = 1.25;
 constexpr double thin_slice_share = 0.5, fitted_share = 0.7;  ///< of the accuracy, that a cheaper compliance may take
-constexpr double gap_share = 0.5;           ///< of what the compliance leaves
+constexpr double gap_share = 0.7;           ///< of what the compliance leaves
 
 bool is_given(const Study& study, std::string_view prefix) {
   return std::ranges::any_of(study.given, [&](const GivenValue& g) { return g.key.starts_with(prefix); });
@@ -33,6 +34,9 @@ PerFigure with_safety(PerFigure errors) {
   for (double& error : errors) error *= safety;
   return errors;
 }
+
+/// What an error leaves of an accuracy for others that have nothing to do with it, see root_sum_square().
+double left_of(double accuracy, double error) { return std::sqrt(std::max(0.0, accuracy * accuracy - error * error)); }
 
 PerFigure added(const PerFigure& a, const PerFigure& b) {
   PerFigure sum{};
@@ -86,7 +90,7 @@ void choose_gap(RungRunner& runner, FidelityChoice& choice) {
   const RungResult plane = candidate(GapModel::PlaneOfAction), whole = candidate(GapModel::WholeSurface);
   const PerFigure by_plane = differences(plane, whole);
   PerFigure excess{};
-  for (std::size_t i = 0; i < excess.size(); ++i) excess[i] = by_plane[i] - gap_share * (choice.accuracy - choice.compliance_error[i]);
+  for (std::size_t i = 0; i < excess.size(); ++i) excess[i] = by_plane[i] - gap_share * left_of(choice.accuracy, choice.compliance_error[i]);
   const bool plane_does = headline(excess) <= 0.0;
   choice.gaps = {{to_string(GapModel::PlaneOfAction), by_plane, plane.seconds, plane_does},
                  {to_string(GapModel::WholeSurface), {}, whole.seconds, !plane_does}};
@@ -98,7 +102,7 @@ void choose_resolution(RungRunner& runner, FidelityChoice& choice, const Progres
   const std::vector<DesignScene>& scenes = runner.subject().scenes;
   DiscretisationSearch search;
   search.accuracy = choice.accuracy;
-  search.spent = added(choice.compliance_error, choice.gap_error);
+  search.spent = root_sum_square(choice.compliance_error, choice.gap_error);
   search.choose_intervals = !choice.quadrature_given;
   search.choose_positions = !choice.positions_given;
   if (!search.choose_intervals && !search.choose_positions) return;
@@ -116,7 +120,9 @@ void choose_resolution(RungRunner& runner, FidelityChoice& choice, const Progres
     const int number = placements.try_emplace(placement, static_cast<int>(placements.size())).first->second;
     cases.push_back({runner.mesh(rung, scene), scene.condition, scene.torque, number});
   }
-  if (progress) progress("choosing accuracy", 0, 1, "resolution");
+  search.starting = [&](int intervals, int positions, int load_cases) {
+    if (progress) progress("choosing accuracy", 0, 0, fmt::format("{} load cases by {} intervals, {} positions", load_cases, intervals, positions));
+  };
   choice.discretisation = choose_discretisation(cases, seeking.fidelity.quadrature.rule, search);
   const Discretisation& found = choice.discretisation;
   choice.governing = scenes[found.governing].name;
@@ -132,10 +138,15 @@ void choose_resolution(RungRunner& runner, FidelityChoice& choice, const Progres
 }  // namespace
 
 PerFigure FidelityChoice::error() const {
-  return added(added(added(compliance_error, gap_error), resolution_error), left_out.error);
+  return root_sum_square(root_sum_square(compliance_error, gap_error), root_sum_square(resolution_error, left_out.error));
 }
 
-double FidelityChoice::effects_budget() const { return kept ? accuracy - headline(error()) : 0.0; }
+PerFigure FidelityChoice::effects_budget() const {
+  PerFigure left{};
+  const PerFigure spent = error();
+  for (std::size_t i = 0; kept && i < left.size(); ++i) left[i] = left_of(accuracy, spent[i]);
+  return left;
+}
 
 FidelityChoice choose_fidelity(RungRunner& runner, const ProgressReport& progress) {
   const Stopwatch clock;

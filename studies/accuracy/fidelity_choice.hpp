@@ -34,18 +34,19 @@ struct FidelityChoice {
   bool kept{false};              ///< headline(error()) <= accuracy
   double choosing_seconds{not_given};  ///< wall time, with finite elements where they were not kept
 
-  /// Model, discretisation and what was left out added up.
+  /// Compliance, gap, discretisation and what was left out together: causes that have nothing to do with each other, each estimated on the
+  /// safe side, so that squares add up.
   PerFigure error() const;
-  /// What the estimates leave of the accuracy, for effects that are too small to matter.
-  double effects_budget() const;
+  /// What the estimates leave of the accuracy in each figure, for effects that are too small to matter; 0 where it is not kept.
+  PerFigure effects_budget() const;
 };
 
-/// Chooses the cheapest compliance, gap, quadrature and mesh positions whose estimated errors, added up, keep an accuracy in every
+/// Chooses the cheapest compliance, gap, quadrature and mesh positions whose estimated errors, taken together, keep an accuracy in every
 /// figure that a mesh is judged by, headline(): transmission error, its harmonics in amplitude and phase, contact stress.
 ///
 /// - compliance: "thin_slice" where it is, coarsely resolved, within half of the accuracy of "fitted"; "fitted" where fit_error() is
 ///   within 0.7 of the accuracy; else "fe", which has no error in this account;
-/// - gap: "plane_of_action" where the whole surface's gap changes figures by less than half of what is left; else "whole_surface";
+/// - gap: "plane_of_action" where the whole surface's gap changes figures by less than 0.7 of what is left; else "whole_surface";
 /// - differences between models are multiplied by a safety of 1.25, as they are seen at a coarse resolution;
 /// - the rest: choose_discretisation() of all load cases together, each figure within what the models leave of it.
 ///
