@@ -23,17 +23,17 @@ const Effect* effect_named(std::string_view name) {
   return found == all.end() ? nullptr : *found;
 }
 
-bool may_be_dropped(std::string_view name) {
-  const Effect* effect = effect_named(name);
-  const bool free_of_cost = effect && (effect->stage() == EffectStage::Condition || effect->stage() == EffectStage::Body);
-  return changes_mesh(name) && effect->listed() && !free_of_cost;
-}
-
 }  // namespace
 
 bool changes_mesh(std::string_view name) {
   const Effect* effect = effect_named(name);
   return effect && effect->stage() != EffectStage::Unloaded && effect->stage() != EffectStage::Roots;
+}
+
+bool may_be_dropped(std::string_view name) {
+  const Effect* effect = effect_named(name);
+  const bool free_of_cost = effect && (effect->stage() == EffectStage::Condition || effect->stage() == EffectStage::Body);
+  return changes_mesh(name) && effect->listed() && !free_of_cost;
 }
 
 EffectInfluence EffectInfluence::between(const CycleOutputs& with, const CycleOutputs& without) {

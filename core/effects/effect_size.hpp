@@ -39,6 +39,10 @@ struct EffectInfluence {
 /// the loads.
 bool changes_mesh(std::string_view name);
 
+/// The effect of that name may be left out for being small: what acts on the mesh, but for effects of the condition, which cost nothing and may
+/// be what a study varies, and what the teeth stand on, for the same reason.
+bool may_be_dropped(std::string_view name);
+
 /// The size of one effect.
 struct EffectSize {
   std::string name;
@@ -47,8 +51,7 @@ struct EffectSize {
 };
 
 /// Switches off what acts on the mesh and is too small to matter: effects by rising size, as long as their shares, which add up to first
-/// order, stay within the budget together. Effects of the condition stay, as they cost nothing, and may be what a study varies; so
-/// does what the teeth stand on, for the same reason; what is read off the loads, what is not listed, and what has no size.
+/// order, stay within the budget together. What may not be dropped stays, and what has no size.
 /// @param budget  relative error [-], > 0
 EffectDecisions within_budget(EffectDecisions decisions, std::vector<EffectSize> sizes, double budget);
 

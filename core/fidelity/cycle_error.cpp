@@ -15,13 +15,6 @@ constexpr double of_mean = 1.0 / 2.0, of_shape = 1.0 / 3.0, of_root_stress = 1.0
 /// Positions whose peak comes within this share of the cycle's count for the error of the peak.
 constexpr double near_peak = 0.1;
 
-std::complex<double> phasor(const std::vector<double>& samples, int order) {
-  const double n = static_cast<double>(samples.size());
-  std::complex<double> sum = 0.0;
-  for (std::size_t i = 0; i < samples.size(); ++i) sum += std::polar(2.0 / n, -2.0 * units::pi * order * static_cast<double>(i) / n) * samples[i];
-  return sum;
-}
-
 double mean_of(const std::vector<double>& samples) {
   double sum = 0.0;
   for (const double s : samples) sum += s;
@@ -69,7 +62,7 @@ CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, con
   double square = 0.0;
   for (const double value : d) square += (value - mean_of(d)) * (value - mean_of(d)) / static_cast<double>(d.size());
   for (std::size_t k = 1; k <= summary.te_harmonics.size(); ++k) {
-    errors.te_harmonics.push_back(of_shape * (std::abs(phasor(d, static_cast<int>(k))) + std::sqrt(square)));
+    errors.te_harmonics.push_back(of_shape * (std::abs(harmonic_phasor(d, static_cast<int>(k))) + std::sqrt(square)));
   }
   errors.peak_contact_stress = of_peaks * peak_difference(some(stress_of), curve(coarse, stress_of));
   errors.peak_line_load = of_peaks * peak_difference(some(load_of), curve(coarse, load_of));
@@ -91,7 +84,7 @@ CycleErrors position_errors(const LoadedCycle& fine, const CycleSummary& summary
     // Beyond what half the positions resolve, the aliases of the orders that are.
     const bool resolved = 2 * k < half.size();
     const int order = static_cast<int>(k);
-    errors.te_harmonics.push_back(of_positions * (resolved ? std::abs(phasor(te, order) - phasor(half, order)) : summary.te_harmonics[k - 1]));
+    errors.te_harmonics.push_back(of_positions * (resolved ? std::abs(harmonic_phasor(te, order) - harmonic_phasor(half, order)) : summary.te_harmonics[k - 1]));
   }
   const auto unseen = [&](Figure figure, const std::vector<double>& samples) {
     return extremes != nullptr ? extremes->unseen[static_cast<std::size_t>(figure)] : unseen_rise(samples);

@@ -10,37 +10,58 @@ namespace flankwright {
 /// The same mesh as finely as one likes.
 using MeshOfResolution = std::function<MeshModel(const MeshResolution&)>;
 
+/// One load case whose resolution is sought.
+struct ResolutionCase {
+  MeshOfResolution mesh_for;
+  FlankCondition condition;
+  double pinion_torque{not_given};  ///< [N mm], > 0
+  int placement{0};                 ///< cases of one number have the same meshes, which are made once
+};
+
 /// What a resolution shows, and how sure it is.
 struct ResolutionLevel {
   int intervals{0}, positions{0};
-  CycleFigures figures;  ///< with extremes between the positions
+  CycleFigures figures;  ///< with extremes between the positions where they were sought
   PerFigure quadrature_error{}, position_error{};  ///< estimated shares, as figure_errors() counts them
+  bool extremes_sought{false};                     ///< false: the errors suffice to say that the level does not
   PerFigure error() const;                         ///< their sum
 };
 
+/// Does one thing for every index below a count, in any order or side by side.
+using ForEachIndex = std::function<void(std::size_t count, const std::function<void(std::size_t)>& work)>;
+
 struct DiscretisationSearch {
-  /// Refined until ResolutionLevel::error() <= accuracy, of every figure [-], > 0.
+  /// Refined until headline(root_sum_square(spent, ResolutionLevel::error())) <= accuracy in every load case [-], > 0.
   double accuracy{0.01};
+  PerFigure spent{};  ///< errors of other causes, which no resolution lessens, as shares
   int fewest_intervals{6}, most_intervals{96};    ///< powers of two times the fewest; half of them must still say something
   int fewest_positions{16}, most_positions{256};  ///< powers of two times the fewest, >= 12
   bool choose_intervals{true}, choose_positions{true};  ///< false: the fewest stand, and count as exact
+  bool seek_extremes{true};    ///< false: extremes are those of the positions, as they are with any rule but Graded
+  std::function<void(int intervals, int positions, int load_cases)> starting{};  ///< told of every level before it is solved; empty: nobody
+  ForEachIndex for_each{};     ///< over load cases; empty: one after the other. Changes nothing but the time
 };
 
-/// Points and positions that keep an accuracy, and the evidence.
+/// Points and positions that keep an accuracy in all load cases, and the evidence.
 struct Discretisation {
   Quadrature quadrature;
   int positions{0};
-  PerFigure quadrature_error{}, position_error{};  ///< estimated shares at these; 0 of what was not to be chosen
-  std::vector<ResolutionLevel> levels;  ///< what was solved, coarse to fine
-  bool kept{false};       ///< error() <= accuracy
+  /// Estimated shares, worst over the load cases, each at the last level it was solved at; 0 of what was not to be chosen.
+  PerFigure quadrature_error{}, position_error{}, total_error{};
+  std::size_t governing{0};             ///< load case that asked for the finest resolution
+  std::vector<ResolutionLevel> levels;  ///< what was solved of it, coarse to fine
+  bool kept{false};       ///< headline(root_sum_square(spent, error())) <= accuracy
   int failures{0};        ///< positions without a usable load distribution; the search ends there
 
-  PerFigure error() const;
+  /// Of quadrature and positions together.
+  const PerFigure& error() const { return total_error; }
 };
 
-/// Cheapest resolution of one load case whose estimated error is within an accuracy: a cycle and its embedded comparison
-/// (estimate_errors()), refined by doubling what brings most of the largest error, intervals or positions, until the accuracy is kept. As a
-/// level costs a multiple of the one before, all of them together cost less than two and a half of the last.
+/// Cheapest resolution of several load cases whose estimated error is within an accuracy: cycles and their embedded comparisons
+/// (estimate_errors()), refined by doubling what brings most of the largest error, intervals or positions, until the accuracy is kept. A load
+/// case that keeps it is not looked at again, for a finer level only lessens its error; so that as a rule one or two of them pay for the
+/// finest level. Extremes between positions, which cost as much as a cycle, are sought only where the rest of the error would do.
+Discretisation choose_discretisation(const std::vector<ResolutionCase>& cases, QuadratureRule rule, const DiscretisationSearch& search = {});
 Discretisation choose_discretisation(const MeshOfResolution& mesh_for, QuadratureRule rule, const FlankCondition& condition, double pinion_torque,
                                      const DiscretisationSearch& search = {});
 

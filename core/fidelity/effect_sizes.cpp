@@ -224,6 +224,7 @@ std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const
   std::vector<EstimatedSize> sizes;
   for (const EffectDecision& decision : decisions) {
     if (!decision.on || !changes_mesh(decision.name)) continue;
+    if (options.only && std::ranges::find(*options.only, decision.name) == options.only->end()) continue;
     if (!cycle.usable()) {
       sizes.push_back({{decision.name, {}, not_given}});
       continue;

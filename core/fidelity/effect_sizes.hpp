@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,6 +62,7 @@ struct SizeOptions {
   /// The step is believed where it changes no load by more than trust * (the largest load), leaves none negative and lets no point
   /// penetrate [-], >= 0.
   double trust{0.25};
+  std::optional<std::vector<std::string>> only{};  ///< names of the effects wanted; nothing: all
 };
 
 /// Sizes of the effects that are on and change a mesh, to first order at the solution with all of them.

@@ -225,7 +225,7 @@ bool wants_rigid_bodies(const Study& study) {
   if (study.task == Task::Fit || !couples_teeth(fidelity.compliance)) return false;
   const bool left_out =
       !fidelity.automatic_effects && std::ranges::find(fidelity.effects, "gear_body_compliance") == fidelity.effects.end();
-  return left_out || study.task == Task::Accuracy || fidelity.accuracy || fidelity.effect_sizes == EffectSizing::Exact;
+  return left_out || study.task == Task::Accuracy || fidelity.effect_sizes == EffectSizing::Exact;
 }
 
 bool solves_finite_elements(const Study& study) {

@@ -17,6 +17,13 @@ Json errors_json(const PerFigure& shares) {
   return json;
 }
 
+/// Estimates of a choice: "worst" among what a mesh is judged by.
+Json estimates_json(const PerFigure& shares) {
+  Json json = errors_json(shares);
+  json["worst"] = percent * headline(shares);
+  return json;
+}
+
 Json figures_json(const CycleFigures& figures) {
   Json harmonics = Json::array();
   for (int k = 0; k < figure_harmonics; ++k) harmonics.push_back(in_um(figures.value[static_cast<std::size_t>(Figure::TeHarmonic1) + k]));
@@ -72,13 +79,13 @@ Json order_json(const AxisOrder& axis) {
 
 Json candidates_json(const std::vector<ModelCandidate>& candidates) {
   return list(candidates, [](const ModelCandidate& c) -> Json {
-    return {{"name", c.name}, {"chosen", c.chosen}, {"error_percent", errors_json(c.error)}, {"seconds", c.seconds}};
+    return {{"name", c.name}, {"chosen", c.chosen}, {"error_percent", estimates_json(c.error)}, {"seconds", c.seconds}};
   });
 }
 
 Json levels_json(const std::vector<ResolutionLevel>& levels) {
   return list(levels, [](const ResolutionLevel& level) -> Json {
-    return {{"intervals", level.intervals}, {"positions", level.positions}, {"error_percent", errors_json(level.error())}, {"outputs", figures_json(level.figures)}};
+    return {{"intervals", level.intervals}, {"positions", level.positions}, {"error_percent", estimates_json(level.error())}, {"outputs", figures_json(level.figures)}};
   });
 }
 
@@ -98,10 +105,10 @@ Json ladder_json(const Ladder& ladder) {
 }
 
 Json fidelity_choice_json(const FidelityChoice& choice) {
-  const auto estimate = [](bool given, const PerFigure& error) { return given ? Json() : errors_json(error); };
+  const auto estimate = [](bool given, const PerFigure& error) { return given ? Json() : estimates_json(error); };
   return {{"asked_percent", percent * choice.accuracy},
           {"kept", choice.kept},
-          {"estimate_percent", errors_json(choice.error())},
+          {"estimate_percent", estimates_json(choice.error())},
           {"failures", choice.failures},
           {"compliance",
            {{"used", to_string(choice.fidelity.compliance)},
@@ -124,8 +131,8 @@ Json fidelity_choice_json(const FidelityChoice& choice) {
             {"estimate_percent", estimate(choice.positions_given, choice.position_error)}}},
           {"resolution", {{"estimate_percent", estimate(choice.quadrature_given && choice.positions_given, choice.resolution_error)}}},
           {"governing", {{"scene", choice.governing}, {"torque_Nm", choice.governing_torque / units::newton_metre}}},
-          {"choosing_seconds", choice.choosing_seconds},
-          {"cycle_seconds", choice.cycle_seconds}};
+          {"effects", {{"left_out", choice.left_out.names}, {"estimate_percent", estimates_json(choice.left_out.error)}}},
+          {"choosing_seconds", choice.choosing_seconds}};
 }
 
 }  // namespace flankwright::studies

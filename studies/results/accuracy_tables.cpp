@@ -70,10 +70,10 @@ std::string ladder_summary(const Ladder& ladder) {
 
 std::string fidelity_choice_summary(const FidelityChoice& choice) {
   const Json quadrature = quadrature_json(choice.fidelity.quadrature);
-  return fmt::format("accuracy {:.3g} %: {}, {}, {} {} intervals, {} positions; estimated {:.2g} %, chosen in {:.2g} s, a run of all load cases takes {:.2g} s\n\n",
+  return fmt::format("accuracy {:.3g} %: {}, {}, {} {} intervals, {} positions; estimated {:.2g} %, chosen in {:.2g} s\n\n",
                      percent * choice.accuracy, to_string(choice.fidelity.compliance), to_string(choice.fidelity.gap),
                      quadrature.at("rule").get<std::string>(), choice.fidelity.quadrature.intervals, choice.positions,
-                     percent * largest(choice.error()), choice.choosing_seconds, choice.cycle_seconds);
+                     percent * headline(choice.error()), choice.choosing_seconds);
 }
 
 }  // namespace flankwright::studies

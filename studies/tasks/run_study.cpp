@@ -31,8 +31,8 @@ std::string number(double value, int digits = 4) {
 /// Runs one study; each step adds to the results.
 class Run {
  public:
-  /// @param budget  relative error that effects may be left out for [-], see drop_small_effects()
-  Run(const Study& study, const ProgressReport& progress, double budget = 0.0) : progress_(progress), budget_(budget) {
+  /// @param budget  error of each figure that effects may be left out for [-], see drop_small_effects()
+  Run(const Study& study, const ProgressReport& progress, const PerFigure& budget = {}) : progress_(progress), budget_(budget) {
     results_.study = study;
     results_.pair = make_gear_pair(study.pair);
     results_.effects = study_effects(study);
@@ -279,7 +279,7 @@ class Run {
     if (scenes.empty()) return;
     const Stopwatch clock;
     set_phases();
-    if (study.task == Task::Analyse) drop_small_effects(results_, scenes, budget_);
+    if (study.task == Task::Analyse) results_.left_out = drop_small_effects(results_, scenes, budget_);
     analyse_loaded(scenes);
     while (refine_resolution(results_)) {
       forget_loaded();
@@ -444,7 +444,7 @@ class Run {
   }
 
   const ProgressReport& progress_;
-  double budget_;
+  PerFigure budget_;
   StudyResults results_;
   std::map<MeshPlacement, std::size_t> model_index_;
   std::map<MeshPlacement, MeshModel> coarse_models_;  ///< half the intervals, every second position
@@ -468,6 +468,7 @@ StudyResults run_study(const Study& study, const ProgressReport& progress) {
   StudyResults results = choice ? Run(with_choice(study, *choice), progress, choice->effects_budget()).finish() : Run(study, progress).finish();
   if (!choice) return results;
   results.fidelity_choice = choice;
+  results.fidelity_choice->left_out = results.left_out;
   results.steps.insert(results.steps.begin(), {"accuracy_choice", "an accuracy is asked for: models and resolution by estimates", choice->choosing_seconds});
   results.seconds += choice->choosing_seconds;
   if (!choice->kept) results.requirements.push_back(unmet_accuracy(*choice));

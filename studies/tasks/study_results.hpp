@@ -15,7 +15,7 @@
 #include "optimize/design/two_level.hpp"
 #include "studies/tasks/accuracy/fidelity_choice.hpp"
 #include "studies/tasks/accuracy/ladder.hpp"
-#include "studies/tasks/effect_sizes.hpp"
+#include "studies/tasks/analyse/effect_sizes.hpp"
 #include "studies/compliance/fit_task.hpp"
 #include "studies/compliance/gear_deflections.hpp"
 #include "core/compliance/shaft/shaft_pair.hpp"
@@ -69,6 +69,7 @@ struct StudyResults {
   EffectDecisions effects;
   MeshEffects mesh_effects;       ///< those of them that are on, as all meshes of the study have them
   EffectSizes effect_sizes;
+  LeftOutEffects left_out;        ///< of what an accuracy leaves to them
   std::vector<RunStep> steps;
   std::optional<FidelityChoice> fidelity_choice;  ///< where the study asks for an accuracy
   std::optional<Ladder> ladder;   ///< of the task "accuracy"

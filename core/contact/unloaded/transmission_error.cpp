@@ -56,14 +56,17 @@ UnloadedMesh analyse_unloaded_mesh(const GearPair& pair, const MeshScene& scene,
   return mesh;
 }
 
+std::complex<double> harmonic_phasor(const std::vector<double>& samples, int order) {
+  const int n = static_cast<int>(samples.size());
+  std::complex<double> sum = 0.0;
+  for (int i = 0; i < n; ++i) sum += samples[static_cast<std::size_t>(i)] * std::polar(1.0, -2.0 * units::pi * order * i / n);
+  return 2.0 / n * sum;
+}
+
 std::vector<double> harmonic_amplitudes(const std::vector<double>& samples) {
   const int n = static_cast<int>(samples.size());
   std::vector<double> amplitudes;
-  for (int order = 1; order <= std::min(highest_harmonic, (n - 1) / 2); ++order) {
-    std::complex<double> sum = 0.0;
-    for (int i = 0; i < n; ++i) sum += samples[i] * std::polar(1.0, -2.0 * units::pi * order * i / n);
-    amplitudes.push_back(2.0 * std::abs(sum) / n);
-  }
+  for (int order = 1; order <= std::min(highest_harmonic, (n - 1) / 2); ++order) amplitudes.push_back(std::abs(harmonic_phasor(samples, order)));
   return amplitudes;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <vector>
 
 #include "core/contact/unloaded/tooth_contact.hpp"
@@ -40,6 +41,9 @@ struct UnloadedMesh {
 /// @param positions  >= 1
 UnloadedMesh analyse_unloaded_mesh(const GearPair& pair, const MeshScene& scene, int positions);
 
+/// Harmonic of n equally spaced samples of one period, amplitude and phase: 2/n sum s_i exp(-2 pi i k/n).
+/// @param order  k, below n/2, >= 1
+std::complex<double> harmonic_phasor(const std::vector<double>& samples, int order);
 /// Amplitudes of the harmonics 1 .. 10 (at most (n - 1)/2) of n equally spaced samples of one period.
 std::vector<double> harmonic_amplitudes(const std::vector<double>& samples);
 

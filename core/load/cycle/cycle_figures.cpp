@@ -17,6 +17,16 @@ const char* name_of(Figure figure) {
 
 double largest(const PerFigure& values) { return *std::ranges::max_element(values); }
 
+double headline(const PerFigure& values) {
+  return *std::max_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(Figure::PeakContactStress) + 1);
+}
+
+PerFigure root_sum_square(const PerFigure& a, const PerFigure& b) {
+  PerFigure both{};
+  for (std::size_t i = 0; i < both.size(); ++i) both[i] = std::hypot(a[i], b[i]);
+  return both;
+}
+
 PerFigure figure_errors(const CycleFigures& figures, const CycleFigures& reference) {
   const double variation = std::max(reference[Figure::TePeakToPeak], quiet_share * reference.mean_approach);
   PerFigure errors{};
@@ -28,6 +38,15 @@ PerFigure figure_errors(const CycleFigures& figures, const CycleFigures& referen
     errors[i] = std::abs(figures.value[i] - reference.value[i]) / scale;
   }
   return errors;
+}
+
+PerFigure figure_differences(const CycleFigures& figures, const CycleFigures& reference) {
+  PerFigure differences = figure_errors(figures, reference);
+  const double variation = std::max(reference[Figure::TePeakToPeak], quiet_share * reference.mean_approach);
+  for (std::size_t k = 0; k < figure_harmonics; ++k) {
+    differences[static_cast<std::size_t>(Figure::TeHarmonic1) + k] = std::abs(figures.te_phasor[k] - reference.te_phasor[k]) / variation;
+  }
+  return differences;
 }
 
 double unseen_rise(const std::vector<double>& samples) {
@@ -93,6 +112,7 @@ CycleFigures SampledCycle::figures() const {
   const std::vector<double> harmonics = harmonic_amplitudes(te_);
   for (std::size_t k = 0; k < figure_harmonics; ++k) {
     figures.value[static_cast<std::size_t>(Figure::TeHarmonic1) + k] = k < harmonics.size() ? harmonics[k] : not_given;
+    figures.te_phasor[k] = k < harmonics.size() ? harmonic_phasor(te_, static_cast<int>(k) + 1) : not_given;
   }
   figures[Figure::PeakContactStress] = *std::ranges::max_element(peak_stress_);
   figures[Figure::PeakLineLoad] = *std::ranges::max_element(peak_load_);

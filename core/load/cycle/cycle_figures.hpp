@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <complex>
 #include <vector>
 
 #include "core/load/cycle/mesh_cycle.hpp"
@@ -20,10 +21,17 @@ const char* name_of(Figure figure);
 /// A number for each figure, in the order of Figure.
 using PerFigure = std::array<double, figure_count>;
 double largest(const PerFigure& values);
+/// The largest of those that a mesh is judged by: transmission error, its harmonics and contact stress. The line load's peak, often at
+/// the very end of a line, where it has half the order of the stress, and the factor that follows from it are not among them.
+double headline(const PerFigure& values);
+/// Errors of two causes that have nothing to do with each other: sqrt(a^2 + b^2) of each figure.
+PerFigure root_sum_square(const PerFigure& a, const PerFigure& b);
 
 struct CycleFigures {
   PerFigure value{};              ///< transmission error [mm], stress [MPa], line load [N/mm], load factor [-]
   double mean_approach{not_given};  ///< mean of f_t - min(g): what the mesh gives way [mm]
+  /// Of f_t, orders 1 .. figure_harmonics; their moduli are the harmonics. NaN beyond what the positions resolve [mm].
+  std::array<std::complex<double>, figure_harmonics> te_phasor{};
 
   double operator[](Figure f) const { return value[static_cast<std::size_t>(f)]; }
   double& operator[](Figure f) { return value[static_cast<std::size_t>(f)]; }
@@ -37,6 +45,8 @@ inline constexpr double quiet_share = 0.02;
 /// all positions is no deflection), its peak to peak and harmonics in units of the reference's peak to peak, at least quiet_share of
 /// the approach; stress, load and factor in units of their own.
 PerFigure figure_errors(const CycleFigures& figures, const CycleFigures& reference);
+/// The same with harmonics in amplitude and phase, |difference of phasors|: what one model says otherwise than another at the same phases.
+PerFigure figure_differences(const CycleFigures& figures, const CycleFigures& reference);
 
 /// How far a periodic curve, known at equal distances, may rise above its samples in between, where it consists of smooth pieces with
 /// kinks and jumps: both neighbours' straight continuations into each interval, up to where they meet, or, where one of them falls

@@ -106,11 +106,12 @@ function choice_of_figure(state, redraw) {
 function build_accuracy_choice(choice, body) {
   const estimate = record(choice.estimate_percent);
   body.append(el("p", { class: choice.kept ? "banner" : "banner bad" }, `Asked for ${fmt(choice.asked_percent, 3)} %, estimated ${fmt(estimate.worst, 2)} %`
-    + `${choice.kept ? "" : ": not kept"}. Chosen in ${time_text(choice.choosing_seconds)}; a run of all load cases takes ${time_text(choice.cycle_seconds)}.`));
+    + `${choice.kept ? "" : ": not kept"}. Chosen in ${time_text(choice.choosing_seconds)}.`));
   const quadrature = record(record(choice.quadrature).used);
   const used = { compliance: record(choice.compliance).used, gap: record(choice.gap).used,
     quadrature: `${quadrature.rule} ${fmt(quadrature.intervals)}`, positions: record(choice.positions).used,
-    resolution: "quadrature and positions" };
+    resolution: "quadrature and positions",
+    effects: list(record(choice.effects).left_out).length > 0 ? `without ${list(choice.effects.left_out).join(", ")}` : "all that are called for" };
   table(body, {
     title: "What was chosen, and what it costs in accuracy",
     note: "Estimated errors in per cent, the worst of the load cases. What the study gives itself stays and is not judged. "

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "studies/tasks/accuracy/rung.hpp"
+#include "studies/tasks/analyse/effect_sizes.hpp"
 
 namespace flankwright::studies {
 
@@ -25,29 +26,31 @@ struct FidelityChoice {
   std::vector<ModelCandidate> compliances, gaps;  ///< considered; empty where given
   /// Estimated shares, worst over the load cases; of the resolution: of quadrature and positions together, see Discretisation::error().
   PerFigure compliance_error{}, gap_error{}, quadrature_error{}, position_error{}, resolution_error{};
+  LeftOutEffects left_out;       ///< by the run, see drop_small_effects()
   std::string governing;         ///< scene of the load case that asked for the finest resolution
   double governing_torque{not_given};  ///< its torque [N mm]
   Discretisation discretisation; ///< of the governing load case
   int failures{0};               ///< positions without a usable load distribution: nothing is known
-  bool kept{false};              ///< largest(error()) <= accuracy
+  bool kept{false};              ///< headline(error()) <= accuracy
   double choosing_seconds{not_given};  ///< wall time, with finite elements where they were not kept
-  double cycle_seconds{not_given};     ///< processor time of all load cases as chosen
 
-  /// Model and discretisation added up.
+  /// Compliance, gap, discretisation and what was left out together: causes that have nothing to do with each other, each estimated on the
+  /// safe side, so that squares add up.
   PerFigure error() const;
-  /// Half of what the estimates leave of the accuracy, for effects that are too small to matter: their sizes are first order.
-  double effects_budget() const;
+  /// What the estimates leave of the accuracy in each figure, for effects that are too small to matter; 0 where it is not kept.
+  PerFigure effects_budget() const;
 };
 
-/// Chooses the cheapest compliance, gap, quadrature and mesh positions whose estimated errors, added up, keep an accuracy in every
-/// figure of figure_errors(), peaks at the mesh positions:
+/// Chooses the cheapest compliance, gap, quadrature and mesh positions whose estimated errors, taken together, keep an accuracy in every
+/// figure that a mesh is judged by, headline(): transmission error, its harmonics in amplitude and phase, contact stress.
 ///
-/// - compliance: "thin_slice" where it is, coarsely resolved, within half of the accuracy of "fitted"; "fitted" where influence values
-///   wrong by what its kernels leave (its own fit's median on unseen places, 0.8 % of the library's, see core/compliance/fitted) move no
-///   figure by more than 0.7 of the accuracy; else "fe", which has no error in this account;
-/// - gap: "plane_of_action" where the whole surface's gap changes figures by less than half of what is left; else "whole_surface";
+/// - compliance: "thin_slice" where it is, coarsely resolved, within half of the accuracy of "fitted"; "fitted" where fit_error() is
+///   within 0.7 of the accuracy; else "fe", which has no error in this account;
+/// - gap: "plane_of_action" where the whole surface's gap changes figures by less than 0.7 of what is left; else "whole_surface";
 /// - differences between models are multiplied by a safety of 1.25, as they are seen at a coarse resolution;
-/// - the rest: choose_discretisation() for each load case, the finest of their resolutions.
+/// - the rest: choose_discretisation() of all load cases together, each figure within what the models leave of it.
+///
+/// The finite elements it asks for are those of the models that it compares, and none for what an effect does.
 /// @param runner  with the study's load cases
 FidelityChoice choose_fidelity(RungRunner& runner, const ProgressReport& progress);
 

@@ -1,4 +1,4 @@
-#include "studies/tasks/effect_sizes.hpp"
+#include "studies/tasks/analyse/effect_sizes.hpp"
 
 #include <algorithm>
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/fidelity/effect_sizes.hpp"
+#include "core/load/cycle/cycle_figures.hpp"
 
 namespace flankwright::studies {
 
@@ -23,5 +24,11 @@ struct EffectSizes {
 
 /// The entry of that name, null where there is none.
 const SizeInStudy* size_of(const std::vector<SizeInStudy>& sizes, const std::string& name);
+
+/// Effects that an analysis does without, and what they would change together.
+struct LeftOutEffects {
+  std::vector<std::string> names;
+  PerFigure error{};  ///< shares, worst over the load cases, see figure_differences(); 0 where nothing is left out
+};
 
 }  // namespace flankwright::studies
