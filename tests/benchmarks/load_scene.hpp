@@ -6,6 +6,7 @@
 #include "core/load/cycle/mesh_cycle.hpp"
 #include "tests/core/load/synthetic_root_stress.hpp"
 #include "tests/reference/haddad_18_54.hpp"
+#include "core/gear/gear_pair.hpp"
 
 /// The loaded mesh whose speed is measured, with influence matrices that cost nothing to make.
 namespace flankwright::load_scene {

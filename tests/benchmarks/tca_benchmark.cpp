@@ -11,6 +11,7 @@
 #include "tests/core/contact/contact_cases.hpp"
 #include "tests/reference/haddad_18_54.hpp"
 #include "tests/reference/nasa_tm_107451.hpp"
+#include "core/gear/gear_pair.hpp"
 
 // Time of tooth contact analysis on one thread: microseconds per contact of a solver that stands, milliseconds per analysis of one
 // pitch at 64 positions, all pairs; medians of repeated runs, processor time and elapsed time. An argument sets how often

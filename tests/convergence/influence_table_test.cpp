@@ -6,6 +6,7 @@
 #include "core/compliance/finite_element/solve_influence_table.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 

@@ -13,6 +13,7 @@
 #include "studies/base/results_folder.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/hard_cases/floating_point_traps.hpp"
+#include "core/gear/gear_pair.hpp"
 
 namespace flankwright::hard_cases {
 

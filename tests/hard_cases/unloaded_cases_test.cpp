@@ -4,6 +4,7 @@
 #include "core/contact/path/path_of_contact.hpp"
 #include "core/contact/unloaded/tooth_contact.hpp"
 #include "tests/hard_cases/hard_case.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using namespace flankwright::hard_cases;

@@ -1,6 +1,7 @@
 #include "tests/optimize/design_tasks.hpp"
 
 #include "tests/core/load/synthetic_root_stress.hpp"
+#include "core/gear/gear_pair.hpp"
 
 namespace flankwright::design_tasks {
 

@@ -4,6 +4,7 @@
 
 #include "optimize/design/design_optimiser.hpp"
 #include "tests/optimize/design_tasks.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using namespace flankwright::design_tasks;

@@ -5,6 +5,7 @@
 
 #include "core/load/cycle/cycle_gradient.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "core/contact/gap/surface_gap.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using units::um;

@@ -11,6 +11,7 @@
 #include "core/compliance/local/hertz_line.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
 #include "tests/reference/haddad_18_54.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 namespace haddad = reference::haddad_1991;

@@ -5,6 +5,7 @@
 #include "studies/tasks/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/reference/haddad_rig.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 namespace rig = reference::haddad_rig;

@@ -7,6 +7,7 @@
 #include "core/flank/revolution_tool.hpp"
 #include "tests/core/contact/contact_cases.hpp"
 #include "tests/reference/leading.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using namespace flankwright::contact_cases;

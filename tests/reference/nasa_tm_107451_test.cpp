@@ -5,6 +5,7 @@
 
 #include "tests/core/contact/contact_cases.hpp"
 #include "tests/reference/leading.hpp"
+#include "core/gear/gear_pair.hpp"
 
 // What NASA TM-107451 states of its example, figure by figure.
 //

@@ -5,6 +5,7 @@
 #include "core/flank/measured_grid.hpp"
 #include "tests/core/contact/contact_cases.hpp"
 #include "tests/reference/leading.hpp"
+#include "core/gear/gear_pair.hpp"
 
 // The 17:44 helical pair of "TCA of Real Helical Gears": m_n = 6 mm, alpha_n = 20 deg, beta = 24.43 deg, b = 92 mm, a
 // pinion with deviations on 9 x 15 points and a theoretical wheel. The article describes three deviations and what its

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/benchmarks/contact_truth/contact_run.hpp"
+#include "core/gear/gear_pair.hpp"
 
 /// The pairs and positions at which CalculiX is asked.
 namespace flankwright::contact_truth {

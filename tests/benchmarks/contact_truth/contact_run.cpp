@@ -1,4 +1,5 @@
 #include "tests/benchmarks/contact_truth/contact_run.hpp"
+#include "core/gear/gear_pair.hpp"
 
 #include <sys/resource.h>
 

@@ -10,6 +10,7 @@
 #include "tests/benchmarks/contact_truth/contact_cases.hpp"
 #include "tests/benchmarks/contact_truth/held_structure.hpp"
 #include "tests/benchmarks/contact_truth/own_answer.hpp"
+#include "core/gear/gear_pair.hpp"
 
 // A gear pair in full three-dimensional contact by CalculiX, beside the program's own models at the torque that came
 // out:

@@ -8,6 +8,7 @@
 #include "tests/benchmarks/contact_truth/contact_figures.hpp"
 #include "tests/benchmarks/contact_truth/held_structure.hpp"
 #include "tests/benchmarks/contact_truth/own_answer.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using namespace flankwright::contact_truth;

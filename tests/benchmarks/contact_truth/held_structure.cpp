@@ -6,6 +6,7 @@
 
 #include "core/compliance/finite_element/influence.hpp"
 #include "core/compliance/finite_element/solve_influence_table.hpp"
+#include "core/gear/gear_pair.hpp"
 
 namespace flankwright::contact_truth {
 

@@ -6,6 +6,7 @@
 
 #include "core/compliance/local/hertz_line.hpp"
 #include "core/rating/load_sharing.hpp"
+#include "core/gear/gear_pair.hpp"
 
 namespace flankwright::contact_truth {
 

@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using units::deg;

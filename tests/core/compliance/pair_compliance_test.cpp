@@ -6,6 +6,7 @@
 #include "core/compliance/finite_element/load_functional.hpp"
 #include "core/gear/involute.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/contact/path/path_of_contact.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 

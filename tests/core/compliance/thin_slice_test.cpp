@@ -7,6 +7,7 @@
 #include "core/compliance/local/contact_law.hpp"
 #include "core/compliance/local/hertz_line.hpp"
 #include "core/compliance/thin_slice/tooth_bending.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using units::deg;

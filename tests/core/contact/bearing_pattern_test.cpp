@@ -6,6 +6,7 @@
 #include "core/contact/unloaded/contact_ellipse.hpp"
 #include "tests/core/contact/contact_cases.hpp"
 #include "tests/reference/nasa_tm_107451.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using namespace flankwright::contact_cases;

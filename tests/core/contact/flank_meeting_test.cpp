@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/core/contact/contact_cases.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using namespace flankwright::contact_cases;

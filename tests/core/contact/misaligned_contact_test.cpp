@@ -3,6 +3,7 @@
 
 #include "tests/core/contact/contact_cases.hpp"
 #include "tests/reference/nasa_tm_107451.hpp"
+#include "core/gear/gear_pair.hpp"
 
 // Closed form of the transmission error of a helical pair whose wheel is turned by a small angle g about the line of
 // centres.

@@ -6,6 +6,7 @@
 #include "core/contact/gap/condition_gap.hpp"
 #include "tests/core/load/load_cases.hpp"
 #include "tests/core/load/mesh_cases.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 

@@ -3,6 +3,7 @@
 
 #include "tests/core/contact/contact_cases.hpp"
 #include "tests/reference/nasa_tm_107451.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using namespace flankwright::contact_cases;

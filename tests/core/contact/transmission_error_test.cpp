@@ -5,6 +5,7 @@
 
 #include "core/contact/path/edge_reach.hpp"
 #include "tests/core/contact/contact_cases.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using namespace flankwright::contact_cases;

@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/core/contact/contact_cases.hpp"
+#include "core/gear/gear_pair.hpp"
 
 namespace flankwright::contact_cases {
 

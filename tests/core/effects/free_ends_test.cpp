@@ -2,6 +2,7 @@
 
 #include "core/compliance/local/hertz_line.hpp"
 #include "tests/core/load/mesh_cases.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 

@@ -9,6 +9,7 @@
 #include "core/effects/decision.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
 #include "tests/core/effects/instruction_count.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "tests/reference/nasa_tm_107451.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using units::deg;

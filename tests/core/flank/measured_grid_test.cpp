@@ -11,6 +11,7 @@
 
 #include "core/base/error.hpp"
 #include "core/flank/flank.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using units::deg;

@@ -4,6 +4,7 @@
 #include "core/flank/generated_field.hpp"
 #include "core/gear/generation_check.hpp"
 #include "tests/core/flank/rolling.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using units::deg;

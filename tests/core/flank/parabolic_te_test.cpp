@@ -6,6 +6,7 @@
 #include "core/flank/conjugate_field.hpp"
 #include "tests/core/contact/contact_cases.hpp"
 #include "tests/reference/nasa_tm_107451.hpp"
+#include "core/gear/gear_pair.hpp"
 
 // Predesigned parabola of the transmission error: the mesh lags by r_b2 a phi1^2 along the line that touches at phi1.
 //

@@ -8,6 +8,7 @@
 #include "core/flank/generated_field.hpp"
 #include "core/gear/tool_section.hpp"
 #include "tests/core/flank/rolling.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using units::deg;

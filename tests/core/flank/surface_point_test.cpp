@@ -4,6 +4,7 @@
 
 #include "core/flank/flank.hpp"
 #include "tests/reference/nasa_tm_107451.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 

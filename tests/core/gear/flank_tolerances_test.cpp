@@ -1,4 +1,5 @@
 #include "core/gear/flank_tolerances.hpp"
+#include "core/gear/gear_pair.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>

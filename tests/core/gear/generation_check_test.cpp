@@ -5,6 +5,7 @@
 #include <random>
 
 #include "core/gear/rack_envelope.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using units::deg;

@@ -6,6 +6,7 @@
 #include "tests/core/load/mesh_cases.hpp"
 #include "tests/reference/haddad_18_54.hpp"
 #include "tests/reference/haddad_1991.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 namespace haddad = reference::haddad_1991;

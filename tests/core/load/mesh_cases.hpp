@@ -7,6 +7,7 @@
 
 #include "core/rating/contact_peaks.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
+#include "core/gear/gear_pair.hpp"
 
 /// Gear pairs and readings of a loaded cycle that several tests share.
 namespace flankwright::mesh_cases {

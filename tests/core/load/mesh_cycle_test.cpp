@@ -6,6 +6,7 @@
 
 #include "core/compliance/local/hertz_line.hpp"
 #include "tests/core/load/mesh_cases.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using mesh_cases::torque_for;

@@ -4,6 +4,7 @@
 
 #include "core/base/error.hpp"
 #include "tests/core/load/mesh_cases.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 

@@ -8,6 +8,7 @@
 #include "core/rating/position_gradient.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 #include "tests/core/load/synthetic_root_stress.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using mesh_cases::steel;

@@ -2,6 +2,7 @@
 
 #include "core/contact/path/path_of_contact.hpp"
 #include "tests/core/load/mesh_cases.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using mesh_cases::largest_difference;

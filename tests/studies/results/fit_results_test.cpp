@@ -10,6 +10,7 @@
 #include "studies/study_file/study_template.hpp"
 #include "tests/core/compliance/comparison/distance_compliance.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
+#include "core/gear/gear_pair.hpp"
 
 namespace flankwright::studies {
 namespace {

@@ -3,6 +3,7 @@
 #include "studies/compliance/fit_task.hpp"
 #include "studies/study_file/study_template.hpp"
 #include "tests/studies/study_texts.hpp"
+#include "core/gear/gear_pair.hpp"
 
 namespace flankwright::studies {
 

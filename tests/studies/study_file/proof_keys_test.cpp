@@ -3,6 +3,7 @@
 #include "core/gear/flank_tolerances.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/study_texts.hpp"
+#include "core/gear/gear_pair.hpp"
 
 namespace flankwright::studies {
 namespace {

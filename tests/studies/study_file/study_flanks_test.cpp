@@ -8,6 +8,7 @@
 #include "core/base/units.hpp"
 #include "tests/studies/command_line.hpp"
 #include "tests/studies/study_texts.hpp"
+#include "core/gear/gear_pair.hpp"
 
 namespace flankwright::studies {
 

@@ -8,6 +8,7 @@
 #include "studies/results/results_json.hpp"
 #include "studies/tasks/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "core/gear/gear_pair.hpp"
 
 namespace flankwright::studies {
 namespace {

@@ -5,6 +5,7 @@
 #include "studies/tasks/sweep/sweep_design.hpp"
 #include "studies/study_file/sweep_value.hpp"
 #include "tests/studies/tasks/sweep/small_sweep.hpp"
+#include "core/gear/gear_pair.hpp"
 
 namespace flankwright::studies {
 namespace {

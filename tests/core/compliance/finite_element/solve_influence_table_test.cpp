@@ -9,6 +9,7 @@
 #include "core/base/error.hpp"
 #include "core/contact/path/contact_points.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using namespace flankwright::test;

@@ -1,4 +1,5 @@
 #include "core/compliance/shaft/shaft_data.hpp"
+#include "core/gear/gear_pair.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tests/reference/eigenvalues.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 

@@ -8,6 +8,7 @@
 #include "core/flank/measured_grid.hpp"
 #include "studies/study_file/grid_file.hpp"
 #include "tests/studies/study_texts.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using namespace flankwright::studies;

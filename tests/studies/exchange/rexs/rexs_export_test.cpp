@@ -10,6 +10,7 @@
 #include "studies/study_file/grid_file.hpp"
 #include "studies/exchange/rexs/rexs_import.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using namespace flankwright::studies;

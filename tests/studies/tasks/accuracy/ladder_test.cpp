@@ -7,6 +7,7 @@
 #include "studies/results/accuracy_tables.hpp"
 #include "studies/tasks/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
 using namespace flankwright::studies;

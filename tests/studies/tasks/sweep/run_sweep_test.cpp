@@ -9,6 +9,7 @@
 #include "studies/tasks/sweep/sweep_statistics.hpp"
 #include "studies/tasks/sweep/worst_study.hpp"
 #include "tests/studies/tasks/sweep/small_sweep.hpp"
+#include "studies/tasks/run_study.hpp"
 
 namespace flankwright::studies {
 namespace {
