@@ -9,7 +9,7 @@ std::vector<SchemaKey> accuracy_rows() {
   using enum ValueKind;
   return {
       {.path = "fidelity.accuracy", .kind = Percentage, .range = above_zero(50.0), .fallback = "(none)",
-       .meaning = "\"1 %\": compliance, gap, quadrature and positions, as far as they are not given, are the cheapest whose estimated error in transmission error, peak stress and load is within it; the estimates and their cost stand in `accuracy_choice`",
+       .meaning = "\"1 %\": compliance, gap, quadrature and positions, as far as they are not given, are the cheapest whose estimated error in transmission error, its harmonics and peak contact stress is within it; the estimates and their cost stand in `accuracy_choice`",
        .store = [](Draft& d, Member, const Value& v) { d.study.fidelity.accuracy = v.number; }},
       {.path = "accuracy.finest.compliance", .kind = Word, .words = {"thin_slice", "fitted", "fe"}, .fallback = "\"fitted\"",
        .meaning = "task \"accuracy\": of the finest fidelity level, which the others are compared with",

@@ -120,8 +120,10 @@ void choose_resolution(RungRunner& runner, FidelityChoice& choice, const Progres
     const int number = placements.try_emplace(placement, static_cast<int>(placements.size())).first->second;
     cases.push_back({runner.mesh(rung, scene), scene.condition, scene.torque, number});
   }
+  int analysed = 0;
   search.starting = [&](int intervals, int positions, int load_cases) {
-    if (progress) progress("choosing accuracy", 0, 0, fmt::format("{} load cases by {} intervals, {} positions", load_cases, intervals, positions));
+    if (progress) progress("choosing accuracy", analysed, 0, fmt::format("{} load cases by {} intervals, {} positions", load_cases, intervals, positions));
+    analysed += load_cases;
   };
   choice.discretisation = choose_discretisation(cases, seeking.fidelity.quadrature.rule, search);
   const Discretisation& found = choice.discretisation;

@@ -12,9 +12,9 @@ namespace flankwright::studies {
 ///     peak to peak    0.5 % + a Df/V              harmonics        0.4 % + a/2 Df/V
 ///
 /// Df the mean deflection, V what the variation counts in (the peak to peak, at least quiet_share Df), and a = 0.003 % for gears that
-/// the library knows and whose reference profile is near the standard one, 0.03 % for others. Beside finite elements 28 load cases of twelve pairs, two thirds
-/// of them of the standard profile, were all within (mean up to 0.08 %, stress up to 0.28 %; accuracy/README.md): what a fit leaves is local and
-/// so hardly moves the mean, but a mesh that is quiet, by a profile that the library has few gears of, notices it.
+/// the library knows and whose reference profile is near the standard one, 0.03 % for others. Beside finite elements 28 load cases of twelve pairs, eight of them
+/// of the standard profile, were all within (README.md: mean up to 0.08 %, stress up to 0.28 %). What a fit leaves is local and hardly moves the
+/// mean, but a quiet mesh of a profile that the library has few gears of notices it.
 PerFigure fit_error(const CycleFigures& fitted, bool near_standard);
 
 /// Whether the library knows both gears and their profile departs by no more than 0.05 modules from the standard one, 1 / 1.25 / 0.39, and their

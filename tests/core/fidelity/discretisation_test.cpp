@@ -1,6 +1,7 @@
 #include "core/fidelity/discretisation.hpp"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 
 #include "tests/core/load/mesh_cases.hpp"
@@ -113,7 +114,7 @@ TEST_CASE("More accuracy never takes a coarser resolution, and what is kept is w
   for (double accuracy : {0.3, 0.1, 0.03}) {
     const Discretisation chosen = choose_discretisation(drawn.mesh(), QuadratureRule::Graded, drawn.condition, drawn.torque, {.accuracy = accuracy});
     CAPTURE(accuracy, chosen.quadrature.intervals, chosen.positions);
-    CHECK(chosen.kept == (largest(chosen.error()) <= accuracy));
+    CHECK(chosen.kept == (headline(chosen.error()) <= accuracy));
     CHECK(chosen.quadrature.intervals * chosen.positions >= cost);
     cost = chosen.quadrature.intervals * chosen.positions;
   }
@@ -127,4 +128,42 @@ TEST_CASE("What is not to be chosen stands", "[core][load][discretisation]") {
   CHECK(chosen.quadrature.intervals == 5);
   CHECK(largest(chosen.quadrature_error) == 0.0);  // what is given counts as exact
   CHECK(chosen.positions >= search.fewest_positions);
+}
+
+TEST_CASE("Load cases sought together keep what each of them needs, whoever solves them", "[core][load][discretisation]") {
+  // One pair, evenly loaded and tilted: the tilted one needs more.
+  const GearPair gears = mesh_cases::pair(20, 40, 15, 4, 30);
+  FlankCondition tilted;
+  tilted.misalignment.mesh_misalignment = 15 * units::um;
+  tilted.pinion_modification.lead_crowning = 5 * units::um;
+  const LoadCase easy{gears, {}, mesh_cases::torque_for(gears, 300)}, hard{gears, tilted, mesh_cases::torque_for(gears, 60)};
+  const std::vector<ResolutionCase> cases{{easy.mesh(), easy.condition, easy.torque}, {hard.mesh(), hard.condition, hard.torque}};
+  DiscretisationSearch search{.accuracy = 0.02};
+  const Discretisation both = choose_discretisation(cases, QuadratureRule::Graded, search);
+  REQUIRE(both.kept);
+  CHECK(headline(both.error()) <= search.accuracy);
+  for (const LoadCase* each : {&easy, &hard}) {
+    const Discretisation alone = choose_discretisation(each->mesh(), QuadratureRule::Graded, each->condition, each->torque, search);
+    CHECK(both.quadrature.intervals * both.positions >= alone.quadrature.intervals * alone.positions);
+  }
+  // The last first: no bit depends on the order.
+  search.for_each = [](std::size_t count, const std::function<void(std::size_t)>& work) {
+    for (std::size_t i = count; i > 0; --i) work(i - 1);
+  };
+  const Discretisation turned = choose_discretisation(cases, QuadratureRule::Graded, search);
+  CHECK(turned.error() == both.error());
+  CHECK(turned.governing == both.governing);
+}
+
+TEST_CASE("Errors of other causes leave a resolution less", "[core][load][discretisation]") {
+  const LoadCase drawn = random_case(7, 6.0);
+  const auto sought = [&](double spent) {
+    DiscretisationSearch search{.accuracy = 0.1};
+    search.spent.fill(spent);
+    return choose_discretisation(drawn.mesh(), QuadratureRule::Graded, drawn.condition, drawn.torque, search);
+  };
+  const Discretisation whole = sought(0.0), less = sought(0.095);
+  REQUIRE((whole.kept && less.kept));
+  CHECK(headline(less.error()) <= std::sqrt(0.1 * 0.1 - 0.095 * 0.095));
+  CHECK(less.quadrature.intervals * less.positions >= whole.quadrature.intervals * whole.positions);
 }
