@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/exchange/rexs/rexs_errors.hpp"
+
 namespace flankwright::studies::rexs {
 
 namespace {
