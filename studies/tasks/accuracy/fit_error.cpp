@@ -12,7 +12,7 @@ PerFigure fit_error(const CycleFigures& fitted, bool near_standard) {
   const double of_deflection = near_standard ? 0.00003 : 0.0003;  // a
   const double quiet = of_deflection * fitted.mean_approach / std::max(fitted[Figure::TePeakToPeak], quiet_share * fitted.mean_approach);
   PerFigure error;
-  error.fill(of_harmonics + 0.5 * quiet);
+  error.fill(of_harmonics + quiet);
   const auto of = [&](Figure f) -> double& { return error[static_cast<std::size_t>(f)]; };
   of(Figure::TeMean) = of_mean;
   of(Figure::TePeakToPeak) = of_peak_to_peak + quiet;

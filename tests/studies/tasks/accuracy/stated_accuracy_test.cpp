@@ -38,12 +38,14 @@ std::string random_scene(unsigned seed) {
   const auto uniform = [&](double low, double high) { return low + (high - low) * std::generate_canonical<double, 53>(random); };
   const double module = uniform(1.0, 6.0), helix = uniform(0.0, 1.0) < 0.25 ? 0.0 : uniform(5.0, 30.0), face = module * uniform(4.0, 10.0);
   const int pinion = static_cast<int>(uniform(17.0, 45.0)), wheel = static_cast<int>(pinion * uniform(1.0, 3.0));
-  const double shift = uniform(-0.2, 0.3), height = module * uniform(0.25, 0.5), load = uniform(5.0, 25.0);  // load: of the lengthwise load per module, N/mm^2
-  std::string text = "[pair]\n" + key("normal_module", module) + key("helix_angle", helix) + "[pinion]\nteeth = " + std::to_string(pinion) + "\n" +
-                     key("face_width", face) + key("profile_shift", shift) + key("modification.lead_crowning", uniform(0.0, 12.0)) +
-                     "modification.tip_relief = { amount = " + std::to_string(uniform(0.0, 25.0)) + ", height = " + std::to_string(height) + " }\n";
-  text += "[wheel]\nteeth = " + std::to_string(wheel) + "\n" + key("face_width", face) + key("profile_shift", -shift) +
-          key("modification.profile_crowning", uniform(0.0, 10.0)) + "[misalignment]\n" + key("mesh_misalignment", uniform(-20.0, 20.0));
+  const double shift = uniform(-0.2, 0.3), height = module * uniform(0.25, 0.5), load = uniform(5.0, 25.0);  // load: N/mm^2, force over face and module
+  const double lead = uniform(0.0, 12.0), relief = uniform(0.0, 25.0), profile = uniform(0.0, 10.0), tilt = uniform(-20.0, 20.0);
+  std::string text = "[pair]\n" + key("normal_module", module) + key("helix_angle", helix);
+  text += "[pinion]\nteeth = " + std::to_string(pinion) + "\n" + key("face_width", face) + key("profile_shift", shift);
+  text += key("modification.lead_crowning", lead);
+  text += "modification.tip_relief = { amount = " + std::to_string(relief) + ", height = " + std::to_string(height) + " }\n";
+  text += "[wheel]\nteeth = " + std::to_string(wheel) + "\n" + key("face_width", face) + key("profile_shift", -shift);
+  text += key("modification.profile_crowning", profile) + "[misalignment]\n" + key("mesh_misalignment", tilt);
   return text + "[load]\n" + key("torque", load * module * face * 0.5 * module * pinion / 1000.0);
 }
 
@@ -74,11 +76,13 @@ Honesty honesty(const std::string& scene, const std::string& compliance, const s
   return found;
 }
 
-/// Every figure by which a mesh is judged is within what was stated of it.
-bool holds(const Honesty& of) {
-  bool within = true;
-  for (std::size_t i = 0; i <= static_cast<std::size_t>(Figure::PeakContactStress); ++i) within = within && of.found[i] <= of.stated[i];
-  return within;
+constexpr int judged = static_cast<int>(Figure::PeakContactStress) + 1;
+
+/// How many of the figures by which a mesh is judged are within what was stated of each.
+int within(const Honesty& of) {
+  int count = 0;
+  for (std::size_t i = 0; i < judged; ++i) count += of.found[i] <= of.stated[i] ? 1 : 0;
+  return count;
 }
 
 const std::string slices = "compliance = \"thin_slice\"\n";
@@ -90,28 +94,30 @@ TEST_CASE("No harmonic is farther off than stated where few positions tell what 
   CHECK(of.kept);
   CHECK(headline(of.stated) <= 0.01);
   CHECK(headline(of.found) <= 0.01);
-  CHECK(holds(of));
+  CHECK(within(of) == judged);
 }
 
-TEST_CASE("Stated accuracies hold on random scenes by slices", "[studies][accuracy][.soak]") {
-  int worst_holds = 0, each_holds = 0, kept = 0;
-  constexpr unsigned drawn = 10;
-  for (unsigned seed = 0; seed < drawn; ++seed) {
-    const Honesty of = honesty(random_scene(seed), slices, slices);
+namespace {
+
+/// Each figure holds in 95 %, as estimates that may cancel by chance do; the worst of a scene never exceeds what was asked where that was kept.
+void check_random_scenes(unsigned first, unsigned drawn, const std::string& compliance, const std::string& finest) {
+  int figures = 0, worst_holds = 0;
+  for (unsigned seed = first; seed < first + drawn; ++seed) {
+    UNSCOPED_INFO("seed " << seed);
+    const Honesty of = honesty(random_scene(seed), compliance, finest);
+    figures += within(of);
     worst_holds += headline(of.found) <= headline(of.stated) ? 1 : 0;
-    each_holds += holds(of) ? 1 : 0;
-    kept += of.kept ? 1 : 0;
+    if (of.kept) CHECK(headline(of.found) <= 0.01);
   }
-  CAPTURE(worst_holds, each_holds, kept);
+  INFO("each figure within what was stated of it: " << figures << " of " << judged * drawn << ", the worst of a scene: " << worst_holds << " of " << drawn);
+  CHECK(figures >= 0.95 * judged * drawn);
   CHECK(worst_holds >= 0.95 * drawn);
 }
 
+}  // namespace
+
+TEST_CASE("Stated accuracies hold on random scenes by slices", "[studies][accuracy][.soak]") { check_random_scenes(0, 10, slices, slices); }
+
 TEST_CASE("Stated accuracies hold on random scenes beside finite elements", "[studies][accuracy][fe][.soak]") {
-  int worst_holds = 0;
-  constexpr unsigned first = 20, drawn = 3;
-  for (unsigned seed = first; seed < first + drawn; ++seed) {
-    const Honesty of = honesty(random_scene(seed), "", "compliance = \"fe\"\n");
-    worst_holds += headline(of.found) <= headline(of.stated) ? 1 : 0;
-  }
-  CHECK(worst_holds == drawn);
+  check_random_scenes(30, 3, "", "compliance = \"fe\"\n");
 }
