@@ -266,12 +266,12 @@ TEST_CASE("A gear that the library of fits does not know has a fit of its own, t
   CHECK(results["used"]["fidelity"]["fits"]["wheel"] == "own fit");
   const json& fit = results["compliance"]["pinion"]["fit"];
   CHECK(fit["source"] == "own fit");
-  CHECK(fit["why"] == "pressure_angle 17 deg, in the library 17.5 .. 22.5 deg");
+  CHECK(fit["why"] == "pressure angle 17 deg, in the library 17.5 .. 22.5 deg");
   CHECK(fit["status"] == "converged");
   CHECK_THAT(results["notes"].dump(),
-             Catch::Contains("the pinion is outside the library of fits (pressure_angle 17 deg") && Catch::Contains("two finite-element models"));
+             Catch::Contains("the pinion is outside the library of fits (pressure angle 17 deg") && Catch::Contains("two finite-element models"));
   bool told = false;
-  for (const json& effect : results["steps"]) told = told || (effect["name"] == "fit_of_pinion" && effect["why"] == "own fit: pressure_angle 17 deg, in the library 17.5 .. 22.5 deg");
+  for (const json& effect : results["steps"]) told = told || (effect["name"] == "fit_of_pinion" && effect["why"] == "own fit: pressure angle 17 deg, in the library 17.5 .. 22.5 deg");
   CHECK(told);
   // Model, as asked of a gear's own fit; own tooth first, then its neighbours by the coarse mesh.
   const json& unseen = fit["residual_percent"]["unseen"];

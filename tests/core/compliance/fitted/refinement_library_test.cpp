@@ -143,13 +143,13 @@ TEST_CASE("What the library does not know is said by name, with its range", "[co
     return library.unknown(changed, 0.3);
   };
   CHECK(unknown([](GearToMesh& g) { g.gear.teeth = 11; }) == "teeth 11, in the library 12 .. 150");
-  CHECK(unknown([](GearToMesh& g) { g.helix_angle = 36 * deg; }) == "helix_angle 36 deg, in the library 0 .. 35 deg");
-  CHECK(unknown([](GearToMesh& g) { g.pressure_angle = 25 * deg; }) == "pressure_angle 25 deg, in the library 17.5 .. 22.5 deg");
-  CHECK_THAT(unknown([](GearToMesh& g) { g.gear.profile_shift = 0.7; }), Catch::StartsWith("profile_shift"));
-  CHECK_THAT(unknown([](GearToMesh& g) { g.gear.face_width = 1.9; }), Catch::StartsWith("face_width"));
-  CHECK_THAT(unknown([](GearToMesh& g) { g.gear.rack.dedendum = 1.7; }), Catch::StartsWith("rack.dedendum"));
-  CHECK_THAT(unknown([](GearToMesh& g) { g.gear.tip_diameter = 20; }), Catch::StartsWith("tip_diameter"));
-  CHECK_THAT(library.unknown(gear, 0.4), Catch::StartsWith("poissons_ratio"));
+  CHECK(unknown([](GearToMesh& g) { g.helix_angle = 36 * deg; }) == "helix angle 36 deg, in the library 0 .. 35 deg");
+  CHECK(unknown([](GearToMesh& g) { g.pressure_angle = 25 * deg; }) == "pressure angle 25 deg, in the library 17.5 .. 22.5 deg");
+  CHECK_THAT(unknown([](GearToMesh& g) { g.gear.profile_shift = 0.7; }), Catch::StartsWith("profile shift"));
+  CHECK_THAT(unknown([](GearToMesh& g) { g.gear.face_width = 1.9; }), Catch::StartsWith("face width"));
+  CHECK_THAT(unknown([](GearToMesh& g) { g.gear.rack.dedendum = 1.7; }), Catch::StartsWith("rack dedendum"));
+  CHECK_THAT(unknown([](GearToMesh& g) { g.gear.tip_diameter = 20; }), Catch::StartsWith("tip diameter"));
+  CHECK_THAT(library.unknown(gear, 0.4), Catch::StartsWith("Poisson's ratio"));
 }
 
 TEST_CASE("The nearest gear of the library is the gear itself within its ranges, and else at their ends", "[core][compliance][fitted]") {
