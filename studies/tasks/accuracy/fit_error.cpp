@@ -5,7 +5,7 @@
 namespace flankwright::studies {
 
 PerFigure fit_error(const CycleFigures& fitted) {
-  constexpr double of_mean = 0.0015, of_stress = 0.004, of_line_load = 0.02, of_peak_to_peak = 0.004, of_harmonics = 0.002;  // shares
+  constexpr double of_mean = 0.0025, of_stress = 0.004, of_line_load = 0.02, of_peak_to_peak = 0.004, of_harmonics = 0.002;  // shares
   constexpr double peak_to_peak_of_deflection = 0.0012, harmonics_of_deflection = 0.0011;
   const double deflection = fitted.mean_approach / std::max(fitted[Figure::TePeakToPeak], quiet_share * fitted.mean_approach);  // Df/V
   PerFigure error;
