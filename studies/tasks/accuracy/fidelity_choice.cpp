@@ -58,11 +58,10 @@ PerFigure differences(const RungResult& model, const RungResult& other) {
   return with_safety(worst);
 }
 
-PerFigure fit_errors(RungRunner& runner, const RungResult& fitted) {
-  const bool near = near_standard(runner.subject().pair, runner.structures(ComplianceModel::Fitted));
+PerFigure fit_errors(const RungResult& fitted) {
   PerFigure worst{};
   if (!fitted.usable()) worst.fill(std::numeric_limits<double>::infinity());
-  for (const CycleFigures& figures : fitted.scenes) raise(worst, fit_error(figures, near));
+  for (const CycleFigures& figures : fitted.scenes) raise(worst, fit_error(figures));
   return worst;
 }
 
@@ -73,7 +72,7 @@ void choose_compliance(RungRunner& runner, FidelityChoice& choice) {
     return runner.run(rung);
   };
   const RungResult fitted = candidate(ComplianceModel::Fitted), slices = candidate(ComplianceModel::ThinSlice);
-  const PerFigure by_fit = fit_errors(runner, fitted), by_slices = added(differences(slices, fitted), by_fit);
+  const PerFigure by_fit = fit_errors(fitted), by_slices = added(differences(slices, fitted), by_fit);
   choice.compliances = {{"thin_slice", by_slices, slices.seconds}, {"fitted", by_fit, fitted.seconds}, {"fe", {}, not_given}};
   const std::size_t taken = headline(by_slices) <= thin_slice_share * choice.accuracy ? 0 : headline(by_fit) <= fitted_share * choice.accuracy ? 1 : 2;
   choice.compliances[taken].chosen = true;

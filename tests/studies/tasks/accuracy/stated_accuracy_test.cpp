@@ -119,5 +119,5 @@ void check_random_scenes(unsigned first, unsigned drawn, const std::string& comp
 TEST_CASE("Stated accuracies hold on random scenes by slices", "[studies][accuracy][.soak]") { check_random_scenes(0, 10, slices, slices); }
 
 TEST_CASE("Stated accuracies hold on random scenes beside finite elements", "[studies][accuracy][fe][.soak]") {
-  check_random_scenes(30, 3, "", "compliance = \"fe\"\n");
+  check_random_scenes(50, 3, "", "compliance = \"fe\"\n");
 }
