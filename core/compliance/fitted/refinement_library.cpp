@@ -112,12 +112,12 @@ std::string RefinementLibrary::unknown(const GearToMesh& gear, double poissons_r
       {"helix angle", gear.helix_angle * radians, 0, standard().helix_angles().back() * radians, " deg"},
       {"teeth", static_cast<double>(data.teeth), static_cast<double>(standard().teeth().front()), static_cast<double>(standard().teeth().back())},
       {"profile shift", data.profile_shift, standard().profile_shifts().front(), standard().profile_shifts().back()},
-      {"face width", data.face_width / module, 2, 30, " m_n"},
+      {"face width", data.face_width / module, 2, 30, " modules"},
       {"rack addendum", data.rack.addendum, low.rack.addendum, high.rack.addendum},
       {"rack dedendum", data.rack.dedendum, low.rack.dedendum, high.rack.dedendum},
       {"rack root radius", data.rack.root_radius, low.rack.root_radius - kRootRadius, high.rack.root_radius + kRootRadius},
       {"Poisson's ratio", poissons_ratio, 0.25, 0.35},
-      {"tip diameter", std::isnan(data.tip_diameter) ? tip : data.tip_diameter / module, tip - 0.2, tip + 0.02, " m_n"},
+      {"tip diameter", std::isnan(data.tip_diameter) ? tip : data.tip_diameter / module, tip - 0.2, tip + 0.02, " modules"},
   }};
   const auto outside = std::ranges::find_if_not(properties, &Property::is_inside);
   return outside == properties.end() ? "" : outside->text();
