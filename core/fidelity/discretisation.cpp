@@ -40,6 +40,8 @@ class DiscretisationRun {
       const bool more_intervals = search_.choose_intervals && 2 * intervals <= search_.most_intervals;
       const bool more_positions = search_.choose_positions && 2 * positions <= search_.most_positions;
       if (!(more_intervals || more_positions)) break;
+      if (!more_intervals && !mendable(worst, worst.quadrature_error)) break;
+      if (!more_positions && !mendable(worst, worst.position_error)) break;
       const bool by_points = points_bring_most(worst);
       if (!open_.empty()) (more_intervals && (by_points || !more_positions) ? intervals : positions) *= 2;
     }
@@ -57,6 +59,14 @@ class DiscretisationRun {
  private:
   double counted(const ResolutionLevel& level) const { return headline(root_sum_square(search_.spent, level.error())); }
   bool keeps(const ResolutionLevel& level) const { return counted(level) <= search_.accuracy; }
+
+  /// Whether some figure is beyond the accuracy, but not by this part of its error alone, which cannot be lessened any more.
+  bool mendable(const ResolutionLevel& level, const PerFigure& fixed) const {
+    PerFigure open = root_sum_square(search_.spent, level.error());
+    const PerFigure alone = root_sum_square(search_.spent, fixed);
+    for (std::size_t i = 0; i < open.size(); ++i) open[i] = alone[i] > search_.accuracy ? 0.0 : open[i];
+    return headline(open) > search_.accuracy;
+  }
 
   /// Of the figure that is farthest from being kept.
   bool points_bring_most(const ResolutionLevel& level) const {

@@ -34,8 +34,8 @@ struct DiscretisationSearch {
   /// Refined until headline(root_sum_square(spent, ResolutionLevel::error())) <= accuracy in every load case [-], > 0.
   double accuracy{0.01};
   PerFigure spent{};  ///< errors of other causes, which no resolution lessens, as shares
-  int fewest_intervals{6}, most_intervals{96};    ///< powers of two times the fewest; half of them must still say something
-  int fewest_positions{16}, most_positions{256};  ///< powers of two times the fewest, >= 12
+  int fewest_intervals{6}, most_intervals{48};    ///< powers of two times the fewest; half of them must still say something
+  int fewest_positions{16}, most_positions{128};  ///< powers of two times the fewest, >= 12
   bool choose_intervals{true}, choose_positions{true};  ///< false: the fewest stand, and count as exact
   bool seek_extremes{true};    ///< false: extremes are those of the positions, as they are with any rule but Graded
   std::function<void(int intervals, int positions, int load_cases)> starting{};  ///< told of every level before it is solved; empty: nobody

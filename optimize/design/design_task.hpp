@@ -134,6 +134,7 @@ struct DesignTask {
   MeshEffects effects;
   GapModel gap{GapModel::PlaneOfAction};
   std::shared_ptr<const PairCompliance> structure;       ///< null: thin slices
+  std::shared_ptr<const PairCompliance> search_structure{};  ///< cheaper and nearly the same, to search by before `structure`; null: none
   std::shared_ptr<const PairRootStress> root_stress;     ///< null: none
   std::shared_ptr<const PairCompliance> shafts;          ///< null: rigid
   Modification pinion_modification, wheel_modification;  ///< values of what is not varied, and the start of what is

@@ -68,7 +68,12 @@ bool can_be_coarser(const DesignTask& task) {
 }
 
 DesignTask coarser(DesignTask task) {
-  task.resolution.quadrature.intervals /= 2;
+  int& intervals = task.resolution.quadrature.intervals;
+  intervals = std::min(intervals / 2, most_search_intervals);
+  std::vector<double>& phases = task.resolution.phases;
+  const int positions = static_cast<int>(phases.size());
+  if (positions > most_search_positions && phases == equally_spaced_phases(positions)) phases = equally_spaced_phases(most_search_positions);
+  if (task.search_structure) task.structure = task.search_structure;
   for (DesignVariable& variable : task.variables) variable.step = 0.0;
   return task;
 }

@@ -18,13 +18,15 @@ struct TwoLevelDesign {
   double objective_seen_by_search{not_given};  ///< of the coarse optimum, as the coarse level has it, outside units
 };
 
-/// The same task with half the intervals along each contact line, and without steps: where a search may begin.
+/// How finely a search looks: half the intervals of its task along each contact line, at least and at most so many of the rule Graded, and at
+/// most so many positions. With fewer the order of designs is not kept; with more an optimum is found no better, for it is finished finely.
+inline constexpr int fewest_search_intervals = 4, most_search_intervals = 6, most_search_positions = 32;
+/// The same task as a search looks at it: coarser, with the structure to search by, and without steps.
 DesignTask coarser(DesignTask task);
-/// Whether coarser() has at least this many intervals of the rule Graded: with fewer the order of designs is not kept.
-inline constexpr int fewest_search_intervals = 4;
+/// Whether coarser() keeps to fewest_search_intervals.
 bool can_be_coarser(const DesignTask& task);
 
-/// Searches with half the intervals from all starts, judges every optimum found at the task's own resolution, and goes on there from the best
+/// Searches coarsely from all starts, judges every optimum found at the task's own resolution, and goes on there from the best
 /// by the finisher, whose active set needs few analyses near an optimum. All that is reported is of the fine level. Only rounding
 /// takes place there alone.
 /// @param problem  of the fine level

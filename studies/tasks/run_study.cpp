@@ -320,6 +320,7 @@ class Run {
     task.gap = gap_model(results_.effects);
     task.effects = results_.mesh_effects;
     task.structure = structures().pair;
+    if (study.fidelity.accuracy && study.fidelity.compliance == ComplianceModel::Fe) task.search_structure = structure_to_search_by();
     task.shafts = results_.shafts;
     task.pinion_modification = study.pinion_modification;
     task.wheel_modification = study.wheel_modification;
@@ -334,6 +335,13 @@ class Run {
     if (asks_for_root_stress(study)) task.root_stress = structures().root_stress;
     task.scenes = all_scenes();  // an unloaded scene has no stress and no loaded transmission error to choose by
     return task;
+  }
+
+  /// Of an accuracy that asks for finite elements: the fitted compliance, whose optima lie near theirs.
+  std::shared_ptr<const PairCompliance> structure_to_search_by() const {
+    Study fitted = results_.study;
+    fitted.fidelity.compliance = ComplianceModel::Fitted;
+    return gear_structures(fitted, results_.pair, progress_).pair;
   }
 
   void optimise() {
