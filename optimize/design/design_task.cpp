@@ -11,20 +11,6 @@ bool is_extent(ModificationParameter parameter) {
 
 }  // namespace
 
-const char* ObjectiveTerm::unit() const {
-  switch (output) {
-    case Output::PeakContactStress:
-    case Output::PeakRootStress: return "MPa";
-    case Output::TePeakToPeak:
-    case Output::TeHarmonic: return "um";
-    case Output::LoadFactor:
-    case Output::EffectiveContactRatio: return "1";
-    case Output::PeakLineLoad:
-    case Output::EdgeLoad: return "N/mm";
-  }
-  __builtin_unreachable();
-}
-
 double DesignVariable::outside_factor() const {
   if (parameter == ModificationParameter::ParabolicTe) return 1.0 / units::arcsec_per_square_deg;
   return is_extent(parameter) ? 1.0 : 1.0 / units::um;

@@ -10,37 +10,9 @@
 #include "core/load/cycle/mesh_cycle.hpp"
 #include "core/load/cycle/mesh_model.hpp"
 #include "optimize/design/aggregate.hpp"
+#include "optimize/design/design_output.hpp"
 
 namespace flankwright {
-
-/// A quantity of the loaded analysis that can be minimised or bounded. Units inside: MPa, mm, N/mm.
-enum class Output {
-  PeakContactStress,  ///< [MPa]
-  TePeakToPeak,       ///< of f_t, along the flank normal [mm]
-  TeHarmonic,         ///< amplitude of one order of f_t [mm]
-  LoadFactor,         ///< peak line load / mean line load [-]
-  PeakLineLoad,       ///< [N/mm]
-  PeakRootStress,     ///< of both gears' fillets; needs DesignTask::root_stress [MPa]
-  /// How many tooth pairs share the load, mean over the positions of 1 / sum of squared shares: their number where they carry alike,
-  /// less where one carries most; smooth, unlike their count [-]
-  EffectiveContactRatio,
-  EdgeLoad            ///< peak line load within ObjectiveTerm::edge_margin of a tip edge or a face end [N/mm]
-};
-
-/// One output with its place in a weighted objective.
-struct ObjectiveTerm {
-  Output output{Output::PeakContactStress};
-  int harmonic{0};      ///< order for TeHarmonic, 1 .. 10
-  double weight{1.0};   ///< per unit of the output outside (MPa, um, N/mm), > 0
-  std::string name;     ///< as the study names it: "te_harmonic_1"
-  double edge_margin{0.05};  ///< of EdgeLoad: share of the common face width and of either gear's active height, 0 .. 0.5
-
-  /// Factor from the inside unit to the unit that the weight and every report refer to (MPa, um, N/mm, 1).
-  double outside_factor() const {
-    return output == Output::TePeakToPeak || output == Output::TeHarmonic ? 1.0 / units::um : 1.0;
-  }
-  const char* unit() const;
-};
 
 /// A modification parameter that the optimiser may choose.
 struct DesignVariable {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "optimize/solvers/nonlinear_program.hpp"
+#include "optimize/design/design_task.hpp"
 #include "optimize/design/scene_outputs.hpp"
 
 namespace flankwright {

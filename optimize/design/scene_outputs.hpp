@@ -4,31 +4,9 @@
 #include <vector>
 
 #include "core/fidelity/resolved_cycle.hpp"
-#include "optimize/design/design_task.hpp"
+#include "optimize/design/design_output.hpp"
 
 namespace flankwright {
-
-/// Value of a smooth function of the design and its gradient with respect to the design variables [per mm].
-struct SmoothValue {
-  double value{not_given};
-  Eigen::VectorXd gradient;
-};
-
-/// A smooth function whose maximum over all candidates is an output: the stress at one contact point or one place of a
-/// fillet at one position, the difference of f_t between two positions, one of harmonic_directions projections of a harmonic's
-/// phasor, or an output that is smooth itself. Smooth while the points keep their contact.
-///
-/// A harmonic's amplitude |c| has a kink where c passes through zero; Re(c e^(-i theta)) has none. The projections' largest is |c| at
-/// c = 0 and less than 0.5 % below it elsewhere; there the amplitude itself, exact and smooth, is a candidate as well (whole_output).
-struct PeakCandidate {
-  int position{-1};  ///< index into the cycle; -1 for a harmonic or a smooth output
-  int other{-1};     ///< contact point, place of a fillet, second position of a difference, or direction; -1: the whole output
-
-  auto operator<=>(const PeakCandidate&) const = default;
-};
-
-inline constexpr int harmonic_directions = 32;  ///< cos(pi / 32) = 0.9952
-inline constexpr PeakCandidate whole_output{-1, -1};
 
 /// Value of an output: the largest of its candidates.
 /// @throws std::runtime_error where the cycle is not usable(): a solver survives and counts it

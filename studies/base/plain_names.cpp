@@ -5,6 +5,8 @@
 #include <cctype>
 #include <map>
 
+#include "core/fidelity/cycle_quantities.hpp"
+
 namespace flankwright::studies {
 
 namespace {
@@ -59,28 +61,12 @@ constexpr std::array of_pair{
     Row{"load.torque", "pinion torque"},
 };
 
-/// Outputs carry a unit behind their name in sweeps and summaries.
+/// Outputs that are no entries of cycle_quantities().
 constexpr std::array outputs{
-    Row{"peak_contact_stress", "peak contact stress"},
-    Row{"peak_contact_stress_MPa", "peak contact stress"},
-    Row{"peak_root_stress", "peak root stress"},
-    Row{"peak_root_stress_MPa", "peak root stress"},
-    Row{"pinion_root_stress_MPa", "pinion root stress"},
-    Row{"wheel_root_stress_MPa", "wheel root stress"},
-    Row{"peak_line_load", "peak line load"},
-    Row{"peak_load_N_per_mm", "peak line load"},
     Row{"edge_load", "line load near the edges"},
-    Row{"load_factor", "load factor"},
     Row{"effective_contact_ratio", "effective contact ratio"},
-    Row{"te_peak_to_peak", "peak-to-peak TE"},
-    Row{"te_peak_to_peak_um", "peak-to-peak TE"},
-    Row{"te_mean", "mean TE"},
-    Row{"te_mean_um", "mean TE"},
     Row{"peak_to_peak_arcsec", "unloaded peak-to-peak TE"},
     Row{"peak_to_peak_um", "unloaded peak-to-peak TE"},
-    Row{"mean_stiffness_N_per_mm_um", "mean mesh stiffness"},
-    Row{"least_stiffness_N_per_mm_um", "least mesh stiffness"},
-    Row{"largest_stiffness_N_per_mm_um", "largest mesh stiffness"},
     Row{"iso6336_K_Hbeta", "K_Hβ by ISO 6336"},
     Row{"iso6336_K_Halpha", "K_Hα by ISO 6336"},
 };
@@ -105,10 +91,12 @@ std::vector<PlainName> make_names() {
   for (const Row& row : of_pair) add(std::string(row.key), std::string(row.name), row);
   for (const Row& row : outputs) add(std::string(row.key), std::string(row.name), row);
   for (const Row& row : others) add(std::string(row.key), std::string(row.name), row);
+  for (const CycleEntry& entry : cycle_entries()) {
+    names.push_back({entry.name(), entry.words(), "", ""});
+    if (entry.key() != entry.name()) names.push_back({entry.key(), entry.words(), "", ""});
+  }
   for (std::size_t i = 0; i < ordinals.size(); ++i) {
     const std::string name = std::string(ordinals[i]) + " harmonic of ", key = "te_harmonic_" + std::to_string(i + 1);
-    names.push_back({key, name + "TE", "", ""});
-    names.push_back({key + "_um", name + "TE", "", ""});
     names.push_back({key + "_arcsec", name + "unloaded TE", "", ""});
   }
   return names;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/load/cycle/cycle_gradient.hpp"
+#include "core/fidelity/cycle_quantities.hpp"
 #include "core/load/cycle/mesh_way.hpp"
 #include "core/rating/position_gradient.hpp"
 
@@ -75,24 +75,22 @@ Json summary_gradient_json(const LoadedResult& loaded, const MeshModel& model, c
   const auto tangent = [&](const CycleGradient::Root& root) {
     return root.tangent_stress.size() == 0 ? Json() : Json{{"at_30_deg_tangent_MPa", outside.row(root.tangent_stress)}};
   };
-  return {{"te_peak_to_peak_um", outside.row(summary.te_peak_to_peak, units::um)},
-          {"te_harmonics_um", full_cycle ? outside.rows(summary.te_harmonics, units::um) : Json::array()},
-          {"te_mean_um", outside.row(summary.te_mean, units::um)},
-          {"peak_load_N_per_mm", outside.row(summary.peak_line_load)},
-          {"peak_contact_stress_MPa", outside.row(summary.peak_contact_stress)},
-          {"peak_root_stress_MPa", outside.row(summary.peak_root_stress)},
-          {"pinion_root_stress_MPa", outside.row(summary.pinion_root_stress.stress)},
-          {"wheel_root_stress_MPa", outside.row(summary.wheel_root_stress.stress)},
-          {"pinion_root_stress", tangent(summary.pinion_root_stress)},
-          {"wheel_root_stress", tangent(summary.wheel_root_stress)},
-          {"mean_stiffness_N_per_mm_um", outside.row(summary.mean_stiffness)},
-          {"least_stiffness_N_per_mm_um", outside.row(summary.least_stiffness)},
-          {"largest_stiffness_N_per_mm_um", outside.row(summary.largest_stiffness)},
-          {"stiffness_variation", outside.row(summary.stiffness_variation)},
-          {"load_factor", outside.row(summary.load_factor)},
-          {"peaks", loaded.rating ? located_json(*loaded.rating, outside) : Json()},
-          {"load_factors", loaded.rating ? factors_json(*loaded.rating, outside) : Json()},
-          {"iso6336", iso_gradient_json(loaded, model, outside)}};
+  Json json = Json::object();
+  for (const CycleQuantity& quantity : cycle_quantities()) {
+    const Eigen::MatrixXd rows = quantity.gradients(summary);
+    Json& entry = json[std::string(quantity.key)];
+    if (quantity.is_list) {
+      entry = full_cycle ? outside.rows(rows, quantity.unit_size) : Json::array();
+    } else {
+      entry = rows.size() == 0 ? Json() : outside.row(rows.row(0), quantity.unit_size);
+    }
+  }
+  json.update({{"pinion_root_stress", tangent(summary.pinion_root_stress)},
+               {"wheel_root_stress", tangent(summary.wheel_root_stress)},
+               {"peaks", loaded.rating ? located_json(*loaded.rating, outside) : Json()},
+               {"load_factors", loaded.rating ? factors_json(*loaded.rating, outside) : Json()},
+               {"iso6336", iso_gradient_json(loaded, model, outside)}});
+  return json;
 }
 
 /// teeth[] of a position, as position_json() has them.

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/compliance/thin_slice/thin_slice.hpp"
+#include "core/fidelity/cycle_quantities.hpp"
 #include "core/gear/tooth_form.hpp"
 #include "studies/results/accuracy_json.hpp"
 #include "studies/results/compliance_json.hpp"
@@ -155,42 +156,34 @@ Json root_stress_json(const RootStressPeak& peak) {
           {"at_30_deg_tangent_MPa", peak.tangent_stress}};
 }
 
-/// Estimated discretisation errors, each beside its figure and in its unit; null where none was estimated.
-void add_errors(const CycleErrors& errors, Json& json) {
-  json["te_peak_to_peak_um_error"] = in_um(errors.te_peak_to_peak);
-  json["te_harmonics_um_error"] = list(errors.te_harmonics, in_um);
-  json["te_mean_um_error"] = in_um(errors.te_mean);
-  json["peak_load_N_per_mm_error"] = errors.peak_line_load;
-  json["peak_contact_stress_MPa_error"] = errors.peak_contact_stress;
-  json["peak_root_stress_MPa_error"] = errors.peak_root_stress;
-  json["mean_stiffness_N_per_mm_um_error"] = errors.mean_stiffness;
-  json["load_factor_error"] = errors.load_factor;
+/// Every row of cycle_quantities(), and behind them the estimated discretisation errors, each in its quantity's unit; null where none was
+/// estimated.
+Json quantities_json(const LoadedResult& loaded, bool full_cycle) {
+  Json json = Json::object(), errors = Json::object();
+  for (const CycleQuantity& quantity : cycle_quantities()) {
+    const auto shown = [&](const std::vector<double>& values) -> Json {
+      const auto outside = [&](double value) { return value / quantity.unit_size; };
+      if (quantity.is_list) return full_cycle ? list(values, outside) : Json::array();
+      return outside(values.front());
+    };
+    json[std::string(quantity.key)] = shown(quantity.values(loaded.summary));
+    if (quantity.errors != nullptr) errors[std::string(quantity.key) + "_error"] = shown(quantity.errors(loaded.resolved.errors));
+  }
+  json.update(errors);
+  return json;
 }
 
 Json summary_json(const LoadedResult& loaded, const MeshModel& model, bool full_cycle) {
   const CycleSummary& summary = loaded.summary;
-  Json json{{"te_peak_to_peak_um", in_um(summary.te_peak_to_peak)},
-          {"te_harmonics_um", full_cycle ? list(summary.te_harmonics, in_um) : Json::array()},
-          {"te_convergence", full_cycle ? te_convergence_json(loaded.cycle) : Json()},
-          {"te_mean_um", in_um(summary.te_mean)},
-          {"peak_load_N_per_mm", summary.peak_line_load},
-          {"peak_contact_stress_MPa", summary.peak_contact_stress},
-          {"peak_root_stress_MPa", summary.peak_root_stress},
-          {"pinion_root_stress_MPa", summary.pinion_root_stress.stress},
-          {"wheel_root_stress_MPa", summary.wheel_root_stress.stress},
-          {"pinion_root_stress", root_stress_json(summary.pinion_root_stress)},
-          {"wheel_root_stress", root_stress_json(summary.wheel_root_stress)},
-          {"mean_stiffness_N_per_mm_um", summary.mean_stiffness},
-          {"least_stiffness_N_per_mm_um", summary.least_stiffness},
-          {"largest_stiffness_N_per_mm_um", summary.largest_stiffness},
-          {"stiffness_variation", summary.stiffness_variation()},
-          {"load_factor", summary.load_factor},
-          {"worst_kkt_residual", summary.worst_kkt_residual},
-          {"worst_condition", summary.worst_condition},
-          {"peaks", loaded.rating ? peaks_json(*loaded.rating, model) : Json()},
-          {"load_factors", loaded.rating ? load_factors_json(*loaded.rating) : Json()},
-          {"iso6336", iso_json(model.iso, loaded.iso)}};
-  add_errors(loaded.resolved.errors, json);
+  Json json = quantities_json(loaded, full_cycle);
+  json.update({{"te_convergence", full_cycle ? te_convergence_json(loaded.cycle) : Json()},
+               {"pinion_root_stress", root_stress_json(summary.pinion_root_stress)},
+               {"wheel_root_stress", root_stress_json(summary.wheel_root_stress)},
+               {"worst_kkt_residual", summary.worst_kkt_residual},
+               {"worst_condition", summary.worst_condition},
+               {"peaks", loaded.rating ? peaks_json(*loaded.rating, model) : Json()},
+               {"load_factors", loaded.rating ? load_factors_json(*loaded.rating) : Json()},
+               {"iso6336", iso_json(model.iso, loaded.iso)}});
   return json;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/fidelity/cycle_quantities.hpp"
 #include "studies/results/accuracy_tables.hpp"
 #include "studies/results/fit_tables.hpp"
 #include "studies/base/json_format.hpp"
@@ -176,34 +177,37 @@ std::string design_table(const StudyResults& results) {
   return results.proof ? out + proof_summary(*results.proof, task, compared) : out;
 }
 
+/// The entries of cycle_quantities() that have a column, as far as any load case has them; below each case how well it is known.
+std::string loaded_table(const std::vector<LoadedResult>& cases, std::size_t width) {
+  std::vector<CycleEntry> columns;
+  for (const CycleEntry& entry : cycle_entries()) {
+    const bool is_known = std::ranges::any_of(cases, [&](const LoadedResult& l) { return !std::isnan(entry.value(l.summary)); });
+    if (!entry.quantity->heading.empty() && entry.order <= 1 && is_known) columns.push_back(entry);
+  }
+  const auto line = [&](const std::string& name, const std::string& torque, const auto& cell) {
+    std::string text = fmt::format("{:<{}}  {:>10}", name, width, torque);
+    for (const CycleEntry& column : columns) text += fmt::format("  {:>10}", cell(column));
+    return text + "\n";
+  };
+  std::string out = line("loaded", "torque", [](const CycleEntry& column) { return std::string(column.quantity->heading); }) +
+                    line("", "N·m", [](const CycleEntry& column) { return std::string(column.quantity->unit); });
+  for (const LoadedResult& l : cases) {
+    out += line(l.scene, fmt::format("{:.6g}", in_Nm(l.torque)),
+                [&](const CycleEntry& column) { return fmt::format("{:.{}f}", column.value(l.summary), column.quantity->decimals); });
+    const CycleErrors& errors = l.resolved.errors;
+    if (std::isnan(errors.te_peak_to_peak)) continue;
+    out += line("  known to", "", [&](const CycleEntry& column) { return known_to(column.error(errors)); });
+  }
+  return out;
+}
+
 std::string analysis_table(const StudyResults& results) {
   std::string out;
   std::vector<std::string> names;
   for (const LoadedResult& l : results.loaded) names.push_back(l.scene);
   for (const UnloadedResult& u : results.unloaded) names.push_back(u.scene);
   const std::size_t width = widest(names, 12);
-  // A column of its own where there is any.
-  const bool roots = std::ranges::any_of(results.loaded, [](const LoadedResult& l) { return !std::isnan(l.summary.peak_root_stress); });
-  const auto root_column = [&](const std::string& text) { return roots ? fmt::format("  {:>10}", text) : std::string(); };
-  if (!results.loaded.empty()) {
-    out += fmt::format("{:<{}}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}{}  {:>12}\n", "loaded", width, "torque", "TE p-p", "TE 1st",
-                       "peak load", "peak sigma", root_column("root sigma"), "stiffness");
-    out += fmt::format("{:<{}}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}{}  {:>12}\n", "", width, "N·m", "um", "um", "N/mm", "MPa",
-                       root_column("MPa"), "N/(mm um)");
-  }
-  for (const LoadedResult& l : results.loaded) {
-    const double first = l.summary.te_harmonics.empty() ? not_given : l.summary.te_harmonics.front();
-    out += fmt::format("{:<{}}  {:>9.6g}  {:>10.4f}  {:>10.4f}  {:>10.2f}  {:>10.2f}{}  {:>12.3f}\n", l.scene, width, in_Nm(l.torque),
-                       in_um(l.summary.te_peak_to_peak), in_um(first), l.summary.peak_line_load,
-                       l.summary.peak_contact_stress, root_column(fmt::format("{:.2f}", l.summary.peak_root_stress)),
-                       l.summary.mean_stiffness);
-    const CycleErrors& errors = l.resolved.errors;
-    if (std::isnan(errors.te_peak_to_peak)) continue;
-    const double first_error = errors.te_harmonics.empty() ? not_given : errors.te_harmonics.front();
-    out += fmt::format("{:<{}}  {:>9}  {:>10}  {:>10}  {:>10}  {:>10}{}  {:>12}\n", "  known to", width, "", known_to(in_um(errors.te_peak_to_peak)),
-                       known_to(in_um(first_error)), known_to(errors.peak_line_load), known_to(errors.peak_contact_stress),
-                       root_column(known_to(errors.peak_root_stress)), known_to(errors.mean_stiffness));
-  }
+  if (!results.loaded.empty()) out += loaded_table(results.loaded, width);
   return out + load_factors_table(results, width) + unloaded_summary(results, width);
 }
 

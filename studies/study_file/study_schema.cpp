@@ -11,7 +11,6 @@ namespace flankwright::studies {
 
 namespace {
 
-constexpr int highest_te_harmonic = 10;
 constexpr std::string_view scene_prefix = "scenes[].";
 
 std::string number_text(double value) {
@@ -206,28 +205,23 @@ std::string allowed_values(const SchemaKey& key) {
   return "";
 }
 
-std::optional<NamedOutput> find_output(const std::string& name) {
-  const auto found = [&name](Output output, Quantity quantity, int harmonic = 0) {
-    return NamedOutput{{.output = output, .harmonic = harmonic, .weight = 1.0, .name = name}, quantity};
-  };
-  if (name == "peak_contact_stress") return found(Output::PeakContactStress, Quantity::Stress);
-  if (name == "te_peak_to_peak") return found(Output::TePeakToPeak, Quantity::Deviation);
-  if (name == "load_factor") return found(Output::LoadFactor, Quantity::Number);
-  if (name == "peak_line_load") return found(Output::PeakLineLoad, Quantity::LineLoad);
-  if (name == "peak_root_stress") return found(Output::PeakRootStress, Quantity::Stress);
-  if (name == "effective_contact_ratio") return found(Output::EffectiveContactRatio, Quantity::Number);
-  if (name == "edge_load") return found(Output::EdgeLoad, Quantity::LineLoad);
-  for (int order = 1; order <= highest_te_harmonic; ++order) {
-    if (name == "te_harmonic_" + std::to_string(order)) return found(Output::TeHarmonic, Quantity::Deviation, order);
-  }
-  return std::nullopt;
+namespace {
+
+/// What a limit or a value in that unit is.
+Quantity quantity_of_unit(std::string_view unit) {
+  if (unit == "um") return Quantity::Deviation;
+  if (unit == "MPa") return Quantity::Stress;
+  return unit == "N/mm" ? Quantity::LineLoad : Quantity::Number;
 }
 
-std::vector<std::string> output_names() {
-  std::vector<std::string> names{"peak_contact_stress", "te_peak_to_peak", "load_factor", "peak_line_load",
-                                 "peak_root_stress",    "effective_contact_ratio", "edge_load"};
-  for (int order = 1; order <= highest_te_harmonic; ++order) names.push_back("te_harmonic_" + std::to_string(order));
-  return names;
+}  // namespace
+
+std::optional<NamedOutput> find_output(const std::string& name) {
+  const std::optional<ObjectiveTerm> term = find_term(name);
+  if (!term) return std::nullopt;
+  return NamedOutput{*term, quantity_of_unit(term->unit())};
 }
+
+std::vector<std::string> output_names() { return term_names(); }
 
 }  // namespace flankwright::studies

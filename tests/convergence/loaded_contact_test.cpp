@@ -85,7 +85,7 @@ TEST_CASE("Ends of contact inside the face leave the quadrature with an order of
   CHECK(load.back() < load.front());
 }
 
-TEST_CASE("Intervals that end where lines do take the ripple off the transmission error", "[convergence][load]") {
+TEST_CASE("Intervals that end where lines do take the ripple off the transmission error", "[convergence][load][slow]") {
   // At fixed places a point's share of load enters and leaves at once, once every interval: the transmission error of an
   // aligned helical pair ripples by it. With located ends it is smooth, and a few intervals do.
   const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);

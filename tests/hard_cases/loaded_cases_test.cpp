@@ -18,7 +18,7 @@ double largest_difference(const LoadedCycle& a, const LoadedCycle& b) {
 
 }  // namespace
 
-TEST_CASE("Hard: misalignment passes through zero without a step", "[hard_cases]") {
+TEST_CASE("Hard: misalignment passes through zero without a step", "[hard_cases][slow]") {
   constexpr double kRoundOff = 1e-13;  // mm
   for (double amount = 1.0; amount > 1e-13; amount *= 0.01) {
     const auto results = run("misalignment_through_zero", {{"scenes.0.misalignment.mesh_misalignment", in_digits(-amount)},

@@ -32,7 +32,7 @@ double noise_of(const std::vector<double>& values) {
 
 }  // namespace
 
-TEST_CASE("Hard: along random lines in design space objectives have no noise that would mislead an optimiser", "[hard_cases][optimize]") {
+TEST_CASE("Hard: along random lines in design space objectives have no noise that would mislead an optimiser", "[hard_cases][optimize][slow]") {
   constexpr double kNoise = 1e-9;  // relative
   constexpr int samples = 9, lines = 6;
   DesignProblem problem(main_task());

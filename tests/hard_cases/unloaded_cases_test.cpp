@@ -110,7 +110,7 @@ TEST_CASE("Hard: contact that leaves the flank for an edge and a corner takes it
   CHECK(transitions >= 2);
 }
 
-TEST_CASE("Hard: a designed parabola fades in proportion to its coefficient", "[hard_cases]") {
+TEST_CASE("Hard: a designed parabola fades in proportion to its coefficient", "[hard_cases][slow]") {
   for (double a = 0.1; a > 1e-13; a *= 0.01) {
     const double found = peak_to_peak("parabola_to_zero", {{"pinion.modification.parabolic_te", in_digits(a)}});
     const double expected = a * (180.0 / 22) * (180.0 / 22) * arcsec;
@@ -120,7 +120,7 @@ TEST_CASE("Hard: a designed parabola fades in proportion to its coefficient", "[
   CHECK(peak_to_peak("parabola_to_zero", {{"pinion.modification.parabolic_te", "0"}}) <= kUnloadedRoundOff);
 }
 
-TEST_CASE("Hard: a tooth that winds around its gear is not taken for another at its far end", "[hard_cases]") {
+TEST_CASE("Hard: a tooth that winds around its gear is not taken for another at its far end", "[hard_cases][slow]") {
   const auto results = run("teeth_that_wind_around", {{"cycle.peaks", "sampled"}});
   REQUIRE(results.pair.total_contact_ratio() > results.pair.data.pinion.teeth);
   check_balances(results);
@@ -170,7 +170,7 @@ TEST_CASE("Hard: an edge that runs along its mate before the path begins takes t
   CHECK(std::abs(results_at("2").unloaded.front().mesh.transfers.at(0).phi1 - transfer.phi1) <= kLocated);
 }
 
-TEST_CASE("Hard: a relief that beyond the tip is steeper than the flank overflows nothing", "[hard_cases]") {
+TEST_CASE("Hard: a relief that beyond the tip is steeper than the flank overflows nothing", "[hard_cases][slow]") {
   const std::string gap = GENERATE("plane_of_action", "whole_surface");
   for (const double height : {0.2, 0.16, 0.14, 0.12, 0.1, 0.085}) {
     const auto results = run("relief_steeper_than_the_flank", {{"wheel.modification.tip_relief.height", in_digits(height)}, {"fidelity.gap", gap}, {"cycle.peaks", "sampled"}});
@@ -184,7 +184,7 @@ TEST_CASE("Hard: a relief that beyond the tip is steeper than the flank overflow
   }
 }
 
-TEST_CASE("Hard: flanks pass from convex through flat to hollow without a jump", "[hard_cases]") {
+TEST_CASE("Hard: flanks pass from convex through flat to hollow without a jump", "[hard_cases][slow]") {
   std::vector<double> last;
   for (double amount = 0.0; amount <= 40.0; amount += 2.0) {
     const auto results = run("conformal_flanks", {{"pinion.modification.profile_crowning", in_digits(-amount)}, {"cycle.peaks", "sampled"}});

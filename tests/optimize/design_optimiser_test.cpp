@@ -108,7 +108,7 @@ TEST_CASE("The optimum respects a bound on the transmission error, and pays for 
   }
 }
 
-TEST_CASE("Every way of combining the scenes finds a design that is better in its own sense", "[optimize][design]") {
+TEST_CASE("Every way of combining the scenes finds a design that is better in its own sense", "[optimize][design][slow]") {
   const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean, Aggregate::MeanPlusSigmas, Aggregate::Cvar);
   CAPTURE(to_string(over));
   DesignTask task = helical();
@@ -137,7 +137,7 @@ TEST_CASE("Every way of combining the scenes finds a design that is better in it
   CHECK(result.after.objective <= least * (1.0 + local));
 }
 
-TEST_CASE("Mean + k sigma has several optima, of which several starts find the one of a global search", "[optimize][design][starts]") {
+TEST_CASE("Mean + k sigma has several optima, of which several starts find the one of a global search", "[optimize][design][starts][slow]") {
   DesignTask task = helical();
   task.over = Aggregate::MeanPlusSigmas;
   DesignProblem problem(task);
@@ -153,7 +153,7 @@ TEST_CASE("Mean + k sigma has several optima, of which several starts find the o
   CHECK(result.after.objective == Approx(global.after.objective).epsilon(tolerance));
 }
 
-TEST_CASE("Where a solver stalls on a kink the finisher goes on from its best design, unless none is asked for", "[optimize][design][finisher]") {
+TEST_CASE("Where a solver stalls on a kink the finisher goes on from its best design, unless none is asked for", "[optimize][design][finisher][slow]") {
   const auto finished = [&](double misalignment, const std::string& solver, const std::string& finisher) {
     DesignTask task = spur({misalignment, -misalignment});
     task.variables.push_back({"pinion.modification.profile_crowning", Member::Pinion, ModificationParameter::ProfileCrowning, 0.0, 0.040});

@@ -26,7 +26,7 @@ const Goal error{{term(Output::TePeakToPeak)}, Aggregate::Worst};
 
 }  // namespace
 
-TEST_CASE("A front of two goals runs from the best of one to the best of the other without domination", "[optimize][design][pareto]") {
+TEST_CASE("A front of two goals runs from the best of one to the best of the other without domination", "[optimize][design][pareto][slow]") {
   const DesignProblem problem(trading_task());
   SolverOptions options;
   options.name = GENERATE("ipopt", "nlopt:slsqp");  // from the start alone Ipopt finds the second best error, SLSQP the best
@@ -61,7 +61,7 @@ TEST_CASE("A front of two goals runs from the best of one to the best of the oth
   }
 }
 
-TEST_CASE("A front of three goals has each goal's best among its corners and compromises between them", "[optimize][design][pareto]") {
+TEST_CASE("A front of three goals has each goal's best among its corners and compromises between them", "[optimize][design][pareto][slow]") {
   const DesignProblem problem(trading_task());
   const Goal edge{{term(Output::EdgeLoad)}, Aggregate::Worst};
   const ParetoFront front = trace_front(problem, {stress, error, edge}, 6, SolverOptions{});
@@ -110,7 +110,7 @@ TEST_CASE("A goal that can vanish is held near nothing where it is best, and the
   CHECK(without > 0);
 }
 
-TEST_CASE("A front has the same bits on one thread and on two", "[optimize][design][pareto][determinism]") {
+TEST_CASE("A front has the same bits on one thread and on two", "[optimize][design][pareto][determinism][slow]") {
   DesignOptions options;
   options.starts = 2;
   options.solver.name = GENERATE("ipopt", "nlopt:slsqp");

@@ -60,7 +60,7 @@ double lowest_at(const std::map<double, double>& values) {
 
 }  // namespace
 
-TEST_CASE("Coupled helical teeth have load spikes at the start and the end of contact", "[reference][haddad][load-factors]") {
+TEST_CASE("Coupled helical teeth have load spikes at the start and the end of contact", "[reference][haddad][load-factors][slow]") {
   const GearPair pair = helical_18_54();
   const PathOfContact path(pair);
   const double start = PathOfContact::extension, end = path.last_line_phase() - PathOfContact::extension;

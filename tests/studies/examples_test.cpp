@@ -32,7 +32,7 @@ const std::vector<std::string> reduced{"--set", "fidelity.quadrature.intervals=4
 
 }  // namespace
 
-TEST_CASE("Every example is valid, meets its expectations and runs without a complaint", "[studies][examples]") {
+TEST_CASE("Every example is valid, meets its expectations and runs without a complaint", "[studies][examples][slow]") {
   REQUIRE(examples().size() >= 3);
   const command_line::ScratchFolder folder;
   for (const std::string& file : examples()) {
@@ -94,7 +94,7 @@ TEST_CASE("The robust example takes a quarter off the worst stress, the quiet on
   CHECK(quiet.design->optimality.residual <= 1e-4);
 }
 
-TEST_CASE("The unloaded examples are at their published figures, at any number of positions", "[studies][examples]") {
+TEST_CASE("The unloaded examples are at their published figures, at any number of positions", "[studies][examples][slow]") {
   for (const char* name : {"nasa-30-100", "nasa-30-100-parabolic-rack", "nasa-20-40-crowned", "parabolic-te",
                            "real-17-44-longitudinal", "real-17-44-three-dimensional", "real-17-44-one-sided-helix"}) {
     for (const char* positions : {"16", "32"}) {

@@ -74,6 +74,16 @@ function learn_names(names) {
   for (const [key, name, symbol, sense] of list(names)) NAMES.set(key, { name, symbol, sense });
 }
 
+/** What a loaded cycle is summed up by, in the order of tables: {key, name, unit, is_list, is_headline, has_error, smaller_is_worse}. */
+const QUANTITIES = [];
+
+function learn_quantities(quantities) {
+  QUANTITIES.push(...list(quantities).map((of) => ({ ...of, unit: pretty_unit(of.unit) })));
+}
+
+/** A quantity's number in a summary, a list's first; with `suffix` "_error" its estimated error. */
+const quantity_in = (summary, of, suffix = "") => (of.is_list ? list(summary[of.key + suffix])[0] : summary[of.key + suffix]);
+
 /** A key, or a sum of keys, in words of the field. */
 function words(text) {
   const of_word = (word) => NAMES.get(word)?.name ?? (/^\p{L}/u.test(word) ? word.replace(/_/g, " ").replace(/(\p{L})\.(?=\p{L})/gu, "$1 ") : word);

@@ -9,13 +9,10 @@ function parameter_step(unit, torque) {
 }
 
 /** What of a summary is shown, of values and of derivatives alike; with bars where it is looked at first. */
-const GRADIENT_OUTPUTS = [
-  { column: { label: "TE peak to peak", unit: "µm" }, of: (s) => s.te_peak_to_peak_um, bars: true },
-  { column: { label: "TE 1st harmonic", unit: "µm" }, of: (s) => list(s.te_harmonics_um)[0] },
-  { column: { label: "Contact stress", unit: "MPa" }, of: (s) => s.peak_contact_stress_MPa, bars: true },
-  { column: { label: "Root stress", unit: "MPa" }, of: (s) => s.peak_root_stress_MPa, bars: true },
-  { column: { label: "Line load", unit: "N/mm" }, of: (s) => s.peak_load_N_per_mm },
-  { column: { label: "Stiffness", unit: "N/(mm µm)" }, of: (s) => s.mean_stiffness_N_per_mm_um },
+const gradient_outputs = () => [
+  ...QUANTITIES.filter((of) => of.is_headline).map((of) => ({
+    column: { label: capital(of.name), unit: of.unit }, of: (s) => quantity_in(s, of), bars: ["te_peak_to_peak_um", "peak_contact_stress_MPa", "peak_root_stress_MPa"].includes(of.key),
+  })),
   { column: { label: "K_H" }, of: (s) => record(record(s.load_factors).without_spikes).K_H },
 ];
 
@@ -36,7 +33,7 @@ function build_gradients(results, body, selection) {
   selection.add_choice(body);
   const cases = selection.cases.filter((load_case) => list(gradients_of(load_case).parameters).length > 0);
   const known = (output) => cases.some((load_case) => list(output.of(record(gradients_of(load_case).summary))).some(is_number));
-  const outputs = GRADIENT_OUTPUTS.filter(known), grid = figure_grid(body);
+  const outputs = gradient_outputs().filter(known), grid = figure_grid(body);
   for (const output of outputs.filter(({ bars }) => bars)) {
     const { label, unit } = output.column;
     case_figure(grid, selection, {

@@ -207,14 +207,10 @@ function load_factor_table(body, rows) {
 function build_load_cases(results, body, { cases }) {
   const iso = (key) => (entry) => record(summary_of(entry).iso6336)[key];
   const plain = (key) => (entry) => summary_of(entry)[key];
-  const known_to = (key) => (entry) => {
-    const value = summary_of(entry)[key], error = summary_of(entry)[`${key}_error`];
+  const known_to = (of) => [{ label: capital(of.name), unit: of.unit }, (entry) => {
+    const value = quantity_in(summary_of(entry), of), error = quantity_in(summary_of(entry), of, "_error");
     return is_number(value) && is_number(error) ? { value, text: with_error(value, error, 4) } : value;
-  };
-  const first_harmonic = (entry) => {
-    const value = list(summary_of(entry).te_harmonics_um)[0], error = list(summary_of(entry).te_harmonics_um_error)[0];
-    return is_number(value) && is_number(error) ? { value, text: with_error(value, error, 4) } : value;
-  };
+  }];
   const residual = (entry) => {
     const worst = maximum(list(entry.cycle).map((position) => record(position).kkt_residual));
     return is_number(worst) ? worst : null;
@@ -231,20 +227,12 @@ function build_load_cases(results, body, { cases }) {
     });
   };
   numbers_table("Stress and transmission error over the mesh cycle",
-    "Peaks are the largest values over the positions and all teeth in contact; ± is the estimated discretisation error.", [
-      [{ label: "Contact stress", unit: "MPa" }, known_to("peak_contact_stress_MPa")],
-      [{ label: "Root stress", unit: "MPa" }, known_to("peak_root_stress_MPa")],
-      [{ label: "Line load", unit: "N/mm" }, known_to("peak_load_N_per_mm")],
-      [{ label: "Load factor" }, known_to("load_factor")],
-      [{ label: "TE peak to peak", unit: "µm" }, known_to("te_peak_to_peak_um")],
-      [{ label: "TE mean", unit: "µm" }, known_to("te_mean_um")],
-      [{ label: "TE 1st harmonic", unit: "µm" }, first_harmonic],
-    ]);
-  numbers_table("Stiffness, and how far the numbers hold",
+    "Peaks are the largest values over the positions and all teeth in contact; ± is the estimated discretisation error.",
+    QUANTITIES.filter((of) => of.has_error).map(known_to));
+  numbers_table("Further numbers, and how far they hold",
     symbols("c′ and c_γ are those of ISO 6336; f_sh is the misalignment by the shafts, its mean; the change of the harmonics is what the last "
       + "doubling of positions brought; the KKT residual is the largest error of the contact conditions."), [
-      [{ label: "Stiffness", unit: "N/(mm µm)" }, plain("mean_stiffness_N_per_mm_um")],
-      [{ label: "Its variation", unit: "%" }, (entry) => percent(summary_of(entry).stiffness_variation)],
+      ...QUANTITIES.filter((of) => !of.has_error).map(known_to),
       [{ label: "f_sh", unit: "µm" }, plain("shaft_misalignment_um")],
       [{ label: "c′, ISO", unit: "N/(mm µm)" }, iso("c_prime")],
       [{ label: "c_γ, ISO", unit: "N/(mm µm)" }, iso("c_gamma")],

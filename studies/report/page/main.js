@@ -30,6 +30,7 @@ const BUILDERS = {
 function main() {
   const results = JSON.parse(document.getElementById("results").textContent);
   learn_names(results.names);
+  learn_quantities(results.quantities);
   const cases = load_cases(results);
   const selection = case_selection(cases, governing_case(cases, results),
     results.optimise ? " (governs)" : asks_for_te(results) ? " (largest TE)" : " (largest stress)");

@@ -108,13 +108,10 @@ function worst_of(cases, key, design) {
 }
 
 function loaded_tiles(cases) {
-  const quantities = [
-    ["peak_contact_stress_MPa", "MPa"], ["peak_root_stress_MPa", "MPa"], ["te_peak_to_peak_um", "µm"], ["peak_load_N_per_mm", "N/mm"], ["load_factor", ""],
-  ];
-  return quantities.map(([key, unit]) => {
+  return QUANTITIES.filter((of) => of.is_headline && !of.is_list && !of.smaller_is_worse).map(({ key, name, unit }) => {
     const worst = worst_of(cases, key);
     if (!worst) return null;
-    return tile(capital(words(key)), worst.value, unit, { error: worst.error, before: worst_of(cases, key, "before")?.value,
+    return tile(capital(name), worst.value, unit, { error: worst.error, before: worst_of(cases, key, "before")?.value,
       detail: cases.length > 1 ? worst.load_case.label : null });
   }).filter((made) => made !== null);
 }

@@ -19,7 +19,7 @@ function sweep_headline(sweep) {
 }
 
 function sweep_tiles(sweep) {
-  const shown = ["peak_contact_stress_MPa", "peak_root_stress_MPa", "te_peak_to_peak_um", "peak_to_peak_arcsec", "load_factor"];
+  const shown = ["peak_to_peak_arcsec", ...QUANTITIES.filter((of) => of.is_headline && !of.smaller_is_worse).map((of) => of.key)];
   return sweep_outputs(sweep).filter(([name]) => shown.includes(name)).map(([name, of]) =>
     tile(`${capital(words(name))}, mean`, of.mean, sweep_unit(of.unit),
       { detail: `σ ${fmt(of.std, 2)}, worst ${fmt(record(of.worst).value, 3)}` }));

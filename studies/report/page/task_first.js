@@ -18,16 +18,9 @@ function optimise_first(first, results, selection) {
 /** How far the headline figures of a load case are known, and how. */
 function known_to_panel(plot, results, selection) {
   const summary = summary_of(final_entry(selection.current));
-  const keys = [["peak_contact_stress_MPa", "MPa"], ["peak_root_stress_MPa", "MPa"], ["te_peak_to_peak_um", "µm"], ["peak_load_N_per_mm", "N/mm"], ["load_factor", ""]];
-  const rows = keys.filter(([key]) => is_number(summary[key])).map(([key, unit]) => {
-    const error = summary[`${key}_error`];
-    return [capital(words(key)), `${with_error(summary[key], error, 4)} ${unit}`];
-  });
-  const first_harmonic = list(summary.te_harmonics_um)[0];
-  if (is_number(first_harmonic)) {
-    rows.push([capital(words("te_harmonic_1")), `${with_error(first_harmonic, list(summary.te_harmonics_um_error)[0], 3)} µm`]);
-  }
-  const estimated = keys.some(([key]) => is_number(summary[`${key}_error`]));
+  const shown = QUANTITIES.filter((of) => of.is_headline && of.has_error && is_number(quantity_in(summary, of)));
+  const rows = shown.map((of) => [capital(of.name), `${with_error(quantity_in(summary, of), quantity_in(summary, of, "_error"), 4)} ${of.unit}`]);
+  const estimated = shown.some((of) => is_number(quantity_in(summary, of, "_error")));
   const change = record(summary.te_convergence).harmonic_change_um;
   plot.append(facts([...rows, is_number(change) ? ["Twice the positions", `move the harmonics by at most ${fmt(change, 2)} µm`] : null,
     estimated ? ["±", "estimated discretisation error"] : ["Discretisation", "its error was not estimated"]]));

@@ -1,5 +1,6 @@
 #include "studies/tasks/sweep/sample_analysis.hpp"
 
+#include <array>
 #include <cmath>
 
 #include "core/contact/unloaded/transmission_error.hpp"
@@ -14,15 +15,18 @@ struct SampleFailure {
   std::string reason;
 };
 
-void add_harmonics(std::vector<SweepOutput>& outputs, const std::string& unit, std::size_t count) {
-  for (std::size_t order = 1; order <= count; ++order) outputs.push_back({"te_harmonic_" + std::to_string(order) + "_" + unit, unit});
+/// Of what no load is needed for, in arcsec.
+void add_harmonics(std::vector<double>& values, const std::vector<double>& amplitudes) {
+  for (const double amplitude : amplitudes) values.push_back(in_arcsec(amplitude));
 }
 
-void add_harmonics(std::vector<double>& values, const std::vector<double>& amplitudes, double (*in_unit)(double)) {
-  for (const double amplitude : amplitudes) values.push_back(in_unit(amplitude));
-}
-
-bool has_root_stress(const StudyResults& nominal) { return !std::isnan(nominal.loaded.front().summary.peak_root_stress); }
+/// What a sample has beside the entries of cycle_quantities().
+struct IsoOutput {
+  const char* name;
+  double (*value)(const IsoLoadFactors&);
+};
+constexpr std::array iso_outputs{IsoOutput{"iso6336_K_Hbeta", [](const IsoLoadFactors& iso) { return iso.lead; }},
+                                 IsoOutput{"iso6336_K_Halpha", [](const IsoLoadFactors& iso) { return iso.profile; }}};
 
 }  // namespace
 
@@ -30,21 +34,17 @@ SampleAnalysis::SampleAnalysis(const StudyResults& nominal) : nominal_(nominal) 
   for (const SweepParameter& p : nominal.study.sweep.parameters) keys_.push_back(study_keys().at(p.path));
   if (!is_loaded()) {
     outputs_ = {{"peak_to_peak_arcsec", "arcsec"}, {"peak_to_peak_um", "um"}};
-    add_harmonics(outputs_, "arcsec", nominal.unloaded.front().mesh.harmonics.size());
+    for (std::size_t k = 1; k <= nominal.unloaded.front().mesh.harmonics.size(); ++k) {
+      outputs_.push_back({"te_harmonic_" + std::to_string(k) + "_arcsec", "arcsec"});
+    }
     return;
   }
-  outputs_ = {{"te_peak_to_peak_um", "um"}, {"te_mean_um", "um"}};
-  add_harmonics(outputs_, "um", nominal.loaded.front().summary.te_harmonics.size());
-  outputs_.insert(outputs_.end(), {{"peak_load_N_per_mm", "N/mm"}, {"peak_contact_stress_MPa", "MPa"}});
-  if (has_root_stress(nominal)) {
-    outputs_.insert(outputs_.end(), {{"peak_root_stress_MPa", "MPa"}, {"pinion_root_stress_MPa", "MPa"}, {"wheel_root_stress_MPa", "MPa"}});
+  for (const CycleEntry& entry : cycle_entries()) {
+    if (std::isnan(entry.value(nominal.loaded.front().summary))) continue;  // root stress that nobody asked for, harmonics of given phases
+    entries_.push_back(entry);
+    outputs_.push_back({entry.key(), entry.quantity->unit.empty() ? "-" : std::string(entry.quantity->unit), entry.quantity->smaller_is_worse});
   }
-  outputs_.insert(outputs_.end(), {{"mean_stiffness_N_per_mm_um", "N/(mm um)", true},
-                                   {"least_stiffness_N_per_mm_um", "N/(mm um)", true},
-                                   {"largest_stiffness_N_per_mm_um", "N/(mm um)", true},
-                                   {"load_factor", "-"},
-                                   {"iso6336_K_Hbeta", "-"},
-                                   {"iso6336_K_Halpha", "-"}});
+  for (const IsoOutput& iso : iso_outputs) outputs_.push_back({iso.name, "-"});
 }
 
 SampleResult SampleAnalysis::analyse(const std::vector<double>& values) const {
@@ -83,14 +83,9 @@ std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& conditi
   };
   const CycleSummary summary = resolve_cycle(*model, cycle, at, condition, torque, {.seek_extremes = seeks_extremes(study)}).summary;
   const IsoLoadFactors iso = iso_load_factors(model->pair, model->iso, iso_deviations(model->pair, condition), torque, model->face_width);
-  std::vector<double> values{in_um(summary.te_peak_to_peak), in_um(summary.te_mean)};
-  add_harmonics(values, summary.te_harmonics, in_um);
-  values.insert(values.end(), {summary.peak_line_load, summary.peak_contact_stress});
-  if (has_root_stress(nominal_)) {
-    values.insert(values.end(), {summary.peak_root_stress, summary.pinion_root_stress.stress, summary.wheel_root_stress.stress});
-  }
-  values.insert(values.end(), {summary.mean_stiffness, summary.least_stiffness, summary.largest_stiffness, summary.load_factor, iso.lead,
-                               iso.profile});
+  std::vector<double> values;
+  for (const CycleEntry& entry : entries_) values.push_back(entry.value(summary));
+  for (const IsoOutput& output : iso_outputs) values.push_back(output.value(iso));
   return values;
 }
 
@@ -100,7 +95,7 @@ std::vector<double> SampleAnalysis::unloaded_outputs(const FlankCondition& condi
   const UnloadedMesh mesh = analyse_unloaded_mesh(nominal_.pair, scene, nominal_.study.cycle.positions);
   if (mesh.missing > 0) throw SampleFailure{"no tooth pair touches at " + std::to_string(mesh.missing) + " of the mesh positions"};
   std::vector<double> values{in_arcsec(mesh.peak_to_peak), in_um(mesh.peak_to_peak * nominal_.pair.wheel.base_radius)};
-  add_harmonics(values, mesh.harmonics, in_arcsec);
+  add_harmonics(values, mesh.harmonics);
   return values;
 }
 

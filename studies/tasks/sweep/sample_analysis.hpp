@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/fidelity/cycle_quantities.hpp"
 #include "studies/tasks/study_results.hpp"
 #include "studies/study_file/study_schema.hpp"
 #include "studies/study_file/sweep_value.hpp"
@@ -41,6 +42,7 @@ class SampleAnalysis {
 
   const StudyResults& nominal_;
   std::vector<const SchemaKey*> keys_;  ///< of the parameters
+  std::vector<CycleEntry> entries_;     ///< those of the outputs under load that are entries of cycle_quantities()
   std::vector<SweepOutput> outputs_;
 };
 

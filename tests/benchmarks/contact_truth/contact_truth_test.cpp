@@ -39,17 +39,17 @@ void compare_with(const std::vector<ContactFigure>& figures, double load_error) 
 }  // namespace
 
 TEST_CASE("A spur pair shares its load and yields as in CalculiX' contact of whole gears",
-          "[reference][contact-truth]") {
+          "[reference][contact-truth][slow]") {
   compare_with(spur_figures(), 0.03);
 }
 
 TEST_CASE("A helical pair shares its load and yields as in CalculiX' contact of whole gears",
-          "[reference][contact-truth]") {
+          "[reference][contact-truth][slow]") {
   // Next to where the shorter line ends 8.5 % too much, elsewhere within 4 %.
   compare_with(helical_figures(), 0.09);
 }
 
-TEST_CASE("Sharp and blunt ends of helical teeth take load off as in CalculiX' contact of whole gears", "[reference][contact-truth]") {
+TEST_CASE("Sharp and blunt ends of helical teeth take load off as in CalculiX' contact of whole gears", "[reference][contact-truth][slow]") {
   const ContactFigure figure = helical_figures().front();
   const auto structure = held_structure(figure.task, coarse_mesh());
   const OwnAnswer own = own_answer(figure.task, figure.torque, structure.get());

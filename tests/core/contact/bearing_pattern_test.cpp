@@ -289,7 +289,7 @@ TEST_CASE("A symmetric pair has a symmetric pattern, and a crossed one bears at 
   }
 }
 
-TEST_CASE("Of any pair the pattern has no gaps, and the point that leads is in it", "[core][contact]") {
+TEST_CASE("Of any pair the pattern has no gaps, and the point that leads is in it", "[core][contact][slow]") {
   Random random(20260311);
   int scenes = 0;
   while (scenes < 12) {

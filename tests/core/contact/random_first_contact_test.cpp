@@ -58,7 +58,7 @@ std::map<std::string, int> check_wild_cases(unsigned seed, int count, int grid) 
 
 }  // namespace
 
-TEST_CASE("First contact of wild random gears has one answer, and nothing penetrates", "[core][contact][independent]") {
+TEST_CASE("First contact of wild random gears has one answer, and nothing penetrates", "[core][contact][independent][slow]") {
   const std::map<std::string, int> kinds = check_wild_cases(20260301, 200, 50);
   // Every kind of contact that is not rare is among them.
   for (const char* kind : {"surface", "pinion_tip", "wheel_tip", "face_end", "corner"}) CHECK(kinds.count(kind) == 1);

@@ -252,7 +252,7 @@ TEST_CASE("Misalignment of 3 minutes shifts the parabola of a crowned pair and l
 }
 
 TEST_CASE("The parabola holds until its vertex has moved by (eps_alpha - 1)/2 of a pitch, and not far beyond",
-          "[core][flank][closed-form]") {
+          "[core][flank][closed-form][slow]") {
   const double a = GENERATE(1e-3, 2e-3), crown = a == 1e-3 ? 0.020 : 0.040, sign = GENERATE(1.0, -1.0);
   const GearPair pair = make_gear_pair(reference::nasa_tm_107451::pair_data());
   double holds_to = 0.0, fails_from = 10.0;

@@ -42,7 +42,7 @@ TEST_CASE("An optimisation also leaves its store; the default folder carries the
               "report.html", "results.json", "results.sqlite", "scenes.csv", "sensitivity.csv", "steps.csv", "summary.csv", "used.csv"});
 }
 
-TEST_CASE("Settings of the command line replace those of the file", "[studies][cli]") {
+TEST_CASE("Settings of the command line replace those of the file", "[studies][cli][slow]") {
   const ScratchFolder folder;
   folder.file("small.toml", small::analysis());
   const Ending ending =
@@ -149,7 +149,7 @@ TEST_CASE("Help and version are answers, not errors", "[studies][cli]") {
 }
 
 TEST_CASE("A requirement that is not met is exit code 1, with its results written and the reason in one line",
-          "[studies][cli]") {
+          "[studies][cli][slow]") {
   const ScratchFolder folder;
   folder.file("bound.toml", small::optimisation());
   const Ending bound = run(folder, {"run", "bound.toml", "--set", "optimise.constraints.te_peak_to_peak.max=0.0001",
@@ -183,7 +183,7 @@ TEST_CASE("Report rebuilds the same page from the stored results", "[studies][cl
   CHECK(text_of(folder.path() / "r" / "report.html") == page);
 }
 
-TEST_CASE("Test runs every study of a folder and says which differ", "[studies][cli]") {
+TEST_CASE("Test runs every study of a folder and says which differ", "[studies][cli][slow]") {
   const ScratchFolder folder;
   std::filesystem::create_directory(folder.path() / "set");
   const std::string key = "[expect]\n\"unloaded.mesh.peak_to_peak_arcsec\" = ";
@@ -206,7 +206,7 @@ TEST_CASE("Test runs every study of a folder and says which differ", "[studies][
   CHECK(folder.names() == Names{"set"});  // a test leaves no results
 }
 
-TEST_CASE("A new study is valid, runs and meets its requirements", "[studies][cli]") {
+TEST_CASE("A new study is valid, runs and meets its requirements", "[studies][cli][slow]") {
   const std::string kind = GENERATE("analyse", "optimise");
   const ScratchFolder folder;
   const Ending made = run(folder, {"new", kind});

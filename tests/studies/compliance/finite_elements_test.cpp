@@ -110,7 +110,7 @@ TEST_CASE("A study by finite elements: equal gears are solved once, kept, and ba
   CHECK(std::isnan(alone.loaded[0].summary.peak_root_stress));
 }
 
-TEST_CASE("The mere estimate of a size takes no run with rigid bodies, and says so", "[studies][fe]") {
+TEST_CASE("The mere estimate of a size takes no run with rigid bodies, and says so", "[studies][fe][slow]") {
   const ScratchCache cache;
   const StudyResults elastic = run_twins(twins, {{"fidelity.effect_sizes", "estimated"}});
   CHECK(cache.files().size() == 1);
@@ -126,7 +126,7 @@ TEST_CASE("The mere estimate of a size takes no run with rigid bodies, and says 
   CHECK(told == 1);
 }
 
-TEST_CASE("A study on rigid gear bodies: stiffer, by a run of its own, and sized beside the elastic ones", "[studies][fe]") {
+TEST_CASE("A study on rigid gear bodies: stiffer, by a run of its own, and sized beside the elastic ones", "[studies][fe][slow]") {
   const ScratchCache cache;
   const StudyResults elastic = run_twins(twins, {{"fidelity.effect_sizes", "exact"}});
   CHECK(cache.files().size() == 2);
@@ -154,7 +154,7 @@ TEST_CASE("A study on rigid gear bodies: stiffer, by a run of its own, and sized
   CHECK(of_fitted->size.influence.te_mean == Approx(less).epsilon(0.1));  // discretisation of the body
 }
 
-TEST_CASE("A study's root stress: by finite elements, whatever the compliance", "[studies][fe][root-stress]") {
+TEST_CASE("A study's root stress: by finite elements, whatever the compliance", "[studies][fe][root-stress][slow]") {
   const ScratchCache cache;
   const StudyResults solved = run_twins(twins);
   const CycleSummary& summary = solved.loaded[0].summary;
@@ -228,7 +228,7 @@ TEST_CASE("A gear's body that the compliance does not know of is said to be left
   CHECK(!results.structures.finite_elements);
 }
 
-TEST_CASE("A study by fitted compliance: a coarse mesh of its gears and the library of fits come close to fe", "[studies][fitted]") {
+TEST_CASE("A study by fitted compliance: a coarse mesh of its gears and the library of fits come close to fe", "[studies][fitted][slow]") {
   const ScratchCache cache;
   const std::vector<Override> wider{{"pinion.face_width", "8"}, {"wheel.face_width", "8"}, {"pair.helix_angle", "15"}};
   auto fitted = wider;
@@ -299,7 +299,7 @@ TEST_CASE("A gear that the library of fits does not know has a fit of its own, t
   CHECK(ours.loaded[0].summary.peak_root_stress == Approx(fe.loaded[0].summary.peak_root_stress).epsilon(0.005));  // by its loads
 }
 
-TEST_CASE("A damaged fit is made anew from the runs that are kept", "[studies][fitted]") {
+TEST_CASE("A damaged fit is made anew from the runs that are kept", "[studies][fitted][slow]") {
   const ScratchCache cache;
   const std::vector<Override> by_fit{{"fidelity.compliance", "fitted"}, {"pair.pressure_angle", "17"}};
   const StudyResults first = run_twins(twins, by_fit);

@@ -196,7 +196,7 @@ TEST_CASE("The arc of a surface of revolution asks for its parabola", "[studies]
   CHECK(results["used"]["pair"]["wheel"]["generation"]["kind"] == "rack");
 }
 
-TEST_CASE("A thicker marking compound marks more of both flanks", "[studies][results][physics]") {
+TEST_CASE("A thicker marking compound marks more of both flanks", "[studies][results][physics][slow]") {
   double last_pinion = 0.0, last_wheel = 0.0;
   for (const char* thickness : {"2", "6.35", "20"}) {
     const json results = results_of(parabola_study, {{"unloaded.marking_thickness", thickness}});
@@ -215,7 +215,7 @@ TEST_CASE("A thicker marking compound marks more of both flanks", "[studies][res
 }
 
 TEST_CASE("A flank that is too thin everywhere shifts the transmission error and changes nothing else",
-          "[studies][results][physics][grid]") {
+          "[studies][results][physics][grid][slow]") {
   const json nominal = results_of(small::analysis()), thin = run_with_thin_pinion(small::analysis());
   const double base_helix = nominal["geometry"]["base_helix_angle_deg"].get<double>() * units::deg;
   // Unloaded: the involute turned by 10 um/(r_b1 cos(beta_b)); a grid of equal numbers is that exactly.
@@ -255,7 +255,7 @@ TEST_CASE("A flank that is too thin everywhere shifts the transmission error and
   CHECK(std::any_of(thin["given"].begin(), thin["given"].end(), is_grid));
 }
 
-TEST_CASE("A crowned generation concentrates the load", "[studies][results][physics]") {
+TEST_CASE("A crowned generation concentrates the load", "[studies][results][physics][slow]") {
   double last = 0.0;
   for (const char* coefficient : {"0", "0.0002", "0.0005"}) {
     const json results = results_of(small::analysis(), {{"pinion.generation.kind", "parabolic_rack"},

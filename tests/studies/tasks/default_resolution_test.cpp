@@ -115,7 +115,7 @@ Statistics draw(unsigned seed, int count, const std::string& compliance, int fin
 
 }  // namespace
 
-TEST_CASE("What is shown by default is what a finer run shows, and the stated error holds", "[studies][default-resolution]") {
+TEST_CASE("What is shown by default is what a finer run shows, and the stated error holds", "[studies][default-resolution][slow]") {
   // Slices need no finite elements. They do not support each other, so that their loads are less smooth: twice what is asked of teeth.
   const Statistics found = draw(11, 3, "thin_slice", 2);
   for (std::size_t i = 0; i < 3; ++i) {

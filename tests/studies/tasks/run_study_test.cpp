@@ -76,7 +76,7 @@ void remove_seconds(json& node) {
 
 }  // namespace
 
-TEST_CASE("results.json of an analysis has every key that it promises", "[studies][results]") {
+TEST_CASE("results.json of an analysis has every key that it promises", "[studies][results][slow]") {
   const json results = results_of(small::analysis());
   check_keys(results, "", "unloaded loaded effects given used version units title task file seconds");
   check_keys(results, "unloaded.pairs[]",
@@ -120,7 +120,7 @@ TEST_CASE("results.json of an analysis has every key that it promises", "[studie
   }
 }
 
-TEST_CASE("Positions chosen automatically, and peaks sampled, are said in the results", "[studies][results]") {
+TEST_CASE("Positions chosen automatically, and peaks sampled, are said in the results", "[studies][results][slow]") {
   const json chosen = results_of(small::analysis(), {{"cycle.positions", "auto"}, {"cycle.peaks", "sampled"}});
   const json& cycle = chosen["used"]["cycle"];
   CHECK(cycle["peaks"] == "sampled");
@@ -157,7 +157,7 @@ TEST_CASE("results.json of an optimisation has every key that it promises", "[st
   CHECK(worst == optimise["after"]["objective"].get<double>());
 }
 
-TEST_CASE("Loaded results keep the identities of equilibrium, compatibility and units", "[studies][results][physics]") {
+TEST_CASE("Loaded results keep the identities of equilibrium, compatibility and units", "[studies][results][physics][slow]") {
   const json results = results_of(small::analysis());
   const double base_helix = results["geometry"]["base_helix_angle_deg"].get<double>() * units::deg;
   const double base_radius = 0.5 * results["geometry"]["pinion"]["base_diameter_mm"].get<double>();
@@ -206,7 +206,7 @@ TEST_CASE("Loaded results keep the identities of equilibrium, compatibility and 
   }
 }
 
-TEST_CASE("Unloaded results keep the identities of transmission error and units", "[studies][results][physics]") {
+TEST_CASE("Unloaded results keep the identities of transmission error and units", "[studies][results][physics][slow]") {
   const json results = results_of(small::analysis());
   const double wheel_base_radius = 0.5 * results["geometry"]["wheel"]["base_diameter_mm"].get<double>();
   for (const json& unloaded : results["unloaded_scenes"]) {
@@ -227,7 +227,7 @@ TEST_CASE("Unloaded results keep the identities of transmission error and units"
   }
 }
 
-TEST_CASE("Two runs differ in their times only", "[studies][results][determinism]") {
+TEST_CASE("Two runs differ in their times only", "[studies][results][determinism][slow]") {
   const std::string text = GENERATE(small::analysis(), small::optimisation());
   json first = results_of(text), second = results_of(text);
   remove_seconds(first);
@@ -235,7 +235,7 @@ TEST_CASE("Two runs differ in their times only", "[studies][results][determinism
   CHECK(first.dump() == second.dump());
 }
 
-TEST_CASE("Given repeats the study's keys and used says what became of the rest", "[studies][results]") {
+TEST_CASE("Given repeats the study's keys and used says what became of the rest", "[studies][results][slow]") {
   const json results = results_of(small::analysis(), {{"cycle.positions", "5"}});
   bool has_positions = false;
   for (const json& given : results["given"]) has_positions = has_positions || given["key"] == "cycle.positions";

@@ -81,7 +81,7 @@ TEST_CASE("A solved table is the gear's influence matrix at the places of its gr
   }
 }
 
-TEST_CASE("The same gear gives the same table again, whatever else is being solved", "[core][compliance][fe]") {
+TEST_CASE("The same gear gives the same table again, whatever else is being solved", "[core][compliance][fe][slow]") {
   const InfluenceTableTask task = task_of(gear_of(19, 20, 3), coarse_grid(3));
   const InfluenceTableTask other = task_of(gear_of(27, 20, 3), coarse_grid(3));
   const auto tables = [](const InfluenceTableTask& t) { return solve_influence_table(t, kNoLimit).table->tables(); };

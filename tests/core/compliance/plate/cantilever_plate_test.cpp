@@ -24,7 +24,7 @@ ToothForm form_of(int teeth, double beta_deg, double module = 1, double shift = 
 }  // namespace
 
 TEST_CASE("Under a line load along the trace the plate gives way as thin slices do without compression",
-          "[core][compliance][plate][physics]") {
+          "[core][compliance][plate][physics][slow]") {
   const int teeth = GENERATE(18, 60);
   const double beta = GENERATE(0.0, 30.0), face = 20, length = face / std::cos(beta * deg);
   const ToothForm form = form_of(teeth, beta);
@@ -84,7 +84,7 @@ TEST_CASE("The tip gives way more than the root, an end more than the middle, an
   CHECK((CantileverPlate(form_of(18, 30, 1), 1, 12, 0.3).evaluate(points) - K).cwiseAbs().maxCoeff() < 1e-9 * K(0, 0));
 }
 
-TEST_CASE("Half as many polynomials again change the plate by little", "[core][compliance][plate]") {
+TEST_CASE("Half as many polynomials again change the plate by little", "[core][compliance][plate][slow]") {
   const int teeth = GENERATE(18, 100);
   const double face = GENERATE(2.0, 12.0);
   const ToothForm form = form_of(teeth, 20);

@@ -52,7 +52,7 @@ TEST_CASE("A packed REXS file is the same study as the file in it", "[studies][r
   CHECK(rexs::import_stage(packed, "gears.rexs", {.stage = 1}).text == rexs::import_stage(text, "gears.rexs", {.stage = 1}).text);
 }
 
-TEST_CASE("An archive that is damaged, ambiguous or too large is refused in one line", "[studies][rexs][errors]") {
+TEST_CASE("An archive that is damaged, ambiguous or too large is refused in one line", "[studies][rexs][errors][slow]") {
   const std::string packed = archive_of({{"gears.rexs", std::string(5000, 'a')}});
   CHECK(archive_refusal(packed).empty());
   for (const std::size_t left : {4U, 20U, 60U, 100U}) CHECK_THAT(archive_refusal(packed.substr(0, left)), Contains("gears.rexsz: file = a damaged ZIP archive"));

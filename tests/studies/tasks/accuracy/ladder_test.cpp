@@ -58,7 +58,7 @@ double error(const LadderStep& step, Figure figure) { return step.error[static_c
 
 }  // namespace
 
-TEST_CASE("The finest rung has no error, every other one has its own, and these fall with intervals and positions", "[studies][accuracy][ladder]") {
+TEST_CASE("The finest rung has no error, every other one has its own, and these fall with intervals and positions", "[studies][accuracy][ladder][slow]") {
   const Ladder ladder = ladder_of(20.0, "lead_crowning = 6\n");
   CHECK(largest(ladder.reference.error) == 0.0);
   CHECK(ladder.reference.best);

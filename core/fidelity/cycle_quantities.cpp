@@ -1,0 +1,117 @@
+#include "core/fidelity/cycle_quantities.hpp"
+
+#include <array>
+#include <functional>
+
+#include "core/base/units.hpp"
+
+namespace flankwright {
+
+namespace {
+
+/// What a row reads: a member, or a function of the whole.
+template <auto of>
+std::vector<double> one(const CycleSummary& summary) {
+  return {std::invoke(of, summary)};
+}
+template <auto of>
+std::vector<double> error(const CycleErrors& errors) {
+  return {std::invoke(of, errors)};
+}
+template <auto of>
+Eigen::MatrixXd slope(const CycleGradient& gradient) {
+  return std::invoke(of, gradient);
+}
+
+using S = CycleSummary;
+using E = CycleErrors;
+using G = CycleGradient;
+
+constexpr auto pinion_root = [](const S& s) { return s.pinion_root_stress.stress; };
+constexpr auto wheel_root = [](const S& s) { return s.wheel_root_stress.stress; };
+constexpr auto pinion_root_slope = [](const G& g) { return g.pinion_root_stress.stress; };
+constexpr auto wheel_root_slope = [](const G& g) { return g.wheel_root_stress.stress; };
+
+constexpr std::array rows{
+    CycleQuantity{.name = "te_peak_to_peak", .key = "te_peak_to_peak_um", .words = "peak-to-peak TE", .heading = "TE p-p", .decimals = 4, .unit = "um", .unit_size = units::um,
+                  .values = one<&S::te_peak_to_peak>, .errors = error<&E::te_peak_to_peak>, .gradients = slope<&G::te_peak_to_peak>},
+    CycleQuantity{.name = "te_harmonic", .key = "te_harmonics_um", .words = "harmonic of TE", .heading = "TE 1st", .decimals = 4, .unit = "um", .unit_size = units::um, .is_list = true,
+                  .values = [](const S& s) { return s.te_harmonics; }, .errors = [](const E& e) { return e.te_harmonics; },
+                  .gradients = slope<&G::te_harmonics>},
+    CycleQuantity{.name = "te_mean", .key = "te_mean_um", .words = "mean TE", .unit = "um", .unit_size = units::um,
+                  .values = one<&S::te_mean>, .errors = error<&E::te_mean>, .gradients = slope<&G::te_mean>},
+    CycleQuantity{.name = "peak_line_load", .key = "peak_load_N_per_mm", .words = "peak line load", .heading = "peak load", .unit = "N/mm",
+                  .values = one<&S::peak_line_load>, .errors = error<&E::peak_line_load>, .gradients = slope<&G::peak_line_load>},
+    CycleQuantity{.name = "peak_contact_stress", .key = "peak_contact_stress_MPa", .words = "peak contact stress", .heading = "peak sigma", .unit = "MPa",
+                  .values = one<&S::peak_contact_stress>, .errors = error<&E::peak_contact_stress>, .gradients = slope<&G::peak_contact_stress>},
+    CycleQuantity{.name = "peak_root_stress", .key = "peak_root_stress_MPa", .words = "peak root stress", .heading = "root sigma", .unit = "MPa",
+                  .values = one<&S::peak_root_stress>, .errors = error<&E::peak_root_stress>, .gradients = slope<&G::peak_root_stress>},
+    CycleQuantity{.name = "pinion_root_stress", .key = "pinion_root_stress_MPa", .words = "pinion root stress", .unit = "MPa",
+                  .values = one<pinion_root>, .gradients = slope<pinion_root_slope>},
+    CycleQuantity{.name = "wheel_root_stress", .key = "wheel_root_stress_MPa", .words = "wheel root stress", .unit = "MPa",
+                  .values = one<wheel_root>, .gradients = slope<wheel_root_slope>},
+    CycleQuantity{.name = "mean_stiffness", .key = "mean_stiffness_N_per_mm_um", .words = "mean mesh stiffness", .heading = "stiffness", .decimals = 3, .unit = "N/(mm um)",
+                  .smaller_is_worse = true, .values = one<&S::mean_stiffness>, .errors = error<&E::mean_stiffness>, .gradients = slope<&G::mean_stiffness>},
+    CycleQuantity{.name = "least_stiffness", .key = "least_stiffness_N_per_mm_um", .words = "least mesh stiffness", .unit = "N/(mm um)",
+                  .smaller_is_worse = true, .values = one<&S::least_stiffness>, .gradients = slope<&G::least_stiffness>},
+    CycleQuantity{.name = "largest_stiffness", .key = "largest_stiffness_N_per_mm_um", .words = "largest mesh stiffness", .unit = "N/(mm um)",
+                  .smaller_is_worse = true, .values = one<&S::largest_stiffness>, .gradients = slope<&G::largest_stiffness>},
+    CycleQuantity{.name = "stiffness_variation", .key = "stiffness_variation", .words = "variation of the mesh stiffness",
+                  .values = one<&S::stiffness_variation>, .gradients = slope<&G::stiffness_variation>},
+    CycleQuantity{.name = "load_factor", .key = "load_factor", .words = "load factor", .heading = "load factor",
+                  .values = one<&S::load_factor>, .errors = error<&E::load_factor>, .gradients = slope<&G::load_factor>},
+};
+
+constexpr std::array<std::string_view, highest_te_harmonic> ordinals{"first", "second", "third",   "fourth", "fifth",
+                                                                     "sixth", "seventh", "eighth", "ninth",  "tenth"};
+
+}  // namespace
+
+std::span<const CycleQuantity> cycle_quantities() { return rows; }
+
+std::string CycleEntry::name() const {
+  std::string name(quantity->name);
+  if (order > 0) name.append("_").append(std::to_string(order));
+  return name;
+}
+
+std::string CycleEntry::key() const {
+  if (order == 0) return std::string(quantity->key);
+  std::string key = name();
+  if (!quantity->unit.empty()) key.append("_").append(quantity->unit);
+  return key;
+}
+
+std::string CycleEntry::words() const {
+  std::string words;
+  if (order > 0) words.append(ordinals[static_cast<std::size_t>(order - 1)]).append(" ");
+  return words.append(quantity->words);
+}
+
+double CycleEntry::of(const std::vector<double>& values) const {
+  const auto index = static_cast<std::size_t>(order == 0 ? 0 : order - 1);
+  return index < values.size() ? values[index] : not_given;
+}
+
+double CycleEntry::value(const CycleSummary& summary) const { return of(quantity->values(summary)) / quantity->unit_size; }
+
+double CycleEntry::error(const CycleErrors& errors) const {
+  return quantity->errors == nullptr ? not_given : of(quantity->errors(errors)) / quantity->unit_size;
+}
+
+std::vector<CycleEntry> cycle_entries() {
+  std::vector<CycleEntry> entries;
+  for (const CycleQuantity& row : rows) {
+    for (int order = row.is_list ? 1 : 0; order <= (row.is_list ? highest_te_harmonic : 0); ++order) entries.push_back({&row, order});
+  }
+  return entries;
+}
+
+CycleEntry find_cycle_entry(std::string_view name) {
+  for (const CycleEntry& entry : cycle_entries()) {
+    if (entry.name() == name) return entry;
+  }
+  return {};
+}
+
+}  // namespace flankwright
