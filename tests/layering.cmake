@@ -10,7 +10,7 @@ cmake_minimum_required(VERSION 3.25)
 set(FLOW core/base core/gear core/flank
     core/contact/path core/contact/assembly core/contact/unloaded core/contact/gap
     core/compliance/local core/compliance/tooth core/compliance/thin_slice core/compliance/finite_element core/compliance/pair
-    core/compliance/fitted core/compliance/plate core/compliance/shaft core/compliance/comparison
+    core/compliance/fitted core/compliance/plate core/compliance/shaft core/compliance/comparison core/compliance/model
     core/effects core/load/solve core/load/cycle core/rating core/fidelity
     optimize/solvers optimize/sampling optimize/design optimize/assessment
     studies/base studies/study studies/compliance studies/study_file

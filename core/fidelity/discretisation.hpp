@@ -3,6 +3,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/base/for_each_index.hpp"
 #include "core/fidelity/resolved_cycle.hpp"
 
 namespace flankwright {
@@ -26,9 +27,6 @@ struct ResolutionLevel {
   bool extremes_sought{false};                     ///< false: the errors suffice to say that the level does not
   PerFigure error() const;                         ///< their sum
 };
-
-/// Does one thing for every index below a count, in any order or side by side.
-using ForEachIndex = std::function<void(std::size_t count, const std::function<void(std::size_t)>& work)>;
 
 struct DiscretisationSearch {
   /// Refined until headline(root_sum_square(spent, ResolutionLevel::error())) <= accuracy in every load case [-], > 0.

@@ -27,6 +27,8 @@ struct RackProfile {
   double addendum{1.0};      ///< h_aP/m_n of the gear, > 0
   double dedendum{1.25};     ///< h_fP/m_n of the gear, > 0
   double root_radius{0.39};  ///< rho_fP/m_n, >= 0 and at most the full tip rounding of the tool
+
+  bool operator==(const RackProfile&) const = default;
 };
 
 /// What defines one gear of a pair beside the common rack angles.

@@ -1,14 +1,12 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
 #include <optional>
 #include <string>
 
-namespace flankwright::studies {
+#include "core/base/progress_report.hpp"
 
-/// Progress of long work: a label, done and total steps (total 0: unknown), a remark.
-using ProgressReport = std::function<void(const std::string& label, int done, int total, const std::string& remark)>;
+namespace flankwright::studies {
 
 /// Progress of long work on stderr: a bar that redraws itself on a terminal, a line every few seconds elsewhere. It tells the time
 /// that is left as if the steps to come took as long as those done under the same label.

@@ -22,7 +22,7 @@
 #include "core/compliance/fitted/refinement_fit.hpp"
 #include "studies/base/progress.hpp"
 #include "studies/base/results_folder.hpp"
-#include "studies/compliance/stored_table.hpp"
+#include "studies/compliance/disk_store.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -119,13 +119,11 @@ InfluenceTableRun run_by(const GearMeshOptions& mesh, const Step& step) {
                                 .teeth_apart = 1,
                                 .mesh = mesh,
                                 .grid = flank_grid(step.gear.relative_face)};
-  const RunCache cache(RunCache::default_folder());
-  const Json key = cache_key(task);
-  std::vector<std::string> notes;  // of a folder that cannot be used: the run is made anew
-  if (const auto stored = cache.find(key, notes)) return from_store(task, *stored);
+  DiskStore store;  // of a folder that cannot be used nothing is said: the run is made anew
+  if (auto kept = store.find(task)) return std::move(kept->value);
   InfluenceTableRun run = solve_influence_table(task, std::numeric_limits<double>::infinity());
   if (!run.table) throw std::runtime_error("finite elements of the library could not be solved");
-  cache.store(key, to_store(run), notes);
+  store.keep(task, run);
   return run;
 }
 

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/stopwatch.hpp"
-#include "studies/compliance/finite_elements.hpp"
+#include "studies/compliance/study_compliance.hpp"
 
 namespace flankwright::studies {
 
@@ -23,7 +23,7 @@ constexpr double cost_tolerance = 1e-5;
 GearFitTask gear_fit_task(const Study& study, const GearPair& pair, Member member) {
   const FitChoice& choice = study.fit;
   GearFitTask task;
-  task.gear = influence_table_task(study, pair, member).gear;
+  task.gear = influence_table_task(compliance_task(study, pair), member).gear;
   task.material = member == Member::Pinion ? study.pinion_material : study.wheel_material;
   task.form = choice.several_teeth ? KernelForm::several_teeth() : KernelForm::one_tooth_accurate();
   if (choice.several_teeth) {

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "core/compliance/fitted/kernel_form.hpp"
-#include "studies/compliance/gear_structures.hpp"
+#include "core/compliance/model/gear_structures.hpp"
 #include "studies/base/json_format.hpp"
+#include "studies/study/study.hpp"
 
 namespace flankwright::studies {
 

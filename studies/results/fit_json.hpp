@@ -1,7 +1,7 @@
 #pragma once
 
 #include "studies/compliance/fit_task.hpp"
-#include "studies/compliance/gear_deflections.hpp"
+#include "core/compliance/comparison/gear_deflections.hpp"
 #include "studies/base/json_format.hpp"
 
 namespace flankwright::studies {

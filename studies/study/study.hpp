@@ -4,10 +4,10 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/compliance/finite_element/section_mesh.hpp"
+#include "core/compliance/model/compliance_model.hpp"
 #include "core/compliance/shaft/shaft_data.hpp"
 #include "core/contact/path/contact_points.hpp"
 #include "core/contact/assembly/misalignment.hpp"
@@ -33,19 +33,6 @@ inline const char* to_string(Task task) {
     case Task::Fit: return "fit";
   }
   __builtin_unreachable();
-}
-
-/// Ladder of compliance models.
-enum class ComplianceModel { Rigid, ThinSlice, Fitted, Fe };
-
-/// As a study names it: "rigid", "thin_slice", "fitted", "fe".
-const char* to_string(ComplianceModel model);
-/// The model of one of these names.
-ComplianceModel compliance_model(std::string_view name);
-
-/// Whether the model knows how a load on one tooth moves another, and the gear's body: both solve finite elements.
-inline bool couples_teeth(ComplianceModel model) {
-  return model == ComplianceModel::Fitted || model == ComplianceModel::Fe;
 }
 
 struct Cycle {

@@ -6,7 +6,7 @@
 #include "core/flank/conjugate_field.hpp"
 #include "core/gear/gear_pair.hpp"
 #include "optimize/solvers/solver.hpp"
-#include "studies/compliance/finite_elements.hpp"
+#include "studies/compliance/study_compliance.hpp"
 
 namespace flankwright::studies {
 
@@ -138,7 +138,7 @@ void check_finite_elements(StudyReading& reading, Member m) {
   const Study& study = reading.draft.study;
   if (!reading.problems.empty() || !solves_finite_elements(study)) return;
   try {
-    influence_table_task(study, make_gear_pair(study.pair), m);
+    influence_table_task(compliance_task(study, make_gear_pair(study.pair)), m);
   } catch (const InvalidInput& problem) {
     refuse_key(reading, problem.field(), "allowed is " + problem.allowed());
   }

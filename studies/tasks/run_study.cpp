@@ -8,6 +8,7 @@
 
 #include "core/base/stopwatch.hpp"
 #include "core/load/cycle/mesh_motion.hpp"
+#include "studies/compliance/study_compliance.hpp"
 #include "studies/tasks/analyse/position_memory.hpp"
 #include "studies/tasks/analyse/drawn_scenes.hpp"
 #include "studies/tasks/refine_resolution.hpp"
@@ -184,7 +185,9 @@ class Run {
   const GearStructures& structures() {
     if (!has_structure_) {
       results_.structures = gear_structures(results_.study, results_.pair, progress_);
-      results_.deflections = gear_deflections(results_.study, results_.pair, results_.structures);
+      const Study& study = results_.study;
+      results_.deflections = gear_deflections(results_.pair, study.pinion_material, study.wheel_material, results_.structures.pair.get(),
+                                              study.fidelity.compliance == ComplianceModel::Fe ? "finite elements" : "fitted");
       has_structure_ = true;
       if (const auto& runs = results_.structures.finite_elements) {
         const bool is_structural = couples_teeth(results_.study.fidelity.compliance);
@@ -194,7 +197,7 @@ class Run {
                                                 : "root stress of both gears",
                                   runs->seconds});
         fit_steps();
-        results_.notes.insert(results_.notes.end(), runs->notes.begin(), runs->notes.end());
+        results_.notes.insert(results_.notes.end(), results_.structures.notes.begin(), results_.structures.notes.end());
       }
     }
     return results_.structures;

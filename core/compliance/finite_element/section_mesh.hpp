@@ -30,6 +30,7 @@ struct GearMeshOptions {
 
   /// Throws InvalidInput with field, value and violated bound.
   void validate() const;
+  bool operator==(const GearMeshOptions&) const = default;
 };
 
 /// A face end of a helical tooth by the angle between loaded flank and face there: less than a right angle, or more. Of
@@ -50,6 +51,8 @@ struct GearBody {
   /// Nothing gives way from rim_radius() inwards: what is left are the teeth with the material that they stand on, as Vedmar modelled
   /// them [Haddad 1991, 1.4.3.2].
   bool rigid{false};
+
+  bool operator==(const GearBody&) const = default;
 };
 
 /// Steward's rule for helical gears [Haddad 1991, eq. 2.4]: d_s = 0.8 d, at most 25 m_n / cos(beta). Departure: at

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <new>
 #include <string>
+#include <tuple>
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
@@ -34,6 +35,17 @@ InfluenceTableTask in_modules(InfluenceTableTask task) {
     *length /= module;
   }
   return task;
+}
+
+bool alike_but_for_size(const InfluenceTableTask& one, const InfluenceTableTask& other) {
+  const InfluenceTableTask a = in_modules(one), b = in_modules(other);
+  const auto fields = [](const InfluenceTableTask& task) {
+    const GearToMesh& gear = task.gear;
+    return std::tie(gear.gear.teeth, gear.gear.face_width, gear.gear.profile_shift, gear.gear.tip_diameter, gear.gear.rack, gear.pressure_angle,
+                    gear.helix_angle, gear.body, task.poissons_ratio, task.teeth_apart, task.mesh, task.removed, task.root_stress,
+                    task.grid.us(), task.grid.zetas());
+  };
+  return fields(a) == fields(b);
 }
 
 int teeth_apart_in_contact(const GearPair& pair) {

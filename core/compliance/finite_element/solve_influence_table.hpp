@@ -23,6 +23,8 @@ struct InfluenceTableTask {
 
 /// The task with lengths in normal modules: m_n = 1. Gears that differ in size only become the same.
 InfluenceTableTask in_modules(InfluenceTableTask task);
+/// Whether two tasks have the same outcome: the same in modules, whatever cuts the flanks.
+bool alike_but_for_size(const InfluenceTableTask& one, const InfluenceTableTask& other);
 
 /// Most teeth apart that two points of a pair in contact at once can be, the extended region included.
 int teeth_apart_in_contact(const GearPair& pair);

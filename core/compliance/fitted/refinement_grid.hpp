@@ -17,10 +17,7 @@ struct ReferenceProfile {
   RackProfile rack{};
   double pressure_angle{20 * units::deg};  ///< alpha_n [rad]
 
-  bool operator==(const ReferenceProfile& other) const {
-    return rack.addendum == other.rack.addendum && rack.dedendum == other.rack.dedendum && rack.root_radius == other.rack.root_radius &&
-           pressure_angle == other.pressure_angle;
-  }
+  bool operator==(const ReferenceProfile&) const = default;
 };
 
 /// One gear's fit of what a fine mesh adds to the compliance by a coarse one.

@@ -5,6 +5,7 @@
 
 #include "core/base/thread_stopwatch.hpp"
 #include "core/rating/contact_peaks.hpp"
+#include "studies/compliance/study_compliance.hpp"
 #include "studies/tasks/analyse/study_effects.hpp"
 
 namespace flankwright::studies {

@@ -1,6 +1,6 @@
 #include "studies/tasks/analyse/study_effects.hpp"
 
-#include "studies/compliance/finite_elements.hpp"
+#include "studies/compliance/study_compliance.hpp"
 #include "studies/tasks/analyse/drawn_scenes.hpp"
 #include "studies/study_file/sweep_value.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "core/base/units.hpp"
-#include "studies/compliance/finite_elements.hpp"
+#include "studies/compliance/study_compliance.hpp"
 
 namespace flankwright::studies {
 

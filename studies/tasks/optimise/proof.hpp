@@ -8,7 +8,7 @@
 #include "optimize/assessment/rules_of_thumb.hpp"
 #include "optimize/assessment/validation.hpp"
 #include "optimize/assessment/variant_search.hpp"
-#include "studies/compliance/gear_structures.hpp"
+#include "core/compliance/model/gear_structures.hpp"
 #include "studies/study/study.hpp"
 
 namespace flankwright::studies {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "core/base/stopwatch.hpp"
-#include "studies/compliance/gear_structures.hpp"
+#include "studies/compliance/study_compliance.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/benchmarks/contact_truth/contact_cases.hpp"
 #include "tests/benchmarks/contact_truth/held_structure.hpp"

@@ -309,7 +309,7 @@ TEST_CASE("A damaged fit is made anew from the runs that are kept", "[studies][f
   CHECK(!second.structures.refinement(Member::Pinion)->from_cache);
   CHECK(second.structures.finite_elements->gears[0].from_cache);
   CHECK(second.structures.refinement(Member::Pinion)->fit.coefficients == first.structures.refinement(Member::Pinion)->fit.coefficients);
-  CHECK_THAT(second.structures.finite_elements->notes.back(), Catch::Contains("is not used"));
+  CHECK_THAT(second.structures.notes.back(), Catch::Contains("is not used"));
 }
 
 TEST_CASE("What cannot be meshed is refused by fitted compliance under the study's key", "[studies][fitted]") {

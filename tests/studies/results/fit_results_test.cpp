@@ -128,11 +128,9 @@ TEST_CASE("An analysis with the compliance of single gears stores and shows thei
   results.study = parse_study(study_template("analyse"), "analyse.toml", {{"fidelity.compliance", "fe"}});
   results.pair = make_gear_pair(results.study.pair);
   const auto compliance = std::make_shared<const flankwright::testing::DistanceCompliance>();
-  GearStructures structures;
-  CHECK(gear_deflections(results.study, results.pair, structures).empty());
-  structures.pair = std::make_shared<const StructuralPair>(results.pair, GearStructure{compliance, 1.0},
-                                                           GearStructure{compliance, 1.0});
-  results.deflections = gear_deflections(results.study, results.pair, structures);
+  const StructuralPair structure(results.pair, GearStructure{compliance, 1.0}, GearStructure{compliance, 1.0});
+  CHECK(gear_deflections(results.pair, {}, {}, nullptr, "").empty());
+  results.deflections = gear_deflections(results.pair, {}, {}, &structure, "finite elements");
   REQUIRE(results.deflections.size() == 2);
   CHECK(results.deflections[1].member == Member::Wheel);
   const std::string text = results_json(results);

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "studies/compliance/finite_elements.hpp"
+#include "studies/compliance/study_compliance.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/results/results_json.hpp"
 #include "studies/tasks/run_study.hpp"
@@ -167,7 +167,7 @@ TEST_CASE("Finite elements leave their wind-up to start where the study's torque
     std::vector<Override> all = overrides;
     all.push_back({"fidelity.compliance", "fe"});
     const Study study = read_shafts(text, all);
-    return influence_table_task(study, make_gear_pair(study.pair), member);
+    return influence_table_task(compliance_task(study, make_gear_pair(study.pair)), member);
   };
   const auto end = [&](auto&&... of) { return task(of...).gear.body.torque_end; };
   using Overrides = std::vector<Override>;

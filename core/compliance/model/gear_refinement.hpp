@@ -5,10 +5,9 @@
 #include <vector>
 
 #include "core/compliance/fitted/refined_compliance.hpp"
-#include "core/compliance/fitted/refinement_library.hpp"
-#include "studies/compliance/finite_elements.hpp"
+#include "core/compliance/model/gear_runs.hpp"
 
-namespace flankwright::studies {
+namespace flankwright {
 
 /// One gear's compliance "fitted": where the kernels that complete its coarse influence values come from.
 struct GearRefinement {
@@ -21,7 +20,7 @@ struct GearRefinement {
   std::vector<ResidualStatistics> residuals;
   bool from_cache{false};
   std::string file;           ///< where the fit is kept; empty: nowhere
-  double seconds{not_given};  ///< wall time in this study
+  double seconds{not_given};  ///< wall time in this build
 
   /// Another coarse compliance of the same gear, completed by the same kernels: they are the tooth's, whatever it stands on.
   std::shared_ptr<const RefinedCompliance> completed(std::shared_ptr<const FlankCompliance> coarse) const {
@@ -33,10 +32,7 @@ struct GearRefinement {
 
 /// Completes a gear's coarse run by the library of fits, or, where that does not know the gear, by a fit to its fine run,
 /// which is kept for another time.
-/// @param task  of the coarse run
-/// @param notes  what went wrong with the folder, and a fit that did not converge
 /// @throws InvalidInput "fidelity.compliance" where a fit failed
-GearRefinement gear_refinement(const Study& study, const InfluenceTableTask& task, const FiniteElementRuns& runs, Member member,
-                               std::vector<std::string>& notes, const ProgressReport& progress);
+GearRefinement gear_refinement(const ComplianceTask& task, const FiniteElementRuns& runs, Member member, const ComplianceBuild& build);
 
-}  // namespace flankwright::studies
+}  // namespace flankwright

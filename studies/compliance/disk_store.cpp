@@ -1,8 +1,9 @@
-#include "studies/compliance/stored_table.hpp"
+#include "studies/compliance/disk_store.hpp"
 
 #include <fmt/format.h>
 
 #include "core/base/error.hpp"
+#include "studies/compliance/run_cache.hpp"
 
 namespace flankwright::studies {
 
@@ -10,6 +11,8 @@ namespace {
 
 /// To be raised whenever the same task comes to mean other numbers: mesh, load functional, removed motion, solution.
 constexpr int model_version = 9;
+/// To be raised whenever the same influence values come to mean another fit: form, places, residuals.
+constexpr int fit_version = 3;
 
 // clang-format off
 /// A field that is added to these structs must be added to the key: the bindings then no longer compile.
@@ -64,8 +67,7 @@ RootStressTable root_stress_from_store(const InfluenceTableTask& task, const Sto
   return root;
 }
 
-}  // namespace
-
+/// Everything that defines the outcome of a task, in modules, as the key of its stored run.
 Json cache_key(const InfluenceTableTask& task) {
   return {{"model", model_version},
           {"gear", gear_key(in_modules(task).gear)},
@@ -78,6 +80,7 @@ Json cache_key(const InfluenceTableTask& task) {
           {"zetas", task.grid.zetas()}};
 }
 
+/// @param run  Factorised
 StoredRun to_store(const InfluenceTableRun& run) {
   const InfluenceTable& table = *run.table;
   StoredRun stored;
@@ -104,6 +107,8 @@ StoredRun to_store(const InfluenceTableRun& run) {
   return stored;
 }
 
+/// A run as to_store() writes it.
+/// @throws Json::exception, InvalidInput where something is missing
 InfluenceTableRun from_store(const InfluenceTableTask& task, const StoredRun& stored) {
   InfluenceTableRun run{FactorStatus::Factorised, std::nullopt, std::nullopt, {}};
   const Json& facts = stored.facts;
@@ -114,6 +119,54 @@ InfluenceTableRun from_store(const InfluenceTableTask& task, const StoredRun& st
   run.table.emplace(task.grid, std::move(tables), TableProjection{facts.at("lowest_eigenvalue"), facts.at("added")});
   if (task.root_stress) run.root_stress = root_stress_from_store(task, stored);
   return run;
+}
+
+Json fit_key(InfluenceTableTask coarse, const std::vector<double>& start) {
+  coarse.root_stress = false;
+  InfluenceTableTask fine = coarse;
+  fine.mesh = {};
+  return {{"refinement", fit_version}, {"coarse", cache_key(coarse)}, {"fine", cache_key(fine)}, {"start", start}};
+}
+
+/// What `read` makes of what is kept under a key; with a note where it cannot be used.
+template <typename Read>
+auto kept(const Json& key, const char* what, std::vector<std::string>& notes, Read&& read) -> std::optional<Kept<decltype(read(StoredRun{}))>> {
+  const RunCache cache(RunCache::default_folder());
+  const auto stored = cache.find(key, notes);
+  if (!stored) return std::nullopt;
+  const std::string file = cache.file_of(key).string();
+  try {
+    return Kept{read(*stored), file};
+  } catch (const std::exception& problem) {
+    notes.push_back(std::string("the stored ") + what + " " + file + " is not used: " + problem.what());
+    return std::nullopt;
+  }
+}
+
+std::string keep_under(const Json& key, const StoredRun& run, std::vector<std::string>& notes) {
+  const RunCache cache(RunCache::default_folder());
+  return cache.store(key, run, notes) ? cache.file_of(key).string() : "";
+}
+
+}  // namespace
+
+std::optional<Kept<InfluenceTableRun>> DiskStore::find(const InfluenceTableTask& task) {
+  InfluenceTableTask asked = task;
+  for (;; asked.root_stress = true) {
+    auto run = kept(cache_key(asked), "finite-element run", notes_, [&](const StoredRun& stored) { return from_store(task, stored); });
+    if (run || asked.root_stress) return run;
+  }
+}
+
+std::string DiskStore::keep(const InfluenceTableTask& task, const InfluenceTableRun& run) { return keep_under(cache_key(task), to_store(run), notes_); }
+
+std::optional<Kept<RefinementEntry>> DiskStore::find_fit(const InfluenceTableTask& coarse, const std::vector<double>& start) {
+  return kept(fit_key(coarse, start), "fit", notes_,
+              [](const StoredRun& stored) { return entries_in(stored.facts.at("fit").get<std::string>()).at(0); });
+}
+
+std::string DiskStore::keep_fit(const InfluenceTableTask& coarse, const std::vector<double>& start, const RefinementEntry& fit) {
+  return keep_under(fit_key(coarse, start), {.facts = {{"fit", to_text(fit)}}, .matrices = {}}, notes_);
 }
 
 }  // namespace flankwright::studies

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/compliance/finite_element/solve_influence_table.hpp"
+#include "core/compliance/fitted/refinement_library.hpp"
+
+namespace flankwright {
+
+/// Something that was made before, and where it is kept.
+template <typename T>
+struct Kept {
+  T value;
+  std::string where;
+};
+
+/// Where influence values and fits are kept for another time. Nothing here may change a result: what is found is what would be made. One
+/// thread calls at a time.
+class ComplianceStore {
+ public:
+  virtual ~ComplianceStore() = default;
+
+  /// The run of that task, or one that tells more; empty where there is none that can be used.
+  virtual std::optional<Kept<InfluenceTableRun>> find(const InfluenceTableTask& task) = 0;
+  /// @param run  Factorised
+  /// @return where it is kept; empty: nowhere
+  virtual std::string keep(const InfluenceTableTask& task, const InfluenceTableRun& run) = 0;
+
+  /// The fit of a gear to its run by the default mesh.
+  /// @param coarse  task of the run that it completes
+  /// @param start   coefficients that it started from
+  virtual std::optional<Kept<RefinementEntry>> find_fit(const InfluenceTableTask& coarse, const std::vector<double>& start) = 0;
+  /// @return where it is kept; empty: nowhere
+  virtual std::string keep_fit(const InfluenceTableTask& coarse, const std::vector<double>& start, const RefinementEntry& fit) = 0;
+
+ protected:
+  ComplianceStore() = default;
+  ComplianceStore(const ComplianceStore&) = default;
+  ComplianceStore& operator=(const ComplianceStore&) = default;
+};
+
+}  // namespace flankwright

@@ -1,0 +1,68 @@
+#include "core/compliance/model/compliance_task.hpp"
+
+#include <algorithm>
+
+#include "core/compliance/fitted/refinement_fit.hpp"
+#include "core/compliance/fitted/refinement_library.hpp"
+#include "core/compliance/pair/pair_compliance.hpp"
+
+namespace flankwright {
+
+InfluenceTableTask influence_table_task(const ComplianceTask& task, Member member) {
+  const bool pinion = member == Member::Pinion;
+  const GearPair& pair = task.pair;
+  const Gear& gear = pair[member];
+  InfluenceTableTask run{.gear = {gear.data, pair.data.normal_module, pair.data.pressure_angle, pair.data.helix_angle, {}},
+                         .poissons_ratio = (pinion ? task.pinion_material : task.wheel_material).poissons_ratio,
+                         .teeth_apart = std::max(2, teeth_apart_in_contact(pair)),
+                         .grid = flank_grid(gear.data.face_width / pair.data.normal_module),
+                         .root_stress = task.root_stress};
+  run.gear.gear.tip_diameter = 2 * gear.tip_radius;
+  if (2 * run.teeth_apart + 1 > gear.data.teeth) {
+    throw InvalidInput("fidelity.compliance", to_string(task.model),
+                       "another compliance: teeth " + std::to_string(run.teeth_apart) + " pitches apart touch at once, too many for the " +
+                           name_of(member) + "'s " + std::to_string(gear.data.teeth));
+  }
+  if (task.model == ComplianceModel::Fitted) run.mesh = coarse_mesh();
+  with_gear_names(task.model, member, [&] {
+    const ToothForm form(run.gear.gear, run.gear.normal_module, run.gear.pressure_angle, run.gear.helix_angle);
+    run.gear.body = complete_body(pinion ? task.pinion_body : task.wheel_body, form, run.gear.normal_module);
+    // The gear's wind-up starts where the torque leaves it, and the shaft's own bearings hold it axially.
+    if (const std::optional<ShaftData>& shaft = pinion ? task.pinion_shaft : task.wheel_shaft) {
+      run.removed = RemovedMotion::WholeTranslationTorsionAndTilt;
+      run.gear.body.torque_end = shaft->torque_side() == sharp_end(pair, member) ? FaceEnd::Sharp : FaceEnd::Blunt;
+    }
+    GearMeshOptions options = run.mesh;
+    options.teeth_each_side = run.teeth_apart;
+    section_radii(form, gear.data.teeth, run.gear.normal_module, run.gear.body, options);  // only for what it refuses
+  });
+  return run;
+}
+
+std::string unknown_to_library(const ComplianceTask& task, const InfluenceTableTask& gear) {
+  return task.model == ComplianceModel::Fitted ? RefinementLibrary::shipped().unknown(gear.gear, gear.poissons_ratio) : "";
+}
+
+std::vector<std::string> library_notes(const ComplianceTask& task) {
+  std::vector<std::string> notes;
+  if (task.model != ComplianceModel::Fitted) return notes;
+  for (const Member member : {Member::Pinion, Member::Wheel}) {
+    const InfluenceTableTask gear = influence_table_task(task, member);
+    const std::string unknown = unknown_to_library(task, gear);
+    if (unknown.empty()) continue;
+    const bool narrower = task_of_fit(gear).grid.face_width() < gear.grid.face_width();
+    notes.push_back(std::string("the ") + name_of(member) + " is outside the library of fits (" + unknown + "): its first run takes " +
+                    (narrower ? "three" : "two") + " finite-element models instead of one, and a fit of its own");
+  }
+  return notes;
+}
+
+InfluenceTableTask task_of_fit(InfluenceTableTask coarse) {
+  if (coarse.grid.face_width() <= widest_own_fit) return coarse;
+  coarse.gear.gear.face_width = widest_own_fit * coarse.gear.normal_module;
+  coarse.grid = flank_grid(widest_own_fit);
+  coarse.root_stress = false;
+  return coarse;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/compliance/finite_element/solve_influence_table.hpp"
+#include "core/compliance/model/compliance_model.hpp"
+#include "core/compliance/shaft/shaft_data.hpp"
+
+namespace flankwright {
+
+/// What the compliance and the root stress of a pair follow from.
+struct ComplianceTask {
+  GearPair pair;
+  ComplianceModel model{ComplianceModel::Fitted};
+  Material pinion_material{}, wheel_material{};
+  GearBody pinion_body{}, wheel_body{};  ///< that the teeth stand on
+  /// Empty: rigid. A shaft tells at which end the torque leaves the gear, and its bearings hold the gear axially.
+  std::optional<ShaftData> pinion_shaft{}, wheel_shaft{};
+  bool root_stress{false};   ///< finite elements shall tell it, whatever the model
+  bool rigid_bodies{false};  ///< wanted beside: the same gears on rigid bodies, where the model couples teeth
+};
+
+/// What is to be solved for one gear, by a coarse mesh where the model is Fitted: its own face width, body and tip, teeth apart as the pair needs
+/// them (two at least, so that the loaded tooth's neighbours stand on what they stand on), the grid of flank_grid().
+/// @throws InvalidInput  "fidelity.compliance", "pair." and "pinion." or "wheel." with their field, where body and teeth cannot be meshed
+InfluenceTableTask influence_table_task(const ComplianceTask& task, Member member);
+
+/// What of a gear the library of fits does not know, RefinementLibrary::unknown(), where the model is Fitted: the gear then
+/// needs a fit of its own. Empty otherwise.
+std::string unknown_to_library(const ComplianceTask& task, const InfluenceTableTask& gear);
+
+/// What a gear outside the library costs and why, one line for each such gear.
+/// @throws InvalidInput  as influence_table_task()
+std::vector<std::string> library_notes(const ComplianceTask& task);
+
+/// What a gear's own fit is made from: the coarse task, with a face of at most widest_own_fit.
+InfluenceTableTask task_of_fit(InfluenceTableTask coarse);
+
+/// Does something with one gear and says what it refuses under the gear's own names.
+template <typename Work>
+auto with_gear_names(ComplianceModel model, Member member, Work&& work) {
+  try {
+    return work();
+  } catch (const InvalidInput& problem) {
+    const std::string gear = name_of(member);
+    if (problem.field().starts_with("options")) {
+      throw InvalidInput("fidelity.compliance", to_string(model), "another compliance: the " + gear + " cannot be meshed (" + problem.value() + ")");
+    }
+    const bool of_pair = problem.field() == "helix_angle" || problem.field() == "pressure_angle";
+    const std::string table = of_pair ? "pair." : problem.field() == "poissons_ratio" ? gear + ".material." : gear + ".";
+    throw InvalidInput(table + problem.field(), problem.value(), problem.allowed());
+  }
+}
+
+}  // namespace flankwright

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/base/for_each_index.hpp"
+#include "core/base/progress_report.hpp"
+#include "core/compliance/model/compliance_store.hpp"
+#include "core/compliance/model/compliance_task.hpp"
+
+namespace flankwright {
+
+/// What a build may use, and whom it tells. Only the time depends on it.
+struct ComplianceBuild {
+  ComplianceStore* store{nullptr};  ///< null: nothing is kept
+  double memory_limit{std::numeric_limits<double>::infinity()};  ///< that all runs at one time may take [bytes], > 0
+  ForEachIndex for_each{};  ///< over finite-element runs; empty: one after the other
+  int abreast{1};           ///< runs that `for_each` has at one time, at most, >= 1
+  ProgressReport progress{};  ///< called by one thread at a time; empty: nobody is told
+};
+
+/// Influence values of one gear and where they came from.
+struct GearRun {
+  std::shared_ptr<const InfluenceTable> table;
+  std::shared_ptr<const RootStressTable> root_stress;  ///< null where the task does not want it
+  RunStatistics statistics;    ///< of the run, whenever it was made
+  GearBody body;               ///< used [mm]
+  RemovedMotion removed{RemovedMotion::TranslationTorsionAndTilt};
+  bool from_cache{false};
+  std::string file;            ///< where it is kept; empty: nowhere
+  double seconds{not_given};   ///< wall time in this build
+};
+
+struct FiniteElementRuns {
+  std::array<GearRun, 2> gears;  ///< pinion, wheel; by coarse_mesh() where the compliance is "fitted"
+  /// By the default mesh, for a fit of its own, beside that of `gears`: those that the library of fits does not know.
+  std::array<std::optional<GearRun>, 2> fine;
+  /// By coarse_mesh(), with the face of the fine run, where that is narrower than the gear's own.
+  std::array<std::optional<GearRun>, 2> narrow;
+  /// As `gears`, their bodies rigid; where ComplianceTask::rigid_bodies.
+  std::array<std::optional<GearRun>, 2> rigid_body;
+  double seconds{not_given};     ///< wall time in this build
+
+  const GearRun& operator[](Member m) const { return gears[m == Member::Pinion ? 0 : 1]; }
+  const std::optional<GearRun>& fine_run(Member m) const { return fine[m == Member::Pinion ? 0 : 1]; }
+  const std::optional<GearRun>& narrow_run(Member m) const { return narrow[m == Member::Pinion ? 0 : 1]; }
+  const std::optional<GearRun>& rigid_body_run(Member m) const { return rigid_body[m == Member::Pinion ? 0 : 1]; }
+  /// Of the finest run with the gear's own face; null where the task does not want it.
+  const std::shared_ptr<const RootStressTable>& root_stress(Member m) const {
+    return fine_run(m) && !narrow_run(m) ? fine_run(m)->root_stress : (*this)[m].root_stress;
+  }
+};
+
+/// Solves both gears or takes them from the store. Gears that are alike but for their size are solved once; two that
+/// are not are solved side by side where memory suffices for both, one after the other where it does not.
+/// @throws InvalidInput  "fidelity.compliance" where a gear does not fit into the memory, and as influence_table_task()
+FiniteElementRuns solve_finite_elements(const ComplianceTask& task, const ComplianceBuild& build);
+
+}  // namespace flankwright

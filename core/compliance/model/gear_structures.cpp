@@ -1,0 +1,38 @@
+#include "core/compliance/model/gear_structures.hpp"
+
+namespace flankwright {
+
+GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuild& build) {
+  GearStructures structures;
+  const bool is_structural = couples_teeth(task.model);
+  if (!is_structural && !task.root_stress) return structures;
+  structures.finite_elements = solve_finite_elements(task, build);
+  structures.notes = library_notes(task);
+  const FiniteElementRuns& runs = *structures.finite_elements;
+  if (is_structural) {
+    const auto structure = [&](Member member, const Material& material) {
+      GearStructure result{runs[member].table, material.youngs_modulus};
+      if (const auto& rigid = runs.rigid_body_run(member)) result.on_rigid_body = rigid->table;
+      if (task.model == ComplianceModel::Fitted) {
+        auto& refinement = structures.refinements[member == Member::Pinion ? 0 : 1];
+        refinement = gear_refinement(task, runs, member, build);
+        if (!refinement->unknown.empty() && refinement->fit.status != FitStatus::Converged) {
+          structures.notes.push_back(std::string("the ") + name_of(member) + "'s fit stopped after " +
+                                     std::to_string(refinement->fit.iterations) + " steps, before it converged");
+        }
+        result.compliance = refinement->compliance;
+        if (result.on_rigid_body) result.on_rigid_body = refinement->completed(result.on_rigid_body);
+      }
+      return result;
+    };
+    const GearStructure pinion = structure(Member::Pinion, task.pinion_material);
+    const GearStructure wheel = structure(Member::Wheel, task.wheel_material);
+    structures.pair = std::make_shared<const StructuralPair>(task.pair, pinion, wheel);
+  }
+  if (const auto& pinion = runs.root_stress(Member::Pinion)) {
+    structures.root_stress = std::make_shared<const TabulatedRootStress>(task.pair, pinion, runs.root_stress(Member::Wheel));
+  }
+  return structures;
+}
+
+}  // namespace flankwright

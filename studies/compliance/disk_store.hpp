@@ -1,0 +1,22 @@
+#pragma once
+
+#include "core/compliance/model/compliance_store.hpp"
+
+namespace flankwright::studies {
+
+/// Runs and fits as files in RunCache::default_folder(). A run that tells root stress as well serves one that need not.
+class DiskStore final : public ComplianceStore {
+ public:
+  std::optional<Kept<InfluenceTableRun>> find(const InfluenceTableTask& task) override;
+  std::string keep(const InfluenceTableTask& task, const InfluenceTableRun& run) override;
+  std::optional<Kept<RefinementEntry>> find_fit(const InfluenceTableTask& coarse, const std::vector<double>& start) override;
+  std::string keep_fit(const InfluenceTableTask& coarse, const std::vector<double>& start, const RefinementEntry& fit) override;
+
+  /// What went wrong with the folder so far, for the user.
+  const std::vector<std::string>& notes() const { return notes_; }
+
+ private:
+  std::vector<std::string> notes_;
+};
+
+}  // namespace flankwright::studies

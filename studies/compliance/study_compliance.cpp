@@ -1,0 +1,90 @@
+#include "studies/compliance/study_compliance.hpp"
+
+#include <spdlog/spdlog.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "studies/compliance/disk_store.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+/// Share of the machine's memory that runs may take.
+constexpr double share_of_memory = 0.8;
+
+double machine_memory() {
+  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
+}
+
+}  // namespace
+
+bool asks_for_root_stress(const Study& study) {
+  if (study.task != Task::Optimise) return false;
+  const auto is_root_stress = [](const ObjectiveTerm& term) { return term.output == Output::PeakRootStress; };
+  const auto in_goal = [&](const Goal& goal) { return std::ranges::any_of(goal.terms, is_root_stress); };
+  const OptimiseTable& optimise = study.optimise;
+  return std::ranges::any_of(optimise.objective, is_root_stress) || std::ranges::any_of(optimise.constraints, is_root_stress, &OutputConstraint::output) ||
+         std::ranges::any_of(optimise.then, in_goal) || std::ranges::any_of(optimise.pareto_goals, in_goal);
+}
+
+bool wants_root_stress(const Study& study) {
+  const Fidelity& fidelity = study.fidelity;
+  if (fidelity.compliance == ComplianceModel::Rigid) return false;
+  if (!fidelity.automatic_effects) return std::ranges::find(fidelity.effects, "root_stress") != fidelity.effects.end();
+  return couples_teeth(fidelity.compliance) || asks_for_root_stress(study) ||
+         std::ranges::any_of(study.expect, [](const Expectation& e) { return e.key.find("root_stress") != std::string::npos; });
+}
+
+bool wants_rigid_bodies(const Study& study) {
+  const Fidelity& fidelity = study.fidelity;
+  if (study.task == Task::Fit || !couples_teeth(fidelity.compliance)) return false;
+  const bool left_out =
+      !fidelity.automatic_effects && std::ranges::find(fidelity.effects, "gear_body_compliance") == fidelity.effects.end();
+  return left_out || study.task == Task::Accuracy || fidelity.effect_sizes == EffectSizing::Exact;
+}
+
+bool solves_finite_elements(const Study& study) {
+  return study.task == Task::Fit || (has_torque(study) && (couples_teeth(study.fidelity.compliance) || wants_root_stress(study)));
+}
+
+ComplianceTask compliance_task(const Study& study, const GearPair& pair) {
+  ComplianceTask task{.pair = pair,
+                      .model = study.fidelity.compliance,
+                      .pinion_material = study.pinion_material,
+                      .wheel_material = study.wheel_material,
+                      .pinion_body = study.pinion_body,
+                      .wheel_body = study.wheel_body,
+                      .pinion_shaft = study.pinion_shaft,
+                      .wheel_shaft = study.wheel_shaft,
+                      .root_stress = wants_root_stress(study),
+                      .rigid_bodies = wants_rigid_bodies(study)};
+  if (study.task == Task::Fit) {
+    task.model = ComplianceModel::Fe;
+    task.pinion_shaft.reset();
+    task.wheel_shaft.reset();
+  }
+  return task;
+}
+
+GearStructures gear_structures(const Study& study, const GearPair& pair, const ProgressReport& progress) {
+  const ComplianceTask task = compliance_task(study, pair);
+  DiskStore store;
+  ComplianceBuild build{.store = &store, .memory_limit = share_of_memory * machine_memory(), .abreast = tbb::this_task_arena::max_concurrency()};
+  build.for_each = [](std::size_t count, const std::function<void(std::size_t)>& work) { tbb::parallel_for(std::size_t{0}, count, work); };
+  build.progress = [&, told = false](const std::string& label, int done, int total, const std::string& remark) mutable {
+    if (!told) {
+      for (const std::string& note : library_notes(task)) spdlog::info("{}", note);
+    }
+    told = true;
+    if (progress) progress(label, done, total, remark);
+  };
+  GearStructures structures = build_compliance(task, build);
+  structures.notes.insert(structures.notes.end(), store.notes().begin(), store.notes().end());
+  return structures;
+}
+
+}  // namespace flankwright::studies

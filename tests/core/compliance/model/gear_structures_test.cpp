@@ -1,0 +1,87 @@
+#include "core/compliance/model/gear_structures.hpp"
+
+#include <catch2/catch.hpp>
+
+#include "core/gear/gear_pair.hpp"
+
+using namespace flankwright;
+
+namespace {
+
+/// Two equal narrow spur gears: one small finite-element run.
+ComplianceTask twins(ComplianceModel model) {
+  PairData data;
+  data.normal_module = 4;
+  data.pinion.teeth = data.wheel.teeth = 12;
+  data.pinion.profile_shift = data.wheel.profile_shift = 0.3;
+  data.pinion.face_width = data.wheel.face_width = 4;
+  return {.pair = make_gear_pair(data), .model = model};
+}
+
+/// Keeps runs in memory.
+class MemoryStore final : public ComplianceStore {
+ public:
+  std::optional<Kept<InfluenceTableRun>> find(const InfluenceTableTask& task) override {
+    for (const auto& [known, run] : runs) {
+      if (alike_but_for_size(known, task)) return Kept<InfluenceTableRun>{run, "memory"};
+    }
+    return std::nullopt;
+  }
+  std::string keep(const InfluenceTableTask& task, const InfluenceTableRun& run) override {
+    runs.emplace_back(task, run);
+    return "memory";
+  }
+  std::optional<Kept<RefinementEntry>> find_fit(const InfluenceTableTask&, const std::vector<double>&) override { return std::nullopt; }
+  std::string keep_fit(const InfluenceTableTask&, const std::vector<double>&, const RefinementEntry&) override { return ""; }
+
+  std::vector<std::pair<InfluenceTableTask, InfluenceTableRun>> runs;
+};
+
+double deflection(const GearStructures& built, Member member) {
+  const auto& structure = dynamic_cast<const StructuralPair&>(*built.pair);
+  const std::vector<FlankPlace> place{{0, 0.5, 0.4}};
+  return structure[member].compliance->evaluate(place)(0, 0);
+}
+
+}  // namespace
+
+TEST_CASE("A pair's compliance is built without a store, and the same with one", "[compliance][fe]") {
+  const ComplianceTask task = twins(ComplianceModel::Fe);
+  const GearStructures alone = build_compliance(task);
+  REQUIRE(alone.finite_elements);
+  CHECK(!alone.root_stress);
+  CHECK((*alone.finite_elements)[Member::Pinion].table == (*alone.finite_elements)[Member::Wheel].table);  // equal gears are solved once
+  CHECK((*alone.finite_elements)[Member::Pinion].file.empty());
+
+  MemoryStore store;
+  std::vector<std::string> told;
+  ComplianceBuild build{.store = &store};
+  build.progress = [&](const std::string& label, int, int, const std::string&) { told.push_back(label); };
+  const GearStructures made = build_compliance(task, build);
+  CHECK(store.runs.size() == 1);
+  REQUIRE(!told.empty());
+  CHECK(told.front() == "solving both gears' finite elements");
+  told.clear();
+  const GearStructures found = build_compliance(task, build);
+  CHECK(told.empty());
+  CHECK((*found.finite_elements)[Member::Wheel].from_cache);
+  CHECK((*found.finite_elements)[Member::Wheel].file == "memory");
+  for (const GearStructures* built : {&made, &found}) CHECK(deflection(*built, Member::Wheel) == deflection(alone, Member::Wheel));
+}
+
+TEST_CASE("What a pair's compliance cannot be built from is refused under the names of its gears", "[compliance][fe]") {
+  CHECK(!build_compliance(twins(ComplianceModel::ThinSlice)).finite_elements);
+  const auto refused = [](const ComplianceTask& task, const ComplianceBuild& build = {}) {
+    try {
+      build_compliance(task, build);
+    } catch (const InvalidInput& problem) {
+      return problem.field() + ": " + problem.allowed();
+    }
+    return std::string();
+  };
+  ComplianceTask task = twins(ComplianceModel::Fe);
+  task.wheel_body.shaft_diameter = 60;  // more than the root circle
+  CHECK_THAT(refused(task), Catch::Contains("wheel.") && Catch::Contains("shaft_diameter"));
+  const std::string memory = refused(twins(ComplianceModel::Fe), {.memory_limit = 1e6});
+  CHECK_THAT(memory, Catch::Contains("fidelity.compliance: another compliance: the pinion's finite elements cannot be solved") && Catch::Contains("unknowns"));
+}
