@@ -1,6 +1,7 @@
 // Analyses a misaligned helical pair and optimises its flanks by the libraries core and optimize alone, without a study file.
 // Lengths are in mm, angles in rad, torques in N mm.
 #include <cstdio>
+#include <string>
 
 #include "core/compliance/model/gear_structures.hpp"
 #include "core/fidelity/resolved_analysis.hpp"
