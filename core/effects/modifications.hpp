@@ -21,7 +21,7 @@ class ModificationsEffect final : public Effect {
  private:
   static bool modified(const Modification& m) {
     return m.topography || std::ranges::any_of(modification_parameters,
-                                               [&](const NamedModificationParameter& p) { return get(m, p.parameter) != 0.0; });
+                                               [&](const ModificationDescriptor& p) { return p.get(m) != 0.0; });
   }
 };
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/gear/deviation_field.hpp"
-#include "core/gear/microgeometry.hpp"
+#include "core/gear/flank_frame.hpp"
 
 namespace flankwright {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/gear/gear_data.hpp"
-#include "core/gear/microgeometry.hpp"
+#include "core/gear/flank_frame.hpp"
 
 namespace flankwright {
 

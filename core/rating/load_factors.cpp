@@ -4,25 +4,6 @@ namespace flankwright {
 
 namespace {
 
-/// One gear's flank, lead part: everything of `m` but what the profile and neither part own.
-Modification lead_of(const Modification& m) {
-  Modification part;
-  part.lead_crowning = m.lead_crowning;
-  part.lead_slope = m.lead_slope;
-  part.end_relief = m.end_relief;
-  return part;
-}
-
-Modification profile_of(const Modification& m) {
-  Modification part;
-  part.addendum_crowning = m.addendum_crowning;
-  part.dedendum_crowning = m.dedendum_crowning;
-  part.profile_slope = m.profile_slope;
-  part.tip_relief = m.tip_relief;
-  part.root_relief = m.root_relief;
-  return part;
-}
-
 ManufacturingError lead_of(const ManufacturingError& e) {
   ManufacturingError part;
   part.helix_slope = e.helix_slope;
@@ -55,8 +36,8 @@ FlankCondition perfect_part(const FlankCondition& condition) {
 
 FlankCondition lead_part(const FlankCondition& condition) {
   FlankCondition part = perfect_part(condition);
-  part.pinion_modification = lead_of(condition.pinion_modification);
-  part.wheel_modification = lead_of(condition.wheel_modification);
+  part.pinion_modification = only(condition.pinion_modification, ModificationClass::Lead);
+  part.wheel_modification = only(condition.wheel_modification, ModificationClass::Lead);
   part.pinion_error = lead_of(condition.pinion_error);
   part.wheel_error = lead_of(condition.wheel_error);
   part.misalignment.crossing = condition.misalignment.crossing;
@@ -68,8 +49,8 @@ FlankCondition lead_part(const FlankCondition& condition) {
 
 FlankCondition profile_part(const FlankCondition& condition) {
   FlankCondition part = perfect_part(condition);
-  part.pinion_modification = profile_of(condition.pinion_modification);
-  part.wheel_modification = profile_of(condition.wheel_modification);
+  part.pinion_modification = only(condition.pinion_modification, ModificationClass::Profile);
+  part.wheel_modification = only(condition.wheel_modification, ModificationClass::Profile);
   part.pinion_error = profile_of(condition.pinion_error);
   part.wheel_error = profile_of(condition.wheel_error);
   part.misalignment.pinion_pressure_angle = condition.misalignment.pinion_pressure_angle;
@@ -91,7 +72,7 @@ bool acts(const MeshParameter& parameter, ConditionPart part) {
 }
 
 bool has_other_part(const FlankCondition& condition) {
-  const auto shaped = [](const Modification& m) { return m.twist != 0.0 || m.shapes != decltype(m.shapes){} || m.parabolic_te != 0.0 || m.topography != nullptr; };
+  const auto shaped = [](const Modification& m) { return m.topography != nullptr || only(m, ModificationClass::Topography) != Modification{}; };
   const auto twisted = [](const ManufacturingError& e) { return e.twist != 0.0 || !e.twists.empty(); };
   return shaped(condition.pinion_modification) || shaped(condition.wheel_modification) || twisted(condition.pinion_error) ||
          twisted(condition.wheel_error) || condition.misalignment.centre_distance != 0.0;

@@ -37,7 +37,6 @@ const ObjectiveTerm& term_of(const EpigraphRow& row, const DesignTask& task) {
 double proof_step(const std::string& unit) { return unit == "um" ? 1.0 : unit == "mm" ? 0.1 : 0.01; }
 
 std::vector<ProofParameter> proof_parameters(const DesignTask& task) {
-  using enum ModificationParameter;
   std::vector<ProofParameter> parameters;
   for (std::size_t i = 0; i < task.variables.size(); ++i) parameters.push_back(of_variable(task.variables[i], static_cast<int>(i)));
   const auto misalignment = [&](const char* name, double step, const char* unit, MisalignmentParameter parameter, double inside) {
@@ -48,8 +47,8 @@ std::vector<ProofParameter> proof_parameters(const DesignTask& task) {
   misalignment("intersecting", 0.1, "arcmin", &Misalignment::intersecting, 0.1 * units::arcmin);
   misalignment("centre_distance", 0.01, "mm", &Misalignment::centre_distance, 0.01);
   for (const Member member : {Member::Pinion, Member::Wheel}) {
-    parameters.push_back(of_error(member, "helix_slope", LeadSlope));
-    parameters.push_back(of_error(member, "profile_slope", ProfileSlope));
+    parameters.push_back(of_error(member, "helix_slope", parameter_of("lead_slope")));
+    parameters.push_back(of_error(member, "profile_slope", parameter_of("profile_slope")));
   }
   parameters.push_back({"load.torque", 1.0, "%", PinionTorque{}, 0.01});
   return parameters;

@@ -47,7 +47,7 @@ std::vector<Rule> profile_rules(const GearPair& pair, const RuleBasis& basis) {
                                basis.single_pair_deflection, pinion, wheel));
   }
   rules.push_back({"profile crowning", "Haddad 1991 section 4.3.3; mean deflection", [amount = basis.deflection](Modification& pinion, Modification&) {
-                     set(pinion, ModificationParameter::ProfileCrowning, amount);
+                     set(pinion, parameter_of("profile_crowning"), amount);
                    }});
   return rules;
 }

@@ -2,24 +2,9 @@
 
 namespace flankwright {
 
-namespace {
+double DesignVariable::outside_factor() const { return flankwright::outside_factor(describe(parameter).kind); }
 
-bool is_extent(ModificationParameter parameter) {
-  return parameter == ModificationParameter::TipReliefHeight || parameter == ModificationParameter::RootReliefHeight ||
-         parameter == ModificationParameter::EndReliefLength;
-}
-
-}  // namespace
-
-double DesignVariable::outside_factor() const {
-  if (parameter == ModificationParameter::ParabolicTe) return 1.0 / units::arcsec_per_square_deg;
-  return is_extent(parameter) ? 1.0 : 1.0 / units::um;
-}
-
-const char* DesignVariable::unit() const {
-  if (parameter == ModificationParameter::ParabolicTe) return "arcsec/deg^2";
-  return is_extent(parameter) ? "mm" : "um";
-}
+const char* DesignVariable::unit() const { return unit_of(describe(parameter).kind); }
 
 double ModificationConstraint::value(const Modification& pinion, const Modification& wheel) const {
   double sum = 0.0;

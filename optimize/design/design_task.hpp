@@ -18,7 +18,7 @@ namespace flankwright {
 struct DesignVariable {
   std::string path;  ///< as the study names it: "pinion.modification.lead_crowning"
   Member member{Member::Pinion};
-  ModificationParameter parameter{ModificationParameter::LeadCrowning};
+  ModificationParameter parameter{};
   double lower{0.0}, upper{0.0};  ///< [mm; parabolic_te 1/rad], lower < upper
   double step{0.0};  ///< what the grinder can set is a multiple of this, unit as the bounds; 0: anything
 
@@ -54,7 +54,7 @@ struct OutputConstraint {
 struct ModificationConstraint {
   struct Term {
     Member member{Member::Pinion};
-    ModificationParameter parameter{ModificationParameter::LeadCrowning};
+    ModificationParameter parameter{};
     double factor{1.0};
   };
   std::string name;  ///< as the study writes it: "pinion.modification.lead_crowning + wheel.modification.lead_crowning"

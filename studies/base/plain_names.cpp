@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/fidelity/cycle_quantities.hpp"
+#include "core/flank/modifications/modification.hpp"
 
 namespace flankwright::studies {
 
@@ -15,35 +16,8 @@ struct Row {
   std::string_view key, name, symbol{}, sense{};
 };
 
-/// Below "pinion." and "wheel.".
-constexpr std::array of_gear{
-    Row{"modification.lead_crowning", "lead crowning", "C_β"},
-    Row{"modification.lead_slope", "lead slope", "C_Hβ", "+ removes at z = +b/2"},
-    Row{"modification.profile_crowning", "profile crowning", "C_α"},
-    Row{"modification.addendum_crowning", "addendum crowning"},
-    Row{"modification.dedendum_crowning", "dedendum crowning"},
-    Row{"modification.profile_slope", "profile slope", "C_Hα", "+ removes at the tip"},
-    Row{"modification.tip_relief.amount", "tip relief", "C_αa"},
-    Row{"modification.tip_relief.height", "tip relief height"},
-    Row{"modification.tip_relief.shape", "tip relief shape"},
-    Row{"modification.root_relief.amount", "root relief", "C_αf"},
-    Row{"modification.root_relief.height", "root relief height"},
-    Row{"modification.root_relief.shape", "root relief shape"},
-    Row{"modification.end_relief.amount", "end relief", "C_βI, C_βII"},
-    Row{"modification.end_relief.length", "end relief length", "L_CβI, L_CβII"},
-    Row{"modification.twist", "twist", "S_α", "+ removes at the tip at z = +b/2"},
-    Row{"modification.parabolic_te", "parabolic transmission error"},
-    Row{"modification.topography.face_2", "topography, lead order 2", "", "Legendre polynomials; + removes at both face ends"},
-    Row{"modification.topography.profile_2", "topography, profile order 2", "", "Legendre polynomials; + removes at tip and root"},
-    Row{"modification.topography.face_3", "topography, lead order 3", "", "Legendre polynomials; + removes at z = +b/2"},
-    Row{"modification.topography.profile_3", "topography, profile order 3", "", "Legendre polynomials; + removes at the tip"},
-    Row{"modification.topography.profile_1_face_2", "topography, profile order 1 by lead order 2", "", "Legendre polynomials; + removes at the tip at both face ends"},
-    Row{"modification.topography.profile_2_face_1", "topography, profile order 2 by lead order 1", "", "Legendre polynomials; + removes at tip and root at z = +b/2"},
-    Row{"modification.topography.face_4", "topography, lead order 4", "", "Legendre polynomials; + removes at both face ends"},
-    Row{"modification.topography.profile_4", "topography, profile order 4", "", "Legendre polynomials; + removes at tip and root"},
-    Row{"modification.topography.profile_1_face_3", "topography, profile order 1 by lead order 3", "", "Legendre polynomials; + removes at the tip at z = +b/2"},
-    Row{"modification.topography.profile_3_face_1", "topography, profile order 3 by lead order 1", "", "Legendre polynomials; + removes at the tip at z = +b/2"},
-    Row{"modification.topography.profile_2_face_2", "topography, profile order 2 by lead order 2", "", "Legendre polynomials; + removes at the four corners"},
+/// Below "pinion." and "wheel.", beside the modifications.
+constexpr std::array errors{
     Row{"error.helix_slope", "helix slope deviation", "f_Hβ", "+ adds metal at z = +b/2"},
     Row{"error.profile_slope", "profile slope deviation", "f_Hα", "+ adds metal at the tip"},
     Row{"error.pitch", "pitch deviation", "f_p"},
@@ -86,7 +60,14 @@ std::vector<PlainName> make_names() {
     names.push_back({key, name, std::string(row.symbol), std::string(row.sense)});
   };
   for (const std::string gear : {"pinion", "wheel"}) {
-    for (const Row& row : of_gear) add(gear + "." + std::string(row.key), gear + " " + std::string(row.name), row);
+    for_each_modification_key([&](const auto& key) {
+      const Row row = [&]() -> Row {
+        if constexpr (requires { key.symbol; }) return {key.key, key.name, key.symbol, key.sense};
+        else return {key.key, key.name};
+      }();
+      add(gear + ".modification." + std::string(row.key), gear + " " + std::string(row.name), row);
+    });
+    for (const Row& row : errors) add(gear + "." + std::string(row.key), gear + " " + std::string(row.name), row);
   }
   for (const Row& row : of_pair) add(std::string(row.key), std::string(row.name), row);
   for (const Row& row : outputs) add(std::string(row.key), std::string(row.name), row);

@@ -1,5 +1,7 @@
 #include "studies/results/proof_json.hpp"
 
+#include <algorithm>
+
 #include "studies/compliance/fit_task.hpp"
 
 namespace flankwright::studies {
@@ -11,13 +13,18 @@ Json modifications_json(const NamedDesign& design) {
   Json json = Json::array();
   for (const Member member : {Member::Pinion, Member::Wheel}) {
     const Modification& m = member == Member::Pinion ? design.pinion : design.wheel;
-    const bool one_crowning = m.addendum_crowning == m.dedendum_crowning;
-    for (const NamedModificationParameter& p : modification_parameters) {
-      using enum ModificationParameter;
-      const bool is_half = p.parameter == AddendumCrowning || p.parameter == DedendumCrowning;
-      if (get(m, p.parameter) == 0.0 || (is_half && one_crowning) || (p.parameter == ProfileCrowning && !one_crowning)) continue;
-      const DesignVariable v{.path = std::string(name_of(member)) + ".modification." + std::string(p.name), .member = member, .parameter = p.parameter};
-      json.push_back({{"name", v.path}, {"value", get(m, p.parameter) * v.outside_factor()}, {"unit", v.unit()}});
+    // Halves that are alike are said at once, others each by itself.
+    const auto alike = [&](const ModificationDescriptor& p) { return find_parameter(p.half)->get(m) == find_parameter(p.other_half)->get(m); };
+    const auto is_said = [&](const ModificationDescriptor& p) {
+      if (!p.half.empty()) return alike(p);
+      return std::ranges::none_of(modification_parameters, [&](const ModificationDescriptor& both) {
+        return (both.half == p.key || both.other_half == p.key) && alike(both);
+      });
+    };
+    for (const ModificationDescriptor& p : modification_parameters) {
+      if (p.get(m) == 0.0 || !is_said(p)) continue;
+      const DesignVariable v{.path = std::string(name_of(member)) + ".modification." + std::string(p.key), .member = member, .parameter = p.parameter};
+      json.push_back({{"name", v.path}, {"value", p.get(m) * v.outside_factor()}, {"unit", v.unit()}});
     }
   }
   return json;

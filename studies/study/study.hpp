@@ -12,7 +12,7 @@
 #include "core/contact/path/contact_points.hpp"
 #include "core/contact/assembly/misalignment.hpp"
 #include "core/gear/gear_data.hpp"
-#include "core/gear/microgeometry.hpp"
+#include "core/flank/modifications/modification.hpp"
 #include "core/load/cycle/mesh_parameter.hpp"
 #include "optimize/design/design_task.hpp"
 #include "studies/study/proof_table.hpp"

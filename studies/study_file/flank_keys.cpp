@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <iterator>
+
 #include "studies/study_file/key_rows.hpp"
 
 namespace flankwright::studies {
@@ -23,86 +26,45 @@ void store(const Value& v, double& of_all, std::vector<double>& of_each) {
   of_each = v.is_list ? v.numbers : std::vector<double>{};
 }
 
-constexpr Range relief_extent = from_zero(10000.0);  // mm; 0 is "not given"
+/// The key of a parameter, its range in the unit of its kind.
+SchemaKey row_of(const ModificationDescriptor& d) {
+  SchemaKey key{.path = "gear.modification." + std::string(d.key), .fallback = "0", .meaning = std::string(d.meaning), .store = d.parameter};
+  switch (d.kind) {
+    case ParameterKind::Amount:
+      key.quantity = Quantity::Deviation;
+      key.range = removal_range;
+      break;
+    case ParameterKind::Extent:
+      key.quantity = Quantity::Length;
+      key.range = from_zero(10000.0);  // mm; 0 is "not given"
+      break;
+    case ParameterKind::TeParabola:
+      key.quantity = Quantity::ParabolicTe;
+      key.range = from_zero(1000.0);
+      break;
+  }
+  return key;
+}
+
+SchemaKey row_of(const ModificationChoice& c) {
+  return {.path = "gear.modification." + std::string(c.key), .kind = ValueKind::Word, .words = {c.words.begin(), c.words.end()},
+          .fallback = "\"" + std::string(c.words.front()) + "\"", .meaning = std::string(c.meaning), .store = &c};
+}
+
+/// Every modification: its numbers, then its choices.
+std::vector<SchemaKey> modification_rows() {
+  std::vector<SchemaKey> rows;
+  for_each_modification_key([&](const auto& key) { rows.push_back(row_of(key)); });
+  return rows;
+}
 
 using enum ValueKind;
-using MP = ModificationParameter;
-
-}  // namespace
 
 // A row is read as a row:
 // clang-format off
 
-std::vector<SchemaKey> flank_rows() {
+std::vector<SchemaKey> grid_and_error_rows() {
   return {
-      {.path = "gear.modification.lead_crowning", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "C_beta, removed at both face ends, parabola over z", .store = MP::LeadCrowning},
-      {.path = "gear.modification.lead_slope", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "C_Hbeta over the face width; + removes at z = +b/2, zero at mid face", .store = MP::LeadSlope},
-      {.path = "gear.modification.profile_crowning", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "C_alpha: addendum and dedendum crowning at once", .store = MP::ProfileCrowning},
-      {.path = "gear.modification.addendum_crowning", .quantity = Quantity::Deviation, .range = removal_range,
-       .fallback = "0", .meaning = "removed at the tip, parabola from the pitch point up",
-       .store = MP::AddendumCrowning},
-      {.path = "gear.modification.dedendum_crowning", .quantity = Quantity::Deviation, .range = removal_range,
-       .fallback = "0", .meaning = "removed at the start of active profile, parabola from the pitch point down",
-       .store = MP::DedendumCrowning},
-      {.path = "gear.modification.profile_slope", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "C_Halpha over the active profile height; + removes at the tip, zero at the pitch point",
-       .store = MP::ProfileSlope},
-      {.path = "gear.modification.tip_relief.amount", .quantity = Quantity::Deviation, .range = removal_range,
-       .fallback = "0", .meaning = "C_alpha_a, removed at the tip", .store = MP::TipReliefAmount},
-      {.path = "gear.modification.tip_relief.height", .quantity = Quantity::Length, .range = relief_extent,
-       .fallback = "0", .meaning = "radial, from the tip down; above 0 where there is an amount",
-       .store = MP::TipReliefHeight},
-      {.path = "gear.modification.tip_relief.shape", .kind = Word, .words = {"linear", "parabolic"},
-       .fallback = "\"linear\"", .meaning = "between its start and the tip",
-       .store = [](Draft& d, Member m, const Value& v) {
-         modification(d, m).tip_relief.shape = static_cast<ReliefShape>(v.integer);
-       }},
-      {.path = "gear.modification.root_relief.amount", .quantity = Quantity::Deviation, .range = removal_range,
-       .fallback = "0", .meaning = "C_alpha_f, removed at the start of active profile", .store = MP::RootReliefAmount},
-      {.path = "gear.modification.root_relief.height", .quantity = Quantity::Length, .range = relief_extent,
-       .fallback = "0", .meaning = "radial, from the start of active profile up; above 0 where there is an amount",
-       .store = MP::RootReliefHeight},
-      {.path = "gear.modification.root_relief.shape", .kind = Word, .words = {"linear", "parabolic"},
-       .fallback = "\"linear\"", .meaning = "between its start and the start of active profile",
-       .store = [](Draft& d, Member m, const Value& v) {
-         modification(d, m).root_relief.shape = static_cast<ReliefShape>(v.integer);
-       }},
-      {.path = "gear.modification.end_relief.amount", .quantity = Quantity::Deviation, .range = removal_range,
-       .fallback = "0", .meaning = "removed at both face ends, linear", .store = MP::EndReliefAmount},
-      {.path = "gear.modification.end_relief.length", .quantity = Quantity::Length, .range = relief_extent,
-       .fallback = "0", .meaning = "axial, from each face end; above 0 where there is an amount",
-       .store = MP::EndReliefLength},
-      {.path = "gear.modification.twist", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "removed twist * (y / h_active) * (z / b); + removes at the tip at z = +b/2", .store = MP::Twist},
-      {.path = "gear.modification.parabolic_te", .quantity = Quantity::ParabolicTe, .range = from_zero(1000.0),
-       .fallback = "0",
-       .meaning = "a of the predesigned transmission error -a phi1^2: removed along the contact line of pinion angle phi1",
-       .store = MP::ParabolicTe},
-      {.path = "gear.modification.topography.face_2", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "removed c P_0(profile) P_2(face): Legendre polynomials, -1 at the start of active profile and z = -b/2 .. 1 at the tip and z = +b/2", .store = MP::TopographyFace2},
-      {.path = "gear.modification.topography.profile_2", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "the same with P_2(profile) P_0(face)", .store = MP::TopographyProfile2},
-      {.path = "gear.modification.topography.face_3", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "the same with P_0(profile) P_3(face)", .store = MP::TopographyFace3},
-      {.path = "gear.modification.topography.profile_3", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "the same with P_3(profile) P_0(face)", .store = MP::TopographyProfile3},
-      {.path = "gear.modification.topography.profile_1_face_2", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "the same with P_1(profile) P_2(face)", .store = MP::TopographyProfile1Face2},
-      {.path = "gear.modification.topography.profile_2_face_1", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "the same with P_2(profile) P_1(face)", .store = MP::TopographyProfile2Face1},
-      {.path = "gear.modification.topography.face_4", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "the same with P_0(profile) P_4(face)", .store = MP::TopographyFace4},
-      {.path = "gear.modification.topography.profile_4", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "the same with P_4(profile) P_0(face)", .store = MP::TopographyProfile4},
-      {.path = "gear.modification.topography.profile_1_face_3", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "the same with P_1(profile) P_3(face)", .store = MP::TopographyProfile1Face3},
-      {.path = "gear.modification.topography.profile_3_face_1", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "the same with P_3(profile) P_1(face)", .store = MP::TopographyProfile3Face1},
-      {.path = "gear.modification.topography.profile_2_face_2", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
-       .meaning = "the same with P_2(profile) P_2(face)", .store = MP::TopographyProfile2Face2},
       {.path = "gear.modification.grid", .kind = Text, .fallback = "(none)",
        .meaning = "CSV file, beside the study unless its path says otherwise: measured or topological deviation, "
                   "columns radius_mm, z_mm, deviation_um (+ = metal added, normal to the flank)",
@@ -137,5 +99,13 @@ std::vector<SchemaKey> flank_rows() {
 }
 
 // clang-format on
+
+}  // namespace
+
+std::vector<SchemaKey> flank_rows() {
+  std::vector<SchemaKey> rows = modification_rows();
+  std::ranges::move(grid_and_error_rows(), std::back_inserter(rows));
+  return rows;
+}
 
 }  // namespace flankwright::studies

@@ -10,8 +10,6 @@ namespace flankwright::studies {
 
 namespace {
 
-using MP = ModificationParameter;
-
 std::string unknown_output(const std::string& name) {
   const std::string near = nearest_word(name, output_names());
   return "unknown output" + (near.empty() ? "" : ", did you mean " + near + "?");
@@ -79,14 +77,14 @@ void read_objective(StudyReading& reading, const SchemaKey& key, const toml::nod
 const SchemaKey* modification_key(StudyReading& reading, const std::string& name, const Position& at, const std::string& shown,
                                   const toml::node* node) {
   const auto known = study_keys().find(name);
-  if (known != study_keys().end() && std::holds_alternative<MP>(known->second->store)) return known->second;
+  if (known != study_keys().end() && std::holds_alternative<ModificationParameter>(known->second->store)) return known->second;
   const std::string hint = known == study_keys().end() ? nearest_key_hint(study_keys(), name) : "";
   reading.refuse(at, shown, node, "allowed are the amounts, heights and lengths below pinion.modification and wheel.modification" + hint);
   return nullptr;
 }
 
 DesignVariable variable_of(const SchemaKey& key) {
-  return {.path = key.path, .member = key.member, .parameter = std::get<MP>(key.store)};
+  return {.path = key.path, .member = key.member, .parameter = std::get<ModificationParameter>(key.store)};
 }
 
 /// Known keys of an item's table; others become problems.
@@ -220,7 +218,7 @@ void read_modification_constraint(StudyReading& reading, const Item& item, const
       return reading.refuse(item.position, shown, item.node, "adds up different units: allowed is one unit");
     }
     first = key;
-    constraint.terms.push_back({key->member, std::get<MP>(key->store), factor});
+    constraint.terms.push_back({key->member, std::get<ModificationParameter>(key->store), factor});
   }
   if (first == nullptr) {
     return reading.refuse(item.position, shown, item.node, "allowed is an output, or a sum such as \"2 * pinion.modification.lead_crowning - "

@@ -80,36 +80,30 @@ bool asks_derivative(const Study& study, Member m, MP parameter) {
   });
 }
 
-/// A relief's amount and the height or length over which it is spread.
-struct ReliefKeys {
-  std::string amount_name, extent_name;
-  MP amount, extent;
-};
-
 /// A relief with an amount needs an extent above 0; an extent to be varied needs an amount.
-void check_relief(StudyReading& reading, Member m, const ReliefKeys& keys) {
+void check_relief(StudyReading& reading, Member m, const ModificationDescriptor& of_amount, const ModificationDescriptor& of_extent) {
   const Study& study = reading.draft.study;
   const Modification& modification = m == Member::Pinion ? study.pinion_modification : study.wheel_modification;
   const std::string prefix = std::string(name_of(m)) + ".modification.";
-  const DesignVariable* amount = find_variable(study, m, keys.amount);
-  const DesignVariable* extent = find_variable(study, m, keys.extent);
-  const bool has_amount = amount != nullptr || get(modification, keys.amount) != 0.0;
+  const std::string amount_path = prefix + std::string(of_amount.key), path = prefix + std::string(of_extent.key);
+  const DesignVariable* amount = find_variable(study, m, of_amount.parameter);
+  const DesignVariable* extent = find_variable(study, m, of_extent.parameter);
+  const bool has_amount = amount != nullptr || of_amount.get(modification) != 0.0;
   if (extent != nullptr && !has_amount) {
     return refuse_key(
-        reading, "optimise.variables." + prefix + keys.extent_name,
-        "has no effect while " + prefix + keys.amount_name + " is 0: give it a value or make it a variable");
+        reading, "optimise.variables." + path,
+        "has no effect while " + amount_path + " is 0: give it a value or make it a variable");
   }
-  const bool has_derivative = asks_derivative(study, m, keys.amount);
+  const bool has_derivative = asks_derivative(study, m, of_amount.parameter);
   if (!has_amount && !has_derivative) return;
   if (extent != nullptr && extent->lower <= 0.0) {
-    return refuse_key(reading, "optimise.variables." + prefix + keys.extent_name,
+    return refuse_key(reading, "optimise.variables." + path,
                       "allowed is a lower bound above 0 mm: the relief is spread over it");
   }
-  if (extent != nullptr || get(modification, keys.extent) > 0.0) return;
-  const std::string path = prefix + keys.extent_name;
-  const std::string of_amount = has_amount ? (amount != nullptr ? "optimise.variables." : "") + prefix + keys.amount_name : "analyse.gradients";
+  if (extent != nullptr || of_extent.get(modification) > 0.0) return;
+  const std::string asked_by = has_amount ? (amount != nullptr ? "optimise.variables." : "") + amount_path : "analyse.gradients";
   const bool is_given = reading.find(path) != nullptr;
-  const Position at = reading.where(is_given ? path : of_amount);
+  const Position at = reading.where(is_given ? path : asked_by);
   reading.refuse(at, path, is_given ? reading.find(path)->node : nullptr,
                  "set " + path + " above 0 mm: the relief's amount is spread over it");
 }
@@ -128,7 +122,7 @@ void check_parabola(StudyReading& reading, Member m) {
     }
   };
   check(path, (m == Member::Pinion ? study.pinion_modification : study.wheel_modification).parabolic_te);
-  if (const DesignVariable* variable = find_variable(study, m, MP::ParabolicTe)) {
+  if (const DesignVariable* variable = find_variable(study, m, parameter_of("parabolic_te"))) {
     check("optimise.variables." + path, variable->upper);
   }
 }
@@ -238,12 +232,10 @@ void check_pair(StudyReading& reading) {
 }
 
 void check_task(StudyReading& reading) {
-  const std::array reliefs{
-      ReliefKeys{"tip_relief.amount", "tip_relief.height", MP::TipReliefAmount, MP::TipReliefHeight},
-      ReliefKeys{"root_relief.amount", "root_relief.height", MP::RootReliefAmount, MP::RootReliefHeight},
-      ReliefKeys{"end_relief.amount", "end_relief.length", MP::EndReliefAmount, MP::EndReliefLength}};
   for (const Member m : members) {
-    for (const ReliefKeys& keys : reliefs) check_relief(reading, m, keys);
+    for (const ModificationDescriptor& amount : modification_parameters) {
+      if (!amount.extent.empty()) check_relief(reading, m, amount, *find_parameter(amount.extent));
+    }
     check_parabola(reading, m);
     check_finite_elements(reading, m);
   }

@@ -258,14 +258,17 @@ const std::vector<SchemaKey>& study_schema() {
 }
 
 const std::vector<ExclusiveKeys>& exclusive_keys() {
-  static const std::vector<ExclusiveKeys> pairs{
-      {"pair.normal_module", "pair.normal_diametral_pitch"},
-      {"cycle.positions", "cycle.phases"},
-      {"pinion.modification.profile_crowning", "pinion.modification.addendum_crowning"},
-      {"pinion.modification.profile_crowning", "pinion.modification.dedendum_crowning"},
-      {"wheel.modification.profile_crowning", "wheel.modification.addendum_crowning"},
-      {"wheel.modification.profile_crowning", "wheel.modification.dedendum_crowning"},
-  };
+  static const std::vector<ExclusiveKeys> pairs = [] {
+    std::vector<ExclusiveKeys> made{{"pair.normal_module", "pair.normal_diametral_pitch"}, {"cycle.positions", "cycle.phases"}};
+    for (const std::string gear : {"pinion.modification.", "wheel.modification."}) {
+      for (const ModificationDescriptor& d : modification_parameters) {
+        for (const std::string_view half : {d.half, d.other_half}) {
+          if (!half.empty()) made.push_back({gear + std::string(d.key), gear + std::string(half)});
+        }
+      }
+    }
+    return made;
+  }();
   return pairs;
 }
 

@@ -206,10 +206,9 @@ namespace {
 void store(const SchemaKey& key, const Value& value, Draft& draft, Scene& scene) {
   if (const auto* in_draft = std::get_if<StoreInDraft>(&key.store)) (*in_draft)(draft, key.member, value);
   if (const auto* in_scene = std::get_if<StoreInScene>(&key.store)) (*in_scene)(scene, key.member, value);
-  if (const auto* parameter = std::get_if<ModificationParameter>(&key.store)) {
-    Study& study = draft.study;
-    set(key.member == Member::Pinion ? study.pinion_modification : study.wheel_modification, *parameter, value.number);
-  }
+  Modification& modification = key.member == Member::Pinion ? draft.study.pinion_modification : draft.study.wheel_modification;
+  if (const auto* parameter = std::get_if<ModificationParameter>(&key.store)) set(modification, *parameter, value.number);
+  if (const auto* choice = std::get_if<const ModificationChoice*>(&key.store)) (*choice)->set(modification, static_cast<std::size_t>(value.integer));
 }
 
 void read_table_list(StudyReading& reading, const Match& match, Scene& scene) {

@@ -74,7 +74,7 @@ struct Draft {
 using StoreInDraft = void (*)(Draft&, Member, const Value&);
 using StoreInScene = void (*)(Scene&, Member, const Value&);  ///< such a key may be overridden by a scene
 /// A key that holds a ModificationParameter may be a design variable.
-using Store = std::variant<std::monostate, StoreInDraft, StoreInScene, ModificationParameter>;
+using Store = std::variant<std::monostate, StoreInDraft, StoreInScene, ModificationParameter, const ModificationChoice*>;
 
 struct SchemaKey {
   std::string path{};  ///< dotted; "scenes[].name" is a key of each scene

@@ -69,16 +69,14 @@ bool is_swept(const SweepTable& sweep, const std::string& path) {
 
 /// A relief's amount needs the height or length over which it is spread.
 void check_reliefs(StudyReading& reading, const SweptCondition& nominal) {
-  using enum ModificationParameter;
   const SweepTable& sweep = reading.draft.study.sweep;
   for (const std::string gear : {"pinion.", "wheel."}) {
     const Modification& m = gear == "pinion." ? nominal.pinion_modification : nominal.wheel_modification;
-    for (const auto& [amount, extent, parameter] : {std::tuple{"tip_relief.amount", "tip_relief.height", TipReliefHeight},
-                                                    std::tuple{"root_relief.amount", "root_relief.height", RootReliefHeight},
-                                                    std::tuple{"end_relief.amount", "end_relief.length", EndReliefLength}}) {
-      const std::string prefix = gear + "modification.";
-      if (!is_swept(sweep, prefix + amount) || get(m, parameter) > 0.0) continue;
-      refuse_key(reading, "sweep.parameters." + prefix + amount, "set " + prefix + extent + " above 0 mm: the relief's amount is spread over it");
+    for (const ModificationDescriptor& amount : modification_parameters) {
+      if (amount.extent.empty()) continue;
+      const std::string path = gear + "modification." + std::string(amount.key), extent = gear + "modification." + std::string(amount.extent);
+      if (!is_swept(sweep, path) || find_parameter(amount.extent)->get(m) > 0.0) continue;
+      refuse_key(reading, "sweep.parameters." + path, "set " + extent + " above 0 mm: the relief's amount is spread over it");
     }
   }
 }

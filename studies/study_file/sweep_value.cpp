@@ -9,9 +9,8 @@ namespace flankwright::studies {
 namespace {
 
 bool is_extent(const SchemaKey& key) {
-  using enum ModificationParameter;
   const auto* parameter = std::get_if<ModificationParameter>(&key.store);
-  return parameter != nullptr && (*parameter == TipReliefHeight || *parameter == RootReliefHeight || *parameter == EndReliefLength);
+  return parameter != nullptr && describe(*parameter).kind == ParameterKind::Extent;
 }
 
 }  // namespace

@@ -66,11 +66,11 @@ inline FlankCondition condition() {
 }
 
 inline std::vector<MeshParameter> eight_modifications() {
-  using enum ModificationParameter;
   const auto pinion = Member::Pinion, wheel = Member::Wheel;
-  return {GearParameter{pinion, LeadCrowning},    GearParameter{pinion, LeadSlope},       GearParameter{pinion, ProfileCrowning},
-          GearParameter{pinion, TipReliefAmount}, GearParameter{pinion, TipReliefHeight}, GearParameter{pinion, Twist},
-          GearParameter{wheel, TipReliefAmount},  GearParameter{wheel, EndReliefAmount}};
+  return {GearParameter{pinion, parameter_of("lead_crowning")},     GearParameter{pinion, parameter_of("lead_slope")},
+          GearParameter{pinion, parameter_of("profile_crowning")},  GearParameter{pinion, parameter_of("tip_relief.amount")},
+          GearParameter{pinion, parameter_of("tip_relief.height")}, GearParameter{pinion, parameter_of("twist")},
+          GearParameter{wheel, parameter_of("tip_relief.amount")},  GearParameter{wheel, parameter_of("end_relief.amount")}};
 }
 
 }  // namespace flankwright::load_scene

@@ -78,8 +78,8 @@ TEST_CASE("A single misaligned scene is cancelled by the lead slope", "[optimize
 TEST_CASE("The first harmonic of the transmission error vanishes when it alone is minimised",
           "[optimize][design][physics]") {
   DesignTask task = helical({0.0}, 16);
-  task.variables.push_back({"pinion.modification.twist", Member::Pinion, ModificationParameter::Twist, -0.020, 0.020});
-  task.variables.push_back({"pinion.modification.profile_slope", Member::Pinion, ModificationParameter::ProfileSlope, -0.015, 0.015});
+  task.variables.push_back({"pinion.modification.twist", Member::Pinion, parameter_of("twist"), -0.020, 0.020});
+  task.variables.push_back({"pinion.modification.profile_slope", Member::Pinion, parameter_of("profile_slope"), -0.015, 0.015});
   task.objective = {term(Output::TeHarmonic, 1)};
   const DesignResult result = optimise(task);
   CAPTURE(result.before.objective, result.after.objective, result.message);
@@ -92,7 +92,7 @@ TEST_CASE("The first harmonic of the transmission error vanishes when it alone i
 TEST_CASE("The optimum respects a bound on the transmission error, and pays for it", "[optimize][design]") {
   DesignTask task = spur({10.0, -10.0});
   task.variables.push_back(
-      {"pinion.modification.profile_crowning", Member::Pinion, ModificationParameter::ProfileCrowning, 0.0, 0.040});
+      {"pinion.modification.profile_crowning", Member::Pinion, parameter_of("profile_crowning"), 0.0, 0.040});
   const DesignResult free = optimise(task);
   DesignProblem problem(task);
   OutputConstraint bound{term(Output::TePeakToPeak)};
@@ -156,7 +156,7 @@ TEST_CASE("Mean + k sigma has several optima, of which several starts find the o
 TEST_CASE("Where a solver stalls on a kink the finisher goes on from its best design, unless none is asked for", "[optimize][design][finisher][slow]") {
   const auto finished = [&](double misalignment, const std::string& solver, const std::string& finisher) {
     DesignTask task = spur({misalignment, -misalignment});
-    task.variables.push_back({"pinion.modification.profile_crowning", Member::Pinion, ModificationParameter::ProfileCrowning, 0.0, 0.040});
+    task.variables.push_back({"pinion.modification.profile_crowning", Member::Pinion, parameter_of("profile_crowning"), 0.0, 0.040});
     task.objective = {term(Output::TePeakToPeak)};
     DesignProblem problem(task);
     SolverOptions options;
@@ -256,7 +256,7 @@ TEST_CASE("A parabola of transmission error is chosen over misalignment, and onl
   without.objective = {term(Output::TePeakToPeak)};
   without.variables.pop_back();
   DesignTask with = without;
-  with.variables.push_back({"pinion.modification.parabolic_te", Member::Pinion, ModificationParameter::ParabolicTe, 0.0,
+  with.variables.push_back({"pinion.modification.parabolic_te", Member::Pinion, parameter_of("parabolic_te"), 0.0,
                             0.02 * units::arcsec_per_square_deg});
   const DesignResult plain = optimise(without), parabolic = optimise(with);
   CAPTURE(plain.after.objective, parabolic.after.objective, parabolic.after.variables[2] / units::arcsec_per_square_deg);

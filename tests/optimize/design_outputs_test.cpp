@@ -23,11 +23,11 @@ DesignTask task_with_reliefs() {
   const auto add = [&](Member member, const char* path, ModificationParameter parameter, double lower, double upper) {
     task.variables.push_back({path, member, parameter, lower, upper});
   };
-  add(Member::Pinion, "pinion.modification.tip_relief.amount", ModificationParameter::TipReliefAmount, 0.005, 0.06);
-  add(Member::Pinion, "pinion.modification.tip_relief.height", ModificationParameter::TipReliefHeight, 1.0, 6.0);
-  add(Member::Wheel, "wheel.modification.end_relief.amount", ModificationParameter::EndReliefAmount, 0.005, 0.03);
-  add(Member::Wheel, "wheel.modification.end_relief.length", ModificationParameter::EndReliefLength, 5.0, 40.0);
-  add(Member::Wheel, "wheel.modification.twist", ModificationParameter::Twist, -0.02, 0.02);
+  add(Member::Pinion, "pinion.modification.tip_relief.amount", parameter_of("tip_relief.amount"), 0.005, 0.06);
+  add(Member::Pinion, "pinion.modification.tip_relief.height", parameter_of("tip_relief.height"), 1.0, 6.0);
+  add(Member::Wheel, "wheel.modification.end_relief.amount", parameter_of("end_relief.amount"), 0.005, 0.03);
+  add(Member::Wheel, "wheel.modification.end_relief.length", parameter_of("end_relief.length"), 5.0, 40.0);
+  add(Member::Wheel, "wheel.modification.twist", parameter_of("twist"), -0.02, 0.02);
   return task;
 }
 

@@ -36,9 +36,9 @@ DesignTask helical(const std::vector<double>& misalignments_um, int positions) {
   task.resolution = {{QuadratureRule::Gauss2, 5}, equally_spaced_phases(positions)};
   task.root_stress = std::make_shared<const mesh_cases::SyntheticRootStress>(task.pair);
   add_scenes(task, 1014.868, misalignments_um);
-  task.variables = {variable("lead_crowning", ModificationParameter::LeadCrowning, 0.0, 40.0),
-                    variable("lead_slope", ModificationParameter::LeadSlope, -20.0, 20.0),
-                    variable("profile_crowning", ModificationParameter::ProfileCrowning, 0.0, 30.0)};
+  task.variables = {variable("lead_crowning", parameter_of("lead_crowning"), 0.0, 40.0),
+                    variable("lead_slope", parameter_of("lead_slope"), -20.0, 20.0),
+                    variable("profile_crowning", parameter_of("profile_crowning"), 0.0, 30.0)};
   task.objective = {term(Output::PeakContactStress)};
   return task;
 }
@@ -53,8 +53,8 @@ DesignTask spur(const std::vector<double>& misalignments_um) {
   task.pair = make_gear_pair(data);
   task.resolution = {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(8)};
   add_scenes(task, 300.0, misalignments_um);
-  task.variables = {variable("lead_crowning", ModificationParameter::LeadCrowning, 0.0, 40.0),
-                    variable("lead_slope", ModificationParameter::LeadSlope, -20.0, 20.0)};
+  task.variables = {variable("lead_crowning", parameter_of("lead_crowning"), 0.0, 40.0),
+                    variable("lead_slope", parameter_of("lead_slope"), -20.0, 20.0)};
   task.objective = {term(Output::PeakContactStress)};
   return task;
 }

@@ -69,7 +69,7 @@ TEST_CASE("Where the conditions hold no direction descends, and on kinks they ho
   for (const auto& [misalignments, positions] : {std::pair{std::vector{0.0, 10.0}, 8}, {{0.0}, 16}, {{0.0, -16.0, 16.0}, 12}}) {
     DesignTask task = helical(misalignments, positions);
     task.objective = {term(Output::TePeakToPeak)};
-    task.variables.back() = {"pinion.modification.parabolic_te", Member::Pinion, ModificationParameter::ParabolicTe, 0.0,
+    task.variables.back() = {"pinion.modification.parabolic_te", Member::Pinion, parameter_of("parabolic_te"), 0.0,
                              0.02 * units::arcsec / (units::deg * units::deg)};
     DesignProblem problem(task);
     SolverOptions options;

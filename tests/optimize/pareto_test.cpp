@@ -17,7 +17,7 @@ namespace {
 DesignTask trading_task() {
   DesignTask task = spur({10.0, -10.0});
   task.variables.push_back(
-      {"pinion.modification.profile_crowning", Member::Pinion, ModificationParameter::ProfileCrowning, 0.0, 0.040});
+      {"pinion.modification.profile_crowning", Member::Pinion, parameter_of("profile_crowning"), 0.0, 0.040});
   return task;
 }
 

@@ -41,9 +41,9 @@ DesignTask random_task(unsigned seed) {
   const auto variable = [&](const char* name, ModificationParameter parameter, double low, double high) {
     task.variables.push_back({std::string("pinion.modification.") + name, Member::Pinion, parameter, low * m * units::um, high * m * units::um});
   };
-  variable("lead_crowning", ModificationParameter::LeadCrowning, 0.0, 4.0);
-  variable("lead_slope", ModificationParameter::LeadSlope, -2.0, 2.0);
-  variable("profile_crowning", ModificationParameter::ProfileCrowning, 0.0, 3.0);
+  variable("lead_crowning", parameter_of("lead_crowning"), 0.0, 4.0);
+  variable("lead_slope", parameter_of("lead_slope"), -2.0, 2.0);
+  variable("profile_crowning", parameter_of("profile_crowning"), 0.0, 3.0);
   task.objective = {one_of<ObjectiveTerm>(generator, {term(Output::PeakContactStress), term(Output::TePeakToPeak),
                                                       term(Output::TeHarmonic, 1), term(Output::LoadFactor)})};
   task.over = one_of<Aggregation>(generator, {Aggregate::Worst, Aggregate::Mean, {Aggregate::Cvar, 2.0, 0.5}});

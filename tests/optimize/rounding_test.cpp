@@ -47,7 +47,7 @@ TEST_CASE("Rounding keeps the constraints where it can", "[optimize][design][rou
   DesignTask task = in_steps(2.0);
   DesignProblem free(task);
   const DesignResult unbounded = optimise_design(free, SolverOptions{});
-  ModificationConstraint sum{"sum", {{Member::Pinion, ModificationParameter::LeadCrowning, 1.0}}};
+  ModificationConstraint sum{"sum", {{Member::Pinion, parameter_of("lead_crowning"), 1.0}}};
   sum.maximum = unbounded.exact->variables[0] - 0.5 * units::um;
   task.modification_constraints = {sum};
   DesignProblem problem(task);

@@ -23,7 +23,7 @@ DesignTie tie(std::size_t as, Member member, ModificationParameter parameter, do
 DesignTask shared_crowning(double factor, double offset) {
   DesignTask task = spur({10.0, -10.0});
   task.variables.pop_back();
-  task.ties = {tie(0, Member::Wheel, ModificationParameter::LeadCrowning, factor, offset)};
+  task.ties = {tie(0, Member::Wheel, parameter_of("lead_crowning"), factor, offset)};
   return task;
 }
 
@@ -31,8 +31,8 @@ DesignTask shared_crowning(double factor, double offset) {
 
 TEST_CASE("A tied modification follows its variable, and gradients go through it", "[optimize][design][ties][gradient]") {
   DesignTask task = helical();
-  task.ties = {tie(0, Member::Wheel, ModificationParameter::LeadCrowning, 0.5, 0.002),
-               tie(2, Member::Wheel, ModificationParameter::ProfileCrowning, -1.0, 0.030)};
+  task.ties = {tie(0, Member::Wheel, parameter_of("lead_crowning"), 0.5, 0.002),
+               tie(2, Member::Wheel, parameter_of("profile_crowning"), -1.0, 0.030)};
   DesignProblem problem(task);
   std::mt19937 generator(21);
   const Eigen::VectorXd x = random_design(problem.variables(), generator);
@@ -74,12 +74,12 @@ TEST_CASE("A total that two gears share makes no difference to the gap", "[optim
 
 TEST_CASE("A bound on a sum of modifications holds, whichever solver, and is felt", "[optimize][design][ties]") {
   DesignTask task = spur({10.0, -10.0});
-  task.variables[1] = {"wheel.modification.lead_crowning", Member::Wheel, ModificationParameter::LeadCrowning, 0.0, 0.040};
+  task.variables[1] = {"wheel.modification.lead_crowning", Member::Wheel, parameter_of("lead_crowning"), 0.0, 0.040};
   DesignProblem free(task);
   const DesignResult unbounded = optimise_design(free, SolverOptions{});
   const double total = unbounded.after.variables[0] + unbounded.after.variables[1];
-  ModificationConstraint sum{"sum", {{Member::Pinion, ModificationParameter::LeadCrowning, 1.0},
-                                     {Member::Wheel, ModificationParameter::LeadCrowning, 1.0}}};
+  ModificationConstraint sum{"sum", {{Member::Pinion, parameter_of("lead_crowning"), 1.0},
+                                     {Member::Wheel, parameter_of("lead_crowning"), 1.0}}};
   sum.maximum = 0.5 * total;
   task.modification_constraints = {sum};
   DesignProblem problem(task);

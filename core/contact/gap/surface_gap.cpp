@@ -79,13 +79,13 @@ Gap SurfaceGap::at(const std::vector<ContactPoint>& points, double line_phase) c
 
 Eigen::VectorXd SurfaceGap::derivative(const Gap& gap, Member member, ModificationParameter parameter) const {
   const Flank& flank = member == Member::Pinion ? scene_.pinion : scene_.wheel;
-  const bool of_parabola = parameter == ModificationParameter::ParabolicTe;  // a field of the roll length, see Flank
+  const bool of_parabola = parameter == parameter_of("parabolic_te");  // a field of the roll length, see Flank
   const auto& parabola = parabola_[static_cast<std::size_t>(member)];
+  const RemovalDerivative removed(condition_.modification(member), flank.frame, parameter);
   const auto by_parameter = [&](double radius, double z) {
     const double roll = flank.roll_at(radius);
     if (of_parabola && parabola) return parabola->coefficient_slope(roll, z);
-    return removal_derivative(condition_.modification(member), flank.frame, parameter,
-                              of_parabola ? std::hypot(flank.frame.base_radius, roll) : radius, z);
+    return removed.at(of_parabola ? std::hypot(flank.frame.base_radius, roll) : radius, z);
   };
   Eigen::VectorXd derivative = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gap.nearest.size()));
   for (std::size_t i = 0; i < gap.nearest.size(); ++i) {

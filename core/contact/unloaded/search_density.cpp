@@ -31,8 +31,7 @@ class Stretches {
 bool has_field(const Flank& flank) { return !flank.fields.empty() || !flank.error.topographies.empty(); }
 
 bool adds_metal_in_relief(const Flank& flank) {
-  const Modification& m = flank.modification;
-  return m.tip_relief.amount < 0.0 || m.root_relief.amount < 0.0 || m.end_relief.amount < 0.0;
+  return std::ranges::any_of(modification_parameters, [&](const ModificationDescriptor& d) { return !d.extent.empty() && d.get(flank.modification) < 0.0; });
 }
 
 /// Second derivatives of both flanks' deviations together, with respect to rho1 and z, and over the arc lengths.

@@ -12,7 +12,7 @@ namespace flankwright {
 /// A modification parameter of one gear [mm; parabolic_te 1/rad].
 struct GearParameter {
   Member member{Member::Pinion};
-  ModificationParameter parameter{ModificationParameter::LeadCrowning};
+  ModificationParameter parameter{};
 };
 
 /// The torque on the pinion [N mm].

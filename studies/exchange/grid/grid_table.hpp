@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/gear/gear_pair.hpp"
-#include "core/gear/microgeometry.hpp"
+#include "core/flank/modifications/modification.hpp"
 
 namespace flankwright::studies {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "core/gear/microgeometry.hpp"
+#include "core/gear/flank_frame.hpp"
 
 namespace flankwright::studies::rexs {
 

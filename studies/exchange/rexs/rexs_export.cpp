@@ -148,57 +148,78 @@ class Export {
     flag("is_additive_modification", true);
   }
 
+  /// A component for every modification that the format has one for; the others become points of a topography.
   void add_modifications(Member m) {
-    const Modification& mod = modification(m);
-    const double half = 0.5 * pair_[m].data.face_width, tip = 2.0 * pair_[m].tip_radius, root = 2.0 * pair_[m].active_root_radius;
-    if (mod.lead_crowning != 0.0) {
-      add_modification("helix_crowning");
-      length("helix_crowning_amount_datum_face", mod.lead_crowning);
-      length("helix_crowning_amount_non_datum_face", mod.lead_crowning);
-      length("coordinate_where_helix_crowning_is_specified_datum_face", -half);
-      length("coordinate_where_helix_crowning_is_specified_non_datum_face", half);
-      length("helix_highest_point", 0.0);
-      word("shape_of_helix_crowning", "parabolic");
-    }
-    if (mod.lead_slope != 0.0) {
-      add_modification("helix_slope");
-      length("helix_slope", mod.lead_slope);
-      length("helix_evaluation_start", -half);
-      length("helix_evaluation_end", half);
-    }
-    if (mod.addendum_crowning != 0.0 || mod.dedendum_crowning != 0.0) {
-      add_modification("profile_crowning");
-      length("profile_crowning_at_tip", mod.addendum_crowning);
-      length("profile_crowning_at_root", mod.dedendum_crowning);
-      length("diameter_where_profile_crowning_tip_is_specified", tip);
-      length("diameter_where_profile_crowning_root_is_specified", root);
-      length("profile_highest_point", 2.0 * pair_[m].working_pitch_radius);
-      word("shape_of_profile_crowning", "parabolic");
-    }
-    if (mod.profile_slope != 0.0) {
-      add_modification("profile_slope");
-      length("profile_slope", mod.profile_slope);
-      length("profile_evaluation_start", root);
-      length("profile_evaluation_end", tip);
-    }
-    if (mod.tip_relief.amount != 0.0) add_relief("tip_relief", mod.tip_relief, tip - 2.0 * mod.tip_relief.height, tip);
-    if (mod.root_relief.amount != 0.0) add_relief("root_relief", mod.root_relief, root + 2.0 * mod.root_relief.height, root);
-    if (mod.end_relief.amount != 0.0) {
-      for (const auto& [side, end] : {std::pair{std::string("datum_face"), -half}, std::pair{std::string("non_datum_face"), half}}) {
-        add_modification("end_relief_" + side);
-        length("end_relief_depth_" + side, mod.end_relief.amount);
-        length("end_relief_length_" + side, mod.end_relief.length);
-        length("end_relief_evaluation_reference_" + side, end);
-        word("shape_of_relief", "linear");
+    Modification rest = modification(m);
+    rest.topography = nullptr;
+    for_each_modification(modification(m), [&]<class Part>(const Part& part) {
+      if constexpr (requires { this->write(m, part); }) {
+        if (removes_something(part)) this->write(m, part);
+        static_cast<Part&>(rest) = {};
       }
+    });
+    add_topography(m, rest);
+  }
+
+  template <class Part>
+  static bool removes_something(const Part& part) {
+    return std::ranges::any_of(Part::parameters(), [&](const auto& row) { return row.text.kind != ParameterKind::Extent && row.get(part) != 0.0; });
+  }
+
+  double half_face(Member m) const { return 0.5 * pair_[m].data.face_width; }
+  double tip(Member m) const { return 2.0 * pair_[m].tip_radius; }
+  double root(Member m) const { return 2.0 * pair_[m].active_root_radius; }
+
+  void write(Member m, const modifications::LeadCrowning& part) {
+    add_modification("helix_crowning");
+    length("helix_crowning_amount_datum_face", part.lead_crowning);
+    length("helix_crowning_amount_non_datum_face", part.lead_crowning);
+    length("coordinate_where_helix_crowning_is_specified_datum_face", -half_face(m));
+    length("coordinate_where_helix_crowning_is_specified_non_datum_face", half_face(m));
+    length("helix_highest_point", 0.0);
+    word("shape_of_helix_crowning", "parabolic");
+  }
+  void write(Member m, const modifications::LeadSlope& part) {
+    add_modification("helix_slope");
+    length("helix_slope", part.lead_slope);
+    length("helix_evaluation_start", -half_face(m));
+    length("helix_evaluation_end", half_face(m));
+  }
+  void write(Member m, const modifications::ProfileCrowning& part) {
+    add_modification("profile_crowning");
+    length("profile_crowning_at_tip", part.addendum_crowning);
+    length("profile_crowning_at_root", part.dedendum_crowning);
+    length("diameter_where_profile_crowning_tip_is_specified", tip(m));
+    length("diameter_where_profile_crowning_root_is_specified", root(m));
+    length("profile_highest_point", 2.0 * pair_[m].working_pitch_radius);
+    word("shape_of_profile_crowning", "parabolic");
+  }
+  void write(Member m, const modifications::ProfileSlope& part) {
+    add_modification("profile_slope");
+    length("profile_slope", part.profile_slope);
+    length("profile_evaluation_start", root(m));
+    length("profile_evaluation_end", tip(m));
+  }
+  void write(Member m, const modifications::TipRelief& part) {
+    add_relief("tip_relief", part.tip_relief, tip(m) - 2.0 * part.tip_relief.height, tip(m));
+  }
+  void write(Member m, const modifications::RootRelief& part) {
+    add_relief("root_relief", part.root_relief, root(m) + 2.0 * part.root_relief.height, root(m));
+  }
+  void write(Member m, const modifications::EndReliefs& part) {
+    for (const auto& [side, end] : {std::pair{std::string("datum_face"), -half_face(m)}, std::pair{std::string("non_datum_face"), half_face(m)}}) {
+      add_modification("end_relief_" + side);
+      length("end_relief_depth_" + side, part.end_relief.amount);
+      length("end_relief_length_" + side, part.end_relief.length);
+      length("end_relief_evaluation_reference_" + side, end);
+      word("shape_of_relief", "linear");
     }
-    if (mod.twist != 0.0) {
-      add_modification("profile_twist");
-      length("profile_twist", mod.twist);
-      length("position_of_profile_twist_datum_face", -half);
-      length("position_of_profile_twist_non_datum_face", half);
-    }
-    add_topography(m);
+  }
+  void write(Member m, const modifications::Twist& part) {
+    add_modification("profile_twist");
+    length("profile_twist", part.twist);
+    length("position_of_profile_twist_datum_face", -half_face(m));
+    length("position_of_profile_twist_non_datum_face", half_face(m));
   }
 
   void add_relief(const std::string& name, const ProfileRelief& relief, double datum_diameter, double end_diameter) {
@@ -210,15 +231,15 @@ class Export {
     flag("specify_tangential_transition", false);
   }
 
-  /// Everything of a flank that is a field and no number of Modification.
-  void add_topography(Member m) {
-    Modification rest = modification(m);
-    rest.topography = nullptr;
+  /// Everything of a flank that no component of the format says.
+  /// @param rest  modifications without a component
+  void add_topography(Member m, const Modification& rest) {
     const Flank flank = make_flank(pair_, m, rest, {});
+    const bool other = !flank.fields.empty() || flank.modification != Modification{};
     MeasuredGrid points;
     if (!grid(m).file.empty()) {
       points = read_grid((std::filesystem::path(study_.file).parent_path() / grid(m).file).string());
-    } else if (!flank.fields.empty()) {
+    } else if (other) {
       points = even_points(m);
     } else {
       return;
@@ -228,6 +249,7 @@ class Export {
       for (std::size_t j = 0; j < points.z.size(); ++j) {
         double amount = -points.deviation(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) / std::cos(pair_.base_helix_angle);
         for (const auto& field : flank.fields) amount += field->at(flank.roll_at(points.radii[i]), points.z[j]).value;
+        amount += removal(flank.modification, flank.frame, points.radii[i], points.z[j]);
         z.push_back(points.z[j]);
         diameters.push_back(2.0 * points.radii[i]);
         amounts.push_back(amount);
@@ -238,8 +260,8 @@ class Export {
     lengths("diameters_of_topographical_modification", diameters);
     lengths("topographical_modification_amounts", amounts);
     word("type_of_interpolation_topographical_modification", "spline");
-    if (!flank.fields.empty()) {
-      result_.notes.push_back(fmt::format("{}: generation and parabolic_te are exported as {} points of a topographical_modification", name_of(m), amounts.size()));
+    if (other) {
+      result_.notes.push_back(fmt::format("{}: what no component of the format says is exported as {} points of a topographical_modification", name_of(m), amounts.size()));
     }
   }
 

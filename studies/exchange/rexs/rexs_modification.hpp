@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/gear/gear_pair.hpp"
-#include "core/gear/microgeometry.hpp"
+#include "core/flank/modifications/modification.hpp"
 #include "studies/exchange/rexs/rexs_pair.hpp"
 
 namespace flankwright::studies::rexs {

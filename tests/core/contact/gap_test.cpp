@@ -205,7 +205,7 @@ TEST_CASE("The gap's derivative for every parameter agrees with central differen
   condition.misalignment.crossing = 1 * arcmin;
   constexpr double kStep = 1e-5;            // mm
   constexpr double kDiscretisation = 1e-9;  // third derivative of the extents' t^2 times step^2, and round-off/step
-  for (const NamedModificationParameter& p : modification_parameters) {
+  for (const ModificationDescriptor& p : modification_parameters) {
     FlankCondition up = condition, down = condition;
     const auto side = [member](FlankCondition& c) -> Modification& {
       return member == Member::Pinion ? c.pinion_modification : c.wheel_modification;
@@ -216,7 +216,7 @@ TEST_CASE("The gap's derivative for every parameter agrees with central differen
     const Eigen::VectorXd difference =
         (plane_of_action_gap(pair, points, up).total - plane_of_action_gap(pair, points, down).total) / (2 * kStep);
     const Eigen::VectorXd exact = gap_derivative(pair, points, condition, member, p.parameter);
-    CAPTURE(std::string(p.name));
+    CAPTURE(std::string(p.key));
     CHECK((exact - difference).lpNorm<Eigen::Infinity>() <= kDiscretisation);
     CHECK(exact.lpNorm<Eigen::Infinity>() > 0.0);
   }

@@ -212,12 +212,12 @@ TEST_CASE("The gap's derivative over the whole flanks agrees with central differ
     const SurfaceGap here(pair, condition);
     const Gap gap = here.at(points, phase);
     for (Member m : {Member::Pinion, Member::Wheel}) {
-      for (const NamedModificationParameter& p : modification_parameters) {
-        const double step = p.parameter == ModificationParameter::ParabolicTe ? 1e-2 * kStep : kStep;
+      for (const ModificationDescriptor& p : modification_parameters) {
+        const double step = p.parameter == parameter_of("parabolic_te") ? 1e-2 * kStep : kStep;
         const auto moved = [&](double by) {
           FlankCondition c = condition;
           Modification& modification = m == Member::Pinion ? c.pinion_modification : c.wheel_modification;
-          if (p.parameter == ModificationParameter::ProfileCrowning) {
+          if (p.parameter == parameter_of("profile_crowning")) {
             modification.addendum_crowning += by;
             modification.dedendum_crowning += by;
           } else {
@@ -233,7 +233,7 @@ TEST_CASE("The gap's derivative over the whole flanks agrees with central differ
           const double kRoundOff = 2e-13 / step;
           const double lower = std::min(ahead[k], behind[k]), upper = std::max(ahead[k], behind[k]);
           const double spread = upper - lower;
-          CAPTURE(i, m, std::string(p.name), k, exact[k], ahead[k], behind[k], points[static_cast<std::size_t>(k)].phase);
+          CAPTURE(i, m, std::string(p.key), k, exact[k], ahead[k], behind[k], points[static_cast<std::size_t>(k)].phase);
           CHECK(exact[k] >= lower - 0.5 * spread - kRoundOff);
           CHECK(exact[k] <= upper + 0.5 * spread + kRoundOff);
           largest = std::max(largest, std::abs(exact[k]));
@@ -305,13 +305,11 @@ TEST_CASE("Wild random flanks have a finite gap, finite derivatives and places o
     CAPTURE(i, data.pinion.teeth, data.wheel.teeth);
     CHECK(gap.total.allFinite());
     for (Member m : {Member::Pinion, Member::Wheel}) {
-      for (const NamedModificationParameter& p : modification_parameters) {
+      for (const ModificationDescriptor& p : modification_parameters) {
         // The amount of a relief without extent has no derivative.
         const Modification& given = condition.modification(m);
-        if (p.parameter == ModificationParameter::TipReliefAmount && given.tip_relief.height == 0.0) continue;
-        if (p.parameter == ModificationParameter::RootReliefAmount && given.root_relief.height == 0.0) continue;
-        if (p.parameter == ModificationParameter::EndReliefAmount && given.end_relief.length == 0.0) continue;
-        CAPTURE(std::string(p.name));
+        if (!p.extent.empty() && find_parameter(p.extent)->get(given) == 0.0) continue;
+        CAPTURE(std::string(p.key));
         CHECK(modified->derivative(gap, m, p.parameter).allFinite());
       }
     }

@@ -66,15 +66,11 @@ TEST_CASE("One scene that calls for an effect is enough", "[core][effects]") {
 }
 
 TEST_CASE("Every modification, error and misalignment is noticed", "[core][effects]") {
-  for (const NamedModificationParameter& p : modification_parameters) {
-    if (p.parameter == ModificationParameter::TipReliefHeight ||
-        p.parameter == ModificationParameter::RootReliefHeight ||
-        p.parameter == ModificationParameter::EndReliefLength) {
-      continue;  // an extent without an amount removes nothing
-    }
+  for (const ModificationDescriptor& p : modification_parameters) {
+    if (p.kind == ParameterKind::Extent) continue;  // without an amount it removes nothing
     FlankCondition condition;
     set(condition.pinion_modification, p.parameter, 1 * units::um);
-    CAPTURE(std::string(p.name));
+    CAPTURE(std::string(p.key));
     CHECK(is_on(decide_effects({true, false, {condition}}), "modifications"));
   }
   for (double ManufacturingError::*error : {&ManufacturingError::helix_slope, &ManufacturingError::profile_slope,

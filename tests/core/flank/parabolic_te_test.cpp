@@ -83,8 +83,8 @@ TEST_CASE("The removal for a parabola is the same along each line of contact and
       const double expected = pair.wheel.base_radius * a * phi1 * phi1;
       CHECK(std::abs(removal(m, pinion, r1, z) - expected) <= 1e-14);
       CHECK(std::abs(removal(m, wheel, r2, z) - expected) <= 1e-14);
-      CHECK(std::abs(removal_derivative(m, pinion, ModificationParameter::ParabolicTe, r1, z) - expected / a) <= 1e-10);
-      CHECK(std::abs(removal_derivative(m, wheel, ModificationParameter::ParabolicTe, r2, z) - expected / a) <= 1e-10);
+      CHECK(std::abs(removal_derivative(m, pinion, parameter_of("parabolic_te"), r1, z) - expected / a) <= 1e-10);
+      CHECK(std::abs(removal_derivative(m, wheel, parameter_of("parabolic_te"), r2, z) - expected / a) <= 1e-10);
     }
   }
 }
@@ -141,7 +141,7 @@ TEST_CASE("The conjugate flank's derivative by its coefficient is the lag's at t
   const double highest = pair[member].roll_length_at(pair[member].tip_radius);
   for (const double share : {0.1, 0.5, 0.9}) {
     const double rho = lowest + share * (highest - lowest), z = 7.0;
-    const double lag = removal_derivative({}, frame, ModificationParameter::ParabolicTe, std::hypot(frame.base_radius, rho), z);
+    const double lag = removal_derivative({}, frame, parameter_of("parabolic_te"), std::hypot(frame.base_radius, rho), z);
     constexpr double kRoundOff = 1e-12;  // mm rad
     CHECK(std::abs(make_conjugate_field(pair, member, 0.0)->coefficient_slope(rho, z) - lag) <= kRoundOff);
     const double a = 1e-3, step = 1e-5;

@@ -22,7 +22,7 @@ constexpr double active_height = 7.0;                  // r_a - r_Nf
 
 constexpr double kRemovalRoundOff = 1e-15;  // mm: amounts are of the order of 0.01 mm
 
-Modification only(ModificationParameter parameter, double amount) {
+Modification alone(ModificationParameter parameter, double amount) {
   Modification m;
   m.tip_relief.height = 1.6;
   m.root_relief.height = 1.2;
@@ -54,52 +54,51 @@ bool near(double found, double expected, double margin = kRemovalRoundOff) {
 }  // namespace
 
 TEST_CASE("Each amount is what is removed where it is specified", "[core][flank][closed-form]") {
-  using P = ModificationParameter;
   const double c = 0.01, tip = frame.tip_radius, low = frame.active_root_radius, pitch = frame.pitch_radius, end = 15.0;
-  const auto removed = [&](P p, double r, double z) { return removal(only(p, c), frame, r, z); };
+  const auto removed = [&](ModificationParameter p, double r, double z) { return removal(alone(p, c), frame, r, z); };
   for (const double r : {low, pitch, tip}) {
-    CHECK(near(removed(P::LeadCrowning, r, end), c));
-    CHECK(near(removed(P::LeadCrowning, r, -end), c));
-    CHECK(near(removed(P::LeadCrowning, r, 0.5 * end), 0.25 * c));
-    CHECK(near(removed(P::LeadSlope, r, end) - removed(P::LeadSlope, r, -end), c));
-    CHECK(removed(P::LeadSlope, r, end) > 0.0);
-    CHECK(removed(P::LeadSlope, r, 0.0) == 0.0);
-    CHECK(near(removed(P::EndReliefAmount, r, -end), c));
-    CHECK(near(removed(P::EndReliefAmount, r, 12.5), 0.5 * c));
-    CHECK(removed(P::EndReliefAmount, r, 10.0) == 0.0);
+    CHECK(near(removed(parameter_of("lead_crowning"), r, end), c));
+    CHECK(near(removed(parameter_of("lead_crowning"), r, -end), c));
+    CHECK(near(removed(parameter_of("lead_crowning"), r, 0.5 * end), 0.25 * c));
+    CHECK(near(removed(parameter_of("lead_slope"), r, end) - removed(parameter_of("lead_slope"), r, -end), c));
+    CHECK(removed(parameter_of("lead_slope"), r, end) > 0.0);
+    CHECK(removed(parameter_of("lead_slope"), r, 0.0) == 0.0);
+    CHECK(near(removed(parameter_of("end_relief.amount"), r, -end), c));
+    CHECK(near(removed(parameter_of("end_relief.amount"), r, 12.5), 0.5 * c));
+    CHECK(removed(parameter_of("end_relief.amount"), r, 10.0) == 0.0);
   }
   for (const double z : {-end, 0.0, 3.0}) {
-    CHECK(near(removed(P::AddendumCrowning, tip, z), c));
-    CHECK(near(removed(P::AddendumCrowning, 52.0, z), 0.25 * c));
-    CHECK(removed(P::AddendumCrowning, low, z) == 0.0);
-    CHECK(near(removed(P::DedendumCrowning, low, z), c));
-    CHECK(removed(P::DedendumCrowning, tip, z) == 0.0);
-    CHECK(near(removed(P::ProfileCrowning, tip, z), c));
-    CHECK(near(removed(P::ProfileCrowning, low, z), c));
-    CHECK(near(removed(P::ProfileSlope, tip, z) - removed(P::ProfileSlope, low, z), c));
-    CHECK(near(removed(P::TipReliefAmount, tip, z), c));
-    CHECK(near(removed(P::TipReliefAmount, tip - 0.8, z), 0.5 * c));
-    CHECK(removed(P::TipReliefAmount, tip - 1.6, z) == 0.0);
-    CHECK(near(removed(P::RootReliefAmount, low, z), c));
-    CHECK(near(removed(P::RootReliefAmount, low + 0.3, z), 0.75 * c));
-    CHECK(removed(P::RootReliefAmount, low + 1.2, z) == 0.0);
-    CHECK(removed(P::Twist, pitch, z) == 0.0);
-    for (const P p : {P::ProfileCrowning, P::ProfileSlope, P::TipReliefAmount, P::RootReliefAmount}) {
+    CHECK(near(removed(parameter_of("addendum_crowning"), tip, z), c));
+    CHECK(near(removed(parameter_of("addendum_crowning"), 52.0, z), 0.25 * c));
+    CHECK(removed(parameter_of("addendum_crowning"), low, z) == 0.0);
+    CHECK(near(removed(parameter_of("dedendum_crowning"), low, z), c));
+    CHECK(removed(parameter_of("dedendum_crowning"), tip, z) == 0.0);
+    CHECK(near(removed(parameter_of("profile_crowning"), tip, z), c));
+    CHECK(near(removed(parameter_of("profile_crowning"), low, z), c));
+    CHECK(near(removed(parameter_of("profile_slope"), tip, z) - removed(parameter_of("profile_slope"), low, z), c));
+    CHECK(near(removed(parameter_of("tip_relief.amount"), tip, z), c));
+    CHECK(near(removed(parameter_of("tip_relief.amount"), tip - 0.8, z), 0.5 * c));
+    CHECK(removed(parameter_of("tip_relief.amount"), tip - 1.6, z) == 0.0);
+    CHECK(near(removed(parameter_of("root_relief.amount"), low, z), c));
+    CHECK(near(removed(parameter_of("root_relief.amount"), low + 0.3, z), 0.75 * c));
+    CHECK(removed(parameter_of("root_relief.amount"), low + 1.2, z) == 0.0);
+    CHECK(removed(parameter_of("twist"), pitch, z) == 0.0);
+    for (const ModificationParameter p : {parameter_of("profile_crowning"), parameter_of("profile_slope"), parameter_of("tip_relief.amount"), parameter_of("root_relief.amount")}) {
       CHECK(removed(p, pitch, z) == 0.0);
     }
   }
   // Twist: the difference of the profile slopes at the two ends.
-  const double at_end = removed(P::Twist, tip, end) - removed(P::Twist, low, end);
-  const double at_start = removed(P::Twist, tip, -end) - removed(P::Twist, low, -end);
+  const double at_end = removed(parameter_of("twist"), tip, end) - removed(parameter_of("twist"), low, end);
+  const double at_start = removed(parameter_of("twist"), tip, -end) - removed(parameter_of("twist"), low, -end);
   CHECK(near(at_end - at_start, c));
-  CHECK(removed(P::Twist, tip, end) > 0.0);
+  CHECK(removed(parameter_of("twist"), tip, end) > 0.0);
 }
 
 TEST_CASE("A part of the profile that touches nothing is not crowned", "[core][flank]") {
   // All contact beyond the pitch point: the active flank begins above the pitch circle. Its depth below would else be squared, whatever its sign.
   FlankFrame recess = frame;
   recess.active_root_radius = frame.pitch_radius + 0.1;
-  const Modification m = only(ModificationParameter::ProfileCrowning, 0.15);
+  const Modification m = alone(parameter_of("profile_crowning"), 0.15);
   CHECK(removal(m, recess, 47.0, 0.0) == 0.0);
   CHECK(removal(m, recess, 54.0, 0.0) == Approx(0.15).epsilon(1e-14));
   FlankFrame approach = frame;
@@ -109,7 +108,7 @@ TEST_CASE("A part of the profile that touches nothing is not crowned", "[core][f
 }
 
 TEST_CASE("A parabolic relief starts without a kink, a linear one with its full slope", "[core][flank]") {
-  Modification m = only(ModificationParameter::TipReliefAmount, 0.02);
+  Modification m = alone(parameter_of("tip_relief.amount"), 0.02);
   const double start = frame.tip_radius - 1.6, step = 1e-4;
   CHECK(near(removal(m, frame, start + step, 0.0), 0.02 * step / 1.6, 1e-13));
   m.tip_relief.shape = ReliefShape::Parabolic;
@@ -123,11 +122,9 @@ TEST_CASE("Modifications add up and scale with their amounts", "[core][flank]") 
   for (double r = 46.5; r < 54.2; r += 0.33) {
     for (double z = -15.5; z < 16.0; z += 1.7) {
       double sum = 0.0;
-      for (const NamedModificationParameter& p : modification_parameters) {
-        const std::string name(p.name);
-        if (name == "profile_crowning" || name.find("height") != name.npos || name.find("length") != name.npos)
-          continue;
-        Modification one = only(p.parameter, get(all, p.parameter));
+      for (const ModificationDescriptor& p : modification_parameters) {
+        if (!p.half.empty() || p.kind == ParameterKind::Extent) continue;
+        Modification one = alone(p.parameter, get(all, p.parameter));
         one.tip_relief.shape = one.root_relief.shape = shape;
         sum += removal(one, frame, r, z);
       }
@@ -157,17 +154,17 @@ TEST_CASE("The derivative for every parameter agrees with central differences aw
   const Modification m = everything(shape);
   constexpr double kStep = 1e-5;            // mm
   constexpr double kDiscretisation = 2e-9;  // third derivative of the extents' t^2 times step^2, and round-off/step
-  for (const NamedModificationParameter& p : modification_parameters) {
+  for (const ModificationDescriptor& p : modification_parameters) {
     for (const double r : {46.9, 47.5, 48.9, 51.1, 52.7, 53.9}) {
       for (const double z : {-14.0, -3.0, 6.0, 13.3}) {
         Modification base = m, up = m, down = m;
         // One value for both halves, as profile_crowning is defined.
-        if (p.parameter == ModificationParameter::ProfileCrowning) base.dedendum_crowning = base.addendum_crowning;
+        if (p.parameter == parameter_of("profile_crowning")) base.dedendum_crowning = base.addendum_crowning;
         const double value = get(base, p.parameter);
         set(up, p.parameter, value + kStep);
         set(down, p.parameter, value - kStep);
         const double difference = (removal(up, frame, r, z) - removal(down, frame, r, z)) / (2 * kStep);
-        CAPTURE(std::string(p.name), r, z);
+        CAPTURE(std::string(p.key), r, z);
         CHECK(near(removal_derivative(base, frame, p.parameter, r, z), difference, kDiscretisation));
       }
     }

@@ -52,10 +52,10 @@ void shift(Scene& scene, const MeshParameter& parameter, double by) {
 }
 
 std::vector<MeshParameter> all_kinds() {
-  std::vector<MeshParameter> parameters{GearParameter{Member::Pinion, ModificationParameter::LeadCrowning},
-                                        GearParameter{Member::Pinion, ModificationParameter::TipReliefAmount},
-                                        GearParameter{Member::Wheel, ModificationParameter::ProfileCrowning},
-                                        GearParameter{Member::Wheel, ModificationParameter::Twist}};
+  std::vector<MeshParameter> parameters{GearParameter{Member::Pinion, parameter_of("lead_crowning")},
+                                        GearParameter{Member::Pinion, parameter_of("tip_relief.amount")},
+                                        GearParameter{Member::Wheel, parameter_of("profile_crowning")},
+                                        GearParameter{Member::Wheel, parameter_of("twist")}};
   for (const NamedMisalignmentParameter& p : misalignment_parameters) {
     if (p.parameter != &Misalignment::axial_offset) parameters.push_back(p.parameter);  // moves the mesh: axial_offset_test.cpp
   }

@@ -75,13 +75,13 @@ TEST_CASE("Twice the torque is twice the root stress where nothing else is nonli
 TEST_CASE("Derivatives of root stress are what central differences say", "[core][load][root-stress][gradient]") {
   const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
   const MeshModel model = model_with_root_stress(gears, {{}, {0.1, 1.1, 1.7}});
-  const std::vector<GearParameter> parameters{{Member::Pinion, ModificationParameter::LeadCrowning},
-                                              {Member::Pinion, ModificationParameter::LeadSlope},
-                                              {Member::Wheel, ModificationParameter::ProfileCrowning}};
+  const std::vector<GearParameter> parameters{{Member::Pinion, parameter_of("lead_crowning")},
+                                              {Member::Pinion, parameter_of("lead_slope")},
+                                              {Member::Wheel, parameter_of("profile_crowning")}};
   FlankCondition condition;
   condition.pinion_modification.lead_crowning = 0.008;
   condition.pinion_modification.lead_slope = 0.003;
-  set(condition.wheel_modification, ModificationParameter::ProfileCrowning, 0.005);
+  set(condition.wheel_modification, parameter_of("profile_crowning"), 0.005);
   const double torque = mesh_cases::torque_for(gears, 300);
   const LoadedCycle at = analyse_cycle(model, condition, torque, {parameters.begin(), parameters.end()});
   constexpr double step = 1e-6;  // mm

@@ -176,12 +176,9 @@ TEST_CASE("Derivatives with respect to every modification are those of central d
   for (int design = 0; design < 6; ++design) {
     FlankCondition condition;
     for (Modification* m : {&condition.pinion_modification, &condition.wheel_modification}) {
-      for (const NamedModificationParameter& p : modification_parameters) {
-        const bool extent = p.parameter == ModificationParameter::TipReliefHeight ||
-                            p.parameter == ModificationParameter::RootReliefHeight ||
-                            p.parameter == ModificationParameter::EndReliefLength;
+      for (const ModificationDescriptor& p : modification_parameters) {
         set(*m, p.parameter,
-            extent ? random.uniform(0.3, 0.9) * gears.data.normal_module : random.uniform(0.5, 4.0) * units::um);
+            p.kind == ParameterKind::Extent ? random.uniform(0.3, 0.9) * gears.data.normal_module : random.uniform(0.5, 4.0) * units::um);
       }
       m->tip_relief.shape = design % 2 == 0 ? ReliefShape::Linear : ReliefShape::Parabolic;
       m->root_relief.shape = design % 2 == 0 ? ReliefShape::Parabolic : ReliefShape::Linear;
@@ -190,7 +187,7 @@ TEST_CASE("Derivatives with respect to every modification are those of central d
     const double torque = mesh_cases::torque_for(gears, random.log_uniform(100.0, 600.0));
     std::vector<GearParameter> parameters;
     for (Member member : {Member::Pinion, Member::Wheel}) {
-      for (const NamedModificationParameter& p : modification_parameters) parameters.push_back({member, p.parameter});
+      for (const ModificationDescriptor& p : modification_parameters) parameters.push_back({member, p.parameter});
     }
     const LoadedCycle cycle = analyse_cycle(model, condition, torque, {parameters.begin(), parameters.end()});
     REQUIRE(cycle.usable());
@@ -206,7 +203,7 @@ TEST_CASE("Derivatives with respect to every modification are those of central d
               parameters[p].member == Member::Pinion ? other.pinion_modification : other.wheel_modification;
           set(m, parameters[p].parameter, get(m, parameters[p].parameter) + step);
           if (parameters[p].parameter ==
-              ModificationParameter::ProfileCrowning) {  // moves both halves, whatever they were
+              parameter_of("profile_crowning")) {  // moves both halves, whatever they were
             const Modification& given = condition.modification(parameters[p].member);
             m.addendum_crowning = given.addendum_crowning + step;
             m.dedendum_crowning = given.dedendum_crowning + step;

@@ -92,8 +92,8 @@ TEST_CASE("Derivatives with shafts are those of central differences", "[core][lo
   const MeshModel model = model_with(gears, &shafts, 2);
   FlankCondition condition;
   condition.pinion_modification.lead_crowning = 4 * units::um;
-  const std::vector<GearParameter> parameters{{Member::Pinion, ModificationParameter::LeadSlope},
-                                              {Member::Wheel, ModificationParameter::LeadCrowning}};
+  const std::vector<GearParameter> parameters{{Member::Pinion, parameter_of("lead_slope")},
+                                              {Member::Wheel, parameter_of("lead_crowning")}};
   const LoadedCycle cycle = analyse_cycle(model, condition, torque, {parameters.begin(), parameters.end()});
   const double step = 0.002 * units::um;
   for (std::size_t p = 0; p < parameters.size(); ++p) {

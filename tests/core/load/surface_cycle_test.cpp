@@ -159,12 +159,12 @@ TEST_CASE("Gradients over the whole surface agree with central differences", "[c
   condition.pinion_modification.parabolic_te = 2e-4;
   const MeshPlaced placed = [&](const MeshPlacement& at) { return surface_model(gears, {{QuadratureRule::Gauss2, 5}, {0.15, 0.48, 0.83}}, at.misalignment); };
   const double torque = torque_for(gears, 200);
-  const std::vector<MeshParameter> parameters{GearParameter{Member::Pinion, ModificationParameter::LeadCrowning},
-                                              GearParameter{Member::Pinion, ModificationParameter::TipReliefAmount},
-                                              GearParameter{Member::Pinion, ModificationParameter::TipReliefHeight},
-                                              GearParameter{Member::Pinion, ModificationParameter::ParabolicTe},
-                                              GearParameter{Member::Wheel, ModificationParameter::AddendumCrowning},
-                                              GearParameter{Member::Wheel, ModificationParameter::ProfileSlope},
+  const std::vector<MeshParameter> parameters{GearParameter{Member::Pinion, parameter_of("lead_crowning")},
+                                              GearParameter{Member::Pinion, parameter_of("tip_relief.amount")},
+                                              GearParameter{Member::Pinion, parameter_of("tip_relief.height")},
+                                              GearParameter{Member::Pinion, parameter_of("parabolic_te")},
+                                              GearParameter{Member::Wheel, parameter_of("addendum_crowning")},
+                                              GearParameter{Member::Wheel, parameter_of("profile_slope")},
                                               &Misalignment::crossing,
                                               &Misalignment::intersecting,
                                               &Misalignment::centre_distance,

@@ -127,9 +127,9 @@ TEST_CASE("ISO's factors change with misalignment, modifications, offset and tor
   condition.wheel_modification.end_relief = {6 * units::um, 0.2 * gears.face_width};
   condition.wheel_modification.tip_relief = {6 * units::um, 2, ReliefShape::Linear};
   const double torque = mesh_cases::torque_for(gears, 200);
-  const std::vector<MeshParameter> parameters{&Misalignment::mesh_misalignment, &Misalignment::crossing, GearParameter{Member::Pinion, ModificationParameter::LeadSlope},
-                                              GearParameter{Member::Wheel, ModificationParameter::EndReliefAmount},
-                                              GearParameter{Member::Wheel, ModificationParameter::TipReliefAmount}, &Misalignment::axial_offset, PinionTorque{}};
+  const std::vector<MeshParameter> parameters{&Misalignment::mesh_misalignment, &Misalignment::crossing, GearParameter{Member::Pinion, parameter_of("lead_slope")},
+                                              GearParameter{Member::Wheel, parameter_of("end_relief.amount")},
+                                              GearParameter{Member::Wheel, parameter_of("tip_relief.amount")}, &Misalignment::axial_offset, PinionTorque{}};
   const std::vector<double> steps{1e-5, 2e-8, 1e-5, 1e-5, 1e-5, 1e-3, 1e-4 * torque};
   const GapModel gap = misaligned < 5e-3 ? GapModel::WholeSurface : GapModel::PlaneOfAction;  // the standard asks for neither
   const MeshPlaced placed = [&](const MeshPlacement& placement) {

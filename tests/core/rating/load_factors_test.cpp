@@ -30,7 +30,7 @@ FlankCondition lead_and_profile() {
   c.pinion_modification.end_relief = {8 * units::um, 10};
   c.wheel_modification.tip_relief = {10 * units::um, 3, ReliefShape::Linear};
   c.pinion_modification.root_relief = {5 * units::um, 2, ReliefShape::Parabolic};
-  set(c.wheel_modification, ModificationParameter::ProfileCrowning, 4 * units::um);
+  set(c.wheel_modification, parameter_of("profile_crowning"), 4 * units::um);
   c.pinion_modification.profile_slope = 2 * units::um;
   c.pinion_error.helix_slope = 3 * units::um;
   c.pinion_error.profile_slope = -4 * units::um;
@@ -59,8 +59,8 @@ TEST_CASE("A condition of leads and profiles is the sum of its parts", "[core][l
 }
 
 TEST_CASE("Every modification parameter belongs to one part", "[core][load][load-factors]") {
-  for (const NamedModificationParameter& named : modification_parameters) {
-    CAPTURE(named.name);
+  for (const ModificationDescriptor& named : modification_parameters) {
+    CAPTURE(named.key);
     FlankCondition condition;
     set(condition.pinion_modification, named.parameter, 1e-3);
     const bool lead = lead_part(condition) == condition, profile = profile_part(condition) == condition;

@@ -29,9 +29,9 @@ struct Moved {
 };
 
 std::vector<Moved> movable() {
-  return {{GearParameter{Member::Pinion, ModificationParameter::LeadCrowning},
+  return {{GearParameter{Member::Pinion, parameter_of("lead_crowning")},
            [](FlankCondition& c, double by) { c.pinion_modification.lead_crowning += by; }},
-          {GearParameter{Member::Wheel, ModificationParameter::TipReliefAmount},
+          {GearParameter{Member::Wheel, parameter_of("tip_relief.amount")},
            [](FlankCondition& c, double by) { c.wheel_modification.tip_relief.amount += by; }},
           {&Misalignment::mesh_misalignment, [](FlankCondition& c, double by) { c.misalignment.mesh_misalignment += by; }}};
 }

@@ -39,7 +39,7 @@ double moved_objective(const DesignTask& task, Modification pinion, Modification
     const auto* g = std::get_if<GearParameter>(&p.parameter);
     if (g == nullptr || p.variable >= 0) continue;
     ManufacturingError& manufacturing = member_is_pinion(*g) ? scene.condition.pinion_error : scene.condition.wheel_error;
-    (g->parameter == ModificationParameter::LeadSlope ? manufacturing.helix_slope : manufacturing.profile_slope) += steps * units::um;
+    (g->parameter == parameter_of("lead_slope") ? manufacturing.helix_slope : manufacturing.profile_slope) += steps * units::um;
   }
   if (p.variable >= 0) {
     const auto& g = std::get<GearParameter>(p.parameter);
@@ -197,7 +197,7 @@ TEST_CASE("A tied modification follows in sensitivities and multipliers", "[opti
   DesignTask task = helical({0.0, 12.0, -12.0}, 6);
   // Half of each um of lead crowning on the wheel as well.
   DesignTie tie;
-  tie.tied = {.path = "wheel.modification.lead_crowning", .member = Member::Wheel, .parameter = ModificationParameter::LeadCrowning};
+  tie.tied = {.path = "wheel.modification.lead_crowning", .member = Member::Wheel, .parameter = parameter_of("lead_crowning")};
   tie.factor = 0.5;
   task.ties = {tie};
   const Solved solved(task);
@@ -217,7 +217,7 @@ TEST_CASE("A bounded sum of modifications says what its limit costs", "[optimize
   DesignTask task = helical({0.0, 12.0, -12.0}, 6);
   ModificationConstraint sum;
   sum.name = "lead_crowning + profile_crowning";
-  sum.terms = {{Member::Pinion, ModificationParameter::LeadCrowning, 1.0}, {Member::Pinion, ModificationParameter::ProfileCrowning, 1.0}};
+  sum.terms = {{Member::Pinion, parameter_of("lead_crowning"), 1.0}, {Member::Pinion, parameter_of("profile_crowning"), 1.0}};
   DesignProblem free(task);
   const DesignReport unbounded = optimise_design(free, SolverOptions{}).after;
   sum.maximum = 0.7 * (unbounded.variables[0] + unbounded.variables[2]);

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "core/contact/gap/misalignment_gap.hpp"
-#include "core/gear/microgeometry.hpp"
+#include "core/flank/modifications/modification.hpp"
 #include "studies/base/plain_names.hpp"
 #include "studies/study_file/study_schema.hpp"
 
@@ -26,11 +26,25 @@ TEST_CASE("Every modification, misalignment and output has a name that a person 
     CHECK_FALSE(reads_like_a_key(name.name));
     CHECK(plain_name(name.key) == name.name);
   }
-  for (const NamedModificationParameter& parameter : modification_parameters) {
-    for (const std::string gear : {"pinion", "wheel"}) CHECK(known.count(gear + ".modification." + std::string(parameter.name)) == 1);
-  }
+  for_each_modification_key([&](const auto& row) {
+    for (const std::string gear : {"pinion", "wheel"}) CHECK(known.count(gear + ".modification." + std::string(row.key)) == 1);
+  });
   for (const NamedMisalignmentParameter& parameter : misalignment_parameters) CHECK(known.count("misalignment." + std::string(parameter.name)) == 1);
   for (const std::string& output : output_names()) CHECK(known.count(output) == 1);
+}
+
+TEST_CASE("What is said of a relief is found beside its amount", "[studies][report][modification]") {
+  // The table of what to grind leaves out the extent and the choices of a relief that is none: it looks for "amount" beside them.
+  std::set<std::string> amounts;
+  for (const ModificationDescriptor& d : modification_parameters) {
+    if (d.extent.empty()) continue;
+    const std::string relief(d.key.substr(0, d.key.find('.')));
+    CAPTURE(relief);
+    CHECK(d.key == relief + ".amount");
+    CHECK((d.extent == relief + ".height" || d.extent == relief + ".length"));
+    amounts.insert(relief);
+  }
+  for (const ModificationChoice& c : modification_choices) CHECK(amounts.count(std::string(c.key.substr(0, c.key.find(".shape")))) == 1);
 }
 
 TEST_CASE("Different modifications have different names", "[studies][report]") {

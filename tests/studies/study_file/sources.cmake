@@ -4,6 +4,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/given_units_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/key_page_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/grid_file_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/modification_keys_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/optimise_keys_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/proof_keys_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_file_test.cpp

@@ -181,7 +181,7 @@ wheel.modification.tip_relief.height = [0.5, 2]
   CHECK(table.variables[1].member == Member::Wheel);
   CHECK(table.variables[1].lower == Approx(0.005).epsilon(file_round_off));
   CHECK(table.variables[1].upper == Approx(0.030).epsilon(file_round_off));
-  CHECK(table.variables[2].parameter == ModificationParameter::TipReliefHeight);
+  CHECK(table.variables[2].parameter == parameter_of("tip_relief.height"));
   CHECK(table.variables[2].upper == 2.0);
   REQUIRE(table.constraints.size() == 2);
   CHECK(table.constraints[0].maximum == Approx(1200.0).epsilon(file_round_off));

@@ -81,7 +81,7 @@ TEST_CASE("The predesigned parabola is read in arcsec per square degree or 1/rad
 
   const Study study = read("[optimise.variables]\npinion.modification.parabolic_te = [0, 0.5]\n");
   REQUIRE(study.optimise.variables.size() == 1);
-  CHECK(study.optimise.variables.front().parameter == ModificationParameter::ParabolicTe);
+  CHECK(study.optimise.variables.front().parameter == parameter_of("parabolic_te"));
   CHECK(study.optimise.variables.front().upper == Approx(0.5 * one).epsilon(flanks_round_off));
 }
 

@@ -1,0 +1,95 @@
+#pragma once
+
+#include <memory>
+
+#include "core/flank/modifications/end_relief.hpp"
+#include "core/flank/modifications/lead_crowning.hpp"
+#include "core/flank/modifications/lead_slope.hpp"
+#include "core/flank/modifications/modification_list.hpp"
+#include "core/flank/modifications/parabolic_te.hpp"
+#include "core/flank/modifications/profile_crowning.hpp"
+#include "core/flank/modifications/profile_slope.hpp"
+#include "core/flank/modifications/root_relief.hpp"
+#include "core/flank/modifications/tip_relief.hpp"
+#include "core/flank/modifications/topography_shapes.hpp"
+#include "core/flank/modifications/twist.hpp"
+#include "core/gear/deviation_field.hpp"
+
+namespace flankwright {
+
+/// Every modification that there is. Its header says all about it; whoever needs them all goes through this list.
+using Modifications = ModificationList<
+    modifications::LeadCrowning,
+    modifications::LeadSlope,
+    modifications::ProfileCrowning,
+    modifications::ProfileSlope,
+    modifications::TipRelief,
+    modifications::RootRelief,
+    modifications::EndReliefs,
+    modifications::Twist,
+    modifications::ParabolicTe,
+    modifications::TopographyShapes>;
+
+/// Flank modification as a designer states it: material removed (positive into the tooth), measured in the
+/// transverse plane along the base tangent [ISO 21771; ISO 1328-1]. All amounts in mm, parabolic_te in 1/rad.
+struct Modification : Modifications {
+  /// Measured or topological grid on top of the rest; none where null.
+  std::shared_ptr<const DeviationField> topography{};
+  bool operator==(const Modification&) const = default;  ///< of grids: the same object
+};
+
+using ModificationDescriptor = DescriptorOf<Modifications>;
+using ModificationChoice = ChoiceOf<Modifications>;
+
+/// All numbers of a Modification that a designer may vary, in the order of Modifications.
+inline constexpr auto modification_parameters = descriptors_of(std::type_identity<Modifications>());
+static_assert(are_complete(modification_parameters));
+
+/// All its words.
+inline constexpr auto modification_choices = choices_of(std::type_identity<Modifications>());
+
+/// f(row) for every parameter and every choice, the choices of a modification behind its parameters.
+template <class F>
+void for_each_modification_key(F&& f) {
+  std::size_t choice = 0;
+  for (std::size_t i = 0; i < modification_parameters.size(); ++i) {
+    f(modification_parameters[i]);
+    const bool ends = i + 1 == modification_parameters.size() || modification_parameters[i + 1].modification != modification_parameters[i].modification;
+    for (; ends && choice < modification_choices.size() && modification_choices[choice].modification == modification_parameters[i].modification; ++choice) {
+      f(modification_choices[choice]);
+    }
+  }
+}
+
+constexpr const ModificationDescriptor& describe(ModificationParameter parameter) {
+  return modification_parameters[static_cast<std::size_t>(parameter)];
+}
+
+/// The parameter of a key; a key that does not exist does not compile.
+consteval ModificationParameter parameter_of(std::string_view key) {
+  for (const ModificationDescriptor& d : modification_parameters) {
+    if (d.key == key) return d.parameter;
+  }
+  throw "no modification has this key";
+}
+
+/// The parameter of a key that another row names, see ParameterText.
+constexpr const ModificationDescriptor* find_parameter(std::string_view key) {
+  for (const ModificationDescriptor& d : modification_parameters) {
+    if (d.key == key) return &d;
+  }
+  return nullptr;
+}
+
+/// Value of one parameter [mm; parabolic_te 1/rad]. profile_crowning reads the mean of addendum and dedendum crowning.
+inline double get(const Modifications& modification, ModificationParameter parameter) { return describe(parameter).get(modification); }
+
+/// Sets one parameter [mm; parabolic_te 1/rad]. profile_crowning sets both halves.
+inline void set(Modifications& modification, ModificationParameter parameter, double value) { describe(parameter).set(modification, value); }
+
+/// The lead or profile modifications alone, without grid.
+inline Modification only(const Modification& modification, ModificationClass flank_class) {
+  return {only(static_cast<const Modifications&>(modification), flank_class), nullptr};
+}
+
+}  // namespace flankwright

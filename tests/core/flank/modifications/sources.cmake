@@ -1,0 +1,1 @@
+list(APPEND FLANKWRIGHT_TEST_SOURCES ${CMAKE_CURRENT_LIST_DIR}/modification_test.cpp)
