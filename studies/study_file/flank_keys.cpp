@@ -1,15 +1,14 @@
+#include "studies/study_file/key_rows.hpp"
+
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
-
-#include "studies/study_file/key_rows.hpp"
 
 namespace flankwright::studies {
 
 namespace {
 
-Modification& modification(Draft& draft, Member m) {
-  return m == Member::Pinion ? draft.study.pinion_modification : draft.study.wheel_modification;
-}
 FlankGrid& grid(Draft& draft, Member m) {
   return m == Member::Pinion ? draft.study.pinion_grid : draft.study.wheel_grid;
 }
@@ -48,7 +47,7 @@ SchemaKey row_of(const ModificationDescriptor& d) {
 
 SchemaKey row_of(const ModificationChoice& c) {
   return {.path = "gear.modification." + std::string(c.key), .kind = ValueKind::Word, .words = {c.words.begin(), c.words.end()},
-          .fallback = "\"" + std::string(c.words.front()) + "\"", .meaning = std::string(c.meaning), .store = &c};
+          .fallback = fmt::format("\"{}\"", c.words.front()), .meaning = std::string(c.meaning), .store = &c};
 }
 
 /// Every modification: its numbers, then its choices.

@@ -12,8 +12,6 @@ namespace flankwright::studies {
 
 namespace {
 
-using MP = ModificationParameter;
-
 constexpr std::array members{Member::Pinion, Member::Wheel};
 
 void refuse_key(StudyReading& reading, const std::string& path, const std::string& allowed) {
@@ -63,7 +61,7 @@ void check_tooth_lists(StudyReading& reading) {
 }
 
 /// A variable, or what is tied to one.
-const DesignVariable* find_variable(const Study& study, Member m, MP parameter) {
+const DesignVariable* find_variable(const Study& study, Member m, ModificationParameter parameter) {
   const auto& variables = study.optimise.variables;
   const auto found = std::ranges::find_if(
       variables, [&](const DesignVariable& v) { return v.member == m && v.parameter == parameter; });
@@ -73,7 +71,7 @@ const DesignVariable* find_variable(const Study& study, Member m, MP parameter) 
   return tie == ties.end() ? nullptr : &tie->tied;
 }
 
-bool asks_derivative(const Study& study, Member m, MP parameter) {
+bool asks_derivative(const Study& study, Member m, ModificationParameter parameter) {
   return std::ranges::any_of(study.gradients, [&](const GradientParameter& p) {
     const auto* gear = std::get_if<GearParameter>(&p.parameter);
     return gear != nullptr && gear->member == m && gear->parameter == parameter;

@@ -51,12 +51,10 @@ inline constexpr auto modification_choices = choices_of(std::type_identity<Modif
 /// f(row) for every parameter and every choice, the choices of a modification behind its parameters.
 template <class F>
 void for_each_modification_key(F&& f) {
-  std::size_t choice = 0;
-  for (std::size_t i = 0; i < modification_parameters.size(); ++i) {
-    f(modification_parameters[i]);
-    const bool ends = i + 1 == modification_parameters.size() || modification_parameters[i + 1].modification != modification_parameters[i].modification;
-    for (; ends && choice < modification_choices.size() && modification_choices[choice].modification == modification_parameters[i].modification; ++choice) {
-      f(modification_choices[choice]);
+  for (const ModificationDescriptor& d : modification_parameters) {
+    f(d);
+    for (const ModificationChoice& c : modification_choices) {
+      if (c.after == d.key) f(c);
     }
   }
 }
@@ -65,15 +63,7 @@ constexpr const ModificationDescriptor& describe(ModificationParameter parameter
   return modification_parameters[static_cast<std::size_t>(parameter)];
 }
 
-/// The parameter of a key; a key that does not exist does not compile.
-consteval ModificationParameter parameter_of(std::string_view key) {
-  for (const ModificationDescriptor& d : modification_parameters) {
-    if (d.key == key) return d.parameter;
-  }
-  throw "no modification has this key";
-}
-
-/// The parameter of a key that another row names, see ParameterText.
+/// The row of a key; null where there is none.
 constexpr const ModificationDescriptor* find_parameter(std::string_view key) {
   for (const ModificationDescriptor& d : modification_parameters) {
     if (d.key == key) return &d;
@@ -81,11 +71,14 @@ constexpr const ModificationDescriptor* find_parameter(std::string_view key) {
   return nullptr;
 }
 
+/// The parameter of a key; a key that does not exist does not compile.
+consteval ModificationParameter parameter_of(std::string_view key) { return find_parameter(key)->parameter; }
+
 /// Value of one parameter [mm; parabolic_te 1/rad]. profile_crowning reads the mean of addendum and dedendum crowning.
-inline double get(const Modifications& modification, ModificationParameter parameter) { return describe(parameter).get(modification); }
+inline double get(const Modifications& m, ModificationParameter parameter) { return describe(parameter).get(m); }
 
 /// Sets one parameter [mm; parabolic_te 1/rad]. profile_crowning sets both halves.
-inline void set(Modifications& modification, ModificationParameter parameter, double value) { describe(parameter).set(modification, value); }
+inline void set(Modifications& m, ModificationParameter parameter, double value) { describe(parameter).set(m, value); }
 
 /// The lead or profile modifications alone, without grid.
 inline Modification only(const Modification& modification, ModificationClass flank_class) {

@@ -23,7 +23,6 @@ template <class List>
 struct DescriptorOf : ParameterText {
   ModificationParameter parameter{};
   ModificationClass flank_class{};
-  std::string_view modification{};  ///< key of the first parameter of its modification
   double (*get)(const List&){nullptr};
   void (*set)(List&, double){nullptr};
   double (*slope)(const List&, const FlankFrame&, double r, double z){nullptr};  ///< null: enters linearly
@@ -35,7 +34,7 @@ struct ChoiceOf {
   std::string_view key, name;
   std::array<std::string_view, 2> words;
   std::string_view meaning;
-  std::string_view modification;  ///< key of the first parameter of its modification
+  std::string_view after;  ///< key of the last parameter of its modification
   void (*set)(List&, std::size_t word);
 };
 
@@ -50,7 +49,7 @@ constexpr std::size_t choice_count = [] {
 template <class List, class M, std::size_t I>
 constexpr DescriptorOf<List> describe() {
   constexpr ParameterRow<M> row = M::parameters()[I];
-  DescriptorOf<List> described{row.text, {}, M::flank_class, M::parameters()[0].text.key,
+  DescriptorOf<List> described{row.text, {}, M::flank_class,
                                [](const List& m) {
                                  constexpr auto of = M::parameters()[I].get;
                                  return of(m);
@@ -71,7 +70,10 @@ constexpr DescriptorOf<List> describe() {
 template <class List, class M, std::size_t I>
 constexpr ChoiceOf<List> describe_choice() {
   constexpr ChoiceRow<M> row = M::choices()[I];
-  return {row.key, row.name, row.words, row.meaning, M::parameters()[0].text.key, [](List& m, std::size_t word) { M::choices()[I].set(m, word); }};
+  return {row.key, row.name, row.words, row.meaning, M::parameters().back().text.key, [](List& m, std::size_t word) {
+            constexpr auto to = M::choices()[I].set;
+            to(m, word);
+          }};
 }
 
 template <class Row, class... Rows>

@@ -15,7 +15,8 @@ struct ProfileCrowning {
     using M = ProfileCrowning;
     return std::array{
         ParameterRow<M>{{.key = "profile_crowning", .name = "profile crowning", .symbol = "C_α",
-                         .meaning = "C_alpha: addendum and dedendum crowning at once", .half = "addendum_crowning", .other_half = "dedendum_crowning"},
+                         .meaning = "C_alpha: addendum and dedendum crowning at once",
+                         .half = "addendum_crowning", .other_half = "dedendum_crowning"},
                         [](const M& m) { return 0.5 * (m.addendum_crowning + m.dedendum_crowning); },
                         [](M& m, double value) { m.addendum_crowning = m.dedendum_crowning = value; }},
         row<M, &M::addendum_crowning>({.key = "addendum_crowning", .name = "addendum crowning",

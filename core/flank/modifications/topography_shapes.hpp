@@ -49,7 +49,8 @@ struct TopographyShapes {
   static constexpr auto parameters() {
     return []<std::size_t... K>(std::index_sequence<K...>) {
       return std::array{ParameterRow<TopographyShapes>{
-          {.key = topography_shapes[K].key, .name = topography_shapes[K].name, .sense = topography_shapes[K].sense, .meaning = topography_shapes[K].meaning},
+          {.key = topography_shapes[K].key, .name = topography_shapes[K].name,
+           .sense = topography_shapes[K].sense, .meaning = topography_shapes[K].meaning},
           [](const TopographyShapes& m) { return m.shapes[K]; },
           [](TopographyShapes& m, double value) { m.shapes[K] = value; }}...};
     }(std::make_index_sequence<topography_shapes.size()>());

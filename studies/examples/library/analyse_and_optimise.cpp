@@ -40,8 +40,8 @@ int main() {
     task.scenes.back().condition.misalignment.mesh_misalignment = misalignment * units::um;
   }
   task.pinion_modification.tip_relief.height = 1.5;
-  task.variables = {{"lead crowning", Member::Pinion, ModificationParameter::LeadCrowning, 0.0, 40 * units::um},
-                    {"tip relief", Member::Pinion, ModificationParameter::TipReliefAmount, 0.0, 40 * units::um}};
+  task.variables = {{"lead crowning", Member::Pinion, parameter_of("lead_crowning"), 0.0, 40 * units::um},
+                    {"tip relief", Member::Pinion, parameter_of("tip_relief.amount"), 0.0, 40 * units::um}};
   task.objective = {{Output::TePeakToPeak, 0, 1.0, "te_peak_to_peak"}};
   task.constraints = {{{Output::PeakContactStress, 0, 1.0, "peak_contact_stress"}, 1300.0}};
   DesignProblem problem(task);
