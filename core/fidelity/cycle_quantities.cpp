@@ -1,6 +1,7 @@
 #include "core/fidelity/cycle_quantities.hpp"
 
 #include <array>
+#include <cmath>
 #include <functional>
 
 #include "core/base/units.hpp"
@@ -19,7 +20,7 @@ std::vector<double> error(const CycleErrors& errors) {
   return {std::invoke(of, errors)};
 }
 template <auto of>
-Eigen::MatrixXd slope(const CycleGradient& gradient) {
+Eigen::MatrixXd slope(const CycleSummary&, const CycleGradient& gradient) {
   return std::invoke(of, gradient);
 }
 
@@ -32,33 +33,50 @@ constexpr auto wheel_root = [](const S& s) { return s.wheel_root_stress.stress; 
 constexpr auto pinion_root_slope = [](const G& g) { return g.pinion_root_stress.stress; };
 constexpr auto wheel_root_slope = [](const G& g) { return g.wheel_root_stress.stress; };
 
+/// sqrt(sum a_k^2 / 2) over the amplitudes of all orders.
+std::vector<double> te_rms(const S& s) {
+  double squares = 0.0;
+  for (const double amplitude : s.te_harmonics) squares += 0.5 * amplitude * amplitude;
+  return {s.te_harmonics.empty() ? not_given : std::sqrt(squares)};
+}
+
+/// sum a_k a_k' / (2 rms); at 0, where it has a kink, 0, one of its subgradients.
+Eigen::MatrixXd te_rms_slope(const S& s, const G& g) {
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(g.te_harmonics.cols());
+  const double rms = te_rms(s).front();
+  for (Eigen::Index k = 0; rms > 0.0 && k < g.te_harmonics.rows(); ++k) sum += s.te_harmonics[static_cast<std::size_t>(k)] / (2.0 * rms) * g.te_harmonics.row(k);
+  return sum;
+}
+
 constexpr std::array rows{
-    CycleQuantity{.name = "te_peak_to_peak", .key = "te_peak_to_peak_um", .words = "peak-to-peak TE", .heading = "TE p-p", .decimals = 4, .unit = "um", .unit_size = units::um,
+    CycleQuantity{.name = "te_peak_to_peak", .key = "te_peak_to_peak_um", .words = "peak-to-peak TE", .topic = "Transmission error", .heading = "TE p-p", .decimals = 4, .unit = "um", .unit_size = units::um,
                   .values = one<&S::te_peak_to_peak>, .errors = error<&E::te_peak_to_peak>, .gradients = slope<&G::te_peak_to_peak>},
-    CycleQuantity{.name = "te_harmonic", .key = "te_harmonics_um", .words = "harmonic of TE", .heading = "TE 1st", .decimals = 4, .unit = "um", .unit_size = units::um, .is_list = true,
+    CycleQuantity{.name = "te_harmonic", .key = "te_harmonics_um", .words = "harmonic of TE", .topic = "Transmission error", .heading = "TE 1st", .decimals = 4, .unit = "um", .unit_size = units::um, .is_list = true,
                   .values = [](const S& s) { return s.te_harmonics; }, .errors = [](const E& e) { return e.te_harmonics; },
                   .gradients = slope<&G::te_harmonics>},
-    CycleQuantity{.name = "te_mean", .key = "te_mean_um", .words = "mean TE", .unit = "um", .unit_size = units::um,
+    CycleQuantity{.name = "te_rms", .key = "te_rms_um", .words = "rms of the harmonics of TE", .topic = "Transmission error", .unit = "um", .unit_size = units::um,
+                  .values = te_rms, .gradients = te_rms_slope},
+    CycleQuantity{.name = "te_mean", .key = "te_mean_um", .words = "mean TE", .topic = "Transmission error", .unit = "um", .unit_size = units::um,
                   .values = one<&S::te_mean>, .errors = error<&E::te_mean>, .gradients = slope<&G::te_mean>},
-    CycleQuantity{.name = "peak_line_load", .key = "peak_load_N_per_mm", .words = "peak line load", .heading = "peak load", .unit = "N/mm",
+    CycleQuantity{.name = "peak_line_load", .key = "peak_load_N_per_mm", .words = "peak line load", .topic = "Stress and load", .heading = "peak load", .unit = "N/mm",
                   .values = one<&S::peak_line_load>, .errors = error<&E::peak_line_load>, .gradients = slope<&G::peak_line_load>},
-    CycleQuantity{.name = "peak_contact_stress", .key = "peak_contact_stress_MPa", .words = "peak contact stress", .heading = "peak sigma", .unit = "MPa",
+    CycleQuantity{.name = "peak_contact_stress", .key = "peak_contact_stress_MPa", .words = "peak contact stress", .topic = "Stress and load", .heading = "peak sigma", .unit = "MPa",
                   .values = one<&S::peak_contact_stress>, .errors = error<&E::peak_contact_stress>, .gradients = slope<&G::peak_contact_stress>},
-    CycleQuantity{.name = "peak_root_stress", .key = "peak_root_stress_MPa", .words = "peak root stress", .heading = "root sigma", .unit = "MPa",
+    CycleQuantity{.name = "peak_root_stress", .key = "peak_root_stress_MPa", .words = "peak root stress", .topic = "Stress and load", .heading = "root sigma", .unit = "MPa",
                   .values = one<&S::peak_root_stress>, .errors = error<&E::peak_root_stress>, .gradients = slope<&G::peak_root_stress>},
-    CycleQuantity{.name = "pinion_root_stress", .key = "pinion_root_stress_MPa", .words = "pinion root stress", .unit = "MPa",
+    CycleQuantity{.name = "pinion_root_stress", .key = "pinion_root_stress_MPa", .words = "pinion root stress", .topic = "Stress and load", .unit = "MPa",
                   .values = one<pinion_root>, .gradients = slope<pinion_root_slope>},
-    CycleQuantity{.name = "wheel_root_stress", .key = "wheel_root_stress_MPa", .words = "wheel root stress", .unit = "MPa",
+    CycleQuantity{.name = "wheel_root_stress", .key = "wheel_root_stress_MPa", .words = "wheel root stress", .topic = "Stress and load", .unit = "MPa",
                   .values = one<wheel_root>, .gradients = slope<wheel_root_slope>},
-    CycleQuantity{.name = "mean_stiffness", .key = "mean_stiffness_N_per_mm_um", .words = "mean mesh stiffness", .heading = "stiffness", .decimals = 3, .unit = "N/(mm um)",
+    CycleQuantity{.name = "mean_stiffness", .key = "mean_stiffness_N_per_mm_um", .words = "mean mesh stiffness", .topic = "Stiffness", .heading = "stiffness", .decimals = 3, .unit = "N/(mm um)",
                   .smaller_is_worse = true, .values = one<&S::mean_stiffness>, .errors = error<&E::mean_stiffness>, .gradients = slope<&G::mean_stiffness>},
-    CycleQuantity{.name = "least_stiffness", .key = "least_stiffness_N_per_mm_um", .words = "least mesh stiffness", .unit = "N/(mm um)",
+    CycleQuantity{.name = "least_stiffness", .key = "least_stiffness_N_per_mm_um", .words = "least mesh stiffness", .topic = "Stiffness", .unit = "N/(mm um)",
                   .smaller_is_worse = true, .values = one<&S::least_stiffness>, .gradients = slope<&G::least_stiffness>},
-    CycleQuantity{.name = "largest_stiffness", .key = "largest_stiffness_N_per_mm_um", .words = "largest mesh stiffness", .unit = "N/(mm um)",
+    CycleQuantity{.name = "largest_stiffness", .key = "largest_stiffness_N_per_mm_um", .words = "largest mesh stiffness", .topic = "Stiffness", .unit = "N/(mm um)",
                   .smaller_is_worse = true, .values = one<&S::largest_stiffness>, .gradients = slope<&G::largest_stiffness>},
-    CycleQuantity{.name = "stiffness_variation", .key = "stiffness_variation", .words = "variation of the mesh stiffness",
+    CycleQuantity{.name = "stiffness_variation", .key = "stiffness_variation", .words = "variation of the mesh stiffness", .topic = "Stiffness",
                   .values = one<&S::stiffness_variation>, .gradients = slope<&G::stiffness_variation>},
-    CycleQuantity{.name = "load_factor", .key = "load_factor", .words = "load factor", .heading = "load factor",
+    CycleQuantity{.name = "load_factor", .key = "load_factor", .words = "load factor", .topic = "Stress and load", .heading = "load factor",
                   .values = one<&S::load_factor>, .errors = error<&E::load_factor>, .gradients = slope<&G::load_factor>},
 };
 

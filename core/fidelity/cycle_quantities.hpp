@@ -17,6 +17,7 @@ struct CycleQuantity {
   std::string_view name;    ///< "te_peak_to_peak": as objectives and bounds name it
   std::string_view key;     ///< "te_peak_to_peak_um": in results, with its unit
   std::string_view words;   ///< "peak-to-peak TE"
+  std::string_view topic;   ///< the table of the report that it stands in: "Transmission error"
   std::string_view heading{};  ///< "TE p-p": of its column in the table of a run, a list's first entry; empty: not shown there
   int decimals{2};          ///< shown in that column
   std::string_view unit{};  ///< "um"; "" of a plain number
@@ -26,7 +27,7 @@ struct CycleQuantity {
 
   using Values = std::vector<double> (*)(const CycleSummary&);
   using Errors = std::vector<double> (*)(const CycleErrors&);
-  using Gradients = Eigen::MatrixXd (*)(const CycleGradient&);
+  using Gradients = Eigen::MatrixXd (*)(const CycleSummary&, const CycleGradient&);
   Values values{nullptr};        ///< internal unit; NaN: not computed
   Errors errors{nullptr};        ///< estimated discretisation errors, internal unit; null: none are estimated
   Gradients gradients{nullptr};  ///< a row for each value, internal units; 0 x 0: none

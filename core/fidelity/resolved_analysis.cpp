@@ -2,15 +2,32 @@
 
 namespace flankwright {
 
-bool mostly_by_points(const ResolvedCycle& resolved, const LoadedCycle& cycle) {
+namespace {
+
+struct Parts {
+  double points, positions;  ///< headline_error() of each [-]
+};
+
+Parts parts_of(const ResolvedCycle& resolved, const LoadedCycle& cycle) {
   const auto part = [&](const CycleErrors& errors) { return headline_error(errors, resolved.summary, cycle); };
-  return part(resolved.error_parts.points) >= part(resolved.error_parts.positions);
+  return {part(resolved.error_parts.points), part(resolved.error_parts.positions)};
+}
+
+}  // namespace
+
+bool mostly_by_points(const ResolvedCycle& resolved, const LoadedCycle& cycle) {
+  const Parts parts = parts_of(resolved, cycle);
+  return parts.points >= parts.positions;
 }
 
 bool refine(AutomaticResolution& from, const ResolvedCycle& resolved, const LoadedCycle& cycle) {
   const bool more_intervals = from.choose_intervals && 2 * from.intervals <= from.most_intervals;
   const bool more_positions = from.choose_positions && 2 * from.positions <= from.most_positions;
-  if (more_intervals && (!more_positions || mostly_by_points(resolved, cycle))) {
+  const Parts parts = parts_of(resolved, cycle);
+  const bool positions_are_in_vain = !more_intervals && parts.points > from.accuracy && parts.positions <= from.accuracy;
+  const bool intervals_are_in_vain = !more_positions && parts.positions > from.accuracy && parts.points <= from.accuracy;
+  if (positions_are_in_vain || intervals_are_in_vain) return false;
+  if (more_intervals && (!more_positions || parts.points >= parts.positions)) {
     from.intervals *= 2;
     return true;
   }

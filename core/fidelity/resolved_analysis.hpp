@@ -16,7 +16,7 @@ struct AutomaticResolution {
 bool mostly_by_points(const ResolvedCycle& resolved, const LoadedCycle& cycle);
 
 /// Doubles the intervals or the positions of a resolution, whichever bring most of the headline error, as far as they may be chosen; false,
-/// with nothing changed, where neither may.
+/// with nothing changed, where neither may, or where the one that may brings no more than the accuracy and the other alone does.
 /// @param from  the resolution of `cycle`, in `intervals` and `positions`
 bool refine(AutomaticResolution& from, const ResolvedCycle& resolved, const LoadedCycle& cycle);
 

@@ -77,7 +77,7 @@ Json summary_gradient_json(const LoadedResult& loaded, const MeshModel& model, c
   };
   Json json = Json::object();
   for (const CycleQuantity& quantity : cycle_quantities()) {
-    const Eigen::MatrixXd rows = quantity.gradients(summary);
+    const Eigen::MatrixXd rows = quantity.gradients(loaded.summary, summary);
     Json& entry = json[std::string(quantity.key)];
     if (quantity.is_list) {
       entry = full_cycle ? outside.rows(rows, quantity.unit_size) : Json::array();

@@ -74,7 +74,7 @@ function learn_names(names) {
   for (const [key, name, symbol, sense] of list(names)) NAMES.set(key, { name, symbol, sense });
 }
 
-/** What a loaded cycle is summed up by, in the order of tables: {key, name, unit, is_list, is_headline, has_error, smaller_is_worse}. */
+/** What a loaded cycle is summed up by, in the order of tables: {key, name, unit, topic, is_list, is_headline, has_error, smaller_is_worse}. */
 const QUANTITIES = [];
 
 function learn_quantities(quantities) {

@@ -226,13 +226,14 @@ function build_load_cases(results, body, { cases }) {
       rows: rows.map((row) => [...case_cells(row), ...filled.map(([, value]) => value(row.load_case.designs[row.design]) ?? null)]),
     });
   };
-  numbers_table("Stress and transmission error over the mesh cycle",
-    "Peaks are the largest values over the positions and all teeth in contact; ± is the estimated discretisation error.",
-    QUANTITIES.filter((of) => of.has_error).map(known_to));
-  numbers_table("Further numbers, and how far they hold",
+  for (const topic of unique(QUANTITIES.map((of) => of.topic))) {
+    numbers_table(`${topic} over the mesh cycle`,
+      "Peaks are the largest values over the positions and all teeth in contact; ± is the estimated discretisation error, where there is an estimate.",
+      QUANTITIES.filter((of) => of.topic === topic).map(known_to));
+  }
+  numbers_table("How far the numbers hold",
     symbols("c′ and c_γ are those of ISO 6336; f_sh is the misalignment by the shafts, its mean; the change of the harmonics is what the last "
       + "doubling of positions brought; the KKT residual is the largest error of the contact conditions."), [
-      ...QUANTITIES.filter((of) => !of.has_error).map(known_to),
       [{ label: "f_sh", unit: "µm" }, plain("shaft_misalignment_um")],
       [{ label: "c′, ISO", unit: "N/(mm µm)" }, iso("c_prime")],
       [{ label: "c_γ, ISO", unit: "N/(mm µm)" }, iso("c_gamma")],

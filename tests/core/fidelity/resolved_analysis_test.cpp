@@ -31,3 +31,29 @@ TEST_CASE("An analysis that chooses its resolution doubles it until the figures 
   CHECK(as_given.resolution.phases.size() == 8);
   CHECK(as_given.error > coarse.accuracy);
 }
+
+TEST_CASE("What one of intervals and positions brings alone, the other is not doubled for", "[fidelity]") {
+  const GearPair gears = mesh_cases::pair(20, 40, 20.0, 3.0, 30.0);
+  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 4}, equally_spaced_phases(8)});
+  const LoadedCycle cycle = analyse_cycle(model, {}, mesh_cases::torque_for(gears, 60.0));
+  ResolvedCycle resolved;
+  resolved.summary = summarise(model, cycle);
+  const auto with = [&](double points, double positions) {  // shares of the stress, which alone counts
+    CycleErrors none;
+    none.te_peak_to_peak = 0.0;
+    resolved.error_parts = {none, none};
+    resolved.error_parts.points.peak_contact_stress = points * resolved.summary.peak_contact_stress;
+    resolved.error_parts.positions.peak_contact_stress = positions * resolved.summary.peak_contact_stress;
+    return resolved;
+  };
+  const AutomaticResolution finest_lines{.accuracy = 0.01, .intervals = 48, .positions = 32}, finest_cycle{.accuracy = 0.01, .intervals = 12, .positions = 128};
+  AutomaticResolution from = finest_lines;
+  CHECK_FALSE(refine(from, with(0.03, 0.005), cycle));
+  CHECK(from.positions == 32);
+  CHECK(refine(from, with(0.03, 0.02), cycle));  // here positions still help, if not enough
+  CHECK(from.positions == 64);
+  from = finest_cycle;
+  CHECK_FALSE(refine(from, with(0.005, 0.03), cycle));
+  CHECK(refine(from, with(0.03, 0.005), cycle));
+  CHECK(from.intervals == 24);
+}
