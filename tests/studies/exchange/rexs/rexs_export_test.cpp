@@ -132,7 +132,7 @@ TEST_CASE("Every modification parameter survives the way to REXS and back, as a 
     if (d.kind == ParameterKind::Extent) continue;  // comes with its amount
     CAPTURE(std::string(d.key));
     const std::string extent = d.extent.empty() ? "" : std::string(d.extent) + " = 1.5\n";
-    const Study study = parse_study(pair_text + "[pinion.modification]\n" + std::string(d.key) + " = 0.8\n" + extent, "a.toml");
+    const Study study = parse_study(pair_text + "[pinion.modification]\n" + std::string(d.key) + " = 0.4\n" + extent, "a.toml");
     const rexs::ExportedStage stage = rexs::export_stage(study, {});
     const rexs::ImportedStudy imported = rexs::import_stage(rexs::model_text(stage.model, rexs::Form::Xml), "a.rexs", {.grid_stem = "a"});
     std::string text = imported.text;
@@ -146,7 +146,7 @@ TEST_CASE("Every modification parameter survives the way to REXS and back, as a 
     double largest = 0.0, departure = 0.0;
     for (int i = 0; i <= 10; ++i) {
       for (int j = 0; j <= 10; ++j) {
-        const double rho = there.roll_at(std::lerp(pair.pinion.active_root_radius, pair.pinion.tip_radius, 0.05 + 0.09 * i)), z = 36.0 * (0.1 * j - 0.5);
+        const double rho = there.roll_at(std::lerp(pair.pinion.active_root_radius, pair.pinion.tip_radius, 0.05 + 0.09 * i)), z = 39.0 * (0.1 * j - 0.5);
         largest = std::max(largest, std::abs(there.deviation(rho, z, 0)));
         departure = std::max(departure, std::abs(there.deviation(rho, z, 0) - here.deviation(rho, z, 0)));
       }
