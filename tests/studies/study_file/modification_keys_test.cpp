@@ -62,12 +62,12 @@ TEST_CASE("Every modification parameter may be a design variable, in the unit of
     }
     const std::string path = "pinion.modification." + std::string(d.key);
     const Study study = parse_study("task = \"optimise\"\n" + small_study + "[load]\ntorque = 100\n[pinion.modification]\n" + beside +
-                             "[optimise.variables]\n\"" + path + "\" = [0.25, 0.75]\n", "small.toml");
+                             "[optimise.variables]\n\"" + path + "\" = [0.25, 0.7]\n", "small.toml");
     REQUIRE(study.optimise.variables.size() == 1);
     const DesignVariable& v = study.optimise.variables.front();
     CHECK(v.path == path);
     CHECK(v.parameter == d.parameter);
-    CHECK(v.upper * v.outside_factor() == Approx(0.75).epsilon(1e-14));
+    CHECK(v.upper * v.outside_factor() == Approx(0.7).epsilon(1e-14));
     CHECK(std::string(v.unit()) == unit_of(d.kind));
   }
 }
