@@ -75,7 +75,7 @@ TEST_CASE("Every quantity can be expected, is drawn in the report and has a name
 }
 
 TEST_CASE("A sweep has every entry that its nominal sample has a number for, and the table of a run every heading", "[studies][results][quantities]") {
-  const StudyResults nominal = run_study(parse_study(small::sweep("samples = 4"), "sweep.toml"));
+  const StudyResults nominal = run_study(parse_study(small::sweep("samples = 24"), "sweep.toml"));
   const SampleAnalysis analysis(nominal);
   const auto has = [&](const std::string& name) {
     return std::ranges::any_of(analysis.outputs(), [&](const SweepOutput& output) { return output.name == name; });
