@@ -48,12 +48,20 @@ struct ParameterRow {
   void (*set)(M&, double);
   /// Derivative of the removal at r, z by this parameter [mm/mm]; null for one that enters linearly.
   double (*slope)(const M&, const FlankFrame&, double r, double z){nullptr};
+  bool has_slope{false};  ///< whether there is one: with sanitizers g++ 12 cannot compare the address of a function while it compiles
 };
 
 /// The row of the number that a path of members leads to: row<TipRelief, &TipRelief::tip_relief, &ProfileRelief::amount>({...}).
 template <class M, auto... Path>
-constexpr ParameterRow<M> row(ParameterText text, decltype(ParameterRow<M>::slope) slope = nullptr) {
-  return {text, [](const M& m) -> double { return (m.*....*Path); }, [](M& m, double value) { (m.*....*Path) = value; }, slope};
+constexpr ParameterRow<M> row(ParameterText text) {
+  return {text, [](const M& m) -> double { return (m.*....*Path); }, [](M& m, double value) { (m.*....*Path) = value; }};
+}
+template <class M, auto... Path>
+constexpr ParameterRow<M> row(ParameterText text, decltype(ParameterRow<M>::slope) slope) {
+  ParameterRow<M> made = row<M, Path...>(text);
+  made.slope = slope;
+  made.has_slope = true;
+  return made;
 }
 
 /// A property of modification M that is one of two words, such as the shape of a relief.

@@ -26,6 +26,7 @@ struct DescriptorOf : ParameterText {
   double (*get)(const List&){nullptr};
   void (*set)(List&, double){nullptr};
   double (*slope)(const List&, const FlankFrame&, double r, double z){nullptr};  ///< null: enters linearly
+  bool has_slope{false};                                                         ///< whether it is not
 };
 
 /// A choice of one modification, for the whole list.
@@ -58,7 +59,8 @@ constexpr DescriptorOf<List> describe() {
                                  constexpr auto to = M::parameters()[I].set;
                                  to(m, value);
                                }};
-  if constexpr (row.slope != nullptr) {
+  if constexpr (row.has_slope) {
+    described.has_slope = true;
     described.slope = [](const List& m, const FlankFrame& frame, double r, double z) {
       constexpr auto of = M::parameters()[I].slope;
       return of(m, frame, r, z);
@@ -124,7 +126,7 @@ constexpr bool are_complete(const Rows& rows) {
   };
   for (const auto& row : rows) {
     if (row.key.empty() || row.name.empty() || row.meaning.empty() || count(row.key) != 1) return false;
-    if (row.kind == ParameterKind::Extent && row.slope == nullptr) return false;
+    if (row.kind == ParameterKind::Extent && !row.has_slope) return false;
     for (const std::string_view other : {row.extent, row.half, row.other_half}) {
       if (!other.empty() && count(other) != 1) return false;
     }

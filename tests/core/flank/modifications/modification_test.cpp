@@ -85,7 +85,7 @@ static_assert(!is_complete_with([](Row& r) { r.name = {}; }));
 static_assert(!is_complete_with([](Row& r) { r.meaning = {}; }));
 static_assert(!is_complete_with([](Row& r) { r.key = "lead_crowning"; }));
 static_assert(!is_complete_with([](Row& r) { r.extent = "corner_relief.length"; }));
-static_assert(!is_complete_with([](Row& r) { r.slope = nullptr; }));
+static_assert(!is_complete_with([](Row& r) { r.has_slope = false; }));
 
 /// Numbers as a flank may have them, one after the other.
 template <class List, class Rows>
