@@ -13,9 +13,10 @@ set(FLOW core/base core/gear core/flank
     core/compliance/fitted core/compliance/plate core/compliance/shaft core/compliance/comparison core/compliance/model
     core/effects core/load/solve core/load/cycle core/rating core/fidelity
     optimize/solvers optimize/sampling optimize/design optimize/assessment
-    studies/base studies/study studies/compliance studies/study_file
-    studies/tasks/analyse studies/tasks/accuracy studies/tasks/optimise studies/tasks studies/tasks/sweep
-    studies/results studies/report studies/exchange studies/command_line studies)
+    studies/base studies/study studies/compliance studies/study_file studies/analysis studies/results
+    studies/tasks/analyse studies/tasks/optimise studies/tasks/sweep studies/tasks/accuracy studies/tasks/fit studies/tasks/geometry
+    studies/tasks
+    studies/report studies/exchange studies/command_line studies)
 
 # The place in FLOW of the folder that `path` (from the root) lies in, -1 where it lies in none.
 function(find_layer path result)
@@ -81,7 +82,7 @@ if(DEFINED SELF_TEST)
       "optimize/solvers/solver.hpp: upward include of studies/study/study.hpp"
       "studies/study/study.hpp: includes a test, tests/problems/box.hpp"
       "studies/study/study.hpp: upward include of studies/tasks/sweep/sweep.hpp"
-      "studies/tasks/run.hpp: upward include of studies/tasks/sweep/sweep.hpp")
+      "studies/tasks/sweep/sweep.hpp: upward include of studies/tasks/run.hpp")
   if(NOT found STREQUAL expected)
     list(JOIN found "\n  " found)
     list(JOIN expected "\n  " expected)

@@ -15,6 +15,7 @@ using Json = nlohmann::ordered_json;
 constexpr double percent = 100.0;  ///< of a share of one
 
 inline double in_um(double mm) { return mm / units::um; }
+inline double in_Nm(double torque) { return torque / units::newton_metre; }
 inline double in_arcsec(double rad) { return rad / units::arcsec; }
 inline double in_deg(double rad) { return rad / units::deg; }
 /// Slope of the transmission error: arcsec of the wheel per degree of the pinion.

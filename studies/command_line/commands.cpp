@@ -19,11 +19,12 @@
 #include "studies/base/results_folder.hpp"
 #include "studies/results/results_json.hpp"
 #include "studies/results/results_store.hpp"
-#include "studies/tasks/run_study.hpp"
-#include "studies/tasks/analyse/study_notes.hpp"
-#include "studies/study_file/study_template.hpp"
+#include "studies/analysis/run_study.hpp"
+#include "studies/analysis/study_notes.hpp"
+#include "studies/tasks/study_template.hpp"
 #include "studies/tasks/sweep/run_sweep.hpp"
 #include "studies/tasks/sweep/shards.hpp"
+#include "studies/tasks/sweep/sweep_task.hpp"
 #include "studies/results/tables.hpp"
 
 namespace flankwright::studies {
@@ -62,7 +63,7 @@ TestLine test_study(const fs::path& path) {
     const Study study = read_study(path.string());
     if (study.expect.empty()) return {fmt::format("none  {}  (no [expect] table)\n", path.string())};
     StudyResults results = run_study(study);
-    if (study.task == Task::Sweep) run_sweep(results, {}, {});
+    if (study.task->run_in_folder != nullptr) study.task->run_in_folder(results, {}, {});
     const std::vector<Comparison> comparisons = compare(study.expect, results_document(results));
     const std::string different = differences(comparisons);
     std::string text = fmt::format("{}  {}  ({} expectation{}, {:.1f} s)\n", different.empty() ? "met " : "DIFF", path.string(),
@@ -119,21 +120,21 @@ int run_shard(const StudyResults& nominal, const fs::path& folder, Shard shard, 
 int run_command(const RunOptions& options) {
   const std::optional<Shard> shard = options.shard.empty() ? std::nullopt : std::optional(parse_shard(options.shard));
   const auto [study, folder] = opened(options);
-  if (shard && study.task != Task::Sweep) throw InvalidInput("--shard", to_string(study.task), "a study of the task \"sweep\"");
+  if (shard && study.task != &sweep_task) throw InvalidInput("--shard", study.task->name, "a study of the task \"sweep\"");
   Progress progress;
   const ProgressReport report = [&](const std::string& label, int done, int total, const std::string& remark) {
     progress.show(label, done, total, remark);
   };
   StudyResults results = run_study(study, report);
   if (shard) return run_shard(results, folder, *shard, report);
-  if (study.task == Task::Sweep) run_sweep(results, folder, report);
+  if (study.task->run_in_folder != nullptr) study.task->run_in_folder(results, folder, report);
   progress.finish();
   return write_results(study, results, folder);
 }
 
 int merge_command(const RunOptions& options) {
   const auto [study, folder] = opened(options);
-  if (study.task != Task::Sweep) throw InvalidInput("task", to_string(study.task), "\"sweep\": shards are parts of a sweep");
+  if (study.task != &sweep_task) throw InvalidInput("task", study.task->name, "\"sweep\": shards are parts of a sweep");
   StudyResults results = run_study(study);
   merge_shards(folder, study, SampleAnalysis(results).outputs());
   run_sweep(results, folder, {});
@@ -142,7 +143,7 @@ int merge_command(const RunOptions& options) {
 
 int check_command(const std::string& path, const std::vector<Override>& overrides) {
   const Study study = read_study(path, overrides);
-  fmt::print("{}: valid, task {}, {} scene{}\n", path, to_string(study.task), study.scenes.size(),
+  fmt::print("{}: valid, task {}, {} scene{}\n", path, study.task->name, study.scenes.size(),
              study.scenes.size() == 1 ? "" : "s");
   std::fflush(stdout);
   for (const std::string& note : study_notes(study, make_gear_pair(study.pair))) spdlog::warn("{}", note);

@@ -22,14 +22,7 @@ double machine_memory() {
 
 }  // namespace
 
-bool asks_for_root_stress(const Study& study) {
-  if (study.task != Task::Optimise) return false;
-  const auto is_root_stress = [](const ObjectiveTerm& term) { return term.output == Output::PeakRootStress; };
-  const auto in_goal = [&](const Goal& goal) { return std::ranges::any_of(goal.terms, is_root_stress); };
-  const OptimiseTable& optimise = study.optimise;
-  return std::ranges::any_of(optimise.objective, is_root_stress) || std::ranges::any_of(optimise.constraints, is_root_stress, &OutputConstraint::output) ||
-         std::ranges::any_of(optimise.then, in_goal) || std::ranges::any_of(optimise.pareto_goals, in_goal);
-}
+bool asks_for_root_stress(const Study& study) { return study.task->asks_for_root_stress != nullptr && study.task->asks_for_root_stress(study); }
 
 bool wants_root_stress(const Study& study) {
   const Fidelity& fidelity = study.fidelity;
@@ -41,14 +34,14 @@ bool wants_root_stress(const Study& study) {
 
 bool wants_rigid_bodies(const Study& study) {
   const Fidelity& fidelity = study.fidelity;
-  if (study.task == Task::Fit || !couples_teeth(fidelity.compliance)) return false;
+  if (study.task->single_gears || !couples_teeth(fidelity.compliance)) return false;
   const bool left_out =
       !fidelity.automatic_effects && std::ranges::find(fidelity.effects, "gear_body_compliance") == fidelity.effects.end();
-  return left_out || study.task == Task::Accuracy || fidelity.effect_sizes == EffectSizing::Exact;
+  return left_out || study.task->compares_bodies || fidelity.effect_sizes == EffectSizing::Exact;
 }
 
 bool solves_finite_elements(const Study& study) {
-  return study.task == Task::Fit || (has_torque(study) && (couples_teeth(study.fidelity.compliance) || wants_root_stress(study)));
+  return study.task->single_gears || (has_torque(study) && (couples_teeth(study.fidelity.compliance) || wants_root_stress(study)));
 }
 
 ComplianceTask compliance_task(const Study& study, const GearPair& pair) {
@@ -62,7 +55,7 @@ ComplianceTask compliance_task(const Study& study, const GearPair& pair) {
                       .wheel_shaft = study.wheel_shaft,
                       .root_stress = wants_root_stress(study),
                       .rigid_bodies = wants_rigid_bodies(study)};
-  if (study.task == Task::Fit) {
+  if (study.task->single_gears) {
     task.model = ComplianceModel::Fe;
     task.pinion_shaft.reset();
     task.wheel_shaft.reset();

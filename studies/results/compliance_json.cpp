@@ -4,7 +4,6 @@
 
 #include "core/base/units.hpp"
 #include "core/compliance/fitted/refinement_library.hpp"
-#include "studies/compliance/fit_task.hpp"
 
 namespace flankwright::studies {
 
@@ -125,6 +124,20 @@ Json body_json(const GearBody& body) {
           {"bore_diameter_mm", body.bore_diameter},
           {"shaft_overhang_mm", body.shaft_overhang},
           {"torque_end", body.torque_end == FaceEnd::Blunt ? "blunt" : "sharp"}};
+}
+
+Json curve_json(const DeflectionCurve& curve) {
+  return {{"model", curve.model},
+          {"load", {{"u", curve.load.u}, {"zeta", curve.load.zeta}}},
+          {"tooth", curve.tooth},
+          {"zeta", curve.zeta},
+          {"value", curve.value}};
+}
+
+Json deflections_json(const GearDeflections& deflections) {
+  return {{"gear", name_of(deflections.member)},
+          {"teeth", deflections.teeth},
+          {"curves", list(deflections.curves, curve_json)}};
 }
 
 }  // namespace flankwright::studies

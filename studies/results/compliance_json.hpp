@@ -2,6 +2,7 @@
 
 #include "core/compliance/fitted/kernel_form.hpp"
 #include "core/compliance/model/gear_structures.hpp"
+#include "core/compliance/comparison/gear_deflections.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/study/study.hpp"
 
@@ -18,5 +19,11 @@ Json covariance_json(const KernelForm& form, const std::vector<double>& coeffici
 
 /// A gear's body as used, of `used` in results.json.
 Json body_json(const GearBody& body);
+
+/// One curve of deflections[] or fit[].
+Json curve_json(const DeflectionCurve& curve);
+
+/// One entry of deflections[] of results.json.
+Json deflections_json(const GearDeflections& deflections);
 
 }  // namespace flankwright::studies

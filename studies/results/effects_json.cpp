@@ -15,7 +15,7 @@ Json size_json(const StudyResults& results, const SizeInStudy* size) {
   if (size == nullptr) return nullptr;
   const EffectInfluence& influence = size->size.influence;
   Json json{{"scene", size->scene},
-            {"torque_Nm", size->torque / units::newton_metre},
+            {"torque_Nm", in_Nm(size->torque)},
             {"te_mean_change_um", in_um(influence.te_mean)},
             {"te_peak_to_peak_change_um", in_um(influence.te_peak_to_peak)},
             {"peak_contact_stress_change_MPa", influence.peak_contact_stress},

@@ -4,7 +4,7 @@
 
 #include "core/rating/line_ends.hpp"
 #include "studies/base/json_format.hpp"
-#include "studies/tasks/study_results.hpp"
+#include "studies/analysis/study_results.hpp"
 
 namespace flankwright::studies {
 

@@ -35,8 +35,6 @@ constexpr std::array<Definition, 3> definitions{{
 /// Empty where there is none.
 std::string field(double value) { return std::isnan(value) ? std::string() : fmt::format("{}", value); }
 
-double in_Nm(double torque) { return torque / units::newton_metre; }
-
 }  // namespace
 
 std::string load_factors_csv(const StudyResults& results) {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "studies/tasks/study_results.hpp"
+#include "studies/analysis/study_results.hpp"
 
 namespace flankwright::studies {
 

@@ -8,19 +8,15 @@
 #include "core/compliance/thin_slice/thin_slice.hpp"
 #include "core/fidelity/cycle_quantities.hpp"
 #include "core/gear/tooth_form.hpp"
-#include "studies/results/accuracy_json.hpp"
+#include "studies/results/fidelity_choice_json.hpp"
 #include "studies/results/compliance_json.hpp"
 #include "studies/results/effects_json.hpp"
-#include "studies/results/fit_json.hpp"
 #include "studies/study_file/given_units.hpp"
 #include "studies/results/gradients_json.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/base/version.hpp"
 #include "studies/results/load_rating_json.hpp"
-#include "studies/results/optimise_json.hpp"
-#include "studies/results/proof_json.hpp"
 #include "studies/results/shafts_json.hpp"
-#include "studies/results/sweep_json.hpp"
 #include "studies/results/unloaded_json.hpp"
 #include "studies/results/used_json.hpp"
 
@@ -204,14 +200,14 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
     cycle.push_back(position_json(model, model.positions[i], loaded.cycle.positions[i], loaded.condition));
   }
   Json json{{"scene", loaded.scene},
-            {"torque_Nm", loaded.torque / units::newton_metre},
+            {"torque_Nm", in_Nm(loaded.torque)},
             {"normal_force_N", loaded.cycle.force},
             {"design", loaded.design},
             {"summary", summary_json(loaded, model, results.study.cycle.phases.empty())},
             {"cycle", std::move(cycle)},
             {"extremes", extremes_json(loaded)}};
   if (results.shafts) add_shaft_motion(loaded, results, json);
-  const bool asked = results.study.task == Task::Analyse && !results.study.gradients.empty();
+  const bool asked = results.study.task->one_design && !results.study.gradients.empty();
   if (asked && loaded.cycle.usable()) json["gradients"] = gradients_json(loaded, results);
   return json;
 }
@@ -280,7 +276,7 @@ void put_null_for_nan(Json& node) {
 Json results_document(const StudyResults& results) {
   const Study& study = results.study;
   Json json{{"title", study.title},
-            {"task", to_string(study.task)},
+            {"task", study.task->name},
             {"version", version()},
             {"file", study.file},
             {"seconds", results.seconds},
@@ -303,12 +299,8 @@ Json results_document(const StudyResults& results) {
   json["effects"] = effects_json(results);
   json["steps"] = list(results.steps, [](const RunStep& s) -> Json { return {{"name", s.name}, {"why", s.why}, {"seconds", s.seconds}}; });
   if (results.fidelity_choice) json["accuracy_choice"] = fidelity_choice_json(*results.fidelity_choice);
-  if (results.ladder) json["accuracy"] = ladder_json(*results.ladder);
-  if (results.design) json["optimise"] = optimise_json(results);
-  if (results.proof) add_proof(*results.proof, *results.design_task, study.optimise.proof, json["optimise"]);
-  if (results.sweep) json["sweep"] = sweep_json(results);
+  if (study.task->add_json != nullptr) study.task->add_json(results, json);
   if (!results.deflections.empty()) json["deflections"] = list(results.deflections, deflections_json);
-  if (!results.fits.empty()) json["fit"] = list(results.fits, fit_json);
   json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}, {"unit", unit_of_given(g)}}; });
   json["used"] = used_json(results);
   put_null_for_nan(json);

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "studies/base/json_format.hpp"
-#include "studies/tasks/study_results.hpp"
+#include "studies/analysis/study_results.hpp"
 
 namespace flankwright::studies {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "studies/tasks/study_results.hpp"
+#include "studies/analysis/study_results.hpp"
 
 namespace flankwright::studies {
 

@@ -3,17 +3,25 @@
 #include <string>
 #include <vector>
 
+#include "studies/analysis/study_results.hpp"
 #include "studies/base/results_folder.hpp"
-#include "studies/tasks/study_results.hpp"
 
 namespace flankwright::studies {
 
-/// CSV tables of a study (comma separated, decimal point, a header line with units): cycle.csv and points.csv for loaded contact,
-/// unloaded.csv, transfers.csv and bearing_pattern.csv for tooth contact analysis, scenes.csv and history.csv for an optimisation;
-/// for fits see fit_tables(), for sweeps sweep_tables().
+/// CSV tables of a study (comma separated, decimal point, a header line with units): cycle.csv, points.csv, load_factors.csv and
+/// load_sharing.csv of loaded contact; unloaded.csv, transfers.csv and bearing_pattern.csv of tooth contact analysis; then the task's own.
 std::vector<NamedText> csv_tables(const StudyResults& results);
 
-/// What a run prints when it is done: before and after for an optimisation, residuals for fits, one line an output for a sweep, one line a scene otherwise.
+/// What a run prints when it is done: what an accuracy has chosen, then the task's own summary.
 std::string summary_table(const StudyResults& results);
+
+/// Load cases line by line: figures with their errors, load factors, unloaded contact.
+std::string analysis_table(const StudyResults& results);
+
+/// Width of a column of names [characters].
+std::size_t widest(const std::vector<std::string>& names, std::size_t least);
+
+/// "± 0.012", two digits; empty where no error was estimated.
+std::string known_to(double error);
 
 }  // namespace flankwright::studies

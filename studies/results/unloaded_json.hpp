@@ -1,7 +1,7 @@
 #pragma once
 
 #include "studies/base/json_format.hpp"
-#include "studies/tasks/analyse/unloaded_result.hpp"
+#include "studies/analysis/unloaded_result.hpp"
 
 namespace flankwright::studies {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "studies/tasks/study_results.hpp"
+#include "studies/analysis/study_results.hpp"
 
 namespace flankwright::studies {
 

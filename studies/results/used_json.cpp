@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "studies/results/compliance_json.hpp"
-#include "studies/compliance/fit_task.hpp"
 #include "studies/results/shafts_json.hpp"
 
 namespace flankwright::studies {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "studies/base/json_format.hpp"
-#include "studies/tasks/study_results.hpp"
+#include "studies/analysis/study_results.hpp"
 
 namespace flankwright::studies {
 

@@ -17,23 +17,10 @@
 #include "optimize/design/design_task.hpp"
 #include "studies/study/proof_table.hpp"
 #include "studies/study/sweep_table.hpp"
+#include "studies/study/task.hpp"
 
 /// A study as pure data: what a study file says, validated, in internal units (mm, N, rad, MPa); study_file.hpp reads.
 namespace flankwright::studies {
-
-enum class Task { Analyse, Optimise, Sweep, Accuracy, Fit };
-
-/// As a study names it: "analyse", "optimise", "sweep", "accuracy", "fit".
-inline const char* to_string(Task task) {
-  switch (task) {
-    case Task::Analyse: return "analyse";
-    case Task::Optimise: return "optimise";
-    case Task::Sweep: return "sweep";
-    case Task::Accuracy: return "accuracy";
-    case Task::Fit: return "fit";
-  }
-  __builtin_unreachable();
-}
 
 struct Cycle {
   int positions{32};           ///< mesh positions over one base pitch, >= 1
@@ -140,7 +127,7 @@ struct GivenValue {
 struct Study {
   std::string title;
   std::string file;  ///< path as given
-  Task task{Task::Analyse};
+  const Task* task{registered_tasks().front()};  ///< never null
   PairData pair;
   Modification pinion_modification, wheel_modification;  ///< with the field of the grid below
   FlankGrid pinion_grid, wheel_grid;
@@ -155,11 +142,11 @@ struct Study {
   Cycle cycle;
   Fidelity fidelity;
   std::vector<Scene> scenes;    ///< never empty: without [[scenes]] the one nominal scene of the base tables
-  std::vector<GradientParameter> gradients;  ///< derivatives asked for; meaningful where task is Analyse
-  OptimiseTable optimise;       ///< meaningful where task is Optimise
-  SweepTable sweep;             ///< meaningful where task is Sweep
-  AccuracyTable accuracy;       ///< meaningful where task is Accuracy
-  FitChoice fit;                ///< meaningful where task is Fit
+  std::vector<GradientParameter> gradients;  ///< derivatives asked for; meaningful where the task is "analyse"
+  OptimiseTable optimise;       ///< of the task "optimise"
+  SweepTable sweep;             ///< of the task "sweep"
+  AccuracyTable accuracy;       ///< of the task "accuracy"
+  FitChoice fit;                ///< of the task "fit"
   std::vector<Expectation> expect;
   std::vector<GivenValue> given;
   std::string text;  ///< all of it as TOML, with what the command line set
@@ -173,7 +160,7 @@ inline bool has_torque(const Study& study) {
 /// Whether peaks between the positions, and the load distribution factors that follow, belong to the results: unless the study says
 /// otherwise in an analysis, not beside an optimisation's many scenes; never where explicit phases are asked for.
 inline bool locates_peaks(const Study& study) {
-  return study.cycle.phases.empty() && study.cycle.locate_peaks.value_or(study.task == Task::Analyse);
+  return study.cycle.phases.empty() && study.cycle.locate_peaks.value_or(study.task->one_design);
 }
 
 /// Whether the summary's extremes are sought between the positions: unless the study samples peaks or gives phases. Points at fixed places

@@ -11,6 +11,12 @@ GenerationKeys& generation(Draft& draft, Member m) {
   return m == Member::Pinion ? draft.pinion_generation : draft.wheel_generation;
 }
 
+std::vector<std::string> task_names() {
+  std::vector<std::string> names;
+  for (const Task* task : registered_tasks()) names.emplace_back(task->name);
+  return names;
+}
+
 using enum ValueKind;
 
 }  // namespace
@@ -22,9 +28,9 @@ std::vector<SchemaKey> geometry_rows() {
   return {
       {.path = "title", .kind = Text, .fallback = "(the file's name)", .meaning = "heads the report",
        .store = [](Draft& d, Member, const Value& v) { d.study.title = v.text; }},
-      {.path = "task", .kind = Word, .words = {"analyse", "optimise", "sweep", "accuracy", "fit"},
+      {.path = "task", .kind = Word, .words = task_names(),
        .fallback = "\"analyse\"", .meaning = "what `run` does",
-       .store = [](Draft& d, Member, const Value& v) { d.study.task = static_cast<Task>(v.integer); }},
+       .store = [](Draft& d, Member, const Value& v) { d.study.task = registered_tasks()[static_cast<std::size_t>(v.integer)]; }},
       {.path = "pair.normal_module", .quantity = Quantity::Length, .range = {.low = 0.001, .high = 1000.0},
        .fallback = "(required, or normal_diametral_pitch)", .meaning = "m_n",
        .store = [](Draft& d, Member, const Value& v) { d.study.pair.normal_module = v.number; }},

@@ -22,7 +22,7 @@ struct Section {
 };
 
 std::vector<Section> sections_in_order() {
-  return {
+  std::vector<Section> sections{
       {"", "The study", "These keys stand above the first table of the file."},
       {"pair", "`[pair]`", "What the two gears share."},
       {"pinion", "`[pinion]` and `[wheel]`", "What belongs to one gear."},
@@ -43,13 +43,10 @@ std::vector<Section> sections_in_order() {
       {"cycle", "`[cycle]`", "The mesh positions at which the contact is solved."},
       {"fidelity", "`[fidelity]`", "Models and resolution. The defaults aim at accuracy: [models and accuracy](README.md#models-and-accuracy)."},
       {"scenes", "`[[scenes]]`", "`scenes[].name` stands for the `name` of each `[[scenes]]` table: [scenes](README.md#scenes)."},
-      {"analyse", "`[analyse]`", "The task `analyse`."},
-      {"optimise", "`[optimise]`", "The task `optimise`: [optimisation](README.md#optimisation)."},
-      {"sweep", "`[sweep]`", "The task `sweep`: [sweeps](tasks/sweep/README.md)."},
-      {"accuracy", "`[accuracy]`", "The task `accuracy`: [what accuracy costs](tasks/accuracy/README.md)."},
-      {"fit", "`[fit]`", "The task `fit`: [fits](README.md#fits)."},
       {"expect", "`[expect]`", "A study as its own test: [expectations](README.md#expectations)."},
   };
+  for (const Task* task : registered_tasks()) sections.push_back({task->name, std::string("`[") + task->name + "]`", task->meaning});
+  return sections;
 }
 
 /// The path of the pinion's twin of a key of the wheel; any other path as it is.

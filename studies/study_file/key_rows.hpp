@@ -11,10 +11,7 @@ std::vector<SchemaKey> geometry_rows();           ///< title, task, pair, gears 
 std::vector<SchemaKey> flank_rows();              ///< modifications and manufacturing errors
 std::vector<SchemaKey> working_condition_rows();  ///< misalignment, material, load and how it is analysed
 std::vector<SchemaKey> shaft_rows();              ///< shafts and their bearings
-std::vector<SchemaKey> proof_rows();              ///< what an optimum is held against
-std::vector<SchemaKey> accuracy_rows();           ///< accuracy asked for, and the ladder
-std::vector<SchemaKey> sweep_rows();              ///< samples of a parameter space
-std::vector<SchemaKey> task_rows();               ///< scenes, optimisation, expectations
+std::vector<SchemaKey> scene_rows();              ///< scenes and expectations
 
 constexpr Range above_zero(double high) {
   return {.low = 0.0, .high = high, .low_open = true};

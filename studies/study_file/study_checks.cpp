@@ -5,7 +5,6 @@
 
 #include "core/flank/conjugate_field.hpp"
 #include "core/gear/gear_pair.hpp"
-#include "optimize/solvers/solver.hpp"
 #include "studies/compliance/study_compliance.hpp"
 
 namespace flankwright::studies {
@@ -13,11 +12,6 @@ namespace flankwright::studies {
 namespace {
 
 constexpr std::array members{Member::Pinion, Member::Wheel};
-
-void refuse_key(StudyReading& reading, const std::string& path, const std::string& allowed) {
-  const Match* match = reading.find(path);
-  reading.refuse(reading.where(path), path, match == nullptr ? nullptr : match->node, allowed);
-}
 
 /// True for the tables that PairData is made of.
 bool is_geometry(const std::string& path) {
@@ -88,14 +82,13 @@ void check_relief(StudyReading& reading, Member m, const ModificationDescriptor&
   const DesignVariable* extent = find_variable(study, m, of_extent.parameter);
   const bool has_amount = amount != nullptr || of_amount.get(modification) != 0.0;
   if (extent != nullptr && !has_amount) {
-    return refuse_key(
-        reading, "optimise.variables." + path,
+    return reading.refuse_key("optimise.variables." + path,
         "has no effect while " + amount_path + " is 0: give it a value or make it a variable");
   }
   const bool has_derivative = asks_derivative(study, m, of_amount.parameter);
   if (!has_amount && !has_derivative) return;
   if (extent != nullptr && extent->lower <= 0.0) {
-    return refuse_key(reading, "optimise.variables." + path,
+    return reading.refuse_key("optimise.variables." + path,
                       "allowed is a lower bound above 0 mm: the relief is spread over it");
   }
   if (extent != nullptr || of_extent.get(modification) > 0.0) return;
@@ -116,7 +109,7 @@ void check_parabola(StudyReading& reading, Member m) {
     try {
       make_conjugate_field(make_gear_pair(study.pair), m, coefficient);
     } catch (const InvalidInput& problem) {
-      refuse_key(reading, key, "allowed is " + problem.allowed());
+      reading.refuse_key(key, "allowed is " + problem.allowed());
     }
   };
   check(path, (m == Member::Pinion ? study.pinion_modification : study.wheel_modification).parabolic_te);
@@ -132,66 +125,7 @@ void check_finite_elements(StudyReading& reading, Member m) {
   try {
     influence_table_task(compliance_task(study, make_gear_pair(study.pair)), m);
   } catch (const InvalidInput& problem) {
-    refuse_key(reading, problem.field(), "allowed is " + problem.allowed());
-  }
-}
-
-void check_variables(StudyReading& reading) {
-  const OptimiseTable& optimise = reading.draft.study.optimise;
-  const auto is_variable = [&](const std::string& path) {
-    return std::ranges::any_of(optimise.variables, [&](const DesignVariable& v) { return v.path == path; });
-  };
-  for (const ExclusiveKeys& keys : exclusive_keys()) {
-    if (!is_variable(keys.first) || !is_variable(keys.second)) continue;
-    refuse_key(reading, "optimise.variables." + keys.second,
-               "overlaps the variable " + keys.first + "; allowed is one of them");
-  }
-}
-
-/// What is to be minimised or bounded must not be switched off.
-void check_root_stress(StudyReading& reading) {
-  const Study& study = reading.draft.study;
-  const auto is_root_stress = [](const ObjectiveTerm& term) { return term.output == Output::PeakRootStress; };
-  const auto asks = [&](const Goal& goal) { return std::ranges::any_of(goal.terms, is_root_stress); };
-  const bool asked = std::ranges::any_of(study.optimise.objective, is_root_stress) || std::ranges::any_of(study.optimise.then, asks) ||
-                     std::ranges::any_of(study.optimise.pareto_goals, asks) ||
-                     std::ranges::any_of(study.optimise.constraints, is_root_stress, &OutputConstraint::output);
-  if (asked && !wants_root_stress(study)) {
-    refuse_key(reading, "fidelity.effects", "peak_root_stress is asked for: allowed is \"auto\" or a list with \"root_stress\"");
-  }
-}
-
-void check_optimise(StudyReading& reading) {
-  const Study& study = reading.draft.study;
-  const Match* variables = reading.find("optimise.variables");
-  const bool has_entry =
-      variables != nullptr && (!variables->node->is_table() || !variables->node->as_table()->empty());
-  if (!has_entry) refuse_key(reading, "optimise.variables", "task \"optimise\" needs at least one variable");
-  if (!study.optimise.constraints.empty() && !accepts_constraints(study.optimise.solver)) {
-    refuse_key(reading, "optimise.solver", "this solver takes no constraints; one that does: \"ipopt\"");
-  }
-  if (study.fidelity.compliance == ComplianceModel::Rigid) {
-    refuse_key(reading, "fidelity.compliance", "task \"optimise\" needs a compliance: allowed is \"thin_slice\", \"fitted\" or \"fe\"");
-  }
-  const bool smooth = uses_gradients(study.optimise.solver) && accepts_constraints(study.optimise.solver);  // the epigraph is
-  if (!study.optimise.pareto_goals.empty() && !smooth) {
-    refuse_key(reading, "optimise.solver", "a Pareto front needs gradients and constraints: allowed is \"ipopt\", \"nlopt:slsqp\", \"nlopt:mma\" or \"nlopt:ccsaq\"");
-  }
-  if (study.optimise.then.size() > 0 && !accepts_constraints(study.optimise.solver)) {
-    refuse_key(reading, "optimise.solver", "a list of objectives bounds the earlier ones: allowed is a solver that takes constraints, such as \"ipopt\"");
-  }
-  if (reading.find("optimise.finisher") != nullptr && !smooth) {
-    refuse_key(reading, "optimise.finisher", "has a meaning with a solver of gradients and constraints only: \"ipopt\", \"nlopt:slsqp\", \"nlopt:mma\" or \"nlopt:ccsaq\"");
-  }
-  const Match* over = reading.find("optimise.over");
-  const bool free_sigmas = over != nullptr && over->node->is_string() && over->node->as_string()->get() == "mean+sigmas";
-  if (reading.find("optimise.sigmas") != nullptr && !free_sigmas) {
-    refuse_key(reading, "optimise.sigmas", "has a meaning with optimise.over = \"mean+sigmas\" only");
-  }
-  check_root_stress(reading);
-  for (const Scene& scene : study.scenes) {
-    if (std::ranges::any_of(scene.torques, [](double torque) { return torque > 0.0; })) continue;
-    return refuse_key(reading, "load.torque", "task \"optimise\" needs a torque above 0 in every scene: " + scene.name);
+    reading.refuse_key(problem.field(), "allowed is " + problem.allowed());
   }
 }
 
@@ -200,7 +134,7 @@ void check_optimise(StudyReading& reading) {
 void check_presence(StudyReading& reading) {
   for (const ExclusiveKeys& keys : exclusive_keys()) {
     if (reading.find(keys.first) == nullptr || reading.find(keys.second) == nullptr) continue;
-    refuse_key(reading, keys.second, "allowed is this or " + keys.first + ", not both");
+    reading.refuse_key(keys.second, "allowed is this or " + keys.first + ", not both");
   }
   for (const SchemaKey& key : study_schema()) {
     const bool in_list = key.path.find("[].") != std::string::npos;  // checked where the list is read
@@ -208,7 +142,7 @@ void check_presence(StudyReading& reading) {
     const bool is_replaced = std::ranges::any_of(exclusive_keys(), [&](const ExclusiveKeys& keys) {
       return keys.first == key.path && reading.find(keys.second) != nullptr;
     });
-    if (!is_replaced) refuse_key(reading, key.path, "required: allowed is " + allowed_values(key));
+    if (!is_replaced) reading.refuse_key(key.path, "required: allowed is " + allowed_values(key));
   }
 }
 
@@ -218,7 +152,7 @@ void check_pair(StudyReading& reading) {
   if (has_problem) return;
   const PairData& pair = reading.draft.study.pair;
   if (reading.find("wheel.hand") != nullptr && reading.draft.wheel_hand == pair.pinion_hand) {
-    refuse_key(reading, "wheel.hand", "allowed is the opposite of pinion.hand");
+    reading.refuse_key("wheel.hand", "allowed is the opposite of pinion.hand");
   }
   check_tooth_lists(reading);
   for (const InvalidInput& problem : find_problems(pair)) {
@@ -229,7 +163,7 @@ void check_pair(StudyReading& reading) {
   }
 }
 
-void check_task(StudyReading& reading) {
+void check_flanks(StudyReading& reading) {
   for (const Member m : members) {
     for (const ModificationDescriptor& amount : modification_parameters) {
       if (!amount.extent.empty()) check_relief(reading, m, amount, *find_parameter(amount.extent));
@@ -237,8 +171,6 @@ void check_task(StudyReading& reading) {
     check_parabola(reading, m);
     check_finite_elements(reading, m);
   }
-  check_variables(reading);
-  if (reading.draft.study.task == Task::Optimise) check_optimise(reading);
 }
 
 }  // namespace flankwright::studies

@@ -11,7 +11,7 @@ void check_presence(StudyReading& reading);
 /// The pair can be built: hands, pitch lists and find_problems(). Only where its own keys were without a problem.
 void check_pair(StudyReading& reading);
 
-/// Reliefs have an extent; variables, solver and scenes fit the task.
-void check_task(StudyReading& reading);
+/// Reliefs have an extent, a designed parabola has a flank, and finite elements can be made of the gears.
+void check_flanks(StudyReading& reading);
 
 }  // namespace flankwright::studies

@@ -8,14 +8,12 @@
 #include <tuple>
 
 #include "studies/study_file/study_checks.hpp"
-#include "studies/study_file/proof_reading.hpp"
 #include "studies/study_file/study_document.hpp"
 #include "studies/study_file/study_flanks.hpp"
 #include "studies/study_file/study_reading.hpp"
 #include "studies/study_file/study_schema.hpp"
 #include "studies/study_file/study_shafts.hpp"
 #include "studies/study_file/study_tables.hpp"
-#include "studies/study_file/sweep_reading.hpp"
 
 namespace flankwright::studies {
 
@@ -55,14 +53,14 @@ Study parse_study(std::string_view text, const std::string& name, const std::vec
   check_presence(reading);
   read_generation(reading);
   read_scenes(reading);
-  read_gradients(reading);
-  read_optimise(reading);
+  for (const Task* task : registered_tasks()) {
+    if (task->read != nullptr) task->read(reading);
+  }
   read_expectations(reading);
   check_pair(reading);
-  read_sweep(reading);
-  read_proof(reading);
+  if (const Task& task = *reading.draft.study.task; task.check != nullptr) task.check(reading);
   read_shafts(reading);
-  check_task(reading);
+  check_flanks(reading);
   read_grids(reading);
   if (!problems.empty()) {
     sort_by_line(problems);

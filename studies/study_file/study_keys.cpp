@@ -1,7 +1,6 @@
 #include <string_view>
 
 #include "core/effects/decision.hpp"
-#include "optimize/solvers/solver.hpp"
 #include "studies/study_file/key_rows.hpp"
 
 /// The table of keys.
@@ -125,13 +124,16 @@ std::vector<SchemaKey> working_condition_rows() {
          d.study.fidelity.automatic_effects = !v.is_list;
          d.study.fidelity.effects = v.words;
        }},
+      {.path = "fidelity.accuracy", .kind = Percentage, .range = above_zero(50.0), .fallback = "(none)",
+       .meaning = "\"1 %\": compliance, gap, quadrature and positions, as far as they are not given, are the cheapest whose estimated error in transmission error, its harmonics and peak contact stress is within it; the estimates and their cost stand in `accuracy_choice`",
+       .store = [](Draft& d, Member, const Value& v) { d.study.fidelity.accuracy = v.number; }},
       {.path = "fidelity.effect_sizes", .kind = Word, .words = {"off", "estimated", "exact"}, .fallback = "\"estimated\"",
        .meaning = "what each effect does to transmission error and contact stress: to first order at a few positions, or by leaving it out at the study's resolution as well",
        .store = [](Draft& d, Member, const Value& v) { d.study.fidelity.effect_sizes = static_cast<EffectSizing>(v.integer); }},
   };
 }
 
-std::vector<SchemaKey> task_rows() {
+std::vector<SchemaKey> scene_rows() {
   return {
       {.path = "scenes", .kind = Scenes, .fallback = "(one scene, nominal)",
        .meaning = "working conditions; each overrides `misalignment.*`, `load.torque` or either gear's `error.*`"},
@@ -141,81 +143,6 @@ std::vector<SchemaKey> task_rows() {
       {.path = "scenes[].weight", .range = above_zero(1e9), .fallback = "1",
        .meaning = "its share in mean and mean+2sigma",
        .store = [](Scene& s, Member, const Value& v) { s.weight = v.number; }},
-
-      {.path = "analyse.gradients", .kind = Parameters, .fallback = "(none)",
-       .meaning = "derivatives of every loaded output by these keys, each per its unit: `loaded[].gradients`; task \"analyse\""},
-
-      {.path = "optimise.objective", .kind = Objective, .fallback = "\"peak_contact_stress\"",
-       .meaning = "minimised; a table of names and weights minimises the sum of weight * value (um, MPa, N/mm); of a list each while those before it stay near their least"},
-      {.path = "optimise.lexicographic_tolerance", .range = above_zero(10.0), .fallback = "0.01",
-       .meaning = "of a list of objectives: how far one may rise above its least while the next is minimised, as a share of it",
-       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.lexicographic_tolerance = v.number; }},
-      {.path = "optimise.over", .kind = Word, .words = {"nominal", "worst", "mean", "mean+sigmas", "cvar", "mean+2sigma"},
-       .fallback = "\"worst\"", .meaning = "of the scenes; nominal is the first, mean+2sigma is mean+sigmas with sigmas = 2, cvar the mean over the worst of them",
-       .store = [](Draft& d, Member, const Value& v) {
-         const bool two_sigmas = v.text == "mean+2sigma";
-         d.study.optimise.over.kind = two_sigmas ? Aggregate::MeanPlusSigmas : static_cast<Aggregate>(v.integer);
-       }},
-      {.path = "optimise.sigmas", .range = above_zero(100.0), .fallback = "2", .meaning = "k of over = \"mean+sigmas\": mean + k standard deviations",
-       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.over.sigmas = v.number; }},
-      {.path = "optimise.cvar_level", .range = {.low = 0.0, .high = 1.0, .high_open = true}, .fallback = "0.9",
-       .meaning = "of over = \"cvar\": the mean over the worst 1 - level of the scenes' weight (conditional value at risk)",
-       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.over.level = v.number; }},
-      {.path = "optimise.solver", .kind = Word, .words = solver_names(), .fallback = "\"nlopt:slsqp\"",
-       .meaning = "the optimiser",
-       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.solver = v.text; }},
-      {.path = "optimise.finisher", .kind = Word, .words = finisher_names(), .fallback = "\"nlopt:slsqp\"",
-       .meaning = "what goes on from the best design where a solver with gradients and constraints stalls on a kink; none: the search ends there",
-       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.finisher = v.text; }},
-      {.path = "optimise.variables", .kind = Variables, .fallback = "(none)",
-       .meaning = "\"pinion.modification.lead_crowning\" = [0, 40]: what may change, in the unit of its key; { range = [0, 40], step = 1 }: and is ground in such steps"},
-      {.path = "optimise.step", .quantity = Quantity::Deviation, .range = above_zero(100.0), .fallback = "(none)",
-       .meaning = "what the grinder can set: the optimum is rounded to multiples of it, in variables that are amounts and have no step of their own",
-       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.step = v.number; }},
-      {.path = "optimise.ties", .kind = Ties, .fallback = "(none)",
-       .meaning = "\"wheel.modification.lead_crowning\" = { as = \"pinion.modification.lead_crowning\", factor = 1, offset = 0 }: follows a variable, factor * value + offset"},
-      {.path = "optimise.constraints", .kind = Constraints, .fallback = "(none)",
-       .meaning = "\"te_peak_to_peak\" = { max = 1.5 }: transmission error in um, stress in MPa, line load in N/mm, in every scene; \"pinion.modification.lead_crowning + wheel.modification.lead_crowning\" = { max = 30 }"},
-      {.path = "optimise.edge_margin", .range = {.low = 0.0, .high = 0.5, .low_open = true}, .fallback = "0.05",
-       .meaning = "of edge_load: share of the face width at either end and of the active height at either tip",
-       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.edge_margin = v.number; }},
-      {.path = "optimise.starts", .kind = Integer, .range = {.low = 1, .high = 1000}, .fallback = "1",
-       .meaning = "searches, side by side: from the file's values and from a space-filling set; max_evaluations is shared among them; of a front for the best of each objective",
-       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.starts = static_cast<int>(v.integer); }},
-      {.path = "optimise.pareto.objectives", .kind = Objectives, .fallback = "(none)",
-       .meaning = "a front of compromises between these as well, with a budget of its own of the same size"},
-      {.path = "optimise.pareto.points", .kind = Integer, .range = {.low = 3, .high = 200}, .fallback = "9",
-       .meaning = "of the front; of three objectives the largest of 3, 6, 10, 15 ... within it",
-       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.pareto_points = static_cast<int>(v.integer); }},
-      {.path = "optimise.max_evaluations", .kind = Integer, .range = {.low = 1, .high = 10'000'000}, .fallback = "2000",
-       .meaning = "then an orderly stop with the best so far",
-       .store = [](Draft& d, Member, const Value& v) {
-         d.study.optimise.max_evaluations = static_cast<int>(v.integer);
-       }},
-      {.path = "optimise.max_seconds", .quantity = Quantity::Time, .range = above_zero(1e8), .fallback = "(no limit)",
-       .meaning = "then an orderly stop with the best so far",
-       .store = [](Draft& d, Member, const Value& v) { d.study.optimise.max_seconds = v.number; }},
-      {.path = "optimise.seed", .kind = Integer, .range = {.low = 0, .high = 2147483647}, .fallback = "1",
-       .meaning = "of the stochastic solvers and of the starts",
-       .store = [](Draft& d, Member, const Value& v) {
-         d.study.optimise.seed = static_cast<unsigned long>(v.integer);
-       }},
-
-      {.path = "fit.gear", .kind = Word, .words = {"both", "pinion", "wheel"}, .fallback = "\"both\"",
-       .meaning = "whose compliance is fitted",
-       .store = [](Draft& d, Member, const Value& v) {
-         d.study.fit.pinion = v.text != "wheel";
-         d.study.fit.wheel = v.text != "pinion";
-       }},
-      {.path = "fit.form", .kind = Word, .words = {"one_tooth_accurate", "several_teeth"},
-       .fallback = "\"one_tooth_accurate\"", .meaning = "sum of kernels that is fitted: one tooth, or several that are coupled",
-       .store = [](Draft& d, Member, const Value& v) { d.study.fit.several_teeth = v.text == "several_teeth"; }},
-      {.path = "fit.test_grid", .kind = Word, .words = {"on", "off"}, .fallback = "\"on\"",
-       .meaning = "on: compared with finite elements on places that the fit has not seen as well",
-       .store = [](Draft& d, Member, const Value& v) { d.study.fit.test_grid = v.text == "on"; }},
-      {.path = "fit.max_iterations", .kind = Integer, .range = {.low = 1, .high = 100'000}, .fallback = "300",
-       .meaning = "steps of the least squares, then it ends unconverged with the best so far",
-       .store = [](Draft& d, Member, const Value& v) { d.study.fit.max_iterations = static_cast<int>(v.integer); }},
 
       {.path = "expect", .kind = Expectations, .fallback = "(none)",
        .meaning = "\"loaded.summary.te_peak_to_peak_um\" = { max = 3 }: what results.json must say"},
@@ -244,8 +171,9 @@ void append(std::vector<SchemaKey>& schema, const std::vector<SchemaKey>& rows) 
 
 std::vector<SchemaKey> make_schema() {
   std::vector<SchemaKey> schema;
-  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), shaft_rows(), task_rows(), proof_rows(), sweep_rows(), accuracy_rows()}) {
-    append(schema, rows);
+  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), shaft_rows(), scene_rows()}) append(schema, rows);
+  for (const Task* task : registered_tasks()) {
+    if (task->keys != nullptr) append(schema, task->keys());
   }
   return schema;
 }

@@ -96,6 +96,11 @@ void StudyReading::refuse(const Position& at, const std::string& key, const toml
   problems.push_back({at.file, at.line, at.column, key, value, allowed});
 }
 
+void StudyReading::refuse_key(const std::string& path, const std::string& allowed) {
+  const Match* match = find(path);
+  refuse(where(path), path, match == nullptr ? nullptr : match->node, allowed);
+}
+
 const Match* StudyReading::find(const std::string& path) const {
   const auto found = matches.find(path);
   return found == matches.end() ? nullptr : &found->second;

@@ -31,6 +31,9 @@ struct StudyReading {
   /// Adds a problem; the value is the node's text, or "(not given)".
   void refuse(const Position& at, const std::string& key, const toml::node* node, const std::string& allowed);
 
+  /// The same at the key of a path, wherever it stands.
+  void refuse_key(const std::string& path, const std::string& allowed);
+
   /// Match of a path, or null.
   const Match* find(const std::string& path) const;
 

@@ -8,16 +8,6 @@ namespace flankwright::studies {
 
 namespace {
 
-/// What a key is to a loaded mesh; nothing where there is no derivative with respect to it.
-std::optional<MeshParameter> mesh_parameter(const SchemaKey& key) {
-  if (const auto* modification = std::get_if<ModificationParameter>(&key.store)) return GearParameter{key.member, *modification};
-  for (const NamedMisalignmentParameter& p : misalignment_parameters) {
-    if (key.path == "misalignment." + std::string(p.name)) return p.parameter;
-  }
-  if (key.path == "load.torque") return PinionTorque{};
-  return std::nullopt;
-}
-
 /// Optional plain number of an [expect] entry.
 void read_expected(StudyReading& reading, const Item& item, const std::string& name, double& value) {
   const toml::node* node = item.node->as_table()->get(name);
@@ -114,25 +104,6 @@ void read_scenes(StudyReading& reading) {
                      "another scene has this name; allowed is a name of its own");
     }
     scenes.push_back(scene);
-  }
-}
-
-void read_gradients(StudyReading& reading) {
-  const Match* match = reading.find("analyse.gradients");
-  if (match == nullptr) return;
-  const toml::array* keys = match->node->as_array();
-  if (keys == nullptr) return reading.refuse(match->position, match->path, match->node, "allowed is " + allowed_values(*match->key));
-  for (const toml::node& node : *keys) {
-    const auto known = study_keys().find(node.value_or(std::string()));
-    const auto parameter = known == study_keys().end() ? std::nullopt : mesh_parameter(*known->second);
-    if (!parameter) {
-      const std::string hint = known == study_keys().end() ? nearest_key_hint(study_keys(), node.value_or(std::string())) : "";
-      reading.refuse(match->position, match->path, &node, "allowed is " + allowed_values(*match->key) + hint);
-      continue;
-    }
-    const Quantity quantity = known->second->quantity;
-    reading.draft.study.gradients.push_back(
-        {known->first, *parameter, std::string(default_unit(quantity)), internal_value(1.0, quantity)});
   }
 }
 

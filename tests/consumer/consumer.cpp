@@ -3,7 +3,7 @@
 #include "core/gear/gear_pair.hpp"
 #include "studies/base/version.hpp"
 #include "studies/results/results_json.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 
 int main() {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 
 /// The studies of this folder, read and run as `flankwright run` does, with floating-point traps set.

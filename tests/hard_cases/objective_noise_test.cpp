@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "optimize/design/design_problem.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/core/load/load_cases.hpp"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/compliance/shaft/shaft_pair.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/reference/haddad_rig.hpp"
 #include "core/gear/gear_pair.hpp"

@@ -5,7 +5,7 @@
 
 #include "core/compliance/plate/cantilever_plate.hpp"
 #include "core/rating/load_factors.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 

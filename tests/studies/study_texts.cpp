@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "studies/results/results_json.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 
 namespace flankwright::studies::study_texts {
 

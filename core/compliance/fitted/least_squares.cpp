@@ -96,4 +96,14 @@ LeastSquaresResult solve_least_squares(const ResidualFunction& function, std::sp
   return result;
 }
 
+const char* to_string(FitStatus status) {
+  switch (status) {
+    case FitStatus::NotRun: return "not run";
+    case FitStatus::Converged: return "converged";
+    case FitStatus::IterationLimit: return "iteration limit";
+    case FitStatus::Failed: return "failed";
+  }
+  __builtin_unreachable();
+}
+
 }  // namespace flankwright

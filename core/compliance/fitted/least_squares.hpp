@@ -15,6 +15,8 @@ enum class FitStatus {
   Failed,          ///< the residuals are not finite at the start, or the solver broke down
 };
 
+const char* to_string(FitStatus status);
+
 /// Residuals of a non-linear least-squares problem with derivatives.
 class ResidualFunction {
  public:

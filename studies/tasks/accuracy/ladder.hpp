@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/tasks/accuracy/rung.hpp"
+#include "studies/analysis/rung.hpp"
 
 namespace flankwright::studies {
 

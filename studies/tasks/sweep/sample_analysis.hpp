@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "core/fidelity/cycle_quantities.hpp"
-#include "studies/tasks/study_results.hpp"
+#include "studies/analysis/study_results.hpp"
 #include "studies/study_file/study_schema.hpp"
 #include "studies/study_file/sweep_value.hpp"
 

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "studies/tasks/study_results.hpp"
+#include "studies/analysis/study_results.hpp"
 #include "studies/tasks/sweep/sweep_store.hpp"
 #include "studies/base/results_folder.hpp"
 

@@ -7,7 +7,7 @@
 #include "core/compliance/fitted/refinement_library.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/results/results_json.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/reference/eigenvalues.hpp"
 #include "tests/reference/iso_6336_root_stress.hpp"

@@ -3,7 +3,7 @@
 
 #include "studies/base/json_format.hpp"
 #include "studies/results/results_json.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/study_texts.hpp"
 

@@ -10,7 +10,7 @@
 #include "studies/results/tables.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "studies/study_file/study_schema.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 #include "studies/tasks/sweep/sample_analysis.hpp"
 #include "tests/studies/study_texts.hpp"
 #include "tests/studies/tasks/sweep/small_sweep.hpp"

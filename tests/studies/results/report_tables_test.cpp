@@ -8,7 +8,7 @@
 #include "studies/results/results_json.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/small_studies.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 
 using namespace flankwright;
 using namespace flankwright::studies;

@@ -10,7 +10,7 @@
 #include "tests/studies/command_line.hpp"
 #include "tests/studies/small_file_limit.hpp"
 #include "tests/studies/small_studies.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 
 namespace flankwright::studies {
 namespace {

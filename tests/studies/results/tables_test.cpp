@@ -7,7 +7,7 @@
 
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/small_studies.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 
 namespace flankwright::studies {
 namespace {

@@ -1,17 +1,11 @@
 list(APPEND FLANKWRIGHT_TEST_SOURCES
-     ${CMAKE_CURRENT_LIST_DIR}/accuracy_keys_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/fit_keys_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/given_units_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/key_page_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/grid_file_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/key_page_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/modification_keys_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/optimise_keys_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/proof_keys_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_file_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_flanks_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_mutation_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_problems_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_shafts_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/study_syntax_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/study_template_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/sweep_keys_test.cpp)
+     ${CMAKE_CURRENT_LIST_DIR}/study_syntax_test.cpp)

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "studies/study_file/study_file.hpp"
-#include "studies/study_file/study_template.hpp"
+#include "studies/tasks/study_template.hpp"
 
 using namespace flankwright::studies;
 

@@ -6,7 +6,7 @@
 #include "studies/compliance/study_compliance.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/results/results_json.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "core/gear/gear_pair.hpp"
 

@@ -12,7 +12,7 @@
 #include "studies/base/json_format.hpp"
 #include "studies/results/results_json.hpp"
 #include "studies/exchange/rexs/rexs_model.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/small_studies.hpp"
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "studies/results/accuracy_json.hpp"
-#include "studies/results/accuracy_tables.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/tasks/accuracy/ladder_json.hpp"
+#include "studies/tasks/accuracy/ladder_tables.hpp"
+#include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "core/gear/gear_pair.hpp"
 

@@ -4,7 +4,7 @@
 #include "studies/base/json_format.hpp"
 #include "studies/report/report.hpp"
 #include "studies/results/results_json.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "studies/results/tables.hpp"
 #include "tests/studies/small_studies.hpp"

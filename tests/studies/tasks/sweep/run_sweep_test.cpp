@@ -9,7 +9,7 @@
 #include "studies/tasks/sweep/sweep_statistics.hpp"
 #include "studies/tasks/sweep/worst_study.hpp"
 #include "tests/studies/tasks/sweep/small_sweep.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 
 namespace flankwright::studies {
 namespace {
@@ -40,7 +40,7 @@ TEST_CASE("A sample of a sweep is the analysis of its own study, bit for bit", "
     const StoredSample& sample = samples[i];
     REQUIRE(sample.result.failure.empty());
     const Study alone = parse_study(sample_study(study, "one", sample.values), "one.toml", {{"cycle.peaks", "sampled"}});
-    CHECK(alone.task == Task::Analyse);
+    CHECK(alone.task == &find_task("analyse"));
     const StudyResults results = run_study(alone);
     const CycleSummary& summary = results.loaded.at(0).summary;
     std::size_t found = 0;

@@ -5,7 +5,7 @@
 #include "studies/study_file/study_file.hpp"
 #include "studies/tasks/sweep/run_sweep.hpp"
 #include "tests/studies/tasks/sweep/small_sweep.hpp"
-#include "studies/tasks/run_study.hpp"
+#include "studies/analysis/run_study.hpp"
 
 namespace flankwright::studies {
 namespace {

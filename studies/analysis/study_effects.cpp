@@ -1,0 +1,45 @@
+#include "studies/analysis/study_effects.hpp"
+
+#include "studies/compliance/study_compliance.hpp"
+
+namespace flankwright::studies {
+
+FlankCondition condition_of(const Study& study, const Scene& scene) {
+  return {study.pinion_modification, study.wheel_modification, scene.pinion_error, scene.wheel_error, scene.misalignment};
+}
+
+std::vector<FlankCondition> conditions_of(const Study& study) {
+  std::vector<FlankCondition> conditions;
+  for (const Scene& scene : study.scenes) conditions.push_back(condition_of(study, scene));
+  return conditions;
+}
+
+EffectFacts effect_facts(const Study& study) {
+  EffectFacts facts;
+  facts.coupled_teeth = facts.gear_bodies = couples_teeth(study.fidelity.compliance);
+  facts.root_stress = wants_root_stress(study);
+  facts.shafts = study.pinion_shaft || study.wheel_shaft;
+  facts.whole_surface = study.fidelity.gap == GapModel::WholeSurface;
+  for (const Scene& scene : study.scenes) {
+    for (double torque : scene.torques) {
+      const bool rigid = torque == 0.0 || study.fidelity.compliance == ComplianceModel::Rigid;
+      (rigid ? facts.unloaded : facts.loaded) = true;
+    }
+  }
+  facts.conditions = study.task->conditions != nullptr ? study.task->conditions(study) : conditions_of(study);
+  return facts;
+}
+
+EffectDecisions study_effects(const Study& study) {
+  const EffectFacts facts = effect_facts(study);
+  return study.fidelity.automatic_effects ? decide_effects(facts) : chosen_effects(facts, study.fidelity.effects);
+}
+
+void add_seconds(EffectDecisions& decisions, const MeshEffects& in_mesh, double unloaded_seconds) {
+  for (EffectDecision& decision : decisions) {
+    if (in_mesh.calls(decision.name) > 0) decision.seconds = in_mesh.seconds(decision.name);
+    if (decision.name == "unloaded_contact" && decision.on) decision.seconds = unloaded_seconds;
+  }
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,65 @@
+#include "studies/analysis/study_notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/units.hpp"
+#include "studies/compliance/study_compliance.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+/// Crowning counts over the part of the profile that touches: says so where that is nothing, or little of the dedendum.
+void note_crowning(const Modification& given, const Gear& gear, std::vector<std::string>& notes) {
+  const char* name = name_of(gear.member);
+  const double addendum = gear.tip_radius - gear.working_pitch_radius, dedendum = gear.working_pitch_radius - gear.active_root_radius;
+  const bool no_addendum = addendum <= 0.0, no_dedendum = dedendum <= 0.0;
+  if ((no_addendum && given.addendum_crowning != 0.0) || (no_dedendum && given.dedendum_crowning != 0.0)) {
+    notes.push_back(fmt::format("the {}'s {} touches nothing, the path of contact lies on one side of the pitch point: it is not crowned", name,
+                                no_addendum ? "addendum" : "dedendum"));
+  }
+  const double extents = (gear.working_pitch_radius - gear.form_radius) / dedendum;
+  if (given.dedendum_crowning != 0.0 && !no_dedendum && extents > 2.0) {
+    const double amount = given.dedendum_crowning / units::um;
+    notes.push_back(fmt::format("the {}'s dedendum touches over a height of {:.3g} mm only, where it is crowned by {:.4g} um: at the form circle that is {:.4g} um", name,
+                                dedendum, amount, amount * extents * extents));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
+  std::vector<std::string> notes;
+  if (study.fidelity.compliance == ComplianceModel::Rigid && has_torque(study) && !study.task->single_gears) {
+    notes.push_back("compliance is rigid: torques are ignored, contact is analysed without load");
+  }
+  const bool has_body = std::ranges::any_of(study.given, [](const GivenValue& g) { return g.key.find(".body.") != std::string::npos; });
+  if (has_body && has_torque(study) && !solves_finite_elements(study)) {
+    notes.push_back(fmt::format("a gear's body is given, but the compliance \"{}\" does not know of it", to_string(study.fidelity.compliance)));
+  }
+  for (const Gear* gear : {&pair.pinion, &pair.wheel}) {
+    const char* name = name_of(gear->member);
+    if (gear->undercut) notes.push_back(fmt::format("the {} is undercut: its involute starts at diameter {:.6g} mm", name, 2.0 * gear->form_radius));
+    if (gear->fillet_interference) {
+      notes.push_back(
+          fmt::format("the mate's tip reaches below the {}'s form circle: the path of contact ends there, {} it the edge that the fillet leaves carries load; "
+                      "what touches the fillet itself is not modelled",
+                      name, gear->member == Member::Pinion ? "before" : "beyond"));
+    }
+  }
+  note_crowning(study.pinion_modification, pair.pinion, notes);
+  note_crowning(study.wheel_modification, pair.wheel, notes);
+  if (pair.transverse_contact_ratio < 1.0) {
+    notes.push_back(fmt::format("the transverse contact ratio is {:.3g}: in each section no teeth touch for a while, the overlap ratio of {:.3g} alone carries the mesh on",
+                                pair.transverse_contact_ratio, pair.overlap_ratio));
+  }
+  if (pair.backlash < -units::um) {
+    notes.push_back(fmt::format("the teeth have a backlash of {:.4g} um at this centre distance: they would jam; only the working flanks are analysed",
+                                pair.backlash / units::um));
+  }
+  return notes;
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,262 @@
+#include "studies/analysis/study_run.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "core/base/stopwatch.hpp"
+#include "core/load/cycle/mesh_motion.hpp"
+#include "studies/analysis/position_memory.hpp"
+#include "studies/analysis/refine_resolution.hpp"
+#include "studies/analysis/requirements.hpp"
+#include "studies/analysis/study_effect_sizes.hpp"
+#include "studies/analysis/study_effects.hpp"
+#include "studies/analysis/study_notes.hpp"
+#include "studies/compliance/study_compliance.hpp"
+#include "studies/study_file/study_shafts.hpp"
+
+namespace flankwright::studies {
+
+StudyRun::StudyRun(const Study& study, const ProgressReport& progress, const PerFigure& budget) : progress_(progress), budget_(budget) {
+  results_.study = study;
+  results_.pair = make_gear_pair(study.pair);
+  if (!study.task->single_gears) {
+    results_.effects = study_effects(study);
+    results_.mesh_effects = mesh_effects(results_.effects);
+  }
+  results_.notes = study_notes(study, results_.pair);
+  if (is_on(results_.effects, "shafts")) results_.shafts = make_shafts(study, results_.pair);
+}
+
+StudyResults StudyRun::finish() {
+  const Stopwatch clock;
+  results_.study.task->run(*this);
+  size_effects();
+  add_seconds(results_.effects, results_.mesh_effects, unloaded_seconds_);
+  add_unmet_by_load_cases(results_);
+  results_.seconds = clock.seconds();
+  return std::move(results_);
+}
+
+void StudyRun::report(const std::string& label, int done, int total, const std::string& remark) const {
+  if (progress_) progress_(label, done, total, remark);
+}
+
+MeshModel StudyRun::mesh(const MeshPlacement& placement, const MeshResolution& resolution, const PairRootStress* root_stress,
+               const std::vector<MeshParameter>& parameters) {
+  const MeshPlaced placed = [&](const MeshPlacement& at) {
+    const Study& study = results_.study;
+    return make_mesh_model(results_.pair, study.pinion_material, study.wheel_material, resolution, results_.mesh_effects, at,
+                           structures().pair.get(), root_stress, results_.shafts.get());
+  };
+  return with_further_meshes(placed(placement), placed, parameters);
+}
+
+MeshPlacement StudyRun::placement_of(const Misalignment& misalignment) const { return MeshPlacement::of(gap_model(results_.effects), misalignment); }
+
+MeshAt StudyRun::mesh_at(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters) {
+  return [this, placement = placement_of(misalignment), parameters](const std::vector<double>& phases) {
+    return mesh(placement, {results_.study.fidelity.quadrature, phases}, nullptr, parameters);
+  };
+}
+
+std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) const {
+  std::vector<DesignScene> scenes;
+  for (const Scene& scene : of_study) {
+    for (double torque : scene.torques) {
+      if (torque == 0.0) continue;
+      scenes.push_back({scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(results_.study, scene))});
+    }
+  }
+  return scenes;
+}
+
+void StudyRun::set_phases() {
+  const Cycle& cycle = results_.study.cycle;
+  results_.phases = cycle.phases.empty() ? equally_spaced_phases(cycle.positions) : cycle.phases;
+}
+
+std::vector<std::size_t> StudyRun::models_for(const std::vector<DesignScene>& scenes) {
+  std::vector<std::size_t> models;
+  std::vector<MeshPlacement> unknown;
+  for (const DesignScene& scene : scenes) {
+    const MeshPlacement placement = placement_of(scene.condition.misalignment);
+    const auto [it, is_new] = model_index_.try_emplace(placement, results_.models.size() + unknown.size());
+    if (is_new) unknown.push_back(placement);
+    models.push_back(it->second);
+  }
+  for (MeshModel& model : meshes(unknown, {results_.study.fidelity.quadrature, results_.phases}, gradient_parameters())) {
+    results_.models.push_back(std::move(model));
+  }
+  return models;
+}
+
+std::vector<MeshModel> StudyRun::meshes(const std::vector<MeshPlacement>& placements, const MeshResolution& resolution, const std::vector<MeshParameter>& parameters) {
+  std::vector<MeshModel> made(placements.size());
+  if (placements.empty()) return made;
+  const PairRootStress* root_stress = structures().root_stress.get();
+  tbb::parallel_for(std::size_t{0}, made.size(), [&](std::size_t i) { made[i] = mesh(placements[i], resolution, root_stress, parameters); });
+  return made;
+}
+
+std::vector<const MeshModel*> StudyRun::coarse_meshes_for(const std::vector<Misalignment>& misalignments) {
+  Quadrature quadrature = results_.study.fidelity.quadrature;
+  std::vector<const MeshModel*> coarse(misalignments.size(), nullptr);
+  if (!results_.study.cycle.phases.empty() || results_.phases.size() < 4 || quadrature.intervals < 2) return coarse;
+  quadrature.intervals /= 2;
+  std::vector<MeshPlacement> unknown;
+  for (const Misalignment& misalignment : misalignments) {
+    if (coarse_models_.try_emplace(placement_of(misalignment)).second) unknown.push_back(placement_of(misalignment));
+  }
+  std::vector<MeshModel> made = meshes(unknown, {quadrature, coarse_phases(results_.phases)}, {});
+  for (std::size_t i = 0; i < unknown.size(); ++i) coarse_models_[unknown[i]] = std::move(made[i]);
+  for (std::size_t i = 0; i < coarse.size(); ++i) coarse[i] = &coarse_models_.at(placement_of(misalignments[i]));
+  return coarse;
+}
+
+std::vector<ResolvedCycle> StudyRun::resolved(const std::vector<SolvedCase>& cases, bool with_errors) {
+  std::vector<Misalignment> misalignments;
+  for (const SolvedCase& of : cases) misalignments.push_back(of.scene.condition.misalignment);
+  const std::vector<const MeshModel*> coarse = with_errors ? coarse_meshes_for(misalignments) : std::vector<const MeshModel*>(cases.size(), nullptr);
+  std::vector<ResolvedCycle> all(cases.size());
+  tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
+    const auto& [scene, model, cycle] = cases[i];
+    const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>& parameters) {
+      return mesh_at(scene.condition.misalignment, parameters)(phases);
+    };
+    std::optional<LoadedCycle> coarse_cycle;
+    if (coarse[i] != nullptr) coarse_cycle = analyse_cycle(*coarse[i], scene.condition, scene.torque);
+    const CycleResolving resolving{.seek_extremes = seeks_extremes(results_.study), .coarse = coarse_cycle ? &*coarse_cycle : nullptr};
+    all[i] = resolve_cycle(*model, *cycle, at, scene.condition, scene.torque, resolving, gradient_parameters());
+  });
+  return all;
+}
+
+const GearStructures& StudyRun::structures() {
+  if (!has_structure_) {
+    results_.structures = gear_structures(results_.study, results_.pair, progress_);
+    const Study& study = results_.study;
+    results_.deflections = gear_deflections(results_.pair, study.pinion_material, study.wheel_material, results_.structures.pair.get(),
+                                            study.fidelity.compliance == ComplianceModel::Fe ? "finite elements" : "fitted");
+    has_structure_ = true;
+    if (const auto& runs = results_.structures.finite_elements) {
+      const bool is_structural = couples_teeth(results_.study.fidelity.compliance);
+      results_.steps.push_back({"finite_elements",
+                                is_structural ? std::string("compliance is ") + to_string(results_.study.fidelity.compliance) +
+                                                    ": influence values of both gears"
+                                              : "root stress of both gears",
+                                runs->seconds});
+      note_fits();
+      results_.notes.insert(results_.notes.end(), results_.structures.notes.begin(), results_.structures.notes.end());
+    }
+  }
+  return results_.structures;
+}
+
+void StudyRun::note_fits() {
+  for (const Member member : {Member::Pinion, Member::Wheel}) {
+    const auto& refinement = results_.structures.refinement(member);
+    if (!refinement) continue;
+    const std::string why = refinement->unknown.empty() ? "" : ": " + refinement->unknown;
+    results_.steps.push_back({std::string("fit_of_") + name_of(member), refinement->source() + why, refinement->seconds});
+  }
+}
+
+void StudyRun::add_unloaded(const Scene& scene) {
+  const FlankCondition condition = apply_effects(results_.effects, condition_of(results_.study, scene));
+  results_.unloaded.push_back(analyse_unloaded(results_.pair, scene.name, condition, results_.study.cycle.positions,
+                                               results_.study.marking_thickness));
+  const std::optional<ParabolaCheck>& parabola = results_.unloaded.back().parabola;
+  if (parabola && !parabola->holds) {
+    results_.notes.push_back("scene \"" + scene.name + "\": the designed parabola of the transmission error does not hold: " + parabola->why);
+  }
+}
+
+void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::string& design, std::vector<LoadedCycle> cycles) {
+  const std::vector<std::size_t> models = models_for(scenes);
+  tbb::parallel_for(std::size_t{0}, scenes.size(), [&](std::size_t i) {
+    const bool has_none = !cycles[i].positions.empty() && cycles[i].positions.front().root_stress.size() == 0;
+    if (has_none) add_root_stress(results_.models[models[i]], cycles[i]);  // a search that did not ask for it has left it out
+  });
+  std::vector<SolvedCase> cases;
+  for (std::size_t i = 0; i < scenes.size(); ++i) cases.push_back({scenes[i], &results_.models[models[i]], &cycles[i]});
+  std::vector<ResolvedCycle> shown = resolved(cases);
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const DesignScene& scene = scenes[i];
+    const MeshModel& model = results_.models[models[i]];
+    const IsoLoadFactors iso = iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, scene.condition), scene.torque, model.face_width);
+    const CycleSummary summary = shown[i].summary;
+    results_.loaded.push_back({scene.name, scene.torque, design, std::move(cycles[i]), std::move(shown[i]), summary, models[i], scene.condition, iso});
+  }
+}
+
+void StudyRun::rate() {
+  if (!locates_peaks(results_.study)) return;
+  std::map<MeshPlacement, PositionMemory> memories;  // the parts of a condition are looked at in the same phases to begin with
+  const auto mesh = [&](const Misalignment& m, const std::vector<MeshParameter>& by) {
+    return by.empty() ? memories[placement_of(m)].remembering(mesh_at(m)) : mesh_at(m, by);
+  };
+  for (LoadedResult& loaded : results_.loaded) {
+    if (loaded.cycle.usable()) loaded.rating = rater_.rate(mesh, loaded.condition, loaded.torque, gradient_parameters());
+  }
+}
+
+void StudyRun::size_effects() {
+  const Stopwatch clock;
+  results_.effect_sizes = study_effect_sizes(results_);
+  if (results_.effect_sizes.estimated.empty()) return;
+  results_.steps.push_back({"effect_sizes", results_.effect_sizes.exact.empty() ? "estimates" : "estimates, and each left out in turn", clock.seconds()});
+}
+
+std::vector<MeshParameter> StudyRun::gradient_parameters() const {
+  std::vector<MeshParameter> parameters;
+  for (const GradientParameter& p : results_.study.gradients) parameters.push_back(p.parameter);
+  return parameters;
+}
+
+void StudyRun::analyse() {
+  const Study& study = results_.study;
+  const bool is_rigid = study.fidelity.compliance == ComplianceModel::Rigid;
+  double loaded_seconds = 0.0;
+  if (!is_rigid && has_torque(study)) structures();  // its time is its own
+  for (const Scene& scene : study.scenes) {
+    if (!is_rigid && std::ranges::find(scene.torques, 0.0) == scene.torques.end()) continue;
+    const Stopwatch clock;
+    add_unloaded(scene);
+    unloaded_seconds_ += clock.seconds();
+  }
+  const std::vector<DesignScene> scenes = is_rigid ? std::vector<DesignScene>() : loaded_scenes();
+  if (scenes.empty()) return;
+  const Stopwatch clock;
+  set_phases();
+  if (study.task->one_design) results_.left_out = drop_small_effects(results_, scenes, budget_);
+  analyse_loaded(scenes);
+  while (refine_resolution(results_)) {
+    forget_loaded();
+    analyse_loaded(scenes);
+  }
+  rate();
+  loaded_seconds += clock.seconds();
+  results_.steps.push_back({"load_distribution", "some torque is above 0: all loaded effects together", loaded_seconds});
+}
+
+void StudyRun::analyse_loaded(const std::vector<DesignScene>& scenes) {
+  const std::vector<MeshParameter> parameters = gradient_parameters();
+  const std::vector<std::size_t> models = models_for(scenes);
+  std::vector<LoadedCycle> cycles(scenes.size());
+  tbb::parallel_for(std::size_t{0}, scenes.size(), [&](std::size_t i) {
+    cycles[i] = analyse_cycle(results_.models[models[i]], scenes[i].condition, scenes[i].torque, parameters);
+  });
+  report("analysing", static_cast<int>(scenes.size()), static_cast<int>(scenes.size()));
+  add_loaded(scenes, "given", std::move(cycles));
+}
+
+void StudyRun::forget_loaded() {
+  results_.loaded.clear();
+  results_.models.clear();
+  model_index_.clear();
+  coarse_models_.clear();
+  set_phases();
+}
+
+}  // namespace flankwright::studies

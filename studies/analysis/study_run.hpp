@@ -1,0 +1,86 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "studies/analysis/rung.hpp"
+#include "studies/analysis/study_results.hpp"
+#include "studies/base/progress.hpp"
+
+namespace flankwright::studies {
+
+/// One study while it is run. Its task calls the steps below, each of which adds to the results.
+class StudyRun {
+ public:
+  /// @param budget  error of each figure that effects may be left out for [-], see drop_small_effects()
+  StudyRun(const Study& study, const ProgressReport& progress, const PerFigure& budget = {});
+
+  /// Runs the study's task, and what every task ends with: sizes and times of the effects, requirements that are not met.
+  StudyResults finish();
+
+  const Study& study() const { return results_.study; }
+  StudyResults& results() { return results_; }
+  const ProgressReport& progress() const { return progress_; }
+  void report(const std::string& label, int done, int total, const std::string& remark = {}) const;
+
+  /// What every level of fidelity of this study analyses.
+  RungSubject rung_subject() const { return {results_.study, results_.pair, loaded_scenes(), results_.shafts}; }
+
+  /// Load cases of scenes: their torques above 0, conditions as far as their effects are on.
+  std::vector<DesignScene> loaded(const std::vector<Scene>& scenes) const;
+  std::vector<DesignScene> loaded_scenes() const { return loaded(results_.study.scenes); }
+
+  /// Phases of the loaded mesh positions: as given, or evenly spaced.
+  void set_phases();
+
+  /// Structure and root stress of both gears, made when first needed.
+  const GearStructures& structures();
+
+  /// Unloaded contact, load distribution and load rating of the study's scenes.
+  void analyse();
+
+  /// A load case that was solved, and its mesh.
+  struct SolvedCase {
+    DesignScene scene;
+    const MeshModel* model;
+    const LoadedCycle* cycle;
+  };
+  /// What solved load cases show, with extremes between their positions, and errors where asked for.
+  std::vector<ResolvedCycle> resolved(const std::vector<SolvedCase>& cases, bool with_errors = true);
+
+  /// Adds solved load cases of one design to the results.
+  /// @param design  "given", "before" or "after"
+  void add_loaded(const std::vector<DesignScene>& scenes, const std::string& design, std::vector<LoadedCycle> cycles);
+
+  /// Adds located peaks with and without spikes, and the load factors that follow, to the load cases of the results.
+  void rate();
+
+ private:
+  MeshModel mesh(const MeshPlacement& placement, const MeshResolution& resolution, const PairRootStress* root_stress,
+                 const std::vector<MeshParameter>& parameters);
+  std::vector<MeshModel> meshes(const std::vector<MeshPlacement>& placements, const MeshResolution& resolution,
+                                const std::vector<MeshParameter>& parameters);
+  MeshAt mesh_at(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters = {});
+  MeshPlacement placement_of(const Misalignment& misalignment) const;
+  std::vector<std::size_t> models_for(const std::vector<DesignScene>& scenes);
+  std::vector<const MeshModel*> coarse_meshes_for(const std::vector<Misalignment>& misalignments);
+  std::vector<MeshParameter> gradient_parameters() const;
+  void note_fits();
+  void add_unloaded(const Scene& scene);
+  void analyse_loaded(const std::vector<DesignScene>& scenes);
+  void forget_loaded();
+  void size_effects();
+
+  const ProgressReport& progress_;
+  PerFigure budget_;
+  StudyResults results_;
+  std::map<MeshPlacement, std::size_t> model_index_;
+  std::map<MeshPlacement, MeshModel> coarse_models_;  ///< half the intervals, every second position
+  double unloaded_seconds_{0.0};
+  LoadRater rater_;
+  bool has_structure_{false};
+};
+
+}  // namespace flankwright::studies

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/contact/gap/gap.hpp"
+#include "studies/base/progress.hpp"
+
+namespace flankwright::studies {
+
+struct NamedText;
+struct SchemaKey;
+struct Study;
+struct StudyReading;
+struct StudyResults;
+class StudyRun;
+
+/// What a study may ask for. A task is one folder of studies/tasks and one line in registered_tasks(); what a member leaves empty, the task
+/// does not need. The keys of all tasks are read in every study, whichever task it names, so that it may name another one.
+struct Task {
+  const char* name{nullptr};     ///< as a study names it
+  const char* meaning{nullptr};  ///< one sentence of Markdown that heads its keys in the key reference, with a link from studies/
+
+  bool single_gears{false};    ///< concerns gears by themselves: their finite elements are solved; scenes, loads and effects do not count
+  bool one_design{false};      ///< shows each load case in full: located peaks, derivatives, effects left out by an accuracy
+  bool compares_bodies{false}; ///< needs the compliance of rigid gear bodies beside that of the given ones
+
+  std::vector<SchemaKey> (*keys)(){nullptr};
+  void (*read)(StudyReading&){nullptr};   ///< tables whose keys are no fixed names, of every study
+  void (*check)(StudyReading&){nullptr};  ///< what a study of this task must say
+  /// Flank conditions that effects are decided by; empty: those of the study's scenes.
+  std::vector<FlankCondition> (*conditions)(const Study&){nullptr};
+  bool (*asks_for_root_stress)(const Study&){nullptr};
+
+  void (*run)(StudyRun&){nullptr};  ///< never empty
+  /// What needs the results folder, after run(); an empty path: nothing is kept.
+  void (*run_in_folder)(StudyResults&, const std::filesystem::path&, const ProgressReport&){nullptr};
+
+  void (*add_json)(const StudyResults&, nlohmann::ordered_json&){nullptr};  ///< its sections of results.json
+  std::vector<NamedText> (*tables)(const StudyResults&){nullptr};           ///< its CSV files beside those of load cases
+  std::string (*summary)(const StudyResults&){nullptr};                     ///< what a run prints; never empty
+  std::string (*study_template)(){nullptr};                                 ///< what `flankwright new` prints; never empty
+};
+
+/// All tasks there are, the default first: a task exists by its line in studies/tasks/registry.cpp, and nowhere else.
+std::span<const Task* const> registered_tasks();
+
+/// @throws InvalidInput "task" for a name that no task has
+const Task& find_task(std::string_view name);
+
+}  // namespace flankwright::studies

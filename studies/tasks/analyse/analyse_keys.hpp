@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "studies/study_file/study_reading.hpp"
+
+namespace flankwright::studies {
+
+/// Keys of [analyse].
+std::vector<SchemaKey> analyse_keys();
+
+/// analyse.gradients: keys that a loaded mesh has derivatives by.
+void read_gradients(StudyReading& reading);
+
+}  // namespace flankwright::studies

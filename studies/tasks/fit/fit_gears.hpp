@@ -1,0 +1,24 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/base/progress.hpp"
+#include "studies/analysis/study_results.hpp"
+#include "studies/study/study.hpp"
+
+namespace flankwright::studies {
+
+/// What is to be solved and fitted for one gear of a study.
+/// @throws InvalidInput  as influence_table_task()
+GearFitTask gear_fit_task(const Study& study, const GearPair& pair, Member member);
+
+/// Fits the gears that the study names, one after the other.
+/// @throws InvalidInput  as gear_fit_task(), and under the study's keys where a gear cannot be meshed
+std::vector<GearFit> fit_gears(const Study& study, const GearPair& pair, const ProgressReport& progress);
+
+/// What was not met, in one line: finite elements that could not be factorised, or a fit that failed or did not
+/// converge; empty where all was. How close a fit comes is no requirement, but can be made one by [expect].
+std::string unmet_requirement(const GearFit& fit);
+
+}  // namespace flankwright::studies

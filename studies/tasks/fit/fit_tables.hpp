@@ -1,0 +1,15 @@
+#pragma once
+
+#include "studies/tasks/fit/fit_gears.hpp"
+#include "studies/base/results_folder.hpp"
+
+namespace flankwright::studies {
+
+/// CSV tables of fits: fit_pinion.csv and fit_wheel.csv, all that FittedCompliance::from_table() needs, a name and a
+/// number a line; fit_residuals.csv and deflection_curves.csv of both gears.
+std::vector<NamedText> fit_tables(const std::vector<GearFit>& fits);
+
+/// What a run prints: how each fit ended, and its residuals beside those of the thesis' forms.
+std::string fit_summary(const std::vector<GearFit>& fits);
+
+}  // namespace flankwright::studies

@@ -1,0 +1,35 @@
+#include "studies/tasks/fit/fit_task.hpp"
+
+#include "studies/analysis/study_run.hpp"
+#include "studies/tasks/fit/fit_gears.hpp"
+#include "studies/tasks/fit/fit_json.hpp"
+#include "studies/tasks/fit/fit_keys.hpp"
+#include "studies/tasks/fit/fit_tables.hpp"
+#include "studies/tasks/fit/fit_template.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+void run_fit(StudyRun& run) {
+  StudyResults& results = run.results();
+  results.fits = fit_gears(results.study, results.pair, run.progress());
+  for (const GearFit& fit : results.fits) {
+    const std::string unmet = unmet_requirement(fit);
+    if (!unmet.empty()) results.requirements.push_back(unmet);
+  }
+}
+
+}  // namespace
+
+const Task fit_task{.name = "fit",
+                    .meaning = "The task `fit`: [fits](README.md#fits).",
+                    .single_gears = true,
+                    .keys = fit_keys,
+                    .run = run_fit,
+                    .add_json = [](const StudyResults& results, Json& json) { json["fit"] = list(results.fits, fit_json); },
+                    .tables = [](const StudyResults& results) { return fit_tables(results.fits); },
+                    .summary = [](const StudyResults& results) { return fit_summary(results.fits); },
+                    .study_template = fit_template};
+
+}  // namespace flankwright::studies

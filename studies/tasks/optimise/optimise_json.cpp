@@ -1,0 +1,248 @@
+#include "studies/tasks/optimise/optimise_json.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/results/used_json.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+Json variables_json(const std::vector<double>& values, const DesignTask& task) {
+  Json variables = Json::object();
+  for (std::size_t i = 0; i < task.variables.size(); ++i) variables[task.variables[i].path] = values[i] * task.variables[i].outside_factor();
+  return variables;
+}
+
+/// A bounded output has one entry, whichever bounds it has.
+Json constraints_json(const DesignReport& report, const DesignTask& task) {
+  Json constraints = Json::object();
+  for (std::size_t c = 0; c < task.constraints.size(); ++c) {
+    const OutputConstraint& bound = task.constraints[c];
+    const double factor = bound.output.outside_factor(), value = report.constraint_values[c] * factor;
+    Json& entry = constraints[bound.output.name];
+    if (entry.is_null()) entry = {{"value", value}, {"unit", bound.output.unit()}};
+    if (bound.is_least()) entry["least"] = value;
+    entry[bound.is_least() ? "min" : "max"] = bound.limit() * factor;
+  }
+  for (std::size_t c = 0; c < task.modification_constraints.size(); ++c) {
+    const ModificationConstraint& bound = task.modification_constraints[c];
+    const double factor = bound.outside_factor();
+    Json& entry = constraints[bound.name];
+    entry = {{"value", report.modification_values[c] * factor}, {"unit", bound.unit()}};
+    if (std::isfinite(bound.maximum)) entry["max"] = bound.maximum * factor;
+    if (std::isfinite(bound.minimum)) entry["min"] = bound.minimum * factor;
+  }
+  return constraints;
+}
+
+/// Estimated discretisation errors of what a report says; entries as constraints_json() has them.
+void add_errors(const DesignErrors& errors, const DesignTask& task, Json& json) {
+  json["objective_error"] = errors.objective;
+  json["constraints_error"] = Json::object();
+  for (std::size_t c = 0; c < errors.constraint_values.size(); ++c) {
+    const ObjectiveTerm& output = task.constraints[c].output;
+    json["constraints_error"][output.name] = errors.constraint_values[c] * output.outside_factor();
+  }
+  if (!errors.later_objectives.empty()) json["later_objectives_error"] = errors.later_objectives;
+}
+
+Json resolution_json(const LevelWork& work, std::size_t scenes) {
+  const double cycles = static_cast<double>(work.analyses) * static_cast<double>(scenes);
+  return {{"quadrature", quadrature_json(work.resolution.quadrature)},
+          {"positions", work.resolution.phases.size()},
+          {"cycles", cycles},
+          {"milliseconds_per_cycle", 1e3 * work.seconds / cycles},
+          {"seconds", work.seconds}};
+}
+
+Json assessment_json(const SearchWork& work, std::size_t scenes) {
+  return {{"search", resolution_json(work.search, scenes)},
+          {"assessed", resolution_json(work.fine, scenes)},
+          {"objective_seen_by_search", work.objective_seen_by_search},
+          {"searches", work.search.resolution.quadrature.intervals == work.fine.resolution.quadrature.intervals ? 1 : 2}};
+}
+
+Json design_report_json(const DesignReport& report, const DesignTask& task) {
+  Json units = Json::object(), tied = Json::object();
+  for (const DesignVariable& v : task.variables) units[v.path] = v.unit();
+  for (std::size_t t = 0; t < task.ties.size(); ++t) {
+    const DesignVariable& v = task.ties[t].tied;
+    tied[v.path] = report.tied[t] * v.outside_factor();
+    units[v.path] = v.unit();
+  }
+  Json json{{"variables", variables_json(report.variables, task)},
+            {"variable_units", units},
+            {"objective", report.objective},
+            {"constraints", constraints_json(report, task)}};
+  if (!task.ties.empty()) json["tied"] = std::move(tied);
+  if (!task.then.empty()) json["later_objectives"] = report.later_objectives;
+  return json;
+}
+
+/// The goal of a block of the last epigraph: the last of a list of objectives is minimised, those before it are bounded.
+Goal goal_of_block(const DesignTask& task, int block) {
+  std::vector<Goal> goals{task.goal()};
+  goals.insert(goals.end(), task.then.begin(), task.then.end());
+  std::rotate(goals.begin(), goals.end() - 1, goals.end());
+  return goals[static_cast<std::size_t>(block)];
+}
+
+/// What of the design holds the optimum where it is.
+Json active_json(const ActiveBound& active, const DesignTask& task) {
+  Json json{{"multiplier", active.multiplier}};
+  const EpigraphRow& row = active.row;
+  if (active.variable >= 0) {
+    json["variable"] = task.variables[static_cast<std::size_t>(active.variable)].path;
+    json["bound"] = active.side < 0 ? "lower" : "upper";
+    return json;
+  }
+  const auto index = static_cast<std::size_t>(std::max(row.index, 0));
+  using Kind = EpigraphRow::Kind;
+  switch (row.kind) {
+    case Kind::Floor:
+    case Kind::Ceiling: json["output"] = goal_of_block(task, row.goal).terms[index].name; break;
+    case Kind::OutputBound: json["constraint"] = task.constraints[index].output.name; break;
+    case Kind::ModificationBound: json["constraint"] = task.modification_constraints[index].name; break;
+    case Kind::GoalHelper: json["output"] = goal_of_block(task, row.goal).name(); break;
+    case Kind::GoalBound: json["constraint"] = goal_of_block(task, row.goal).name(); break;
+    case Kind::TradedGoal: break;  // of fronts only, whose points have no optimality of their own
+  }
+  if (row.scene >= 0) {
+    const DesignScene& scene = task.scenes[static_cast<std::size_t>(row.scene)];
+    json["scene"] = scene.name;
+    json["torque_Nm"] = in_Nm(scene.torque);
+  }
+  if (row.candidate.position >= 0) json["position"] = row.candidate.position;
+  if (active.is_kink) json["kink"] = true;
+  return json;
+}
+
+Json optimality_json(const Optimality& optimality, const DesignTask& task) {
+  constexpr std::size_t most_shown = 40;
+  Json active = Json::array();
+  for (const ActiveBound& bound : optimality.active) {
+    if (active.size() == most_shown) break;
+    if (bound.variable < 0 && bound.row.scene < 0 && bound.row.kind == EpigraphRow::Kind::Floor) continue;  // u >= 0
+    active.push_back(active_json(bound, task));
+  }
+  return {{"residual", optimality.residual}, {"complementarity", optimality.complementarity}, {"active", std::move(active)}};
+}
+
+Json scaled_design_json(const Eigen::VectorXd& x, const DesignTask& task) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < task.variables.size(); ++i) {
+    const DesignVariable& v = task.variables[i];
+    values.push_back(v.unscaled(x[static_cast<Eigen::Index>(i)]));
+  }
+  return variables_json(values, task);
+}
+
+/// Null where the search needed no finisher.
+Json finished_by_json(const std::string& solver) { return solver.empty() ? Json() : Json(solver); }
+
+/// Every start and the different optima that they found.
+void add_starts(const DesignResult& design, const DesignTask& task, Json& json) {
+  json["starts"] = list(design.runs, [&](const LocalRun& run) -> Json {
+    return {{"from", scaled_design_json(run.start, task)},
+            {"variables", scaled_design_json(run.x, task)},
+            {"objective", run.objective},
+            {"constraint_violation", run.constraint_violation},
+            {"status", to_string(run.status)},
+            {"message", run.message},
+            {"finished_by", finished_by_json(run.finished_by)},
+            {"evaluations", run.evaluations},
+            {"failures", run.failures},
+            {"seconds", run.seconds}};
+  });
+  json["optima"] = list(design.optima, [&](const LocalOptimum& optimum) -> Json {
+    const LocalRun& run = design.runs[optimum.run];
+    return {{"start", optimum.run},
+            {"found_by", optimum.found_by},
+            {"objective", run.objective},
+            {"variables", scaled_design_json(run.x, task)}};
+  });
+  json["multimodal"] = design.is_multimodal();
+}
+
+Json front_json(const ParetoFront& front, const DesignTask& task) {
+  return {{"objectives", list(front.goals, [](const Goal& goal) -> Json { return {{"name", goal.name()}, {"unit", goal.unit()}}; })},
+          {"points", list(front.points, [&](const ParetoPoint& point) -> Json {
+             return {{"values", point.values},
+                     {"variables", scaled_design_json(point.x, task)},
+                     {"status", to_string(point.status)},
+                     {"constraint_violation", point.constraint_violation},
+                     {"dominated", point.dominated}};
+           })},
+          {"ideal", front.ideal},
+          {"worst", front.worst},
+          {"unevenness", front.unevenness()},
+          {"evaluations", front.evaluations},
+          {"failures", front.failures},
+          {"seconds", front.seconds},
+          {"message", front.message}};
+}
+
+}  // namespace
+
+Json optimise_json(const StudyResults& results) {
+  const DesignResult& design = *results.design;
+  const DesignTask& task = *results.design_task;
+  Json terms = Json::array(), scenes = Json::array();
+  for (const ObjectiveTerm& term : task.objective) {
+    terms.push_back({{"output", term.name}, {"weight", term.weight}, {"unit", term.unit()}});
+  }
+  for (std::size_t s = 0; s < task.scenes.size(); ++s) {
+    scenes.push_back({{"name", task.scenes[s].name},
+                      {"torque_Nm", in_Nm(task.scenes[s].torque)},
+                      {"weight", task.scenes[s].weight},
+                      {"before", design.before.scene_measures[s]},
+                      {"after", design.after.scene_measures[s]},
+                      {"before_error", results.before_errors.scene_measures[s]},
+                      {"after_error", results.after_errors.scene_measures[s]}});
+  }
+  Json json{{"objective_name", task.objective_name()},
+            {"objective_unit", task.objective_unit()},
+            {"objective_terms", terms},
+            {"over", to_string(task.over)},
+            {"solver", design.solver},
+            {"finisher", design.finisher},
+            {"finished_by", finished_by_json(design.finished_by)},
+            {"formulation", design.formulation},
+            {"status", to_string(design.status)},
+            {"message", design.message},
+            {"evaluations", design.evaluations},
+            {"gradient_evaluations", design.gradient_evaluations},
+            {"failures", design.failures},
+            {"rounds", design.rounds},
+            {"seconds", design.seconds},
+            {"optimality", optimality_json(design.optimality, task)},
+            {"before", design_report_json(design.before, task)},
+            {"after", design_report_json(design.after, task)},
+            {"scenes", scenes},
+            {"history", list(design.history, [](const SolverStep& step) -> Json {
+               return {{"evaluation", step.evaluation},
+                       {"objective", step.objective},
+                       {"constraint_violation", step.constraint_violation}};
+             })}};
+  add_errors(results.before_errors, task, json["before"]);
+  add_errors(results.after_errors, task, json["after"]);
+  if (results.search_work) json["assessment"] = assessment_json(*results.search_work, task.scenes.size());
+  if (design.exact) {
+    json["exact"] = design_report_json(*design.exact, task);
+    json["rounded"] = {{"variables", json["after"]["variables"]},
+                       {"objective", design.after.objective},
+                       {"loss_percent", 100.0 * design.rounding_loss()}};
+  }
+  if (!design.stages.empty()) {
+    json["stages"] = list(design.stages, [](const LexicographicStage& stage) -> Json {
+      return {{"objective", stage.name}, {"least", stage.least}, {"limit", stage.limit}};
+    });
+  }
+  add_starts(design, task, json);
+  if (results.front) json["pareto"] = front_json(*results.front, task);
+  return json;
+}
+
+}  // namespace flankwright::studies

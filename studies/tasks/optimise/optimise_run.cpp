@@ -1,0 +1,161 @@
+#include "studies/tasks/optimise/optimise_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "core/base/stopwatch.hpp"
+#include "studies/tasks/optimise/drawn_scenes.hpp"
+#include "studies/analysis/requirements.hpp"
+#include "studies/compliance/study_compliance.hpp"
+#include "studies/tasks/optimise/proof.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+class OptimiseRun {
+ public:
+  explicit OptimiseRun(StudyRun& run) : run_(run), results_(run.results()) {}
+
+  void run() {
+    const Study& study = results_.study;
+    run_.set_phases();
+    results_.design_task = design_task();
+    SolverOptions options;
+    options.name = study.optimise.solver;
+    options.finisher = study.optimise.finisher;
+    options.max_evaluations = study.optimise.max_evaluations;
+    options.max_seconds = study.optimise.max_seconds;
+    options.seed = study.optimise.seed;
+    const std::string unit = study.optimise.objective.size() == 1 ? study.optimise.objective.front().unit() : "";
+    options.progress = [&](int analyses, double best) {
+      run_.report("optimising", analyses, 0, fmt::format("best so far {:.5g} {}", best, unit));
+    };
+    DesignProblem problem(*results_.design_task);
+    const DesignOptions choice{options, study.optimise.starts};
+    TwoLevelDesign found = optimise_by_two_levels(problem, choice);
+    keep_constraints_between_positions(problem, choice, found);
+    results_.design = found.design;
+    results_.search_work = {found.search, found.fine, found.objective_seen_by_search, found.design.after.objective};
+    if (!study.optimise.pareto_goals.empty()) {
+      results_.front = trace_front(problem, study.optimise.pareto_goals, study.optimise.pareto_points, choice);
+    }
+    const DesignResult& design = *results_.design;
+    results_.steps.push_back({"load_distribution", "all analyses of the optimisation", design.seconds});
+    results_.proof = std::make_shared<const Proof>(prove_optimum(study, problem, design, run_.loaded(draw_scenes(study, study.optimise.proof.validation)), run_.progress()));
+    results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", results_.proof->seconds});
+    results_.before_errors = show(problem, "before", results_.design->before);
+    results_.after_errors = show(problem, "after", results_.design->after);
+    if (results_.design->exact) resolve_report(problem, resolved_cycles(problem, *results_.design->exact, false), *results_.design->exact);
+    run_.rate();
+    add_unmet_by_design(problem, results_);
+  }
+
+ private:
+  /// The listed ones and those drawn from tolerances.
+  std::vector<DesignScene> all_scenes() const {
+    std::vector<DesignScene> scenes = run_.loaded_scenes();
+    for (DesignScene& scene : run_.loaded(draw_scenes(results_.study, results_.study.optimise.proof.scenes))) scenes.push_back(std::move(scene));
+    return scenes;
+  }
+
+  DesignTask design_task() {
+    const Study& study = results_.study;
+    DesignTask task;
+    task.pair = results_.pair;
+    task.pinion_material = study.pinion_material;
+    task.wheel_material = study.wheel_material;
+    task.resolution = {study.fidelity.quadrature, results_.phases};
+    task.gap = gap_model(results_.effects);
+    task.effects = results_.mesh_effects;
+    task.structure = run_.structures().pair;
+    if (study.fidelity.accuracy && study.fidelity.compliance == ComplianceModel::Fe) task.search_structure = structure_to_search_by();
+    task.shafts = results_.shafts;
+    task.pinion_modification = study.pinion_modification;
+    task.wheel_modification = study.wheel_modification;
+    task.variables = study.optimise.variables;
+    task.objective = study.optimise.objective;
+    task.over = study.optimise.over;
+    task.constraints = study.optimise.constraints;
+    task.ties = study.optimise.ties;
+    task.modification_constraints = study.optimise.modification_constraints;
+    task.then = study.optimise.then;
+    task.lexicographic_tolerance = study.optimise.lexicographic_tolerance;
+    if (asks_for_root_stress(study)) task.root_stress = run_.structures().root_stress;
+    task.scenes = all_scenes();  // an unloaded scene has no stress and no loaded transmission error to choose by
+    return task;
+  }
+
+  /// Of an accuracy that asks for finite elements: the fitted compliance, whose optima lie near theirs.
+  std::shared_ptr<const PairCompliance> structure_to_search_by() const {
+    Study fitted = results_.study;
+    fitted.fidelity.compliance = ComplianceModel::Fitted;
+    return gear_structures(fitted, results_.pair, run_.progress()).pair;
+  }
+
+  /// Extremes between the positions may exceed a constraint that is kept at the positions. It is then asked for at the positions with as much
+  /// to spare, and the search goes on from there; `problem` has these limits afterwards.
+  void keep_constraints_between_positions(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
+    constexpr int most_turns = 3;
+    for (int turn = 0; turn < most_turns && seeks_extremes(results_.study) && !problem.task().constraints.empty(); ++turn) {
+      const Stopwatch clock;
+      DesignReport shown = found.design.after;
+      resolve_report(problem, resolved_cycles(problem, shown, false), shown);
+      DesignTask tighter = problem.task();
+      bool violated = false;
+      for (std::size_t c = 0; c < tighter.constraints.size(); ++c) {
+        const double at_positions = found.design.after.constraint_values[c], value = shown.constraint_values[c];
+        if (!(results_.design_task->constraints[c].excess(value) > DesignLog::tolerance) || !(value > at_positions)) continue;
+        const double limit = results_.design_task->constraints[c].limit() - (1.0 + spare) * (value - at_positions);
+        violated = violated || limit < tighter.constraints[c].maximum;
+        tighter.constraints[c].maximum = std::min(tighter.constraints[c].maximum, limit);
+      }
+      if (!violated) return;
+      const Eigen::VectorXd x = problem.scaled_design((found.design.exact ? *found.design.exact : found.design.after).variables);
+      problem = DesignProblem(tighter);
+      problem.set_start(x.cwiseMax(0.0).cwiseMin(1.0));
+      go_on(problem, options, found);
+      found.fine.seconds += clock.seconds();
+      found.design.seconds += clock.seconds();
+    }
+  }
+  /// Of what is asked for to spare, so that one more turn is seldom needed.
+  static constexpr double spare = 0.1;
+
+  /// The scenes of a design's report.
+  DesignScene scene_of(const DesignReport& report, int s) const {
+    DesignScene scene = results_.design_task->scenes[static_cast<std::size_t>(s)];
+    scene.condition.pinion_modification = report.analysis.pinion_modification;
+    scene.condition.wheel_modification = report.analysis.wheel_modification;
+    return scene;
+  }
+
+  std::vector<ResolvedCycle> resolved_cycles(const DesignProblem& problem, const DesignReport& report, bool with_errors) {
+    std::vector<StudyRun::SolvedCase> cases;
+    for (int s = 0; s < problem.scenes(); ++s) {
+      cases.push_back({scene_of(report, s), &problem.model(s), &report.analysis.cycles[static_cast<std::size_t>(s)]});
+    }
+    return run_.resolved(cases, with_errors);
+  }
+
+  /// Adds a design's load cases, and puts what they show into its report.
+  DesignErrors show(const DesignProblem& problem, const std::string& name, DesignReport& report) {
+    std::vector<DesignScene> scenes;
+    for (int s = 0; s < problem.scenes(); ++s) scenes.push_back(scene_of(report, s));
+    const std::size_t first = results_.loaded.size();
+    run_.add_loaded(scenes, name, report.analysis.cycles);
+    std::vector<ResolvedCycle> cycles;
+    for (std::size_t i = first; i < results_.loaded.size(); ++i) cycles.push_back(results_.loaded[i].resolved);
+    return resolve_report(problem, cycles, report);
+  }
+
+  StudyRun& run_;
+  StudyResults& results_;
+};
+
+}  // namespace
+
+void run_optimise(StudyRun& run) { OptimiseRun(run).run(); }
+
+}  // namespace flankwright::studies

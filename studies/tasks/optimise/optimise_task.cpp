@@ -1,0 +1,65 @@
+#include "studies/tasks/optimise/optimise_task.hpp"
+
+#include "studies/analysis/study_effects.hpp"
+#include "studies/tasks/optimise/drawn_scenes.hpp"
+#include "studies/tasks/optimise/optimise_checks.hpp"
+#include "studies/tasks/optimise/optimise_json.hpp"
+#include "studies/tasks/optimise/optimise_keys.hpp"
+#include "studies/tasks/optimise/optimise_reading.hpp"
+#include "studies/tasks/optimise/optimise_run.hpp"
+#include "studies/tasks/optimise/optimise_tables.hpp"
+#include "studies/tasks/optimise/optimise_template.hpp"
+#include "studies/tasks/optimise/proof_json.hpp"
+#include "studies/tasks/optimise/proof_keys.hpp"
+#include "studies/tasks/optimise/proof_reading.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+std::vector<SchemaKey> all_optimise_keys() {
+  std::vector<SchemaKey> all = optimise_keys();
+  for (SchemaKey& key : proof_keys()) all.push_back(std::move(key));
+  return all;
+}
+
+void read_optimise_tables(StudyReading& reading) {
+  read_optimise(reading);
+  check_variables(reading);
+  read_proof(reading);
+}
+
+/// Variables count as modifications from the start, even where their first value is 0. What scatters counts as well: four scenes are enough
+/// to see a value other than 0.
+std::vector<FlankCondition> optimise_conditions(const Study& study) {
+  std::vector<FlankCondition> all = conditions_of(study);
+  for (FlankCondition& condition : all) {
+    for (const DesignVariable& v : study.optimise.variables) {
+      set(v.member == Member::Pinion ? condition.pinion_modification : condition.wheel_modification, v.parameter, v.upper != 0.0 ? v.upper : v.lower);
+    }
+  }
+  for (const Scene& scene : draw_scenes(study, {.samples = study.optimise.proof.tolerances.empty() ? 0 : 4})) all.push_back(condition_of(study, scene));
+  return all;
+}
+
+void add_optimise_json(const StudyResults& results, Json& json) {
+  json["optimise"] = optimise_json(results);
+  if (results.proof) add_proof(*results.proof, *results.design_task, results.study.optimise.proof, json["optimise"]);
+}
+
+}  // namespace
+
+const Task optimise_task{.name = "optimise",
+                         .meaning = "The task `optimise`: [optimisation](README.md#optimisation).",
+                         .keys = all_optimise_keys,
+                         .read = read_optimise_tables,
+                         .check = check_optimise,
+                         .conditions = optimise_conditions,
+                         .asks_for_root_stress = minimises_root_stress,
+                         .run = run_optimise,
+                         .add_json = add_optimise_json,
+                         .tables = optimise_tables,
+                         .summary = optimise_summary,
+                         .study_template = optimise_template};
+
+}  // namespace flankwright::studies

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <vector>
+
+#include "studies/study_file/study_schema.hpp"
+
+namespace flankwright::studies {
+
+/// Keys of [optimise] that say what an optimum is compared with.
+std::vector<SchemaKey> proof_keys();
+
+}  // namespace flankwright::studies

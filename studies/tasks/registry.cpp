@@ -1,0 +1,34 @@
+#include <algorithm>
+#include <array>
+
+#include "core/base/error.hpp"
+#include "studies/study/task.hpp"
+#include "studies/tasks/accuracy/accuracy_task.hpp"
+#include "studies/tasks/analyse/analyse_task.hpp"
+#include "studies/tasks/fit/fit_task.hpp"
+#include "studies/tasks/geometry/geometry_task.hpp"
+#include "studies/tasks/optimise/optimise_task.hpp"
+#include "studies/tasks/sweep/sweep_task.hpp"
+
+namespace flankwright::studies {
+
+std::span<const Task* const> registered_tasks() {
+  static constexpr std::array tasks{
+      &analyse_task,
+      &optimise_task,
+      &sweep_task,
+      &accuracy_task,
+      &fit_task,
+      &geometry_task,
+  };
+  return tasks;
+}
+
+const Task& find_task(std::string_view name) {
+  const auto tasks = registered_tasks();
+  const auto found = std::ranges::find_if(tasks, [&](const Task* task) { return name == task->name; });
+  if (found == tasks.end()) throw InvalidInput("task", std::string(name), "the name of a task");
+  return **found;
+}
+
+}  // namespace flankwright::studies

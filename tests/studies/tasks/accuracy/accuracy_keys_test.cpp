@@ -1,0 +1,27 @@
+#include <catch2/catch.hpp>
+
+#include "studies/study_file/study_file.hpp"
+#include "studies/tasks/study_template.hpp"
+
+using namespace flankwright;
+using namespace flankwright::studies;
+
+TEST_CASE("An accuracy is a percentage above 0 and at most half", "[studies][accuracy]") {
+  const auto with = [](const std::string& value) { return parse_study(study_template("analyse"), "analyse.toml", {{"fidelity.accuracy", value}}); };
+  CHECK(with("\"1 %\"").fidelity.accuracy == Approx(0.01).epsilon(1e-14));
+  CHECK(with("\"0.1%\"").fidelity.accuracy == Approx(0.001).epsilon(1e-14));
+  CHECK_FALSE(parse_study(study_template("analyse"), "analyse.toml").fidelity.accuracy.has_value());
+  for (const std::string value : {"1", "\"1\"", "\"0 %\"", "\"-1 %\"", "\"51 %\"", "\"one per cent\"", "[1]"}) {
+    CAPTURE(value);
+    CHECK_THROWS_WITH(with(value), Catch::Contains("fidelity.accuracy"));
+  }
+}
+
+TEST_CASE("The finest rung is the study's to say", "[studies][accuracy]") {
+  const Study study = parse_study(study_template("accuracy"), "accuracy.toml", {{"accuracy.finest.compliance", "fe"}, {"accuracy.finest.positions", "256"}});
+  CHECK(study.task == &find_task("accuracy"));
+  CHECK(study.accuracy.compliance == ComplianceModel::Fe);
+  CHECK(study.accuracy.gap == GapModel::WholeSurface);
+  CHECK(study.accuracy.intervals == 16);
+  CHECK(study.accuracy.positions == 256);
+}

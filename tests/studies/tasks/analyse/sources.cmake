@@ -1,2 +1,0 @@
-list(APPEND FLANKWRIGHT_TEST_SOURCES
-     ${CMAKE_CURRENT_LIST_DIR}/drawn_scenes_test.cpp)

@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "studies/base/json_format.hpp"
+#include "studies/results/results_json.hpp"
+#include "studies/analysis/run_study.hpp"
+#include "studies/study_file/study_file.hpp"
+#include "studies/results/tables.hpp"
+#include "tests/studies/small_studies.hpp"
+
+/// Keys of [optimise] beyond the plain objective, and what results.json says of them.
+namespace flankwright::studies {
+namespace {
+
+using json = Json;
+
+constexpr double optimisation_round_off = 1e-14;
+
+Study read_optimisation(const std::string& tables, const std::vector<Override>& overrides = {}) {
+  return parse_study(small::optimisation() + tables, "small.toml", overrides);
+}
+
+StudyProblem optimisation_problem(const std::string& tables, const std::vector<Override>& overrides = {}) {
+  try {
+    read_optimisation(tables, overrides);
+  } catch (const StudyErrors& errors) {
+    return errors.problems().front();
+  }
+  FAIL("nothing was refused");
+  return {};
+}
+
+json run_optimisation(const std::string& tables, const std::vector<Override>& overrides = {}) {
+  return json::parse(results_json(run_study(read_optimisation(tables, overrides))));
+}
+
+const std::string wheel_tie = R"([optimise.ties]
+"wheel.modification.lead_crowning" = { as = "pinion.modification.lead_crowning", factor = -1, offset = 40 }
+)";
+
+}  // namespace
+
+TEST_CASE("Steps, ties and bounds on sums are read in their own units", "[studies][optimise-keys]") {
+  const OptimiseTable table = read_optimisation(wheel_tie, {{"optimise.step", "0.5"},
+                                               {"optimise.variables.wheel.modification.twist", "{ range = [-10, 10], step = 2 }"}})
+                                  .optimise;
+  REQUIRE(table.variables.size() == 5);
+  for (const DesignVariable& v : table.variables) {
+    CAPTURE(v.path);
+    const double step = v.path == "wheel.modification.twist"                ? 0.002
+                        : v.path == "pinion.modification.end_relief.length" ? 0.0  // no amount
+                                                                            : 0.0005;
+    CHECK(v.step == Approx(step).epsilon(optimisation_round_off));
+  }
+  REQUIRE(table.ties.size() == 1);
+  CHECK(table.ties[0].tied.member == Member::Wheel);
+  CHECK(table.variables[table.ties[0].as].path == "pinion.modification.lead_crowning");
+  CHECK(table.ties[0].factor == -1.0);
+  CHECK(table.ties[0].offset == Approx(0.040).epsilon(optimisation_round_off));
+  CHECK(table.ties[0].tied.lower == Approx(0.0).margin(1e-17));
+  CHECK(table.ties[0].tied.upper == Approx(0.040).epsilon(optimisation_round_off));
+}
+
+TEST_CASE("A sum of modifications may be bounded from both sides", "[studies][optimise-keys]") {
+  const OptimiseTable table =
+      read_optimisation("\"2 * pinion.modification.lead_crowning - pinion.modification.lead_slope\" = { min = -5, max = \"0.03 mm\" }\n").optimise;
+  REQUIRE(table.modification_constraints.size() == 1);
+  const ModificationConstraint& sum = table.modification_constraints[0];
+  REQUIRE(sum.terms.size() == 2);
+  CHECK(sum.terms[0].factor == 2.0);
+  CHECK(sum.terms[1].factor == -1.0);
+  CHECK(sum.minimum == Approx(-0.005).epsilon(optimisation_round_off));
+  CHECK(sum.maximum == Approx(0.030).epsilon(optimisation_round_off));
+}
+
+TEST_CASE("What [optimise] cannot mean is refused where it stands", "[studies][optimise-keys]") {
+  struct Row {
+    std::string tables;
+    std::vector<Override> overrides;
+    std::string key, allowed;
+  };
+  const std::string tie = "optimise.ties.wheel.modification.lead_crowning";
+  const Row row = GENERATE_COPY(
+      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"wheel.modification.twist\" }\n", {}, tie + ".as", "one of optimise.variables"},
+      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"pinion.modification.end_relief.length\" }\n", {}, tie + ".as", "another unit"},
+      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { like = \"x\" }\n", {}, tie, "as ="},
+      Row{"[optimise.ties]\n\"pinion.modification.lead_slope\" = { as = \"pinion.modification.lead_crowning\" }\n", {},
+          "optimise.ties.pinion.modification.lead_slope", "a variable as well"},
+      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"pinion.modification.lead_crowning\", factor = 100 }\n", {}, tie, "leaves its range"},
+      Row{"\"pinion.modification.lead_crowning + pinion.modification.end_relief.length\" = { max = 3 }\n", {},
+          "optimise.constraints.pinion.modification.lead_crowning + pinion.modification.end_relief.length", "one unit"},
+      Row{"\"wheel.modification.twist\" = { max = 3 }\n", {}, "optimise.constraints.wheel.modification.twist", "holds no variable"},
+      Row{"\"edge_load\" = { min = 3, max = 2 }\n", {}, "optimise.constraints.edge_load", "min at most max"},
+      Row{"\"edge_load\" = { about = 3 }\n", {}, "optimise.constraints.edge_load.about", "unknown key"},
+      Row{"", {{"optimise.sigmas", "3"}}, "optimise.sigmas", "mean+sigmas"},
+      Row{"", {{"optimise.variables.wheel.modification.twist", "{ range = [0, 1], step = 3 }"}}, "optimise.variables.wheel.modification.twist", "step"},
+      Row{"", {{"optimise.objective", "[]"}}, "optimise.objective", "a list"},
+      Row{"", {{"optimise.pareto.objectives", "[\"edge_load\"]"}}, "optimise.pareto.objectives", "two or three"});
+  CAPTURE(row.tables);
+  const StudyProblem problem = optimisation_problem(row.tables, row.overrides);
+  CHECK(problem.key == row.key);
+  CHECK_THAT(problem.allowed, Catch::Contains(row.allowed));
+}
+
+TEST_CASE("Any k of sigma and any level of the tail are read", "[studies][optimise-keys]") {
+  const Aggregation sigmas = read_optimisation("", {{"optimise.over", "mean+sigmas"}, {"optimise.sigmas", "3"}}).optimise.over;
+  CHECK(sigmas == Aggregate::MeanPlusSigmas);
+  CHECK(sigmas.sigmas == 3.0);
+  const Aggregation tail = read_optimisation("", {{"optimise.over", "cvar"}, {"optimise.cvar_level", "0.75"}}).optimise.over;
+  CHECK(tail == Aggregate::Cvar);
+  CHECK(tail.level == 0.75);
+}
+
+TEST_CASE("Results say what is ground, what the exact optimum is, and that it is one", "[studies][optimise-keys]") {
+  const json optimise = run_optimisation(wheel_tie, {{"optimise.step", "1"},
+                                        {"optimise.starts", "2"},
+                                        {"optimise.objective", "[\"peak_contact_stress\", \"te_peak_to_peak\"]"}})["optimise"];
+  for (const char* name : {"pinion.modification.lead_crowning", "pinion.modification.lead_slope"}) {
+    const double ground = optimise["after"]["variables"][name], exact = optimise["exact"]["variables"][name];
+    CHECK(std::abs(ground - std::round(ground)) < 1e-9);
+    CHECK(std::abs(ground - exact) <= 5.0);
+    CHECK(optimise["rounded"]["variables"][name] == ground);
+  }
+  const double crowning = optimise["after"]["variables"]["pinion.modification.lead_crowning"];
+  CHECK(optimise["after"]["tied"]["wheel.modification.lead_crowning"].get<double>() == Approx(40.0 - crowning).epsilon(1e-12));
+  const double loss = optimise["after"]["objective"].get<double>() / optimise["exact"]["objective"].get<double>() - 1.0;
+  CHECK(optimise["rounded"]["loss_percent"].get<double>() == Approx(100.0 * loss).margin(1e-9));
+  CHECK(optimise["starts"].size() == 2);
+  CHECK(optimise["optima"].size() >= 1);
+  CHECK(optimise["stages"].size() == 2);
+  CHECK(optimise["exact"]["objective"].get<double>() <= optimise["stages"][0]["limit"].get<double>() * (1.0 + 1e-6));
+  CHECK(optimise["optimality"]["residual"].get<double>() < 1e-3);
+}
+
+TEST_CASE("A front stands in the results and in a table of its own", "[studies][optimise-keys]") {
+  const Study study = read_optimisation("", {{"optimise.pareto.objectives", "[\"peak_contact_stress\", \"te_peak_to_peak\"]"},
+                                {"optimise.pareto.points", "3"},
+                                {"optimise.max_evaluations", "400"}});
+  const StudyResults results = run_study(study);
+  const json front = json::parse(results_json(results))["optimise"]["pareto"];
+  const std::size_t found = front["points"].size();
+  REQUIRE(found >= 2);
+  CHECK(((found == 3) != !front["message"].get<std::string>().empty()));  // fewer points than asked for have a reason
+  for (const json& point : front["points"]) CHECK(point["variables"].size() == 4);
+  CHECK(front["points"][0]["values"][0].get<double>() < front["points"][found - 1]["values"][0].get<double>());
+  const std::vector<NamedText> tables = csv_tables(results);
+  const auto csv = std::ranges::find(tables, "pareto.csv", &NamedText::name);
+  REQUIRE(csv != tables.end());
+  CHECK(std::ranges::count(csv->text, '\n') == static_cast<long>(found) + 1);
+}
+
+}  // namespace flankwright::studies
