@@ -54,11 +54,16 @@ std::vector<std::string> ScratchFolder::names(const fs::path& below) const {
   return names;
 }
 
+std::string program() {
+  const char* given = std::getenv("FLANKWRIGHT_EXECUTABLE");
+  return given != nullptr ? given : FLANKWRIGHT_EXECUTABLE;
+}
+
 Ending run(const ScratchFolder& folder, const std::vector<std::string>& arguments) {
   const ScratchFolder caught;
   const fs::path out = caught.path() / "out", err = caught.path() / "err";
   std::ostringstream command;
-  command << "cd " << quoted(folder.path().string()) << " && " << quoted(FLANKWRIGHT_EXECUTABLE);
+  command << "cd " << quoted(folder.path().string()) << " && " << quoted(program());
   for (const std::string& argument : arguments) command << ' ' << quoted(argument);
   command << " >" << quoted(out.string()) << " 2>" << quoted(err.string());
   const int status = std::system(command.str().c_str());

@@ -7,6 +7,9 @@
 /// The flankwright executable as a user meets it.
 namespace flankwright::studies::command_line {
 
+/// What the environment variable FLANKWRIGHT_EXECUTABLE names, as every test has it; by hand the executable of the build that compiled this.
+std::string program();
+
 /// An empty folder of this process under the system's temporary one, removed with everything in it when this goes.
 class ScratchFolder {
  public:

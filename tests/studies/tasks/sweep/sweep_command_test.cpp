@@ -24,12 +24,13 @@ using json = Json;
 
 /// Starts the sweep of sweep.toml and kills it after a while; true where it was not done by then.
 bool run_and_kill(const ScratchFolder& folder, std::chrono::milliseconds after) {
+  const std::string program = command_line::program();
   const pid_t child = ::fork();
   if (child == 0) {
     const int nowhere = ::open("/dev/null", O_WRONLY);
     ::dup2(nowhere, STDOUT_FILENO);
     ::dup2(nowhere, STDERR_FILENO);
-    if (::chdir(folder.path().c_str()) == 0) ::execl(FLANKWRIGHT_EXECUTABLE, "flankwright", "run", "sweep.toml", "--out", "killed", nullptr);
+    if (::chdir(folder.path().c_str()) == 0) ::execl(program.c_str(), "flankwright", "run", "sweep.toml", "--out", "killed", nullptr);
     ::_exit(127);
   }
   REQUIRE(child > 0);
