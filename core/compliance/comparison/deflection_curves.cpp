@@ -9,7 +9,7 @@
 namespace flankwright {
 namespace {
 
-/// The nodes and places between them, at most kCurveStep apart: a curve to be drawn, mid face among its places.
+/// The nodes and points between them, at most kCurveStep apart: a curve to draw. Mid face is among the points.
 std::vector<double> subdivided(const std::vector<double>& nodes) {
   constexpr double kCurveStep = 0.25;  // [m_n]
   std::vector<double> places;

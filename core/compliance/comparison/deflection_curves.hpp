@@ -14,7 +14,7 @@ namespace flankwright {
 struct NamedModel {
   std::string name;
   int teeth_apart{0};  ///< the largest number of pitches over which it couples teeth
-  /// E m_n K [-], places x loads: deflections at the places under a unit load at each of the loads.
+  /// E m_n K [-], stations x loads: deflections of the stations under each unit load.
   std::function<Eigen::MatrixXd(std::span<const FlankPlace> places, std::span<const FlankPlace> loads)> deflections;
 };
 
@@ -26,7 +26,7 @@ struct DeflectionCurve {
   std::string model;
   FlankPlace load;            ///< on tooth 0
   int tooth{0};               ///< that deflects
-  std::vector<double> zeta;   ///< [m_n] from the sharp end
+  std::vector<double> zeta;   ///< [m_n] from the acute end
   std::vector<double> value;  ///< E m_n K [-], one a zeta
 };
 
@@ -42,8 +42,8 @@ std::vector<DeflectionCurve> deflection_curves(std::span<const NamedModel> model
                                                const std::vector<double>& load_zetas, const std::vector<double>& zetas,
                                                int teeth_apart);
 
-/// The curves that say most of a gear: loads at tip, middle and root of the sharp end, mid face and the blunt end,
-/// deflections at most a quarter of a module apart, and closer near the ends.
+/// The most telling curves of a gear. Loads act at tip, middle and root of the acute end, mid face and the obtuse end.
+/// Deflections are at most a quarter of a module apart, and closer near the ends.
 /// @param face_width  B = b/m_n [-], > 0
 std::vector<DeflectionCurve> gear_deflection_curves(std::span<const NamedModel> models, double face_width,
                                                     int teeth_apart);

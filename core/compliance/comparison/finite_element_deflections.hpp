@@ -8,7 +8,7 @@
 
 namespace flankwright {
 
-/// Where places lie on the teeth of a meshed gear.
+/// The points of a meshed gear that belong to stations on its flanks.
 /// @throws InvalidInput as require_on_flank()
 std::vector<FlankPoint> flank_points(const GearMesh& mesh, std::span<const FlankPlace> places);
 

@@ -63,7 +63,7 @@ Places own_places(double face, int radii) {
   return {grid.us(), grid.zetas()};
 }
 
-/// Every second axial place, both ends included.
+/// Every second axial station, with both ends.
 Places adjacent_places(double face, int radii) {
   Places places = own_places(face, radii);
   std::vector<double> kept;

@@ -13,7 +13,7 @@
 
 namespace flankwright {
 
-/// One gear whose compliance is to be fitted, and what the fit is to be made and judged from.
+/// One gear whose compliance is fitted, and the data that the fit uses and is judged by.
 struct GearFitTask {
   GearToMesh gear;
   Material material;
@@ -21,17 +21,17 @@ struct GearFitTask {
   RemovedMotion removed{RemovedMotion::TranslationTorsionAndTilt};
   KernelForm form{KernelForm::one_tooth_accurate()};
   FitOptions fit{};
-  int radii{6};           ///< of the places fitted, >= 4; axially they are those of flank_grid()
+  int radii{6};           ///< of the stations fitted, >= 4; axially they are those of flank_grid()
   int adjacent_radii{5};  ///< of those on several teeth, >= 4; axially every second one
   int teeth_apart{2};     ///< pitches over which teeth are coupled, 1 .. mesh.teeth_each_side; forms for one tooth: 0
-  bool test_grid{true};   ///< judged on places that the fit has not seen: the centres of the grids' cells
+  bool test_grid{true};   ///< judged at stations that the fit has not seen: the centres of the grids' cells
 };
 
 /// How far one form is from finite elements.
 struct FormResiduals {
   std::string form;  ///< "kernels", the task's; "thesis_in_master", "thesis_separate"
   FitStatus status{FitStatus::NotRun};
-  std::vector<ResidualDistribution> fitted;  ///< on the places fitted, by teeth apart
+  std::vector<ResidualDistribution> fitted;  ///< at the stations fitted, by teeth apart
   std::vector<ResidualDistribution> unseen;  ///< on those of the test grid; empty without one
 };
 
@@ -70,9 +70,9 @@ using FitProgress = std::function<void(const std::string& label, int done, int t
 /// @throws InvalidInput  as gear_mesh(), "fit.radii", "fit.teeth_apart"
 GearFitResult fit_gear(const GearFitTask& task, const FitProgress& progress = {});
 
-/// Influence values between the places us x zetas on tooth 0, and, for each m = 1 .. teeth_apart, between those of
-/// teeth 0 and m: load on tooth 0, which is meshed finely, deflection on both neighbours m pitches away; being alike
-/// but for their mesh, they count as each other's reciprocal.
+/// Influence values between the stations us x zetas on tooth 0 and, for each m = 1 .. teeth_apart, between those of
+/// teeth 0 and m. The load is on tooth 0, which is meshed finely; the deflection is read on both neighbours m pitches
+/// away. These differ only by their mesh and count as each other's reciprocal.
 std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model, const GearFacts& gear,
                                                     const std::vector<double>& us, const std::vector<double>& zetas,
                                                     int teeth_apart, RemovedMotion removed);

@@ -8,7 +8,7 @@
 
 namespace flankwright {
 
-/// Shares of the pairs at which a distribution of residuals is told.
+/// Fractions of the pairs at which a distribution of residuals is given.
 inline constexpr std::array<double, 17> kResidualShares{0.01, 0.05, 0.1,  0.2,  0.3,  0.4,  0.5,   0.6, 0.7,
                                                         0.8,  0.9,  0.95, 0.97, 0.98, 0.99, 0.995, 1};
 

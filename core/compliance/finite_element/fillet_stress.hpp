@@ -9,7 +9,7 @@
 
 namespace flankwright {
 
-/// A place on the fillet below the loaded flank of tooth 0, in the frame of GearToMesh.
+/// A point on the fillet below the loaded flank of tooth 0, in the frame of GearToMesh.
 struct FilletPlace {
   double along{not_given};  ///< arc length from the fillet's start over length(): 0 .. 1 at its lowest point [-]
   double z{not_given};      ///< -b/2 .. b/2 [mm]
@@ -24,8 +24,8 @@ struct FilletPlace {
 ///     s_tt = E/(1-nu^2) (e_tt + nu e_aa),   s_aa = E/(1-nu^2) (e_aa + nu e_tt),   s_ta = E/(2 (1+nu)) g_ta.
 ///
 /// It is taken at the 2 x 2 Gauss points of the mesh's faces, where derivatives of quadratic elements are best (one
-/// order more than elsewhere), and brought to any place by cubic splines along the fillet and along z. A place outside
-/// the outermost of these points, 0.11 of an element from an edge, is read there.
+/// order more than elsewhere), and interpolated by cubic splines along the fillet and along z. The outermost of these
+/// points lie 0.11 of an element from an edge; beyond them their stress is used.
 class FilletStress {
  public:
   /// @throws InvalidInput  "material" out of range
@@ -37,7 +37,7 @@ class FilletStress {
   /// Where a point of the transverse fillet lies along it, 0 .. 1: nearest on the mesh's edges at z = -b/2.
   double along(const ProfilePoint& point) const;
 
-  /// (s_tt, s_aa, s_ta) of place i in columns 3 i, 3 i + 1, 3 i + 2, of size 3 n: MPa per mm of displacement.
+  /// (s_tt, s_aa, s_ta) of point i in columns 3 i, 3 i + 1, 3 i + 2, of size 3 n: MPa per mm of displacement.
   Eigen::SparseMatrix<double> functionals(const std::vector<FilletPlace>& places) const;
 
  private:

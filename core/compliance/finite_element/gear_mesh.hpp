@@ -12,8 +12,8 @@ namespace flankwright {
 
 /// A gear as its finite-element model sees it: right-hand helix, loaded on the right-hand (clockwise) flanks, z = 0 at
 /// mid face, tooth 0 along +y there, teeth counted counter-clockwise. The flank's outward normal then has n_z =
-/// + sin(beta_b): the sharp end, where flank and face enclose less than a right angle, is z = -b/2. A left hand, or the
-/// left-hand flank, is a mirror image of this.
+/// +sin(beta_b): the acute end, where flank and face enclose less than a right angle, is z = -b/2. A left hand, or the
+/// left-hand flank, is the mirror image.
 struct GearToMesh {
   GearData gear;
   double normal_module{not_given};   ///< m_n [mm], > 0
@@ -22,7 +22,7 @@ struct GearToMesh {
   GearBody body;
 };
 
-/// The body with its defaults in place of what is not given.
+/// The body, with defaults for what is not given.
 GearBody complete_body(const GearBody& body, const ToothForm& form, double normal_module);
 
 /// Surfaces of one detailed tooth, without the shaft's overhangs.

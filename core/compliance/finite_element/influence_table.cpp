@@ -11,7 +11,7 @@
 namespace flankwright {
 namespace {
 
-/// Lowest eigenvalue of the block Toeplitz matrix of the tables, every place scaled to the own value 1.
+/// Lowest eigenvalue of the block Toeplitz matrix of the tables, scaled so that the diagonal is 1.
 double lowest_eigenvalue(const std::vector<Eigen::MatrixXd>& tables) {
   const Eigen::Index n = tables.front().rows(), teeth = std::ssize(tables);
   const Eigen::VectorXd scale = tables.front().diagonal().cwiseSqrt().cwiseInverse();
@@ -65,7 +65,7 @@ void InfluenceTable::make_coefficients() {
   for (const Eigen::MatrixXd& table : tables_) coefficients_.push_back(both * table * both.transpose());
 }
 
-/// Where a place's B-splines stand in a table, and their values.
+/// The B-splines of a station: their indices in a table, and their values.
 struct InfluenceTable::LocalPlace {
   std::array<Eigen::Index, 4> rows;  ///< the first of four in a row, for each B-spline along u
   Eigen::Vector4d along_u, along_zeta;

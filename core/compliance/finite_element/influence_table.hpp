@@ -10,10 +10,10 @@ namespace flankwright {
 
 /// What was done to a table so that no load does negative work.
 struct TableProjection {
-  /// Lowest eigenvalue of the table's block matrix over all teeth that it knows, every place scaled to the own value 1
-  /// [-]; as found, before anything was added.
+  /// Lowest eigenvalue of the table's block matrix over all its teeth, scaled so that the diagonal is 1 [-]; before
+  /// anything was added.
   double lowest_eigenvalue{not_given};
-  /// What of each place's own value was added to it [-]: -lowest_eigenvalue where that is negative, otherwise 0.
+  /// Fraction of each diagonal value that was added to it [-]: -lowest_eigenvalue where that is negative, otherwise 0.
   double added{not_given};
 };
 
@@ -21,13 +21,13 @@ struct TableProjection {
 ///
 ///     E m_n K(p, q) = w(p)' T_m w(q),   m = tooth of q - tooth of p >= 0,
 ///
-/// with the weights w of cubic splines on a grid of places of one tooth and one table T_m per number of pitches apart;
-/// for m < 0 it is T_-m'. Teeth of a gear are alike, so that the matrix over several teeth is block Toeplitz. Every K is
-/// W' T W with the T of teeth 0 .. M, hence positive semi-definite wherever that is.
+/// with the weights w of cubic splines on a grid of stations on one tooth and one table T_m per number of pitches
+/// apart; for m < 0 it is T_-m'. Teeth of a gear are alike, so that the matrix over several teeth is block Toeplitz.
+/// Every K is W' T W with the T of teeth 0 .. M, hence positive semi-definite wherever that is.
 ///
-/// That is seen to when the table is made: where the lowest eigenvalue of T is negative (its blocks stem from teeth that
-/// are meshed unlike), the smallest multiple of each place's own value that lifts it to 0 is added there: T_0 stays
-/// symmetric and T Toeplitz.
+/// The lowest eigenvalue of T can be negative, because its blocks stem from teeth that are meshed differently. Then the
+/// smallest multiple of the diagonal that lifts it to 0 is added when the table is made; T_0 stays symmetric and T
+/// Toeplitz.
 class InfluenceTable final : public FlankCompliance {
  public:
   /// @param tables  T_0 .. T_M [-], each grid.size() x grid.size(), finite; row: where it deflects, on tooth 0; column:
@@ -55,7 +55,7 @@ class InfluenceTable final : public FlankCompliance {
   FlankGrid grid_;
   std::vector<Eigen::MatrixXd> tables_;
   LocalSpline along_u_, along_zeta_;
-  std::vector<Eigen::MatrixXd> coefficients_;  ///< of the tables' splines in B-splines, 16 of which a place needs
+  std::vector<Eigen::MatrixXd> coefficients_;  ///< of the tables' splines in B-splines; a station needs 16
   TableProjection projection_;
 };
 

@@ -12,7 +12,7 @@ namespace flankwright {
 struct FlankPoint {
   int tooth{0};              ///< -teeth_each_side .. teeth_each_side
   double radius{not_given};  ///< form radius .. tip radius [mm]
-  double z{not_given};       ///< -b/2 .. b/2 [mm]; the sharp end is -b/2
+  double z{not_given};       ///< -b/2 .. b/2 [mm]; the acute end is -b/2
 };
 
 /// Position and directions at a flank point.
@@ -31,7 +31,7 @@ LoadFrame load_frame(const GearMesh& mesh, const FlankPoint& point);
 /// Height of the weights' source above the centre surface, of the depth of the centre surface below the flank.
 inline constexpr double source_height = 0.5;
 
-/// What a load on a flank, and a deflection of it, mean to the finite-element model: one functional for both,
+/// A load on a flank and a deflection of it are one functional of the finite-element model:
 ///
 ///     l_p(u) = integral over the tooth's centre surface of w_p(x) (-n_p) . u(x) dA,
 ///     w_p ~ (3 / 2 pi) a^2 |d . nu| / R^5,   d = x - s,  R = |d|,  a = -n_p . d > 0  (0 where a <= 0),
@@ -43,23 +43,23 @@ inline constexpr double source_height = 0.5;
 /// positive semi-definite whatever mesh and weights are.
 ///
 /// s lies source_height of p's depth above the foot of the load along the normal, the foot being where the line of
-/// action through p meets the centre surface. At the sharp end of a helical tooth the line leaves through the end face
-/// before it gets there; then the foot is turned back along the helix to the end. With s = p the weights
-/// would be those of the load itself; but then load and deflection are both means over the same area, while the contact
-/// law counts down to the point below the load. Under a line load across a spur tooth's face (18 and 40 teeth) that is
-/// 2 to 3 % too little at half height and 6 to 11 % at the tip, against the load on the flank and the deflection of the
-/// centre right below it [Haddad 1991, 2.5]. Half the height about halves this; less would need a finer mesh.
+/// action through p meets the centre surface. At the acute end of a helical tooth the line leaves through the end face
+/// before it gets there; then the foot is turned back along the helix to the end. With s = p the weights would be those
+/// of the load itself; but then load and deflection are both means over the same area, while the contact law counts
+/// down to the point below the load. Under a line load across a spur tooth's face (18 and 40 teeth) that is 2 to 3 %
+/// too little at half height and 6 to 11 % at the tip, against the load on the flank and the deflection of the centre
+/// right below it [Haddad 1991, 2.5]. Half the height about halves this; less would need a finer mesh.
 ///
-/// Only the part of the centre surface that exists carries: it ends at the tip, at both face ends and at the bore. What
-/// of w_p falls outside is made up for by a factor (c_0 + c_1 xi + c_2 eta) on the rest, xi and eta being the levers
-/// across the line of action through p; the constants follow from
+/// Only the part of the centre surface that exists carries: it ends at the tip, at both face ends and at the bore. The
+/// part of w_p that falls outside is made up for by a factor (c_0 + c_1 xi + c_2 eta) on the rest, xi and eta being the
+/// levers across the line of action through p; the constants follow from
 ///
 ///     integral of w_p dA = 1,   integral of w_p xi dA = 0,   integral of w_p eta dA = 0,
 ///
-/// so that force and moment about every axis are the load's, wherever s is. What that decides: with the torque alone
-/// kept, and s on the line even beyond the end face, a point's deflection under its own load falls over the last 0.3
-/// modules before the sharp end. Haddad's, for a load on the flank and the centre surface right below it or at the end,
-/// grows [2.5]. E m_n K at distances from the sharp end in modules (18 teeth, 30 deg, b = 6 m_n):
+/// so that force and moment about every axis are the load's, wherever s is. This matters: with the torque alone kept,
+/// and s on the line even beyond the end face, a point's deflection under its own load falls over the last 0.3 modules
+/// before the acute end. Haddad's, for a load on the flank and the centre surface right below it or at the end, grows
+/// [2.5]. E m_n K at distances from the acute end in modules (18 teeth, 30 deg, b = 6 m_n):
 ///
 ///                                            tip: 0   0.2   0.5    half height: 0   0.2   0.5    root: 0   0.2   0.5
 ///     load on flank, centre below           13.5  12.3   7.7                  5.4   5.1   3.8        2.4   2.4   2.0
@@ -69,7 +69,7 @@ inline constexpr double source_height = 0.5;
 ///
 /// and between points at least 0.7 modules apart, against load and deflection both on the flank, 95 % (all) of the
 /// values are within 30 (58), 26 (57) and 12 (20) % of sqrt(K(p,p) K(q,q)) in rows two to four; the first row made
-/// symmetric is within 10 (33) %. At the root's sharp corner the last row is above the first: what acts beyond the end
+/// symmetric is within 10 (33) %. At the root's acute corner the last row is above the first: a load beyond the end
 /// bends the corner, which the centre surface's deflection at the end alone does not show.
 ///
 /// The integral is taken over the mesh's faces with their own shape functions, subdivided near s.
@@ -91,15 +91,14 @@ SectionMotion shaft_motion(const GearMesh& mesh, double z);
 enum class RemovedMotion {
   None,
   /// The transverse translation of the shaft's section in the plane of the point, and the shaft's rotation about its
-  /// axis at the face end where the torque leaves: what app. 2C takes off. The gear's own wind-up stays in, and so does
-  /// its axial motion.
+  /// axis at the face end where the torque leaves, as app. 2C subtracts them. The gear's own torsion and its axial
+  /// motion remain.
   TranslationAndTorsion,
   /// And the tilt of the shaft's section at mid face. Then the shaft's supports have an axial force to carry and nothing
   /// else.
   TranslationTorsionAndTilt,
-  /// And the axial translation of the shaft's section in the plane of the point: for a shaft that is described apart,
-  /// whose bearings hold it. Then the supports have nothing to carry, and how the shaft is held matters only as far as
-  /// its end sections are kept round and flat (1e-3 of K).
+  /// The axial translation of the shaft's section in the plane of the point as well: for a shaft with its own model,
+  /// held by its bearings. The supports then carry nothing; they only keep the end sections round and flat (1e-3 of K).
   WholeTranslationTorsionAndTilt,
 };
 
@@ -122,18 +121,21 @@ NetFunctionals net_functionals(const GearMesh& mesh, const std::vector<FlankPoin
 /// Diameter of what holds the shaft axially, over the shaft's.
 inline constexpr double axial_hold_share = 0.2;
 
-/// What the shaft's axial hold gives, in the direction of the normals [mm/N]: the same at all places of all teeth, to be added
-/// to every K(p, q),
+/// Deflection of the shaft's axial support along the normals [mm/N]. It is the same at all points of all teeth and is
+/// added to every K(p, q),
 ///
 ///     sin^2(beta_b) 16 (1 - nu^2) / (3 pi^2 E a),    a = axial_hold_share d_s / 2,
 ///
-/// the mean displacement of a disc under an even pressure on a half space [Timoshenko and Goodier, Theory of Elasticity, art.
-/// 139]; 0 where the axial motion is taken off, or the body is rigid. It moves the mean transmission error and nothing else.
+/// the mean displacement of a disc under an even pressure on a half space [Timoshenko and Goodier, Theory of
+/// Elasticity, art. 139]; 0 where the axial motion is removed or the body is rigid. It changes only the mean
+/// transmission error.
 ///
-/// Haddad holds the central node of one end [1991, 2.5], and his deflections have that node's give in them. Of a node, or of the edge
-/// of a narrow bore, it grows without limit as elements shrink; this does not know the mesh. The thesis leaves the share open. A fifth
-/// is what the least influence values of an independent finite-element calculation ask for (0.21, 0.22, 0.27 with 27, 40, 60 teeth, 0.26
-/// with 18; an error of 2 % in those values would be 0.01, 0.01, 0.05 and 0.01 of it); Haddad's table 2B.1 alone would ask for 0.15 to 0.16, which makes f_t of his 18:54 pair 0.2 um of 8 more.
+/// Haddad holds the central node of one end [1991, 2.5], so that his deflections contain the local deflection at that
+/// node. At a node, or at the edge of a narrow bore, this grows without limit as elements shrink; the value here does
+/// not depend on the mesh. The thesis leaves the fraction open. A fifth is what the least influence values of an
+/// independent finite-element calculation ask for (0.21, 0.22, 0.27 with 27, 40, 60 teeth, 0.26 with 18; an error of
+/// 2 % in those values would be 0.01, 0.01, 0.05 and 0.01 of it); Haddad's table 2B.1 alone would ask for 0.15 to 0.16,
+/// which makes f_t of his 18:54 pair 0.2 um of 8 more.
 double axial_hold_compliance(const GearMesh& mesh, const Material& material, RemovedMotion removed);
 
 }  // namespace flankwright

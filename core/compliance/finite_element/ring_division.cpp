@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kRoundOff = 1e-9;  // of angles from different sums [rad]
 
-/// Longer over shorter of two neighbours that are joined, at most: their corner becomes the mid-side of a quadratic element, whose
-/// Jacobian is positive for less than 3.
+/// Largest ratio of the lengths of two neighbours that are joined. Their corner becomes the mid-side of a quadratic
+/// element, whose Jacobian is positive below 3.
 constexpr double kMostUnlike = 2;
 
 bool same_angle(double a, double b) { return std::abs(std::remainder(a - b, 2 * units::pi)) < kRoundOff; }

@@ -6,12 +6,12 @@ namespace flankwright {
 
 /// Elements side by side around the axis, in one ring of a section.
 struct RingDivision {
-  /// Of corners (even places) and mid-sides (odd ones) of n elements, 2 n of them, ascending over one turn [rad]. Element i reaches
-  /// from angles[2 i] to angles[2 i + 2], the last one to the first corner's next turn.
+  /// Angles of the corners (even indices) and mid-sides (odd ones) of n elements, 2 n of them, ascending over one turn
+  /// [rad]. Element i reaches from angles[2 i] to angles[2 i + 2], the last one to the first corner's next turn.
   std::vector<double> angles;
 
   int elements() const { return static_cast<int>(angles.size()) / 2; }
-  /// Of any place, also beyond the ends of the list, with the turns in between [rad].
+  /// Angle at any index, also beyond the ends of the list, with the turns in between [rad].
   double angle(int place) const;
   bool has_corner(double angle) const;
 };
@@ -19,7 +19,7 @@ struct RingDivision {
 /// A ring with fewer elements, and where the one outside it has two for one.
 struct JoinedRing {
   RingDivision division;
-  /// Places in the outer ring's angles of the corners that have become mid-sides.
+  /// Indices into the outer ring's angles: corners that have become mid-sides.
   std::vector<int> joints;
 };
 

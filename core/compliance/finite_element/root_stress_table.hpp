@@ -9,11 +9,11 @@
 
 namespace flankwright {
 
-/// Places on the fillet below the loaded flank of a tooth, the same on every tooth; zeta runs fastest.
+/// Points on the fillet below the loaded flank of a tooth, the same on every tooth; zeta runs fastest.
 struct FilletGrid {
   std::vector<double> along;  ///< arc length from the fillet's start over the fillet's, ascending [-]
   std::size_t tangent{0};     ///< index in `along` of the 30 deg tangent (normal section)
-  std::vector<double> zetas;  ///< z/m_n from the sharp end of the face, ascending [-]
+  std::vector<double> zetas;  ///< z/m_n from the acute end of the face, ascending [-]
 
   Eigen::Index size() const { return static_cast<Eigen::Index>(along.size() * zetas.size()); }
 };
@@ -29,9 +29,9 @@ struct FilletGrid {
 /// above the fillet (18 teeth), but its near field is narrower than the points of a contact line are apart: these would
 /// be felt one by one.
 struct RootStressTable {
-  FlankGrid grid;     ///< places of forces
-  FilletGrid fillet;  ///< places of stress
-  /// (s_tt, s_aa, s_ta) m_n^2 / F of every fillet place on tooth 0, three rows each, under a force at every place of
+  FlankGrid grid;     ///< points of the forces
+  FilletGrid fillet;  ///< points of the stresses
+  /// (s_tt, s_aa, s_ta) m_n^2 / F of every fillet point on tooth 0, three rows each, under a force at every point of
   /// the grid on tooth m, for m = -M .. M, teeth counted as in GearToMesh; 3 P x grid.size().
   std::vector<Eigen::MatrixXd> stress;
 
@@ -41,17 +41,17 @@ struct RootStressTable {
   const Eigen::MatrixXd* response(int tooth, int loaded_tooth) const;
 };
 
-/// Places along the fillet where the stress is read: seven from 0.2 to 0.8, where its maximum lies, the nearest of them
-/// moved to the 30 deg tangent.
+/// Seven points along the fillet from 0.2 to 0.8, where the stress has its maximum; the nearest one is moved to the
+/// 30 deg tangent.
 inline constexpr int fillet_stations = 7;
 
-/// Axial places there: steps from 0.25 modules at the ends to 0.6. Between all these places the stress of a line load
-/// rises by up to 3 % above the largest of them (18 and 24 teeth, helix 30 and 0 deg).
+/// Axial points there: steps from 0.25 modules at the ends to 0.6. Between these points the stress of a line load rises
+/// by up to 3 % above its largest value at them (18 and 24 teeth, helix 30 and 0 deg).
 std::vector<double> fillet_zetas(double face_width);
 
 FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet);
 
-/// What a table is read with: three functionals per place of the fillet of tooth 0, as FilletStress::functionals() has them.
+/// Three functionals per fillet point of tooth 0, see FilletStress::functionals(), by which a table is read.
 struct RootStressReadings {
   FilletGrid fillet;
   Eigen::SparseMatrix<double> functionals;  ///< 3n x 3 P, MPa per mm
@@ -60,7 +60,8 @@ struct RootStressReadings {
 /// @param material  of the solid model
 RootStressReadings root_stress_readings(const GearMesh& mesh, const Material& material);
 
-/// @param stress  of the readings under unit forces at the places of the grid on teeth -M .. M, one tooth after the other [MPa/N]
+/// @param stress  of the readings under unit forces at the points of the grid on teeth -M .. M, one tooth after the
+///                other [MPa/N]
 RootStressTable root_stress_table(const GearMesh& mesh, const FlankGrid& grid, const FilletGrid& fillet, const Eigen::MatrixXd& stress);
 
 }  // namespace flankwright

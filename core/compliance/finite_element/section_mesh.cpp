@@ -305,7 +305,7 @@ SectionRadii section_radii(const ToothForm& form, int teeth, double normal_modul
   const double shaft =
       (std::isnan(body.shaft_diameter) ? default_shaft_diameter(form, normal_module) : body.shaft_diameter) / 2;
   const double bore = std::isnan(body.bore_diameter) ? default_bore_share * shaft : body.bore_diameter / 2;
-  // Half a module of rim is the least that the blocks of the teeth can stand on.
+  // The blocks of the teeth need at least half a module of rim.
   if (!(shaft > 0 && shaft <= root - 0.5 * normal_module)) {
     throw InvalidInput("body.shaft_diameter", std::to_string(2 * shaft),
                        "more than 0 and at most " + std::to_string(2 * root - normal_module) + " mm");

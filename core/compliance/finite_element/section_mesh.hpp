@@ -33,23 +33,23 @@ struct GearMeshOptions {
   bool operator==(const GearMeshOptions&) const = default;
 };
 
-/// A face end of a helical tooth by the angle between loaded flank and face there: less than a right angle, or more. Of
-/// a spur gear the sharp end is that at z = -b/2 of GearToMesh.
+/// A face end of a helical tooth by the angle between loaded flank and face there: less than a right angle, or more.
+/// The acute end of a spur gear is the one at z = -b/2 of GearToMesh.
 enum class FaceEnd { Sharp, Blunt };
 
 /// Bore over shaft diameter where no bore is given: as near to a solid shaft as elements go.
 inline constexpr double default_bore_share = 0.05;
 
-/// What the teeth stand on: a solid disc as wide as the face, on a hollow shaft that runs through it.
+/// The gear body: a solid disc as wide as the face, on a hollow shaft that runs through it.
 struct GearBody {
   double shaft_diameter{not_given};  ///< d_s [mm]; not given: default_shaft_diameter()
   double bore_diameter{not_given};   ///< [mm], > 0; not given: default_bore_share d_s
   double shaft_overhang{not_given};  ///< length of the shaft beyond each face end [mm], > 0; not given: 0.5 d_s
-  /// Where torque and axial force leave the gear. What lies between there and a load winds up under it. The default is
-  /// what Haddad's sample outputs show: pinion loads that fall towards the other, sharp end.
+  /// The end at which torque and axial force leave the gear. The gear is twisted between this end and the load.
+  /// Haddad's sample outputs show the default: pinion loads that fall towards the other, acute end.
   FaceEnd torque_end{FaceEnd::Blunt};
-  /// Nothing gives way from rim_radius() inwards: what is left are the teeth with the material that they stand on, as Vedmar modelled
-  /// them [Haddad 1991, 1.4.3.2].
+  /// Everything inside rim_radius() is rigid. Only the teeth and the material below them yield, as Vedmar modelled them
+  /// [Haddad 1991, 1.4.3.2].
   bool rigid{false};
 
   bool operator==(const GearBody&) const = default;

@@ -71,7 +71,8 @@ void SectionSweep::set_levels(double layer_share) {
   }
 }
 
-/// What follows an element must not be longer along the axis than that. Ties run inwards, so that those of the inner ring come first here.
+/// An element tied to another must not be longer along the axis. Ties run inwards, so that those of the inner ring come
+/// first here.
 void SectionSweep::shorten_at_ties() {
   std::map<int, std::size_t> by_side;  // the quad that has a mid-side; of those at a long element's edge the long one, which alone has it
   for (Eigen::Index quad = 0; quad < section_.quads.cols(); ++quad) {

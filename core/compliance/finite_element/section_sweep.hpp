@@ -24,10 +24,11 @@ struct SweepPlanes {
   int first{0}, last{0};
 };
 
-/// A section swept along the axis with the helix, in layers between planes. On the face width layers are joined by twos, fours, ...,
-/// counted from both face ends to mid face, where GearMeshOptions::layer_share allows. Where a quad with short elements
-/// meets one with long ones, the short ones' nodes in between are tied to the long one's: its quadratic displacement on the common
-/// face is theirs, so that the displacement is continuous. So it is with two elements side by side that meet one (SectionTie).
+/// A section swept along the axis with the helix, in layers between planes. On the face width layers are joined by
+/// twos, fours, ..., counted from both face ends to mid face, where GearMeshOptions::layer_share allows. Where a quad
+/// with short elements meets one with long ones, the nodes of the short ones in between are tied to those of the long
+/// one: they follow its quadratic displacement on the common face, which keeps the displacement continuous. Two
+/// elements side by side that meet one are joined likewise (SectionTie).
 class SectionSweep {
  public:
   /// @param twist  turn of the section per length, on the face width [rad/mm]
@@ -63,7 +64,7 @@ class SectionSweep {
   std::vector<Eigen::Vector3d> points_;
   std::vector<std::array<int, 20>> bricks_;
   std::vector<TiedNode> ties_;
-  std::vector<int> tie_of_;                         ///< of every node: number of its tie, or -1
+  std::vector<int> tie_of_;                         ///< for every node the number of its tie, or -1
 };
 
 }  // namespace flankwright

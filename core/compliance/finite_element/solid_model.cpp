@@ -12,7 +12,7 @@
 namespace flankwright {
 namespace {
 
-/// Of every node its place among the tied ones, or -1.
+/// For every node its index among the tied nodes, or -1.
 std::vector<int> places_of_ties(const SolidMesh& mesh) {
   std::vector<int> places(static_cast<std::size_t>(mesh.nodes.cols()), -1);
   for (std::size_t i = 0; i < mesh.tied.size(); ++i) places[static_cast<std::size_t>(mesh.tied[i].node)] = static_cast<int>(i);

@@ -12,7 +12,7 @@
 
 namespace flankwright {
 
-/// A node that moves as others do: u = sum of weight u(other). Of those others none is tied.
+/// A node that follows others: u = sum of weight u(other). None of the others is tied.
 struct TiedNode {
   int node{-1};
   std::vector<std::pair<int, double>> follows;  ///< node and weight

@@ -104,7 +104,7 @@ class TableSolver {
     if (progress_) progress_(done, kTableSteps);
   }
 
-  /// From deflections of all places on teeth -M .. M, by loads on tooth 0.
+  /// From the deflections of all stations on teeth -M .. M under loads on tooth 0.
   std::vector<Eigen::MatrixXd> tables(const Eigen::MatrixXd& deflections) const {
     const Eigen::Index n = task_.grid.size();
     const auto of_tooth = [&](int m) { return deflections.middleRows((task_.teeth_apart + m) * n, n); };

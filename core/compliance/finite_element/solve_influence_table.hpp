@@ -18,7 +18,7 @@ struct InfluenceTableTask {
   GearMeshOptions mesh{};  ///< its teeth_each_side is replaced by teeth_apart
   RemovedMotion removed{RemovedMotion::TranslationTorsionAndTilt};
   FlankGrid grid;        ///< as wide as the face
-  bool root_stress{false};  ///< the same finite elements shall tell it, too
+  bool root_stress{false};  ///< the same run also solves for root stress
 };
 
 /// The task with lengths in normal modules: m_n = 1. Gears that differ in size only become the same.
@@ -37,18 +37,18 @@ struct InfluenceTableRun {
   RunStatistics statistics;
 };
 
-/// Memory that a run with n unknowns takes at most [bytes], 46 n^1.469 + 2500 n: the factorisation, and the matrix or the loads beside
-/// it. Measured with the places of a table on five teeth and root stress, 18 to 100 teeth, faces of 12 and 30 modules (107,000 to
-/// 288,000 unknowns): 0.79 to 0.94 of it.
+/// Memory that a run with n unknowns takes at most [bytes], 46 n^1.469 + 2500 n: the factorisation, and the matrix or
+/// the loads beside it. Measured with the stations of a table on five teeth and root stress, 18 to 100 teeth, faces of
+/// 12 and 30 modules (107,000 to 288,000 unknowns): 0.79 to 0.94 of it.
 double expected_bytes(Eigen::Index unknowns);
 
 /// Progress of a run in steps of about the same time: kModelSteps for the model, the rest for the loads.
 inline constexpr int kModelSteps = 6, kTableSteps = 10;
 using TableProgress = std::function<void(int done, int total)>;
 
-/// Solves a gear's finite elements for a load at every place of the grid on tooth 0, the one that is meshed finely, and
-/// reads the deflections of its neighbours. T_m is the mean of what two reciprocal pairs give, deflection on tooth -m
-/// and, transposed, on tooth m: these differ by the neighbours' coarser mesh only.
+/// Solves a gear's finite elements for a load at every station of the grid on tooth 0, which is meshed finely, and
+/// reads the deflections of its neighbours. T_m is the mean of two reciprocal values, the deflection on tooth -m and,
+/// transposed, on tooth m. They differ only by the neighbours' coarser mesh.
 ///
 /// Runs on one thread, E = m_n = 1: same input, same bits.
 /// @param memory_limit  OutOfMemory where expected_bytes() > memory_limit, before anything large is allocated, and where an

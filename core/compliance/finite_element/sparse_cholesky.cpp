@@ -72,7 +72,7 @@ std::vector<int> order_rows(const Eigen::SparseMatrix<double>& lower, const Eige
   const auto groups = static_cast<int>(first.size());
   first.push_back(n);
 
-  // Lower triangle of the graph: one column of the matrix stands for its node.
+  // Lower triangle of the graph: one column of the matrix represents its node.
   std::vector<int> starts{0}, rows;
   for (int g = 0; g < groups; ++g) {
     for (Eigen::SparseMatrix<double>::InnerIterator entry(lower, first[g]); entry; ++entry) {

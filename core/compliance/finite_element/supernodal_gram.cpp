@@ -72,7 +72,7 @@ std::vector<std::vector<int>> reach(const Supernodes& supernodes, const RowSpars
   return columns;
 }
 
-/// Where the columns of one list, which has them all, stand in another.
+/// Positions in one list of the columns of another; the first has them all.
 std::vector<int> places_in(const std::vector<int>& list, const std::vector<int>& columns) {
   std::vector<int> places;
   auto at = list.begin();

@@ -24,7 +24,8 @@ class PairResiduals final : public ResidualFunction {
       : form_(form), anchor_(anchor.begin(), anchor.end()) {
     for (const InfluenceSample& sample : samples) {
       sums_.emplace_back(form, sample.gear, sample.points);
-      // All teeth are alike: pairs of the same places, as many teeth apart, are one pair that was computed repeatedly.
+      // All teeth are alike: pairs of the same stations, as many teeth apart, are one pair that was computed
+      // repeatedly.
       std::map<std::array<double, 5>, std::size_t> found;
       std::vector<int> count;
       const std::size_t first = pairs_.size();
@@ -151,7 +152,7 @@ FitRange range_of(std::span<const InfluenceSample> samples, int teeth_apart) {
   return range;
 }
 
-/// The samples without what a form for one tooth has no say in.
+/// The samples without the pairs that a form for one tooth does not cover.
 std::vector<InfluenceSample> known_to(const KernelForm& form, std::span<const InfluenceSample> samples) {
   std::vector<InfluenceSample> kept(samples.begin(), samples.end());
   if (form.couples_teeth()) return kept;

@@ -8,14 +8,14 @@
 
 namespace flankwright {
 
-/// What influence values of different gears are compared by.
+/// The parameters that influence values of different gears are compared by.
 struct GearFacts {
   int teeth{0};                                                    ///< Z, >= 5
-  double helix_angle{std::numeric_limits<double>::quiet_NaN()};    ///< beta [rad], sign: which end of the face is sharp
+  double helix_angle{std::numeric_limits<double>::quiet_NaN()};    ///< beta [rad]; its sign says which end of the face is acute
   double relative_face{std::numeric_limits<double>::quiet_NaN()};  ///< B = b/m_n [-], > 0
   double profile_shift{0.0};                                       ///< x [-]
 
-  /// @throws InvalidInput naming the fact out of range
+  /// @throws InvalidInput naming the parameter out of range
   void validate() const;
 
   bool operator==(const GearFacts&) const = default;
@@ -27,8 +27,8 @@ struct InfluenceSample {
   GearFacts gear;
   std::vector<FlankPlace> points;  ///< n
   Eigen::MatrixXd compliance;      ///< E m_n K [-], n x n; NaN where nobody computed it
-  /// The share of it that is known otherwise, n x n, symmetric; empty: none. A fit is made of the rest, to errors
-  /// relative to the whole.
+  /// The part of it that is known otherwise, n x n, symmetric; empty: none. The rest is fitted, with errors relative to
+  /// the whole.
   Eigen::MatrixXd given{};
 
   /// `given` of a pair, 0 where there is none.

@@ -25,8 +25,8 @@ enum class Reach {
 
 /// How a part of the gear body couples teeth.
 enum class Coupling {
-  Common,    ///< every tooth moves alike: wind-up
-  Turning,   ///< as cos(2 pi (m_p - m_q)/Z): displacement and tilt of the body, whose direction the teeth see in turn
+  Common,    ///< every tooth moves alike: torsion
+  Turning,   ///< as cos(2 pi (m_p - m_q)/Z): displacement and tilt of the body, whose direction differs from tooth to tooth
   Decaying,  ///< as exp(-|m_p - m_q|/tau)
 };
 
@@ -65,27 +65,27 @@ struct BodyPart {
   bool operator==(const BodyPart&) const = default;
 };
 
-/// The form of a fitted compliance: what the coefficients mean.
+/// The form of a fitted compliance, and the meaning of its coefficients.
 ///
 ///     K(p,q) = sum over kernels of  h(p) h(q)/sqrt(A R) rho(Q)  +  sum over body parts of  (L beta(p)).(L beta(q))
 ///     C(m), A = (lz(p)^2 + lz(q)^2)/2,  R = (lr(p)^2 + lr(q)^2)/2,  h = g sqrt(lz lr), Q = (s(p) - s(q))^2/A + (u(p) -
 ///     u(q))^2/R,
 ///
-/// and, with wind_up, the torsion of the gear body between the end zeta = 0, where its torque leaves, and the nearer of
-/// two places, as a shaft has it, rounded off over a length w because torque spreads into a body only gradually:
+/// and, with wind_up, the torsion of the gear body as of a shaft between the end zeta = 0, where its torque leaves, and
+/// the nearer of the two points. It is rounded off over a length w because torque spreads into a body only gradually:
 ///
 ///     c/2 [v(zeta_p) + v(zeta_q) - v(zeta_p - zeta_q) - w],  v(d) = sqrt(d^2 + w^2);  -> c min(zeta_p, zeta_q), w ->
 ///     0,
 ///
 /// the non-stationary kernel of Paciorek and Schervish (2006), which is positive semi-definite for any positive lz and
-/// lr, as C(m) is for each Coupling and the wind-up by Schoenberg's theorem (v is conditionally negative definite); so
-/// the matrix over any points of any teeth is, whatever the coefficients. The first five coefficients warp the axis,
+/// lr, as C(m) is for each Coupling and the torsion by Schoenberg's theorem (v is conditionally negative definite). So
+/// is the matrix over any points of any teeth, whatever the coefficients. The first five coefficients warp the axis,
 ///
 ///     s = zeta + w_0 u + tanh(w_1) e^-zeta + 0.175 tanh(w_2) e^(-zeta/0.35)
 ///              - tanh(w_3) e^-(B-zeta) - 0.175 tanh(w_4) e^(-(B-zeta)/0.35),
 ///
-/// those of the kernels follow, then log(c), log(w) of the wind-up and those of the body parts: the tooth, which
-/// interpolates well from gear to gear, is a contiguous part, and so is the body, which does not.
+/// those of the kernels follow, then log(c), log(w) of the torsion and those of the body parts. The coefficients of the
+/// tooth, which interpolate well from gear to gear, are contiguous, and so are those of the body, which do not.
 struct KernelForm {
   std::vector<Kernel> kernels;
   std::vector<BodyPart> bodies;
@@ -99,9 +99,9 @@ struct KernelForm {
   static KernelForm refinement();     ///< two kernels on one tooth and no body, 79 coefficients
 
   int tooth_count() const;  ///< coefficients of warp and kernels, the first ones
-  int body_count() const;   ///< coefficients of wind-up and body parts, the last ones
+  int body_count() const;   ///< coefficients of torsion and body parts, the last ones
   int count() const { return tooth_count() + body_count(); }
-  bool couples_teeth() const;  ///< whether the form says anything about two teeth
+  bool couples_teeth() const;  ///< whether the form covers two teeth
 
   /// Readable and unique, e.g. "kernel_0.log_amplitude.end_1.d_0.8.u_2"; size count().
   std::vector<std::string> coefficient_names() const;

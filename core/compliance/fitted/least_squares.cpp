@@ -55,7 +55,7 @@ LeastSquaresResult solve_least_squares(const ResidualFunction& function, std::sp
   LeastSquaresResult result;
   result.coefficients.assign(start.begin(), start.end());
 
-  // Ceres would say on stderr what the status says.
+  // Ceres would repeat on stderr what the status says.
   if (!finite_at(function, start)) {
     result.status = FitStatus::Failed;
     result.message = "residuals or their derivatives are not finite at the start";

@@ -12,8 +12,8 @@ namespace flankwright {
 ///
 ///     K(p, q) = K_coarse(p, q) + sum over kernels h(p) h(q)/sqrt(A R) rho(Q)   [KernelForm, the kernels of one tooth]
 ///
-/// positive semi-definite as both parts are. The gear body, neighbouring teeth and the tooth as a whole come from the
-/// coarse mesh; the kernels, what the tooth gives way around the load beyond that.
+/// positive semi-definite as both parts are. The coarse mesh gives the gear body, the neighbouring teeth and the tooth
+/// as a whole. The kernels add the tooth's deflection around the load that it misses.
 class RefinedCompliance final : public FlankCompliance {
  public:
   /// @param coarse        of the same gear by coarse_mesh()

@@ -8,22 +8,23 @@
 
 namespace flankwright {
 
-/// The mesh that `fitted` solves of every gear: enough for the gear body, the neighbouring teeth and whatever is a module
-/// or more away from the load. The body has the elements of the default mesh, so that both are equally stiff there: what
-/// they differ by would otherwise be shared out to the kernels of the tooth. So has the fillet, for root stress. Its layers
-/// are about as long as the places of flank_grid() are apart, at most: along the tip, values by layers twice as long waver with the
-/// place in the layer, and the table's splines overshoot between them, by up to a third of the value where the tip is
-/// pointed; no sum of kernels, which are positive, takes that off again. How it compares is in the folder's README.
+/// The mesh that `fitted` solves for every gear: fine enough for the gear body, the neighbouring teeth and whatever is
+/// a module or more away from the load. The body has the elements of the default mesh, so that both are equally stiff
+/// there; a difference would otherwise end up in the kernels of the tooth. So has the fillet, for root stress. Its
+/// layers are at most about as long as the stations of flank_grid() are apart. With layers twice as long, values along
+/// the tip vary with the position in the layer, and the table's splines overshoot between them by up to a third of the
+/// value where the tip is pointed. No sum of kernels, which are positive, can correct that. The folder's README
+/// compares both meshes.
 GearMeshOptions coarse_mesh();
 
 /// The gear that a library's entry is made from: m_n = 1, the body of GearBody's defaults.
 GearToMesh standard_gear(const GearFacts& gear, const ReferenceProfile& profile = {});
 
-/// Influence values between places of one tooth by the mesh given, E = 1, nu = 0.3.
+/// Influence values between stations of one tooth by the mesh given, E = 1, nu = 0.3.
 InfluenceSample element_sample(const GearFacts& gear, const GearMeshOptions& mesh,
                                const std::vector<FlankPlace>& places, const ReferenceProfile& profile = {});
 
-/// A tensor grid of places on a tooth.
+/// A tensor grid of stations on a tooth.
 std::vector<FlankPlace> places_on(const std::vector<double>& us, const std::vector<double>& zetas);
 
 /// What a refinement is made from: a gear's influence values by the fine mesh, with those by the coarse one as the

@@ -100,7 +100,7 @@ std::vector<double> RefinementGrid::coefficients(const GearFacts& gear) const {
   auto entry = entries_.begin();
   for (const double z : of_teeth) {
     for (std::size_t b = 0; b <= centre; ++b) {
-      // beta = 0 stands for both of its halves.
+      // beta = 0 represents both of its halves.
       const double here = b == 0 ? 0.5 * of_angle[centre] : of_angle[centre + b];
       const double there = b == 0 ? 0.5 * of_angle[centre] : of_angle[centre - b];
       for (const double x : of_shift) {

@@ -28,8 +28,8 @@ struct RefinementEntry {
   int iterations{-1};
   int pairs{0};
   double seconds{not_given};         ///< wall time of the finite elements and the fit
-  ResidualStatistics fitted;         ///< of coarse values plus fit against fine ones, on the places fitted
-  ResidualStatistics unseen;         ///< on places that the fit has not seen
+  ResidualStatistics fitted;         ///< of coarse values plus fit against fine ones, at the stations fitted
+  ResidualStatistics unseen;         ///< at stations that the fit has not seen
   std::vector<double> coefficients;  ///< of KernelForm::refinement()
   Eigen::MatrixXd covariance;        ///< of the coefficients, FitResult::covariance; empty where the fit failed
 };
@@ -40,9 +40,10 @@ std::vector<double> cardinal_polynomials(const std::vector<double>& nodes, doubl
 /// Coefficients of the same fit with the ends of the face exchanged.
 std::vector<double> mirrored(const KernelForm& form, const std::vector<double>& coefficients);
 
-/// Fits over a tensor grid of gears of one reference profile, and between them: every coefficient is a polynomial through the entries in
-/// 1/Z, beta and x. An entry of beta stands, with its ends exchanged, for -beta as well, and one of beta = 0 is made alike at both
-/// ends: what both ends have in common is even in beta, what tells them apart is odd. The face width does not enter.
+/// Fits over a tensor grid of gears of one reference profile, and between them: every coefficient is a polynomial
+/// through the entries in 1/Z, beta and x. An entry of beta, with its ends exchanged, represents -beta as well, and one
+/// of beta = 0 is made alike at both ends: the mean of both ends is even in beta, their difference odd. The face width
+/// does not enter.
 class RefinementGrid {
  public:
   /// @throws InvalidInput "library" where entries are not all combinations of their teeth, helix angles (the first 0)
@@ -54,7 +55,7 @@ class RefinementGrid {
   const std::vector<double>& helix_angles() const { return helix_angles_; }     ///< ascending [rad]
   const std::vector<double>& profile_shifts() const { return profile_shifts_; }  ///< ascending
 
-  /// The gear itself, or what within the ranges of the entries is nearest in each fact.
+  /// The gear itself, or the nearest value of each parameter within the ranges of the entries.
   GearFacts nearest(GearFacts gear) const;
 
   /// Coefficients for a gear within the ranges.

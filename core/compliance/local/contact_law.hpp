@@ -30,7 +30,7 @@ struct ContactSide {
   double tip_distance{std::numeric_limits<double>::infinity()};
   /// Distances of the contact from the gear's own end faces, along the contact line [mm]; as tip_distance below 0 and at infinity.
   std::array<double, 2> end_distances{no_ends};
-  double end_lean{0};  ///< of the first end face, > 0 where it is the sharp one; the second leans the other way, see FreeEnd [rad]
+  double end_lean{0};  ///< of the first end face, > 0 where it is the acute one; the second leans the other way, see FreeEnd [rad]
 
   static constexpr std::array<double, 2> no_ends{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 

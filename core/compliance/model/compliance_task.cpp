@@ -27,7 +27,7 @@ InfluenceTableTask influence_table_task(const ComplianceTask& task, Member membe
   with_gear_names(task.model, member, [&] {
     const ToothForm form(run.gear.gear, run.gear.normal_module, run.gear.pressure_angle, run.gear.helix_angle);
     run.gear.body = complete_body(pinion ? task.pinion_body : task.wheel_body, form, run.gear.normal_module);
-    // The gear's wind-up starts where the torque leaves it, and the shaft's own bearings hold it axially.
+    // The gear's torsion starts where the torque leaves it, and the shaft's own bearings hold it axially.
     if (const std::optional<ShaftData>& shaft = pinion ? task.pinion_shaft : task.wheel_shaft) {
       run.removed = RemovedMotion::WholeTranslationTorsionAndTilt;
       run.gear.body.torque_end = shaft->torque_side() == sharp_end(pair, member) ? FaceEnd::Sharp : FaceEnd::Blunt;

@@ -15,15 +15,16 @@ struct ComplianceTask {
   GearPair pair;
   ComplianceModel model{ComplianceModel::Fitted};
   Material pinion_material{}, wheel_material{};
-  GearBody pinion_body{}, wheel_body{};  ///< that the teeth stand on
+  GearBody pinion_body{}, wheel_body{};  ///< below the teeth
   /// Empty: rigid. A shaft tells at which end the torque leaves the gear, and its bearings hold the gear axially.
   std::optional<ShaftData> pinion_shaft{}, wheel_shaft{};
-  bool root_stress{false};   ///< finite elements shall tell it, whatever the model
+  bool root_stress{false};   ///< solved by finite elements, whatever the model
   bool rigid_bodies{false};  ///< wanted beside: the same gears on rigid bodies, where the model couples teeth
 };
 
-/// What is to be solved for one gear, by a coarse mesh where the model is Fitted: its own face width, body and tip, teeth apart as the pair needs
-/// them (two at least, so that the loaded tooth's neighbours stand on what they stand on), the grid of flank_grid().
+/// The run to be solved for one gear, on a coarse mesh where the model is Fitted. It has the gear's own face width,
+/// body and tip, as many teeth as the pair needs (two at least, so that the loaded tooth's neighbours are supported as
+/// they are), and the grid of flank_grid().
 /// @throws InvalidInput  "fidelity.compliance", "pair." and "pinion." or "wheel." with their field, where body and teeth cannot be meshed
 InfluenceTableTask influence_table_task(const ComplianceTask& task, Member member);
 
@@ -38,7 +39,7 @@ std::vector<std::string> library_notes(const ComplianceTask& task);
 /// What a gear's own fit is made from: the coarse task, with a face of at most widest_own_fit.
 InfluenceTableTask task_of_fit(InfluenceTableTask coarse);
 
-/// Does something with one gear and says what it refuses under the gear's own names.
+/// Runs `action` on one gear; errors name the gear's own keys.
 template <typename Work>
 auto with_gear_names(ComplianceModel model, Member member, Work&& work) {
   try {

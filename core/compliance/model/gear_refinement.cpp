@@ -7,7 +7,7 @@ namespace flankwright {
 
 namespace {
 
-/// On places between those fitted, on all teeth that the fine run knows.
+/// At stations between those fitted, on all teeth of the fine run.
 std::vector<ResidualStatistics> unseen_residuals(const RefinedCompliance& model, const InfluenceTable& fine,
                                                  const InfluenceSample& unseen) {
   InfluenceSample sample{unseen.gear, {}, {}};

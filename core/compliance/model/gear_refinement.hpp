@@ -14,15 +14,15 @@ struct GearRefinement {
   std::shared_ptr<const RefinedCompliance> compliance;
   /// Why the library of fits does not do, RefinementLibrary::unknown(); empty where the kernels are the library's.
   std::string unknown;
-  /// Of the gear's own fit, if it has one: the fit and, of the compliance that comes out, the residuals against the fine
-  /// run on places that it has not seen, by teeth apart.
+  /// The gear's own fit, if it has one, and the residuals of the resulting compliance against the fine run, at stations
+  /// that it has not seen, by teeth apart.
   RefinementEntry fit;
   std::vector<ResidualStatistics> residuals;
   bool from_cache{false};
   std::string file;           ///< where the fit is kept; empty: nowhere
   double seconds{not_given};  ///< wall time in this build
 
-  /// Another coarse compliance of the same gear, completed by the same kernels: they are the tooth's, whatever it stands on.
+  /// Another coarse compliance of the same gear with the same kernels: they belong to the tooth, whatever its body.
   std::shared_ptr<const RefinedCompliance> completed(std::shared_ptr<const FlankCompliance> coarse) const {
     return std::make_shared<const RefinedCompliance>(std::move(coarse), compliance->gear(), compliance->coefficients());
   }

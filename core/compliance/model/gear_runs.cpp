@@ -14,7 +14,7 @@ namespace {
 enum class Purpose {
   Gear,       ///< its influence values
   Fine,       ///< what its own fit shall meet
-  RigidBody,  ///< the same, nothing giving way below its teeth
+  RigidBody,  ///< the same with a rigid body below its teeth
   FitCoarse,  ///< what that is fitted beside, where the gear's own run is of a wider face
 };
 

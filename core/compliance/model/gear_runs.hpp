@@ -19,7 +19,7 @@ struct ComplianceBuild {
   double memory_limit{std::numeric_limits<double>::infinity()};  ///< that all runs at one time may take [bytes], > 0
   ForEachIndex for_each{};  ///< over finite-element runs; empty: one after the other
   int abreast{1};           ///< runs that `for_each` has at one time, at most, >= 1
-  ProgressReport progress{};  ///< called by one thread at a time; empty: nobody is told
+  ProgressReport progress{};  ///< called by one thread at a time; may be empty
 };
 
 /// Influence values of one gear and where they came from.

@@ -7,7 +7,7 @@ namespace flankwright {
 
 namespace {
 
-/// Gauss' four points on -1 .. 1 and the shares of the interval that they stand for.
+/// Gauss' four points on -1 .. 1 and their weights as fractions of the interval.
 constexpr std::array<double, 4> gauss_node{-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526};
 constexpr std::array<double, 4> gauss_share{0.1739274225687269, 0.3260725774312731, 0.3260725774312731, 0.1739274225687269};
 

@@ -15,7 +15,7 @@ class PairCompliance {
  public:
   virtual ~PairCompliance() = default;
 
-  /// K between the contact points of one mesh position, n x n [mm/N]: how far both gears' structures give way at p,
+  /// K between the contact points of one mesh position, n x n [mm/N]: the deflection of both gears' structures at p,
   /// normal to the flank, per unit force at q. Symmetric to the last bit, positive semi-definite to round-off.
   /// @param axial_offset  of the wheel [mm]
   /// @throws InvalidInput where the model does not know a point
@@ -24,7 +24,7 @@ class PairCompliance {
   /// Whether influence_on_rigid_bodies() may be called: finite elements with rigid bodies take a run of their own.
   virtual bool knows_rigid_bodies() const { return true; }
 
-  /// The same where the gears' bodies are rigid. A model that knows of no body gives way as ever. Needs knows_rigid_bodies().
+  /// The same with rigid gear bodies. A model without bodies gives influence(). Needs knows_rigid_bodies().
   /// @throws InvalidInput as influence()
   virtual Eigen::MatrixXd influence_on_rigid_bodies(const std::vector<ContactPoint>& points, double axial_offset) const {
     return influence(points, axial_offset);
@@ -36,7 +36,7 @@ class PairCompliance {
   PairCompliance& operator=(const PairCompliance&) = default;
 };
 
-/// Slices that do not know of each other: a point gives way under its own line load F_i / a_i only, K diagonal.
+/// Independent slices: a point yields only under its own line load F_i / a_i, and K is diagonal.
 class ThinSlicePair final : public PairCompliance {
  public:
   explicit ThinSlicePair(ThinSlice slice) : slice_(std::move(slice)) {}
@@ -73,19 +73,19 @@ class StructuralPair final : public PairCompliance {
   GearStructure pinion_, wheel_;
 };
 
-/// Where a contact point lies on one gear of a pair. The gear is seen as GearToMesh has it, as right-handed and loaded
-/// on its clockwise flanks, by half a turn about an axis across its own, or by a mirror:
+/// The station of a contact point on one gear of a pair. GearToMesh has the gear right-handed and loaded on its
+/// clockwise flanks; half a turn about an axis across its own, or a mirror, leads there:
 ///
-/// - zeta counts from the sharp end of the face. The pinion's outward normal has an axial part of the sign of
-///   -contact_line_sense(), the wheel's of the opposite one, and the sharp end is where that part points away from the
+/// - zeta counts from the acute end of the face. The pinion's outward normal has an axial part of the sign of
+///   -contact_line_sense(), the wheel's of the opposite one, and the acute end is where that part points away from the
 ///   face: z = +b/2 of the pinion and -b/2 of the wheel where the sense is +1.
-/// - Tooth k of the mesh runs k pitches ahead: on the pinion the side that its loaded flank faces, so m = -k; on the
-///   wheel the side that it turns its back on, m = +k.
+/// - Tooth k of the mesh runs k pitches ahead: on the pinion to the side that its loaded flank faces, so m = -k; on the
+///   wheel to the other side, m = +k.
 ///
 /// u is clamped to the flank: a tip edge that touches beyond it, by round-off, counts as on it.
 FlankPlace flank_place(const GearPair& pair, Member member, const ContactPoint& point, double axial_offset);
 
-/// The end of the face on which the sharp end lies: +1 for z = +b/2, -1 for the other; of a spur gear as if its sense were +1.
+/// The acute end of the face: +1 for z = +b/2, -1 for the other; of a spur gear as if its sense were +1.
 int sharp_end(const GearPair& pair, Member member);
 
 /// The same of its tooth alone: where the mesh counts the gear's tooth of pair k.

@@ -9,7 +9,7 @@
 
 namespace flankwright {
 
-/// A place on the fillet of one gear's tooth, below its working flank.
+/// A point on the fillet of one gear's tooth, below its working flank.
 struct RootPlace {
   Member member{Member::Pinion};
   int tooth{0};             ///< of the tooth pair, as ContactPoint::tooth
@@ -18,10 +18,11 @@ struct RootPlace {
   bool tangent{false};      ///< at the 30 deg tangent
 };
 
-/// What forces at the contact points of one mesh position do to the fillets of the teeth in contact.
+/// Influence of forces at the contact points of one mesh position on the fillets of the teeth in contact.
 ///
-/// The influence of n points on P places is a sum of products R W: a table R of the gear, which all positions of the cycle share, and the weights W with
-/// which the table's forces stand for those at the points. It is kept as these factors; P is ten times n, and loads are applied a few times only.
+/// The influence of n points on P fillet points is a sum of products R W: a table R of the gear, shared by all
+/// positions of the cycle, and the weights W that distribute the forces at the points to those of the table. It is kept
+/// as these factors, because P is ten times n and loads are applied only a few times.
 class RootStressInfluence {
  public:
   std::vector<RootPlace> places;
@@ -31,25 +32,25 @@ class RootStressInfluence {
     Eigen::Index begin{0};
     Eigen::MatrixXd weights;  ///< forces of the table x points [-]
   };
-  /// A table for the stress of some places.
+  /// A table for the stress at some points of the fillets.
   struct Response {
     Eigen::Index first_place{0};                    ///< of rows / 3 places
     std::size_t forces{0};                          ///< which of the Forces
-    std::shared_ptr<const Eigen::MatrixXd> table;   ///< (s_tt, s_aa, s_ta) of every place, three rows each, x forces of the table [MPa/N]
+    std::shared_ptr<const Eigen::MatrixXd> table;   ///< (s_tt, s_aa, s_ta) of every point, three rows each, x forces of the table [MPa/N]
   };
   /// @param points  n
   RootStressInfluence(std::vector<RootPlace> of_places, Eigen::Index points, std::vector<Forces> forces, std::vector<Response> responses)
       : places(std::move(of_places)), points_(points), forces_(std::move(forces)), responses_(std::move(responses)) {}
   RootStressInfluence() = default;
 
-  /// (s_tt, s_aa, s_ta) of every place, three rows each, see FilletStress [MPa].
+  /// (s_tt, s_aa, s_ta) of every fillet point, three rows each, see FilletStress [MPa].
   /// @param forces  normal to the flank at every point, n [N]
   Eigen::VectorXd components(const Eigen::VectorXd& forces) const;
   /// The same at several positions: every table is read once for all of them.
   /// @param forces  a list for each of the positions
   static std::vector<Eigen::VectorXd> components(const std::vector<const RootStressInfluence*>& positions, const std::vector<Eigen::VectorXd>& forces);
 
-  /// The three components of one place per unit force at every point, 3 x n [MPa/N].
+  /// The three components at one fillet point per unit force at every contact point, 3 x n [MPa/N].
   Eigen::Matrix3Xd components_of(Eigen::Index place) const;
 
  private:
