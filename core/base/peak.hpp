@@ -17,29 +17,29 @@ struct PeakTolerance {
 /// Outcome of find_peak().
 template <class Sample>
 struct Peak {
-  Sample top;                             ///< the sample at the summit; on a kink the higher of its two sides
-  std::optional<Sample> rising, falling;  ///< nearest samples before and after the summit; none where that side was not looked at
+  Sample top;                             ///< the sample at the maximum; on a kink the higher of its two sides
+  std::optional<Sample> rising, falling;  ///< nearest samples before and after the maximum; none where that side was not sampled
   bool at_end{false};                     ///< the function still rises where its interval ends
   double gain{0.0};                       ///< by how much the last step, too short to take, would rise; 0 on kinks and at ends
 
-  /// Share of the falling side in that mean of both sides' slopes which vanishes: what else the samples carry, weighted alike, is
-  /// what it is at the summit. On a kink these are Lagrange's multipliers, on a smooth summit it is linear interpolation.
-  /// Nothing where a side was not looked at or the top itself is level.
+  /// Weight of the falling side in the mean of both sides' slopes that vanishes. Other values of the samples, weighted
+  /// alike, give those at the maximum: on a kink the weights are Lagrange's multipliers, on a smooth maximum this is
+  /// linear interpolation. Nothing where a side was not sampled or the slope at the top itself is 0.
   std::optional<double> share_of_falling() const {
     if (at_end || !rising || !falling || top.slope() == 0.0) return std::nullopt;
     return rising->slope() / (rising->slope() - falling->slope());
   }
 };
 
-/// Where a continuous function with one summit in [lo, hi] has it, from samples that know their slope.
+/// The maximum of a continuous function that has one in [lo, hi], from samples with slopes.
 ///
-/// Secant steps on the slope while it is smooth; where one of these does not halve the bracket, to where the tangents of both
-/// sides meet, which finds a kink as fast as the secant finds a smooth summit; by bisection where that is not a number. An end
-/// is looked at only when a step points beyond it. `Sample` offers position(), value() and slope().
-/// @param evaluate   Sample at a position, given also the last sample, null at first: whatever it may use that for
-/// @param guess      first position looked at, in [lo, hi]
+/// It takes secant steps on the slope. Where one does not halve the bracket, it steps to where the tangents of both
+/// sides meet, which finds a kink as fast as the secant finds a smooth maximum; where that is not a number it bisects.
+/// An end is sampled only when a step points beyond it. `Sample` offers position(), value() and slope().
+/// @param evaluate   Sample at a position; it is also given the last sample, null at first
+/// @param guess      first position sampled, in [lo, hi]
 /// @param curvature  estimate of -f'' for the first step, > 0
-/// @param rising, falling  samples already known on either side of the summit
+/// @param rising, falling  samples already known on either side of the maximum
 template <class Sample, class Evaluate>
 Peak<Sample> find_peak(const Evaluate& evaluate, double lo, double hi, double guess, double curvature,
                        const PeakTolerance& tolerance, std::optional<Sample> rising = std::nullopt,

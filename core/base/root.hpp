@@ -14,9 +14,9 @@ struct Root {
 
 /// Where a function changes sign in [a, b], given f(a) and f(b) of opposite sign (a zero counts as either).
 ///
-/// Regula falsi with the Illinois weight, safeguarded by bisection whenever the bracket has not halved in two steps, so that it
-/// needs at most three times the steps of bisection, superlinearly few where f is smooth, and also finds the place of a jump
-/// (the slope of a flank with a linear relief has them). Stops when upper - lower <= tolerance.
+/// Regula falsi with the Illinois weight, safeguarded by bisection whenever the bracket has not halved in two steps, so
+/// that it needs at most three times the steps of bisection, superlinearly few where f is smooth, and also locates a
+/// jump (the slope of a flank with a linear relief has them). Stops when upper - lower <= tolerance.
 /// @param tolerance  width of the final bracket, > 0, in units of x
 template <class Function>
 Root bracketed_root(const Function& f, double a, double fa, double b, double fb, double tolerance) {

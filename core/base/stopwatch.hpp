@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// Wall time since it was made [s]; for what results say they took, never for a decision.
+/// Wall time since construction [s]; for the times in results, never for a decision.
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }

@@ -4,8 +4,8 @@
 
 namespace flankwright {
 
-/// Processor time of the calling thread since it was made [s]: what work costs, whatever else the machine does. For what results say
-/// they took, never for a decision.
+/// Processor time of the calling thread since construction [s]: the cost of work, whatever else the machine does. For
+/// the times in results, never for a decision.
 class ThreadStopwatch {
  public:
   double seconds() const { return now() - start_; }

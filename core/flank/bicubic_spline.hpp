@@ -73,12 +73,11 @@ struct SplineFit {
 
 /// The tensor-product B-spline with so many pieces that is nearest to the samples by least squares.
 ///
-/// Its breaks are at the places 1 + k (n - 3)/pieces, k = 1 .. pieces - 1, counted in points from 0 and linear in
-/// between, which keeps the fit unique for every allowed number (there is a point inside the support of each B-spline:
-/// Schoenberg and Whitney). With most_spline_pieces() the breaks are the third to the third last point: the not-a-knot
-/// spline through all samples. With one piece it is a single polynomial. Any bicubic polynomial is reproduced exactly,
-/// by any number of pieces. "TCA of real helical gears" writes a patch as M V M^T/36, which this is where knots are
-/// equidistant.
+/// Its breaks are at 1 + k (n - 3)/pieces, k = 1 .. pieces - 1, counted in points from 0 and linear in between, which
+/// keeps the fit unique for every allowed number (there is a point inside the support of each B-spline: Schoenberg and
+/// Whitney). With most_spline_pieces() the breaks are the third to the third last point: the not-a-knot spline through
+/// all samples. With one piece it is a single polynomial. Any bicubic polynomial is reproduced exactly, by any number
+/// of pieces. "TCA of real helical gears" writes a patch as M V M^T/36, which this is where knots are equidistant.
 ///
 /// Through scattered samples whose steps differ by more than about ten to one along a direction the spline swings far
 /// beyond them; round-off is that of the swing.

@@ -64,7 +64,7 @@ class ConjugateField final : public PredesignedField {
     return -at_fixed_roll(mark.along) + (rho - end) * at_fixed_roll(mark.d_roll);
   }
 
-  /// Whether the flank gives the parabola over the pitch in which its pair leads, at mid face.
+  /// Whether the flank gives the parabola at mid face, over the pitch in which its pair is the leading one.
   bool carries_a_pitch(int pinion_teeth) const {
     const double half = units::pi / pinion_teeth * std::abs(frame_.base_radius / frame_.pinion_turn);
     return lowest_ <= frame_.pitch_roll - half && frame_.pitch_roll + half <= highest_;

@@ -22,7 +22,7 @@ struct MeasuredGrid {
 inline constexpr int most_grid_lines = 500;
 /// |radius| and |z| <= this [mm].
 inline constexpr double largest_grid_length = 1e4;
-/// From one radius or axial position to the next at least this [mm]; closer ones are the same place, measured twice.
+/// Least distance between neighbouring radii or axial positions [mm]; closer ones are the same point, measured twice.
 inline constexpr double smallest_grid_step = 1e-3;
 /// [mm]; beyond a millimetre it is no micro-geometry.
 inline constexpr double largest_grid_deviation = 1.0;
@@ -42,7 +42,7 @@ struct GridCoverage {
 inline constexpr double widest_grid_margin = 0.25;
 
 /// Coverage of a valid grid. Throws InvalidInput, field "grid", where a margin is wider than widest_grid_margin: an
-/// axial position counted from a face end or a diameter in place of a radius would otherwise leave the flank to
+/// axial position counted from a face end, or a diameter instead of a radius, would otherwise leave the flank to
 /// extrapolation.
 GridCoverage check_coverage(const MeasuredGrid& grid, const FlankFrame& frame);
 
@@ -66,9 +66,9 @@ struct GridFit {
 /// it in radius and z; in roll length the derivatives come without a chain rule, and the involute's own length grows
 /// evenly near the base circle.
 ///
-/// D keeps roll length and z of a point while delta_n moves it along its normal. The two places differ by delta_n
-/// tan(beta_b) along the flank, D by that times its slope, which is left out: 0.05 um where 50 um change over 20 mm at
-/// 23 deg.
+/// D keeps roll length and z of a point while delta_n moves it along its normal. The two points differ by delta_n
+/// tan(beta_b) along the flank, and D by that times its slope, which is left out: 0.05 um where 50 um change over 20 mm
+/// at 23 deg.
 ///
 /// @param base_radius       r_b of the gear [mm]
 /// @param base_helix_angle  |beta_b| [rad], below pi/2

@@ -101,8 +101,8 @@ List unit_amount(const List& m, const DescriptorOf<List>& parameter) {
   return unit;
 }
 
-/// Derivative of removal() with respect to one modification parameter [mm/mm; parabolic_te mm rad], exact; one-sided at a relief's
-/// start. What does not depend on the place is worked out once.
+/// Derivative of removal() with respect to one modification parameter [mm/mm; parabolic_te mm rad], exact; one-sided at
+/// a relief's start. The part that does not depend on the point is computed once.
 template <class List>
 class RemovalDerivativeOf {
  public:
@@ -123,7 +123,7 @@ class RemovalDerivative : public RemovalDerivativeOf<Modifications> {
   RemovalDerivative(const Modifications& m, const FlankFrame& frame, ModificationParameter parameter)
       : RemovalDerivativeOf(m, frame, describe(parameter)) {}
 };
-/// The same at one place.
+/// The same at one point.
 inline double removal_derivative(const Modifications& m, const FlankFrame& frame, ModificationParameter parameter, double r, double z) {
   return RemovalDerivative(m, frame, parameter).at(r, z);
 }

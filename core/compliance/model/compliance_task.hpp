@@ -39,7 +39,7 @@ std::vector<std::string> library_notes(const ComplianceTask& task);
 /// What a gear's own fit is made from: the coarse task, with a face of at most widest_own_fit.
 InfluenceTableTask task_of_fit(InfluenceTableTask coarse);
 
-/// Runs `action` on one gear; errors name the gear's own keys.
+/// Runs `work` on one gear; errors name the gear's own keys.
 template <typename Work>
 auto with_gear_names(ComplianceModel model, Member member, Work&& work) {
   try {

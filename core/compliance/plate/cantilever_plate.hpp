@@ -9,21 +9,21 @@
 namespace flankwright {
 
 /// A tooth as a rack-shaped cantilever plate on an elastic foundation, in the spirit of Umezawa (1972) and of Inoue and
-/// Tobe (1981), who added shear and the foundation [Haddad 1991, 1.4.2]; for comparison with models that know more.
+/// Tobe (1981), who added shear and the foundation [Haddad 1991, 1.4.2]; for comparison with more complete models.
 ///
 /// The plate is the tooth's centre surface in its normal section, straightened: as long as the tooth trace, B /
-/// cos(beta), with the thickness of this tooth over its height, from the lowest point of the fillet to the tip. It
-/// stands on Weber and Banaschek's foundation, so that under a load that does not change along the trace every slice
-/// deflects as tooth_compliance() says, less its compression. What the slices lack is that neighbours help: the plate
-/// couples them.
+/// cos(beta), with the thickness of this tooth over its height, from the lowest point of the fillet to the tip. Its
+/// foundation is Weber and Banaschek's, so that under a load that is constant along the trace every slice deflects by
+/// tooth_compliance(), less its compression. Unlike slices, the plate couples neighbouring sections.
 ///
-/// A load on the flank acts where its line meets the centre surface, with its share cos(a) across the plate; beneath
-/// the foot, at the foot. It enters over a piece of the plate as wide as Boussinesq's stress is (same variance) at half
-/// the depth of the centre surface, where finite-element loads have their source.
+/// A load on the flank acts where its line meets the centre surface, with its component cos(a) across the plate;
+/// beneath the foot, at the foot. It enters over a piece of the plate as wide as Boussinesq's stress is (same variance)
+/// at half the depth of the centre surface, where finite-element loads have their source.
 ///
-/// Left out: the share of the load along the plate and its compression; the oblique ends of helical teeth (sharp and
-/// blunt end are alike, places count from either at the same fraction of the face width); the foundation's own coupling
-/// along the trace; other teeth, which do not move, and the gear body. Hence no influence between teeth.
+/// Left out are the load's component along the plate and its compression; the oblique ends of helical teeth (acute and
+/// obtuse end are alike, stations count from either at the same fraction of the face width); the foundation's own
+/// coupling along the trace; other teeth, which do not move, and the gear body. Hence there is no influence between
+/// teeth.
 class CantileverPlate final : public FlankCompliance {
  public:
   /// @param normal_module   m_n [mm], > 0, of the form

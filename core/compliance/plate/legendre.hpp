@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// Values or slopes of the first polynomials of a LegendreBasis at one place.
+/// Values or slopes of the first polynomials of a LegendreBasis at one point.
 struct LegendreValues {
   Eigen::VectorXd value, slope;
 };

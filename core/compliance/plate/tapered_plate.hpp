@@ -10,8 +10,8 @@
 
 namespace flankwright {
 
-/// What the edge of a plate stands on: deflection and rotation of every piece of the edge under the shear force Q and
-/// the moment M that act there per unit length, independent of its neighbours (Winkler), times Young's modulus:
+/// Foundation of a plate's edge: deflection and rotation of every piece of the edge under the shear force Q and the
+/// moment M that act there per unit length, independent of its neighbours (Winkler), times Young's modulus:
 ///
 ///     E w_0 = force Q + cross M,     E phi = cross Q + moment M;     force moment > cross^2.
 struct EdgeCompliance {
@@ -20,8 +20,8 @@ struct EdgeCompliance {
   double moment{0.0};  ///< [1/length^2], > 0
 };
 
-/// A rectangular plate that stands on one long edge, its thickness a function of the height above it alone; any unit
-/// of length, E = 1.
+/// A rectangular plate supported along one long edge. Its thickness is a function of the height above this edge alone;
+/// any unit of length, E = 1.
 struct PlateShape {
   std::function<double(double)> thickness;  ///< s(y) > 0; may leave the lowest height as a square root does
   std::vector<double> heights;              ///< ascending: foot, heights where s(y) is not smooth, top; at least two
@@ -48,9 +48,9 @@ struct PlateLoad {
 ///             + k G s [ (w_x' - a)^2 + (w_y' - b)^2 ] dA  +  1/2 int (w, b) [edge]^-1 (w, b)' dx  -  loads,
 ///     D = s^3 / (12 (1 - nu^2)),     G = 1 / (2 (1 + nu)),
 ///
-/// a and b being the slopes of the normal along x and y. The other three edges are free. As the same functional stands
-/// for load and deflection, K = phi' A^-1 phi is symmetric and positive semi-definite by construction, and grows
-/// towards its limit with the number of polynomials.
+/// a and b being the slopes of the normal along x and y. The other three edges are free. As load and deflection are the
+/// same functional, K = phi' A^-1 phi is symmetric and positive semi-definite by construction, and grows towards its
+/// limit with the number of polynomials.
 class TaperedPlate {
  public:
   /// @param along, up  numbers of polynomials in x and y, >= 2

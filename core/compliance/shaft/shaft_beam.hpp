@@ -6,7 +6,7 @@
 
 namespace flankwright {
 
-/// A length of beam, by what it gives way: rates per mm of length.
+/// A piece of beam by its compliance: rates per mm of length.
 struct BeamPiece {
   double length{0.0};   ///< [mm], > 0
   double bending{0.0};  ///< 1/(E I) [1/(N mm^2)], >= 0

@@ -76,7 +76,7 @@ std::vector<InvalidInput> find_problems(const ShaftData& shaft, double face_widt
   if (!findings.empty()) return findings.take();
   check_bearings(shaft, findings);
   const double length = shaft.length(), half = 0.5 * face_width;
-  const double round_off = 1e-9 * length;  // ends are sums of lengths: a place within it of an end is on the shaft
+  const double round_off = 1e-9 * length;  // ends are sums of lengths: a position within it of an end is on the shaft
   findings.require(shaft.gear_position >= half - round_off && shaft.gear_position <= length - half + round_off,
                    "gear_position", shaft.gear_position,
                    "one that has the whole face on the shaft, " + std::to_string(half) + " .. " + std::to_string(length - half) + " mm");

@@ -15,7 +15,7 @@ struct ShaftSection {
   double inner_diameter{0.0};        ///< [mm], 0 .. below outer_diameter
 };
 
-/// What a bearing holds, at one place of the axis. Infinite is rigid.
+/// The stiffness of a bearing at one position of the axis. Infinite is rigid.
 struct ShaftBearing {
   double position{not_given};                                       ///< from the shaft's first end [mm]
   double radial_stiffness{std::numeric_limits<double>::infinity()}; ///< in every direction across the axis [N/mm], > 0

@@ -12,9 +12,9 @@ namespace flankwright {
 enum class GearBodyIn {
   /// The model knows teeth only (thin slices): forces and moments act on the shaft where the tooth is loaded.
   Shaft,
-  /// The model has the gear's body and takes off, of the shaft's motion, the translation of the section of the load, the tilt
-  /// at mid face and the rotation at the face end where the torque leaves [NetFunctionals]. Just these act on the shaft,
-  /// there: the gear's wind-up and the tilt of its sections against mid face stay the model's.
+  /// The model has the gear's body and removes, of the shaft's motion, the translation of the section of the load, the
+  /// tilt at mid face and the rotation at the face end where the torque leaves [NetFunctionals]. Just these act on the
+  /// shaft, there: the gear's torsion and the tilt of its sections against mid face remain the model's.
   Structure,
 };
 

@@ -8,7 +8,7 @@
 namespace flankwright {
 namespace {
 
-constexpr double kSteelModulus = 206000;  // the modulus that ISO 6336-1's figures stand for [MPa]
+constexpr double kSteelModulus = 206000;  // the modulus that ISO 6336-1's values hold for [MPa]
 
 /// C_B of one rack.
 double rack_factor(const RackProfile& rack, double pressure_angle) {

@@ -9,14 +9,14 @@
 
 namespace flankwright {
 
-/// How the thin-slice compliance stands to ISO 6336-1.
+/// How the thin-slice compliance compares with ISO 6336-1.
 enum class ThinSliceStatus {
   Calibrated,       ///< calibration() > 0 makes the single-pair stiffness ISO's
   HertzExceedsIso,  ///< the Hertzian part alone exceeds ISO's flexibility: used as computed, calibration() = 1
 };
 
-/// Structural compliance of a pair of teeth without coupling along the face: every mm of contact line is a slice of its
-/// own,
+/// Structural compliance of a pair of teeth without coupling along the face: every mm of contact line is an independent
+/// slice,
 ///
 ///     q(r_1, r_2) = kappa (Q_1(r_1)/E_1 + Q_2(r_2)/E_2),
 ///

@@ -5,15 +5,15 @@
 
 namespace flankwright {
 
-/// One gear's teeth as thin slices that do not know of each other, in terms of point loads, for comparison with models
-/// that couple along the face. Slices deflect under line loads, and a point load has none; so load and deflection are
-/// both means over `spread` of the contact line around their points: with Q E the deflection per line load
-/// (tooth_compliance()) and d the distance of the points along the tooth trace, in modules,
+/// One gear's teeth as independent thin slices, in terms of point loads, for comparison with models that couple along
+/// the face. Slices deflect under line loads, and a point load has none; so load and deflection are both means over
+/// `spread` of the contact line around their points: with Q E the deflection per line load (tooth_compliance()) and d
+/// the distance of the points along the tooth trace, in modules,
 ///
 ///     E m_n K(p, q) = calibration sqrt(Q_p Q_q) / spread  max(0, 1 - |d|/spread);
 ///
-/// under its own load a slice gives way by Q/spread, beyond the spread nothing moves. Symmetric and positive
-/// semi-definite. Two heights of one slice, which a contact line never meets at once, share the root mean of both.
+/// under its own load a slice yields by Q/spread, beyond the spread nothing moves. Symmetric and positive
+/// semi-definite. Two heights of one slice, which a contact line never meets at once, have the geometric mean of both.
 class ThinSliceTooth final : public FlankCompliance {
  public:
   static constexpr double kSpread = 1.0;  ///< [m_n]

@@ -13,7 +13,7 @@ struct ToothCompliance {
   double bending{not_given};
   double shear{not_given};
   double compression{not_given};
-  double foundation{not_given};  ///< of the rim material that the tooth stands on
+  double foundation{not_given};  ///< of the rim material below the tooth
   double total() const { return bending + shear + compression + foundation; }
 };
 
@@ -54,8 +54,8 @@ ToothCompliance slice_compliance(const std::vector<SlicePiece>& pieces, double l
 /// The same for the exact tooth form, loaded at a radius. The slice is taken in the normal section: the transverse form
 /// with its thickness times cos(beta) and tan a = cos(beta) tan a_t; y_p is where the load's line meets the centre
 /// line, so that the deflection is the centre line's and what lies between it and the flank belongs to the contact law.
-/// The tooth stands on the rim at the lowest points of its fillets, heights and thickness taken there. Neighbouring
-/// slices do not help (no convection), and the rim is massive.
+/// The tooth is clamped in the rim at the lowest points of its fillets; heights and thickness are taken there.
+/// Neighbouring slices do not help (no convection), and the rim is massive.
 ///
 /// Grows with the radius; at the very foot of the involute (its lowest tenth) of an undercut or coarse tooth it may
 /// fall by up to 8 % first. Not part of it: Hertzian flattening, gear-body and shaft deflection.

@@ -5,11 +5,11 @@
 
 namespace flankwright {
 
-/// A place on a flank of one gear, in coordinates that mean the same on every gear.
+/// A point on a flank of one gear, in coordinates that mean the same on every gear.
 struct FlankPlace {
   int tooth{0};      ///< m, counted counter-clockwise as in GearToMesh; only differences matter
   double u{0.0};     ///< 2 (r - r_j)/(r_a - r_j) - 1 [-]: -1 where the involute starts, +1 at the tip
-  double zeta{0.0};  ///< z/m_n [-] from the sharp end of the face, 0 .. B
+  double zeta{0.0};  ///< z/m_n [-] from the acute end of the face, 0 .. B
 
   bool operator==(const FlankPlace&) const = default;
 };

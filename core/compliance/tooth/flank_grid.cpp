@@ -10,7 +10,7 @@
 namespace flankwright {
 namespace {
 
-constexpr double kRoundOff = 1e-9;  // of places that were computed from radii and axial positions
+constexpr double kRoundOff = 1e-9;  // of stations that were computed from radii and axial positions
 
 double within(const char* field, double value, double low, double high) {
   if (!(value >= low - kRoundOff && value <= high + kRoundOff)) {

@@ -30,8 +30,8 @@ class SplineAxis {
   Eigen::MatrixXd curvatures_;  ///< s'' at the nodes = curvatures_ f
 };
 
-/// A tensor grid of places on one tooth's flank, and interpolation between them by cubic splines along u and zeta:
-/// f(p) = weights(p) . f for a table f of values at the places.
+/// A tensor grid of stations on one tooth's flank, and interpolation between them by cubic splines along u and zeta:
+/// f(p) = weights(p) . f for a table f of values at the stations.
 class FlankGrid {
  public:
   /// @param us     -1 .. 1, both ends included, strictly increasing, at least 4
@@ -44,13 +44,13 @@ class FlankGrid {
   const std::vector<double>& zetas() const { return zeta_.nodes(); }
   double face_width() const { return zeta_.nodes().back(); }  ///< B [m_n]
 
-  /// The places on a tooth in the order of tables: zeta runs fastest.
+  /// The stations on a tooth in the order of tables: zeta runs fastest.
   std::vector<FlankPlace> places(int tooth = 0) const;
 
   /// @throws InvalidInput  "place.u" or "place.zeta" off the flank, by more than round-off (1e-9)
   void require_on_flank(const FlankPlace& place) const;
 
-  /// Of a table's values in the one at (u, zeta), size(); the tooth does not matter.
+  /// Weights of a table's values in the value at (u, zeta), size(); the tooth does not matter.
   /// @throws InvalidInput  "place.u" or "place.zeta" off the flank, by more than round-off (1e-9)
   Eigen::VectorXd weights(const FlankPlace& place) const;
 
@@ -58,20 +58,22 @@ class FlankGrid {
   SplineAxis u_, zeta_;
 };
 
-/// Steps between axial places: h(d) = min(first + growth d, largest) modules at the distance d from the nearer face end.
+/// Steps between axial stations: h(d) = min(first + growth d, largest) modules at the distance d from the nearer face
+/// end.
 struct AxialSteps {
   double first{0.1}, growth{0.3}, largest{0.6};
 };
 
-/// Axial places from 0 to B with such steps, or a little smaller ones, symmetric, at least four.
+/// Axial stations from 0 to B with such steps, or a little smaller ones, symmetric, at least four.
 /// @param face_width  B = b/m_n [-], finite and > 0
 /// @throws InvalidInput  "face_width"
 std::vector<double> axial_places(double face_width, const AxialSteps& steps = {});
 
 /// A grid for influence values and stresses of a gear: radii equally far apart, and the axial_places() of the default
-/// steps, in proportion to the distance over which values change. There are about 8 + 1.7 B axial positions for B >= 4, eleven for B = 2. The influence of a load on what lies
-/// near it changes over the depth of the tooth's centre below it, at the tip less than half a module: steps of 0.85
-/// modules at mid face left six times the error on 95 % of the influence values, two more radii took off a tenth.
+/// steps, in proportion to the distance over which values change. There are about 8 + 1.7 B axial positions for B >= 4,
+/// eleven for B = 2. Near a load its influence changes over the depth of the tooth's centre below it, at the tip less
+/// than half a module: steps of 0.85 modules at mid face left six times the error on 95 % of the influence values, two
+/// more radii took off a tenth.
 ///
 /// @param face_width  B = b/m_n [-], finite and > 0
 /// @param radii       >= 4

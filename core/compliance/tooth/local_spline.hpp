@@ -6,8 +6,8 @@
 
 namespace flankwright {
 
-/// The spline of SplineAxis by its B-splines: s(x) = sum over i of B_i(x) c_i, of which four are not 0 anywhere, with
-/// c = coefficients() f for values f at the nodes. For evaluating one table at many places.
+/// The spline of SplineAxis by its B-splines: s(x) = sum over i of B_i(x) c_i, of which four are not 0 anywhere, with c
+/// = coefficients() f for values f at the nodes. For evaluating one table at many stations.
 class LocalSpline {
  public:
   struct Weights {

@@ -5,7 +5,7 @@
 
 namespace flankwright {
 
-/// Radius of a place, r_Ff + (u + 1)/2 (r_a - r_Ff), within form_radius() .. tip_radius() [mm]; -1 <= u <= 1.
+/// Radius of a station, r_Ff + (u + 1)/2 (r_a - r_Ff), within form_radius() .. tip_radius() [mm]; -1 <= u <= 1.
 double flank_radius(const ToothForm& form, double u);
 
 /// @param relative_face  B = b/m_n [-]

@@ -8,7 +8,7 @@
 
 namespace flankwright {
 
-/// Two flanks placed against each other with misalignment: what unloaded contact analysis looks at.
+/// Two flanks assembled with misalignment: the input of unloaded contact analysis.
 ///
 /// Housing frame W: origin at the pinion's mid face, x along the line of centres to the wheel, z along the pinion's axis,
 /// y = z x x. The pinion turns by phi1 about +z, the wheel by phi2 the other way round. A left working flank is analysed as

@@ -4,9 +4,9 @@
 
 namespace flankwright {
 
-/// How the wheel really stands to the pinion. Axes: x from pinion to wheel along the line of centres, z along the
-/// pinion axis, y = z x x; the pinion drives in +y. All rotations are of the wheel, right-handed, about its mid-face
-/// centre. Zero everywhere is the aligned pair.
+/// The position of the wheel relative to the pinion. Axes: x from pinion to wheel along the line of centres, z along
+/// the pinion axis, y = z x x; the pinion drives in +y. All rotations are of the wheel, right-handed, about its
+/// mid-face centre. Zero everywhere is the aligned pair.
 struct Misalignment {
   double crossing{0.0};              ///< about x [rad]: Litvin's delta gamma, f_Sigma_beta; + closes the mesh at +z
   double intersecting{0.0};          ///< about y [rad]: f_Sigma_delta; + opens the mesh at +z

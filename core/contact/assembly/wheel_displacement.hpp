@@ -15,7 +15,7 @@ namespace flankwright {
 class WheelDisplacement {
  public:
   WheelDisplacement(const GearPair& pair, const Misalignment& m) : WheelDisplacement(pair, m, m.axial_offset) {}
-  /// @param axial_offset  where the wheel's mid face stands, the centre of its rotations [mm]
+  /// @param axial_offset  of the wheel's mid face, the centre of its rotations [mm]
   WheelDisplacement(const GearPair& pair, const Misalignment& m, double axial_offset)
       : pair_(pair), path_(pair), misalignment_(m), centre_(axial_offset), alpha_(pair.working_transverse_pressure_angle) {
     const double mirror = pair.data.working_flank == WorkingFlank::Right ? 1.0 : -1.0;

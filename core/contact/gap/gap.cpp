@@ -26,7 +26,7 @@ Flank flank_in_plane_of_action(const GearPair& pair, Member m, const FlankCondit
   return flank;
 }
 
-/// Angle by which the changed pinion flank leads the nominal one at a point [rad].
+/// Angle by which the changed pinion flank is ahead of the nominal one at a point [rad].
 double pinion_lead(const Flank& changed, const Flank& nominal, const ContactPoint& point) {
   const auto polar = [&](const Flank& flank) {
     const double cosine = std::min(1.0, flank.base_radius / point.pinion_radius);

@@ -33,7 +33,7 @@ const char* to_string(GapModel model);
 /// Where flanks are nearest in one section, and how their gap there follows what is removed from either of them.
 struct NearestPlace {
   double pinion_radius{not_given}, wheel_radius{not_given};  ///< [mm]
-  /// A place with its share of the derivative: one, or on a kink of a flank one on either side of it.
+  /// A point with its weight in the derivative: one, or on a kink of a flank one on either side of it.
   struct Side {
     double pinion_radius{not_given}, pinion_z{not_given};  ///< of the involute's point, what D is a function of [mm]
     double wheel_radius{not_given}, wheel_z{not_given};

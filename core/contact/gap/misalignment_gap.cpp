@@ -10,8 +10,8 @@ namespace flankwright {
 
 namespace {
 
-/// d/dp of the angle by which the erroneous pinion's flank leads the nominal one [1], chain rule over TM-107451, A.2.1-A.2.8,
-/// with beta = helix angle - delta lambda and alpha_n = pressure angle + delta alpha:
+/// d/dp of the angle by which the erroneous pinion's flank is ahead of the nominal one [1], chain rule over TM-107451,
+/// A.2.1-A.2.8, with beta = helix angle - delta lambda and alpha_n = pressure angle + delta alpha:
 ///
 ///     lead = inv(alpha_t) + s tan(beta)/r_p z - inv(acos(r_b/r)) + const,   r_p = m_n N1/(2 cos beta),
 ///     tan(alpha_t) = tan(alpha_n)/cos(beta),   r_b = r_p cos(alpha_t);      d inv(a) = tan^2(a) da

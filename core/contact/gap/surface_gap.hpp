@@ -32,19 +32,21 @@ class SurfaceGap {
   /// @throws InvalidInput where the misalignment or a modification leaves no usable flank
   SurfaceGap(const GearPair& pair, const FlankCondition& condition);
 
-  /// Gap at the sections of these points; their places along the profile do not matter, but where a section misses the mate altogether
-  /// (its edges pass each other): there it is the gap at the point's own place.
+  /// Gap at the sections of these points. Their positions along the profile matter only where a section misses the mate
+  /// altogether (its edges pass each other): there it is the gap at the point itself.
   /// @param line_phase  of tooth pair 0, as the points were made for
   Gap at(const std::vector<ContactPoint>& points, double line_phase) const;
 
-  /// dg/dp at each point for one modification parameter of one gear [mm/mm; parabolic_te mm rad], exact: the derivative at the
-  /// fixed place at which the flanks are nearest, as that place is a maximum; on the wheel's tip or form circle with the share of
-  /// that bound, on a kink the mean of both sides that holds the maximum. Where two places are equally near, of the one found.
+  /// dg/dp at each point for one modification parameter of one gear [mm/mm; parabolic_te mm rad], exact: the derivative
+  /// at the fixed point at which the flanks are nearest, as that point is a maximum; on the wheel's tip or form circle
+  /// with the contribution of that bound, on a kink the mean of both sides that holds the maximum. Of two equally near
+  /// points it is that of the one found.
   /// @param gap  as at() gave it
   Eigen::VectorXd derivative(const Gap& gap, Member member, ModificationParameter parameter) const;
 
-  /// The points, each moved along its section to where the flanks are nearest, radii, curvature, depths and tip distances with
-  /// it; without those whose section misses the mate. Clearances outside A .. E become those of the aligned pair sought likewise.
+  /// The points, each moved along its section to where the flanks are nearest, radii, curvature, depths and tip
+  /// distances with it; without those whose section misses the mate. Clearances outside A .. E become those of the
+  /// aligned pair, found likewise.
   std::vector<ContactPoint> place(const std::vector<ContactPoint>& points, double line_phase) const;
 
  private:

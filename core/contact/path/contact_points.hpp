@@ -45,7 +45,7 @@ struct ContactPoint {
   int tooth{0};            ///< tooth pair, k pitches ahead of the reference pair 0
   double z{0.0};           ///< axial position, 0 at mid face
   double phase{0.0};       ///< [base pitches] from A0
-  double weight{0.0};      ///< length of contact line it stands for, > 0: sum(weight * line load) is the normal force
+  double weight{0.0};      ///< length of contact line that belongs to it, > 0: sum(weight * line load) is the normal force
   double pinion_radius{not_given}, wheel_radius{not_given};
   double relative_radius{not_given};  ///< rho_1 rho_2 / (rho_1 + rho_2) / cos(beta_b), normal section [Haddad 1991, eq. 2.15]
   double pinion_depth{not_given}, wheel_depth{not_given};  ///< h = (s_yt/2) cos(beta_b) / cos(alpha_yt), flank to tooth centre
@@ -56,7 +56,7 @@ struct ContactPoint {
 
 /// Fills radii, curvature, depths and tip distances of a point from its roll lengths on both gears [mm], both > 0.
 void set_rolls(const GearPair& pair, double pinion_roll, double wheel_roll, ContactPoint& point);
-/// The place of one line at an axial position, without a weight; nothing where no contact can be.
+/// The point of one line at an axial position, without a weight; nothing where no contact can be.
 /// @param line_phase, with_extended_region  as in contact_points()
 std::optional<ContactPoint> contact_point(const GearPair& pair, const PathOfContact& path, double line_phase, int tooth, double z,
                                           bool with_extended_region);

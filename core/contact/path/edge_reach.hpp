@@ -13,10 +13,11 @@ struct EdgeReach {
   double beyond{0.0};  ///< the wheel's, beyond the path's end E
 };
 
-/// Where the mate's tip reaches below a form circle (Gear::fillet_interference) the path of contact begins not where the flank enters the
-/// mate's tip circle but later, at the form circle on the line of action. All the while the flank's lower end, an edge there, runs along
-/// the mate's flank, close to it: near the base circle the edge follows the mate's involute. From the triangle of both centres and the
-/// place where the form circle crosses the mate's tip circle,
+/// Where the mate's tip reaches below a form circle (Gear::fillet_interference) the path of contact begins not where
+/// the flank enters the mate's tip circle but later, at the form circle on the line of action. All the while the
+/// flank's lower end, an edge there, runs along the mate's flank, close to it: near the base circle the edge follows
+/// the mate's involute. From the triangle of both centres and the point where the form circle crosses the mate's tip
+/// circle,
 ///
 ///     cos psi = (r_F1^2 + a^2 - r_a2^2) / (2 a r_F1),     reach = r_b1 (psi + alpha_t1(r_F1) - alpha_wt) / p_bt
 ///

@@ -16,7 +16,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double angle_tolerance = 1e-7;  // rad of phi1: a minimum's value then errs by 1e-14 of its curvature
 
-/// Transmission error of the mesh over the pitch analysed, linear between positions and hand-overs.
+/// Transmission error of the mesh over the pitch analysed, linear between positions and transfer points.
 class Envelope {
  public:
   Envelope(const MeshScene& scene, const UnloadedMesh& mesh) {
@@ -185,7 +185,7 @@ std::vector<double> equally_spaced(double from, double to, int count) {
 }  // namespace
 
 double BearingPattern::covered(double thickness) const {
-  // Arc length of an involute per radius is r/r_b: the common factor drops out.
+  // Arc length of an involute per radius is r/r_b: the common factor cancels.
   double all = 0.0, marked = 0.0;
   for (Eigen::Index i = 0; i + 1 < separation.rows(); ++i) {
     const double height = radius[i + 1] * radius[i + 1] - radius[i] * radius[i];

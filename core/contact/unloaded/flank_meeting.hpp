@@ -40,9 +40,9 @@ class FlankMeeting {
   /// @param scene  must outlive this
   FlankMeeting(const MeshScene& scene, int tooth, double phi1);
 
-  /// Valid between the wheel's base and tip cylinders. Beyond, at r < r_b lowest_start or r > r_a, the nearer of these two radii
-  /// takes the place of the point's, which keeps the gradient finite and its sign where no flank is.
-  /// @param near  a meeting to guess the wheel's deviation from; decides how fast, and not what, is found
+  /// Valid between the wheel's base and tip cylinders. Beyond, at r < r_b lowest_start or r > r_a, the nearer of these
+  /// two radii replaces the point's, which keeps the gradient finite and its sign where no flank is.
+  /// @param near  a contact nearby to guess the wheel's deviation from; affects the speed, not the result
   Meeting at(double rho, double z, const Meeting* near = nullptr) const;
 
   double phi2(const Meeting& meeting) const;                     ///< [rad]

@@ -110,7 +110,7 @@ void MeshEnvelope::follow(const MeshState& from, const MeshState& to, std::vecto
   follow_pair(enters, to.leading(), smallest, largest);
 }
 
-/// Where the pair that leads `to` overtakes the one that leads `from`, by lead_tolerance.
+/// The angle at which the leading pair of `to` overtakes that of `from`, by lead_tolerance.
 double MeshEnvelope::hand_over(const MeshState& from, const MeshState& to) const {
   const int before = from.leading().tooth, after = to.leading().tooth;
   const auto ahead = [&](const ToothContact* entering, const ToothContact* leaving) {
@@ -127,8 +127,8 @@ double MeshEnvelope::hand_over(const MeshState& from, const MeshState& to) const
   return bracketed_root(at_angle, from.phi1, start, to.phi1, end, hand_over_tolerance).upper;
 }
 
-/// Angle at which another pair may overtake the one that leads at both ends and fall back again; NaN where none does. Its lead,
-/// concave near its crest, stays below where the tangents at both ends meet.
+/// Angle at which another pair may overtake the one that is leading at both ends and fall back again; NaN where none
+/// does. Its advance, concave near its crest, stays below the point where the tangents at both ends meet.
 double MeshEnvelope::hidden_lead(const MeshState& from, const MeshState& to) const {
   const ToothContact &first = from.leading(), &last = to.leading();
   for (const ToothContact& c : from.contacts) {
@@ -141,7 +141,7 @@ double MeshEnvelope::hidden_lead(const MeshState& from, const MeshState& to) con
     const double width = to.phi1 - from.phi1;
     const double meet = (last_lead - lead - fall * width) / (rise - fall);
     if (lead + rise * meet <= lead_tolerance) continue;
-    // The crest of the lead itself decides.
+    // The crest of the advance itself decides.
     const auto lead_slope = [&](double phi1) {
       return contact(c.tooth, phi1).slope - contact(first.tooth, phi1).slope;
     };

@@ -8,7 +8,7 @@
 
 namespace flankwright {
 
-/// All pairs that may touch at one pinion angle, and which of them leads.
+/// All pairs that may touch at one pinion angle, and the leading one.
 struct MeshState {
   double phi1{not_given};
   std::vector<ToothContact> contacts;  ///< those that exist, in order of tooth
@@ -22,10 +22,10 @@ struct MeshState {
 
 /// The envelope of all tooth pairs as a function of the pinion angle: states of the mesh, and what happens between two of them.
 ///
-/// Only pairs within a quarter of a pitch of the extended path of contact are in mesh; others count as if they were not there, for the
-/// envelope and the hand-overs alike. A pair beyond that is 0.6 base pitches or more outside the path, or outside what edges reach, along every part
-/// of the face, where flanks have parted by about a tenth of the module, while another pair is inside it at the same place along the
-/// face: the contact ratio is above 1.
+/// Only pairs within a quarter of a pitch of the extended path of contact are in mesh; others are ignored, for the
+/// envelope and the transfer points alike. A pair beyond that is 0.6 base pitches or more outside the path, or outside
+/// the reach of edges, along every part of the face, where flanks have parted by about a tenth of the module, while
+/// another pair is inside it at the same position along the face: the contact ratio is above 1.
 class MeshEnvelope {
  public:
   static constexpr double lead_tolerance = 1e-12;  ///< rad, see analyse_unloaded_mesh()
@@ -35,15 +35,15 @@ class MeshEnvelope {
   /// Whether pair `tooth` is, with the pinion at phi1, on the extended path of contact.
   bool on_path(int tooth, double phi1) const { return is_within(tooth, phi1, 0.0); }
 
-  /// @param preferred  tooth that keeps the lead unless another is ahead of it by more than lead_tolerance
+  /// @param preferred  tooth that stays the leading one unless another is ahead of it by more than lead_tolerance
   MeshState at(double phi1, int preferred) const;
 
-  /// Of pairs that lead together in a state, within lead_tolerance, gives the lead to the one that leads another `step` [rad] on:
-  /// so the ends of a pitch agree on which of them a hand-over that falls on both belongs to, the upper one.
+  /// Where pairs are ahead together, within lead_tolerance, the leading one is that which leads another `step` [rad]
+  /// on. So a transfer point that falls on both ends of a pitch belongs to the upper end.
   void look_ahead(MeshState& state, double step) const;
 
-  /// What happens between two states, `from` before `to`: appends hand-overs to `transfers`, in order, and widens
-  /// smallest .. largest by the crests and troughs of the leading pair.
+  /// Evaluates the range between two states, `from` before `to`: appends transfer points to `transfers`, in order, and
+  /// widens smallest .. largest by the crests and troughs of the leading pair.
   void follow(const MeshState& from, const MeshState& to, std::vector<Transfer>& transfers, double& smallest,
               double& largest) const;
 

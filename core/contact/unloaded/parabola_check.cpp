@@ -14,13 +14,13 @@ namespace {
 constexpr double coefficient_tolerance = 0.10;  // of the wanted a
 constexpr double residual_tolerance = 0.05;     // of a (pi/N1)^2
 
-/// A position or hand-over of the mesh as the tooth that leads there sees it.
+/// A position or transfer point of the mesh in the angle of the leading tooth.
 struct ArcPoint {
   double angle;  ///< phi1 of its own passage: 0 where its undisturbed flank passes the pitch point [rad]
   double error;  ///< delta_phi2 [rad]
 };
 
-/// One pitch of the mesh by the teeth that lead in it; at least one hand-over.
+/// One pitch of the mesh by its leading teeth; at least one transfer point.
 struct Lead {
   std::vector<ArcPoint> positions, hand_overs;
   std::vector<Transfer> transfers;
@@ -63,7 +63,7 @@ std::string text(const char* format, double value) {
   return buffer;
 }
 
-/// Share of the pitch over which the leading pair touches in one of these ways [%].
+/// Percentage of the pitch over which the leading pair touches in one of these ways [%].
 double share_of_pitch(const Lead& lead, std::initializer_list<ContactKind> kinds) {
   int count = 0;
   for (const ContactKind kind : kinds) {
@@ -77,7 +77,7 @@ double on_face_end(const Lead& lead) {
   return share_of_pitch(lead, {ContactKind::FaceEnd, ContactKind::Corner});
 }
 
-/// What pulled the arc off its parabola, as far as the kinds of contact tell.
+/// The cause of the departure from the parabola, as far as the kinds of contact show it.
 std::string cause(const Lead& lead) {
   const double ends = on_face_end(lead);
   const double tips = share_of_pitch(

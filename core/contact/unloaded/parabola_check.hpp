@@ -14,28 +14,28 @@ namespace flankwright {
 /// Crossing by g_c and intersecting by g_i close the mesh by g (z/cos^2(beta_b) + S tan(beta_b) r_b1 phi1) along the
 /// base tangent, g = g_c cos(alpha_wt) - g_i sin(alpha_wt), S the sense of the contact lines (a lead-angle error acts
 /// as the crossing it equals). A lead crowning C, a parabola over the face width b, balances the first term at the same
-/// place of the face at every phi1,
+/// position along the face at every phi1,
 ///
 ///     z = g b^2/(8 C cos^2(beta_b)),
 ///
 /// and what is left is a straight line of the slope m = S g tan(beta_b) N1/N2. A straight line plus -a phi1^2 is the
 /// same parabola with its vertex at m/(2 a). It holds while contact stays on both flanks over the pitch in which a pair
-/// leads:
+/// is the leading one:
 ///
 ///     |z| < b/2,   and   |m/(2 a) - phi1 of the middle of the path of contact at that z| < (eps_alpha - 1)/2 pitch.
 ///
 /// Without crowning, C = 0 sends z to the face end at once. Beyond the second limit contact runs out onto a tip edge
-/// before the next pair takes over. Spur gears have m = 0: crossing moves the contact along the face and leaves the
-/// parabola where it is. The coefficient that comes out is a K/(K + 2 a), with K = (rho_1^2/r_b2) (1/rho_1 + 1/rho_2)
-/// at the point of contact ((rho_2 N1/N2)^2 for rho_1^2 where the wheel is modified): contact slides along the profile
-/// to where less is removed.
+/// before the next pair takes over. Spur gears have m = 0: crossing moves the contact along the face and does not shift
+/// the parabola. The coefficient that comes out is a K/(K + 2 a), with K = (rho_1^2/r_b2) (1/rho_1 + 1/rho_2) at the
+/// point of contact ((rho_2 N1/N2)^2 for rho_1^2 where the wheel is modified): contact slides along the profile to
+/// where less is removed.
 struct ParabolaCheck {
   double wanted{not_given};    ///< a asked for [1/rad]
   double found{not_given};     ///< a of the best parabola of the carrying pair's arc [1/rad]
   double shift{not_given};     ///< of its vertex from the middle of the mesh, phi1 = 0 of its own tooth [rad of pinion]
   double residual{not_given};  ///< largest distance of the arc from that parabola [rad, wheel]
-  /// At every hand-over the pair that leaves lags ever more (slope <= 0) and the one that enters catches up (slope >=
-  /// 0): no impact.
+  /// At every transfer point the leaving pair falls behind (slope <= 0) and the entering one catches up (slope >= 0):
+  /// no impact.
   bool right_sign{false};
   /// right_sign, and a found within 10 % of the wanted one, and residual within 5 % of a (pi/N1)^2, and the leading
   /// pair nowhere on a face end.
@@ -43,10 +43,10 @@ struct ParabolaCheck {
   std::string why;  ///< one line where it does not hold; empty where it does
 };
 
-/// The best parabola, by least squares, through the positions of the mesh, each at the pinion angle of the tooth that
-/// leads there, so that one pitch of the mesh becomes one tooth's arc from hand-over to hand-over; the residual counts
-/// the hand-overs too.
-/// @param mesh    of the same scene, at least four positions
+/// The best parabola, by least squares, through the positions of the mesh, each at the pinion angle of its leading
+/// tooth, so that one pitch of the mesh becomes one tooth's arc from transfer point to transfer point. The residual
+/// counts the transfer points too.
+/// @param mesh    of the same assembly, at least four positions
 /// @param wanted  a [1/rad], > 0
 /// @throws InvalidInput "parabolic_te" or "positions"
 ParabolaCheck check_parabola(const MeshScene& scene, const UnloadedMesh& mesh, double wanted);

@@ -40,7 +40,7 @@ SectionMaximum missing(double z) {
   return none;
 }
 
-/// A slope along z, without what would lead across the wheel's end.
+/// A slope along z, 0 where it points across the wheel's end.
 double slope_inwards(const Meeting& m, double slope) { return m.on_wheel_end && slope * m.wheel_z > 0.0 ? 0.0 : slope; }
 
 bool is_on_wheel_circle(SectionBound bound) { return bound == SectionBound::WheelTip || bound == SectionBound::WheelRoot; }
@@ -69,7 +69,7 @@ SectionMaximum SectionSearch::only_summit(double z, const SectionMaximum& neighb
   if (neighbour.exists && neighbour.bound == SectionBound::None) {
     guess += neighbour.at.rho - meeting_.undisturbed_roll(neighbour.z);
   } else if (neighbour.exists && is_on_wheel_circle(neighbour.bound)) {
-    // Held by the same circle again? With one summit, the slope there says on which side that lies.
+    // Is it on the same circle again? With one maximum, the slope there shows on which side it lies.
     Meeting m = meeting_.at(neighbour.at.rho, z, &neighbour.at);
     if (move_to_radius(z, range, tolerance, radius_of(neighbour.bound), m)) {
       if (neighbour.bound == SectionBound::WheelTip ? m.angle.rho < 0.0 : m.angle.rho > 0.0) return finish(z, m, neighbour.bound);

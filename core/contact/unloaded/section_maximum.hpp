@@ -10,7 +10,7 @@ namespace flankwright {
 /// Which bound of a transverse section holds its maximum.
 enum class SectionBound { None, PinionRoot, PinionTip, WheelRoot, WheelTip };
 
-/// A point of contact at a fixed place on both flanks, and how the wheel angle there follows what is removed from either.
+/// A contact at a fixed point of both flanks, and the change of the wheel angle with the removal from either.
 struct Touch {
   double rho{not_given}, z{not_given};              ///< on the pinion [mm]
   double wheel_rho{not_given}, wheel_z{not_given};  ///< on the wheel: roll length of the point's involute, own frame [mm]
@@ -51,7 +51,7 @@ enum class SectionAccuracy { Coarse, Full };
 /// Maximises over sections z = const of the pinion's flank.
 class SectionSearch {
  public:
-  /// @param cells  pieces into which the profile is cut, each searched for a summit of its own; 1: there is but one
+  /// @param cells  pieces into which the profile is cut, each searched for a maximum of its own; 1: there is only one
   SectionSearch(const FlankMeeting& meeting, int cells) : meeting_(meeting), cells_(cells) {}
 
   /// @param neighbour  the maximum of a section nearby, to start from, or one that does not exist; decides how fast, and not

@@ -14,8 +14,8 @@ namespace {
 constexpr double flat_tolerance = 1e-9;  // mm along the base tangent, see ToothContactSolver
 constexpr double flat_fraction = 1.0 / 200.0;
 constexpr double coarse_error = 1e-12;     // rad: bound on what SectionAccuracy::Coarse leaves
-constexpr double announced_share = 1.0 / 4.0;  // of an interval of the face with a summit: halved to this, hollow flanks only
-constexpr double hidden_share = 1.0 / 64.0;    // of an interval of the face that hides a summit: halved to this
+constexpr double announced_share = 1.0 / 4.0;  // of an interval of the face with a maximum: halved to this, hollow flanks only
+constexpr double hidden_share = 1.0 / 64.0;    // of an interval of the face that hides a maximum: halved to this
 constexpr double angle_round_off = 1e-15;  // rad: wheel angles closer than this are the same
 // Along the face [mm], [rad], [mm]; see profile_tolerance.
 constexpr PeakTolerance face_tolerance{1e-7, 1e-16, 1e-6};
@@ -97,15 +97,15 @@ SectionMaximum FaceSearch::solve() const {
   }
   reveal_hidden_summits(coarse, highest);
   const int count = static_cast<int>(coarse.size());
-  // In a flat valley the middle one of those that are equally high stands for all.
+  // In a flat valley the middle one of those that are equally high represents all.
   std::vector<const SectionMaximum*> level;
   for (const SectionMaximum& s : coarse) {
     if (s.exists && s.phi2 >= highest - angle_round_off) level.push_back(&s);
   }
   if (level.empty()) return {};
   SectionMaximum top;
-  // Hollow flanks (metal added at the ends) have several summits: climb every one, from below where both sides exist. A
-  // slope that is round-off over the span marks a summit, or a flat valley, by itself.
+  // Hollow flanks (metal added at the ends) have several maxima: seek every one, from below where both sides exist. A
+  // slope that is round-off over the span marks a maximum, or a flat valley, by itself.
   const auto inside = [&](int i) { return i >= 0 && i < count; };
   const auto exists = [&](int i) { return inside(i) && coarse[i].exists; };
   const auto rises = [&](int i, int step) {
@@ -129,7 +129,7 @@ SectionMaximum FaceSearch::solve() const {
   return top.bound == SectionBound::None ? top : off_the_edge(top);
 }
 
-/// Where a flat valley begins at an edge, a point inside stands for it.
+/// Where a flat valley begins at an edge, a point inside represents it.
 SectionMaximum FaceSearch::off_the_edge(const SectionMaximum& edge) const {
   for (const double side : {-1.0, 1.0}) {
     const double z = edge.at.z + side * flat_step();
@@ -142,8 +142,9 @@ SectionMaximum FaceSearch::off_the_edge(const SectionMaximum& edge) const {
   return edge;
 }
 
-/// Halves intervals of the face in which a summit not announced by the slopes at both ends, or a second one, could exceed the
-/// highest angle known. Kinks only bend the section maxima downwards, so with hollow curvature c they stay below
+/// Halves intervals of the face in which a maximum that the slopes at both ends do not show, or a second one, could
+/// exceed the highest angle known. Kinks only bend the section maxima downwards, so with hollow curvature c they stay
+/// below
 ///
 ///     f(a) + f'(a) x + c x^2/2     and     f(b) - f'(b)(h - x) + c (h - x)^2/2,      x from a to b = a + h
 void FaceSearch::reveal_hidden_summits(std::vector<SectionMaximum>& sections, double highest) const {
@@ -169,7 +170,7 @@ void FaceSearch::reveal_hidden_summits(std::vector<SectionMaximum>& sections, do
   }
 }
 
-/// The summit between a section and the next one uphill, or the end of the flank before that.
+/// The maximum between a section and the next one uphill, or the end of the flank before that.
 SectionMaximum FaceSearch::climb(const SectionMaximum& from, const SectionMaximum& next) const {
   // Past the end of a flank counts as downhill.
   const auto downhill = [&](SectionMaximum s) {
@@ -200,7 +201,7 @@ SectionMaximum FaceSearch::climb(const SectionMaximum& from, const SectionMaximu
     }
   }
   if (top.phi2 >= from.phi2) return top;
-  // A summit all but on the section it started from, or one that merely looked lower there.
+  // A maximum almost on the section that it started from, or one that only seemed lower there.
   const SectionMaximum start = search_.at(from.z, from, SectionAccuracy::Full);
   return top.phi2 >= start.phi2 ? top : start;
 }

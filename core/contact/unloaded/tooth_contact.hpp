@@ -39,20 +39,21 @@ struct ToothContact {
 ///     phi2(phi1) = max over (rho1, z1) of the wheel angle that puts the wheel's flank through the pinion's point,
 ///     subject to form..tip and face ends of *both* flanks.
 ///
-/// One solver for line, surface, edge and corner contact, without an initial guess from outside. In a transverse section of the
-/// pinion (fixed z1) the angle is maximised over the roll length, from where undisturbed flanks would touch, by secant steps on its
-/// exact slope inside the section's bounds. The section maxima, a function of z1 alone with an exact slope by the envelope
-/// theorem, are looked at in sections over the face, and every summit between two of them is refined in the same way. Slope jumps
-/// (start of a linear relief on either gear) and flat valleys (aligned gears) need no special case.
+/// One solver for line, surface, edge and corner contact, without an initial guess from outside. In a transverse
+/// section of the pinion (fixed z1) the angle is maximised over the roll length, from where undisturbed flanks would
+/// touch, by secant steps on its exact slope inside the section's bounds. The section maxima, a function of z1 alone
+/// with an exact slope by the envelope theorem, are sampled in sections over the face, and every maximum between two of
+/// them is refined in the same way. Slope jumps (start of a linear relief on either gear) and flat valleys (aligned
+/// gears) need no special case.
 ///
-/// Global within a resolution: search_density() judges once per scene whether a section can have several summits (hollow or wavy
-/// flanks) and how many sections the line of contact needs. Between sections the hollow curvature of the flanks bounds how high
-/// an unseen summit could be; where that exceeds what is known the interval is halved. Summits in different pieces of a
-/// profile (of several summits: none longer than 1/32 of it) and in different intervals of a hollow face (1/32 of it) are told
-/// apart; of two in one, one is found.
+/// Global within a resolution: search_density() decides once per assembly whether a section can have several maxima
+/// (hollow or wavy flanks) and how many sections the line of contact needs. Between sections the hollow curvature of
+/// the flanks bounds the height of an unseen maximum; where that exceeds what is known the interval is halved. Maxima
+/// in different pieces of a profile (with several maxima none longer than 1/32 of it) and in different intervals of a
+/// hollow face (1/32 of it) are separated; of two in one, one is found.
 ///
-/// A pair is said to touch along a line where the maximum stays within 1e-9 mm (along the base tangent) over 1/200 of the
-/// face width to either side that the flanks cover; the point given is then the middle of the sections that lie on it.
+/// A pair touches along a line where the maximum stays within 1e-9 mm (along the base tangent) over 1/200 of the face
+/// width to either side that the flanks cover; the point given is then the middle of the sections that lie on it.
 class ToothContactSolver {
  public:
   /// @param scene  must outlive the solver

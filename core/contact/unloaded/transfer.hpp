@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// Hand-over of contact from one pair to another, located to round-off.
+/// Transfer of contact from one pair to another, located to round-off.
 struct Transfer {
   double phi1{not_given};                ///< [rad]
   double transmission_error{not_given};  ///< [rad], wheel

@@ -20,23 +20,23 @@ struct UnloadedMesh {
   std::vector<double> transmission_error;  ///< delta_phi2 at each, wheel [rad]
   std::vector<PairCurve> pairs;            ///< at the same angles, while the pair is on its path, see MeshEnvelope::on_path()
   std::vector<Transfer> transfers;
-  /// Extremes of the envelope over the pitch, both its ends included: hand-overs, crests and troughs between positions are
-  /// located, so they hardly depend on how many positions there are. Wheel [rad]; not given where `missing` > 0.
+  /// Extremes of the envelope over the pitch, with both its ends. Transfer points, crests and troughs between positions
+  /// are located, so they hardly depend on the number of positions. Wheel [rad]; not given where `missing` > 0.
   double largest{not_given}, smallest{not_given};
   double peak_to_peak{not_given};          ///< largest - smallest [rad]
   std::vector<double> harmonics;           ///< amplitude of orders 1 .. 10 of the pitch, fewer where positions allow fewer [rad]
   int missing{0};                          ///< positions at which no pair touches at all
 };
 
-/// Tooth contact analysis over one pitch of the pinion, phi1 = -pi/N1 .. pi/N1. A hand-over at the very end of the pitch counts
-/// there, and not at its start.
+/// Tooth contact analysis over one pitch of the pinion, phi1 = -pi/N1 .. pi/N1. A transfer point at the very end of the
+/// pitch counts there, and not at its start.
 ///
-/// With cumulative pitch errors the next pitch may differ: then everything here is about this pitch alone, the hand-overs
-/// those inside it, and the harmonics those of its repetition. Two hand-overs between neighbouring positions are both found where
-/// either three pairs are involved or the one that leads in between has its crest there.
+/// With cumulative pitch errors the next pitch may differ: then everything here is about this pitch alone: the transfer
+/// points are those inside it, and the harmonics those of its repetition. Two transfer points between neighbouring
+/// positions are both found where either three pairs are involved or the leading one in between has its crest there.
 ///
-/// A pair takes the lead only when it is ahead by more than 1e-12 rad, the round-off of the angles, so that aligned pairs
-/// sharing the load do not appear to hand over.
+/// A pair becomes the leading one only when it is ahead by more than 1e-12 rad, the round-off of the angles, so that
+/// aligned pairs that share the load do not transfer contact back and forth.
 /// @param pair       for the extended path of contact and the edges' reach, within which a pair's own curve is reported
 /// @param positions  >= 1
 UnloadedMesh analyse_unloaded_mesh(const GearPair& pair, const MeshScene& scene, int positions);

@@ -51,7 +51,7 @@ struct ParameterRow {
   bool has_slope{false};  ///< whether there is one: with sanitizers g++ 12 cannot compare the address of a function while it compiles
 };
 
-/// The row of the number that a path of members leads to: row<TipRelief, &TipRelief::tip_relief, &ProfileRelief::amount>({...}).
+/// The row of the number at a path of members: row<TipRelief, &TipRelief::tip_relief, &ProfileRelief::amount>({...}).
 template <class M, auto... Path>
 constexpr ParameterRow<M> row(ParameterText text) {
   return {text, [](const M& m) -> double { return (m.*....*Path); }, [](M& m, double value) { (m.*....*Path) = value; }};

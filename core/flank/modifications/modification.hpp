@@ -17,7 +17,7 @@
 
 namespace flankwright {
 
-/// Every modification that there is. Its header says all about it; whoever needs them all goes through this list.
+/// Every modification that there is. Its header describes it; code that needs all of them goes through this list.
 using Modifications = ModificationList<
     modifications::LeadCrowning,
     modifications::LeadSlope,

@@ -9,7 +9,7 @@
 
 namespace flankwright {
 
-/// A parameter of a modification: its place among the rows of all registered ones.
+/// A parameter of a modification: its index among the rows of all registered ones.
 enum class ModificationParameter : std::size_t {};
 
 /// All modifications of a list, their numbers as members.
@@ -116,7 +116,8 @@ constexpr auto choices_of(std::type_identity<ModificationList<M...>>) {
   return detail::joined<ChoiceOf<ModificationList<M...>>>(detail::describe_choices<ModificationList<M...>, M>()...);
 }
 
-/// Whether rows say all that is asked of them: a key of its own, a name and a meaning; an extent and halves that exist; the slope of an extent.
+/// Whether rows are complete: a key of their own, a name and a meaning; an extent and halves that exist; the slope of
+/// an extent.
 template <class Rows>
 constexpr bool are_complete(const Rows& rows) {
   const auto count = [&](std::string_view key) {
