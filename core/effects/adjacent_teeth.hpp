@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// A load on one tooth moves the others, through what they stand on.
+/// A load on one tooth moves the others through the gear body.
 class AdjacentTeethEffect final : public Effect {
  public:
   std::string_view name() const override { return "adjacent_teeth"; }
@@ -14,7 +14,7 @@ class AdjacentTeethEffect final : public Effect {
     const bool on = facts.loaded && facts.coupled_teeth;
     return {on, on ? "a loaded tooth moves its neighbours" : "no load, or a compliance of teeth that do not know of each other"};
   }
-  /// The structure's blocks between places of different teeth.
+  /// The structure's blocks between points of different teeth.
   void act(MeshDraft& draft) const override {
     const Eigen::MatrixXd& structure = draft.structural_influence();
     for (std::size_t i = 0; i < draft.points.size(); ++i) {

@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// A loaded tooth gives way, with the material that it stands on.
+/// A loaded tooth deflects, with the material below it.
 class BendingEffect final : public Effect {
  public:
   std::string_view name() const override { return "bending"; }
@@ -13,7 +13,7 @@ class BendingEffect final : public Effect {
   EffectCall called_for(const EffectFacts& facts) const override {
     return {facts.loaded, facts.loaded ? "teeth bend under load" : "no load"};
   }
-  /// The structure's blocks between places of one tooth, which stay positive semi-definite on their own.
+  /// The structure's blocks between points of one tooth; they are positive semi-definite on their own.
   void act(MeshDraft& draft) const override {
     const Eigen::MatrixXd& structure = draft.structural_influence();
     for (std::size_t i = 0; i < draft.points.size(); ++i) {

@@ -13,7 +13,7 @@ struct EffectDecision {
   std::string name;
   bool on{false};
   std::string why;
-  double seconds{not_given};  ///< time spent on it; NaN where it cannot be told apart
+  double seconds{not_given};  ///< time spent on it; NaN where it cannot be separated
 };
 using EffectDecisions = std::vector<EffectDecision>;
 
@@ -39,7 +39,7 @@ EffectDecisions without(EffectDecisions decisions, std::string_view name, const 
 /// The effects that are on, for the loaded mesh.
 MeshEffects mesh_effects(const EffectDecisions& decisions, const EffectList& effects = registered_effects());
 
-/// The condition with everything cleared whose effect is off.
+/// The condition without everything whose effect is off.
 FlankCondition apply_effects(const EffectDecisions& decisions, FlankCondition condition, const EffectList& effects = registered_effects());
 
 /// Where the gap is sought with these effects.

@@ -15,7 +15,7 @@ struct EffectFacts {
   bool unloaded{false};       ///< some torque is zero
   std::vector<FlankCondition> conditions{};  ///< of all scenes
   bool coupled_teeth{false};  ///< the compliance model knows how one tooth moves another
-  bool gear_bodies{false};    ///< and how the gears' bodies give way
+  bool gear_bodies{false};    ///< and how the gears' bodies yield
   bool shafts{false};         ///< a gear's shaft is described
   bool root_stress{false};    ///< finite elements are made anyway, or something asks for peak_root_stress
   bool whole_surface{false};  ///< contact is sought over the whole flanks
@@ -34,10 +34,10 @@ enum class EffectStage {
   Condition,   ///< what the flanks are like: left out by clear_from()
   Region,      ///< how far along the plane of action points are made
   Placement,   ///< where the points lie
-  Body,        ///< what the teeth stand on
+  Body,        ///< the gear bodies
   Structure,   ///< what yields when loads act anywhere on the mesh: the influence matrix
-  Coupling,    ///< what of it ties teeth to each other
-  ContactSite, ///< what the contact law is told of a point's surroundings
+  Coupling,    ///< its coupling between teeth
+  ContactSite, ///< a point's surroundings, for the contact law
   ContactLaw,  ///< what yields under a point's own load
   Roots,       ///< what is read off the loads
 };
@@ -56,7 +56,7 @@ class Effect {
   virtual std::string_view needs() const { return {}; }
   /// A list of effects in a study switches it; false: another key does.
   virtual bool listed() const { return true; }
-  /// It alone lets every point give way, so that loads are determined.
+  /// It alone makes every point compliant, so that loads are determined.
   virtual bool gives_way() const { return false; }
   /// Takes out of a condition what there is of the effect.
   virtual void clear_from(FlankCondition&) const {}

@@ -13,7 +13,7 @@ struct CycleOutputs {
   double te_mean{not_given};              ///< of f_t [mm]
   double te_peak_to_peak{not_given};      ///< [mm]
   double peak_contact_stress{not_given};  ///< [MPa]
-  double mean_approach{not_given};        ///< of f_t - min(g): what the mesh gives way [mm]
+  double mean_approach{not_given};        ///< of f_t - min(g): the approach of the flanks [mm]
   /// Of f_t, orders 1 .. 5 as far as the positions resolve them; amplitudes are their moduli [mm].
   std::vector<std::complex<double>> te_harmonics{};
 };
@@ -39,8 +39,8 @@ struct EffectInfluence {
 /// the loads.
 bool changes_mesh(std::string_view name);
 
-/// The effect of that name may be left out for being small: what acts on the mesh, but for effects of the condition, which cost nothing and may
-/// be what a study varies, and what the teeth stand on, for the same reason.
+/// Whether the effect of that name may be left out for being small. This holds for effects on the mesh. Effects of the
+/// condition cost nothing and may be what a study varies; the same holds for the gear body.
 bool may_be_dropped(std::string_view name);
 
 /// The size of one effect.

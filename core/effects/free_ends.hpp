@@ -6,9 +6,9 @@
 
 namespace flankwright {
 
-/// Near a gear's own end face nothing holds the flank along the axis, and contact softens, see FreeEnd; of helical teeth at the
-/// sharp end much more, at the blunt one less. Where one gear is wider
-/// than its mate, the mate's end is the nearer one to contact, and its own side alone softens there.
+/// Near a gear's own end face nothing holds the flank along the axis, and contact is softer, see FreeEnd; on helical
+/// teeth much more so at the acute end, less at the obtuse one. Where one gear is wider than its mate, the mate's end
+/// is nearer to contact, and only its own side is softer there.
 class FreeEndsEffect final : public Effect {
  public:
   std::string_view name() const override { return "free_ends"; }

@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// The gear's body gives way under its teeth: what lies deeper than the material that they stand on.
+/// The gear's body yields under its teeth: the material deeper than that right below them.
 class GearBodyComplianceEffect final : public Effect {
  public:
   std::string_view name() const override { return "gear_body_compliance"; }

@@ -14,7 +14,7 @@
 
 namespace flankwright {
 
-/// What a loaded mesh is made of. All must outlive what is made of them.
+/// The parts of a loaded mesh. All must outlive what is built from them.
 struct MeshParts {
   const GearPair& pair;
   const Material& pinion_material;
@@ -38,13 +38,13 @@ struct EndDistances {
   double pinion_lean{0}, wheel_lean{0};  ///< ContactSide::end_lean [rad]
 };
 
-/// One mesh position while effects make it, each adding its part. Without any it is rigid.
+/// One mesh position while effects build it, each adding its part. Without any it is rigid.
 class MeshDraft {
  public:
   /// @param line_phase  of the reference pair's line [base pitches]
   MeshDraft(const MeshParts& made_of, double line_phase) : parts(made_of), phase(line_phase) {}
 
-  /// Points take what is made for them with them: to be called once.
+  /// Sets the points and the arrays that belong to them; call once.
   void set_points(std::vector<ContactPoint> at) {
     points = std::move(at);
     influence = Eigen::MatrixXd::Zero(std::ssize(points), std::ssize(points));
@@ -52,7 +52,7 @@ class MeshDraft {
     end_distances.resize(points.size());
   }
 
-  /// K of the structure between the points, teeth coupled as far as it knows; worked out when first asked for.
+  /// K of the structure between the points, teeth coupled as far as it couples them; computed when first asked for.
   const Eigen::MatrixXd& structural_influence() {
     if (!structural_influence_) structural_influence_ = worked_out_influence();
     return *structural_influence_;
@@ -61,7 +61,7 @@ class MeshDraft {
   const MeshParts& parts;
   double phase;
   bool with_extended_region{false};         ///< points before A and after E as well
-  bool with_gear_bodies{false};             ///< these give way as well
+  bool with_gear_bodies{false};             ///< these are compliant as well
   std::vector<ContactPoint> points;
   Eigen::MatrixXd influence;                ///< K, symmetric, positive semi-definite [mm/N]
   std::vector<TipDistances> tip_distances;  ///< one a point

@@ -23,7 +23,7 @@ class MeshEffects {
   static MeshEffects all_but(std::initializer_list<std::string_view> names);
 
   bool has(std::string_view name) const;
-  /// Loads are determined: some effect lets every point give way.
+  /// Whether loads are determined: some effect makes every point compliant.
   bool give_way() const;
   /// Asks every effect of a stage for its part.
   void act(EffectStage stage, MeshDraft& draft) const;

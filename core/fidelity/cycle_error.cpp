@@ -12,7 +12,7 @@ namespace {
 
 // Shares of a difference that are called an error, see estimate_errors().
 constexpr double of_mean = 1.0 / 2.0, of_shape = 1.0 / 2.0, of_peaks = 1.0, of_positions = 1.0 / 3.0;
-/// Positions whose peak comes within this share of the cycle's count for the error of the peak.
+/// Positions whose peak is within this fraction of the cycle's count for the error of the peak.
 constexpr double near_peak = 0.1;
 
 double mean_of(const std::vector<double>& samples) {

@@ -22,10 +22,11 @@ struct CycleExtremes {
   int looked_at{0};            ///< positions solved
 };
 
-/// Seeks the extremes of a cycle in continuous phase. Curves consist of smooth pieces with kinks where lines begin and end. In
-/// every interval both sides are continued straight until they meet (as unseen_rise() does), by the last secant or by the slope that the last
-/// two secants lead to, whichever is steeper: curves grow steeper towards a kink. The place that promises most is
-/// looked at next. On a kink both meet near the extreme itself, so that two or three positions a curve are enough.
+/// Seeks the extremes of a cycle in continuous phase. Curves consist of smooth pieces with kinks where lines begin and
+/// end. In every interval both sides are continued straight until they meet (as unseen_rise() does), by the last secant
+/// or by the slope extrapolated from the last two secants, whichever is steeper: curves grow steeper towards a kink.
+/// The most promising phase is solved next. On a kink both meet near the extreme itself, so that two or three positions
+/// a curve are enough.
 /// @param mesh_at  of the cycle; no root stress is needed
 /// @param cycle    at equally spaced phases over one base pitch, at least 4, usable
 CycleExtremes locate_extremes(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque, const LoadedCycle& cycle,

@@ -17,7 +17,7 @@ struct CycleQuantity {
   std::string_view name;    ///< "te_peak_to_peak": as objectives and bounds name it
   std::string_view key;     ///< "te_peak_to_peak_um": in results, with its unit
   std::string_view words;   ///< "peak-to-peak TE"
-  std::string_view topic;   ///< the table of the report that it stands in: "Transmission error"
+  std::string_view topic;   ///< its table in the report: "Transmission error"
   std::string_view heading{};  ///< "TE p-p": of its column in the table of a run, a list's first entry; empty: not shown there
   int decimals{2};          ///< shown in that column
   std::string_view unit{};  ///< "um"; "" of a plain number

@@ -75,7 +75,7 @@ class DiscretisationRun {
     return level.quadrature_error[figure] >= level.position_error[figure];
   }
 
-  /// The largest error of the open load cases, whose case governs.
+  /// The largest error of the open load cases; its case governs.
   const ResolutionLevel* worst_level() {
     for (const std::size_t i : open_) {
       const bool larger = open_.front() == i || counted(levels_[i].back()) > counted(levels_[chosen_.governing].back());

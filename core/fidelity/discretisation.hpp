@@ -24,7 +24,7 @@ struct ResolutionLevel {
   int intervals{0}, positions{0};
   CycleFigures figures;  ///< with extremes between the positions where they were sought
   PerFigure quadrature_error{}, position_error{};  ///< estimated shares, as figure_errors() counts them
-  bool extremes_sought{false};                     ///< false: the errors suffice to say that the level does not
+  bool extremes_sought{false};                     ///< false: the errors alone show that the level does not suffice
   PerFigure error() const;                         ///< their sum
 };
 
@@ -32,11 +32,11 @@ struct DiscretisationSearch {
   /// Refined until headline(root_sum_square(spent, ResolutionLevel::error())) <= accuracy in every load case [-], > 0.
   double accuracy{0.01};
   PerFigure spent{};  ///< errors of other causes, which no resolution lessens, as shares
-  int fewest_intervals{6}, most_intervals{48};    ///< powers of two times the fewest; half of them must still say something
+  int fewest_intervals{6}, most_intervals{48};    ///< powers of two times the fewest; half of them must still be meaningful
   int fewest_positions{16}, most_positions{128};  ///< powers of two times the fewest, >= 12
-  bool choose_intervals{true}, choose_positions{true};  ///< false: the fewest stand, and count as exact
+  bool choose_intervals{true}, choose_positions{true};  ///< false: the fewest are used, and count as exact
   bool seek_extremes{true};    ///< false: extremes are those of the positions, as they are with any rule but Graded
-  std::function<void(int intervals, int positions, int load_cases)> starting{};  ///< told of every level before it is solved; empty: nobody
+  std::function<void(int intervals, int positions, int load_cases)> starting{};  ///< called before every level is solved; may be empty
   ForEachIndex for_each{};     ///< over load cases; empty: one after the other. Changes nothing but the time
 };
 
@@ -55,10 +55,11 @@ struct Discretisation {
   const PerFigure& error() const { return total_error; }
 };
 
-/// Cheapest resolution of several load cases whose estimated error is within an accuracy: cycles and their embedded comparisons
-/// (estimate_errors()), refined by doubling what brings most of the largest error, intervals or positions, until the accuracy is kept. A load
-/// case that keeps it is not looked at again, for a finer level only lessens its error; so that as a rule one or two of them pay for the
-/// finest level. Extremes between positions, which cost as much as a cycle, are sought only where the rest of the error would do.
+/// Cheapest resolution of several load cases whose estimated error is within an accuracy: cycles and their embedded
+/// comparisons (estimate_errors()), refined by doubling intervals or positions, whichever causes most of the largest
+/// error, until the accuracy is kept. A load case that keeps it is not solved again, for a finer level only lessens its
+/// error; as a rule only one or two reach the finest level. Extremes between positions, which cost as much as a cycle,
+/// are sought only where the rest of the error is small enough.
 Discretisation choose_discretisation(const std::vector<ResolutionCase>& cases, QuadratureRule rule, const DiscretisationSearch& search = {});
 Discretisation choose_discretisation(const MeshOfResolution& mesh_for, QuadratureRule rule, const FlankCondition& condition, double pinion_torque,
                                      const DiscretisationSearch& search = {});

@@ -41,14 +41,15 @@ class EffectMeshes {
   std::map<std::pair<std::string, MeshPlacement>, Entry> entries_;
 };
 
-/// What a cycle says that effects are measured by; NaN where a position failed.
+/// The outputs of a cycle by which effects are measured; NaN where a position failed.
 CycleOutputs cycle_outputs(const MeshModel& model, const LoadedCycle& cycle);
 
 /// Outputs with the effects that are on.
 /// @throws InvalidInput  as make_mesh_model()
 CycleOutputs outputs_with(const EffectScene& scene, const EffectDecisions& decisions);
 
-/// What an effect that is on does, by leaving it out: two analyses. No number where nothing would give way without it.
+/// The contribution of an effect that is on, by leaving it out: two analyses. No number where nothing would be
+/// compliant without it.
 EffectInfluence exact_influence(const EffectScene& scene, const EffectDecisions& decisions, const std::string& name);
 
 /// How an estimate came about.

@@ -32,9 +32,9 @@ struct CycleResolving {
 ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, const MeshWithParameters& mesh_at, const FlankCondition& condition,
                             double pinion_torque, const CycleResolving& resolving, const std::vector<MeshParameter>& parameters = {});
 
-/// Derivatives of ResolvedCycle::summary: as summary_gradient(), of the position that has the extreme, whose phase is held. Where a curve is
-/// smooth that is exact, for at its extreme the phase does not matter; where a kink moves with the parameter, what the kink's motion
-/// changes is left out.
+/// Derivatives of ResolvedCycle::summary: as summary_gradient(), of the position that has the extreme, with its phase
+/// held. On a smooth curve that is exact, for at its extreme the phase does not matter; where a kink moves with the
+/// parameter, the effect of its motion is left out.
 CycleGradient resolved_gradient(const MeshModel& model, const LoadedCycle& cycle, const ResolvedCycle& resolved);
 
 }  // namespace flankwright

@@ -7,7 +7,7 @@
 
 namespace flankwright {
 
-/// What of a contact line counts as a spike at its end.
+/// The rule by which part of a contact line counts as a spike at its end.
 ///
 /// Where a helical line is cut off by a tip edge (at A or E), the tooth beyond it carries nothing and props up the end:
 /// line load and stress rise there, and most where the whole line has shrunk to a point at a face corner. Haddad 1991,

@@ -12,7 +12,7 @@ namespace flankwright {
 
 namespace {
 
-/// Places of the plane of action on tooth pair k by roll length of the pinion and z.
+/// Points of the plane of action on tooth pair k by roll length of the pinion and z.
 std::vector<ContactPoint> at_places(const GearPair& pair, int tooth, const std::vector<std::pair<double, double>>& places) {
   const PathOfContact path(pair);
   std::vector<ContactPoint> points;
@@ -39,7 +39,7 @@ std::vector<ContactPoint> face_ends(const GearPair& pair, const FlankCondition& 
   return at_places(pair, tooth, {{pair.pitch_point, middle - half}, {pair.pitch_point, middle + half}});
 }
 
-/// What the lead part adds at one end beyond the other, signed [mm].
+/// Difference of the lead part between both ends, signed [mm].
 double linear_part(const GearPair& pair, const FlankCondition& condition, int tooth) {
   const Eigen::VectorXd ends = added(pair, lead_part(condition), face_ends(pair, condition, tooth));
   return ends[1] - ends[0];

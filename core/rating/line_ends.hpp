@@ -18,14 +18,15 @@ struct LineEnd {
   ContactPoint place{};                     ///< the end as a point of the mesh, without a weight
 };
 
-/// Line loads where each line ends between A and E: on a tip edge or on a face [Haddad 1991, eq. 1.70]. The structural deflection,
-/// smooth along a line, is extrapolated by a natural cubic spline through the line's quadrature points; what it and the gap leave of
-/// f_t is the local deflection, and the contact law gives the line load that belongs to it.
+/// Line loads where each line ends between A and E: on a tip edge or on a face [Haddad 1991, eq. 1.70]. The structural
+/// deflection, smooth along a line, is extrapolated by a natural cubic spline through the line's quadrature points. f_t
+/// less this and the gap is the local deflection, and the contact law gives the line load that belongs to it.
 ///
-/// No part of the equilibrium: with these loads the force would not balance, and where few points stand for a short line they
-/// exceed those of a finer one by far (at five Gauss intervals the thesis prints 203 N/mm where ten give 121). Two entries a line that
-/// has a part between A and E and a point, by tooth and rising z; empty without Hertzian contact.
-/// @param condition  that the position was solved for
+/// They are no part of the equilibrium: with these loads the force would not balance, and on a short line with few
+/// points they exceed those of a finer one by far (at five Gauss intervals the thesis prints 203 N/mm where ten give
+/// 121). There are two entries for each line that has a part between A and E and a point, by tooth and rising z; none
+/// without Hertzian contact.
+/// @param condition  of the solved position
 std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, const LoadedPosition& loaded,
                                const FlankCondition& condition);
 

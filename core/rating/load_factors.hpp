@@ -6,8 +6,8 @@
 
 namespace flankwright {
 
-/// The parts of a condition that load distribution factors tell apart. An axial offset stays in each: it belongs to the pair as it
-/// is mounted, not to the shape of its flanks.
+/// The parts of a condition that load distribution factors distinguish. An axial offset remains in each: it belongs to
+/// the mounted pair, not to the shape of its flanks.
 ///
 /// perfect: nothing else. lead: what changes along the face (lead crowning and slope, end relief, helix slope errors, crossing and
 /// intersecting axes, lead angle, mesh misalignment). profile: what changes along the profile or from tooth to tooth (profile
@@ -21,7 +21,7 @@ FlankCondition whole_condition(const FlankCondition& condition);
 using ConditionPart = FlankCondition (*)(const FlankCondition&);
 /// Whether a parameter moves a part of a condition: something of it alone is left there.
 bool acts(const MeshParameter& parameter, ConditionPart part);
-/// Some of the condition is neither lead nor profile.
+/// Part of the condition is neither lead nor profile.
 bool has_other_part(const FlankCondition& condition);
 
 /// Load distribution factors from calculated contact stress, each the square of a ratio of peaks over the whole mesh cycle,

@@ -12,9 +12,9 @@ namespace flankwright {
 
 namespace {
 
-/// A place of a line: a point of it, or a share of the way to the next.
+/// A station on a line: a point of it, or a fraction of the way to the next.
 struct LinePlace {
-  Eigen::Index point{-1};  ///< -1: the line has no such place
+  Eigen::Index point{-1};  ///< -1: the line has no such station
   double share{0.0};
 };
 
@@ -42,8 +42,8 @@ struct PlacedPeak {
   bool of_stress;
 };
 
-/// How a peak's phase moves with the axial offset [base pitches per mm] where a point at a fixed place along the face reaches or leaves A0, A, E or
-/// B0 there; nothing where none does. Seen from both sides, as on one it may not exist.
+/// Slope of a peak's phase with the axial offset [base pitches per mm] where a point at a fixed position along the face
+/// reaches or leaves A0, A, E or B0 there; nothing where none does. Both sides are tried, as on one it may not exist.
 std::optional<double> phase_slope_of_points(const PlacedPeak& at) {
   const double near = 2.0 * at.peaks.phase_tolerance;
   const MeshModel model = at.mesh_at({at.peak.phase - near, at.peak.phase + near});
@@ -74,7 +74,8 @@ double phase_slope(const MeshModel& model, const FurtherMeshes& further, const P
   return phase_slope_of_points(at).value_or(0.0);
 }
 
-/// The mesh at the peak, which with a further axial offset has the phase that the peak then has. No other parameter moves what a line begins and ends at.
+/// The mesh at the peak. With a perturbed axial offset it has the phase that the peak then has. No other parameter
+/// moves the ends of a line.
 MeshModel mesh_along(const PlacedPeak& at, const std::vector<MeshParameter>& parameters) {
   MeshModel held = at.mesh_at({at.peak.phase});
   constexpr MisalignmentParameter offset = &Misalignment::axial_offset;
@@ -89,8 +90,8 @@ MeshModel mesh_along(const PlacedPeak& at, const std::vector<MeshParameter>& par
   return held;
 }
 
-/// How the share of a place changes with a parameter [1 per unit]: a cut between points lies at a phase of its own, and moves along the line with that.
-/// NaN where it passes a point.
+/// Slope of a station's fraction with a parameter [1 per unit]: a cut between points lies at a phase of its own, and
+/// moves along the line with that. NaN where it passes a point.
 double share_slope(const MeshModel& model, const FurtherMeshes& further, std::size_t position, int tooth, const LinePlace& place) {
   if (place.share == 0.0) return 0.0;
   const MeshPosition& at = model.positions[position];
@@ -107,7 +108,7 @@ double share_slope(const MeshModel& model, const FurtherMeshes& further, std::si
   return first_slope(place.share, shares[0], shares[1], further.step);
 }
 
-/// What is peaked, at a place of a position, and its derivatives there.
+/// The peaked quantity at a station of a position, and its derivatives there.
 struct Reading {
   double value;
   Eigen::RowVectorXd slopes;
@@ -131,7 +132,7 @@ Reading read(const PlacedPeak& at, const MeshModel& model, const LoadedCycle& cy
   return reading;
 }
 
-/// At the peak itself, which with the axial offset goes with its event; empty where the mesh has no such place.
+/// At the peak itself, which moves with its event under an axial offset; empty where the mesh has no such station.
 Eigen::RowVectorXd held_gradient(const PlacedPeak& at, const std::vector<MeshParameter>& parameters) {
   const MeshModel model = mesh_along(at, parameters);
   const LinePlace place = place_on_line(model, model.positions.front(), at.peak.tooth, at.peak.z);
@@ -140,10 +141,10 @@ Eigen::RowVectorXd held_gradient(const PlacedPeak& at, const std::vector<MeshPar
   return read(at, model, cycle, 0, place, parameters).slopes;
 }
 
-/// Of a peak that is continuous over the phase: the mean of both its sides in which the slope over the phase vanishes. Nothing where it is not:
-/// where the place is missing on one side, or what is peaked jumps.
+/// For a peak that is continuous over the phase: the mean of both its sides in which the slope over the phase vanishes.
+/// Nothing where it is not continuous: the station is missing on one side, or the quantity jumps.
 std::optional<Eigen::RowVectorXd> gradient_of_sides(const PlacedPeak& at, const std::vector<MeshParameter>& parameters) {
-  const double d = 2.0 * at.peaks.phase_tolerance;  // the summit lies nearer
+  const double d = 2.0 * at.peaks.phase_tolerance;  // the maximum lies nearer
   const std::array<double, 4> away{-2.0 * d, -d, d, 2.0 * d};
   std::vector<double> phases{at.peak.phase};
   for (const double by : away) phases.push_back(at.peak.phase + by);

@@ -10,15 +10,17 @@ namespace flankwright {
 
 /// Derivatives of located peaks, 1 x m each; empty where there is no peak.
 ///
-/// A peak s over the phase f is smooth, or a kink where a point of the mesh, often another one, just gains or loses contact or passes A or E, or a
-/// jump where a line or a point begins or ends. Of the first two it is the mean of both sides in which the slope over the phase vanishes,
+/// A peak s over the phase f is smooth, or a kink where a point of the mesh, often another one, just gains or loses
+/// contact or passes A or E, or a jump where a line or a point begins or ends. For the first two the derivative is the
+/// mean of both sides in which the slope over the phase vanishes,
 ///
 ///     ds/dp = (s'(+) ds(-)/dp - s'(-) ds(+)/dp) / (s'(+) - s'(-)),     s' = ds/df,
 ///
-/// the phase held on either side, so that nothing need be known of how the kink moves. Both sides are read two and four
-/// phase_tolerance of the search off the summit and extrapolated to it. Of a jump it is that of the same place of the line at the phase held; with the axial offset, which moves jumps, the place
-/// goes with its event, so that the further meshes of MeshSlopes are those at the phases that it then has; NaN where it passes a point on the way.
-/// Of equal peaks it is that of the one found, by which the largest rises on one side at least.
+/// with the phase held on either side, so that the kink's motion is not needed. Both sides are read two and four
+/// phase_tolerance of the search off the maximum and extrapolated to it. At a jump it is that of the same station on
+/// the line at the phase held. An axial offset moves jumps: then the station moves with its event, and the perturbed
+/// meshes of MeshSlopes are those at its phases; NaN where it passes a point on the way. Of equal peaks it is that of
+/// the one found, which the largest has on one side at least.
 struct PeakGradients {
   struct Pair {
     Eigen::RowVectorXd contact_stress;  ///< [MPa per unit of the parameter]

@@ -85,7 +85,8 @@ Eigen::VectorXd end_readings(const MeshWay::Stage& stage, const std::vector<Line
   return readings;
 }
 
-/// Where the mesh moves, with it an end's place and law: dw = (d(f_t - g - S) - dc at w held)/c', and the stress follows the curvature.
+/// Where the mesh moves, and with it an end's position and contact law: dw = (d(f_t - g - S) - dc at w held)/c', and
+/// the stress follows the curvature.
 void move_line_ends(const MeshModel& model, const MeshWay& way, const std::vector<LineEnd>& ends, Eigen::Index column, PositionGradient& gradient) {
   const Eigen::VectorXd slopes = way.slope([&](const MeshWay::Stage& s) { return end_readings(s, ends); });
   const Eigen::Index n = std::ssize(ends);

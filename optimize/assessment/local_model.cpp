@@ -25,7 +25,7 @@ double step_in(const DesignScene& scene, const ProofParameter& p) {
   return std::holds_alternative<PinionTorque>(p.parameter) ? p.inside * scene.torque : p.inside;
 }
 
-/// The output that a row with a candidate is about: of what is minimised, of a bounded goal, or of a bounded output.
+/// The output that a row with a candidate is about: of the objective, of a bounded objective, or of a bounded output.
 const ObjectiveTerm& term_of(const EpigraphRow& row, const DesignTask& task) {
   const auto index = static_cast<std::size_t>(row.index);
   if (row.kind == EpigraphRow::Kind::OutputBound) return task.constraints[index].output;

@@ -9,7 +9,7 @@
 
 namespace flankwright {
 
-/// A number whose influence on a design is asked for, counted in steps of a size that a workshop knows.
+/// A parameter whose influence on a design is assessed, in steps of a size known in a workshop.
 struct ProofParameter {
   std::string name;   ///< as the study names it: "pinion.modification.lead_crowning", "misalignment.crossing"
   double step{1.0};   ///< one step [unit]
@@ -22,21 +22,22 @@ struct ProofParameter {
 /// One step of a modification in its outside unit, see proof_parameters(). @param unit  DesignVariable::unit()
 double proof_step(const std::string& unit);
 
-/// The task's variables with what is tied to them, then what housing and workshop do, the same in every scene: misalignment 1 um, crossing and intersecting 0.1
-/// arcmin, centre distance 0.01 mm, helix and profile slope of either gear 1 um, torque 1 %. Amounts of a modification step by 1 um,
-/// extents by 0.1 mm, parabolic_te by 0.01 arcsec/deg^2.
+/// The task's variables with the modifications linked to them, then deviations of housing and workshop, the same in
+/// every scene: misalignment 1 um, crossing and intersecting 0.1 arcmin, centre distance 0.01 mm, helix and profile
+/// slope of either gear 1 um, torque 1 %. Amounts of a modification step by 1 um, extents by 0.1 mm, parabolic_te by
+/// 0.01 arcsec/deg^2.
 ///
 /// An error of helix or profile slope is the negative of that modification; the profile's differs by the same shift on all teeth,
 /// reference for pitch circle, which moves the transmission error's mean only.
 std::vector<ProofParameter> proof_parameters(const DesignTask& task);
 
-/// Objective and bounded outputs of one design to first order: each peak the largest of its leading candidates, each of them with its
-/// exact derivatives,
+/// Objective and bounded outputs of one design to first order. Each peak is the largest of its leading candidates,
+/// which have exact derivatives,
 ///
 ///     measure_s(p) = sum_k w_k max_j (c_skj + g_skj . p)          p in steps of the parameters.
 ///
-/// Where a peak is at a kink, one-sided derivatives follow by themselves; off it, a second candidate is seen before it leads.
-/// Candidates within `reach` of their peak take part.
+/// At a kink of a peak one-sided derivatives follow by themselves; off it, a second candidate is seen before it is the
+/// largest. Candidates within `reach` of their peak take part.
 class LocalModel {
  public:
   static constexpr double reach = 0.2;  ///< candidate >= (1 - reach) peak
@@ -66,7 +67,7 @@ class LocalModel {
   int constraints() const { return static_cast<int>(constraints_.size()); }
 
   std::vector<double> scene_measures(const Eigen::VectorXd& steps) const;
-  /// The scenes' measures combined as the task says, outside units.
+  /// The scenes' measures, aggregated as in the task, outside units.
   double objective(const Eigen::VectorXd& steps) const;
   /// Change of the Lagrangian's outputs by a step of each parameter, sum of multiplier * by_output * slope [in Optimality::objective_scale].
   const Eigen::VectorXd& lagrangian_slope() const { return lagrangian_slope_; }

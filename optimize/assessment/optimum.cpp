@@ -32,7 +32,7 @@ std::vector<Optimum::Scene> scenes_of(const Optimality& optimality) {
   return scenes;
 }
 
-/// Every variable at a bound, and what its multiplier says a step outwards would gain.
+/// Every variable at a bound, and the gain of a step outwards by its multiplier.
 std::vector<Optimum::Bound> bounds_of(const DesignTask& task, const Optimality& optimality, const std::vector<double>& values) {
   std::vector<Optimum::Bound> bounds;
   for (std::size_t i = 0; i < task.variables.size(); ++i) {

@@ -16,12 +16,12 @@ struct Sensitivity {
   double optimised_anew{not_given};
 };
 
-/// What holds an optimum where it is, in terms of the task: the multipliers of first_order_optimality(), which balance the gradients of
-/// all that is active, whatever the solver was,
+/// The active constraints of an optimum in terms of the task: the multipliers of first_order_optimality(), which
+/// balance the gradients of all that is active, whatever the solver was,
 ///
 ///     sum_j y_j grad c_j + sum_i m_i grad h_i + upper bounds - lower bounds = 0,   all of them >= 0,
 ///
-/// c_j the leading candidates of the governing scenes, h_i of bounded outputs, goals and sums.
+/// c_j the leading candidates of the governing scenes, h_i of bounded outputs, objectives and sums.
 struct Optimum {
   struct Scene {
     int scene{-1};
@@ -46,7 +46,7 @@ struct Optimum {
   };
   /// An earlier objective of a list at the limit that it keeps.
   struct Goal {
-    int bound{-1};           ///< of the task's goal bounds
+    int bound{-1};           ///< of the task's objective bounds
     double gain{not_given};  ///< change of the objective where the limit moves out by one per cent and all else follows, <= 0
   };
   std::vector<Scene> scenes;            ///< heaviest first; those without weight left out
@@ -55,13 +55,13 @@ struct Optimum {
   std::vector<Sum> sums;                ///< largest gain first
   std::vector<Goal> goals;              ///< largest gain first
   double residual{not_given};  ///< Optimality::residual: a share of the start's objective [-]; 0 is first-order optimal
-  /// How well the objective of the optimum is known [outside units]: a gain below it is not told apart from none. The residual, or
-  /// `asked` where it is smaller, of the start's objective.
+  /// Accuracy of the optimum's objective [outside units]: a smaller gain counts as none. The residual, or `asked` where
+  /// it is smaller, of the start's objective.
   double resolution{not_given};
   std::vector<Sensitivity> sensitivities;  ///< in the order of the parameters
 
   static constexpr double asked = 1e-6;     ///< first-order residual that is as good as none
-  static constexpr double at_bound = 1e-4;  ///< a variable within this share of its range stands at its bound
+  static constexpr double at_bound = 1e-4;  ///< a variable within this fraction of its range is at its bound
 };
 
 /// @param problem     of a single objective; of a list the last one's, with the limits of those before it

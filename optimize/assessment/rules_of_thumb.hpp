@@ -24,15 +24,15 @@ RuleBasis rule_basis(const DesignProblem& problem);
 /// @param length  [mm], 0 .. rho_a
 double relief_height(const Gear& gear, double length);
 
-/// The designs that a designer would grind without an optimiser: every profile rule beside every lead rule, the first of them
-/// unmodified flanks. What is measured on a flank (a grid) stays; every other modification of the task is left out.
+/// The designs that a designer would choose without an optimiser: every profile rule with every lead rule, the first of
+/// them unmodified flanks. A measured grid on a flank is kept; every other modification of the task is left out.
 ///
 /// Profile rules. Relief is linear and on the tips of both gears; amounts are along the transverse base tangent.
 /// - Short tip relief, Munro [47 in Haddad 1991; eq. 4.13]: over (eps_alpha - 1)/2 p_bt of the path, by the mean deflection.
 /// - Long tip relief, Munro [ibid., section 4.3.3]: from the pitch point on, by the mean deflection.
-/// - Tip relief to single contact: from the highest point of single tooth contact, over (eps_alpha - 1) p_bt, by the deflection of a
-///   single pair of ISO 6336-1, as much as a pair yields that carries alone. It is what sizing programs propose for
-///   1 < eps_alpha < 2.
+/// - Tip relief to single contact: from the highest point of single tooth contact, over (eps_alpha - 1) p_bt, by the
+///   deflection of a single pair after ISO 6336-1, that is, of a pair that carries alone. It is what sizing programs
+///   propose for 1 < eps_alpha < 2.
 /// - Profile crowning by the mean deflection, on the pinion [preferred to relief in Haddad 1991, section 4.3.3].
 ///
 /// Lead rules, on the pinion, left out where no scene is misaligned.

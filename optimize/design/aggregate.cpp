@@ -28,7 +28,7 @@ Moments moments_of(const std::vector<double>& measures, const std::vector<double
   return m;
 }
 
-/// The worst 1 - level of all weight, shared out from the largest measure down (ties: the first scene first).
+/// The worst 1 - level of all weight, distributed from the largest measure down (of equals the first scene first).
 std::vector<double> tail_weights(double level, const std::vector<double>& measures, const std::vector<double>& weights) {
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   std::vector<std::size_t> order(measures.size());

@@ -29,7 +29,7 @@ std::string to_string(const Aggregation& over);
 ///     min over t of   t + sum_s p_s max(0, m_s - t) / (1 - level),    p_s = weight_s / sum of weights
 double aggregate(const Aggregation& over, const std::vector<double>& measures, const std::vector<double>& weights);
 
-/// d(aggregate)/d(measure); at a tie of the largest the first carries it all; at sigma = 0 the spread counts nothing.
+/// d(aggregate)/d(measure); of equal largest measures the first carries it all; at sigma = 0 the spread counts nothing.
 std::vector<double> aggregate_weights(const Aggregation& over, const std::vector<double>& measures, const std::vector<double>& weights);
 
 }  // namespace flankwright

@@ -83,7 +83,7 @@ Eigen::RowVectorXd load_factor_slope(const ObjectiveTerm&, const PeakCandidate& 
 
 Eigen::VectorXd fillet_stresses(const ObjectiveTerm&, const MeshModel& model, const LoadedCycle& cycle, int index) {
   const LoadedPosition& position = at(cycle, index);
-  const bool is_there = position.root_stress.size() > 0;  // else of a goal that the analysis was not made for
+  const bool is_there = position.root_stress.size() > 0;  // else of an objective that the analysis was not made for
   return is_there ? position.root_stress : root_stresses(model.positions[static_cast<std::size_t>(index)], position.load);
 }
 

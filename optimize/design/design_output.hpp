@@ -25,7 +25,7 @@ enum class Output {
   EdgeLoad            ///< peak line load within ObjectiveTerm::edge_margin of a tip edge or a face end [N/mm]
 };
 
-/// One output with its place in a weighted objective.
+/// One output with its weight in an objective.
 struct ObjectiveTerm {
   Output output{Output::PeakContactStress};
   int harmonic{0};      ///< order for TeHarmonic, 1 .. 10
@@ -47,15 +47,15 @@ struct SmoothValue {
   Eigen::VectorXd gradient;
 };
 
-/// A smooth function whose maximum over all candidates is an output: the stress at one contact point or one place of a
-/// fillet at one position, the difference of f_t between two positions, one of harmonic_directions projections of a harmonic's
+/// A smooth function whose maximum over all candidates is an output: the stress at one contact point or fillet point at
+/// one position, the difference of f_t between two positions, one of harmonic_directions projections of a harmonic's
 /// phasor, or an output that is smooth itself. Smooth while the points keep their contact.
 ///
 /// A harmonic's amplitude |c| has a kink where c passes through zero; Re(c e^(-i theta)) has none. The projections' largest is |c| at
 /// c = 0 and less than 0.5 % below it elsewhere; there the amplitude itself, exact and smooth, is a candidate as well (whole_output).
 struct PeakCandidate {
   int position{-1};  ///< index into the cycle; -1 for a harmonic or a smooth output
-  int other{-1};     ///< contact point, place of a fillet, second position of a difference, or direction; -1: the whole output
+  int other{-1};     ///< contact point, fillet point, second position of a difference, or direction; -1: the whole output
 
   auto operator<=>(const PeakCandidate&) const = default;
 };
@@ -63,9 +63,9 @@ struct PeakCandidate {
 inline constexpr int harmonic_directions = 32;  ///< cos(pi / 32) = 0.9952
 inline constexpr PeakCandidate whole_output{-1, -1};
 
-/// One row of the table of what can be minimised or bounded: an output more is a member of Output and a row more. A row says how its
-/// output is the largest of smooth functions: at points of positions, by `at_points`; as one smooth function, by `smooth`; by neither, as the
-/// differences of f_t between positions.
+/// One row of the table of outputs that can be minimised or bounded: a new output is a member of Output and a row. A
+/// row defines its output as the largest of smooth functions: at points of positions by `at_points`, as one smooth
+/// function by `smooth`, or by neither as the differences of f_t between positions.
 struct DesignOutput {
   Output output;
   std::string_view name;   ///< "te_peak_to_peak"; of the harmonics without their order, "te_harmonic"
@@ -73,7 +73,7 @@ struct DesignOutput {
   double per_inside{1.0};  ///< of that unit in one internal one
   bool has_orders{false};  ///< name_1 .. name_10
 
-  /// At every contact point, or place on the fillets, of one position.
+  /// At every contact point or fillet point of one position.
   using AtPoints = Eigen::VectorXd (*)(const ObjectiveTerm&, const MeshModel&, const LoadedCycle&, int position);
   using PointDerivative = Eigen::RowVectorXd (*)(const ObjectiveTerm&, const PeakCandidate&, const MeshModel&, const LoadedCycle&);
   using Smooth = SmoothValue (*)(const ObjectiveTerm&, const MeshModel&, const LoadedCycle&, int direction);

@@ -25,7 +25,7 @@ std::vector<ObjectiveTerm> terms_of(const DesignTask& task) {
   return terms;
 }
 
-/// Harmonics can be told apart only where positions are equally spaced over a pitch and more than two to a period.
+/// Harmonics can be separated only where positions are equally spaced over a pitch and more than two to a period.
 void check_harmonics(const DesignTask& task) {
   const std::vector<double>& phases = task.resolution.phases;
   const int n = static_cast<int>(phases.size());

@@ -31,11 +31,11 @@ class DesignProblem {
   int scenes() const { return static_cast<int>(task_.scenes.size()); }
   const MeshModel& model(int scene) const { return *models_[static_cast<std::size_t>(scene)]; }
 
-  /// The same scenes and variables judged by other goals, models shared; nothing analysed yet.
+  /// The same scenes and variables judged by other objectives, models shared; nothing analysed yet.
   DesignProblem judged_by(const Goal& goal, std::vector<GoalBound> bounds, std::vector<TradedGoal> trade = {}) const;
 
-  /// Where a search begins: set_start(), or the scaled design that the task's own modifications stand for, moved into the bounds
-  /// where it lies outside.
+  /// Start of a search: set_start(), or the scaled design of the task's own modifications, moved into the bounds where
+  /// it lies outside.
   Eigen::VectorXd start() const;
   void set_start(const Eigen::VectorXd& x) { start_ = x; }
   /// The scaled design of a value for each variable [mm; parabolic_te 1/rad], such as DesignReport::variables; outside 0 .. 1 where a value is out
@@ -46,9 +46,10 @@ class DesignProblem {
   /// Modifications of a scaled design.
   void apply(const Eigen::VectorXd& x, Modification& pinion, Modification& wheel) const;
 
-  /// Analyses every scene; derivatives are with respect to the unscaled variables and what is tied to them. The last analysis is kept and returned
-  /// again for the same x (upgraded by a new run where derivatives are missing). Loads start from those of the last analysis, which
-  /// takes half the time and shows in digits beyond the tolerance of LoadOptions alone.
+  /// Analyses every scene; derivatives are with respect to the unscaled variables and the modifications linked to them.
+  /// The last analysis is kept and returned again for the same x (upgraded by a new run where derivatives are missing).
+  /// Loads start from those of the last analysis, which halves the time and changes only digits beyond the tolerance of
+  /// LoadOptions.
   const DesignAnalysis& analyse(const Eigen::VectorXd& x, bool with_derivatives);
   /// Analyses the task's own modifications as given, whatever the bounds.
   DesignAnalysis analyse_given() const;
@@ -69,9 +70,9 @@ class DesignProblem {
   double scene_measure(const DesignAnalysis& analysis, int scene) const;
   double scene_measure(const Goal& goal, const DesignAnalysis& analysis, int scene) const;
   double scene_measure(const Goal& goal, const LoadedCycle& cycle, int scene) const;
-  /// A goal's measures of all scenes combined, outside unit.
+  /// An objective's measures of all scenes, aggregated, outside unit.
   double value(const Goal& goal, const DesignAnalysis& analysis) const;
-  /// What is minimised: the objective over the scenes as the task says, or the trade.
+  /// What is minimised: the objective aggregated over the scenes, or the scalarisation.
   double objective(const DesignAnalysis& analysis) const;
   /// Value of a bounded output in the scene that is nearest to the bound or farthest beyond it, inside unit.
   double constraint_value(const DesignAnalysis& analysis, const OutputConstraint& constraint) const;
@@ -81,7 +82,8 @@ class DesignProblem {
   double modification_scale(const ModificationConstraint& constraint) const;
   /// d(constraint's sum)/dx, scaled variables.
   Eigen::VectorXd modification_slope(const ModificationConstraint& constraint) const;
-  /// Gradient of a candidate of one scene with respect to the scaled variables, by the chain rule through the ties.
+  /// Gradient of a candidate of one scene with respect to the scaled variables, by the chain rule through the linking
+  /// constraints.
   Eigen::VectorXd scaled(const Eigen::VectorXd& gradient) const;
 
   std::vector<double> scene_weights() const;
@@ -94,7 +96,7 @@ class DesignProblem {
   DesignTask task_;
   RootStresses root_stresses_;  ///< with every analysis where the task asks for them
     std::vector<std::shared_ptr<const MeshModel>> models_;  ///< per scene; copies of the problem share them
-  std::vector<MeshParameter> parameters_;  ///< variables, then ties
+  std::vector<MeshParameter> parameters_;  ///< variables, then linked modifications
   Eigen::VectorXd start_;  ///< empty: the task's own
   Eigen::VectorXd last_x_;
   bool last_has_derivatives_{false};

@@ -22,7 +22,7 @@ struct DesignVariable {
   double lower{0.0}, upper{0.0};  ///< [mm; parabolic_te 1/rad], lower < upper
   double step{0.0};  ///< what the grinder can set is a multiple of this, unit as the bounds; 0: anything
 
-  /// Place of a value in the range: 0 at the lower bound, 1 at the upper [-].
+  /// Value scaled to the range: 0 at the lower bound, 1 at the upper [-].
   double scaled(double value) const { return (value - lower) / (upper - lower); }
   double unscaled(double x) const { return lower + x * (upper - lower); }
   /// Factor from the inside unit to that of reports: um, but mm for the extent of a relief, arcsec/deg^2 for parabolic_te.
@@ -68,7 +68,7 @@ struct ModificationConstraint {
   const char* unit() const;
 };
 
-/// One number that a design is judged by: outputs weighted and summed in each scene, combined over the scenes.
+/// One number that a design is judged by: outputs weighted and summed in each scene, aggregated over the scenes.
 struct Goal {
   std::vector<ObjectiveTerm> terms;
   Aggregation over;
@@ -77,13 +77,13 @@ struct Goal {
   const char* unit() const;   ///< of its values outside; "weighted sum" of several terms
 };
 
-/// A goal that may not exceed a limit.
+/// An objective that may not exceed a limit.
 struct GoalBound {
   Goal goal;
   double limit{std::numeric_limits<double>::infinity()};  ///< outside unit, > 0
 };
 
-/// A goal's part in a trade: the largest (value - origin) / range of all is minimised.
+/// An objective's part in a scalarisation: the largest (value - origin) / range of all is minimised.
 struct TradedGoal {
   Goal goal;
   double origin{0.0};  ///< outside unit
@@ -98,7 +98,7 @@ struct DesignScene {
   FlankCondition condition;
 };
 
-/// What shall be chosen and what it shall achieve.
+/// The variables of a design, its objectives and its constraints.
 struct DesignTask {
   GearPair pair;
   Material pinion_material, wheel_material;
@@ -119,8 +119,8 @@ struct DesignTask {
   std::vector<ModificationConstraint> modification_constraints;
   std::vector<GoalBound> goal_bounds;
   std::vector<TradedGoal> trade;  ///< minimised instead of the objective where not empty
-  /// Minimised one after the other once the objective is, each while those before it stay within lexicographic_tolerance of their
-  /// least values.
+  /// Minimised after the objective in lexicographic order, each while those before it stay within
+  /// lexicographic_tolerance of their least values.
   std::vector<Goal> then;
   double lexicographic_tolerance{0.01};  ///< value <= (1 + tolerance) least [-], > 0
 

@@ -5,8 +5,8 @@
 
 namespace flankwright {
 
-/// The design task as it stands: objective and bounded outputs of the true peaks. For derivative-free solvers; with gradients it
-/// offers those of the leading candidate, a gradient wherever the maximum is smooth.
+/// The design task in its direct form: objective and bounded outputs of the true peaks, for derivative-free solvers.
+/// Its gradients are those of the leading candidate, correct wherever the maximum is smooth.
 class DirectProgram : public NonlinearProgram {
  public:
   DirectProgram(DesignProblem& problem, DesignLog& log) : problem_(problem), log_(log) {}

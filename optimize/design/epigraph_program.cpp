@@ -35,8 +35,8 @@ double largest_peak(const DesignProblem& problem, const DesignAnalysis& analysis
   return largest > 0.0 ? largest : 1.0 / term.outside_factor();
 }
 
-/// What the outputs of a goal are counted in [inside units]: their peaks at the start, but no less than a tenth of what the goal is there or
-/// is to range over [outside unit], which an output that is next to nothing at the start may rise to.
+/// Scale of an objective's outputs [inside units]: their peaks at the start, but no less than a tenth of the
+/// objective's value there or of its range [outside unit], to which an output near 0 at the start may rise.
 std::vector<double> units_of(const DesignProblem& problem, const DesignAnalysis& analysis, const Goal& goal, double range) {
   constexpr double least_share = 0.1;
   std::vector<double> units, outside;
@@ -86,7 +86,7 @@ Eigen::VectorXd EpigraphProgram::lower() const {
 }
 
 Eigen::VectorXd EpigraphProgram::upper() const {
-  Eigen::VectorXd bound = (2.0 * start_).cwiseMax(auxiliary_limit);  // a restart may stand beyond it
+  Eigen::VectorXd bound = (2.0 * start_).cwiseMax(auxiliary_limit);  // a restart may lie beyond it
   bound.head(problem_.variables()).setOnes();
   return bound;
 }

@@ -13,15 +13,15 @@ namespace flankwright {
 /// A row of an EpigraphProgram in terms of the design.
 struct EpigraphRow {
   enum class Kind {
-    Floor,         ///< candidate <= u of a goal's output in a scene
-    Ceiling,       ///< u <= candidate, where the goal falls with u
+    Floor,         ///< candidate <= u of an objective's output in a scene
+    Ceiling,       ///< u <= candidate, where the objective falls with u
     OutputBound,   ///< an OutputConstraint
     GoalHelper,    ///< a row of GoalBlock
     GoalBound, TradedGoal, ModificationBound
   };
   Kind kind{Kind::Floor};
   int scene{-1};  ///< -1: none
-  int index{-1};  ///< of the term within its goal, or of the constraint, bound or traded goal
+  int index{-1};  ///< of the term within its objective, or of the constraint, bound or scalarised objective
   int goal{-1};   ///< of Floor, Ceiling and GoalHelper: block
   PeakCandidate candidate{};
   int side{1};    ///< ModificationBound: 1 maximum, -1 minimum
@@ -34,12 +34,12 @@ struct EpigraphRow {
 ///     minimise  f(u)   subject to   candidate_j(x) <= u_sk (all leading candidates j of output k in scene s),
 ///                                   rows of the goals (GoalBlock),   bounds on outputs, goals and modifications,
 ///
-/// so that a solver sees smooth functions only, f being the objective's value or tau >= (value - origin) / range of every traded
-/// goal. Candidates are those near a peak at the designs given to add_candidates(); optimise_design() repeats until no other
-/// candidate rises above them. Exact where f grows with every u: all but mean + k sigma. Where that falls with a scene's u, the
-/// scene's leading candidate at the last restart bounds u from above instead: a majorant, exact at that design, so
-/// that rounds descend. A least value of an output is likewise asked of its leading candidate at the last restart, which is
-/// sufficient.
+/// so that a solver sees smooth functions only, f being the objective's value or tau >= (value - origin) / range of
+/// every scalarised objective. Candidates are those near a peak at the designs given to add_candidates();
+/// optimise_design() repeats until no other candidate rises above them. Exact where f grows with every u: all but mean
+/// + k sigma. Where that falls with a scene's u, the scene's leading candidate at the last restart bounds u from above
+/// instead: a majorant, exact at that design, so that rounds descend. A least value of an output is likewise asked of
+/// its leading candidate at the last restart, which is sufficient.
 class EpigraphProgram : public NonlinearProgram {
  public:
   EpigraphProgram(DesignProblem& problem, DesignLog& log);

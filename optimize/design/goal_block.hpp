@@ -9,8 +9,8 @@
 
 namespace flankwright {
 
-/// One goal as a smooth function of upper bounds u_sk on its outputs k in the scenes s, counted in sizes of theirs, the peaks. With
-/// m_s = sum_k w_k u_sk and the shares p_s of the scenes,
+/// One objective as a smooth function of upper bounds u_sk on its outputs k in the scenes s, in units of their peaks.
+/// With m_s = sum_k w_k u_sk and the weights p_s of the scenes, sum p_s = 1,
 ///
 ///     nominal          m_0
 ///     worst            t                                   subject to  m_s <= t
@@ -18,8 +18,8 @@ namespace flankwright {
 ///     mean + k sigma   mean + k sqrt(sum p_s (m_s - mean)^2 + epsilon^2),    epsilon = 1e-5
 ///     cvar             t + sum p_s v_s / (1 - level)       subject to  m_s - t <= v_s,  v_s >= 0
 ///
-/// Worst of a single output needs one u for all scenes. epsilon, in units of the start's value, rounds the spread off where the scenes
-/// agree: the value is at most k epsilon too large.
+/// Worst of a single output needs one u for all scenes. epsilon, in units of the start's value, smooths the spread
+/// where the scenes agree: the value is at most k epsilon too large.
 class GoalBlock {
  public:
   /// @param weights  of the scenes, > 0
@@ -35,7 +35,7 @@ class GoalBlock {
   /// Index of u_sk.
   int bound(int scene, int term) const;
   double peak(int term) const { return peaks_[static_cast<std::size_t>(term)]; }
-  /// The goal's value in outside units is value() times this.
+  /// The objective's value in outside units is value() times this.
   double scale() const { return scale_; }
 
   /// Value with its gradient over all of y.

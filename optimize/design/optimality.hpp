@@ -7,7 +7,7 @@
 
 namespace flankwright {
 
-/// A constraint of the design at its optimum that its multiplier says is felt.
+/// A constraint that is active at the optimum by its multiplier.
 struct ActiveBound {
   EpigraphRow row;         ///< of the epigraph; for a variable's bound of kind Floor with scene -1
   int variable{-1};        ///< index where it is a bound of a variable, else -1

@@ -10,7 +10,8 @@ namespace flankwright {
 
 namespace {
 
-/// How far a goal may rise above its least so that the others fall where it alone is best, see add_anchor() [-].
+/// How far an objective may rise above its least value so that the others fall where it alone is best, see add_anchor()
+/// [-].
 constexpr double anchor_slack = 1e-3;
 
 class FrontTracing {
@@ -79,8 +80,9 @@ class FrontTracing {
 
   DesignProblem alone(std::size_t g) const { return problem_.judged_by(front_.goals[g], problem_.task().goal_bounds); }
 
-  /// The best design of each goal, from all starts and from the best of every other goal: a local optimum where another goal's best lies
-  /// lower would be an end that the front never reaches. Empty where the budget is spent before each has one.
+  /// The best design of each objective, from all starts and from the best of every other objective. Otherwise a local
+  /// optimum could be an end that the front never reaches, because another objective's best lies lower. Empty where the
+  /// budget is spent before each has one.
   std::vector<ParetoPoint> best_of_each_goal() {
     const std::size_t goals = front_.goals.size();
     std::vector<LocalRun> bests;
@@ -104,8 +106,8 @@ class FrontTracing {
     return points;
   }
 
-  /// The best of goal g; then the others, as a trade in units of their largest among the bests, while g stays within anchor_slack of its
-  /// least, or of its own largest among them where its least is (nearly) 0.
+  /// The best of objective g; then a scalarisation of the others, in units of their largest among the bests, while g
+  /// stays within anchor_slack of its least value, or of its own largest among them where its least is (nearly) 0.
   void add_anchor(std::size_t g, const std::vector<ParetoPoint>& bests) {
     const auto largest = [&](std::size_t k) {
       return std::ranges::max(bests, {}, [k](const ParetoPoint& best) { return best.values[k]; }).values[k];
@@ -187,8 +189,8 @@ class FrontTracing {
     }
   }
 
-  /// Seeks the points between the ends once more, from equal steps of arc length along the broken line through them; one that stands
-  /// there already is kept. Taken where the front has grown more even by it.
+  /// Seeks the points between the ends once more, from equal steps of arc length along the broken line through them;
+  /// one that is there already is kept. Taken where the front has grown more even by it.
   void space_evenly() {
     constexpr double there = 0.1;  // of a step
     const std::size_t n = front_.points.size();

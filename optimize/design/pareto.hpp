@@ -7,41 +7,43 @@
 
 namespace flankwright {
 
-/// One compromise between several goals.
+/// One compromise between several objectives.
 struct ParetoPoint {
   Eigen::VectorXd x;           ///< scaled design
-  std::vector<double> values;  ///< of the goals, outside units
+  std::vector<double> values;  ///< of the objectives, outside units
   SolverStatus status{SolverStatus::NotRun};
   double constraint_violation{not_given};  ///< [-]
-  bool dominated{false};       ///< another point is no worse in every goal and better in one, beyond `same`
+  bool dominated{false};       ///< another point is no worse in every objective and better in one, beyond `same`
 };
 
-/// Designs of which no goal can be improved without another's loss.
+/// Designs whose objectives cannot be improved without loss in another.
 struct ParetoFront {
   std::vector<Goal> goals;
-  std::vector<ParetoPoint> points;    ///< of two goals along the front, from the best of the first to the best of the second
-  std::vector<double> ideal, worst;   ///< per goal over the points where each goal alone is best, outside units
+  std::vector<ParetoPoint> points;    ///< of two objectives along the front, from the best of the first to the best of the second
+  std::vector<double> ideal, worst;   ///< per objective over the points where each one alone is best, outside units
   int evaluations{0}, failures{0};
   double seconds{not_given};
   std::string message;                ///< why there are fewer points than asked for; empty where there are not
 
-  static constexpr double same = 1e-4;  ///< of a goal's range [-]
-  /// Longest over shortest distance between neighbours of a front of two goals, goals in their ranges; 1 is even; NaN below 3 points.
+  static constexpr double same = 1e-4;  ///< of an objective's range [-]
+  /// Longest over shortest distance between neighbours of a front of two objectives, scaled to their ranges; 1 is even;
+  /// NaN below 3 points.
   double unevenness() const;
 };
 
-/// Traces a front: each goal alone first, from options.starts and from the others' best, every other held to the least that allows it; then
-/// compromises
+/// Traces a front: each objective alone first, from options.starts and from the others' best, every other held to the
+/// least value that allows it; then compromises
 ///
 ///     minimise tau   subject to   (goal_i(x) - ideal_i) / range_i - a_i <= tau         [Pascoletti, Serafini, JOTA 42 (1984)]
 ///
-/// from reference points a. Of two goals a is the middle of the widest gap between neighbours so far; then the points between the ends are
-/// sought once more from equal steps of arc length along what was found, where that makes the spacing more even. Of
-/// three, a regular grid on the triangle of the single optima. Each search starts from the nearest design found before.
+/// from reference points a. With two objectives a is the middle of the widest gap between neighbours so far; then the
+/// points between the ends are sought once more from equal steps of arc length along the front found, where that makes
+/// the spacing more even. With three, the points a are a regular grid on the triangle of the single optima. Each search
+/// starts from the nearest design found before.
 /// @param goals    two or three
-/// @param points   >= number of goals; of three goals the largest triangular number within it
+/// @param points   >= number of objectives; for three the largest triangular number within it
 /// @param options  a solver that takes gradients and constraints; its budget is that of the whole front
-/// @throws InvalidInput for another number of goals, or a solver that cannot do it
+/// @throws InvalidInput for another number of objectives, or an unsuitable solver
 ParetoFront trace_front(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const DesignOptions& options);
 inline ParetoFront trace_front(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const SolverOptions& options) {
   return trace_front(problem, goals, points, DesignOptions{options});

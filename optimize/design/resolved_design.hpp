@@ -13,8 +13,8 @@ struct DesignErrors {
   std::vector<double> scene_measures, constraint_values, later_objectives;
 };
 
-/// Puts what resolved cycles show in place of a report's figures, and says how sure they are. An objective over the scenes is off by as
-/// much as it changes when the measures of all scenes are as large, or as small, as their errors allow.
+/// Replaces a report's figures by those of resolved cycles, with their errors. The error of an objective is its change
+/// when the measures of all scenes are as large, or as small, as their errors allow.
 /// @param cycles  of the report's analysis, one a scene
 DesignErrors resolve_report(const DesignProblem& problem, const std::vector<ResolvedCycle>& cycles, DesignReport& report);
 

@@ -19,7 +19,7 @@ struct ResolvedValue {
 };
 ResolvedValue resolved_value(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, const ResolvedCycle& resolved);
 
-/// Candidates whose value is at least (1 - margin) of the output's, largest first (ties by position), at most `most`.
+/// Candidates whose value is at least (1 - margin) of the output's, largest first (equals by position), at most `most`.
 /// A harmonic's are its directions, all of them; with margin 0 the amplitude itself.
 /// @param margin  0 keeps the peak only
 std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle,

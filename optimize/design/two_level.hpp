@@ -26,14 +26,14 @@ DesignTask coarser(DesignTask task);
 /// Whether coarser() keeps to fewest_search_intervals.
 bool can_be_coarser(const DesignTask& task);
 
-/// Searches coarsely from all starts, judges every optimum found at the task's own resolution, and goes on there from the best
-/// by the finisher, whose active set needs few analyses near an optimum. All that is reported is of the fine level. Only rounding
-/// takes place there alone.
+/// Searches coarsely from all starts, judges every optimum found at the task's own resolution, and continues there from
+/// the best by the finisher, whose active set needs few analyses near an optimum. All reported values are of the fine
+/// level. Rounding is done there only.
 /// @param problem  of the fine level
 /// @throws InvalidInput as optimise_design()
 TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOptions& options);
 
-/// Goes on at the fine level from the problem's start, by the finisher; what it finds takes the place of the design's fine part.
+/// Continues at the fine level from the problem's start by the finisher; the result replaces the design's fine part.
 void go_on(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found);
 
 }  // namespace flankwright

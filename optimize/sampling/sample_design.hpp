@@ -48,8 +48,9 @@ class SampleDesign {
   std::vector<int> levels_;  ///< of a Grid
 };
 
-/// Place of item i in a random order of n items, computed without the rest: a four-round Feistel network on the next even power of
-/// two, repeated until it lands below n (cycle walking) [Black & Rogaway, Ciphers with arbitrary finite domains, CT-RSA 2002].
+/// Position of item i in a random order of n items, computed without the rest: a four-round Feistel network on the next
+/// even power of two, repeated until it lands below n (cycle walking) [Black & Rogaway, Ciphers with arbitrary finite
+/// domains, CT-RSA 2002].
 /// @param i  0 .. n - 1;  n at most 2^32
 std::uint64_t shuffled_place(std::uint64_t i, std::uint64_t n, std::uint64_t seed, std::uint64_t stream);
 

@@ -47,7 +47,7 @@ nlopt::algorithm algorithm_named(std::string_view name) {
   return found->code;
 }
 
-/// What the callbacks see: the recorder, and what stands in for points that cannot be evaluated.
+/// The data of the callbacks: the recorder, and substitutes for points that cannot be evaluated.
 class Session {
  public:
   Session(Recorder& recorder, bool gradients) : recorder_(recorder), gradients_(gradients) {

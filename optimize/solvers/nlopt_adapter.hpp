@@ -15,7 +15,7 @@ namespace flankwright {
 /// point until that gains no more than tolerance * max(1, |objective|); they suit few constraints, slsqp and Ipopt take
 /// hundreds.
 ///
-/// NLopt cannot be told that a point cannot be evaluated. In its place it gets, for the objective, the worst value met
+/// NLopt has no way to learn that a point cannot be evaluated. Instead it gets, for the objective, the worst value met
 /// plus the spread of the values met (at least 1), with the gradient of a straight rise from the best usable point to
 /// there; and for the constraints those of that best point, or, for a derivative-free method, the largest violation met
 /// and at least 1 in each: a line search or trust region shrinks, a population drops the point.

@@ -25,8 +25,8 @@ struct SolverEnding {
   Eigen::VectorXd multipliers;  ///< of c(x) <= 0 at x; empty where it gave none
 };
 
-/// Stands between a programme and a solver library: evaluates each point once, keeps the books and the best point, and
-/// ends the run at its limits.
+/// Connects a programme to a solver library: evaluates each point once, records the run and the best point, and ends
+/// the run at its limits.
 ///
 /// Libraries ask for objective, gradient, constraints and Jacobian separately; all four come from one evaluate(). The
 /// values of every point are kept for the whole run, the gradients of the last 64 points only (a dense Jacobian is

@@ -10,13 +10,13 @@ namespace flankwright {
 
 namespace {
 
-/// Where the largest entry over all positions stands.
+/// The location of the largest entry over all positions.
 struct Place {
   int position{0};
   Eigen::Index index{0};
 };
 
-/// @param values_of  of a position: an entry per point or place
+/// @param values_of  of a position: an entry per contact point or fillet point
 template <class Values>
 Place place_of_peak(const LoadedCycle& cycle, const Values& values_of) {
   Place place;
@@ -38,7 +38,7 @@ Eigen::RowVectorXd secant_derivative(const LoadedCycle& cycle, double stiffness,
   return stiffness * (cycle.force_derivative / cycle.force - cycle.face_width_change - d_approach / approach);
 }
 
-/// Of the highest of these places over all positions; empty where there is none.
+/// Of the highest of these fillet points over all positions; empty where there is none.
 Eigen::RowVectorXd root_derivative(const MeshModel& model, const LoadedCycle& cycle, const RootPlaces& among) {
   Place highest{0, -1};
   for (std::size_t i = 0; i < cycle.positions.size(); ++i) {

@@ -11,7 +11,7 @@ namespace flankwright {
 struct TeHarmonic {
   double amplitude{not_given};     ///< [mm]
   Eigen::RowVectorXd derivative;   ///< 1 x m; at amplitude 0, where it has a kink, 0, one of its subgradients
-  std::complex<double> phasor;     ///< whose modulus the amplitude is [mm]
+  std::complex<double> phasor;     ///< its modulus is the amplitude [mm]
   Eigen::RowVectorXcd phasor_derivative;  ///< 1 x m; smooth at amplitude 0 as well
 };
 /// @param order  below half the number of positions, >= 1
@@ -20,9 +20,9 @@ TeHarmonic te_harmonic(const LoadedCycle& cycle, int order);
 /// d/dp of a line load over the mean line load.
 Eigen::RowVectorXd load_factor_derivative(const MeshModel& model, const LoadedCycle& cycle, int position, Eigen::Index point);
 
-/// Derivatives of a CycleSummary with respect to the parameters of analyse_cycle(), 1 x m each, exact while points keep their contact and
-/// peaks their place: a peak's is that of the point and position where it is (the first of equals), by which a maximum over fixed
-/// positions rises on one side at least.
+/// Derivatives of a CycleSummary with respect to the parameters of analyse_cycle(), 1 x m each, exact while points keep
+/// their contact and peaks their location. A peak's derivative is that of the point and position where it is (the first
+/// of equals); a maximum over fixed positions has it on one side at least.
 struct CycleGradient {
   Eigen::RowVectorXd te_peak_to_peak, te_mean;
   Eigen::MatrixXd te_harmonics;  ///< row per order of CycleSummary::te_harmonics

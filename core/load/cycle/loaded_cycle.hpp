@@ -14,7 +14,8 @@ struct LoadedPosition {
   LoadDistribution load;
   Gap gap;                           ///< before load
   Eigen::VectorXd contact_stress;    ///< sigma_H per point [MPa]
-  /// Largest principal stress at every place of MeshPosition::root_stress [MPa]; empty without, or where it was left for later.
+  /// Largest principal stress at every point of MeshPosition::root_stress [MPa]; empty without, or where it was left
+  /// for later.
   Eigen::VectorXd root_stress;
   double stiffness{not_given};       ///< secant, transverse, per mm of face width [N/(mm um)]; see analyse_cycle()
   // Derivatives with respect to the parameters asked for, column per parameter; those of root_stress: see root_stress_derivative().
@@ -23,7 +24,7 @@ struct LoadedPosition {
   Eigen::MatrixXd contact_stress_derivative;  ///< dsigma_H/dp, n x m
   Eigen::RowVectorXd transmission_error_derivative;  ///< df_t/dp, 1 x m
   Eigen::RowVectorXd approach_derivative;            ///< of f_t - min(g), one point's where several are nearest, 1 x m
-  Eigen::MatrixXd root_influence_derivative;  ///< of RootStressInfluence::components a w at held loads, 3 places x m; empty where no parameter moves the mesh
+  Eigen::MatrixXd root_influence_derivative;  ///< of RootStressInfluence::components a w at held loads, three rows a fillet point, m columns; empty where no parameter moves the mesh
 };
 
 /// Loaded contact over the positions of a MeshModel.

@@ -66,7 +66,7 @@ void fill_derivatives(const LoadProblemView& problem, const LoadSolver& solver, 
   position.approach_derivative = position.transmission_error_derivative - nearest_slope;
 }
 
-/// What remains where loads are held: stress follows the curvature, root stress the places of the points.
+/// The remainder at held loads: stress follows the curvature, root stress the motion of the points.
 void add_moved_places(const MeshPosition& at, const std::vector<MovedMesh>& moved, LoadedPosition& position) {
   position.root_influence_derivative = Eigen::MatrixXd::Zero(moved.front().slope.root_components.size(), position.line_load_derivative.cols());
   for (const auto& [p, slope] : moved) {

@@ -20,42 +20,43 @@ enum class RootStresses { WithLoads, Later };
 /// gap common to all points (modified or displaced flanks) is not taken for compliance.
 /// @param condition      GapModel::WholeSurface: with the misalignment that the model was placed for
 /// @param pinion_torque  [N mm], >= 0
-/// @param parameters     derivatives are computed for these; empty: none. Without torque there is none with respect to it: what
-///                       the flanks yield first is infinite per unit load, and 0 stands in its place. Points' derivatives by what
-///                       moves the mesh follow them, see MeshSlopes
+/// @param parameters     derivatives are computed for these; empty: none. Without torque there is none with respect to
+///                       it: what the flanks yield first is infinite per unit load, and 0 is given instead. Derivatives
+///                       of points by parameters that move the mesh follow the points, see MeshSlopes
 /// @param earlier        another cycle of the same model, of a design that differs by little, to start from; null: none. Only the time
 ///                       depends on it, and digits beyond the tolerance
-/// @throws InvalidInput  where a parameter moves the mesh and the model knows no further meshes along it
+/// @throws InvalidInput  where a parameter moves the mesh and the model has no perturbed meshes along it
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
                           const std::vector<MeshParameter>& parameters = {}, const LoadOptions& options = {},
                           RootStresses root_stresses = RootStresses::WithLoads, const LoadedCycle* earlier = nullptr);
 
-/// The largest principal stress at every place of MeshPosition::root_stress [MPa].
+/// The largest principal stress at every point of MeshPosition::root_stress [MPa].
 Eigen::VectorXd root_stresses(const MeshPosition& at, const LoadDistribution& load);
 /// Completes a cycle whose root stress was left for later.
 void add_root_stress(const MeshModel& model, LoadedCycle& cycle);
 
-/// d(root_stress[place])/dp of one position, 1 x m. Worked out when asked for: places are many, those that matter few.
+/// d(root_stress[place])/dp of one position, 1 x m. Computed when asked for: there are many fillet points, and few
+/// matter.
 Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPosition& position, Eigen::Index place);
 
 /// Where one gear's root is stressed most: tension side, largest principal stress at the surface.
 struct RootStressPeak {
-  double stress{not_given};          ///< over all teeth and places [MPa]
+  double stress{not_given};          ///< over all teeth and points [MPa]
   RootPlace place{};                 ///< where; the pair's tooth and z
   double phase{not_given};           ///< of the position [base pitches]
-  double tangent_stress{not_given};  ///< the same over the places at the 30 deg tangent only [MPa]
+  double tangent_stress{not_given};  ///< the same over the points at the 30 deg tangent only [MPa]
 };
 
 /// Of one gear at one mesh position; NaN where there is none.
 RootStressPeak root_stress_peak(const MeshPosition& at, const LoadedPosition& position, Member member);
 
-/// Some of the places of MeshPosition::root_stress.
+/// Some of the points of MeshPosition::root_stress.
 struct RootPlaces {
   Member member{Member::Pinion};
   std::optional<int> tooth{};  ///< of the tooth pair; nothing: all teeth
   bool tangent_only{false};    ///< those at the 30 deg tangent
 };
-/// Which of these places is stressed most at one position, the first of equals; -1 where there is none.
+/// Index of the point with the largest stress among these at one position, the first of equals; -1 where there is none.
 Eigen::Index highest_root_stress(const MeshPosition& at, const LoadedPosition& position, const RootPlaces& among);
 
 /// What a designer reads off a cycle first.

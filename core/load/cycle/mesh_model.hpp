@@ -25,23 +25,24 @@ std::vector<double> equally_spaced_phases(int n);
 /// What does not change while modifications, torque and, with GapModel::PlaneOfAction, misalignment vary: points, influence and
 /// contact laws per position.
 ///
-/// With GapModel::WholeSurface points lie where the flanks of the misaligned, unmodified pair are nearest (SurfaceGap::place), and
-/// stay there while modifications change: the gap is that of the modified flanks at their own nearest places, while curvature,
-/// depths and influence are kept. A modification moves the place along the profile by D'/kappa, with D' the slope of D over the
-/// arc and kappa the relative curvature: they are wrong by first order in the slope of a modification, as in the plane
-/// of action, the gap and its derivatives by nothing.
+/// With GapModel::WholeSurface points lie where the flanks of the misaligned, unmodified pair are nearest
+/// (SurfaceGap::place), and stay there while modifications change: the gap is that of the modified flanks at their own
+/// nearest points, while curvature, depths and influence are kept. A modification moves the point along the profile by
+/// D'/kappa, with D' the slope of D over the arc and kappa the relative curvature. Curvature, depths and influence are
+/// therefore wrong by first order in the slope of a modification, as in the plane of action; the gap and its
+/// derivatives are exact.
 struct MeshPosition {
   double phase{not_given};
   std::vector<ContactPoint> points;
   Eigen::VectorXd weight;
   Eigen::MatrixXd influence;
   std::vector<ContactLaw> laws;
-  RootStressInfluence root_stress{};  ///< no places: not asked for
+  RootStressInfluence root_stress{};  ///< no points: not asked for
 };
 
 struct MeshModel;
 
-/// The same mesh one and two steps further along a parameter that moves it, see MeshSlopes.
+/// The same mesh perturbed by one and two steps of a parameter that moves it, see MeshSlopes.
 struct FurtherMeshes {
   MisalignmentParameter parameter;
   double step;  ///< [mm or rad]
@@ -59,15 +60,15 @@ struct MeshModel {
   double calibration{not_given};      ///< kappa of the thin slice
   IsoStiffness iso;
   std::vector<MeshPosition> positions;
-  std::vector<FurtherMeshes> further{};  ///< along each parameter that derivatives are asked for by and that moves the mesh
+  std::vector<FurtherMeshes> further{};  ///< for each parameter of the derivatives that moves the mesh
 
   /// Force normal to the flanks for a torque on the pinion [N]; torque in N mm.
   double normal_force(double pinion_torque) const;
   /// Force over the mean length of the contact lines on the theoretical path [N/mm]; NaN where no point lies on it.
   double mean_line_load(double force) const;
-  /// A place of tooth pair `tooth`'s line, where the effects put it; nothing where no contact can be.
+  /// A point of tooth pair `tooth`'s line, where the effects put it; nothing where no contact can be.
   std::optional<ContactPoint> place(const PathOfContact& path, double phase, int tooth, double z) const;
-  /// How a place gives way locally; nothing where that is left out.
+  /// The local contact law at a point; nothing where that is left out.
   std::optional<ContactLaw> contact_law(const ContactPoint& point) const;
   /// The common face, z [mm].
   double face_start() const { return std::max(-0.5 * pair.pinion.data.face_width, axial_offset - 0.5 * pair.wheel.data.face_width); }
@@ -75,9 +76,9 @@ struct MeshModel {
 };
 
 /// Builds points, influence matrix and contact laws at every phase: asks the effects, stage by stage.
-/// @param effects      those that are on
+/// @param effects      the effects that are on
 /// @param placement    as MeshPlacement::of() makes it
-/// @param structure    what yields structurally; null: thin slices
+/// @param structure    structural compliance; null: thin slices
 /// @param root_stress  null: none
 /// @param shafts       added to it, coupling all points; null: rigid shafts
 /// @throws InvalidInput where no effect lets the points give way, no phase is given, or the gears do not overlap axially

@@ -11,7 +11,7 @@ namespace flankwright {
 
 namespace {
 
-/// What MeshSlope is the slope of, for the points of a position as a further mesh has them.
+/// The values whose slope is MeshSlope, for the points of a position in a perturbed mesh.
 struct HeldLoads {
   Eigen::VectorXd gap, deflection, relative_radius, root_components;
   double force;

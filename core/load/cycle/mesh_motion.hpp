@@ -12,23 +12,25 @@
 
 namespace flankwright {
 
-/// How far apart the meshes lie that derivatives by a parameter that moves the mesh are taken from [m_n]: lengths by this, angles by this over
-/// half the common face width, so that the flanks' ends move alike. The slope of a smooth f over three of them is wrong by step^2 f'''/3, and by about
-/// four times the round-off of f over the step, places of the whole surface having some 1e-10 mm of it. A place that comes to a tip edge or to the start of
-/// a linear relief within two steps has a kink there, and its slope is then off by between -1/2 and all of what the slope jumps by: the shorter the step, the
-/// fewer do. Measured over 40,000 positions of a worked pair, against differences over 2.5e-6 of a change that turns loads over, in parts of the peak load over
-/// that change: 20 are off by more than 1e-4, of these 16 with a loaded place that near to a tip edge, by up to 0.16, and one on the start of an end relief, 0.31.
+/// Step between a mesh and its perturbed ones, for derivatives by a parameter that moves the mesh [m_n]: lengths by
+/// this, angles by this over half the common face width, so that the flanks' ends move alike. The slope of a smooth f
+/// over three of them is wrong by step^2 f'''/3, and by about four times the round-off of f over the step; that of
+/// points of the whole surface is some 1e-10 mm. A point that comes to a tip edge or to the start of a linear relief
+/// within two steps has a kink there, and its slope is then off by between -1/2 and all of the slope's jump: the
+/// shorter the step, the fewer do. This was measured over 40,000 positions of a worked pair, against differences over
+/// 2.5e-6 of a change that turns loads over, in parts of the peak load over that change: 20 are off by more than 1e-4,
+/// of these 16 with a loaded point that near to a tip edge, by up to 0.16, and one on the start of an end relief, 0.31.
 inline constexpr double mesh_step = 3e-5;
 /// The same for one parameter [mm or rad].
 double mesh_step_of(const GearPair& pair, MisalignmentParameter parameter);
 
 /// The mesh at a placement.
 using MeshPlaced = std::function<MeshModel(const MeshPlacement&)>;
-/// A mesh with what derivatives by those of the parameters need that move it, MeshModel::further: two meshes more for each.
+/// A mesh with its perturbed ones, two for each of the parameters that move it, see MeshModel::further.
 /// @param mesh  makes what `model` is, at any placement
 MeshModel with_further_meshes(MeshModel model, const MeshPlaced& mesh, const std::vector<MeshParameter>& parameters);
 
-/// @throws InvalidInput  where the model knows no further meshes along this parameter
+/// @throws InvalidInput  where the model has no perturbed meshes along this parameter
 const FurtherMeshes& further_meshes(const MeshModel& model, MisalignmentParameter parameter);
 /// A condition with the wheel where a mesh has it.
 FlankCondition placed_as(const MeshModel& mesh, MisalignmentParameter parameter, FlankCondition condition);
@@ -53,7 +55,7 @@ struct MeshSlope {
 class MeshSlopes {
  public:
   /// @param model, condition  must outlive this; the model made by with_further_meshes()
-  /// @throws InvalidInput  where the model knows no further meshes along the parameter
+  /// @throws InvalidInput  where the model has no perturbed meshes along the parameter
   MeshSlopes(const MeshModel& model, const FlankCondition& condition, MisalignmentParameter parameter);
   MeshSlopes(const MeshSlopes&) = delete;  // its gaps know its conditions
 
@@ -65,7 +67,7 @@ class MeshSlopes {
   double relative_line_length() const;
 
  private:
-  /// A further mesh, in the condition that belongs to it.
+  /// A perturbed mesh, in its own condition.
   struct Further {
     Further(const MeshModel& mesh, MisalignmentParameter parameter, const FlankCondition& of);
     const MeshModel& model;
@@ -85,13 +87,13 @@ class MeshSlopes {
   Further one_, two_;
 };
 
-/// Which point of the further position each point of a position is, by its place in its line; -1 where it is none of them.
+/// For each point of a position its index in the perturbed position, by its order in its line; -1 where it has none.
 std::vector<Eigen::Index> same_points(const MeshPosition& at, const MeshPosition& further);
 
-/// Values of further points that are those of a position, by the position's numbers; 0 where there is none.
+/// Values of perturbed points in the order of the position's points; 0 where there is none.
 Eigen::VectorXd as_at(const std::vector<Eigen::Index>& same, const Eigen::VectorXd& values);
 /// The other way round.
-/// @param points  how many the further position has
+/// @param points  how many the perturbed position has
 Eigen::VectorXd as_further(const std::vector<Eigen::Index>& same, const Eigen::VectorXd& values, Eigen::Index points);
 
 /// The slope at the first of three values, one step apart.

@@ -32,7 +32,7 @@ ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at,
 
 /// Whether a parameter changes more than gap and force: what a mesh is placed by, see MeshPlacement.
 bool moves_mesh(GapModel gap, const MeshParameter& parameter);
-/// Where among the parameters those stand.
+/// Their indices among the parameters.
 std::vector<Eigen::Index> moving_among(GapModel gap, const std::vector<MeshParameter>& parameters);
 
 }  // namespace flankwright

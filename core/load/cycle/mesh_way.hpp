@@ -9,9 +9,10 @@
 
 namespace flankwright {
 
-/// A solved position and the same one with the mesh one and two steps further along a parameter that moves it (MeshModel::further): points and what they rest
-/// on are those of the further meshes, line loads and f_t go there by their derivatives. Whatever can be read off a
-/// loaded position has its own derivative by reading it off all three: that of MeshSlopes, with its error. A load that falls may end below 0.
+/// A solved position, and the same one with the mesh perturbed by one and two steps of a parameter that moves it
+/// (MeshModel::further). Points, curvature and compliance are those of the perturbed meshes; line loads and f_t follow
+/// by their derivatives. The derivative of anything read from a loaded position is the forward difference over all
+/// three, as in MeshSlopes and with its error. A falling load may end below 0.
 class MeshWay {
  public:
   struct Stage {
@@ -21,13 +22,14 @@ class MeshWay {
     LoadedPosition loaded;  ///< phase, line loads, structural deflection and f_t only
   };
 
-  /// @param model, condition  as analyse_cycle() had them; the model must outlive this
+  /// @param model, condition  as for analyse_cycle(); the model must outlive this
   /// @param loaded            position number `position` of the cycle, solved under some force
-  /// @param column            where the parameter stands among the cycle's
+  /// @param column            index of the parameter among the cycle's
   MeshWay(const MeshModel& model, const FlankCondition& condition, const LoadedPosition& loaded, std::size_t position,
           MisalignmentParameter parameter, Eigen::Index column);
 
-  /// Derivative of what read(stage) gives: a number, or as many as a vector has at every stage, else NaN throughout [per mm or rad].
+  /// Derivative of read(stage), a number or a vector; NaN throughout where the stages' vectors differ in size [per mm
+  /// or rad].
   template <class Read>
   auto slope(const Read& read) const {
     const auto here = read(stages_[0]), one = read(stages_[1]), two = read(stages_[2]);
@@ -38,7 +40,7 @@ class MeshWay {
       return Eigen::VectorXd(first_slope<Eigen::VectorXd>(here, one, two, step_));
     }
   }
-  /// The same for what read(stage) gives for each of the stage's points, following each; 0 for points that some stage is without.
+  /// The same where read(stage) has one value per point, following each point; 0 for points that a stage lacks.
   template <class Read>
   Eigen::VectorXd point_slope(const Read& read) const {
     const Eigen::VectorXd slopes = first_slope<Eigen::VectorXd>(read(stages_[0]), as_at(same_[0], read(stages_[1])), as_at(same_[1], read(stages_[2])), step_);

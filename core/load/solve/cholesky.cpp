@@ -6,7 +6,7 @@ namespace flankwright {
 
 namespace {
 
-/// Stands for an infinite pivot: what is divided by it is 0 beside anything else, and its square is still finite.
+/// Replaces an infinite pivot: a number divided by it is 0 beside any other, and its square is still finite.
 constexpr double held_pivot = 1e150;
 
 }  // namespace
@@ -43,7 +43,7 @@ void Cholesky::factorise() {
       const double x2 = (c2[i] - x0 * l20 - x1 * l21) * i2, x3 = (c3[i] - x0 * l30 - x1 * l31 - x2 * l32) * i3;
       c0[i] = x0, c1[i] = x1, c2[i] = x2, c3[i] = x3;
     }
-    // What these four take off the rest, two columns at a time so that each is read once for both.
+    // Subtracts these four from the rest, two columns at a time so that each is read once for both.
     Eigen::Index j = k + 4;
     for (; j + 2 <= n; j += 2) {
       double *p = start + j * rows, *q = p + rows;

@@ -276,7 +276,7 @@ double LoadSolver::slope_along(double t) const {
   return sum;
 }
 
-/// Whether loads are as good as the residual says, see `last_step`.
+/// Whether the loads are as accurate as the residual indicates, see `last_step`.
 bool LoadSolver::settled() {
   if (laws_.empty() || load_step_ <= last_step) return true;
   if (!has_factor_) return false;

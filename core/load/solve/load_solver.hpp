@@ -57,7 +57,7 @@ class LoadSolver {
 
   double force_{0.0};
   double first_touch_{0.0};  ///< min(g) [mm]
-  double load_floor_{0.0};   ///< line load whose slope stands for that of no load [N/mm]
+  double load_floor_{0.0};   ///< line load whose slope is used for that of no load [N/mm]
   Eigen::VectorXd structural_, gap_;  ///< of all n points; gap_ from first touch
 
   std::vector<Eigen::Index> points_;           ///< of the working set, ascending
