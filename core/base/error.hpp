@@ -5,7 +5,7 @@
 
 namespace flankwright {
 
-/// The one error type for bad input: which field, what value, what is allowed.
+/// The error type for bad input: the field, its value and what is allowed.
 ///
 /// Thrown by everything that validates what a user supplied. Non-convergence is never
 /// an InvalidInput: it is a status inside a result.
@@ -13,7 +13,7 @@ class InvalidInput : public std::runtime_error {
  public:
   /// @param field    name of the offending quantity as the user knows it ("pinion.teeth")
   /// @param value    the value found, as text
-  /// @param allowed  what would have been accepted ("an integer of at least 5")
+  /// @param allowed  accepted values ("an integer of at least 5")
   InvalidInput(std::string field, std::string value, std::string allowed);
 
   const std::string& field() const { return field_; }

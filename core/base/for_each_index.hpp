@@ -5,7 +5,7 @@
 
 namespace flankwright {
 
-/// Does one thing for every index below a count, in any order or side by side.
+/// Runs work for every index below a count, in any order or in parallel.
 using ForEachIndex = std::function<void(std::size_t count, const std::function<void(std::size_t)>& work)>;
 
 }  // namespace flankwright

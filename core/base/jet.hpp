@@ -6,8 +6,8 @@
 
 namespace flankwright {
 
-/// A function of two parameters (u, v) at one point: value, gradient and second derivatives, all exact. As a number it is
-/// second-order forward differentiation; as plain data it is what a surface knows of itself.
+/// A function of two parameters (u, v) at one point: value, gradient and second derivatives, all exact. As a number it
+/// is second-order forward differentiation; as plain data it is a surface's value with its derivatives.
 struct Jet {
   double value{0.0};
   double u{0.0}, v{0.0};               ///< first derivatives

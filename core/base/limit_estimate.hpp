@@ -12,12 +12,12 @@ namespace flankwright {
 ///
 /// A value that passes its neighbour by chance makes d2 small and p large; `most` keeps it from being taken for an order.
 struct LimitEstimate {
-  static constexpr double least = 0.75, most = 2.0;  ///< orders that an error is worked out with
+  static constexpr double least = 0.75, most = 2.0;  ///< orders that errors are computed with
 
   double error;  ///< of the last value, >= 0, in its unit
   double order;  ///< observed; infinite where d2 = 0, NaN where both are 0
-  /// d1 and d2 are of one sign and least <= order: the sequence comes closer as a power of the step. What is not regular has an
-  /// estimate by its last change all the same.
+  /// d1 and d2 are of one sign and least <= order: the sequence comes closer as a power of the step. An irregular
+  /// sequence also has an estimate, by its last change.
   bool regular;
 };
 

@@ -2,9 +2,9 @@
 
 namespace flankwright {
 
-/// Keeps OpenBLAS on one thread while any of them lives, in whatever thread of ours: its results would otherwise depend on how many cores
-/// there are. Other implementations are left as they are. Which BLAS runs is known only when the program is loaded, so its
-/// switches are looked for there.
+/// Keeps OpenBLAS on one thread while any instance lives, in any of our threads: its results would otherwise depend on
+/// the number of cores. Other implementations are left as they are. Which BLAS runs is known only when the program is
+/// loaded, so its switches are sought then.
 class OneBlasThread {
  public:
   OneBlasThread();

@@ -86,7 +86,7 @@ Peak<Sample> find_peak(const Evaluate& evaluate, double lo, double hi, double gu
     slow = bracket > 0.5 * width ? slow + 1 : 0;
     if (slow == 0) width = bracket;
     if (slow >= 1 || !(x + step > a.position() && x + step < b.position())) {
-      // Where the tangents meet, from a. A kink that was not passed is stepped over, ever further.
+      // Where the tangents meet, from a. A kink that was not passed is stepped over with growing steps.
       const double meet = ((b.value() - a.value()) - b.slope() * bracket) / (a.slope() - b.slope());
       const double gain = rises ? a.slope() * meet : -b.slope() * (bracket - meet);
       const double towards = rises ? 1.0 : -1.0, further = std::ldexp(1.0, 2 * std::min(same_side, 20));

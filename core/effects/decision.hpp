@@ -25,7 +25,8 @@ std::vector<std::string> listed_effect_names();
 /// Which effects the scenes call for, each with its reason.
 EffectDecisions decide_effects(const EffectFacts& facts, const EffectList& effects = registered_effects());
 
-/// Effects switched by hand: exactly those named, as far as what they need is named too; what other keys switch stays as called for.
+/// Effects switched by hand: exactly those named whose requirements are named too. Effects that other keys switch stay
+/// as called for.
 /// @throws InvalidInput for an unknown name
 EffectDecisions chosen_effects(const EffectFacts& facts, const std::vector<std::string>& names,
                                const EffectList& effects = registered_effects());
@@ -42,7 +43,7 @@ MeshEffects mesh_effects(const EffectDecisions& decisions, const EffectList& eff
 /// The condition without everything whose effect is off.
 FlankCondition apply_effects(const EffectDecisions& decisions, FlankCondition condition, const EffectList& effects = registered_effects());
 
-/// Where the gap is sought with these effects.
+/// The gap model with these effects.
 GapModel gap_model(const EffectDecisions& decisions);
 
 }  // namespace flankwright

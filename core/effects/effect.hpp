@@ -9,12 +9,12 @@
 
 namespace flankwright {
 
-/// What a study asks of the analysis, as far as effects depend on it.
+/// The settings of a study on which effects depend.
 struct EffectFacts {
   bool loaded{false};         ///< some torque is above zero
   bool unloaded{false};       ///< some torque is zero
   std::vector<FlankCondition> conditions{};  ///< of all scenes
-  bool coupled_teeth{false};  ///< the compliance model knows how one tooth moves another
+  bool coupled_teeth{false};  ///< the compliance model couples teeth
   bool gear_bodies{false};    ///< and how the gears' bodies yield
   bool shafts{false};         ///< a gear's shaft is described
   bool root_stress{false};    ///< finite elements are made anyway, or something asks for peak_root_stress
@@ -31,7 +31,7 @@ struct EffectCall {
 /// their registration never shows in a result.
 enum class EffectStage {
   Unloaded,    ///< contact without load, beside the loaded mesh
-  Condition,   ///< what the flanks are like: left out by clear_from()
+  Condition,   ///< the shape of the flanks: left out by clear_from()
   Region,      ///< how far along the plane of action points are made
   Placement,   ///< where the points lie
   Body,        ///< the gear bodies
@@ -42,8 +42,8 @@ enum class EffectStage {
   Roots,       ///< what is read off the loads
 };
 
-/// One physical effect: its name, the rule for when a scene calls for it, and what it does to a mesh. An effect that is off is
-/// not asked for anything, but what it has in a condition is cleared.
+/// One physical effect: its name, the rule for when a scene calls for it, and what it does to a mesh. An effect that is
+/// off does nothing, but its part of a condition is cleared.
 class Effect {
  public:
   virtual ~Effect() = default;
@@ -58,7 +58,7 @@ class Effect {
   virtual bool listed() const { return true; }
   /// It alone makes every point compliant, so that loads are determined.
   virtual bool gives_way() const { return false; }
-  /// Takes out of a condition what there is of the effect.
+  /// Removes the effect's part of a condition.
   virtual void clear_from(FlankCondition&) const {}
   /// Adds its part to a mesh position, in its stage.
   virtual void act(MeshDraft&) const {}

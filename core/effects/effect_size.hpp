@@ -8,7 +8,7 @@
 
 namespace flankwright {
 
-/// What of a loaded cycle an effect is measured by.
+/// The outputs of a loaded cycle by which an effect is measured.
 struct CycleOutputs {
   double te_mean{not_given};              ///< of f_t [mm]
   double te_peak_to_peak{not_given};      ///< [mm]
@@ -18,7 +18,7 @@ struct CycleOutputs {
   std::vector<std::complex<double>> te_harmonics{};
 };
 
-/// What an effect does: outputs with it less those without. NaN: not known.
+/// The contribution of an effect: outputs with it less those without. NaN: not known.
 struct EffectInfluence {
   double te_mean{not_given};              ///< [mm]
   double te_peak_to_peak{not_given};      ///< [mm]
@@ -50,8 +50,9 @@ struct EffectSize {
   double seconds{not_given};  ///< that it took to find out
 };
 
-/// Switches off what acts on the mesh and is too small to matter: effects by rising size, as long as their shares, which add up to first
-/// order, stay within the budget together. What may not be dropped stays, and what has no size.
+/// Switches off effects on the mesh that are too small to matter: in order of rising contribution, as long as these,
+/// which add up to first order, stay within the budget together. Effects that may not be dropped stay, and so do those
+/// without a contribution.
 /// @param budget  relative error [-], > 0
 EffectDecisions within_budget(EffectDecisions decisions, std::vector<EffectSize> sizes, double budget);
 

@@ -22,17 +22,18 @@ struct MeshParts {
   const MeshPlacement& placement;
   const PairCompliance* structure{nullptr};    ///< teeth and gear bodies; null: rigid
   const PairCompliance* shafts{nullptr};       ///< null: rigid
-  const PairRootStress* root_stress{nullptr};  ///< null: not asked for
+  const PairRootStress* root_stress{nullptr};  ///< null: not wanted
 
   double axial_offset() const { return placement.misalignment.axial_offset; }
 };
 
-/// How far a point is from both tips; infinity: as if there were none.
+/// Distances of a point from both tips; infinity: as if there were none.
 struct TipDistances {
   double pinion{std::numeric_limits<double>::infinity()}, wheel{std::numeric_limits<double>::infinity()};  ///< [mm]
 };
 
-/// How far along its contact line a point is from the end faces of either gear, and how these lean; infinity: as if there were none.
+/// Distances of a point along its contact line from the end faces of either gear, and the lean of these; infinity: as
+/// if there were none.
 struct EndDistances {
   std::array<double, 2> pinion{ContactSide::no_ends}, wheel{ContactSide::no_ends};  ///< [mm]
   double pinion_lean{0}, wheel_lean{0};  ///< ContactSide::end_lean [rad]

@@ -11,7 +11,7 @@
 
 namespace flankwright {
 
-/// The effects that are on in a loaded mesh. Copies share one count of what each has cost.
+/// The effects that are on in a loaded mesh. Copies share one record of the costs.
 class MeshEffects {
  public:
   /// All that are registered.
@@ -33,7 +33,7 @@ class MeshEffects {
   }
 
   const EffectList& list() const { return on_; }
-  /// How often an effect was asked for its part, and how long that took, on all threads together [s]; 0 where it is off.
+  /// The number of calls of an effect and their time on all threads together [s]; 0 where it is off.
   std::int64_t calls(std::string_view name) const;
   double seconds(std::string_view name) const;
 

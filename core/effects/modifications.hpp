@@ -6,7 +6,7 @@
 
 namespace flankwright {
 
-/// Material taken off the flanks on purpose, see Modification.
+/// Material removed from the flanks on purpose, see Modification.
 class ModificationsEffect final : public Effect {
  public:
   std::string_view name() const override { return "modifications"; }

@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// What the loads do to the fillets, see PairRootStress: an output of its own, which moves no load.
+/// The stress of the loads in the fillets, see PairRootStress: an additional output, which changes no load.
 class RootStressEffect final : public Effect {
  public:
   std::string_view name() const override { return "root_stress"; }

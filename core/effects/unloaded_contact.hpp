@@ -4,7 +4,8 @@
 
 namespace flankwright {
 
-/// Tooth contact analysis, see core/contact: an output of its own, which the loaded mesh does not know of. What a torque of 0 means.
+/// Tooth contact analysis, see core/contact: an additional output, independent of the loaded mesh. What a torque of 0
+/// means.
 class UnloadedContactEffect final : public Effect {
  public:
   std::string_view name() const override { return "unloaded_contact"; }

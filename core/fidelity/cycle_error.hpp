@@ -22,7 +22,8 @@ struct CycleErrorParts {
   CycleErrors sum() const;
 };
 
-/// Which positions of an evenly spaced cycle the coarser one is solved at: every second where their number is even and at least 8, else all.
+/// The positions of an evenly spaced cycle at which the coarser one is solved: every second where their number is even
+/// and at least 8, else all.
 std::vector<double> coarse_phases(const std::vector<double>& phases);
 
 /// How far a cycle's figures are from those of infinitely many points and positions, by an embedded comparison: the same contact

@@ -18,12 +18,12 @@ Values values_of(const LoadedPosition& position) {
   return {te, -te, position.contact_stress.maxCoeff(), position.load.line_load.maxCoeff()};
 }
 
-/// How high a curve may rise within an interval, and where [base pitches].
+/// The possible rise of a curve within an interval, and its phase [base pitches].
 struct Promise {
   double height{-std::numeric_limits<double>::infinity()}, phase{not_given};
 };
 
-/// Intervals shorter than this are not divided [base pitches]: what rises within is a jump.
+/// Intervals shorter than this are not divided [base pitches]: a rise within is a jump.
 constexpr double shortest = 1e-4;
 /// A probe keeps this distance from both ends, as a share of the interval: secants of a short and a long interval are not alike.
 constexpr double inset = 0.1;

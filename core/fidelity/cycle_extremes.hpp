@@ -14,8 +14,8 @@ struct ExtremeSearch {
   int most{32};  ///< positions looked at before the search gives up, >= 1
 };
 
-/// Where a cycle's extremes lie between its positions: each position carries the largest or smallest transmission error, the largest
-/// contact stress or the largest line load of all that were looked at.
+/// A cycle's extremes between its positions: each of these positions has the largest or smallest transmission error,
+/// the largest contact stress or the largest line load of all that were solved.
 struct CycleExtremes {
   std::vector<double> phases;  ///< [base pitches], rising; empty where the cycle's own positions have all extremes
   PerFigure unseen{};          ///< by how much extremes may still be larger, in the figures' units; 0 for what is no extreme

@@ -10,7 +10,7 @@ namespace flankwright {
 
 namespace {
 
-/// What a row reads: a member, or a function of the whole.
+/// The source of a row: a member, or a function of the whole.
 template <auto of>
 std::vector<double> one(const CycleSummary& summary) {
   return {std::invoke(of, summary)};

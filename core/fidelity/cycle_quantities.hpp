@@ -11,8 +11,9 @@
 
 namespace flankwright {
 
-/// One row of the table of what a loaded mesh cycle is summed up by: a number, or one for each order of the mesh frequency. Results, their
-/// gradients and errors, tables, sweeps, objectives and the report are written from these rows: an output more is a row more.
+/// One row of the table of a loaded mesh cycle's quantities: a number, or one for each order of the mesh frequency.
+/// Results, their gradients and errors, tables, sweeps, objectives and the report are written from these rows: an
+/// output more is a row more.
 struct CycleQuantity {
   std::string_view name;    ///< "te_peak_to_peak": as objectives and bounds name it
   std::string_view key;     ///< "te_peak_to_peak_um": in results, with its unit
@@ -53,7 +54,7 @@ struct CycleEntry {
 
 inline constexpr int highest_te_harmonic = 10;  ///< order that a summary has
 
-/// Every entry of every row: what a sweep counts, or a table may show.
+/// Every entry of every row, for sweeps and tables.
 std::vector<CycleEntry> cycle_entries();
 /// The entry of that name; its quantity is null where there is none.
 CycleEntry find_cycle_entry(std::string_view name);

@@ -60,7 +60,8 @@ class DiscretisationRun {
   double counted(const ResolutionLevel& level) const { return headline(root_sum_square(search_.spent, level.error())); }
   bool keeps(const ResolutionLevel& level) const { return counted(level) <= search_.accuracy; }
 
-  /// Whether some figure is beyond the accuracy, but not by this part of its error alone, which cannot be lessened any more.
+  /// Whether some figure exceeds the accuracy, though not by this part of its error alone, which cannot be reduced
+  /// further.
   bool mendable(const ResolutionLevel& level, const PerFigure& fixed) const {
     PerFigure open = root_sum_square(search_.spent, level.error());
     const PerFigure alone = root_sum_square(search_.spent, fixed);

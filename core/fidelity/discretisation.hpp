@@ -8,7 +8,7 @@
 
 namespace flankwright {
 
-/// The same mesh as finely as one likes.
+/// The same mesh at any resolution.
 using MeshOfResolution = std::function<MeshModel(const MeshResolution&)>;
 
 /// One load case whose resolution is sought.
@@ -19,7 +19,7 @@ struct ResolutionCase {
   int placement{0};                 ///< cases of one number have the same meshes, which are made once
 };
 
-/// What a resolution shows, and how sure it is.
+/// The figures of a resolution, and their errors.
 struct ResolutionLevel {
   int intervals{0}, positions{0};
   CycleFigures figures;  ///< with extremes between the positions where they were sought
@@ -46,7 +46,7 @@ struct Discretisation {
   int positions{0};
   /// Estimated shares, worst over the load cases, each at the last level it was solved at; 0 of what was not to be chosen.
   PerFigure quadrature_error{}, position_error{}, total_error{};
-  std::size_t governing{0};             ///< load case that asked for the finest resolution
+  std::size_t governing{0};             ///< load case that needed the finest resolution
   std::vector<ResolutionLevel> levels;  ///< what was solved of it, coarse to fine
   bool kept{false};       ///< headline(root_sum_square(spent, error())) <= accuracy
   int failures{0};        ///< positions without a usable load distribution; the search ends there

@@ -21,7 +21,7 @@ struct Case {
   FlankCondition condition;
 };
 
-/// Makes the cases of one scene; what its gears alone settle is worked out once.
+/// Builds the cases of one scene; data of the gears alone are computed once.
 class Cases {
  public:
   Cases(const EffectScene& scene, EffectMeshes& meshes)
@@ -41,7 +41,7 @@ class Cases {
     return {meshes_.mesh(left_out, placement, make), std::move(condition)};
   }
 
-  /// Whether the structure can be had with these effects: that on rigid bodies takes a run of its own.
+  /// Whether there is a structure for these effects: that on rigid bodies needs its own run.
   bool knows(const EffectDecisions& decisions) const {
     return scene_.structure == nullptr || scene_.structure->knows_rigid_bodies() || is_on(decisions, "gear_body_compliance");
   }

@@ -14,14 +14,14 @@
 
 namespace flankwright {
 
-/// One load case, from which effects are left out. What it points at must outlive it.
+/// One load case, from which effects are left out. Everything that it refers to must outlive it.
 struct EffectScene {
   GearPair pair;
   Material pinion_material, wheel_material;
   MeshResolution resolution;
   const PairCompliance* structure{nullptr};  ///< null: thin slices
   const PairCompliance* shafts{nullptr};     ///< null: rigid
-  FlankCondition condition;                  ///< with everything that there is, whatever effects are on
+  FlankCondition condition;                  ///< with all models, whatever effects are on
   double pinion_torque{not_given};           ///< [N mm], > 0
 };
 
@@ -52,7 +52,7 @@ CycleOutputs outputs_with(const EffectScene& scene, const EffectDecisions& decis
 /// compliant without it.
 EffectInfluence exact_influence(const EffectScene& scene, const EffectDecisions& decisions, const std::string& name);
 
-/// How an estimate came about.
+/// How an estimate was made.
 struct EstimatedSize {
   EffectSize size;
   int positions{0};
@@ -68,11 +68,12 @@ struct SizeOptions {
 
 /// Sizes of the effects that are on and change a mesh, to first order at the solution with all of them.
 ///
-/// Without an effect the same position has another influence matrix K', gap g', contact law c' or fewer points. The loads w that
-/// were solved for leave there the residual r = K' a w + c'(w) + g' - f_t, and forces short by what stood on points that are gone:
-/// one step of LoadSensitivity, a single factorisation, gives loads and f_t without the effect. Of f_t it is exact to first order in
-/// what changes, sum a_i (dw_i/dF) (dK a w + dg + dc)_i. (For a mesh without gaps and linear in its loads, dw/dF = w/F, the
-/// envelope theorem's sum a_i w_i (...)_i / F.) Where SizeOptions::trust is exceeded the position is solved again.
+/// Without an effect the same position has another influence matrix K', gap g', contact law c' or fewer points. The
+/// loads w that were solved for leave there the residual r = K' a w + c'(w) + g' - f_t, and forces short by those on
+/// points that are gone: one step of LoadSensitivity, a single factorisation, gives loads and f_t without the effect.
+/// Of f_t it is exact to first order in what changes, sum a_i (dw_i/dF) (dK a w + dg + dc)_i. (For a mesh without gaps
+/// and linear in its loads, dw/dF = w/F, the envelope theorem's sum a_i w_i (...)_i / F.) Where SizeOptions::trust is
+/// exceeded the position is solved again.
 /// @param meshes  shared between load cases
 std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options, EffectMeshes& meshes);
 std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options = {});

@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// Where an analysis that chooses its own resolution begins and ends. Points follow the rule Graded.
+/// Start and limits of an analysis that chooses its own resolution. Points follow the rule Graded.
 struct AutomaticResolution {
   double accuracy{0.01};  ///< refined until headline_error() <= accuracy [-], > 0
   int intervals{12}, positions{32};             ///< to begin with, >= 2 and >= 4
@@ -12,7 +12,7 @@ struct AutomaticResolution {
   bool choose_intervals{true}, choose_positions{true};  ///< false: as they are to begin with
 };
 
-/// Whether the points along the contact lines bring at least as much of the headline error as the positions do.
+/// Whether the points along the contact lines cause at least as much of the headline error as the positions.
 bool mostly_by_points(const ResolvedCycle& resolved, const LoadedCycle& cycle);
 
 /// Doubles the intervals or the positions of a resolution, whichever bring most of the headline error, as far as they may be chosen; false,
@@ -25,12 +25,12 @@ struct ResolvedAnalysis {
   MeshResolution resolution;
   MeshModel model;
   LoadedCycle cycle;       ///< of it
-  ResolvedCycle resolved;  ///< what it shows, and how far that is from the truth
+  ResolvedCycle resolved;  ///< its figures and their errors
   double error{not_given};  ///< headline_error() [-]; NaN where a position failed
 };
 
-/// Analyses one load case as a study does that leaves its resolution open: from a coarse resolution on, what brings most of the error is
-/// doubled until the accuracy is kept or the limits are reached.
+/// Analyses one load case like a study without a given resolution: from a coarse resolution on, intervals or positions,
+/// whichever cause most of the error, are doubled until the accuracy is kept or the limits are reached.
 /// @param pinion_torque  [N mm], > 0
 /// @throws InvalidInput  as `mesh_for` does
 ResolvedAnalysis analyse_resolved(const MeshOfResolution& mesh_for, const FlankCondition& condition, double pinion_torque, AutomaticResolution automatic = {});

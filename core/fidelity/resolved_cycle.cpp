@@ -7,7 +7,7 @@ namespace flankwright {
 
 namespace {
 
-/// Of a cycle's summary, with what further positions show.
+/// A cycle's summary with the extremes of further positions.
 void include(const MeshModel& model, const LoadedCycle& cycle, const LoadedCycle& extremes, CycleSummary& summary) {
   const Eigen::VectorXd te = cycle.transmission_error(), further = extremes.transmission_error();
   summary.te_peak_to_peak = std::max(te.maxCoeff(), further.maxCoeff()) - std::min(te.minCoeff(), further.minCoeff());

@@ -7,7 +7,7 @@
 
 namespace flankwright {
 
-/// What a cycle is known to show: its figures with extremes between its positions, and the error of each.
+/// The figures of a cycle with extremes between its positions, and the error of each.
 struct ResolvedCycle {
   CycleSummary summary;        ///< of positions and extremes together
   CycleErrorParts error_parts; ///< NaN where no coarser cycle was given
@@ -20,7 +20,7 @@ struct ResolvedCycle {
 /// The mesh at phases of one's choice [base pitches], with what derivatives by these parameters need.
 using MeshWithParameters = std::function<MeshModel(const std::vector<double>& phases, const std::vector<MeshParameter>& parameters)>;
 
-/// What of a cycle is to be resolved beyond its positions.
+/// What is resolved beyond the positions of a cycle.
 struct CycleResolving {
   bool seek_extremes{true};          ///< false: extremes are those of the positions
   const LoadedCycle* coarse{nullptr};  ///< at coarse_phases() or at all phases of the cycle, with fewer intervals; null: no error is estimated

@@ -163,7 +163,7 @@ SplineFit fit_spline(const GridSamples& samples, SplinePieces pieces) {
   assert(samples.values.allFinite());
   const Basis along_u = make_basis(samples.u, pieces.u), along_v = make_basis(samples.v, pieces.v);
 
-  // Least squares on a tensor product: along u for every column, then along v for every row of what that gives.
+  // Least squares on a tensor product: along u for every column, then along v for every row of the result.
   const Eigen::MatrixXd rows = values_at(along_u, samples.u).householderQr().solve(samples.values);
   const Eigen::MatrixXd weights = values_at(along_v, samples.v).householderQr().solve(rows.transpose()).transpose();
 

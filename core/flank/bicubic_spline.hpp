@@ -84,7 +84,7 @@ struct SplineFit {
 ///
 /// Work grows with the cube of the number of points along a direction.
 ///
-/// @param samples  as its fields say (asserted)
+/// @param samples  as described at its fields (asserted)
 /// @param pieces   1 .. most_spline_pieces() along each direction (asserted)
 SplineFit fit_spline(const GridSamples& samples, SplinePieces pieces);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double least_pace = 0.5;  // see make_conjugate_field()
 
-/// Where the flank touches its mate, in the coordinates of DeviationField.
+/// The point where the flank touches its mate, in the coordinates of DeviationField.
 template <class Scalar>
 struct Touch {
   Scalar roll;    ///< rho [mm]

@@ -39,7 +39,7 @@ struct Flank {
   FlankFrame frame;
   Modification modification;  ///< without what became a field
   ManufacturingError error;
-  /// What is not written in closed form: the generated flank, the predesigned parabola, the measured grid; summed.
+  /// The sum of deviations without a closed form: generated flank, predesigned parabola, measured grid.
   std::vector<std::shared_ptr<const DeviationField>> fields;
 
   double lowest_roll() const { return roll_at(form_radius); }

@@ -13,8 +13,8 @@ struct ManufacturingError {
   double helix_slope{0.0};    ///< f_Hbeta over the face width, linear, zero at mid face; + adds at z = +b/2
   double profile_slope{0.0};  ///< f_Halpha over the active profile height, zero at the reference circle; + adds at the tip
   double twist{0.0};          ///< f_yz: added twist * (y / h_active) * (z / b)
-  /// What single teeth have beyond that, the same quantities: tooth k has entry k mod size; empty: all teeth are alike. k
-  /// counts teeth as for the pitch.
+  /// Additional errors of single teeth, the same quantities: tooth k has entry k mod size; empty: all teeth are alike.
+  /// k counts teeth as for the pitch.
   std::vector<double> helix_slopes{}, profile_slopes{}, twists{};
   /// Cumulative pitch deviation of tooth k is pitch_step * k, or cumulative_pitch[k mod size] where the list is
   /// not empty; k counts teeth in the order in which they come into mesh before the reference tooth.

@@ -30,8 +30,8 @@ inline constexpr double largest_grid_deviation = 1.0;
 /// Throws InvalidInput, field "grid", where the grid breaks one of these bounds.
 void validate(const MeasuredGrid& grid, double base_radius);
 
-/// How much of the active flank (start of active profile to tip, all of the face) a grid spans. Contact elsewhere sees
-/// the extension of BicubicSpline.
+/// The part of the active flank (start of active profile to tip, all of the face) that a grid spans. Contact elsewhere
+/// sees the extension of BicubicSpline.
 struct GridCoverage {
   double profile{not_given};  ///< share of the active roll length, 0 .. 1
   double face{not_given};     ///< share of the face width, 0 .. 1
@@ -46,7 +46,7 @@ inline constexpr double widest_grid_margin = 0.25;
 /// extrapolation.
 GridCoverage check_coverage(const MeasuredGrid& grid, const FlankFrame& frame);
 
-/// How a surface is laid through a grid.
+/// Options of the surface through a grid.
 struct GridFitOptions {
   /// Number of polynomial pieces along the profile and along the face, 1 .. most_spline_pieces(points); the fewer, the
   /// smoother, see fit_spline(). Empty: the surface passes through every point, noise included. The extension magnifies

@@ -51,9 +51,9 @@ void add_polynomial(const M& m, PolynomialAmounts& sum) {
 
 }  // namespace detail
 
-/// What of a flank's deviation is a formula: metal removed by the modifications of a list (the grid `topography` not included) less metal added by
-/// manufacturing errors, without pitch. The function is continuous; its slope jumps where a linear relief starts. Outside the active flank the
-/// same formulas continue.
+/// The part of a flank's deviation in closed form: metal removed by the modifications of a list (without the grid
+/// `topography`) less metal added by manufacturing errors, without pitch. The function is continuous; its slope jumps
+/// where a linear relief starts. Outside the active flank the same formulas continue.
 template <class List>
 class DeviationFormulaOf;
 

@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// What a removal is measured against; see GearPair::flank_frame() for a gear of a pair.
+/// The reference lengths of a removal; see GearPair::flank_frame() for a gear of a pair.
 struct FlankFrame {
   double pitch_radius{not_given};       ///< working pitch radius r_w [mm]: origin of crowning and profile slope
   double reference_radius{not_given};   ///< reference radius r [mm]: origin of error profile slope

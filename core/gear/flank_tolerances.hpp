@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// What the tolerances of one gear depend on.
+/// The data on which the tolerances of one gear depend.
 struct ToleranceData {
   int teeth{0};                           ///< z, 5 .. 1000
   double reference_diameter{not_given};   ///< d [mm], 5 .. 15000

@@ -31,7 +31,7 @@ struct RackProfile {
   bool operator==(const RackProfile&) const = default;
 };
 
-/// What defines one gear of a pair beside the common rack angles.
+/// The data of one gear of a pair, besides the common rack angles.
 struct GearData {
   int teeth{0};                     ///< z, >= 5
   double face_width{0.0};           ///< b [mm], > 0
@@ -41,7 +41,7 @@ struct GearData {
   Generation generation;            ///< what cuts the flanks
 };
 
-/// What defines an external parallel-axis involute pair [ISO 21771].
+/// The data of an external parallel-axis involute pair [ISO 21771].
 struct PairData {
   double normal_module{0.0};                  ///< m_n [mm], > 0
   double pressure_angle{20 * units::deg};     ///< alpha_n, normal section [rad], 10 .. 35 deg

@@ -25,7 +25,7 @@ struct RevolutionTool {
   double arc_radius{std::numeric_limits<double>::infinity()};  ///< rho of the arc [mm], > 0; infinite: the cone
 };
 
-/// What cut a flank.
+/// The tool that cut a flank.
 using Generation = std::variant<StraightRack, ParabolicRack, RevolutionTool>;
 
 }  // namespace flankwright

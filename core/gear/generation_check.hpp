@@ -6,13 +6,14 @@
 
 namespace flankwright {
 
-/// What is wrong with a gear's generating tool in itself: numbers out of range, a surface of revolution for a helical gear. Fields
-/// as "pinion.generation.half_apex"; angles in deg.
+/// Errors of a gear's generating tool in itself: numbers out of range, a surface of revolution for a helical gear.
+/// Fields as "pinion.generation.half_apex"; angles in deg.
 std::vector<InvalidInput> find_tool_problems(const PairData& pair, Member member);
 
-/// What keeps a sound tool from generating the flank: from the start of the active profile to the tip circle, over
-/// the whole face and a little beyond (GeneratedRange::regular_margin), the envelope must have no cusp (undercut), lie on the
-/// tool and grow in radius with rho. Names the limit: the largest coefficient, the least arc_radius, or the least distance.
+/// Why a valid tool cannot generate the flank: from the start of the active profile to the tip circle, over the whole
+/// face and a little beyond (GeneratedRange::regular_margin), the envelope must have no cusp (undercut), lie on the
+/// tool and grow in radius with rho. Names the limit: the largest coefficient, the least arc_radius, or the least
+/// distance.
 std::vector<InvalidInput> find_generation_problems(const Gear& gear, const PairData& pair);
 
 /// The largest coefficient of a ParabolicRack [1/mm] that find_generation_problems() accepts, to round-off.

@@ -55,7 +55,7 @@ ToothForm::ToothForm(NoTip, const GearData& gear, double normal_module, double p
         "rack.dedendum", h,
         "more than 0 and at most " + std::to_string(pi / 4 / std::tan(pressure_angle)) + ", where the tool is pointed");
   }
-  // A full rounding is usually stated to a few digits; what is allowed beyond it is round-off.
+  // A full rounding is usually given to a few digits; the excess allowed is round-off.
   constexpr double kRoundOff = 1e-12;
   if (!(rho >= 0 && rho <= largest + kRoundOff)) {
     reject("rack.root_radius", rho, "from 0 to the tool's full tip rounding, " + std::to_string(largest));

@@ -6,7 +6,7 @@
 
 namespace flankwright {
 
-/// Where the profile cut by a rack begins and ends.
+/// Start and end of the profile cut by a rack.
 struct GeneratedProfile {
   double form_radius{not_given};  ///< r_Ff: start of the involute [mm]; with undercut, where fillet and involute cross
   double root_radius{not_given};  ///< r_f: lowest point of the fillet [mm]
@@ -91,7 +91,7 @@ class ToothForm {
   ProfilePoint fillet_point(double lambda) const;
   /// dy/dlambda there, at most 0 [mm/rad]: of the class comment's formula, along the tangent.
   double fillet_rise(double lambda) const;
-  /// Where the fillet has a height y [rad]; the nearer end where it has not.
+  /// The fillet's parameter at the height y [rad]; the nearer end where it has not.
   double fillet_at_height(double y) const;
 
   /// Roll length of the form circle, where the involute starts [mm].

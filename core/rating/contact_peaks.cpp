@@ -57,7 +57,7 @@ class Line {
   std::size_t begin_, end_;
 };
 
-/// What is sought in one phase: four peaks, each with its own samples to compare.
+/// The search at one phase: four peaks, each with its own samples to compare.
 constexpr std::array<const LinePeak& (*)(const ContactPeaks&), 4> sought{
     +[](const ContactPeaks& p) -> const LinePeak& { return p.with_spikes.contact_stress; },
     +[](const ContactPeaks& p) -> const LinePeak& { return p.with_spikes.line_load; },

@@ -38,7 +38,7 @@ struct ContactPeaks {
     LinePeak contact_stress;  ///< sigma_H [MPa]
     LinePeak line_load;       ///< [N/mm]
   };
-  Pair with_spikes, without_spikes;  ///< value NaN where no point counts
+  Pair with_spikes, without_spikes;  ///< value NaN without a point
   int positions{0};        ///< mesh positions solved
   int failures{0};         ///< of these without a usable load distribution: the peaks are then those of the others
   double search_step{not_given};     ///< used [base pitches]
@@ -50,7 +50,7 @@ struct ContactPeaks {
 /// linear in between, so that the peak is a continuous function of the phase.
 ContactPeaks peaks_at(const MeshModel& model, const MeshPosition& at, const LoadedPosition& loaded, const SpikeRule& rule = {});
 
-/// The same mesh at phases of one's choice [base pitches].
+/// The same mesh at any phases [base pitches].
 using MeshAt = std::function<MeshModel(const std::vector<double>& phases)>;
 
 struct PeakSearch {

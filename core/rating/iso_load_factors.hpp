@@ -6,11 +6,12 @@
 
 namespace flankwright {
 
-/// Deviations of a mesh as ISO 6336-1 sees them: one number along the face, one along the profile. In the transverse plane along the
-/// base tangent [mm], >= 0. Of teeth that differ the worst, over as many pairs in turn as the longer list has entries.
+/// Deviations of a mesh as ISO 6336-1 sees them: one number along the face, one along the profile. In the transverse
+/// plane along the base tangent [mm], >= 0. If teeth differ, the worst, over as many pairs in turn as the longer list
+/// has entries.
 struct IsoDeviations {
   /// F_beta_y: linear part of the gap along the face over the common face width: helix slopes of both gears, errors and
-  /// modifications, and everything that misaligns. Crowning and end relief do not count, nor does running-in (y_beta = 0).
+  /// modifications, and everything that misaligns. Crowning, end relief and running-in (y_beta = 0) are ignored.
   double misalignment{not_given};
   /// f_pe: the larger of the largest adjacent base pitch error of either gear and the profile deviation of both together
   /// between A and E at mid face (f_f instead of f_pe where that is larger, as the standard says). Errors only: deliberate

@@ -46,7 +46,7 @@ std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, c
     const NaturalSpline structural = structural_deflection(at, loaded, begin, end);
     for (const double z : {line.begin, line.end}) {
       const auto point = model.place(region.path, at.phase, tooth, z);
-      if (!point || !model.contact_law(*point)) continue;  // without a law of its own an end has no load of its own
+      if (!point || !model.contact_law(*point)) continue;  // an end without its own contact law has no load
       points.push_back(*point);
       ends.push_back({tooth, z, structural(z)});
     }

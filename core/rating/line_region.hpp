@@ -20,8 +20,8 @@ struct LineRegion {
         last(path.path_end()),
         longest(path.slope == 0.0 ? model.face_width : std::min(model.face_width, (last - first) / std::abs(path.slope))) {}
 
-  /// What a line has between A and E, its ends there (not those on the faces) moved inwards along the axis by `distance` [mm]; begin >
-  /// end where nothing is left. A spur line is whole or not there, whatever the distance.
+  /// The part of a line between A and E, its ends there (not those on the faces) moved inwards along the axis by
+  /// `distance` [mm]; begin > end where nothing is left. A spur line is whole or not there, whatever the distance.
   LineInterval line(double line_phase, double distance = 0.0) const {
     const double start = path.phase_at(line_phase, 0.0);
     if (path.slope == 0.0) {

@@ -19,7 +19,7 @@ FlankCondition profile_part(const FlankCondition& condition);
 FlankCondition whole_condition(const FlankCondition& condition);
 /// One of these.
 using ConditionPart = FlankCondition (*)(const FlankCondition&);
-/// Whether a parameter moves a part of a condition: something of it alone is left there.
+/// Whether a part of a condition depends on a parameter.
 bool acts(const MeshParameter& parameter, ConditionPart part);
 /// Part of the condition is neither lead nor profile.
 bool has_other_part(const FlankCondition& condition);

@@ -61,7 +61,7 @@ std::optional<double> phase_slope_of_points(const PlacedPeak& at) {
   return std::nullopt;
 }
 
-/// How a peak's phase moves with the axial offset [base pitches per mm]: as the event does that it lies at. Between events, where the
+/// Slope of a peak's phase with the axial offset [base pitches per mm]: that of its event. Between events, where the
 /// slope over the phase is zero, it may be held.
 double phase_slope(const MeshModel& model, const FurtherMeshes& further, const PlacedPeak& at) {
   const double share = at.peaks.spikes.line_share;

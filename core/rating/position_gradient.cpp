@@ -27,7 +27,7 @@ Eigen::RowVectorXd extrapolated(const MeshPosition& at, const LineEnd& end, cons
   return there;
 }
 
-/// How the gap changes where lines end, row per end.
+/// Slopes of the gap at the ends of lines, one row per end.
 Eigen::MatrixXd end_gaps(const MeshModel& model, const FlankCondition& condition, double phase, const std::vector<LineEnd>& ends,
                          const std::vector<MeshParameter>& parameters) {
   MeshPosition at;
@@ -70,7 +70,8 @@ Eigen::VectorXd clearances(const MeshPosition& at) {
   return all;
 }
 
-/// Of the ends of lines, one after the other: approach, contact deflection under these ends' loads, relative radius [mm]; empty where their number is another.
+/// Approach, contact deflection under the ends' loads and relative radius of the ends of lines [mm], all of one kind
+/// after the other; empty where the number of ends differs.
 Eigen::VectorXd end_readings(const MeshWay::Stage& stage, const std::vector<LineEnd>& held) {
   const std::vector<LineEnd> ends = line_ends(stage.model, stage.at, stage.loaded, stage.condition);
   if (ends.size() != held.size()) return {};

@@ -8,8 +8,9 @@
 
 namespace flankwright {
 
-/// Derivatives of what a loaded position has beside line loads, contact stress, f_t and stiffness, column per parameter of analyse_cycle(); exact while points
-/// keep their contact. By what moves the mesh they follow each point, see MeshWay.
+/// Derivatives of a loaded position's quantities other than line loads, contact stress, f_t and stiffness, one column
+/// per parameter of analyse_cycle(); exact while points keep their contact. Derivatives by parameters that move the
+/// mesh follow each point, see MeshWay.
 struct PositionGradient {
   // Row per contact point.
   Eigen::MatrixXd point_force;            ///< of a w [N]
@@ -25,9 +26,10 @@ struct PositionGradient {
 ///
 ///     d(K a w) = K a dw,     dc = df_t - dg - d(K a w),
 ///
-/// of the share s of a tooth pair ds = sum a dw / F - s dF/F, and of a line's end dw = (df_t - dg - dS)/c', with S the spline through the structural
-/// deflections, linear in them; a line end without load has none. What moves the mesh moves a line's end too: read along the way are what is left for its contact, c at the load
-/// held, and its curvature.
+/// of the share s of a tooth pair ds = sum a dw / F - s dF/F, and of a line's end dw = (df_t - dg - dS)/c', with S the
+/// spline through the structural deflections, linear in them; a line end without load has none. Parameters that move
+/// the mesh move a line's end too: the deflection left for its contact, c at the held load, and its curvature are read
+/// in the perturbed positions.
 /// @param condition, parameters  as analyse_cycle() had them
 /// @param position  of the cycle, usable and under some force
 /// @param ends      line_ends() of it

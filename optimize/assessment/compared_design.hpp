@@ -14,7 +14,7 @@ struct NamedDesign {
   Modification pinion, wheel;
 };
 
-/// What a design comes to over the scenes of a task.
+/// The result of a design over the scenes of a task.
 struct ComparedDesign {
   NamedDesign design;
   double objective{not_given};             ///< outside units

@@ -7,7 +7,7 @@
 
 namespace flankwright {
 
-/// How the objective answers to one parameter, outside units.
+/// Sensitivity of the objective to one parameter, outside units.
 struct Sensitivity {
   ProofParameter parameter;
   double less{not_given}, more{not_given};  ///< change by one step down and up, all else held

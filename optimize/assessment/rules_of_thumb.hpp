@@ -6,7 +6,7 @@
 
 namespace flankwright {
 
-/// What the rules of thumb are worked out from.
+/// The data of the rules of thumb.
 struct RuleBasis {
   double torque{not_given};        ///< design torque: the largest of the scenes [N mm]
   double misalignment{not_given};  ///< largest F_beta_y over the scenes, of housing and errors, see IsoDeviations [mm]

@@ -8,7 +8,7 @@
 
 namespace flankwright {
 
-/// How one design does over many scenes.
+/// One design over many scenes.
 struct ValidatedDesign {
   std::string name;
   std::vector<double> measures;  ///< per scene [outside units]; NaN where it could not be analysed
@@ -20,7 +20,7 @@ struct ValidatedDesign {
 std::vector<ValidatedDesign> validate_designs(const DesignTask& task, const std::vector<DesignScene>& scenes,
                                               const std::vector<NamedDesign>& designs);
 
-/// What is said of a sample of numbers; NaN are left out and counted.
+/// Statistics of a sample of numbers; NaN are left out and counted.
 struct Spread {
   static constexpr std::array shares{0.05, 0.25, 0.5, 0.75, 0.95};
 
@@ -38,7 +38,7 @@ Spread spread_of(const std::vector<double>& values);
 /// Share of the scenes in which `a` is below `b` [-]; scenes where either is NaN are left out, NaN where none is left.
 double share_below(const std::vector<double>& a, const std::vector<double>& b);
 
-/// How many values lie in each of equal bins of low .. high, the last one with its upper end.
+/// Number of values in each of equal bins of low .. high, the last one with its upper end.
 std::vector<int> histogram(const std::vector<double>& values, double low, double high, int bins);
 
 }  // namespace flankwright

@@ -9,7 +9,7 @@
 
 namespace flankwright {
 
-/// Where the levels of a full-factorial search lie between the bounds of a variable.
+/// Positions of the levels of a full-factorial search between the bounds of a variable.
 enum class LevelPlacement {
   BoundToBound,  ///< lower, ..., upper in equal steps
   Middles        ///< the middles of equal parts

@@ -55,11 +55,11 @@ struct DesignResult {
   /// Two optima of which the better is lower by more than this share are different [-].
   static constexpr double same_objective = 1e-3;
   bool is_multimodal() const { return optima.size() > 1; }
-  /// By what share rounding made the objective larger [-]; NaN without steps.
+  /// Relative increase of the objective by rounding [-]; NaN without steps.
   double rounding_loss() const { return exact ? after.objective / exact->objective - 1.0 : not_given; }
 };
 
-/// What a run asks beyond a solver's options.
+/// Options of a run beyond those of its solver.
 struct DesignOptions {
   SolverOptions solver;  ///< budgets are those of all starts together, and of the stages and the rounding after them
   int starts{1};         ///< >= 1

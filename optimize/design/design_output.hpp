@@ -19,8 +19,8 @@ enum class Output {
   LoadFactor,         ///< peak line load / mean line load [-]
   PeakLineLoad,       ///< [N/mm]
   PeakRootStress,     ///< of both gears' fillets; needs DesignTask::root_stress [MPa]
-  /// How many tooth pairs share the load, mean over the positions of 1 / sum of squared shares: their number where they carry alike,
-  /// less where one carries most; smooth, unlike their count [-]
+  /// Number of tooth pairs that share the load, mean over the positions of 1 / sum of squared fractions: their count
+  /// where they carry alike, less where one carries most; smooth, unlike the count [-]
   EffectiveContactRatio,
   EdgeLoad            ///< peak line load within ObjectiveTerm::edge_margin of a tip edge or a face end [N/mm]
 };
@@ -36,7 +36,7 @@ struct ObjectiveTerm {
   /// Factor from the inside unit to the unit that the weight and every report refer to (MPa, um, N/mm, 1).
   double outside_factor() const;
   const char* unit() const;
-  /// The name of what it reads, whatever it is called: that of its row, with the order of a harmonic.
+  /// The name of its output: that of its row, with the order of a harmonic.
   std::string own_name() const;
 };
 

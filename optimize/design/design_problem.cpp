@@ -57,7 +57,7 @@ void check_root_stress(const DesignTask& task) {
   }
 }
 
-/// What is asked must be there to be analysed.
+/// Requested outputs must be part of the analysis.
 void check(const DesignTask& task) {
   if (task.objective.empty()) throw InvalidInput("optimise.objective", "none", "at least one output");
   check_harmonics(task);

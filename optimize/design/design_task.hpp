@@ -20,7 +20,7 @@ struct DesignVariable {
   Member member{Member::Pinion};
   ModificationParameter parameter{};
   double lower{0.0}, upper{0.0};  ///< [mm; parabolic_te 1/rad], lower < upper
-  double step{0.0};  ///< what the grinder can set is a multiple of this, unit as the bounds; 0: anything
+  double step{0.0};  ///< the grinder can set multiples of this, unit as the bounds; 0: any value
 
   /// Value scaled to the range: 0 at the lower bound, 1 at the upper [-].
   double scaled(double value) const { return (value - lower) / (upper - lower); }
@@ -109,7 +109,7 @@ struct DesignTask {
   std::shared_ptr<const PairCompliance> search_structure{};  ///< cheaper and nearly the same, to search by before `structure`; null: none
   std::shared_ptr<const PairRootStress> root_stress;     ///< null: none
   std::shared_ptr<const PairCompliance> shafts;          ///< null: rigid
-  Modification pinion_modification, wheel_modification;  ///< values of what is not varied, and the start of what is
+  Modification pinion_modification, wheel_modification;  ///< values of parameters that are not varied, and the start of those that are
   std::vector<DesignScene> scenes;                       ///< the first is the nominal one
   std::vector<DesignVariable> variables;
   std::vector<ObjectiveTerm> objective;

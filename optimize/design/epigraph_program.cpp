@@ -9,7 +9,7 @@ namespace {
 
 using Kind = EpigraphRow::Kind;
 
-/// Which candidates add_candidates() takes: within `margin` of the peak, at most `most` per output and scene.
+/// The candidates that add_candidates() takes: within `margin` of the peak, at most `most` per output and scene.
 struct CandidateChoice {
   double margin;
   std::size_t most;
@@ -23,7 +23,8 @@ CandidateChoice choice_for(Output output) {
 
 constexpr double auxiliary_limit = 100.0;  // u <= 100 of what it is counted in: no active bound at any sensible design
 
-/// A harmonic's amplitude is a candidate of its own where it exceeds this share of its largest at the start: far from its kink.
+/// A harmonic's amplitude is itself a candidate where it exceeds this fraction of its largest at the start: far from
+/// its kink.
 constexpr double away_from_zero = 0.01;
 
 /// Largest over the scenes that count, or one outside unit where an output is 0 there.

@@ -10,7 +10,7 @@
 namespace flankwright {
 
 /// One objective as a smooth function of upper bounds u_sk on its outputs k in the scenes s, in units of their peaks.
-/// With m_s = sum_k w_k u_sk and the weights p_s of the scenes, sum p_s = 1,
+/// With m_s = sum_k w_k u_sk and the weights p_s of the scenes, of sum 1,
 ///
 ///     nominal          m_0
 ///     worst            t                                   subject to  m_s <= t

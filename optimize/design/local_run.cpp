@@ -34,7 +34,7 @@ std::function<std::string()> when_stalled(const DesignLog& log) {
   };
 }
 
-/// What is left of the budget for the next round.
+/// The remaining budget of the next round.
 SolverOptions remaining(const SolverOptions& options, int used, double seconds) {
   SolverOptions left = options;
   left.max_evaluations = std::max(1, options.max_evaluations - used);

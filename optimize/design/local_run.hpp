@@ -5,7 +5,7 @@
 
 namespace flankwright {
 
-/// How one search from one start went.
+/// One search from one start.
 struct LocalRun {
   SolverStatus status{SolverStatus::NotRun};
   std::string message;
@@ -26,8 +26,8 @@ struct LocalRun {
 /// Solvers with gradients that take constraints get the epigraph form, re-solved from its own optimum until no peak
 /// outside its candidates exceeds them by 1e-6 of the objective at the start, or 20 rounds are done. Where the solver
 /// no longer gains on a kink, options.finisher continues from its best design; `finished_by` and `message` then say so.
-/// Other solvers get the direct form. The best design met under the true outputs is returned, whatever the solver
-/// stopped at.
+/// Other solvers get the direct form. The best design met under the true outputs is returned, wherever the solver
+/// stopped.
 LocalRun run_local(DesignProblem& problem, const SolverOptions& options);
 
 }  // namespace flankwright

@@ -8,8 +8,8 @@ namespace flankwright {
 /// seed draws [Cranley, Patterson, SIAM J. Numer. Anal. 13 (1976)].
 std::vector<Eigen::VectorXd> space_filling_starts(const Eigen::VectorXd& first, int count, unsigned long seed);
 
-/// Runs from several starts side by side, each with an equal part of options.max_evaluations and a seed of its own; the first starts
-/// where the problem does. The same whatever the number of threads.
+/// Parallel runs from several starts, each with an equal part of options.max_evaluations and its own seed; the first
+/// starts where the problem does. The result does not depend on the number of threads.
 /// @param count  >= 1
 std::vector<LocalRun> run_from_starts(const DesignProblem& problem, const SolverOptions& options, int count);
 

@@ -28,11 +28,11 @@ struct ActiveBound {
 /// no share where multipliers are not unique. f is the objective in units of its start, variables count in their
 /// ranges.
 ///
-/// Rows bend where a contact point is about to lose or take up load, or the start of a relief passes one; optima like to lie
-/// there. Where the conditions do not hold to 1e-4 with the gradients at the design, those at its neighbours (one variable
-/// changed by `neighbourhood` of its range) count as gradients of the same row as well: the conditions of Clarke, F.,
-/// Optimization and Nonsmooth Analysis, 1983, with the generalised gradient as Burke, Lewis & Overton, SIAM J. Optim. 15
-/// (2005), sample it. They are taken where the conditions then hold, and the rows that bend are marked.
+/// Rows bend where a contact point is about to lose or take up load, or the start of a relief passes one; optima like
+/// to lie there. Where the conditions do not hold to 1e-4 with the gradients at the design, gradients at its neighbours
+/// (one variable changed by `neighbourhood` of its range) count as gradients of the same row as well: the conditions of
+/// Clarke, F., Optimization and Nonsmooth Analysis, 1983, with the generalised gradient as Burke, Lewis & Overton, SIAM
+/// J. Optim. 15 (2005), sample it. They are taken where the conditions then hold, and the rows that bend are marked.
 struct Optimality {
   double residual{not_given};         ///< largest entry of grad f + J' lambda [-]
   double complementarity{not_given};  ///< largest |c lambda| [-]

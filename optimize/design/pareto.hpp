@@ -23,7 +23,7 @@ struct ParetoFront {
   std::vector<double> ideal, worst;   ///< per objective over the points where each one alone is best, outside units
   int evaluations{0}, failures{0};
   double seconds{not_given};
-  std::string message;                ///< why there are fewer points than asked for; empty where there are not
+  std::string message;                ///< the reason for fewer points than wanted; empty without
 
   static constexpr double same = 1e-4;  ///< of an objective's range [-]
   /// Longest over shortest distance between neighbours of a front of two objectives, scaled to their ranges; 1 is even;

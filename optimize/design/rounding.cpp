@@ -10,7 +10,7 @@ namespace flankwright {
 
 namespace {
 
-/// How many scenes a design must pass one by one before all are analysed side by side.
+/// Number of scenes that a design must pass one by one before all are analysed in parallel.
 constexpr std::size_t scenes_tried_first = 4;
 
 /// A search over whole numbers of steps; variables without a step keep their values. A worst case is no better where one scene

@@ -9,11 +9,11 @@
 namespace flankwright {
 
 /// Value of an output: the largest of its candidates.
-/// @throws std::runtime_error where the cycle is not usable(): a solver survives and counts it
+/// @throws std::runtime_error where the cycle is not usable(): a solver counts it and goes on
 double output_value(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle);
 
-/// The same with extremes between the positions, and its estimated error, inside unit; the error is NaN where none was estimated. What
-/// has no figure of its own in a summary is that of the positions.
+/// The same with extremes between the positions, and its estimated error, inside unit; the error is NaN where none was
+/// estimated. Outputs without a figure in the summary are those of the positions.
 struct ResolvedValue {
   double value{not_given}, error{not_given};
 };

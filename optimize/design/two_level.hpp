@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// What a search by two levels did on each.
+/// The work of a two-level search on each level.
 struct LevelWork {
   MeshResolution resolution;
   int analyses{0};            ///< of the whole scene set
@@ -18,10 +18,11 @@ struct TwoLevelDesign {
   double objective_seen_by_search{not_given};  ///< of the coarse optimum, as the coarse level has it, outside units
 };
 
-/// How finely a search looks: half the intervals of its task along each contact line, at least and at most so many of the rule Graded, and at
-/// most so many positions. With fewer the order of designs is not kept; with more an optimum is found no better, for it is finished finely.
+/// The resolution of a search: half the intervals of its task along each contact line, within these limits of the rule
+/// Graded, and at most so many positions. With fewer the order of designs is not kept; with more an optimum is found no
+/// better, for it is finished finely.
 inline constexpr int fewest_search_intervals = 4, most_search_intervals = 6, most_search_positions = 32;
-/// The same task as a search looks at it: coarser, with the structure to search by, and without steps.
+/// The same task for a search: coarser, with the structure to search by, and without steps.
 DesignTask coarser(DesignTask task);
 /// Whether coarser() keeps to fewest_search_intervals.
 bool can_be_coarser(const DesignTask& task);

@@ -5,8 +5,8 @@
 
 namespace flankwright {
 
-/// How one uncertain quantity scatters, independent of all others. A value is drawn by the inverse of the distribution function, so
-/// that any design of points in the unit cube (SampleDesign) serves every distribution.
+/// The distribution of one uncertain quantity, independent of all others. A value is drawn by the inverse of the
+/// distribution function, so that any design of points in the unit cube (SampleDesign) serves every distribution.
 class Distribution {
  public:
   enum class Kind { Normal, TruncatedNormal, Uniform, Values };

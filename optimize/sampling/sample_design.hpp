@@ -6,7 +6,7 @@
 
 namespace flankwright {
 
-/// How points are spread over the unit cube.
+/// The distribution of points over the unit cube.
 enum class Sampler {
   Grid,            ///< every combination of levels, the last coordinate fastest
   Sobol,           ///< scrambled Sobol sequence: best for means and indices
@@ -19,9 +19,9 @@ const char* to_string(Sampler sampler);
 /// The names of all samplers, in the order of the enumerators.
 const std::vector<std::string>& sampler_names();
 
-/// Points of the unit cube, each computed on its own from its number and the seed: any order, any share of them, the same points. Of
-/// Sobol and Monte Carlo a larger design begins with the smaller one. Coordinates are uniform in the open interval (0, 1), and of a
-/// Grid the middles of its levels; Distribution::quantile() makes values of them.
+/// Points of the unit cube, each computed on its own from its number and the seed: any order, any share of them, the
+/// same points. With Sobol and Monte Carlo a larger design begins with the smaller one. Coordinates are uniform in the
+/// open interval (0, 1), and of a Grid the middles of its levels; Distribution::quantile() makes values of them.
 class SampleDesign {
  public:
   /// Sobol, Latin hypercube or Monte Carlo.

@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// Most dimensions that sobol_number() knows direction numbers for.
+/// Largest number of dimensions for which sobol_number() has direction numbers.
 inline constexpr int sobol_dimensions = 37;
 
 /// Coordinate of point i of the Sobol sequence in base 2, as 32 bits after the binary point, in plain (not Gray) order: the first

@@ -5,7 +5,7 @@
 
 namespace flankwright {
 
-/// Values at one point of a nonlinear programme. Gradients are filled only when asked for.
+/// Values at one point of a nonlinear programme. Gradients are filled only on request.
 struct ProgramValues {
   double objective{std::numeric_limits<double>::quiet_NaN()};
   Eigen::VectorXd objective_gradient;   ///< n

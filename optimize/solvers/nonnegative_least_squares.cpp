@@ -23,7 +23,7 @@ Eigen::VectorXd solve_over(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, c
 Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
   Eigen::VectorXd y = Eigen::VectorXd::Zero(A.cols());
   if (A.cols() == 0 || A.rows() == 0) return y;
-  // A column may enter where a_j . r > descent |a_j| |b|: what is less is round-off.
+  // A column may enter where a_j . r > descent |a_j| |b|: smaller values are round-off.
   constexpr double descent = 1e-12;
   const Eigen::VectorXd least = descent * b.norm() * A.colwise().norm().transpose();
   std::vector<Eigen::Index> in;

@@ -26,7 +26,7 @@ constexpr double kStartSlack = 1e-9;
 constexpr double kViolationGain = 10.0;
 
 /// A library's final point counts as converged to the feasible point kept where its violation is no more than
-/// kNearlyFeasible * constraint_tolerance: what a last step within the step tolerance leaves where constraints are
+/// kNearlyFeasible * constraint_tolerance: the remainder of a last step within the step tolerance where constraints are
 /// steep.
 constexpr double kNearlyFeasible = 100.0;
 
@@ -189,7 +189,7 @@ SolverResult Recorder::result(SolverEnding ending) {
   result.status = ending.status;
   result.message = std::move(ending.message);
   result.solver = options_.name;
-  // Ask for the library's final point first: it may be one that was never asked for. At a limit it stays unknown.
+  // The library's final point comes first: it may never have been evaluated. At a limit it stays unknown.
   const Point* last = nullptr;
   if (ending.status == SolverStatus::Converged && ending.x.size() > 0) {
     try {

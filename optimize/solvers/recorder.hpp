@@ -17,7 +17,7 @@ namespace flankwright {
 /// function.
 struct StopRun {};
 
-/// What an adapter hands back: how its library ended, and where.
+/// The result of an adapter: status and point at which its library ended.
 struct SolverEnding {
   SolverStatus status{SolverStatus::NotRun};
   std::string message;

@@ -19,13 +19,13 @@ enum class SolverStatus { NotRun, Converged, EvaluationLimit, TimeLimit, Stalled
 /// Lower-case words for a status ("converged", "evaluation limit", ...).
 std::string to_string(SolverStatus status);
 
-/// What the engineer's study asks of a solver.
+/// The options of a solver that a study can set.
 struct SolverOptions {
   /// "ipopt", or "nlopt:NAME" with NAME one of slsqp, mma, ccsaq, lbfgs, cobyla, bobyqa, sbplx, neldermead, crs2_lm,
   /// isres, direct_l, esch, mlsl (see solver_names()).
   std::string name{"ipopt"};
-  /// Of a design run (run_local()), not of solve(): what goes on from the best design where `name` stalls on a kink, one of
-  /// finisher_names(). An active-set method steps onto the kink.
+  /// For a design run (run_local()), not for solve(): the solver that continues from the best design where `name`
+  /// stalls on a kink, one of finisher_names(). An active-set method steps onto the kink.
   std::string finisher{"nlopt:slsqp"};
   /// Convergence tolerance [-], > 0. Ipopt: scaled first-order residual <= tolerance. NLopt: step of variable i <=
   /// tolerance * (upper_i - lower_i). esch, direct_l and mlsl have no convergence test: they end at a limit.
@@ -73,7 +73,7 @@ struct SolverResult {
   std::vector<SolverStep> history;
 };
 
-/// What a solver needs and takes.
+/// Capabilities and requirements of a solver.
 struct SolverTraits {
   std::string_view name;
   bool gradients;    ///< uses them

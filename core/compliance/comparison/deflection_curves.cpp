@@ -29,7 +29,7 @@ NamedModel named_model(std::string name, int teeth_apart, const FlankCompliance&
           [&compliance](std::span<const FlankPlace> places, std::span<const FlankPlace> loads) {
             const auto columns = static_cast<Eigen::Index>(loads.size());
             Eigen::MatrixXd result(static_cast<Eigen::Index>(places.size()), columns);
-            // Tooth by tooth: those on either side of the load are further apart than a model need know.
+            // Tooth by tooth: teeth on either side of the load are further apart than a model needs to cover.
             for (auto first = places.begin(); first != places.end();) {
               const auto last = std::find_if(first, places.end(),
                                              [&](const FlankPlace& place) { return place.tooth != first->tooth; });

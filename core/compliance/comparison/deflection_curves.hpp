@@ -10,7 +10,7 @@
 
 namespace flankwright {
 
-/// A model of one gear's compliance, whatever it is made from, under a name.
+/// A model of one gear's compliance, of any kind, with a name.
 struct NamedModel {
   std::string name;
   int teeth_apart{0};  ///< the largest number of pitches over which it couples teeth

@@ -38,8 +38,8 @@ std::vector<double> centres(const std::vector<double>& nodes) {
   return between;
 }
 
-/// Without the pairs that have next to nothing in common, K near zero beside sqrt(K_pp K_qq): the thesis' forms cannot
-/// pass through zero as the values do, and relative residuals would have nothing else decide their fit.
+/// Leaves out pairs with hardly any coupling, K near zero beside sqrt(K_pp K_qq): the thesis' forms cannot pass through
+/// zero as the values do, and relative residuals of these pairs would dominate the fit.
 std::vector<InfluenceSample> without_faint_pairs(std::vector<InfluenceSample> samples) {
   constexpr double kFaint = 0.01;
   for (InfluenceSample& sample : samples) {
@@ -234,8 +234,8 @@ std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model,
     pair.points.insert(pair.points.end(), there.begin(), there.end());
     // Row: tooth 0, column: tooth m. Deflection of tooth -m under loads on tooth 0, and the other way round.
     const MatrixXd across = 0.5 * (of_tooth(-m) + of_tooth(m).transpose());
-    // The loaded tooth's own pairs once, among those of m = 1; own compliances everywhere, as what is small beside them
-    // is judged by them.
+    // The loaded tooth's own pairs once, among those of m = 1; diagonal values everywhere, as small values are judged
+    // by them.
     MatrixXd same = own;
     if (m > 1) {
       same.setConstant(std::numeric_limits<double>::quiet_NaN());

@@ -27,7 +27,7 @@ struct GearFitTask {
   bool test_grid{true};   ///< judged at stations that the fit has not seen: the centres of the grids' cells
 };
 
-/// How far one form is from finite elements.
+/// Residuals of one form against finite elements.
 struct FormResiduals {
   std::string form;  ///< "kernels", the task's; "thesis_in_master", "thesis_separate"
   FitStatus status{FitStatus::NotRun};

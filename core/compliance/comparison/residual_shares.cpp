@@ -26,7 +26,7 @@ std::vector<ResidualDistribution> residual_distributions(const FlankCompliance& 
       places.push_back(sample.points[p]);
       rows.push_back(static_cast<Eigen::Index>(p));
     }
-    // Between neighbours on either side the model may be asked for more than it knows; those pairs nobody computed.
+    // Between neighbours on either side the model may not be defined; those pairs were not computed.
     const Eigen::MatrixXd K = model.evaluate(places);
     for (std::size_t p = 0; p < places.size(); ++p) {
       for (std::size_t q = 0; q <= p; ++q) {

@@ -19,7 +19,7 @@ struct ResidualDistribution {
   int teeth_apart{-1};
   int pairs{0};
   std::array<double, kResidualShares.size()> residual{};  ///< [-]
-  /// Largest |K_model - K| / sqrt(K_pp K_qq) [-]: what counts where a compliance passes through zero.
+  /// Largest |K_model - K| / sqrt(K_pp K_qq) [-]: the measure where a compliance passes through zero.
   double worst_of_own{0.0};
 
   /// @param share  one of kResidualShares
@@ -29,8 +29,8 @@ struct ResidualDistribution {
   double worst() const { return residual.back(); }
 };
 
-/// One entry per number of teeth apart that occurs and that the model knows, in rising order.
-/// @param teeth_apart  the largest that the model knows
+/// One entry per number of teeth apart that occurs and that the model covers, in rising order.
+/// @param teeth_apart  the largest that the model covers
 /// @param samples      with known own compliances
 std::vector<ResidualDistribution> residual_distributions(const FlankCompliance& model, int teeth_apart,
                                                          std::span<const InfluenceSample> samples);

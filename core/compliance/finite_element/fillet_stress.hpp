@@ -34,7 +34,7 @@ class FilletStress {
   /// Length of the fillet's arc in the transverse section, of the mesh's edges [mm]. Where no land is left between
   /// two fillets the last element reaches to the middle of the gap.
   double length() const { return ends_.back(); }
-  /// Where a point of the transverse fillet lies along it, 0 .. 1: nearest on the mesh's edges at z = -b/2.
+  /// Position of a point along the transverse fillet, 0 .. 1: nearest on the mesh's edges at z = -b/2.
   double along(const ProfilePoint& point) const;
 
   /// (s_tt, s_aa, s_ta) of point i in columns 3 i, 3 i + 1, 3 i + 2, of size 3 n: MPa per mm of displacement.
@@ -56,7 +56,7 @@ struct PrincipalStress {
   double value{not_given};
   Eigen::Vector2d direction{not_given, not_given};
 };
-/// Of (s_tt, s_aa, s_ta); any direction serves where both principal values are the same, t is returned.
+/// The largest principal stress of (s_tt, s_aa, s_ta); where both are equal its direction is t.
 PrincipalStress largest_principal(const Eigen::Vector3d& stress);
 
 /// d s_1 / d (s_tt, s_aa, s_ta) = (v_t^2, v_a^2, 2 v_t v_a): exact where s_1 is the larger one of two; where both are

@@ -129,7 +129,7 @@ GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options) {
   const bool at_sharp_end = body.torque_end == FaceEnd::Sharp;
   const std::vector<int> held = sweep.on_plane(at_sharp_end ? 0 : last_plane), guided = sweep.on_plane(at_sharp_end ? last_plane : 0);
   mesh.solid = sweep.take();
-  // What the solid model demands of every brick; a folded one is the doing of shape and options together.
+  // The solid model's requirement on every brick; shape and options together decide whether one folds.
   if (!(mesh.solid.quality() > 0)) {
     throw InvalidInput("options", "an element is folded", "element numbers and sizes that fit this tooth and body");
   }

@@ -33,7 +33,8 @@ struct ToothSurfaces {
 };
 
 /// The section swept along z (SectionSweep), and the shaft's overhangs, held at their far ends: that beyond the torque
-/// end whole, the other one radially. What the axial hold gives besides is axial_hold_compliance(). A rigid body is held everywhere.
+/// end whole, the other one radially. The compliance of the axial support is axial_hold_compliance(). A rigid body is
+/// held everywhere.
 struct GearMesh {
   ToothForm form;
   int teeth{0};

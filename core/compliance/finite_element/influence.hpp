@@ -8,7 +8,7 @@
 
 namespace flankwright {
 
-/// What a finite-element run took.
+/// The cost of a finite-element run.
 struct RunStatistics {
   Eigen::Index bricks{-1};
   Eigen::Index unknowns{-1};
@@ -29,11 +29,11 @@ struct InfluenceMatrix {
   RunStatistics statistics;
 };
 
-/// What forces on flanks do to these, and to anything else that is linear in the displacements.
+/// Influence of forces on flanks on these, and on any other linear functional of the displacements.
 struct FlankInfluence {
   /// As InfluenceMatrix::compliance: K(p, q) [mm/N], n x n.
   Eigen::MatrixXd compliance;
-  /// Of every reading under a unit force at every point, r x n.
+  /// Every reading under a unit force at every point, r x n.
   Eigen::MatrixXd readings;
 };
 

@@ -8,7 +8,7 @@
 
 namespace flankwright {
 
-/// What was done to a table so that no load does negative work.
+/// The correction of a table so that no load does negative work.
 struct TableProjection {
   /// Lowest eigenvalue of the table's block matrix over all its teeth, scaled so that the diagonal is 1 [-]; before
   /// anything was added.
@@ -35,7 +35,7 @@ class InfluenceTable final : public FlankCompliance {
   /// @throws InvalidInput  "tables" otherwise
   InfluenceTable(FlankGrid grid, std::vector<Eigen::MatrixXd> tables);
 
-  /// The same table again, from its own tables() and projection().
+  /// The same table, from its own tables() and projection().
   /// @throws InvalidInput  "tables" of another size than the grid's
   InfluenceTable(FlankGrid grid, std::vector<Eigen::MatrixXd> tables, TableProjection projection);
 

@@ -87,15 +87,15 @@ struct SectionMotion {
 /// @param z  -b/2 .. b/2 [mm]
 SectionMotion shaft_motion(const GearMesh& mesh, double z);
 
-/// What of the shaft's motion is taken out of the compliance.
+/// The rigid-body motion of the shaft that is removed from the compliance.
 enum class RemovedMotion {
   None,
   /// The transverse translation of the shaft's section in the plane of the point, and the shaft's rotation about its
   /// axis at the face end where the torque leaves, as app. 2C subtracts them. The gear's own torsion and its axial
   /// motion remain.
   TranslationAndTorsion,
-  /// And the tilt of the shaft's section at mid face. Then the shaft's supports have an axial force to carry and nothing
-  /// else.
+  /// The tilt of the shaft's section at mid face as well. Then the shaft's supports have an axial force to carry and
+  /// nothing else.
   TranslationTorsionAndTilt,
   /// The axial translation of the shaft's section in the plane of the point as well: for a shaft with its own model,
   /// held by its bearings. The supports then carry nothing; they only keep the end sections round and flat (1e-3 of K).

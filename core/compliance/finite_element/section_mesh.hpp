@@ -8,7 +8,7 @@
 
 namespace flankwright {
 
-/// How finely a gear is meshed. Sizes in normal modules.
+/// The fineness of a gear's mesh. Sizes in normal modules.
 struct GearMeshOptions {
   int flank_elements{8};            ///< of the loaded tooth, tip to start of fillet, >= 1
   int fillet_elements{6};           ///< of the loaded tooth, >= 2
@@ -81,7 +81,8 @@ struct SectionTie {
   double along{0};     ///< -1 at the edge's first corner, 1 at its last
 };
 
-/// What an element of the section belongs to. Where no tooth is detailed the plain ring counts as body, as adjacent teeth do.
+/// The part of the gear that an element of the section belongs to. Where no tooth is detailed the plain ring counts as
+/// body, as adjacent teeth do.
 enum class SectionPart { LoadedTooth, Body, Shaft };
 
 /// Transverse section of a gear at z = 0 in quadratic 8-node quads, origin in the axis, tooth 0 along +y. Corners run
@@ -100,7 +101,7 @@ struct SectionRadii {
   double shaft{not_given}, bore{not_given};
 };
 
-/// What section_mesh() starts from, and all that it refuses; nothing is meshed.
+/// The radii from which section_mesh() starts, with all its checks; nothing is meshed.
 ///
 /// @throws InvalidInput  a tooth without a tip ("tip_diameter"), a shaft that does not fit into the root
 ///                       ("body.shaft_diameter"), a bore that does not fit into the shaft ("body.bore_diameter"), an

@@ -29,7 +29,7 @@ SectionSweep::SectionSweep(const SectionMesh& section, const SweepPlanes& planes
   set_levels(layer_share);
 }
 
-/// What the share of GearMeshOptions::layer_share is taken of.
+/// The length to which GearMeshOptions::layer_share refers.
 double SectionSweep::length_scale(Eigen::Index quad) const {
   double side = 0, innermost = INFINITY, outermost = 0;
   for (int i = 0; i < 4; ++i) {
@@ -141,7 +141,7 @@ void SectionSweep::tie(int section_node, const SectionEdge* edge, double along) 
     const double lower = planes_.z[around.lower], upper = planes_.z[around.upper];
     const double eta = (2 * height(span) - lower - upper) / (upper - lower);
 
-    // What it follows: a corner's node the long element's edge, a mid-side's its face.
+    // A corner's node follows the long element's edge, a mid-side's node its face.
     std::map<int, double> follows;
     const auto add = [&](int node, double weight) {
       if (weight == 0) return;

@@ -55,9 +55,9 @@ class SolidModel {
 
   /// A^-1 F, 3n x k.
   Eigen::MatrixXd solve(const Eigen::SparseMatrix<double>& loads) const;
-  /// F' A^-1 F, k x k: exactly symmetric, and positive semi-definite to round-off. What it takes grows with the part of the body
-  /// that the loads are on, a small one of what solve() takes.
-  /// @param loads  taken over: of many wide ones two copies beside the factor would matter
+  /// F' A^-1 F, k x k: exactly symmetric, and positive semi-definite to round-off. Its cost grows with the loaded part
+  /// of the body, and is a small fraction of that of solve().
+  /// @param loads  moved: two copies of many wide ones beside the factor would matter
   Eigen::MatrixXd influence(Eigen::SparseMatrix<double> loads) const;
 
  private:

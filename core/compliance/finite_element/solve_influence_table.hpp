@@ -10,7 +10,7 @@
 
 namespace flankwright {
 
-/// What defines a gear's influence table.
+/// The input of a gear's influence table.
 struct InfluenceTableTask {
   GearToMesh gear;
   double poissons_ratio{0.3};
@@ -23,7 +23,7 @@ struct InfluenceTableTask {
 
 /// The task with lengths in normal modules: m_n = 1. Gears that differ in size only become the same.
 InfluenceTableTask in_modules(InfluenceTableTask task);
-/// Whether two tasks have the same outcome: the same in modules, whatever cuts the flanks.
+/// Whether two tasks have the same result: equal in modules, however the flanks are cut.
 bool alike_but_for_size(const InfluenceTableTask& one, const InfluenceTableTask& other);
 
 /// Most teeth apart that two points of a pair in contact at once can be, the extended region included.

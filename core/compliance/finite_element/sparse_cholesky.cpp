@@ -53,7 +53,7 @@ class BlasTurn {
   std::unique_lock<std::mutex> turn_;
 };
 
-/// What CHOLMOD's calls need to stay on one core, and out of each other's way.
+/// Keeps CHOLMOD's calls on one core and apart from each other.
 struct OneCore {
   BlasTurn turn;
   OneBlasThread blas;

@@ -109,7 +109,7 @@ class PairResiduals final : public ResidualFunction {
   static const FlankPlace& place(const InfluenceSample& sample, Index p) {
     return sample.points[static_cast<std::size_t>(p)];
   }
-  /// Whether p is the one to name first: on the tooth further ahead, or, on the same one, higher up or further along.
+  /// Whether p comes first: on the tooth further ahead or, on the same tooth, higher up or further along.
   static bool ahead(const InfluenceSample& sample, Index p, Index q) {
     const FlankPlace &a = place(sample, p), &b = place(sample, q);
     return std::tie(a.tooth, a.u, a.zeta) >= std::tie(b.tooth, b.u, b.zeta);
@@ -230,7 +230,7 @@ std::vector<double> flat_start(const KernelForm& form, std::span<const Influence
     if (is_far) x[offset - 2] = std::log(1.5);
   }
   if (form.wind_up) {
-    // As much again as the body has, over ten modules.
+    // As large again as that of the body, over ten modules.
     x[offset] = std::log(body / 10);
     x[offset + 1] = std::log(3.0);
     offset += 2;
@@ -281,7 +281,7 @@ FitResult fit_compliance(std::span<const InfluenceSample> all_samples, const Ker
     record.standard_errors.push_back(std::sqrt(std::max(0.0, result.covariance(i, i))));
   }
   const GearFacts& gear = samples.front().gear;
-  // Pairs that nobody computed are looked at, though not counted.
+  // Pairs without a value are visited but not counted.
   FitRecord everywhere;
   everywhere.range.teeth_apart = residuals.teeth_spanned();
   record.residuals = residual_statistics(FittedCompliance(form, gear, solved.coefficients, everywhere), samples);

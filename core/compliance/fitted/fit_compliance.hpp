@@ -12,22 +12,21 @@
 
 namespace flankwright {
 
-/// How a KernelForm is fitted. The cost is
+/// Options of the fit of a KernelForm. The cost is
 ///
 ///     1/2 [ mean over pairs of ((K_fit - K)/scale)^2  +  sum over coefficients of (ridge (c - anchor))^2 ],
 ///     scale = max(|K_pq|, scale_floor sqrt(K_pp K_qq)).
 ///
 /// A kernel sum is over-complete: very different coefficients give nearly the same compliance. The ridge decides among
-/// them. To make the coefficients of neighbouring gears comparable, so that those between can be interpolated, start at
-/// one gear's fit and let the other's be drawn towards it: start and anchor = its coefficients, and a stronger
-/// tooth_ridge.
+/// them. For comparable coefficients of neighbouring gears, between which one can interpolate, start at one gear's fit
+/// and draw the other's towards it: start and anchor = its coefficients, and a stronger tooth_ridge.
 struct FitOptions {
   std::vector<double> start;   ///< empty: flat kernels of the sample's mean size, flat_start()
   std::vector<double> anchor;  ///< empty: the start
   double tooth_ridge{2.4e-4};  ///< of warp and kernels [-], >= 0
   double body_ridge{2.4e-4};   ///< of the body parts [-], >= 0
-  /// Pairs with next to no compliance in common count relative to their own compliances instead [-], > 0. Where several
-  /// teeth of a small gear are fitted, 0.01 keeps pairs whose compliance passes through zero from deciding the fit.
+  /// Pairs with hardly any coupling count relative to their diagonal values instead [-], > 0. Where several teeth of a
+  /// small gear are fitted, 0.01 keeps pairs whose compliance passes through zero from deciding the fit.
   double scale_floor{0.003};
   LeastSquaresOptions solver{.max_iterations = 300, .cost_tolerance = 1e-7};
 

@@ -12,7 +12,7 @@
 
 namespace flankwright {
 
-/// Where the influence values lay that a fit was made from.
+/// The range of the influence values that a fit was made from.
 struct FitRange {
   double u_min{std::numeric_limits<double>::quiet_NaN()}, u_max{std::numeric_limits<double>::quiet_NaN()};
   double zeta_min{std::numeric_limits<double>::quiet_NaN()}, zeta_max{std::numeric_limits<double>::quiet_NaN()};
@@ -21,7 +21,7 @@ struct FitRange {
   bool operator==(const FitRange&) const = default;
 };
 
-/// What is known about the quality of a fit.
+/// The quality of a fit.
 struct FitRecord {
   FitRange range;
   std::vector<ResidualStatistics> residuals;  ///< on the points fitted
@@ -42,7 +42,7 @@ struct FitTable {
 class FittedCompliance final : public FlankCompliance {
  public:
   /// @param coefficients  size form.count(), finite
-  /// @throws InvalidInput naming what does not fit or is out of range
+  /// @throws InvalidInput naming the field that does not match or is out of range
   FittedCompliance(KernelForm form, const GearFacts& gear, std::vector<double> coefficients, FitRecord record);
 
   /// E m_n K [-], n x n. @throws InvalidInput for |u| > 1.05, zeta outside 0 .. B, or points more teeth apart than

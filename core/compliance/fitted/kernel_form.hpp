@@ -19,7 +19,7 @@ enum class Smoothness {
 enum class Reach {
   Tooth,    ///< points of one tooth
   Gear,     ///< all points: Q gains ((m_p - m_q)/lambda)^2, and the axial distance kappa (m_p - m_q)
-  Turning,  ///< the same times cos(2 pi (m_p - m_q)/Z): the flank normals turn with the teeth, what moves below does
+  Turning,  ///< the same times cos(2 pi (m_p - m_q)/Z): the flank normals turn with the teeth, the motion below them does not
             ///< not
 };
 

@@ -9,9 +9,9 @@
 
 namespace flankwright {
 
-/// Values and derivatives of a KernelForm between fixed points: what depends on the points alone is computed once, what
-/// depends on a point and the coefficients once per set of coefficients, and a pair costs one root pair, one division
-/// and one exponential per kernel.
+/// Values and derivatives of a KernelForm between fixed points. Terms of the points alone are computed once, terms of a
+/// point and the coefficients once per set of coefficients; a pair costs one root pair, one division and one
+/// exponential per kernel.
 class KernelSum {
  public:
   /// @param form    validated
@@ -32,7 +32,7 @@ class KernelSum {
 
  private:
   struct KernelAtPoints {
-    Eigen::MatrixXd amplitude_basis, axial_basis, radial_basis;  ///< count x n, a column for each point
+    Eigen::MatrixXd amplitude_basis, axial_basis, radial_basis;  ///< count x n, one column per point
     Eigen::VectorXd h, axial_square, radial_square;              ///< h, lz^2, lr^2
     double inverse_lambda_square{0.0}, kappa{0.0};
     int offset{0};  ///< first coefficient

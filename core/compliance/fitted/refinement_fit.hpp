@@ -27,26 +27,26 @@ InfluenceSample element_sample(const GearFacts& gear, const GearMeshOptions& mes
 /// A tensor grid of stations on a tooth.
 std::vector<FlankPlace> places_on(const std::vector<double>& us, const std::vector<double>& zetas);
 
-/// What a refinement is made from: a gear's influence values by the fine mesh, with those by the coarse one as the
-/// share that is `given`.
+/// The samples of a fine-mesh correction: a gear's influence values by the fine mesh, with those by the coarse one as
+/// the part that is `given`.
 struct RefinementSamples {
   InfluenceSample fitted;  ///< 6 radii x about 9 + 0.9 B axial positions, symmetric about mid face
   InfluenceSample unseen;  ///< 5 radii x the positions midway between those, for the residuals alone
 };
 
-/// @param fine, coarse  of that gear, E m_n K; what the fit shall meet, and what it is added to
+/// @param fine, coarse  of that gear, E m_n K; the target of the fit, and what it is added to
 RefinementSamples refinement_samples(const GearFacts& gear, const FlankCompliance& fine, const FlankCompliance& coarse);
 
-/// Face width over m_n of what a gear's own fit is made from, at most [-]: kernels are local and hardly depend on the face (the library's, of 8
-/// modules, serve 2 to 30), while the fine mesh of a wide face takes minutes and gigabytes. How close they come on wider faces is in the
-/// folder's README.
+/// Largest face width over m_n in the runs for a gear's own fit [-]: kernels are local and hardly depend on the face
+/// (the library's, of 8 modules, serve 2 to 30), while the fine mesh of a wide face takes minutes and gigabytes. The
+/// folder's README gives their residuals on wider faces.
 inline constexpr double widest_own_fit = 12.0;
 
 /// Pairs count relative to max(|K|, kScaleFloor sqrt(K_pp K_qq)), in the fit and in its residuals.
 inline constexpr double kScaleFloor = 0.01;
 
-/// Fits KernelForm::refinement(). For a spur gear the fit is nearly alike at both ends, as the samples are: the torque
-/// leaves at one of them.
+/// Fits KernelForm::refinement(). For a spur gear the fit is nearly alike at both ends, as the samples are; they differ
+/// because the torque leaves at one end.
 /// @param start  coefficients of a neighbouring entry, which the fit is drawn towards; empty: flat_start()
 RefinementEntry fit_refinement(const RefinementSamples& samples, const std::vector<double>& start);
 

@@ -52,7 +52,7 @@ std::pair<ReferenceProfile, ReferenceProfile> range(const std::vector<ReferenceP
   return {low, high};
 }
 
-/// What a rack departs from the standard one by.
+/// Departures of a rack from the standard one.
 Eigen::Vector3d departure(const RackProfile& rack) {
   const RackProfile standard;
   return {rack.addendum - standard.addendum, rack.dedendum - standard.dedendum, rack.root_radius - standard.root_radius};

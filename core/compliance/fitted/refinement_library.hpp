@@ -15,7 +15,7 @@ std::string to_text(const RefinementEntry& entry);
 /// @throws InvalidInput "library" with the number of the line that is no entry
 std::vector<RefinementEntry> entries_in(std::string_view text);
 
-/// What the library goes by.
+/// The parameters that select an entry of the library.
 GearFacts facts_of(const GearToMesh& gear);
 ReferenceProfile profile_of(const GearToMesh& gear);
 
@@ -23,9 +23,10 @@ ReferenceProfile profile_of(const GearToMesh& gear);
 ///
 ///     c(gear, profile) = c_0(gear) + sum over grids k of w_k(profile) (c_k(gear_k) - c_0(gear_k)),    gear_k = nearest of grid k,
 ///
-/// the other grids being of three other racks at the standard pressure angle, in whose departures from the standard one (addendum,
-/// dedendum, root radius) that of the profile is written as their weighted sum, and of other pressure angles with the standard rack,
-/// with the weights of Lagrange's polynomials. What rack and pressure angle change together is left out.
+/// the other grids being of three other racks at the standard pressure angle, in whose departures from the standard one
+/// (addendum, dedendum, root radius) that of the profile is written as their weighted sum, and of other pressure angles
+/// with the standard rack, with the weights of Lagrange's polynomials. Interaction of rack and pressure angle is left
+/// out.
 ///
 /// Whatever the coefficients, the kernels are positive semi-definite.
 class RefinementLibrary {
@@ -37,20 +38,20 @@ class RefinementLibrary {
   /// The one that comes with the program, from `library/teeth.txt`.
   static const RefinementLibrary& shipped();
 
-  /// Of all grids, that of the standard profile first.
+  /// Of all grids; that of the standard profile comes first.
   const std::vector<RefinementEntry>& entries() const { return entries_; }
   const RefinementGrid& standard() const { return grids_.front(); }
 
-  /// What of a gear, or of its material, lies outside of what the library knows, as "helix_angle 38 deg, in the library 0 .. 35
-  /// deg"; empty where nothing does. It knows gears with the tip that their rack gives them, within the ranges of its
-  /// entries, of material with nu = 0.25 .. 0.35 and faces of 2 to 30 modules.
+  /// The parameters of a gear or its material outside the library, as "helix_angle 38 deg, in the library 0 .. 35 deg";
+  /// empty where there are none. The library covers gears with the tip that their rack gives them, within the ranges of
+  /// its entries, with nu = 0.25 .. 0.35 and faces of 2 to 30 modules.
   std::string unknown(const GearToMesh& gear, double poissons_ratio) const;
 
   /// Coefficients for a gear within the ranges; outside them, those of the nearest gear within.
   std::vector<double> coefficients(const GearFacts& gear, const ReferenceProfile& profile = {}) const;
 
  private:
-  /// Weights of the grids beside the standard one.
+  /// Weights of the grids other than the standard one.
   std::vector<double> weights(const ReferenceProfile& profile) const;
   ReferenceProfile nearest(ReferenceProfile profile) const;
 

@@ -9,7 +9,7 @@
 
 namespace flankwright {
 
-/// How far a model is from influence values, over all known pairs of points that are so many teeth apart: the
+/// Distance of a model from influence values, over all known pairs of points that are so many teeth apart: the
 /// distribution of |K_model - K| / max(|K|, floor sqrt(K_pp K_qq)), relative to the local value.
 struct ResidualStatistics {
   int teeth_apart{-1};  ///< |m_p - m_q|
@@ -25,7 +25,7 @@ struct ResidualStatistics {
 /// diagonal included; where the model has no value the residual is infinite.
 /// @param floor  [-], >= 0: on gears of few teeth the compliance between a far corner's points passes through zero, where
 ///               a relative figure says nothing; with 0.01 such pairs count relative to a hundredth of their own values
-/// @throws InvalidInput where a sample is not valid or has a point that the model does not know
+/// @throws InvalidInput where a sample is not valid or has a point outside the model
 std::vector<ResidualStatistics> residual_statistics(const FlankCompliance& model,
                                                     std::span<const InfluenceSample> samples, double floor = 0);
 

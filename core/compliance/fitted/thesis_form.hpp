@@ -12,7 +12,7 @@
 
 namespace flankwright {
 
-/// Where the thesis' form has the gear body.
+/// The gear body in the thesis' form.
 enum class ThesisBody {
   InMasterFunction,  ///< eqs 1.57, 2.5, 2.6: the end effects multiply it; what the thesis used
   Separate,          ///< eqs 2.6 .. 2.8: added, which the thesis recommends
@@ -44,7 +44,7 @@ class ThesisCompliance final : public FlankCompliance {
 
   Eigen::MatrixXd evaluate(std::span<const FlankPlace> points) const override;
 
-  int teeth_apart() const;  ///< the largest it knows
+  int teeth_apart() const;  ///< the largest that it covers
   const std::vector<double>& coefficients() const { return coefficients_; }
 
  private:

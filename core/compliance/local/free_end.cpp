@@ -44,7 +44,7 @@ FreeEnd::Softening FreeEnd::at(const std::array<double, 2>& distances, double de
     if (leaning[i] == 0) continue;
     const Blunted t = blunted(distances[i], half_width, leaning_bluntness);
     const double ratio = leaning_reach * depth / t.value, square = ratio * ratio;
-    leant.value += 0.5 * leaning[i] * std::log(1 + square);  // what log1p would keep is round-off of plane strain's own 3 to 4
+    leant.value += 0.5 * leaning[i] * std::log(1 + square);  // log1p would only keep round-off of plane strain's own 3 to 4
     leant.widening -= leaning[i] * t.widening / t.value * (square / (1 + square));
   }
   const double inverse = 1 / (near * beyond);

@@ -24,7 +24,7 @@ struct HertzLine {
 ///     L = sqrt(4 w R / (pi E')),   p_0 = sqrt(w E' / (pi R)) = 2 w / (pi L),
 ///
 /// both growing as sqrt(w). For two gears of one material L is Haddad's eq. 1.31. Valid for smooth, dry, elastic bodies
-/// with L much smaller than R. Free edges of a tooth are not modelled; what that means at an end face is said at FreeEnd.
+/// with L much smaller than R. Free edges of a tooth are not modelled; FreeEnd is about the end faces.
 ///
 /// @param line_load        w [N per mm of contact line], >= 0
 /// @param relative_radius  R, 1/R = 1/R_1 + 1/R_2, in the normal section [mm], > 0

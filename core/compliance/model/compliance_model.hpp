@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// How the structure of a pair yields, from the coarsest model to the finest.
+/// Models of a pair's structural compliance, from the coarsest to the finest.
 enum class ComplianceModel { Rigid, ThinSlice, Fitted, Fe };
 
 /// "rigid", "thin_slice", "fitted", "fe".
@@ -12,7 +12,7 @@ const char* to_string(ComplianceModel model);
 /// The model of one of these names.
 ComplianceModel compliance_model(std::string_view name);
 
-/// Whether the model knows how a load on one tooth moves another, and the gear's body: both solve finite elements.
+/// Whether the model couples teeth and has the gear's body; such models solve finite elements.
 inline bool couples_teeth(ComplianceModel model) { return model == ComplianceModel::Fitted || model == ComplianceModel::Fe; }
 
 }  // namespace flankwright

@@ -16,8 +16,8 @@ struct Kept {
   std::string where;
 };
 
-/// Where influence values and fits are kept for another time. Nothing here may change a result: what is found is what would be made. One
-/// thread calls at a time.
+/// A store of influence values and fits for later runs. The store never changes a result: a stored value is the one
+/// that would be computed. One thread calls at a time.
 class ComplianceStore {
  public:
   virtual ~ComplianceStore() = default;

@@ -10,7 +10,7 @@
 
 namespace flankwright {
 
-/// What the compliance and the root stress of a pair follow from.
+/// The input of a pair's compliance and root stress.
 struct ComplianceTask {
   GearPair pair;
   ComplianceModel model{ComplianceModel::Fitted};
@@ -19,7 +19,7 @@ struct ComplianceTask {
   /// Empty: rigid. A shaft tells at which end the torque leaves the gear, and its bearings hold the gear axially.
   std::optional<ShaftData> pinion_shaft{}, wheel_shaft{};
   bool root_stress{false};   ///< solved by finite elements, whatever the model
-  bool rigid_bodies{false};  ///< wanted beside: the same gears on rigid bodies, where the model couples teeth
+  bool rigid_bodies{false};  ///< also wanted: the same gears on rigid bodies, where the model couples teeth
 };
 
 /// The run to be solved for one gear, on a coarse mesh where the model is Fitted. It has the gear's own face width,
@@ -28,15 +28,15 @@ struct ComplianceTask {
 /// @throws InvalidInput  "fidelity.compliance", "pair." and "pinion." or "wheel." with their field, where body and teeth cannot be meshed
 InfluenceTableTask influence_table_task(const ComplianceTask& task, Member member);
 
-/// What of a gear the library of fits does not know, RefinementLibrary::unknown(), where the model is Fitted: the gear then
-/// needs a fit of its own. Empty otherwise.
+/// The parameters of a gear outside the library of fits, RefinementLibrary::unknown(), where the model is Fitted: the
+/// gear then needs its own fit. Empty otherwise.
 std::string unknown_to_library(const ComplianceTask& task, const InfluenceTableTask& gear);
 
-/// What a gear outside the library costs and why, one line for each such gear.
+/// The cost of a gear outside the library and the reason, one line for each such gear.
 /// @throws InvalidInput  as influence_table_task()
 std::vector<std::string> library_notes(const ComplianceTask& task);
 
-/// What a gear's own fit is made from: the coarse task, with a face of at most widest_own_fit.
+/// The task of a gear's own fit: the coarse task, with a face of at most widest_own_fit.
 InfluenceTableTask task_of_fit(InfluenceTableTask coarse);
 
 /// Runs `work` on one gear; errors name the gear's own keys.

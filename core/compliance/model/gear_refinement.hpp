@@ -30,8 +30,8 @@ struct GearRefinement {
   const char* source() const { return unknown.empty() ? "library" : "own fit"; }
 };
 
-/// Completes a gear's coarse run by the library of fits, or, where that does not know the gear, by a fit to its fine run,
-/// which is kept for another time.
+/// Completes a gear's coarse run by the library of fits or, for a gear outside it, by a fit to its fine run, which is
+/// stored for later runs.
 /// @throws InvalidInput "fidelity.compliance" where a fit failed
 GearRefinement gear_refinement(const ComplianceTask& task, const FiniteElementRuns& runs, Member member, const ComplianceBuild& build);
 

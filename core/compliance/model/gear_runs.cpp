@@ -15,10 +15,10 @@ enum class Purpose {
   Gear,       ///< its influence values
   Fine,       ///< what its own fit shall meet
   RigidBody,  ///< the same with a rigid body below its teeth
-  FitCoarse,  ///< what that is fitted beside, where the gear's own run is of a wider face
+  FitCoarse,  ///< the coarse run of that fit, where the gear's own run has a wider face
 };
 
-/// What a run is for.
+/// The purpose of a run.
 struct Use {
   Member member;
   Purpose purpose;
@@ -93,7 +93,7 @@ class JointProgress {
     if (!report_) return;
     const std::lock_guard lock(mutex_);
     steps_[job] = {done, total};
-    // A job that has not begun counts like the longest that has: the bar shall not be full before the last one.
+    // A job that has not begun counts like the longest that has, so that the bar is not full before the last one.
     const int longest = std::ranges::max(steps_, {}, &std::pair<int, int>::second).second;
     int all_done = 0, all = 0;
     for (const auto& [d, t] : steps_) {
@@ -167,7 +167,7 @@ FiniteElementRuns solve_finite_elements(const ComplianceTask& task, const Compli
   }
   if (!missing.empty()) solve_side_by_side(missing, task.model, build);
   for (Job* job : missing) {
-    // What did not fit beside the other gear may fit alone.
+    // A gear that did not fit in memory beside the other may fit alone.
     if (job->run.status == FactorStatus::OutOfMemory && missing.size() > 1) solve_side_by_side({job}, task.model, build);
     refuse_unsolved(*job, task.model, build.memory_limit);
     if (build.store != nullptr) job->file = build.store->keep(job->task, job->run);

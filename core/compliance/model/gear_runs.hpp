@@ -13,7 +13,7 @@
 
 namespace flankwright {
 
-/// What a build may use, and whom it tells. Only the time depends on it.
+/// The resources of a build, and its progress report. Only the time depends on it.
 struct ComplianceBuild {
   ComplianceStore* store{nullptr};  ///< null: nothing is kept
   double memory_limit{std::numeric_limits<double>::infinity()};  ///< that all runs at one time may take [bytes], > 0
@@ -36,11 +36,11 @@ struct GearRun {
 
 struct FiniteElementRuns {
   std::array<GearRun, 2> gears;  ///< pinion, wheel; by coarse_mesh() where the compliance is "fitted"
-  /// By the default mesh, for a fit of its own, beside that of `gears`: those that the library of fits does not know.
+  /// By the default mesh, for an own fit, in addition to `gears`: gears outside the library of fits.
   std::array<std::optional<GearRun>, 2> fine;
   /// By coarse_mesh(), with the face of the fine run, where that is narrower than the gear's own.
   std::array<std::optional<GearRun>, 2> narrow;
-  /// As `gears`, their bodies rigid; where ComplianceTask::rigid_bodies.
+  /// As `gears` with rigid bodies; where ComplianceTask::rigid_bodies.
   std::array<std::optional<GearRun>, 2> rigid_body;
   double seconds{not_given};     ///< wall time in this build
 

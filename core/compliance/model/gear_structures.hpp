@@ -21,8 +21,8 @@ struct GearStructures {
   const std::optional<GearRefinement>& refinement(Member m) const { return refinements[m == Member::Pinion ? 0 : 1]; }
 };
 
-/// Solves, fits and joins what the task asks for. Root stress takes a finite-element run of both gears, whatever the model
-/// is. Finite elements of gears of usual size take seconds and some gigabytes.
+/// Solves, fits and joins what the task asks for. Root stress needs a finite-element run of both gears with every
+/// model. Finite elements of gears of usual size take seconds and some gigabytes.
 /// @throws InvalidInput  as solve_finite_elements() and gear_refinement()
 GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuild& build = {});
 

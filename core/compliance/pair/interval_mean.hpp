@@ -30,7 +30,7 @@ class IntervalMean {
   Eigen::MatrixXd mean(const Eigen::MatrixXd& fine) const;
 
  private:
-  /// Of a fine point: its share of the force at a coarse point and at the next, A P a^-1 [-].
+  /// Fractions of the forces at a coarse point and at the next that act at a fine point, A P a^-1 [-].
   struct Share {
     Eigen::Index point;
     double here, next;

@@ -10,7 +10,7 @@
 
 namespace flankwright {
 
-/// Structural compliance of a pair of gears, whatever it is made from: the interface that load distribution sees.
+/// Structural compliance of a pair of gears by any model: the interface of the load distribution.
 class PairCompliance {
  public:
   virtual ~PairCompliance() = default;
@@ -18,10 +18,10 @@ class PairCompliance {
   /// K between the contact points of one mesh position, n x n [mm/N]: the deflection of both gears' structures at p,
   /// normal to the flank, per unit force at q. Symmetric to the last bit, positive semi-definite to round-off.
   /// @param axial_offset  of the wheel [mm]
-  /// @throws InvalidInput where the model does not know a point
+  /// @throws InvalidInput where a point is outside the model
   virtual Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const = 0;
 
-  /// Whether influence_on_rigid_bodies() may be called: finite elements with rigid bodies take a run of their own.
+  /// Whether influence_on_rigid_bodies() may be called: finite elements with rigid bodies need their own run.
   virtual bool knows_rigid_bodies() const { return true; }
 
   /// The same with rigid gear bodies. A model without bodies gives influence(). Needs knows_rigid_bodies().
@@ -88,7 +88,7 @@ FlankPlace flank_place(const GearPair& pair, Member member, const ContactPoint& 
 /// The acute end of the face: +1 for z = +b/2, -1 for the other; of a spur gear as if its sense were +1.
 int sharp_end(const GearPair& pair, Member member);
 
-/// The same of its tooth alone: where the mesh counts the gear's tooth of pair k.
+/// The tooth of that station alone: the gear's tooth of pair k, counted as in the mesh.
 int gear_tooth(Member member, int tooth_pair);
 
 /// Back from zeta [m_n] to z in the pair's frame [mm].

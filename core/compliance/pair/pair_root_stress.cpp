@@ -63,7 +63,7 @@ RootStressInfluence TabulatedRootStress::influence(const std::vector<ContactPoin
   for (const Member member : {Member::Pinion, Member::Wheel}) {
     const std::shared_ptr<const RootStressTable>& table = member == Member::Pinion ? pinion_ : wheel_;
     const std::size_t first = forces.size();
-    std::vector<int> loaded_teeth;  // in the gear's own count, one for every new entry of `forces`
+    std::vector<int> loaded_teeth;  // counted on the gear, one for every new entry of `forces`
     for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
       while (end < points.size() && points[end].tooth == points[begin].tooth) ++end;
       Eigen::MatrixXd weights(table->grid.size(), static_cast<Eigen::Index>(end - begin));

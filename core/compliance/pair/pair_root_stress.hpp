@@ -59,14 +59,13 @@ class RootStressInfluence {
   std::vector<Response> responses_;
 };
 
-/// Root stress of a pair of gears, whatever it is made from: the interface that load distribution sees, beside
-/// PairCompliance.
+/// Root stress of a pair of gears by any model: the interface of the load distribution, beside PairCompliance.
 class PairRootStress {
  public:
   virtual ~PairRootStress() = default;
 
   /// @param axial_offset  of the wheel [mm]
-  /// @throws InvalidInput where the model does not know a point
+  /// @throws InvalidInput where a point is outside the model
   virtual RootStressInfluence influence(const std::vector<ContactPoint>& points, double axial_offset) const = 0;
 
  protected:

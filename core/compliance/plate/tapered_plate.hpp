@@ -31,9 +31,10 @@ struct PlateShape {
   EdgeCompliance edge;
 };
 
-/// Where a unit load enters, and over which piece of the plate: weights (1 - t^2)^2 each way, t = -1 .. 1 being the
-/// distance from the load over half_length and half_height. What lies beyond an end of the plate is made up for by a
-/// factor on the rest; over the height the load stays inside, so that its moment about the foot is exact.
+/// Position of a unit load, and the piece of the plate over which it is spread: weights (1 - t^2)^2 each way, t = -1 ..
+/// 1 being the distance from the load over half_length and half_height. The part beyond an end of the plate is
+/// compensated by a factor on the rest; over the height the load stays inside, so that its moment about the foot is
+/// exact.
 struct PlateLoad {
   double along{0.0};        ///< x, 0 .. length
   double height{0.0};       ///< y, between foot and top

@@ -73,7 +73,7 @@ ShaftBeam::ShaftBeam(const std::vector<BeamPiece>& pieces, const std::vector<Bea
   assert(released_.isInvertible());
 }
 
-/// What makes a support's work a force times a length scale of 1 [mm or 1].
+/// The scale that makes a support's work a force times a length of 1 [mm or 1].
 double ShaftBeam::arm(const BeamSupport& support) const { return support.direction.moment.isZero() ? 1.0 : length_scale_; }
 
 /// Rows [C_ac, W_a] without dimensions: compliances in compliance_scale_, moments in length_scale_ times a force.

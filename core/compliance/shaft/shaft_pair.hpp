@@ -8,9 +8,9 @@
 
 namespace flankwright {
 
-/// What the teeth's structural model leaves to the shaft.
+/// The motion that the teeth's structural model leaves to the shaft.
 enum class GearBodyIn {
-  /// The model knows teeth only (thin slices): forces and moments act on the shaft where the tooth is loaded.
+  /// The model has teeth only (thin slices): forces and moments act on the shaft where the tooth is loaded.
   Shaft,
   /// The model has the gear's body and removes, of the shaft's motion, the translation of the section of the load, the
   /// tilt at mid face and the rotation at the face end where the torque leaves [NetFunctionals]. Just these act on the
@@ -47,8 +47,8 @@ struct ShaftMotion {
 ///
 /// with t_p the wrench on the shaft of a unit normal force at p, taken in the base tangent plane: force n and moment
 /// about the axis, axial force and its moment included; also where a tip edge touches outside that plane, as the load
-/// distribution takes the force there. Symmetric and positive semi-definite by construction. The shafts do not know of
-/// each other but through the mesh.
+/// distribution takes the force there. Symmetric and positive semi-definite by construction. The shafts are coupled
+/// only through the mesh.
 ///
 /// Departures from app. 2C, which has the whole load at mid face, the translation of the axis alone (the section's
 /// rotation about axes across its own is left out there) and a moment of the axial force that lies in the plane of action.
@@ -60,7 +60,7 @@ class ShaftPair final : public PairCompliance {
   /// K of both shafts together [mm/N].
   Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
 
-  /// How one gear's shaft moves under normal forces at the points; NaN where the gear has none.
+  /// Motion of one gear's shaft under normal forces at the points; NaN where the gear has none.
   /// @param forces  [N], one a point
   ShaftMotion motion(Member member, const std::vector<ContactPoint>& points, const Eigen::VectorXd& forces,
                      double axial_offset) const;

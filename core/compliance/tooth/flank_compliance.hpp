@@ -21,7 +21,7 @@ class FlankCompliance {
 
   /// E m_n K [-] between n points of the gear, n x n; symmetric to the last bit, positive semi-definite to round-off.
   /// Row: where it deflects; column: where the force acts; both along the inward normals.
-  /// @throws InvalidInput where a point lies off the flank, or two of them further apart than the model knows
+  /// @throws InvalidInput where a point lies off the flank, or two of them further apart than the model covers
   virtual Eigen::MatrixXd evaluate(std::span<const FlankPlace> points) const = 0;
 
  protected:

@@ -21,7 +21,7 @@ class SplineAxis {
   const std::vector<double>& nodes() const { return nodes_; }
   Eigen::Index size() const { return static_cast<Eigen::Index>(nodes_.size()); }
 
-  /// Of the values at the nodes in s(x); they sum to 1, and at a node all but its own are 0 to the last bit.
+  /// Weights of the nodes' values in s(x); they sum to 1, and at a node all but its own are 0 to the last bit.
   /// @param x  clamped to the range of the nodes
   Eigen::VectorXd weights(double x) const;
 

@@ -10,7 +10,7 @@
 
 namespace flankwright {
 
-/// What of a working condition shapes the gap between the flanks.
+/// The part of a working condition that shapes the gap between the flanks.
 struct FlankCondition {
   Modification pinion_modification, wheel_modification;
   ManufacturingError pinion_error, wheel_error;
@@ -21,7 +21,7 @@ struct FlankCondition {
   bool operator==(const FlankCondition&) const = default;
 };
 
-/// Where the gap between the flanks is sought.
+/// How the gap between the flanks is found.
 enum class GapModel {
   PlaneOfAction,  ///< where undisturbed flanks would touch, see plane_of_action_gap()
   WholeSurface,   ///< over the whole flanks, see SurfaceGap
@@ -30,7 +30,7 @@ enum class GapModel {
 /// Name of the model in a study file ("whole_surface").
 const char* to_string(GapModel model);
 
-/// Where flanks are nearest in one section, and how their gap there follows what is removed from either of them.
+/// The points where flanks are nearest in one section, and the change of their gap with the removal from either.
 struct NearestPlace {
   double pinion_radius{not_given}, wheel_radius{not_given};  ///< [mm]
   /// A point with its weight in the derivative: one, or on a kink of a flank one on either side of it.

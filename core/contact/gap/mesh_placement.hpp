@@ -6,8 +6,8 @@
 
 namespace flankwright {
 
-/// Where the gap is sought, and what of the misalignment decides where the points lie for that: two conditions with the same
-/// placement share a mesh model.
+/// The gap model, and the part of the misalignment that moves its points: two conditions with the same placement share
+/// a mesh model.
 struct MeshPlacement {
   GapModel gap{GapModel::PlaneOfAction};
   Misalignment misalignment{};  ///< PlaneOfAction: the axial offset, which shortens the common face; WholeSurface: all of it

@@ -37,8 +37,8 @@ std::vector<SectionMaximum> SurfaceGap::maxima(const std::vector<ContactPoint>& 
   return found;
 }
 
-/// What is removed from the pinion moves its point as a turn backwards by D/r_b1 and, with the slope of D, a step along the
-/// profile do: per unit of D, 1/(1 - D') of either. What is removed from the wheel lets it turn on by D/r_b2 times its pace.
+/// Removal from the pinion moves its point like a turn backwards by D/r_b1 and, with the slope of D, a step along the
+/// profile: per unit of D, 1/(1 - D') of either. Removal from the wheel lets it turn on by D/r_b2 times its speed.
 NearestPlace SurfaceGap::nearest_place(const SectionMaximum& found, int tooth) const {
   const Flank &pinion = scene_.pinion, &wheel = scene_.wheel;
   const double scale = wheel.base_radius * std::cos(pair_.base_helix_angle);

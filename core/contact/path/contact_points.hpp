@@ -14,7 +14,7 @@ enum class QuadratureRule {
   Graded,                    ///< two Gauss points on intervals that end where the line does, see line_intervals()
 };
 
-/// How finely contact lines are resolved.
+/// The resolution of contact lines.
 struct Quadrature {
   QuadratureRule rule{QuadratureRule::Gauss2};
   int intervals{5};  ///< over the common face width; Graded: over the part of a line between A and E, >= 1
@@ -63,13 +63,14 @@ std::optional<ContactPoint> contact_point(const GearPair& pair, const PathOfCont
 
 /// Contact points of all teeth at one mesh position.
 ///
-/// No point moves while modifications change. Between A and E both
-/// flanks touch in the base tangent plane. Between A0 and A the wheel's tip edge meets the pinion flank off that plane, between
-/// E and B0 the pinion's tip edge the wheel flank; clearance and contact radii there are solved exactly in the transverse
-/// section [Haddad 1991, app. 2A, 2A.2-2A.17; solved here in closed form: the tip's position is known, and the mate's flank angle at
-/// that radius is explicit]. Departure: where the path ends at a form circle, because the mate's tip reaches below it
-/// (Gear::fillet_interference), the lower end of the flank is an edge that runs along the mate's flank, from where it enters the mate's tip
-/// circle (EdgeReach); further out the mate's tip edge meets the flank. Clearances there are what the wheel would have to turn by.
+/// No point moves while modifications change. Between A and E both flanks touch in the base tangent plane. Between A0
+/// and A the wheel's tip edge meets the pinion flank off that plane, between E and B0 the pinion's tip edge the wheel
+/// flank; clearance and contact radii there are solved exactly in the transverse section [Haddad 1991, app. 2A,
+/// 2A.2-2A.17; solved here in closed form: the tip's position is known, and the mate's flank angle at that radius is
+/// explicit]. Departure: where the path ends at a form circle, because the mate's tip reaches below it
+/// (Gear::fillet_interference), the lower end of the flank is an edge that runs along the mate's flank, from where it
+/// enters the mate's tip circle (EdgeReach); further out the mate's tip edge meets the flank. Clearances there are the
+/// turn that the wheel lacks.
 /// @param line_phase  of tooth pair 0 [base pitches], see PathOfContact
 /// @param with_extended_region  false leaves out A0 .. A and E .. B0
 std::vector<ContactPoint> contact_points(const GearPair& pair, const PathOfContact& path, const Quadrature& quadrature,

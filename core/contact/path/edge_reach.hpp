@@ -7,7 +7,8 @@
 
 namespace flankwright {
 
-/// How far outside the path of contact the lower end of a profile, an edge, may touch the mate [transverse base pitches], >= 0.
+/// Distance outside the path of contact at which the lower end of a profile, an edge, may touch the mate [transverse
+/// base pitches], >= 0.
 struct EdgeReach {
   double before{0.0};  ///< the pinion's form circle, before the path's start A
   double beyond{0.0};  ///< the wheel's, beyond the path's end E

@@ -7,8 +7,8 @@
 
 namespace flankwright {
 
-/// How close the flanks come to each other over a run through the mesh, at every point of a grid on one flank: what a
-/// marking compound shows. The pattern for a thickness t is where the separation is at most t.
+/// Least distance of the flanks over a run through the mesh, at every point of a grid on one flank: the pattern of a
+/// marking compound. The pattern for a thickness t is where the separation is at most t.
 struct BearingPattern {
   std::vector<double> radius;  ///< ascending, form circle .. tip, equally spaced [mm]
   std::vector<double> z;       ///< ascending, face end .. face end, own frame, equally spaced [mm]
@@ -17,7 +17,7 @@ struct BearingPattern {
   Eigen::MatrixXd separation;
 
   /// Share of the flank's area (profile arc length x face width) with a separation of at most `thickness` [mm], 0 .. 1.
-  /// Each grid cell counts by the share of its corners within the thickness.
+  /// Each grid cell counts by the fraction of its corners within the thickness.
   double covered(double thickness) const;
 };
 
@@ -37,7 +37,7 @@ struct BearingPattern {
 /// Accuracy: first order in misalignment and modification slope for the factor r_b cos(beta_b), some 1e-3 of the
 /// separation. Between the positions and transfer points of the mesh its error is taken as linear: n positions miss at
 /// most 1/n^2 of a parabola's peak to peak, and a quarter of spacing x slope jump where the kind of contact changes;
-/// separations that come out negative by this are 0. A point faces the mate only within a pitch of the angle at which
+/// separations that are negative by this error are 0. A point faces the mate only within a pitch of the angle at which
 /// the undisturbed flanks touch in it.
 /// @param mesh       of the same assembly; where it has positions without contact (missing > 0) the separation is
 ///                   infinite throughout

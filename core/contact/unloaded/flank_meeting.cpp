@@ -86,9 +86,9 @@ Meeting FlankMeeting::at(double rho, double z, const Meeting* near) const {
   const double radius = std::clamp(m.wheel_radius, rb2 * lowest_start, wheel.tip_radius);
   m.wheel_roll = std::sqrt((radius - rb2) * (radius + rb2));
 
-  // Newton on rho2 - D(rho2, z2) = sqrt(r^2 - r_b^2); its last step is too short to change D or its slope. Where it does not
-  // close in (kinks), the plain iteration does: |D'| < 1. Beyond the tip a relief goes on and may become steeper than that; no point of the flank
-  // has such a radius then, and rho2 ends at its bound.
+  // Newton on rho2 - D(rho2, z2) = sqrt(r^2 - r_b^2); its last step is too short to change D or its slope. Where it
+  // does not converge (kinks), the plain iteration does: |D'| < 1. Beyond the tip a relief goes on and may become
+  // steeper than that; no point of the flank has such a radius then, and rho2 ends at its bound.
   const double negligible = 1e-7;      // mm: squared it is below round-off
   const double near_enough = 0.05;     // of the roll length: from further off no guess is taken
   const double lowest = 0.1 * m.wheel_roll;  // keeps clear of the cusp of the involute

@@ -30,11 +30,11 @@ struct Meeting {
 ///
 ///     d(phi2) = -n . dq / (n . (e_z x q)),     q the point in the wheel's frame, n normal to the wheel's flank there
 ///
-/// written out for a displaced involute. A section z = const of the pinion is followed only to where the wheel's face ends, and
-/// from there on along that end: rho and the height of the section name a point that lies on both faces. Derivatives with respect
-/// to rho and phi1 are along that path; there the one with respect to z says what a wider wheel would do. Same angle as
-/// rotation_through() to round-off, at a fraction of the cost: the gradient needs no trigonometric function of the wheel, the
-/// angle itself one.
+/// written out for a displaced involute. A section z = const of the pinion is followed only to where the wheel's face
+/// ends, and from there on along that end: rho and the height of the section name a point that lies on both faces.
+/// Derivatives with respect to rho and phi1 are along that path; there the one with respect to z is that of a wider
+/// wheel. Same angle as rotation_through() to round-off, at a fraction of the cost: the gradient needs no trigonometric
+/// function of the wheel, the angle itself one.
 class FlankMeeting {
  public:
   /// @param scene  must outlive this

@@ -32,7 +32,7 @@ class MeshEnvelope {
 
   MeshEnvelope(const GearPair& pair, const MeshScene& scene);
 
-  /// Whether pair `tooth` is, with the pinion at phi1, on the extended path of contact.
+  /// Whether pair `tooth` is on the extended path of contact with the pinion at phi1.
   bool on_path(int tooth, double phi1) const { return is_within(tooth, phi1, 0.0); }
 
   /// @param preferred  tooth that stays the leading one unless another is ahead of it by more than lead_tolerance

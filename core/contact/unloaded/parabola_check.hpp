@@ -26,11 +26,11 @@ namespace flankwright {
 ///
 /// Without crowning, C = 0 sends z to the face end at once. Beyond the second limit contact runs out onto a tip edge
 /// before the next pair takes over. Spur gears have m = 0: crossing moves the contact along the face and does not shift
-/// the parabola. The coefficient that comes out is a K/(K + 2 a), with K = (rho_1^2/r_b2) (1/rho_1 + 1/rho_2) at the
-/// point of contact ((rho_2 N1/N2)^2 for rho_1^2 where the wheel is modified): contact slides along the profile to
-/// where less is removed.
+/// the parabola. The resulting coefficient is a K/(K + 2 a), with K = (rho_1^2/r_b2) (1/rho_1 + 1/rho_2) at the point
+/// of contact ((rho_2 N1/N2)^2 for rho_1^2 where the wheel is modified): contact slides along the profile to where less
+/// is removed.
 struct ParabolaCheck {
-  double wanted{not_given};    ///< a asked for [1/rad]
+  double wanted{not_given};    ///< wanted a [1/rad]
   double found{not_given};     ///< a of the best parabola of the carrying pair's arc [1/rad]
   double shift{not_given};     ///< of its vertex from the middle of the mesh, phi1 = 0 of its own tooth [rad of pinion]
   double residual{not_given};  ///< largest distance of the arc from that parabola [rad, wheel]

@@ -93,7 +93,7 @@ SectionMaximum SectionSearch::highest_summit(double z, const Tolerance& toleranc
     const double rho = i == cells_ ? highest : lowest + i * (highest - lowest) / cells_;
     samples.push_back({meeting_.at(rho, z, i == 0 ? nullptr : &samples.back().at), &meeting_});
   }
-  // Of every piece the part on the wheel's flank; a circle of the wheel that cuts it off is a bound.
+  // The part of every piece on the wheel's flank; a circle of the wheel that cuts it off is a bound.
   SectionMaximum best = missing(z);
   const auto consider = [&](const SectionMaximum& other) {
     if (other.exists && other.phi2 > best.phi2) best = other;

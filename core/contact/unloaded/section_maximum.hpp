@@ -36,7 +36,7 @@ struct SectionMaximum {
   Touch beyond;
   double share_beyond{0.0};
 
-  // What find_peak() asks of a sample.
+  // A sample for find_peak().
   double position() const { return z; }
   double value() const { return phi2; }
   double slope() const { return slope_z; }

@@ -5,7 +5,7 @@
 
 namespace flankwright {
 
-/// Where on the flanks a tooth pair touches first.
+/// The point of the flanks at which a tooth pair touches first.
 enum class ContactKind {
   None,        ///< the flanks do not face each other at this angle
   Line,        ///< along a line: aligned flanks

@@ -22,7 +22,7 @@ UnloadedMesh analyse_unloaded_mesh(const GearPair& pair, const MeshScene& scene,
   std::map<int, PairCurve> curves;
   MeshState last;
   double largest = -INFINITY, smallest = INFINITY;
-  // One position more than asked closes the cycle, so that what happens in its last interval is found too.
+  // One more position closes the cycle, so that transfer points and extremes in its last interval are found too.
   for (int i = 0; i <= positions; ++i) {
     MeshState now = envelope.at(pitch * (static_cast<double>(i) / positions - 0.5), last.exists() ? last.leading().tooth : 0);
     if (i == 0 || i == positions) envelope.look_ahead(now, pitch / positions);

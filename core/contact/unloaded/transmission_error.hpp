@@ -25,7 +25,7 @@ struct UnloadedMesh {
   double largest{not_given}, smallest{not_given};
   double peak_to_peak{not_given};          ///< largest - smallest [rad]
   std::vector<double> harmonics;           ///< amplitude of orders 1 .. 10 of the pitch, fewer where positions allow fewer [rad]
-  int missing{0};                          ///< positions at which no pair touches at all
+  int missing{0};                          ///< positions at which no pair touches
 };
 
 /// Tooth contact analysis over one pitch of the pinion, phi1 = -pi/N1 .. pi/N1. A transfer point at the very end of the

@@ -28,7 +28,7 @@ constexpr double outside_factor(ParameterKind kind) {
   return kind == ParameterKind::Amount ? 1.0 / units::um : kind == ParameterKind::Extent ? 1.0 : 1.0 / units::arcsec_per_square_deg;
 }
 
-/// What is said of one number of a modification, wherever it is named.
+/// The texts about one number of a modification, for all pages and messages.
 struct ParameterText {
   std::string_view key;       ///< below [pinion.modification] of a study file: "tip_relief.amount"
   std::string_view name;      ///< in sentences and tables: "tip relief"
@@ -37,7 +37,7 @@ struct ParameterText {
   std::string_view meaning;   ///< the line of the key reference
   ParameterKind kind{ParameterKind::Amount};
   std::string_view extent{};  ///< key of the extent over which this amount is spread; empty: it needs none
-  std::string_view half{}, other_half{};  ///< keys of the two parameters that this one sets at once; empty: it is a number of its own
+  std::string_view half{}, other_half{};  ///< keys of the two parameters that this one sets at once; empty: it is an independent number
 };
 
 /// One number of modification M, which a study may set, a designer vary and a sweep draw.
@@ -82,11 +82,12 @@ struct PolynomialAmounts {
 template <class M>
 concept PolynomialModification = requires(const M m, PolynomialAmounts& amounts) { m.add_to(amounts); };
 
-/// A modification whose removal is a term of its own: M::Term(m, frame), then term.add(r, z, jet).
+/// A modification whose removal is a separate term: M::Term(m, frame), then term.add(r, z, jet).
 template <class M>
 concept TermModification = requires { typename M::Term; };
 
-/// What a modification states of itself: its numbers as members (all 0: nothing is removed), its class, a row for each number and its removal.
+/// The definition of a modification: its numbers as members (all 0: nothing is removed), its class, a row for each
+/// number and its removal.
 template <class M>
 concept DescribedModification = std::default_initializable<M> && std::equality_comparable<M> &&
                                 requires { { M::flank_class } -> std::convertible_to<ModificationClass>; M::parameters(); } &&

@@ -49,10 +49,10 @@ PerFigure figure_errors(const CycleFigures& figures, const CycleFigures& referen
 /// phases.
 PerFigure figure_differences(const CycleFigures& figures, const CycleFigures& reference);
 
-/// How far a periodic curve, known at equal distances, may rise above its samples in between, where it consists of smooth pieces with
-/// kinks and jumps: both neighbours' straight continuations into each interval, up to where they meet, or, where one of them falls
-/// towards the other sample (a jump), the other's all the way. >= 0. Samples that catch a kink by chance do not deceive it, as they
-/// do differences of successive maxima.
+/// Possible rise of a periodic curve above its equally spaced samples, where it consists of smooth pieces with kinks
+/// and jumps: both neighbours are continued straight into each interval, up to where they meet, or, where one of them
+/// falls towards the other sample (a jump), the other all the way. >= 0. Samples that catch a kink by chance do not
+/// deceive it, as they do differences of successive maxima.
 double unseen_rise(const std::vector<double>& samples);
 
 /// Positions of a cycle at equal distances, as far as the figures go; two of the same number that lie between each other's join to one
@@ -61,12 +61,13 @@ class SampledCycle {
  public:
   SampledCycle(const MeshModel& model, const LoadedCycle& cycle);
 
-  /// Of positions between this one's, each behind its own.
+  /// The cycle joined with positions between its own, each after its own one.
   SampledCycle joined(const SampledCycle& between) const;
   int positions() const { return static_cast<int>(te_.size()); }
   int failures() const { return failures_; }
   CycleFigures figures() const;
-  /// How far extremes may lie above (or below) all positions, by unseen_rise(); 0 for what is no extreme. In the figures' units.
+  /// Possible distance of extremes above (or below) all positions, by unseen_rise(); 0 for figures that are no
+  /// extremes. In the figures' units.
   PerFigure unseen() const;
 
  private:

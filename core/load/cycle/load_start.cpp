@@ -7,7 +7,7 @@ namespace flankwright {
 
 namespace {
 
-/// Positions count as no further apart than so many times what is between the two before.
+/// Largest step to extrapolate over, as a multiple of the one before.
 constexpr double farthest = 2.0;
 
 /// Points [begin, end) of one tooth pair's line; [core_begin, core_end) of them between A and E, where the clearance is 0. Where none is
@@ -75,7 +75,8 @@ Eigen::VectorXd starting_loads(const MeshModel& model, const LoadedCycle& cycle,
   const auto known = [&](std::size_t back) { return i >= back && solved(cycle, i - back) && (!follows || solved(*earlier, i - back)); };
   if (!known(1)) return follows ? loads_of(*earlier, i) : Eigen::VectorXd();
 
-  // Loads, or what of them is new, of so many positions before, at the points of this one; quiet NaN where it has no such point.
+  // Loads, or their change, of so many positions before, at the points of this one; quiet NaN where it has no such
+  // point.
   const auto carried = [&](std::size_t back) {
     Eigen::VectorXd change = loads_of(cycle, i - back);
     if (follows) change -= loads_of(*earlier, i - back);

@@ -18,7 +18,7 @@ struct LoadedPosition {
   /// for later.
   Eigen::VectorXd root_stress;
   double stiffness{not_given};       ///< secant, transverse, per mm of face width [N/(mm um)]; see analyse_cycle()
-  // Derivatives with respect to the parameters asked for, column per parameter; those of root_stress: see root_stress_derivative().
+  // Derivatives with respect to the parameters, one column each; those of root_stress: see root_stress_derivative().
   Eigen::MatrixXd gap_derivative;             ///< d(gap.total)/dp, n x m
   Eigen::MatrixXd line_load_derivative;       ///< dw/dp, n x m
   Eigen::MatrixXd contact_stress_derivative;  ///< dsigma_H/dp, n x m

@@ -38,7 +38,7 @@ void raise(RootStressPeak& peak, const RootStressPeak& other) {
   peak.tangent_stress = tangent;
 }
 
-/// What a parameter that moves the mesh changes, and which it is.
+/// The slopes of a parameter that moves the mesh, and its index.
 struct MovedMesh {
   Eigen::Index column;
   MeshSlope slope;

@@ -39,7 +39,7 @@ void add_root_stress(const MeshModel& model, LoadedCycle& cycle);
 /// matter.
 Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPosition& position, Eigen::Index place);
 
-/// Where one gear's root is stressed most: tension side, largest principal stress at the surface.
+/// The largest root stress of one gear: tension side, largest principal stress at the surface.
 struct RootStressPeak {
   double stress{not_given};          ///< over all teeth and points [MPa]
   RootPlace place{};                 ///< where; the pair's tooth and z
@@ -59,7 +59,7 @@ struct RootPlaces {
 /// Index of the point with the largest stress among these at one position, the first of equals; -1 where there is none.
 Eigen::Index highest_root_stress(const MeshPosition& at, const LoadedPosition& position, const RootPlaces& among);
 
-/// What a designer reads off a cycle first.
+/// The main figures of a cycle.
 struct CycleSummary {
   double te_peak_to_peak{not_given};           ///< of f_t over the positions [mm]
   std::vector<double> te_harmonics;            ///< amplitudes of orders 1 .. 10 of the base pitch [mm]; empty for explicit phases

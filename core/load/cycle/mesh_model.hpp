@@ -12,7 +12,7 @@
 
 namespace flankwright {
 
-/// How finely a mesh cycle is resolved.
+/// The resolution of a mesh cycle.
 struct MeshResolution {
   Quadrature quadrature;
   /// Phases of the reference tooth pair's line [base pitches]; see equally_spaced_phases().
@@ -81,14 +81,15 @@ struct MeshModel {
 /// @param structure    structural compliance; null: thin slices
 /// @param root_stress  null: none
 /// @param shafts       added to it, coupling all points; null: rigid shafts
-/// @throws InvalidInput where no effect lets the points give way, no phase is given, or the gears do not overlap axially
+/// @throws InvalidInput where no effect makes the points compliant, no phase is given, or the gears do not overlap
+///                       axially
 MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
                           const MeshResolution& resolution, const MeshEffects& effects = {}, const MeshPlacement& placement = {},
                           const PairCompliance* structure = nullptr, const PairRootStress* root_stress = nullptr,
                           const PairCompliance* shafts = nullptr);
 
-/// The same gears with other effects or another placement: what gears and materials alone settle is taken from the model, the rest is made
-/// anew as make_mesh_model() makes it.
+/// The same gears with other effects or another placement: data of gears and materials alone are taken from the model,
+/// the rest is built as by make_mesh_model().
 /// @throws InvalidInput  as make_mesh_model()
 MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
                             const PairCompliance& structure, const PairRootStress* root_stress, const PairCompliance* shafts);

@@ -27,7 +27,7 @@ double mesh_step_of(const GearPair& pair, MisalignmentParameter parameter);
 /// The mesh at a placement.
 using MeshPlaced = std::function<MeshModel(const MeshPlacement&)>;
 /// A mesh with its perturbed ones, two for each of the parameters that move it, see MeshModel::further.
-/// @param mesh  makes what `model` is, at any placement
+/// @param mesh  builds a mesh like `model` at any placement
 MeshModel with_further_meshes(MeshModel model, const MeshPlaced& mesh, const std::vector<MeshParameter>& parameters);
 
 /// @throws InvalidInput  where the model has no perturbed meshes along this parameter
@@ -35,7 +35,8 @@ const FurtherMeshes& further_meshes(const MeshModel& model, MisalignmentParamete
 /// A condition with the wheel where a mesh has it.
 FlankCondition placed_as(const MeshModel& mesh, MisalignmentParameter parameter, FlankCondition condition);
 
-/// What a parameter that moves the mesh changes at one mesh position while loads are held, per mm or rad, following each point of the mesh.
+/// Slopes of one mesh position with a parameter that moves the mesh, at held loads, per mm or rad, following each point
+/// of the mesh.
 struct MeshSlope {
   Eigen::VectorXd gap;              ///< g [mm per unit]
   Eigen::VectorXd deflection;       ///< K a w + c(w) [mm per unit]
@@ -57,7 +58,7 @@ class MeshSlopes {
   /// @param model, condition  must outlive this; the model made by with_further_meshes()
   /// @throws InvalidInput  where the model has no perturbed meshes along the parameter
   MeshSlopes(const MeshModel& model, const FlankCondition& condition, MisalignmentParameter parameter);
-  MeshSlopes(const MeshSlopes&) = delete;  // its gaps know its conditions
+  MeshSlopes(const MeshSlopes&) = delete;  // its gaps have its condition
 
   /// @param position  index into MeshModel::positions
   MeshSlope at(std::size_t position, const LoadDistribution& load, const Gap& gap) const;
@@ -75,7 +76,7 @@ class MeshSlopes {
     ConditionGap gaps;
   };
 
-  /// Which of their points those of a position are.
+  /// Their points that correspond to those of a position.
   struct Same {
     std::vector<Eigen::Index> one, two;
     Eigen::VectorXd known;  ///< 1 where both have the point, else 0

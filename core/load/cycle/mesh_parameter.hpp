@@ -18,7 +18,7 @@ struct GearParameter {
 /// The torque on the pinion [N mm].
 struct PinionTorque {};
 
-/// What loaded contact is differentiated with respect to: what a designer chooses, what a housing does, what is transmitted.
+/// The parameters of derivatives of loaded contact: modifications, misalignment, torque.
 using MeshParameter = std::variant<GearParameter, MisalignmentParameter, PinionTorque>;
 
 /// How parameters enter the load problem of one mesh position.
@@ -30,7 +30,7 @@ struct ParameterSlopes {
 ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at, const ConditionGap& gaps, const Gap& gap,
                                  const std::vector<MeshParameter>& parameters);
 
-/// Whether a parameter changes more than gap and force: what a mesh is placed by, see MeshPlacement.
+/// Whether a parameter changes more than gap and force: it moves the mesh, see MeshPlacement.
 bool moves_mesh(GapModel gap, const MeshParameter& parameter);
 /// Their indices among the parameters.
 std::vector<Eigen::Index> moving_among(GapModel gap, const std::vector<MeshParameter>& parameters);

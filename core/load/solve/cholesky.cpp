@@ -99,7 +99,7 @@ double Cholesky::inverse_norm() const {
     if (next == signs) break;
     signs = next;
   }
-  // Where cancellation hides the norm from all these.
+  // For matrices where cancellation hides the norm from all these.
   for (Eigen::Index i = 0; i < n; ++i) v[i] = (i % 2 == 0 ? 1.0 : -1.0) * (1.0 + static_cast<double>(i) / static_cast<double>(n - 1));
   solve(v);
   return std::max(norm, 2.0 * v.lpNorm<1>() / (3.0 * static_cast<double>(n)));

@@ -14,8 +14,8 @@ class Cholesky {
   /// which solves a consistent system.
   static constexpr double least_pivot = 2.2e-16;
 
-  /// What factorise() works on: (n + carried) x n, contents unspecified. The caller fills the lower triangle of the first n rows with
-  /// H and the rows below with right-hand sides; what is above the diagonal is not read.
+  /// The storage of factorise(): (n + carried) x n, contents unspecified. The caller fills the lower triangle of the
+  /// first n rows with H and the rows below with right-hand sides; values above the diagonal are not read.
   Eigen::MatrixXd& prepare(Eigen::Index n, Eigen::Index carried = 0);
   void factorise();
 

@@ -25,7 +25,7 @@ struct LoadProblemView {
   double force;                         ///< F, normal to the flanks, >= 0 [N]
 };
 
-/// The same with numbers of its own.
+/// The same with its own numbers.
 struct LoadProblem {
   Eigen::MatrixXd influence;
   Eigen::VectorXd weight;

@@ -99,7 +99,7 @@ LoadDistribution LoadSolver::solve(const LoadProblemView& problem, const LoadOpt
   return result;
 }
 
-/// Of the structure, at all points. An influence that is not finite shows here, whatever it is multiplied by.
+/// Of the structure, at all points. A non-finite influence shows here, whatever it is multiplied by.
 void LoadSolver::find_deflection(const LoadProblemView& problem, const Eigen::VectorXd& loads) {
   forces_ = problem.weight.cwiseProduct(loads);
   structural_.noalias() = problem.influence * forces_;
@@ -247,8 +247,8 @@ void LoadSolver::step() {
   evaluate(next_);
   has_factor_ = true;
 
-  // The approach is taken out of every term (a'd = 0 along a feasible step), so that what is summed is as small as the residual and not
-  // as large as the deflection.
+  // The approach is taken out of every term (a'd = 0 along a feasible step), so that the terms are as small as the
+  // residual and not as large as the deflection.
   forces_ = weight_.cwiseProduct(next_.loads - at_.loads);
   const double slope_start = forces_.dot((at_.approach.array() - at_.multiplier).matrix());
   const double slope_end = forces_.dot((next_.approach.array() - at_.multiplier).matrix());

@@ -65,7 +65,7 @@ class LoadSolver {
   Eigen::MatrixXd influence_, hessian_;        ///< K; aKa + a c'
   Eigen::VectorXd weight_, near_gap_;          ///< a; g from first touch
   Eigen::VectorXd stiff_diagonal_;             ///< of aKa
-  Eigen::VectorXd floor_slope_;                ///< c' at load_floor_; NaN until asked for
+  Eigen::VectorXd floor_slope_;                ///< c' at load_floor_; NaN until computed
   bool has_negative_influence_{false};
   Iterate at_, next_;
   Eigen::VectorXd gradient_, forces_;
@@ -74,7 +74,7 @@ class LoadSolver {
   double load_step_{0.0};   ///< largest change of a load in the last step over the largest load; infinite before the first
 };
 
-/// Solves one problem by a solver of its own.
+/// Solves one problem with a new solver.
 /// @param start  line loads to start from (scaled to the force), size n, or empty
 /// @throws InvalidInput where sizes differ, a weight is not positive, the force is negative or anything is not finite
 LoadDistribution solve_load_distribution(const LoadProblemView& problem, const LoadOptions& options = {},

@@ -9,8 +9,8 @@ namespace flankwright {
 
 /// minimise 1/2 d'Hd + g'd  subject to  a'(x + d) = F,  x + d >= 0
 ///
-/// over the step d from given loads x, n of each: H symmetric positive definite, a > 0, F > 0. Counting from loads near the minimiser
-/// keeps round-off as small as the step. All must outlive what is made of it.
+/// over the step d from given loads x, n of each: H symmetric positive definite, a > 0, F > 0. Counting from loads near
+/// the minimiser keeps round-off as small as the step. All must outlive the solver.
 struct QuadraticProblem {
   const Eigen::MatrixXd& H;  ///< n x n
   const Eigen::VectorXd& g;
@@ -25,8 +25,8 @@ struct QuadraticProblem {
 ///
 /// Block principal pivoting (Portugal, Judice, Vicente 1994): all bounds that are violated on either side change at
 /// once as long as their number falls, a few factorisations in all. Where it stalls, which takes a nearly singular H, a
-/// primal active-set method goes on from its loads: every step lowers the objective, so that it ends. Signs count up to
-/// the round-off of the terms they are sums of.
+/// primal active-set method goes on from its loads: every step lowers the objective, so that it ends. Signs are judged
+/// up to the round-off of their terms.
 class QuadraticProgram {
  public:
   using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;

@@ -17,7 +17,7 @@ class LoadSensitivity {
  public:
   /// @param distribution  usable() and with at least one loaded point
   LoadSensitivity(const LoadProblemView& problem, const LoadDistribution& distribution);
-  /// The same by a factor that is there already, see LoadSolver.
+  /// The same with an existing factor, see LoadSolver.
   /// @param size    number of points n
   /// @param loaded  points that carry load, ascending
   /// @param weight  a of these
