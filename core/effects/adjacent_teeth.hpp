@@ -12,7 +12,7 @@ class AdjacentTeethEffect final : public Effect {
   std::string_view needs() const override { return "bending"; }
   EffectCall called_for(const EffectFacts& facts) const override {
     const bool on = facts.loaded && facts.coupled_teeth;
-    return {on, on ? "a loaded tooth moves its neighbours" : "no load, or a compliance of teeth that do not know of each other"};
+    return {on, on ? "a loaded tooth moves its neighbours" : "no load, or a compliance model without coupling of teeth"};
   }
   /// The structure's blocks between points of different teeth.
   void act(MeshDraft& draft) const override {

@@ -11,7 +11,7 @@ class GearBodyComplianceEffect final : public Effect {
   EffectStage stage() const override { return EffectStage::Body; }
   EffectCall called_for(const EffectFacts& facts) const override {
     const bool on = facts.loaded && facts.gear_bodies;
-    return {on, on ? "what carries the teeth gives way as well" : "no load, or a compliance of teeth that knows of no gear body"};
+    return {on, on ? "the gear body is compliant as well" : "no load, or a compliance model without gear bodies"};
   }
   void act(MeshDraft& draft) const override { draft.with_gear_bodies = true; }
 };

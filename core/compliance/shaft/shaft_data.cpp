@@ -46,7 +46,7 @@ void check_bearings(const ShaftData& shaft, Findings& findings) {
     findings.require(bearing.position >= 0.0 && bearing.position <= shaft.length(), name + "position", bearing.position,
                      "on the shaft, 0 .. " + std::to_string(shaft.length()) + " mm");
     findings.require(std::ranges::find(places, bearing.position) == places.end(), name + "position", bearing.position,
-                     "a place of its own");
+                     "a position of its own");
     findings.require(bearing.radial_stiffness > 0.0, name + "radial_stiffness", bearing.radial_stiffness, "above 0");
     findings.require(bearing.axial_stiffness >= 0.0, name + "axial_stiffness", bearing.axial_stiffness, "0 or more");
     findings.require(bearing.tilting_stiffness >= 0.0, name + "tilting_stiffness", bearing.tilting_stiffness, "0 or more");

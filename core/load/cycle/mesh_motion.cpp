@@ -58,7 +58,7 @@ MeshModel with_further_meshes(MeshModel model, const MeshPlaced& mesh, const std
 const FurtherMeshes& further_meshes(const MeshModel& model, MisalignmentParameter parameter) {
   const auto found = std::ranges::find(model.further, parameter, &FurtherMeshes::parameter);
   if (found == model.further.end()) {
-    throw InvalidInput("misalignment." + std::string(name_of(parameter)), "a derivative", "a mesh that knows itself further along");
+    throw InvalidInput("misalignment." + std::string(name_of(parameter)), "a derivative", "a model with perturbed meshes along it");
   }
   return *found;
 }
