@@ -104,7 +104,7 @@ int dispatch(int argc, char** argv) {
                "  flankwright library teeth.txt                               hours; killed, it goes on where the file ends");
   library->add_option("file", study, "file to write")->required();
   library->add_option("--threads", threads, "finite-element runs abreast")->check(CLI::Range(1, 1024));
-  ImportOptions from;
+  ImportCommand from;
   CLI::App* import = app.add_subcommand("import", "make a study of a stage in a REXS file");
   import->footer("Examples:\n"
                "  flankwright import gearbox.rexs                             one stage: its study on stdout; several: they are listed\n"
@@ -115,7 +115,7 @@ int dispatch(int argc, char** argv) {
   import->add_option("--stage", from.stage, "which stage, of several: its number, as they are listed without this option");
   import->add_option("--helix-slope", from.slope_end, "face end at which a positive helix_slope removes material")
       ->check(CLI::IsMember({"non-datum", "datum"}));
-  ExportOptions to;
+  ExportCommand to;
   CLI::App* exporting = app.add_subcommand("export", "write what a results folder holds in the formats of other programs");
   exporting->footer("Examples:\n"
                "  flankwright export results/pump --rexs                      results/pump/stage.rexs, after an optimisation with what it found\n"

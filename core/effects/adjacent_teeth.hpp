@@ -15,11 +15,11 @@ class AdjacentTeethEffect final : public Effect {
     return {on, on ? "a loaded tooth moves its neighbours" : "no load, or a compliance model without coupling of teeth"};
   }
   /// The structure's blocks between points of different teeth.
-  void act(MeshDraft& draft) const override {
-    const Eigen::MatrixXd& structure = draft.structural_influence();
-    for (std::size_t i = 0; i < draft.points.size(); ++i) {
-      for (std::size_t j = 0; j < draft.points.size(); ++j) {
-        if (draft.points[i].tooth != draft.points[j].tooth) draft.influence(i, j) += structure(i, j);
+  void act(MeshBuilder& builder) const override {
+    const Eigen::MatrixXd& structure = builder.structural_influence();
+    for (std::size_t i = 0; i < builder.points.size(); ++i) {
+      for (std::size_t j = 0; j < builder.points.size(); ++j) {
+        if (builder.points[i].tooth != builder.points[j].tooth) builder.influence(i, j) += structure(i, j);
       }
     }
   }

@@ -9,16 +9,16 @@ class BendingEffect final : public Effect {
  public:
   std::string_view name() const override { return "bending"; }
   EffectStage stage() const override { return EffectStage::Structure; }
-  bool gives_way() const override { return true; }
+  bool makes_compliant() const override { return true; }
   EffectCall called_for(const EffectFacts& facts) const override {
     return {facts.loaded, facts.loaded ? "teeth bend under load" : "no load"};
   }
   /// The structure's blocks between points of one tooth; they are positive semi-definite on their own.
-  void act(MeshDraft& draft) const override {
-    const Eigen::MatrixXd& structure = draft.structural_influence();
-    for (std::size_t i = 0; i < draft.points.size(); ++i) {
-      for (std::size_t j = 0; j < draft.points.size(); ++j) {
-        if (draft.points[i].tooth == draft.points[j].tooth) draft.influence(i, j) += structure(i, j);
+  void act(MeshBuilder& builder) const override {
+    const Eigen::MatrixXd& structure = builder.structural_influence();
+    for (std::size_t i = 0; i < builder.points.size(); ++i) {
+      for (std::size_t j = 0; j < builder.points.size(); ++j) {
+        if (builder.points[i].tooth == builder.points[j].tooth) builder.influence(i, j) += structure(i, j);
       }
     }
   }

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/contact/gap/gap.hpp"
-#include "core/effects/mesh_draft.hpp"
+#include "core/effects/mesh_builder.hpp"
 
 namespace flankwright {
 
@@ -57,11 +57,11 @@ class Effect {
   /// A list of effects in a study switches it; false: another key does.
   virtual bool listed() const { return true; }
   /// It alone makes every point compliant, so that loads are determined.
-  virtual bool gives_way() const { return false; }
+  virtual bool makes_compliant() const { return false; }
   /// Removes the effect's part of a condition.
   virtual void clear_from(FlankCondition&) const {}
   /// Adds its part to a mesh position, in its stage.
-  virtual void act(MeshDraft&) const {}
+  virtual void act(MeshBuilder&) const {}
 
  protected:
   Effect() = default;

@@ -71,7 +71,7 @@ EffectDecisions within_budget(EffectDecisions decisions, std::vector<EffectSize>
     if (spent + size.influence.share > budget) break;
     const std::string why = "size " + percent(size.influence.share) + " of " + size.influence.largest_in + ", below the budget of " + percent(budget);
     EffectDecisions rest = without(decisions, size.name, why);
-    if (!mesh_effects(rest).give_way()) continue;
+    if (!mesh_effects(rest).make_compliant()) continue;
     decisions = std::move(rest);
     spent += size.influence.share;
   }

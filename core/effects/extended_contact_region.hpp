@@ -12,7 +12,7 @@ class ExtendedContactRegionEffect final : public Effect {
   EffectCall called_for(const EffectFacts& facts) const override {
     return {facts.loaded, facts.loaded ? "loaded teeth touch before and after the theoretical path" : "no load"};
   }
-  void act(MeshDraft& draft) const override { draft.with_extended_region = true; }
+  void act(MeshBuilder& builder) const override { builder.with_extended_region = true; }
 };
 
 }  // namespace flankwright

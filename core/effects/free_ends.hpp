@@ -17,17 +17,17 @@ class FreeEndsEffect final : public Effect {
   EffectCall called_for(const EffectFacts& facts) const override {
     return {facts.loaded, facts.loaded ? "contact softens near the end faces" : "no load"};
   }
-  void act(MeshDraft& draft) const override {
-    const GearPair& pair = draft.parts.pair;
+  void act(MeshBuilder& builder) const override {
+    const GearPair& pair = builder.parts.pair;
     const double cos_base_helix = std::cos(pair.base_helix_angle);
     const auto distances = [&](const Gear& gear, double z) {
       const double half = 0.5 * gear.data.face_width;
       return std::array{(half + z) / cos_base_helix, (half - z) / cos_base_helix};
     };
-    const auto lean = [&](Member member) { return -sharp_end(pair, member) * std::abs(pair.base_helix_angle); };
-    for (std::size_t i = 0; i < draft.points.size(); ++i) {
-      const double z = draft.points[i].z;
-      draft.end_distances[i] = {distances(pair.pinion, z), distances(pair.wheel, z - draft.parts.axial_offset()), lean(Member::Pinion), lean(Member::Wheel)};
+    const auto lean = [&](Member member) { return -acute_end(pair, member) * std::abs(pair.base_helix_angle); };
+    for (std::size_t i = 0; i < builder.points.size(); ++i) {
+      const double z = builder.points[i].z;
+      builder.end_distances[i] = {distances(pair.pinion, z), distances(pair.wheel, z - builder.parts.axial_offset()), lean(Member::Pinion), lean(Member::Wheel)};
     }
   }
 };

@@ -13,7 +13,7 @@ class GearBodyComplianceEffect final : public Effect {
     const bool on = facts.loaded && facts.gear_bodies;
     return {on, on ? "the gear body is compliant as well" : "no load, or a compliance model without gear bodies"};
   }
-  void act(MeshDraft& draft) const override { draft.with_gear_bodies = true; }
+  void act(MeshBuilder& builder) const override { builder.with_gear_bodies = true; }
 };
 
 }  // namespace flankwright

@@ -10,18 +10,18 @@ class HertzianContactEffect final : public Effect {
  public:
   std::string_view name() const override { return "hertzian_contact"; }
   EffectStage stage() const override { return EffectStage::ContactLaw; }
-  bool gives_way() const override { return true; }
+  bool makes_compliant() const override { return true; }
   EffectCall called_for(const EffectFacts& facts) const override {
     return {facts.loaded, facts.loaded ? "flanks flatten under load" : "no load"};
   }
-  void act(MeshDraft& draft) const override {
-    const MeshParts& parts = draft.parts;
+  void act(MeshBuilder& builder) const override {
+    const MeshParts& parts = builder.parts;
     const double modulus = contact_modulus(parts.pinion_material, parts.wheel_material);
-    for (std::size_t i = 0; i < draft.points.size(); ++i) {
-      const ContactPoint& point = draft.points[i];
-      const TipDistances& tips = draft.tip_distances[i];
-      const EndDistances& ends = draft.end_distances[i];
-      draft.laws.emplace_back(ContactSide::of(parts.pinion_material, point.pinion_depth, tips.pinion, ends.pinion, ends.pinion_lean),
+    for (std::size_t i = 0; i < builder.points.size(); ++i) {
+      const ContactPoint& point = builder.points[i];
+      const TipDistances& tips = builder.tip_distances[i];
+      const EndDistances& ends = builder.end_distances[i];
+      builder.laws.emplace_back(ContactSide::of(parts.pinion_material, point.pinion_depth, tips.pinion, ends.pinion, ends.pinion_lean),
                               ContactSide::of(parts.wheel_material, point.wheel_depth, tips.wheel, ends.wheel, ends.wheel_lean),
                               point.relative_radius, modulus);
     }

@@ -40,13 +40,13 @@ MeshEffects MeshEffects::all_but(std::initializer_list<std::string_view> names) 
 
 bool MeshEffects::has(std::string_view name) const { return find_by_name(on_, name) != on_.end(); }
 
-bool MeshEffects::give_way() const { return std::ranges::any_of(on_, &Effect::gives_way); }
+bool MeshEffects::make_compliant() const { return std::ranges::any_of(on_, &Effect::makes_compliant); }
 
-void MeshEffects::act(EffectStage stage, MeshDraft& draft) const {
+void MeshEffects::act(EffectStage stage, MeshBuilder& builder) const {
   for (std::size_t i = 0; i < on_.size(); ++i) {
     if (on_[i]->stage() != stage) continue;
     const Stopwatch clock;
-    on_[i]->act(draft);
+    on_[i]->act(builder);
     (*costs_)[i].seconds += clock.seconds();
     ++(*costs_)[i].calls;
   }

@@ -24,12 +24,12 @@ class MeshEffects {
 
   bool has(std::string_view name) const;
   /// Whether loads are determined: some effect makes every point compliant.
-  bool give_way() const;
+  bool make_compliant() const;
   /// Asks every effect of a stage for its part.
-  void act(EffectStage stage, MeshDraft& draft) const;
+  void act(EffectStage stage, MeshBuilder& builder) const;
   /// The same, one stage after the other.
-  void act(std::initializer_list<EffectStage> stages, MeshDraft& draft) const {
-    for (const EffectStage stage : stages) act(stage, draft);
+  void act(std::initializer_list<EffectStage> stages, MeshBuilder& builder) const {
+    for (const EffectStage stage : stages) act(stage, builder);
   }
 
   const EffectList& list() const { return on_; }

@@ -13,8 +13,8 @@ class RootStressEffect final : public Effect {
     const bool on = facts.loaded && facts.root_stress;
     return {on, on ? "finite elements tell the stress of the roots" : "no load, or no finite elements and nothing asks for peak_root_stress"};
   }
-  void act(MeshDraft& draft) const override {
-    if (draft.parts.root_stress) draft.root_stress = draft.parts.root_stress->influence(draft.points, draft.parts.axial_offset());
+  void act(MeshBuilder& builder) const override {
+    if (builder.parts.root_stress) builder.root_stress = builder.parts.root_stress->influence(builder.points, builder.parts.axial_offset());
   }
 };
 

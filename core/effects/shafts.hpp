@@ -13,8 +13,8 @@ class ShaftsEffect final : public Effect {
     const bool on = facts.loaded && facts.shafts;
     return {on, on ? "a gear's shaft is described" : "no load, or no shaft is described: they are rigid"};
   }
-  void act(MeshDraft& draft) const override {
-    if (draft.parts.shafts) draft.influence += draft.parts.shafts->influence(draft.points, draft.parts.axial_offset());
+  void act(MeshBuilder& builder) const override {
+    if (builder.parts.shafts) builder.influence += builder.parts.shafts->influence(builder.points, builder.parts.axial_offset());
   }
 };
 

@@ -13,9 +13,9 @@ class TipCornerEffect final : public Effect {
   EffectCall called_for(const EffectFacts& facts) const override {
     return {facts.loaded, facts.loaded ? "contact softens near the tips" : "no load"};
   }
-  void act(MeshDraft& draft) const override {
-    for (std::size_t i = 0; i < draft.points.size(); ++i) {
-      draft.tip_distances[i] = {draft.points[i].pinion_tip_distance, draft.points[i].wheel_tip_distance};
+  void act(MeshBuilder& builder) const override {
+    for (std::size_t i = 0; i < builder.points.size(); ++i) {
+      builder.tip_distances[i] = {builder.points[i].pinion_tip_distance, builder.points[i].wheel_tip_distance};
     }
   }
 };

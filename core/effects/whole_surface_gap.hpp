@@ -16,11 +16,11 @@ class WholeSurfaceGapEffect final : public Effect {
     const bool on = facts.loaded && facts.whole_surface;
     return {on, on ? "fidelity.gap seeks contact over the whole flanks" : "no load, or fidelity.gap keeps contact in the plane of action"};
   }
-  void act(MeshDraft& draft) const override {
-    if (draft.parts.placement.gap != GapModel::WholeSurface) return;
+  void act(MeshBuilder& builder) const override {
+    if (builder.parts.placement.gap != GapModel::WholeSurface) return;
     FlankCondition unmodified;
-    unmodified.misalignment = draft.parts.placement.misalignment;
-    draft.set_points(SurfaceGap(draft.parts.pair, unmodified).place(draft.points, draft.phase));
+    unmodified.misalignment = builder.parts.placement.misalignment;
+    builder.set_points(SurfaceGap(builder.parts.pair, unmodified).place(builder.points, builder.phase));
   }
 };
 

@@ -29,12 +29,14 @@ std::vector<double> coarse_phases(const std::vector<double>& phases);
 /// How far a cycle's figures are from those of infinitely many points and positions, by an embedded comparison: the same contact
 /// problem with half the intervals at every second position.
 ///
-/// - Points: with d the difference of f_t at a position, fine less coarse, the mean is off by |mean d|/2, the peak to peak by
-///   (max d - min d)/2 and harmonic k by (|DFT_k d| + rms(d - mean d))/2: what one order shows may be small by chance. Halving the intervals takes at least a third of the coarser one's error, more often a tenth (the integrals converge with
-///   order two and better). Peaks of stress and load, which lie at the ends of lines more often than not, converge with order one at
-///   least: they are off by the largest difference at any position that comes within a tenth of the peak.
-/// - Positions: amplitudes of a curve with kinks converge with order two: a third of what leaving out every second position changes.
-///   Extremes are off by what the search left, CycleExtremes::unseen, or without one by unseen_rise().
+/// - Points: with d the difference of f_t at a position, fine less coarse, the mean is off by |mean d|/2, the peak to
+///   peak by (max d - min d)/2 and harmonic k by (|DFT_k d| + rms(d - mean d))/2: a single order may be small by
+///   chance. Halving the intervals takes at least a third of the coarser one's error, more often a tenth (the integrals
+///   converge with order two and better). Peaks of stress and load, which lie at the ends of lines more often than not,
+///   converge with order one at least: they are off by the largest difference at any position that comes within a tenth
+///   of the peak.
+/// - Positions: amplitudes of a curve with kinks converge with order two: a third of what leaving out every second
+///   position changes. Extremes are off by CycleExtremes::unseen after a search, else by unseen_rise().
 ///
 /// @param fine      evenly spaced, with its summary
 /// @param coarse    at coarse_phases() of it, half the intervals

@@ -150,7 +150,7 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
   const Stopwatch clock;
   EstimatedSize result{{name, {}, not_given}};
   const EffectDecisions rest = without(decisions, name, "left out");
-  if (!mesh_effects(rest).give_way() || !cases.knows(rest)) return result;
+  if (!mesh_effects(rest).make_compliant() || !cases.knows(rest)) return result;
   const Case other = cases.with(rest, name);
   const ConditionGap gaps(other.model->pair, other.model->placement.gap, other.condition);
   OutputSum outputs(*other.model);
@@ -194,7 +194,7 @@ CycleOutputs outputs_with(const EffectScene& scene, const EffectDecisions& decis
 
 EffectInfluence exact_influence(const EffectScene& scene, const EffectDecisions& decisions, const std::string& name) {
   const EffectDecisions rest = without(decisions, name, "left out");
-  if (!mesh_effects(rest).give_way()) return {};
+  if (!mesh_effects(rest).make_compliant()) return {};
   EffectMeshes meshes;
   const Cases cases(scene, meshes);
   return EffectInfluence::between(cases.outputs(decisions), cases.outputs(rest, name));

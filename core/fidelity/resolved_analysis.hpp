@@ -15,8 +15,9 @@ struct AutomaticResolution {
 /// Whether the points along the contact lines cause at least as much of the headline error as the positions.
 bool mostly_by_points(const ResolvedCycle& resolved, const LoadedCycle& cycle);
 
-/// Doubles the intervals or the positions of a resolution, whichever bring most of the headline error, as far as they may be chosen; false,
-/// with nothing changed, where neither may, or where the one that may brings no more than the accuracy and the other alone does.
+/// Doubles the intervals or the positions of a resolution, whichever cause most of the headline error and may be
+/// chosen. False, with nothing changed, where neither may be chosen, or where the free one causes no more than the
+/// accuracy and the other alone exceeds it.
 /// @param from  the resolution of `cycle`, in `intervals` and `positions`
 bool refine(AutomaticResolution& from, const ResolvedCycle& resolved, const LoadedCycle& cycle);
 

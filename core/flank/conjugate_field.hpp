@@ -26,10 +26,11 @@ class PredesignedField : public DeviationField {
 /// orders, see removal(); a little more must be removed from the flank itself, because contact slides along the profile
 /// to where less is removed.
 ///
-/// Contact runs along this flank by the factor 1 - 2 a/K slower than along the involute, K = (rho_1^2/r_b2)(1/rho_1 + 1/rho_2) ((rho_2
-/// N1/N2)^2 for rho_1^2 on the wheel), and the flank would fold over itself at 2 a = K, first near the base circle. Exact with its
-/// derivatives from the start of the active profile to the tip circle and a little beyond (GeneratedRange) as far as that factor is at
-/// least 1/2; from there it continues with the value and slope it has (C1), where the pair's own curve lags less than the parabola.
+/// Contact runs along this flank by the factor 1 - 2 a/K slower than along the involute, K = (rho_1^2/r_b2)(1/rho_1 +
+/// 1/rho_2) ((rho_2 N1/N2)^2 for rho_1^2 on the wheel), and the flank would fold over itself at 2 a = K, first near the
+/// base circle. Exact with its derivatives from the start of the active profile to the tip circle and a little beyond
+/// (GeneratedRange) as far as that factor is at least 1/2; from there it continues with its value and slope (C1), where
+/// the pair's own curve lags less than the parabola.
 /// @param coefficient  a [1/rad]; 0 gives the involute
 /// @throws InvalidInput "parabolic_te" where that end lies inside the pitch in which an aligned pair is the leading
 ///                       one, |phi1| <= pi/N1 at mid face

@@ -10,9 +10,9 @@
 
 namespace flankwright {
 
-/// What of a flank's deviation is polynomial on either side of the pitch circle, all that is constant over the flank worked out once: at radius r
-/// and axial position z [mm], transverse base tangent, positive into the tooth, the modifications that name their part of PolynomialAmounts
-/// less
+/// The part of a flank's deviation that is polynomial on either side of the pitch circle, with everything constant over
+/// the flank computed once: at radius r and axial position z [mm], transverse base tangent, positive into the tooth,
+/// the modifications that name their part of PolynomialAmounts less
 ///
 ///     errors:   f_Hbeta z/b + f_Halpha y/h_active + f_yz (y/h_active)(z/b),   y = r - reference radius, h_active = r_a - r_Nf
 ///

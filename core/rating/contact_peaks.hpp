@@ -9,10 +9,10 @@ namespace flankwright {
 
 /// The rule by which part of a contact line counts as a spike at its end.
 ///
-/// Where a helical line is cut off by a tip edge (at A or E), the tooth beyond it carries nothing and props up the end:
+/// Where a helical line is cut off by a tip edge (at A or E), the tooth beyond it carries nothing and supports the end:
 /// line load and stress rise there, and most where the whole line has shrunk to a point at a face corner. Haddad 1991,
-/// ch. 4, leaves these out by choosing intermediate phases by eye. Here, so that the answer depends on no choice of phases: a
-/// point counts `without spikes` where
+/// ch. 4, leaves these out by choosing intermediate phases by eye. Here, so that the answer depends on no choice of
+/// phases: a point counts `without spikes` where
 ///
 ///     its line is, between A and E, at least line_share of the longest line that the pair has, and
 ///     it lies between A and E, at least end_distance along the axis from where its line crosses either.
@@ -72,8 +72,9 @@ struct PeakSearch {
 ContactPeaks locate_peaks(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque,
                           const PeakSearch& search = {});
 
-/// All phases at which some line of the pair begins or ends at A0, A, E or B0 at either face end, or at which its length between A and E is
-/// line_share of the longest; whole pitches apart from where they recur, in an order that is the same for every mesh of a pair.
+/// All phases at which some line of the pair begins or ends at A0, A, E or B0 at either face end, or at which its
+/// length between A and E is line_share of the longest. They are not reduced by whole pitches, and their order is the
+/// same for every mesh of a pair.
 std::vector<double> unsorted_line_events(const MeshModel& model, double line_share);
 
 /// Phases within [0, 1) at which some line of the pair begins or ends at A0, A, E or B0 at either face end, and at which its

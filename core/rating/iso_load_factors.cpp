@@ -13,10 +13,10 @@ namespace flankwright {
 namespace {
 
 /// Points of the plane of action on tooth pair k by roll length of the pinion and z.
-std::vector<ContactPoint> at_places(const GearPair& pair, int tooth, const std::vector<std::pair<double, double>>& places) {
+std::vector<ContactPoint> at_stations(const GearPair& pair, int tooth, const std::vector<std::pair<double, double>>& stations) {
   const PathOfContact path(pair);
   std::vector<ContactPoint> points;
-  for (const auto& [roll, z] : places) {
+  for (const auto& [roll, z] : stations) {
     ContactPoint point;
     point.tooth = tooth;
     point.z = z;
@@ -29,14 +29,14 @@ std::vector<ContactPoint> at_places(const GearPair& pair, int tooth, const std::
 }
 
 /// Metal added there, transverse base tangent [mm].
-Eigen::VectorXd added(const GearPair& pair, const FlankCondition& condition, const std::vector<ContactPoint>& places) {
-  return plane_of_action_gap(pair, places, condition).error / std::cos(pair.base_helix_angle);
+Eigen::VectorXd added(const GearPair& pair, const FlankCondition& condition, const std::vector<ContactPoint>& stations) {
+  return plane_of_action_gap(pair, stations, condition).error / std::cos(pair.base_helix_angle);
 }
 
 /// Both ends of the common face.
 std::vector<ContactPoint> face_ends(const GearPair& pair, const FlankCondition& condition, int tooth) {
   const double half = 0.5 * pair.face_width, middle = condition.misalignment.axial_offset / 2.0;
-  return at_places(pair, tooth, {{pair.pitch_point, middle - half}, {pair.pitch_point, middle + half}});
+  return at_stations(pair, tooth, {{pair.pitch_point, middle - half}, {pair.pitch_point, middle + half}});
 }
 
 /// Difference of the lead part between both ends, signed [mm].
@@ -68,11 +68,11 @@ double profile_deviation(const GearPair& pair, const FlankCondition& condition, 
   FlankCondition errors;
   errors.pinion_error.profile_slope = tooth_error(condition.pinion_error, tooth).profile_slope;
   errors.wheel_error.profile_slope = tooth_error(condition.wheel_error, tooth).profile_slope;
-  std::vector<std::pair<double, double>> places;
+  std::vector<std::pair<double, double>> stations;
   for (int i = 0; i <= sections; ++i) {
-    places.emplace_back(pair.path_start + (pair.path_end - pair.path_start) * i / sections, 0.0);
+    stations.emplace_back(pair.path_start + (pair.path_end - pair.path_start) * i / sections, 0.0);
   }
-  const Eigen::VectorXd deviation = added(pair, errors, at_places(pair, 0, places));
+  const Eigen::VectorXd deviation = added(pair, errors, at_stations(pair, 0, stations));
   return deviation.maxCoeff() - deviation.minCoeff();
 }
 
@@ -99,9 +99,9 @@ Eigen::RowVectorXd misalignment_derivative(const MeshModel& model, const FlankCo
   }
   for (const Eigen::Index p : moving_among(GapModel::PlaneOfAction, parameters)) {
     const auto parameter = std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]);
-    const FurtherMeshes& further = further_meshes(model, parameter);
-    const auto moved = [&](std::size_t k) { return linear_part(pair, placed_as(further.meshes[k], parameter, condition), worst); };
-    derivative[p] = sign * first_slope(linear_part(pair, condition, worst), moved(0), moved(1), further.step);
+    const PerturbedMeshes& perturbed = perturbed_meshes(model, parameter);
+    const auto moved = [&](std::size_t k) { return linear_part(pair, placed_as(perturbed.meshes[k], parameter, condition), worst); };
+    derivative[p] = sign * forward_difference(linear_part(pair, condition, worst), moved(0), moved(1), perturbed.step);
   }
   return derivative;
 }

@@ -37,9 +37,9 @@ struct IsoLoadFactors {
 ///     eps_gamma <= 2:             K_Halpha = eps_gamma/2 (0.9 + 0.4 c (f_pe - y_alpha) / (F_tH/b))
 ///     eps_gamma > 2:              K_Halpha = 0.9 + 0.4 sqrt(2 (eps_gamma - 1)/eps_gamma) c (f_pe - y_alpha) / (F_tH/b)
 ///
-/// within 1 and eps_gamma/(eps_alpha Z_eps^2), Z_eps^2 = (4 - eps_alpha)(1 - eps_beta)/3 + eps_beta/eps_alpha, eps_beta at most 1.
-/// (Eq. 1.13b prints "> 2" for a value that is at most 2.) Editions since 2006 take 0.85 c_gamma for K_Hbeta; the thesis'
-/// form is kept because its comparison is the one repeated here.
+/// within 1 and eps_gamma/(eps_alpha Z_eps^2), Z_eps^2 = (4 - eps_alpha)(1 - eps_beta)/3 + eps_beta/eps_alpha, eps_beta
+/// at most 1. (Eq. 1.13b prints "> 2" for a value that is at most 2.) Editions since 2006 take 0.85 c_gamma for
+/// K_Hbeta; the thesis' form is kept because its comparison is repeated here.
 /// @param pinion_torque  [N mm], > 0
 /// @param face_width     common [mm]
 IsoLoadFactors iso_load_factors(const GearPair& pair, const IsoStiffness& stiffness, const IsoDeviations& deviations,

@@ -58,7 +58,7 @@ std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, c
     end.contact_deflection = std::max(0.0, end.approach);
     end.line_load = line_load_for(*model.contact_law(points[i]), end.approach);
     end.contact_stress = std::sqrt(end.line_load * model.contact_modulus / (units::pi * points[i].relative_radius));
-    end.place = points[i];
+    end.point = points[i];
   }
   return ends;
 }

@@ -15,7 +15,7 @@ struct LineEnd {
   double contact_deflection{not_given};     ///< the same, 0 where nothing is left [mm]
   double line_load{not_given};              ///< [N/mm]
   double contact_stress{not_given};         ///< sigma_H [MPa]
-  ContactPoint place{};                     ///< the end as a point of the mesh, without a weight
+  ContactPoint point{};                     ///< the end as a point of the mesh, without a weight
 };
 
 /// Line loads where each line ends between A and E: on a tip edge or on a face [Haddad 1991, eq. 1.70]. The structural

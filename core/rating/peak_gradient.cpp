@@ -13,13 +13,13 @@ namespace flankwright {
 namespace {
 
 /// A station on a line: a point of it, or a fraction of the way to the next.
-struct LinePlace {
+struct LineStation {
   Eigen::Index point{-1};  ///< -1: the line has no such station
   double share{0.0};
 };
 
 /// @param z  [mm]
-LinePlace place_on_line(const MeshModel& model, const MeshPosition& at, int tooth, double z) {
+LineStation station_on_line(const MeshModel& model, const MeshPosition& at, int tooth, double z) {
   const std::vector<ContactPoint>& points = at.points;
   const double same = LineRegion::round_off * model.face_width;  // |z - z of a point| <= same: the point itself
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -47,15 +47,15 @@ struct PlacedPeak {
 std::optional<double> phase_slope_of_points(const PlacedPeak& at) {
   const double near = 2.0 * at.peaks.phase_tolerance;
   const MeshModel model = at.mesh_at({at.peak.phase - near, at.peak.phase + near});
-  const FurtherMeshes& further = further_meshes(model, &Misalignment::axial_offset);
+  const PerturbedMeshes& perturbed = perturbed_meshes(model, &Misalignment::axial_offset);
   const LineRegion region(model);
   for (std::size_t p = 0; p < model.positions.size(); ++p) {
-    const std::vector<ContactPoint>&points = model.positions[p].points, &moved = further.meshes[0].positions[p].points;
-    const std::vector<Eigen::Index> same = same_points(model.positions[p], further.meshes[0].positions[p]);
+    const std::vector<ContactPoint>&points = model.positions[p].points, &moved = perturbed.meshes[0].positions[p].points;
+    const std::vector<Eigen::Index> same = same_points(model.positions[p], perturbed.meshes[0].positions[p]);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const auto passes = [&](double mark) { return std::abs(points[i].phase - mark) <= 2.0 * near; };
       if (same[i] < 0 || !(passes(0.0) || passes(region.first) || passes(region.last) || passes(region.path.region_length))) continue;
-      return (points[i].phase - moved[static_cast<std::size_t>(same[i])].phase) / further.step;
+      return (points[i].phase - moved[static_cast<std::size_t>(same[i])].phase) / perturbed.step;
     }
   }
   return std::nullopt;
@@ -63,13 +63,13 @@ std::optional<double> phase_slope_of_points(const PlacedPeak& at) {
 
 /// Slope of a peak's phase with the axial offset [base pitches per mm]: that of its event. Between events, where the
 /// slope over the phase is zero, it may be held.
-double phase_slope(const MeshModel& model, const FurtherMeshes& further, const PlacedPeak& at) {
+double phase_slope(const MeshModel& model, const PerturbedMeshes& perturbed, const PlacedPeak& at) {
   const double share = at.peaks.spikes.line_share;
-  const std::vector<double> events = unsorted_line_events(model, share), moved = unsorted_line_events(further.meshes[0], share);
+  const std::vector<double> events = unsorted_line_events(model, share), moved = unsorted_line_events(perturbed.meshes[0], share);
   for (std::size_t i = 0; i < events.size(); ++i) {
     const double distance = at.peak.phase - events[i];
     if (std::abs(distance - std::round(distance)) > 2.0 * at.peaks.phase_tolerance) continue;
-    return (moved[i] - events[i]) / further.step;
+    return (moved[i] - events[i]) / perturbed.step;
   }
   return phase_slope_of_points(at).value_or(0.0);
 }
@@ -80,32 +80,32 @@ MeshModel mesh_along(const PlacedPeak& at, const std::vector<MeshParameter>& par
   MeshModel held = at.mesh_at({at.peak.phase});
   constexpr MisalignmentParameter offset = &Misalignment::axial_offset;
   const auto is_offset = [](const MeshParameter& p) { return std::holds_alternative<MisalignmentParameter>(p) && std::get<MisalignmentParameter>(p) == offset; };
-  const auto of_offset = std::ranges::find(held.further, offset, &FurtherMeshes::parameter);
-  if (std::ranges::none_of(parameters, is_offset) || of_offset == held.further.end()) return held;
+  const auto of_offset = std::ranges::find(held.perturbed, offset, &PerturbedMeshes::parameter);
+  if (std::ranges::none_of(parameters, is_offset) || of_offset == held.perturbed.end()) return held;
   const double by_phase = phase_slope(held, *of_offset, at), step = of_offset->step;
   if (by_phase == 0.0) return held;
   const MeshModel along = at.mesh_at({at.peak.phase + step * by_phase, at.peak.phase + 2.0 * step * by_phase});
-  const FurtherMeshes& moved = further_meshes(along, &Misalignment::axial_offset);
+  const PerturbedMeshes& moved = perturbed_meshes(along, &Misalignment::axial_offset);
   for (std::size_t k = 0; k < moved.meshes.size(); ++k) of_offset->meshes[k].positions = {moved.meshes[k].positions[k]};
   return held;
 }
 
 /// Slope of a station's fraction with a parameter [1 per unit]: a cut between points lies at a phase of its own, and
 /// moves along the line with that. NaN where it passes a point.
-double share_slope(const MeshModel& model, const FurtherMeshes& further, std::size_t position, int tooth, const LinePlace& place) {
-  if (place.share == 0.0) return 0.0;
+double share_slope(const MeshModel& model, const PerturbedMeshes& perturbed, std::size_t position, int tooth, const LineStation& station) {
+  if (station.share == 0.0) return 0.0;
   const MeshPosition& at = model.positions[position];
-  const auto first = static_cast<std::size_t>(place.point);
-  const double cut = (1.0 - place.share) * at.points[first].z + place.share * at.points[first + 1].z;
+  const auto first = static_cast<std::size_t>(station.point);
+  const double cut = (1.0 - station.share) * at.points[first].z + station.share * at.points[first + 1].z;
   std::array<double, 2> shares{};
   for (std::size_t k = 0; k < shares.size(); ++k) {
-    const MeshPosition& there = further.meshes[k].positions[position];
+    const MeshPosition& there = perturbed.meshes[k].positions[position];
     const double moved = cut - (there.phase - at.phase) / PathOfContact(model.pair).slope;
-    const LinePlace moved_place = place_on_line(further.meshes[k], there, tooth, moved);
-    if (moved_place.point != same_points(at, there)[first]) return not_given;
-    shares[k] = moved_place.share;
+    const LineStation moved_station = station_on_line(perturbed.meshes[k], there, tooth, moved);
+    if (moved_station.point != same_points(at, there)[first]) return not_given;
+    shares[k] = moved_station.share;
   }
-  return first_slope(place.share, shares[0], shares[1], further.step);
+  return forward_difference(station.share, shares[0], shares[1], perturbed.step);
 }
 
 /// The peaked quantity at a station of a position, and its derivatives there.
@@ -113,21 +113,21 @@ struct Reading {
   double value;
   Eigen::RowVectorXd slopes;
 };
-/// @param place  known
-Reading read(const PlacedPeak& at, const MeshModel& model, const LoadedCycle& cycle, std::size_t position, const LinePlace& place,
+/// @param station  known
+Reading read(const PlacedPeak& at, const MeshModel& model, const LoadedCycle& cycle, std::size_t position, const LineStation& station,
              const std::vector<MeshParameter>& parameters) {
   const LoadedPosition& here = cycle.positions[position];
   const Eigen::VectorXd& values = at.of_stress ? here.contact_stress : here.load.line_load;
   const Eigen::MatrixXd& slopes = at.of_stress ? here.contact_stress_derivative : here.line_load_derivative;
-  const double first = values[place.point];
-  if (place.share == 0.0) return {first, slopes.row(place.point)};
+  const double first = values[station.point];
+  if (station.share == 0.0) return {first, slopes.row(station.point)};
   // Between points w and sigma^2 are linear: sigma^n = (1 - t) sigma_0^n + t sigma_1^n.
-  const double next = values[place.point + 1], t = place.share, n = at.of_stress ? 2.0 : 1.0;
+  const double next = values[station.point + 1], t = station.share, n = at.of_stress ? 2.0 : 1.0;
   const double value = std::pow((1.0 - t) * std::pow(first, n) + t * std::pow(next, n), 1.0 / n), mean = std::pow(value, n - 1.0);
-  Reading reading{value, ((1.0 - t) * std::pow(first, n - 1.0) * slopes.row(place.point) + t * std::pow(next, n - 1.0) * slopes.row(place.point + 1)) / mean};
+  Reading reading{value, ((1.0 - t) * std::pow(first, n - 1.0) * slopes.row(station.point) + t * std::pow(next, n - 1.0) * slopes.row(station.point + 1)) / mean};
   for (const Eigen::Index p : moving_among(model.placement.gap, parameters)) {
-    const FurtherMeshes& further = further_meshes(model, std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]));
-    reading.slopes[p] += share_slope(model, further, position, at.peak.tooth, place) * (std::pow(next, n) - std::pow(first, n)) / (n * mean);
+    const PerturbedMeshes& perturbed = perturbed_meshes(model, std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]));
+    reading.slopes[p] += share_slope(model, perturbed, position, at.peak.tooth, station) * (std::pow(next, n) - std::pow(first, n)) / (n * mean);
   }
   return reading;
 }
@@ -135,10 +135,10 @@ Reading read(const PlacedPeak& at, const MeshModel& model, const LoadedCycle& cy
 /// At the peak itself, which moves with its event under an axial offset; empty where the mesh has no such station.
 Eigen::RowVectorXd held_gradient(const PlacedPeak& at, const std::vector<MeshParameter>& parameters) {
   const MeshModel model = mesh_along(at, parameters);
-  const LinePlace place = place_on_line(model, model.positions.front(), at.peak.tooth, at.peak.z);
+  const LineStation station = station_on_line(model, model.positions.front(), at.peak.tooth, at.peak.z);
   const LoadedCycle cycle = analyse_cycle(model, at.condition, at.torque, parameters);
-  if (!cycle.usable() || place.point < 0) return {};
-  return read(at, model, cycle, 0, place, parameters).slopes;
+  if (!cycle.usable() || station.point < 0) return {};
+  return read(at, model, cycle, 0, station, parameters).slopes;
 }
 
 /// For a peak that is continuous over the phase: the mean of both its sides in which the slope over the phase vanishes.
@@ -150,13 +150,13 @@ std::optional<Eigen::RowVectorXd> gradient_of_sides(const PlacedPeak& at, const 
   for (const double by : away) phases.push_back(at.peak.phase + by);
   const MeshModel model = at.mesh_at(phases);
   const LoadedCycle cycle = analyse_cycle(model, at.condition, at.torque, parameters);
-  const LinePlace place = place_on_line(model, model.positions.front(), at.peak.tooth, at.peak.z);
-  if (!cycle.usable() || place.point < 0) return std::nullopt;
+  const LineStation station = station_on_line(model, model.positions.front(), at.peak.tooth, at.peak.z);
+  if (!cycle.usable() || station.point < 0) return std::nullopt;
   std::vector<Reading> sides;
   for (std::size_t k = 0; k < away.size(); ++k) {
     const MeshPosition& there = model.positions[k + 1];
-    const LinePlace same = place.share == 0.0 ? LinePlace{same_points(model.positions.front(), there)[static_cast<std::size_t>(place.point)]}
-                                              : place_on_line(model, there, at.peak.tooth, at.peak.z - away[k] / PathOfContact(model.pair).slope);
+    const LineStation same = station.share == 0.0 ? LineStation{same_points(model.positions.front(), there)[static_cast<std::size_t>(station.point)]}
+                                              : station_on_line(model, there, at.peak.tooth, at.peak.z - away[k] / PathOfContact(model.pair).slope);
     if (same.point < 0) return std::nullopt;
     sides.push_back(read(at, model, cycle, k + 1, same, parameters));
   }

@@ -29,7 +29,7 @@ struct PeakGradients {
   Pair with_spikes, without_spikes;
 };
 
-/// @param mesh_at  makes meshes with MeshModel::further along those of the parameters that move it
+/// @param mesh_at  makes meshes with MeshModel::perturbed along those of the parameters that move it
 /// @param peaks    as locate_peaks() found them for the same mesh, condition and torque
 PeakGradients peak_gradients(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque, const ContactPeaks& peaks,
                              const std::vector<MeshParameter>& parameters);

@@ -4,7 +4,7 @@
 
 #include "core/base/natural_spline.hpp"
 #include "core/contact/gap/condition_gap.hpp"
-#include "core/load/cycle/mesh_way.hpp"
+#include "core/load/cycle/perturbed_position.hpp"
 
 namespace flankwright {
 
@@ -32,7 +32,7 @@ Eigen::MatrixXd end_gaps(const MeshModel& model, const FlankCondition& condition
                          const std::vector<MeshParameter>& parameters) {
   MeshPosition at;
   at.phase = phase;
-  for (const LineEnd& end : ends) at.points.push_back(end.place);
+  for (const LineEnd& end : ends) at.points.push_back(end.point);
   const ConditionGap gaps(model.pair, model.placement.gap, condition);
   return parameter_slopes(model, at, gaps, gaps.at(at.points, phase), parameters).gap;
 }
@@ -46,7 +46,7 @@ void add_line_ends(const MeshModel& model, const FlankCondition& condition, cons
     if (!(end.line_load > 0.0)) continue;
     const Eigen::RowVectorXd deflection =
         loaded.transmission_error_derivative - gap.row(i) - extrapolated(at, end, gradient.structural_deflection);
-    gradient.line_end_load.row(i) = deflection / model.contact_law(end.place)->slope(end.line_load);
+    gradient.line_end_load.row(i) = deflection / model.contact_law(end.point)->slope(end.line_load);
     gradient.line_end_stress.row(i) = end.contact_stress / (2.0 * end.line_load) * gradient.line_end_load.row(i);
   }
 }
@@ -72,7 +72,7 @@ Eigen::VectorXd clearances(const MeshPosition& at) {
 
 /// Approach, contact deflection under the ends' loads and relative radius of the ends of lines [mm], all of one kind
 /// after the other; empty where the number of ends differs.
-Eigen::VectorXd end_readings(const MeshWay::Stage& stage, const std::vector<LineEnd>& held) {
+Eigen::VectorXd end_readings(const PerturbedPosition::Stage& stage, const std::vector<LineEnd>& held) {
   const std::vector<LineEnd> ends = line_ends(stage.model, stage.at, stage.loaded, stage.condition);
   if (ends.size() != held.size()) return {};
   const Eigen::Index n = std::ssize(ends);
@@ -80,23 +80,23 @@ Eigen::VectorXd end_readings(const MeshWay::Stage& stage, const std::vector<Line
   for (Eigen::Index i = 0; i < n; ++i) {
     const LineEnd& end = ends[static_cast<std::size_t>(i)];
     readings[i] = end.approach;
-    readings[n + i] = stage.model.contact_law(end.place)->deflection(held[static_cast<std::size_t>(i)].line_load);
-    readings[2 * n + i] = end.place.relative_radius;
+    readings[n + i] = stage.model.contact_law(end.point)->deflection(held[static_cast<std::size_t>(i)].line_load);
+    readings[2 * n + i] = end.point.relative_radius;
   }
   return readings;
 }
 
 /// Where the mesh moves, and with it an end's position and contact law: dw = (d(f_t - g - S) - dc at w held)/c', and
 /// the stress follows the curvature.
-void move_line_ends(const MeshModel& model, const MeshWay& way, const std::vector<LineEnd>& ends, Eigen::Index column, PositionGradient& gradient) {
-  const Eigen::VectorXd slopes = way.slope([&](const MeshWay::Stage& s) { return end_readings(s, ends); });
+void move_line_ends(const MeshModel& model, const PerturbedPosition& way, const std::vector<LineEnd>& ends, Eigen::Index column, PositionGradient& gradient) {
+  const Eigen::VectorXd slopes = way.slope([&](const PerturbedPosition::Stage& s) { return end_readings(s, ends); });
   const Eigen::Index n = std::ssize(ends);
   for (Eigen::Index i = 0; i < n; ++i) {
     const LineEnd& end = ends[static_cast<std::size_t>(i)];
     if (!(end.line_load > 0.0)) continue;
-    const double load = (slopes[i] - slopes[n + i]) / model.contact_law(end.place)->slope(end.line_load);
+    const double load = (slopes[i] - slopes[n + i]) / model.contact_law(end.point)->slope(end.line_load);
     gradient.line_end_load(i, column) = load;
-    gradient.line_end_stress(i, column) = 0.5 * end.contact_stress * (load / end.line_load - slopes[2 * n + i] / end.place.relative_radius);
+    gradient.line_end_stress(i, column) = 0.5 * end.contact_stress * (load / end.line_load - slopes[2 * n + i] / end.point.relative_radius);
   }
 }
 
@@ -114,10 +114,10 @@ PositionGradient position_gradient(const MeshModel& model, const FlankCondition&
   gradient.error = -gradient.gap;
   add_line_ends(model, condition, at, loaded, ends, parameters, gradient);
   for (const Eigen::Index p : moving_among(model.placement.gap, parameters)) {
-    const MeshWay way(model, condition, loaded, position, std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]), p);
-    gradient.point_force.col(p) = way.point_slope([](const MeshWay::Stage& s) { return Eigen::VectorXd(s.at.weight.cwiseProduct(s.loaded.load.line_load)); });
-    gradient.structural_deflection.col(p) = way.point_slope([](const MeshWay::Stage& s) { return s.loaded.load.structural_deflection; });
-    gradient.error.col(p) += way.point_slope([](const MeshWay::Stage& s) { return clearances(s.at); });
+    const PerturbedPosition way(model, condition, loaded, position, std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]), p);
+    gradient.point_force.col(p) = way.point_slope([](const PerturbedPosition::Stage& s) { return Eigen::VectorXd(s.at.weight.cwiseProduct(s.loaded.load.line_load)); });
+    gradient.structural_deflection.col(p) = way.point_slope([](const PerturbedPosition::Stage& s) { return s.loaded.load.structural_deflection; });
+    gradient.error.col(p) += way.point_slope([](const PerturbedPosition::Stage& s) { return clearances(s.at); });
     move_line_ends(model, way, ends, p, gradient);
   }
   gradient.contact_deflection = -gradient.gap - gradient.structural_deflection;

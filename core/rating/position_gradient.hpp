@@ -10,7 +10,7 @@ namespace flankwright {
 
 /// Derivatives of a loaded position's quantities other than line loads, contact stress, f_t and stiffness, one column
 /// per parameter of analyse_cycle(); exact while points keep their contact. Derivatives by parameters that move the
-/// mesh follow each point, see MeshWay.
+/// mesh follow each point, see PerturbedPosition.
 struct PositionGradient {
   // Row per contact point.
   Eigen::MatrixXd point_force;            ///< of a w [N]

@@ -11,17 +11,17 @@ namespace {
 
 constexpr std::size_t most_candidates = 400;  // of one peak
 
-ProofParameter of_variable(const DesignVariable& v, int index) {
-  const double step = proof_step(v.unit());
+AssessedParameter of_variable(const DesignVariable& v, int index) {
+  const double step = assessment_step(v.unit());
   return {v.path, step, v.unit(), GearParameter{v.member, v.parameter}, step / v.outside_factor(), index};
 }
 
-ProofParameter of_error(Member member, const char* name, ModificationParameter removed) {
+AssessedParameter of_error(Member member, const char* name, ModificationParameter removed) {
   return {name_of(member) + std::string(".error.") + name, 1.0, "um", GearParameter{member, removed}, -units::um};
 }
 
 /// One step of a parameter in one scene, in internal units.
-double step_in(const DesignScene& scene, const ProofParameter& p) {
+double step_in(const DesignScene& scene, const AssessedParameter& p) {
   return std::holds_alternative<PinionTorque>(p.parameter) ? p.inside * scene.torque : p.inside;
 }
 
@@ -29,15 +29,15 @@ double step_in(const DesignScene& scene, const ProofParameter& p) {
 const ObjectiveTerm& term_of(const EpigraphRow& row, const DesignTask& task) {
   const auto index = static_cast<std::size_t>(row.index);
   if (row.kind == EpigraphRow::Kind::OutputBound) return task.constraints[index].output;
-  return row.goal == 0 ? task.objective[index] : task.goal_bounds[static_cast<std::size_t>(row.goal - 1)].goal.terms[index];
+  return row.objective == 0 ? task.objective[index] : task.objective_bounds[static_cast<std::size_t>(row.objective - 1)].objective.terms[index];
 }
 
 }  // namespace
 
-double proof_step(const std::string& unit) { return unit == "um" ? 1.0 : unit == "mm" ? 0.1 : 0.01; }
+double assessment_step(const std::string& unit) { return unit == "um" ? 1.0 : unit == "mm" ? 0.1 : 0.01; }
 
-std::vector<ProofParameter> proof_parameters(const DesignTask& task) {
-  std::vector<ProofParameter> parameters;
+std::vector<AssessedParameter> assessed_parameters(const DesignTask& task) {
+  std::vector<AssessedParameter> parameters;
   for (std::size_t i = 0; i < task.variables.size(); ++i) parameters.push_back(of_variable(task.variables[i], static_cast<int>(i)));
   const auto misalignment = [&](const char* name, double step, const char* unit, MisalignmentParameter parameter, double inside) {
     parameters.push_back({std::string("misalignment.") + name, step, unit, parameter, inside});
@@ -61,25 +61,25 @@ double LocalModel::Peak::at(const Eigen::VectorXd& steps) const {
 }
 
 LocalModel::LocalModel(const DesignProblem& problem, const Modification& pinion, const Modification& wheel,
-                       const std::vector<ProofParameter>& parameters, const std::vector<ActiveBound>& active)
+                       const std::vector<AssessedParameter>& parameters, const std::vector<ActiveBound>& active)
     : task_(problem.task()),
       parameters_(static_cast<int>(parameters.size())),
       measures_(task_.scenes.size()),
       constraints_(task_.constraints.size(), std::vector<Peak>(task_.scenes.size())) {
   std::vector<Eigen::VectorXd> lagrangian(task_.scenes.size(), Eigen::VectorXd::Zero(parameters_));
   std::vector<MeshParameter> of_mesh;
-  for (const ProofParameter& p : parameters) of_mesh.push_back(p.parameter);
-  for (const DesignTie& tie : task_.ties) of_mesh.push_back(GearParameter{tie.tied.member, tie.tied.parameter});
+  for (const AssessedParameter& p : parameters) of_mesh.push_back(p.parameter);
+  for (const LinkingConstraint& link : task_.links) of_mesh.push_back(GearParameter{link.linked.member, link.linked.parameter});
   tbb::parallel_for(0, problem.scenes(), [&](int s) {
     const LoadedCycle cycle = problem.analyse_scene(s, pinion, wheel, of_mesh);
     const MeshModel& model = problem.model(s);
     const auto slope_of = [&](const Eigen::VectorXd& gradient) {
       Eigen::VectorXd slope = gradient.head(parameters_);
       for (int i = 0; i < parameters_; ++i) {
-        const ProofParameter& p = parameters[static_cast<std::size_t>(i)];
-        for (std::size_t t = 0; t < task_.ties.size(); ++t) {
-          const bool follows = p.variable >= 0 && task_.ties[t].as == static_cast<std::size_t>(p.variable);
-          if (follows) slope[i] += task_.ties[t].factor * gradient[parameters_ + static_cast<Eigen::Index>(t)];
+        const AssessedParameter& p = parameters[static_cast<std::size_t>(i)];
+        for (std::size_t t = 0; t < task_.links.size(); ++t) {
+          const bool follows = p.variable >= 0 && task_.links[t].as == static_cast<std::size_t>(p.variable);
+          if (follows) slope[i] += task_.links[t].factor * gradient[parameters_ + static_cast<Eigen::Index>(t)];
         }
         slope[i] *= step_in(task_.scenes[static_cast<std::size_t>(s)], p);
       }

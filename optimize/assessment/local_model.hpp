@@ -10,7 +10,7 @@
 namespace flankwright {
 
 /// A parameter whose influence on a design is assessed, in steps of a size known in a workshop.
-struct ProofParameter {
+struct AssessedParameter {
   std::string name;   ///< as the study names it: "pinion.modification.lead_crowning", "misalignment.crossing"
   double step{1.0};   ///< one step [unit]
   std::string unit;   ///< "um", "mm", "arcmin", "%"
@@ -19,8 +19,8 @@ struct ProofParameter {
   int variable{-1};       ///< index of the design variable it is; -1: a tolerance
 };
 
-/// One step of a modification in its outside unit, see proof_parameters(). @param unit  DesignVariable::unit()
-double proof_step(const std::string& unit);
+/// One step of a modification in its outside unit, see assessed_parameters(). @param unit  DesignVariable::unit()
+double assessment_step(const std::string& unit);
 
 /// The task's variables with the modifications linked to them, then deviations of housing and workshop, the same in
 /// every scene: misalignment 1 um, crossing and intersecting 0.1 arcmin, centre distance 0.01 mm, helix and profile
@@ -29,7 +29,7 @@ double proof_step(const std::string& unit);
 ///
 /// An error of helix or profile slope is the negative of that modification; the profile's differs by the same shift on all teeth,
 /// reference for pitch circle, which moves the transmission error's mean only.
-std::vector<ProofParameter> proof_parameters(const DesignTask& task);
+std::vector<AssessedParameter> assessed_parameters(const DesignTask& task);
 
 /// Objective and bounded outputs of one design to first order. Each peak is the largest of its leading candidates,
 /// which have exact derivatives,
@@ -56,7 +56,7 @@ class LocalModel {
   /// @param active  what has a multiplier at this design, for lagrangian_slope()
   /// @throws std::runtime_error where a scene's load distribution does not converge
   LocalModel(const DesignProblem& problem, const Modification& pinion, const Modification& wheel,
-             const std::vector<ProofParameter>& parameters, const std::vector<ActiveBound>& active = {});
+             const std::vector<AssessedParameter>& parameters, const std::vector<ActiveBound>& active = {});
 
   int scenes() const { return static_cast<int>(measures_.size()); }
   int parameters() const { return parameters_; }

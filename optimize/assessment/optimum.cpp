@@ -23,7 +23,7 @@ std::map<int, double> multipliers_of(const Optimality& optimality, Kind kind) {
 std::vector<Optimum::Scene> scenes_of(const Optimality& optimality) {
   std::map<int, double> weights;
   for (const ActiveBound& felt : optimality.active) {
-    const bool of_objective = felt.variable < 0 && felt.row.goal == 0 && felt.row.scene >= 0;
+    const bool of_objective = felt.variable < 0 && felt.row.objective == 0 && felt.row.scene >= 0;
     if (!of_objective || (felt.row.kind != Kind::Floor && felt.row.kind != Kind::Ceiling)) continue;
     weights[felt.row.scene] += felt.row.kind == Kind::Floor ? felt.multiplier : -felt.multiplier;
   }
@@ -37,7 +37,7 @@ std::vector<Optimum::Bound> bounds_of(const DesignTask& task, const Optimality& 
   std::vector<Optimum::Bound> bounds;
   for (std::size_t i = 0; i < task.variables.size(); ++i) {
     const DesignVariable& v = task.variables[i];
-    const double range = v.upper - v.lower, step = proof_step(v.unit()) / v.outside_factor();
+    const double range = v.upper - v.lower, step = assessment_step(v.unit()) / v.outside_factor();
     for (const bool upper : {false, true}) {
       double multiplier = 0.0;
       for (const ActiveBound& felt : optimality.active) {
@@ -56,13 +56,13 @@ std::vector<Optimum::Sum> sums_of(const DesignProblem& problem, const Optimality
   for (const ActiveBound& felt : optimality.active) {
     if (felt.variable >= 0 || felt.row.kind != Kind::ModificationBound) continue;
     const ModificationConstraint& bound = problem.task().modification_constraints[static_cast<std::size_t>(felt.row.index)];
-    const double step = proof_step(bound.unit()) / bound.outside_factor() / problem.modification_scale(bound);
+    const double step = assessment_step(bound.unit()) / bound.outside_factor() / problem.modification_scale(bound);
     sums.push_back({felt.row.index, felt.row.side > 0, -optimality.objective_scale * felt.multiplier * step});
   }
   return sums;
 }
 
-std::vector<Sensitivity> sensitivities_of(const DesignTask& task, const LocalModel& model, const std::vector<ProofParameter>& parameters,
+std::vector<Sensitivity> sensitivities_of(const DesignTask& task, const LocalModel& model, const std::vector<AssessedParameter>& parameters,
                                           const std::vector<double>& values, const Eigen::VectorXd& lagrangian) {
   std::vector<Sensitivity> sensitivities;
   const auto m = static_cast<Eigen::Index>(parameters.size());
@@ -88,7 +88,7 @@ std::vector<Sensitivity> sensitivities_of(const DesignTask& task, const LocalMod
 }  // namespace
 
 Optimum find_optimum(const DesignProblem& problem, const Optimality& optimality, const LocalModel& model,
-                     const std::vector<ProofParameter>& parameters, const std::vector<double>& values) {
+                     const std::vector<AssessedParameter>& parameters, const std::vector<double>& values) {
   const DesignTask& task = problem.task();
   const double scale = optimality.objective_scale;
   constexpr double per_cent = 0.01;
@@ -101,15 +101,15 @@ Optimum find_optimum(const DesignProblem& problem, const Optimality& optimality,
   for (const auto& [index, multiplier] : multipliers_of(optimality, Kind::OutputBound)) {
     optimum.constraints.push_back({index, -per_cent * scale * multiplier});
   }
-  for (const auto& [index, multiplier] : multipliers_of(optimality, Kind::GoalBound)) {
-    optimum.goals.push_back({index, -per_cent * scale * multiplier});
+  for (const auto& [index, multiplier] : multipliers_of(optimality, Kind::ObjectiveBound)) {
+    optimum.objectives.push_back({index, -per_cent * scale * multiplier});
   }
   std::stable_sort(optimum.scenes.begin(), optimum.scenes.end(), [](const auto& a, const auto& b) { return a.weight > b.weight; });
   const auto by_gain = [](const auto& a, const auto& b) { return a.gain < b.gain; };
   std::stable_sort(optimum.bounds.begin(), optimum.bounds.end(), by_gain);
   std::stable_sort(optimum.constraints.begin(), optimum.constraints.end(), by_gain);
   std::stable_sort(optimum.sums.begin(), optimum.sums.end(), by_gain);
-  std::stable_sort(optimum.goals.begin(), optimum.goals.end(), by_gain);
+  std::stable_sort(optimum.objectives.begin(), optimum.objectives.end(), by_gain);
   optimum.sensitivities = sensitivities_of(task, model, parameters, values, scale * model.lagrangian_slope());
   return optimum;
 }

@@ -9,7 +9,7 @@ namespace flankwright {
 
 /// Sensitivity of the objective to one parameter, outside units.
 struct Sensitivity {
-  ProofParameter parameter;
+  AssessedParameter parameter;
   double less{not_given}, more{not_given};  ///< change by one step down and up, all else held
   bool can_less{true}, can_more{true};      ///< false: the step would leave the bounds of a design variable
   /// Tolerances only: change by one step up where the design is optimised anew, to first order: the slope of the Lagrangian.
@@ -45,7 +45,7 @@ struct Optimum {
     double gain{not_given};  ///< change of the objective where the limit moves out by one step (as of its first modification), <= 0
   };
   /// An earlier objective of a list at the limit that it keeps.
-  struct Goal {
+  struct Objective {
     int bound{-1};           ///< of the task's objective bounds
     double gain{not_given};  ///< change of the objective where the limit moves out by one per cent and all else follows, <= 0
   };
@@ -53,7 +53,7 @@ struct Optimum {
   std::vector<Bound> bounds;            ///< largest gain first; every variable at a bound
   std::vector<Constraint> constraints;  ///< largest gain first
   std::vector<Sum> sums;                ///< largest gain first
-  std::vector<Goal> goals;              ///< largest gain first
+  std::vector<Objective> objectives;              ///< largest gain first
   double residual{not_given};  ///< Optimality::residual: a share of the start's objective [-]; 0 is first-order optimal
   /// Accuracy of the optimum's objective [outside units]: a smaller gain counts as none. The residual, or `asked` where
   /// it is smaller, of the start's objective.
@@ -70,6 +70,6 @@ struct Optimum {
 /// @param parameters  as the model has them, the design variables among them
 /// @param values      of the design variables [mm; parabolic_te 1/rad], in their order
 Optimum find_optimum(const DesignProblem& problem, const Optimality& optimality, const LocalModel& model,
-                     const std::vector<ProofParameter>& parameters, const std::vector<double>& values);
+                     const std::vector<AssessedParameter>& parameters, const std::vector<double>& values);
 
 }  // namespace flankwright

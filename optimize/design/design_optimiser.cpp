@@ -87,16 +87,16 @@ class DesignRun {
   DesignProblem later_objectives() {
     const DesignTask& task = problem_.task();
     DesignProblem stage = problem_;
-    if (task.then.empty()) return stage;
-    std::vector<GoalBound> bounds = task.goal_bounds;
-    Goal goal = task.goal();
-    for (const Goal& next : task.then) {
-      const double least = stage.value(goal, stage.analyse(x_, false));
+    if (task.later_objectives.empty()) return stage;
+    std::vector<ObjectiveBound> bounds = task.objective_bounds;
+    Objective objective = task.combined_objective();
+    for (const Objective& next : task.later_objectives) {
+      const double least = stage.value(objective, stage.analyse(x_, false));
       const double limit = (1.0 + task.lexicographic_tolerance) * least;
-      result_.stages.push_back({goal.name(), least, limit});
-      bounds.push_back({goal, limit});
-      goal = next;
-      stage = problem_.judged_by(goal, bounds);
+      result_.stages.push_back({objective.name(), least, limit});
+      bounds.push_back({objective, limit});
+      objective = next;
+      stage = problem_.judged_by(objective, bounds);
       stage.set_start(x_);
       if (is_spent()) continue;
       const LocalRun run = run_local(stage, left());
@@ -104,7 +104,7 @@ class DesignRun {
       result_.failures += run.failures;
       take(run);
     }
-    result_.stages.push_back({goal.name(), stage.value(goal, stage.analyse(x_, false))});
+    result_.stages.push_back({objective.name(), stage.value(objective, stage.analyse(x_, false))});
     return stage;
   }
 
@@ -127,14 +127,14 @@ class DesignRun {
 
 DesignProblem last_stage(const DesignProblem& problem, const std::vector<LexicographicStage>& stages) {
   const DesignTask& task = problem.task();
-  if (task.then.empty()) return problem;
-  std::vector<GoalBound> bounds = task.goal_bounds;
-  Goal goal = task.goal();
-  for (std::size_t i = 0; i < task.then.size(); ++i) {
-    bounds.push_back({goal, stages[i].limit});
-    goal = task.then[i];
+  if (task.later_objectives.empty()) return problem;
+  std::vector<ObjectiveBound> bounds = task.objective_bounds;
+  Objective objective = task.combined_objective();
+  for (std::size_t i = 0; i < task.later_objectives.size(); ++i) {
+    bounds.push_back({objective, stages[i].limit});
+    objective = task.later_objectives[i];
   }
-  return problem.judged_by(goal, bounds);
+  return problem.judged_by(objective, bounds);
 }
 
 DesignReport report_design(const DesignProblem& problem, DesignAnalysis analysis) {
@@ -144,13 +144,13 @@ DesignReport report_design(const DesignProblem& problem, DesignAnalysis analysis
   };
   DesignReport report;
   for (const DesignVariable& v : task.variables) report.variables.push_back(value_of(v));
-  for (const DesignTie& tie : task.ties) report.tied.push_back(value_of(tie.tied));
+  for (const LinkingConstraint& link : task.links) report.linked.push_back(value_of(link.linked));
   for (int s = 0; s < problem.scenes(); ++s) report.scene_measures.push_back(problem.scene_measure(analysis, s));
   for (const OutputConstraint& c : task.constraints) report.constraint_values.push_back(problem.constraint_value(analysis, c));
   for (const ModificationConstraint& c : task.modification_constraints) {
     report.modification_values.push_back(c.value(analysis.pinion_modification, analysis.wheel_modification));
   }
-  for (const Goal& goal : task.then) report.later_objectives.push_back(problem.value(goal, analysis));
+  for (const Objective& objective : task.later_objectives) report.later_objectives.push_back(problem.value(objective, analysis));
   report.objective = problem.objective(analysis);
   problem.add_root_stress(analysis);
   report.analysis = std::move(analysis);

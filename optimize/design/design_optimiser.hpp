@@ -15,7 +15,7 @@ namespace flankwright {
 /// One design with what the task asks of it.
 struct DesignReport {
   std::vector<double> variables;          ///< value of each design variable [mm]
-  std::vector<double> tied;               ///< value of each linked modification [mm]
+  std::vector<double> linked;               ///< value of each linked modification [mm]
   double objective{not_given};            ///< outside units (MPa, um, N/mm; weighted sum for a table)
   std::vector<double> scene_measures;     ///< per scene, outside units
   std::vector<double> constraint_values;  ///< per constraint, nearest to its bound over the scenes, inside units

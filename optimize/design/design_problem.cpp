@@ -17,10 +17,10 @@ namespace {
 /// Every output that is minimised or bounded.
 std::vector<ObjectiveTerm> terms_of(const DesignTask& task) {
   std::vector<ObjectiveTerm> terms = task.objective;
-  const auto add = [&](const Goal& goal) { terms.insert(terms.end(), goal.terms.begin(), goal.terms.end()); };
-  for (const GoalBound& bound : task.goal_bounds) add(bound.goal);
-  for (const TradedGoal& traded : task.trade) add(traded.goal);
-  for (const Goal& goal : task.then) add(goal);
+  const auto add = [&](const Objective& objective) { terms.insert(terms.end(), objective.terms.begin(), objective.terms.end()); };
+  for (const ObjectiveBound& bound : task.objective_bounds) add(bound.objective);
+  for (const ScalarisedObjective& scalarised : task.scalarisation) add(scalarised.objective);
+  for (const Objective& objective : task.later_objectives) add(objective);
   for (const OutputConstraint& constraint : task.constraints) terms.push_back(constraint.output);
   return terms;
 }
@@ -74,9 +74,9 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_str
     if (!(v.lower < v.upper)) throw InvalidInput("optimise.variables." + v.path, "an empty range", "lower < upper");
     parameters_.push_back(GearParameter{v.member, v.parameter});
   }
-  for (const DesignTie& tie : task_.ties) {
-    if (tie.as >= task_.variables.size()) throw InvalidInput("optimise.ties." + tie.tied.path, "no variable", "the index of a variable");
-    parameters_.push_back(GearParameter{tie.tied.member, tie.tied.parameter});
+  for (const LinkingConstraint& link : task_.links) {
+    if (link.as >= task_.variables.size()) throw InvalidInput("optimise.ties." + link.linked.path, "no variable", "the index of a variable");
+    parameters_.push_back(GearParameter{link.linked.member, link.linked.parameter});
   }
   std::map<MeshPlacement, std::shared_ptr<const MeshModel>> models;
   for (const DesignScene& scene : task_.scenes) {
@@ -97,13 +97,13 @@ MeshModel DesignProblem::mesh(const MeshPlacement& placement) const {
                          task_.structure.get(), task_.root_stress.get(), task_.shafts.get());
 }
 
-DesignProblem DesignProblem::judged_by(const Goal& goal, std::vector<GoalBound> bounds, std::vector<TradedGoal> trade) const {
+DesignProblem DesignProblem::judged_by(const Objective& objective, std::vector<ObjectiveBound> bounds, std::vector<ScalarisedObjective> scalarisation) const {
   DesignProblem other = *this;
-  other.task_.objective = goal.terms;
-  other.task_.over = goal.over;
-  other.task_.goal_bounds = std::move(bounds);
-  other.task_.trade = std::move(trade);
-  other.task_.then.clear();
+  other.task_.objective = objective.terms;
+  other.task_.over = objective.over;
+  other.task_.objective_bounds = std::move(bounds);
+  other.task_.scalarisation = std::move(scalarisation);
+  other.task_.later_objectives.clear();
   check(other.task_);
   other.root_stresses_ = root_stresses_for(other.task_);
   if (other.root_stresses_ != root_stresses_) other.last_x_.resize(0);
@@ -142,9 +142,9 @@ void DesignProblem::apply(const Eigen::VectorXd& x, Modification& pinion, Modifi
     const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
     set(v.member == Member::Pinion ? pinion : wheel, v.parameter, unscaled(x, i));
   }
-  for (const DesignTie& tie : task_.ties) {
-    set(tie.tied.member == Member::Pinion ? pinion : wheel, tie.tied.parameter,
-        tie.factor * unscaled(x, static_cast<int>(tie.as)) + tie.offset);
+  for (const LinkingConstraint& link : task_.links) {
+    set(link.linked.member == Member::Pinion ? pinion : wheel, link.linked.parameter,
+        link.factor * unscaled(x, static_cast<int>(link.as)) + link.offset);
   }
 }
 
@@ -159,7 +159,7 @@ LoadedCycle DesignProblem::analyse_scene(int scene, const Modification& pinion, 
   };
   if (moving_among(task_.gap, parameters).empty()) return analyse(model(scene));
   const MeshPlaced placed = [this](const MeshPlacement& placement) { return mesh(placement); };
-  return analyse(with_further_meshes(model(scene), placed, parameters));
+  return analyse(with_perturbed_meshes(model(scene), placed, parameters));
 }
 
 void DesignProblem::add_root_stress(DesignAnalysis& analysis) const {
@@ -195,33 +195,33 @@ DesignAnalysis DesignProblem::analyse_given() const {
   return run(task_.pinion_modification, task_.wheel_modification, false);
 }
 
-double DesignProblem::scene_measure(const Goal& goal, const LoadedCycle& cycle, int scene) const {
+double DesignProblem::scene_measure(const Objective& objective, const LoadedCycle& cycle, int scene) const {
   double sum = 0.0;
-  for (const ObjectiveTerm& term : goal.terms) {
+  for (const ObjectiveTerm& term : objective.terms) {
     sum += term.weight * term.outside_factor() * output_value(term, model(scene), cycle);
   }
   return sum;
 }
 
 double DesignProblem::scene_measure(const DesignAnalysis& analysis, int scene) const {
-  return scene_measure(task_.goal(), analysis, scene);
+  return scene_measure(task_.combined_objective(), analysis, scene);
 }
 
-double DesignProblem::scene_measure(const Goal& goal, const DesignAnalysis& analysis, int scene) const {
-  return scene_measure(goal, analysis.cycles[static_cast<std::size_t>(scene)], scene);
+double DesignProblem::scene_measure(const Objective& objective, const DesignAnalysis& analysis, int scene) const {
+  return scene_measure(objective, analysis.cycles[static_cast<std::size_t>(scene)], scene);
 }
 
-double DesignProblem::value(const Goal& goal, const DesignAnalysis& analysis) const {
+double DesignProblem::value(const Objective& objective, const DesignAnalysis& analysis) const {
   std::vector<double> measures;
-  for (int s = 0; s < scenes(); ++s) measures.push_back(scene_measure(goal, analysis, s));
-  return aggregate(goal.over, measures, scene_weights());
+  for (int s = 0; s < scenes(); ++s) measures.push_back(scene_measure(objective, analysis, s));
+  return aggregate(objective.over, measures, scene_weights());
 }
 
 double DesignProblem::objective(const DesignAnalysis& analysis) const {
-  if (task_.trade.empty()) return value(task_.goal(), analysis);
+  if (task_.scalarisation.empty()) return value(task_.combined_objective(), analysis);
   double largest = -INFINITY;
-  for (const TradedGoal& traded : task_.trade) {
-    largest = std::max(largest, (value(traded.goal, analysis) - traded.origin) / traded.range);
+  for (const ScalarisedObjective& scalarised : task_.scalarisation) {
+    largest = std::max(largest, (value(scalarised.objective, analysis) - scalarised.origin) / scalarised.range);
   }
   return largest;
 }
@@ -238,7 +238,7 @@ double DesignProblem::constraint_value(const DesignAnalysis& analysis, const Out
 double DesignProblem::violation(const DesignAnalysis& analysis) const {
   double worst = 0.0;
   for (const OutputConstraint& c : task_.constraints) worst = std::max(worst, c.excess(constraint_value(analysis, c)));
-  for (const GoalBound& bound : task_.goal_bounds) worst = std::max(worst, value(bound.goal, analysis) / bound.limit - 1.0);
+  for (const ObjectiveBound& bound : task_.objective_bounds) worst = std::max(worst, value(bound.objective, analysis) / bound.limit - 1.0);
   for (const ModificationConstraint& c : task_.modification_constraints) {
     const double sum = c.value(analysis.pinion_modification, analysis.wheel_modification);
     worst = std::max(worst, std::max(sum - c.maximum, c.minimum - sum) / modification_scale(c));
@@ -247,7 +247,7 @@ double DesignProblem::violation(const DesignAnalysis& analysis) const {
 }
 
 Eigen::VectorXd DesignProblem::modification_slope(const ModificationConstraint& constraint) const {
-  Eigen::VectorXd slope = Eigen::VectorXd::Zero(variables() + static_cast<Eigen::Index>(task_.ties.size()));
+  Eigen::VectorXd slope = Eigen::VectorXd::Zero(variables() + static_cast<Eigen::Index>(task_.links.size()));
   for (const ModificationConstraint::Term& term : constraint.terms) {
     for (std::size_t p = 0; p < parameters_.size(); ++p) {
       const auto& parameter = std::get<GearParameter>(parameters_[p]);
@@ -270,8 +270,8 @@ std::vector<double> DesignProblem::scene_weights() const {
 Eigen::VectorXd DesignProblem::scaled(const Eigen::VectorXd& gradient) const {
   const Eigen::Index n = variables();
   Eigen::VectorXd result = gradient.head(n);
-  for (std::size_t t = 0; t < task_.ties.size(); ++t) {
-    result[static_cast<Eigen::Index>(task_.ties[t].as)] += task_.ties[t].factor * gradient[n + static_cast<Eigen::Index>(t)];
+  for (std::size_t t = 0; t < task_.links.size(); ++t) {
+    result[static_cast<Eigen::Index>(task_.links[t].as)] += task_.links[t].factor * gradient[n + static_cast<Eigen::Index>(t)];
   }
   for (int i = 0; i < n; ++i) {
     const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];

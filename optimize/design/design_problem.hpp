@@ -32,7 +32,7 @@ class DesignProblem {
   const MeshModel& model(int scene) const { return *models_[static_cast<std::size_t>(scene)]; }
 
   /// The same scenes and variables judged by other objectives, models shared; nothing analysed yet.
-  DesignProblem judged_by(const Goal& goal, std::vector<GoalBound> bounds, std::vector<TradedGoal> trade = {}) const;
+  DesignProblem judged_by(const Objective& objective, std::vector<ObjectiveBound> bounds, std::vector<ScalarisedObjective> scalarisation = {}) const;
 
   /// Start of a search: set_start(), or the scaled design of the task's own modifications, moved into the bounds where
   /// it lies outside.
@@ -68,10 +68,10 @@ class DesignProblem {
 
   /// Weighted sum of the objective's outputs in one scene, outside units.
   double scene_measure(const DesignAnalysis& analysis, int scene) const;
-  double scene_measure(const Goal& goal, const DesignAnalysis& analysis, int scene) const;
-  double scene_measure(const Goal& goal, const LoadedCycle& cycle, int scene) const;
+  double scene_measure(const Objective& objective, const DesignAnalysis& analysis, int scene) const;
+  double scene_measure(const Objective& objective, const LoadedCycle& cycle, int scene) const;
   /// An objective's measures of all scenes, aggregated, outside unit.
-  double value(const Goal& goal, const DesignAnalysis& analysis) const;
+  double value(const Objective& objective, const DesignAnalysis& analysis) const;
   /// What is minimised: the objective aggregated over the scenes, or the scalarisation.
   double objective(const DesignAnalysis& analysis) const;
   /// Value of a bounded output in the scene that is nearest to the bound or farthest beyond it, inside unit.

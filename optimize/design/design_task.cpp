@@ -16,12 +16,12 @@ double ModificationConstraint::outside_factor() const { return DesignVariable{{}
 
 const char* ModificationConstraint::unit() const { return DesignVariable{{}, {}, terms.front().parameter}.unit(); }
 
-std::string Goal::name() const {
+std::string Objective::name() const {
   std::string name;
   for (const ObjectiveTerm& term : terms) name += (name.empty() ? "" : " + ") + term.name;
   return name;
 }
 
-const char* Goal::unit() const { return terms.size() == 1 ? terms.front().unit() : "weighted sum"; }
+const char* Objective::unit() const { return terms.size() == 1 ? terms.front().unit() : "weighted sum"; }
 
 }  // namespace flankwright

@@ -31,8 +31,8 @@ struct DesignVariable {
 };
 
 /// A modification parameter that follows a variable: factor * variable + offset.
-struct DesignTie {
-  DesignVariable tied;    ///< bounds as the variable's give them; no step
+struct LinkingConstraint {
+  DesignVariable linked;    ///< bounds as the variable's give them; no step
   std::size_t as{0};      ///< index of the variable
   double factor{1.0};     ///< between the inside units [-]
   double offset{0.0};     ///< [mm; parabolic_te 1/rad]
@@ -69,7 +69,7 @@ struct ModificationConstraint {
 };
 
 /// One number that a design is judged by: outputs weighted and summed in each scene, aggregated over the scenes.
-struct Goal {
+struct Objective {
   std::vector<ObjectiveTerm> terms;
   Aggregation over;
 
@@ -78,14 +78,14 @@ struct Goal {
 };
 
 /// An objective that may not exceed a limit.
-struct GoalBound {
-  Goal goal;
+struct ObjectiveBound {
+  Objective objective;
   double limit{std::numeric_limits<double>::infinity()};  ///< outside unit, > 0
 };
 
 /// An objective's part in a scalarisation: the largest (value - origin) / range of all is minimised.
-struct TradedGoal {
-  Goal goal;
+struct ScalarisedObjective {
+  Objective objective;
   double origin{0.0};  ///< outside unit
   double range{1.0};   ///< outside unit, > 0
 };
@@ -115,18 +115,18 @@ struct DesignTask {
   std::vector<ObjectiveTerm> objective;
   Aggregation over;
   std::vector<OutputConstraint> constraints;
-  std::vector<DesignTie> ties;
+  std::vector<LinkingConstraint> links;
   std::vector<ModificationConstraint> modification_constraints;
-  std::vector<GoalBound> goal_bounds;
-  std::vector<TradedGoal> trade;  ///< minimised instead of the objective where not empty
+  std::vector<ObjectiveBound> objective_bounds;
+  std::vector<ScalarisedObjective> scalarisation;  ///< minimised instead of the objective where not empty
   /// Minimised after the objective in lexicographic order, each while those before it stay within
   /// lexicographic_tolerance of their least values.
-  std::vector<Goal> then;
+  std::vector<Objective> later_objectives;
   double lexicographic_tolerance{0.01};  ///< value <= (1 + tolerance) least [-], > 0
 
-  Goal goal() const { return {objective, over}; }
-  std::string objective_name() const { return goal().name(); }
-  const char* objective_unit() const { return goal().unit(); }
+  Objective combined_objective() const { return {objective, over}; }
+  std::string objective_name() const { return combined_objective().name(); }
+  const char* objective_unit() const { return combined_objective().unit(); }
 };
 
 }  // namespace flankwright

@@ -15,7 +15,7 @@ int rows_of(const ModificationConstraint& c) { return (c.maximum < no_limit ? 1 
 
 int DirectProgram::constraints() const {
   const DesignTask& task = problem_.task();
-  int rows = static_cast<int>(task.constraints.size() + task.goal_bounds.size());
+  int rows = static_cast<int>(task.constraints.size() + task.objective_bounds.size());
   for (const ModificationConstraint& c : task.modification_constraints) rows += rows_of(c);
   return rows;
 }
@@ -26,15 +26,15 @@ Eigen::VectorXd DirectProgram::leading_gradient(const ObjectiveTerm& term, const
   return problem_.scaled(candidate_value(term, leader, problem_.model(scene), cycle).gradient);
 }
 
-Eigen::VectorXd DirectProgram::goal_gradient(const Goal& goal, const DesignAnalysis& analysis) const {
+Eigen::VectorXd DirectProgram::aggregate_gradient(const Objective& objective, const DesignAnalysis& analysis) const {
   std::vector<double> measures;
-  for (int s = 0; s < problem_.scenes(); ++s) measures.push_back(problem_.scene_measure(goal, analysis, s));
-  const std::vector<double> slope = aggregate_weights(goal.over, measures, problem_.scene_weights());
+  for (int s = 0; s < problem_.scenes(); ++s) measures.push_back(problem_.scene_measure(objective, analysis, s));
+  const std::vector<double> slope = aggregate_weights(objective.over, measures, problem_.scene_weights());
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(variables());
   for (int s = 0; s < problem_.scenes(); ++s) {
     const double share = slope[static_cast<std::size_t>(s)];
     if (share == 0.0) continue;
-    for (const ObjectiveTerm& term : goal.terms) {
+    for (const ObjectiveTerm& term : objective.terms) {
       gradient += share * term.weight * term.outside_factor() * leading_gradient(term, analysis, s);
     }
   }
@@ -43,11 +43,11 @@ Eigen::VectorXd DirectProgram::goal_gradient(const Goal& goal, const DesignAnaly
 
 Eigen::VectorXd DirectProgram::objective_gradient(const DesignAnalysis& analysis) const {
   const DesignTask& task = problem_.task();
-  if (task.trade.empty()) return goal_gradient(task.goal(), analysis);
-  const auto share = [&](const TradedGoal& traded) { return (problem_.value(traded.goal, analysis) - traded.origin) / traded.range; };
-  const auto largest = std::max_element(task.trade.begin(), task.trade.end(),
-                                        [&](const TradedGoal& a, const TradedGoal& b) { return share(a) < share(b); });
-  return goal_gradient(largest->goal, analysis) / largest->range;
+  if (task.scalarisation.empty()) return aggregate_gradient(task.combined_objective(), analysis);
+  const auto share = [&](const ScalarisedObjective& scalarised) { return (problem_.value(scalarised.objective, analysis) - scalarised.origin) / scalarised.range; };
+  const auto largest = std::max_element(task.scalarisation.begin(), task.scalarisation.end(),
+                                        [&](const ScalarisedObjective& a, const ScalarisedObjective& b) { return share(a) < share(b); });
+  return aggregate_gradient(largest->objective, analysis) / largest->range;
 }
 
 ProgramValues DirectProgram::evaluate(const Eigen::VectorXd& x, bool with_gradients) {
@@ -74,9 +74,9 @@ ProgramValues DirectProgram::evaluate(const Eigen::VectorXd& x, bool with_gradie
       return Eigen::VectorXd(sign / std::abs(bound.limit()) * leading_gradient(bound.output, analysis, scene));
     });
   }
-  for (const GoalBound& bound : task.goal_bounds) {
-    add(problem_.value(bound.goal, analysis) / bound.limit - 1.0,
-        [&] { return Eigen::VectorXd(goal_gradient(bound.goal, analysis) / bound.limit); });
+  for (const ObjectiveBound& bound : task.objective_bounds) {
+    add(problem_.value(bound.objective, analysis) / bound.limit - 1.0,
+        [&] { return Eigen::VectorXd(aggregate_gradient(bound.objective, analysis) / bound.limit); });
   }
   for (const ModificationConstraint& c : task.modification_constraints) {
     const double sum = c.value(analysis.pinion_modification, analysis.wheel_modification), scale = problem_.modification_scale(c);

@@ -19,7 +19,7 @@ class DirectProgram : public NonlinearProgram {
 
  private:
   Eigen::VectorXd leading_gradient(const ObjectiveTerm& term, const DesignAnalysis& analysis, int scene) const;
-  Eigen::VectorXd goal_gradient(const Goal& goal, const DesignAnalysis& analysis) const;
+  Eigen::VectorXd aggregate_gradient(const Objective& objective, const DesignAnalysis& analysis) const;
   Eigen::VectorXd objective_gradient(const DesignAnalysis& analysis) const;
 
   DesignProblem& problem_;

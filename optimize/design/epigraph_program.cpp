@@ -28,9 +28,9 @@ constexpr double auxiliary_limit = 100.0;  // u <= 100 of what it is counted in:
 constexpr double away_from_zero = 0.01;
 
 /// Largest over the scenes that count, or one outside unit where an output is 0 there.
-double largest_peak(const DesignProblem& problem, const DesignAnalysis& analysis, const Goal& goal, const ObjectiveTerm& term) {
+double largest_peak(const DesignProblem& problem, const DesignAnalysis& analysis, const Objective& objective, const ObjectiveTerm& term) {
   double largest = 0.0;
-  for (int s = 0; s < (goal.over == Aggregate::Nominal ? 1 : problem.scenes()); ++s) {
+  for (int s = 0; s < (objective.over == Aggregate::Nominal ? 1 : problem.scenes()); ++s) {
     largest = std::max(largest, output_value(term, problem.model(s), analysis.cycles[static_cast<std::size_t>(s)]));
   }
   return largest > 0.0 ? largest : 1.0 / term.outside_factor();
@@ -38,12 +38,12 @@ double largest_peak(const DesignProblem& problem, const DesignAnalysis& analysis
 
 /// Scale of an objective's outputs [inside units]: their peaks at the start, but no less than a tenth of the
 /// objective's value there or of its range [outside unit], to which an output near 0 at the start may rise.
-std::vector<double> units_of(const DesignProblem& problem, const DesignAnalysis& analysis, const Goal& goal, double range) {
+std::vector<double> units_of(const DesignProblem& problem, const DesignAnalysis& analysis, const Objective& objective, double range) {
   constexpr double least_share = 0.1;
   std::vector<double> units, outside;
   double total = 0.0;
-  for (const ObjectiveTerm& term : goal.terms) {
-    units.push_back(largest_peak(problem, analysis, goal, term));
+  for (const ObjectiveTerm& term : objective.terms) {
+    units.push_back(largest_peak(problem, analysis, objective, term));
     outside.push_back(term.weight * term.outside_factor());
     total += outside.back() * units.back();
   }
@@ -59,14 +59,14 @@ EpigraphProgram::EpigraphProgram(DesignProblem& problem, DesignLog& log) : probl
   log.record(problem, x, analysis);
   const DesignTask& task = problem.task();
   variables_ = problem.variables();
-  const auto add_block = [&](const Goal& goal, double range) {
-    blocks_.emplace_back(goal, problem.scene_weights(), units_of(problem, analysis, goal, range), variables_);
+  const auto add_block = [&](const Objective& objective, double range) {
+    blocks_.emplace_back(objective, problem.scene_weights(), units_of(problem, analysis, objective, range), variables_);
     variables_ += blocks_.back().variables();
   };
-  for (const TradedGoal& traded : task.trade) add_block(traded.goal, traded.range);
-  if (!trades()) add_block(task.goal(), 0.0);
-  for (const GoalBound& bound : task.goal_bounds) add_block(bound.goal, bound.limit);
-  if (trades()) {
+  for (const ScalarisedObjective& scalarised : task.scalarisation) add_block(scalarised.objective, scalarised.range);
+  if (!is_scalarised()) add_block(task.combined_objective(), 0.0);
+  for (const ObjectiveBound& bound : task.objective_bounds) add_block(bound.objective, bound.limit);
+  if (is_scalarised()) {
     ++variables_;  // tau, the last
   } else {
     objective_scale_ = blocks_.front().scale();
@@ -77,12 +77,12 @@ EpigraphProgram::EpigraphProgram(DesignProblem& problem, DesignLog& log) : probl
 
 const ObjectiveTerm& EpigraphProgram::term_of(const EpigraphRow& row) const {
   return row.kind == Kind::OutputBound ? problem_.task().constraints[static_cast<std::size_t>(row.index)].output
-                                       : blocks_[static_cast<std::size_t>(row.goal)].goal().terms[static_cast<std::size_t>(row.index)];
+                                       : blocks_[static_cast<std::size_t>(row.objective)].objective().terms[static_cast<std::size_t>(row.index)];
 }
 
 Eigen::VectorXd EpigraphProgram::lower() const {
   Eigen::VectorXd bound = Eigen::VectorXd::Zero(variables());
-  if (trades()) bound[variables() - 1] = -auxiliary_limit;
+  if (is_scalarised()) bound[variables() - 1] = -auxiliary_limit;
   return bound;
 }
 
@@ -110,9 +110,9 @@ int EpigraphProgram::add_candidates(const Eigen::VectorXd& x) {
     candidates_.insert(row);
   };
   for (int g = 0; g < static_cast<int>(blocks_.size()); ++g) {
-    const GoalBlock& block = blocks_[static_cast<std::size_t>(g)];
+    const ObjectiveBlock& block = blocks_[static_cast<std::size_t>(g)];
     for (int s = 0; s < block.scenes(); ++s) {
-      for (int k = 0; k < static_cast<int>(block.goal().terms.size()); ++k) add({Kind::Floor, s, k, g}, block.peak(k));
+      for (int k = 0; k < static_cast<int>(block.objective().terms.size()); ++k) add({Kind::Floor, s, k, g}, block.peak(k));
     }
   }
   for (int c = 0; c < static_cast<int>(problem_.task().constraints.size()); ++c) {
@@ -127,10 +127,10 @@ void EpigraphProgram::restart_from(const Eigen::VectorXd& x) {
   const DesignAnalysis& analysis = problem_.analyse(x, true);
   start_ = Eigen::VectorXd::Zero(variables());
   start_.head(problem_.variables()) = x;
-  for (const GoalBlock& block : blocks_) {
+  for (const ObjectiveBlock& block : blocks_) {
     for (int s = 0; s < block.scenes(); ++s) {
-      for (int k = 0; k < static_cast<int>(block.goal().terms.size()); ++k) {
-        const double peak = output_value(block.goal().terms[static_cast<std::size_t>(k)], problem_.model(s),
+      for (int k = 0; k < static_cast<int>(block.objective().terms.size()); ++k) {
+        const double peak = output_value(block.objective().terms[static_cast<std::size_t>(k)], problem_.model(s),
                                          analysis.cycles[static_cast<std::size_t>(s)]);
         double& slot = start_[block.bound(s, k)];
         slot = std::max(slot, peak / block.peak(k));
@@ -138,7 +138,7 @@ void EpigraphProgram::restart_from(const Eigen::VectorXd& x) {
     }
     block.complete(start_);
   }
-  if (trades()) {
+  if (is_scalarised()) {
     double& tau = start_[variables() - 1];
     tau = problem_.objective(analysis);
   }
@@ -154,23 +154,23 @@ void EpigraphProgram::choose_rows(const DesignAnalysis& analysis) {
     return row;
   };
   for (const EpigraphRow& row : candidates_) {
-    const bool falls = row.kind == Kind::Floor && blocks_[static_cast<std::size_t>(row.goal)].falls_with(start_, row.scene);
+    const bool falls = row.kind == Kind::Floor && blocks_[static_cast<std::size_t>(row.objective)].falls_with(start_, row.scene);
     if (!falls) rows_.push_back(row);
   }
   for (int g = 0; g < static_cast<int>(blocks_.size()); ++g) {
-    const GoalBlock& block = blocks_[static_cast<std::size_t>(g)];
+    const ObjectiveBlock& block = blocks_[static_cast<std::size_t>(g)];
     for (int s = 0; s < block.scenes(); ++s) {
       if (!block.falls_with(start_, s)) continue;
-      for (int k = 0; k < static_cast<int>(block.goal().terms.size()); ++k) rows_.push_back(leader({Kind::Ceiling, s, k, g}));
+      for (int k = 0; k < static_cast<int>(block.objective().terms.size()); ++k) rows_.push_back(leader({Kind::Ceiling, s, k, g}));
     }
-    for (int r = 0; r < block.rows(); ++r) rows_.push_back({Kind::GoalHelper, r, -1, g});
+    for (int r = 0; r < block.rows(); ++r) rows_.push_back({Kind::ObjectiveHelper, r, -1, g});
   }
   for (int c = 0; c < static_cast<int>(task.constraints.size()); ++c) {
     if (!task.constraints[static_cast<std::size_t>(c)].is_least()) continue;
     for (int s = 0; s < problem_.scenes(); ++s) rows_.push_back(leader({Kind::OutputBound, s, c}));
   }
-  for (int i = 0; i < static_cast<int>(task.goal_bounds.size()); ++i) rows_.push_back({Kind::GoalBound, -1, i, goals_minimised() + i});
-  for (int i = 0; i < static_cast<int>(task.trade.size()); ++i) rows_.push_back({Kind::TradedGoal, -1, i, i});
+  for (int i = 0; i < static_cast<int>(task.objective_bounds.size()); ++i) rows_.push_back({Kind::ObjectiveBound, -1, i, objectives_minimised() + i});
+  for (int i = 0; i < static_cast<int>(task.scalarisation.size()); ++i) rows_.push_back({Kind::ScalarisedObjective, -1, i, i});
   for (int c = 0; c < static_cast<int>(task.modification_constraints.size()); ++c) {
     const ModificationConstraint& bound = task.modification_constraints[static_cast<std::size_t>(c)];
     if (std::isfinite(bound.maximum)) rows_.push_back({Kind::ModificationBound, -1, c, -1, {}, 1});
@@ -191,10 +191,10 @@ double EpigraphProgram::by_output(const EpigraphRow& row) const {
     return (bound.is_least() ? -1.0 : 1.0) / std::abs(bound.limit());
   }
   if (row.kind != Kind::Floor && row.kind != Kind::Ceiling) return 0.0;
-  return (row.kind == Kind::Floor ? 1.0 : -1.0) / blocks_[static_cast<std::size_t>(row.goal)].peak(row.index);
+  return (row.kind == Kind::Floor ? 1.0 : -1.0) / blocks_[static_cast<std::size_t>(row.objective)].peak(row.index);
 }
 
-void EpigraphProgram::write_goal(int at, const GoalBlock& block, const Eigen::VectorXd& y, double factor, double shift,
+void EpigraphProgram::write_objective(int at, const ObjectiveBlock& block, const Eigen::VectorXd& y, double factor, double shift,
                                  ProgramValues& values) const {
   const SmoothValue value = block.value(y);
   values.constraints[at] = factor * value.value * block.scale() - shift;
@@ -209,7 +209,7 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
   switch (row.kind) {
     case Kind::Floor:
     case Kind::Ceiling: {
-      const GoalBlock& block = blocks_[static_cast<std::size_t>(row.goal)];
+      const ObjectiveBlock& block = blocks_[static_cast<std::size_t>(row.objective)];
       const SmoothValue value = candidate_value(term_of(row), row.candidate, problem_.model(row.scene),
                                                 analysis.cycles[static_cast<std::size_t>(row.scene)]);
       const double sign = row.kind == Kind::Floor ? 1.0 : -1.0;
@@ -227,12 +227,12 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
       jacobian.head(n) = by_output(row) * problem_.scaled(value.gradient);
       return;
     }
-    case Kind::GoalBound:
-      return write_goal(at, blocks_[static_cast<std::size_t>(row.goal)], y, 1.0 / task.goal_bounds[static_cast<std::size_t>(row.index)].limit,
+    case Kind::ObjectiveBound:
+      return write_objective(at, blocks_[static_cast<std::size_t>(row.objective)], y, 1.0 / task.objective_bounds[static_cast<std::size_t>(row.index)].limit,
                         1.0, values);
-    case Kind::TradedGoal: {
-      const TradedGoal& traded = task.trade[static_cast<std::size_t>(row.index)];
-      write_goal(at, blocks_[static_cast<std::size_t>(row.goal)], y, 1.0 / traded.range, traded.origin / traded.range, values);
+    case Kind::ScalarisedObjective: {
+      const ScalarisedObjective& scalarised = task.scalarisation[static_cast<std::size_t>(row.index)];
+      write_objective(at, blocks_[static_cast<std::size_t>(row.objective)], y, 1.0 / scalarised.range, scalarised.origin / scalarised.range, values);
       values.constraints[at] -= y[variables() - 1];
       jacobian[variables() - 1] = -1.0;
       return;
@@ -245,7 +245,7 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
       jacobian.head(n) = sign / scale * problem_.modification_slope(bound);
       return;
     }
-    case Kind::GoalHelper: return;  // written by the block
+    case Kind::ObjectiveHelper: return;  // written by the block
   }
 }
 
@@ -258,10 +258,10 @@ ProgramValues EpigraphProgram::evaluate(const Eigen::VectorXd& y, bool with_grad
   values.constraint_jacobian = Eigen::MatrixXd::Zero(constraints(), variables());
   for (int at = 0; at < constraints(); ++at) {
     const EpigraphRow& row = rows_[static_cast<std::size_t>(at)];
-    if (row.kind == Kind::GoalHelper && row.scene == 0) blocks_[static_cast<std::size_t>(row.goal)].write_rows(y, at, values);
+    if (row.kind == Kind::ObjectiveHelper && row.scene == 0) blocks_[static_cast<std::size_t>(row.objective)].write_rows(y, at, values);
     write_row(row, at, y, analysis, values);
   }
-  if (trades()) {
+  if (is_scalarised()) {
     values.objective = y[variables() - 1];
     values.objective_gradient = Eigen::VectorXd::Unit(variables(), variables() - 1);
   } else {

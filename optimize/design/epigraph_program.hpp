@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "optimize/design/design_log.hpp"
-#include "optimize/design/goal_block.hpp"
+#include "optimize/design/objective_block.hpp"
 #include "optimize/solvers/nonlinear_program.hpp"
 
 namespace flankwright {
@@ -16,13 +16,13 @@ struct EpigraphRow {
     Floor,         ///< candidate <= u of an objective's output in a scene
     Ceiling,       ///< u <= candidate, where the objective falls with u
     OutputBound,   ///< an OutputConstraint
-    GoalHelper,    ///< a row of GoalBlock
-    GoalBound, TradedGoal, ModificationBound
+    ObjectiveHelper,    ///< a row of ObjectiveBlock
+    ObjectiveBound, ScalarisedObjective, ModificationBound
   };
   Kind kind{Kind::Floor};
   int scene{-1};  ///< -1: none
   int index{-1};  ///< of the term within its objective, or of the constraint, bound or scalarised objective
-  int goal{-1};   ///< of Floor, Ceiling and GoalHelper: block
+  int objective{-1};   ///< of Floor, Ceiling and ObjectiveHelper: block
   PeakCandidate candidate{};
   int side{1};    ///< ModificationBound: 1 maximum, -1 minimum
 
@@ -32,7 +32,7 @@ struct EpigraphRow {
 /// The design task as an epigraph: every peak becomes a variable u that may not lie below its candidates,
 ///
 ///     minimise  f(u)   subject to   candidate_j(x) <= u_sk (all leading candidates j of output k in scene s),
-///                                   rows of the goals (GoalBlock),   bounds on outputs, goals and modifications,
+///                                   rows of the goals (ObjectiveBlock),   bounds on outputs, goals and modifications,
 ///
 /// so that a solver sees smooth functions only, f being the objective's value or tau >= (value - origin) / range of
 /// every scalarised objective. Candidates are those near a peak at the designs given to add_candidates();
@@ -66,16 +66,16 @@ class EpigraphProgram : public NonlinearProgram {
   ProgramValues evaluate(const Eigen::VectorXd& y, bool with_gradients) override;
 
  private:
-  bool trades() const { return !problem_.task().trade.empty(); }
-  int goals_minimised() const { return trades() ? static_cast<int>(problem_.task().trade.size()) : 1; }
+  bool is_scalarised() const { return !problem_.task().scalarisation.empty(); }
+  int objectives_minimised() const { return is_scalarised() ? static_cast<int>(problem_.task().scalarisation.size()) : 1; }
   const ObjectiveTerm& term_of(const EpigraphRow& row) const;
   void write_row(const EpigraphRow& row, int at, const Eigen::VectorXd& y, const DesignAnalysis& analysis, ProgramValues& values) const;
-  void write_goal(int at, const GoalBlock& block, const Eigen::VectorXd& y, double factor, double shift, ProgramValues& values) const;
+  void write_objective(int at, const ObjectiveBlock& block, const Eigen::VectorXd& y, double factor, double shift, ProgramValues& values) const;
   void choose_rows(const DesignAnalysis& analysis);
 
   DesignProblem& problem_;
   DesignLog& log_;
-  std::vector<GoalBlock> blocks_;    ///< what is minimised, then what is bounded
+  std::vector<ObjectiveBlock> blocks_;    ///< what is minimised, then what is bounded
   std::set<EpigraphRow> candidates_; ///< floors and upper output bounds met so far
   std::vector<EpigraphRow> rows_;
   int variables_{0};

@@ -24,9 +24,9 @@ struct ActiveBound {
 ///
 ///     minimise over lambda >= 0   |grad f + J' lambda|^2 + |c lambda|^2
 ///
-/// over all rows and bounds within `reach` of being active; variables' bounds only where more than 1e-4 is left without them, so that a bound has
-/// no share where multipliers are not unique. f is the objective in units of its start, variables count in their
-/// ranges.
+/// over all rows and bounds within `reach` of being active; variables' bounds only where more than 1e-4 remains without
+/// them, so that a bound has no multiplier where multipliers are not unique. f is the objective in units of its start,
+/// variables are scaled to their ranges.
 ///
 /// Rows bend where a contact point is about to lose or take up load, or the start of a relief passes one; optima like
 /// to lie there. Where the conditions do not hold to 1e-4 with the gradients at the design, gradients at its neighbours

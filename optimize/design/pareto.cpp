@@ -16,17 +16,17 @@ constexpr double anchor_slack = 1e-3;
 
 class FrontTracing {
  public:
-  FrontTracing(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const DesignOptions& options)
+  FrontTracing(const DesignProblem& problem, const std::vector<Objective>& objectives, int points, const DesignOptions& options)
       : problem_(problem), points_(points), options_(options.solver), starts_(options.starts) {
-    front_.goals = goals;
+    front_.objectives = objectives;
   }
 
   ParetoFront trace() {
-    const std::vector<ParetoPoint> bests = best_of_each_goal();
+    const std::vector<ParetoPoint> bests = best_of_each_objective();
     for (std::size_t g = 0; g < bests.size() && !is_spent(); ++g) add_anchor(g, bests);
-    if (front_.points.size() == front_.goals.size()) {
+    if (front_.points.size() == front_.objectives.size()) {
       choose_ranges();
-      if (front_.goals.size() == 2) {
+      if (front_.objectives.size() == 2) {
         halve_gaps();
         space_evenly();
       } else {
@@ -74,26 +74,26 @@ class FrontTracing {
     ParetoPoint point{run.x, {}, run.status, run.constraint_violation};
     DesignProblem problem = problem_;
     const DesignAnalysis& analysis = problem.analyse(run.x, false);
-    for (const Goal& goal : front_.goals) point.values.push_back(problem.value(goal, analysis));
+    for (const Objective& objective : front_.objectives) point.values.push_back(problem.value(objective, analysis));
     return point;
   }
 
-  DesignProblem alone(std::size_t g) const { return problem_.judged_by(front_.goals[g], problem_.task().goal_bounds); }
+  DesignProblem alone(std::size_t g) const { return problem_.judged_by(front_.objectives[g], problem_.task().objective_bounds); }
 
   /// The best design of each objective, from all starts and from the best of every other objective. Otherwise a local
   /// optimum could be an end that the front never reaches, because another objective's best lies lower. Empty where the
   /// budget is spent before each has one.
-  std::vector<ParetoPoint> best_of_each_goal() {
-    const std::size_t goals = front_.goals.size();
+  std::vector<ParetoPoint> best_of_each_objective() {
+    const std::size_t objectives = front_.objectives.size();
     std::vector<LocalRun> bests;
-    for (std::size_t g = 0; g < goals; ++g) {
+    for (std::size_t g = 0; g < objectives; ++g) {
       if (is_spent()) return {};
       const std::vector<LocalRun> runs = run_from_starts(alone(g), left(), starts_);
       for (const LocalRun& run : runs) count(run);
       bests.push_back(runs[best_run(runs)]);
     }
-    for (std::size_t g = 0; g < goals; ++g) {
-      for (std::size_t k = 0; k < goals; ++k) {
+    for (std::size_t g = 0; g < objectives; ++g) {
+      for (std::size_t k = 0; k < objectives; ++k) {
         if (k == g || is_out_of_budget()) continue;
         DesignProblem problem = alone(g);
         problem.set_start(bests[k].x);
@@ -113,14 +113,14 @@ class FrontTracing {
       return std::ranges::max(bests, {}, [k](const ParetoPoint& best) { return best.values[k]; }).values[k];
     };
     ParetoPoint anchor = bests[g];
-    std::vector<GoalBound> held = problem_.task().goal_bounds;
-    held.push_back({front_.goals[g], std::max((1.0 + anchor_slack) * anchor.values[g], anchor_slack * largest(g))});
-    std::vector<TradedGoal> others;
-    for (std::size_t k = 0; k < front_.goals.size(); ++k) {
-      if (k != g && largest(k) > 0.0) others.push_back({front_.goals[k], 0.0, largest(k)});
+    std::vector<ObjectiveBound> held = problem_.task().objective_bounds;
+    held.push_back({front_.objectives[g], std::max((1.0 + anchor_slack) * anchor.values[g], anchor_slack * largest(g))});
+    std::vector<ScalarisedObjective> others;
+    for (std::size_t k = 0; k < front_.objectives.size(); ++k) {
+      if (k != g && largest(k) > 0.0) others.push_back({front_.objectives[k], 0.0, largest(k)});
     }
     if (largest(g) > 0.0 && !others.empty() && !is_spent()) {
-      DesignProblem rest = problem_.judged_by(front_.goals[g], held, others);
+      DesignProblem rest = problem_.judged_by(front_.objectives[g], held, others);
       rest.set_start(anchor.x);
       const LocalRun run = search(rest);
       if (run.constraint_violation <= DesignLog::tolerance) anchor = point(run);
@@ -129,7 +129,7 @@ class FrontTracing {
   }
 
   void choose_ranges() {
-    for (std::size_t k = 0; k < front_.goals.size(); ++k) {
+    for (std::size_t k = 0; k < front_.objectives.size(); ++k) {
       const auto by = [k](const ParetoPoint& a, const ParetoPoint& b) { return a.values[k] < b.values[k]; };
       front_.ideal.push_back(std::min_element(front_.points.begin(), front_.points.end(), by)->values[k]);
       front_.worst.push_back(std::max_element(front_.points.begin(), front_.points.end(), by)->values[k]);
@@ -148,11 +148,11 @@ class FrontTracing {
 
   /// The compromise seen from a reference point.
   ParetoPoint compromise(const Eigen::VectorXd& reference) {
-    std::vector<TradedGoal> trade;
-    for (std::size_t k = 0; k < front_.goals.size(); ++k) {
-      trade.push_back({front_.goals[k], front_.ideal[k] + reference[static_cast<Eigen::Index>(k)] * range(k), range(k)});
+    std::vector<ScalarisedObjective> scalarisation;
+    for (std::size_t k = 0; k < front_.objectives.size(); ++k) {
+      scalarisation.push_back({front_.objectives[k], front_.ideal[k] + reference[static_cast<Eigen::Index>(k)] * range(k), range(k)});
     }
-    DesignProblem problem = problem_.judged_by(front_.goals.front(), problem_.task().goal_bounds, trade);
+    DesignProblem problem = problem_.judged_by(front_.objectives.front(), problem_.task().objective_bounds, scalarisation);
     const auto nearest = std::min_element(front_.points.begin(), front_.points.end(), [&](const ParetoPoint& a, const ParetoPoint& b) {
       return (normalised(a) - reference).norm() < (normalised(b) - reference).norm();
     });
@@ -253,7 +253,7 @@ class FrontTracing {
 }  // namespace
 
 double ParetoFront::unevenness() const {
-  if (goals.size() != 2 || points.size() < 3 || ideal.empty()) return not_given;
+  if (objectives.size() != 2 || points.size() < 3 || ideal.empty()) return not_given;
   double shortest = std::numeric_limits<double>::infinity(), longest = 0.0;
   for (std::size_t i = 0; i + 1 < points.size(); ++i) {
     double square = 0.0;
@@ -264,17 +264,17 @@ double ParetoFront::unevenness() const {
   return longest / shortest;
 }
 
-ParetoFront trace_front(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const DesignOptions& options) {
+ParetoFront trace_front(const DesignProblem& problem, const std::vector<Objective>& objectives, int points, const DesignOptions& options) {
   options.solver.validate();
-  if (goals.size() < 2 || goals.size() > 3) throw InvalidInput("optimise.pareto.objectives", std::to_string(goals.size()), "two or three");
-  if (points < static_cast<int>(goals.size())) {
+  if (objectives.size() < 2 || objectives.size() > 3) throw InvalidInput("optimise.pareto.objectives", std::to_string(objectives.size()), "two or three");
+  if (points < static_cast<int>(objectives.size())) {
     throw InvalidInput("optimise.pareto.points", std::to_string(points), "at least one for each objective");
   }
   const std::string& solver = options.solver.name;
   if (!uses_gradients(solver) || !accepts_constraints(solver)) {
     throw InvalidInput("optimise.solver", solver, "a solver with gradients and constraints for a Pareto front, such as ipopt");
   }
-  return FrontTracing(problem, goals, points, options).trace();
+  return FrontTracing(problem, objectives, points, options).trace();
 }
 
 }  // namespace flankwright

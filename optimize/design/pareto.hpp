@@ -18,7 +18,7 @@ struct ParetoPoint {
 
 /// Designs whose objectives cannot be improved without loss in another.
 struct ParetoFront {
-  std::vector<Goal> goals;
+  std::vector<Objective> objectives;
   std::vector<ParetoPoint> points;    ///< of two objectives along the front, from the best of the first to the best of the second
   std::vector<double> ideal, worst;   ///< per objective over the points where each one alone is best, outside units
   int evaluations{0}, failures{0};
@@ -40,13 +40,13 @@ struct ParetoFront {
 /// points between the ends are sought once more from equal steps of arc length along the front found, where that makes
 /// the spacing more even. With three, the points a are a regular grid on the triangle of the single optima. Each search
 /// starts from the nearest design found before.
-/// @param goals    two or three
+/// @param objectives    two or three
 /// @param points   >= number of objectives; for three the largest triangular number within it
 /// @param options  a solver that takes gradients and constraints; its budget is that of the whole front
 /// @throws InvalidInput for another number of objectives, or an unsuitable solver
-ParetoFront trace_front(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const DesignOptions& options);
-inline ParetoFront trace_front(const DesignProblem& problem, const std::vector<Goal>& goals, int points, const SolverOptions& options) {
-  return trace_front(problem, goals, points, DesignOptions{options});
+ParetoFront trace_front(const DesignProblem& problem, const std::vector<Objective>& objectives, int points, const DesignOptions& options);
+inline ParetoFront trace_front(const DesignProblem& problem, const std::vector<Objective>& objectives, int points, const SolverOptions& options) {
+  return trace_front(problem, objectives, points, DesignOptions{options});
 }
 
 }  // namespace flankwright

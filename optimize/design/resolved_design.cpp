@@ -20,11 +20,11 @@ ResolvedValue value_in(const ObjectiveTerm& term, const DesignProblem& problem, 
   return resolved_value(term, problem.model(scene), report.analysis.cycles[s], cycles[s]);
 }
 
-Measures measures_of(const Goal& goal, const DesignProblem& problem, const DesignReport& report, const std::vector<ResolvedCycle>& cycles) {
+Measures measures_of(const Objective& minimised, const DesignProblem& problem, const DesignReport& report, const std::vector<ResolvedCycle>& cycles) {
   Measures measures;
   for (int s = 0; s < problem.scenes(); ++s) {
     double value = 0.0, error = 0.0;
-    for (const ObjectiveTerm& term : goal.terms) {
+    for (const ObjectiveTerm& term : minimised.terms) {
       const ResolvedValue resolved = value_in(term, problem, report, cycles, s);
       const double factor = term.weight * term.outside_factor();
       value += factor * resolved.value;
@@ -36,16 +36,16 @@ Measures measures_of(const Goal& goal, const DesignProblem& problem, const Desig
   return measures;
 }
 
-double combined(const Goal& goal, const Measures& measures, double shift, const std::vector<double>& weights) {
+double combined(const Objective& minimised, const Measures& measures, double shift, const std::vector<double>& weights) {
   std::vector<double> shifted = measures.values;
   for (std::size_t s = 0; s < shifted.size(); ++s) shifted[s] = std::max(0.0, shifted[s] + shift * measures.errors[s]);
-  return aggregate(goal.over, shifted, weights);
+  return aggregate(minimised.over, shifted, weights);
 }
 
-ResolvedValue value_of(const Goal& goal, const Measures& measures, const std::vector<double>& weights) {
-  const double value = aggregate(goal.over, measures.values, weights);
+ResolvedValue value_of(const Objective& minimised, const Measures& measures, const std::vector<double>& weights) {
+  const double value = aggregate(minimised.over, measures.values, weights);
   if (std::ranges::any_of(measures.errors, [](double e) { return std::isnan(e); })) return {value, not_given};
-  return {value, std::max(std::abs(combined(goal, measures, 1.0, weights) - value), std::abs(combined(goal, measures, -1.0, weights) - value))};
+  return {value, std::max(std::abs(combined(minimised, measures, 1.0, weights) - value), std::abs(combined(minimised, measures, -1.0, weights) - value))};
 }
 
 }  // namespace
@@ -54,8 +54,8 @@ DesignErrors resolve_report(const DesignProblem& problem, const std::vector<Reso
   const DesignTask& task = problem.task();
   const std::vector<double> weights = problem.scene_weights();
   DesignErrors errors;
-  Measures measures = measures_of(task.goal(), problem, report, cycles);
-  const ResolvedValue objective = value_of(task.goal(), measures, weights);
+  Measures measures = measures_of(task.combined_objective(), problem, report, cycles);
+  const ResolvedValue objective = value_of(task.combined_objective(), measures, weights);
   report.objective = objective.value;
   errors.objective = objective.error;
   report.scene_measures = std::move(measures.values);
@@ -71,9 +71,9 @@ DesignErrors resolve_report(const DesignProblem& problem, const std::vector<Reso
     report.constraint_values[c] = nearest.value;
     errors.constraint_values.push_back(nearest.error);
   }
-  for (std::size_t k = 0; k < task.then.size(); ++k) {
-    const Goal& goal = task.then[k];
-    const ResolvedValue later = value_of(goal, measures_of(goal, problem, report, cycles), weights);
+  for (std::size_t k = 0; k < task.later_objectives.size(); ++k) {
+    const Objective& minimised = task.later_objectives[k];
+    const ResolvedValue later = value_of(minimised, measures_of(minimised, problem, report, cycles), weights);
     report.later_objectives[k] = later.value;
     errors.later_objectives.push_back(later.error);
   }

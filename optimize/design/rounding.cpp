@@ -73,7 +73,7 @@ class StepSearch {
     for (std::size_t k = 0; k < std::min(scenes_tried_first, first_.size()); ++k) {
       const int scene = first_[k];
       const LoadedCycle cycle = problem_.analyse_scene(scene, analysis.pinion_modification, analysis.wheel_modification);
-      if (cycle.usable() && problem_.scene_measure(problem_.task().goal(), cycle, scene) < best_.objective) continue;
+      if (cycle.usable() && problem_.scene_measure(problem_.task().combined_objective(), cycle, scene) < best_.objective) continue;
       std::rotate(first_.begin(), first_.begin() + static_cast<std::ptrdiff_t>(k), first_.begin() + static_cast<std::ptrdiff_t>(k) + 1);
       return true;
     }

@@ -26,7 +26,7 @@ bool is_given(const Study& study, std::string_view prefix) {
 }
 
 /// Models are compared at this resolution: their differences are larger than its errors, and much the same at any.
-Rung coarse_rung(const Fidelity& fidelity) {
+FidelityLevel coarse_level(const Fidelity& fidelity) {
   return {"coarse", "models", ErrorKind::Model, fidelity.compliance, fidelity.gap, {QuadratureRule::Graded, 8}, 16};
 }
 
@@ -49,7 +49,7 @@ void raise(PerFigure& worst, const PerFigure& other) {
 }
 
 /// What a model says otherwise than another, worst over the load cases; infinite where one of them did not converge.
-PerFigure differences(const RungResult& model, const RungResult& other) {
+PerFigure differences(const LevelResult& model, const LevelResult& other) {
   PerFigure worst{};
   if (!model.usable() || !other.usable()) worst.fill(std::numeric_limits<double>::infinity());
   for (std::size_t s = 0; model.usable() && other.usable() && s < model.scenes.size(); ++s) {
@@ -58,20 +58,20 @@ PerFigure differences(const RungResult& model, const RungResult& other) {
   return with_safety(worst);
 }
 
-PerFigure fit_errors(const RungResult& fitted) {
+PerFigure fit_errors(const LevelResult& fitted) {
   PerFigure worst{};
   if (!fitted.usable()) worst.fill(std::numeric_limits<double>::infinity());
   for (const CycleFigures& figures : fitted.scenes) raise(worst, fit_error(figures));
   return worst;
 }
 
-void choose_compliance(RungRunner& runner, FidelityChoice& choice) {
-  Rung rung = coarse_rung(choice.fidelity);
+void choose_compliance(LevelRunner& runner, FidelityChoice& choice) {
+  FidelityLevel level = coarse_level(choice.fidelity);
   const auto candidate = [&](ComplianceModel model) {
-    rung.compliance = model;
-    return runner.run(rung);
+    level.compliance = model;
+    return runner.run(level);
   };
-  const RungResult fitted = candidate(ComplianceModel::Fitted), slices = candidate(ComplianceModel::ThinSlice);
+  const LevelResult fitted = candidate(ComplianceModel::Fitted), slices = candidate(ComplianceModel::ThinSlice);
   const PerFigure by_fit = fit_errors(fitted), by_slices = added(differences(slices, fitted), by_fit);
   choice.compliances = {{"thin_slice", by_slices, slices.seconds}, {"fitted", by_fit, fitted.seconds}, {"fe", {}, not_given}};
   const std::size_t taken = headline(by_slices) <= thin_slice_share * choice.accuracy ? 0 : headline(by_fit) <= fitted_share * choice.accuracy ? 1 : 2;
@@ -80,13 +80,13 @@ void choose_compliance(RungRunner& runner, FidelityChoice& choice) {
   choice.fidelity.compliance = compliance_model(choice.compliances[taken].name);
 }
 
-void choose_gap(RungRunner& runner, FidelityChoice& choice) {
-  Rung rung = coarse_rung(choice.fidelity);
+void choose_gap(LevelRunner& runner, FidelityChoice& choice) {
+  FidelityLevel level = coarse_level(choice.fidelity);
   const auto candidate = [&](GapModel gap) {
-    rung.gap = gap;
-    return runner.run(rung);
+    level.gap = gap;
+    return runner.run(level);
   };
-  const RungResult plane = candidate(GapModel::PlaneOfAction), whole = candidate(GapModel::WholeSurface);
+  const LevelResult plane = candidate(GapModel::PlaneOfAction), whole = candidate(GapModel::WholeSurface);
   const PerFigure by_plane = differences(plane, whole);
   PerFigure excess{};
   for (std::size_t i = 0; i < excess.size(); ++i) excess[i] = by_plane[i] - gap_share * left_of(choice.accuracy, choice.compliance_error[i]);
@@ -97,7 +97,7 @@ void choose_gap(RungRunner& runner, FidelityChoice& choice) {
   choice.fidelity.gap = plane_does ? GapModel::PlaneOfAction : GapModel::WholeSurface;
 }
 
-void choose_resolution(RungRunner& runner, FidelityChoice& choice, const ProgressReport& progress) {
+void choose_resolution(LevelRunner& runner, FidelityChoice& choice, const ProgressReport& progress) {
   const std::vector<DesignScene>& scenes = runner.subject().scenes;
   DiscretisationSearch search;
   search.accuracy = choice.accuracy;
@@ -111,13 +111,13 @@ void choose_resolution(RungRunner& runner, FidelityChoice& choice, const Progres
   if (choice.quadrature_given) search.fewest_intervals = choice.fidelity.quadrature.intervals;
   if (choice.positions_given) search.fewest_positions = choice.positions;
   search.for_each = [](std::size_t count, const std::function<void(std::size_t)>& work) { tbb::parallel_for(std::size_t{0}, count, work); };
-  const Rung rung = coarse_rung(choice.fidelity);
+  const FidelityLevel level = coarse_level(choice.fidelity);
   std::map<MeshPlacement, int> placements;  // load cases of one placement share their meshes
   std::vector<ResolutionCase> cases;
   for (const DesignScene& scene : scenes) {
-    const MeshPlacement placement = MeshPlacement::of(rung.gap, scene.condition.misalignment);
+    const MeshPlacement placement = MeshPlacement::of(level.gap, scene.condition.misalignment);
     const int number = placements.try_emplace(placement, static_cast<int>(placements.size())).first->second;
-    cases.push_back({runner.mesh(rung, scene), scene.condition, scene.torque, number});
+    cases.push_back({runner.mesh(level, scene), scene.condition, scene.torque, number});
   }
   int analysed = 0;
   search.starting = [&](int intervals, int positions, int load_cases) {
@@ -149,7 +149,7 @@ PerFigure FidelityChoice::effects_budget() const {
   return left;
 }
 
-FidelityChoice choose_fidelity(RungRunner& runner, const ProgressReport& progress) {
+FidelityChoice choose_fidelity(LevelRunner& runner, const ProgressReport& progress) {
   const Stopwatch clock;
   const Study& study = runner.subject().study;
   FidelityChoice choice;

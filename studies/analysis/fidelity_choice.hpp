@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/analysis/rung.hpp"
+#include "studies/analysis/fidelity_level.hpp"
 #include "studies/analysis/effect_sizes.hpp"
 
 namespace flankwright::studies {
@@ -52,7 +52,7 @@ struct FidelityChoice {
 ///
 /// The finite elements it asks for are those of the models that it compares, and none for what an effect does.
 /// @param runner  with the study's load cases
-FidelityChoice choose_fidelity(RungRunner& runner, const ProgressReport& progress);
+FidelityChoice choose_fidelity(LevelRunner& runner, const ProgressReport& progress);
 
 /// That an accuracy is not kept, in one line.
 std::string unmet_accuracy(const FidelityChoice& choice);

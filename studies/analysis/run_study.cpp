@@ -10,7 +10,7 @@ namespace {
 /// Nothing where no accuracy is asked for, or nothing is loaded.
 std::optional<FidelityChoice> fidelity_choice(const Study& study, const ProgressReport& progress) {
   if (!study.fidelity.accuracy || study.fidelity.compliance == ComplianceModel::Rigid || study.task->single_gears) return std::nullopt;
-  RungRunner runner(StudyRun(study, progress).rung_subject(), progress);
+  LevelRunner runner(StudyRun(study, progress).level_subject(), progress);
   if (runner.subject().scenes.empty()) return std::nullopt;
   return choose_fidelity(runner, progress);
 }

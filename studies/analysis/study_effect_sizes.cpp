@@ -52,7 +52,7 @@ void add_exact(const StudyResults& results, const LoadedResult& loaded, std::vec
     const Stopwatch clock;
     EffectSize size{decision.name, {}, not_given};
     const EffectDecisions rest = without(results.effects, decision.name, "left out");
-    if (mesh_effects(rest).give_way()) size.influence = EffectInfluence::between(with, outputs_with(scene, rest));
+    if (mesh_effects(rest).make_compliant()) size.influence = EffectInfluence::between(with, outputs_with(scene, rest));
     size.seconds = clock.seconds();
     add(sizes, {loaded.scene, loaded.torque, size});
   }

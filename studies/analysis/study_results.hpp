@@ -25,8 +25,8 @@
 
 namespace flankwright::studies {
 
-struct Ladder;
-struct Proof;
+struct FidelityHierarchy;
+struct Assessment;
 struct SweepStatistics;
 
 /// Loaded contact of one scene at one torque, for one design.
@@ -80,13 +80,13 @@ struct StudyResults {
   LeftOutEffects left_out;        ///< of what an accuracy leaves to them
   std::vector<RunStep> steps;
   std::optional<FidelityChoice> fidelity_choice;  ///< where the study asks for an accuracy
-  std::shared_ptr<const Ladder> ladder;  ///< of the task "accuracy"
+  std::shared_ptr<const FidelityHierarchy> hierarchy;  ///< of the task "accuracy"
   std::optional<DesignTask> design_task;
   std::optional<DesignResult> design;      ///< its figures as they are shown: with extremes between the positions
   std::optional<SearchWork> search_work;   ///< how the design was found
   DesignErrors before_errors, after_errors;  ///< of the design's reports
   std::optional<ParetoFront> front;
-  std::shared_ptr<const Proof> proof;    ///< of the design
+  std::shared_ptr<const Assessment> assessment;    ///< of the design
   std::vector<GearDeflections> deflections;  ///< of both gears, where the compliance is of single gears
   std::shared_ptr<const SweepStatistics> sweep;  ///< of the task "sweep": the rest of the results is its nominal sample
   std::vector<GearFit> fits;              ///< of the task "fit", one a gear

@@ -49,7 +49,7 @@ MeshModel StudyRun::mesh(const MeshPlacement& placement, const MeshResolution& r
     return make_mesh_model(results_.pair, study.pinion_material, study.wheel_material, resolution, results_.mesh_effects, at,
                            structures().pair.get(), root_stress, results_.shafts.get());
   };
-  return with_further_meshes(placed(placement), placed, parameters);
+  return with_perturbed_meshes(placed(placement), placed, parameters);
 }
 
 MeshPlacement StudyRun::placement_of(const Misalignment& misalignment) const { return MeshPlacement::of(gap_model(results_.effects), misalignment); }
@@ -155,10 +155,10 @@ const GearStructures& StudyRun::structures() {
 
 void StudyRun::note_fits() {
   for (const Member member : {Member::Pinion, Member::Wheel}) {
-    const auto& refinement = results_.structures.refinement(member);
-    if (!refinement) continue;
-    const std::string why = refinement->unknown.empty() ? "" : ": " + refinement->unknown;
-    results_.steps.push_back({std::string("fit_of_") + name_of(member), refinement->source() + why, refinement->seconds});
+    const auto& correction = results_.structures.correction(member);
+    if (!correction) continue;
+    const std::string why = correction->unknown.empty() ? "" : ": " + correction->unknown;
+    results_.steps.push_back({std::string("fit_of_") + name_of(member), correction->source() + why, correction->seconds});
   }
 }
 

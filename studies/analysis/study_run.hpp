@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "studies/analysis/rung.hpp"
+#include "studies/analysis/fidelity_level.hpp"
 #include "studies/analysis/study_results.hpp"
 #include "studies/base/progress.hpp"
 
@@ -26,7 +26,7 @@ class StudyRun {
   void report(const std::string& label, int done, int total, const std::string& remark = {}) const;
 
   /// What every level of fidelity of this study analyses.
-  RungSubject rung_subject() const { return {results_.study, results_.pair, loaded_scenes(), results_.shafts}; }
+  LevelSubject level_subject() const { return {results_.study, results_.pair, loaded_scenes(), results_.shafts}; }
 
   /// Load cases of scenes: their torques above 0, conditions as far as their effects are on.
   std::vector<DesignScene> loaded(const std::vector<Scene>& scenes) const;

@@ -19,7 +19,7 @@ FlankDirection seen_in(const Eigen::Matrix3d& axes, const Eigen::Vector3d& centr
   return {p.head<2>().normalized().dot(v.head<2>()), v.z()};
 }
 
-ContactMark mark_of(const MeshScene& scene, const ToothContact& contact, double marking_thickness) {
+ContactMark mark_of(const FlankAssembly& scene, const ToothContact& contact, double marking_thickness) {
   ContactMark mark;
   mark.ellipse = contact_ellipse(scene, contact, marking_thickness);
   if (std::isnan(mark.ellipse.semi_minor)) return mark;
@@ -53,7 +53,7 @@ double wanted_parabola(const GearPair& pair, const FlankCondition& condition) {
   return a;
 }
 
-ParabolaCheck judged_parabola(const MeshScene& scene, const UnloadedMesh& mesh, double wanted) {
+ParabolaCheck judged_parabola(const FlankAssembly& scene, const UnloadedMesh& mesh, double wanted) {
   constexpr std::size_t fewest_positions = 4;  // three numbers are fitted
   if (mesh.phi1.size() >= fewest_positions) return check_parabola(scene, mesh, wanted);
   ParabolaCheck check;
@@ -73,7 +73,7 @@ void append_kind(std::string& sequence, std::string& last, const ToothContact& c
 
 UnloadedResult analyse_unloaded(const GearPair& pair, const std::string& scene, const FlankCondition& condition, int positions,
                                 double marking_thickness) {
-  const MeshScene placed = make_mesh_scene(pair, condition.misalignment, condition.pinion_modification,
+  const FlankAssembly placed = assemble_flanks(pair, condition.misalignment, condition.pinion_modification,
                                            condition.wheel_modification, condition.pinion_error, condition.wheel_error);
   UnloadedResult result;
   result.scene = scene;

@@ -44,7 +44,7 @@ void export_vtk(const std::string& json, const fs::path& results, const fs::path
 
 }  // namespace
 
-int import_command(const ImportOptions& options) {
+int import_command(const ImportCommand& options) {
   const fs::path study = options.study;
   const rexs::ImportedStudy imported = rexs::import_stage(
       read_whole(options.file), options.file,
@@ -65,7 +65,7 @@ int import_command(const ImportOptions& options) {
   return 0;
 }
 
-int export_command(const ExportOptions& options) {
+int export_command(const ExportCommand& options) {
   if (!options.rexs && !options.rexsj && !options.grid && !options.vtk) {
     throw InvalidInput("export", "no format", "--rexs, --rexsj, --grid or --vtk, or several of them");
   }

@@ -6,7 +6,7 @@
 /// The commands that exchange data with other programs; exit codes as those of commands.hpp.
 namespace flankwright::studies {
 
-struct ImportOptions {
+struct ImportCommand {
   std::string file;                    ///< REXS, XML or JSON
   std::string study;                   ///< file to write; empty: stdout
   std::optional<int> stage;            ///< of several
@@ -14,9 +14,9 @@ struct ImportOptions {
 };
 
 /// Makes a study of a stage of a REXS file; grids go beside it. What the study says otherwise than the file is told on stderr too.
-int import_command(const ImportOptions& options);
+int import_command(const ImportCommand& options);
 
-struct ExportOptions {
+struct ExportCommand {
   std::string results;  ///< folder with results.json
   std::string folder;   ///< for the files; empty: the same
   bool rexs{false}, rexsj{false}, grid{false}, vtk{false};
@@ -27,6 +27,6 @@ struct ExportOptions {
 };
 
 /// Writes what a results folder holds in the formats that are asked for, at least one.
-int export_command(const ExportOptions& options);
+int export_command(const ExportCommand& options);
 
 }  // namespace flankwright::studies

@@ -19,7 +19,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "core/compliance/finite_element/solve_influence_table.hpp"
-#include "core/compliance/fitted/refinement_fit.hpp"
+#include "core/compliance/fitted/correction_fit.hpp"
 #include "studies/base/progress.hpp"
 #include "studies/base/results_folder.hpp"
 #include "studies/compliance/disk_store.hpp"
@@ -33,7 +33,7 @@ enum Start { Flat = -1, StandardProfile = -2 };
 /// A gear of the library and the one whose fit it starts from, or a Start: from a flat one, or from what the standard profile's fits
 /// are for that gear.
 struct Step {
-  GearFacts gear;
+  GearProportions gear;
   ReferenceProfile profile{};
   int start{Flat};
 };
@@ -99,11 +99,11 @@ std::string settings_text() {
       version(), mesh_line("fine", {}), mesh_line("coarse", coarse_mesh()));
 }
 
-std::vector<RefinementEntry> entries_so_far(const std::filesystem::path& path, const std::vector<Step>& list) {
+std::vector<CorrectionEntry> entries_so_far(const std::filesystem::path& path, const std::vector<Step>& list) {
   if (!std::filesystem::exists(path)) return {};
   const std::string text = read_whole(path);
-  std::vector<RefinementEntry> entries = entries_in(text);
-  const bool same = std::ranges::equal(entries, list | std::views::take(std::ssize(entries)), [](const RefinementEntry& entry, const Step& step) {
+  std::vector<CorrectionEntry> entries = entries_in(text);
+  const bool same = std::ranges::equal(entries, list | std::views::take(std::ssize(entries)), [](const CorrectionEntry& entry, const Step& step) {
     return entry.gear == step.gear && entry.profile == step.profile;
   });
   if (!text.starts_with(settings_text()) || !same) {
@@ -118,7 +118,7 @@ InfluenceTableRun run_by(const GearMeshOptions& mesh, const Step& step) {
   const InfluenceTableTask task{.gear = standard_gear(step.gear, step.profile),
                                 .teeth_apart = 1,
                                 .mesh = mesh,
-                                .grid = flank_grid(step.gear.relative_face)};
+                                .grid = station_grid(step.gear.relative_face)};
   DiskStore store;  // of a folder that cannot be used nothing is said: the run is made anew
   if (auto kept = store.find(task)) return std::move(kept->value);
   InfluenceTableRun run = solve_influence_table(task, std::numeric_limits<double>::infinity());
@@ -127,16 +127,16 @@ InfluenceTableRun run_by(const GearMeshOptions& mesh, const Step& step) {
   return run;
 }
 
-RefinementEntry fit(const RefinementSamples& samples, const Step& step, const std::vector<RefinementEntry>& entries) {
+CorrectionEntry fit(const CorrectionSamples& samples, const Step& step, const std::vector<CorrectionEntry>& entries) {
   std::vector<double> start;
   if (step.start == StandardProfile) {
-    std::vector<RefinementEntry> standard;
-    std::ranges::copy_if(entries, std::back_inserter(standard), [](const RefinementEntry& e) { return e.profile == ReferenceProfile{}; });
-    start = RefinementGrid(std::move(standard)).coefficients(step.gear);
+    std::vector<CorrectionEntry> standard;
+    std::ranges::copy_if(entries, std::back_inserter(standard), [](const CorrectionEntry& e) { return e.profile == ReferenceProfile{}; });
+    start = CorrectionGrid(std::move(standard)).coefficients(step.gear);
   } else if (step.start != Flat) {
     start = entries[static_cast<std::size_t>(step.start)].coefficients;
   }
-  RefinementEntry entry = fit_refinement(samples, start);
+  CorrectionEntry entry = fit_correction(samples, start);
   entry.profile = step.profile;
   return entry;
 }
@@ -145,7 +145,7 @@ RefinementEntry fit(const RefinementSamples& samples, const Step& step, const st
 
 int library_command(const std::string& path) {
   const std::vector<Step> list = steps();
-  std::vector<RefinementEntry> entries = entries_so_far(path, list);
+  std::vector<CorrectionEntry> entries = entries_so_far(path, list);
   Progress progress;
   const auto show = [&] {
     progress.show("library of fits", static_cast<int>(entries.size()), static_cast<int>(list.size()), {});
@@ -154,30 +154,30 @@ int library_command(const std::string& path) {
   const auto abreast = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   while (entries.size() < list.size()) {
     const std::size_t begin = entries.size(), count = std::min(abreast, list.size() - begin);
-    std::vector<RefinementSamples> samples(count);
+    std::vector<CorrectionSamples> samples(count);
     std::vector<double> seconds(count);
     tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
       const Step& step = list[begin + i];
       const InfluenceTableRun fine = run_by({}, step), coarse = run_by(coarse_mesh(), step);
-      samples[i] = refinement_samples(step.gear, *fine.table, *coarse.table);
+      samples[i] = correction_samples(step.gear, *fine.table, *coarse.table);
       for (const InfluenceTableRun* run : {&fine, &coarse}) {
         seconds[i] += run->statistics.model_seconds + run->statistics.solve_seconds;  // when it was solved
       }
     });
     for (std::size_t i = 0; i < count; ++i) {
       const auto start = std::chrono::steady_clock::now();
-      RefinementEntry entry = fit(samples[i], list[begin + i], entries);
+      CorrectionEntry entry = fit(samples[i], list[begin + i], entries);
       entry.seconds = seconds[i] + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
       if (entry.coefficients.empty()) throw std::runtime_error("a fit of the library has failed");
       entries.push_back(std::move(entry));
     }
     std::string text = settings_text();
-    for (const RefinementEntry& entry : entries) text += to_text(entry);
+    for (const CorrectionEntry& entry : entries) text += to_text(entry);
     write_whole(path, text);
     show();
   }
   const auto missed = std::ranges::count_if(
-      entries, [](const RefinementEntry& entry) { return entry.status != FitStatus::Converged; });
+      entries, [](const CorrectionEntry& entry) { return entry.status != FitStatus::Converged; });
   fmt::print("{}: {} gears, {} fits that did not converge\n", path, entries.size(), missed);
   return missed == 0 ? 0 : 1;
 }

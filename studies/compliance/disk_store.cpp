@@ -39,7 +39,7 @@ Json gear_key(const GearToMesh& gear) {
            {"rack", {addendum, dedendum, root_radius}},
            {"pressure_angle", pressure_angle},
            {"helix_angle", helix_angle},
-           {"body", {shaft_diameter, bore_diameter, shaft_overhang, torque_end == FaceEnd::Blunt ? "blunt" : "sharp"}}};
+           {"body", {shaft_diameter, bore_diameter, shaft_overhang, torque_end == FaceEnd::Obtuse ? "blunt" : "sharp"}}};
   if (rigid) key["rigid_body"] = true;
   return key;
 }
@@ -160,12 +160,12 @@ std::optional<Kept<InfluenceTableRun>> DiskStore::find(const InfluenceTableTask&
 
 std::string DiskStore::keep(const InfluenceTableTask& task, const InfluenceTableRun& run) { return keep_under(cache_key(task), to_store(run), notes_); }
 
-std::optional<Kept<RefinementEntry>> DiskStore::find_fit(const InfluenceTableTask& coarse, const std::vector<double>& start) {
+std::optional<Kept<CorrectionEntry>> DiskStore::find_fit(const InfluenceTableTask& coarse, const std::vector<double>& start) {
   return kept(fit_key(coarse, start), "fit", notes_,
               [](const StoredRun& stored) { return entries_in(stored.facts.at("fit").get<std::string>()).at(0); });
 }
 
-std::string DiskStore::keep_fit(const InfluenceTableTask& coarse, const std::vector<double>& start, const RefinementEntry& fit) {
+std::string DiskStore::keep_fit(const InfluenceTableTask& coarse, const std::vector<double>& start, const CorrectionEntry& fit) {
   return keep_under(fit_key(coarse, start), {.facts = {{"fit", to_text(fit)}}, .matrices = {}}, notes_);
 }
 

@@ -9,8 +9,8 @@ class DiskStore final : public ComplianceStore {
  public:
   std::optional<Kept<InfluenceTableRun>> find(const InfluenceTableTask& task) override;
   std::string keep(const InfluenceTableTask& task, const InfluenceTableRun& run) override;
-  std::optional<Kept<RefinementEntry>> find_fit(const InfluenceTableTask& coarse, const std::vector<double>& start) override;
-  std::string keep_fit(const InfluenceTableTask& coarse, const std::vector<double>& start, const RefinementEntry& fit) override;
+  std::optional<Kept<CorrectionEntry>> find_fit(const InfluenceTableTask& coarse, const std::vector<double>& start) override;
+  std::string keep_fit(const InfluenceTableTask& coarse, const std::vector<double>& start, const CorrectionEntry& fit) override;
 
   /// What went wrong with the folder so far, for the user.
   const std::vector<std::string>& notes() const { return notes_; }

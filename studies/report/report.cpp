@@ -28,7 +28,7 @@ bool has_gradients(const Json& results) {
 bool has_sweep(const Json& results) { return has(results, "sweep") && results.at("sweep").is_object(); }
 
 /// A part of the proof of an optimum; a comparison counts where there is something to compare with.
-bool has_proof(const Json& results, const char* part) {
+bool has_assessment(const Json& results, const char* part) {
   if (!has(results, "optimise") || !results.at("optimise").is_object() || !has(results.at("optimise"), part)) return false;
   const Json& found = results.at("optimise").at(part);
   return !found.contains("rules") || has(found, "rules") || has(found, "variants");
@@ -63,10 +63,10 @@ constexpr Section sections[] = {
     {"transmission-error", "Transmission error under load", has_loaded},
     {"stiffness", "Load sharing and mesh stiffness", has_loaded},
     {"modifications", "Flank modifications", [](const Json& r) { return has(r, "modifications") && !optimised(r); }},
-    {"validation", "Scenes drawn afresh", [](const Json& r) { return has_proof(r, "validation"); }},
-    {"comparison", "Optimum and other designs", [](const Json& r) { return has_proof(r, "comparison"); }},
-    {"governing", "What governs the optimum", [](const Json& r) { return has_proof(r, "governing"); }},
-    {"sensitivity", "Sensitivity of the optimum", [](const Json& r) { return has_proof(r, "sensitivity"); }},
+    {"validation", "Scenes drawn afresh", [](const Json& r) { return has_assessment(r, "validation"); }},
+    {"comparison", "Optimum and other designs", [](const Json& r) { return has_assessment(r, "comparison"); }},
+    {"governing", "What governs the optimum", [](const Json& r) { return has_assessment(r, "governing"); }},
+    {"sensitivity", "Sensitivity of the optimum", [](const Json& r) { return has_assessment(r, "sensitivity"); }},
     {"search", "Search, rounding and compromises", searched},
     {"convergence", "Convergence",
      [](const Json& r) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/base/units.hpp"
-#include "core/compliance/fitted/refinement_library.hpp"
+#include "core/compliance/fitted/correction_library.hpp"
 
 namespace flankwright::studies {
 
@@ -41,35 +41,35 @@ Json residuals_json(const ResidualStatistics& residuals) {
 }
 
 /// Where the kernels of one gear come from, and how close its own fit comes.
-Json refinement_json(const GearRefinement& refinement) {
-  Json json{{"source", refinement.source()}};
-  if (refinement.unknown.empty()) return json;
-  json["why"] = refinement.unknown;
-  json["file"] = refinement.file;
-  json["from_cache"] = refinement.from_cache;
-  json["seconds"] = refinement.seconds;
-  json["status"] = to_string(refinement.fit.status);
-  json["steps"] = refinement.fit.iterations;
-  json["fit_seconds"] = refinement.fit.seconds;
-  json["range"] = {{"u", {-1, 1}}, {"zeta", {0, refinement.fit.gear.relative_face}}};
-  json["residual_percent"] = {{"fitted", residuals_json(refinement.fit.fitted)}, {"unseen", Json::array()}};
-  for (const ResidualStatistics& residuals : refinement.residuals) {
+Json correction_json(const GearCorrection& correction) {
+  Json json{{"source", correction.source()}};
+  if (correction.unknown.empty()) return json;
+  json["why"] = correction.unknown;
+  json["file"] = correction.file;
+  json["from_cache"] = correction.from_cache;
+  json["seconds"] = correction.seconds;
+  json["status"] = to_string(correction.fit.status);
+  json["steps"] = correction.fit.iterations;
+  json["fit_seconds"] = correction.fit.seconds;
+  json["range"] = {{"u", {-1, 1}}, {"zeta", {0, correction.fit.gear.relative_face}}};
+  json["residual_percent"] = {{"fitted", residuals_json(correction.fit.fitted)}, {"unseen", Json::array()}};
+  for (const ResidualStatistics& residuals : correction.residuals) {
     json["residual_percent"]["unseen"].push_back(residuals_json(residuals));
   }
-  json["covariance"] = covariance_json(KernelForm::refinement(), refinement.fit.coefficients, refinement.fit.covariance);
+  json["covariance"] = covariance_json(KernelForm::correction(), correction.fit.coefficients, correction.fit.covariance);
   return json;
 }
 
 /// The library that completes the coarse values, and how close its own gears come, the least close of each figure.
-Json fits_json(const RefinementLibrary& library) {
+Json fits_json(const CorrectionLibrary& library) {
   ResidualStatistics worst{0, 0, 0, 0, 0};
-  for (const RefinementEntry& entry : library.entries()) {
+  for (const CorrectionEntry& entry : library.entries()) {
     worst.pairs += entry.unseen.pairs;
     worst.median = std::max(worst.median, entry.unseen.median);
     worst.share_95 = std::max(worst.share_95, entry.unseen.share_95);
     worst.worst = std::max(worst.worst, entry.unseen.worst);
   }
-  const RefinementGrid& standard = library.standard();
+  const CorrectionGrid& standard = library.standard();
   const auto ends = [](const auto& values) { return Json{values.front(), values.back()}; };
   return {{"gears", library.entries().size()},
           {"teeth", ends(standard.teeth())},
@@ -81,12 +81,12 @@ Json fits_json(const RefinementLibrary& library) {
 
 }  // namespace
 
-const char* name_of(RemovedMotion removed) {
+const char* name_of(RemovedRigidMotion removed) {
   switch (removed) {
-    case RemovedMotion::None: return "none";
-    case RemovedMotion::TranslationAndTorsion: return "transverse translation and torsion";
-    case RemovedMotion::TranslationTorsionAndTilt: return "transverse translation, torsion and tilt";
-    case RemovedMotion::WholeTranslationTorsionAndTilt: return "translation, torsion and tilt";
+    case RemovedRigidMotion::None: return "none";
+    case RemovedRigidMotion::TranslationAndTorsion: return "transverse translation and torsion";
+    case RemovedRigidMotion::TranslationTorsionAndTilt: return "transverse translation, torsion and tilt";
+    case RemovedRigidMotion::WholeTranslationTorsionAndTilt: return "translation, torsion and tilt";
   }
   __builtin_unreachable();
 }
@@ -98,14 +98,14 @@ Json compliance_json(const GearStructures& structures, const Study& study) {
     if (const auto& fine = runs.fine_run(member)) json["fine_mesh"] = gear_run_json(*fine, material);
     if (const auto& rigid = runs.rigid_body_run(member)) json["rigid_body"] = gear_run_json(*rigid, material);
     if (const auto& narrow = runs.narrow_run(member)) json["coarse_mesh_of_fit"] = gear_run_json(*narrow, material);
-    if (const auto& refinement = structures.refinement(member)) json["fit"] = refinement_json(*refinement);
+    if (const auto& correction = structures.correction(member)) json["fit"] = correction_json(*correction);
     return json;
   };
   Json json{{"model", to_string(study.fidelity.compliance)},
             {"seconds", runs.seconds},
             {"pinion", gear(Member::Pinion, study.pinion_material)},
             {"wheel", gear(Member::Wheel, study.wheel_material)}};
-  if (structures.refinement(Member::Pinion)) json["fits"] = fits_json(RefinementLibrary::shipped());
+  if (structures.correction(Member::Pinion)) json["fits"] = fits_json(CorrectionLibrary::shipped());
   return json;
 }
 
@@ -123,7 +123,7 @@ Json body_json(const GearBody& body) {
   return {{"shaft_diameter_mm", body.shaft_diameter},
           {"bore_diameter_mm", body.bore_diameter},
           {"shaft_overhang_mm", body.shaft_overhang},
-          {"torque_end", body.torque_end == FaceEnd::Blunt ? "blunt" : "sharp"}};
+          {"torque_end", body.torque_end == FaceEnd::Obtuse ? "blunt" : "sharp"}};
 }
 
 Json curve_json(const DeflectionCurve& curve) {

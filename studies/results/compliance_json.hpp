@@ -12,7 +12,7 @@ namespace flankwright::studies {
 Json compliance_json(const GearStructures& structures, const Study& study);
 
 /// The motion of the shaft that is taken out of influence values, in words.
-const char* name_of(RemovedMotion removed);
+const char* name_of(RemovedRigidMotion removed);
 
 /// Coefficients of a fit by name, and the lower triangle of their covariance, row by row.
 Json covariance_json(const KernelForm& form, const std::vector<double>& coefficients, const Eigen::MatrixXd& covariance);

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "core/fidelity/cycle_quantities.hpp"
-#include "core/load/cycle/mesh_way.hpp"
+#include "core/load/cycle/perturbed_position.hpp"
 #include "core/rating/position_gradient.hpp"
 
 namespace flankwright::studies {
@@ -141,12 +141,12 @@ ShaftGradient shaft_gradient(const ShaftPair& shafts, Member member, const Loade
   }
   for (const Eigen::Index p : moving_among(model.placement.gap, parameters)) {
     const auto parameter = std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]);
-    const MeshWay way(model, loaded.condition, loaded.cycle.positions[i], i, parameter, p);
-    const auto motion = [&](const MeshWay::Stage& s) {
+    const PerturbedPosition way(model, loaded.condition, loaded.cycle.positions[i], i, parameter, p);
+    const auto motion = [&](const PerturbedPosition::Stage& s) {
       return shafts.motion(member, s.at.points, s.at.weight.cwiseProduct(s.loaded.load.line_load), s.model.axial_offset);
     };
-    gradient.displacement[p] = way.slope([&](const MeshWay::Stage& s) { return motion(s).displacement; });
-    gradient.misalignment[p] = way.slope([&](const MeshWay::Stage& s) { return motion(s).misalignment; });
+    gradient.displacement[p] = way.slope([&](const PerturbedPosition::Stage& s) { return motion(s).displacement; });
+    gradient.misalignment[p] = way.slope([&](const PerturbedPosition::Stage& s) { return motion(s).misalignment; });
   }
   return gradient;
 }

@@ -96,7 +96,7 @@ Json point_json(const ContactPoint& point, const LoadedPosition& position, Eigen
                       {"gap_um", in_um(position.gap.total[i])},
                       {"error_um", in_um(position.gap.error[i])}});
   if (!position.gap.nearest.empty()) {
-    const NearestPlace& nearest = position.gap.nearest[static_cast<std::size_t>(i)];
+    const NearestPoint& nearest = position.gap.nearest[static_cast<std::size_t>(i)];
     json["nearest"] = record({{"pinion_radius_mm", nearest.pinion_radius}, {"wheel_radius_mm", nearest.wheel_radius}});
   }
   return json;
@@ -145,9 +145,9 @@ Json position_json(const MeshModel& model, const MeshPosition& at, const LoadedP
 /// Null where there is no root stress.
 Json root_stress_json(const RootStressPeak& peak) {
   if (std::isnan(peak.stress)) return nullptr;
-  return {{"tooth", peak.place.tooth},
-          {"z_mm", peak.place.z},
-          {"along_fillet", peak.place.along},
+  return {{"tooth", peak.station.tooth},
+          {"z_mm", peak.station.z},
+          {"along_fillet", peak.station.along},
           {"phase", peak.phase},
           {"at_30_deg_tangent_MPa", peak.tangent_stress}};
 }

@@ -26,7 +26,7 @@ Json generation_json(const Generation& generation) {
 Json pieces_json(const std::optional<int>& pieces) { return pieces ? Json(*pieces) : Json("through every point"); }
 
 /// False where the gear has no grid.
-Json grid_json(const FlankGrid& grid) {
+Json grid_json(const GivenGrid& grid) {
   if (grid.file.empty()) return false;
   return {{"file", grid.file},
           {"radii", grid.rows},
@@ -99,8 +99,8 @@ Json used_json(const StudyResults& results) {
     used["misalignment"] = {{"pinion_lead_angle", "lead angle changed, normal pressure angle kept: pitch radius, base radius and screw parameter follow"}};
   }
   for (const Member member : {Member::Pinion, Member::Wheel}) {
-    if (const auto& refinement = results.structures.refinement(member)) {
-      used["fidelity"]["fits"][name_of(member)] = refinement->source();
+    if (const auto& correction = results.structures.correction(member)) {
+      used["fidelity"]["fits"][name_of(member)] = correction->source();
     }
   }
   if (!results.models.empty() && results.structures.pair == nullptr) {

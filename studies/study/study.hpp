@@ -15,7 +15,7 @@
 #include "core/flank/modifications/modification.hpp"
 #include "core/load/cycle/mesh_parameter.hpp"
 #include "optimize/design/design_task.hpp"
-#include "studies/study/proof_table.hpp"
+#include "studies/study/assessment_table.hpp"
 #include "studies/study/sweep_table.hpp"
 #include "studies/study/task.hpp"
 
@@ -53,7 +53,7 @@ struct Scene {
 };
 
 /// A measured or topological flank: the file that the study names and what was read from it.
-struct FlankGrid {
+struct GivenGrid {
   std::string file;              ///< as written; empty: none
   std::optional<int> profile_pieces, face_pieces;  ///< of a smoothed surface; empty: it passes through every point
   int rows{0}, columns{0};       ///< radii and axial positions
@@ -68,19 +68,19 @@ struct OptimiseTable {
   std::string solver{"nlopt:slsqp"}, finisher{"nlopt:slsqp"};
   std::vector<DesignVariable> variables;
   std::vector<OutputConstraint> constraints;
-  std::vector<DesignTie> ties;
+  std::vector<LinkingConstraint> links;
   std::vector<ModificationConstraint> modification_constraints;
-  std::vector<Goal> then;                 ///< later objectives of a list
+  std::vector<Objective> later_objectives;                 ///< later objectives of a list
   double lexicographic_tolerance{0.01};
   double edge_margin{0.05};
   double step{0.0};                       ///< of variables that have none of their own [mm]; amounts only
   int starts{1};
-  std::vector<Goal> pareto_goals;         ///< empty: no front
+  std::vector<Objective> pareto_objectives;         ///< empty: no front
   int pareto_points{9};
   int max_evaluations{2000};
   double max_seconds{std::numeric_limits<double>::infinity()};
   unsigned long seed{1};
-  ProofTable proof;
+  AssessmentTable assessment;
 };
 
 /// One parameter of analyse.gradients.
@@ -130,7 +130,7 @@ struct Study {
   const Task* task{registered_tasks().front()};  ///< never null
   PairData pair;
   Modification pinion_modification, wheel_modification;  ///< with the field of the grid below
-  FlankGrid pinion_grid, wheel_grid;
+  GivenGrid pinion_grid, wheel_grid;
   std::vector<std::string> pinion_tooth_grids, wheel_tooth_grids;  ///< files of single teeth's errors, empty: none of this tooth
   ManufacturingError pinion_error, wheel_error;
   Misalignment misalignment;

@@ -9,11 +9,11 @@ namespace flankwright::studies {
 
 namespace {
 
-FlankGrid& grid(Draft& draft, Member m) {
-  return m == Member::Pinion ? draft.study.pinion_grid : draft.study.wheel_grid;
+GivenGrid& grid(StudyBuilder& builder, Member m) {
+  return m == Member::Pinion ? builder.study.pinion_grid : builder.study.wheel_grid;
 }
-std::vector<std::string>& tooth_grids(Draft& draft, Member m) {
-  return m == Member::Pinion ? draft.study.pinion_tooth_grids : draft.study.wheel_tooth_grids;
+std::vector<std::string>& tooth_grids(StudyBuilder& builder, Member m) {
+  return m == Member::Pinion ? builder.study.pinion_tooth_grids : builder.study.wheel_tooth_grids;
 }
 ManufacturingError& error(Scene& scene, Member m) {
   return m == Member::Pinion ? scene.pinion_error : scene.wheel_error;
@@ -67,14 +67,14 @@ std::vector<SchemaKey> grid_and_error_rows() {
       {.path = "gear.modification.grid", .kind = Text, .fallback = "(none)",
        .meaning = "CSV file, beside the study unless its path says otherwise: measured or topological deviation, "
                   "columns radius_mm, z_mm, deviation_um (+ = metal added, normal to the flank)",
-       .store = [](Draft& d, Member m, const Value& v) { grid(d, m).file = v.text; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { grid(d, m).file = v.text; }},
       {.path = "gear.modification.grid_smoothing.profile_pieces", .kind = Integer, .range = {.low = 1, .high = 1000},
        .fallback = "(through every point)",
        .meaning = "cubic pieces of the surface along the profile; the fewer, the smoother, fitted by least squares",
-       .store = [](Draft& d, Member m, const Value& v) { grid(d, m).profile_pieces = static_cast<int>(v.integer); }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { grid(d, m).profile_pieces = static_cast<int>(v.integer); }},
       {.path = "gear.modification.grid_smoothing.face_pieces", .kind = Integer, .range = {.low = 1, .high = 1000},
        .fallback = "(through every point)", .meaning = "the same along the face",
-       .store = [](Draft& d, Member m, const Value& v) { grid(d, m).face_pieces = static_cast<int>(v.integer); }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { grid(d, m).face_pieces = static_cast<int>(v.integer); }},
 
       {.path = "gear.error.helix_slope", .kind = NumberOrList, .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
        .meaning = "f_Hbeta over the face width, metal added; + adds at z = +b/2, zero at mid face; a list: of each tooth",
@@ -90,7 +90,7 @@ std::vector<SchemaKey> grid_and_error_rows() {
        }},
       {.path = "gear.error.grids", .kind = TextList, .fallback = "(none)",
        .meaning = "CSV files as modification.grid, one for each tooth, \"\" for none; on top of all else",
-       .store = [](Draft& d, Member m, const Value& v) { tooth_grids(d, m) = v.words; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { tooth_grids(d, m) = v.words; }},
       {.path = "gear.error.twist", .kind = NumberOrList, .quantity = Quantity::Deviation, .range = removal_range, .fallback = "0",
        .meaning = "added twist * (y / h_active) * (z / b); + adds at the tip at z = +b/2; a list: of each tooth",
        .store = [](Scene& s, Member m, const Value& v) { store(v, error(s, m).twist, error(s, m).twists); }},

@@ -4,11 +4,11 @@ namespace flankwright::studies {
 
 namespace {
 
-GearData& gear(Draft& draft, Member m) {
-  return m == Member::Pinion ? draft.study.pair.pinion : draft.study.pair.wheel;
+GearData& gear(StudyBuilder& builder, Member m) {
+  return m == Member::Pinion ? builder.study.pair.pinion : builder.study.pair.wheel;
 }
-GenerationKeys& generation(Draft& draft, Member m) {
-  return m == Member::Pinion ? draft.pinion_generation : draft.wheel_generation;
+GenerationKeys& generation(StudyBuilder& builder, Member m) {
+  return m == Member::Pinion ? builder.pinion_generation : builder.wheel_generation;
 }
 
 std::vector<std::string> task_names() {
@@ -27,82 +27,82 @@ using enum ValueKind;
 std::vector<SchemaKey> geometry_rows() {
   return {
       {.path = "title", .kind = Text, .fallback = "(the file's name)", .meaning = "heads the report",
-       .store = [](Draft& d, Member, const Value& v) { d.study.title = v.text; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.title = v.text; }},
       {.path = "task", .kind = Word, .words = task_names(),
        .fallback = "\"analyse\"", .meaning = "what `run` does",
-       .store = [](Draft& d, Member, const Value& v) { d.study.task = registered_tasks()[static_cast<std::size_t>(v.integer)]; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.task = registered_tasks()[static_cast<std::size_t>(v.integer)]; }},
       {.path = "pair.normal_module", .quantity = Quantity::Length, .range = {.low = 0.001, .high = 1000.0},
        .fallback = "(required, or normal_diametral_pitch)", .meaning = "m_n",
-       .store = [](Draft& d, Member, const Value& v) { d.study.pair.normal_module = v.number; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.pair.normal_module = v.number; }},
       {.path = "pair.normal_diametral_pitch", .quantity = Quantity::DiametralPitch,
        .range = {.low = 0.0254, .high = 25400.0}, .fallback = "(from normal_module)",
        .meaning = "instead of the module",
-       .store = [](Draft& d, Member, const Value& v) { d.study.pair.normal_module = 1.0 / v.number; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.pair.normal_module = 1.0 / v.number; }},
       {.path = "pair.pressure_angle", .quantity = Quantity::Angle, .range = {.low = 10.0, .high = 35.0},
        .fallback = "20", .meaning = "alpha_n, normal section",
-       .store = [](Draft& d, Member, const Value& v) { d.study.pair.pressure_angle = v.number; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.pair.pressure_angle = v.number; }},
       {.path = "pair.helix_angle", .quantity = Quantity::Angle, .range = from_zero(45.0), .fallback = "0",
        .meaning = "beta at the reference cylinder; 0 is a spur gear",
        .hint = "the hand says the direction: pinion.hand",
-       .store = [](Draft& d, Member, const Value& v) { d.study.pair.helix_angle = v.number; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.pair.helix_angle = v.number; }},
       {.path = "pair.centre_distance", .quantity = Quantity::Length, .range = any_length,
        .fallback = "(without backlash)", .meaning = "a_w; by default from the profile shifts",
-       .store = [](Draft& d, Member, const Value& v) { d.study.pair.centre_distance = v.number; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.pair.centre_distance = v.number; }},
       {.path = "pair.driver", .kind = Word, .words = {"pinion", "wheel"}, .fallback = "\"pinion\"",
        .meaning = "which gear drives",
-       .store = [](Draft& d, Member, const Value& v) { d.study.pair.driver = static_cast<Member>(v.integer); }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.pair.driver = static_cast<Member>(v.integer); }},
       {.path = "pair.working_flank", .kind = Word, .words = {"right", "left"}, .fallback = "\"right\"",
        .meaning = "flank of the pinion that carries; left is the coast side",
-       .store = [](Draft& d, Member, const Value& v) {
+       .store = [](StudyBuilder& d, Member, const Value& v) {
          d.study.pair.working_flank = static_cast<WorkingFlank>(v.integer);
        }},
 
       {.path = "gear.teeth", .kind = Integer, .range = {.low = 5, .high = 1000}, .fallback = "(required)",
        .meaning = "z",
-       .store = [](Draft& d, Member m, const Value& v) { gear(d, m).teeth = static_cast<int>(v.integer); }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).teeth = static_cast<int>(v.integer); }},
       {.path = "gear.face_width", .quantity = Quantity::Length, .range = any_length, .fallback = "(required)",
        .meaning = "b; both gears are centred on z = 0",
-       .store = [](Draft& d, Member m, const Value& v) { gear(d, m).face_width = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).face_width = v.number; }},
       {.path = "pinion.hand", .kind = Word, .words = {"right", "left"}, .fallback = "\"right\"",
        .meaning = "hand of helix: right turns counter-clockwise with growing z",
-       .store = [](Draft& d, Member, const Value& v) { d.study.pair.pinion_hand = static_cast<Hand>(v.integer); }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.pair.pinion_hand = static_cast<Hand>(v.integer); }},
       {.path = "wheel.hand", .kind = Word, .words = {"right", "left"}, .fallback = "(the opposite of the pinion's)",
        .meaning = "may be said, must be the opposite",
-       .store = [](Draft& d, Member, const Value& v) { d.wheel_hand = static_cast<Hand>(v.integer); }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.wheel_hand = static_cast<Hand>(v.integer); }},
       {.path = "gear.profile_shift", .range = within(2.0), .fallback = "0",
        .meaning = "x, in normal modules; + outwards",
-       .store = [](Draft& d, Member m, const Value& v) { gear(d, m).profile_shift = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).profile_shift = v.number; }},
       {.path = "gear.tip_diameter", .quantity = Quantity::Length, .range = any_length,
        .fallback = "(from rack and profile shift)", .meaning = "d_a",
-       .store = [](Draft& d, Member m, const Value& v) { gear(d, m).tip_diameter = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).tip_diameter = v.number; }},
       {.path = "gear.rack.addendum", .range = above_zero(2.0), .fallback = "1", .meaning = "h_aP, in normal modules",
-       .store = [](Draft& d, Member m, const Value& v) { gear(d, m).rack.addendum = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).rack.addendum = v.number; }},
       {.path = "gear.rack.dedendum", .range = above_zero(2.5), .fallback = "1.25", .meaning = "h_fP, in normal modules",
-       .store = [](Draft& d, Member m, const Value& v) { gear(d, m).rack.dedendum = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).rack.dedendum = v.number; }},
       {.path = "gear.rack.root_radius", .range = from_zero(2.0), .fallback = "0.39",
        .meaning = "rho_fP, in normal modules; at most the full rounding of the tool's tip",
-       .store = [](Draft& d, Member m, const Value& v) { gear(d, m).rack.root_radius = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).rack.root_radius = v.number; }},
       {.path = "gear.generation", .kind = WordOrTable, .words = {"rack"}, .fallback = "\"rack\"",
        .meaning = "tool that generates the flank; \"rack\" is the straight one: the involute",
-       .store = [](Draft& d, Member m, const Value& v) { generation(d, m).kind = v.text; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { generation(d, m).kind = v.text; }},
       {.path = "gear.generation.kind", .kind = Word, .words = {"rack", "parabolic_rack", "revolution"},
        .fallback = "(none)",
        .meaning = "parabolic_rack needs coefficient [TM-107451]; revolution, spur gears only, needs half_apex and distance "
                   "[TM-100260]",
-       .store = [](Draft& d, Member m, const Value& v) { generation(d, m).kind = v.text; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { generation(d, m).kind = v.text; }},
       {.path = "gear.generation.coefficient", .quantity = Quantity::Curvature, .range = from_zero(1000.0),
        .fallback = "(none)", .meaning = "a_c: the rack's normal profile deviates by a_c u^2 from the straight line",
-       .store = [](Draft& d, Member m, const Value& v) { generation(d, m).coefficient = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { generation(d, m).coefficient = v.number; }},
       {.path = "gear.generation.half_apex", .quantity = Quantity::Angle,
        .range = {.low = 0.0, .high = 90.0, .low_open = true, .high_open = true}, .fallback = "(none)",
        .meaning = "alpha: half apex angle of the tool's cone",
-       .store = [](Draft& d, Member m, const Value& v) { generation(d, m).half_apex = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { generation(d, m).half_apex = v.number; }},
       {.path = "gear.generation.distance", .quantity = Quantity::Length, .range = any_length, .fallback = "(none)",
        .meaning = "d: height of the tool's cone",
-       .store = [](Draft& d, Member m, const Value& v) { generation(d, m).distance = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { generation(d, m).distance = v.number; }},
       {.path = "gear.generation.arc_radius", .quantity = Quantity::Length, .range = above_zero(1e9),
        .fallback = "(a cone)", .meaning = "rho: radius of the tool's axial section; left out, the section is straight",
-       .store = [](Draft& d, Member m, const Value& v) { generation(d, m).arc_radius = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { generation(d, m).arc_radius = v.number; }},
   };
 }
 

@@ -5,8 +5,8 @@ namespace flankwright::studies {
 namespace {
 
 /// The gear's shaft, made by the first of its keys; its material is unknown until the keys of materials say.
-ShaftData& shaft(Draft& draft, Member m) {
-  std::optional<ShaftData>& of_gear = m == Member::Pinion ? draft.study.pinion_shaft : draft.study.wheel_shaft;
+ShaftData& shaft(StudyBuilder& builder, Member m) {
+  std::optional<ShaftData>& of_gear = m == Member::Pinion ? builder.study.pinion_shaft : builder.study.wheel_shaft;
   if (!of_gear) of_gear = ShaftData{.material = {not_given, not_given}};
   return *of_gear;
 }
@@ -24,46 +24,46 @@ std::vector<SchemaKey> shaft_rows() {
   return {
       {.path = "gear.shaft.sections", .kind = TableList, .fallback = "(none: a rigid shaft)",
        .meaning = "lengths of the shaft that carries this gear, from its end of lowest z on; with a shaft, its bending, shear and torsion enter",
-       .store = [](Draft& d, Member m, const Value&) { shaft(d, m).sections.emplace_back(); }},
+       .store = [](StudyBuilder& d, Member m, const Value&) { shaft(d, m).sections.emplace_back(); }},
       {.path = "gear.shaft.sections[].length", .quantity = Quantity::Length, .range = any_length, .fallback = "(required)",
        .meaning = "of constant section",
-       .store = [](Draft& d, Member m, const Value& v) { shaft(d, m).sections.back().length = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).sections.back().length = v.number; }},
       {.path = "gear.shaft.sections[].outer_diameter", .quantity = Quantity::Length, .range = any_length, .fallback = "(required)",
        .meaning = "d",
-       .store = [](Draft& d, Member m, const Value& v) { shaft(d, m).sections.back().outer_diameter = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).sections.back().outer_diameter = v.number; }},
       {.path = "gear.shaft.sections[].inner_diameter", .quantity = Quantity::Length, .range = on_shaft, .fallback = "(0: solid)",
        .meaning = "of a hollow shaft; below the outer one",
-       .store = [](Draft& d, Member m, const Value& v) { shaft(d, m).sections.back().inner_diameter = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).sections.back().inner_diameter = v.number; }},
       {.path = "gear.shaft.bearings", .kind = TableList, .fallback = "(none; a shaft needs it)",
        .meaning = "two or more, or one that holds against tilting",
-       .store = [](Draft& d, Member m, const Value&) { shaft(d, m).bearings.emplace_back(); }},
+       .store = [](StudyBuilder& d, Member m, const Value&) { shaft(d, m).bearings.emplace_back(); }},
       {.path = "gear.shaft.bearings[].position", .quantity = Quantity::Length, .range = on_shaft, .fallback = "(required)",
        .meaning = "from the shaft's end of lowest z",
-       .store = [](Draft& d, Member m, const Value& v) { shaft(d, m).bearings.back().position = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).bearings.back().position = v.number; }},
       {.path = "gear.shaft.bearings[].radial_stiffness", .quantity = Quantity::Stiffness, .range = above_zero(1e9),
        .fallback = "(rigid)", .meaning = "the same in every direction",
-       .store = [](Draft& d, Member m, const Value& v) { shaft(d, m).bearings.back().radial_stiffness = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).bearings.back().radial_stiffness = v.number; }},
       {.path = "gear.shaft.bearings[].axial_stiffness", .quantity = Quantity::Stiffness, .range = from_zero(1e9),
        .fallback = "(0: slides; where none is given, the first bearing is rigid)", .meaning = "along the shaft",
-       .store = [](Draft& d, Member m, const Value& v) { shaft(d, m).bearings.back().axial_stiffness = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).bearings.back().axial_stiffness = v.number; }},
       {.path = "gear.shaft.bearings[].tilting_stiffness", .quantity = Quantity::Torque, .range = from_zero(1e12),
        .fallback = "(0: swivels)", .meaning = "moment per rad",
-       .store = [](Draft& d, Member m, const Value& v) { shaft(d, m).bearings.back().tilting_stiffness = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).bearings.back().tilting_stiffness = v.number; }},
       {.path = "gear.shaft.gear_position", .quantity = Quantity::Length, .range = on_shaft, .fallback = "(none; a shaft needs it)",
        .meaning = "of the gear's mid face, from the shaft's end of lowest z",
-       .store = [](Draft& d, Member m, const Value& v) { shaft(d, m).gear_position = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).gear_position = v.number; }},
       {.path = "gear.shaft.torque_position", .quantity = Quantity::Length, .range = on_shaft, .fallback = "(none; a shaft needs it)",
        .meaning = "where the torque enters or leaves and the shaft does not turn; not within the gear's face",
-       .store = [](Draft& d, Member m, const Value& v) { shaft(d, m).torque_position = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).torque_position = v.number; }},
       {.path = "gear.shaft.gear_stiffens", .kind = Word, .words = {"yes", "no"}, .fallback = "(\"yes\")",
        .meaning = "yes: the gear is one with the shaft, which is as thick as its root (bending: mean of tip and root) over the face",
-       .store = [](Draft& d, Member m, const Value& v) { shaft(d, m).gear_stiffens = v.integer == 0; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).gear_stiffens = v.integer == 0; }},
       {.path = "gear.shaft.material.youngs_modulus", .quantity = Quantity::Stress, .range = above_zero(1e7),
        .fallback = "(as the gear's)", .meaning = "E of the shaft",
-       .store = [](Draft& d, Member m, const Value& v) { shaft(d, m).material.youngs_modulus = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).material.youngs_modulus = v.number; }},
       {.path = "gear.shaft.material.poissons_ratio", .range = {.low = 0.0, .high = 0.5, .high_open = true},
        .fallback = "(as the gear's)", .meaning = "nu of the shaft",
-       .store = [](Draft& d, Member m, const Value& v) { shaft(d, m).material.poissons_ratio = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).material.poissons_ratio = v.number; }},
   };
 }
 

@@ -39,17 +39,17 @@ void check_tooth_lists(StudyReading& reading, const std::string& prefix, const M
 }
 
 void check_tooth_lists(StudyReading& reading) {
-  const Draft& draft = reading.draft;
+  const StudyBuilder& builder = reading.builder;
   for (const Member m : members) {
     const auto error_of = [m](const Scene& scene) -> const ManufacturingError& {
       return m == Member::Pinion ? scene.pinion_error : scene.wheel_error;
     };
     const std::string prefix = std::string(name_of(m)) + ".error.";
-    const int teeth = draft.study.pair[m].teeth;
-    check_tooth_lists(reading, prefix, error_of(draft.base), teeth);
+    const int teeth = builder.study.pair[m].teeth;
+    check_tooth_lists(reading, prefix, error_of(builder.base), teeth);
     if (reading.find("scenes") == nullptr) continue;
-    for (std::size_t i = 0; i < draft.study.scenes.size(); ++i) {
-      check_tooth_lists(reading, "scenes." + std::to_string(i) + "." + prefix, error_of(draft.study.scenes[i]), teeth);
+    for (std::size_t i = 0; i < builder.study.scenes.size(); ++i) {
+      check_tooth_lists(reading, "scenes." + std::to_string(i) + "." + prefix, error_of(builder.study.scenes[i]), teeth);
     }
   }
 }
@@ -60,9 +60,9 @@ const DesignVariable* find_variable(const Study& study, Member m, ModificationPa
   const auto found = std::ranges::find_if(
       variables, [&](const DesignVariable& v) { return v.member == m && v.parameter == parameter; });
   if (found != variables.end()) return &*found;
-  const auto& ties = study.optimise.ties;
-  const auto tie = std::ranges::find_if(ties, [&](const DesignTie& t) { return t.tied.member == m && t.tied.parameter == parameter; });
-  return tie == ties.end() ? nullptr : &tie->tied;
+  const auto& links = study.optimise.links;
+  const auto link = std::ranges::find_if(links, [&](const LinkingConstraint& t) { return t.linked.member == m && t.linked.parameter == parameter; });
+  return link == links.end() ? nullptr : &link->linked;
 }
 
 bool asks_derivative(const Study& study, Member m, ModificationParameter parameter) {
@@ -74,7 +74,7 @@ bool asks_derivative(const Study& study, Member m, ModificationParameter paramet
 
 /// A relief with an amount needs an extent above 0; an extent to be varied needs an amount.
 void check_relief(StudyReading& reading, Member m, const ModificationDescriptor& of_amount, const ModificationDescriptor& of_extent) {
-  const Study& study = reading.draft.study;
+  const Study& study = reading.builder.study;
   const Modification& modification = m == Member::Pinion ? study.pinion_modification : study.wheel_modification;
   const std::string prefix = std::string(name_of(m)) + ".modification.";
   const std::string amount_path = prefix + std::string(of_amount.key), path = prefix + std::string(of_extent.key);
@@ -101,7 +101,7 @@ void check_relief(StudyReading& reading, Member m, const ModificationDescriptor&
 
 /// A predesigned parabola, given or at the upper end of a variable, must have a flank.
 void check_parabola(StudyReading& reading, Member m) {
-  const Study& study = reading.draft.study;
+  const Study& study = reading.builder.study;
   if (!reading.problems.empty()) return;  // the pair may not exist
   const std::string path = std::string(name_of(m)) + ".modification.parabolic_te";
   const auto check = [&](const std::string& key, double coefficient) {
@@ -120,7 +120,7 @@ void check_parabola(StudyReading& reading, Member m) {
 
 /// What the finite elements of a gear refuse, before anything is solved.
 void check_finite_elements(StudyReading& reading, Member m) {
-  const Study& study = reading.draft.study;
+  const Study& study = reading.builder.study;
   if (!reading.problems.empty() || !solves_finite_elements(study)) return;
   try {
     influence_table_task(compliance_task(study, make_gear_pair(study.pair)), m);
@@ -150,8 +150,8 @@ void check_pair(StudyReading& reading) {
   const bool has_problem = std::ranges::any_of(
       reading.problems, [](const StudyProblem& problem) { return problem.key.empty() || is_geometry(problem.key); });
   if (has_problem) return;
-  const PairData& pair = reading.draft.study.pair;
-  if (reading.find("wheel.hand") != nullptr && reading.draft.wheel_hand == pair.pinion_hand) {
+  const PairData& pair = reading.builder.study.pair;
+  if (reading.find("wheel.hand") != nullptr && reading.builder.wheel_hand == pair.pinion_hand) {
     reading.refuse_key("wheel.hand", "allowed is the opposite of pinion.hand");
   }
   check_tooth_lists(reading);

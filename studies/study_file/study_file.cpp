@@ -29,16 +29,16 @@ void sort_by_line(std::vector<StudyProblem>& problems) {
 void read_keys(StudyReading& reading) {
   reading.matches = match_keys(reading, reading.document.root(), study_keys(), "");
   for (const SchemaKey& key : study_schema()) {
-    if (const Match* match = reading.find(key.path)) read_into(reading, *match, reading.draft.base);
+    if (const Match* match = reading.find(key.path)) read_into(reading, *match, reading.builder.base);
   }
 }
 
 /// Copies the base working condition into the study's own tables.
-void settle_base(Draft& draft) {
-  draft.study.misalignment = draft.base.misalignment;
-  draft.study.torques = draft.base.torques;
-  draft.study.pinion_error = draft.base.pinion_error;
-  draft.study.wheel_error = draft.base.wheel_error;
+void settle_base(StudyBuilder& builder) {
+  builder.study.misalignment = builder.base.misalignment;
+  builder.study.torques = builder.base.torques;
+  builder.study.pinion_error = builder.base.pinion_error;
+  builder.study.wheel_error = builder.base.wheel_error;
 }
 
 }  // namespace
@@ -47,9 +47,9 @@ Study parse_study(std::string_view text, const std::string& name, const std::vec
   std::vector<StudyProblem> problems;
   const StudyDocument document(text, name, overrides, problems);
   StudyReading reading{document, problems};
-  store_defaults(reading.draft);
+  store_defaults(reading.builder);
   read_keys(reading);
-  settle_base(reading.draft);
+  settle_base(reading.builder);
   check_presence(reading);
   read_generation(reading);
   read_scenes(reading);
@@ -58,7 +58,7 @@ Study parse_study(std::string_view text, const std::string& name, const std::vec
   }
   read_expectations(reading);
   check_pair(reading);
-  if (const Task& task = *reading.draft.study.task; task.check != nullptr) task.check(reading);
+  if (const Task& task = *reading.builder.study.task; task.check != nullptr) task.check(reading);
   read_shafts(reading);
   check_flanks(reading);
   read_grids(reading);
@@ -66,7 +66,7 @@ Study parse_study(std::string_view text, const std::string& name, const std::vec
     sort_by_line(problems);
     throw StudyErrors(std::move(problems));
   }
-  Study study = std::move(reading.draft.study);
+  Study study = std::move(reading.builder.study);
   study.file = name;
   if (study.title.empty()) study.title = std::filesystem::path(name).stem().string();
   study.given = document.given();

@@ -88,7 +88,7 @@ class GridReading {
         prefix_(member == Member::Pinion ? "pinion.modification." : "wheel.modification.") {}
 
   /// The fitted field and what is to be said about it; problems go to the reading.
-  void read(Modification& modification, FlankGrid& grid) const {
+  void read(Modification& modification, GivenGrid& grid) const {
     const Match* match = reading_.find(prefix_ + "grid");
     if (match == nullptr) return check_smoothing_alone();
     read(*match, grid.file, {grid.profile_pieces, grid.face_pieces}, [&](const MeasuredGrid& points, const GridFit& fit) {
@@ -180,7 +180,7 @@ class GridReading {
 
 void read_grids(StudyReading& reading) {
   if (!reading.problems.empty()) return;
-  Study& study = reading.draft.study;
+  Study& study = reading.builder.study;
   const GearPair pair = make_gear_pair(study.pair);
   GridReading(reading, pair, Member::Pinion).read(study.pinion_modification, study.pinion_grid);
   GridReading(reading, pair, Member::Wheel).read(study.wheel_modification, study.wheel_grid);
@@ -195,9 +195,9 @@ void read_grids(StudyReading& reading) {
 }
 
 void read_generation(StudyReading& reading) {
-  Draft& draft = reading.draft;
-  read_generation(reading, "pinion.generation", draft.pinion_generation, draft.study.pair.pinion);
-  read_generation(reading, "wheel.generation", draft.wheel_generation, draft.study.pair.wheel);
+  StudyBuilder& builder = reading.builder;
+  read_generation(reading, "pinion.generation", builder.pinion_generation, builder.study.pair.pinion);
+  read_generation(reading, "wheel.generation", builder.wheel_generation, builder.study.pair.wheel);
 }
 
 }  // namespace flankwright::studies

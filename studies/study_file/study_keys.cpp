@@ -8,11 +8,11 @@ namespace flankwright::studies {
 
 namespace {
 
-GearBody& body(Draft& draft, Member m) {
-  return m == Member::Pinion ? draft.study.pinion_body : draft.study.wheel_body;
+GearBody& body(StudyBuilder& builder, Member m) {
+  return m == Member::Pinion ? builder.study.pinion_body : builder.study.wheel_body;
 }
-Material& material(Draft& draft, Member m) {
-  return m == Member::Pinion ? draft.study.pinion_material : draft.study.wheel_material;
+Material& material(StudyBuilder& builder, Member m) {
+  return m == Member::Pinion ? builder.study.pinion_material : builder.study.wheel_material;
 }
 
 constexpr Range misalignment_angle = within(60.0);  // arcmin: a degree, far beyond any housing
@@ -50,31 +50,31 @@ std::vector<SchemaKey> working_condition_rows() {
 
       {.path = "material.youngs_modulus", .quantity = Quantity::Stress, .range = above_zero(1e7), .fallback = "206000",
        .meaning = "E of both gears",
-       .store = [](Draft& d, Member, const Value& v) {
+       .store = [](StudyBuilder& d, Member, const Value& v) {
          d.study.pinion_material.youngs_modulus = d.study.wheel_material.youngs_modulus = v.number;
        }},
       {.path = "material.poissons_ratio", .range = {.low = 0.0, .high = 0.5, .high_open = true}, .fallback = "0.3",
        .meaning = "nu of both gears",
-       .store = [](Draft& d, Member, const Value& v) {
+       .store = [](StudyBuilder& d, Member, const Value& v) {
          d.study.pinion_material.poissons_ratio = d.study.wheel_material.poissons_ratio = v.number;
        }},
       {.path = "gear.material.youngs_modulus", .quantity = Quantity::Stress, .range = above_zero(1e7),
        .fallback = "(as [material])", .meaning = "E of this gear",
-       .store = [](Draft& d, Member m, const Value& v) { material(d, m).youngs_modulus = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { material(d, m).youngs_modulus = v.number; }},
       {.path = "gear.material.poissons_ratio", .range = {.low = 0.0, .high = 0.5, .high_open = true},
        .fallback = "(as [material])", .meaning = "nu of this gear",
-       .store = [](Draft& d, Member m, const Value& v) { material(d, m).poissons_ratio = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { material(d, m).poissons_ratio = v.number; }},
 
       {.path = "gear.body.shaft_diameter", .quantity = Quantity::Length, .range = any_length,
        .fallback = "(0.8 d, at most 25 m_n/cos(beta) and d_f - 1.2 m_n)",
        .meaning = "of the shaft that the gear, a solid disc, is one with; at most d_f - m_n; compliances \"fitted\" and \"fe\" and task \"fit\"",
-       .store = [](Draft& d, Member m, const Value& v) { body(d, m).shaft_diameter = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { body(d, m).shaft_diameter = v.number; }},
       {.path = "gear.body.bore_diameter", .quantity = Quantity::Length, .range = any_length,
        .fallback = "(0.05 of the shaft)", .meaning = "of the shaft; below 0.9 of it; compliances \"fitted\" and \"fe\" and task \"fit\"",
-       .store = [](Draft& d, Member m, const Value& v) { body(d, m).bore_diameter = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { body(d, m).bore_diameter = v.number; }},
       {.path = "gear.body.shaft_overhang", .quantity = Quantity::Length, .range = any_length,
        .fallback = "(0.5 of the shaft)", .meaning = "length of the shaft beyond each face end; compliances \"fitted\" and \"fe\" and task \"fit\"",
-       .store = [](Draft& d, Member m, const Value& v) { body(d, m).shaft_overhang = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { body(d, m).shaft_overhang = v.number; }},
 
       {.path = "load.torque", .kind = NumberOrList, .quantity = Quantity::Torque, .range = from_zero(1e9),
        .fallback = "0", .meaning = "on the pinion; a list runs each, 0 is unloaded",
@@ -82,54 +82,54 @@ std::vector<SchemaKey> working_condition_rows() {
        .store = [](Scene& s, Member, const Value& v) { s.torques = v.numbers; }},
       {.path = "unloaded.marking_thickness", .quantity = Quantity::Deviation, .range = above_zero(1000.0),
        .fallback = "6.35", .meaning = "of the compound that shows the bearing pattern; 6.35 um is 0.00025 in",
-       .store = [](Draft& d, Member, const Value& v) { d.study.marking_thickness = v.number; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.marking_thickness = v.number; }},
       {.path = "cycle.positions", .kind = IntegerOrAuto, .range = {.low = 1, .high = 4096}, .fallback = "\"auto\"",
        .meaning = "mesh positions over one base pitch; auto is 32, and in an analysis under load up to 128 where the estimated errors ask for more",
-       .store = [](Draft& d, Member, const Value& v) {
+       .store = [](StudyBuilder& d, Member, const Value& v) {
          d.study.cycle.automatic_positions = v.text == "auto";
          if (v.text != "auto") d.study.cycle.positions = static_cast<int>(v.integer);
        }},
       {.path = "cycle.peaks", .kind = Word, .words = {"located", "sampled"}, .fallback = "(located; sampled where the task is to optimise)",
        .meaning = "located: peaks with and without spikes, sought between the positions, and the load distribution factors K_H that follow; sampled: those of the positions only",
-       .store = [](Draft& d, Member, const Value& v) { d.study.cycle.locate_peaks = v.text == "located"; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.cycle.locate_peaks = v.text == "located"; }},
       {.path = "cycle.phases", .kind = NumberList, .range = within(100.0), .fallback = "(evenly spaced positions)",
        .meaning = "explicit phases of the reference tooth pair, in base pitches; 0 where its contact line enters",
-       .store = [](Draft& d, Member, const Value& v) { d.study.cycle.phases = v.numbers; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.cycle.phases = v.numbers; }},
 
       {.path = "fidelity.compliance", .kind = Word, .words = {"rigid", "thin_slice", "fitted", "fe"},
        .fallback = "\"fitted\"", .meaning = "compliance model, in the order of cost; without a torque none is used",
-       .store = [](Draft& d, Member, const Value& v) {
+       .store = [](StudyBuilder& d, Member, const Value& v) {
          d.study.fidelity.compliance = compliance_model(v.text);
        }},
       {.path = "fidelity.gap", .kind = Word, .words = {"plane_of_action", "whole_surface"},
        .fallback = "\"plane_of_action\"",
        .meaning = "where contact is sought: where undisturbed flanks would touch, or over the whole flanks as they stand and are modified",
-       .store = [](Draft& d, Member, const Value& v) { d.study.fidelity.gap = static_cast<GapModel>(v.integer); }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.fidelity.gap = static_cast<GapModel>(v.integer); }},
       {.path = "fidelity.quadrature.rule", .kind = Word, .words = {"gauss2", "gauss3", "midpoint", "graded"},
        .fallback = "(graded)", .meaning = "points in each interval of a contact line; graded: two Gauss points on intervals that end where the line does; the others: at fixed places on the face, as Haddad's thesis has them",
-       .store = [](Draft& d, Member, const Value& v) {
+       .store = [](StudyBuilder& d, Member, const Value& v) {
          d.study.fidelity.automatic_intervals = false;
          d.study.fidelity.quadrature.rule = static_cast<QuadratureRule>(v.integer);
        }},
       {.path = "fidelity.quadrature.intervals", .kind = Integer, .range = {.low = 1, .high = 500}, .fallback = "(12, or what the figures need)",
        .meaning = "intervals of a full contact line; left out, an analysis under load takes up to 48 where the estimated errors ask for more",
-       .store = [](Draft& d, Member, const Value& v) {
+       .store = [](StudyBuilder& d, Member, const Value& v) {
          d.study.fidelity.automatic_intervals = false;
          d.study.fidelity.quadrature.intervals = static_cast<int>(v.integer);
        }},
       {.path = "fidelity.effects", .kind = WordList,
        .words = listed_effect_names(), .fallback = "\"auto\"",
        .meaning = "what enters the run; auto decides from the study, a list switches by hand",
-       .store = [](Draft& d, Member, const Value& v) {
+       .store = [](StudyBuilder& d, Member, const Value& v) {
          d.study.fidelity.automatic_effects = !v.is_list;
          d.study.fidelity.effects = v.words;
        }},
       {.path = "fidelity.accuracy", .kind = Percentage, .range = above_zero(50.0), .fallback = "(none)",
        .meaning = "\"1 %\": compliance, gap, quadrature and positions, as far as they are not given, are the cheapest whose estimated error in transmission error, its harmonics and peak contact stress is within it; the estimates and their cost stand in `accuracy_choice`",
-       .store = [](Draft& d, Member, const Value& v) { d.study.fidelity.accuracy = v.number; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.fidelity.accuracy = v.number; }},
       {.path = "fidelity.effect_sizes", .kind = Word, .words = {"off", "estimated", "exact"}, .fallback = "\"estimated\"",
        .meaning = "what each effect does to transmission error and contact stress: to first order at a few positions, or by leaving it out at the study's resolution as well",
-       .store = [](Draft& d, Member, const Value& v) { d.study.fidelity.effect_sizes = static_cast<EffectSizing>(v.integer); }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.fidelity.effect_sizes = static_cast<EffectSizing>(v.integer); }},
   };
 }
 

@@ -208,10 +208,10 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
 
 namespace {
 
-void store(const SchemaKey& key, const Value& value, Draft& draft, Scene& scene) {
-  if (const auto* in_draft = std::get_if<StoreInDraft>(&key.store)) (*in_draft)(draft, key.member, value);
+void store(const SchemaKey& key, const Value& value, StudyBuilder& builder, Scene& scene) {
+  if (const auto* in_study = std::get_if<StoreInStudy>(&key.store)) (*in_study)(builder, key.member, value);
   if (const auto* in_scene = std::get_if<StoreInScene>(&key.store)) (*in_scene)(scene, key.member, value);
-  Modification& modification = key.member == Member::Pinion ? draft.study.pinion_modification : draft.study.wheel_modification;
+  Modification& modification = key.member == Member::Pinion ? builder.study.pinion_modification : builder.study.wheel_modification;
   if (const auto* parameter = std::get_if<ModificationParameter>(&key.store)) set(modification, *parameter, value.number);
   if (const auto* choice = std::get_if<const ModificationChoice*>(&key.store)) (*choice)->set(modification, static_cast<std::size_t>(value.integer));
 }
@@ -225,7 +225,7 @@ void read_table_list(StudyReading& reading, const Match& match, Scene& scene) {
   for (std::size_t i = 0; i < tables->size(); ++i) {
     const std::string path = match.path + "." + std::to_string(i);
     reading.positions.emplace(path, reading.document.position(*tables->get(i), match.position));
-    store(*match.key, {}, reading.draft, scene);
+    store(*match.key, {}, reading.builder, scene);
     const std::size_t problems = reading.problems.size();
     for (const auto& [name, of_table] : match_keys(reading, *tables->get(i)->as_table(), keys, path + ".")) {
       read_into(reading, of_table, scene);
@@ -243,15 +243,15 @@ void read_table_list(StudyReading& reading, const Match& match, Scene& scene) {
 void read_into(StudyReading& reading, const Match& match, Scene& scene) {
   if (match.key->kind == ValueKind::TableList) return read_table_list(reading, match, scene);
   try {
-    store(*match.key, read_value(*match.key, *match.node), reading.draft, scene);
+    store(*match.key, read_value(*match.key, *match.node), reading.builder, scene);
   } catch (const InvalidInput& problem) {
     reading.refuse(match.position, match.path, match.node, "allowed is " + problem.allowed());
   }
 }
 
-void store_defaults(Draft& draft) {
-  static const Draft defaults = [] {
-    Draft made;
+void store_defaults(StudyBuilder& builder) {
+  static const StudyBuilder defaults = [] {
+    StudyBuilder made;
     for (const SchemaKey& key : study_schema()) {
       if (is_described_fallback(key)) continue;
       const toml::table fallback = toml::parse("value = " + key.fallback);
@@ -259,7 +259,7 @@ void store_defaults(Draft& draft) {
     }
     return made;
   }();
-  draft = defaults;
+  builder = defaults;
 }
 
 }  // namespace flankwright::studies

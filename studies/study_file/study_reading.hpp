@@ -24,7 +24,7 @@ struct Match {
 struct StudyReading {
   const StudyDocument& document;
   std::vector<StudyProblem>& problems;
-  Draft draft{};
+  StudyBuilder builder{};
   std::map<std::string, Match> matches{};       ///< by path
   std::map<std::string, Position> positions{};  ///< of the keys and tables of the file, by path
 
@@ -59,6 +59,6 @@ double read_number(const SchemaKey& key, const toml::node& node);
 void read_into(StudyReading& reading, const Match& match, Scene& scene);
 
 /// Stores the defaults of all keys that have one.
-void store_defaults(Draft& draft);
+void store_defaults(StudyBuilder& builder);
 
 }  // namespace flankwright::studies

@@ -64,17 +64,17 @@ struct GenerationKeys {
 };
 
 /// A study while it is being read.
-struct Draft {
+struct StudyBuilder {
   Study study;
   Scene base;  ///< what [misalignment], [load] and the errors say, before any scene
   std::optional<Hand> wheel_hand;
   GenerationKeys pinion_generation, wheel_generation;
 };
 
-using StoreInDraft = void (*)(Draft&, Member, const Value&);
+using StoreInStudy = void (*)(StudyBuilder&, Member, const Value&);
 using StoreInScene = void (*)(Scene&, Member, const Value&);  ///< such a key may be overridden by a scene
 /// A key that holds a ModificationParameter may be a design variable.
-using Store = std::variant<std::monostate, StoreInDraft, StoreInScene, ModificationParameter, const ModificationChoice*>;
+using Store = std::variant<std::monostate, StoreInStudy, StoreInScene, ModificationParameter, const ModificationChoice*>;
 
 struct SchemaKey {
   std::string path{};  ///< dotted; "scenes[].name" is a key of each scene

@@ -17,7 +17,7 @@ void complete(ShaftData& shaft, const Material& of_gear) {
 }
 
 void read_shaft(StudyReading& reading, Member member) {
-  Study& study = reading.draft.study;
+  Study& study = reading.builder.study;
   const bool pinion = member == Member::Pinion;
   std::optional<ShaftData>& shaft = pinion ? study.pinion_shaft : study.wheel_shaft;
   if (!shaft) return;
@@ -38,7 +38,7 @@ void read_shaft(StudyReading& reading, Member member) {
 void read_shafts(StudyReading& reading) {
   read_shaft(reading, Member::Pinion);
   read_shaft(reading, Member::Wheel);
-  const Study& study = reading.draft.study;
+  const Study& study = reading.builder.study;
   const bool listed = std::ranges::find(study.fidelity.effects, "shafts") != study.fidelity.effects.end();
   if (!listed || study.pinion_shaft || study.wheel_shaft) return;
   const Match* match = reading.find("fidelity.effects");

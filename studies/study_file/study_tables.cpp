@@ -24,7 +24,7 @@ void read_expected_word(StudyReading& reading, const Item& item, const toml::nod
     return reading.refuse(item.position, "expect." + item.name, item.node,
                           "allowed is { is = ... } with a text that is not empty, or true or false, and nothing else");
   }
-  reading.draft.study.expect.push_back(expectation);
+  reading.builder.study.expect.push_back(expectation);
 }
 
 void read_within(StudyReading& reading, const Item& item, Expectation& expectation) {
@@ -72,16 +72,16 @@ void read_expectation(StudyReading& reading, const Item& item) {
   if (expectation.minimum > expectation.maximum) {
     return reading.refuse(item.position, shown, item.node, "allowed is min at most max");
   }
-  reading.draft.study.expect.push_back(expectation);
+  reading.builder.study.expect.push_back(expectation);
 }
 
 }  // namespace
 
 void read_scenes(StudyReading& reading) {
-  std::vector<Scene>& scenes = reading.draft.study.scenes;
+  std::vector<Scene>& scenes = reading.builder.study.scenes;
   const Match* match = reading.find("scenes");
   if (match == nullptr) {
-    scenes = {reading.draft.base};
+    scenes = {reading.builder.base};
     return;
   }
   const toml::array* tables = match->node->as_array();
@@ -94,7 +94,7 @@ void read_scenes(StudyReading& reading) {
     const toml::node& node = *tables->get(i);
     const Position at = reading.document.position(node, match->position);
     reading.positions.emplace(prefix.substr(0, prefix.size() - 1), at);
-    Scene scene = reading.draft.base;
+    Scene scene = reading.builder.base;
     scene.name = "scene " + std::to_string(i + 1);
     for (const auto& [path, of_scene] : match_keys(reading, *node.as_table(), scene_keys(), prefix)) {
       read_into(reading, of_scene, scene);

@@ -55,7 +55,7 @@ Milliseconds time_of(int repetitions, const Work& work) {
 }
 
 /// Prints one line; returns the processor time of one analysis [ms].
-double report(const char* name, const GearPair& pair, const MeshScene& scene, int repetitions) {
+double report(const char* name, const GearPair& pair, const FlankAssembly& scene, int repetitions) {
   const ToothContactSolver solver(scene);
   const double pitch = 2 * units::pi / scene.pinion_teeth;
   constexpr int contacts = 200;

@@ -37,15 +37,15 @@ GearMeshOptions mesh_options() {
 /// The finite elements' own values between the very points asked for, nothing interpolated.
 class DirectInfluence final : public FlankCompliance {
  public:
-  Eigen::MatrixXd evaluate(std::span<const FlankPlace> places) const override {
+  Eigen::MatrixXd evaluate(std::span<const FlankStation> places) const override {
     int lowest = places.front().tooth, highest = lowest;
-    for (const FlankPlace& p : places) {
+    for (const FlankStation& p : places) {
       lowest = std::min(lowest, p.tooth);
       highest = std::max(highest, p.tooth);
     }
     const ToothForm& form = model_.mesh().form;
     std::vector<FlankPoint> points;
-    for (const FlankPlace& p : places) {
+    for (const FlankStation& p : places) {
       points.push_back({p.tooth - (lowest + highest) / 2,
                         form.form_radius() + (p.u + 1) / 2 * (form.tip_radius() - form.form_radius()), p.zeta - kFace / 2});
     }
@@ -72,7 +72,7 @@ Eigen::VectorXd transmission_errors(const std::shared_ptr<const FlankCompliance>
   return errors;
 }
 
-std::shared_ptr<const FlankCompliance> table(FlankGrid grid) {
+std::shared_ptr<const FlankCompliance> table(StationGrid grid) {
   const InfluenceTableTask task{.gear = gear_to_mesh(), .teeth_apart = 2, .mesh = mesh_options(), .grid = std::move(grid)};
   return std::make_shared<InfluenceTable>(*solve_influence_table(task, std::numeric_limits<double>::infinity()).table);
 }
@@ -82,11 +82,11 @@ std::shared_ptr<const FlankCompliance> table(FlankGrid grid) {
 TEST_CASE("The transmission error by an influence table comes to that by the finite elements' own values",
           "[convergence][fe]") {
   const Eigen::VectorXd direct = transmission_errors(std::make_shared<DirectInfluence>());
-  const auto error_of = [&](FlankGrid grid) {
+  const auto error_of = [&](StationGrid grid) {
     return ((transmission_errors(table(std::move(grid))) - direct).array() / direct.array()).abs().maxCoeff();
   };
   const double coarse = error_of({{-1, -0.4, 0.3, 1}, {0, 0.5, 2, 3.5, 4}});
-  const double usual = error_of(flank_grid(kFace));
+  const double usual = error_of(station_grid(kFace));
   CAPTURE(coarse, usual, direct.transpose());
   CHECK(usual < 0.5 * coarse);
   CHECK(usual < 2e-3);  // discretisation: places, and teeth at the edge of what is meshed in detail

@@ -56,7 +56,7 @@ double largest_displacement(const GearPair& pair, const Misalignment& m) {
 }
 
 void check_unloaded(const Study& study, const GearPair& pair, const FlankCondition& c, Findings& findings) {
-  const MeshScene scene = make_mesh_scene(pair, c.misalignment, c.pinion_modification, c.wheel_modification, c.pinion_error, c.wheel_error);
+  const FlankAssembly scene = assemble_flanks(pair, c.misalignment, c.pinion_modification, c.wheel_modification, c.pinion_error, c.wheel_error);
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, study.cycle.positions);
   if (mesh.missing > 0) return;
   // The pair's way through the mesh, and as much again for tips that touch early and late.
@@ -83,7 +83,7 @@ void check_unloaded(const Study& study, const GearPair& pair, const FlankConditi
 
 /// How many tooth pairs' flanks can meet at all.
 int pairs_that_meet(const GearPair& pair, const FlankCondition& c, double phase) {
-  const MeshScene scene = make_mesh_scene(pair, c.misalignment, c.pinion_modification, c.wheel_modification, c.pinion_error, c.wheel_error);
+  const FlankAssembly scene = assemble_flanks(pair, c.misalignment, c.pinion_modification, c.wheel_modification, c.pinion_error, c.wheel_error);
   const PathOfContact path(pair);
   const ToothContactSolver solver(scene);
   int meeting = 0;
@@ -123,7 +123,7 @@ void check_loaded(const Study& study, const GearPair& pair, const FlankCondition
   const MeshPlaced placed = [&](const MeshPlacement& placement) {
     return make_mesh_model(pair, study.pinion_material, study.wheel_material, {study.fidelity.quadrature, equally_spaced_phases(study.cycle.positions)}, {}, placement);
   };
-  const MeshModel model = with_further_meshes(placed(MeshPlacement::of(study.fidelity.gap, condition.misalignment)), placed, parameters);
+  const MeshModel model = with_perturbed_meshes(placed(MeshPlacement::of(study.fidelity.gap, condition.misalignment)), placed, parameters);
   for (const double torque : study.scenes.front().torques) {
     const LoadedCycle cycle = analyse_cycle(model, condition, torque, parameters);
     for (std::size_t i = 0; i < cycle.positions.size(); ++i) check_position(model.positions[i], cycle.positions[i], cycle.force, pair, condition, findings);

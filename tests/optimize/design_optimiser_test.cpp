@@ -193,7 +193,7 @@ TEST_CASE("Where a solver stalls on a kink the finisher goes on from its best de
 TEST_CASE("Root stress is shown of an optimum that was sought without it, and is a goal of its own", "[optimize][design]") {
   DesignProblem problem(helical());
   const DesignResult result = optimise_design(problem, SolverOptions{});
-  const Goal root{{term(Output::PeakRootStress)}, Aggregate::Worst};
+  const Objective root{{term(Output::PeakRootStress)}, Aggregate::Worst};
   double worst = 0.0;
   for (const DesignReport* report : {&result.before, &result.after}) {
     worst = 0.0;

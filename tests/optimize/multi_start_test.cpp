@@ -83,16 +83,16 @@ TEST_CASE("The budget of analyses is that of all starts together", "[optimize][d
 TEST_CASE("Of a list of objectives the later fall while the earlier keep within the tolerance", "[optimize][design][lexicographic]") {
   DesignTask task = helical({0.0, 12.0, -12.0});
   task.lexicographic_tolerance = 0.02;
-  task.then = {{{term(Output::TePeakToPeak)}, Aggregate::Worst}};
+  task.later_objectives = {{{term(Output::TePeakToPeak)}, Aggregate::Worst}};
   DesignProblem problem(task);
   const DesignResult result = optimise_design(problem, SolverOptions{});
-  task.then.clear();
+  task.later_objectives.clear();
   DesignProblem first(task);
   const DesignResult alone = optimise_design(first, SolverOptions{});
   REQUIRE(result.stages.size() == 2);
   CHECK(result.stages[0].least == alone.after.objective);
   CHECK(result.after.objective <= result.stages[0].limit * (1.0 + DesignLog::tolerance));
-  const Goal later{{term(Output::TePeakToPeak)}, Aggregate::Worst};
+  const Objective later{{term(Output::TePeakToPeak)}, Aggregate::Worst};
   CHECK(result.after.later_objectives.at(0) < first.value(later, alone.after.analysis));
   CHECK(result.stages[1].least == Approx(result.after.later_objectives.at(0)).epsilon(1e-12));  // round-off
 }

@@ -21,8 +21,8 @@ DesignTask trading_task() {
   return task;
 }
 
-const Goal stress{{term(Output::PeakContactStress)}, Aggregate::Worst};
-const Goal error{{term(Output::TePeakToPeak)}, Aggregate::Worst};
+const Objective stress{{term(Output::PeakContactStress)}, Aggregate::Worst};
+const Objective error{{term(Output::TePeakToPeak)}, Aggregate::Worst};
 
 }  // namespace
 
@@ -63,7 +63,7 @@ TEST_CASE("A front of two goals runs from the best of one to the best of the oth
 
 TEST_CASE("A front of three goals has each goal's best among its corners and compromises between them", "[optimize][design][pareto][slow]") {
   const DesignProblem problem(trading_task());
-  const Goal edge{{term(Output::EdgeLoad)}, Aggregate::Worst};
+  const Objective edge{{term(Output::EdgeLoad)}, Aggregate::Worst};
   const ParetoFront front = trace_front(problem, {stress, error, edge}, 6, SolverOptions{});
   CAPTURE(front.message, front.evaluations);
   REQUIRE(front.points.size() == 6);  // two steps a side
@@ -88,7 +88,7 @@ TEST_CASE("A goal that can vanish is held near nothing where it is best, and the
   DesignProblem problem(trading_task());
   std::mt19937 generator(2);
   problem.set_start(random_design(3, generator));
-  const Goal edge{{term(Output::EdgeLoad)}, Aggregate::Worst};
+  const Objective edge{{term(Output::EdgeLoad)}, Aggregate::Worst};
   SolverOptions options;
   options.name = "nlopt:slsqp";
   const ParetoFront front = trace_front(problem, {edge, error}, 5, options);
@@ -130,7 +130,7 @@ TEST_CASE("A front has the same bits on one thread and on two", "[optimize][desi
 
 TEST_CASE("Goals that agree have a front of one design", "[optimize][design][pareto]") {
   const DesignProblem problem(spur({10.0, -10.0}));
-  const Goal load{{term(Output::PeakLineLoad)}, Aggregate::Worst};  // stress is a function of load and radius
+  const Objective load{{term(Output::PeakLineLoad)}, Aggregate::Worst};  // stress is a function of load and radius
   SolverOptions options;
   options.max_evaluations = 150;
   const ParetoFront front = trace_front(problem, {stress, load}, 3, options);

@@ -48,12 +48,12 @@ std::vector<FlankPoint> contact_line(const GearMesh& mesh, double radius, double
 
 struct Figures {
   double mid{0};                        ///< mid face under a load there, reference diameter
-  double sharp{0}, blunt{0};            ///< 0.25 m_n from either end, under themselves
+  double acute{0}, obtuse{0};            ///< 0.25 m_n from either end, under themselves
   double far_before{0}, far_behind{0};  ///< 4 m_n from a load at mid face, towards the sharp and the blunt end
   double least_adjacent{INFINITY}, most_adjacent{0};  ///< peak of a next tooth over that of the loaded one
 };
 
-Figures figures(const InfluenceModel& model, RemovedMotion removed) {
+Figures figures(const InfluenceModel& model, RemovedRigidMotion removed) {
   const GearMesh& mesh = model.mesh();
   const double r = mesh.form.reference_radius();
   std::vector<FlankPoint> points;
@@ -71,8 +71,8 @@ Figures figures(const InfluenceModel& model, RemovedMotion removed) {
 
   Figures result;
   result.mid = k(3, 3);
-  result.sharp = k(0, 0);
-  result.blunt = k(6, 6);
+  result.acute = k(0, 0);
+  result.obtuse = k(6, 6);
   for (int i = start[9]; i < start[10]; ++i) {
     if (std::abs(points[i].z + 4) < 1e-9) result.far_before = k(i, 3);
     if (std::abs(points[i].z - 4) < 1e-9) result.far_behind = k(i, 3);
@@ -98,8 +98,8 @@ TEST_CASE("Deflections of the thesis' gears have the sizes it gives", "[referenc
   // What the thesis takes out as shaft motion is either of these as far as its text goes.
   const auto both = [](int teeth, double helix_deg) {
     const InfluenceModel model = thesis_gear(teeth, helix_deg);
-    return std::array{figures(model, RemovedMotion::TranslationAndTorsion),
-                      figures(model, RemovedMotion::TranslationTorsionAndTilt)};
+    return std::array{figures(model, RemovedRigidMotion::TranslationAndTorsion),
+                      figures(model, RemovedRigidMotion::TranslationTorsionAndTilt)};
   };
   const auto gear_18 = both(18, 30), gear_40 = both(40, 30), gear_100 = both(100, 30), spur_100 = both(100, 0);
   for (const int variant : {0, 1}) {
@@ -108,8 +108,8 @@ TEST_CASE("Deflections of the thesis' gears have the sizes it gives", "[referenc
     const auto far = [](const Figures& f) { return (f.far_before + f.far_behind) / 2; };
     INFO("far from the load: " << far(small) << ", " << far(medium) << ", " << far(large_spur) << ", " << far(large));
     INFO("mid face: " << small.mid << ", " << medium.mid << ", " << large_spur.mid << ", " << large.mid);
-    INFO("sharp over blunt end: " << small.sharp / small.blunt << ", " << medium.sharp / medium.blunt << ", "
-                                  << large.sharp / large.blunt);
+    INFO("sharp over blunt end: " << small.acute / small.obtuse << ", " << medium.acute / medium.obtuse << ", "
+                                  << large.acute / large.obtuse);
     INFO("tipping: " << large.far_before - large.far_behind);
     INFO("adjacent: " << large_spur.least_adjacent << " to " << large_spur.most_adjacent << ", helical "
                       << large.least_adjacent << " to " << large.most_adjacent);
@@ -126,7 +126,7 @@ TEST_CASE("Deflections of the thesis' gears have the sizes it gives", "[referenc
     CHECK(large.least_adjacent > thesis::adjacent_of_100_teeth[1].least);
     CHECK(large.most_adjacent == Approx(thesis::adjacent_of_100_teeth[1].most).epsilon(0.05));
     CHECK(large_spur.most_adjacent == Approx(thesis::adjacent_of_100_teeth[0].most).epsilon(0.2));
-    for (const Figures& gear : {small, medium, large}) CHECK(gear.sharp > 1.5 * gear.blunt);  // "much larger"
+    for (const Figures& gear : {small, medium, large}) CHECK(gear.acute > 1.5 * gear.obtuse);  // "much larger"
   }
 }
 
@@ -157,14 +157,14 @@ TEST_CASE("Deflections along a line of contact from the tip's sharp corner fall 
     points.push_back(point_of_contact(mesh, mesh.form.tip_radius(), 0.25, 0, row.z_fitting));
   }
   // The printed values still hold the shaft's motion: without it about 0.3 less remains far away.
-  const Eigen::MatrixXd k = model.influence(points, RemovedMotion::None).compliance;
+  const Eigen::MatrixXd k = model.influence(points, RemovedRigidMotion::None).compliance;
   CAPTURE(k.col(0).transpose());
   // Model: load and response are one functional here, a patch of 0.5 m_n and a point there; a module and more from the
   // load that no longer matters. Far from it what is left is the motion of gear and shaft, with a hold that the thesis does not describe.
   for (int i = 0; i < 7; ++i) {
     CHECK(k(i, 0) == Approx(thesis::table_2b_1[i].centre * thesis::table_2b_1_unit).epsilon(i < 2 ? 0.10 : 0.05));
   }
-  const Eigen::MatrixXd net = model.influence(points, RemovedMotion::TranslationTorsionAndTilt).compliance;
+  const Eigen::MatrixXd net = model.influence(points, RemovedRigidMotion::TranslationTorsionAndTilt).compliance;
   CAPTURE(net.col(0).transpose());
   CHECK(std::abs(k(6, 0) - net(6, 0) - 0.3) < 0.1);
 }
@@ -189,7 +189,7 @@ TEST_CASE("Least influence values of five gears are those of an independent calc
         points.push_back({0, form.form_radius() + height * (form.tip_radius() - form.form_radius()), z});
       }
     }
-    constexpr RemovedMotion removed = RemovedMotion::TranslationAndTorsion;
+    constexpr RemovedRigidMotion removed = RemovedRigidMotion::TranslationAndTorsion;
     const double least = model.influence(points, removed).compliance.minCoeff();
     const double hold = axial_hold_compliance(model.mesh(), {1, 0.3}, removed);
     // The share that would make both the same: a hold gives in inverse proportion to it.

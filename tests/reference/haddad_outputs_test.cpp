@@ -26,7 +26,7 @@ std::shared_ptr<const InfluenceTable> influence_table(const GearPair& pair, Memb
   const InfluenceTableTask task{.gear = gear,
                                 .poissons_ratio = kMaterial.poissons_ratio,
                                 .teeth_apart = teeth_apart_in_contact(pair),
-                                .grid = flank_grid(data[member].face_width / data.normal_module)};
+                                .grid = station_grid(data[member].face_width / data.normal_module)};
   const InfluenceTableRun run = solve_influence_table(task, 16e9);
   REQUIRE(run.status == FactorStatus::Factorised);
   return std::make_shared<const InfluenceTable>(*run.table);

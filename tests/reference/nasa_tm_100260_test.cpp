@@ -19,7 +19,7 @@ namespace revolved = reference::nasa_tm_100260;
 namespace {
 
 struct Analysis {
-  MeshScene scene;
+  FlankAssembly scene;
   UnloadedMesh mesh;
   ParabolaCheck check;
 };
@@ -109,7 +109,7 @@ TEST_CASE("TM-100260: a cone without arc localises the contact and leaves no pre
   PairData data = revolved::pair_data();
   data.pinion.generation = RevolutionTool{revolved::tool.half_apex, revolved::tool.distance};
   const GearPair pair = make_gear_pair(data);
-  const MeshScene scene = scene_of(pair);
+  const FlankAssembly scene = scene_of(pair);
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 64);
   CHECK(mesh.peak_to_peak <= 1e-11);  // round-off, rad
   Misalignment crossed;

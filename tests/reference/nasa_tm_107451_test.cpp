@@ -40,7 +40,7 @@ struct Slopes {
 };
 
 /// Exact slopes for parallel axes, from the pinion as it was really made (appendix 2).
-Slopes slopes_of(const MeshScene& scene) {
+Slopes slopes_of(const FlankAssembly& scene) {
   return {scene.pinion.base_radius / scene.wheel.base_radius - scene.speed_ratio(),
           std::abs(scene.wheel.helix_rate / scene.pinion.helix_rate) - scene.speed_ratio()};
 }
@@ -73,7 +73,7 @@ struct Branches {
 TEST_CASE("TM-107451, eq. 14: aligned gears touch along a line and transmit without error", "[reference][contact]") {
   const GearPair pair = make_gear_pair(nasa::pair_data());
   CHECK(std::abs(pair.data.helix_angle - (90 * units::deg - nasa::lead_angle)) <= 1e-15);
-  const MeshScene scene = scene_of(pair);
+  const FlankAssembly scene = scene_of(pair);
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, kPositions);
   for (const double te : mesh.transmission_error) CHECK(std::abs(te) <= 1e-9);
   for (const double phi1 : mesh.phi1) CHECK(find_tooth_contact(scene, 0, phi1).kind == ContactKind::Line);
@@ -85,7 +85,7 @@ TEST_CASE(
     "[reference][contact][closed-form]") {
   const double minutes = GENERATE(3.0, -3.0);
   const GearPair pair = make_gear_pair(nasa::pair_data());
-  const MeshScene scene = scene_of(pair, errors(0.0, minutes, 0.0));
+  const FlankAssembly scene = scene_of(pair, errors(0.0, minutes, 0.0));
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, kPositions);
   const Slopes slopes = slopes_of(scene);
   CHECK(slopes.face_end * slopes.tip < 0.0);
@@ -120,7 +120,7 @@ TEST_CASE(
     "[reference][contact][closed-form]") {
   const double minutes = GENERATE(3.0, -3.0);
   const GearPair pair = make_gear_pair(nasa::pair_data());
-  const MeshScene scene = scene_of(pair, errors(0.0, 0.0, minutes));
+  const FlankAssembly scene = scene_of(pair, errors(0.0, 0.0, minutes));
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, kPositions);
   CHECK(std::abs(slopes_of(scene).tip) <= 1e-14);  // eqs 15-17 keep the lead
   CHECK(mesh.peak_to_peak <= 1e-12);               // round-off, rad
@@ -150,7 +150,7 @@ TEST_CASE(
     "its error almost linear",
     "[reference][contact][closed-form]") {
   const GearPair pair = make_gear_pair(nasa::pair_data());
-  const MeshScene scene = scene_of(pair, errors(0.0, -2.0, 3.0));
+  const FlankAssembly scene = scene_of(pair, errors(0.0, -2.0, 3.0));
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, kPositions);
   const Branches branches(mesh, slopes_of(scene), 1e-9);  // round-off of a place on an edge
   CHECK(branches.tip == 0);
@@ -197,8 +197,8 @@ TEST_CASE(
   const GearPair pair = make_gear_pair(data);
   const double pitch_radius = pair.pinion.reference_radius, height = pair.pinion.tip_radius - pair.pinion.form_radius;
 
-  const MeshScene aligned = scene_of(pair);
-  const MeshScene crossed = scene_of(pair, errors(3.0, 0.0, 0.0));
+  const FlankAssembly aligned = scene_of(pair);
+  const FlankAssembly crossed = scene_of(pair, errors(3.0, 0.0, 0.0));
   // Contact stays at one radius, as on a tip edge: the slope is that of the leads.
   const double slope = slopes_of(scene_of(pair, errors(0.0, 3.0, 0.0))).tip;
   double radius = 0.0, lowest_z = 0.0, highest_z = 0.0;

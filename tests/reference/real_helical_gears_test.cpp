@@ -59,7 +59,7 @@ Modification measured(const GearPair& pair, const std::function<double(double r,
 constexpr double kStep = 0.02 * 2 * pi / 17;  // rad
 
 /// Pair 0 from the first to the last point of the theoretical path of contact.
-std::vector<ToothContact> passage(const GearPair& pair, const MeshScene& scene) {
+std::vector<ToothContact> passage(const GearPair& pair, const FlankAssembly& scene) {
   const double over_face = kHalf * std::tan(pair.base_helix_angle);
   const double first = (pair.path_start - pair.pitch_point - over_face) / pair.pinion.base_radius;
   const double last = (pair.path_end - pair.pitch_point + over_face) / pair.pinion.base_radius;
@@ -79,7 +79,7 @@ TEST_CASE(
     "modified zones",
     "[reference][contact]") {
   const GearPair pair = real_pair();
-  const MeshScene scene =
+  const FlankAssembly scene =
       scene_of(pair, {}, measured(pair, [](double, double z) { return -50 * um * beyond(std::abs(z), kFace / 4); }));
   const std::vector<ToothContact> contacts = passage(pair, scene);
   // In on the wheel's tip at the end of the face that meets first, out over the pinion's tip at the other.
@@ -159,7 +159,7 @@ TEST_CASE(
   const double top = GENERATE(1.0, -1.0) * kFace / 4;
   const GearPair pair = real_pair();
   REQUIRE(pair.contact_line_sense() == 1);  // pairs come in at z = +b/2
-  const MeshScene scene = scene_of(
+  const FlankAssembly scene = scene_of(
       pair, {}, measured(pair, [&](double, double z) { return -50 * um * std::pow((z - top) / (0.75 * kFace), 2); }));
   const std::vector<ToothContact> contacts = passage(pair, scene);
   CHECK(sequence_of_kinds(contacts) ==
@@ -187,7 +187,7 @@ TEST_CASE(
 
 TEST_CASE("Real helical gears, helix deviation from one face end: the pair rides on that end", "[reference][contact]") {
   const GearPair pair = real_pair();
-  const MeshScene scene =
+  const FlankAssembly scene =
       scene_of(pair, {}, measured(pair, [](double, double z) { return -50 * um * std::pow((z + kHalf) / kFace, 2); }));
   std::vector<ToothContact> contacts = passage(pair, scene);
   const std::vector<ContactKind> sequence = sequence_of_kinds(contacts);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "core/compliance/tooth/flank_grid.hpp"
+#include "core/compliance/tooth/station_grid.hpp"
 
 namespace flankwright {
 namespace {
@@ -12,31 +12,31 @@ namespace {
 /// The nodes and points between them, at most kCurveStep apart: a curve to draw. Mid face is among the points.
 std::vector<double> subdivided(const std::vector<double>& nodes) {
   constexpr double kCurveStep = 0.25;  // [m_n]
-  std::vector<double> places;
+  std::vector<double> stations;
   for (std::size_t i = 0; i + 1 < nodes.size(); ++i) {
     const double step = nodes[i + 1] - nodes[i];
     const int pieces = 2 * static_cast<int>(std::ceil(0.5 * step / kCurveStep));
-    for (int k = 0; k < pieces; ++k) places.push_back(nodes[i] + step * k / pieces);
+    for (int k = 0; k < pieces; ++k) stations.push_back(nodes[i] + step * k / pieces);
   }
-  places.push_back(nodes.back());
-  return places;
+  stations.push_back(nodes.back());
+  return stations;
 }
 
 }  // namespace
 
 NamedModel named_model(std::string name, int teeth_apart, const FlankCompliance& compliance) {
   return {std::move(name), teeth_apart,
-          [&compliance](std::span<const FlankPlace> places, std::span<const FlankPlace> loads) {
+          [&compliance](std::span<const FlankStation> stations, std::span<const FlankStation> loads) {
             const auto columns = static_cast<Eigen::Index>(loads.size());
-            Eigen::MatrixXd result(static_cast<Eigen::Index>(places.size()), columns);
+            Eigen::MatrixXd result(static_cast<Eigen::Index>(stations.size()), columns);
             // Tooth by tooth: teeth on either side of the load are further apart than a model needs to cover.
-            for (auto first = places.begin(); first != places.end();) {
-              const auto last = std::find_if(first, places.end(),
-                                             [&](const FlankPlace& place) { return place.tooth != first->tooth; });
-              std::vector<FlankPlace> all(first, last);
+            for (auto first = stations.begin(); first != stations.end();) {
+              const auto last = std::find_if(first, stations.end(),
+                                             [&](const FlankStation& station) { return station.tooth != first->tooth; });
+              std::vector<FlankStation> all(first, last);
               all.insert(all.end(), loads.begin(), loads.end());
               const Eigen::Index rows = last - first;
-              result.middleRows(first - places.begin(), rows) = compliance.evaluate(all).topRightCorner(rows, columns);
+              result.middleRows(first - stations.begin(), rows) = compliance.evaluate(all).topRightCorner(rows, columns);
               first = last;
             }
             return result;
@@ -48,16 +48,16 @@ std::vector<DeflectionCurve> deflection_curves(std::span<const NamedModel> model
                                                int teeth_apart) {
   std::vector<DeflectionCurve> curves;
   for (const double u : us) {
-    std::vector<FlankPlace> loads;
+    std::vector<FlankStation> loads;
     for (const double zeta : load_zetas) loads.push_back({0, u, zeta});
     std::vector<std::vector<DeflectionCurve>> by_load(loads.size());
     for (const NamedModel& model : models) {
       const int reach = std::min(teeth_apart, model.teeth_apart);
-      std::vector<FlankPlace> places;
+      std::vector<FlankStation> stations;
       for (int tooth = -reach; tooth <= reach; ++tooth) {
-        for (const double zeta : zetas) places.push_back({tooth, u, zeta});
+        for (const double zeta : zetas) stations.push_back({tooth, u, zeta});
       }
-      const Eigen::MatrixXd K = model.deflections(places, loads);
+      const Eigen::MatrixXd K = model.deflections(stations, loads);
       for (std::size_t q = 0; q < loads.size(); ++q) {
         const double* value = K.col(static_cast<Eigen::Index>(q)).data();
         for (int tooth = -reach; tooth <= reach; ++tooth, value += zetas.size()) {
@@ -73,7 +73,7 @@ std::vector<DeflectionCurve> deflection_curves(std::span<const NamedModel> model
 std::vector<DeflectionCurve> gear_deflection_curves(std::span<const NamedModel> models, double face_width,
                                                     int teeth_apart) {
   return deflection_curves(models, {1, 0, -1}, {0, face_width / 2, face_width},
-                           subdivided(flank_grid(face_width).zetas()), teeth_apart);
+                           subdivided(station_grid(face_width).zetas()), teeth_apart);
 }
 
 }  // namespace flankwright

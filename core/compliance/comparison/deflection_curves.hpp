@@ -15,7 +15,7 @@ struct NamedModel {
   std::string name;
   int teeth_apart{0};  ///< the largest number of pitches over which it couples teeth
   /// E m_n K [-], stations x loads: deflections of the stations under each unit load.
-  std::function<Eigen::MatrixXd(std::span<const FlankPlace> places, std::span<const FlankPlace> loads)> deflections;
+  std::function<Eigen::MatrixXd(std::span<const FlankStation> stations, std::span<const FlankStation> loads)> deflections;
 };
 
 /// @param compliance  must outlive the model
@@ -24,7 +24,7 @@ NamedModel named_model(std::string name, int teeth_apart, const FlankCompliance&
 /// Deflection along one tooth, at the height of the load, under a point load.
 struct DeflectionCurve {
   std::string model;
-  FlankPlace load;            ///< on tooth 0
+  FlankStation load;            ///< on tooth 0
   int tooth{0};               ///< that deflects
   std::vector<double> zeta;   ///< [m_n] from the acute end
   std::vector<double> value;  ///< E m_n K [-], one a zeta

@@ -10,12 +10,12 @@ namespace flankwright {
 
 /// The points of a meshed gear that belong to stations on its flanks.
 /// @throws InvalidInput as require_on_flank()
-std::vector<FlankPoint> flank_points(const GearMesh& mesh, std::span<const FlankPlace> places);
+std::vector<FlankPoint> flank_points(const GearMesh& mesh, std::span<const FlankStation> stations);
 
 /// Solved influence values of a gear, E m_n K [-]: row: where it deflects; column: where the force acts.
 /// @param model  of a gear whose matrix is factorised
 /// @throws InvalidInput as flank_points()
-Eigen::MatrixXd finite_element_deflections(const InfluenceModel& model, std::span<const FlankPlace> places,
-                                           std::span<const FlankPlace> loads, RemovedMotion removed);
+Eigen::MatrixXd finite_element_deflections(const InfluenceModel& model, std::span<const FlankStation> stations,
+                                           std::span<const FlankStation> loads, RemovedRigidMotion removed);
 
 }  // namespace flankwright

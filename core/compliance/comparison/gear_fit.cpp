@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "core/compliance/comparison/finite_element_deflections.hpp"
-#include "core/compliance/tooth/flank_grid.hpp"
+#include "core/compliance/tooth/station_grid.hpp"
 #include "core/compliance/plate/cantilever_plate.hpp"
 #include "core/compliance/thin_slice/thin_slice_tooth.hpp"
 
@@ -19,15 +19,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 /// us x zetas; zetas run fastest.
-struct Places {
+struct Stations {
   std::vector<double> us, zetas;
   int count() const { return static_cast<int>(us.size() * zetas.size()); }
 };
 
-std::vector<FlankPlace> on_tooth(const Places& places, int tooth) {
-  std::vector<FlankPlace> list;
-  for (const double u : places.us) {
-    for (const double zeta : places.zetas) list.push_back({tooth, u, zeta});
+std::vector<FlankStation> on_tooth(const Stations& stations, int tooth) {
+  std::vector<FlankStation> list;
+  for (const double u : stations.us) {
+    for (const double zeta : stations.zetas) list.push_back({tooth, u, zeta});
   }
   return list;
 }
@@ -54,23 +54,23 @@ std::vector<InfluenceSample> without_faint_pairs(std::vector<InfluenceSample> sa
   return samples;
 }
 
-Places cells_of(const Places& grid) {
+Stations cells_of(const Stations& grid) {
   return {centres(grid.us), centres(grid.zetas)};
 }
 
-Places own_places(double face, int radii) {
-  const FlankGrid grid = flank_grid(face, radii);
+Stations own_stations(double face, int radii) {
+  const StationGrid grid = station_grid(face, radii);
   return {grid.us(), grid.zetas()};
 }
 
 /// Every second axial station, with both ends.
-Places adjacent_places(double face, int radii) {
-  Places places = own_places(face, radii);
+Stations adjacent_stations(double face, int radii) {
+  Stations stations = own_stations(face, radii);
   std::vector<double> kept;
-  for (std::size_t i = 0; i + 1 < places.zetas.size(); i += 2) kept.push_back(places.zetas[i]);
-  kept.push_back(places.zetas.back());
-  places.zetas = kept;
-  return places;
+  for (std::size_t i = 0; i + 1 < stations.zetas.size(); i += 2) kept.push_back(stations.zetas[i]);
+  kept.push_back(stations.zetas.back());
+  stations.zetas = kept;
+  return stations;
 }
 
 /// Runs one gear; each step adds to the result.
@@ -121,7 +121,7 @@ class GearFitRun {
   }
 
   /// Samples of one grid on the loaded tooth and one on several.
-  std::vector<InfluenceSample> samples(const InfluenceModel& model, const Places& own, const Places& adjacent) {
+  std::vector<InfluenceSample> samples(const InfluenceModel& model, const Stations& own, const Stations& adjacent) {
     report("solving loads", result_.loads, total_loads_);
     std::vector<InfluenceSample> all =
         finite_element_samples(model, result_.gear, own.us, own.zetas, 0, task_.removed);
@@ -136,9 +136,9 @@ class GearFitRun {
 
   void solve(const InfluenceModel& model) {
     const double face = result_.gear.relative_face;
-    const Places own = own_places(face, task_.radii);
-    adjacent_ = adjacent_places(face, task_.adjacent_radii);
-    const Places own_cells = cells_of(own), adjacent_cells = cells_of(adjacent_);
+    const Stations own = own_stations(face, task_.radii);
+    adjacent_ = adjacent_stations(face, task_.adjacent_radii);
+    const Stations own_cells = cells_of(own), adjacent_cells = cells_of(adjacent_);
     total_loads_ = own.count() + (apart_ > 0 ? adjacent_.count() : 0);
     if (task_.test_grid) total_loads_ += own_cells.count() + (apart_ > 0 ? adjacent_cells.count() : 0);
     fitted_ = samples(model, own, adjacent_);
@@ -172,8 +172,8 @@ class GearFitRun {
     const CantileverPlate plate(model.mesh().form, gear.normal_module, gear.gear.face_width, nu);
     const ThinSliceTooth slices(model.mesh().form, gear.normal_module, gear.gear.face_width, nu);
     std::vector<NamedModel> models{{"finite elements", task_.mesh.teeth_each_side,
-                                    [&](std::span<const FlankPlace> places, std::span<const FlankPlace> loads) {
-                                      return finite_element_deflections(model, places, loads, task_.removed);
+                                    [&](std::span<const FlankStation> stations, std::span<const FlankStation> loads) {
+                                      return finite_element_deflections(model, stations, loads, task_.removed);
                                     }}};
     if (fit) models.push_back(named_model("fitted", apart_, *fit));
     if (thesis) models.push_back(named_model("thesis", apart_, *thesis));
@@ -190,13 +190,13 @@ class GearFitRun {
     FitRecord record = fit.record();
     if (apart_ > 0) record.range.teeth_apart = 4;
     const FittedCompliance everywhere(fit.form(), fit.gear(), fit.coefficients(), record);
-    std::vector<FlankPlace> places;
+    std::vector<FlankStation> stations;
     for (int tooth = 0; tooth <= record.range.teeth_apart; ++tooth) {
-      const std::vector<FlankPlace> some = on_tooth(adjacent_, tooth);
-      places.insert(places.end(), some.begin(), some.end());
+      const std::vector<FlankStation> some = on_tooth(adjacent_, tooth);
+      stations.insert(stations.end(), some.begin(), some.end());
     }
     const Eigen::VectorXd values =
-        Eigen::SelfAdjointEigenSolver<MatrixXd>(everywhere.evaluate(places), Eigen::EigenvaluesOnly).eigenvalues();
+        Eigen::SelfAdjointEigenSolver<MatrixXd>(everywhere.evaluate(stations), Eigen::EigenvaluesOnly).eigenvalues();
     result_.lowest_eigenvalue = values.minCoeff() / values.maxCoeff();
     result_.eigenvalue_teeth = record.range.teeth_apart + 1;
   }
@@ -206,23 +206,23 @@ class GearFitRun {
   GearFitResult result_;
   int apart_{0};  ///< pitches over which the form couples teeth
   int total_loads_{0};
-  Places adjacent_;
+  Stations adjacent_;
   std::vector<InfluenceSample> fitted_, unseen_;
 };
 
 }  // namespace
 
-std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model, const GearFacts& gear,
+std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model, const GearProportions& gear,
                                                     const std::vector<double>& us, const std::vector<double>& zetas,
-                                                    int teeth_apart, RemovedMotion removed) {
-  const Places grid{us, zetas};
-  const std::vector<FlankPlace> loads = on_tooth(grid, 0);
-  std::vector<FlankPlace> places;
+                                                    int teeth_apart, RemovedRigidMotion removed) {
+  const Stations grid{us, zetas};
+  const std::vector<FlankStation> loads = on_tooth(grid, 0);
+  std::vector<FlankStation> stations;
   for (int tooth = -teeth_apart; tooth <= teeth_apart; ++tooth) {
-    const std::vector<FlankPlace> some = on_tooth(grid, tooth);
-    places.insert(places.end(), some.begin(), some.end());
+    const std::vector<FlankStation> some = on_tooth(grid, tooth);
+    stations.insert(stations.end(), some.begin(), some.end());
   }
-  const MatrixXd K = finite_element_deflections(model, places, loads, removed);
+  const MatrixXd K = finite_element_deflections(model, stations, loads, removed);
   const auto n = static_cast<Index>(loads.size());
   const auto of_tooth = [&](int m) { return K.middleRows((teeth_apart + m) * n, n); };
   const MatrixXd own = 0.5 * (of_tooth(0) + of_tooth(0).transpose());
@@ -230,7 +230,7 @@ std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model,
   std::vector<InfluenceSample> samples{{gear, loads, own}};
   for (int m = 1; m <= teeth_apart; ++m) {
     InfluenceSample pair{gear, loads, MatrixXd(2 * n, 2 * n)};
-    const std::vector<FlankPlace> there = on_tooth(grid, m);
+    const std::vector<FlankStation> there = on_tooth(grid, m);
     pair.points.insert(pair.points.end(), there.begin(), there.end());
     // Row: tooth 0, column: tooth m. Deflection of tooth -m under loads on tooth 0, and the other way round.
     const MatrixXd across = 0.5 * (of_tooth(-m) + of_tooth(m).transpose());

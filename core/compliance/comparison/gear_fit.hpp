@@ -18,10 +18,10 @@ struct GearFitTask {
   GearToMesh gear;
   Material material;
   GearMeshOptions mesh{};
-  RemovedMotion removed{RemovedMotion::TranslationTorsionAndTilt};
+  RemovedRigidMotion removed{RemovedRigidMotion::TranslationTorsionAndTilt};
   KernelForm form{KernelForm::one_tooth_accurate()};
   FitOptions fit{};
-  int radii{6};           ///< of the stations fitted, >= 4; axially they are those of flank_grid()
+  int radii{6};           ///< of the stations fitted, >= 4; axially they are those of station_grid()
   int adjacent_radii{5};  ///< of those on several teeth, >= 4; axially every second one
   int teeth_apart{2};     ///< pitches over which teeth are coupled, 1 .. mesh.teeth_each_side; forms for one tooth: 0
   bool test_grid{true};   ///< judged at stations that the fit has not seen: the centres of the grids' cells
@@ -44,10 +44,10 @@ struct GearFitTimes {
 };
 
 struct GearFitResult {
-  GearFacts gear;
+  GearProportions gear;
   GearBody body;  ///< as given to the task
   FactorStatus status{FactorStatus::NotPositiveDefinite};
-  RemovedMotion removed{RemovedMotion::TranslationTorsionAndTilt};
+  RemovedRigidMotion removed{RemovedRigidMotion::TranslationTorsionAndTilt};
   RunStatistics finite_elements;
   int loads{0};   ///< solved for
   FitResult fit;  ///< NotRun unless status is Factorised
@@ -64,17 +64,17 @@ struct GearFitResult {
 /// A label of what is being done, steps done and in all.
 using FitProgress = std::function<void(const std::string& label, int done, int total)>;
 
-/// Runs a gear's finite elements, fits the form to the influence values, compares it and the forms of the thesis on a
-/// grid that no fit has seen, and draws every model's deflection curves under loads at root, middle and tip of both
-/// ends and mid face. One thread: same input, same result.
+/// Runs a gear's finite elements and fits the form to the influence values. Compares this form and those of the thesis
+/// on a grid that no fit has seen, and makes every model's deflection curves under loads at root, middle and tip of
+/// both ends and mid face. One thread: same input, same result.
 /// @throws InvalidInput  as gear_mesh(), "fit.radii", "fit.teeth_apart"
 GearFitResult fit_gear(const GearFitTask& task, const FitProgress& progress = {});
 
 /// Influence values between the stations us x zetas on tooth 0 and, for each m = 1 .. teeth_apart, between those of
 /// teeth 0 and m. The load is on tooth 0, which is meshed finely; the deflection is read on both neighbours m pitches
 /// away. These differ only by their mesh and count as each other's reciprocal.
-std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model, const GearFacts& gear,
+std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model, const GearProportions& gear,
                                                     const std::vector<double>& us, const std::vector<double>& zetas,
-                                                    int teeth_apart, RemovedMotion removed);
+                                                    int teeth_apart, RemovedRigidMotion removed);
 
 }  // namespace flankwright

@@ -19,22 +19,22 @@ std::vector<ResidualDistribution> residual_distributions(const FlankCompliance& 
   std::map<int, std::vector<double>> residuals;
   std::map<int, double> worst_of_own;
   for (const InfluenceSample& sample : samples) {
-    std::vector<FlankPlace> places;
+    std::vector<FlankStation> stations;
     std::vector<Eigen::Index> rows;
     for (std::size_t p = 0; p < sample.points.size(); ++p) {
       if (std::abs(sample.points[p].tooth) > teeth_apart) continue;
-      places.push_back(sample.points[p]);
+      stations.push_back(sample.points[p]);
       rows.push_back(static_cast<Eigen::Index>(p));
     }
     // Between neighbours on either side the model may not be defined; those pairs were not computed.
-    const Eigen::MatrixXd K = model.evaluate(places);
-    for (std::size_t p = 0; p < places.size(); ++p) {
+    const Eigen::MatrixXd K = model.evaluate(stations);
+    for (std::size_t p = 0; p < stations.size(); ++p) {
       for (std::size_t q = 0; q <= p; ++q) {
         const double known = sample.at(rows[p], rows[q]);
         if (std::isnan(known)) continue;
         const double found = K(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q));
         const double error = std::isnan(found) ? INFINITY : std::abs(found - known);
-        const int apart = std::abs(places[p].tooth - places[q].tooth);
+        const int apart = std::abs(stations[p].tooth - stations[q].tooth);
         residuals[apart].push_back(error / std::abs(known));
         const double own = sample.compliance(rows[p], rows[p]) * sample.compliance(rows[q], rows[q]);
         worst_of_own[apart] = std::max(worst_of_own[apart], error / std::sqrt(own));

@@ -140,11 +140,11 @@ double FilletStress::along(const ProfilePoint& point) const {
   return found / length();
 }
 
-Eigen::SparseMatrix<double> FilletStress::functionals(const std::vector<FilletPlace>& places) const {
+Eigen::SparseMatrix<double> FilletStress::functionals(const std::vector<FilletPoint>& places) const {
   const Eigen::Index n = along_.size();
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t p = 0; p < places.size(); ++p) {
-    const FilletPlace& place = places[p];
+    const FilletPoint& place = places[p];
     if (!(place.along >= 0 && place.along <= 1)) {
       throw InvalidInput("place.along", std::to_string(place.along), "0 to 1");
     }

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "core/compliance/finite_element/gear_mesh.hpp"
-#include "core/compliance/tooth/flank_grid.hpp"
+#include "core/compliance/tooth/station_grid.hpp"
 
 namespace flankwright {
 
 /// A point on the fillet below the loaded flank of tooth 0, in the frame of GearToMesh.
-struct FilletPlace {
+struct FilletPoint {
   double along{not_given};  ///< arc length from the fillet's start over length(): 0 .. 1 at its lowest point [-]
   double z{not_given};      ///< -b/2 .. b/2 [mm]
 };
@@ -38,7 +38,7 @@ class FilletStress {
   double along(const ProfilePoint& point) const;
 
   /// (s_tt, s_aa, s_ta) of point i in columns 3 i, 3 i + 1, 3 i + 2, of size 3 n: MPa per mm of displacement.
-  Eigen::SparseMatrix<double> functionals(const std::vector<FilletPlace>& places) const;
+  Eigen::SparseMatrix<double> functionals(const std::vector<FilletPoint>& places) const;
 
  private:
   struct Layout;

@@ -79,7 +79,7 @@ GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options) {
   const GearBody body = complete_body(gear.body, mesh.form, gear.normal_module);
   mesh.shaft_diameter = body.shaft_diameter;
   mesh.rigid_body = body.rigid;
-  mesh.torque_end = (body.torque_end == FaceEnd::Sharp ? -0.5 : 0.5) * width;
+  mesh.torque_end = (body.torque_end == FaceEnd::Acute ? -0.5 : 0.5) * width;
   const SectionMesh section = section_mesh(mesh.form, mesh.teeth, mesh.normal_module, body, options);
   const double overhang = body.shaft_overhang;
   if (!(overhang > 0) || !std::isfinite(overhang)) {
@@ -126,8 +126,8 @@ GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options) {
       add(lines.fillet, surfaces.fillet);
     }
   }
-  const bool at_sharp_end = body.torque_end == FaceEnd::Sharp;
-  const std::vector<int> held = sweep.on_plane(at_sharp_end ? 0 : last_plane), guided = sweep.on_plane(at_sharp_end ? last_plane : 0);
+  const bool at_acute_end = body.torque_end == FaceEnd::Acute;
+  const std::vector<int> held = sweep.on_plane(at_acute_end ? 0 : last_plane), guided = sweep.on_plane(at_acute_end ? last_plane : 0);
   mesh.solid = sweep.take();
   // The solid model's requirement on every brick; shape and options together decide whether one folds.
   if (!(mesh.solid.quality() > 0)) {

@@ -13,7 +13,7 @@ double clock_seconds() {
 }  // namespace
 
 FlankInfluence solve_flank_influence(const GearMesh& mesh, const SolidModel& solid, const Material& material, const std::vector<FlankPoint>& points,
-                                     RemovedMotion removed, const Eigen::SparseMatrix<double>& readings) {
+                                     RemovedRigidMotion removed, const Eigen::SparseMatrix<double>& readings) {
   NetFunctionals net = net_functionals(mesh, points, removed);
   const Eigen::SparseMatrix<double> T = std::move(net.taken_off);
   const Eigen::Index n = net.centre.cols(), m = net.motions.cols(), r = readings.cols();
@@ -36,7 +36,7 @@ InfluenceModel::InfluenceModel(const GearToMesh& gear, const Material& material,
       solid_(mesh_.solid, material, mesh_.supports),
       model_seconds_(clock_seconds() - started_) {}
 
-InfluenceMatrix InfluenceModel::influence(const std::vector<FlankPoint>& points, RemovedMotion removed) const {
+InfluenceMatrix InfluenceModel::influence(const std::vector<FlankPoint>& points, RemovedRigidMotion removed) const {
   InfluenceMatrix result;
   result.status = solid_.status();
   result.points = points;

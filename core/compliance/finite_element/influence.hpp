@@ -41,7 +41,7 @@ struct FlankInfluence {
 /// @param readings  3n x r, functionals of the nodes' displacements; may have no columns
 /// @throws InvalidInput  a point outside the ranges of FlankPoint
 FlankInfluence solve_flank_influence(const GearMesh& mesh, const SolidModel& solid, const Material& material, const std::vector<FlankPoint>& points,
-                                     RemovedMotion removed, const Eigen::SparseMatrix<double>& readings = {});
+                                     RemovedRigidMotion removed, const Eigen::SparseMatrix<double>& readings = {});
 
 /// Meshed and factorised gear, for any number of influence matrices.
 class InfluenceModel {
@@ -55,7 +55,7 @@ class InfluenceModel {
 
   /// @throws InvalidInput  a point outside the ranges of FlankPoint
   InfluenceMatrix influence(const std::vector<FlankPoint>& points,
-                            RemovedMotion removed = RemovedMotion::TranslationTorsionAndTilt) const;
+                            RemovedRigidMotion removed = RemovedRigidMotion::TranslationTorsionAndTilt) const;
 
  private:
   Material material_;

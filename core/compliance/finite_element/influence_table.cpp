@@ -27,7 +27,7 @@ double lowest_eigenvalue(const std::vector<Eigen::MatrixXd>& tables) {
 
 }  // namespace
 
-InfluenceTable::InfluenceTable(FlankGrid grid, std::vector<Eigen::MatrixXd> tables, TableProjection projection)
+InfluenceTable::InfluenceTable(StationGrid grid, std::vector<Eigen::MatrixXd> tables, TableProjection projection)
     : grid_(std::move(grid)),
       tables_(std::move(tables)),
       along_u_(grid_.us()),
@@ -43,7 +43,7 @@ InfluenceTable::InfluenceTable(FlankGrid grid, std::vector<Eigen::MatrixXd> tabl
   make_coefficients();
 }
 
-InfluenceTable::InfluenceTable(FlankGrid grid, std::vector<Eigen::MatrixXd> tables)
+InfluenceTable::InfluenceTable(StationGrid grid, std::vector<Eigen::MatrixXd> tables)
     : InfluenceTable(std::move(grid), std::move(tables), {}) {
   Eigen::MatrixXd& own = tables_.front();
   own = (0.5 * (own + own.transpose())).eval();
@@ -66,26 +66,26 @@ void InfluenceTable::make_coefficients() {
 }
 
 /// The B-splines of a station: their indices in a table, and their values.
-struct InfluenceTable::LocalPlace {
+struct InfluenceTable::LocalStation {
   std::array<Eigen::Index, 4> rows;  ///< the first of four in a row, for each B-spline along u
   Eigen::Vector4d along_u, along_zeta;
 };
 
-InfluenceTable::LocalPlace InfluenceTable::local_place(const FlankPlace& place) const {
-  grid_.require_on_flank(place);
-  const LocalSpline::Weights u = along_u_.at(place.u), zeta = along_zeta_.at(place.zeta);
-  LocalPlace local{{}, Eigen::Vector4d(u.values.data()), Eigen::Vector4d(zeta.values.data())};
+InfluenceTable::LocalStation InfluenceTable::local_station(const FlankStation& station) const {
+  grid_.require_on_flank(station);
+  const LocalSpline::Weights u = along_u_.at(station.u), zeta = along_zeta_.at(station.zeta);
+  LocalStation local{{}, Eigen::Vector4d(u.values.data()), Eigen::Vector4d(zeta.values.data())};
   for (std::size_t k = 0; k < 4; ++k) {
     local.rows[k] = (u.first + static_cast<Eigen::Index>(k)) * std::ssize(grid_.zetas()) + zeta.first;
   }
   return local;
 }
 
-Eigen::MatrixXd InfluenceTable::evaluate(std::span<const FlankPlace> points) const {
-  std::vector<LocalPlace> places;
+Eigen::MatrixXd InfluenceTable::evaluate(std::span<const FlankStation> points) const {
+  std::vector<LocalStation> stations;
   std::map<int, std::vector<std::size_t>> of_tooth;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    places.push_back(local_place(points[i]));
+    stations.push_back(local_station(points[i]));
     of_tooth[points[i].tooth].push_back(i);
   }
   Eigen::MatrixXd result(std::ssize(points), std::ssize(points));
@@ -99,7 +99,7 @@ Eigen::MatrixXd InfluenceTable::evaluate(std::span<const FlankPlace> points) con
       }
       const Eigen::MatrixXd& table = coefficients_[static_cast<std::size_t>(loaded - tooth)];
       for (const std::size_t q : columns) {
-        const LocalPlace& force = places[q];
+        const LocalStation& force = stations[q];
         deflection.setZero();
         for (int k = 0; k < 4; ++k) {
           deflection.noalias() += table.middleCols<4>(force.rows[static_cast<std::size_t>(k)]) *
@@ -107,11 +107,11 @@ Eigen::MatrixXd InfluenceTable::evaluate(std::span<const FlankPlace> points) con
         }
         for (const std::size_t p : rows) {
           if (tooth == loaded && p > q) break;
-          const LocalPlace& place = places[p];
+          const LocalStation& station = stations[p];
           double value = 0;
           for (int k = 0; k < 4; ++k) {
-            value += place.along_u[k] *
-                     place.along_zeta.dot(deflection.segment<4>(place.rows[static_cast<std::size_t>(k)]));
+            value += station.along_u[k] *
+                     station.along_zeta.dot(deflection.segment<4>(station.rows[static_cast<std::size_t>(k)]));
           }
           const auto i = static_cast<Eigen::Index>(p), j = static_cast<Eigen::Index>(q);
           result(i, j) = result(j, i) = value;

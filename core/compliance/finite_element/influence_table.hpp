@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/compliance/tooth/flank_grid.hpp"
+#include "core/compliance/tooth/station_grid.hpp"
 #include "core/compliance/tooth/local_spline.hpp"
 #include "core/gear/gear_data.hpp"
 
@@ -33,26 +33,26 @@ class InfluenceTable final : public FlankCompliance {
   /// @param tables  T_0 .. T_M [-], each grid.size() x grid.size(), finite; row: where it deflects, on tooth 0; column:
   ///                where the force acts, on tooth m. T_0 is symmetrised, with a diagonal > 0.
   /// @throws InvalidInput  "tables" otherwise
-  InfluenceTable(FlankGrid grid, std::vector<Eigen::MatrixXd> tables);
+  InfluenceTable(StationGrid grid, std::vector<Eigen::MatrixXd> tables);
 
   /// The same table, from its own tables() and projection().
   /// @throws InvalidInput  "tables" of another size than the grid's
-  InfluenceTable(FlankGrid grid, std::vector<Eigen::MatrixXd> tables, TableProjection projection);
+  InfluenceTable(StationGrid grid, std::vector<Eigen::MatrixXd> tables, TableProjection projection);
 
   /// @throws InvalidInput  "place.u", "place.zeta", and "place.tooth" where teeth are more than teeth_apart() apart
-  Eigen::MatrixXd evaluate(std::span<const FlankPlace> points) const override;
+  Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const override;
 
-  const FlankGrid& grid() const { return grid_; }
+  const StationGrid& grid() const { return grid_; }
   const std::vector<Eigen::MatrixXd>& tables() const { return tables_; }  ///< with what was added
   int teeth_apart() const { return static_cast<int>(tables_.size()) - 1; }  ///< M
   const TableProjection& projection() const { return projection_; }
 
  private:
-  struct LocalPlace;
-  LocalPlace local_place(const FlankPlace& place) const;
+  struct LocalStation;
+  LocalStation local_station(const FlankStation& station) const;
   void make_coefficients();
 
-  FlankGrid grid_;
+  StationGrid grid_;
   std::vector<Eigen::MatrixXd> tables_;
   LocalSpline along_u_, along_zeta_;
   std::vector<Eigen::MatrixXd> coefficients_;  ///< of the tables' splines in B-splines; a station needs 16

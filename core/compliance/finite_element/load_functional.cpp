@@ -167,19 +167,19 @@ Eigen::SparseMatrix<double> NetFunctionals::whole() const {
   return centre - motions * taken_off;
 }
 
-NetFunctionals net_functionals(const GearMesh& mesh, const std::vector<FlankPoint>& points, RemovedMotion removed) {
+NetFunctionals net_functionals(const GearMesh& mesh, const std::vector<FlankPoint>& points, RemovedRigidMotion removed) {
   const auto count = static_cast<int>(points.size());
   std::vector<Eigen::Triplet<double>> motions, taken_off;
   std::map<std::pair<double, int>, int> columns;  // of the motions' parts, by plane and component of (t, omega)
   std::map<double, SectionMotion> sections;
   const auto take_off = [&](double z, int component, double amount, int point) {
-    const auto [place, is_new] = columns.try_emplace({z, component}, static_cast<int>(columns.size()));
-    taken_off.emplace_back(place->second, point, amount);
+    const auto [station, is_new] = columns.try_emplace({z, component}, static_cast<int>(columns.size()));
+    taken_off.emplace_back(station->second, point, amount);
     if (!is_new) return;
     if (!sections.contains(z)) sections.emplace(z, shaft_motion(mesh, z));
     const SectionMotion& section = sections.at(z);
     for (int i = 0; i < section.weights.cols(); ++i) {
-      motions.emplace_back(3 * section.nodes[static_cast<std::size_t>(i / 3)] + i % 3, place->second, section.weights(component, i));
+      motions.emplace_back(3 * section.nodes[static_cast<std::size_t>(i / 3)] + i % 3, station->second, section.weights(component, i));
     }
   };
 
@@ -198,12 +198,12 @@ NetFunctionals net_functionals(const GearMesh& mesh, const std::vector<FlankPoin
       force += part;
       moment += (mesh.solid.nodes.col(entry.index() / 3) - centre).cross(part);
     }
-    if (removed == RemovedMotion::None) continue;
+    if (removed == RemovedRigidMotion::None) continue;
     take_off(point.z, 0, force.x(), i);
     take_off(point.z, 1, force.y(), i);
-    if (removed == RemovedMotion::WholeTranslationTorsionAndTilt) take_off(point.z, 2, force.z(), i);
+    if (removed == RemovedRigidMotion::WholeTranslationTorsionAndTilt) take_off(point.z, 2, force.z(), i);
     take_off(mesh.torque_end, 5, moment.z(), i);
-    if (removed == RemovedMotion::TranslationAndTorsion) continue;
+    if (removed == RemovedRigidMotion::TranslationAndTorsion) continue;
     take_off(0, 3, moment.x(), i);
     take_off(0, 4, moment.y(), i);
   }
@@ -216,8 +216,8 @@ NetFunctionals net_functionals(const GearMesh& mesh, const std::vector<FlankPoin
   return net;
 }
 
-double axial_hold_compliance(const GearMesh& mesh, const Material& material, RemovedMotion removed) {
-  if (removed == RemovedMotion::WholeTranslationTorsionAndTilt || mesh.rigid_body) return 0;
+double axial_hold_compliance(const GearMesh& mesh, const Material& material, RemovedRigidMotion removed) {
+  if (removed == RemovedRigidMotion::WholeTranslationTorsionAndTilt || mesh.rigid_body) return 0;
   const auto [E, nu] = material;
   const double a = axial_hold_share * mesh.shaft_diameter / 2;
   const double tan_beta_b = std::tan(mesh.form.helix_angle()) * mesh.form.base_radius() / mesh.form.reference_radius();

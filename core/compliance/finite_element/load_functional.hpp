@@ -88,7 +88,7 @@ struct SectionMotion {
 SectionMotion shaft_motion(const GearMesh& mesh, double z);
 
 /// The rigid-body motion of the shaft that is removed from the compliance.
-enum class RemovedMotion {
+enum class RemovedRigidMotion {
   None,
   /// The transverse translation of the shaft's section in the plane of the point, and the shaft's rotation about its
   /// axis at the face end where the torque leaves, as app. 2C subtracts them. The gear's own torsion and its axial
@@ -116,7 +116,7 @@ struct NetFunctionals {
   /// centre - motions taken_off, 3n x k.
   Eigen::SparseMatrix<double> whole() const;
 };
-NetFunctionals net_functionals(const GearMesh& mesh, const std::vector<FlankPoint>& points, RemovedMotion removed);
+NetFunctionals net_functionals(const GearMesh& mesh, const std::vector<FlankPoint>& points, RemovedRigidMotion removed);
 
 /// Diameter of what holds the shaft axially, over the shaft's.
 inline constexpr double axial_hold_share = 0.2;
@@ -132,10 +132,10 @@ inline constexpr double axial_hold_share = 0.2;
 ///
 /// Haddad holds the central node of one end [1991, 2.5], so that his deflections contain the local deflection at that
 /// node. At a node, or at the edge of a narrow bore, this grows without limit as elements shrink; the value here does
-/// not depend on the mesh. The thesis leaves the fraction open. A fifth is what the least influence values of an
-/// independent finite-element calculation ask for (0.21, 0.22, 0.27 with 27, 40, 60 teeth, 0.26 with 18; an error of
-/// 2 % in those values would be 0.01, 0.01, 0.05 and 0.01 of it); Haddad's table 2B.1 alone would ask for 0.15 to 0.16,
-/// which makes f_t of his 18:54 pair 0.2 um of 8 more.
-double axial_hold_compliance(const GearMesh& mesh, const Material& material, RemovedMotion removed);
+/// not depend on the mesh. The thesis leaves the fraction open. A fifth fits the least influence values of an
+/// independent finite-element calculation (0.21, 0.22, 0.27 with 27, 40, 60 teeth, 0.26 with 18; an error of 2 % in
+/// those values would be 0.01, 0.01, 0.05 and 0.01 of it). Haddad's table 2B.1 alone would give 0.15 to 0.16, which
+/// makes f_t of his 18:54 pair 0.2 um of 8 more.
+double axial_hold_compliance(const GearMesh& mesh, const Material& material, RemovedRigidMotion removed);
 
 }  // namespace flankwright

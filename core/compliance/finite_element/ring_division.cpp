@@ -18,10 +18,10 @@ bool same_angle(double a, double b) { return std::abs(std::remainder(a - b, 2 * 
 
 }  // namespace
 
-double RingDivision::angle(int place) const {
+double RingDivision::angle(int index) const {
   const auto n = static_cast<int>(angles.size());
-  const int turns = place >= 0 ? place / n : -((n - 1 - place) / n);
-  return angles[static_cast<std::size_t>(place - turns * n)] + turns * 2 * units::pi;
+  const int turns = index >= 0 ? index / n : -((n - 1 - index) / n);
+  return angles[static_cast<std::size_t>(index - turns * n)] + turns * 2 * units::pi;
 }
 
 bool RingDivision::has_corner(double angle) const {

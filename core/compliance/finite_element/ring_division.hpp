@@ -12,7 +12,7 @@ struct RingDivision {
 
   int elements() const { return static_cast<int>(angles.size()) / 2; }
   /// Angle at any index, also beyond the ends of the list, with the turns in between [rad].
-  double angle(int place) const;
+  double angle(int index) const;
   bool has_corner(double angle) const;
 };
 

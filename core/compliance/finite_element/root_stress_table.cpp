@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "core/base/units.hpp"
-#include "core/compliance/tooth/tooth_places.hpp"
+#include "core/compliance/tooth/flank_stations.hpp"
 
 namespace flankwright {
 
@@ -16,7 +16,7 @@ const Eigen::MatrixXd* RootStressTable::response(int tooth, int loaded_tooth) co
 }
 
 std::vector<double> fillet_zetas(double face_width) {
-  return axial_places(face_width, {0.25, 0.4, 0.6});
+  return axial_stations(face_width, {0.25, 0.4, 0.6});
 }
 
 FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet) {
@@ -33,14 +33,14 @@ FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet) {
 RootStressReadings root_stress_readings(const GearMesh& mesh, const Material& material) {
   const FilletStress fillet(mesh, material);
   const FilletGrid grid = fillet_grid(mesh, fillet);
-  std::vector<FilletPlace> places;
+  std::vector<FilletPoint> stations;
   for (const double along : grid.along) {
-    for (const double zeta : grid.zetas) places.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
+    for (const double zeta : grid.zetas) stations.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
   }
-  return {grid, fillet.functionals(places)};
+  return {grid, fillet.functionals(stations)};
 }
 
-RootStressTable root_stress_table(const GearMesh& mesh, const FlankGrid& grid, const FilletGrid& fillet, const Eigen::MatrixXd& stress) {
+RootStressTable root_stress_table(const GearMesh& mesh, const StationGrid& grid, const FilletGrid& fillet, const Eigen::MatrixXd& stress) {
   assert(stress.rows() == 3 * fillet.size() && stress.cols() == (2 * mesh.teeth_each_side + 1) * grid.size());
   RootStressTable table{grid, fillet, {}};
   const double scale = mesh.normal_module * mesh.normal_module;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/compliance/finite_element/fillet_stress.hpp"
-#include "core/compliance/tooth/flank_grid.hpp"
+#include "core/compliance/tooth/station_grid.hpp"
 
 namespace flankwright {
 
@@ -21,15 +21,15 @@ struct FilletGrid {
 /// Stress along the fillets of one gear under forces on its flanks [Haddad 1991, eq. 1.71, as three components instead
 /// of one, so that loads add up exactly before the principal stress is taken].
 ///
-/// Tension side only: the fillet below the flank that carries. Forces are those of NetFunctionals, with the motion removed that the
-/// gear's influence values have it of, at least translation, torsion and tilt: they enter over
-/// the tooth's centre surface and are held by the shaft right where they act, so that the stress of the shaft's own
-/// bending and torsion is not in it (5e-4 of the whole with the default shaft; a rigid motion leaves no stress behind).
-/// A force on the flank itself stresses the fillet 1 to 2 % more from the upper half of the flank, 5 % from 0.6 modules
-/// above the fillet (18 teeth), but its near field is narrower than the points of a contact line are apart: these would
-/// be felt one by one.
+/// Tension side only: the fillet below the flank that carries. Forces are those of NetFunctionals, with the same motion
+/// removed as in the gear's influence values, at least translation, torsion and tilt. They enter over the tooth's
+/// centre surface and are held by the shaft right where they act. The stress of the shaft's own bending and torsion is
+/// therefore not included (5e-4 of the whole with the default shaft; a rigid motion causes no stress). A force on the
+/// flank itself stresses the fillet 1 to 2 % more from the upper half of the flank, 5 % from 0.6 modules above the
+/// fillet (18 teeth), but its near field is narrower than the distance between the points of a contact line: each would
+/// show by itself.
 struct RootStressTable {
-  FlankGrid grid;     ///< points of the forces
+  StationGrid grid;     ///< points of the forces
   FilletGrid fillet;  ///< points of the stresses
   /// (s_tt, s_aa, s_ta) m_n^2 / F of every fillet point on tooth 0, three rows each, under a force at every point of
   /// the grid on tooth m, for m = -M .. M, teeth counted as in GearToMesh; 3 P x grid.size().
@@ -62,6 +62,6 @@ RootStressReadings root_stress_readings(const GearMesh& mesh, const Material& ma
 
 /// @param stress  of the readings under unit forces at the points of the grid on teeth -M .. M, one tooth after the
 ///                other [MPa/N]
-RootStressTable root_stress_table(const GearMesh& mesh, const FlankGrid& grid, const FilletGrid& fillet, const Eigen::MatrixXd& stress);
+RootStressTable root_stress_table(const GearMesh& mesh, const StationGrid& grid, const FilletGrid& fillet, const Eigen::MatrixXd& stress);
 
 }  // namespace flankwright

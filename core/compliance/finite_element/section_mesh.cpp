@@ -199,8 +199,9 @@ std::vector<double> graded(double length, double first, double growth, double la
   return ends;
 }
 
-/// Rings from the teeth's blocks down to the shaft, as fractions of their distance: sizes grow from both ends, where loads come in
-/// and where the shaft takes them, but stay in proportion to the radius, as the stress of a torque does that flows to the shaft.
+/// Rings from the teeth's blocks down to the shaft, as fractions of their distance: sizes grow from both ends, where
+/// loads enter and where the shaft carries them, but stay in proportion to the radius, like the stress of a torque that
+/// flows to the shaft.
 std::vector<double> ring_fractions(double outer, double inner, double first_outside, double first_inside, double growth) {
   constexpr double kOfRadius = 0.35;
   std::vector<double> from_outside{outer}, from_inside{inner};
@@ -236,9 +237,9 @@ std::vector<double> shaft_fractions(int rings) {
   return ends;
 }
 
-/// Elements from the teeth's inner line to their surface, as fractions of the way. Below the fillet, whose stress falls off
-/// over a fraction of its radius, each is 1.5 times as thick as the next one outwards; along the flank that falls to 1 at the
-/// tip, where elements at the centre, which loads enter through, matter as much.
+/// Elements from the teeth's inner line to their surface, as fractions of the way. Below the fillet, whose stress falls
+/// off over a fraction of its radius, each is 1.5 times as thick as the next one outwards; along the flank this ratio
+/// falls to 1 at the tip, where the elements at the centre, through which loads enter, matter as much.
 /// @param of_flank  0 at the tip, 1 from the start of the fillet on
 std::vector<double> half_thickness_fractions(int elements, double of_flank) {
   constexpr double kBelowFillet = 1.5;
@@ -387,7 +388,7 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
       const double longest = options.layer_share * std::min(depth, from) / from;
       JoinedRing joined = join_neighbours(around, std::min(longest, kWidest), centres);
       for (const int joint : joined.joints) {
-        const auto node = [&](int place) { return builder.node(Polar{from, around.angle(place)}.point()); };
+        const auto node = [&](int index) { return builder.node(Polar{from, around.angle(index)}.point()); };
         const SectionEdge edge{node(joint - 2), node(joint), node(joint + 2)};
         ties.push_back({node(joint - 1), edge, -0.5});
         ties.push_back({node(joint + 1), edge, 0.5});

@@ -22,10 +22,10 @@ struct GearMeshOptions {
   int most_layers{80};              ///< over the face; a wider face has longer layers at mid face, >= 4
   double body_growth{2.0};          ///< size ratio of neighbouring elements into the body and around it, > 1
   int shaft_elements{3};            ///< rings from the bore to the shaft's surface, >= 1
-  /// Outside the loaded tooth layers are joined by twos, fours, ... as long as the longest joined one is at most this share of the
-  /// longest side that the element has in the section, or of its depth below the root circle (but of its radius at most), >= 0; 0:
-  /// every layer runs all round. Next to the face ends the joined ones are of 1, 1, 2, 4, ... layers all the same. Below the teeth
-  /// elements side by side are joined likewise, by twos from one ring to the next one inwards.
+  /// Outside the loaded tooth layers are joined by twos, fours, ... The longest joined one is at most this fraction of
+  /// the element's longest side in the section, or of its depth below the root circle (but of its radius at most), >=
+  /// 0; 0: every layer runs all round. Next to the face ends the joined ones are of 1, 1, 2, 4, ... layers all the
+  /// same. Below the teeth elements side by side are joined likewise, by twos from one ring to the next one inwards.
   double layer_share{0.75};
 
   /// Throws InvalidInput with field, value and violated bound.
@@ -35,7 +35,7 @@ struct GearMeshOptions {
 
 /// A face end of a helical tooth by the angle between loaded flank and face there: less than a right angle, or more.
 /// The acute end of a spur gear is the one at z = -b/2 of GearToMesh.
-enum class FaceEnd { Sharp, Blunt };
+enum class FaceEnd { Acute, Obtuse };
 
 /// Bore over shaft diameter where no bore is given: as near to a solid shaft as elements go.
 inline constexpr double default_bore_share = 0.05;
@@ -47,7 +47,7 @@ struct GearBody {
   double shaft_overhang{not_given};  ///< length of the shaft beyond each face end [mm], > 0; not given: 0.5 d_s
   /// The end at which torque and axial force leave the gear. The gear is twisted between this end and the load.
   /// Haddad's sample outputs show the default: pinion loads that fall towards the other, acute end.
-  FaceEnd torque_end{FaceEnd::Blunt};
+  FaceEnd torque_end{FaceEnd::Obtuse};
   /// Everything inside rim_radius() is rigid. Only the teeth and the material below them yield, as Vedmar modelled them
   /// [Haddad 1991, 1.4.3.2].
   bool rigid{false};

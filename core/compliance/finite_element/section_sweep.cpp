@@ -91,13 +91,13 @@ LayerSpan SectionSweep::span(int level, int layer) const {
 }
 
 int SectionSweep::node(int section_node, LayerSpan span) {
-  const auto [place, is_new] = numbers_[static_cast<std::size_t>(section_node)].try_emplace(span, static_cast<int>(points_.size()));
+  const auto [entry, is_new] = numbers_[static_cast<std::size_t>(section_node)].try_emplace(span, static_cast<int>(points_.size()));
   if (is_new) {
     const double z = height(span), turn = twist_ * std::clamp(z, planes_.z[planes_.first], planes_.z[planes_.last]);
     const Eigen::Vector2d p = section_.nodes.col(section_node);
     points_.push_back({p.x() * std::cos(turn) - p.y() * std::sin(turn), p.x() * std::sin(turn) + p.y() * std::cos(turn), z});
   }
-  return place->second;
+  return entry->second;
 }
 
 int SectionSweep::brick(Eigen::Index quad, LayerSpan span) {

@@ -13,10 +13,10 @@ namespace flankwright {
 namespace {
 
 /// For every node its index among the tied nodes, or -1.
-std::vector<int> places_of_ties(const SolidMesh& mesh) {
-  std::vector<int> places(static_cast<std::size_t>(mesh.nodes.cols()), -1);
-  for (std::size_t i = 0; i < mesh.tied.size(); ++i) places[static_cast<std::size_t>(mesh.tied[i].node)] = static_cast<int>(i);
-  return places;
+std::vector<int> indices_of_ties(const SolidMesh& mesh) {
+  std::vector<int> indices(static_cast<std::size_t>(mesh.nodes.cols()), -1);
+  for (std::size_t i = 0; i < mesh.tied.size(); ++i) indices[static_cast<std::size_t>(mesh.tied[i].node)] = static_cast<int>(i);
+  return indices;
 }
 
 /// Nodes that decide how a brick moves, and by how much each moves the brick's own.
@@ -148,7 +148,7 @@ struct SolidModel::Assembled {
   Assembled(const SolidMesh& mesh, const Material& material, const std::vector<NodeSupport>& supports) {
     check(mesh, material, supports);
     const Eigen::Index n = mesh.nodes.cols();
-    const std::vector<int> ties = places_of_ties(mesh);
+    const std::vector<int> ties = indices_of_ties(mesh);
     std::vector<char> fixed(static_cast<std::size_t>(3 * n), 0);
     for (const TiedNode& tie : mesh.tied) std::fill_n(fixed.begin() + 3 * tie.node, 3, 1);
     std::vector<int> turn(static_cast<std::size_t>(n), -1);
@@ -252,8 +252,8 @@ struct SolidModel::Assembled {
         for (int i = 0; i < stiffness.rows(); ++i) {
           const int row = number[3 * nodes[i / 3] + i % 3];
           if (row < column) continue;
-          const int* place = std::lower_bound(inner + outer[column], inner + outer[column + 1], row);
-          lower.valuePtr()[place - inner] += stiffness(i, j);
+          const int* entry = std::lower_bound(inner + outer[column], inner + outer[column + 1], row);
+          lower.valuePtr()[entry - inner] += stiffness(i, j);
         }
       }
     }

@@ -13,13 +13,13 @@
 namespace flankwright {
 namespace {
 
-std::vector<FlankPoint> flank_points(const GearMesh& mesh, const FlankGrid& grid) {
+std::vector<FlankPoint> flank_points(const GearMesh& mesh, const StationGrid& grid) {
   const ToothForm& form = mesh.form;
   std::vector<FlankPoint> points;
   for (int tooth = -mesh.teeth_each_side; tooth <= mesh.teeth_each_side; ++tooth) {
-    for (const FlankPlace& place : grid.places(tooth)) {
-      points.push_back({tooth, form.form_radius() + (place.u + 1) / 2 * (form.tip_radius() - form.form_radius()),
-                        place.zeta - mesh.face_width / 2});
+    for (const FlankStation& station : grid.stations(tooth)) {
+      points.push_back({tooth, form.form_radius() + (station.u + 1) / 2 * (form.tip_radius() - form.form_radius()),
+                        station.zeta - mesh.face_width / 2});
     }
   }
   return points;

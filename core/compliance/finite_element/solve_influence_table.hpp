@@ -16,8 +16,8 @@ struct InfluenceTableTask {
   double poissons_ratio{0.3};
   int teeth_apart{2};    ///< M, 1 .. (teeth - 1)/2: so many teeth on either side are meshed in detail
   GearMeshOptions mesh{};  ///< its teeth_each_side is replaced by teeth_apart
-  RemovedMotion removed{RemovedMotion::TranslationTorsionAndTilt};
-  FlankGrid grid;        ///< as wide as the face
+  RemovedRigidMotion removed{RemovedRigidMotion::TranslationTorsionAndTilt};
+  StationGrid grid;        ///< as wide as the face
   bool root_stress{false};  ///< the same run also solves for root stress
 };
 

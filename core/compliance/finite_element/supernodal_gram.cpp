@@ -52,11 +52,11 @@ class Supernodes {
 };
 
 /// For every supernode the columns of B that reach it, ascending.
-/// @param place  of a row of A in L
-std::vector<std::vector<int>> reach(const Supernodes& supernodes, const RowSparse& right_sides, const std::vector<int>& place) {
+/// @param position  of a row of A in L
+std::vector<std::vector<int>> reach(const Supernodes& supernodes, const RowSparse& right_sides, const std::vector<int>& position) {
   std::vector<std::vector<int>> columns(static_cast<std::size_t>(supernodes.count()));
   for (int row = 0; row < right_sides.rows(); ++row) {
-    std::vector<int>& here = columns[supernodes.of_row(place[row])];
+    std::vector<int>& here = columns[supernodes.of_row(position[row])];
     for (RowSparse::InnerIterator entry(right_sides, row); entry; ++entry) here.push_back(static_cast<int>(entry.col()));
     std::ranges::sort(here);
     here.erase(std::unique(here.begin(), here.end()), here.end());
@@ -74,13 +74,13 @@ std::vector<std::vector<int>> reach(const Supernodes& supernodes, const RowSpars
 
 /// Positions in one list of the columns of another; the first has them all.
 std::vector<int> places_in(const std::vector<int>& list, const std::vector<int>& columns) {
-  std::vector<int> places;
+  std::vector<int> positions;
   auto at = list.begin();
   for (const int c : columns) {
     at = std::lower_bound(at, list.end(), c);
-    places.push_back(static_cast<int>(at - list.begin()));
+    positions.push_back(static_cast<int>(at - list.begin()));
   }
-  return places;
+  return positions;
 }
 
 }  // namespace
@@ -90,9 +90,9 @@ Eigen::MatrixXd supernodal_gram(const cholmod_factor& factor, const Eigen::Spars
   const auto n = static_cast<Eigen::Index>(factor.n), k = right_sides.cols();
   assert(right_sides.rows() == n);
   const auto* order = static_cast<const int*>(factor.Perm);  // of a row of L in A
-  std::vector<int> place(static_cast<std::size_t>(n));
-  for (Eigen::Index i = 0; i < n; ++i) place[order[i]] = static_cast<int>(i);
-  const std::vector<std::vector<int>> columns = reach(supernodes, right_sides, place);
+  std::vector<int> position(static_cast<std::size_t>(n));
+  for (Eigen::Index i = 0; i < n; ++i) position[order[i]] = static_cast<int>(i);
+  const std::vector<std::vector<int>> columns = reach(supernodes, right_sides, position);
 
   std::vector<Eigen::MatrixXd> waiting(columns.size());  // what those below leave of W_s, by the columns that reach it
   const auto waiting_at = [&](int s) -> Eigen::MatrixXd& {

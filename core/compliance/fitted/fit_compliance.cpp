@@ -34,7 +34,7 @@ class PairResiduals final : public ResidualFunction {
         for (Index j = 0; j <= i; ++j) {
           const double known = sample.at(i, j);
           const auto [p, q] = ahead(sample, i, j) ? std::pair{i, j} : std::pair{j, i};
-          const FlankPlace &a = place(sample, p), &b = place(sample, q);
+          const FlankStation &a = station(sample, p), &b = station(sample, q);
           const int apart = a.tooth - b.tooth;
           teeth_spanned_ = std::max(teeth_spanned_, apart);
           if (std::isnan(known) || (apart > 0 && !form.couples_teeth())) continue;
@@ -106,12 +106,12 @@ class PairResiduals final : public ResidualFunction {
     Index p, q;
     double known, scale;
   };
-  static const FlankPlace& place(const InfluenceSample& sample, Index p) {
+  static const FlankStation& station(const InfluenceSample& sample, Index p) {
     return sample.points[static_cast<std::size_t>(p)];
   }
   /// Whether p comes first: on the tooth further ahead or, on the same tooth, higher up or further along.
   static bool ahead(const InfluenceSample& sample, Index p, Index q) {
-    const FlankPlace &a = place(sample, p), &b = place(sample, q);
+    const FlankStation &a = station(sample, p), &b = station(sample, q);
     return std::tie(a.tooth, a.u, a.zeta) >= std::tie(b.tooth, b.u, b.zeta);
   }
 
@@ -139,10 +139,10 @@ Eigen::MatrixXd covariance_at(const PairResiduals& function, std::span<const dou
 }
 
 FitRange range_of(std::span<const InfluenceSample> samples, int teeth_apart) {
-  const FlankPlace& first = samples.front().points.front();
+  const FlankStation& first = samples.front().points.front();
   FitRange range{first.u, first.u, first.zeta, first.zeta, teeth_apart};
   for (const InfluenceSample& sample : samples) {
-    for (const FlankPlace& point : sample.points) {
+    for (const FlankStation& point : sample.points) {
       range.u_min = std::min(range.u_min, point.u);
       range.u_max = std::max(range.u_max, point.u);
       range.zeta_min = std::min(range.zeta_min, point.zeta);
@@ -159,7 +159,7 @@ std::vector<InfluenceSample> known_to(const KernelForm& form, std::span<const In
   std::vector<InfluenceSample> by_tooth;
   for (const InfluenceSample& sample : kept) {
     std::vector<int> teeth;
-    for (const FlankPlace& point : sample.points) teeth.push_back(point.tooth);
+    for (const FlankStation& point : sample.points) teeth.push_back(point.tooth);
     std::sort(teeth.begin(), teeth.end());
     teeth.erase(std::unique(teeth.begin(), teeth.end()), teeth.end());
     for (const int tooth : teeth) {
@@ -229,7 +229,7 @@ std::vector<double> flat_start(const KernelForm& form, std::span<const Influence
     offset += static_cast<std::size_t>(kernel.count());
     if (is_far) x[offset - 2] = std::log(1.5);
   }
-  if (form.wind_up) {
+  if (form.torsion) {
     // As large again as that of the body, over ten modules.
     x[offset] = std::log(body / 10);
     x[offset + 1] = std::log(3.0);
@@ -280,7 +280,7 @@ FitResult fit_compliance(std::span<const InfluenceSample> all_samples, const Ker
   for (Index i = 0; i < result.covariance.rows(); ++i) {
     record.standard_errors.push_back(std::sqrt(std::max(0.0, result.covariance(i, i))));
   }
-  const GearFacts& gear = samples.front().gear;
+  const GearProportions& gear = samples.front().gear;
   // Pairs without a value are visited but not counted.
   FitRecord everywhere;
   everywhere.range.teeth_apart = residuals.teeth_spanned();

@@ -93,7 +93,7 @@ void visit_form(Visitor& visit, Form& form) {
     polynomial(name + ".axial", kernel.axial);
     polynomial(name + ".radial", kernel.radial);
   }
-  visit("form.wind_up", form.wind_up);
+  visit("form.wind_up", form.torsion);
   visit.resize("form.bodies", form.bodies, 20);
   for (std::size_t k = 0; k < form.bodies.size(); ++k) {
     const std::string name = "form.body_" + std::to_string(k);
@@ -153,7 +153,7 @@ FitTable FittedCompliance::to_table() const {
 FittedCompliance FittedCompliance::from_table(const FitTable& table) {
   Reader read(table);
   KernelForm form;
-  GearFacts gear;
+  GearProportions gear;
   visit_form(read, form);
   form.validate();
   visit_gear(read, gear);

@@ -11,9 +11,9 @@ namespace flankwright {
 namespace {
 
 /// {lowest, highest} tooth number.
-std::pair<int, int> teeth_of(std::span<const FlankPlace> points) {
+std::pair<int, int> teeth_of(std::span<const FlankStation> points) {
   std::pair<int, int> teeth{points.front().tooth, points.front().tooth};
-  for (const FlankPlace& point : points) {
+  for (const FlankStation& point : points) {
     teeth = {std::min(teeth.first, point.tooth), std::max(teeth.second, point.tooth)};
   }
   return teeth;
@@ -21,7 +21,7 @@ std::pair<int, int> teeth_of(std::span<const FlankPlace> points) {
 
 }  // namespace
 
-FittedCompliance::FittedCompliance(KernelForm form, const GearFacts& gear, std::vector<double> coefficients,
+FittedCompliance::FittedCompliance(KernelForm form, const GearProportions& gear, std::vector<double> coefficients,
                                    FitRecord record)
     : form_(std::move(form)), gear_(gear), coefficients_(std::move(coefficients)), record_(std::move(record)) {
   form_.validate();
@@ -42,8 +42,8 @@ FittedCompliance::FittedCompliance(KernelForm form, const GearFacts& gear, std::
   }
 }
 
-void FittedCompliance::require_known(std::span<const FlankPlace> points) const {
-  for (const FlankPlace& point : points) {
+void FittedCompliance::require_known(std::span<const FlankStation> points) const {
+  for (const FlankStation& point : points) {
     if (!(std::abs(point.u) <= 1.05)) throw InvalidInput("point.u", std::to_string(point.u), "-1.05 .. 1.05");
     if (!(point.zeta >= 0 && point.zeta <= gear_.relative_face)) {
       throw InvalidInput("point.zeta", std::to_string(point.zeta), "0 .. " + std::to_string(gear_.relative_face));
@@ -57,33 +57,33 @@ void FittedCompliance::require_known(std::span<const FlankPlace> points) const {
   }
 }
 
-Eigen::MatrixXd FittedCompliance::evaluate(std::span<const FlankPlace> points) const {
+Eigen::MatrixXd FittedCompliance::evaluate(std::span<const FlankStation> points) const {
   require_known(points);
   KernelSum sum(form_, gear_, points);
   sum.set_coefficients(coefficients_);
   return sum.tooth_matrix() + sum.body_matrix();
 }
 
-Eigen::MatrixXd FittedCompliance::tooth_part(std::span<const FlankPlace> points) const {
+Eigen::MatrixXd FittedCompliance::tooth_part(std::span<const FlankStation> points) const {
   require_known(points);
   KernelSum sum(form_, gear_, points);
   sum.set_coefficients(coefficients_);
   return sum.tooth_matrix();
 }
 
-Eigen::MatrixXd FittedCompliance::body_part(std::span<const FlankPlace> points) const {
+Eigen::MatrixXd FittedCompliance::body_part(std::span<const FlankStation> points) const {
   require_known(points);
   KernelSum sum(form_, gear_, points);
   sum.set_coefficients(coefficients_);
   return sum.body_matrix();
 }
 
-bool FittedCompliance::covers(std::span<const FlankPlace> points) const {
+bool FittedCompliance::covers(std::span<const FlankStation> points) const {
   if (points.empty()) return true;
   const FitRange& range = record_.range;
   const auto [lowest, highest] = teeth_of(points);
   return highest - lowest <= range.teeth_apart &&
-         std::all_of(points.begin(), points.end(), [&](const FlankPlace& point) {
+         std::all_of(points.begin(), points.end(), [&](const FlankStation& point) {
            return point.u >= range.u_min && point.u <= range.u_max && point.zeta >= range.zeta_min &&
                   point.zeta <= range.zeta_max;
          });

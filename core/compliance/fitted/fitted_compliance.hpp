@@ -43,20 +43,20 @@ class FittedCompliance final : public FlankCompliance {
  public:
   /// @param coefficients  size form.count(), finite
   /// @throws InvalidInput naming the field that does not match or is out of range
-  FittedCompliance(KernelForm form, const GearFacts& gear, std::vector<double> coefficients, FitRecord record);
+  FittedCompliance(KernelForm form, const GearProportions& gear, std::vector<double> coefficients, FitRecord record);
 
   /// E m_n K [-], n x n. @throws InvalidInput for |u| > 1.05, zeta outside 0 .. B, or points more teeth apart than
   /// range().teeth_apart
-  Eigen::MatrixXd evaluate(std::span<const FlankPlace> points) const override;
+  Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const override;
   /// The teeth's share of evaluate(), and the gear body's; each positive semi-definite.
-  Eigen::MatrixXd tooth_part(std::span<const FlankPlace> points) const;
-  Eigen::MatrixXd body_part(std::span<const FlankPlace> points) const;
+  Eigen::MatrixXd tooth_part(std::span<const FlankStation> points) const;
+  Eigen::MatrixXd body_part(std::span<const FlankStation> points) const;
 
   /// Whether the points lie within the range of the influence values fitted.
-  bool covers(std::span<const FlankPlace> points) const;
+  bool covers(std::span<const FlankStation> points) const;
 
   const KernelForm& form() const { return form_; }
-  const GearFacts& gear() const { return gear_; }
+  const GearProportions& gear() const { return gear_; }
   const std::vector<double>& coefficients() const { return coefficients_; }
   const FitRecord& record() const { return record_; }
 
@@ -68,10 +68,10 @@ class FittedCompliance final : public FlankCompliance {
   bool operator==(const FittedCompliance& other) const;
 
  private:
-  void require_known(std::span<const FlankPlace> points) const;
+  void require_known(std::span<const FlankStation> points) const;
 
   KernelForm form_;
-  GearFacts gear_;
+  GearProportions gear_;
   std::vector<double> coefficients_;
   FitRecord record_;
 };

@@ -8,7 +8,7 @@
 
 namespace flankwright {
 
-void GearFacts::validate() const {
+void GearProportions::validate() const {
   if (teeth < 5) throw InvalidInput("gear.teeth", std::to_string(teeth), "an integer of at least 5");
   if (!(std::abs(helix_angle) < 1.5)) {
     throw InvalidInput("gear.helix_angle", std::to_string(helix_angle), "between -1.5 and 1.5 rad");
@@ -54,7 +54,7 @@ void InfluenceSample::validate() const {
     throw InvalidInput("sample.given", std::to_string(given.rows()) + " x " + std::to_string(given.cols()),
                        "nothing, or finite values as many as the compliance has");
   }
-  for (const FlankPlace& point : points) {
+  for (const FlankStation& point : points) {
     if (!(std::abs(point.u) <= 1.05)) throw InvalidInput("sample.u", std::to_string(point.u), "-1.05 .. 1.05");
     if (!(point.zeta >= 0 && point.zeta <= gear.relative_face)) {
       throw InvalidInput("sample.zeta", std::to_string(point.zeta), "0 .. " + std::to_string(gear.relative_face));

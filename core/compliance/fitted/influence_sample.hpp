@@ -9,7 +9,7 @@
 namespace flankwright {
 
 /// The parameters that influence values of different gears are compared by.
-struct GearFacts {
+struct GearProportions {
   int teeth{0};                                                    ///< Z, >= 5
   double helix_angle{std::numeric_limits<double>::quiet_NaN()};    ///< beta [rad]; its sign says which end of the face is acute
   double relative_face{std::numeric_limits<double>::quiet_NaN()};  ///< B = b/m_n [-], > 0
@@ -18,14 +18,14 @@ struct GearFacts {
   /// @throws InvalidInput naming the parameter out of range
   void validate() const;
 
-  bool operator==(const GearFacts&) const = default;
+  bool operator==(const GearProportions&) const = default;
 };
 
 /// Influence values between points of one gear: row p, column q is the deflection at p along the flank normal under a
 /// unit force at q along its normal, times E m_n. It is dimensionless and does not depend on the size of the gear.
 struct InfluenceSample {
-  GearFacts gear;
-  std::vector<FlankPlace> points;  ///< n
+  GearProportions gear;
+  std::vector<FlankStation> points;  ///< n
   Eigen::MatrixXd compliance;      ///< E m_n K [-], n x n; NaN where it was not computed
   /// The part of it that is known otherwise, n x n, symmetric; empty: none. The rest is fitted, with errors relative to
   /// the whole.

@@ -52,7 +52,7 @@ KernelForm KernelForm::several_teeth() {
   return form;
 }
 
-KernelForm KernelForm::refinement() {
+KernelForm KernelForm::correction() {
   return {{Kernel{}, Kernel{}}, {}, false};
 }
 
@@ -63,7 +63,7 @@ int KernelForm::tooth_count() const {
 }
 
 int KernelForm::body_count() const {
-  int sum = wind_up ? 2 : 0;
+  int sum = torsion ? 2 : 0;
   for (const BodyPart& body : bodies) sum += body.count();
   return sum;
 }
@@ -85,7 +85,7 @@ std::vector<std::string> KernelForm::coefficient_names() const {
       names.push_back(prefix + ".kappa");
     }
   }
-  if (wind_up) {
+  if (torsion) {
     names.push_back("wind_up.log_compliance");
     names.push_back("wind_up.log_width");
   }

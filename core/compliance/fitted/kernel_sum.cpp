@@ -73,7 +73,7 @@ VectorXd combine(const Basis& basis, const double* c) {
 
 }  // namespace
 
-KernelSum::KernelSum(const KernelForm& form, const GearFacts& gear, std::span<const FlankPlace> points)
+KernelSum::KernelSum(const KernelForm& form, const GearProportions& gear, std::span<const FlankStation> points)
     : form_(form), teeth_(gear.teeth), kernels_(form.kernels.size()), bodies_(form.bodies.size()) {
   const auto n = static_cast<Index>(points.size());
   const double B = gear.relative_face;
@@ -91,14 +91,14 @@ KernelSum::KernelSum(const KernelForm& form, const GearFacts& gear, std::span<co
     kernels_[k].offset = offset;
     offset += form.kernels[k].count();
   }
-  wind_up_offset_ = offset;
-  if (form.wind_up) offset += 2;
+  torsion_offset_ = offset;
+  if (form.torsion) offset += 2;
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     bodies_[k].offset = offset;
     offset += form.bodies[k].count();
   }
   for (Index p = 0; p < n; ++p) {
-    const FlankPlace& point = points[static_cast<std::size_t>(p)];
+    const FlankStation& point = points[static_cast<std::size_t>(p)];
     const double u = point.u, zeta = point.zeta, t = 2 * zeta / B - 1;
     tooth_.push_back(point.tooth);
     u_[p] = u;
@@ -148,10 +148,10 @@ void KernelSum::set_coefficients(std::span<const double> x) {
       at.kappa = c[1];
     }
   }
-  if (form_.wind_up) {
-    wind_up_compliance_ = std::exp(x[static_cast<std::size_t>(wind_up_offset_)]);
-    wind_up_width_ = std::exp(x[static_cast<std::size_t>(wind_up_offset_) + 1]);
-    wind_up_reach_ = (zeta_.array().square() + wind_up_width_ * wind_up_width_).sqrt();
+  if (form_.torsion) {
+    torsion_compliance_ = std::exp(x[static_cast<std::size_t>(torsion_offset_)]);
+    torsion_width_ = std::exp(x[static_cast<std::size_t>(torsion_offset_) + 1]);
+    torsion_reach_ = (zeta_.array().square() + torsion_width_ * torsion_width_).sqrt();
   }
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
     const BodyPart& part = form_.bodies[k];
@@ -202,9 +202,9 @@ Eigen::MatrixXd KernelSum::tooth_matrix() const {
   return K;
 }
 
-double KernelSum::wind_up(Index p, Index q) const {
-  const double d = zeta_[p] - zeta_[q], w = wind_up_width_;
-  return 0.5 * wind_up_compliance_ * (wind_up_reach_[p] + wind_up_reach_[q] - std::sqrt(d * d + w * w) - w);
+double KernelSum::torsion(Index p, Index q) const {
+  const double d = zeta_[p] - zeta_[q], w = torsion_width_;
+  return 0.5 * torsion_compliance_ * (torsion_reach_[p] + torsion_reach_[q] - std::sqrt(d * d + w * w) - w);
 }
 
 double KernelSum::turning_cosine(int teeth_apart) const {
@@ -227,9 +227,9 @@ Eigen::MatrixXd KernelSum::body_matrix() const {
   const Index n = s_.size();
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);
   if (tooth_.empty()) return K;
-  if (form_.wind_up) {
+  if (form_.torsion) {
     for (Index q = 0; q < n; ++q) {
-      for (Index p = q; p < n; ++p) K(p, q) = wind_up(p, q);
+      for (Index p = q; p < n; ++p) K(p, q) = torsion(p, q);
     }
   }
   for (std::size_t k = 0; k < bodies_.size(); ++k) {
@@ -253,12 +253,12 @@ double KernelSum::with_gradient(Index p, Index q, std::span<double> gradient) co
   std::fill(gradient.begin(), gradient.end(), 0.0);
   double value = 0;
   for (std::size_t k = 0; k < kernels_.size(); ++k) value += kernel_gradient(k, p, q, gradient);
-  if (form_.wind_up) {
-    const double w = wind_up_width_, d = zeta_[p] - zeta_[q], K = wind_up(p, q);
-    const auto at = static_cast<std::size_t>(wind_up_offset_);
+  if (form_.torsion) {
+    const double w = torsion_width_, d = zeta_[p] - zeta_[q], K = torsion(p, q);
+    const auto at = static_cast<std::size_t>(torsion_offset_);
     gradient[at] = K;
-    gradient[at + 1] = 0.5 * wind_up_compliance_ * w *
-                       (w / wind_up_reach_[p] + w / wind_up_reach_[q] - w / std::sqrt(d * d + w * w) - 1);
+    gradient[at + 1] = 0.5 * torsion_compliance_ * w *
+                       (w / torsion_reach_[p] + w / torsion_reach_[q] - w / std::sqrt(d * d + w * w) - 1);
     value += K;
   }
   for (std::size_t k = 0; k < bodies_.size(); ++k) value += body_gradient(k, p, q, gradient);

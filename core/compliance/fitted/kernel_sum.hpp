@@ -16,7 +16,7 @@ class KernelSum {
  public:
   /// @param form    validated
   /// @param gear    validated
-  KernelSum(const KernelForm& form, const GearFacts& gear, std::span<const FlankPlace> points);
+  KernelSum(const KernelForm& form, const GearProportions& gear, std::span<const FlankStation> points);
 
   /// @param coefficients  size form.count()
   void set_coefficients(std::span<const double> coefficients);
@@ -47,7 +47,7 @@ class KernelSum {
   double kernel_gradient(std::size_t k, Eigen::Index p, Eigen::Index q, std::span<double> gradient) const;
   double body_gradient(std::size_t k, Eigen::Index p, Eigen::Index q, std::span<double> gradient) const;
   double turning_cosine(int teeth_apart) const;
-  double wind_up(Eigen::Index p, Eigen::Index q) const;
+  double torsion(Eigen::Index p, Eigen::Index q) const;
   double coupling(std::size_t body, int teeth_apart) const;
 
   KernelForm form_;
@@ -59,9 +59,9 @@ class KernelSum {
   Eigen::Matrix<double, KernelForm::kWarpCoefficients, 1> warp_slope_;               ///< d(w_0 or tanh w_i)/d w_i
   Eigen::VectorXd s_;                                                                ///< warped zeta, n
   Eigen::MatrixXd body_basis_;                                                       ///< beta, 10 x n
-  double wind_up_compliance_{0.0}, wind_up_width_{0.0};                              ///< c, w
-  Eigen::VectorXd wind_up_reach_;  ///< v(zeta), n; empty where the form has none
-  int wind_up_offset_{0};
+  double torsion_compliance_{0.0}, torsion_width_{0.0};                              ///< c, w
+  Eigen::VectorXd torsion_reach_;  ///< v(zeta), n; empty where the form has none
+  int torsion_offset_{0};
   std::vector<KernelAtPoints> kernels_;
   std::vector<BodyAtPoints> bodies_;
 };

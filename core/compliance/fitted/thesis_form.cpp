@@ -90,7 +90,7 @@ class ThesisResiduals final : public ResidualFunction {
       const auto n = static_cast<Index>(sample.points.size());
       for (Index p = 0; p < n; ++p) {
         for (Index q = 0; q <= p; ++q) {
-          const FlankPlace &a = sample.points[static_cast<std::size_t>(p)],
+          const FlankStation &a = sample.points[static_cast<std::size_t>(p)],
                            &b = sample.points[static_cast<std::size_t>(q)];
           const double known = sample.at(p, q);
           if (std::abs(a.tooth - b.tooth) == apart && !std::isnan(known) && known != 0) {
@@ -149,7 +149,7 @@ class ThesisResiduals final : public ResidualFunction {
 
 }  // namespace
 
-ThesisCompliance::ThesisCompliance(ThesisBody body, const GearFacts& gear, std::vector<double> coefficients)
+ThesisCompliance::ThesisCompliance(ThesisBody body, const GearProportions& gear, std::vector<double> coefficients)
     : body_(body), gear_(gear), coefficients_(std::move(coefficients)) {
   gear_.validate();
   const auto size = static_cast<int>(coefficients_.size());
@@ -162,19 +162,19 @@ int ThesisCompliance::teeth_apart() const {
   return (static_cast<int>(coefficients_.size()) - kOwnCoefficients) / kAdjacentCoefficients;
 }
 
-Eigen::MatrixXd ThesisCompliance::evaluate(std::span<const FlankPlace> points) const {
+Eigen::MatrixXd ThesisCompliance::evaluate(std::span<const FlankStation> points) const {
   const std::span<const double> c(coefficients_);
   const double B = gear_.relative_face;
   std::array<double, kOwnCoefficients> unused{};
   const auto n = static_cast<Index>(points.size());
   Eigen::MatrixXd K(n, n);
   for (Index p = 0; p < n; ++p) {
-    const FlankPlace& a = points[static_cast<std::size_t>(p)];
+    const FlankStation& a = points[static_cast<std::size_t>(p)];
     if (!(a.zeta >= 0 && a.zeta <= B))
       throw InvalidInput("point.zeta", std::to_string(a.zeta), "0 .. " + std::to_string(B));
     if (!(std::abs(a.u) <= 1.05)) throw InvalidInput("point.u", std::to_string(a.u), "-1.05 .. 1.05");
     for (Index q = 0; q <= p; ++q) {
-      const FlankPlace& b = points[static_cast<std::size_t>(q)];
+      const FlankStation& b = points[static_cast<std::size_t>(q)];
       const int apart = std::abs(a.tooth - b.tooth);
       if (apart > teeth_apart()) {
         throw InvalidInput("point.tooth", std::to_string(apart) + " teeth apart",

@@ -31,8 +31,7 @@ enum class ThesisBody {
 ///
 /// Departures: the coefficients' dependence on r_F, there a spline through five radii, is a parabola in u_F; C_g1 is 1,
 /// as its size is C_f1's; decay rates are exponentials, so that they stay positive; and as F is not reciprocal,
-/// evaluate() gives the mean of both directions, which is also what is fitted. The matrix is not positive
-/// semi-definite.
+/// evaluate() gives the mean of both directions, which is also fitted. The matrix is not positive semi-definite.
 class ThesisCompliance final : public FlankCompliance {
  public:
   static constexpr int kOwnCoefficients = 30;  ///< ten functions of u_F, three powers each
@@ -40,16 +39,16 @@ class ThesisCompliance final : public FlankCompliance {
 
   /// @param coefficients  30, then 5 for each number of teeth apart from 1 on
   /// @throws InvalidInput where their number is neither
-  ThesisCompliance(ThesisBody body, const GearFacts& gear, std::vector<double> coefficients);
+  ThesisCompliance(ThesisBody body, const GearProportions& gear, std::vector<double> coefficients);
 
-  Eigen::MatrixXd evaluate(std::span<const FlankPlace> points) const override;
+  Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const override;
 
   int teeth_apart() const;  ///< the largest that it covers
   const std::vector<double>& coefficients() const { return coefficients_; }
 
  private:
   ThesisBody body_;
-  GearFacts gear_;
+  GearProportions gear_;
   std::vector<double> coefficients_;
 };
 

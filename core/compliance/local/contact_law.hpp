@@ -10,9 +10,9 @@ namespace flankwright {
 
 /// Factor M on the contact deflection near a free tooth tip [Haddad 1991, eq. 1.54, after Steward], and its slope.
 ///
-/// y is the distance from the tip in Hertzian half widths. The parabola 1.627 - 0.282 y + 0.03338 y^2 is used up to
-/// y = 3.6; from there a quintic of continuous value, slope and curvature falls to M = 1 at y = 5, beyond which the tip
-/// is not felt. (The published form jumps from 1.031 to 1 at its minimum, y = 4.2.) M is monotone and 1 <= M <= 1.627.
+/// y is the distance from the tip in Hertzian half widths. The parabola 1.627 - 0.282 y + 0.03338 y^2 is used up to y =
+/// 3.6; from there a quintic of continuous value, slope and curvature falls to M = 1 at y = 5, beyond which the tip has
+/// no influence. (The published form jumps from 1.031 to 1 at its minimum, y = 4.2.) M is monotone and 1 <= M <= 1.627.
 struct TipFactor {
   double value;  ///< M [-]
   double slope;  ///< dM/dy [-], <= 0
@@ -50,7 +50,7 @@ struct ContactSide {
 /// each other: in a corner both are added.
 ///
 /// It is the exact integral of the strain under the middle of the Hertzian pressure in plane strain. (Eq. 1.30 as
-/// printed has lost the square of the h' before the root, which 1.32 has.) The logarithm of eq. 1.34 is its limit for h
+/// printed lacks the square of the h' before the root, which 1.32 has.) The logarithm of eq. 1.34 is its limit for h
 /// much larger than L and turns back beyond that; this law increases at every load, c(0) = 0, and c ~ sqrt(w) where L
 /// exceeds h. The first slope is infinite, as -log(w). y is held fixed at 0 at the tip itself.
 ///

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/compliance/finite_element/solve_influence_table.hpp"
-#include "core/compliance/fitted/refinement_library.hpp"
+#include "core/compliance/fitted/correction_library.hpp"
 
 namespace flankwright {
 
@@ -31,9 +31,9 @@ class ComplianceStore {
   /// The fit of a gear to its run by the default mesh.
   /// @param coarse  task of the run that it completes
   /// @param start   coefficients that it started from
-  virtual std::optional<Kept<RefinementEntry>> find_fit(const InfluenceTableTask& coarse, const std::vector<double>& start) = 0;
+  virtual std::optional<Kept<CorrectionEntry>> find_fit(const InfluenceTableTask& coarse, const std::vector<double>& start) = 0;
   /// @return where it is kept; empty: nowhere
-  virtual std::string keep_fit(const InfluenceTableTask& coarse, const std::vector<double>& start, const RefinementEntry& fit) = 0;
+  virtual std::string keep_fit(const InfluenceTableTask& coarse, const std::vector<double>& start, const CorrectionEntry& fit) = 0;
 
  protected:
   ComplianceStore() = default;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "core/compliance/fitted/refinement_fit.hpp"
-#include "core/compliance/fitted/refinement_library.hpp"
+#include "core/compliance/fitted/correction_fit.hpp"
+#include "core/compliance/fitted/correction_library.hpp"
 #include "core/compliance/pair/pair_compliance.hpp"
 
 namespace flankwright {
@@ -15,7 +15,7 @@ InfluenceTableTask influence_table_task(const ComplianceTask& task, Member membe
   InfluenceTableTask run{.gear = {gear.data, pair.data.normal_module, pair.data.pressure_angle, pair.data.helix_angle, {}},
                          .poissons_ratio = (pinion ? task.pinion_material : task.wheel_material).poissons_ratio,
                          .teeth_apart = std::max(2, teeth_apart_in_contact(pair)),
-                         .grid = flank_grid(gear.data.face_width / pair.data.normal_module),
+                         .grid = station_grid(gear.data.face_width / pair.data.normal_module),
                          .root_stress = task.root_stress};
   run.gear.gear.tip_diameter = 2 * gear.tip_radius;
   if (2 * run.teeth_apart + 1 > gear.data.teeth) {
@@ -29,8 +29,8 @@ InfluenceTableTask influence_table_task(const ComplianceTask& task, Member membe
     run.gear.body = complete_body(pinion ? task.pinion_body : task.wheel_body, form, run.gear.normal_module);
     // The gear's torsion starts where the torque leaves it, and the shaft's own bearings hold it axially.
     if (const std::optional<ShaftData>& shaft = pinion ? task.pinion_shaft : task.wheel_shaft) {
-      run.removed = RemovedMotion::WholeTranslationTorsionAndTilt;
-      run.gear.body.torque_end = shaft->torque_side() == sharp_end(pair, member) ? FaceEnd::Sharp : FaceEnd::Blunt;
+      run.removed = RemovedRigidMotion::WholeTranslationTorsionAndTilt;
+      run.gear.body.torque_end = shaft->torque_side() == acute_end(pair, member) ? FaceEnd::Acute : FaceEnd::Obtuse;
     }
     GearMeshOptions options = run.mesh;
     options.teeth_each_side = run.teeth_apart;
@@ -40,7 +40,7 @@ InfluenceTableTask influence_table_task(const ComplianceTask& task, Member membe
 }
 
 std::string unknown_to_library(const ComplianceTask& task, const InfluenceTableTask& gear) {
-  return task.model == ComplianceModel::Fitted ? RefinementLibrary::shipped().unknown(gear.gear, gear.poissons_ratio) : "";
+  return task.model == ComplianceModel::Fitted ? CorrectionLibrary::shipped().unknown(gear.gear, gear.poissons_ratio) : "";
 }
 
 std::vector<std::string> library_notes(const ComplianceTask& task) {
@@ -60,7 +60,7 @@ std::vector<std::string> library_notes(const ComplianceTask& task) {
 InfluenceTableTask task_of_fit(InfluenceTableTask coarse) {
   if (coarse.grid.face_width() <= widest_own_fit) return coarse;
   coarse.gear.gear.face_width = widest_own_fit * coarse.gear.normal_module;
-  coarse.grid = flank_grid(widest_own_fit);
+  coarse.grid = station_grid(widest_own_fit);
   coarse.root_stress = false;
   return coarse;
 }

@@ -24,11 +24,11 @@ struct ComplianceTask {
 
 /// The run to be solved for one gear, on a coarse mesh where the model is Fitted. It has the gear's own face width,
 /// body and tip, as many teeth as the pair needs (two at least, so that the loaded tooth's neighbours are supported as
-/// they are), and the grid of flank_grid().
+/// they are), and the grid of station_grid().
 /// @throws InvalidInput  "fidelity.compliance", "pair." and "pinion." or "wheel." with their field, where body and teeth cannot be meshed
 InfluenceTableTask influence_table_task(const ComplianceTask& task, Member member);
 
-/// The parameters of a gear outside the library of fits, RefinementLibrary::unknown(), where the model is Fitted: the
+/// The parameters of a gear outside the library of fits, CorrectionLibrary::unknown(), where the model is Fitted: the
 /// gear then needs its own fit. Empty otherwise.
 std::string unknown_to_library(const ComplianceTask& task, const InfluenceTableTask& gear);
 

@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "core/base/stopwatch.hpp"
-#include "core/compliance/fitted/refinement_fit.hpp"
+#include "core/compliance/fitted/correction_fit.hpp"
 
 namespace flankwright {
 
@@ -70,7 +70,7 @@ std::vector<Job> jobs_of(const ComplianceTask& pair) {
     if (pair.rigid_bodies && couples_teeth(pair.model)) {
       InfluenceTableTask rigid = task;
       rigid.gear.body.rigid = true;
-      rigid.removed = RemovedMotion::None;
+      rigid.removed = RemovedRigidMotion::None;
       rigid.root_stress = false;
       add({member, Purpose::RigidBody}, std::move(rigid));
     }

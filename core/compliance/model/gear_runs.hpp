@@ -28,7 +28,7 @@ struct GearRun {
   std::shared_ptr<const RootStressTable> root_stress;  ///< null where the task does not want it
   RunStatistics statistics;    ///< of the run, whenever it was made
   GearBody body;               ///< used [mm]
-  RemovedMotion removed{RemovedMotion::TranslationTorsionAndTilt};
+  RemovedRigidMotion removed{RemovedRigidMotion::TranslationTorsionAndTilt};
   bool from_cache{false};
   std::string file;            ///< where it is kept; empty: nowhere
   double seconds{not_given};   ///< wall time in this build

@@ -14,14 +14,14 @@ GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuil
       GearStructure result{runs[member].table, material.youngs_modulus};
       if (const auto& rigid = runs.rigid_body_run(member)) result.on_rigid_body = rigid->table;
       if (task.model == ComplianceModel::Fitted) {
-        auto& refinement = structures.refinements[member == Member::Pinion ? 0 : 1];
-        refinement = gear_refinement(task, runs, member, build);
-        if (!refinement->unknown.empty() && refinement->fit.status != FitStatus::Converged) {
+        auto& correction = structures.refinements[member == Member::Pinion ? 0 : 1];
+        correction = gear_correction(task, runs, member, build);
+        if (!correction->unknown.empty() && correction->fit.status != FitStatus::Converged) {
           structures.notes.push_back(std::string("the ") + name_of(member) + "'s fit stopped after " +
-                                     std::to_string(refinement->fit.iterations) + " steps, before it converged");
+                                     std::to_string(correction->fit.iterations) + " steps, before it converged");
         }
-        result.compliance = refinement->compliance;
-        if (result.on_rigid_body) result.on_rigid_body = refinement->completed(result.on_rigid_body);
+        result.compliance = correction->compliance;
+        if (result.on_rigid_body) result.on_rigid_body = correction->completed(result.on_rigid_body);
       }
       return result;
     };

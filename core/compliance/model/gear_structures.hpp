@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "core/compliance/model/gear_refinement.hpp"
+#include "core/compliance/model/gear_correction.hpp"
 #include "core/compliance/pair/pair_compliance.hpp"
 #include "core/compliance/pair/pair_root_stress.hpp"
 
@@ -15,15 +15,15 @@ struct GearStructures {
   std::shared_ptr<const PairCompliance> pair;  ///< null for "rigid" and "thin_slice", which need none
   std::shared_ptr<const PairRootStress> root_stress;  ///< null where the task does not want it
   std::optional<FiniteElementRuns> finite_elements;
-  std::array<std::optional<GearRefinement>, 2> refinements;  ///< pinion, wheel; of "fitted" only
+  std::array<std::optional<GearCorrection>, 2> refinements;  ///< pinion, wheel; of "fitted" only
   std::vector<std::string> notes;  ///< library_notes(), and fits that did not converge
 
-  const std::optional<GearRefinement>& refinement(Member m) const { return refinements[m == Member::Pinion ? 0 : 1]; }
+  const std::optional<GearCorrection>& correction(Member m) const { return refinements[m == Member::Pinion ? 0 : 1]; }
 };
 
 /// Solves, fits and joins what the task asks for. Root stress needs a finite-element run of both gears with every
 /// model. Finite elements of gears of usual size take seconds and some gigabytes.
-/// @throws InvalidInput  as solve_finite_elements() and gear_refinement()
+/// @throws InvalidInput  as solve_finite_elements() and gear_correction()
 GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuild& build = {});
 
 }  // namespace flankwright

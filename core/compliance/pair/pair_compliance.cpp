@@ -17,25 +17,25 @@ Eigen::MatrixXd ThinSlicePair::influence(const std::vector<ContactPoint>& points
   return diagonal.asDiagonal();
 }
 
-int sharp_end(const GearPair& pair, Member member) {
+int acute_end(const GearPair& pair, Member member) {
   return (member == Member::Pinion ? 1 : -1) * (pair.contact_line_sense() >= 0 ? 1 : -1);
 }
 
 int gear_tooth(Member member, int tooth_pair) { return member == Member::Pinion ? -tooth_pair : tooth_pair; }
 
 double axial_position(const GearPair& pair, Member member, double zeta, double axial_offset) {
-  const double z = sharp_end(pair, member) * (0.5 * pair[member].data.face_width - zeta * pair.data.normal_module);
+  const double z = acute_end(pair, member) * (0.5 * pair[member].data.face_width - zeta * pair.data.normal_module);
   return member == Member::Pinion ? z : z + axial_offset;
 }
 
-FlankPlace flank_place(const GearPair& pair, Member member, const ContactPoint& point, double axial_offset) {
+FlankStation flank_station(const GearPair& pair, Member member, const ContactPoint& point, double axial_offset) {
   const Gear& gear = pair[member];
   const bool pinion = member == Member::Pinion;
   const double radius = pinion ? point.pinion_radius : point.wheel_radius;
   const double u = 2.0 * (radius - gear.form_radius) / (gear.tip_radius - gear.form_radius) - 1.0;
   const double z = pinion ? point.z : point.z - axial_offset;
   return {gear_tooth(member, point.tooth), std::clamp(u, -1.0, 1.0),
-          (0.5 * gear.data.face_width - sharp_end(pair, member) * z) / pair.data.normal_module};
+          (0.5 * gear.data.face_width - acute_end(pair, member) * z) / pair.data.normal_module};
 }
 
 Eigen::MatrixXd StructuralPair::influence(const std::vector<ContactPoint>& points, double axial_offset) const {
@@ -51,12 +51,12 @@ Eigen::MatrixXd StructuralPair::sum(std::shared_ptr<const FlankCompliance> GearS
   const IntervalMean intervals(points);
   const std::vector<ContactPoint>& fine = intervals.points();
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(std::ssize(fine), std::ssize(fine));
-  std::vector<FlankPlace> places(fine.size());
+  std::vector<FlankStation> stations(fine.size());
   for (Member member : {Member::Pinion, Member::Wheel}) {
     const GearStructure& gear = (*this)[member];
     assert(gear.*of);
-    for (std::size_t i = 0; i < fine.size(); ++i) places[i] = flank_place(pair_, member, fine[i], axial_offset);
-    sum += (gear.*of)->evaluate(places) / (gear.youngs_modulus * pair_.data.normal_module);
+    for (std::size_t i = 0; i < fine.size(); ++i) stations[i] = flank_station(pair_, member, fine[i], axial_offset);
+    sum += (gear.*of)->evaluate(stations) / (gear.youngs_modulus * pair_.data.normal_module);
   }
   return intervals.mean(sum);
 }

@@ -12,20 +12,20 @@ std::vector<Eigen::VectorXd> RootStressInfluence::components(const std::vector<c
                                                              const std::vector<Eigen::VectorXd>& forces) {
   struct Use {
     std::size_t position;
-    Eigen::Index first_place;
+    Eigen::Index first_station;
     Eigen::VectorXd of_table;  ///< forces
   };
   std::vector<Eigen::VectorXd> result;
   std::vector<std::pair<const Eigen::MatrixXd*, std::vector<Use>>> tables;  // in the order in which they come up
   for (std::size_t p = 0; p < positions.size(); ++p) {
-    result.push_back(Eigen::VectorXd::Zero(3 * std::ssize(positions[p]->places)));
+    result.push_back(Eigen::VectorXd::Zero(3 * std::ssize(positions[p]->stations)));
     std::vector<Eigen::VectorXd> of_table;
     for (const Forces& f : positions[p]->forces_) of_table.push_back(f.weights * forces[p].segment(f.begin, f.weights.cols()));
     for (const Response& r : positions[p]->responses_) {
       if (of_table[r.forces].isZero(0.0)) continue;  // a line without load
       auto uses = std::ranges::find(tables, r.table.get(), [](const auto& known) { return known.first; });
       if (uses == tables.end()) uses = tables.insert(tables.end(), {r.table.get(), {}});
-      uses->second.push_back({p, r.first_place, of_table[r.forces]});
+      uses->second.push_back({p, r.first_station, of_table[r.forces]});
     }
   }
   for (const auto& [table, uses] : tables) {
@@ -33,7 +33,7 @@ std::vector<Eigen::VectorXd> RootStressInfluence::components(const std::vector<c
     for (std::size_t k = 0; k < uses.size(); ++k) columns.col(static_cast<Eigen::Index>(k)) = uses[k].of_table;
     const Eigen::MatrixXd stress = *table * columns;
     for (std::size_t k = 0; k < uses.size(); ++k) {
-      result[uses[k].position].segment(3 * uses[k].first_place, table->rows()) += stress.col(static_cast<Eigen::Index>(k));
+      result[uses[k].position].segment(3 * uses[k].first_station, table->rows()) += stress.col(static_cast<Eigen::Index>(k));
     }
   }
   return result;
@@ -41,10 +41,10 @@ std::vector<Eigen::VectorXd> RootStressInfluence::components(const std::vector<c
 
 Eigen::VectorXd RootStressInfluence::components(const Eigen::VectorXd& forces) const { return components({this}, {forces}).front(); }
 
-Eigen::Matrix3Xd RootStressInfluence::components_of(Eigen::Index place) const {
+Eigen::Matrix3Xd RootStressInfluence::components_of(Eigen::Index station) const {
   Eigen::Matrix3Xd result = Eigen::Matrix3Xd::Zero(3, points_);
   for (const Response& r : responses_) {
-    const Eigen::Index row = 3 * (place - r.first_place);
+    const Eigen::Index row = 3 * (station - r.first_station);
     if (row < 0 || row >= r.table->rows()) continue;
     const Forces& f = forces_[r.forces];
     result.middleCols(f.begin, f.weights.cols()).noalias() += r.table->middleRows<3>(row) * f.weights;
@@ -57,7 +57,7 @@ RootStressInfluence TabulatedRootStress::influence(const std::vector<ContactPoin
   std::set<int> teeth;
   for (const ContactPoint& point : points) teeth.insert(point.tooth);
 
-  std::vector<RootPlace> places;
+  std::vector<RootStation> stations;
   std::vector<RootStressInfluence::Forces> forces;
   std::vector<RootStressInfluence::Response> responses;
   for (const Member member : {Member::Pinion, Member::Wheel}) {
@@ -68,7 +68,7 @@ RootStressInfluence TabulatedRootStress::influence(const std::vector<ContactPoin
       while (end < points.size() && points[end].tooth == points[begin].tooth) ++end;
       Eigen::MatrixXd weights(table->grid.size(), static_cast<Eigen::Index>(end - begin));
       for (std::size_t i = begin; i < end; ++i) {
-        weights.col(static_cast<Eigen::Index>(i - begin)) = per_unit_module * table->grid.weights(flank_place(pair_, member, points[i], axial_offset));
+        weights.col(static_cast<Eigen::Index>(i - begin)) = per_unit_module * table->grid.weights(flank_station(pair_, member, points[i], axial_offset));
       }
       loaded_teeth.push_back(gear_tooth(member, points[begin].tooth));
       forces.push_back({static_cast<Eigen::Index>(begin), std::move(weights)});
@@ -76,16 +76,16 @@ RootStressInfluence TabulatedRootStress::influence(const std::vector<ContactPoin
     for (const int tooth : teeth) {
       for (std::size_t k = 0; k < loaded_teeth.size(); ++k) {
         const Eigen::MatrixXd* response = table->response(gear_tooth(member, tooth), loaded_teeth[k]);
-        if (response) responses.push_back({std::ssize(places), first + k, {table, response}});
+        if (response) responses.push_back({std::ssize(stations), first + k, {table, response}});
       }
       for (std::size_t i = 0; i < table->fillet.along.size(); ++i) {
         for (const double zeta : table->fillet.zetas) {
-          places.push_back({member, tooth, table->fillet.along[i], axial_position(pair_, member, zeta, axial_offset), i == table->fillet.tangent});
+          stations.push_back({member, tooth, table->fillet.along[i], axial_position(pair_, member, zeta, axial_offset), i == table->fillet.tangent});
         }
       }
     }
   }
-  return {std::move(places), std::ssize(points), std::move(forces), std::move(responses)};
+  return {std::move(stations), std::ssize(points), std::move(forces), std::move(responses)};
 }
 
 }  // namespace flankwright

@@ -10,7 +10,7 @@
 namespace flankwright {
 
 /// A point on the fillet of one gear's tooth, below its working flank.
-struct RootPlace {
+struct RootStation {
   Member member{Member::Pinion};
   int tooth{0};             ///< of the tooth pair, as ContactPoint::tooth
   double along{not_given};  ///< arc length from the fillet's start over the fillet's, 0 .. 1 [-]
@@ -25,7 +25,7 @@ struct RootPlace {
 /// as these factors, because P is ten times n and loads are applied only a few times.
 class RootStressInfluence {
  public:
-  std::vector<RootPlace> places;
+  std::vector<RootStation> stations;
 
   /// Points `begin` .. `begin` + columns of `weights`, as forces of a table.
   struct Forces {
@@ -34,13 +34,13 @@ class RootStressInfluence {
   };
   /// A table for the stress at some points of the fillets.
   struct Response {
-    Eigen::Index first_place{0};                    ///< of rows / 3 places
+    Eigen::Index first_station{0};                    ///< of rows / 3 places
     std::size_t forces{0};                          ///< which of the Forces
     std::shared_ptr<const Eigen::MatrixXd> table;   ///< (s_tt, s_aa, s_ta) of every point, three rows each, x forces of the table [MPa/N]
   };
   /// @param points  n
-  RootStressInfluence(std::vector<RootPlace> of_places, Eigen::Index points, std::vector<Forces> forces, std::vector<Response> responses)
-      : places(std::move(of_places)), points_(points), forces_(std::move(forces)), responses_(std::move(responses)) {}
+  RootStressInfluence(std::vector<RootStation> of_places, Eigen::Index points, std::vector<Forces> forces, std::vector<Response> responses)
+      : stations(std::move(of_places)), points_(points), forces_(std::move(forces)), responses_(std::move(responses)) {}
   RootStressInfluence() = default;
 
   /// (s_tt, s_aa, s_ta) of every fillet point, three rows each, see FilletStress [MPa].
@@ -51,7 +51,7 @@ class RootStressInfluence {
   static std::vector<Eigen::VectorXd> components(const std::vector<const RootStressInfluence*>& positions, const std::vector<Eigen::VectorXd>& forces);
 
   /// The three components at one fillet point per unit force at every contact point, 3 x n [MPa/N].
-  Eigen::Matrix3Xd components_of(Eigen::Index place) const;
+  Eigen::Matrix3Xd components_of(Eigen::Index station) const;
 
  private:
   Eigen::Index points_{0};

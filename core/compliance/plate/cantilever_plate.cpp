@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/base/units.hpp"
-#include "core/compliance/tooth/tooth_places.hpp"
+#include "core/compliance/tooth/flank_stations.hpp"
 
 namespace flankwright {
 namespace {
@@ -27,7 +27,7 @@ EdgeCompliance tooth_foundation(double root_thickness, double poissons_ratio) {
 }
 
 CantileverPlate::CantileverPlate(const ToothForm& form, double normal_module, double face_width, double poissons_ratio,
-                                 double refinement)
+                                 double correction)
     : form_(form),
       normal_module_(normal_module),
       relative_face_(face_width / normal_module),
@@ -44,17 +44,17 @@ CantileverPlate::CantileverPlate(const ToothForm& form, double normal_module, do
   shape.length = relative_face_ / cos_beta;
   shape.poissons_ratio = poissons_ratio;
   shape.edge = tooth_foundation(shape.thickness(foot_), poissons_ratio);
-  const double along = refinement * (kAlong + kAlongPerModule * shape.length);
-  plate_.emplace(shape, static_cast<int>(along), static_cast<int>(refinement * kUp));
+  const double along = correction * (kAlong + kAlongPerModule * shape.length);
+  plate_.emplace(shape, static_cast<int>(along), static_cast<int>(correction * kUp));
 }
 
-Eigen::MatrixXd CantileverPlate::evaluate(std::span<const FlankPlace> points) const {
+Eigen::MatrixXd CantileverPlate::evaluate(std::span<const FlankStation> points) const {
   const double cos_beta = std::cos(form_.helix_angle());
   const auto n = static_cast<Eigen::Index>(points.size());
   std::vector<PlateLoad> loads;
   Eigen::VectorXd share(n);
   for (Eigen::Index p = 0; p < n; ++p) {
-    const FlankPlace& point = points[static_cast<std::size_t>(p)];
+    const FlankStation& point = points[static_cast<std::size_t>(p)];
     require_on_flank(point, relative_face_);
     const ProfilePoint flank = form_.at_radius(flank_radius(form_, point.u));
     const double half_thickness = flank.x * cos_beta, tan_load = std::tan(flank.tangent_angle) * cos_beta;

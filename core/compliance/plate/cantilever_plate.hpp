@@ -29,13 +29,13 @@ class CantileverPlate final : public FlankCompliance {
   /// @param normal_module   m_n [mm], > 0, of the form
   /// @param face_width      b [mm], > 0
   /// @param poissons_ratio  nu, 0 <= nu < 0.5
-  /// @param refinement      of the numbers of polynomials, >= 1
+  /// @param correction      of the numbers of polynomials, >= 1
   /// @throws InvalidInput as TaperedPlate
   CantileverPlate(const ToothForm& form, double normal_module, double face_width, double poissons_ratio,
-                  double refinement = 1);
+                  double correction = 1);
 
   /// E m_n K [-], n x n; 0 between teeth. @throws InvalidInput as require_on_flank()
-  Eigen::MatrixXd evaluate(std::span<const FlankPlace> points) const override;
+  Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const override;
 
   const TaperedPlate& plate() const { return *plate_; }
 

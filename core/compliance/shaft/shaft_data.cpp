@@ -39,22 +39,22 @@ void check_sections(const ShaftData& shaft, Findings& findings) {
 
 void check_bearings(const ShaftData& shaft, Findings& findings) {
   bool holds_axially = false, holds_tilt = false;
-  std::vector<double> places;
+  std::vector<double> positions;
   for (std::size_t i = 0; i < shaft.bearings.size(); ++i) {
     const ShaftBearing& bearing = shaft.bearings[i];
     const std::string name = element("bearings", i);
     findings.require(bearing.position >= 0.0 && bearing.position <= shaft.length(), name + "position", bearing.position,
                      "on the shaft, 0 .. " + std::to_string(shaft.length()) + " mm");
-    findings.require(std::ranges::find(places, bearing.position) == places.end(), name + "position", bearing.position,
+    findings.require(std::ranges::find(positions, bearing.position) == positions.end(), name + "position", bearing.position,
                      "a position of its own");
     findings.require(bearing.radial_stiffness > 0.0, name + "radial_stiffness", bearing.radial_stiffness, "above 0");
     findings.require(bearing.axial_stiffness >= 0.0, name + "axial_stiffness", bearing.axial_stiffness, "0 or more");
     findings.require(bearing.tilting_stiffness >= 0.0, name + "tilting_stiffness", bearing.tilting_stiffness, "0 or more");
-    places.push_back(bearing.position);
+    positions.push_back(bearing.position);
     holds_axially = holds_axially || bearing.axial_stiffness > 0.0;
     holds_tilt = holds_tilt || bearing.tilting_stiffness > 0.0;
   }
-  findings.require(places.size() >= 2 || (places.size() == 1 && holds_tilt), "bearings", std::to_string(places.size()),
+  findings.require(positions.size() >= 2 || (positions.size() == 1 && holds_tilt), "bearings", std::to_string(positions.size()),
                    "at least two, or one that holds against tilting");
   findings.require(holds_axially, "bearings", "no axial_stiffness", "at least one that holds the shaft axially");
 }

@@ -128,14 +128,14 @@ ShaftMotion ShaftPair::motion(Member member, const std::vector<ContactPoint>& po
   ShaftMotion result;
   if (!has_shaft(member)) return result;
   // Where the line through the pitch point lies at mid face and at the ends of the common face.
-  std::vector<ContactPoint> places(3);
+  std::vector<ContactPoint> stations(3);
   const double first = std::max(-0.5 * pair_.pinion.data.face_width, axial_offset - 0.5 * pair_.wheel.data.face_width);
   const double last = std::min(0.5 * pair_.pinion.data.face_width, axial_offset + 0.5 * pair_.wheel.data.face_width);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    places[i].z = first + 0.5 * static_cast<double>(i) * (last - first);
-    places[i].phase = (pair_.pitch_point - path_.roll_at_start) / path_.base_pitch;
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    stations[i].z = first + 0.5 * static_cast<double>(i) * (last - first);
+    stations[i].phase = (pair_.pitch_point - path_.roll_at_start) / path_.base_pitch;
   }
-  const Eigen::VectorXd moved = side(member)->beam.flexibility(loads(member, places, axial_offset, body_),
+  const Eigen::VectorXd moved = side(member)->beam.flexibility(loads(member, stations, axial_offset, body_),
                                                                loads(member, points, axial_offset, body_), parts(body_)) *
                                 forces / std::cos(pair_.base_helix_angle);
   result.displacement = moved[1];

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/compliance/thin_slice/tooth_bending.hpp"
-#include "core/compliance/tooth/tooth_places.hpp"
+#include "core/compliance/tooth/flank_stations.hpp"
 
 namespace flankwright {
 
@@ -15,11 +15,11 @@ ThinSliceTooth::ThinSliceTooth(const ToothForm& form, double normal_module, doub
       poissons_ratio_(poissons_ratio),
       calibration_(calibration) {}
 
-Eigen::MatrixXd ThinSliceTooth::evaluate(std::span<const FlankPlace> points) const {
+Eigen::MatrixXd ThinSliceTooth::evaluate(std::span<const FlankStation> points) const {
   const auto n = static_cast<Eigen::Index>(points.size());
   Eigen::VectorXd root(n);
   for (Eigen::Index p = 0; p < n; ++p) {
-    const FlankPlace& point = points[static_cast<std::size_t>(p)];
+    const FlankStation& point = points[static_cast<std::size_t>(p)];
     require_on_flank(point, relative_face_);
     const double Q = calibration_ * tooth_compliance(form_, flank_radius(form_, point.u), poissons_ratio_).total();
     root[p] = std::sqrt(Q / kSpread);
@@ -28,7 +28,7 @@ Eigen::MatrixXd ThinSliceTooth::evaluate(std::span<const FlankPlace> points) con
   Eigen::MatrixXd K(n, n);
   for (Eigen::Index p = 0; p < n; ++p) {
     for (Eigen::Index q = 0; q <= p; ++q) {
-      const FlankPlace &a = points[static_cast<std::size_t>(p)], &b = points[static_cast<std::size_t>(q)];
+      const FlankStation &a = points[static_cast<std::size_t>(p)], &b = points[static_cast<std::size_t>(q)];
       const double overlap = std::max(0.0, 1 - std::abs(a.zeta - b.zeta) / cos_beta / kSpread);
       K(p, q) = K(q, p) = a.tooth == b.tooth ? root[p] * root[q] * overlap : 0.0;
     }

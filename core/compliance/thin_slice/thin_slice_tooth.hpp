@@ -26,7 +26,7 @@ class ThinSliceTooth final : public FlankCompliance {
                  double calibration = 1);
 
   /// E m_n K [-], n x n; 0 between teeth. @throws InvalidInput as require_on_flank()
-  Eigen::MatrixXd evaluate(std::span<const FlankPlace> points) const override;
+  Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const override;
 
  private:
   ToothForm form_;

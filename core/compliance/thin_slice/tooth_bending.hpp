@@ -53,9 +53,9 @@ ToothCompliance slice_compliance(const std::vector<SlicePiece>& pieces, double l
 
 /// The same for the exact tooth form, loaded at a radius. The slice is taken in the normal section: the transverse form
 /// with its thickness times cos(beta) and tan a = cos(beta) tan a_t; y_p is where the load's line meets the centre
-/// line, so that the deflection is the centre line's and what lies between it and the flank belongs to the contact law.
-/// The tooth is clamped in the rim at the lowest points of its fillets; heights and thickness are taken there.
-/// Neighbouring slices do not help (no convection), and the rim is massive.
+/// line. The deflection is that of the centre line; the part between it and the flank belongs to the contact law. The
+/// tooth is clamped in the rim at the lowest points of its fillets; heights and thickness are taken there. Neighbouring
+/// slices do not help (no convection), and the rim is massive.
 ///
 /// Grows with the radius; at the very foot of the involute (its lowest tenth) of an undercut or coarse tooth it may
 /// fall by up to 8 % first. Not part of it: Hertzian flattening, gear-body and shaft deflection.

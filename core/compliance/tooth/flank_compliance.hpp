@@ -6,12 +6,12 @@
 namespace flankwright {
 
 /// A point on a flank of one gear, in coordinates that mean the same on every gear.
-struct FlankPlace {
+struct FlankStation {
   int tooth{0};      ///< m, counted counter-clockwise as in GearToMesh; only differences matter
   double u{0.0};     ///< 2 (r - r_j)/(r_a - r_j) - 1 [-]: -1 where the involute starts, +1 at the tip
   double zeta{0.0};  ///< z/m_n [-] from the acute end of the face, 0 .. B
 
-  bool operator==(const FlankPlace&) const = default;
+  bool operator==(const FlankStation&) const = default;
 };
 
 /// A structural compliance K(p, q) between any two points of one gear's flanks.
@@ -22,7 +22,7 @@ class FlankCompliance {
   /// E m_n K [-] between n points of the gear, n x n; symmetric to the last bit, positive semi-definite to round-off.
   /// Row: where it deflects; column: where the force acts; both along the inward normals.
   /// @throws InvalidInput where a point lies off the flank, or two of them further apart than the model covers
-  virtual Eigen::MatrixXd evaluate(std::span<const FlankPlace> points) const = 0;
+  virtual Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const = 0;
 
  protected:
   FlankCompliance() = default;

@@ -9,9 +9,9 @@
 
 namespace flankwright {
 
-/// How far a misaligned wheel recedes along the pinion's outward normal n = (cos b_b L, -s sin b_b), L = (sin a, cos a, 0), first
-/// order in the angles: linear in all of a misalignment but the axial offset, which shifts the levers too. The errors of the
-/// pinion take no part.
+/// Displacement of a misaligned wheel away from the pinion along its outward normal n = (cos b_b L, -s sin b_b), L =
+/// (sin a, cos a, 0), first order in the angles: linear in every part of a misalignment except the axial offset, which
+/// shifts the levers too. The errors of the pinion take no part.
 class WheelDisplacement {
  public:
   WheelDisplacement(const GearPair& pair, const Misalignment& m) : WheelDisplacement(pair, m, m.axial_offset) {}

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "core/contact/assembly/mesh_scene.hpp"
+#include "core/contact/assembly/flank_assembly.hpp"
 #include "core/contact/assembly/wheel_displacement.hpp"
 #include "core/gear/involute.hpp"
 
@@ -46,7 +46,7 @@ Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& p
   const Flank pinion = flank_in_plane_of_action(pair, Member::Pinion, condition);
   const Flank wheel = flank_in_plane_of_action(pair, Member::Wheel, condition);
   const Flank nominal = make_flank(pair, Member::Pinion, {}, {});
-  const Flank changed = make_mesh_scene(pair, condition.misalignment, {}, {}, {}, {}).pinion;
+  const Flank changed = assemble_flanks(pair, condition.misalignment, {}, {}, {}, {}).pinion;
   const bool is_nominal = condition.misalignment.pinion_lead_angle == 0.0 && condition.misalignment.pinion_pressure_angle == 0.0;
   Gap gap{Eigen::VectorXd(n), Eigen::VectorXd(n)};
   for (int i = 0; i < n; ++i) {

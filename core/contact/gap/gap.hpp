@@ -31,7 +31,7 @@ enum class GapModel {
 const char* to_string(GapModel model);
 
 /// The points where flanks are nearest in one section, and the change of their gap with the removal from either.
-struct NearestPlace {
+struct NearestPoint {
   double pinion_radius{not_given}, wheel_radius{not_given};  ///< [mm]
   /// A point with its weight in the derivative: one, or on a kink of a flank one on either side of it.
   struct Side {
@@ -47,7 +47,7 @@ struct NearestPlace {
 struct Gap {
   Eigen::VectorXd total;     ///< g [mm]
   Eigen::VectorXd error;     ///< the part that is not clearance, sign of Haddad's delta_e: metal added is positive [mm]
-  std::vector<NearestPlace> nearest{};  ///< of each point; WholeSurface only
+  std::vector<NearestPoint> nearest{};  ///< of each point; WholeSurface only
 };
 
 /// Gap of unloaded flanks at each contact point, normal to the flank, at the angle at which the undisturbed pair would touch [mm]:

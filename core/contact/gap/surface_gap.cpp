@@ -8,9 +8,9 @@ namespace flankwright {
 SurfaceGap::SurfaceGap(const GearPair& pair, const FlankCondition& condition)
     : pair_(pair),
       condition_(condition),
-      scene_(make_mesh_scene(pair, condition.misalignment, condition.pinion_modification, condition.wheel_modification,
+      assembly_(assemble_flanks(pair, condition.misalignment, condition.pinion_modification, condition.wheel_modification,
                              condition.pinion_error, condition.wheel_error)),
-      density_(search_density(scene_)) {
+      density_(search_density(assembly_)) {
   for (Member m : {Member::Pinion, Member::Wheel}) {
     const double coefficient = condition.modification(m).parabolic_te;
     if (coefficient != 0.0) parabola_[static_cast<std::size_t>(m)] = make_conjugate_field(pair, m, coefficient);
@@ -21,15 +21,15 @@ std::vector<SectionMaximum> SurfaceGap::maxima(const std::vector<ContactPoint>& 
   const double phi1 = PathOfContact(pair_).pinion_angle_at(line_phase, pair_);
   std::vector<SectionMaximum> found;
   found.reserve(points.size());
-  std::optional<FlankMeeting> meeting;
+  std::optional<ContactCondition> contact_condition;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool same_tooth = i > 0 && points[i].tooth == points[i - 1].tooth;
-    if (!same_tooth) meeting.emplace(scene_, points[i].tooth, phi1);
-    const SectionSearch search(*meeting, density_.cells);
+    if (!same_tooth) contact_condition.emplace(assembly_, points[i].tooth, phi1);
+    const SectionSearch search(*contact_condition, density_.cells);
     SectionMaximum best = search.at(points[i].z, same_tooth ? found.back() : SectionMaximum{}, SectionAccuracy::Full);
     if (!best.exists) {
-      best.at = meeting->at(scene_.pinion.roll_at(points[i].pinion_radius), points[i].z);
-      best.phi2 = meeting->phi2(best.at);
+      best.at = contact_condition->at(assembly_.pinion.roll_at(points[i].pinion_radius), points[i].z);
+      best.phi2 = contact_condition->phi2(best.at);
       best.slope_phi1 = best.at.angle.phi1;
     }
     found.push_back(best);
@@ -39,8 +39,8 @@ std::vector<SectionMaximum> SurfaceGap::maxima(const std::vector<ContactPoint>& 
 
 /// Removal from the pinion moves its point like a turn backwards by D/r_b1 and, with the slope of D, a step along the
 /// profile: per unit of D, 1/(1 - D') of either. Removal from the wheel lets it turn on by D/r_b2 times its speed.
-NearestPlace SurfaceGap::nearest_place(const SectionMaximum& found, int tooth) const {
-  const Flank &pinion = scene_.pinion, &wheel = scene_.wheel;
+NearestPoint SurfaceGap::nearest_point(const SectionMaximum& found, int tooth) const {
+  const Flank &pinion = assembly_.pinion, &wheel = assembly_.wheel;
   const double scale = wheel.base_radius * std::cos(pair_.base_helix_angle);
   const bool on_wheel_circle = found.bound == SectionBound::WheelTip || found.bound == SectionBound::WheelRoot;
   const auto side = [&](const Touch& touch, double share) {
@@ -49,36 +49,36 @@ NearestPlace SurfaceGap::nearest_place(const SectionMaximum& found, int tooth) c
     const double stepping = on_wheel_circle ? 0.0 : touch.slope_rho;
     const Dual<1> removed = pinion.deviation(Dual<1>::variable(touch.rho, 0), Dual<1>(touch.z), tooth);
     const double by_pinion = (turning / pinion.base_radius + stepping) / (1.0 - removed.gradient[0]);
-    return NearestPlace::Side{std::hypot(pinion.base_radius, touch.rho),     touch.z,
+    return NearestPoint::Side{std::hypot(pinion.base_radius, touch.rho),     touch.z,
                               std::hypot(wheel.base_radius, touch.wheel_rho), touch.wheel_z,
                               scale * by_pinion,                              scale * touch.wheel_pace / wheel.base_radius, share};
   };
-  NearestPlace place;
-  place.sides[0] = side(touch_at(found.at), 1.0 - found.share_beyond);
-  if (found.share_beyond != 0.0) place.sides[1] = side(found.beyond, found.share_beyond);
-  place.pinion_radius = place.sides[0].pinion_radius;
-  place.wheel_radius = found.at.wheel_radius;
-  return place;
+  NearestPoint nearest;
+  nearest.sides[0] = side(touch_at(found.at), 1.0 - found.share_beyond);
+  if (found.share_beyond != 0.0) nearest.sides[1] = side(found.beyond, found.share_beyond);
+  nearest.pinion_radius = nearest.sides[0].pinion_radius;
+  nearest.wheel_radius = found.at.wheel_radius;
+  return nearest;
 }
 
 Gap SurfaceGap::at(const std::vector<ContactPoint>& points, double line_phase) const {
   const std::vector<SectionMaximum> found = maxima(points, line_phase);
   const double phi1 = PathOfContact(pair_).pinion_angle_at(line_phase, pair_);
-  const double scale = scene_.wheel.base_radius * std::cos(pair_.base_helix_angle);
+  const double scale = assembly_.wheel.base_radius * std::cos(pair_.base_helix_angle);
   const Eigen::Index n = static_cast<Eigen::Index>(points.size());
   Gap gap{Eigen::VectorXd(n), Eigen::VectorXd(n)};
   gap.nearest.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Index k = static_cast<Eigen::Index>(i);
-    gap.total[k] = scale * (scene_.speed_ratio() * phi1 - found[i].phi2);
+    gap.total[k] = scale * (assembly_.speed_ratio() * phi1 - found[i].phi2);
     gap.error[k] = points[i].clearance - gap.total[k];
-    gap.nearest.push_back(nearest_place(found[i], points[i].tooth));
+    gap.nearest.push_back(nearest_point(found[i], points[i].tooth));
   }
   return gap;
 }
 
 Eigen::VectorXd SurfaceGap::derivative(const Gap& gap, Member member, ModificationParameter parameter) const {
-  const Flank& flank = member == Member::Pinion ? scene_.pinion : scene_.wheel;
+  const Flank& flank = member == Member::Pinion ? assembly_.pinion : assembly_.wheel;
   const bool of_parabola = parameter == parameter_of("parabolic_te");  // a field of the roll length, see Flank
   const auto& parabola = parabola_[static_cast<std::size_t>(member)];
   const RemovalDerivative removed(condition_.modification(member), flank.frame, parameter);
@@ -89,7 +89,7 @@ Eigen::VectorXd SurfaceGap::derivative(const Gap& gap, Member member, Modificati
   };
   Eigen::VectorXd derivative = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gap.nearest.size()));
   for (std::size_t i = 0; i < gap.nearest.size(); ++i) {
-    for (const NearestPlace::Side& side : gap.nearest[i].sides) {
+    for (const NearestPoint::Side& side : gap.nearest[i].sides) {
       if (side.share == 0.0) continue;
       derivative[static_cast<Eigen::Index>(i)] +=
           side.share * (member == Member::Pinion ? side.by_pinion * by_parameter(side.pinion_radius, side.pinion_z)
@@ -106,10 +106,10 @@ std::vector<ContactPoint> SurfaceGap::place(const std::vector<ContactPoint>& poi
   placed.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!found[i].exists) continue;
-    const NearestPlace place = nearest_place(found[i], points[i].tooth);
+    const NearestPoint nearest = nearest_point(found[i], points[i].tooth);
     ContactPoint point = points[i];
     if (point.clearance > 0.0) point.clearance = aligned.total[static_cast<Eigen::Index>(i)];
-    set_rolls(pair_, pair_.pinion.roll_length_at(place.pinion_radius), pair_.wheel.roll_length_at(place.wheel_radius), point);
+    set_rolls(pair_, pair_.pinion.roll_length_at(nearest.pinion_radius), pair_.wheel.roll_length_at(nearest.wheel_radius), point);
     placed.push_back(point);
   }
   return placed;

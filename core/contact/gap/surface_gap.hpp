@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/contact/gap/gap.hpp"
-#include "core/contact/assembly/mesh_scene.hpp"
+#include "core/contact/assembly/flank_assembly.hpp"
 #include "core/contact/unloaded/search_density.hpp"
 #include "core/contact/unloaded/section_maximum.hpp"
 #include "core/flank/conjugate_field.hpp"
@@ -17,12 +17,13 @@ namespace flankwright {
 ///     g = r_b2 cos(beta_b) ((N1/N2) phi1 - phi2(z)),     phi2(z) = max over rho1 of the wheel angle that puts the wheel's flank
 ///                                                       through the pinion's point (rho1, z), inside both flanks
 ///
-/// In every transverse section z of every tooth pair the flanks that unloaded contact analysis sees (generated, modified,
-/// measured, displaced by any misalignment, bounded by tips and face ends) are turned until they touch there: g is by how much the
-/// wheel has to lag behind uniform motion for that, measured as f_t is. The smallest gap is the unloaded transmission
-/// error, so that f_t tends to it as the load vanishes. For aligned, unmodified pairs g is that of the plane of action to
-/// round-off: 0 between A and E, the clearance of app. 2A beyond E; before A, where app. 2A turns the pinion to meet the wheel's
-/// tip and this turns the wheel, g is what app. 2A gives for the pinion angle less the clearance itself.
+/// In every transverse section z of every tooth pair the flanks of unloaded contact analysis (generated, modified,
+/// measured, displaced by any misalignment, bounded by tips and face ends) are turned until they touch there. g is the
+/// lag of the wheel behind uniform motion at this touch, measured like f_t. The smallest gap is the unloaded
+/// transmission error, so that f_t tends to it as the load vanishes. For aligned, unmodified pairs g is that of the
+/// plane of action to round-off: 0 between A and E, the clearance of app. 2A beyond E; before A app. 2A turns the
+/// pinion to meet the wheel's tip, while here the wheel is turned: g is app. 2A's value for the pinion angle less the
+/// clearance itself.
 ///
 /// Departure: the wheel's lag is taken for the approach along the flank normal, as in the plane of action. Where the wheel's tip
 /// edge meets the pinion's flank off that plane, the lever of the pinion's normal about the wheel's axis differs from r_b2
@@ -50,12 +51,12 @@ class SurfaceGap {
   std::vector<ContactPoint> place(const std::vector<ContactPoint>& points, double line_phase) const;
 
  private:
-  NearestPlace nearest_place(const SectionMaximum& found, int tooth) const;
+  NearestPoint nearest_point(const SectionMaximum& found, int tooth) const;
   std::vector<SectionMaximum> maxima(const std::vector<ContactPoint>& points, double line_phase) const;
 
   GearPair pair_;
   FlankCondition condition_;
-  MeshScene scene_;
+  FlankAssembly assembly_;
   SearchDensity density_;
   std::array<std::shared_ptr<const PredesignedField>, 2> parabola_;  ///< by member; null where the coefficient is 0
 };

@@ -101,9 +101,9 @@ struct EdgeContact {
 };
 
 /// A point of a flank, at its roll length rho and where the mate sees it, against the mate's flank, both as undisturbed flanks turn.
-EdgeContact meet(const GearPair& pair, const Gear& mate, double on_line, double rho, const Polar& place) {
-  const double mate_roll = mate.roll_length_at(place.radius);
-  return {rho, mate_roll, mate.base_radius * (place.angle - polar_angle(pair, mate, pair.path_length - on_line, mate_roll))};
+EdgeContact meet(const GearPair& pair, const Gear& mate, double on_line, double rho, const Polar& polar) {
+  const double mate_roll = mate.roll_length_at(polar.radius);
+  return {rho, mate_roll, mate.base_radius * (polar.angle - polar_angle(pair, mate, pair.path_length - on_line, mate_roll))};
 }
 
 double lower_end(const Gear& gear) { return std::max(gear.base_radius, gear.form_radius); }
@@ -111,9 +111,9 @@ double lower_end(const Gear& gear) { return std::max(gear.base_radius, gear.form
 /// The tip edge of `gear` against its mate's flank, `gear` where the undisturbed flanks would touch at its roll length `on_line`.
 std::optional<EdgeContact> tip_contact(const GearPair& pair, const Gear& gear, const Gear& mate, double on_line) {
   const double rho = gear.roll_length_at(gear.tip_radius);
-  const Polar place = about_mate(pair, gear, on_line, rho);
-  if (place.radius <= lower_end(mate) || place.radius > mate.tip_radius) return std::nullopt;
-  return meet(pair, mate, on_line, rho, place);
+  const Polar polar = about_mate(pair, gear, on_line, rho);
+  if (polar.radius <= lower_end(mate) || polar.radius > mate.tip_radius) return std::nullopt;
+  return meet(pair, mate, on_line, rho, polar);
 }
 
 /// The pinion's flank against the wheel's where the path ends at a form circle, as the wheel turns: with the pinion's edge (its lower end before A, its tip
@@ -123,9 +123,9 @@ std::optional<EdgeContact> interfering_contact(const GearPair& pair, bool before
   const Gear &pinion = pair.pinion, &wheel = pair.wheel;
   const double lower = pinion.roll_length_at(lower_end(pinion)), upper = pinion.roll_length_at(pinion.tip_radius);
   const double edge = before ? lower : upper, other = before ? upper : lower;
-  const Polar place = about_mate(pair, pinion, on_line, edge);
-  const bool inside = place.radius >= lower_end(wheel) && place.radius <= wheel.tip_radius;
-  if (inside) return meet(pair, wheel, on_line, edge, place);
+  const Polar polar = about_mate(pair, pinion, on_line, edge);
+  const bool inside = polar.radius >= lower_end(wheel) && polar.radius <= wheel.tip_radius;
+  if (inside) return meet(pair, wheel, on_line, edge, polar);
   // Outwards along the pinion's flank the wheel's radius falls.
   const double circle = before ? wheel.tip_radius : lower_end(wheel);
   const auto excess = [&](double rho) { return about_mate(pair, pinion, on_line, rho).radius - circle; };

@@ -19,14 +19,14 @@ constexpr double angle_tolerance = 1e-7;  // rad of phi1: a minimum's value then
 /// Transmission error of the mesh over the pitch analysed, linear between positions and transfer points.
 class Envelope {
  public:
-  Envelope(const MeshScene& scene, const UnloadedMesh& mesh) {
+  Envelope(const FlankAssembly& assembly, const UnloadedMesh& mesh) {
     for (std::size_t i = 0; i < mesh.phi1.size(); ++i) nodes_.emplace_back(mesh.phi1[i], mesh.transmission_error[i]);
     for (const Transfer& t : mesh.transfers) nodes_.emplace_back(t.phi1, t.transmission_error);
     // The position that closes the pitch: with pitch deviations it is not the first one again.
-    const double end = units::pi / scene.pinion_teeth;
+    const double end = units::pi / assembly.pinion_teeth;
     double last = -infinity;
     const auto consider = [&](int tooth) {
-      const ToothContact contact = find_tooth_contact(scene, tooth, end);
+      const ToothContact contact = find_tooth_contact(assembly, tooth, end);
       if (contact.exists()) last = std::max(last, contact.transmission_error);
     };
     for (const PairCurve& pair : mesh.pairs) consider(pair.tooth);
@@ -54,19 +54,19 @@ class Envelope {
 /// The flank that carries the grid, its mate, and how one looks from the other.
 class Passage {
  public:
-  Passage(const MeshScene& scene, const UnloadedMesh& mesh, Member member)
-      : scene_(scene),
-        envelope_(scene, mesh),
+  Passage(const FlankAssembly& assembly, const UnloadedMesh& mesh, Member member)
+      : assembly_(assembly),
+        envelope_(assembly, mesh),
         on_pinion_(member == Member::Pinion),
-        self_(on_pinion_ ? scene.pinion : scene.wheel),
-        mate_(on_pinion_ ? scene.wheel : scene.pinion),
+        self_(on_pinion_ ? assembly.pinion : assembly.wheel),
+        mate_(on_pinion_ ? assembly.wheel : assembly.pinion),
         normal_per_angle_(mate_.base_radius / std::hypot(1.0, mate_.helix_rate * mate_.base_radius)) {}
 
   /// Smallest separation over the pitch analysed, whichever tooth brings it [mm].
   double smallest_separation(double rho, double z) const {
-    const double offset = (on_pinion_ ? -1.0 : 1.0) * scene_.wheel_centre.z();
+    const double offset = (on_pinion_ ? -1.0 : 1.0) * assembly_.wheel_centre.z();
     if (std::abs(z + offset) > mate_.half_face) return infinity;
-    const double pitch = 2.0 * units::pi / scene_.pinion_teeth;
+    const double pitch = 2.0 * units::pi / assembly_.pinion_teeth;
     const double undisturbed =
         self_.frame.pinion_turn * ((rho - self_.frame.pitch_roll) / self_.base_radius - self_.helix_rate * z);
     const int nearest = static_cast<int>(std::lround(undisturbed / pitch));
@@ -93,11 +93,11 @@ class Passage {
   /// Rotation of a gear in its own frame, with its derivative with respect to phi1.
   Dual<1> rotation(bool of_pinion, double phi1, int tooth) const {
     const Dual<1> pinion = Dual<1>::variable(phi1, 0);
-    if (of_pinion) return pinion + tooth * 2.0 * units::pi / scene_.pinion_teeth;
-    return -(scene_.speed_ratio() * pinion + envelope_.at(phi1)) - tooth * 2.0 * units::pi / scene_.wheel_teeth;
+    if (of_pinion) return pinion + tooth * 2.0 * units::pi / assembly_.pinion_teeth;
+    return -(assembly_.speed_ratio() * pinion + envelope_.at(phi1)) - tooth * 2.0 * units::pi / assembly_.wheel_teeth;
   }
 
-  const MeshScene& scene_;
+  const FlankAssembly& assembly_;
   Envelope envelope_;
   bool on_pinion_;
   const Flank &self_, &mate_;
@@ -111,11 +111,11 @@ Point3<Dual<1>> Passage::PointPath::in_mate(double phi1) const {
   const Point3<double> q = flank_point(p.self_, rho, z, tooth, rotation.value);
   Eigen::Vector3d position(q.x, q.y, q.z), velocity = rotation.gradient[0] * Eigen::Vector3d(-q.y, q.x, 0.0);
   if (p.on_pinion_) {
-    position = p.scene_.wheel_axes.transpose() * (position - p.scene_.wheel_centre);
-    velocity = p.scene_.wheel_axes.transpose() * velocity;
+    position = p.assembly_.wheel_axes.transpose() * (position - p.assembly_.wheel_centre);
+    velocity = p.assembly_.wheel_axes.transpose() * velocity;
   } else {
-    position = p.scene_.wheel_axes * position + p.scene_.wheel_centre;
-    velocity = p.scene_.wheel_axes * velocity;
+    position = p.assembly_.wheel_axes * position + p.assembly_.wheel_centre;
+    velocity = p.assembly_.wheel_axes * velocity;
   }
   const auto component = [&](int i) { return Dual<1>(position[i], Dual<1>::Gradient(velocity[i])); };
   return {component(0), component(1), component(2)};
@@ -147,7 +147,7 @@ std::optional<std::pair<double, double>> Passage::PointPath::facing(double undis
   // The distance to the mate's axis falls until the point passes the line of centres and rises from there on.
   const Point3<double> start = flank_point(p.self_, rho, z, tooth, 0.0);
   const double to_centres = -std::atan2(start.y, start.x) * p.self_.frame.pinion_turn;  // of tooth 0, as phi1
-  const double at_centres = std::clamp(to_centres - tooth * 2.0 * units::pi / p.scene_.pinion_teeth, lo, hi);
+  const double at_centres = std::clamp(to_centres - tooth * 2.0 * units::pi / p.assembly_.pinion_teeth, lo, hi);
   const auto above_tip = [&](double phi1) { return radius(phi1) - p.mate_.tip_radius; };
   const auto below_form = [&](double phi1) { return p.mate_.form_radius - radius(phi1); };
   if (above_tip(at_centres) > 0.0) return std::nullopt;
@@ -198,16 +198,16 @@ double BearingPattern::covered(double thickness) const {
   return marked / all;
 }
 
-BearingPattern bearing_pattern(const MeshScene& scene, const UnloadedMesh& mesh, Member member, int rows, int columns) {
+BearingPattern bearing_pattern(const FlankAssembly& assembly, const UnloadedMesh& mesh, Member member, int rows, int columns) {
   if (rows < 2) throw InvalidInput("rows", std::to_string(rows), "an integer of at least 2");
   if (columns < 2) throw InvalidInput("columns", std::to_string(columns), "an integer of at least 2");
-  const Flank& flank = member == Member::Pinion ? scene.pinion : scene.wheel;
+  const Flank& flank = member == Member::Pinion ? assembly.pinion : assembly.wheel;
   BearingPattern pattern;
   pattern.radius = equally_spaced(flank.form_radius, flank.tip_radius, rows);
   pattern.z = equally_spaced(-flank.half_face, flank.half_face, columns);
   pattern.separation.setConstant(rows, columns, infinity);
   if (mesh.missing > 0) return pattern;
-  const Passage passage(scene, mesh, member);
+  const Passage passage(assembly, mesh, member);
   for (int i = 0; i < rows; ++i) {
     const double rho = flank.roll_at(pattern.radius[i]);
     for (int j = 0; j < columns; ++j) pattern.separation(i, j) = passage.smallest_separation(rho, pattern.z[j]);

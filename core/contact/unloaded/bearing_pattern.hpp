@@ -43,6 +43,6 @@ struct BearingPattern {
 ///                   infinite throughout
 /// @param rows, columns  grid over radius and z, each >= 2
 /// @throws InvalidInput "rows" or "columns"
-BearingPattern bearing_pattern(const MeshScene& scene, const UnloadedMesh& mesh, Member member, int rows, int columns);
+BearingPattern bearing_pattern(const FlankAssembly& assembly, const UnloadedMesh& mesh, Member member, int rows, int columns);
 
 }  // namespace flankwright

@@ -44,25 +44,25 @@ double roll_of_point(const Flank& flank, double radius, double z, int tooth) {
 
 }  // namespace
 
-ContactEllipse contact_ellipse(const MeshScene& scene, const ToothContact& contact, double marking_thickness) {
+ContactEllipse contact_ellipse(const FlankAssembly& assembly, const ToothContact& contact, double marking_thickness) {
   if (!(marking_thickness > 0.0 && std::isfinite(marking_thickness))) {
     throw InvalidInput("marking_thickness", std::to_string(marking_thickness), "above 0 mm");
   }
   ContactEllipse ellipse;
   if (contact.kind != ContactKind::Line && contact.kind != ContactKind::Surface) return ellipse;
 
-  const double pinion_rotation = contact.phi1 + contact.tooth * 2.0 * units::pi / scene.pinion_teeth;
-  const double wheel_rotation = -contact.phi2 - contact.tooth * 2.0 * units::pi / scene.wheel_teeth;
-  const double wheel_roll = roll_of_point(scene.wheel, contact.wheel_radius, contact.wheel_z, contact.tooth);
-  const SurfacePoint on_pinion = surface_point(scene.pinion, scene.pinion.roll_at(contact.pinion_radius),
+  const double pinion_rotation = contact.phi1 + contact.tooth * 2.0 * units::pi / assembly.pinion_teeth;
+  const double wheel_rotation = -contact.phi2 - contact.tooth * 2.0 * units::pi / assembly.wheel_teeth;
+  const double wheel_roll = roll_of_point(assembly.wheel, contact.wheel_radius, contact.wheel_z, contact.tooth);
+  const SurfacePoint on_pinion = surface_point(assembly.pinion, assembly.pinion.roll_at(contact.pinion_radius),
                                                contact.pinion_z, contact.tooth, pinion_rotation);
-  const SurfacePoint on_wheel = surface_point(scene.wheel, wheel_roll, contact.wheel_z, contact.tooth, wheel_rotation);
+  const SurfacePoint on_wheel = surface_point(assembly.wheel, wheel_roll, contact.wheel_z, contact.tooth, wheel_rotation);
 
   const Eigen::Vector3d& normal = on_pinion.normal;
   Tangents plane;
   plane.col(0) = on_pinion.d_z.normalized();
   plane.col(1) = normal.cross(plane.col(0));
-  const LocalShape pinion(on_pinion, Eigen::Matrix3d::Identity(), normal), wheel(on_wheel, scene.wheel_axes, normal);
+  const LocalShape pinion(on_pinion, Eigen::Matrix3d::Identity(), normal), wheel(on_wheel, assembly.wheel_axes, normal);
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> principal;
   principal.computeDirect(wheel.curvature_in(plane) - pinion.curvature_in(plane));
 

@@ -28,6 +28,6 @@ struct ContactEllipse {
 /// corner contact, where the flanks have no common tangent plane. Exact second derivatives of both flanks; where a
 /// flank has a kink (start of a linear relief) those of the side on which the point was found.
 /// @throws InvalidInput "marking_thickness"
-ContactEllipse contact_ellipse(const MeshScene& scene, const ToothContact& contact, double marking_thickness);
+ContactEllipse contact_ellipse(const FlankAssembly& assembly, const ToothContact& contact, double marking_thickness);
 
 }  // namespace flankwright

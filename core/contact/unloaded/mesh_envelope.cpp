@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double margin = 0.25;  // pitches beyond the extended path, see MeshEnvelope
-constexpr double hand_over_tolerance = 1e-13;              // rad of the pinion
+constexpr double transfer_tolerance = 1e-13;              // rad of the pinion
 constexpr PeakTolerance extreme_tolerance{1e-9, 1e-16, 1e-7};  // rad of the pinion, rad of the wheel, rad of the pinion
 
 }  // namespace
@@ -33,8 +33,8 @@ const ToothContact* MeshState::of(int tooth) const {
   return found == contacts.end() ? nullptr : &*found;
 }
 
-MeshEnvelope::MeshEnvelope(const GearPair& pair, const MeshScene& scene)
-    : pair_(pair), solver_(scene), path_(pair), pitch_(2.0 * units::pi / scene.pinion_teeth) {}
+MeshEnvelope::MeshEnvelope(const GearPair& pair, const FlankAssembly& assembly)
+    : pair_(pair), solver_(assembly), path_(pair), pitch_(2.0 * units::pi / assembly.pinion_teeth) {}
 
 bool MeshEnvelope::is_within(int tooth, double phi1, double beyond) const {
   const double phase = path_.line_phase_at(phi1 + tooth * pitch_, pair_);
@@ -60,8 +60,8 @@ MeshState MeshEnvelope::at(double phi1, int preferred) const {
   for (const ToothContact& c : state.contacts) highest = std::max(highest, c.transmission_error);
   for (int i = 0; i < static_cast<int>(state.contacts.size()); ++i) {
     const ToothContact& c = state.contacts[i];
-    const bool stays = c.tooth == preferred && c.transmission_error >= highest - lead_tolerance;
-    if (stays || (c.transmission_error == highest && state.leader < 0)) state.leader = i;
+    const bool stays = c.tooth == preferred && c.transmission_error >= highest - leading_tolerance;
+    if (stays || (c.transmission_error == highest && state.leading_index < 0)) state.leading_index = i;
   }
   return state;
 }
@@ -71,8 +71,8 @@ void MeshEnvelope::look_ahead(MeshState& state, double step) const {
   const MeshState next = at(state.phi1 + step, state.leading().tooth);
   if (!next.exists()) return;
   const ToothContact* successor = state.of(next.leading().tooth);
-  if (successor && successor->transmission_error >= state.leading().transmission_error - lead_tolerance) {
-    state.leader = static_cast<int>(successor - state.contacts.data());
+  if (successor && successor->transmission_error >= state.leading().transmission_error - leading_tolerance) {
+    state.leading_index = static_cast<int>(successor - state.contacts.data());
   }
 }
 
@@ -80,7 +80,7 @@ void MeshEnvelope::follow(const MeshState& from, const MeshState& to, std::vecto
                           double& largest) const {
   if (!from.exists() || !to.exists()) return;
   const int before = from.leading().tooth, after = to.leading().tooth;
-  const double split = before == after ? hidden_lead(from, to) : hand_over(from, to);
+  const double split = before == after ? hidden_transfer(from, to) : transfer_point(from, to);
   if (std::isnan(split)) {
     follow_pair(from.leading(), to.leading(), smallest, largest);
     return;
@@ -110,13 +110,13 @@ void MeshEnvelope::follow(const MeshState& from, const MeshState& to, std::vecto
   follow_pair(enters, to.leading(), smallest, largest);
 }
 
-/// The angle at which the leading pair of `to` overtakes that of `from`, by lead_tolerance.
-double MeshEnvelope::hand_over(const MeshState& from, const MeshState& to) const {
+/// The angle at which the leading pair of `to` overtakes that of `from`, by leading_tolerance.
+double MeshEnvelope::transfer_point(const MeshState& from, const MeshState& to) const {
   const int before = from.leading().tooth, after = to.leading().tooth;
   const auto ahead = [&](const ToothContact* entering, const ToothContact* leaving) {
     if (!leaving || !leaving->exists()) return infinity;
     if (!entering || !entering->exists()) return -infinity;
-    return entering->transmission_error - leaving->transmission_error - lead_tolerance;
+    return entering->transmission_error - leaving->transmission_error - leading_tolerance;
   };
   const auto at_angle = [&](double phi1) {
     const ToothContact entering = contact(after, phi1), leaving = contact(before, phi1);
@@ -124,30 +124,30 @@ double MeshEnvelope::hand_over(const MeshState& from, const MeshState& to) const
   };
   const double start = ahead(from.of(after), from.of(before)), end = ahead(to.of(after), to.of(before));
   if (end <= 0.0) return to.phi1;  // only about to overtake, see look_ahead()
-  return bracketed_root(at_angle, from.phi1, start, to.phi1, end, hand_over_tolerance).upper;
+  return bracketed_root(at_angle, from.phi1, start, to.phi1, end, transfer_tolerance).upper;
 }
 
 /// Angle at which another pair may overtake the one that is leading at both ends and fall back again; NaN where none
 /// does. Its advance, concave near its crest, stays below the point where the tangents at both ends meet.
-double MeshEnvelope::hidden_lead(const MeshState& from, const MeshState& to) const {
+double MeshEnvelope::hidden_transfer(const MeshState& from, const MeshState& to) const {
   const ToothContact &first = from.leading(), &last = to.leading();
   for (const ToothContact& c : from.contacts) {
     const ToothContact* other = to.of(c.tooth);
     if (c.tooth == first.tooth || !other) continue;
     const double rise = c.slope - first.slope, fall = other->slope - last.slope;
     if (!(rise > 0.0 && fall < 0.0)) continue;
-    const double lead = c.transmission_error - first.transmission_error;
-    const double last_lead = other->transmission_error - last.transmission_error;
+    const double advance = c.transmission_error - first.transmission_error;
+    const double last_advance = other->transmission_error - last.transmission_error;
     const double width = to.phi1 - from.phi1;
-    const double meet = (last_lead - lead - fall * width) / (rise - fall);
-    if (lead + rise * meet <= lead_tolerance) continue;
+    const double meet = (last_advance - advance - fall * width) / (rise - fall);
+    if (advance + rise * meet <= leading_tolerance) continue;
     // The crest of the advance itself decides.
     const auto lead_slope = [&](double phi1) {
       return contact(c.tooth, phi1).slope - contact(first.tooth, phi1).slope;
     };
     const double crest = bracketed_root(lead_slope, from.phi1, rise, to.phi1, fall, 1e-6 * width).x;
     const ToothContact over = contact(c.tooth, crest), under = contact(first.tooth, crest);
-    if (over.exists() && under.exists() && over.transmission_error > under.transmission_error + lead_tolerance) return crest;
+    if (over.exists() && under.exists() && over.transmission_error > under.transmission_error + leading_tolerance) return crest;
   }
   return not_given;
 }
@@ -155,7 +155,7 @@ double MeshEnvelope::hidden_lead(const MeshState& from, const MeshState& to) con
 /// The crest or trough of one pair between two angles, if its slope changes sign by more than round-off.
 void MeshEnvelope::follow_pair(const ToothContact& from, const ToothContact& to, double& smallest, double& largest) const {
   const double width = to.phi1 - from.phi1;
-  if (!(from.slope * to.slope < 0.0) || std::min(std::abs(from.slope), std::abs(to.slope)) * width <= lead_tolerance) return;
+  if (!(from.slope * to.slope < 0.0) || std::min(std::abs(from.slope), std::abs(to.slope)) * width <= leading_tolerance) return;
   const double sign = from.slope > 0.0 ? 1.0 : -1.0;
   const double curvature = std::abs(to.slope - from.slope) / width;
   const auto evaluate = [&](double phi1, const Sample*) { return Sample{contact(from.tooth, phi1), sign}; };

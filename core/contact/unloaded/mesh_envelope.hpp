@@ -12,10 +12,10 @@ namespace flankwright {
 struct MeshState {
   double phi1{not_given};
   std::vector<ToothContact> contacts;  ///< those that exist, in order of tooth
-  int leader{-1};                      ///< index into contacts, -1 where no pair touches
+  int leading_index{-1};                      ///< index into contacts, -1 where no pair touches
 
-  bool exists() const { return leader >= 0; }
-  const ToothContact& leading() const { return contacts[leader]; }
+  bool exists() const { return leading_index >= 0; }
+  const ToothContact& leading() const { return contacts[leading_index]; }
   /// Contact of one pair, null where it does not touch.
   const ToothContact* of(int tooth) const;
 };
@@ -28,17 +28,17 @@ struct MeshState {
 /// another pair is inside it at the same position along the face: the contact ratio is above 1.
 class MeshEnvelope {
  public:
-  static constexpr double lead_tolerance = 1e-12;  ///< rad, see analyse_unloaded_mesh()
+  static constexpr double leading_tolerance = 1e-12;  ///< rad, see analyse_unloaded_mesh()
 
-  MeshEnvelope(const GearPair& pair, const MeshScene& scene);
+  MeshEnvelope(const GearPair& pair, const FlankAssembly& assembly);
 
   /// Whether pair `tooth` is on the extended path of contact with the pinion at phi1.
   bool on_path(int tooth, double phi1) const { return is_within(tooth, phi1, 0.0); }
 
-  /// @param preferred  tooth that stays the leading one unless another is ahead of it by more than lead_tolerance
+  /// @param preferred  tooth that stays the leading one unless another is ahead of it by more than leading_tolerance
   MeshState at(double phi1, int preferred) const;
 
-  /// Where pairs are ahead together, within lead_tolerance, the leading one is that which leads another `step` [rad]
+  /// Where pairs are ahead together, within leading_tolerance, the leading one is that which leads another `step` [rad]
   /// on. So a transfer point that falls on both ends of a pitch belongs to the upper end.
   void look_ahead(MeshState& state, double step) const;
 
@@ -54,8 +54,8 @@ class MeshEnvelope {
   bool is_within(int tooth, double phi1, double beyond) const;
   ToothContact contact(int tooth, double phi1) const;
   void follow_pair(const ToothContact& from, const ToothContact& to, double& smallest, double& largest) const;
-  double hidden_lead(const MeshState& from, const MeshState& to) const;
-  double hand_over(const MeshState& from, const MeshState& to) const;
+  double hidden_transfer(const MeshState& from, const MeshState& to) const;
+  double transfer_point(const MeshState& from, const MeshState& to) const;
 
   const GearPair& pair_;
   ToothContactSolver solver_;

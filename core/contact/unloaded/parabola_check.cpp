@@ -21,8 +21,8 @@ struct ArcPoint {
 };
 
 /// One pitch of the mesh by its leading teeth; at least one transfer point.
-struct Lead {
-  std::vector<ArcPoint> positions, hand_overs;
+struct LeadingPair {
+  std::vector<ArcPoint> positions, transfer_points;
   std::vector<Transfer> transfers;
   std::map<ContactKind, int> kinds;  ///< positions at which the leading pair touches so
 };
@@ -38,23 +38,23 @@ ToothContact leading_at(const UnloadedMesh& mesh, std::size_t position) {
   return leading;
 }
 
-Lead follow_lead(const MeshScene& scene, const UnloadedMesh& mesh) {
-  const double pitch = 2.0 * units::pi / scene.pinion_teeth;
-  Lead lead;
-  lead.transfers = mesh.transfers;
+LeadingPair follow_leading_pair(const FlankAssembly& assembly, const UnloadedMesh& mesh) {
+  const double pitch = 2.0 * units::pi / assembly.pinion_teeth;
+  LeadingPair leading_pair;
+  leading_pair.transfers = mesh.transfers;
   std::size_t next = 0;
   for (std::size_t i = 0; i < mesh.phi1.size(); ++i) {
-    while (next < lead.transfers.size() && lead.transfers[next].phi1 <= mesh.phi1[i]) ++next;
-    const int tooth = next == 0 ? lead.transfers.front().from_tooth : lead.transfers[next - 1].to_tooth;
-    lead.positions.push_back({mesh.phi1[i] + tooth * pitch, mesh.transmission_error[i]});
+    while (next < leading_pair.transfers.size() && leading_pair.transfers[next].phi1 <= mesh.phi1[i]) ++next;
+    const int tooth = next == 0 ? leading_pair.transfers.front().from_tooth : leading_pair.transfers[next - 1].to_tooth;
+    leading_pair.positions.push_back({mesh.phi1[i] + tooth * pitch, mesh.transmission_error[i]});
     const ToothContact contact = leading_at(mesh, i);
-    ++lead.kinds[contact.kind];
+    ++leading_pair.kinds[contact.kind];
   }
-  for (const Transfer& t : lead.transfers) {
-    lead.hand_overs.push_back({t.phi1 + t.from_tooth * pitch, t.transmission_error});
-    lead.hand_overs.push_back({t.phi1 + t.to_tooth * pitch, t.transmission_error});
+  for (const Transfer& t : leading_pair.transfers) {
+    leading_pair.transfer_points.push_back({t.phi1 + t.from_tooth * pitch, t.transmission_error});
+    leading_pair.transfer_points.push_back({t.phi1 + t.to_tooth * pitch, t.transmission_error});
   }
-  return lead;
+  return leading_pair;
 }
 
 std::string text(const char* format, double value) {
@@ -64,24 +64,24 @@ std::string text(const char* format, double value) {
 }
 
 /// Percentage of the pitch over which the leading pair touches in one of these ways [%].
-double share_of_pitch(const Lead& lead, std::initializer_list<ContactKind> kinds) {
+double share_of_pitch(const LeadingPair& leading_pair, std::initializer_list<ContactKind> kinds) {
   int count = 0;
   for (const ContactKind kind : kinds) {
-    const auto found = lead.kinds.find(kind);
-    if (found != lead.kinds.end()) count += found->second;
+    const auto found = leading_pair.kinds.find(kind);
+    if (found != leading_pair.kinds.end()) count += found->second;
   }
-  return 100.0 * count / static_cast<double>(lead.positions.size());
+  return 100.0 * count / static_cast<double>(leading_pair.positions.size());
 }
 
-double on_face_end(const Lead& lead) {
-  return share_of_pitch(lead, {ContactKind::FaceEnd, ContactKind::Corner});
+double on_face_end(const LeadingPair& leading_pair) {
+  return share_of_pitch(leading_pair, {ContactKind::FaceEnd, ContactKind::Corner});
 }
 
 /// The cause of the departure from the parabola, as far as the kinds of contact show it.
-std::string cause(const Lead& lead) {
-  const double ends = on_face_end(lead);
+std::string cause(const LeadingPair& leading_pair) {
+  const double ends = on_face_end(leading_pair);
   const double tips = share_of_pitch(
-      lead, {ContactKind::PinionTip, ContactKind::WheelTip, ContactKind::PinionRoot, ContactKind::WheelRoot});
+      leading_pair, {ContactKind::PinionTip, ContactKind::WheelTip, ContactKind::PinionRoot, ContactKind::WheelRoot});
   if (ends > tips)
     return text("; contact runs on a face end over %.0f %% of the pitch: more lead crowning or less misalignment",
                 ends);
@@ -94,31 +94,31 @@ std::string cause(const Lead& lead) {
 bool leaves_well(const Transfer& t) { return std::islessequal(t.slope_before, 0.0); }
 bool enters_well(const Transfer& t) { return std::isgreaterequal(t.slope_after, 0.0); }
 
-std::string verdict(const ParabolaCheck& check, const Lead& lead, double height) {
-  for (const Transfer& t : lead.transfers) {
+std::string verdict(const ParabolaCheck& check, const LeadingPair& leading_pair, double height) {
+  for (const Transfer& t : leading_pair.transfers) {
     const double degrees = t.phi1 / units::deg;
     if (!leaves_well(t)) {
-      return text("the pair that leaves still gains at the hand-over at %.3f deg", degrees) + cause(lead);
+      return text("the pair that leaves still gains at the hand-over at %.3f deg", degrees) + cause(leading_pair);
     }
     if (!enters_well(t)) {
-      return text("the pair that enters still falls behind at the hand-over at %.3f deg", degrees) + cause(lead);
+      return text("the pair that enters still falls behind at the hand-over at %.3f deg", degrees) + cause(leading_pair);
     }
   }
   const double off = check.found / check.wanted - 1.0;
   if (!(std::abs(off) <= coefficient_tolerance)) {
-    return text("the parabola's coefficient differs by %+.0f %% from the one asked for", 100.0 * off) + cause(lead);
+    return text("the parabola's coefficient differs by %+.0f %% from the one asked for", 100.0 * off) + cause(leading_pair);
   }
   if (!(check.residual <= residual_tolerance * height)) {
     return text("the arc departs from its parabola by %.0f %% of its height", 100.0 * check.residual / height) +
-           cause(lead);
+           cause(leading_pair);
   }
-  if (on_face_end(lead) > 0.0) return "the parabola is there, but not on the flanks" + cause(lead);
+  if (on_face_end(leading_pair) > 0.0) return "the parabola is there, but not on the flanks" + cause(leading_pair);
   return "";
 }
 
 }  // namespace
 
-ParabolaCheck check_parabola(const MeshScene& scene, const UnloadedMesh& mesh, double wanted) {
+ParabolaCheck check_parabola(const FlankAssembly& assembly, const UnloadedMesh& mesh, double wanted) {
   if (!(wanted > 0.0 && std::isfinite(wanted)))
     throw InvalidInput("parabolic_te", std::to_string(wanted), "above 0 1/rad");
   if (mesh.phi1.size() < 4) throw InvalidInput("positions", std::to_string(mesh.phi1.size()), "at least 4");
@@ -132,15 +132,15 @@ ParabolaCheck check_parabola(const MeshScene& scene, const UnloadedMesh& mesh, d
     check.why = "no pair hands over to another: the pairs share the lead, there is no parabola";
     return check;
   }
-  const Lead lead = follow_lead(scene, mesh);
-  const double half_pitch = units::pi / scene.pinion_teeth;  // scales the fit to numbers of order 1
+  const LeadingPair leading_pair = follow_leading_pair(assembly, mesh);
+  const double half_pitch = units::pi / assembly.pinion_teeth;  // scales the fit to numbers of order 1
   const double height = wanted * half_pitch * half_pitch;
 
-  const auto count = static_cast<Eigen::Index>(lead.positions.size());
+  const auto count = static_cast<Eigen::Index>(leading_pair.positions.size());
   Eigen::MatrixX3d powers(count, 3);
   Eigen::VectorXd errors(count);
   for (Eigen::Index i = 0; i < count; ++i) {
-    const ArcPoint& point = lead.positions[static_cast<std::size_t>(i)];
+    const ArcPoint& point = leading_pair.positions[static_cast<std::size_t>(i)];
     const double x = point.angle / half_pitch;
     powers.row(i) << 1.0, x, x * x;
     errors[i] = point.error / height;
@@ -149,15 +149,15 @@ ParabolaCheck check_parabola(const MeshScene& scene, const UnloadedMesh& mesh, d
   check.found = -fit[2] * wanted;
   check.shift = -0.5 * fit[1] / fit[2] * half_pitch;
   check.residual = 0.0;
-  for (const std::vector<ArcPoint>* points : {&lead.positions, &lead.hand_overs}) {
+  for (const std::vector<ArcPoint>* points : {&leading_pair.positions, &leading_pair.transfer_points}) {
     for (const ArcPoint& point : *points) {
       const double x = point.angle / half_pitch;
       check.residual = std::max(check.residual, std::abs(point.error - height * (fit[0] + x * (fit[1] + x * fit[2]))));
     }
   }
-  check.right_sign = std::all_of(lead.transfers.begin(), lead.transfers.end(),
+  check.right_sign = std::all_of(leading_pair.transfers.begin(), leading_pair.transfers.end(),
                                  [](const Transfer& t) { return leaves_well(t) && enters_well(t); });
-  check.why = verdict(check, lead, height);
+  check.why = verdict(check, leading_pair, height);
   check.holds = check.why.empty();
   return check;
 }

@@ -49,6 +49,6 @@ struct ParabolaCheck {
 /// @param mesh    of the same assembly, at least four positions
 /// @param wanted  a [1/rad], > 0
 /// @throws InvalidInput "parabolic_te" or "positions"
-ParabolaCheck check_parabola(const MeshScene& scene, const UnloadedMesh& mesh, double wanted);
+ParabolaCheck check_parabola(const FlankAssembly& assembly, const UnloadedMesh& mesh, double wanted);
 
 }  // namespace flankwright

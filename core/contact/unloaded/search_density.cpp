@@ -48,11 +48,11 @@ double over_arc_length(const Jet& d, double rho, double base_radius) {
 
 }  // namespace
 
-SearchDensity search_density(const MeshScene& scene) {
-  const Flank &pinion = scene.pinion, &wheel = scene.wheel;
+SearchDensity search_density(const FlankAssembly& assembly) {
+  const Flank &pinion = assembly.pinion, &wheel = assembly.wheel;
   const bool fields = has_field(pinion) || has_field(wheel);
   const int rows = fields ? 33 : 7, columns = fields ? 33 : 3;
-  const double distance = scene.wheel_centre.head<2>().norm(), bases = pinion.base_radius + wheel.base_radius;
+  const double distance = assembly.wheel_centre.head<2>().norm(), bases = pinion.base_radius + wheel.base_radius;
   const double path = std::sqrt(std::max(0.0, distance * distance - bases * bases));
   // The stretch of the line of action that both flanks cover ...
   const double lowest = std::max(pinion.lowest_roll(), path - wheel.highest_roll());
@@ -69,7 +69,7 @@ SearchDensity search_density(const MeshScene& scene) {
     const double rho1 = std::clamp(along_path, pinion.lowest_roll(), pinion.highest_roll());
     const double rho2 = std::clamp(path - along_path, wheel.lowest_roll(), wheel.highest_roll());
     const Jet one = pinion.deviation(Jet::variable_u(rho1), Jet::variable_v(z), 0);
-    const Jet two = wheel.deviation(Jet::variable_u(rho2), Jet::variable_v(z - scene.wheel_centre.z()), 0);
+    const Jet two = wheel.deviation(Jet::variable_u(rho2), Jet::variable_v(z - assembly.wheel_centre.z()), 0);
     Curvatures c;
     c.profile = over_arc_length(one, rho1, pinion.base_radius) + over_arc_length(two, rho2, wheel.base_radius);
     c.along_line = one.vv + two.vv + rate * (2.0 * (one.uv - two.uv) + rate * (one.uu + two.uu));

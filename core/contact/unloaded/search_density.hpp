@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/contact/assembly/mesh_scene.hpp"
+#include "core/contact/assembly/flank_assembly.hpp"
 
 namespace flankwright {
 
@@ -23,12 +23,12 @@ struct SearchDensity {
 ///   it into eight more, as near the base circle the wheel's roll length changes fast.
 /// - Face: 9 sections over the line of contact of analytic flanks; with fields four for every stretch of one sign of
 ///   D's curvature along it, 17 at least; twice as many, 33 at least, where a section has several maxima; 129 at most.
-///   What hollow curvature can hide between two of them is for the search to look into; hollow_curvature is three times
-///   the largest value on the grid.
+///   The search itself covers what hollow curvature can hide between two of them; hollow_curvature is three times the
+///   largest value on the grid.
 ///
 /// Two maxima are separated where they lie in different cells or sections; of two in one cell one is found. Fields are
 /// assumed not to vary faster than the grid of 33 x 33 shows. Linear reliefs of negative amount (metal added) make a
 /// hollow kink without curvature: they count as a hollow profile.
-SearchDensity search_density(const MeshScene& scene);
+SearchDensity search_density(const FlankAssembly& assembly);
 
 }  // namespace flankwright

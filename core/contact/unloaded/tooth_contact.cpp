@@ -23,30 +23,30 @@ constexpr PeakTolerance face_tolerance{1e-7, 1e-16, 1e-6};
 /// The maximisation over the face for one tooth pair and pinion angle.
 class FaceSearch {
  public:
-  FaceSearch(const MeshScene& scene, const SearchDensity& density, int tooth, double phi1)
-      : scene_(scene), density_(density), meeting_(scene, tooth, phi1), search_(meeting_, density.cells) {}
+  FaceSearch(const FlankAssembly& assembly, const SearchDensity& density, int tooth, double phi1)
+      : assembly_(assembly), density_(density), condition_(assembly, tooth, phi1), search_(condition_, density.cells) {}
 
   SectionMaximum solve() const;
   ContactKind kind_of(const SectionMaximum& best) const;
 
  private:
   std::vector<double> section_heights() const;
-  void reveal_hidden_summits(std::vector<SectionMaximum>& sections, double highest) const;
-  SectionMaximum climb(const SectionMaximum& from, const SectionMaximum& next) const;
+  void reveal_hidden_maxima(std::vector<SectionMaximum>& sections, double highest) const;
+  SectionMaximum ascend(const SectionMaximum& from, const SectionMaximum& next) const;
   SectionMaximum off_the_edge(const SectionMaximum& edge) const;
   bool is_flat_around(const SectionMaximum& best) const;
-  double flat_step() const { return 2.0 * flat_fraction * scene_.pinion.half_face; }
+  double flat_step() const { return 2.0 * flat_fraction * assembly_.pinion.half_face; }
   /// The angle still rises beyond a face end; a flat valley that merely reaches the end is no edge contact.
   bool is_held_by_face_end(const SectionMaximum& s) const {
-    const bool on_pinion_end = scene_.pinion.half_face - std::abs(s.at.z) <= end_round_off * scene_.pinion.half_face;
+    const bool on_pinion_end = assembly_.pinion.half_face - std::abs(s.at.z) <= end_round_off * assembly_.pinion.half_face;
     return s.held_by_wheel_end || (on_pinion_end && s.slope_z * s.z > 0.0);
   }
 
   static constexpr double end_round_off = 1e-9;  // half face widths within which a point is on the end
 
-  const MeshScene& scene_;
+  const FlankAssembly& assembly_;
   const SearchDensity& density_;
-  FlankMeeting meeting_;
+  ContactCondition condition_;
   SectionSearch search_;
 };
 
@@ -54,15 +54,15 @@ class FaceSearch {
 /// third as many on either side of that, where edges may touch.
 std::vector<double> FaceSearch::section_heights() const {
   // A tilted wheel reaches a little beyond its width.
-  const double tilt = scene_.wheel_axes.col(2).head<2>().norm();
-  const double reach = scene_.pinion.half_face, centre = scene_.wheel_centre.z();
-  const double wheel_reach = scene_.wheel.half_face + tilt * (scene_.wheel_centre.head<2>().norm() + scene_.pinion.tip_radius);
+  const double tilt = assembly_.wheel_axes.col(2).head<2>().norm();
+  const double reach = assembly_.pinion.half_face, centre = assembly_.wheel_centre.z();
+  const double wheel_reach = assembly_.wheel.half_face + tilt * (assembly_.wheel_centre.head<2>().norm() + assembly_.pinion.tip_radius);
   double lo = std::max(-reach, centre - wheel_reach), hi = std::min(reach, centre + wheel_reach);
-  const double rate = meeting_.roll_rate();
+  const double rate = condition_.roll_rate();
   // Teeth that wind around their gear meet the mate again a turn later, as another pair: half a turn to either side is this one's.
-  const double half_turn = units::pi * std::min(scene_.pinion.base_radius, scene_.wheel.base_radius);
+  const double half_turn = units::pi * std::min(assembly_.pinion.base_radius, assembly_.wheel.base_radius);
   const double from_middle =
-      meeting_.undisturbed_roll(0.0) - 0.5 * (meeting_.lowest_undisturbed_roll() + meeting_.highest_undisturbed_roll());
+      condition_.undisturbed_roll(0.0) - 0.5 * (condition_.lowest_undisturbed_roll() + condition_.highest_undisturbed_roll());
   if (rate != 0.0) {
     const double middle = -from_middle / rate, half_way = half_turn / std::abs(rate);
     lo = std::max(lo, middle - half_way);
@@ -71,8 +71,8 @@ std::vector<double> FaceSearch::section_heights() const {
   if (!(lo < hi)) return {};
   double first = lo, last = hi;  // of the line of contact
   if (rate != 0.0) {
-    const double start = (meeting_.lowest_undisturbed_roll() - meeting_.undisturbed_roll(0.0)) / rate;
-    const double end = (meeting_.highest_undisturbed_roll() - meeting_.undisturbed_roll(0.0)) / rate;
+    const double start = (condition_.lowest_undisturbed_roll() - condition_.undisturbed_roll(0.0)) / rate;
+    const double end = (condition_.highest_undisturbed_roll() - condition_.undisturbed_roll(0.0)) / rate;
     first = std::clamp(std::min(start, end), lo, hi);
     last = std::clamp(std::max(start, end), lo, hi);
   }
@@ -95,7 +95,7 @@ SectionMaximum FaceSearch::solve() const {
     coarse.push_back(search_.at(z, coarse.empty() ? SectionMaximum{} : coarse.back(), SectionAccuracy::Coarse));
     highest = std::max(highest, coarse.back().phi2);
   }
-  reveal_hidden_summits(coarse, highest);
+  reveal_hidden_maxima(coarse, highest);
   const int count = static_cast<int>(coarse.size());
   // In a flat valley the middle one of those that are equally high represents all.
   std::vector<const SectionMaximum*> level;
@@ -117,8 +117,8 @@ SectionMaximum FaceSearch::solve() const {
       const int next = i + step;
       if (!rises(i, step)) continue;
       if (exists(next) && (coarse[next].slope_z * step > 0.0 || (step < 0 && rises(next, 1)))) continue;  // same climb, or done
-      const SectionMaximum summit = climb(coarse[i], coarse[next]);
-      if (summit.phi2 > top.phi2) top = summit;
+      const SectionMaximum maximum = ascend(coarse[i], coarse[next]);
+      if (maximum.phi2 > top.phi2) top = maximum;
     }
   }
   const SectionMaximum& middle = *level[level.size() / 2];
@@ -133,7 +133,7 @@ SectionMaximum FaceSearch::solve() const {
 SectionMaximum FaceSearch::off_the_edge(const SectionMaximum& edge) const {
   for (const double side : {-1.0, 1.0}) {
     const double z = edge.at.z + side * flat_step();
-    if (std::abs(z) > scene_.pinion.half_face) continue;
+    if (std::abs(z) > assembly_.pinion.half_face) continue;
     SectionMaximum inside = search_.at(z, edge, SectionAccuracy::Coarse);
     if (!inside.exists || inside.phi2 < edge.phi2 - coarse_error) continue;
     inside = search_.at(z, inside, SectionAccuracy::Full);
@@ -147,9 +147,9 @@ SectionMaximum FaceSearch::off_the_edge(const SectionMaximum& edge) const {
 /// below
 ///
 ///     f(a) + f'(a) x + c x^2/2     and     f(b) - f'(b)(h - x) + c (h - x)^2/2,      x from a to b = a + h
-void FaceSearch::reveal_hidden_summits(std::vector<SectionMaximum>& sections, double highest) const {
-  const double longest = 2.0 * scene_.pinion.half_face / (density_.sections - 1);
-  const double c = density_.hollow_curvature / scene_.wheel.base_radius;
+void FaceSearch::reveal_hidden_maxima(std::vector<SectionMaximum>& sections, double highest) const {
+  const double longest = 2.0 * assembly_.pinion.half_face / (density_.sections - 1);
+  const double c = density_.hollow_curvature / assembly_.wheel.base_radius;
   for (std::size_t i = 0; i + 1 < sections.size(); ++i) {
     while (true) {
       const SectionMaximum &a = sections[i], &b = sections[i + 1];
@@ -171,7 +171,7 @@ void FaceSearch::reveal_hidden_summits(std::vector<SectionMaximum>& sections, do
 }
 
 /// The maximum between a section and the next one uphill, or the end of the flank before that.
-SectionMaximum FaceSearch::climb(const SectionMaximum& from, const SectionMaximum& next) const {
+SectionMaximum FaceSearch::ascend(const SectionMaximum& from, const SectionMaximum& next) const {
   // Past the end of a flank counts as downhill.
   const auto downhill = [&](SectionMaximum s) {
     if (!s.exists) s.slope_z = -from.slope_z;
@@ -185,10 +185,10 @@ SectionMaximum FaceSearch::climb(const SectionMaximum& from, const SectionMaximu
   const SectionMaximum &rising = upwards ? from : end, &falling = upwards ? end : from;
   const double fall = rising.slope_z - falling.slope_z;
   double guess = rising.z + (falling.z - rising.z) * rising.slope_z / fall;
-  if (end.exists && from.bound != end.bound && meeting_.roll_rate() != 0.0) {
+  if (end.exists && from.bound != end.bound && condition_.roll_rate() != 0.0) {
     // Up to where the free maximum runs into the bound the slope changes little, from there on fast.
     const SectionMaximum &free = from.bound == SectionBound::None ? from : end, &held = &free == &from ? end : from;
-    guess = std::clamp(free.z + (held.at.rho - free.at.rho) / meeting_.roll_rate(), rising.z, falling.z);
+    guess = std::clamp(free.z + (held.at.rho - free.at.rho) / condition_.roll_rate(), rising.z, falling.z);
   }
   const Peak<SectionMaximum> peak = find_peak<SectionMaximum>(
       evaluate, rising.z, falling.z, guess, fall / (falling.z - rising.z), face_tolerance, rising, falling);
@@ -209,11 +209,11 @@ SectionMaximum FaceSearch::climb(const SectionMaximum& from, const SectionMaximu
 bool FaceSearch::is_flat_around(const SectionMaximum& best) const {
   for (const double side : {-1.0, 1.0}) {
     const double z = best.at.z + side * flat_step();
-    if (std::abs(z) > scene_.pinion.half_face) continue;
+    if (std::abs(z) > assembly_.pinion.half_face) continue;
     const SectionMaximum neighbour = search_.at(z, best, SectionAccuracy::Coarse);
     if (neighbour.at.on_wheel_end) continue;  // beyond the wheel's face it is the end's point again
     if (neighbour.exists && neighbour.bound == best.bound &&
-        (best.phi2 - neighbour.phi2) * scene_.wheel.base_radius <= flat_tolerance) {
+        (best.phi2 - neighbour.phi2) * assembly_.wheel.base_radius <= flat_tolerance) {
       return true;
     }
   }
@@ -241,22 +241,22 @@ ToothContact ToothContactSolver::find(int tooth, double phi1) const {
   ToothContact contact;
   contact.tooth = tooth;
   contact.phi1 = phi1;
-  const FaceSearch problem(scene_, density_, tooth, phi1);
+  const FaceSearch problem(assembly_, density_, tooth, phi1);
   const SectionMaximum best = problem.solve();
   if (!best.exists) return contact;
   contact.kind = problem.kind_of(best);
   contact.phi2 = best.phi2;
-  contact.transmission_error = best.phi2 - scene_.speed_ratio() * phi1;
-  contact.slope = best.slope_phi1 - scene_.speed_ratio();
-  contact.pinion_radius = std::hypot(scene_.pinion.base_radius, best.at.rho);
+  contact.transmission_error = best.phi2 - assembly_.speed_ratio() * phi1;
+  contact.slope = best.slope_phi1 - assembly_.speed_ratio();
+  contact.pinion_radius = std::hypot(assembly_.pinion.base_radius, best.at.rho);
   contact.pinion_z = best.at.z;
   contact.wheel_radius = best.at.wheel_radius;
   contact.wheel_z = best.at.wheel_z;
   return contact;
 }
 
-ToothContact find_tooth_contact(const MeshScene& scene, int tooth, double phi1) {
-  return ToothContactSolver(scene).find(tooth, phi1);
+ToothContact find_tooth_contact(const FlankAssembly& assembly, int tooth, double phi1) {
+  return ToothContactSolver(assembly).find(tooth, phi1);
 }
 
 const char* to_string(ContactKind kind) {

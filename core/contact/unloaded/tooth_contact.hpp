@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/contact/assembly/mesh_scene.hpp"
+#include "core/contact/assembly/flank_assembly.hpp"
 #include "core/contact/unloaded/search_density.hpp"
 
 namespace flankwright {
@@ -56,19 +56,19 @@ struct ToothContact {
 /// width to either side that the flanks cover; the point given is then the middle of the sections that lie on it.
 class ToothContactSolver {
  public:
-  /// @param scene  must outlive the solver
-  explicit ToothContactSolver(const MeshScene& scene) : scene_(scene), density_(search_density(scene)) {}
+  /// @param assembly  must outlive the solver
+  explicit ToothContactSolver(const FlankAssembly& assembly) : assembly_(assembly), density_(search_density(assembly)) {}
 
   /// First contact of tooth pair `tooth`, which runs k pitches ahead of the reference pair 0, at pinion angle phi1 [rad].
   ToothContact find(int tooth, double phi1) const;
 
  private:
-  const MeshScene& scene_;
+  const FlankAssembly& assembly_;
   SearchDensity density_;
 };
 
 /// One first contact of one scene; for many of the same scene a ToothContactSolver saves the judgement of the flanks.
-ToothContact find_tooth_contact(const MeshScene& scene, int tooth, double phi1);
+ToothContact find_tooth_contact(const FlankAssembly& assembly, int tooth, double phi1);
 
 /// Lower-case name of the kind as results.json has it ("pinion_tip").
 const char* to_string(ContactKind kind);

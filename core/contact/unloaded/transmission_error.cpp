@@ -15,9 +15,9 @@ constexpr int highest_harmonic = 10;
 
 }  // namespace
 
-UnloadedMesh analyse_unloaded_mesh(const GearPair& pair, const MeshScene& scene, int positions) {
-  const MeshEnvelope envelope(pair, scene);
-  const double pitch = 2.0 * units::pi / scene.pinion_teeth;
+UnloadedMesh analyse_unloaded_mesh(const GearPair& pair, const FlankAssembly& assembly, int positions) {
+  const MeshEnvelope envelope(pair, assembly);
+  const double pitch = 2.0 * units::pi / assembly.pinion_teeth;
   UnloadedMesh mesh;
   std::map<int, PairCurve> curves;
   MeshState last;

@@ -39,7 +39,7 @@ struct UnloadedMesh {
 /// aligned pairs that share the load do not transfer contact back and forth.
 /// @param pair       for the extended path of contact and the edges' reach, within which a pair's own curve is reported
 /// @param positions  >= 1
-UnloadedMesh analyse_unloaded_mesh(const GearPair& pair, const MeshScene& scene, int positions);
+UnloadedMesh analyse_unloaded_mesh(const GearPair& pair, const FlankAssembly& assembly, int positions);
 
 /// Harmonic of n equally spaced samples of one period, amplitude and phase: 2/n sum s_i exp(-2 pi i k/n).
 /// @param order  k, below n/2, >= 1

@@ -106,7 +106,7 @@ constexpr auto describe_choices() {
 template <class... M>
 constexpr auto descriptors_of(std::type_identity<ModificationList<M...>>) {
   auto all = detail::joined<DescriptorOf<ModificationList<M...>>>(detail::describe_one<ModificationList<M...>, M>()...);
-  for (std::size_t place = 0; place < all.size(); ++place) all[place].parameter = ModificationParameter{place};
+  for (std::size_t index = 0; index < all.size(); ++index) all[index].parameter = ModificationParameter{index};
   return all;
 }
 

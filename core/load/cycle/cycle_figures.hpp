@@ -41,9 +41,9 @@ struct CycleFigures {
 /// [-]: harmonics of a quiet mesh are near 0, and fractions of them no measure.
 inline constexpr double quiet_share = 0.02;
 
-/// |figures - reference| as shares: the mean of the transmission error in units of the reference's mean_approach (a gap common to
-/// all positions is no deflection), its peak to peak and harmonics in units of the reference's peak to peak, at least quiet_share of
-/// the approach; stress, load and factor in units of their own.
+/// |figures - reference| as fractions: the mean of the transmission error in units of the reference's mean_approach (a
+/// gap common to all positions is no deflection), its peak to peak and harmonics in units of the reference's peak to
+/// peak, at least quiet_share of the approach; stress, load and factor in units of themselves.
 PerFigure figure_errors(const CycleFigures& figures, const CycleFigures& reference);
 /// The same with harmonics in amplitude and phase, |difference of phasors|: the difference of two models at the same
 /// phases.
@@ -51,8 +51,8 @@ PerFigure figure_differences(const CycleFigures& figures, const CycleFigures& re
 
 /// Possible rise of a periodic curve above its equally spaced samples, where it consists of smooth pieces with kinks
 /// and jumps: both neighbours are continued straight into each interval, up to where they meet, or, where one of them
-/// falls towards the other sample (a jump), the other all the way. >= 0. Samples that catch a kink by chance do not
-/// deceive it, as they do differences of successive maxima.
+/// falls towards the other sample (a jump), the other all the way. >= 0. Unlike differences of successive maxima, it is
+/// not misled by samples that meet a kink by chance.
 double unseen_rise(const std::vector<double>& samples);
 
 /// Positions of a cycle at equal distances, as far as the figures go; two of the same number that lie between each other's join to one

@@ -11,27 +11,27 @@ namespace flankwright {
 namespace {
 
 /// The location of the largest entry over all positions.
-struct Place {
+struct PeakLocation {
   int position{0};
   Eigen::Index index{0};
 };
 
 /// @param values_of  of a position: an entry per contact point or fillet point
 template <class Values>
-Place place_of_peak(const LoadedCycle& cycle, const Values& values_of) {
-  Place place;
+PeakLocation location_of_peak(const LoadedCycle& cycle, const Values& values_of) {
+  PeakLocation location;
   double largest = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
     Eigen::Index index = 0;
     const double value = values_of(cycle.positions[i]).maxCoeff(&index);
     if (!(value > largest)) continue;
     largest = value;
-    place = {static_cast<int>(i), index};
+    location = {static_cast<int>(i), index};
   }
-  return place;
+  return location;
 }
 
-const LoadedPosition& at(const LoadedCycle& cycle, const Place& place) { return cycle.positions[static_cast<std::size_t>(place.position)]; }
+const LoadedPosition& at(const LoadedCycle& cycle, const PeakLocation& location) { return cycle.positions[static_cast<std::size_t>(location.position)]; }
 
 /// A secant stiffness ~ F / (b approach) follows all three.
 Eigen::RowVectorXd secant_derivative(const LoadedCycle& cycle, double stiffness, double approach, const Eigen::RowVectorXd& d_approach) {
@@ -39,8 +39,8 @@ Eigen::RowVectorXd secant_derivative(const LoadedCycle& cycle, double stiffness,
 }
 
 /// Of the highest of these fillet points over all positions; empty where there is none.
-Eigen::RowVectorXd root_derivative(const MeshModel& model, const LoadedCycle& cycle, const RootPlaces& among) {
-  Place highest{0, -1};
+Eigen::RowVectorXd root_derivative(const MeshModel& model, const LoadedCycle& cycle, const RootStations& among) {
+  PeakLocation highest{0, -1};
   for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
     const Eigen::Index index = highest_root_stress(model.positions[i], cycle.positions[i], among);
     if (index < 0) continue;
@@ -114,15 +114,15 @@ CycleGradient summary_gradient(const MeshModel& model, const LoadedCycle& cycle,
     gradient.te_harmonics.row(k) = te_harmonic(cycle, static_cast<int>(k) + 1).derivative;
   }
 
-  const Place load = place_of_peak(cycle, [](const LoadedPosition& p) -> const auto& { return p.load.line_load; });
+  const PeakLocation load = location_of_peak(cycle, [](const LoadedPosition& p) -> const auto& { return p.load.line_load; });
   gradient.peak_line_load = at(cycle, load).line_load_derivative.row(load.index);
   gradient.load_factor = load_factor_derivative(model, cycle, load.position, load.index);
-  const Place stress = place_of_peak(cycle, [](const LoadedPosition& p) -> const auto& { return p.contact_stress; });
+  const PeakLocation stress = location_of_peak(cycle, [](const LoadedPosition& p) -> const auto& { return p.contact_stress; });
   gradient.peak_contact_stress = at(cycle, stress).contact_stress_derivative.row(stress.index);
   gradient.pinion_root_stress = root_gradient(model, cycle, Member::Pinion);
   gradient.wheel_root_stress = root_gradient(model, cycle, Member::Wheel);
-  const bool wheel_leads = std::isgreater(summary.wheel_root_stress.stress, summary.pinion_root_stress.stress);
-  gradient.peak_root_stress = (wheel_leads ? gradient.wheel_root_stress : gradient.pinion_root_stress).stress;
+  const bool wheel_governs = std::isgreater(summary.wheel_root_stress.stress, summary.pinion_root_stress.stress);
+  gradient.peak_root_stress = (wheel_governs ? gradient.wheel_root_stress : gradient.pinion_root_stress).stress;
   return gradient;
 }
 

@@ -144,7 +144,7 @@ void add_root_stress(const MeshModel& model, LoadedCycle& cycle) {
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const MeshPosition& at = model.positions[i];
     LoadedPosition& position = cycle.positions[i];
-    if (at.root_stress.places.empty() || !position.load.usable()) continue;
+    if (at.root_stress.stations.empty() || !position.load.usable()) continue;
     influences.push_back(&at.root_stress);
     forces.push_back(at.weight.cwiseProduct(position.load.line_load));
     loaded.push_back(&position);
@@ -153,19 +153,19 @@ void add_root_stress(const MeshModel& model, LoadedCycle& cycle) {
   for (std::size_t k = 0; k < loaded.size(); ++k) loaded[k]->root_stress = principal_stresses(components[k]);
 }
 
-Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPosition& position, Eigen::Index place) {
+Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPosition& position, Eigen::Index station) {
   // The direction of a principal stress is held at its optimum.
-  const auto influence = at.root_stress.components_of(place);
+  const auto influence = at.root_stress.components_of(station);
   const PrincipalStress principal = largest_principal(influence * at.weight.cwiseProduct(position.load.line_load));
   Eigen::MatrixXd components = influence * at.weight.asDiagonal() * position.line_load_derivative;
-  if (position.root_influence_derivative.size() > 0) components += position.root_influence_derivative.middleRows<3>(3 * place);
+  if (position.root_influence_derivative.size() > 0) components += position.root_influence_derivative.middleRows<3>(3 * station);
   return principal_slope(principal) * components;
 }
 
 RootStressPeak root_stress_peak(const MeshPosition& at, const LoadedPosition& position, Member member) {
   RootStressPeak peak;
   if (const Eigen::Index i = highest_root_stress(at, position, {.member = member}); i >= 0) {
-    peak = {position.root_stress[i], at.root_stress.places[static_cast<std::size_t>(i)], position.phase};
+    peak = {position.root_stress[i], at.root_stress.stations[static_cast<std::size_t>(i)], position.phase};
   }
   if (const Eigen::Index i = highest_root_stress(at, position, {.member = member, .tangent_only = true}); i >= 0) {
     peak.tangent_stress = position.root_stress[i];
@@ -173,11 +173,11 @@ RootStressPeak root_stress_peak(const MeshPosition& at, const LoadedPosition& po
   return peak;
 }
 
-Eigen::Index highest_root_stress(const MeshPosition& at, const LoadedPosition& position, const RootPlaces& among) {
+Eigen::Index highest_root_stress(const MeshPosition& at, const LoadedPosition& position, const RootStations& among) {
   Eigen::Index highest = -1;
   for (Eigen::Index i = 0; i < position.root_stress.size(); ++i) {
-    const RootPlace& place = at.root_stress.places[static_cast<std::size_t>(i)];
-    const bool counts = place.member == among.member && (!among.tooth || place.tooth == *among.tooth) && (place.tangent || !among.tangent_only);
+    const RootStation& station = at.root_stress.stations[static_cast<std::size_t>(i)];
+    const bool counts = station.member == among.member && (!among.tooth || station.tooth == *among.tooth) && (station.tangent || !among.tangent_only);
     if (counts && (highest < 0 || position.root_stress[i] > position.root_stress[highest])) highest = i;
   }
   return highest;

@@ -37,12 +37,12 @@ void add_root_stress(const MeshModel& model, LoadedCycle& cycle);
 
 /// d(root_stress[place])/dp of one position, 1 x m. Computed when asked for: there are many fillet points, and few
 /// matter.
-Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPosition& position, Eigen::Index place);
+Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPosition& position, Eigen::Index station);
 
 /// The largest root stress of one gear: tension side, largest principal stress at the surface.
 struct RootStressPeak {
   double stress{not_given};          ///< over all teeth and points [MPa]
-  RootPlace place{};                 ///< where; the pair's tooth and z
+  RootStation station{};                 ///< where; the pair's tooth and z
   double phase{not_given};           ///< of the position [base pitches]
   double tangent_stress{not_given};  ///< the same over the points at the 30 deg tangent only [MPa]
 };
@@ -51,13 +51,13 @@ struct RootStressPeak {
 RootStressPeak root_stress_peak(const MeshPosition& at, const LoadedPosition& position, Member member);
 
 /// Some of the points of MeshPosition::root_stress.
-struct RootPlaces {
+struct RootStations {
   Member member{Member::Pinion};
   std::optional<int> tooth{};  ///< of the tooth pair; nothing: all teeth
   bool tangent_only{false};    ///< those at the 30 deg tangent
 };
 /// Index of the point with the largest stress among these at one position, the first of equals; -1 where there is none.
-Eigen::Index highest_root_stress(const MeshPosition& at, const LoadedPosition& position, const RootPlaces& among);
+Eigen::Index highest_root_stress(const MeshPosition& at, const LoadedPosition& position, const RootStations& among);
 
 /// The main figures of a cycle.
 struct CycleSummary {

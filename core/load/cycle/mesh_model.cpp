@@ -15,13 +15,13 @@ constexpr std::initializer_list<EffectStage> local_stages{EffectStage::ContactSi
 
 MeshPosition make_position(const MeshModel& model, const MeshParts& parts, const PathOfContact& path, const Quadrature& quadrature,
                            double phase, const LineInterval& face) {
-  MeshDraft draft(parts, phase);
-  model.effects.act(EffectStage::Region, draft);
-  draft.set_points(contact_points(model.pair, path, quadrature, phase, draft.with_extended_region, face.begin, face.end));
-  model.effects.act({EffectStage::Placement, EffectStage::Body, EffectStage::Structure, EffectStage::Coupling}, draft);
-  model.effects.act(local_stages, draft);
-  model.effects.act(EffectStage::Roots, draft);
-  MeshPosition position{phase, std::move(draft.points), {}, std::move(draft.influence), std::move(draft.laws), std::move(draft.root_stress)};
+  MeshBuilder builder(parts, phase);
+  model.effects.act(EffectStage::Region, builder);
+  builder.set_points(contact_points(model.pair, path, quadrature, phase, builder.with_extended_region, face.begin, face.end));
+  model.effects.act({EffectStage::Placement, EffectStage::Body, EffectStage::Structure, EffectStage::Coupling}, builder);
+  model.effects.act(local_stages, builder);
+  model.effects.act(EffectStage::Roots, builder);
+  MeshPosition position{phase, std::move(builder.points), {}, std::move(builder.influence), std::move(builder.laws), std::move(builder.root_stress)};
   position.weight.resize(std::ssize(position.points));
   for (Eigen::Index i = 0; i < position.weight.size(); ++i) position.weight[i] = position.points[static_cast<std::size_t>(i)].weight;
   return position;
@@ -37,21 +37,21 @@ std::vector<double> equally_spaced_phases(int n) {
 
 std::optional<ContactPoint> MeshModel::place(const PathOfContact& path, double phase, int tooth, double z) const {
   const MeshParts parts{pair, pinion_material, wheel_material, placement};
-  MeshDraft draft(parts, phase);
-  effects.act(EffectStage::Region, draft);
-  const auto point = contact_point(pair, path, phase, tooth, z, draft.with_extended_region);
+  MeshBuilder builder(parts, phase);
+  effects.act(EffectStage::Region, builder);
+  const auto point = contact_point(pair, path, phase, tooth, z, builder.with_extended_region);
   if (!point) return std::nullopt;
-  draft.set_points({*point});
-  effects.act(EffectStage::Placement, draft);
-  return draft.points.empty() ? std::nullopt : std::optional(draft.points.front());
+  builder.set_points({*point});
+  effects.act(EffectStage::Placement, builder);
+  return builder.points.empty() ? std::nullopt : std::optional(builder.points.front());
 }
 
 std::optional<ContactLaw> MeshModel::contact_law(const ContactPoint& point) const {
   const MeshParts parts{pair, pinion_material, wheel_material, placement};
-  MeshDraft draft(parts, point.phase);
-  draft.set_points({point});
-  effects.act(local_stages, draft);
-  return draft.laws.empty() ? std::nullopt : std::optional(draft.laws.front());
+  MeshBuilder builder(parts, point.phase);
+  builder.set_points({point});
+  effects.act(local_stages, builder);
+  return builder.laws.empty() ? std::nullopt : std::optional(builder.laws.front());
 }
 
 double MeshModel::normal_force(double pinion_torque) const {
@@ -83,7 +83,7 @@ MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material,
 
 MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
                             const PairCompliance& structure, const PairRootStress* root_stress, const PairCompliance* shafts) {
-  if (!effects.give_way()) throw InvalidInput("fidelity.effects", "neither bending nor hertzian_contact", "at least one of them under load");
+  if (!effects.make_compliant()) throw InvalidInput("fidelity.effects", "neither bending nor hertzian_contact", "at least one of them under load");
   if (resolution.phases.empty()) throw InvalidInput("cycle.phases", "none", "at least one phase");
   if (resolution.quadrature.intervals < 1) {
     throw InvalidInput("fidelity.quadrature.intervals", std::to_string(resolution.quadrature.intervals), "at least 1");

@@ -43,7 +43,7 @@ struct MeshPosition {
 struct MeshModel;
 
 /// The same mesh perturbed by one and two steps of a parameter that moves it, see MeshSlopes.
-struct FurtherMeshes {
+struct PerturbedMeshes {
   MisalignmentParameter parameter;
   double step;  ///< [mm or rad]
   std::vector<MeshModel> meshes;
@@ -60,7 +60,7 @@ struct MeshModel {
   double calibration{not_given};      ///< kappa of the thin slice
   IsoStiffness iso;
   std::vector<MeshPosition> positions;
-  std::vector<FurtherMeshes> further{};  ///< for each parameter of the derivatives that moves the mesh
+  std::vector<PerturbedMeshes> perturbed{};  ///< for each parameter of the derivatives that moves the mesh
 
   /// Force normal to the flanks for a torque on the pinion [N]; torque in N mm.
   double normal_force(double pinion_torque) const;

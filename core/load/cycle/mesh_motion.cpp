@@ -21,7 +21,7 @@ struct HeldLoads {
 HeldLoads held_loads(const MeshPosition& at, const Gap& gap, const Eigen::VectorXd& load) {
   const Eigen::VectorXd forces = at.weight.cwiseProduct(load);
   HeldLoads held{gap.total, at.influence * forces, Eigen::VectorXd(load.size()), {}, forces.sum()};
-  if (!at.root_stress.places.empty()) held.root_components = at.root_stress.components(forces);
+  if (!at.root_stress.stations.empty()) held.root_components = at.root_stress.components(forces);
   for (Eigen::Index i = 0; i < load.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!at.laws.empty()) held.deflection[i] += at.laws[k].deflection(load[i]);
@@ -39,25 +39,25 @@ double mesh_step_of(const GearPair& pair, MisalignmentParameter parameter) {
   return std::ranges::find(angles, parameter) == std::end(angles) ? length : length / (0.5 * pair.face_width);
 }
 
-MeshModel with_further_meshes(MeshModel model, const MeshPlaced& mesh, const std::vector<MeshParameter>& parameters) {
-  model.further.clear();
+MeshModel with_perturbed_meshes(MeshModel model, const MeshPlaced& mesh, const std::vector<MeshParameter>& parameters) {
+  model.perturbed.clear();
   for (const Eigen::Index p : moving_among(model.placement.gap, parameters)) {
     const auto parameter = std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]);
-    if (std::ranges::find(model.further, parameter, &FurtherMeshes::parameter) != model.further.end()) continue;
-    FurtherMeshes along{parameter, mesh_step_of(model.pair, parameter), {}};
+    if (std::ranges::find(model.perturbed, parameter, &PerturbedMeshes::parameter) != model.perturbed.end()) continue;
+    PerturbedMeshes along{parameter, mesh_step_of(model.pair, parameter), {}};
     for (int steps : {1, 2}) {
-      MeshPlacement further = model.placement;
-      further.misalignment.*parameter += steps * along.step;
-      along.meshes.push_back(mesh(further));
+      MeshPlacement perturbed = model.placement;
+      perturbed.misalignment.*parameter += steps * along.step;
+      along.meshes.push_back(mesh(perturbed));
     }
-    model.further.push_back(std::move(along));
+    model.perturbed.push_back(std::move(along));
   }
   return model;
 }
 
-const FurtherMeshes& further_meshes(const MeshModel& model, MisalignmentParameter parameter) {
-  const auto found = std::ranges::find(model.further, parameter, &FurtherMeshes::parameter);
-  if (found == model.further.end()) {
+const PerturbedMeshes& perturbed_meshes(const MeshModel& model, MisalignmentParameter parameter) {
+  const auto found = std::ranges::find(model.perturbed, parameter, &PerturbedMeshes::parameter);
+  if (found == model.perturbed.end()) {
     throw InvalidInput("misalignment." + std::string(name_of(parameter)), "a derivative", "a model with perturbed meshes along it");
   }
   return *found;
@@ -76,7 +76,7 @@ Eigen::VectorXd as_at(const std::vector<Eigen::Index>& same, const Eigen::Vector
   return sorted;
 }
 
-Eigen::VectorXd as_further(const std::vector<Eigen::Index>& same, const Eigen::VectorXd& values, Eigen::Index points) {
+Eigen::VectorXd as_perturbed(const std::vector<Eigen::Index>& same, const Eigen::VectorXd& values, Eigen::Index points) {
   Eigen::VectorXd sorted = Eigen::VectorXd::Zero(points);
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     if (const Eigen::Index k = same[static_cast<std::size_t>(i)]; k >= 0) sorted[k] = values[i];
@@ -84,8 +84,8 @@ Eigen::VectorXd as_further(const std::vector<Eigen::Index>& same, const Eigen::V
   return sorted;
 }
 
-std::vector<Eigen::Index> same_points(const MeshPosition& at, const MeshPosition& further) {
-  const std::vector<ContactPoint>&from = at.points, &to = further.points;
+std::vector<Eigen::Index> same_points(const MeshPosition& at, const MeshPosition& perturbed) {
+  const std::vector<ContactPoint>&from = at.points, &to = perturbed.points;
   std::vector<Eigen::Index> same(from.size(), -1);
   const auto end_of_line = [](const std::vector<ContactPoint>& points, std::size_t begin) {
     std::size_t end = begin;
@@ -106,14 +106,14 @@ std::vector<Eigen::Index> same_points(const MeshPosition& at, const MeshPosition
   return same;
 }
 
-MeshSlopes::Further::Further(const MeshModel& mesh, MisalignmentParameter parameter, const FlankCondition& of)
+MeshSlopes::Perturbed::Perturbed(const MeshModel& mesh, MisalignmentParameter parameter, const FlankCondition& of)
     : model(mesh), condition(placed_as(mesh, parameter, of)), gaps(mesh.pair, mesh.placement.gap, condition) {}
 
 MeshSlopes::MeshSlopes(const MeshModel& model, const FlankCondition& condition, MisalignmentParameter parameter)
     : model_(model),
-      further_(further_meshes(model, parameter)),
-      one_(further_.meshes[0], parameter, condition),
-      two_(further_.meshes[1], parameter, condition) {}
+      perturbed_(perturbed_meshes(model, parameter)),
+      one_(perturbed_.meshes[0], parameter, condition),
+      two_(perturbed_.meshes[1], parameter, condition) {}
 
 MeshSlopes::Same MeshSlopes::same(std::size_t position) const {
   const MeshPosition& here = model_.positions[position];
@@ -128,28 +128,28 @@ MeshSlopes::Same MeshSlopes::same(std::size_t position) const {
 MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load, const Gap& gap) const {
   const Same same_as = same(position);
   const Eigen::VectorXd loads = load.line_load.cwiseProduct(same_as.known);
-  const auto further = [&](const Further& mesh, const std::vector<Eigen::Index>& same) {
+  const auto perturbed = [&](const Perturbed& mesh, const std::vector<Eigen::Index>& same) {
     const MeshPosition& there = mesh.model.positions[position];
-    HeldLoads held = held_loads(there, mesh.gaps.at(there.points, there.phase), as_further(same, loads, there.weight.size()));
+    HeldLoads held = held_loads(there, mesh.gaps.at(there.points, there.phase), as_perturbed(same, loads, there.weight.size()));
     for (Eigen::VectorXd* values : {&held.gap, &held.deflection, &held.relative_radius}) *values = as_at(same, *values);
     return held;
   };
   const HeldLoads here = held_loads(model_.positions[position], gap, loads);
-  const HeldLoads one = further(one_, same_as.one), two = further(two_, same_as.two);
+  const HeldLoads one = perturbed(one_, same_as.one), two = perturbed(two_, same_as.two);
   const auto slope = [&](Eigen::VectorXd HeldLoads::* what) -> Eigen::VectorXd {
-    return first_slope(here.*what, one.*what, two.*what, further_.step).cwiseProduct(same_as.known);
+    return forward_difference(here.*what, one.*what, two.*what, perturbed_.step).cwiseProduct(same_as.known);
   };
-  MeshSlope by{slope(&HeldLoads::gap), slope(&HeldLoads::deflection), first_slope(here.force, one.force, two.force, further_.step),
+  MeshSlope by{slope(&HeldLoads::gap), slope(&HeldLoads::deflection), forward_difference(here.force, one.force, two.force, perturbed_.step),
                slope(&HeldLoads::relative_radius), {}};
   by.root_components = Eigen::VectorXd::Zero(here.root_components.size());
   if (here.root_components.size() == one.root_components.size() && here.root_components.size() == two.root_components.size()) {
-    by.root_components = first_slope(here.root_components, one.root_components, two.root_components, further_.step);
+    by.root_components = forward_difference(here.root_components, one.root_components, two.root_components, perturbed_.step);
   }
   return by;
 }
 
 double MeshSlopes::face_width() const {
-  return first_slope(model_.face_width, one_.model.face_width, two_.model.face_width, further_.step);
+  return forward_difference(model_.face_width, one_.model.face_width, two_.model.face_width, perturbed_.step);
 }
 
 double MeshSlopes::relative_line_length() const {
@@ -157,8 +157,8 @@ double MeshSlopes::relative_line_length() const {
   for (std::size_t p = 0; p < model_.positions.size(); ++p) {
     const MeshPosition& here = model_.positions[p];
     const Same same_as = same(p);
-    const Eigen::VectorXd by = first_slope(here.weight, as_at(same_as.one, one_.model.positions[p].weight),
-                                           as_at(same_as.two, two_.model.positions[p].weight), further_.step);
+    const Eigen::VectorXd by = forward_difference(here.weight, as_at(same_as.one, one_.model.positions[p].weight),
+                                           as_at(same_as.two, two_.model.positions[p].weight), perturbed_.step);
     for (Eigen::Index i = 0; i < here.weight.size(); ++i) {
       if (here.points[static_cast<std::size_t>(i)].clearance != 0.0) continue;
       length += here.weight[i];

@@ -26,12 +26,12 @@ double mesh_step_of(const GearPair& pair, MisalignmentParameter parameter);
 
 /// The mesh at a placement.
 using MeshPlaced = std::function<MeshModel(const MeshPlacement&)>;
-/// A mesh with its perturbed ones, two for each of the parameters that move it, see MeshModel::further.
+/// A mesh with its perturbed ones, two for each of the parameters that move it, see MeshModel::perturbed.
 /// @param mesh  builds a mesh like `model` at any placement
-MeshModel with_further_meshes(MeshModel model, const MeshPlaced& mesh, const std::vector<MeshParameter>& parameters);
+MeshModel with_perturbed_meshes(MeshModel model, const MeshPlaced& mesh, const std::vector<MeshParameter>& parameters);
 
 /// @throws InvalidInput  where the model has no perturbed meshes along this parameter
-const FurtherMeshes& further_meshes(const MeshModel& model, MisalignmentParameter parameter);
+const PerturbedMeshes& perturbed_meshes(const MeshModel& model, MisalignmentParameter parameter);
 /// A condition with the wheel where a mesh has it.
 FlankCondition placed_as(const MeshModel& mesh, MisalignmentParameter parameter, FlankCondition condition);
 
@@ -55,7 +55,7 @@ struct MeshSlope {
 /// nothing, unless the study leaves that region out.
 class MeshSlopes {
  public:
-  /// @param model, condition  must outlive this; the model made by with_further_meshes()
+  /// @param model, condition  must outlive this; the model made by with_perturbed_meshes()
   /// @throws InvalidInput  where the model has no perturbed meshes along the parameter
   MeshSlopes(const MeshModel& model, const FlankCondition& condition, MisalignmentParameter parameter);
   MeshSlopes(const MeshSlopes&) = delete;  // its gaps have its condition
@@ -69,8 +69,8 @@ class MeshSlopes {
 
  private:
   /// A perturbed mesh, in its own condition.
-  struct Further {
-    Further(const MeshModel& mesh, MisalignmentParameter parameter, const FlankCondition& of);
+  struct Perturbed {
+    Perturbed(const MeshModel& mesh, MisalignmentParameter parameter, const FlankCondition& of);
     const MeshModel& model;
     FlankCondition condition;
     ConditionGap gaps;
@@ -84,22 +84,22 @@ class MeshSlopes {
   Same same(std::size_t position) const;
 
   const MeshModel& model_;
-  const FurtherMeshes& further_;
-  Further one_, two_;
+  const PerturbedMeshes& perturbed_;
+  Perturbed one_, two_;
 };
 
 /// For each point of a position its index in the perturbed position, by its order in its line; -1 where it has none.
-std::vector<Eigen::Index> same_points(const MeshPosition& at, const MeshPosition& further);
+std::vector<Eigen::Index> same_points(const MeshPosition& at, const MeshPosition& perturbed);
 
 /// Values of perturbed points in the order of the position's points; 0 where there is none.
 Eigen::VectorXd as_at(const std::vector<Eigen::Index>& same, const Eigen::VectorXd& values);
 /// The other way round.
 /// @param points  how many the perturbed position has
-Eigen::VectorXd as_further(const std::vector<Eigen::Index>& same, const Eigen::VectorXd& values, Eigen::Index points);
+Eigen::VectorXd as_perturbed(const std::vector<Eigen::Index>& same, const Eigen::VectorXd& values, Eigen::Index points);
 
 /// The slope at the first of three values, one step apart.
 template <class T>
-T first_slope(const T& here, const T& one, const T& two, double step) {
+T forward_difference(const T& here, const T& one, const T& two, double step) {
   return (4.0 * (one - here) - (two - here)) / (2.0 * step);
 }
 

@@ -50,9 +50,9 @@ struct LoadDistribution {
   /// max over i of |remaining gap| where loaded and -min(remaining gap) elsewhere, relative to the largest deflection
   /// of a loaded point, sum_j |K_ij| a_j w_j + c_i; and |sum a w - F| / F. The larger of the two.
   double kkt_residual{not_given};
-  /// kappa_1 = ||H||_1 ||H^-1||_1, estimated (Higham 1988), of the matrix H = aKa + a c' over the loaded points in the last Newton step
-  /// [-]: line loads keep about 16 - log10(kappa_1) digits of what they are computed from. f_t, where the objective is stationary in the
-  /// loads, does not suffer from it. NaN where no step was needed, or H is indefinite by round-off.
+  /// kappa_1 = ||H||_1 ||H^-1||_1, estimated (Higham 1988), of the matrix H = aKa + a c' over the loaded points in the
+  /// last Newton step [-]: line loads have about 16 - log10(kappa_1) of the input's digits. f_t is not affected, as the
+  /// objective is stationary in the loads. NaN where no step was needed, or H is indefinite by round-off.
   double condition{not_given};
   int iterations{-1};      ///< Newton steps
   int factorisations{-1};  ///< Cholesky factorisations

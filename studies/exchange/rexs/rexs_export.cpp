@@ -21,7 +21,7 @@ constexpr int topography_points = 25;  ///< along the profile and along the face
 
 class Export {
  public:
-  Export(const Study& study, const ExportOptions& options) : study_(study), pair_(make_gear_pair(study.pair)), version_(options.version) {
+  Export(const Study& study, const RexsExportOptions& options) : study_(study), pair_(make_gear_pair(study.pair)), version_(options.version) {
     if (std::ranges::find(versions, version_) == versions.end()) {
       throw InvalidInput("version of REXS", version_, fmt::format("{}", fmt::join(versions, ", ")));
     }
@@ -80,7 +80,7 @@ class Export {
   }
 
   const Modification& modification(Member m) const { return m == Member::Pinion ? study_.pinion_modification : study_.wheel_modification; }
-  const FlankGrid& grid(Member m) const { return m == Member::Pinion ? study_.pinion_grid : study_.wheel_grid; }
+  const GivenGrid& grid(Member m) const { return m == Member::Pinion ? study_.pinion_grid : study_.wheel_grid; }
 
   int add_gear(Member m) {
     const Gear& gear = pair_[m];
@@ -317,6 +317,6 @@ class Export {
 
 }  // namespace
 
-ExportedStage export_stage(const Study& study, const ExportOptions& options) { return Export(study, options).stage(); }
+ExportedStage export_stage(const Study& study, const RexsExportOptions& options) { return Export(study, options).stage(); }
 
 }  // namespace flankwright::studies::rexs

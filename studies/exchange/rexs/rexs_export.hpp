@@ -8,7 +8,7 @@
 
 namespace flankwright::studies::rexs {
 
-struct ExportOptions {
+struct RexsExportOptions {
   std::string version{"1.7"};  ///< "1.0" .. "1.7", "2.0": names and units are those of that version
   std::string date;            ///< "2026-11-21T19:00:00+00:00"
 };
@@ -24,6 +24,6 @@ struct ExportedStage {
 /// topographical_modification, point by point. Datum faces are at the end of lowest z; amounts are those of Modification.
 ///
 /// @throws InvalidInput for a version that is none
-ExportedStage export_stage(const Study& study, const ExportOptions& options);
+ExportedStage export_stage(const Study& study, const RexsExportOptions& options);
 
 }  // namespace flankwright::studies::rexs

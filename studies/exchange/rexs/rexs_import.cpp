@@ -36,7 +36,7 @@ void check_version(Reading& reading) {
 
 class Import {
  public:
-  Import(Reading& reading, const ImportOptions& options) : reading_(reading), options_(options), parts_(find_stage(reading, options.stage)) {}
+  Import(Reading& reading, const RexsImportOptions& options) : reading_(reading), options_(options), parts_(find_stage(reading, options.stage)) {}
 
   ImportedStudy study() {
     check_version(reading_);
@@ -141,14 +141,14 @@ class Import {
   }
 
   Reading& reading_;
-  const ImportOptions& options_;
+  const RexsImportOptions& options_;
   StageParts parts_;
   std::vector<ImportedGrid> grids_;
 };
 
 }  // namespace
 
-ImportedStudy import_stage(const std::string& text, const std::string& name, const ImportOptions& options) {
+ImportedStudy import_stage(const std::string& text, const std::string& name, const RexsImportOptions& options) {
   const Model model = parse_model(text, name);
   Reading reading(model, name);
   ImportedStudy study = Import(reading, options).study();

@@ -8,7 +8,7 @@
 
 namespace flankwright::studies::rexs {
 
-struct ImportOptions {
+struct RexsImportOptions {
   std::optional<int> stage{};                   ///< which of the file's stages, see find_stage()
   SlopeEnd slope_end{SlopeEnd::NonDatumFace};   ///< where a positive helix_slope removes
   std::string grid_stem{};                      ///< grids are called stem + "-pinion.csv", "-wheel.csv"
@@ -30,6 +30,6 @@ struct ImportedStudy {
 /// @param text  of the file
 /// @param name  stands for it in messages and comments
 /// @throws StudyErrors with one problem where the file is damaged, or has no stage that a study could describe
-ImportedStudy import_stage(const std::string& text, const std::string& name, const ImportOptions& options);
+ImportedStudy import_stage(const std::string& text, const std::string& name, const RexsImportOptions& options);
 
 }  // namespace flankwright::studies::rexs

@@ -3,8 +3,8 @@
 #include "studies/analysis/study_run.hpp"
 #include "studies/tasks/accuracy/accuracy_keys.hpp"
 #include "studies/tasks/accuracy/accuracy_template.hpp"
-#include "studies/tasks/accuracy/ladder_json.hpp"
-#include "studies/tasks/accuracy/ladder_tables.hpp"
+#include "studies/tasks/accuracy/accuracy_json.hpp"
+#include "studies/tasks/accuracy/accuracy_tables.hpp"
 
 namespace flankwright::studies {
 
@@ -13,10 +13,10 @@ namespace {
 void run_accuracy(StudyRun& run) {
   run.analyse();
   StudyResults& results = run.results();
-  RungRunner runner(run.rung_subject(), run.progress());
-  results.ladder = std::make_shared<const Ladder>(climb_ladder(runner, run.progress()));
-  results.steps.push_back({"accuracy_ladder", "all rungs of the ladder together", results.ladder->seconds});
-  if (!results.ladder->usable()) results.requirements.push_back("the finest rung of the ladder did not converge");
+  LevelRunner runner(run.level_subject(), run.progress());
+  results.hierarchy = std::make_shared<const FidelityHierarchy>(run_hierarchy(runner, run.progress()));
+  results.steps.push_back({"accuracy_ladder", "all rungs of the ladder together", results.hierarchy->seconds});
+  if (!results.hierarchy->usable()) results.requirements.push_back("the finest rung of the ladder did not converge");
 }
 
 }  // namespace
@@ -26,9 +26,9 @@ const Task accuracy_task{.name = "accuracy",
                          .compares_bodies = true,
                          .keys = accuracy_keys,
                          .run = run_accuracy,
-                         .add_json = [](const StudyResults& results, Json& json) { json["accuracy"] = ladder_json(*results.ladder); },
-                         .tables = [](const StudyResults& results) { return ladder_tables(*results.ladder); },
-                         .summary = [](const StudyResults& results) { return ladder_summary(*results.ladder); },
+                         .add_json = [](const StudyResults& results, Json& json) { json["accuracy"] = hierarchy_json(*results.hierarchy); },
+                         .tables = [](const StudyResults& results) { return hierarchy_tables(*results.hierarchy); },
+                         .summary = [](const StudyResults& results) { return hierarchy_summary(*results.hierarchy); },
                          .study_template = accuracy_template};
 
 }  // namespace flankwright::studies

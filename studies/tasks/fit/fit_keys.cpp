@@ -12,19 +12,19 @@ std::vector<SchemaKey> fit_keys() {
   return {
       {.path = "fit.gear", .kind = Word, .words = {"both", "pinion", "wheel"}, .fallback = "\"both\"",
        .meaning = "whose compliance is fitted",
-       .store = [](Draft& d, Member, const Value& v) {
+       .store = [](StudyBuilder& d, Member, const Value& v) {
          d.study.fit.pinion = v.text != "wheel";
          d.study.fit.wheel = v.text != "pinion";
        }},
       {.path = "fit.form", .kind = Word, .words = {"one_tooth_accurate", "several_teeth"},
        .fallback = "\"one_tooth_accurate\"", .meaning = "sum of kernels that is fitted: one tooth, or several that are coupled",
-       .store = [](Draft& d, Member, const Value& v) { d.study.fit.several_teeth = v.text == "several_teeth"; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.fit.several_teeth = v.text == "several_teeth"; }},
       {.path = "fit.test_grid", .kind = Word, .words = {"on", "off"}, .fallback = "\"on\"",
        .meaning = "on: compared with finite elements on places that the fit has not seen as well",
-       .store = [](Draft& d, Member, const Value& v) { d.study.fit.test_grid = v.text == "on"; }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.fit.test_grid = v.text == "on"; }},
       {.path = "fit.max_iterations", .kind = Integer, .range = {.low = 1, .high = 100'000}, .fallback = "300",
        .meaning = "steps of the least squares, then it ends unconverged with the best so far",
-       .store = [](Draft& d, Member, const Value& v) { d.study.fit.max_iterations = static_cast<int>(v.integer); }},
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.fit.max_iterations = static_cast<int>(v.integer); }},
   };
 }
 

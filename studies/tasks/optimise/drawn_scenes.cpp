@@ -25,7 +25,7 @@ void put(Scene& scene, const SceneTolerance& tolerance, double value) {
 }  // namespace
 
 std::vector<Scene> draw_scenes(const Study& study, const DrawnScenes& drawn) {
-  const std::vector<SceneTolerance>& tolerances = study.optimise.proof.tolerances;
+  const std::vector<SceneTolerance>& tolerances = study.optimise.assessment.tolerances;
   std::vector<Scene> scenes;
   if (drawn.samples == 0) return scenes;
   const SampleDesign design(Sampler::Sobol, drawn.samples, static_cast<int>(tolerances.size()), drawn.seed);

@@ -9,14 +9,14 @@ namespace flankwright::studies {
 
 bool minimises_root_stress(const Study& study) {
   const auto is_root_stress = [](const ObjectiveTerm& term) { return term.output == Output::PeakRootStress; };
-  const auto in_goal = [&](const Goal& goal) { return std::ranges::any_of(goal.terms, is_root_stress); };
+  const auto in_objective = [&](const Objective& objective) { return std::ranges::any_of(objective.terms, is_root_stress); };
   const OptimiseTable& optimise = study.optimise;
   return std::ranges::any_of(optimise.objective, is_root_stress) || std::ranges::any_of(optimise.constraints, is_root_stress, &OutputConstraint::output) ||
-         std::ranges::any_of(optimise.then, in_goal) || std::ranges::any_of(optimise.pareto_goals, in_goal);
+         std::ranges::any_of(optimise.later_objectives, in_objective) || std::ranges::any_of(optimise.pareto_objectives, in_objective);
 }
 
 void check_variables(StudyReading& reading) {
-  const OptimiseTable& optimise = reading.draft.study.optimise;
+  const OptimiseTable& optimise = reading.builder.study.optimise;
   const auto is_variable = [&](const std::string& path) {
     return std::ranges::any_of(optimise.variables, [&](const DesignVariable& v) { return v.path == path; });
   };
@@ -28,7 +28,7 @@ void check_variables(StudyReading& reading) {
 }
 
 void check_optimise(StudyReading& reading) {
-  const Study& study = reading.draft.study;
+  const Study& study = reading.builder.study;
   const Match* variables = reading.find("optimise.variables");
   const bool has_entry =
       variables != nullptr && (!variables->node->is_table() || !variables->node->as_table()->empty());
@@ -40,10 +40,10 @@ void check_optimise(StudyReading& reading) {
     reading.refuse_key("fidelity.compliance", "task \"optimise\" needs a compliance: allowed is \"thin_slice\", \"fitted\" or \"fe\"");
   }
   const bool smooth = uses_gradients(study.optimise.solver) && accepts_constraints(study.optimise.solver);  // the epigraph is
-  if (!study.optimise.pareto_goals.empty() && !smooth) {
+  if (!study.optimise.pareto_objectives.empty() && !smooth) {
     reading.refuse_key("optimise.solver", "a Pareto front needs gradients and constraints: allowed is \"ipopt\", \"nlopt:slsqp\", \"nlopt:mma\" or \"nlopt:ccsaq\"");
   }
-  if (study.optimise.then.size() > 0 && !accepts_constraints(study.optimise.solver)) {
+  if (study.optimise.later_objectives.size() > 0 && !accepts_constraints(study.optimise.solver)) {
     reading.refuse_key("optimise.solver", "a list of objectives bounds the earlier ones: allowed is a solver that takes constraints, such as \"ipopt\"");
   }
   if (reading.find("optimise.finisher") != nullptr && !smooth) {

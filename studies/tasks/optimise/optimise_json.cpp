@@ -65,28 +65,28 @@ Json assessment_json(const SearchWork& work, std::size_t scenes) {
 }
 
 Json design_report_json(const DesignReport& report, const DesignTask& task) {
-  Json units = Json::object(), tied = Json::object();
+  Json units = Json::object(), linked = Json::object();
   for (const DesignVariable& v : task.variables) units[v.path] = v.unit();
-  for (std::size_t t = 0; t < task.ties.size(); ++t) {
-    const DesignVariable& v = task.ties[t].tied;
-    tied[v.path] = report.tied[t] * v.outside_factor();
+  for (std::size_t t = 0; t < task.links.size(); ++t) {
+    const DesignVariable& v = task.links[t].linked;
+    linked[v.path] = report.linked[t] * v.outside_factor();
     units[v.path] = v.unit();
   }
   Json json{{"variables", variables_json(report.variables, task)},
             {"variable_units", units},
             {"objective", report.objective},
             {"constraints", constraints_json(report, task)}};
-  if (!task.ties.empty()) json["tied"] = std::move(tied);
-  if (!task.then.empty()) json["later_objectives"] = report.later_objectives;
+  if (!task.links.empty()) json["tied"] = std::move(linked);
+  if (!task.later_objectives.empty()) json["later_objectives"] = report.later_objectives;
   return json;
 }
 
 /// The goal of a block of the last epigraph: the last of a list of objectives is minimised, those before it are bounded.
-Goal goal_of_block(const DesignTask& task, int block) {
-  std::vector<Goal> goals{task.goal()};
-  goals.insert(goals.end(), task.then.begin(), task.then.end());
-  std::rotate(goals.begin(), goals.end() - 1, goals.end());
-  return goals[static_cast<std::size_t>(block)];
+Objective objective_of_block(const DesignTask& task, int block) {
+  std::vector<Objective> objectives{task.combined_objective()};
+  objectives.insert(objectives.end(), task.later_objectives.begin(), task.later_objectives.end());
+  std::rotate(objectives.begin(), objectives.end() - 1, objectives.end());
+  return objectives[static_cast<std::size_t>(block)];
 }
 
 /// What of the design holds the optimum where it is.
@@ -102,12 +102,12 @@ Json active_json(const ActiveBound& active, const DesignTask& task) {
   using Kind = EpigraphRow::Kind;
   switch (row.kind) {
     case Kind::Floor:
-    case Kind::Ceiling: json["output"] = goal_of_block(task, row.goal).terms[index].name; break;
+    case Kind::Ceiling: json["output"] = objective_of_block(task, row.objective).terms[index].name; break;
     case Kind::OutputBound: json["constraint"] = task.constraints[index].output.name; break;
     case Kind::ModificationBound: json["constraint"] = task.modification_constraints[index].name; break;
-    case Kind::GoalHelper: json["output"] = goal_of_block(task, row.goal).name(); break;
-    case Kind::GoalBound: json["constraint"] = goal_of_block(task, row.goal).name(); break;
-    case Kind::TradedGoal: break;  // of fronts only, whose points have no optimality of their own
+    case Kind::ObjectiveHelper: json["output"] = objective_of_block(task, row.objective).name(); break;
+    case Kind::ObjectiveBound: json["constraint"] = objective_of_block(task, row.objective).name(); break;
+    case Kind::ScalarisedObjective: break;  // of fronts only, whose points have no optimality of their own
   }
   if (row.scene >= 0) {
     const DesignScene& scene = task.scenes[static_cast<std::size_t>(row.scene)];
@@ -167,7 +167,7 @@ void add_starts(const DesignResult& design, const DesignTask& task, Json& json) 
 }
 
 Json front_json(const ParetoFront& front, const DesignTask& task) {
-  return {{"objectives", list(front.goals, [](const Goal& goal) -> Json { return {{"name", goal.name()}, {"unit", goal.unit()}}; })},
+  return {{"objectives", list(front.objectives, [](const Objective& objective) -> Json { return {{"name", objective.name()}, {"unit", objective.unit()}}; })},
           {"points", list(front.points, [&](const ParetoPoint& point) -> Json {
              return {{"values", point.values},
                      {"variables", scaled_design_json(point.x, task)},

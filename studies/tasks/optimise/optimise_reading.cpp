@@ -55,23 +55,23 @@ std::vector<ObjectiveTerm> read_terms(StudyReading& reading, const SchemaKey& ke
   return terms;
 }
 
-std::vector<Goal> read_goals(StudyReading& reading, const SchemaKey& key, const toml::array& list, const Position& at) {
-  std::vector<Goal> goals;
-  for (const toml::node& node : list) goals.push_back({read_terms(reading, key, node, at), reading.draft.study.optimise.over});
-  return goals;
+std::vector<Objective> read_objectives(StudyReading& reading, const SchemaKey& key, const toml::array& list, const Position& at) {
+  std::vector<Objective> objectives;
+  for (const toml::node& node : list) objectives.push_back({read_terms(reading, key, node, at), reading.builder.study.optimise.over});
+  return objectives;
 }
 
 void read_objective(StudyReading& reading, const SchemaKey& key, const toml::node& node, const Position& at) {
-  OptimiseTable& optimise = reading.draft.study.optimise;
+  OptimiseTable& optimise = reading.builder.study.optimise;
   const toml::array* list = node.as_array();
   if (list == nullptr) {
     optimise.objective = read_terms(reading, key, node, at);
     return;
   }
   if (list->empty()) return reading.refuse(at, key.path, &node, "allowed is " + allowed_values(key));
-  std::vector<Goal> goals = read_goals(reading, key, *list, at);
-  optimise.objective = goals.front().terms;
-  optimise.then.assign(goals.begin() + 1, goals.end());
+  std::vector<Objective> objectives = read_objectives(reading, key, *list, at);
+  optimise.objective = objectives.front().terms;
+  optimise.later_objectives.assign(objectives.begin() + 1, objectives.end());
 }
 
 /// A key below pinion.modification or wheel.modification that is a number; null where a name is none, which becomes a problem.
@@ -116,7 +116,7 @@ void read_variable(StudyReading& reading, const Item& item) {
   if (variable.lower >= variable.upper) {
     return reading.refuse(item.position, shown, item.node, "allowed is [low, high] with low below high");
   }
-  if (key->quantity == Quantity::Deviation) variable.step = reading.draft.study.optimise.step;
+  if (key->quantity == Quantity::Deviation) variable.step = reading.builder.study.optimise.step;
   if (const toml::node* step = table == nullptr ? nullptr : table->get("step")) {
     const SchemaKey rule{.quantity = key->quantity, .range = {.low = 0.0, .low_open = true}};
     variable.step = number_of(reading, item.position, shown + ".step", *step, rule);
@@ -124,21 +124,21 @@ void read_variable(StudyReading& reading, const Item& item) {
   if (variable.step > variable.upper - variable.lower) {
     return reading.refuse(item.position, shown, item.node, "the step leaves nothing to choose: allowed is one within the range");
   }
-  reading.draft.study.optimise.variables.push_back(variable);
+  reading.builder.study.optimise.variables.push_back(variable);
 }
 
 /// Value of a tie at one end of its variable; beyond its key's range it becomes a problem.
-void check_tied_value(StudyReading& reading, const Item& item, const std::string& shown, const SchemaKey& key, double value) {
+void check_linked_value(StudyReading& reading, const Item& item, const std::string& shown, const SchemaKey& key, double value) {
   const double low = internal_value(key.range.low, key.quantity), high = internal_value(key.range.high, key.quantity);
   if (value >= low && value <= high) return;
   reading.refuse(item.position, shown, item.node, "leaves its range at an end of the variable: allowed is a number" +
                                                       range_in_words(key.range, key.quantity));
 }
 
-void read_tie(StudyReading& reading, const Item& item) {
+void read_link(StudyReading& reading, const Item& item) {
   const std::string shown = "optimise.ties." + item.name;
   const std::string allowed = "allowed is { as = \"pinion.modification.lead_crowning\", factor = 1, offset = 0 }";
-  OptimiseTable& optimise = reading.draft.study.optimise;
+  OptimiseTable& optimise = reading.builder.study.optimise;
   const SchemaKey* key = modification_key(reading, item.name, item.position, shown, item.node);
   if (key == nullptr) return;
   const toml::table* table = item.node->as_table();
@@ -156,15 +156,15 @@ void read_tie(StudyReading& reading, const Item& item) {
   if (key->quantity != study_keys().at(variable->path)->quantity) {
     return reading.refuse(item.position, shown + ".as", as, "is of another unit: allowed is a variable in " + std::string(default_unit(key->quantity)));
   }
-  DesignTie tie{.tied = variable_of(*key), .as = static_cast<std::size_t>(variable - optimise.variables.begin())};
+  LinkingConstraint link{.linked = variable_of(*key), .as = static_cast<std::size_t>(variable - optimise.variables.begin())};
   const SchemaKey factor{.range = {.low = -1000.0, .high = 1000.0}}, offset{.quantity = key->quantity};
-  if (const toml::node* node = table->get("factor")) tie.factor = number_of(reading, item.position, shown + ".factor", *node, factor);
-  if (const toml::node* node = table->get("offset")) tie.offset = number_of(reading, item.position, shown + ".offset", *node, offset);
-  const double one = tie.factor * variable->lower + tie.offset, other = tie.factor * variable->upper + tie.offset;
-  tie.tied.lower = std::min(one, other);
-  tie.tied.upper = std::max(one, other);
-  for (const double end : {one, other}) check_tied_value(reading, item, shown, *key, end);
-  optimise.ties.push_back(tie);
+  if (const toml::node* node = table->get("factor")) link.factor = number_of(reading, item.position, shown + ".factor", *node, factor);
+  if (const toml::node* node = table->get("offset")) link.offset = number_of(reading, item.position, shown + ".offset", *node, offset);
+  const double one = link.factor * variable->lower + link.offset, other = link.factor * variable->upper + link.offset;
+  link.linked.lower = std::min(one, other);
+  link.linked.upper = std::max(one, other);
+  for (const double end : {one, other}) check_linked_value(reading, item, shown, *key, end);
+  optimise.links.push_back(link);
 }
 
 /// A bound of an item's table in a unit; nothing where it is absent.
@@ -225,18 +225,18 @@ void read_modification_constraint(StudyReading& reading, const Item& item, const
     return reading.refuse(item.position, shown, item.node, "allowed is an output, or a sum such as \"2 * pinion.modification.lead_crowning - "
                                                            "wheel.modification.lead_crowning\" with spaces around the signs");
   }
-  const auto& variables = reading.draft.study.optimise.variables;
-  const auto& ties = reading.draft.study.optimise.ties;
+  const auto& variables = reading.builder.study.optimise.variables;
+  const auto& links = reading.builder.study.optimise.links;
   const bool varies = std::ranges::any_of(constraint.terms, [&](const ModificationConstraint::Term& term) {
     const auto is = [&](const DesignVariable& v) { return v.member == term.member && v.parameter == term.parameter; };
-    return std::ranges::any_of(variables, is) || std::ranges::any_of(ties, is, &DesignTie::tied);
+    return std::ranges::any_of(variables, is) || std::ranges::any_of(links, is, &LinkingConstraint::linked);
   });
   if (!varies) return reading.refuse(item.position, shown, item.node, "holds no variable: allowed is a sum that a variable changes");
   const SchemaKey rule{.quantity = first->quantity};
   if (const auto bound = read_bound(reading, item, shown, "max", rule)) constraint.maximum = *bound;
   if (const auto bound = read_bound(reading, item, shown, "min", rule)) constraint.minimum = *bound;
   if (constraint.minimum > constraint.maximum) return reading.refuse(item.position, shown, item.node, "allowed is min at most max");
-  reading.draft.study.optimise.modification_constraints.push_back(constraint);
+  reading.builder.study.optimise.modification_constraints.push_back(constraint);
 }
 
 void read_constraint(StudyReading& reading, const Item& item) {
@@ -250,7 +250,7 @@ void read_constraint(StudyReading& reading, const Item& item) {
   if (!has_only(reading, item, shown, {"max", "min"}, allowed)) return;
   if (is_sum) return read_modification_constraint(reading, item, shown);
   const SchemaKey limit{.quantity = output->quantity, .range = {.low = 0.0, .low_open = true}};
-  std::vector<OutputConstraint>& constraints = reading.draft.study.optimise.constraints;
+  std::vector<OutputConstraint>& constraints = reading.builder.study.optimise.constraints;
   const auto maximum = read_bound(reading, item, shown, "max", limit), minimum = read_bound(reading, item, shown, "min", limit);
   if (maximum && minimum && *minimum > *maximum) return reading.refuse(item.position, shown, item.node, "allowed is min at most max");
   if (maximum) constraints.push_back({.output = output->term, .maximum = *maximum});
@@ -263,8 +263,8 @@ void spread_edge_margin(OptimiseTable& optimise) {
     for (ObjectiveTerm& term : terms) term.edge_margin = optimise.edge_margin;
   };
   spread(optimise.objective);
-  for (Goal& goal : optimise.then) spread(goal.terms);
-  for (Goal& goal : optimise.pareto_goals) spread(goal.terms);
+  for (Objective& objective : optimise.later_objectives) spread(objective.terms);
+  for (Objective& objective : optimise.pareto_objectives) spread(objective.terms);
   for (OutputConstraint& constraint : optimise.constraints) constraint.output.edge_margin = optimise.edge_margin;
 }
 
@@ -274,7 +274,7 @@ bool is_variable(const toml::node& node) { return !node.is_table() || node.as_ta
 }  // namespace
 
 void read_optimise(StudyReading& reading) {
-  OptimiseTable& optimise = reading.draft.study.optimise;
+  OptimiseTable& optimise = reading.builder.study.optimise;
   const SchemaKey& objective = *study_keys().at("optimise.objective");
   if (const Match* match = reading.find(objective.path)) {
     read_objective(reading, objective, *match->node, match->position);
@@ -287,11 +287,11 @@ void read_optimise(StudyReading& reading) {
     if (list == nullptr || list->size() < 2 || list->size() > 3) {
       reading.refuse(match->position, match->path, match->node, "allowed is " + allowed_values(*match->key));
     } else {
-      optimise.pareto_goals = read_goals(reading, *match->key, *list, match->position);
+      optimise.pareto_objectives = read_objectives(reading, *match->key, *list, match->position);
     }
   }
   for (const Item& item : items_of(reading, "optimise.variables", is_variable)) read_variable(reading, item);
-  for (const Item& item : items_of(reading, "optimise.ties", is_filled_table)) read_tie(reading, item);
+  for (const Item& item : items_of(reading, "optimise.ties", is_filled_table)) read_link(reading, item);
   for (const Item& item : items_of(reading, "optimise.constraints", is_filled_table)) read_constraint(reading, item);
   spread_edge_margin(optimise);
 }

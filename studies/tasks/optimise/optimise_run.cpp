@@ -8,7 +8,7 @@
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/analysis/requirements.hpp"
 #include "studies/compliance/study_compliance.hpp"
-#include "studies/tasks/optimise/proof.hpp"
+#include "studies/tasks/optimise/assessment.hpp"
 
 namespace flankwright::studies {
 
@@ -38,13 +38,13 @@ class OptimiseRun {
     keep_constraints_between_positions(problem, choice, found);
     results_.design = found.design;
     results_.search_work = {found.search, found.fine, found.objective_seen_by_search, found.design.after.objective};
-    if (!study.optimise.pareto_goals.empty()) {
-      results_.front = trace_front(problem, study.optimise.pareto_goals, study.optimise.pareto_points, choice);
+    if (!study.optimise.pareto_objectives.empty()) {
+      results_.front = trace_front(problem, study.optimise.pareto_objectives, study.optimise.pareto_points, choice);
     }
     const DesignResult& design = *results_.design;
     results_.steps.push_back({"load_distribution", "all analyses of the optimisation", design.seconds});
-    results_.proof = std::make_shared<const Proof>(prove_optimum(study, problem, design, run_.loaded(draw_scenes(study, study.optimise.proof.validation)), run_.progress()));
-    results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", results_.proof->seconds});
+    results_.assessment = std::make_shared<const Assessment>(assess_optimum(study, problem, design, run_.loaded(draw_scenes(study, study.optimise.assessment.validation)), run_.progress()));
+    results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", results_.assessment->seconds});
     results_.before_errors = show(problem, "before", results_.design->before);
     results_.after_errors = show(problem, "after", results_.design->after);
     if (results_.design->exact) resolve_report(problem, resolved_cycles(problem, *results_.design->exact, false), *results_.design->exact);
@@ -56,7 +56,7 @@ class OptimiseRun {
   /// The listed ones and those drawn from tolerances.
   std::vector<DesignScene> all_scenes() const {
     std::vector<DesignScene> scenes = run_.loaded_scenes();
-    for (DesignScene& scene : run_.loaded(draw_scenes(results_.study, results_.study.optimise.proof.scenes))) scenes.push_back(std::move(scene));
+    for (DesignScene& scene : run_.loaded(draw_scenes(results_.study, results_.study.optimise.assessment.scenes))) scenes.push_back(std::move(scene));
     return scenes;
   }
 
@@ -78,9 +78,9 @@ class OptimiseRun {
     task.objective = study.optimise.objective;
     task.over = study.optimise.over;
     task.constraints = study.optimise.constraints;
-    task.ties = study.optimise.ties;
+    task.links = study.optimise.links;
     task.modification_constraints = study.optimise.modification_constraints;
-    task.then = study.optimise.then;
+    task.later_objectives = study.optimise.later_objectives;
     task.lexicographic_tolerance = study.optimise.lexicographic_tolerance;
     if (asks_for_root_stress(study)) task.root_stress = run_.structures().root_stress;
     task.scenes = all_scenes();  // an unloaded scene has no stress and no loaded transmission error to choose by

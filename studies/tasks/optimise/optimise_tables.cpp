@@ -10,7 +10,7 @@
 #include "studies/base/json_format.hpp"
 #include "studies/base/plain_names.hpp"
 #include "studies/results/tables.hpp"
-#include "studies/tasks/optimise/proof_tables.hpp"
+#include "studies/tasks/optimise/assessment_tables.hpp"
 
 namespace flankwright::studies {
 
@@ -36,7 +36,7 @@ std::string history_csv(const DesignResult& design) {
 
 std::string pareto_csv(const ParetoFront& front, const DesignTask& task) {
   std::string csv;
-  for (const Goal& goal : front.goals) csv += csv_field(goal.name() + " [" + goal.unit() + "]") + ",";
+  for (const Objective& objective : front.objectives) csv += csv_field(objective.name() + " [" + objective.unit() + "]") + ",";
   for (const DesignVariable& v : task.variables) csv += csv_field(v.path + " [" + v.unit() + "]") + ",";
   csv += "status,dominated\n";
   for (const ParetoPoint& point : front.points) {
@@ -115,14 +115,14 @@ std::string optimise_summary(const StudyResults& results) {
   }
   // Other designs are judged at the positions: so is, beside them, the optimum.
   const double compared = results.search_work ? results.search_work->objective_at_positions : design.after.objective;
-  return results.proof ? out + proof_summary(*results.proof, task, compared) : out;
+  return results.assessment ? out + assessment_summary(*results.assessment, task, compared) : out;
 }
 
 std::vector<NamedText> optimise_tables(const StudyResults& results) {
   std::vector<NamedText> tables{{"scenes.csv", scenes_csv(results)}, {"history.csv", history_csv(*results.design)}};
   if (results.front) tables.push_back({"pareto.csv", pareto_csv(*results.front, *results.design_task)});
-  if (!results.proof) return tables;
-  for (NamedText& table : proof_tables(*results.proof)) tables.push_back(std::move(table));
+  if (!results.assessment) return tables;
+  for (NamedText& table : assessment_tables(*results.assessment)) tables.push_back(std::move(table));
   return tables;
 }
 

@@ -9,9 +9,9 @@
 #include "studies/tasks/optimise/optimise_run.hpp"
 #include "studies/tasks/optimise/optimise_tables.hpp"
 #include "studies/tasks/optimise/optimise_template.hpp"
-#include "studies/tasks/optimise/proof_json.hpp"
-#include "studies/tasks/optimise/proof_keys.hpp"
-#include "studies/tasks/optimise/proof_reading.hpp"
+#include "studies/tasks/optimise/assessment_json.hpp"
+#include "studies/tasks/optimise/assessment_keys.hpp"
+#include "studies/tasks/optimise/assessment_reading.hpp"
 
 namespace flankwright::studies {
 
@@ -26,7 +26,7 @@ std::vector<SchemaKey> all_optimise_keys() {
 void read_optimise_tables(StudyReading& reading) {
   read_optimise(reading);
   check_variables(reading);
-  read_proof(reading);
+  read_assessment(reading);
 }
 
 /// Variables count as modifications from the start, even where their first value is 0. What scatters counts as well: four scenes are enough
@@ -38,13 +38,13 @@ std::vector<FlankCondition> optimise_conditions(const Study& study) {
       set(v.member == Member::Pinion ? condition.pinion_modification : condition.wheel_modification, v.parameter, v.upper != 0.0 ? v.upper : v.lower);
     }
   }
-  for (const Scene& scene : draw_scenes(study, {.samples = study.optimise.proof.tolerances.empty() ? 0 : 4})) all.push_back(condition_of(study, scene));
+  for (const Scene& scene : draw_scenes(study, {.samples = study.optimise.assessment.tolerances.empty() ? 0 : 4})) all.push_back(condition_of(study, scene));
   return all;
 }
 
 void add_optimise_json(const StudyResults& results, Json& json) {
   json["optimise"] = optimise_json(results);
-  if (results.proof) add_proof(*results.proof, *results.design_task, results.study.optimise.proof, json["optimise"]);
+  if (results.assessment) add_assessment(*results.assessment, *results.design_task, results.study.optimise.assessment, json["optimise"]);
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& conditi
 }
 
 std::vector<double> SampleAnalysis::unloaded_outputs(const FlankCondition& condition) const {
-  const MeshScene scene = make_mesh_scene(nominal_.pair, condition.misalignment, condition.pinion_modification,
+  const FlankAssembly scene = assemble_flanks(nominal_.pair, condition.misalignment, condition.pinion_modification,
                                           condition.wheel_modification, condition.pinion_error, condition.wheel_error);
   const UnloadedMesh mesh = analyse_unloaded_mesh(nominal_.pair, scene, nominal_.study.cycle.positions);
   if (mesh.missing > 0) throw SampleFailure{"no tooth pair touches at " + std::to_string(mesh.missing) + " of the mesh positions"};

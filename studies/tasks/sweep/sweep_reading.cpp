@@ -42,7 +42,7 @@ std::vector<const SchemaKey*> keys_of(StudyReading& reading, const Item& item) {
 }
 
 void read_parameter(StudyReading& reading, const Item& item, const GearPair* pair) {
-  std::vector<SweepParameter>& parameters = reading.draft.study.sweep.parameters;
+  std::vector<SweepParameter>& parameters = reading.builder.study.sweep.parameters;
   for (const SchemaKey* key : keys_of(reading, item)) {
     const std::string shown = "sweep.parameters." + item.name;
     try {
@@ -64,7 +64,7 @@ bool is_swept(const SweepTable& sweep, const std::string& path) {
 
 /// A relief's amount needs the height or length over which it is spread.
 void check_reliefs(StudyReading& reading, const SweptCondition& nominal) {
-  const SweepTable& sweep = reading.draft.study.sweep;
+  const SweepTable& sweep = reading.builder.study.sweep;
   for (const std::string gear : {"pinion.", "wheel."}) {
     const Modification& m = gear == "pinion." ? nominal.pinion_modification : nominal.wheel_modification;
     for (const ModificationDescriptor& amount : modification_parameters) {
@@ -77,7 +77,7 @@ void check_reliefs(StudyReading& reading, const SweptCondition& nominal) {
 }
 
 void check_design(StudyReading& reading) {
-  SweepTable& sweep = reading.draft.study.sweep;
+  SweepTable& sweep = reading.builder.study.sweep;
   const auto count = static_cast<int>(sweep.parameters.size());
   if (sweep.sampler == Sampler::Grid) {
     sweep.indices = false;
@@ -108,7 +108,7 @@ void check_design(StudyReading& reading) {
 
 /// Parameters that the study gives no value stand at their medians.
 void set_nominal(StudyReading& reading) {
-  Study& study = reading.draft.study;
+  Study& study = reading.builder.study;
   SweptCondition nominal = SweptCondition::of(study);
   for (const SweepParameter& p : study.sweep.parameters) {
     if (reading.find(p.path) == nullptr) set_swept(nominal, *study_keys().at(p.path), p.distribution.median());
@@ -127,12 +127,12 @@ void set_nominal(StudyReading& reading) {
 
 void read_sweep(StudyReading& reading) {
   std::optional<GearPair> pair;
-  if (find_problems(reading.draft.study.pair).empty()) pair = make_gear_pair(reading.draft.study.pair);
+  if (find_problems(reading.builder.study.pair).empty()) pair = make_gear_pair(reading.builder.study.pair);
   for (const Item& item : items_of(reading, "sweep.parameters", is_filled_table)) read_parameter(reading, item, pair ? &*pair : nullptr);
 }
 
 void check_sweep(StudyReading& reading) {
-  const Study& study = reading.draft.study;
+  const Study& study = reading.builder.study;
   if (!reading.problems.empty()) return;
   if (study.sweep.parameters.empty()) return reading.refuse_key("sweep.parameters", "task \"sweep\" needs at least one parameter");
   if (reading.find("scenes") != nullptr) {

@@ -24,7 +24,7 @@ std::string absolute(const Study& study, const std::string& file) {
   return std::filesystem::absolute(std::filesystem::path(study.file).parent_path() / file).lexically_normal().string();
 }
 
-void add_grids(const Study& study, const std::string& gear, const FlankGrid& grid, const std::vector<std::string>& teeth,
+void add_grids(const Study& study, const std::string& gear, const GivenGrid& grid, const std::vector<std::string>& teeth,
                std::vector<Override>& overrides) {
   if (!grid.file.empty()) overrides.push_back({gear + ".modification.grid", quoted(absolute(study, grid.file))});
   if (teeth.empty()) return;

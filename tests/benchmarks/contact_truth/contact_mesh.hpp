@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/compliance/finite_element/solid_model.hpp"
-#include "core/contact/assembly/mesh_scene.hpp"
+#include "core/contact/assembly/flank_assembly.hpp"
 #include "core/contact/path/path_of_contact.hpp"
 #include "core/gear/tooth_form.hpp"
 

@@ -18,14 +18,14 @@ namespace {
 /// Both gears' meshes in the housing's frame, numbered one after the other.
 struct ContactModel {
   GearPair pair;
-  MeshScene scene;
+  FlankAssembly scene;
   int first{0}, last{0};  ///< tooth pairs that may touch
   std::array<ContactMesh, 2> meshes;
   std::array<Eigen::Index, 2> first_node{}, first_brick{};
 
   ContactModel(const ContactTask& task, const ContactMeshOptions& options)
       : pair(make_gear_pair(task.pair)),
-        scene(make_mesh_scene(pair, task.condition.misalignment, task.condition.pinion_modification,
+        scene(assemble_flanks(pair, task.condition.misalignment, task.condition.pinion_modification,
                               task.condition.wheel_modification, {}, {})) {
     // A pair may be pressed together this far before A and after E [base pitches].
     constexpr double beyond = 0.15;

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 
-#include "core/compliance/fitted/refinement_fit.hpp"
+#include "core/compliance/fitted/correction_fit.hpp"
 #include "tests/benchmarks/contact_truth/contact_cases.hpp"
 #include "tests/benchmarks/contact_truth/contact_figures.hpp"
 #include "tests/benchmarks/contact_truth/held_structure.hpp"
@@ -70,7 +70,7 @@ TEST_CASE("The outside model's loaded flanks are the true ones", "[contact-truth
   const ContactCase c = contact_cases()[static_cast<std::size_t>(GENERATE(1, 4, 7))];
   CAPTURE(c.name);
   const GearPair pair = make_gear_pair(c.task.pair);
-  const MeshScene scene = make_mesh_scene(pair, {}, c.task.condition.pinion_modification, {}, {}, {});
+  const FlankAssembly scene = assemble_flanks(pair, {}, c.task.condition.pinion_modification, {}, {}, {});
   for (const Member m : {Member::Pinion, Member::Wheel}) {
     const Flank& flank = m == Member::Pinion ? scene.pinion : scene.wheel;
     const ContactMesh mesh = contact_mesh(

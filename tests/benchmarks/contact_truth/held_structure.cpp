@@ -31,16 +31,16 @@ InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_rad
   }
   const SolidModel solid(model.solid, {1, poissons_ratio}, model.supports);
 
-  const FlankGrid grid = flank_grid(gear.data.face_width / module);
+  const StationGrid grid = station_grid(gear.data.face_width / module);
   std::vector<FlankPoint> points;
   for (int tooth = -apart; tooth <= apart; ++tooth) {
-    for (const FlankPlace& place : grid.places(tooth)) {
+    for (const FlankStation& place : grid.places(tooth)) {
       points.push_back(
           {tooth, model.form.form_radius() + (place.u + 1) / 2 * (model.form.tip_radius() - model.form.form_radius()),
            std::clamp(place.zeta * module - half, -half, half)});
     }
   }
-  const Eigen::SparseMatrix<double> functionals = net_functionals(model, points, RemovedMotion::None).centre;
+  const Eigen::SparseMatrix<double> functionals = net_functionals(model, points, RemovedRigidMotion::None).centre;
   const Eigen::Index n = grid.size();
   const Eigen::SparseMatrix<double> loads = functionals.middleCols(apart * n, n);
   const Eigen::MatrixXd deflections = module * (functionals.transpose() * solid.solve(loads));

@@ -47,16 +47,16 @@ class LoadedBlock {
 
  private:
   double down(bool free_end, std::size_t depth, std::size_t distance) const {
-    const Eigen::Vector3d place(0, static_cast<double>(depth) / cells(depth_), static_cast<double>(distance) / cells(along_));
+    const Eigen::Vector3d station(0, static_cast<double>(depth) / cells(depth_), static_cast<double>(distance) / cells(along_));
     Eigen::Index node = 0;
-    REQUIRE((cube_.colwise() - place).colwise().norm().minCoeff(&node) < 1e-9);
+    REQUIRE((cube_.colwise() - station).colwise().norm().minCoeff(&node) < 1e-9);
     return moved_[free_end ? 1 : 0][3 * node + 1];
   }
   static int cells(const std::vector<double>& grid) { return static_cast<int>(grid.size()) - 1; }
   static double at(const std::vector<double>& grid, double part) {
-    const double place = part * cells(grid);
-    const auto i = std::min(grid.size() - 2, static_cast<std::size_t>(place + 1e-9));
-    return grid[i] + (place - static_cast<double>(i)) * (grid[i + 1] - grid[i]);
+    const double station = part * cells(grid);
+    const auto i = std::min(grid.size() - 2, static_cast<std::size_t>(station + 1e-9));
+    return grid[i] + (station - static_cast<double>(i)) * (grid[i + 1] - grid[i]);
   }
   Eigen::MatrixXd hertzian_load() const {
     Eigen::MatrixXd load = Eigen::MatrixXd::Zero(mesh_.nodes.size(), 1);

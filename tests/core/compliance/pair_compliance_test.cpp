@@ -62,15 +62,15 @@ TEST_CASE("Contact points lie on the finite-element gears as in the housing: sam
     const GearMesh mesh = mesh_of(pair, member);
     const Gear& gear = pair[member];
     int middle = 0;
-    for (const ContactPoint& p : points) middle += flank_place(pair, member, p, axial_offset).tooth;
+    for (const ContactPoint& p : points) middle += flank_station(pair, member, p, axial_offset).tooth;
     middle = static_cast<int>(std::lround(static_cast<double>(middle) / static_cast<double>(points.size())));
     std::vector<LoadFrame> frames;
     for (const ContactPoint& p : points) {
-      const FlankPlace place = flank_place(pair, member, p, axial_offset);
-      const double radius = gear.form_radius + (place.u + 1) / 2 * (gear.tip_radius - gear.form_radius);
+      const FlankStation station = flank_station(pair, member, p, axial_offset);
+      const double radius = gear.form_radius + (station.u + 1) / 2 * (gear.tip_radius - gear.form_radius);
       const double own = member == Member::Pinion ? p.pinion_radius : p.wheel_radius;
       CHECK(radius == Approx(own).epsilon(1e-12));
-      frames.push_back(load_frame(mesh, {place.tooth - middle, radius, place.zeta * kModule - 0.5 * gear.data.face_width}));
+      frames.push_back(load_frame(mesh, {station.tooth - middle, radius, station.zeta * kModule - 0.5 * gear.data.face_width}));
     }
     for (std::size_t i = 0; i < points.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {

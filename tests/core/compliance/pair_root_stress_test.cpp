@@ -15,8 +15,8 @@ constexpr double kStressModule = 4, kStressWidth = 24;
 /// A table that says where a force and a fillet are: s_tt = teeth between them, s_aa = u of the force, s_ta = zeta of
 /// the force less that of the fillet. Linear, so that splines interpolate it exactly.
 std::shared_ptr<const RootStressTable> telltale(double face_width) {
-  RootStressTable table{flank_grid(face_width / kStressModule, 4), {{0.2, 0.5, 0.8}, 1, {0, 1, face_width / kStressModule}}, {}};
-  const std::vector<FlankPlace> forces = table.grid.places();
+  RootStressTable table{station_grid(face_width / kStressModule, 4), {{0.2, 0.5, 0.8}, 1, {0, 1, face_width / kStressModule}}, {}};
+  const std::vector<FlankStation> forces = table.grid.stations();
   for (int m = -2; m <= 2; ++m) {
     Eigen::MatrixXd stress(3 * table.fillet.size(), table.grid.size());
     for (Eigen::Index p = 0; p < table.fillet.size(); ++p) {
@@ -54,32 +54,32 @@ TEST_CASE("Fillets of both gears feel forces where these are in the housing", "[
   // All places together under arbitrary forces are what the places are one by one.
   const Eigen::VectorXd forces = Eigen::VectorXd::LinSpaced(std::ssize(points), 1.0, 2.0);
   const Eigen::VectorXd together = found.components(forces);
-  REQUIRE(together.size() == 3 * std::ssize(found.places));
+  REQUIRE(together.size() == 3 * std::ssize(found.stations));
   int tangents = 0;
-  for (std::size_t p = 0; p < found.places.size(); ++p) {
-    const RootPlace& place = found.places[p];
-    const bool pinion = place.member == Member::Pinion;
-    tangents += place.tangent;
-    CHECK(place.tangent == (place.along == 0.5));
-    const double half = pair[place.member].data.face_width / 2;
-    CHECK(std::abs(place.z - (pinion ? 0 : offset)) <= half * (1 + 1e-12));
+  for (std::size_t p = 0; p < found.stations.size(); ++p) {
+    const RootStation& station = found.stations[p];
+    const bool pinion = station.member == Member::Pinion;
+    tangents += station.tangent;
+    CHECK(station.tangent == (station.along == 0.5));
+    const double half = pair[station.member].data.face_width / 2;
+    CHECK(std::abs(station.z - (pinion ? 0 : offset)) <= half * (1 + 1e-12));
     const Eigen::Matrix3Xd components = found.components_of(static_cast<Eigen::Index>(p));
     REQUIRE(components.cols() == std::ssize(points));
     CHECK((together.segment<3>(3 * static_cast<Eigen::Index>(p)) - components * forces).norm() <= 1e-12 * (1.0 + together.norm()));  // round-off
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Eigen::Vector3d s = components.col(static_cast<Eigen::Index>(i)) * kStressModule * kStressModule;
       // The same number of teeth apart, in the mesh's own sense of counting on either gear; round-off of splines.
-      CHECK(s[0] == Approx((pinion ? -1 : 1) * (points[i].tooth - place.tooth)).margin(1e-11));
+      CHECK(s[0] == Approx((pinion ? -1 : 1) * (points[i].tooth - station.tooth)).margin(1e-11));
       const double radius = pinion ? points[i].pinion_radius : points[i].wheel_radius;
-      CHECK(s[1] == Approx(2 * (radius - pair[place.member].form_radius) /
-                               (pair[place.member].tip_radius - pair[place.member].form_radius) -
+      CHECK(s[1] == Approx(2 * (radius - pair[station.member].form_radius) /
+                               (pair[station.member].tip_radius - pair[station.member].form_radius) -
                            1)
                         .margin(1e-11));
       // zeta runs from the sharp end, opposite ends on both gears: with z on one, against it on the other.
-      const double along_z = (points[i].z - place.z) / kStressModule;
+      const double along_z = (points[i].z - station.z) / kStressModule;
       const double sense = (pinion ? -1 : 1) * (pair.contact_line_sense() >= 0 ? 1.0 : -1.0);
       CHECK(s[2] == Approx(sense * along_z).margin(1e-11));
     }
   }
-  CHECK(tangents * 3 == static_cast<int>(found.places.size()));
+  CHECK(tangents * 3 == static_cast<int>(found.stations.size()));
 }

@@ -6,7 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "core/compliance/thin_slice/tooth_bending.hpp"
-#include "core/compliance/tooth/tooth_places.hpp"
+#include "core/compliance/tooth/flank_stations.hpp"
 #include "tests/reference/eigenvalues.hpp"
 
 using namespace flankwright;
@@ -28,7 +28,7 @@ TEST_CASE("Thin slices under many point loads give way as under the line load th
   const ThinSliceTooth teeth(form, 2, 16, 0.3, calibration);  // B = 8
   const double cos_beta = std::cos(30 * units::deg);
   constexpr int kLoads = 64;  // ten per spread and more: the hat's kinks lie on loads
-  std::vector<FlankPlace> points{{0, u, 4}};
+  std::vector<FlankStation> points{{0, u, 4}};
   const double step = ThinSliceTooth::kSpread / 16;  // along the trace [m_n]
   for (int i = -kLoads; i <= kLoads; ++i) points.push_back({0, u, 4 + i * step * cos_beta});
   // A load per length of 1 at each point: step; the trapezoidal rule is exact for a hat with its kinks on nodes.
@@ -41,7 +41,7 @@ TEST_CASE("Thin slices do not know of each other beyond the spread, nor of other
           "[core][compliance][thin-slice][physics]") {
   const ThinSliceTooth teeth(helical_form(), 2, 16, 0.3);
   const double reach = ThinSliceTooth::kSpread * std::cos(30 * units::deg);
-  const std::vector<FlankPlace> points{{0, 0.3, 4}, {0, 0.3, 4 + 0.9 * reach}, {0, 0.3, 4 + 1.1 * reach}, {1, 0.3, 4}};
+  const std::vector<FlankStation> points{{0, 0.3, 4}, {0, 0.3, 4 + 0.9 * reach}, {0, 0.3, 4 + 1.1 * reach}, {1, 0.3, 4}};
   const Eigen::MatrixXd K = teeth.evaluate(points);
   CHECK(K == K.transpose());
   CHECK(K(0, 1) == Approx(0.1 * K(0, 0)));
@@ -49,12 +49,12 @@ TEST_CASE("Thin slices do not know of each other beyond the spread, nor of other
   CHECK(K(0, 3) == 0);
   CHECK(K(3, 3) == K(0, 0));
 
-  std::vector<FlankPlace> many;
+  std::vector<FlankStation> many;
   for (const double u : {-1.0, 0.1, 1.0}) {
     for (double zeta = 0; zeta <= 8; zeta += 0.31) many.push_back({0, u, zeta});
   }
   const Eigen::MatrixXd M = teeth.evaluate(many);
   CHECK(symmetric_eigenvalues(M).minCoeff() > -1e-13 * M.trace());
-  const FlankPlace off{0, 1.2, 3};
+  const FlankStation off{0, 1.2, 3};
   CHECK_THROWS_AS(teeth.evaluate({&off, 1}), InvalidInput);
 }

@@ -34,7 +34,7 @@ TEST_CASE("Aligned involute gears touch along a line and transmit exactly their 
     data.pinion_hand = hand;
     data.working_flank = flank;
     const GearPair pair = make_gear_pair(data);
-    const MeshScene scene = scene_of(pair);
+    const FlankAssembly scene = scene_of(pair);
     const PathOfContact path(pair);
     const double extent = pair.overlap_ratio + pair.transverse_contact_ratio;
     CAPTURE(data.pinion.teeth, data.wheel.teeth, data.helix_angle);
@@ -80,7 +80,7 @@ TEST_CASE("Any tooth pair is the reference pair, pitches later", "[core][contact
   Random random(7);
   const GearPair pair = make_gear_pair(pair_data(21, 37, 18 * deg));
   const Misalignment misalignment = random_misalignment(random);
-  const MeshScene scene = scene_of(pair, misalignment, random_modification(random, pair.pinion));
+  const FlankAssembly scene = scene_of(pair, misalignment, random_modification(random, pair.pinion));
   for (int tooth = -2; tooth <= 2; ++tooth) {
     const double phi1 = 0.03;
     const ToothContact shifted = find_tooth_contact(scene, tooth, phi1 - tooth * 2 * pi / 21);
@@ -131,7 +131,7 @@ TEST_CASE("The mirror image of a gear pair has the same transmission error", "[c
     const auto error_at = [&](const PairData& d, const Misalignment& m, const Modification& m1,
                               const Modification& m2) {
       std::vector<double> te;
-      const MeshScene scene = make_mesh_scene(make_gear_pair(d), m, m1, m2, {}, {});
+      const FlankAssembly scene = assemble_flanks(make_gear_pair(d), m, m1, m2, {}, {});
       for (const double phi1 : {-0.1, 0.0, 0.06}) te.push_back(find_tooth_contact(scene, 0, phi1).transmission_error);
       return te;
     };

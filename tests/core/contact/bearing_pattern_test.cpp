@@ -16,7 +16,7 @@ using units::pi;
 
 namespace {
 
-BearingPattern pattern_of(const GearPair& pair, const MeshScene& scene, Member member, int rows = 21,
+BearingPattern pattern_of(const GearPair& pair, const FlankAssembly& scene, Member member, int rows = 21,
                           int columns = 21) {
   return bearing_pattern(scene, analyse_unloaded_mesh(pair, scene, 64), member, rows, columns);
 }
@@ -81,7 +81,7 @@ TEST_CASE("Around the path of contact the pattern is as wide as the ellipses alo
   const GearPair pair = make_gear_pair(pair_data(26, 57, beta));
   Modification m;
   m.lead_crowning = 0.015;
-  const MeshScene scene = scene_of(pair, {}, m);
+  const FlankAssembly scene = scene_of(pair, {}, m);
   const BearingPattern pattern = pattern_of(pair, scene, Member::Pinion, 11, 41);
   const ToothContact contact = find_tooth_contact(scene, 0, 0.01);
   REQUIRE(contact.kind == ContactKind::Surface);
@@ -114,7 +114,7 @@ TEST_CASE("The separation is the smallest that a sweep through the mesh finds", 
     misalignment.crossing = 2 * arcmin;
     misalignment.intersecting = -1 * arcmin;
   }
-  const MeshScene scene = scene_of(pair, misalignment, pinion, wheel);
+  const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
   const ToothContactSolver solver(scene);
   const double pitch = 2 * pi / 23;
   // The envelope of all pairs on a fine grid of pinion angles, without linear interpolation.
@@ -165,7 +165,7 @@ TEST_CASE("Both flanks show the same pattern in conjugate points", "[core][conta
   m.parabolic_te = 2e-4;
   Misalignment misalignment;
   misalignment.crossing = 1 * arcmin;
-  const MeshScene scene = scene_of(pair, misalignment, m);
+  const FlankAssembly scene = scene_of(pair, misalignment, m);
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 64);
   const int n = 101;
   const BearingPattern on_pinion = bearing_pattern(scene, mesh, Member::Pinion, n, 9);
@@ -197,7 +197,7 @@ TEST_CASE("Eight positions give the pattern of a parabola to a 64th of its heigh
   m.parabolic_te = 1e-3;
   Misalignment misalignment;
   misalignment.crossing = 1 * arcmin;  // moves the hand-over off the positions
-  const MeshScene scene = scene_of(pair, misalignment, m);
+  const FlankAssembly scene = scene_of(pair, misalignment, m);
   const UnloadedMesh fine = analyse_unloaded_mesh(pair, scene, 512), coarse = analyse_unloaded_mesh(pair, scene, 8);
   const Eigen::MatrixXd wanted = bearing_pattern(scene, fine, Member::Pinion, 61, 5).separation;
   const Eigen::MatrixXd found = bearing_pattern(scene, coarse, Member::Pinion, 61, 5).separation;
@@ -214,7 +214,7 @@ TEST_CASE("A pair that enters after the last position closes the pitch in the pa
   const GearPair pair = make_gear_pair(data);
   Modification wheel;
   wheel.root_relief = {0.08, 3.0, ReliefShape::Linear};
-  const MeshScene scene = scene_of(pair, {}, {}, wheel);
+  const FlankAssembly scene = scene_of(pair, {}, {}, wheel);
   const UnloadedMesh one = analyse_unloaded_mesh(pair, scene, 1), many = analyse_unloaded_mesh(pair, scene, 64);
   REQUIRE(one.transfers.size() == 1);
   for (const PairCurve& curve : one.pairs) REQUIRE(curve.tooth != one.transfers.front().to_tooth);
@@ -235,7 +235,7 @@ TEST_CASE("What overhangs the mate is not marked", "[core][contact]") {
   const GearPair pair = make_gear_pair(pair_data(20, 40, 10 * deg, 0.0, 0.0, 36.0, 30.0));
   Misalignment misalignment;
   misalignment.axial_offset = 1.5;  // the wheel covers -13.5 .. 16.5 of the pinion
-  const MeshScene scene = scene_of(pair, misalignment);
+  const FlankAssembly scene = scene_of(pair, misalignment);
   const BearingPattern pinion = pattern_of(pair, scene, Member::Pinion, 5, 37),
                        wheel = pattern_of(pair, scene, Member::Wheel, 5, 31);
   for (int j = 0; j < 37; ++j) {
@@ -300,7 +300,7 @@ TEST_CASE("Of any pair the pattern has no gaps, and the point that leads is in i
     const Misalignment misalignment = random_misalignment(random);
     const Modification pinion = random_modification(random, pair.pinion),
                        wheel = random_modification(random, pair.wheel);
-    const MeshScene scene = scene_of(pair, misalignment, pinion, wheel);
+    const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
     const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 32);
     if (mesh.missing > 0) continue;
     for (const Member member : {Member::Pinion, Member::Wheel}) {
@@ -347,7 +347,7 @@ TEST_CASE("The coverage of a flank counts area, not points", "[core][contact][cl
 
 TEST_CASE("A pattern needs a grid", "[core][contact]") {
   const GearPair pair = make_gear_pair(pair_data(20, 40, 0.0));
-  const MeshScene scene = scene_of(pair);
+  const FlankAssembly scene = scene_of(pair);
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 8);
   CHECK_THROWS_AS(bearing_pattern(scene, mesh, Member::Pinion, 1, 5), InvalidInput);
   CHECK_THROWS_AS(bearing_pattern(scene, mesh, Member::Wheel, 5, 1), InvalidInput);

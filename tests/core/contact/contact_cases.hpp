@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "core/contact/assembly/mesh_scene.hpp"
+#include "core/contact/assembly/flank_assembly.hpp"
 #include "core/contact/path/path_of_contact.hpp"
 #include "core/contact/unloaded/tooth_contact.hpp"
 #include "core/contact/unloaded/transmission_error.hpp"
@@ -27,14 +27,14 @@ inline PairData pair_data(int z1, int z2, double beta, double x1 = 0.0, double x
   return data;
 }
 
-inline MeshScene scene_of(const GearPair& pair, const Misalignment& misalignment = {}, const Modification& pinion = {},
+inline FlankAssembly scene_of(const GearPair& pair, const Misalignment& misalignment = {}, const Modification& pinion = {},
                           const Modification& wheel = {}) {
-  return make_mesh_scene(pair, misalignment, pinion, wheel, {}, {});
+  return assemble_flanks(pair, misalignment, pinion, wheel, {}, {});
 }
 
 /// Wheel angle at which the wheel's flank passes through one point of the pinion's flank; -infinity where the point
 /// lies outside the wheel's flank.
-inline double wheel_angle(const MeshScene& scene, int tooth, double phi1, double rho, double z) {
+inline double wheel_angle(const FlankAssembly& scene, int tooth, double phi1, double rho, double z) {
   const Point3<double> p =
       flank_point(scene.pinion, rho, z, tooth, phi1 + tooth * 2.0 * units::pi / scene.pinion_teeth);
   const Eigen::Vector3d q = scene.wheel_axes.transpose() * (Eigen::Vector3d(p.x, p.y, p.z) - scene.wheel_centre);
@@ -48,7 +48,7 @@ inline double wheel_angle(const MeshScene& scene, int tooth, double phi1, double
 
 /// The largest wheel angle that any point of a grid over the pinion's flank asks for; -infinity where none meets the
 /// wheel's flank.
-inline double highest_on_grid(const MeshScene& scene, double phi1, int intervals) {
+inline double highest_on_grid(const FlankAssembly& scene, double phi1, int intervals) {
   double highest = -std::numeric_limits<double>::infinity();
   const double lo = scene.pinion.lowest_roll(), hi = scene.pinion.highest_roll();
   for (int i = 0; i <= intervals; ++i) {

@@ -18,7 +18,7 @@ namespace {
 /// How far the flanks are apart along the contact normal at a displacement of the pinion's parameters from the point of
 /// contact: the turn of the wheel that closes the gap times the speed of its flank along the normal. Knows nothing of
 /// second derivatives.
-double separation_at(const MeshScene& scene, const ToothContact& contact, double d_rho, double d_z) {
+double separation_at(const FlankAssembly& scene, const ToothContact& contact, double d_rho, double d_z) {
   const double rho = scene.pinion.roll_at(contact.pinion_radius), z = contact.pinion_z;
   const auto through = [&](double r, double at) { return wheel_angle(scene, contact.tooth, contact.phi1, r, at); };
   const SurfacePoint point = surface_point(scene.pinion, rho, z, contact.tooth, contact.phi1);
@@ -37,7 +37,7 @@ TEST_CASE("Aligned involutes touch along a line, with the closed form's curvatur
   PairData data = pair_data(24, 61, beta, 0.2, -0.1);
   data.pinion_hand = hand;
   const GearPair pair = make_gear_pair(data);
-  const MeshScene scene = scene_of(pair);
+  const FlankAssembly scene = scene_of(pair);
   for (const double phi1 : {-0.08, 0.0, 0.05}) {
     const ToothContact contact = find_tooth_contact(scene, 0, phi1);
     REQUIRE(contact.kind == ContactKind::Line);
@@ -61,7 +61,7 @@ TEST_CASE("A pitch deviation turns a flank and leaves its curvature", "[core][co
   const GearPair pair = make_gear_pair(pair_data(24, 61, 14 * deg));
   ManufacturingError pinion, wheel;
   (GENERATE(true, false) ? pinion : wheel).cumulative_pitch = {0.2};
-  const MeshScene scene = make_mesh_scene(pair, {}, {}, {}, pinion, wheel);
+  const FlankAssembly scene = assemble_flanks(pair, {}, {}, {}, pinion, wheel);
   const ToothContact contact = find_tooth_contact(scene, 0, 0.03);
   REQUIRE(contact.kind == ContactKind::Line);
   // The involute's radius of curvature is that of the place, whatever parameter the flank gives it.
@@ -77,7 +77,7 @@ TEST_CASE("A lead-crowned spur pair is curved along the face by its crowning", "
   Modification pinion, wheel;
   pinion.lead_crowning = c1;
   wheel.lead_crowning = c2;
-  const MeshScene scene = scene_of(pair, {}, pinion, wheel);
+  const FlankAssembly scene = scene_of(pair, {}, pinion, wheel);
   const ToothContact contact = find_tooth_contact(scene, 0, 0.03);
   REQUIRE(contact.kind == ContactKind::Surface);
   const ContactEllipse ellipse = contact_ellipse(scene, contact, thickness);
@@ -109,7 +109,7 @@ TEST_CASE("The ellipse describes the gap that a direct evaluation finds around t
     Misalignment misalignment;
     misalignment.crossing = crossing * arcmin;
     misalignment.intersecting = 0.8 * arcmin;
-    const MeshScene scene = scene_of(pair, misalignment, pinion, wheel);
+    const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
     for (const double phi1 : {-0.06, 0.02, 0.07}) {
       const ToothContact contact = find_tooth_contact(scene, 0, phi1);
       if (contact.kind != ContactKind::Surface) continue;
@@ -145,7 +145,7 @@ TEST_CASE("The ellipse grows with the square root of the compound's thickness", 
   const GearPair pair = make_gear_pair(pair_data(22, 51, 17 * deg));
   Modification m;
   m.lead_crowning = 0.012;
-  const MeshScene scene = scene_of(pair, {}, m);
+  const FlankAssembly scene = scene_of(pair, {}, m);
   const ToothContact contact = find_tooth_contact(scene, 0, 0.02);
   const ContactEllipse thin = contact_ellipse(scene, contact, 0.002), thick = contact_ellipse(scene, contact, 0.018);
   CHECK(std::abs(thick.semi_major / thin.semi_major - 3) <= 1e-14);
@@ -170,7 +170,7 @@ TEST_CASE("Edges have no ellipse, and a compound has a thickness", "[core][conta
   const GearPair pair = make_gear_pair(reference::nasa_tm_107451::pair_data());
   Misalignment misalignment;
   misalignment.crossing = 3 * arcmin;
-  const MeshScene scene = scene_of(pair, misalignment);
+  const FlankAssembly scene = scene_of(pair, misalignment);
   const ToothContact contact = find_tooth_contact(scene, 0, 0.0);
   REQUIRE(contact.kind == ContactKind::FaceEnd);
   const ContactEllipse ellipse = contact_ellipse(scene, contact, 0.006);

@@ -158,7 +158,7 @@ TEST_CASE("Next to the theoretical path the clearance is the parabola of the rel
 TEST_CASE("The clearance is what the unloaded contact of a spur pair turns back by", "[core][contact][independent]") {
   const bool at_end = GENERATE(true, false);
   const GearPair pair = make_gear_pair(pair_data(22, 51, 0.0, 0.2, 0.1));
-  const MeshScene scene = scene_of(pair);
+  const FlankAssembly scene = scene_of(pair);
   for (const double d : {0.3, 1.0, 2.0, 2.9}) {
     const ContactPoint point = beyond(pair, d, at_end);
     const double roll = at_end ? pair.path_end + d : pair.path_start - d;
@@ -198,7 +198,7 @@ TEST_CASE("Where the path ends at a form circle the flank's lower end meets the 
   const bool at_end = GENERATE(false, true);
   const GearPair pair = make_gear_pair(at_end ? pair_data(60, 10, 0.0) : pair_data(10, 60, 0.0));
   REQUIRE((at_end ? pair.wheel : pair.pinion).fillet_interference);
-  const MeshScene scene = scene_of(pair);
+  const FlankAssembly scene = scene_of(pair);
   const PathOfContact path(pair);
   const double reach = ((at_end ? path.beyond : path.before) - PathOfContact::extension) * path.base_pitch;
   REQUIRE(reach > 0.2 * path.base_pitch);

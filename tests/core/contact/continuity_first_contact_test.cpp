@@ -42,7 +42,7 @@ TEST_CASE("The answer does not depend on what was asked before", "[core][contact
   Random random(5);
   const GearPair pair = make_gear_pair(pair_data(21, 37, 18 * units::deg));
   const Misalignment misalignment = random_misalignment(random);
-  const MeshScene scene = scene_of(pair, misalignment, random_modification(random, pair.pinion));
+  const FlankAssembly scene = scene_of(pair, misalignment, random_modification(random, pair.pinion));
   const ToothContactSolver solver(scene);
   const ToothContact fresh = find_tooth_contact(scene, 0, 0.02);
   solver.find(0, -0.1);

@@ -26,7 +26,7 @@ TEST_CASE("No point of the pinion's flank lies inside the wheel's at first conta
     const Misalignment misalignment = random_misalignment(random);
     const Modification pinion = random_modification(random, pair.pinion),
                        wheel = random_modification(random, pair.wheel);
-    const MeshScene scene = scene_of(pair, misalignment, pinion, wheel);
+    const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
     const double phi1 = random(-0.5, 0.5) * (pair.total_contact_ratio() + 0.3) * 2 * units::pi / data.pinion.teeth;
     const ToothContact contact = find_tooth_contact(scene, 0, phi1);
     constexpr int kGrid = 200;
@@ -69,7 +69,7 @@ TEST_CASE("Contact that follows the start of the wheel's relief is still the fir
   wheel.twist = c.twist;
   Misalignment misalignment;
   misalignment.crossing = c.crossing * arcmin;
-  const MeshScene scene = scene_of(pair, misalignment, pinion, wheel);
+  const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
   CHECK(highest_on_grid(scene, c.phi1, 90) <= find_tooth_contact(scene, 0, c.phi1).phi2 + kRoundOffAngle);
 }
 
@@ -84,7 +84,7 @@ TEST_CASE("The cusp at the base circle does not pass for contact", "[core][conta
   pinion.root_relief = {0.020, 0.6, ReliefShape::Linear};
   Misalignment misalignment;
   misalignment.pinion_lead_angle = -3 * arcmin;
-  const MeshScene scene = scene_of(pair, misalignment, pinion);
+  const FlankAssembly scene = scene_of(pair, misalignment, pinion);
   for (const double phi1 : {-0.17, -0.02, 0.01, 0.05, 0.15}) {
     const ToothContact contact = find_tooth_contact(scene, 0, phi1);
     if (!contact.exists()) continue;
@@ -122,6 +122,6 @@ TEST_CASE("Of two summits that lie between the sections searched the higher touc
   pinion.lead_slope = c.slope;
   pinion.end_relief = c.pinion;
   wheel.end_relief = c.wheel;
-  const MeshScene scene = scene_of(pair, {}, pinion, wheel);
+  const FlankAssembly scene = scene_of(pair, {}, pinion, wheel);
   CHECK(highest_on_grid(scene, 0.02, 90) <= find_tooth_contact(scene, 0, 0.02).phi2 + kRoundOffAngle);
 }

@@ -26,7 +26,7 @@ struct Comparison {
 
 /// The smallest gap over all teeth and what the first contact says of it: the wheel turns back by the smallest gap.
 Comparison compare(const GearPair& pair, const FlankCondition& condition, double phi1) {
-  const MeshScene scene = make_mesh_scene(pair, condition.misalignment, condition.pinion_modification,
+  const FlankAssembly scene = assemble_flanks(pair, condition.misalignment, condition.pinion_modification,
                                           condition.wheel_modification, condition.pinion_error, condition.wheel_error);
   double te = -INFINITY;
   for (int tooth = -5; tooth <= 5; ++tooth) {

@@ -73,7 +73,7 @@ TEST_CASE("Crossed axes bring edges into contact with the closed form's two slop
   const GearPair pair = nasa_pair(hand);
   Misalignment misalignment;
   misalignment.crossing = crossing;
-  const MeshScene scene = scene_of(pair, misalignment);
+  const FlankAssembly scene = scene_of(pair, misalignment);
   const Slopes slopes = closed_form_slopes(pair, crossing);
   CAPTURE(pair.contact_line_sense(), crossing / arcmin);
   const double kModel = 3.0 * std::abs(crossing);  // model: slopes are of first order in the angle, relative

@@ -23,7 +23,7 @@ TEST_CASE("A lead crown touches at its top, without transmission error, while it
   const GearPair pair = make_gear_pair(reference::nasa_tm_107451::pair_data());
   Modification m;
   m.lead_crowning = crown;
-  const MeshScene scene = crowned == Member::Pinion ? scene_of(pair, {}, m, {}) : scene_of(pair, {}, {}, m);
+  const FlankAssembly scene = crowned == Member::Pinion ? scene_of(pair, {}, m, {}) : scene_of(pair, {}, {}, m);
   const double tan_b = std::tan(pair.base_helix_angle), face = pair.face_width;
   int at_top = 0, at_tip = 0;
   for (double phi1 = -0.27; phi1 < 0.27; phi1 += 0.01) {
@@ -66,7 +66,7 @@ TEST_CASE("A spur pair with tip relief falls behind by the relief at its point o
   const GearPair pair = make_gear_pair(pair_data(25, 50, 0.0));
   Modification m;
   m.tip_relief = {0.020, 1.5, shape};
-  const MeshScene scene = scene_of(pair, {}, m);
+  const FlankAssembly scene = scene_of(pair, {}, m);
   const double start = pair.pinion.tip_radius - 1.5;
   int relieved = 0, plain = 0;
   const double rb1 = pair.pinion.base_radius, rb2 = pair.wheel.base_radius;
@@ -114,7 +114,7 @@ TEST_CASE("Pitch errors move a pair's transmission error by the metal on its own
   ManufacturingError pinion, wheel;
   pinion.pitch_step = 0.003;
   wheel.cumulative_pitch = {0.0, -0.001, 0.002};
-  const MeshScene scene = make_mesh_scene(pair, {}, {}, {}, pinion, wheel);
+  const FlankAssembly scene = assemble_flanks(pair, {}, {}, {}, pinion, wheel);
   for (int tooth = -1; tooth <= 1; ++tooth) {
     const ToothContact contact = find_tooth_contact(scene, tooth, -tooth * 2 * pi / 21);
     const double metal = pitch_deviation(pinion, tooth) + pitch_deviation(wheel, tooth);

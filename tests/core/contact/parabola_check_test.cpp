@@ -16,7 +16,7 @@ namespace {
 constexpr int kTeeth = 20;
 constexpr double kPitch = 2 * pi / kTeeth, kHeight = 1e-3 * kPitch * kPitch / 4;  // of a = 1e-3 1/rad
 
-MeshScene any_scene() {
+FlankAssembly any_scene() {
   return scene_of(make_gear_pair(pair_data(kTeeth, 40, 0.0)));
 }
 
@@ -24,7 +24,7 @@ MeshScene any_scene() {
 UnloadedMesh parabolic_mesh(double a, double shift, double offset, ContactKind kind = ContactKind::Surface) {
   UnloadedMesh mesh;
   const int positions = 32;
-  const double hand_over = shift > 0.0 ? shift - 0.5 * kPitch : shift + 0.5 * kPitch;  // inside the pitch analysed
+  const double transfer_point = shift > 0.0 ? shift - 0.5 * kPitch : shift + 0.5 * kPitch;  // inside the pitch analysed
   const auto error = [&](double angle) { return offset - a * (angle - shift) * (angle - shift); };
   // Tooth k leads while phi1 + k pitch lies within half a pitch of the vertex; the earlier one is the one that runs
   // ahead.
@@ -32,7 +32,7 @@ UnloadedMesh parabolic_mesh(double a, double shift, double offset, ContactKind k
   PairCurve early{first, {}}, late{second, {}};
   for (int i = 0; i < positions; ++i) {
     const double phi1 = kPitch * (static_cast<double>(i) / positions - 0.5);
-    const int tooth = phi1 < hand_over ? first : second;
+    const int tooth = phi1 < transfer_point ? first : second;
     ToothContact contact;
     contact.kind = kind;
     contact.tooth = tooth;
@@ -44,12 +44,12 @@ UnloadedMesh parabolic_mesh(double a, double shift, double offset, ContactKind k
   }
   mesh.pairs = {late, early};
   Transfer transfer;
-  transfer.phi1 = hand_over;
+  transfer.phi1 = transfer_point;
   transfer.from_tooth = first;
   transfer.to_tooth = second;
-  transfer.transmission_error = error(hand_over + first * kPitch);
-  transfer.slope_before = -2 * a * (hand_over + first * kPitch - shift);
-  transfer.slope_after = -2 * a * (hand_over + second * kPitch - shift);
+  transfer.transmission_error = error(transfer_point + first * kPitch);
+  transfer.slope_before = -2 * a * (transfer_point + first * kPitch - shift);
+  transfer.slope_after = -2 * a * (transfer_point + second * kPitch - shift);
   mesh.transfers = {transfer};
   return mesh;
 }
@@ -115,7 +115,7 @@ TEST_CASE("An aligned pair hands over at the very end of its pitch, once", "[cor
   parabola.parabolic_te = 1e-3;
   parabola.lead_crowning = 0.01;
   const GearPair pair = make_gear_pair(pair_data(kTeeth, 40, 0.0));
-  const MeshScene scene = scene_of(pair, {}, parabola);
+  const FlankAssembly scene = scene_of(pair, {}, parabola);
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 32);
   REQUIRE(mesh.transfers.size() == 1);
   CHECK(std::abs(mesh.transfers[0].phi1 - 0.5 * kPitch) <= 1e-6 * kPitch);

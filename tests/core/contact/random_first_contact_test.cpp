@@ -93,7 +93,7 @@ class Waves : public DeviationField {
 TEST_CASE("Of the many summits of wavy flanks the highest touches", "[core][contact][independent]") {
   constexpr double kRoundOff = 1e-11;  // rad
   Random random(27);
-  int with_several_summits = 0;
+  int with_several_maxima = 0;
   for (int i = 0; i < 40; ++i) {
     const double beta = i % 2 == 0 ? 0.0 : random(5.0, 30.0) * deg;
     const GearPair pair = make_gear_pair(pair_data(22, 51, beta, 0.1, 0.0));
@@ -104,13 +104,13 @@ TEST_CASE("Of the many summits of wavy flanks the highest touches", "[core][cont
     if (random.coin()) wheel.topography = std::make_shared<Waves>(random(1 * um, 5 * um), 4.0, 12.0, phase);
     Misalignment misalignment;
     misalignment.crossing = random(-2.0, 2.0) * arcmin;
-    const MeshScene scene = scene_of(pair, misalignment, pinion, wheel);
-    with_several_summits += search_density(scene).cells > 1;
+    const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
+    with_several_maxima += search_density(scene).cells > 1;
     const double phi1 = random(-0.1, 0.1);
     const ToothContact contact = find_tooth_contact(scene, 0, phi1);
     CAPTURE(i, beta / deg, profile, face, phi1, to_string(contact.kind), contact.pinion_z);
     REQUIRE(contact.exists());
     CHECK(highest_on_grid(scene, phi1, 100) <= contact.phi2 + kRoundOff);
   }
-  CHECK(with_several_summits >= 10);
+  CHECK(with_several_maxima >= 10);
 }

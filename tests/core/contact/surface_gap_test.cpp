@@ -35,8 +35,8 @@ FlankCondition misaligned_by(const Misalignment& misalignment) {
   return condition;
 }
 
-MeshScene scene_of(const GearPair& pair, const FlankCondition& c) {
-  return make_mesh_scene(pair, c.misalignment, c.pinion_modification, c.wheel_modification, c.pinion_error, c.wheel_error);
+FlankAssembly scene_of(const GearPair& pair, const FlankCondition& c) {
+  return assemble_flanks(pair, c.misalignment, c.pinion_modification, c.wheel_modification, c.pinion_error, c.wheel_error);
 }
 
 /// A condition that a designer might meet, all kinds of modification, error and misalignment in it.
@@ -101,7 +101,7 @@ TEST_CASE("In the section of first contact the gap is the unloaded transmission 
   for (int i = 0; i < 40; ++i) {
     const GearPair pair = random_pair(random);
     const FlankCondition condition = random_condition(random, pair);
-    const MeshScene scene = scene_of(pair, condition);
+    const FlankAssembly scene = scene_of(pair, condition);
     const SurfaceGap surfaces(pair, condition);
     const double scale = pair.wheel.base_radius * std::cos(pair.base_helix_angle);
     const PathOfContact path(pair);

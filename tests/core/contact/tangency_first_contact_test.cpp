@@ -18,7 +18,7 @@ using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
 /// TM-107451, eqs 1 to 3: same point, same normal. Unknowns (rho1, z1, rho2, z2, phi2). Equal unit normals are
 /// two equations: the wheel's normal is orthogonal to both tangents of the pinion.
-Vector5 tangency_residual(const MeshScene& scene, double phi1, const Vector5& x) {
+Vector5 tangency_residual(const FlankAssembly& scene, double phi1, const Vector5& x) {
   const SurfacePoint on_pinion = surface_point(scene.pinion, x[0], x[1], 0, phi1);
   const SurfacePoint on_wheel = surface_point(scene.wheel, x[2], x[3], 0, -x[4]);
   const Eigen::Vector3d apart = on_pinion.position - (scene.wheel_axes * on_wheel.position + scene.wheel_centre);
@@ -30,7 +30,7 @@ Vector5 tangency_residual(const MeshScene& scene, double phi1, const Vector5& x)
 }
 
 /// Newton's method; its Jacobian by central differences, which costs a few more steps and no accuracy.
-Vector5 solve_tangency(const MeshScene& scene, double phi1, Vector5 x) {
+Vector5 solve_tangency(const FlankAssembly& scene, double phi1, Vector5 x) {
   for (int step = 0; step < 40; ++step) {
     Matrix5 jacobian;
     for (int i = 0; i < 5; ++i) {
@@ -70,7 +70,7 @@ TEST_CASE("Surface contact solves Litvin's five equations of tangency", "[core][
     misalignment.intersecting = 0.7 * arcmin;
     misalignment.centre_distance = 0.02;
     misalignment.pinion_lead_angle = -0.5 * arcmin;
-    const MeshScene scene = scene_of(pair, misalignment, pinion, wheel);
+    const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
     for (double phi1 = -0.12; phi1 < 0.13; phi1 += 0.02) {
       const ToothContact contact = find_tooth_contact(scene, 0, phi1);
       if (contact.kind != ContactKind::Surface) continue;
@@ -113,7 +113,7 @@ TEST_CASE("Contact inside the flanks of random modified, misaligned gears solves
       return m;
     };
     const Modification pinion = crowned(pair.pinion), wheel = crowned(pair.wheel);
-    const MeshScene scene = scene_of(pair, misalignment, pinion, wheel);
+    const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
     for (int i = 0; i < 5; ++i) {
       const double phi1 = random(-0.5, 0.5) * pair.total_contact_ratio() * 2 * units::pi / data.pinion.teeth;
       const ToothContact contact = find_tooth_contact(scene, 0, phi1);

@@ -50,7 +50,7 @@ TEST_CASE("Between kinds of contact the transmission error is continuous, and it
     wheel.end_relief = {c.end_relief, c.end_relief > 0.0 ? 4.0 : 0.0};
     Misalignment misalignment;
     misalignment.crossing = c.crossing * arcmin;
-    const MeshScene scene = scene_of(pair, misalignment, pinion, wheel);
+    const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
     const ToothContactSolver solver(scene);
     const double reach = 0.6 * (pair.total_contact_ratio() + 0.5) * 2 * pi / scene.pinion_teeth;
     constexpr int kSteps = 120;

@@ -24,7 +24,7 @@ TEST_CASE("The mesh follows the leading pair, and every hand-over is located whe
     const Misalignment misalignment = random_misalignment(random);
     const Modification pinion = random_modification(random, pair.pinion),
                        wheel = random_modification(random, pair.wheel);
-    const MeshScene scene = scene_of(pair, misalignment, pinion, wheel);
+    const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
     const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 20);
     CAPTURE(i);
     REQUIRE(mesh.missing == 0);
@@ -113,7 +113,7 @@ TEST_CASE("An edge that a fillet leaves reaches from the mate's tip circle to th
   const double beta = GENERATE(0.0, 20.0) * deg;
   const GearPair pair = make_gear_pair(pair_data(12, 56, beta));
   REQUIRE(pair.pinion.fillet_interference);
-  const MeshScene scene = scene_of(pair);
+  const FlankAssembly scene = scene_of(pair);
   const double form = scene.pinion.form_radius, rho = scene.pinion.roll_at(form);
   const auto outside = [&](double phi1) {  // the wheel's tip circle [mm]
     const Point3<double> p = flank_point(scene.pinion, rho, 0.0, 0, phi1);
@@ -161,7 +161,7 @@ TEST_CASE("Undercut teeth: the envelope is the largest of all pairs, those befor
     wheel.addendum_crowning = random(0.0, 0.02);
     (pinion_is_small ? wheel : pinion).root_relief = {random(0.0, 0.08), 3.0, ReliefShape::Linear};
     (pinion_is_small ? pinion : wheel).tip_relief = {random(0.0, 0.08), 2.0, ReliefShape::Parabolic};
-    const MeshScene scene = scene_of(pair, misalignment, pinion, wheel);
+    const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
     const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 24);
     CAPTURE(i, few, many, beta, pinion_is_small);
     REQUIRE(mesh.missing == 0);
@@ -194,7 +194,7 @@ namespace {
 
 struct ModifiedMesh {
   GearPair pair;
-  MeshScene scene;
+  FlankAssembly scene;
 };
 
 /// Crowned and misaligned, with linear reliefs.
@@ -246,7 +246,7 @@ TEST_CASE("Located crests and troughs do not depend on the number of positions",
 
 TEST_CASE("With cumulative pitch errors the hand-over moves to where the pairs really meet", "[core][contact]") {
   const ModifiedMesh nominal = modified_mesh(0.0, 0.0);
-  MeshScene scene = nominal.scene;
+  FlankAssembly scene = nominal.scene;
   scene.pinion.error.cumulative_pitch = {0.0, 0.002, -0.001, 0.0, 0.001};
   const UnloadedMesh mesh = analyse_unloaded_mesh(nominal.pair, scene, 32);
   REQUIRE(mesh.missing == 0);

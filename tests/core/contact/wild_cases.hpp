@@ -12,7 +12,7 @@ namespace flankwright::contact_cases {
 /// widths of 2 to 60 modules, errors to 20 arcmin, amounts to 80 um of either sign on both gears, pitch errors.
 struct WildCase {
   GearPair pair;
-  MeshScene scene;
+  FlankAssembly scene;
   double phi1;
 };
 
@@ -87,7 +87,7 @@ inline WildCase wild_case(Random& random) {
     }
     const double phi1 = random(-0.5, 0.5) * (pair.total_contact_ratio() + 0.5) * 2 * units::pi / data.pinion.teeth;
     try {
-      return {pair, make_mesh_scene(pair, misalignment, pinion, wheel, pinion_error, wheel_error), phi1};
+      return {pair, assemble_flanks(pair, misalignment, pinion, wheel, pinion_error, wheel_error), phi1};
     } catch (const InvalidInput&) {
       // an error of the helix or pressure angle that takes the base circle beyond the tip
     }

@@ -193,10 +193,10 @@ TEST_CASE("A new effect is one class and no other code", "[core][effects]") {
     std::string_view name() const override { return "webbed_wheel_body"; }
     EffectStage stage() const override { return EffectStage::Structure; }
     EffectCall called_for(const EffectFacts& facts) const override { return {facts.loaded, facts.loaded ? "a web carries the rim" : "no load"}; }
-    void act(MeshDraft& draft) const override {
-      Eigen::VectorXd arm(std::ssize(draft.points));
-      for (Eigen::Index i = 0; i < arm.size(); ++i) arm[i] = draft.points[static_cast<std::size_t>(i)].z;
-      draft.influence += 1e-8 * arm * arm.transpose();
+    void act(MeshBuilder& builder) const override {
+      Eigen::VectorXd arm(std::ssize(builder.points));
+      for (Eigen::Index i = 0; i < arm.size(); ++i) arm[i] = builder.points[static_cast<std::size_t>(i)].z;
+      builder.influence += 1e-8 * arm * arm.transpose();
     }
   };
   const WebbedWheelBody webbed;
@@ -227,7 +227,7 @@ TEST_CASE("A new effect is one class and no other code", "[core][effects]") {
 }
 
 TEST_CASE("Effects that give nothing way are refused and unknown ones as well", "[core][effects][input]") {
-  CHECK_FALSE(MeshEffects::all_but({"bending", "hertzian_contact"}).give_way());
+  CHECK_FALSE(MeshEffects::all_but({"bending", "hertzian_contact"}).make_compliant());
   CHECK_FALSE(MeshEffects::all_but({"bending"}).has("adjacent_teeth"));
   CHECK(MeshEffects::all_but({"bending"}).has("tip_corner"));
   CHECK_THROWS_AS(MeshEffects::all_but({"wobble"}), InvalidInput);

@@ -62,7 +62,7 @@ struct Absorption {
 
 ParabolaCheck check(const GearPair& pair, const Misalignment& misalignment, const Modification& pinion,
                     const Modification& wheel, double a) {
-  const MeshScene scene = scene_of(pair, misalignment, pinion, wheel);
+  const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
   return check_parabola(scene, analyse_unloaded_mesh(pair, scene, 64), a);
 }
 
@@ -98,7 +98,7 @@ TEST_CASE("An aligned pair's transmission error is the predesigned parabola to r
   data.working_flank = flank;
   const GearPair pair = make_gear_pair(data);
   const Modification carrier = parabola(a, crowned ? 0.02 : 0.0);
-  const MeshScene scene = member == Member::Pinion ? scene_of(pair, {}, carrier) : scene_of(pair, {}, {}, carrier);
+  const FlankAssembly scene = member == Member::Pinion ? scene_of(pair, {}, carrier) : scene_of(pair, {}, {}, carrier);
   for (const double phi1 : {-0.09, -0.03, 0.0, 0.05, 0.09}) {
     const ToothContact contact = find_tooth_contact(scene, 0, phi1);
     CAPTURE(beta / deg, a, phi1, crowned, to_string(contact.kind));
@@ -116,7 +116,7 @@ TEST_CASE("The flank gives way by as much more than the lag as contact would sli
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const GearPair pair = make_gear_pair(pair_data(30, 100, beta, 0.2, -0.1));
   const Modification m = parabola(a);
-  const MeshScene scene = member == Member::Pinion ? scene_of(pair, {}, m) : scene_of(pair, {}, {}, m);
+  const FlankAssembly scene = member == Member::Pinion ? scene_of(pair, {}, m) : scene_of(pair, {}, {}, m);
   const FlankFrame frame = pair.flank_frame(member);
   for (const double phi1 : {-0.09, -0.03, 0.05, 0.09}) {
     const ToothContact contact = find_tooth_contact(scene, 0, phi1);
@@ -201,7 +201,7 @@ TEST_CASE("Below the point where the flank would fold its slope continues, and t
   const Jet here = field->at(start, 0.0), below = field->at(start - 0.1, 0.0);
   CHECK(here.uu == 0.0);
   CHECK(std::abs(below.value - (here.value - 0.1 * here.u)) <= 1e-14);
-  const MeshScene scene = scene_of(pair, {}, parabola(a, 0.01));
+  const FlankAssembly scene = scene_of(pair, {}, parabola(a, 0.01));
   for (const double phi1 : {-pi / 18, -0.05, 0.06, pi / 18}) {
     CHECK(std::abs(find_tooth_contact(scene, 0, phi1).transmission_error + a * phi1 * phi1) <= kAngleRoundOff);
   }
@@ -214,7 +214,7 @@ TEST_CASE("Over a pitch the parabola's height is a (pi/N1)^2, whatever carries i
   const GearPair pair = make_gear_pair(pair_data(30, 100, beta));
   const Modification carrier = parabola(a, 0.02);
   const bool on_pinion = member == Member::Pinion;
-  const MeshScene scene =
+  const FlankAssembly scene =
       scene_of(pair, {}, on_pinion ? carrier : Modification{}, on_pinion ? Modification{} : carrier);
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 64);
   CHECK(std::abs(mesh.peak_to_peak / (a * std::pow(pi / 30, 2)) - 1) <= 1e-7);  // round-off over 0.5 arcsec

@@ -65,7 +65,7 @@ double inside_tool(const RevolutionTool& tool, double apex_distance, double pres
 }
 
 /// Second derivative of the transmission error at the angle where its vertex is expected [rad/rad^2].
-double second_difference(const MeshScene& scene, double vertex, double step) {
+double second_difference(const FlankAssembly& scene, double vertex, double step) {
   const auto error = [&](double phi1) { return find_tooth_contact(scene, 0, phi1).transmission_error; };
   return (error(vertex + step) - 2.0 * error(vertex) + error(vertex - step)) / (step * step);
 }
@@ -246,7 +246,7 @@ TEST_CASE("An arc's parabola of transmission error is the one unloaded contact f
   data.centre_distance = stretch * 0.5 * 60 * data.normal_module;
   const auto made = revolve(paper_tool(), data, member);
   const GearPair& pair = made.pair;
-  MeshScene scene = make_mesh_scene(pair, {}, {}, {}, {}, {});
+  FlankAssembly scene = assemble_flanks(pair, {}, {}, {}, {}, {});
   (member == Member::Pinion ? scene.pinion : scene.wheel).fields = made.flank.fields;
   const double contact = member == Member::Pinion ? made.reference_roll : pair.path_length - made.reference_roll;
   const double vertex = (contact - pair.pitch_point) / pair.pinion.base_radius;

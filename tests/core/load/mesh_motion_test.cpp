@@ -36,7 +36,7 @@ struct MotionCase {
   /// With what derivatives need.
   MeshModel mesh(double value, const MeshResolution& resolved) const {
     const MeshPlaced placed = [&](const MeshPlacement& placement) { return alone(placement, resolved); };
-    return with_further_meshes(alone(value, resolved), placed, {by});
+    return with_perturbed_meshes(alone(value, resolved), placed, {by});
   }
   MeshModel alone(double value, const MeshResolution& resolved) const { return alone(MeshPlacement::of(gap, at(value).misalignment), resolved); }
   MeshModel alone(const MeshPlacement& placement, const MeshResolution& resolved) const {

@@ -25,8 +25,8 @@ TEST_CASE("Root stress is the principal stress of what all forces do together", 
   for (std::size_t k = 0; k < cycle.positions.size(); ++k) {
     const MeshPosition& at = model.positions[k];
     const LoadedPosition& position = cycle.positions[k];
-    REQUIRE(position.root_stress.size() == static_cast<Eigen::Index>(at.root_stress.places.size()));
-    for (std::size_t p = 0; p < at.root_stress.places.size(); ++p) {
+    REQUIRE(position.root_stress.size() == static_cast<Eigen::Index>(at.root_stress.stations.size()));
+    for (std::size_t p = 0; p < at.root_stress.stations.size(); ++p) {
       const auto row = static_cast<Eigen::Index>(p);
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       const Eigen::Matrix3Xd components = at.root_stress.components_of(row);
@@ -35,10 +35,10 @@ TEST_CASE("Root stress is the principal stress of what all forces do together", 
       tensor << sum[0], sum[2], sum[2], sum[1];
       const double largest = symmetric_eigenvalues(tensor)[1];
       CHECK(position.root_stress[row] == Approx(largest).epsilon(1e-12));  // round-off
-      const RootPlace& place = at.root_stress.places[p];
-      double& peak = place.member == Member::Pinion ? pinion : wheel;
+      const RootStation& station = at.root_stress.stations[p];
+      double& peak = station.member == Member::Pinion ? pinion : wheel;
       peak = std::max(peak, position.root_stress[row]);
-      if (place.tangent && place.member == Member::Pinion) tangent = std::max(tangent, position.root_stress[row]);
+      if (station.tangent && station.member == Member::Pinion) tangent = std::max(tangent, position.root_stress[row]);
     }
   }
   const CycleSummary summary = summarise(model, cycle);
@@ -46,8 +46,8 @@ TEST_CASE("Root stress is the principal stress of what all forces do together", 
   CHECK(summary.wheel_root_stress.stress == wheel);
   CHECK(summary.peak_root_stress == std::max(pinion, wheel));
   CHECK(summary.pinion_root_stress.tangent_stress == tangent);
-  CHECK(summary.pinion_root_stress.place.member == Member::Pinion);
-  CHECK(summary.wheel_root_stress.place.member == Member::Wheel);
+  CHECK(summary.pinion_root_stress.station.member == Member::Pinion);
+  CHECK(summary.wheel_root_stress.station.member == Member::Wheel);
   CHECK(pinion > 0);
 }
 
@@ -97,8 +97,8 @@ TEST_CASE("Derivatives of root stress are what central differences say", "[core]
     for (std::size_t k = 0; k < at.positions.size(); ++k) {
       const Eigen::VectorXd difference = (up.positions[k].root_stress - down.positions[k].root_stress) / (2 * step);
       Eigen::VectorXd exact(difference.size());
-      for (Eigen::Index place = 0; place < exact.size(); ++place) {
-        exact[place] = root_stress_derivative(model.positions[k], at.positions[k], place)[static_cast<Eigen::Index>(p)];
+      for (Eigen::Index station = 0; station < exact.size(); ++station) {
+        exact[station] = root_stress_derivative(model.positions[k], at.positions[k], station)[static_cast<Eigen::Index>(p)];
       }
       // Discretisation: step^2 times curvature, and round-off over the step.
       CHECK((exact - difference).cwiseAbs().maxCoeff() < 1e-6 * difference.cwiseAbs().maxCoeff());

@@ -49,7 +49,7 @@ TEST_CASE("As the load vanishes the loaded transmission error becomes the unload
     condition.pinion_modification.lead_crowning = -5 * um;
     condition.pinion_error.pitch_step = 40 * um;
   }
-  const MeshScene scene = make_mesh_scene(gears, condition.misalignment, condition.pinion_modification,
+  const FlankAssembly scene = assemble_flanks(gears, condition.misalignment, condition.pinion_modification,
                                           condition.wheel_modification, condition.pinion_error, condition.wheel_error);
   const PathOfContact path(gears);
   constexpr int kIntervals = 300;
@@ -171,7 +171,7 @@ TEST_CASE("Gradients over the whole surface agree with central differences", "[c
                                               &Misalignment::pinion_lead_angle,
                                               &Misalignment::mesh_misalignment};
   const auto mesh = [&](const FlankCondition& c) { return placed(MeshPlacement::of(GapModel::WholeSurface, c.misalignment)); };
-  const MeshModel model = with_further_meshes(mesh(condition), placed, parameters);
+  const MeshModel model = with_perturbed_meshes(mesh(condition), placed, parameters);
   const LoadedCycle cycle = analyse_cycle(model, condition, torque, parameters);
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     const auto shifted = [&](double by) {

@@ -140,7 +140,7 @@ TEST_CASE("ISO's factors change with misalignment, modifications, offset and tor
     const MeshModel model = mesh(c);
     return iso_load_factors(gears, model.iso, iso_deviations(gears, c), by_torque, model.face_width);
   };
-  const MeshModel model = with_further_meshes(mesh(condition), placed, parameters);
+  const MeshModel model = with_perturbed_meshes(mesh(condition), placed, parameters);
   const IsoLoadFactors here = factors(condition, torque);
   const IsoGradient gradient = iso_gradient(model, condition, here, analyse_cycle(model, condition, torque, parameters), parameters);
   for (std::size_t p = 0; p < parameters.size(); ++p) {

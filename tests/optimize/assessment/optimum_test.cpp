@@ -16,7 +16,7 @@ struct Solved {
   DesignProblem problem;
   DesignResult result;
   DesignReport after;
-  std::vector<ProofParameter> parameters;
+  std::vector<AssessedParameter> parameters;
   LocalModel model;
   Optimum optimum;
 
@@ -24,13 +24,13 @@ struct Solved {
       : problem(task),
         result(optimise_design(problem, SolverOptions{})),
         after(result.after),
-        parameters(proof_parameters(task)),
+        parameters(assessed_parameters(task)),
         model(problem, after.analysis.pinion_modification, after.analysis.wheel_modification, parameters, result.optimality.active),
         optimum(find_optimum(problem, result.optimality, model, parameters, after.variables)) {}
 };
 
 /// The objective with one parameter moved by some of its steps and everything analysed again.
-double moved_objective(const DesignTask& task, Modification pinion, Modification wheel, const ProofParameter& p, double steps) {
+double moved_objective(const DesignTask& task, Modification pinion, Modification wheel, const AssessedParameter& p, double steps) {
   DesignTask moved = task;
   const auto member_is_pinion = [](const GearParameter& g) { return g.member == Member::Pinion; };
   for (DesignScene& scene : moved.scenes) {
@@ -50,7 +50,7 @@ double moved_objective(const DesignTask& task, Modification pinion, Modification
   return problem.objective(problem.analyse_design(pinion, wheel));
 }
 
-double moved_objective(const DesignTask& task, const DesignReport& after, const ProofParameter& p, double steps) {
+double moved_objective(const DesignTask& task, const DesignReport& after, const AssessedParameter& p, double steps) {
   return moved_objective(task, after.analysis.pinion_modification, after.analysis.wheel_modification, p, steps);
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("Over the whole surface a step of a misalignment takes the points with
   task.pinion_modification.lead_crowning = 8 * units::um;
   task.scenes.front().condition.misalignment.centre_distance = 0.2;
   const DesignProblem problem(task);
-  const std::vector<ProofParameter> parameters = proof_parameters(task);
+  const std::vector<AssessedParameter> parameters = assessed_parameters(task);
   const LocalModel model(problem, task.pinion_modification, task.wheel_modification, parameters);
   const double now = model.objective(Eigen::VectorXd::Zero(model.parameters()));
   for (std::size_t i = 0; i < parameters.size(); ++i) {
@@ -196,10 +196,10 @@ TEST_CASE("Several outputs share the weight of their scene", "[optimize][proof]"
 TEST_CASE("A tied modification follows in sensitivities and multipliers", "[optimize][proof]") {
   DesignTask task = helical({0.0, 12.0, -12.0}, 6);
   // Half of each um of lead crowning on the wheel as well.
-  DesignTie tie;
-  tie.tied = {.path = "wheel.modification.lead_crowning", .member = Member::Wheel, .parameter = parameter_of("lead_crowning")};
-  tie.factor = 0.5;
-  task.ties = {tie};
+  LinkingConstraint link;
+  link.linked = {.path = "wheel.modification.lead_crowning", .member = Member::Wheel, .parameter = parameter_of("lead_crowning")};
+  link.factor = 0.5;
+  task.links = {link};
   const Solved solved(task);
   constexpr double solver = 1e-4;
   CHECK(solved.optimum.residual < solver);
@@ -236,11 +236,11 @@ TEST_CASE("A bounded sum of modifications says what its limit costs", "[optimize
 
 TEST_CASE("Of a list the last objective is governed, and the limit of the first says what it costs", "[optimize][proof]") {
   DesignTask task = helical({0.0, 12.0, -12.0}, 6);
-  task.then = {Goal{{term(Output::TePeakToPeak)}, Aggregate::Worst}};
+  task.later_objectives = {Objective{{term(Output::TePeakToPeak)}, Aggregate::Worst}};
   DesignProblem problem(task);
   const DesignResult result = optimise_design(problem, SolverOptions{});
   const DesignProblem last = last_stage(problem, result.stages);
-  const std::vector<ProofParameter> parameters = proof_parameters(last.task());
+  const std::vector<AssessedParameter> parameters = assessed_parameters(last.task());
   const DesignAnalysis& analysis = result.after.analysis;
   const LocalModel model(last, analysis.pinion_modification, analysis.wheel_modification, parameters, result.optimality.active);
   const Optimum optimum = find_optimum(last, result.optimality, model, parameters, result.after.variables);
@@ -248,7 +248,7 @@ TEST_CASE("Of a list the last objective is governed, and the limit of the first 
   CHECK(model.objective(Eigen::VectorXd::Zero(model.parameters())) == Approx(result.after.later_objectives[0]).epsilon(round_off));
   CHECK(total_weight(optimum) == Approx(1.0).epsilon(solver));
   // The transmission error would fall further if the stress were let go: its limit holds it.
-  REQUIRE(optimum.goals.size() == 1);
-  CHECK(last.task().goal_bounds[0].goal.name() == "peak_contact_stress");
-  CHECK(optimum.goals.front().gain < 0.0);
+  REQUIRE(optimum.objectives.size() == 1);
+  CHECK(last.task().objective_bounds[0].objective.name() == "peak_contact_stress");
+  CHECK(optimum.objectives.front().gain < 0.0);
 }

@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "core/compliance/fitted/refinement_library.hpp"
+#include "core/compliance/fitted/correction_library.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/results/results_json.hpp"
 #include "studies/analysis/run_study.hpp"
@@ -237,7 +237,7 @@ TEST_CASE("A study by fitted compliance: a coarse mesh of its gears and the libr
   const json results = json::parse(results_json(ours));
   const json& compliance = results["compliance"];
   CHECK(compliance["model"] == "fitted");
-  CHECK(compliance["fits"]["gears"] == RefinementLibrary::shipped().entries().size());
+  CHECK(compliance["fits"]["gears"] == CorrectionLibrary::shipped().entries().size());
   CHECK(compliance["fits"]["largest_residual_percent"]["median"] < 0.5);
   CHECK(compliance["pinion"]["source"] == "solved");
   CHECK(compliance["pinion"]["file"] == compliance["wheel"]["file"]);
@@ -303,12 +303,12 @@ TEST_CASE("A damaged fit is made anew from the runs that are kept", "[studies][f
   const ScratchCache cache;
   const std::vector<Override> by_fit{{"fidelity.compliance", "fitted"}, {"pair.pressure_angle", "17"}};
   const StudyResults first = run_twins(twins, by_fit);
-  const std::string file = first.structures.refinement(Member::Pinion)->file;
+  const std::string file = first.structures.correction(Member::Pinion)->file;
   std::ofstream(file, std::ios::app) << "more";
   const StudyResults second = run_twins(twins, by_fit);
-  CHECK(!second.structures.refinement(Member::Pinion)->from_cache);
+  CHECK(!second.structures.correction(Member::Pinion)->from_cache);
   CHECK(second.structures.finite_elements->gears[0].from_cache);
-  CHECK(second.structures.refinement(Member::Pinion)->fit.coefficients == first.structures.refinement(Member::Pinion)->fit.coefficients);
+  CHECK(second.structures.correction(Member::Pinion)->fit.coefficients == first.structures.correction(Member::Pinion)->fit.coefficients);
   CHECK_THAT(second.structures.notes.back(), Catch::Contains("is not used"));
 }
 

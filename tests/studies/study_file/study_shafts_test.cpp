@@ -172,14 +172,14 @@ TEST_CASE("Finite elements leave their wind-up to start where the study's torque
   const auto end = [&](auto&&... of) { return task(of...).gear.body.torque_end; };
   using Overrides = std::vector<Override>;
   // The sharp end of a right-hand pinion is at +b/2, its mate's at -b/2.
-  CHECK(end(pair_text, Member::Pinion) == FaceEnd::Blunt);
-  CHECK(end(pair_text + shaft_text, Member::Pinion) == FaceEnd::Blunt);
-  CHECK(end(pair_text + shaft_text, Member::Wheel) == FaceEnd::Blunt);
-  CHECK(end(pair_text + shaft_text, Member::Pinion, Overrides{{"pinion.shaft.torque_position", "180"}}) == FaceEnd::Sharp);
-  CHECK(end(pair_text + shaft_text, Member::Pinion, Overrides{{"pair.working_flank", "left"}}) == FaceEnd::Sharp);
+  CHECK(end(pair_text, Member::Pinion) == FaceEnd::Obtuse);
+  CHECK(end(pair_text + shaft_text, Member::Pinion) == FaceEnd::Obtuse);
+  CHECK(end(pair_text + shaft_text, Member::Wheel) == FaceEnd::Obtuse);
+  CHECK(end(pair_text + shaft_text, Member::Pinion, Overrides{{"pinion.shaft.torque_position", "180"}}) == FaceEnd::Acute);
+  CHECK(end(pair_text + shaft_text, Member::Pinion, Overrides{{"pair.working_flank", "left"}}) == FaceEnd::Acute);
   // Its bearings hold it axially.
-  CHECK(task(pair_text, Member::Pinion).removed == RemovedMotion::TranslationTorsionAndTilt);
-  CHECK(task(pair_text + shaft_text, Member::Pinion).removed == RemovedMotion::WholeTranslationTorsionAndTilt);
+  CHECK(task(pair_text, Member::Pinion).removed == RemovedRigidMotion::TranslationTorsionAndTilt);
+  CHECK(task(pair_text + shaft_text, Member::Pinion).removed == RemovedRigidMotion::WholeTranslationTorsionAndTilt);
 }
 
 TEST_CASE("Errors of single teeth are read as lists, one value a tooth", "[studies][shaft]") {

@@ -29,9 +29,9 @@ TEST_CASE("Deflection curves are the models' own values, over the teeth that eac
     }
   }
   CHECK(of_one_tooth == 4);
-  CHECK(curves.front().load == FlankPlace{0, -1, 0});
+  CHECK(curves.front().load == FlankStation{0, -1, 0});
   CHECK(curves.front().tooth == -1);
-  CHECK(curves.back().load == FlankPlace{0, 0.5, 6});
+  CHECK(curves.back().load == FlankStation{0, 0.5, 6});
 }
 
 TEST_CASE(

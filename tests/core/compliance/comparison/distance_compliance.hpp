@@ -9,10 +9,10 @@ namespace flankwright::testing {
 /// A compliance that tells places apart: (2 + u_p + u_q) / (1 + distance), 1/4 of it for every pitch.
 class DistanceCompliance final : public FlankCompliance {
  public:
-  static double between(const FlankPlace& a, const FlankPlace& b) {
+  static double between(const FlankStation& a, const FlankStation& b) {
     return (2 + a.u + b.u) / (1 + std::abs(a.zeta - b.zeta)) * std::pow(0.25, std::abs(a.tooth - b.tooth));
   }
-  Eigen::MatrixXd evaluate(std::span<const FlankPlace> points) const override {
+  Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const override {
     const auto n = static_cast<Eigen::Index>(points.size());
     Eigen::MatrixXd K(n, n);
     for (Eigen::Index p = 0; p < n; ++p) {

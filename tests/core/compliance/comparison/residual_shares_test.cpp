@@ -56,7 +56,7 @@ TEST_CASE("Shares of residuals are those of the known pairs, told apart by teeth
 TEST_CASE("Where a model has no value it is infinitely far off, and the other pairs are judged as they are",
           "[core][compliance][comparison]") {
   struct Partial final : FlankCompliance {
-    Eigen::MatrixXd evaluate(std::span<const FlankPlace> points) const override {
+    Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const override {
       Eigen::MatrixXd K = DistanceCompliance().evaluate(points);
       K(3, 2) = K(2, 3) = std::numeric_limits<double>::quiet_NaN();
       return K;

@@ -20,7 +20,7 @@ inline SolidMesh block_mesh(int nx, int ny, int nz, const Map3& map, Eigen::Matr
                                  {0, 2, 2}, {1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}, {1, 0, 2}, {2, 1, 2},
                                  {1, 2, 2}, {0, 1, 2}, {0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {0, 2, 1}};
   std::map<std::array<int, 3>, int> numbers;
-  std::vector<Eigen::Vector3d> places;
+  std::vector<Eigen::Vector3d> stations;
   SolidMesh mesh;
   mesh.bricks.resize(20, nx * ny * nz);
   int brick = 0;
@@ -29,28 +29,28 @@ inline SolidMesh block_mesh(int nx, int ny, int nz, const Map3& map, Eigen::Matr
       for (int k = 0; k < nz; ++k, ++brick) {
         for (int n = 0; n < 20; ++n) {
           const std::array<int, 3> step{2 * i + kSteps[n][0], 2 * j + kSteps[n][1], 2 * k + kSteps[n][2]};
-          const auto [found, added] = numbers.try_emplace(step, static_cast<int>(places.size()));
-          if (added) places.push_back({step[0] / (2.0 * nx), step[1] / (2.0 * ny), step[2] / (2.0 * nz)});
+          const auto [found, added] = numbers.try_emplace(step, static_cast<int>(stations.size()));
+          if (added) stations.push_back({step[0] / (2.0 * nx), step[1] / (2.0 * ny), step[2] / (2.0 * nz)});
           mesh.bricks(n, brick) = found->second;
         }
       }
     }
   }
-  mesh.nodes.resize(3, static_cast<Eigen::Index>(places.size()));
+  mesh.nodes.resize(3, static_cast<Eigen::Index>(stations.size()));
   if (cube) cube->resize(3, mesh.nodes.cols());
   for (Eigen::Index n = 0; n < mesh.nodes.cols(); ++n) {
-    mesh.nodes.col(n) = map(places[n]);
-    if (cube) cube->col(n) = places[n];
+    mesh.nodes.col(n) = map(stations[n]);
+    if (cube) cube->col(n) = stations[n];
   }
   return mesh;
 }
 
 /// Supports that hold every node for which `held` says so, in all directions.
-inline std::vector<NodeSupport> hold(const Eigen::Matrix3Xd& places,
+inline std::vector<NodeSupport> hold(const Eigen::Matrix3Xd& stations,
                                      const std::function<bool(const Eigen::Vector3d&)>& held) {
   std::vector<NodeSupport> supports;
-  for (int n = 0; n < places.cols(); ++n) {
-    if (held(places.col(n))) supports.push_back({n});
+  for (int n = 0; n < stations.cols(); ++n) {
+    if (held(stations.col(n))) supports.push_back({n});
   }
   return supports;
 }

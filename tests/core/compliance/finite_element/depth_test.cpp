@@ -69,21 +69,21 @@ Eigen::VectorXd hertzian_load(const GearMesh& mesh, const LoadFrame& frame) {
 }
 
 /// Displacement at a place of the mesh.
-Eigen::Vector3d displacement(const GearMesh& mesh, const Eigen::VectorXd& u, const Eigen::Vector3d& place) {
+Eigen::Vector3d displacement(const GearMesh& mesh, const Eigen::VectorXd& u, const Eigen::Vector3d& station) {
   double nearest = INFINITY;
   Eigen::Vector3d result;
   for (Eigen::Index e = 0; e < mesh.solid.bricks.cols(); ++e) {
     const BrickNodes nodes = mesh.solid.brick_nodes(e);
-    if ((nodes.leftCols<8>().rowwise().mean() - place).norm() > 1) continue;
+    if ((nodes.leftCols<8>().rowwise().mean() - station).norm() > 1) continue;
     Eigen::Vector3d local = Eigen::Vector3d::Zero();
     for (int i = 0; i < 8; ++i) {  // Newton, kept inside the brick
       const BrickShape shape = brick_shape(local);
       const Eigen::Matrix3d jacobian = nodes * shape.derivatives;
-      local += jacobian.inverse() * (place - nodes * shape.values);
+      local += jacobian.inverse() * (station - nodes * shape.values);
       local = local.cwiseMax(-1.0).cwiseMin(1.0);
     }
     const BrickShape shape = brick_shape(local);
-    const double distance = (nodes * shape.values - place).norm();
+    const double distance = (nodes * shape.values - station).norm();
     if (distance >= nearest) continue;
     nearest = distance;
     result.setZero();

@@ -18,8 +18,8 @@ namespace {
 
 const Material kSteel{206000, 0.3};
 
-std::vector<FilletPlace> places(const GearMesh& mesh) {
-  std::vector<FilletPlace> result;
+std::vector<FilletPoint> stations(const GearMesh& mesh) {
+  std::vector<FilletPoint> result;
   for (const double along : {0.0, 0.13, 0.5, 0.71, 1.0}) {
     for (const double v : {-1.0, -0.83, 0.05, 0.6, 1.0}) result.push_back({along, v * mesh.face_width / 2});
   }
@@ -47,7 +47,7 @@ SurfaceCheck check_surface(int half_thickness_elements) {
   options.half_thickness_elements = half_thickness_elements;
   const GearMesh mesh = gear_mesh(gear_of(18, 0, 2.5), options);
   const SolidModel solid(mesh.solid, kSteel, mesh.supports);
-  const Eigen::SparseMatrix<double> force = net_functionals(mesh, {{0, mesh.form.tip_radius(), 0}}, RemovedMotion::TranslationTorsionAndTilt).whole();
+  const Eigen::SparseMatrix<double> force = net_functionals(mesh, {{0, mesh.form.tip_radius(), 0}}, RemovedRigidMotion::TranslationTorsionAndTilt).whole();
   const Eigen::VectorXd u = solid.solve(force);
   const FilletStress fillet(mesh, kSteel);
 
@@ -98,7 +98,7 @@ SurfaceCheck check_surface(int half_thickness_elements) {
 
 TEST_CASE("A rigid motion leaves no stress in a fillet", "[core][compliance][fe][root-stress]") {
   const GearMesh mesh = gear_mesh(gear_of(18, GENERATE(0, 30), 4), coarse());
-  const auto functionals = FilletStress(mesh, kSteel).functionals(places(mesh));
+  const auto functionals = FilletStress(mesh, kSteel).functionals(stations(mesh));
   Eigen::Matrix3d turn;
   turn << 0, 0.7, 0.5, -0.7, 0, -0.3, -0.5, 0.3, 0;
   const Eigen::VectorXd stress = functionals.transpose() * field(mesh, turn, {0.2, -0.4, 1});
@@ -108,7 +108,7 @@ TEST_CASE("A rigid motion leaves no stress in a fillet", "[core][compliance][fe]
 TEST_CASE("Even stretch gives the same tension in all directions of a fillet's surface",
           "[core][compliance][fe][root-stress]") {
   const GearMesh mesh = gear_mesh(gear_of(18, GENERATE(0, 30), 4, 0, GENERATE(1, 5)), coarse());
-  const auto where = places(mesh);
+  const auto where = stations(mesh);
   const double strain = 1e-3, tension = kSteel.youngs_modulus / (1 - kSteel.poissons_ratio) * strain;
   const Eigen::VectorXd stress =
       FilletStress(mesh, kSteel).functionals(where).transpose() * field(mesh, strain * Eigen::Matrix3d::Identity());

@@ -10,20 +10,20 @@ using namespace flankwright;
 
 namespace {
 
-FlankGrid small_grid() {
+StationGrid small_grid() {
   return {{-1, -0.3, 0.4, 1}, {0, 0.5, 1.5, 2.5, 3}};
 }
 
 /// A stationary kernel of places and teeth, positive definite in all of them (Bochner): tables that need no repair.
-double kernel(const FlankPlace& p, const FlankPlace& q) {
+double kernel(const FlankStation& p, const FlankStation& q) {
   const double square = (p.u - q.u) * (p.u - q.u) + std::pow(p.zeta - q.zeta + 0.4 * (p.tooth - q.tooth), 2);
   return (1.5 + 0.3 * p.u) * (1.5 + 0.3 * q.u) * std::exp(-0.5 * square - 0.7 * std::abs(p.tooth - q.tooth));
 }
 
-std::vector<Eigen::MatrixXd> kernel_tables(const FlankGrid& grid, int teeth_apart) {
+std::vector<Eigen::MatrixXd> kernel_tables(const StationGrid& grid, int teeth_apart) {
   std::vector<Eigen::MatrixXd> tables;
   for (int m = 0; m <= teeth_apart; ++m) {
-    const auto rows = grid.places(0), columns = grid.places(m);
+    const auto rows = grid.stations(0), columns = grid.stations(m);
     Eigen::MatrixXd table(grid.size(), grid.size());
     for (Eigen::Index i = 0; i < grid.size(); ++i) {
       for (Eigen::Index j = 0; j < grid.size(); ++j) {
@@ -40,45 +40,45 @@ double lowest_over_highest(const Eigen::MatrixXd& k) {
   return values[0] / values[values.size() - 1];
 }
 
-const std::vector<FlankPlace> kScattered{{4, -0.9, 0.1}, {3, 0.2, 2.9}, {4, 1, 3},    {3, -1, 1.1}, {5, 0.7, 0},
+const std::vector<FlankStation> kScattered{{4, -0.9, 0.1}, {3, 0.2, 2.9}, {4, 1, 3},    {3, -1, 1.1}, {5, 0.7, 0},
                                          {5, 0.1, 1.7},  {4, 0, 1.4},   {3, 0.5, 0.2}, {5, -0.5, 2}, {4, 0, 1.45}};
 
 }  // namespace
 
 TEST_CASE("At places of its grid an influence table gives its tables, on any tooth and either way round",
           "[core][compliance][fe]") {
-  const FlankGrid grid = small_grid();
+  const StationGrid grid = small_grid();
   const std::vector<Eigen::MatrixXd> tables = kernel_tables(grid, 2);
   const InfluenceTable table(grid, tables);
   CHECK(table.projection().added == 0);
   CHECK(table.projection().lowest_eigenvalue > 0);
-  std::vector<FlankPlace> places;
+  std::vector<FlankStation> stations;
   for (const int tooth : {7, 5, 6}) {
-    for (const FlankPlace& p : grid.places(tooth)) places.push_back(p);
+    for (const FlankStation& p : grid.stations(tooth)) stations.push_back(p);
   }
-  const Eigen::MatrixXd k = table.evaluate(places);
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    for (std::size_t j = 0; j < places.size(); ++j) {
+  const Eigen::MatrixXd k = table.evaluate(stations);
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    for (std::size_t j = 0; j < stations.size(); ++j) {
       CHECK(k(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) ==
-            Approx(kernel(places[i], places[j])).epsilon(1e-12));  // round-off of the splines' coefficients
+            Approx(kernel(stations[i], stations[j])).epsilon(1e-12));  // round-off of the splines' coefficients
     }
   }
 }
 
 TEST_CASE("Interpolated influence is symmetric to the last bit and positive semi-definite", "[core][compliance][fe]") {
-  const FlankGrid grid = small_grid();
+  const StationGrid grid = small_grid();
   const InfluenceTable table(grid, kernel_tables(grid, 2));
   const Eigen::MatrixXd k = table.evaluate(kScattered);
   CHECK(k == k.transpose());
   CHECK(lowest_over_highest(k) > -1e-14);  // round-off
   // Again in another order: the same values.
-  std::vector<FlankPlace> reversed(kScattered.rbegin(), kScattered.rend());
+  std::vector<FlankStation> reversed(kScattered.rbegin(), kScattered.rend());
   CHECK((table.evaluate(reversed).reverse() - k).cwiseAbs().maxCoeff() < 1e-14 * k.maxCoeff());
 }
 
 TEST_CASE("A table that is not positive semi-definite is lifted by just enough, and says by how much",
           "[core][compliance][fe]") {
-  const FlankGrid grid = small_grid();
+  const StationGrid grid = small_grid();
   std::vector<Eigen::MatrixXd> tables = kernel_tables(grid, 2);
   tables[1] *= 1.6;  // more than a tooth's own influence can be shared with its neighbour
   const InfluenceTable table(grid, tables);
@@ -86,11 +86,11 @@ TEST_CASE("A table that is not positive semi-definite is lifted by just enough, 
   REQUIRE(projection.lowest_eigenvalue < -1e-3);
   CHECK(projection.added == -projection.lowest_eigenvalue);
 
-  std::vector<FlankPlace> places;
+  std::vector<FlankStation> stations;
   for (const int tooth : {0, 1, 2}) {
-    for (const FlankPlace& p : grid.places(tooth)) places.push_back(p);
+    for (const FlankStation& p : grid.stations(tooth)) stations.push_back(p);
   }
-  const Eigen::MatrixXd k = table.evaluate(places);
+  const Eigen::MatrixXd k = table.evaluate(stations);
   const Eigen::VectorXd scale = tables[0].diagonal().cwiseSqrt().cwiseInverse().replicate(3, 1);
   const Eigen::MatrixXd scaled = scale.asDiagonal() * k * scale.asDiagonal();
   const Eigen::VectorXd values = symmetric_eigenvalues(scaled);
@@ -110,11 +110,11 @@ TEST_CASE("A table that is not positive semi-definite is lifted by just enough, 
 }
 
 TEST_CASE("A table refuses what it does not know", "[core][compliance][fe]") {
-  const FlankGrid grid = small_grid();
+  const StationGrid grid = small_grid();
   const InfluenceTable table(grid, kernel_tables(grid, 1));
-  CHECK_NOTHROW(table.evaluate(std::vector<FlankPlace>{{0, 0, 1}, {1, 0, 1}}));
-  CHECK_THROWS_AS(table.evaluate(std::vector<FlankPlace>{{0, 0, 1}, {2, 0, 1}}), InvalidInput);
-  CHECK_THROWS_AS(table.evaluate(std::vector<FlankPlace>{{0, 0, 3.1}}), InvalidInput);
+  CHECK_NOTHROW(table.evaluate(std::vector<FlankStation>{{0, 0, 1}, {1, 0, 1}}));
+  CHECK_THROWS_AS(table.evaluate(std::vector<FlankStation>{{0, 0, 1}, {2, 0, 1}}), InvalidInput);
+  CHECK_THROWS_AS(table.evaluate(std::vector<FlankStation>{{0, 0, 3.1}}), InvalidInput);
   CHECK_THROWS_AS(InfluenceTable(grid, {}), InvalidInput);
   CHECK_THROWS_AS(InfluenceTable(grid, {Eigen::MatrixXd::Identity(3, 3)}), InvalidInput);
   CHECK_THROWS_AS(InfluenceTable(grid, {Eigen::MatrixXd::Zero(grid.size(), grid.size())}), InvalidInput);

@@ -30,8 +30,8 @@ std::vector<FlankPoint> points(const GearMesh& mesh, int teeth = 1) {
 TEST_CASE("Influence values are symmetric and positive semi-definite over all teeth", "[core][compliance][fe]") {
   const InfluenceModel model(gear_of(18, 30), kUnit, coarse());
   const auto removed =
-      GENERATE(RemovedMotion::None, RemovedMotion::TranslationAndTorsion, RemovedMotion::TranslationTorsionAndTilt,
-               RemovedMotion::WholeTranslationTorsionAndTilt);
+      GENERATE(RemovedRigidMotion::None, RemovedRigidMotion::TranslationAndTorsion, RemovedRigidMotion::TranslationTorsionAndTilt,
+               RemovedRigidMotion::WholeTranslationTorsionAndTilt);
   const InfluenceMatrix result = model.influence(points(model.mesh()), removed);
   REQUIRE(result.status == FactorStatus::Factorised);
   CHECK(result.compliance == result.compliance.transpose());
@@ -47,7 +47,7 @@ TEST_CASE("Influence values are symmetric and positive semi-definite over all te
 
 TEST_CASE("With translation, torsion and tilt taken out the supports carry nothing", "[core][compliance][fe]") {
   const GearMesh mesh = gear_mesh(gear_of(18, 30), coarse());
-  const auto loads = net_functionals(mesh, points(mesh), RemovedMotion::WholeTranslationTorsionAndTilt).whole();
+  const auto loads = net_functionals(mesh, points(mesh), RemovedRigidMotion::WholeTranslationTorsionAndTilt).whole();
   // Held at three nodes, no more than needed: the first in all directions, the second across the line to it, the third
   // across the plane of all three.
   const auto held_at = [&](int first, int second) {
@@ -84,10 +84,10 @@ TEST_CASE("The axial hold gives what a disc under an even pressure does", "[core
     mean += 2 * share * u / kRings;
   }
   const double along_normal = load_frame(mesh, {0, mesh.form.tip_radius(), 0}).normal.z();
-  CHECK(axial_hold_compliance(mesh, kUnit, RemovedMotion::TranslationTorsionAndTilt) ==
+  CHECK(axial_hold_compliance(mesh, kUnit, RemovedRigidMotion::TranslationTorsionAndTilt) ==
         Approx(along_normal * along_normal * mean).epsilon(1e-8));  // the rings' discretisation
-  CHECK(axial_hold_compliance(mesh, kUnit, RemovedMotion::WholeTranslationTorsionAndTilt) == 0);
-  CHECK(axial_hold_compliance(gear_mesh(gear_of(18, 0), coarse()), kUnit, RemovedMotion::None) == 0);
+  CHECK(axial_hold_compliance(mesh, kUnit, RemovedRigidMotion::WholeTranslationTorsionAndTilt) == 0);
+  CHECK(axial_hold_compliance(gear_mesh(gear_of(18, 0), coarse()), kUnit, RemovedRigidMotion::None) == 0);
 }
 
 TEST_CASE("Compliance scales with 1 / (E m_n)", "[core][compliance][fe]") {
@@ -143,7 +143,7 @@ TEST_CASE("On a rigid body teeth give way less, what lies below their own materi
     held.body.shaft_diameter = shaft_diameter;
     const InfluenceModel model(held, kUnit, coarse());
     CHECK(model.solid().unknowns() < elastic.solid().unknowns());
-    const Eigen::MatrixXd K = model.influence(where, RemovedMotion::None).compliance;
+    const Eigen::MatrixXd K = model.influence(where, RemovedRigidMotion::None).compliance;
     // A body that does not move has no motion to take off, and no axial hold.
     CHECK((model.influence(where).compliance - K).cwiseAbs().maxCoeff() <= 1e-14 * K.maxCoeff());  // round-off
     return K;
@@ -153,7 +153,7 @@ TEST_CASE("On a rigid body teeth give way less, what lies below their own materi
   CHECK((on_rigid_body(20) - rigid).cwiseAbs().maxCoeff() < 1e-3 * rigid.maxCoeff());
 
   // Whatever is held gives way less to any load: the difference is positive semi-definite, as long as no motion is taken off.
-  const Eigen::MatrixXd free = elastic.influence(where, RemovedMotion::None).compliance;
+  const Eigen::MatrixXd free = elastic.influence(where, RemovedRigidMotion::None).compliance;
   const Eigen::VectorXd values = symmetric_eigenvalues(free - rigid);
   CHECK(values.minCoeff() > -1e-12 * values.maxCoeff());  // round-off x condition
 

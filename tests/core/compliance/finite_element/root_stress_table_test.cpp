@@ -5,8 +5,8 @@
 
 #include "core/base/error.hpp"
 #include "core/compliance/finite_element/influence.hpp"
-#include "core/compliance/fitted/refinement_fit.hpp"
-#include "core/compliance/tooth/tooth_places.hpp"
+#include "core/compliance/fitted/correction_fit.hpp"
+#include "core/compliance/tooth/flank_stations.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
 #include "tests/reference/iso_6336_root_stress.hpp"
 
@@ -16,7 +16,7 @@ using namespace flankwright::test;
 namespace {
 
 /// Of the fillet on one tooth, under unit forces at n places: 3 P x n [m_n^2 MPa/N].
-Eigen::MatrixXd stress_under(const RootStressTable& table, int tooth, std::span<const FlankPlace> forces) {
+Eigen::MatrixXd stress_under(const RootStressTable& table, int tooth, std::span<const FlankStation> forces) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(3 * table.fillet.size(), std::ssize(forces));
   for (std::size_t i = 0; i < forces.size(); ++i) {
     const Eigen::MatrixXd* response = table.response(tooth, forces[i].tooth);
@@ -26,16 +26,16 @@ Eigen::MatrixXd stress_under(const RootStressTable& table, int tooth, std::span<
 }
 
 /// The table of a meshed gear, as solve_influence_table() makes it.
-RootStressTable solved_table(const GearMesh& mesh, const SolidModel& solid, const FlankGrid& grid) {
+RootStressTable solved_table(const GearMesh& mesh, const SolidModel& solid, const StationGrid& grid) {
   std::vector<FlankPoint> points;
   for (int tooth = -mesh.teeth_each_side; tooth <= mesh.teeth_each_side; ++tooth) {
-    for (const FlankPlace& place : grid.places(tooth)) {
-      points.push_back({tooth, flank_radius(mesh.form, place.u), place.zeta * mesh.normal_module - mesh.face_width / 2});
+    for (const FlankStation& station : grid.stations(tooth)) {
+      points.push_back({tooth, flank_radius(mesh.form, station.u), station.zeta * mesh.normal_module - mesh.face_width / 2});
     }
   }
   const RootStressReadings readings = root_stress_readings(mesh, kUnit);
   const FlankInfluence influence =
-      solve_flank_influence(mesh, solid, kUnit, points, RemovedMotion::TranslationTorsionAndTilt, readings.functionals);
+      solve_flank_influence(mesh, solid, kUnit, points, RemovedRigidMotion::TranslationTorsionAndTilt, readings.functionals);
   return root_stress_table(mesh, grid, readings.fillet, influence.readings);
 }
 
@@ -47,35 +47,35 @@ struct Gear {
   Gear(const GearToMesh& gear, const GearMeshOptions& options)
       : mesh(gear_mesh(gear, options)),
         solid(mesh.solid, kUnit, mesh.supports),
-        table(solved_table(mesh, solid, flank_grid(gear.gear.face_width / gear.normal_module, 5))) {}
+        table(solved_table(mesh, solid, station_grid(gear.gear.face_width / gear.normal_module, 5))) {}
 
-  FlankPoint point(const FlankPlace& place) const {
+  FlankPoint point(const FlankStation& station) const {
     const double root = mesh.form.form_radius(), tip = mesh.form.tip_radius();
-    return {place.tooth, root + (place.u + 1) / 2 * (tip - root),
-            place.zeta * mesh.normal_module - mesh.face_width / 2};
+    return {station.tooth, root + (station.u + 1) / 2 * (tip - root),
+            station.zeta * mesh.normal_module - mesh.face_width / 2};
   }
   /// Stress of the fillet's places under forces, by a solution per force.
-  Eigen::MatrixXd solved(const std::vector<FlankPlace>& forces, RemovedMotion removed) const {
+  Eigen::MatrixXd solved(const std::vector<FlankStation>& forces, RemovedRigidMotion removed) const {
     std::vector<FlankPoint> points;
-    for (const FlankPlace& force : forces) points.push_back(point(force));
-    std::vector<FilletPlace> places;
+    for (const FlankStation& force : forces) points.push_back(point(force));
+    std::vector<FilletPoint> stations;
     for (const double along : table.fillet.along) {
       for (const double zeta : table.fillet.zetas)
-        places.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
+        stations.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
     }
-    return std::pow(mesh.normal_module, 2) * FilletStress(mesh, kUnit).functionals(places).transpose() *
+    return std::pow(mesh.normal_module, 2) * FilletStress(mesh, kUnit).functionals(stations).transpose() *
            solid.solve(net_functionals(mesh, points, removed).whole());
   }
 };
 
-constexpr auto kNet = RemovedMotion::TranslationTorsionAndTilt;
+constexpr auto kNet = RemovedRigidMotion::TranslationTorsionAndTilt;
 
 /// Largest principal stress m_n b / F of a line load spread evenly along a spur tooth at u, at mid face: the 30 deg
 /// tangent's, and the largest along the fillet.
 std::pair<double, double> under_line_load(const RootStressTable& table, double u) {
   constexpr int kForces = 60;
   const double width = table.grid.face_width();
-  std::vector<FlankPlace> forces;
+  std::vector<FlankStation> forces;
   for (int i = 0; i < kForces; ++i) forces.push_back({0, u, width * (i + 0.5) / kForces});
   const Eigen::VectorXd stress = width * stress_under(table, 0, forces).rowwise().mean();
   const std::size_t n = table.fillet.zetas.size();
@@ -93,7 +93,7 @@ double under_oblique_line(const RootStressTable& table, double u) {
   constexpr int kForces = 120;
   constexpr double kSlope = 0.2;  // of u over zeta, helix 30 deg
   const double width = table.grid.face_width();
-  std::vector<FlankPlace> forces;
+  std::vector<FlankStation> forces;
   for (int i = 0; i < kForces; ++i) {
     const double zeta = width * (i + 0.5) / kForces, here = u + kSlope * (zeta - width / 2);
     if (std::abs(here) <= 1) forces.push_back({0, here, zeta});
@@ -111,30 +111,30 @@ TEST_CASE("A root stress table holds what a solution per force gives", "[core][c
   const Gear gear(gear_of(18, 20, 3, 0, 4), coarse());
   for (const int tooth : {-1, 0, 1}) {
     CAPTURE(tooth);
-    std::vector<FlankPlace> on_grid{gear.table.grid.places(tooth)[3], gear.table.grid.places(tooth)[21]};
+    std::vector<FlankStation> on_grid{gear.table.grid.stations(tooth)[3], gear.table.grid.stations(tooth)[21]};
     const Eigen::MatrixXd solved = gear.solved(on_grid, kNet);
     const Eigen::MatrixXd table = stress_under(gear.table, 0, on_grid);
     CHECK((table - solved).cwiseAbs().maxCoeff() < 1e-9 * solved.cwiseAbs().maxCoeff());  // round-off x condition
   }
-  const std::vector<FlankPlace> unseen{{0, 0.7, 1.3}, {0, 0.1, 0.4}, {0, -0.4, 2.2}};
+  const std::vector<FlankStation> unseen{{0, 0.7, 1.3}, {0, 0.1, 0.4}, {0, -0.4, 2.2}};
   const Eigen::MatrixXd solved = gear.solved(unseen, kNet), table = stress_under(gear.table, 0, unseen);
   for (int i = 0; i < 3; ++i) {
     const double largest = solved.col(i).cwiseAbs().maxCoeff();
     CHECK((table - solved).col(i).cwiseAbs().maxCoeff() < 0.03 * largest);  // discretisation of the grid
   }
   // How the shaft is held, and with it the motion taken out, hardly reaches the root (model).
-  const Eigen::MatrixXd held = gear.solved(unseen, RemovedMotion::None);
+  const Eigen::MatrixXd held = gear.solved(unseen, RemovedRigidMotion::None);
   CHECK((held - solved).cwiseAbs().maxCoeff() < 0.02 * solved.cwiseAbs().maxCoeff());
 }
 
 TEST_CASE("Teeth are alike to a root stress table, and far ones do not matter to it",
           "[core][compliance][fe][root-stress]") {
   const Gear gear(gear_of(18, 0, 3), coarse());
-  const std::vector<FlankPlace> near{{0, 0.5, 1}, {1, 0.2, 2}}, turned{{7, 0.5, 1}, {8, 0.2, 2}};
+  const std::vector<FlankStation> near{{0, 0.5, 1}, {1, 0.2, 2}}, turned{{7, 0.5, 1}, {8, 0.2, 2}};
   CHECK(stress_under(gear.table, 0, near) == stress_under(gear.table, 7, turned));
   CHECK(stress_under(gear.table, -2, near).isZero(0));
   CHECK_FALSE(stress_under(gear.table, 2, near).col(1).isZero(0));
-  CHECK_THROWS_AS(stress_under(gear.table, 0, std::vector<FlankPlace>{{0, 1.2, 1}}), InvalidInput);
+  CHECK_THROWS_AS(stress_under(gear.table, 0, std::vector<FlankStation>{{0, 1.2, 1}}), InvalidInput);
 }
 
 TEST_CASE("A spur gear's root stress mirrors with its load", "[core][compliance][fe][root-stress]") {
@@ -142,8 +142,8 @@ TEST_CASE("A spur gear's root stress mirrors with its load", "[core][compliance]
   const Gear gear(gear_of(24, 0, width), coarse());
   const std::size_t n = gear.table.fillet.zetas.size();
   for (const double zeta : {0.2, 1.0, 1.7}) {
-    const Eigen::VectorXd a = stress_under(gear.table, 0, std::vector<FlankPlace>{{0, 0.6, zeta}});
-    const Eigen::VectorXd b = stress_under(gear.table, 0, std::vector<FlankPlace>{{0, 0.6, width - zeta}});
+    const Eigen::VectorXd a = stress_under(gear.table, 0, std::vector<FlankStation>{{0, 0.6, zeta}});
+    const Eigen::VectorXd b = stress_under(gear.table, 0, std::vector<FlankStation>{{0, 0.6, width - zeta}});
     Eigen::VectorXd mirrored(b.size());
     for (std::size_t i = 0; i < gear.table.fillet.along.size(); ++i) {
       for (std::size_t j = 0; j < n; ++j) {
@@ -159,7 +159,7 @@ TEST_CASE("A spur gear's root stress mirrors with its load", "[core][compliance]
 TEST_CASE("A root is stressed most below the force, more by a higher one, and little by one on the next tooth",
           "[core][compliance][fe][root-stress]") {
   const Gear gear(gear_of(20, 0, 6), coarse());
-  const auto peak = [&](const FlankPlace& force) {
+  const auto peak = [&](const FlankStation& force) {
     const Eigen::VectorXd stress = stress_under(gear.table, 0, std::vector{force});
     std::pair<double, double> found{0, -1};
     for (Eigen::Index i = 0; i < gear.table.fillet.size(); ++i) {

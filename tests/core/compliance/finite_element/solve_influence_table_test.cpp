@@ -18,17 +18,17 @@ namespace {
 
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-InfluenceTableTask task_of(const GearToMesh& gear, FlankGrid grid, const GearMeshOptions& options = coarse()) {
+InfluenceTableTask task_of(const GearToMesh& gear, StationGrid grid, const GearMeshOptions& options = coarse()) {
   return {.gear = gear, .teeth_apart = 2, .mesh = options, .grid = std::move(grid)};
 }
 
-FlankGrid coarse_grid(double width) {
+StationGrid coarse_grid(double width) {
   return {{-1, -0.3, 0.4, 1}, {0, 0.2 * width, 0.5 * width, 0.8 * width, width}};
 }
 
-std::vector<FlankPoint> flank_points(const GearMesh& mesh, const std::vector<FlankPlace>& places) {
+std::vector<FlankPoint> flank_points(const GearMesh& mesh, const std::vector<FlankStation>& stations) {
   std::vector<FlankPoint> points;
-  for (const FlankPlace& p : places) {
+  for (const FlankStation& p : stations) {
     const double radius =
         mesh.form.form_radius() + (p.u + 1) / 2 * (mesh.form.tip_radius() - mesh.form.form_radius());
     points.push_back({p.tooth, radius, p.zeta * mesh.normal_module - mesh.face_width / 2});
@@ -52,7 +52,7 @@ GearPair pair_of(int pinion, int wheel, double helix_deg, double width) {
 TEST_CASE("A solved table is the gear's influence matrix at the places of its grid", "[core][compliance][fe]") {
   const double module = 3, modulus = 206000;
   const GearToMesh gear = gear_of(14, 20, 3, 0, module);
-  const FlankGrid grid = coarse_grid(3);
+  const StationGrid grid = coarse_grid(3);
   std::vector<int> steps;
   const InfluenceTableRun run = solve_influence_table(task_of(gear, grid), kNoLimit, [&](int done, int total) {
     CHECK(total == kTableSteps);
@@ -65,11 +65,11 @@ TEST_CASE("A solved table is the gear's influence matrix at the places of its gr
   GearMeshOptions options = coarse();
   options.teeth_each_side = 2;
   const InfluenceModel model(gear, {modulus, 0.3}, options);
-  std::vector<FlankPlace> places;
+  std::vector<FlankStation> stations;
   for (int tooth = -2; tooth <= 2; ++tooth) {
-    for (const FlankPlace& p : grid.places(tooth)) places.push_back(p);
+    for (const FlankStation& p : grid.stations(tooth)) stations.push_back(p);
   }
-  const Eigen::MatrixXd direct = modulus * module * model.influence(flank_points(model.mesh(), places)).compliance;
+  const Eigen::MatrixXd direct = modulus * module * model.influence(flank_points(model.mesh(), stations)).compliance;
   const Eigen::Index n = grid.size();
   const double scale = direct.maxCoeff();
   for (int m = 0; m <= 2; ++m) {
@@ -140,12 +140,12 @@ TEST_CASE("Influence between grid places is near the finite elements' own", "[.s
   const int teeth = GENERATE(18, 40);
   const double width = 12;
   const GearToMesh gear = gear_of(teeth, 30, width);
-  const InfluenceTableRun run = solve_influence_table(task_of(gear, flank_grid(width), {}), kNoLimit);
+  const InfluenceTableRun run = solve_influence_table(task_of(gear, station_grid(width), {}), kNoLimit);
   REQUIRE(run.table);
   CHECK(run.table->projection().added < 1e-12);  // round-off: steps near the ends are finer than the elements
 
   const InfluenceModel model(gear, {1, 0.3});
-  std::vector<FlankPlace> unseen;
+  std::vector<FlankStation> unseen;
   for (const int tooth : {0, 1, 2, -1, -2}) {
     for (const double u : {-0.9, -0.5, -0.15, 0.3, 0.75, 0.97}) {
       for (const double zeta : {0.08, 0.3, 0.57, 1.0, 1.6, 2.3, 3.1, 4.8, 6.3, 8.0, 9.9, 10.5, 11.1, 11.45, 11.72, 11.93}) {

@@ -26,7 +26,7 @@ FitOptions steps(int count) {
   return options;
 }
 
-InfluenceSample sample_of(const FittedCompliance& truth, const std::vector<FlankPlace>& points) {
+InfluenceSample sample_of(const FittedCompliance& truth, const std::vector<FlankStation>& points) {
   return {truth.gear(), points, truth.evaluate(points)};
 }
 

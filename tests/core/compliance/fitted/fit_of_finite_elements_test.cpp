@@ -14,7 +14,7 @@ namespace {
 constexpr double kFace = 12;
 
 /// Finite-element influence values at the places u x zeta on one tooth. m_n = E = 1.
-InfluenceSample influence_at(const InfluenceModel& model, const GearFacts& gear, const std::vector<double>& us,
+InfluenceSample influence_at(const InfluenceModel& model, const GearProportions& gear, const std::vector<double>& us,
                              const std::vector<double>& zetas) {
   InfluenceSample sample{gear, {}, {}};
   std::vector<FlankPoint> points;
@@ -41,7 +41,7 @@ TEST_CASE("Fitted kernels come close to finite-element values that they have not
   gear.normal_module = 1;
   gear.pressure_angle = 20 * deg;
   gear.helix_angle = 30 * deg;
-  const GearFacts facts{teeth, 30 * deg, kFace, 0};
+  const GearProportions facts{teeth, 30 * deg, kFace, 0};
   const InfluenceModel model(gear, {1.0, 0.3});
   const InfluenceSample fitted = influence_at(
       model, facts, {-1, -0.6, -0.2, 0.2, 0.6, 1},

@@ -28,13 +28,13 @@ TEST_CASE("The fitted matrix is the sum of tooth and body, exactly symmetric, an
           "[core][compliance][fitted]") {
   std::mt19937 random(3);
   const FittedCompliance fit = any_fit(random);
-  std::vector<FlankPlace> places = random_places(60, 12, -2, 2, random);
-  const Eigen::MatrixXd K = fit.evaluate(places);
+  std::vector<FlankStation> stations = random_stations(60, 12, -2, 2, random);
+  const Eigen::MatrixXd K = fit.evaluate(stations);
   CHECK(K == K.transpose());
-  CHECK(K.isApprox(fit.tooth_part(places) + fit.body_part(places), 1e-15));
-  std::reverse(places.begin(), places.end());
-  for (FlankPlace& place : places) place.tooth += 7;  // only differences of teeth matter
-  CHECK(fit.evaluate(places) == K.reverse().eval());
+  CHECK(K.isApprox(fit.tooth_part(stations) + fit.body_part(stations), 1e-15));
+  std::reverse(stations.begin(), stations.end());
+  for (FlankStation& station : stations) station.tooth += 7;  // only differences of teeth matter
+  CHECK(fit.evaluate(stations) == K.reverse().eval());
 }
 
 TEST_CASE("A fit goes into a table of names and numbers and comes back the same", "[core][compliance][fitted]") {
@@ -90,7 +90,7 @@ TEST_CASE("A fit refuses points that it knows nothing of, and tells which lie be
           "[core][compliance][fitted]") {
   std::mt19937 random(5);
   const FittedCompliance fit = any_fit(random);
-  const std::vector<FlankPlace> inside{{0, 0, 6}, {4, 0.9, 0.25}}, edge{{0, 1, 6}}, off{{0, 0, 12.01}},
+  const std::vector<FlankStation> inside{{0, 0, 6}, {4, 0.9, 0.25}}, edge{{0, 1, 6}}, off{{0, 0, 12.01}},
       above{{0, 1.1, 6}}, apart{{0, 0, 6}, {5, 0, 6}};
   CHECK(fit.covers(inside));
   CHECK_FALSE(fit.covers(edge));
@@ -126,7 +126,7 @@ TEST_CASE("Blends of two gears' coefficients stay positive semi-definite", "[cor
   for (const double share : {-0.5, 0.3, 0.5, 1.4}) {
     for (std::size_t i = 0; i < a.size(); ++i) blend[i] = (1 - share) * a[i] + share * b[i];
     const FittedCompliance fit(form, helical_gear(), blend, {{-1, 1, 0, 12, 4}, {}, {}});
-    const Eigen::MatrixXd K = fit.evaluate(random_places(150, 12, -2, 2, random));
+    const Eigen::MatrixXd K = fit.evaluate(random_stations(150, 12, -2, 2, random));
     const Eigen::VectorXd values = symmetric_eigenvalues(K);
     CHECK(values[0] >= -1e-12 * values[149]);  // round-off
   }

@@ -29,8 +29,8 @@ TEST_CASE("The matrix over any points of five teeth is symmetric and positive se
           "[core][compliance][fitted]") {
   std::mt19937 random(GENERATE(1u, 2u, 3u, 4u, 5u));
   const KernelForm form = everything();
-  const GearFacts gear = helical_gear();
-  KernelSum sum(form, gear, random_places(200, gear.relative_face, -2, 2, random));
+  const GearProportions gear = helical_gear();
+  KernelSum sum(form, gear, random_stations(200, gear.relative_face, -2, 2, random));
   sum.set_coefficients(random_coefficients(form, random));
   for (const Eigen::MatrixXd& K : {sum.tooth_matrix(), sum.body_matrix()}) {
     CHECK(K == K.transpose());
@@ -42,14 +42,14 @@ TEST_CASE("Pair by pair and as a matrix the kernels are the same, and their deri
           "[core][compliance][fitted]") {
   std::mt19937 random(7);
   const KernelForm form = everything();
-  const GearFacts gear = helical_gear();
-  const std::vector<FlankPlace> places = random_places(12, gear.relative_face, -1, 2, random);
-  KernelSum sum(form, gear, places);
+  const GearProportions gear = helical_gear();
+  const std::vector<FlankStation> stations = random_stations(12, gear.relative_face, -1, 2, random);
+  KernelSum sum(form, gear, stations);
   const std::vector<double> x = random_coefficients(form, random, 0.3);
   sum.set_coefficients(x);
   const Eigen::MatrixXd K = sum.tooth_matrix() + sum.body_matrix();
 
-  const auto n = static_cast<Eigen::Index>(places.size());
+  const auto n = static_cast<Eigen::Index>(stations.size());
   const std::size_t size = x.size();
   std::vector<double> gradients(static_cast<std::size_t>(n * n) * size);
   const auto gradient = [&](Eigen::Index p, Eigen::Index q) {
@@ -85,8 +85,8 @@ TEST_CASE("A kernel of constant lengths without warp is its closed form", "[core
   const double g = 1.7, lz = 2.3, lr = 0.8;
   std::vector<double> x{0, 0, 0, 0, 0, std::log(g), std::log(lz), std::log(lr)};
   REQUIRE(form.count() == 8);
-  const std::vector<FlankPlace> places{{0, 0.3, 4}, {0, -0.5, 7}, {1, 0.3, 4}};
-  KernelSum sum(form, helical_gear(), places);
+  const std::vector<FlankStation> stations{{0, 0.3, 4}, {0, -0.5, 7}, {1, 0.3, 4}};
+  KernelSum sum(form, helical_gear(), stations);
   sum.set_coefficients(x);
   const Eigen::MatrixXd K = sum.tooth_matrix();
   const double Q = 9 / (lz * lz) + 0.64 / (lr * lr);
@@ -103,8 +103,8 @@ TEST_CASE("The body winds up as a shaft in torsion", "[core][compliance][fitted]
   const double c = 0.02, w = GENERATE(1e-3, 2.0);
   const std::vector<double> x{0, 0, 0, 0, 0, 0, 0, 0, std::log(c), std::log(w)};
   REQUIRE(form.count() == 10);
-  const std::vector<FlankPlace> places{{0, 0.3, 4}, {2, -0.5, 7}, {1, 0, 0}};
-  KernelSum sum(form, helical_gear(), places);
+  const std::vector<FlankStation> stations{{0, 0.3, 4}, {2, -0.5, 7}, {1, 0, 0}};
+  KernelSum sum(form, helical_gear(), stations);
   sum.set_coefficients(x);
   const Eigen::MatrixXd K = sum.body_matrix();
   // Model: rounding off takes less than w from the length that is twisted.
@@ -119,8 +119,8 @@ TEST_CASE("The compliance is smooth where a point passes the load", "[core][comp
   std::mt19937 random(11);
   const KernelForm form = everything();
   const double h = 1e-4;
-  const std::vector<FlankPlace> places{{0, 0.1, 5}, {0, 0.1, 5 - h}, {0, 0.1, 5 + h}, {0, 0.1 - h, 5}, {0, 0.1 + h, 5}};
-  KernelSum sum(form, helical_gear(), places);
+  const std::vector<FlankStation> stations{{0, 0.1, 5}, {0, 0.1, 5 - h}, {0, 0.1, 5 + h}, {0, 0.1 - h, 5}, {0, 0.1 + h, 5}};
+  KernelSum sum(form, helical_gear(), stations);
   sum.set_coefficients(random_coefficients(form, random, 0.3));
   const Eigen::MatrixXd K = sum.tooth_matrix() + sum.body_matrix();
   // A kink would leave a jump in slope of the size of K over a length; what is left is the curvature times h.

@@ -8,7 +8,7 @@
 
 namespace flankwright::testing {
 
-inline GearFacts helical_gear(double face = 12) {
+inline GearProportions helical_gear(double face = 12) {
   return {40, 0.5, face, 0};
 }
 
@@ -21,16 +21,16 @@ inline std::vector<double> random_coefficients(const KernelForm& form, std::mt19
 }
 
 /// Points anywhere on the flanks of the teeth first .. last, face ends included.
-inline std::vector<FlankPlace> random_places(int count, double face, int first, int last, std::mt19937& random) {
+inline std::vector<FlankStation> random_stations(int count, double face, int first, int last, std::mt19937& random) {
   std::uniform_real_distribution<double> share(0, 1);
   std::uniform_int_distribution<int> tooth(first, last);
-  std::vector<FlankPlace> places;
+  std::vector<FlankStation> stations;
   for (int i = 0; i < count; ++i) {
     const int m = tooth(random);
     const double u = -1 + 2 * share(random), zeta = face * share(random);
-    places.push_back({m, u, i % 10 == 0 ? 0.0 : zeta});
+    stations.push_back({m, u, i % 10 == 0 ? 0.0 : zeta});
   }
-  return places;
+  return stations;
 }
 
 }  // namespace flankwright::testing

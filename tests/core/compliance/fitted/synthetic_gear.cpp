@@ -61,7 +61,7 @@ Basis basis(double x, double y) {
 
 }  // namespace
 
-SyntheticGear::SyntheticGear(GearFacts facts, double skew) : facts_(facts) {
+SyntheticGear::SyntheticGear(GearProportions facts, double skew) : facts_(facts) {
   constexpr int kAxialGauss = 24, kRadialGauss = 8;
   const double B = facts.relative_face, nu = 0.3;
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(3 * kBasis, 3 * kBasis);
@@ -92,12 +92,12 @@ SyntheticGear::SyntheticGear(GearFacts facts, double skew) : facts_(facts) {
   factor_.compute(stiffness);
 }
 
-InfluenceSample SyntheticGear::sample(const std::vector<FlankPlace>& points) const {
+InfluenceSample SyntheticGear::sample(const std::vector<FlankStation>& points) const {
   const auto n = static_cast<Eigen::Index>(points.size());
   const double B = facts_.relative_face;
   Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(3 * kBasis, n);
   for (Eigen::Index p = 0; p < n; ++p) {
-    const FlankPlace& point = points[static_cast<std::size_t>(p)];
+    const FlankStation& point = points[static_cast<std::size_t>(p)];
     loads.col(p).head<kBasis>() = basis(2 * point.zeta / B - 1, point.u).value.transpose();
   }
   const Eigen::MatrixXd half = factor_.matrixL().solve(Eigen::MatrixXd(factor_.transpositionsP() * loads));
@@ -105,7 +105,7 @@ InfluenceSample SyntheticGear::sample(const std::vector<FlankPlace>& points) con
   InfluenceSample sample{facts_, points, half.transpose() * pivots.cwiseInverse().asDiagonal() * half};
   for (Eigen::Index p = 0; p < n; ++p) {
     for (Eigen::Index q = 0; q < n; ++q) {
-      const FlankPlace &a = points[static_cast<std::size_t>(p)], &b = points[static_cast<std::size_t>(q)];
+      const FlankStation &a = points[static_cast<std::size_t>(p)], &b = points[static_cast<std::size_t>(q)];
       const double m = a.tooth - b.tooth, axial = a.zeta - b.zeta + units::pi * std::sin(facts_.helix_angle) * m;
       const double d2 = axial * axial + units::pi * units::pi * m * m;
       const double tilt = (2 * a.zeta / B - 1) * (2 * b.zeta / B - 1);
@@ -118,8 +118,8 @@ InfluenceSample SyntheticGear::sample(const std::vector<FlankPlace>& points) con
   return sample;
 }
 
-std::vector<FlankPlace> SyntheticGear::grid(int radial, int axial, int first, int last) const {
-  std::vector<FlankPlace> points;
+std::vector<FlankStation> SyntheticGear::grid(int radial, int axial, int first, int last) const {
+  std::vector<FlankStation> points;
   for (int m = first; m <= last; ++m) {
     for (int i = 0; i < radial; ++i) {
       for (int j = 0; j < axial; ++j) {

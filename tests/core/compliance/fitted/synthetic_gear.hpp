@@ -14,15 +14,15 @@ namespace flankwright::testing {
 /// winds up and tilts. E = m_n = 1. Each part is symmetric and positive semi-definite.
 class SyntheticGear {
  public:
-  explicit SyntheticGear(GearFacts facts, double skew = 0.25);
+  explicit SyntheticGear(GearProportions facts, double skew = 0.25);
 
-  InfluenceSample sample(const std::vector<FlankPlace>& points) const;
+  InfluenceSample sample(const std::vector<FlankStation>& points) const;
 
   /// Radial x axial places on teeth first .. last; axial places closer towards both ends, as Chebyshev's.
-  std::vector<FlankPlace> grid(int radial, int axial, int first = 0, int last = 0) const;
+  std::vector<FlankStation> grid(int radial, int axial, int first = 0, int last = 0) const;
 
  private:
-  GearFacts facts_;
+  GearProportions facts_;
   Eigen::LDLT<Eigen::MatrixXd> factor_;
 };
 

@@ -25,8 +25,8 @@ std::vector<double> plausible() {
 TEST_CASE("At one radius the thesis' form is its printed equations", "[core][compliance][fitted][closed-form]") {
   const ThesisBody body = GENERATE(ThesisBody::InMasterFunction, ThesisBody::Separate);
   const double B = 12, z = 3, zF = 4.5;
-  const std::vector<FlankPlace> places{{0, 0, z}, {0, 0, zF}, {1, 0.4, 2}};
-  const Eigen::MatrixXd K = ThesisCompliance(body, helical_gear(B), plausible()).evaluate(places);
+  const std::vector<FlankStation> stations{{0, 0, z}, {0, 0, zF}, {1, 0.4, 2}};
+  const Eigen::MatrixXd K = ThesisCompliance(body, helical_gear(B), plausible()).evaluate(stations);
   const auto G = [&](double at) {
     return 1 + 0.8 * std::exp(-std::exp(0.1) * at) + 0.5 * std::exp(-std::exp(-0.2) * (B - at));
   };
@@ -45,8 +45,8 @@ TEST_CASE("At one radius the thesis' form is its printed equations", "[core][com
 TEST_CASE("The thesis' form is found again from its own values", "[core][compliance][fitted]") {
   const ThesisBody body = GENERATE(ThesisBody::InMasterFunction, ThesisBody::Separate);
   const ThesisCompliance truth(body, helical_gear(), plausible());
-  const SyntheticGear places(helical_gear());
-  const std::vector<FlankPlace> grid = places.grid(4, 9, 0, 1), other = places.grid(3, 7, 0, 1);
+  const SyntheticGear stations(helical_gear());
+  const std::vector<FlankStation> grid = stations.grid(4, 9, 0, 1), other = stations.grid(3, 7, 0, 1);
   const InfluenceSample sample{helical_gear(), grid, truth.evaluate(grid)};
   const InfluenceSample unseen{helical_gear(), other, truth.evaluate(other)};
   // Exact derivatives bring it to round-off; wrong ones would stall.
@@ -60,8 +60,8 @@ TEST_CASE("The thesis' form is found again from its own values", "[core][complia
 
 TEST_CASE("The thesis' form refuses what it has no coefficients for", "[core][compliance][fitted]") {
   const ThesisCompliance one_apart(ThesisBody::Separate, helical_gear(), plausible());
-  CHECK_THROWS_AS(one_apart.evaluate(std::vector<FlankPlace>{{0, 0, 6}, {2, 0, 6}}), InvalidInput);
-  CHECK_THROWS_AS(one_apart.evaluate(std::vector<FlankPlace>{{0, 0, 12.5}}), InvalidInput);
+  CHECK_THROWS_AS(one_apart.evaluate(std::vector<FlankStation>{{0, 0, 6}, {2, 0, 6}}), InvalidInput);
+  CHECK_THROWS_AS(one_apart.evaluate(std::vector<FlankStation>{{0, 0, 12.5}}), InvalidInput);
   CHECK_THROWS_AS(ThesisCompliance(ThesisBody::Separate, helical_gear(), std::vector<double>(31, 0.1)), InvalidInput);
   const SyntheticGear gear(helical_gear());
   const InfluenceSample few = gear.sample(gear.grid(2, 3));

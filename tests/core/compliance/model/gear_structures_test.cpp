@@ -31,16 +31,16 @@ class MemoryStore final : public ComplianceStore {
     runs.emplace_back(task, run);
     return "memory";
   }
-  std::optional<Kept<RefinementEntry>> find_fit(const InfluenceTableTask&, const std::vector<double>&) override { return std::nullopt; }
-  std::string keep_fit(const InfluenceTableTask&, const std::vector<double>&, const RefinementEntry&) override { return ""; }
+  std::optional<Kept<CorrectionEntry>> find_fit(const InfluenceTableTask&, const std::vector<double>&) override { return std::nullopt; }
+  std::string keep_fit(const InfluenceTableTask&, const std::vector<double>&, const CorrectionEntry&) override { return ""; }
 
   std::vector<std::pair<InfluenceTableTask, InfluenceTableRun>> runs;
 };
 
 double deflection(const GearStructures& built, Member member) {
   const auto& structure = dynamic_cast<const StructuralPair&>(*built.pair);
-  const std::vector<FlankPlace> place{{0, 0.5, 0.4}};
-  return structure[member].compliance->evaluate(place)(0, 0);
+  const std::vector<FlankStation> station{{0, 0.5, 0.4}};
+  return structure[member].compliance->evaluate(station)(0, 0);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "core/compliance/thin_slice/tooth_bending.hpp"
-#include "core/compliance/tooth/tooth_places.hpp"
+#include "core/compliance/tooth/flank_stations.hpp"
 #include "tests/reference/eigenvalues.hpp"
 
 using namespace flankwright;
@@ -53,7 +53,7 @@ TEST_CASE("A plate's influence is reciprocal, semi-definite, alike from both end
           "[core][compliance][plate][physics]") {
   const double face = 8;
   const CantileverPlate plate(form_of(25, 20, 3, 0.2), 3, 3 * face, 0.3);
-  std::vector<FlankPlace> points;
+  std::vector<FlankStation> points;
   for (const double u : {-1.0, 0.0, 1.0}) {
     for (const double zeta : {0.0, 0.4, 2.0, 4.0, 6.0, 7.6, 8.0}) points.push_back({0, u, zeta});
   }
@@ -62,8 +62,8 @@ TEST_CASE("A plate's influence is reciprocal, semi-definite, alike from both end
   CHECK(K == K.transpose());
   CHECK(symmetric_eigenvalues(K).minCoeff() > -1e-13 * K.trace());
 
-  std::vector<FlankPlace> mirrored = points, apart = points;
-  for (FlankPlace& point : mirrored) point.zeta = face - point.zeta;
+  std::vector<FlankStation> mirrored = points, apart = points;
+  for (FlankStation& point : mirrored) point.zeta = face - point.zeta;
   CHECK((plate.evaluate(mirrored) - K).cwiseAbs().maxCoeff() < 1e-11 * K.maxCoeff());  // round-off
 
   apart.front().tooth = 1;
@@ -75,7 +75,7 @@ TEST_CASE("A plate's influence is reciprocal, semi-definite, alike from both end
 TEST_CASE("The tip gives way more than the root, an end more than the middle, and size does not matter",
           "[core][compliance][plate][physics]") {
   const CantileverPlate plate(form_of(18, 30, 10), 10, 120, 0.3);
-  const std::vector<FlankPlace> points{{0, 1, 0}, {0, 1, 6}, {0, -0.5, 0}, {0, -0.5, 6}};
+  const std::vector<FlankStation> points{{0, 1, 0}, {0, 1, 6}, {0, -0.5, 0}, {0, -0.5, 6}};
   const Eigen::MatrixXd K = plate.evaluate(points);
   CHECK(K(0, 0) > 1.5 * K(1, 1));
   CHECK(K(1, 1) > 2 * K(3, 3));
@@ -89,7 +89,7 @@ TEST_CASE("Half as many polynomials again change the plate by little", "[core][c
   const double face = GENERATE(2.0, 12.0);
   const ToothForm form = form_of(teeth, 20);
   const CantileverPlate plate(form, 1, face, 0.3), finer(form, 1, face, 0.3, 1.5);
-  std::vector<FlankPlace> points;
+  std::vector<FlankStation> points;
   for (const double u : {-1.0, 0.0, 1.0}) {
     for (const double share : {0.0, 0.05, 0.2, 0.5, 0.8}) points.push_back({0, u, share * face});
   }
@@ -106,7 +106,7 @@ TEST_CASE("Half as many polynomials again change the plate by little", "[core][c
 
 TEST_CASE("A plate knows its flank only", "[core][compliance][plate]") {
   const CantileverPlate plate(form_of(18, 30), 1, 6, 0.3);
-  for (const FlankPlace& place : {FlankPlace{0, 1.1, 3}, {0, -1.1, 3}, {0, 0, -0.1}, {0, 0, 6.1}, {0, 0, NAN}}) {
-    CHECK_THROWS_AS(plate.evaluate({&place, 1}), InvalidInput);
+  for (const FlankStation& station : {FlankStation{0, 1.1, 3}, {0, -1.1, 3}, {0, 0, -0.1}, {0, 0, 6.1}, {0, 0, NAN}}) {
+    CHECK_THROWS_AS(plate.evaluate({&station, 1}), InvalidInput);
   }
 }

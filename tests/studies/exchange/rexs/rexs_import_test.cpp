@@ -25,12 +25,12 @@ std::string sample_file(const std::string& name) {
   return read_whole(std::filesystem::path(FLANKWRIGHT_SOURCE_DIR) / "tests/studies/exchange/rexs/data" / name);
 }
 
-rexs::ImportedStudy import_text(const std::string& text, const rexs::ImportOptions& options = {.grid_stem = "s"}) {
+rexs::ImportedStudy import_text(const std::string& text, const rexs::RexsImportOptions& options = {.grid_stem = "s"}) {
   return rexs::import_stage(text, "gears.rexs", options);
 }
 Study study_of(const rexs::ImportedStudy& imported) { return parse_study(imported.text, "gears.toml"); }
 
-std::string refusal(const std::string& text, const rexs::ImportOptions& options = {}) {
+std::string refusal(const std::string& text, const rexs::RexsImportOptions& options = {}) {
   try {
     import_text(text, options);
   } catch (const StudyErrors& errors) {

@@ -35,14 +35,14 @@ json run_optimisation(const std::string& tables, const std::vector<Override>& ov
   return json::parse(results_json(run_study(read_optimisation(tables, overrides))));
 }
 
-const std::string wheel_tie = R"([optimise.ties]
+const std::string wheel_link = R"([optimise.ties]
 "wheel.modification.lead_crowning" = { as = "pinion.modification.lead_crowning", factor = -1, offset = 40 }
 )";
 
 }  // namespace
 
 TEST_CASE("Steps, ties and bounds on sums are read in their own units", "[studies][optimise-keys]") {
-  const OptimiseTable table = read_optimisation(wheel_tie, {{"optimise.step", "0.5"},
+  const OptimiseTable table = read_optimisation(wheel_link, {{"optimise.step", "0.5"},
                                                {"optimise.variables.wheel.modification.twist", "{ range = [-10, 10], step = 2 }"}})
                                   .optimise;
   REQUIRE(table.variables.size() == 5);
@@ -53,13 +53,13 @@ TEST_CASE("Steps, ties and bounds on sums are read in their own units", "[studie
                                                                             : 0.0005;
     CHECK(v.step == Approx(step).epsilon(optimisation_round_off));
   }
-  REQUIRE(table.ties.size() == 1);
-  CHECK(table.ties[0].tied.member == Member::Wheel);
-  CHECK(table.variables[table.ties[0].as].path == "pinion.modification.lead_crowning");
-  CHECK(table.ties[0].factor == -1.0);
-  CHECK(table.ties[0].offset == Approx(0.040).epsilon(optimisation_round_off));
-  CHECK(table.ties[0].tied.lower == Approx(0.0).margin(1e-17));
-  CHECK(table.ties[0].tied.upper == Approx(0.040).epsilon(optimisation_round_off));
+  REQUIRE(table.links.size() == 1);
+  CHECK(table.links[0].linked.member == Member::Wheel);
+  CHECK(table.variables[table.links[0].as].path == "pinion.modification.lead_crowning");
+  CHECK(table.links[0].factor == -1.0);
+  CHECK(table.links[0].offset == Approx(0.040).epsilon(optimisation_round_off));
+  CHECK(table.links[0].linked.lower == Approx(0.0).margin(1e-17));
+  CHECK(table.links[0].linked.upper == Approx(0.040).epsilon(optimisation_round_off));
 }
 
 TEST_CASE("A sum of modifications may be bounded from both sides", "[studies][optimise-keys]") {
@@ -80,14 +80,14 @@ TEST_CASE("What [optimise] cannot mean is refused where it stands", "[studies][o
     std::vector<Override> overrides;
     std::string key, allowed;
   };
-  const std::string tie = "optimise.ties.wheel.modification.lead_crowning";
+  const std::string link = "optimise.ties.wheel.modification.lead_crowning";
   const Row row = GENERATE_COPY(
-      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"wheel.modification.twist\" }\n", {}, tie + ".as", "one of optimise.variables"},
-      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"pinion.modification.end_relief.length\" }\n", {}, tie + ".as", "another unit"},
-      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { like = \"x\" }\n", {}, tie, "as ="},
+      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"wheel.modification.twist\" }\n", {}, link + ".as", "one of optimise.variables"},
+      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"pinion.modification.end_relief.length\" }\n", {}, link + ".as", "another unit"},
+      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { like = \"x\" }\n", {}, link, "as ="},
       Row{"[optimise.ties]\n\"pinion.modification.lead_slope\" = { as = \"pinion.modification.lead_crowning\" }\n", {},
           "optimise.ties.pinion.modification.lead_slope", "a variable as well"},
-      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"pinion.modification.lead_crowning\", factor = 100 }\n", {}, tie, "leaves its range"},
+      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"pinion.modification.lead_crowning\", factor = 100 }\n", {}, link, "leaves its range"},
       Row{"\"pinion.modification.lead_crowning + pinion.modification.end_relief.length\" = { max = 3 }\n", {},
           "optimise.constraints.pinion.modification.lead_crowning + pinion.modification.end_relief.length", "one unit"},
       Row{"\"wheel.modification.twist\" = { max = 3 }\n", {}, "optimise.constraints.wheel.modification.twist", "holds no variable"},
@@ -113,7 +113,7 @@ TEST_CASE("Any k of sigma and any level of the tail are read", "[studies][optimi
 }
 
 TEST_CASE("Results say what is ground, what the exact optimum is, and that it is one", "[studies][optimise-keys]") {
-  const json optimise = run_optimisation(wheel_tie, {{"optimise.step", "1"},
+  const json optimise = run_optimisation(wheel_link, {{"optimise.step", "1"},
                                         {"optimise.starts", "2"},
                                         {"optimise.objective", "[\"peak_contact_stress\", \"te_peak_to_peak\"]"}})["optimise"];
   for (const char* name : {"pinion.modification.lead_crowning", "pinion.modification.lead_slope"}) {

@@ -1,0 +1,124 @@
+#include "optimize/design/objective_block.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flankwright {
+
+namespace {
+
+constexpr double epsilon = 1e-5;  // see ObjectiveBlock
+
+struct Spread {
+  double mean, sigma;
+};
+
+Spread spread_of(const Eigen::VectorXd& measures, const Eigen::VectorXd& shares) {
+  const double mean = shares.dot(measures);
+  return {mean, std::sqrt(shares.dot((measures.array() - mean).square().matrix()) + epsilon * epsilon)};
+}
+
+}  // namespace
+
+ObjectiveBlock::ObjectiveBlock(Objective objective, const std::vector<double>& weights, std::vector<double> peaks, int first)
+    : objective_(std::move(objective)), peaks_(std::move(peaks)), first_(first) {
+  shares_ = Eigen::Map<const Eigen::VectorXd>(weights.data(), objective_.over == Aggregate::Nominal ? 1 : static_cast<Eigen::Index>(weights.size()));
+  shares_ /= shares_.sum();
+  for (std::size_t k = 0; k < objective_.terms.size(); ++k) {
+    term_weights_.push_back(objective_.terms[k].weight * objective_.terms[k].outside_factor() * peaks_[k]);
+    scale_ += term_weights_.back();
+  }
+  for (double& w : term_weights_) w /= scale_;
+}
+
+int ObjectiveBlock::variables() const {
+  if (shares_one_bound()) return 1;
+  const int bounds = scenes() * static_cast<int>(objective_.terms.size());
+  return bounds + (has_rows() ? 1 : 0) + (objective_.over == Aggregate::Cvar ? scenes() : 0);
+}
+
+int ObjectiveBlock::rows() const { return has_rows() ? scenes() : 0; }
+
+int ObjectiveBlock::bound(int scene, int term) const {
+  return shares_one_bound() ? first_ : first_ + scene * static_cast<int>(objective_.terms.size()) + term;
+}
+
+
+double ObjectiveBlock::measure(const Eigen::VectorXd& y, int scene) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < term_weights_.size(); ++k) sum += term_weights_[k] * y[bound(scene, static_cast<int>(k))];
+  return sum;
+}
+
+Eigen::VectorXd ObjectiveBlock::measures(const Eigen::VectorXd& y) const {
+  Eigen::VectorXd m(scenes());
+  for (int s = 0; s < scenes(); ++s) m[s] = measure(y, s);
+  return m;
+}
+
+SmoothValue ObjectiveBlock::value(const Eigen::VectorXd& y) const {
+  SmoothValue result{0.0, Eigen::VectorXd::Zero(y.size())};
+  if (shares_one_bound()) {
+    result.value = y[first_];
+    result.gradient[first_] = 1.0;
+    return result;
+  }
+  if (has_rows()) {
+    result.value = y[level()];
+    result.gradient[level()] = 1.0;
+    for (int s = 0; objective_.over == Aggregate::Cvar && s < scenes(); ++s) {
+      const double slope = shares_[s] / (1.0 - objective_.over.level);
+      result.value += slope * y[level() + 1 + s];
+      result.gradient[level() + 1 + s] = slope;
+    }
+    return result;
+  }
+  const Eigen::VectorXd m = measures(y);
+  Eigen::VectorXd slope = shares_;
+  result.value = shares_.dot(m);
+  if (objective_.over == Aggregate::MeanPlusSigmas) {
+    const auto [mean, sigma] = spread_of(m, shares_);
+    result.value += objective_.over.sigmas * sigma;
+    slope.array() *= 1.0 + objective_.over.sigmas * (m.array() - mean) / sigma;
+  }
+  for (int s = 0; s < scenes(); ++s) {
+    for (std::size_t k = 0; k < term_weights_.size(); ++k) result.gradient[bound(s, static_cast<int>(k))] = slope[s] * term_weights_[k];
+  }
+  return result;
+}
+
+bool ObjectiveBlock::falls_with(const Eigen::VectorXd& y, int scene) const {
+  return objective_.over == Aggregate::MeanPlusSigmas && value(y).gradient[bound(scene, 0)] < 0.0;
+}
+
+void ObjectiveBlock::complete(Eigen::VectorXd& y) const {
+  if (!has_rows()) return;
+  const Eigen::VectorXd m = measures(y);
+  if (objective_.over == Aggregate::Worst) {
+    y[level()] = m.maxCoeff();
+    return;
+  }
+  // The level of the tail: of the sorted measures the first beyond which no more than 1 - level of the weight lies.
+  std::vector<int> order(static_cast<std::size_t>(scenes()));
+  for (int s = 0; s < scenes(); ++s) order[static_cast<std::size_t>(s)] = s;
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return m[a] > m[b]; });
+  double beyond = 0.0;
+  for (int s : order) {
+    y[level()] = m[s];
+    beyond += shares_[s];
+    if (beyond >= 1.0 - objective_.over.level) break;
+  }
+  for (int s = 0; s < scenes(); ++s) y[level() + 1 + s] = std::max(0.0, m[s] - y[level()]);
+}
+
+void ObjectiveBlock::write_rows(const Eigen::VectorXd& y, int row, ProgramValues& values) const {
+  for (int s = 0; s < rows(); ++s, ++row) {
+    auto jacobian = values.constraint_jacobian.row(row);
+    for (std::size_t k = 0; k < term_weights_.size(); ++k) jacobian[bound(s, static_cast<int>(k))] = term_weights_[k];
+    jacobian[level()] = -1.0;
+    if (objective_.over == Aggregate::Cvar) jacobian[level() + 1 + s] = -1.0;
+    values.constraints[row] = jacobian.dot(y);
+  }
+}
+
+}  // namespace flankwright

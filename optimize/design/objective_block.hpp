@@ -1,0 +1,65 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "optimize/solvers/nonlinear_program.hpp"
+#include "optimize/design/design_task.hpp"
+#include "optimize/design/scene_outputs.hpp"
+
+namespace flankwright {
+
+/// One objective as a smooth function of upper bounds u_sk on its outputs k in the scenes s, in units of their peaks.
+/// With m_s = sum_k w_k u_sk and the weights p_s of the scenes, of sum 1,
+///
+///     nominal          m_0
+///     worst            t                                   subject to  m_s <= t
+///     mean             sum p_s m_s
+///     mean + k sigma   mean + k sqrt(sum p_s (m_s - mean)^2 + epsilon^2),    epsilon = 1e-5
+///     cvar             t + sum p_s v_s / (1 - level)       subject to  m_s - t <= v_s,  v_s >= 0
+///
+/// Worst of a single output needs one u for all scenes. epsilon, in units of the start's value, smooths the spread
+/// where the scenes agree: the value is at most k epsilon too large.
+class ObjectiveBlock {
+ public:
+  /// @param weights  of the scenes, > 0
+  /// @param peaks    per term, what u is counted in [inside unit, > 0]
+  /// @param first    index of the block's first variable in the programme's
+  ObjectiveBlock(Objective objective, const std::vector<double>& weights, std::vector<double> peaks, int first);
+
+  const Objective& objective() const { return objective_; }
+  int variables() const;
+  int rows() const;
+  /// Scenes that count: one for nominal.
+  int scenes() const { return static_cast<int>(shares_.size()); }
+  /// Index of u_sk.
+  int bound(int scene, int term) const;
+  double peak(int term) const { return peaks_[static_cast<std::size_t>(term)]; }
+  /// The objective's value in outside units is value() times this.
+  double scale() const { return scale_; }
+
+  /// Value with its gradient over all of y.
+  SmoothValue value(const Eigen::VectorXd& y) const;
+  /// Whether the value falls where the measure of a scene rises, as mean + k sigma does in scenes well below the mean.
+  bool falls_with(const Eigen::VectorXd& y, int scene) const;
+  /// Sets t and v to the least values that the u of y allow.
+  void complete(Eigen::VectorXd& y) const;
+  /// Writes the rows above from `row` on.
+  void write_rows(const Eigen::VectorXd& y, int row, ProgramValues& values) const;
+
+ private:
+  bool shares_one_bound() const { return objective_.over == Aggregate::Worst && objective_.terms.size() == 1; }
+  bool has_rows() const { return objective_.over == Aggregate::Cvar || (objective_.over == Aggregate::Worst && !shares_one_bound()); }
+  int level() const { return first_ + scenes() * static_cast<int>(objective_.terms.size()); }  ///< index of t
+  double measure(const Eigen::VectorXd& y, int scene) const;
+  Eigen::VectorXd measures(const Eigen::VectorXd& y) const;
+
+  Objective objective_;
+  Eigen::VectorXd shares_;          ///< p_s
+  std::vector<double> peaks_;
+  std::vector<double> term_weights_;  ///< w_k, sum 1
+  double scale_{0.0};
+  int first_;
+};
+
+}  // namespace flankwright

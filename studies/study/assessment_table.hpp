@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "optimize/sampling/distribution.hpp"
+
+/// What a study asks of the proof of its optimum: [optimise.comparison], [optimise.validation], [optimise.tolerances].
+namespace flankwright::studies {
+
+/// A key of the scenes that scatters.
+struct SceneTolerance {
+  std::string path;           ///< as the study names it: "misalignment.mesh_misalignment"
+  std::string in_words;       ///< "normal, mean 0, deviation 6"
+  Distribution distribution;  ///< of the value in the unit of a bare number
+  bool added{false};          ///< to what the nominal scene has, else in its place
+};
+
+/// Scenes drawn from the tolerances.
+struct DrawnScenes {
+  int samples{0};
+  unsigned long seed{1};
+};
+
+struct AssessmentTable {
+  bool rules{true};        ///< held against the rules of thumb
+  double variants{0.0};    ///< analyses of a full-factorial search for each analysis of the optimiser; 0: none
+  DrawnScenes validation;  ///< that the optimum is tried on
+  DrawnScenes scenes;      ///< that the optimiser sees beside those listed
+  std::vector<SceneTolerance> tolerances;
+};
+
+}  // namespace flankwright::studies

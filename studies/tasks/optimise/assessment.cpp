@@ -1,0 +1,149 @@
+#include "studies/tasks/optimise/assessment.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "core/base/stopwatch.hpp"
+#include "studies/base/plain_names.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+std::vector<VariantSearch> search_all_variants(const DesignProblem& problem, double budget, const ProgressReport& progress) {
+  std::vector<VariantSearch> searches;
+  for (const LevelPlacement placement : {LevelPlacement::BoundToBound, LevelPlacement::Middles}) {
+    searches.push_back(search_variants(problem, placement, std::max<std::int64_t>(1, std::llround(budget)), [&](int done, int total) {
+      if (progress) progress("trying variants", done, total, to_string(placement));
+    }));
+  }
+  return searches;
+}
+
+Validation validate(const Study& study, const DesignProblem& problem, const DesignResult& design, const std::vector<DesignScene>& drawn,
+                    const ComparedDesign* best_rule) {
+  const Stopwatch clock;
+  Validation validation{.seed = study.optimise.assessment.validation.seed, .scenes = {}, .designs = {}};
+  std::vector<NamedDesign> designs{
+      {"before", "", design.before.analysis.pinion_modification, design.before.analysis.wheel_modification},
+      {"after", "", design.after.analysis.pinion_modification, design.after.analysis.wheel_modification}};
+  if (best_rule != nullptr) designs.push_back(best_rule->design);
+  for (const DesignScene& scene : drawn) validation.scenes.push_back(scene.name);
+  validation.designs = validate_designs(problem.task(), drawn, designs);
+  validation.seconds = clock.seconds();
+  return validation;
+}
+
+/// "+1.2 MPa".
+std::string change(double value, const DesignTask& task) { return fmt::format("{:+.3g} {}", value, task.objective_unit()); }
+
+std::string scene_in_words(const Optimum::Scene& scene, const DesignTask& task, bool several_torques) {
+  const DesignScene& of_task = task.scenes[static_cast<std::size_t>(scene.scene)];
+  const std::string torque = several_torques ? fmt::format(", {:.5g} N·m,", of_task.torque / units::newton_metre) : "";
+  return fmt::format("The scene \"{}\"{} governs with weight {:.2f}.", of_task.name, torque, scene.weight);
+}
+
+/// What moving a limit would give, where that is more than the optimum is known to.
+std::string gain_in_words(double gain, const std::string& move, const Optimum& optimum, const DesignTask& task) {
+  return std::abs(gain) > optimum.resolution ? fmt::format("{} would give {}.", move, change(gain, task)) : move + " would give nothing.";
+}
+
+std::string bound_in_words(const Optimum::Bound& bound, const Optimum& optimum, const DesignTask& task) {
+  const DesignVariable& v = task.variables[static_cast<std::size_t>(bound.variable)];
+  const double limit = (bound.upper ? v.upper : v.lower) * v.outside_factor();
+  const double step = assessment_step(v.unit());
+  const std::string stands = fmt::format("The {} is at its {} bound, {:.4g} {}", plain_name(v.path), bound.upper ? "upper" : "lower", limit, v.unit());
+  return gain_in_words(bound.gain, fmt::format("{}: {:.2g} {} {}", stands, step, v.unit(), bound.upper ? "more" : "less"), optimum, task);
+}
+
+std::string constraint_in_words(const Optimum::Constraint& constraint, const Optimum& optimum, const DesignTask& task) {
+  const OutputConstraint& c = task.constraints[static_cast<std::size_t>(constraint.constraint)];
+  const std::string move = fmt::format("The constraint {} {} {:.4g} {} is active: a limit one per cent {}", plain_name(c.output.name), c.is_least() ? ">=" : "<=",
+                                       c.limit() * c.output.outside_factor(), c.output.unit(), c.is_least() ? "lower" : "higher");
+  return gain_in_words(constraint.gain, move, optimum, task);
+}
+
+std::string sum_in_words(const Optimum::Sum& sum, const Optimum& optimum, const DesignTask& task) {
+  const ModificationConstraint& c = task.modification_constraints[static_cast<std::size_t>(sum.constraint)];
+  const std::string move = fmt::format("The sum {} is at its {} limit, {:.4g} {}: {:.2g} {} {}", plain_name(c.name), sum.upper ? "upper" : "lower",
+                                       (sum.upper ? c.maximum : c.minimum) * c.outside_factor(), c.unit(), assessment_step(c.unit()), c.unit(),
+                                       sum.upper ? "more" : "less");
+  return gain_in_words(sum.gain, move, optimum, task);
+}
+
+std::string objective_in_words(const Optimum::Objective& objective, const Optimum& optimum, const DesignTask& task) {
+  const ObjectiveBound& bound = task.objective_bounds[static_cast<std::size_t>(objective.bound)];
+  const std::string move = fmt::format("The objective before it, {}, is at the {:.4g} {} that it keeps: one per cent more", plain_name(bound.objective.name()),
+                                       bound.limit, bound.objective.unit());
+  return gain_in_words(objective.gain, move, optimum, task);
+}
+
+}  // namespace
+
+Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignResult& design,
+                    const std::vector<DesignScene>& drawn, const ProgressReport& progress) {
+  const Stopwatch clock;
+  Assessment assessment;
+  if (study.optimise.assessment.rules) {
+    if (progress) progress("trying rules of thumb", 0, 1, "");
+    assessment.basis = rule_basis(problem);
+    assessment.rules = compare_designs(problem, rules_of_thumb(problem.task(), *assessment.basis));
+  }
+  if (study.optimise.assessment.variants > 0.0) {
+    assessment.variants = search_all_variants(problem, study.optimise.assessment.variants * design.evaluations, progress);
+  }
+  if (!drawn.empty()) {
+    if (progress) progress("validating", 0, 1, std::to_string(drawn.size()) + " scenes drawn afresh");
+    assessment.validation = validate(study, problem, design, drawn, best_of(assessment.rules));
+  }
+  // Rounding to the grinder's steps leaves the optimum.
+  const DesignReport& best = design.exact ? *design.exact : design.after;
+  const bool usable = std::ranges::all_of(best.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
+  if (usable && !best.analysis.cycles.empty()) {
+    const DesignProblem last = last_stage(problem, design.stages);
+    const std::vector<AssessedParameter> parameters = assessed_parameters(last.task());
+    const LocalModel model(last, best.analysis.pinion_modification, best.analysis.wheel_modification, parameters, design.optimality.active);
+    assessment.optimum = find_optimum(last, design.optimality, model, parameters, best.variables);
+    assessment.judged = last.task();
+  }
+  assessment.seconds = clock.seconds();
+  return assessment;
+}
+
+std::string validation_in_words(const Validation& validation, const DesignTask& task) {
+  const Spread before = spread_of(validation.designs[0].measures), after = spread_of(validation.designs[1].measures);
+  const double better = share_below(validation.designs[1].measures, validation.designs[0].measures);
+  std::string words = fmt::format(
+      "Over {} scenes drawn afresh (seed {}) the design is better than before in {:.1f} %; mean {:.5g} -> {:.5g}, 95 % below {:.5g} -> {:.5g}, "
+      "largest {:.5g} -> {:.5g} {}.",
+      validation.scenes.size(), validation.seed, 100.0 * better, before.mean, after.mean, before.quantiles.back(), after.quantiles.back(),
+      before.greatest, after.greatest, task.objective_unit());
+  if (validation.designs.size() > 2) {
+    const ValidatedDesign& rule = validation.designs[2];
+    words += fmt::format(" It is better than the best rule of thumb ({}) in {:.1f} %, whose largest is {:.5g} {}.", rule.name,
+                         100.0 * share_below(validation.designs[1].measures, rule.measures), spread_of(rule.measures).greatest,
+                         task.objective_unit());
+  }
+  if (before.failed + after.failed > 0) words += fmt::format(" {} analyses did not converge.", before.failed + after.failed);
+  return words;
+}
+
+std::vector<std::string> optimum_in_words(const Optimum& optimum, const DesignTask& task) {
+  std::set<double> torques;
+  for (const DesignScene& scene : task.scenes) torques.insert(scene.torque);
+  std::vector<std::string> words;
+  constexpr double said = 0.005;  // less would be a weight of 0.00
+  for (const Optimum::Scene& scene : optimum.scenes) {
+    if (std::abs(scene.weight) >= said) words.push_back(scene_in_words(scene, task, torques.size() > 1));
+  }
+  for (const Optimum::Bound& bound : optimum.bounds) words.push_back(bound_in_words(bound, optimum, task));
+  for (const Optimum::Constraint& constraint : optimum.constraints) words.push_back(constraint_in_words(constraint, optimum, task));
+  for (const Optimum::Objective& objective : optimum.objectives) words.push_back(objective_in_words(objective, optimum, task));
+  for (const Optimum::Sum& sum : optimum.sums) words.push_back(sum_in_words(sum, optimum, task));
+  return words;
+}
+
+}  // namespace flankwright::studies

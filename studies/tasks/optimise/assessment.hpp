@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "optimize/design/design_optimiser.hpp"
+#include "optimize/assessment/optimum.hpp"
+#include "optimize/assessment/rules_of_thumb.hpp"
+#include "optimize/assessment/validation.hpp"
+#include "optimize/assessment/variant_search.hpp"
+#include "core/compliance/model/gear_structures.hpp"
+#include "studies/study/study.hpp"
+
+namespace flankwright::studies {
+
+/// Designs over scenes drawn afresh from the study's tolerances.
+struct Validation {
+  unsigned long seed{0};
+  std::vector<std::string> scenes;       ///< names
+  std::vector<ValidatedDesign> designs;  ///< "before", "after", then the best rule of thumb where there is one
+  double seconds{not_given};
+};
+
+/// What an optimum is held against, and what holds it where it is.
+struct Assessment {
+  std::optional<RuleBasis> basis;        ///< of the rules, where they were asked for
+  std::vector<ComparedDesign> rules;     ///< empty: not asked for
+  std::vector<VariantSearch> variants;   ///< one a placement of the levels; empty: not asked for
+  std::optional<Validation> validation;  ///< none: not asked for
+  std::optional<Optimum> optimum;        ///< of the design before rounding; none where it cannot be analysed
+  std::optional<DesignTask> judged;      ///< what the optimum is of: the task, or of a list its last objective under limits on those before it
+  double seconds{not_given};
+};
+
+/// @param problem  that was optimised
+/// @param drawn    scenes to validate on; empty: none
+Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignResult& design,
+                    const std::vector<DesignScene>& drawn, const ProgressReport& progress);
+
+/// "Over 500 scenes drawn afresh (seed 1) the design is better in 98.2 %, ..."
+std::string validation_in_words(const Validation& validation, const DesignTask& task);
+
+/// What governs the optimum, a sentence each: scenes with their weights, variables at a bound, constraints and earlier objectives at
+/// their limit with what they cost; a gain below the optimum's resolution is nothing.
+/// @param judged  Assessment::judged
+std::vector<std::string> optimum_in_words(const Optimum& optimum, const DesignTask& judged);
+
+}  // namespace flankwright::studies

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "studies/base/json_format.hpp"
+#include "studies/tasks/optimise/assessment.hpp"
+
+namespace flankwright::studies {
+
+/// Adds `comparison`, `validation`, `governing` and `sensitivity` to the `optimise` part of the results.
+void add_assessment(const Assessment& assessment, const DesignTask& task, const AssessmentTable& asked, Json& optimise);
+
+}  // namespace flankwright::studies

@@ -1,0 +1,73 @@
+#include "studies/base/csv.hpp"
+#include "studies/tasks/optimise/assessment_tables.hpp"
+
+#include <fmt/format.h>
+
+
+namespace flankwright::studies {
+
+namespace {
+
+std::string comparison_csv(const Assessment& assessment) {
+  std::string csv = "design,objective,constraint_violation,failure,basis\n";
+  const auto add = [&](const ComparedDesign& d, const std::string& name) {
+    csv += fmt::format("{},{},{},{},{}\n", csv_field(name), d.objective, d.constraint_violation, csv_field(d.failure),
+                       csv_field(d.design.basis));
+  };
+  for (const ComparedDesign& rule : assessment.rules) add(rule, rule.design.name);
+  for (const VariantSearch& search : assessment.variants) {
+    if (search.x.size() > 0) add(search.best, fmt::format("best of {} variants, {}", search.tried, to_string(search.placement)));
+  }
+  return csv;
+}
+
+std::string sensitivity_csv(const Optimum& optimum) {
+  std::string csv = "quantity,step,unit,less,more,more_optimised_anew\n";
+  for (const Sensitivity& s : optimum.sensitivities) {
+    const std::string anew = s.parameter.variable < 0 ? fmt::format("{}", s.optimised_anew) : "";
+    csv += fmt::format("{},{},{},{},{},{}\n", csv_field(s.parameter.name), s.parameter.step, s.parameter.unit, s.less, s.more, anew);
+  }
+  return csv;
+}
+
+std::string validation_csv(const Validation& validation) {
+  std::string csv = "scene";
+  for (const ValidatedDesign& design : validation.designs) csv += fmt::format(",{}", csv_field(design.name));
+  csv += "\n";
+  for (std::size_t s = 0; s < validation.scenes.size(); ++s) {
+    csv += csv_field(validation.scenes[s]);
+    for (const ValidatedDesign& design : validation.designs) csv += fmt::format(",{}", design.measures[s]);
+    csv += "\n";
+  }
+  return csv;
+}
+
+}  // namespace
+
+std::vector<NamedText> assessment_tables(const Assessment& assessment) {
+  std::vector<NamedText> tables;
+  if (!assessment.rules.empty() || !assessment.variants.empty()) tables.push_back({"comparison.csv", comparison_csv(assessment)});
+  if (assessment.optimum) tables.push_back({"sensitivity.csv", sensitivity_csv(*assessment.optimum)});
+  if (assessment.validation) tables.push_back({"validation.csv", validation_csv(*assessment.validation)});
+  return tables;
+}
+
+std::string assessment_summary(const Assessment& assessment, const DesignTask& task, double optimum) {
+  std::string out;
+  const auto beside = [&](const std::string& what, double value) {
+    const double times = value / optimum;
+    out += fmt::format("{}: {:.5g} {} ({})\n", what, value, task.objective_unit(),
+                       times < 10.0 ? fmt::format("{:+.1f} %", 100.0 * (times - 1.0)) : fmt::format("{:.3g} times the optimum", times));
+  };
+  if (const ComparedDesign* best = best_of(assessment.rules)) beside("best rule of thumb, " + best->design.name, best->objective);
+  for (const VariantSearch& search : assessment.variants) {
+    const std::string name = fmt::format("best of {} variants, {}", search.tried, to_string(search.placement));
+    if (search.x.size() > 0) beside(name, search.best.objective);
+  }
+  if (assessment.validation) out += validation_in_words(*assessment.validation, task) + "\n";
+  if (!assessment.optimum) return out;
+  for (const std::string& sentence : optimum_in_words(*assessment.optimum, *assessment.judged)) out += sentence + "\n";
+  return out;
+}
+
+}  // namespace flankwright::studies

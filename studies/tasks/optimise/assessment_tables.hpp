@@ -1,0 +1,14 @@
+#pragma once
+
+#include "studies/tasks/optimise/assessment.hpp"
+#include "studies/base/results_folder.hpp"
+
+namespace flankwright::studies {
+
+/// CSV tables of a proof: comparison.csv, sensitivity.csv and validation.csv, as far as there is something to say.
+std::vector<NamedText> assessment_tables(const Assessment& assessment);
+
+/// What a run prints: the best rule and the best variants beside the optimum, and what governs it.
+std::string assessment_summary(const Assessment& assessment, const DesignTask& task, double optimum);
+
+}  // namespace flankwright::studies

@@ -1,0 +1,117 @@
+#include "studies/tasks/accuracy/fidelity_hierarchy.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "studies/tasks/accuracy/accuracy_json.hpp"
+#include "studies/tasks/accuracy/accuracy_tables.hpp"
+#include "studies/analysis/run_study.hpp"
+#include "studies/study_file/study_file.hpp"
+#include "core/gear/gear_pair.hpp"
+
+using namespace flankwright;
+using namespace flankwright::studies;
+
+namespace {
+
+/// A pair by thin slices, coarse enough for a fraction of a second.
+FidelityHierarchy hierarchy_of(double helix_angle_deg, const std::string& modification = "", const std::string& fidelity = "") {
+  const std::string text = R"(task = "accuracy"
+[pair]
+normal_module = 4
+helix_angle = )" + std::to_string(helix_angle_deg) +
+                           R"(
+[pinion]
+teeth = 20
+face_width = 30
+[pinion.modification]
+)" + modification + R"(
+[wheel]
+teeth = 40
+face_width = 30
+[load]
+torque = 200
+[cycle]
+positions = 12
+[fidelity]
+compliance = "thin_slice"
+)" + fidelity + R"(
+[accuracy.finest]
+compliance = "thin_slice"
+gap = "plane_of_action"
+intervals = 8
+positions = 48
+)";
+  const StudyResults results = run_study(parse_study(text, "ladder.toml"));
+  REQUIRE(results.requirements.empty());
+  REQUIRE(results.hierarchy);
+  return *results.hierarchy;
+}
+
+const HierarchyStep& step(const FidelityHierarchy& hierarchy, const std::string& name) {
+  const auto found = std::ranges::find_if(hierarchy.steps, [&](const HierarchyStep& s) { return s.result.level.name == name; });
+  REQUIRE(found != hierarchy.steps.end());
+  return *found;
+}
+
+double error(const HierarchyStep& step, Figure figure) { return step.error[static_cast<std::size_t>(figure)]; }
+
+}  // namespace
+
+TEST_CASE("The finest rung has no error, every other one has its own, and these fall with intervals and positions", "[studies][accuracy][ladder][slow]") {
+  const FidelityHierarchy hierarchy = hierarchy_of(20.0, "lead_crowning = 6\n");
+  CHECK(largest(hierarchy.reference.error) == 0.0);
+  CHECK(hierarchy.reference.best);
+  for (const HierarchyStep& s : hierarchy.steps) {
+    CAPTURE(s.result.level.name);
+    CHECK(s.result.usable());
+    CHECK(s.result.seconds > 0.0);
+    CHECK(s.first_seconds == s.result.seconds);  // thin slices keep nothing
+    CHECK(std::isfinite(largest(s.error)));
+  }
+  // Rigid teeth give way by the flanks' contact alone, less than half of what the mesh does.
+  CHECK(error(step(hierarchy, "rigid"), Figure::TeMean) > 0.5);
+  CHECK(error(step(hierarchy, "rigid"), Figure::TeMean) < 1.0);
+
+  CHECK(error(step(hierarchy, "graded 4"), Figure::PeakLineLoad) <= error(step(hierarchy, "graded 2"), Figure::PeakLineLoad));
+  constexpr double round_off = 1e-12;  // where extremes lie at positions of either
+  CHECK(error(step(hierarchy, "24 positions"), Figure::TePeakToPeak) <= error(step(hierarchy, "12 positions"), Figure::TePeakToPeak) + round_off);
+  // Integrals over lines and over the cycle are close from the start, and need not come closer with every step.
+  constexpr double discretisation = 2e-3;
+  for (const char* level : {"graded 2", "graded 4"}) CHECK(error(step(hierarchy, level), Figure::TeMean) < discretisation);
+  for (const char* level : {"12 positions", "24 positions"}) CHECK(error(step(hierarchy, level), Figure::TeHarmonic1) < discretisation);
+  // Ends of lines within intervals cost more than intervals that end there.
+  CHECK(error(step(hierarchy, "gauss2 5"), Figure::TePeakToPeak) > error(step(hierarchy, "graded 4"), Figure::TePeakToPeak));
+}
+
+TEST_CASE("Without modification, misalignment and free ends spur lines carry evenly: quadrature has no error", "[studies][accuracy][ladder][closed-form]") {
+  const FidelityHierarchy hierarchy = hierarchy_of(0.0, "", R"(effects = ["bending", "hertzian_contact", "tip_corner", "extended_contact_region"])");
+  constexpr double kRoundOff = 1e-9;
+  for (const HierarchyStep& s : hierarchy.steps) {
+    const FidelityLevel& level = s.result.level;
+    const bool quadrature_only = level.kind == ErrorKind::Discretisation && level.positions == 48 && level.located_peaks;
+    CAPTURE(level.name);
+    if (quadrature_only) CHECK(largest(s.error) < kRoundOff);
+  }
+  // The finest's peak line load is the force over the face width of one tooth pair.
+  const GearPair pair = make_gear_pair(parse_study("[pair]\nnormal_module = 4\n[pinion]\nteeth = 20\nface_width = 30\n[wheel]\nteeth = 40\nface_width = 30\n", "spur.toml").pair);
+  const double force = 200e3 / pair.pinion.base_radius;
+  CHECK(hierarchy.reference.result.scenes[0][Figure::PeakLineLoad] == Approx(force / 30.0).epsilon(kRoundOff));
+}
+
+TEST_CASE("What is as good in cost and error as another one and better in one keeps it from the front", "[studies][accuracy][ladder]") {
+  CHECK(pareto_best({1, 2, 3, 2}, {5, 3, 4, 3}) == std::vector<bool>{true, true, false, true});
+  CHECK(pareto_best({1, 1}, {2, 1}) == std::vector<bool>{false, true});
+}
+
+TEST_CASE("A ladder's JSON and tables name every rung once", "[studies][accuracy][ladder]") {
+  const FidelityHierarchy hierarchy = hierarchy_of(0.0);
+  const Json json = hierarchy_json(hierarchy);
+  REQUIRE(json.at("rungs").size() == hierarchy.steps.size() + 1);
+  CHECK(json.at("rungs").at(0).at("name") == json.at("reference"));
+  CHECK(json.at("rungs").at(1).at("error_percent").contains("te_harmonic_5"));
+  CHECK(json.at("rungs").at(1).at("outputs").size() == 1);
+  const std::vector<NamedText> tables = hierarchy_tables(hierarchy);
+  REQUIRE(tables.size() == 2);
+  CHECK(std::ranges::count(tables[0].text, '\n') == static_cast<long>(hierarchy.steps.size()) + 2);
+}

@@ -1,0 +1,131 @@
+#include <catch2/catch.hpp>
+#include <numeric>
+
+#include "studies/base/json_format.hpp"
+#include "studies/report/report.hpp"
+#include "studies/results/results_json.hpp"
+#include "studies/analysis/run_study.hpp"
+#include "studies/study_file/study_file.hpp"
+#include "studies/results/tables.hpp"
+#include "tests/studies/small_studies.hpp"
+#include "tests/studies/study_texts.hpp"
+
+namespace flankwright::studies {
+namespace {
+
+using json = Json;
+using study_texts::results_of;
+
+/// The small optimisation with everything that proves it.
+std::string assessed_study() {
+  return small::optimisation() + R"(
+[optimise.comparison]
+variants = 2
+[optimise.validation]
+samples = 40
+[optimise.tolerances]
+"misalignment.mesh_misalignment" = { uniform = [-12, 12] }
+)";
+}
+
+/// What a clock says differs from run to run.
+void remove_seconds(json& node) {
+  if (node.is_object()) {
+    for (const char* key : {"seconds", "proof_seconds", "milliseconds_per_cycle", "message"}) node.erase(key);
+  }
+  if (node.is_structured()) {
+    for (json& child : node) remove_seconds(child);
+  }
+}
+
+TEST_CASE("The proof in results.json hangs together", "[studies][proof]") {
+  const StudyResults results = run_study(parse_study(assessed_study(), "small.toml"));
+  const json optimise = json::parse(results_json(results))["optimise"];
+  const double optimum = optimise["after"]["objective"];
+  constexpr double round_off = 1e-9;
+
+  const json& rules = optimise["comparison"]["rules"];
+  REQUIRE(rules.size() == 20);
+  CHECK(rules[0]["name"] == "unmodified");
+  for (const json& rule : rules) {
+    CAPTURE(rule["name"]);
+    REQUIRE(rule["scenes"].size() == 3);
+    // Worst over the scenes, as the study asks.
+    const auto scenes = rule["scenes"].get<std::vector<double>>();
+    CHECK(rule["objective"] == *std::max_element(scenes.begin(), scenes.end()));
+  }
+  CHECK(optimise["comparison"]["basis"]["misalignment_um"] == Approx(12.0).epsilon(round_off));
+
+  const json& variants = optimise["comparison"]["variants"];
+  REQUIRE(variants.size() == 2);
+  for (const json& search : variants) {
+    const int budget = 2 * optimise["evaluations"].get<int>();
+    const int product = std::accumulate(search["levels"].begin(), search["levels"].end(), 1, [](int p, const json& n) { return p * n.get<int>(); });
+    CHECK(search["tried"] == product);
+    CHECK(product <= budget);
+    // An optimum within its bounds is no worse than any combination within them.
+    if (!search["best"].is_null()) CHECK(search["best"]["objective"].get<double>() >= optimum * (1.0 - 1e-6));
+  }
+
+  double weights = 0.0;
+  for (const json& scene : optimise["governing"]["scenes"]) weights += scene["weight"].get<double>();
+  CHECK(weights == Approx(1.0).epsilon(1e-3));
+  const json& governing = optimise["governing"];
+  CHECK(governing["words"].size() >= 1 + governing["bounds"].size() + governing["constraints"].size() + governing["sums"].size());
+  CHECK(optimise["sensitivity"].size() == 4 + 9);  // variables and tolerances
+
+  const json& validation = optimise["validation"];
+  CHECK(validation["samples"] == 40);
+  CHECK(validation["bin_edges"].size() == validation["designs"][0]["histogram"].size() + 1);
+  for (const json& design : validation["designs"]) {
+    const auto counts = design["histogram"].get<std::vector<int>>();
+    CHECK(std::accumulate(counts.begin(), counts.end(), 0) == 40);
+  }
+  // Misalignment stays within what the optimiser saw, and stress grows towards its ends.
+  constexpr double between_scenes = 0.02;  // model: the worst lies at the ends, give or take the mesh positions
+  CHECK(validation["designs"][1]["greatest"].get<double>() <= optimum * (1.0 + between_scenes));
+  CHECK(validation["designs"][0]["name"] == "before");
+  CHECK(validation["designs"][1]["name"] == "after");
+
+  std::vector<std::string> names;
+  for (const NamedText& table : csv_tables(results)) names.push_back(table.name);
+  for (const char* name : {"comparison.csv", "sensitivity.csv", "validation.csv"}) CHECK(std::ranges::count(names, name) == 1);
+  CHECK_THAT(summary_table(results), Catch::Contains("best rule of thumb") && Catch::Contains("governs with weight"));
+
+  const std::string page = render_report(results_document(results));
+  for (const char* section : {"comparison", "validation", "governing", "sensitivity"}) {
+    CHECK(page.find("<section id=\"" + std::string(section) + "\">") != std::string::npos);
+  }
+}
+
+TEST_CASE("The same study gives the same proof", "[studies][proof][determinism]") {
+  json a = results_of(assessed_study())["optimise"], b = results_of(assessed_study())["optimise"];
+  remove_seconds(a);
+  remove_seconds(b);
+  CHECK(a == b);
+}
+
+TEST_CASE("Without rules there is nothing to compare with and no section for it", "[studies][proof]") {
+  const StudyResults results = run_study(parse_study(small::optimisation(), "small.toml", {{"optimise.comparison.rules", "off"}}));
+  const json optimise = json::parse(results_json(results))["optimise"];
+  CHECK(optimise["comparison"]["rules"].empty());
+  CHECK_FALSE(optimise.contains("validation"));
+  CHECK(render_report(results_document(results)).find("<section id=\"comparison\">") == std::string::npos);
+}
+
+TEST_CASE("Drawn scenes stand beside the listed ones and errors that only they have enter", "[studies][proof]") {
+  const StudyResults results = run_study(parse_study(small::optimisation() + R"(
+[optimise.scenes_drawn]
+samples = 3
+[optimise.tolerances]
+"pinion.error.helix_slope" = { uniform = [-10, 10] }
+)", "small.toml"));
+  REQUIRE(results.design_task->scenes.size() == 6);
+  CHECK(results.design_task->scenes[5].name == "drawn 3");
+  CHECK(results.design_task->scenes[5].condition.pinion_error.helix_slope != 0.0);
+  // The error misaligns: unmodified flanks see another stress than in the nominal scene.
+  CHECK(results.design->before.scene_measures[5] != results.design->before.scene_measures[0]);
+}
+
+}  // namespace
+}  // namespace flankwright::studies
