@@ -34,10 +34,10 @@ InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_rad
   const StationGrid grid = station_grid(gear.data.face_width / module);
   std::vector<FlankPoint> points;
   for (int tooth = -apart; tooth <= apart; ++tooth) {
-    for (const FlankStation& place : grid.places(tooth)) {
+    for (const FlankStation& station : grid.stations(tooth)) {
       points.push_back(
-          {tooth, model.form.form_radius() + (place.u + 1) / 2 * (model.form.tip_radius() - model.form.form_radius()),
-           std::clamp(place.zeta * module - half, -half, half)});
+          {tooth, model.form.form_radius() + (station.u + 1) / 2 * (model.form.tip_radius() - model.form.form_radius()),
+           std::clamp(station.zeta * module - half, -half, half)});
     }
   }
   const Eigen::SparseMatrix<double> functionals = net_functionals(model, points, RemovedRigidMotion::None).centre;

@@ -74,7 +74,7 @@ TEST_CASE("Rating, line ends and root stress of aligned flanks are the same by e
       const RootStressPeak root = root_stress_peak(plane.positions[i], by_plane.positions[i], member);
       const RootStressPeak same_root = root_stress_peak(surface.positions[i], by_surface.positions[i], member);
       CHECK(same_root.stress == Approx(root.stress).epsilon(kPlaces));
-      CHECK(same_root.place.tooth == root.place.tooth);
+      CHECK(same_root.station.tooth == root.station.tooth);
     }
     CHECK(by_surface.positions[i].stiffness == Approx(by_plane.positions[i].stiffness).epsilon(kPlaces));
   }
