@@ -49,7 +49,7 @@ TEST_CASE("The job script for Slurm asks for as many tasks as it makes shards", 
 }
 
 TEST_CASE("Every line that a template offers in a comment can be switched on", "[studies][template]") {
-  const std::string kind = GENERATE("analyse", "optimise", "sweep", "accuracy", "fit");
+  const std::string kind = GENERATE("analyse", "optimise", "sweep", "accuracy", "fit", "geometry");
   const std::vector<std::string> lines = lines_of(study_template(kind));
   const std::regex offered("# ([a-z_]+ = .*)");
   int switched_on = 0;
