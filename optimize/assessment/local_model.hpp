@@ -15,7 +15,7 @@ struct AssessedParameter {
   double step{1.0};   ///< one step [unit]
   std::string unit;   ///< "um", "mm", "arcmin", "%"
   MeshParameter parameter;
-  double inside{1.0};     ///< one step in internal units, added metal with its sign; torque: share of each scene's
+  double inside{1.0};     ///< one step in internal units, added metal with its sign; torque: fraction of each scene's
   int variable{-1};       ///< index of the design variable it is; -1: a tolerance
 };
 

@@ -25,7 +25,7 @@ struct Sensitivity {
 struct Optimum {
   struct Scene {
     int scene{-1};
-    double weight{not_given};  ///< share in the objective's slope; one together, below 0 where mean + k sigma falls with the scene
+    double weight{not_given};  ///< weight in the objective's slope; they sum to one; below 0 where mean + k sigma falls with the scene
   };
   /// A design variable at a bound.
   struct Bound {

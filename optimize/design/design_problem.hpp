@@ -55,8 +55,8 @@ class DesignProblem {
   DesignAnalysis analyse_given() const;
   /// Analyses any modifications; neither remembered nor counted.
   DesignAnalysis analyse_design(const Modification& pinion, const Modification& wheel) const { return run(pinion, wheel, false); }
-  /// One scene of that, with derivatives by any parameters; those that move the mesh (moves_mesh()) have two more meshes made for them each, and
-  /// not kept.
+  /// One scene of that, with derivatives by any parameters; those that move the mesh (moves_mesh()) need two perturbed
+  /// meshes each, which are not kept.
   /// @param earlier  the scene's cycle for a design that differs by little, see analyse_cycle(); null: none
   LoadedCycle analyse_scene(int scene, const Modification& pinion, const Modification& wheel,
                             const std::vector<MeshParameter>& parameters = {}, const LoadedCycle* earlier = nullptr) const;

@@ -71,8 +71,9 @@ struct BodyPart {
 ///     C(m), A = (lz(p)^2 + lz(q)^2)/2,  R = (lr(p)^2 + lr(q)^2)/2,  h = g sqrt(lz lr), Q = (s(p) - s(q))^2/A + (u(p) -
 ///     u(q))^2/R,
 ///
-/// and, with wind_up, the torsion of the gear body as of a shaft between the end zeta = 0, where its torque leaves, and
-/// the nearer of the two points. It is rounded off over a length w because torque spreads into a body only gradually:
+/// and, where `torsion` is set, the torsion of the gear body as of a shaft between the end zeta = 0, where its torque
+/// leaves, and the nearer of the two points. It is rounded off over a length w because torque spreads into a body only
+/// gradually:
 ///
 ///     c/2 [v(zeta_p) + v(zeta_q) - v(zeta_p - zeta_q) - w],  v(d) = sqrt(d^2 + w^2);  -> c min(zeta_p, zeta_q), w ->
 ///     0,

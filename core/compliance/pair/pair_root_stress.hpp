@@ -34,7 +34,7 @@ class RootStressInfluence {
   };
   /// A table for the stress at some points of the fillets.
   struct Response {
-    Eigen::Index first_station{0};                    ///< of rows / 3 places
+    Eigen::Index first_station{0};                    ///< its first row / 3
     std::size_t forces{0};                          ///< which of the Forces
     std::shared_ptr<const Eigen::MatrixXd> table;   ///< (s_tt, s_aa, s_ta) of every point, three rows each, x forces of the table [MPa/N]
   };

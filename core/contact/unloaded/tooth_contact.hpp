@@ -67,7 +67,8 @@ class ToothContactSolver {
   SearchDensity density_;
 };
 
-/// One first contact of one scene; for many of the same scene a ToothContactSolver saves the judgement of the flanks.
+/// One first contact of one assembly; for many of the same assembly a ToothContactSolver saves the judgement of the
+/// flanks.
 ToothContact find_tooth_contact(const FlankAssembly& assembly, int tooth, double phi1);
 
 /// Lower-case name of the kind as results.json has it ("pinion_tip").

@@ -35,8 +35,8 @@ Eigen::VectorXd root_stresses(const MeshPosition& at, const LoadDistribution& lo
 /// Completes a cycle whose root stress was left for later.
 void add_root_stress(const MeshModel& model, LoadedCycle& cycle);
 
-/// d(root_stress[place])/dp of one position, 1 x m. Computed when asked for: there are many fillet points, and few
-/// matter.
+/// d(root_stress[i])/dp at fillet point i of one position, 1 x m. Computed when asked for: there are many fillet
+/// points, and few matter.
 Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPosition& position, Eigen::Index station);
 
 /// The largest root stress of one gear: tension side, largest principal stress at the surface.
