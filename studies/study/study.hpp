@@ -99,7 +99,7 @@ struct FitChoice {
   int max_iterations{300};   ///< trust-region steps
 };
 
-/// [accuracy]: the finest rung of a ladder, which the others are held against; graded quadrature, located peaks.
+/// [accuracy]: the finest fidelity level, which all others are compared with; graded quadrature, located peaks.
 struct AccuracyTable {
   ComplianceModel compliance{ComplianceModel::Fitted};
   GapModel gap{GapModel::WholeSurface};
@@ -118,7 +118,7 @@ struct Expectation {
   std::string is{};  ///< text as it is, or "true" / "false"; empty: a number is expected
 };
 
-/// A key as it stands in the file or on the command line, for the `given` part of the results.
+/// A key as written in the file or on the command line, for the `given` part of the results.
 struct GivenValue {
   std::string key;    ///< dotted path
   std::string value;  ///< as written
@@ -135,7 +135,7 @@ struct Study {
   ManufacturingError pinion_error, wheel_error;
   Misalignment misalignment;
   Material pinion_material, wheel_material;
-  GearBody pinion_body, wheel_body;  ///< that the finite elements' teeth stand on
+  GearBody pinion_body, wheel_body;  ///< bodies below the teeth in finite elements
   std::optional<ShaftData> pinion_shaft, wheel_shaft;  ///< empty: rigid
   std::vector<double> torques;  ///< base [load] torque list [N mm]; {0} where [load] is absent
   double marking_thickness{6.35e-3};  ///< of the compound that shows the bearing pattern [mm], > 0

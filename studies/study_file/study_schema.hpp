@@ -81,7 +81,7 @@ struct SchemaKey {
   ValueKind kind{ValueKind::Number};
   Quantity quantity{Quantity::Number};
   Range range{};
-  std::vector<std::string> words{};  ///< allowed words, in the order of the enumerators they stand for
+  std::vector<std::string> words{};  ///< allowed words, in the order of their enumerators
   std::string fallback{};  ///< default as it would be written in the file; words in (...) say where it comes from
   std::string meaning{};   ///< one line, with the sign
   std::string hint{};      ///< said with a refusal: what to do instead

@@ -55,7 +55,7 @@ SampleResult SampleAnalysis::analyse(const std::vector<double>& values) const {
     const FlankCondition condition = apply_effects(nominal_.effects, swept.flanks());
     return {"", is_loaded() ? loaded_outputs(condition, swept.scene.torques.front()) : unloaded_outputs(condition)};
   } catch (const InvalidInput& problem) {
-    return {problem.field() + ": allowed is " + problem.allowed(), {}};  // without the value, which stands in the sample
+    return {problem.field() + ": allowed is " + problem.allowed(), {}};  // without the value, which the sample has
   } catch (const SampleFailure& failure) {
     return {failure.reason, {}};
   }

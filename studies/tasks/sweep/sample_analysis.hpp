@@ -24,7 +24,7 @@ struct SampleResult {
 };
 
 /// Analyses single samples of a sweep against what the nominal run built once: gears, compliance, influence matrices. Those hold for every
-/// sample of a placement (MeshPlacement); a sample with another one has its influence matrices built for itself. Every call stands alone,
+/// sample of a placement (MeshPlacement); a sample with another one has its influence matrices built for itself. Every call is independent,
 /// from any thread.
 class SampleAnalysis {
  public:
