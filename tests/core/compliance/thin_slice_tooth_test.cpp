@@ -21,7 +21,7 @@ ToothForm helical_form() {
 
 }  // namespace
 
-TEST_CASE("Thin slices under many point loads give way as under the line load that these make up",
+TEST_CASE("Thin slices under many point loads yield as under the line load that these make up",
           "[core][compliance][thin-slice][physics]") {
   const ToothForm form = helical_form();
   const double u = GENERATE(-0.5, 1.0), calibration = 1.3;

@@ -190,13 +190,13 @@ TEST_CASE("Both flanks show the same pattern in conjugate points", "[core][conta
 }
 
 TEST_CASE("Eight positions give the pattern of a parabola to a 64th of its height", "[core][contact][convergence]") {
-  // Linear between positions and hand-overs: without the latter the valley between two arcs would be cut off.
+  // Linear between positions and transfer points: without the latter the valley between two arcs would be cut off.
   const GearPair pair = make_gear_pair(reference::nasa_tm_107451::pair_data());
   Modification m;
   m.lead_crowning = 0.040;
   m.parabolic_te = 1e-3;
   Misalignment misalignment;
-  misalignment.crossing = 1 * arcmin;  // moves the hand-over off the positions
+  misalignment.crossing = 1 * arcmin;  // moves the transfer point off the positions
   const FlankAssembly scene = scene_of(pair, misalignment, m);
   const UnloadedMesh fine = analyse_unloaded_mesh(pair, scene, 512), coarse = analyse_unloaded_mesh(pair, scene, 8);
   const Eigen::MatrixXd wanted = bearing_pattern(scene, fine, Member::Pinion, 61, 5).separation;

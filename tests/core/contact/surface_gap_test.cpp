@@ -164,7 +164,7 @@ TEST_CASE("A misaligned pair's gap leaves that of the plane of action with the s
   CHECK((half - opposite).cwiseAbs().maxCoeff() <= third_order);
 }
 
-TEST_CASE("Flanks that give way along the profile are nearer than the plane of action has them", "[core][contact]") {
+TEST_CASE("Flanks modified along the profile are nearer than on the plane of action", "[core][contact]") {
   // Contact slides to where less is removed: by slope^2/(2 kappa) with the slope of what is removed and the relative curvature.
   const GearPair pair = make_gear_pair(pair_data(20, 40, 0.0));
   const PathOfContact path(pair);

@@ -159,7 +159,7 @@ TEST_CASE("The NASA pair keeps the relations of its report's appendix 2", "[core
   CHECK(pair.overlap_ratio > 1.0);
 }
 
-TEST_CASE("Tooth thickness at tip and elsewhere is where the two flanks stand", "[core][gear]") {
+TEST_CASE("Tooth thickness at tip and elsewhere is the distance of the two flanks", "[core][gear]") {
   const double x = GENERATE(-0.2, 0.0, 0.6);
   const double beta = GENERATE(0.0, 25 * deg);
   const GearPair pair = make_gear_pair(pair_of(21, 40, 5.0, beta, x, 0.0));

@@ -47,7 +47,7 @@ TEST_CASE("Results say how large each effect is as far as it was asked for", "[s
   }
 }
 
-TEST_CASE("Steps of a run that are no effects stand beside them", "[studies][effects]") {
+TEST_CASE("The results list steps of a run beside its effects", "[studies][effects]") {
   const json results = results_of(small::optimisation());
   std::set<std::string> steps;
   for (const json& step : results["steps"]) {

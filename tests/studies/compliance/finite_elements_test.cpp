@@ -103,7 +103,7 @@ TEST_CASE("A study by finite elements: equal gears are solved once, kept, and ba
   CHECK(doubled.structures.finite_elements->gears[0].from_cache);
   CHECK(doubled.loaded[0].summary.te_mean == Approx(2 * kept.loaded[0].summary.te_mean).epsilon(1e-9));  // same stress
 
-  // Teeth that do not know of each other give way less: their loads push on their neighbours' flanks.
+  // Teeth that do not know of each other yield less: their loads push on their neighbours' flanks.
   const StudyResults alone = run_twins(twins, {{"fidelity.effects", R"(["bending", "gear_body_compliance", "hertzian_contact", "tip_corner", "extended_contact_region"])"}});
   CHECK(alone.loaded[0].summary.te_mean < kept.loaded[0].summary.te_mean);
   CHECK(alone.structures.finite_elements->gears[0].from_cache);  // a run that tells more will do

@@ -106,7 +106,7 @@ TEST_CASE("The page is given the names that a person writes", "[studies][report]
         Json({"pinion.modification.lead_slope", "pinion lead slope", "C_Hβ", "+ removes at z = +b/2"}));
 }
 
-TEST_CASE("The first screen stands before the links to the sections", "[studies][report]") {
+TEST_CASE("The first screen comes before the links to the sections", "[studies][report]") {
   const std::string page = render_report(sample::optimise_results(1, 2));
   const std::size_t headline = page.find("id=\"headline\""), first = page.find("id=\"first\""), links = page.find("<nav"), sections = page.find("<section id=\"modifications\">");
   CHECK((headline < first && first < links && links < sections && sections != std::string::npos));

@@ -186,7 +186,7 @@ torque_position = 0
   }
 }
 
-TEST_CASE("Derivatives of located peaks and load factors stand beside them", "[studies][gradient]") {
+TEST_CASE("Located peaks and load factors have their derivatives", "[studies][gradient]") {
   // Both peaks of a difference are located to 2e-4 base pitches; step^2 times curvature. All parameters move at once, by a step each.
   constexpr double kLocated = 5e-4, kDifference = 0.02;
   const std::vector<std::tuple<std::string, double, double>> keys{

@@ -88,7 +88,7 @@ TEST_CASE("The pairs that carry are the mesh's curve, at every position some pai
   }
 }
 
-TEST_CASE("At a hand-over the pair that enters is the faster one, and the slopes are those of the curves",
+TEST_CASE("At a transfer point the pair that enters is the faster one, and the slopes are those of the curves",
           "[studies][results][physics]") {
   const json results = results_of(parabola_study);
   for (const json& unloaded : results["unloaded_scenes"]) {
@@ -180,7 +180,7 @@ TEST_CASE("A designed parabola is judged in every scene; where it does not hold 
   CHECK_THAT(summary, Catch::Contains("parabola holds") && Catch::Contains("parabola does not hold: "));
 
   CHECK_FALSE(results_of(small::analysis())["unloaded"].contains("parabolic_te"));
-  // Three positions do not tell a parabola.
+  // Three positions do not determine a parabola.
   CHECK(results_of(parabola_study, {{"cycle.positions", "3"}})["unloaded"]["parabolic_te"]["holds"] == false);
 }
 

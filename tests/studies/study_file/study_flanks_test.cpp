@@ -125,7 +125,7 @@ TEST_CASE("The command line sets the generation whole, key by key, and back to t
   CHECK(std::holds_alternative<StraightRack>(back.pair.pinion.generation));
 }
 
-TEST_CASE("A generation that is not one is refused where it stands, with what is allowed", "[studies][study-file]") {
+TEST_CASE("An invalid generation is refused at its position, with the allowed kinds", "[studies][study-file]") {
   using Row = std::tuple<std::string, std::string, std::string>;
   const auto [line, key, allowed] = GENERATE(table<std::string, std::string, std::string>({
       Row{"generation = \"hob\"", "pinion.generation", "\"rack\", or a table"},
@@ -211,7 +211,7 @@ TEST_CASE("Single teeth may have a measured grid each, in every scene", "[studie
   CHECK(missing.front().key == "wheel.error.grids");
 }
 
-TEST_CASE("A grid may be smoothed, and what it then misses is told", "[studies][study-file][grid]") {
+TEST_CASE("A grid may be smoothed, and its distance from the points is reported", "[studies][study-file][grid]") {
   std::string rough = crowned_grid();
   rough.replace(rough.find("43,0,"), rough.find('\n', rough.find("43,0,")) - rough.find("43,0,"), "43,0,3");
   const GridCase grid(rough);

@@ -162,7 +162,7 @@ TEST_CASE("The best lead slope takes back what the shafts do", "[studies][shaft]
   CHECK(optimise.at("after").at("objective").get<double>() < 0.85 * optimise.at("before").at("objective").get<double>());
 }
 
-TEST_CASE("Finite elements leave their wind-up to start where the study's torque leaves the gear", "[studies][shaft][fe]") {
+TEST_CASE("Finite elements leave their torsion to start where the study's torque leaves the gear", "[studies][shaft][fe]") {
   const auto task = [](const std::string& text, Member member, const std::vector<Override>& overrides = {}) {
     std::vector<Override> all = overrides;
     all.push_back({"fidelity.compliance", "fe"});
@@ -171,7 +171,7 @@ TEST_CASE("Finite elements leave their wind-up to start where the study's torque
   };
   const auto end = [&](auto&&... of) { return task(of...).gear.body.torque_end; };
   using Overrides = std::vector<Override>;
-  // The sharp end of a right-hand pinion is at +b/2, its mate's at -b/2.
+  // The acute end of a right-hand pinion is at +b/2, its mate's at -b/2.
   CHECK(end(pair_text, Member::Pinion) == FaceEnd::Obtuse);
   CHECK(end(pair_text + shaft_text, Member::Pinion) == FaceEnd::Obtuse);
   CHECK(end(pair_text + shaft_text, Member::Wheel) == FaceEnd::Obtuse);

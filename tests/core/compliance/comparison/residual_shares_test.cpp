@@ -31,7 +31,7 @@ InfluenceSample missed_sample() {
 
 }  // namespace
 
-TEST_CASE("Shares of residuals are those of the known pairs, told apart by teeth", "[core][compliance][comparison]") {
+TEST_CASE("Fractions of residuals are those of the known pairs, separate for each distance of teeth", "[core][compliance][comparison]") {
   InfluenceSample sample = missed_sample();
   sample.compliance(3, 2) = sample.compliance(2, 3) = std::numeric_limits<double>::quiet_NaN();
   const std::vector<ResidualDistribution> shares = residual_distributions(DistanceCompliance(), 1, {&sample, 1});

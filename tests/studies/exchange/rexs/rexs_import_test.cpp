@@ -118,7 +118,7 @@ TEST_CASE("A planetary gear unit gives sun and planet, and says what it lacks", 
   CHECK(study_of(import_text(text, {.stage = 1, .slope_end = rexs::SlopeEnd::DatumFace})).pinion_modification.lead_slope == -study.pinion_modification.lead_slope);
   // The sun's torque is shared by three planets, how the file does not say.
   CHECK(study.torques == std::vector{0.0});
-  CHECK_THAT(imported.text, Contains("not tell the torque"));
+  CHECK_THAT(imported.text, Contains("not give the torque"));
   // Every attribute of the stage that was not taken is named.
   CHECK_THAT(imported.text, Contains("cylindrical_stage 11:") && Contains("tooth_tip_chamfer") && Contains("10 x coupling"));
   CHECK_THAT(refusal(text, {.stage = 4}), Contains("ring_gear 58") && Contains("internal gears are not modelled"));

@@ -20,7 +20,7 @@ const SceneTolerance& tolerance(const Study& study, const std::string& path, boo
   return study.optimise.assessment.tolerances.front();
 }
 
-TEST_CASE("An optimum is held against rules of thumb, and against no more unless it is asked for", "[studies][assessment]") {
+TEST_CASE("By default an optimum is compared with rules of thumb alone", "[studies][assessment]") {
   const AssessmentTable by_default = read().optimise.assessment;
   CHECK(by_default.rules);
   CHECK(by_default.variants == 0.0);

@@ -55,7 +55,7 @@ TEST_CASE("A tolerance class is that gear's tolerance, and of an error all three
   CHECK(parameter(study, "wheel.error.helix_slope").distribution == Distribution::within_tolerance(wheel.helix_slope / units::um));
 }
 
-TEST_CASE("A parameter without a value stands at its median in the nominal sample, one with a value there", "[studies][sweep]") {
+TEST_CASE("In the nominal sample a parameter has its value, or its median where the study gives none", "[studies][sweep]") {
   const Study study = sweep_keys("samples = 100");
   CHECK(study.pinion_modification.lead_crowning == Approx(8.0 * units::um));
   CHECK(study.torques == std::vector<double>{1014.868 * units::newton_metre});
