@@ -138,7 +138,7 @@ TEST_CASE("Objectives with one common optimum have a front of one design", "[opt
   for (std::size_t k = 0; k < 2; ++k) CHECK(front.worst[k] == Approx(front.ideal[k]).epsilon(0.01));
 }
 
-TEST_CASE("A front keeps its budget and says so", "[optimize][design][pareto]") {
+TEST_CASE("A front keeps its budget and reports it", "[optimize][design][pareto]") {
   const DesignProblem problem(trading_task());
   SolverOptions options;
   options.max_evaluations = 10;

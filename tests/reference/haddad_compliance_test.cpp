@@ -130,7 +130,7 @@ TEST_CASE("Deflections of the thesis' gears have the sizes it gives", "[referenc
   }
 }
 
-TEST_CASE("What a rigid body takes off is the thesis' part of the gear body", "[reference][compliance][fe][.soak]") {
+TEST_CASE("The deflection removed by a rigid body is the thesis' part of the gear body", "[reference][compliance][fe][.soak]") {
   for (const thesis::GearBodyPart& part : thesis::gear_body_part) {
     const auto far_and_near = [&](bool rigid_body) {
       const InfluenceModel model = thesis_gear(part.teeth, part.helix_deg, not_given, rigid_body);

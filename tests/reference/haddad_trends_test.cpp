@@ -167,7 +167,7 @@ TEST_CASE("Lead and profile errors together cost less than the product of their 
   }
 }
 
-TEST_CASE("ISO's mesh stiffness knows neither the face width nor the wheel's body", "[reference][haddad][iso]") {
+TEST_CASE("ISO's mesh stiffness depends neither on the face width nor on the wheel's body", "[reference][haddad][iso]") {
   // Section 3.3, figs 3.12, 3.15 and 3.17: by the standard the larger wheel is the stiffer one, and width has no influence.
   const auto c_gamma = [](int wheel_teeth, double face_width) {
     return iso_stiffness(mesh_cases::pair(18, wheel_teeth, 30, 10, face_width), {}, {}).c_gamma;

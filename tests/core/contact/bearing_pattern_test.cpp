@@ -231,7 +231,7 @@ TEST_CASE("A pair that enters after the last position closes the pitch in the pa
   }
 }
 
-TEST_CASE("What overhangs the mate is not marked", "[core][contact]") {
+TEST_CASE("The part of a face that overhangs the mate is not marked", "[core][contact]") {
   const GearPair pair = make_gear_pair(pair_data(20, 40, 10 * deg, 0.0, 0.0, 36.0, 30.0));
   Misalignment misalignment;
   misalignment.axial_offset = 1.5;  // the wheel covers -13.5 .. 16.5 of the pinion
@@ -289,7 +289,7 @@ TEST_CASE("A symmetric pair has a symmetric pattern, and a crossed one bears at 
   }
 }
 
-TEST_CASE("Of any pair the pattern has no gaps, and the point that leads is in it", "[core][contact][slow]") {
+TEST_CASE("The pattern of any pair has no gaps and contains the leading point", "[core][contact][slow]") {
   Random random(20260311);
   int scenes = 0;
   while (scenes < 12) {

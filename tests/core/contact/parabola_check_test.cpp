@@ -85,7 +85,7 @@ TEST_CASE("The residual is the largest distance from the best parabola, transfer
   CHECK(check.why == "the arc departs from its parabola by 6 % of its height");
 }
 
-TEST_CASE("A parabola that is not the one asked for does not hold, and says by how much", "[core][contact]") {
+TEST_CASE("A parabola other than the designed one is not achieved, and its deviation is reported", "[core][contact]") {
   const ParabolaCheck check = check_parabola(any_scene(), parabolic_mesh(0.85e-3, 0.05 * kPitch, 0.0), 1e-3);
   CHECK(check.right_sign);
   CHECK_FALSE(check.holds);

@@ -248,7 +248,7 @@ TEST_CASE("The gap's derivative over the whole flanks agrees with central differ
   CHECK(on_edges > 60);
 }
 
-TEST_CASE("The gap is continuous through zero misalignment, its places too", "[core][contact]") {
+TEST_CASE("The gap is continuous through zero misalignment, and so are its points", "[core][contact]") {
   constexpr double kTiny = 1e-9;  // rad or mm
   constexpr double kRoundOff = 1e-12;
   for (const GearPair& pair : pairs()) {
@@ -279,7 +279,7 @@ TEST_CASE("The gap is continuous through zero misalignment, its places too", "[c
   }
 }
 
-TEST_CASE("Wild random flanks have a finite gap, finite derivatives and places on both flanks", "[core][contact][random]") {
+TEST_CASE("Extreme random flanks have a finite gap, finite derivatives and points on both flanks", "[core][contact][random]") {
   Random random(99);
   int points_seen = 0;
   for (int i = 0; i < 60; ++i) {

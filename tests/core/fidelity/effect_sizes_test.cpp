@@ -137,7 +137,7 @@ TEST_CASE("The size of each effect where it matters and where it does not", "[co
   SUCCEED();
 }
 
-TEST_CASE("What first order leaves falls as the square of the effect", "[core][load][effects]") {
+TEST_CASE("The error of first order falls as the square of the effect", "[core][load][effects]") {
   const auto error = [](double misalignment) {
     EffectScene s = scene(3e5);
     s.condition.misalignment.mesh_misalignment = misalignment;

@@ -194,7 +194,7 @@ TEST_CASE("Contact of an undercut pinion ends at its form circle", "[core][gear]
   CHECK(pair.path_start > pair.path_length - pair.wheel.roll_length_at(pair.wheel.tip_radius));
 }
 
-TEST_CASE("What cannot be built is refused by the name of its field", "[core][gear][invalid-input]") {
+TEST_CASE("A gear that cannot be built is refused by the name of its field", "[core][gear][invalid-input]") {
   const PairData good = pair_of(20, 50, 3.0, 15 * deg);
   CHECK(refused_fields(good).empty());
   const auto with = [&](const std::function<void(PairData&)>& change) {

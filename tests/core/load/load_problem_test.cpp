@@ -212,7 +212,7 @@ TEST_CASE("Without force the flanks touch where the gap is least", "[core][load]
   CHECK(found.kkt_residual == 0.0);
 }
 
-TEST_CASE("What keeps a load distribution from being found is a status", "[core][load]") {
+TEST_CASE("A load distribution that is not found has a status", "[core][load]") {
   const LoadDistribution none = solve_load_distribution({{}, {}, {}, {}, 100.0});
   CHECK(none.status == LoadStatus::NoContactPoints);
   CHECK_FALSE(none.usable());

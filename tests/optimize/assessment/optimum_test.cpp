@@ -109,7 +109,7 @@ TEST_CASE("Over the whole surface a step of a misalignment takes the points with
   }
 }
 
-TEST_CASE("No step of a variable makes an optimum better, and its bounds say what they cost", "[optimize][assessment]") {
+TEST_CASE("No step of a variable improves an optimum, and its bounds have their gains", "[optimize][assessment]") {
   DesignTask task = helical({0.0, 12.0, -12.0}, 6);
   task.variables[0].upper = 0.004;  // less lead crowning than the optimum wants
   const Solved solved(task);
@@ -172,7 +172,7 @@ TEST_CASE("A tolerance costs less where the design follows it", "[optimize][asse
   CHECK(0.1 * torque.optimised_anew == Approx(found).epsilon(second_order));
 }
 
-TEST_CASE("Of a mean every scene has its own weight", "[optimize][assessment]") {
+TEST_CASE("In a mean every scene has its own weight", "[optimize][assessment]") {
   DesignTask task = helical({0.0, 12.0}, 6);
   task.over = Aggregate::Mean;
   task.scenes[1].weight = 3.0;
@@ -213,7 +213,7 @@ TEST_CASE("A tied modification follows in sensitivities and multipliers", "[opti
   CHECK(solved.model.objective(step) - solved.after.objective == Approx(found).epsilon(second_order).margin(2e-6 * solved.after.objective));
 }
 
-TEST_CASE("A bounded sum of modifications says what its limit costs", "[optimize][assessment]") {
+TEST_CASE("A bounded sum of modifications has the gain of its limit", "[optimize][assessment]") {
   DesignTask task = helical({0.0, 12.0, -12.0}, 6);
   ModificationConstraint sum;
   sum.name = "lead_crowning + profile_crowning";
@@ -234,7 +234,7 @@ TEST_CASE("A bounded sum of modifications says what its limit costs", "[optimize
   CHECK(share * solved.optimum.sums.front().gain == Approx(found).epsilon(second_order));
 }
 
-TEST_CASE("Of a list the last objective is governed, and the limit of the first says what it costs", "[optimize][assessment]") {
+TEST_CASE("In a list the last objective is governed, and the limit of the first has its gain", "[optimize][assessment]") {
   DesignTask task = helical({0.0, 12.0, -12.0}, 6);
   task.later_objectives = {Objective{{term(Output::TePeakToPeak)}, Aggregate::Worst}};
   DesignProblem problem(task);

@@ -70,7 +70,7 @@ json loaded(const std::vector<Override>& overrides) {
 
 }  // namespace
 
-TEST_CASE("Every number of a loaded result has its derivatives at the same place of its gradients", "[studies][gradient]") {
+TEST_CASE("Every number of a loaded result has its derivatives at the same path of its gradients", "[studies][gradient]") {
   constexpr double kDifference = 5e-5;  // step^2 times curvature of central differences, and loads' round-off over the step, relative
   struct Key {
     std::string path;
@@ -216,7 +216,7 @@ TEST_CASE("Located peaks and load factors have their derivatives", "[studies][gr
   }
 }
 
-TEST_CASE("What has no derivative is refused", "[studies][gradient][input]") {
+TEST_CASE("A parameter without derivatives is refused", "[studies][gradient][input]") {
   CHECK(problem_of("[analyse]\ngradients = [\"pair.helix_angle\"]").key == "analyse.gradients");
   CHECK_THAT(problem_of("[analyse]\ngradients = [\"misalignment.crosing\"]").allowed, Catch::Contains("did you mean crossing?"));
   CHECK(problem_of("[analyse]\ngradients = \"misalignment.crossing\"").key == "analyse.gradients");

@@ -48,7 +48,7 @@ const StudyResults& optimised() {
 
 }  // namespace
 
-TEST_CASE("The store of an optimisation answers in SQL what the results say", "[studies][results][store]") {
+TEST_CASE("The store of an optimisation agrees with the results", "[studies][results][store]") {
   const ScratchFolder folder;
   const std::filesystem::path file = folder.path() / "results.sqlite";
   const StudyResults& results = optimised();

@@ -184,7 +184,7 @@ TEST_CASE("A designed parabola is judged in every scene; where it does not hold 
   CHECK(results_of(parabola_study, {{"cycle.positions", "3"}})["unloaded"]["parabolic_te"]["holds"] == false);
 }
 
-TEST_CASE("The arc of a surface of revolution asks for its parabola", "[studies][results][physics]") {
+TEST_CASE("The arc of a surface of revolution designs a parabola", "[studies][results][physics]") {
   const std::vector<Override> crowned{{"pair.helix_angle", "0"},
                                       {"pinion.modification.parabolic_te", "0"},
                                       {"pinion.generation", "{ kind = \"revolution\", half_apex = 80, distance = 15, arc_radius = 2000 }"}};

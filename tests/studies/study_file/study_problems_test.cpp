@@ -142,7 +142,7 @@ TEST_CASE("Geometry that cannot be built is reported at its key", "[studies][stu
   CHECK(problems.front().line == 5);
 }
 
-TEST_CASE("What is not TOML is one problem with line and column and no key", "[studies][study-file]") {
+TEST_CASE("Text that is not TOML is one problem with line and column and no key", "[studies][study-file]") {
   const std::vector<StudyProblem> problems = problems_of("title = \"x\"\n[pair\n");
   REQUIRE(problems.size() == 1);
   CHECK(problems.front().line == 2);

@@ -88,7 +88,7 @@ TEST_CASE("A shaft is read with its units, the gear's material and one bearing t
   CHECK(read_shafts(pair_text + shaft_text, {{"pinion.shaft.bearings.1.axial_stiffness", "5"}}).pinion_shaft->bearings[0].axial_stiffness == 0.0);
 }
 
-TEST_CASE("Shafts that cannot be are refused with the place that says so", "[studies][shaft]") {
+TEST_CASE("Impossible shafts are refused with their position in the file", "[studies][shaft]") {
   CHECK(shaft_problems(pair_text + shaft_text).empty());
   const int lines = static_cast<int>(std::count(pair_text.begin(), pair_text.end(), '\n'));
   struct Case {
@@ -115,7 +115,7 @@ TEST_CASE("Shafts that cannot be are refused with the place that says so", "[stu
   CHECK(problems.front().line == lines + wrong.line);
 }
 
-TEST_CASE("The effect shafts is on where a shaft is described and load runs, and says so", "[studies][shaft]") {
+TEST_CASE("The effect shafts is on where a shaft is described and loaded, with its reason", "[studies][shaft]") {
   const json rigid = run_shafts(pair_text), with = run_shafts(pair_text + shaft_text);
   CHECK(effect(rigid, "shafts").at("on") == false);
   CHECK(effect(with, "shafts").at("on") == true);

@@ -23,7 +23,7 @@ twist = 3
 )" + more);
 }
 
-TEST_CASE("Drawn scenes are the nominal one with the toleranced values in place, or added", "[studies][assessment]") {
+TEST_CASE("Drawn scenes are the nominal one with its toleranced values replaced or added to", "[studies][assessment]") {
   const Study study = tolerant_study();
   constexpr int samples = 2048;
   const std::vector<Scene> scenes = draw_scenes(study, {samples, 1});

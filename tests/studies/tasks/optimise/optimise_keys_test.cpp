@@ -112,7 +112,7 @@ TEST_CASE("Any k of sigma and any level of the tail are read", "[studies][optimi
   CHECK(tail.level == 0.75);
 }
 
-TEST_CASE("Results say what is ground, what the exact optimum is, and that it is one", "[studies][optimise-keys]") {
+TEST_CASE("Results have the rounded design, the exact optimum and its optimality", "[studies][optimise-keys]") {
   const json optimise = run_optimisation(wheel_link, {{"optimise.step", "1"},
                                         {"optimise.starts", "2"},
                                         {"optimise.objective", "[\"peak_contact_stress\", \"te_peak_to_peak\"]"}})["optimise"];

@@ -74,7 +74,7 @@ TEST_CASE("A grid has as many samples as its levels make", "[studies][sweep]") {
   CHECK(design.values(5) == std::vector<double>{1000.0, 6.0});
 }
 
-TEST_CASE("What a sweep cannot do is refused by name", "[studies][sweep]") {
+TEST_CASE("Parameters that a sweep cannot vary are refused by name", "[studies][sweep]") {
   using Row = std::tuple<std::string, std::string, std::string>;
   const auto [settings, more, said] = GENERATE(table<std::string, std::string, std::string>({
       Row{"", "\"pinion.teeth\" = { values = [17, 18] }\n", "sweep.parameters.pinion.teeth"},
