@@ -19,7 +19,7 @@
 #include "studies/study/sweep_table.hpp"
 #include "studies/study/task.hpp"
 
-/// A study as pure data: what a study file says, validated, in internal units (mm, N, rad, MPa); study_file.hpp reads.
+/// A study as pure data: the contents of a study file, validated, in internal units (mm, N, rad, MPa); study_file.hpp reads.
 namespace flankwright::studies {
 
 struct Cycle {
@@ -95,7 +95,7 @@ struct GradientParameter {
 struct FitChoice {
   bool pinion{true}, wheel{true};
   bool several_teeth{false};  ///< KernelForm::several_teeth(), else one_tooth_accurate()
-  bool test_grid{true};      ///< compared on places that the fit has not seen
+  bool test_grid{true};      ///< compared at stations that the fit has not seen
   int max_iterations{300};   ///< trust-region steps
 };
 
@@ -107,7 +107,7 @@ struct AccuracyTable {
   int positions{64};  ///< >= 16
 };
 
-/// [expect]: one key of results.json and what it must be.
+/// [expect]: one key of results.json and its expected value.
 struct Expectation {
   std::string key;      ///< dotted path, array indices as numbers; "loaded.summary.x" means every entry of loaded
   double value{std::numeric_limits<double>::quiet_NaN()};

@@ -8,7 +8,7 @@ namespace flankwright::studies {
 /// CSV tables of an assessment: comparison.csv, sensitivity.csv and validation.csv, those that the study asks for.
 std::vector<NamedText> assessment_tables(const Assessment& assessment);
 
-/// What a run prints: the best rule and the best variants beside the optimum, and what governs it.
+/// Summary on the terminal: the best rule and the best variants beside the optimum, and what governs it.
 std::string assessment_summary(const Assessment& assessment, const DesignTask& task, double optimum);
 
 }  // namespace flankwright::studies

@@ -89,7 +89,7 @@ Objective objective_of_block(const DesignTask& task, int block) {
   return objectives[static_cast<std::size_t>(block)];
 }
 
-/// What of the design holds the optimum where it is.
+/// The conditions of the design that are active at the optimum.
 Json active_json(const ActiveBound& active, const DesignTask& task) {
   Json json{{"multiplier", active.multiplier}};
   const EpigraphRow& row = active.row;

@@ -15,12 +15,12 @@ struct SampleFailure {
   std::string reason;
 };
 
-/// Of what no load is needed for, in arcsec.
+/// Outputs of unloaded contact, in arcsec.
 void add_harmonics(std::vector<double>& values, const std::vector<double>& amplitudes) {
   for (const double amplitude : amplitudes) values.push_back(in_arcsec(amplitude));
 }
 
-/// What a sample has beside the entries of cycle_quantities().
+/// Outputs of a sample beside the entries of cycle_quantities().
 struct IsoOutput {
   const char* name;
   double (*value)(const IsoLoadFactors&);

@@ -17,7 +17,7 @@ struct SweepOutput {
   bool smaller_is_worse{false};  ///< of the worst sample: stiffness
 };
 
-/// What became of one sample.
+/// Outcome of one sample.
 struct SampleResult {
   std::string failure;          ///< why there are no outputs; empty: there are
   std::vector<double> outputs;  ///< in the units of the outputs; empty where it failed
