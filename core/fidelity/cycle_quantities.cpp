@@ -80,10 +80,13 @@ constexpr std::array rows{
                   .values = one<&S::load_factor>, .errors = error<&E::load_factor>, .gradients = slope<&G::load_factor>},
 };
 
-constexpr std::array<std::string_view, highest_te_harmonic> ordinals{"first", "second", "third",   "fourth", "fifth",
-                                                                     "sixth", "seventh", "eighth", "ninth",  "tenth"};
-
 }  // namespace
+
+std::string_view ordinal(int order) {
+  static constexpr std::array<std::string_view, highest_te_harmonic> ordinals{"first", "second",  "third",  "fourth", "fifth",
+                                                                              "sixth", "seventh", "eighth", "ninth",  "tenth"};
+  return ordinals.at(static_cast<std::size_t>(order - 1));
+}
 
 std::span<const CycleQuantity> cycle_quantities() { return rows; }
 
@@ -102,7 +105,7 @@ std::string CycleEntry::key() const {
 
 std::string CycleEntry::words() const {
   std::string words;
-  if (order > 0) words.append(ordinals[static_cast<std::size_t>(order - 1)]).append(" ");
+  if (order > 0) words.append(ordinal(order)).append(" ");
   return words.append(quantity->words);
 }
 

@@ -54,6 +54,9 @@ struct CycleEntry {
 
 inline constexpr int highest_te_harmonic = 10;  ///< order that a summary has
 
+/// "first" .. "tenth". @param order  1 .. highest_te_harmonic
+std::string_view ordinal(int order);
+
 /// Every entry of every row, for sweeps and tables.
 std::vector<CycleEntry> cycle_entries();
 /// The entry of that name; its quantity is null where there is none.

@@ -55,11 +55,17 @@ struct Discretisation {
   const PerFigure& error() const { return total_error; }
 };
 
-/// Cheapest resolution of several load cases whose estimated error is within an accuracy: cycles and their embedded
-/// comparisons (estimate_errors()), refined by doubling intervals or positions, whichever causes most of the largest
-/// error, until the accuracy is kept. A load case that keeps it is not solved again, for a finer level only lessens its
-/// error; as a rule only one or two reach the finest level. Extremes between positions, which cost as much as a cycle,
-/// are sought only where the rest of the error is small enough.
+/// Cheapest resolution of several load cases whose estimated error is within an accuracy.
+///
+/// Errors are estimated by embedded comparisons (estimate_errors()). Intervals or positions, whichever cause most of the
+/// largest error, are doubled until all load cases keep the accuracy, up to search.most_intervals and
+/// search.most_positions. The search ends before with kept = false where neither can bring the error down: where one of
+/// them is at its limit and its error alone exceeds the accuracy in each quantity that does not keep it. The last level
+/// solved is then the choice.
+///
+/// A load case that keeps the accuracy is not solved again, as a finer level only lessens its error; as a rule only one
+/// or two reach the finest level. Extremes between positions, which cost as much as a cycle, are sought only where the
+/// rest of the error is small enough.
 Discretisation choose_discretisation(const std::vector<ResolutionCase>& cases, QuadratureRule rule, const DiscretisationSearch& search = {});
 Discretisation choose_discretisation(const MeshOfResolution& mesh_for, QuadratureRule rule, const FlankCondition& condition, double pinion_torque,
                                      const DiscretisationSearch& search = {});

@@ -16,7 +16,7 @@ struct SizeInStudy {
   int positions{0}, solved_again{0};  ///< of an estimate over all load cases, see EstimatedSize
 };
 
-/// How large the effects of a study are, one entry each that is on and changes a loaded mesh.
+/// Sizes of the effects of a study, an entry for each that is on and changes a loaded mesh.
 struct EffectSizes {
   std::vector<SizeInStudy> estimated;  ///< empty: none asked for
   std::vector<SizeInStudy> exact;      ///< by leaving each out, at the study's own resolution; empty: not asked for
@@ -25,7 +25,7 @@ struct EffectSizes {
 /// The entry of that name, null where there is none.
 const SizeInStudy* size_of(const std::vector<SizeInStudy>& sizes, const std::string& name);
 
-/// Effects that an analysis does without, and what they would change together.
+/// Effects that an analysis leaves out, and their estimated change together.
 struct LeftOutEffects {
   std::vector<std::string> names;
   PerFigure error{};  ///< shares, worst over the load cases, see figure_differences(); 0 where nothing is left out

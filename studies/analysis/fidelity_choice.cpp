@@ -19,7 +19,7 @@ namespace {
 /// finite elements it was up to 1.09 times as large.
 constexpr double safety = 1.25;
 constexpr double thin_slice_share = 0.5, fitted_share = 0.7;  ///< of the accuracy, that a cheaper compliance may take
-constexpr double gap_share = 0.7;           ///< of what the compliance leaves
+constexpr double gap_share = 0.7;           ///< of the accuracy that the compliance leaves
 
 bool is_given(const Study& study, std::string_view prefix) {
   return std::ranges::any_of(study.given, [&](const GivenValue& g) { return g.key.starts_with(prefix); });
@@ -35,7 +35,7 @@ PerFigure with_safety(PerFigure errors) {
   return errors;
 }
 
-/// What an error leaves of an accuracy for others that have nothing to do with it, see root_sum_square().
+/// Part of an accuracy that an error leaves for independent ones, see root_sum_square().
 double left_of(double accuracy, double error) { return std::sqrt(std::max(0.0, accuracy * accuracy - error * error)); }
 
 PerFigure added(const PerFigure& a, const PerFigure& b) {
@@ -48,7 +48,7 @@ void raise(PerFigure& worst, const PerFigure& other) {
   for (std::size_t i = 0; i < worst.size(); ++i) worst[i] = std::max(worst[i], other[i]);
 }
 
-/// What a model says otherwise than another, worst over the load cases; infinite where one of them did not converge.
+/// Difference of two models, worst over the load cases; infinite where one of them did not converge.
 PerFigure differences(const LevelResult& model, const LevelResult& other) {
   PerFigure worst{};
   if (!model.usable() || !other.usable()) worst.fill(std::numeric_limits<double>::infinity());

@@ -12,7 +12,7 @@ namespace flankwright::studies {
 
 namespace {
 
-/// A rung that takes less is run again and its least time kept [s].
+/// A level that takes less is run again and its least time kept [s].
 constexpr double fast = 0.1;
 constexpr int repeats = 3;
 
@@ -61,7 +61,7 @@ MeshEffects LevelRunner::effects(const FidelityLevel& level) const {
   study.fidelity.compliance = is_rigid ? ComplianceModel::ThinSlice : level.compliance;  // load is not left out
   study.fidelity.gap = level.gap;
   EffectDecisions decisions = study_effects(study);
-  const std::string why = "left out on this rung";
+  const std::string why = "left out at this level";
   if (is_rigid) decisions = without(std::move(decisions), "bending", why);
   for (const std::string& name : level.left_out) decisions = without(std::move(decisions), name, why);
   return mesh_effects(decisions);

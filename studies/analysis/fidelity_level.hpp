@@ -14,20 +14,20 @@
 
 namespace flankwright::studies {
 
-/// What a rung differs from others by: in what the model leaves out, or in how finely it is resolved.
+/// Origin of the error of a level: the model, the discretisation, or both.
 enum class ErrorKind { Model, Discretisation, Both };
 const char* to_string(ErrorKind kind);
 
-/// One way to analyse loaded contact.
+/// One choice of models and resolution for the analysis of loaded contact.
 struct FidelityLevel {
   std::string name, axis;
   ErrorKind kind{ErrorKind::Discretisation};
-  ComplianceModel compliance{ComplianceModel::Fitted};  ///< Rigid: teeth do not bend, flanks give way locally
+  ComplianceModel compliance{ComplianceModel::Fitted};  ///< Rigid: teeth do not bend, flanks are compliant at their contact
   GapModel gap{GapModel::PlaneOfAction};
   Quadrature quadrature;
   int positions{32};
   bool located_peaks{false};  ///< peaks sought between the positions; false: of the positions only
-  std::vector<std::string> left_out{};  ///< names of effects that the study has on and this rung does without
+  std::vector<std::string> left_out{};  ///< names of effects that are on in the study and off at this level
 };
 
 struct LevelResult {
@@ -37,7 +37,7 @@ struct LevelResult {
   bool usable() const { return !scenes.empty(); }
 };
 
-/// What every rung of a study analyses.
+/// The study and load cases that all its fidelity levels analyse.
 struct LevelSubject {
   Study study;
   GearPair pair;
@@ -45,20 +45,20 @@ struct LevelSubject {
   std::shared_ptr<const PairCompliance> shafts{};  ///< null: rigid
 };
 
-/// Analyses one study on any rung; what finite elements give is made once a model, when first needed.
+/// Analyses a study at any fidelity level. Structures from finite elements are made once for each model, when first needed.
 class LevelRunner {
  public:
   LevelRunner(LevelSubject subject, const ProgressReport& progress) : subject_(std::move(subject)), progress_(progress) {}
 
   const LevelSubject& subject() const { return subject_; }
   LevelResult run(const FidelityLevel& level);
-  /// What is on in a rung's meshes: what the study calls for with the rung's models, less what the rung leaves out.
+  /// Effects that are on in the meshes of a level: those that the study calls for with its models, less those left out.
   MeshEffects effects(const FidelityLevel& level) const;
-  /// The mesh of one load case by a rung's models, at resolutions of one's choice.
+  /// The mesh of one load case by the models of a level, as a function of the resolution.
   MeshOfResolution mesh(const FidelityLevel& level, const DesignScene& scene);
-  /// Of "fitted" and "fe"; empty for the others.
+  /// Structures of "fitted" and "fe"; empty for the others.
   const GearStructures& structures(ComplianceModel model);
-  /// What the structures of a model took when they were made, in this run or, where they were kept, an earlier one: wall time [s].
+  /// Wall time of making the structures of a model, in this run or in the earlier one that they were kept from [s].
   double first_seconds(ComplianceModel model);
 
  private:
@@ -69,7 +69,7 @@ class LevelRunner {
   std::map<ComplianceModel, GearStructures> structures_;
 };
 
-/// Largest of each figure over the load cases, see figure_errors(); infinite where a rung is not usable.
+/// Largest of each figure over the load cases, see figure_errors(); infinite where a level is not usable.
 PerFigure worst_errors(const LevelResult& level, const LevelResult& reference);
 
 }  // namespace flankwright::studies

@@ -74,7 +74,7 @@ std::vector<EffectSize> small_sizes(const StudyResults& results, const std::vect
     const EffectScene scene = scene_of(results, load_case.condition, load_case.torque, estimate_resolution(results));
     for (const EstimatedSize& estimate : estimate_effect_sizes(scene, results.effects, {.only = candidates}, meshes)) {
       add(largest, {load_case.name, load_case.torque, estimate.size});
-      // What is too large, or unknown, in one load case need not be known in the others.
+      // An effect that is too large, or unknown, in one load case is not estimated in the others.
       if (!(estimate.size.influence.share <= budget)) std::erase(candidates, estimate.size.name);
     }
     if (candidates.empty()) break;
@@ -137,7 +137,7 @@ bool within(const PerFigure& change, const PerFigure& budgets) {
   return headline(excess) <= 0.0;
 }
 
-/// Names of what is on before and off after.
+/// Names of the effects that are on before and off after.
 std::vector<std::string> switched_off(const EffectDecisions& before, const EffectDecisions& after) {
   std::vector<std::string> names;
   for (const EffectDecision& decision : before) {

@@ -11,14 +11,14 @@ FlankCondition condition_of(const Study& study, const Scene& scene);
 /// The flanks of all the study's scenes.
 std::vector<FlankCondition> conditions_of(const Study& study);
 
-/// What a study asks of its effects: its scenes, and what its task brings beside them.
+/// The part of a study that its effects depend on: its scenes, and the needs of its task.
 EffectFacts effect_facts(const Study& study);
 
 /// The effects of a study, by themselves or as its list names them.
 /// @throws InvalidInput  as chosen_effects()
 EffectDecisions study_effects(const Study& study);
 
-/// Fills in what the effects on have cost, as far as it can be told apart: what they did to the meshes, and tooth contact analysis.
+/// Fills in the times of the effects that are on, where they can be separated: work on the meshes, and tooth contact analysis.
 /// @param unloaded_seconds  spent on contact without load [s]
 void add_seconds(EffectDecisions& decisions, const MeshEffects& in_mesh, double unloaded_seconds);
 

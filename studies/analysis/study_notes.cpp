@@ -11,7 +11,7 @@ namespace flankwright::studies {
 
 namespace {
 
-/// Crowning counts over the part of the profile that touches: says so where that is nothing, or little of the dedendum.
+/// Crowning counts over the active part of the profile: a note where that is empty, or little of the dedendum.
 void note_crowning(const Modification& given, const Gear& gear, std::vector<std::string>& notes) {
   const char* name = name_of(gear.member);
   const double addendum = gear.tip_radius - gear.working_pitch_radius, dedendum = gear.working_pitch_radius - gear.active_root_radius;

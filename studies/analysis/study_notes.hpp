@@ -8,7 +8,7 @@
 
 namespace flankwright::studies {
 
-/// What a study's author should know before any result, one line each: settings that the compliance has no use for, undercut, cut-off
+/// Warnings about a study before any result, one line each: settings that the compliance does not use, undercut, cut-off
 /// contact, a transverse contact ratio below 1, teeth that would jam. First among the notes of the results.
 std::vector<std::string> study_notes(const Study& study, const GearPair& pair);
 

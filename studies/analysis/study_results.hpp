@@ -43,13 +43,13 @@ struct LoadedResult {
   std::optional<LoadRating> rating{};  ///< none where peaks are sampled, or phases were given
 };
 
-/// A piece of the work that is no effect of the mesh, and its time.
+/// A step of the run that is no effect of the mesh, and its time.
 struct RunStep {
   std::string name, why;
   double seconds{not_given};
 };
 
-/// What a search took on its two levels, and what it believed.
+/// Evaluations of a search at its two levels, and its own view of the optimum.
 struct SearchWork {
   LevelWork search, fine;
   double objective_seen_by_search{not_given};  ///< of the optimum on the coarse level, outside units
@@ -90,7 +90,7 @@ struct StudyResults {
   std::vector<GearDeflections> deflections;  ///< of both gears, where the compliance is of single gears
   std::shared_ptr<const SweepStatistics> sweep;  ///< of the task "sweep": the rest of the results is its nominal sample
   std::vector<GearFit> fits;              ///< of the task "fit", one a gear
-  std::vector<std::string> notes;         ///< what the reader should know, one sentence each
+  std::vector<std::string> notes;         ///< for the reader, one sentence each
   std::vector<std::string> requirements;  ///< requirements that were not met (exit code 1), one line each
   double seconds{not_given};
 };

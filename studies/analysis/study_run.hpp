@@ -17,7 +17,7 @@ class StudyRun {
   /// @param budget  error of each figure that effects may be left out for [-], see drop_small_effects()
   StudyRun(const Study& study, const ProgressReport& progress, const PerFigure& budget = {});
 
-  /// Runs the study's task, and what every task ends with: sizes and times of the effects, requirements that are not met.
+  /// Runs the study's task and the common end of all tasks: sizes and times of the effects, requirements that are not met.
   StudyResults finish();
 
   const Study& study() const { return results_.study; }
@@ -25,7 +25,7 @@ class StudyRun {
   const ProgressReport& progress() const { return progress_; }
   void report(const std::string& label, int done, int total, const std::string& remark = {}) const;
 
-  /// What every level of fidelity of this study analyses.
+  /// The subject of all fidelity levels of this study.
   LevelSubject level_subject() const { return {results_.study, results_.pair, loaded_scenes(), results_.shafts}; }
 
   /// Load cases of scenes: their torques above 0, conditions as far as their effects are on.
@@ -47,7 +47,7 @@ class StudyRun {
     const MeshModel* model;
     const LoadedCycle* cycle;
   };
-  /// What solved load cases show, with extremes between their positions, and errors where asked for.
+  /// Summaries of solved load cases, with extremes between their positions, and errors where asked for.
   std::vector<ResolvedCycle> resolved(const std::vector<SolvedCase>& cases, bool with_errors = true);
 
   /// Adds solved load cases of one design to the results.

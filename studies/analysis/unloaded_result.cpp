@@ -12,7 +12,7 @@ namespace {
 constexpr int pattern_rows = 33, pattern_columns = 49;  // of a bearing pattern, over radius and face width
 constexpr double shared_lead = 1e-12;                   // rad: mesh TE - pair TE <= shared_lead, the round-off of the angles
 
-/// How a direction in the tangent plane changes radius and z in a gear's frame.
+/// Change of radius and z in a gear's frame along a direction in the tangent plane.
 FlankDirection seen_in(const Eigen::Matrix3d& axes, const Eigen::Vector3d& centre, const Eigen::Vector3d& point,
                        const Eigen::Vector3d& direction) {
   const Eigen::Vector3d p = axes.transpose() * (point - centre), v = axes.transpose() * direction;
@@ -58,7 +58,7 @@ ParabolaCheck judged_parabola(const FlankAssembly& scene, const UnloadedMesh& me
   if (mesh.phi1.size() >= fewest_positions) return check_parabola(scene, mesh, wanted);
   ParabolaCheck check;
   check.wanted = wanted;
-  check.why = "fewer than four mesh positions do not tell";
+  check.why = "fewer than four mesh positions do not determine it";
   return check;
 }
 

@@ -17,14 +17,14 @@ struct FlankDirection {
   double radius{not_given}, z{not_given};
 };
 
-/// What one contact of a pair leaves on the flanks.
+/// One contact of a pair on both flanks.
 struct ContactMark {
-  bool carries{false};     ///< the pair leads the mesh here, or shares the lead: within 1e-12 rad of the mesh's curve
+  bool carries{false};     ///< the pair leads the mesh here, alone or with another: within 1e-12 rad of the mesh's curve
   ContactEllipse ellipse;  ///< for the marking compound; NaN for edges
   FlankDirection pinion_major, pinion_minor, wheel_major, wheel_minor;  ///< axes of the ellipse
 };
 
-/// Unloaded contact of one scene, and what follows from it.
+/// Unloaded contact of one scene with its derived quantities.
 struct UnloadedResult {
   std::string scene;
   UnloadedMesh mesh;

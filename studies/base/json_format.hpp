@@ -7,7 +7,7 @@
 /// Instantiated once, in json_format.cpp: a fifth of the compile time of whoever reads or writes it.
 extern template class nlohmann::basic_json<nlohmann::ordered_map>;
 
-/// What the sections of results.json share: units as their keys name them, and lists.
+/// Helpers for the sections of results.json: values in the units that keys name, and lists.
 namespace flankwright::studies {
 
 using Json = nlohmann::ordered_json;

@@ -52,7 +52,6 @@ constexpr std::array others{
     Row{"fe", "finite elements"},
 };
 
-constexpr std::array<std::string_view, 10> ordinals{"first", "second", "third", "fourth", "fifth", "sixth", "seventh", "eighth", "ninth", "tenth"};
 
 std::vector<PlainName> make_names() {
   std::vector<PlainName> names;
@@ -76,9 +75,8 @@ std::vector<PlainName> make_names() {
     names.push_back({entry.name(), entry.words(), "", ""});
     if (entry.key() != entry.name()) names.push_back({entry.key(), entry.words(), "", ""});
   }
-  for (std::size_t i = 0; i < ordinals.size(); ++i) {
-    const std::string name = std::string(ordinals[i]) + " harmonic of ", key = "te_harmonic_" + std::to_string(i + 1);
-    names.push_back({key + "_arcsec", name + "unloaded TE", "", ""});
+  for (int order = 1; order <= highest_te_harmonic; ++order) {
+    names.push_back({"te_harmonic_" + std::to_string(order) + "_arcsec", std::string(ordinal(order)) + " harmonic of unloaded TE", "", ""});
   }
   return names;
 }

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-/// What a person writes for a key of the study file or for an output: tables, sentences and the report take their words from here, while
+/// The plain name of a key of the study file or of an output: tables, sentences and the report take their words from here, while
 /// results.json and CSV files keep the keys.
 namespace flankwright::studies {
 
@@ -12,7 +12,7 @@ struct PlainName {
   std::string key;     ///< "pinion.modification.tip_relief.amount", "te_harmonic_1"
   std::string name;    ///< "pinion tip relief", "first harmonic of TE"
   std::string symbol;  ///< of ISO 21771, ISO 1328 or ISO 6336, "C_αa"; empty where they have none
-  std::string sense;   ///< what a positive value does, where its sign can be mistaken; else empty
+  std::string sense;   ///< effect of a positive value, where its sign can be mistaken; else empty
 };
 
 /// All keys that have one: modifications and manufacturing errors of both gears, misalignment, load, outputs, those of sweeps too, and what

@@ -8,7 +8,7 @@
 
 namespace flankwright::studies {
 
-/// Progress of long work on stderr: a bar that redraws itself on a terminal, a line every few seconds elsewhere. It tells the time
+/// Progress of long work on stderr: a bar that redraws itself on a terminal, a line every few seconds elsewhere. It shows the time
 /// that is left as if the steps to come took as long as those done under the same label.
 class Progress {
  public:

@@ -75,7 +75,7 @@ constexpr std::array known_units{
     Unit{"h", Dimension::Time, 3600.0},
 };
 
-/// How a quantity is written: the unit of a bare number, and the units an error message proposes.
+/// Notation of a quantity: the unit of a bare number, and the units an error message proposes.
 struct Convention {
   Dimension dimension;
   std::string_view bare_unit;  ///< tidy name

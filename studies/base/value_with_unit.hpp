@@ -6,7 +6,7 @@
 /// The boundary where units are converted: outside a study file's numbers and "12 um" texts, inside mm, N mm, rad, MPa.
 namespace flankwright::studies {
 
-/// What a number of a study file measures. It fixes the unit of a bare number and the units that a text may carry.
+/// Quantity of a number in a study file. It fixes the unit of a bare number and the units that a text may carry.
 enum class Quantity {
   Number,          ///< no unit [-]
   Length,          ///< bare: mm; inside mm

@@ -29,7 +29,7 @@ std::string names_of(const CLI::App& app) {
   return words;
 }
 
-/// What may stand behind a word, where that is neither a file nor a free text.
+/// Completions that may follow a word, where that is neither a file nor a free text.
 struct Choice {
   const char *word, *values;
 };

@@ -3,7 +3,7 @@
 #include <CLI/App.hpp>
 #include <string>
 
-/// What a shell and `man` know of the command line: texts made from the commands themselves, so that none is forgotten.
+/// Shell completions and manual page, made from the commands themselves, so that they are complete.
 namespace flankwright::studies {
 
 /// Completion for bash: commands, their options, the words an option is limited to, else files.

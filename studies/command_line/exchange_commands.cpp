@@ -32,7 +32,7 @@ void write_export(const fs::path& file, const std::string& text) {
   fmt::print("{}\n", file.string());
 }
 
-/// Every file of the series; the collections, which name the others, are written behind these and told.
+/// Writes every file of the series. The collections, which name the others, are written last and reported.
 void export_vtk(const std::string& json, const fs::path& results, const fs::path& folder) {
   for (const ExportedFile& file : vtk_series(json, results.string())) {
     const fs::path path = folder / file.name;

@@ -13,7 +13,7 @@ struct ImportCommand {
   std::string slope_end{"non-datum"};  ///< or "datum": face end at which a positive helix_slope removes
 };
 
-/// Makes a study of a stage of a REXS file; grids go beside it. What the study says otherwise than the file is told on stderr too.
+/// Makes a study of a stage of a REXS file; grids go beside it. Differences between study and file are reported on stderr too.
 int import_command(const ImportCommand& options);
 
 struct ExportCommand {
@@ -26,7 +26,7 @@ struct ExportCommand {
   bool given{false};  ///< flanks of the study file also where an optimisation has changed them
 };
 
-/// Writes what a results folder holds in the formats that are asked for, at least one.
+/// Writes the contents of a results folder in the requested formats, at least one.
 int export_command(const ExportCommand& options);
 
 }  // namespace flankwright::studies

@@ -27,7 +27,7 @@
 namespace flankwright::studies {
 namespace {
 
-/// What a fit starts from where it is no earlier one.
+/// Start of a fit without an earlier one.
 enum Start { Flat = -1, StandardProfile = -2 };
 
 /// A gear of the library and the one whose fit it starts from, or a Start: from a flat one, or from what the standard profile's fits
@@ -87,7 +87,7 @@ std::string mesh_line(const char* name, const GearMeshOptions& mesh) {
       mesh.most_layers, mesh.body_growth, mesh.shaft_elements, mesh.layer_share);
 }
 
-/// What a file must have been made with to be gone on with.
+/// Settings that a file must have been made with to be continued.
 std::string settings_text() {
   return fmt::format(
       "# What a fine mesh adds to the tooth compliance E m_n K by a coarse one, fitted: coefficients of gears,\n"
@@ -112,7 +112,7 @@ std::vector<CorrectionEntry> entries_so_far(const std::filesystem::path& path, c
   return entries;
 }
 
-/// What a finer mesh adds to a tooth does not reach its neighbours: one on either side will do. Runs are kept, so that
+/// The correction of a tooth by a finer mesh does not reach its neighbours: one on either side suffices. Runs are kept, so that
 /// another form is fitted, or an interrupted library gone on with, without solving them again.
 InfluenceTableRun run_by(const GearMeshOptions& mesh, const Step& step) {
   const InfluenceTableTask task{.gear = standard_gear(step.gear, step.profile),

@@ -11,7 +11,7 @@ namespace {
 
 /// To be raised whenever the same task comes to mean other numbers: mesh, load functional, removed motion, solution.
 constexpr int model_version = 9;
-/// To be raised whenever the same influence values come to mean another fit: form, places, residuals.
+/// To be raised whenever the same influence values give another fit: form, stations, residuals.
 constexpr int fit_version = 3;
 
 // clang-format off
@@ -128,7 +128,7 @@ Json fit_key(InfluenceTableTask coarse, const std::vector<double>& start) {
   return {{"refinement", fit_version}, {"coarse", cache_key(coarse)}, {"fine", cache_key(fine)}, {"start", start}};
 }
 
-/// What `read` makes of what is kept under a key; with a note where it cannot be used.
+/// The entry of a key as `read` interprets it; with a note where it cannot be used.
 template <typename Read>
 auto kept(const Json& key, const char* what, std::vector<std::string>& notes, Read&& read) -> std::optional<Kept<decltype(read(StoredRun{}))>> {
   const RunCache cache(RunCache::default_folder());

@@ -4,7 +4,7 @@
 
 namespace flankwright::studies {
 
-/// Runs and fits as files in RunCache::default_folder(). A run that tells root stress as well serves one that need not.
+/// Runs and fits as files in RunCache::default_folder(). A run with root stress also serves a request without.
 class DiskStore final : public ComplianceStore {
  public:
   std::optional<Kept<InfluenceTableRun>> find(const InfluenceTableTask& task) override;
@@ -12,7 +12,7 @@ class DiskStore final : public ComplianceStore {
   std::optional<Kept<CorrectionEntry>> find_fit(const InfluenceTableTask& coarse, const std::vector<double>& start) override;
   std::string keep_fit(const InfluenceTableTask& coarse, const std::vector<double>& start, const CorrectionEntry& fit) override;
 
-  /// What went wrong with the folder so far, for the user.
+  /// Problems with the folder so far, for the user.
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:

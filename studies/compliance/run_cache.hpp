@@ -11,9 +11,9 @@
 
 namespace flankwright::studies {
 
-/// What is kept of a finite-element run.
+/// The stored part of a finite-element run.
 struct StoredRun {
-  Json facts;                                                     ///< what it took
+  Json facts;                                                     ///< its times and sizes
   std::vector<std::pair<std::string, Eigen::MatrixXd>> matrices;  ///< under their names
 
   /// nullptr where there is none of that name.
@@ -25,7 +25,7 @@ struct StoredRun {
 /// A file is three parts: a line "flankwright-run 1 CHECKSUM", a line of JSON with key, facts, and the names and sizes
 /// of the matrices, and these, column by column, as little-endian doubles. The checksum (FNV-1a, 64 bit) is that of all
 /// that follows its line; that and the whole key must agree, so that neither a damaged file nor a hash that two keys
-/// share does harm. Nothing here throws for what a disk may do: what went wrong is a note, and the run is made anew.
+/// share does harm. Problems of the disk do not throw: they give a note, and the run is made anew.
 class RunCache {
  public:
   explicit RunCache(std::filesystem::path folder) : folder_(std::move(folder)) {}

@@ -13,7 +13,7 @@ namespace flankwright::studies {
 
 namespace {
 
-/// Share of the machine's memory that runs may take.
+/// Fraction of the machine's memory that runs may take.
 constexpr double share_of_memory = 0.8;
 
 double machine_memory() {
@@ -68,11 +68,11 @@ GearStructures gear_structures(const Study& study, const GearPair& pair, const P
   DiskStore store;
   ComplianceBuild build{.store = &store, .memory_limit = share_of_memory * machine_memory(), .abreast = tbb::this_task_arena::max_concurrency()};
   build.for_each = [](std::size_t count, const std::function<void(std::size_t)>& work) { tbb::parallel_for(std::size_t{0}, count, work); };
-  build.progress = [&, told = false](const std::string& label, int done, int total, const std::string& remark) mutable {
-    if (!told) {
+  build.progress = [&, announced = false](const std::string& label, int done, int total, const std::string& remark) mutable {
+    if (!announced) {
       for (const std::string& note : library_notes(task)) spdlog::info("{}", note);
     }
-    told = true;
+    announced = true;
     if (progress) progress(label, done, total, remark);
   };
   GearStructures structures = build_compliance(task, build);

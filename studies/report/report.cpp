@@ -27,7 +27,7 @@ bool has_gradients(const Json& results) {
 
 bool has_sweep(const Json& results) { return has(results, "sweep") && results.at("sweep").is_object(); }
 
-/// A part of the proof of an optimum; a comparison counts where there is something to compare with.
+/// A part of the assessment of an optimum; a comparison counts where there is something to compare with.
 bool has_assessment(const Json& results, const char* part) {
   if (!has(results, "optimise") || !results.at("optimise").is_object() || !has(results.at("optimise"), part)) return false;
   const Json& found = results.at("optimise").at(part);
@@ -41,7 +41,7 @@ struct Section {
   bool (*present)(const Json& results);
 };
 
-/// True where an optimisation says from where it searched, rounded its optimum, or traced a front.
+/// True where an optimisation has several starts, a rounded optimum or a front.
 bool searched(const Json& r) {
   if (!has(r, "optimise") || !r.at("optimise").is_object()) return false;
   const Json& optimise = r.at("optimise");
@@ -50,12 +50,12 @@ bool searched(const Json& r) {
 
 bool optimised(const Json& r) { return has(r, "optimise"); }
 
-/// In the order in which a gear engineer asks: what to grind and what it gains, the contact behind it, how sure that is, how it was found,
-/// and all numbers. The flanks of an analysis are given, so they come behind their contact.
+/// In the order of interest for a gear engineer: the modifications to grind and their gain, the contact, the assurance, the search,
+/// and all numbers. The flanks of an analysis are given, so they follow its contact.
 constexpr Section sections[] = {
-    {"accuracy", "What accuracy costs", [](const Json& r) { return has(r, "accuracy") || has(r, "accuracy_choice"); }},
+    {"accuracy", "Cost of accuracy", [](const Json& r) { return has(r, "accuracy") || has(r, "accuracy_choice"); }},
     {"scatter", "Scatter over the samples", has_sweep},
-    {"indices", "Where the scatter comes from", [](const Json& r) { return has_sweep(r) && r.at("sweep").value("index_blocks", 0) > 1; }},
+    {"indices", "Causes of the scatter", [](const Json& r) { return has_sweep(r) && r.at("sweep").value("index_blocks", 0) > 1; }},
     {"response-maps", "Response maps", [](const Json& r) { return has_sweep(r) && has(r.at("sweep"), "response_maps"); }},
     {"modifications", "Flank modifications", optimised},
     {"scenes", "Scenes", optimised},
@@ -105,7 +105,7 @@ std::string escape_html(std::string_view text) {
   return replace_all(text, {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}, {"'", "&#39;"}});
 }
 
-/// JSON that may stand inside a script element: pure ASCII (which also covers U+2028 and U+2029), and without '<',
+/// JSON that is valid inside a script element: pure ASCII (which also covers U+2028 and U+2029), and without '<',
 /// so that neither "</script" nor "<!--" can occur. '<' can only be inside a JSON string, where \u003c means the same.
 std::string script_safe(const Json& value) {
   return replace_all(value.dump(-1, ' ', true, Json::error_handler_t::replace), {{"<", "\\u003c"}});

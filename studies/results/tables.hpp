@@ -12,7 +12,7 @@ namespace flankwright::studies {
 /// load_sharing.csv of loaded contact; unloaded.csv, transfers.csv and bearing_pattern.csv of tooth contact analysis; then the task's own.
 std::vector<NamedText> csv_tables(const StudyResults& results);
 
-/// What a run prints when it is done: what an accuracy has chosen, then the task's own summary.
+/// The output of a finished run: the choice for an accuracy, then the summary of the task.
 std::string summary_table(const StudyResults& results);
 
 /// Load cases line by line: figures with their errors, load factors, unloaded contact.

@@ -84,7 +84,7 @@ std::string bearing_pattern_csv(const StudyResults& results) {
 std::string unloaded_summary(const StudyResults& results, std::size_t width) {
   if (results.unloaded.empty()) return "";
   constexpr const char* row = "{:<{}}  {:>10}  {:>10}  {:>10}  {:>11}  {}\n";
-  std::string out = fmt::format(fmt::runtime(row), "unloaded", width, "TE p-p", "TE 1st", "hand-overs", "slope jump",
+  std::string out = fmt::format(fmt::runtime(row), "unloaded", width, "TE p-p", "TE 1st", "transfers", "slope jump",
                                 "contact of a pair, from entry to exit");
   out += fmt::format(fmt::runtime(row), "", width, "arcsec", "arcsec", "", "arcsec/deg", "");
   const int teeth = results.pair.data.pinion.teeth;

@@ -5,7 +5,7 @@
 
 namespace flankwright::studies {
 
-/// The section `used` of results.json: what the run took, defaults and derived values included.
+/// The section `used` of results.json: the values used by the run, with defaults and derived values.
 Json used_json(const StudyResults& results);
 
 /// A quadrature as settings name it: rule and intervals.

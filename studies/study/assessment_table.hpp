@@ -5,7 +5,7 @@
 
 #include "optimize/sampling/distribution.hpp"
 
-/// What a study asks of the proof of its optimum: [optimise.comparison], [optimise.validation], [optimise.tolerances].
+/// The assessment of an optimum that a study asks for: [optimise.comparison], [optimise.validation], [optimise.tolerances].
 namespace flankwright::studies {
 
 /// A key of the scenes that scatters.
@@ -23,7 +23,7 @@ struct DrawnScenes {
 };
 
 struct AssessmentTable {
-  bool rules{true};        ///< held against the rules of thumb
+  bool rules{true};        ///< compare with the rules of thumb
   double variants{0.0};    ///< analyses of a full-factorial search for each analysis of the optimiser; 0: none
   DrawnScenes validation;  ///< that the optimum is tried on
   DrawnScenes scenes;      ///< that the optimiser sees beside those listed

@@ -19,7 +19,7 @@
 #include "studies/study/sweep_table.hpp"
 #include "studies/study/task.hpp"
 
-/// A study as pure data: what a study file says, validated, in internal units (mm, N, rad, MPa); study_file.hpp reads.
+/// A study as pure data: the contents of a study file, validated, in internal units (mm, N, rad, MPa); study_file.hpp reads.
 namespace flankwright::studies {
 
 struct Cycle {
@@ -95,11 +95,11 @@ struct GradientParameter {
 struct FitChoice {
   bool pinion{true}, wheel{true};
   bool several_teeth{false};  ///< KernelForm::several_teeth(), else one_tooth_accurate()
-  bool test_grid{true};      ///< compared on places that the fit has not seen
+  bool test_grid{true};      ///< compared at stations that the fit has not seen
   int max_iterations{300};   ///< trust-region steps
 };
 
-/// [accuracy]: the finest rung of a ladder, which the others are held against; graded quadrature, located peaks.
+/// [accuracy]: the finest fidelity level, which all others are compared with; graded quadrature, located peaks.
 struct AccuracyTable {
   ComplianceModel compliance{ComplianceModel::Fitted};
   GapModel gap{GapModel::WholeSurface};
@@ -107,7 +107,7 @@ struct AccuracyTable {
   int positions{64};  ///< >= 16
 };
 
-/// [expect]: one key of results.json and what it must be.
+/// [expect]: one key of results.json and its expected value.
 struct Expectation {
   std::string key;      ///< dotted path, array indices as numbers; "loaded.summary.x" means every entry of loaded
   double value{std::numeric_limits<double>::quiet_NaN()};
@@ -118,7 +118,7 @@ struct Expectation {
   std::string is{};  ///< text as it is, or "true" / "false"; empty: a number is expected
 };
 
-/// A key as it stands in the file or on the command line, for the `given` part of the results.
+/// A key as written in the file or on the command line, for the `given` part of the results.
 struct GivenValue {
   std::string key;    ///< dotted path
   std::string value;  ///< as written
@@ -135,7 +135,7 @@ struct Study {
   ManufacturingError pinion_error, wheel_error;
   Misalignment misalignment;
   Material pinion_material, wheel_material;
-  GearBody pinion_body, wheel_body;  ///< that the finite elements' teeth stand on
+  GearBody pinion_body, wheel_body;  ///< bodies below the teeth in finite elements
   std::optional<ShaftData> pinion_shaft, wheel_shaft;  ///< empty: rigid
   std::vector<double> torques;  ///< base [load] torque list [N mm]; {0} where [load] is absent
   double marking_thickness{6.35e-3};  ///< of the compound that shows the bearing pattern [mm], > 0

@@ -19,7 +19,7 @@ struct StudyReading;
 struct StudyResults;
 class StudyRun;
 
-/// What a study may ask for. A task is one folder of studies/tasks and one line in registered_tasks(); what a member leaves empty, the task
+/// A task of a study. A task is one folder of studies/tasks and one line in registered_tasks(); what a member leaves empty, the task
 /// does not need. The keys of all tasks are read in every study, whichever task it names, so that it may name another one.
 struct Task {
   const char* name{nullptr};     ///< as a study names it
@@ -31,19 +31,19 @@ struct Task {
 
   std::vector<SchemaKey> (*keys)(){nullptr};
   void (*read)(StudyReading&){nullptr};   ///< tables whose keys are no fixed names, of every study
-  void (*check)(StudyReading&){nullptr};  ///< what a study of this task must say
+  void (*check)(StudyReading&){nullptr};  ///< checks of a study of this task
   /// Flank conditions that effects are decided by; empty: those of the study's scenes.
   std::vector<FlankCondition> (*conditions)(const Study&){nullptr};
   bool (*asks_for_root_stress)(const Study&){nullptr};
 
   void (*run)(StudyRun&){nullptr};  ///< never empty
-  /// What needs the results folder, after run(); an empty path: nothing is kept.
+  /// Work in the results folder after run(); an empty path: nothing is kept.
   void (*run_in_folder)(StudyResults&, const std::filesystem::path&, const ProgressReport&){nullptr};
 
   void (*add_json)(const StudyResults&, nlohmann::ordered_json&){nullptr};  ///< its sections of results.json
   std::vector<NamedText> (*tables)(const StudyResults&){nullptr};           ///< its CSV files beside those of load cases
-  std::string (*summary)(const StudyResults&){nullptr};                     ///< what a run prints; never empty
-  std::string (*study_template)(){nullptr};                                 ///< what `flankwright new` prints; never empty
+  std::string (*summary)(const StudyResults&){nullptr};                     ///< printed at the end of a run; never empty
+  std::string (*study_template)(){nullptr};                                 ///< printed by `flankwright new`; never empty
 };
 
 /// All tasks there are, the default first: a task exists by its line in studies/tasks/registry.cpp, and nowhere else.

@@ -8,7 +8,7 @@ namespace flankwright::studies {
 
 namespace {
 
-/// Tables whose keys are keys of the study again, with what stands behind them: a step or a distribution, or nothing.
+/// Tables whose keys are keys of the study again, with their suffix: a step, a distribution, or nothing.
 constexpr std::array<std::string_view, 2> tables_of_keys{"optimise.variables.", "sweep.parameters."};
 constexpr std::array<std::string_view, 7> parts_with_unit{".range", ".step", ".normal", ".truncated_normal", ".uniform", ".values", ".grid"};
 

@@ -11,11 +11,11 @@
 ///     radius_mm, z_mm, deviation_um
 ///     52.8, -42, -3.5
 ///
-/// Axial positions count from mid face; deviations are normal to the flank, + = metal added. Columns stand in any
+/// Axial positions count from mid face; deviations are normal to the flank, + = metal added. Columns have any
 /// order, named by the first line as grid_header.hpp says, with their units there or in a line of their own below; semicolon, tab or
 /// comma, the first of these that the header has, separates cells throughout, or what a line sep=; before it says. Numbers have a
 /// decimal point, or a decimal comma where the comma does not separate or the cell is in double quotes. # starts a comment, % and // a
-/// line of it; blank lines are skipped; lines end with LF, CR LF or CR; a byte order mark of UTF-8 is skipped. The points stand in any
+/// line of it; blank lines are skipped; lines end with LF, CR LF or CR; a byte order mark of UTF-8 is skipped. The points have any
 /// order and fill a rectangular grid: every radius with every z, the same numbers in each line that shares them.
 namespace flankwright::studies {
 

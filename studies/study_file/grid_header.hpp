@@ -6,7 +6,7 @@
 
 namespace flankwright::studies {
 
-/// What a column of a grid file holds.
+/// Quantity of a column of a grid file.
 enum class GridQuantity { Radius, Z, Deviation };
 
 /// A column as its header cell says it: value inside [mm, deviation + = metal added] = number in the file * factor.

@@ -23,12 +23,12 @@ struct Section {
 
 std::vector<Section> sections_in_order() {
   std::vector<Section> sections{
-      {"", "The study", "These keys stand above the first table of the file."},
-      {"pair", "`[pair]`", "What the two gears share."},
-      {"pinion", "`[pinion]` and `[wheel]`", "What belongs to one gear."},
+      {"", "The study", "These keys are written above the first table of the file."},
+      {"pair", "`[pair]`", "Data common to both gears."},
+      {"pinion", "`[pinion]` and `[wheel]`", "Data of a single gear."},
       {"pinion.rack", "`[pinion.rack]`", "The basic rack profile of the tool."},
       {"pinion.generation", "`[pinion.generation]`",
-       "A tool that cuts something else than an involute: [flanks that are no involutes](README.md#flanks-that-are-no-involutes)."},
+       "A tool that cuts another profile than an involute: [generated and measured flanks](README.md#generated-and-measured-flanks)."},
       {"pinion.modification", "`[pinion.modification]`",
        "Amounts are of material removed, normal to the flank in the transverse plane: positive amounts reach into the tooth."},
       {"pinion.error", "`[pinion.error]`",
@@ -37,7 +37,7 @@ std::vector<Section> sections_in_order() {
       {"pinion.shaft", "`[pinion.shaft]`", "The shaft and its bearings: [shafts](README.md#shafts)."},
       {"material", "`[material]`", "For both gears."},
       {"pinion.material", "`[pinion.material]`", "For one gear, instead of `[material]`."},
-      {"misalignment", "`[misalignment]`", "How far the housing holds the gears from their nominal position."},
+      {"misalignment", "`[misalignment]`", "Deviation of the gears from their nominal position in the housing."},
       {"load", "`[load]`", ""},
       {"unloaded", "`[unloaded]`", "Contact without load."},
       {"cycle", "`[cycle]`", "The mesh positions at which the contact is solved."},

@@ -5,7 +5,7 @@
 namespace flankwright::studies {
 
 /// The key reference keys.md, in Markdown: every key of study_schema() with its unit, default, allowed values and meaning, a section a table.
-/// A key of the pinion stands for the wheel's as well where both say the same.
+/// A key of the pinion represents that of the wheel as well where both rows are equal.
 std::string key_page();
 
 }  // namespace flankwright::studies

@@ -4,7 +4,7 @@
 
 #include "studies/study_file/study_schema.hpp"
 
-/// What the parts of the table of keys share. One row says everything about a key; a row "gear.x" stands for "pinion.x" and "wheel.x".
+/// Helpers for the parts of the table of keys. One row describes a key completely; a row "gear.x" represents "pinion.x" and "wheel.x".
 namespace flankwright::studies {
 
 std::vector<SchemaKey> geometry_rows();           ///< title, task, pair, gears and how they are generated

@@ -2,7 +2,7 @@
 
 #include "studies/study_file/study_reading.hpp"
 
-/// Inside the reader: what several keys must satisfy together.
+/// Part of the reader: conditions between several keys.
 namespace flankwright::studies {
 
 /// Keys that must be there, and keys of which a file may give only one.

@@ -32,7 +32,7 @@ std::vector<std::string> split(std::string_view text, char separator) {
   return parts;
 }
 
-/// Follows a TOML text far enough to know which dots stand in keys.
+/// Follows a TOML text far enough to find the dots in keys.
 class KeyDepthScan {
  public:
   /// Line of the first key with more than most_key_parts parts, from 1; 0 where there is none.
@@ -226,7 +226,7 @@ void StudyDocument::merge(const Override& override_, std::vector<StudyProblem>& 
 
   toml::table* table = &root_;
   for (std::size_t i = 0; i + 1 < parts.size(); ++i) {
-    // A key may stand with quoted dots in the file: "pinion.modification.lead_crowning" = [0, 40].
+    // A key may have quoted dots in the file: "pinion.modification.lead_crowning" = [0, 40].
     if (const std::string rest = join(parts, i); table->contains(rest)) return assign(*table, rest, value);
     toml::node* next = table->get(parts[i]);
     if (next != nullptr && next->is_array()) {

@@ -103,10 +103,10 @@ std::vector<SchemaKey> working_condition_rows() {
        }},
       {.path = "fidelity.gap", .kind = Word, .words = {"plane_of_action", "whole_surface"},
        .fallback = "\"plane_of_action\"",
-       .meaning = "where contact is sought: where undisturbed flanks would touch, or over the whole flanks as they stand and are modified",
+       .meaning = "where contact is sought: on the lines of contact of undisturbed flanks, or over the whole flanks, misaligned and modified",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.fidelity.gap = static_cast<GapModel>(v.integer); }},
       {.path = "fidelity.quadrature.rule", .kind = Word, .words = {"gauss2", "gauss3", "midpoint", "graded"},
-       .fallback = "(graded)", .meaning = "points in each interval of a contact line; graded: two Gauss points on intervals that end where the line does; the others: at fixed places on the face, as Haddad's thesis has them",
+       .fallback = "(graded)", .meaning = "points in each interval of a contact line; graded: two Gauss points on intervals that end where the line does; the others: at fixed points of the face, as in Haddad's thesis",
        .store = [](StudyBuilder& d, Member, const Value& v) {
          d.study.fidelity.automatic_intervals = false;
          d.study.fidelity.quadrature.rule = static_cast<QuadratureRule>(v.integer);
@@ -125,7 +125,7 @@ std::vector<SchemaKey> working_condition_rows() {
          d.study.fidelity.effects = v.words;
        }},
       {.path = "fidelity.accuracy", .kind = Percentage, .range = above_zero(50.0), .fallback = "(none)",
-       .meaning = "\"1 %\": compliance, gap, quadrature and positions, as far as they are not given, are the cheapest whose estimated error in transmission error, its harmonics and peak contact stress is within it; the estimates and their cost stand in `accuracy_choice`",
+       .meaning = "\"1 %\": chooses compliance, gap, quadrature and positions that are not given: the cheapest whose estimated error in transmission error, its harmonics and peak contact stress is within it; the results have the estimates and their cost in `accuracy_choice`",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.fidelity.accuracy = v.number; }},
       {.path = "fidelity.effect_sizes", .kind = Word, .words = {"off", "estimated", "exact"}, .fallback = "\"estimated\"",
        .meaning = "what each effect does to transmission error and contact stress: to first order at a few positions, or by leaving it out at the study's resolution as well",

@@ -12,7 +12,7 @@
 /// Inside the reader: keys of a table matched with the schema, and their values converted.
 namespace flankwright::studies {
 
-/// A key of the schema as it stands in the file.
+/// A key of the schema as written in the file.
 struct Match {
   const SchemaKey* key{nullptr};
   const toml::node* node{nullptr};
@@ -31,13 +31,13 @@ struct StudyReading {
   /// Adds a problem; the value is the node's text, or "(not given)".
   void refuse(const Position& at, const std::string& key, const toml::node* node, const std::string& allowed);
 
-  /// The same at the key of a path, wherever it stands.
+  /// The same at the key of a path, anywhere in the file.
   void refuse_key(const std::string& path, const std::string& allowed);
 
   /// Match of a path, or null.
   const Match* find(const std::string& path) const;
 
-  /// Where a key stands, else the nearest table around it, else the start of the file.
+  /// Position of a key, else the nearest table around it, else the start of the file.
   Position where(const std::string& path) const;
 };
 

@@ -11,7 +11,7 @@
 #include "studies/study/study.hpp"
 #include "studies/base/value_with_unit.hpp"
 
-/// Every key of a study file in one table: what it is called, what it may be, what it means and where it is stored.
+/// Every key of a study file in one table: its name, allowed values, meaning and storage.
 /// Reading, --set, the hints at misspelt keys, the key reference (key_page.hpp) and the scenes all follow from it.
 namespace flankwright::studies {
 
@@ -47,7 +47,7 @@ enum class ValueKind {
   Expectations   ///< table: key of results.json = { value, within, min, max }
 };
 
-/// What the reader found for a key, converted. Which members mean something depends on the kind.
+/// The converted value of a key. The kind of the key determines the members that are set.
 struct Value {
   double number{std::numeric_limits<double>::quiet_NaN()};  ///< internal units
   long long integer{0};                                     ///< an integer, or the index of a word
@@ -57,7 +57,7 @@ struct Value {
   std::vector<std::string> words{};  ///< of a TextList its texts; empty with is_list false: "auto"
 };
 
-/// How a gear's flank is generated, as its keys say.
+/// Generation of a gear's flank as given by its keys.
 struct GenerationKeys {
   std::string kind;  ///< "rack", "parabolic_rack" or "revolution"; empty where a table does not say
   double coefficient{not_given}, half_apex{not_given}, distance{not_given}, arc_radius{not_given};
@@ -66,7 +66,7 @@ struct GenerationKeys {
 /// A study while it is being read.
 struct StudyBuilder {
   Study study;
-  Scene base;  ///< what [misalignment], [load] and the errors say, before any scene
+  Scene base;  ///< values of [misalignment], [load] and the errors, before any scene
   std::optional<Hand> wheel_hand;
   GenerationKeys pinion_generation, wheel_generation;
 };
@@ -81,7 +81,7 @@ struct SchemaKey {
   ValueKind kind{ValueKind::Number};
   Quantity quantity{Quantity::Number};
   Range range{};
-  std::vector<std::string> words{};  ///< allowed words, in the order of the enumerators they stand for
+  std::vector<std::string> words{};  ///< allowed words, in the order of their enumerators
   std::string fallback{};  ///< default as it would be written in the file; words in (...) say where it comes from
   std::string meaning{};   ///< one line, with the sign
   std::string hint{};      ///< said with a refusal: what to do instead
@@ -98,7 +98,7 @@ using KeyIndex = std::map<std::string, const SchemaKey*>;
 /// The keys of a study file.
 const KeyIndex& study_keys();
 
-/// The keys of one [[scenes]] table: name, weight and what a scene may override.
+/// The keys of one [[scenes]] table: name, weight and the keys that a scene may override.
 const KeyIndex& scene_keys();
 
 /// The keys of one table of a TableList, "pinion.shaft.sections": "length" ... . Storing the list's own key adds an
@@ -114,7 +114,7 @@ std::string nearest_key_hint(const KeyIndex& keys, const std::string& path);
 /// The nearest of some words within a few letters, else empty.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& words);
 
-/// Two keys that say the same thing, so that a file may give only one.
+/// Two keys for the same quantity, so that a file may give only one.
 struct ExclusiveKeys {
   std::string first, second;
 };
@@ -124,7 +124,7 @@ const std::vector<ExclusiveKeys>& exclusive_keys();
 bool is_described_fallback(const SchemaKey& key);
 bool is_required(const SchemaKey& key);
 
-/// What a key accepts in words: "a number above 0 and at most 1000 mm".
+/// Allowed values of a key in words: "a number above 0 and at most 1000 mm".
 std::string allowed_values(const SchemaKey& key);
 
 /// The words after "a number", or "an integer", for a range: " 10 .. 35 deg".

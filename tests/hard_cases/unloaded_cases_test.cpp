@@ -164,7 +164,7 @@ TEST_CASE("Hard: an edge that runs along its mate before the path begins takes t
   // More than half a pitch before A, where the path begins.
   const PathOfContact path(results.pair);
   CHECK(path.line_phase_at(transfer.phi1, results.pair) + transfer.to_tooth < path.before - 0.5);
-  // Extremes are located, whatever the positions; so is the hand-over.
+  // Extremes are located, whatever the positions; so is the transfer point.
   const auto finer = results_at("48");
   CHECK(std::abs(finer.unloaded.front().mesh.peak_to_peak - mesh.peak_to_peak) <= kLocated);
   CHECK(std::abs(results_at("2").unloaded.front().mesh.transfers.at(0).phi1 - transfer.phi1) <= kLocated);

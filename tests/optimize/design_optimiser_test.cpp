@@ -190,7 +190,7 @@ TEST_CASE("Where a solver stalls on a kink the finisher goes on from its best de
   CHECK_THROWS_AS(finished(10.0, "ipopt", "slsqp"), InvalidInput);
 }
 
-TEST_CASE("Root stress is shown of an optimum that was sought without it, and is a goal of its own", "[optimize][design]") {
+TEST_CASE("An optimum has its root stress where the search did not need it; root stress is an objective too", "[optimize][design]") {
   DesignProblem problem(helical());
   const DesignResult result = optimise_design(problem, SolverOptions{});
   const Objective root{{term(Output::PeakRootStress)}, Aggregate::Worst};

@@ -57,7 +57,7 @@ TEST_CASE("A truncated normal distribution stays inside, has the truncated momen
   CHECK(std::abs(Distribution::within_tolerance(9.0).median()) < 1e-12);
 }
 
-TEST_CASE("What is no distribution is refused by the name of the parameter", "[optimize][distribution]") {
+TEST_CASE("An invalid distribution is refused by the name of the parameter", "[optimize][distribution]") {
   const auto refused = [](auto make) -> std::string {
     try {
       make();

@@ -80,7 +80,7 @@ TEST_CASE("The budget of analyses is that of all starts together", "[optimize][d
   CHECK(result.after.objective <= result.before.objective);
 }
 
-TEST_CASE("Of a list of objectives the later fall while the earlier keep within the tolerance", "[optimize][design][lexicographic]") {
+TEST_CASE("In a list of objectives the later ones fall while the earlier ones stay within the tolerance", "[optimize][design][lexicographic]") {
   DesignTask task = helical({0.0, 12.0, -12.0});
   task.lexicographic_tolerance = 0.02;
   task.later_objectives = {{{term(Output::TePeakToPeak)}, Aggregate::Worst}};

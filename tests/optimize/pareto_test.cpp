@@ -26,7 +26,7 @@ const Objective error{{term(Output::TePeakToPeak)}, Aggregate::Worst};
 
 }  // namespace
 
-TEST_CASE("A front of two goals runs from the best of one to the best of the other without domination", "[optimize][design][pareto][slow]") {
+TEST_CASE("A front of two objectives runs from the best of one to the best of the other without domination", "[optimize][design][pareto][slow]") {
   const DesignProblem problem(trading_task());
   SolverOptions options;
   options.name = GENERATE("ipopt", "nlopt:slsqp");  // from the start alone Ipopt finds the second best error, SLSQP the best
@@ -53,7 +53,7 @@ TEST_CASE("A front of two goals runs from the best of one to the best of the oth
         const DesignAnalysis& analysis = grid.analyse(Eigen::Vector3d(a, b, c), false);
         const double s = grid.value(stress, analysis), e = grid.value(error, analysis);
         for (const ParetoPoint& point : front.points) {
-          // Model: the first goal of an anchor may rise by its slack of 1e-3.
+          // Model: the first objective of an anchor may rise by its slack of 1e-3.
           CHECK_FALSE((s < point.values[0] * (1.0 - 2e-3) && e < point.values[1] * (1.0 - 2e-3)));
         }
       }
@@ -61,13 +61,13 @@ TEST_CASE("A front of two goals runs from the best of one to the best of the oth
   }
 }
 
-TEST_CASE("A front of three goals has each goal's best among its corners and compromises between them", "[optimize][design][pareto][slow]") {
+TEST_CASE("A front of three objectives has the best of each among its corners and compromises between them", "[optimize][design][pareto][slow]") {
   const DesignProblem problem(trading_task());
   const Objective edge{{term(Output::EdgeLoad)}, Aggregate::Worst};
   const ParetoFront front = trace_front(problem, {stress, error, edge}, 6, SolverOptions{});
   CAPTURE(front.message, front.evaluations);
   REQUIRE(front.points.size() == 6);  // two steps a side
-  constexpr double slack = 2e-3;      // of each goal: what an anchor may give for the others, and the solver's own end
+  constexpr double slack = 2e-3;      // of each objective: slack of an anchor for the others, and tolerance of the solver
   for (std::size_t k = 0; k < 3; ++k) {
     CAPTURE(k);
     for (const ParetoPoint& point : front.points) CHECK(point.values[k] >= front.points[k].values[k] * (1.0 - slack));
@@ -84,7 +84,7 @@ TEST_CASE("A front of three goals has each goal's best among its corners and com
   CHECK(std::isnan(front.unevenness()));
 }
 
-TEST_CASE("A goal that can vanish is held near nothing where it is best, and the other falls there", "[optimize][design][pareto]") {
+TEST_CASE("An objective that can vanish stays near zero at its best point, and the other objective is minimised there", "[optimize][design][pareto]") {
   DesignProblem problem(trading_task());
   std::mt19937 generator(2);
   problem.set_start(random_design(3, generator));
@@ -95,7 +95,7 @@ TEST_CASE("A goal that can vanish is held near nothing where it is best, and the
   CAPTURE(front.message, front.evaluations);
   REQUIRE(front.points.size() == 5);
   for (const ParetoPoint& point : front.points) CHECK_FALSE(point.dominated);
-  CHECK(front.ideal[0] <= 1.01e-3 * front.worst[0]);  // an anchor's slack; of what the goal is where the other is best
+  CHECK(front.ideal[0] <= 1.01e-3 * front.worst[0]);  // slack of an anchor, relative to the objective at the best of the other
   // Independent route: no edge load is left to most of a grid of designs, and none of them has less error.
   DesignProblem grid(trading_task());
   int without = 0;
@@ -128,7 +128,7 @@ TEST_CASE("A front has the same bits on one thread and on two", "[optimize][desi
   }
 }
 
-TEST_CASE("Goals that agree have a front of one design", "[optimize][design][pareto]") {
+TEST_CASE("Objectives with one common optimum have a front of one design", "[optimize][design][pareto]") {
   const DesignProblem problem(spur({10.0, -10.0}));
   const Objective load{{term(Output::PeakLineLoad)}, Aggregate::Worst};  // stress is a function of load and radius
   SolverOptions options;
@@ -138,7 +138,7 @@ TEST_CASE("Goals that agree have a front of one design", "[optimize][design][par
   for (std::size_t k = 0; k < 2; ++k) CHECK(front.worst[k] == Approx(front.ideal[k]).epsilon(0.01));
 }
 
-TEST_CASE("A front keeps its budget and says so", "[optimize][design][pareto]") {
+TEST_CASE("A front keeps its budget and reports it", "[optimize][design][pareto]") {
   const DesignProblem problem(trading_task());
   SolverOptions options;
   options.max_evaluations = 10;

@@ -21,7 +21,7 @@ bool is_multiple(double value, double step) { return std::abs(value / step - std
 
 }  // namespace
 
-TEST_CASE("What is to be ground lies on the steps, loses little, and no neighbour is better", "[optimize][design][rounding]") {
+TEST_CASE("The rounded design lies on the steps, loses little, and no neighbour is better", "[optimize][design][rounding]") {
   const double step_um = GENERATE(1.0, 3.0);
   CAPTURE(step_um);
   DesignTask task = in_steps(step_um);

@@ -78,7 +78,7 @@ TEST_CASE("A Latin hypercube meets each part of every coordinate once, whatever 
   }
 }
 
-TEST_CASE("A random order is an order: every place once", "[optimize][sampling]") {
+TEST_CASE("A random order is a permutation", "[optimize][sampling]") {
   for (const std::uint64_t n : {1u, 2u, 3u, 16u, 17u, 1000u}) {
     std::set<std::uint64_t> places;
     for (std::uint64_t i = 0; i < n; ++i) places.insert(shuffled_place(i, n, 9, 1));

@@ -63,7 +63,7 @@ TEST_CASE("The first harmonic of the helical pair falls with the torque to a min
   CHECK(sweep.mean_te[29] == Approx(paper_te_at_30).epsilon(0.15));
 }
 
-TEST_CASE("The ripple of the compliance takes up that of the reliefs, so that light torques tell the best one", "[core][load][reference][gradient]") {
+TEST_CASE("The ripple of the compliance cancels that of the reliefs, and light torques show the best relief", "[core][load][reference][gradient]") {
   const Sweep sweep = thin_slice_sweep();
   // The harmonic of the reliefs less one that grows with the deflection: nearly linear until they cancel. By the derivative with
   // respect to the torque, from half way.

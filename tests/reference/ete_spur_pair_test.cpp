@@ -111,7 +111,7 @@ TEST_CASE("ETE paper case 1: contact off the line of action changes the unloaded
 }
 
 TEST_CASE("ETE paper case 2: the initial gaps of the second pair deviate more than those of the first", "[reference][contact]") {
-  // Section 3.2, figure 6 (10 um at the tips, no figures printed): around the hand-over the pair that leads agrees well, the one
+  // Section 3.2, figure 6 (10 um at the tips, no figures printed): around the transfer point the pair that leads agrees well, the one
   // that is about to touch deviates more, and far less than with 50 um of relief.
   const ReliefStudy study(10 * um), strong(50 * um);
   const double phase = study.entering_phase(3.0 * um);

@@ -35,13 +35,13 @@ struct AdjacentRange {
 };
 inline constexpr std::array<AdjacentRange, 2> adjacent_of_100_teeth{{{0, 0.29, 0.47}, {30, 0.25, 0.72}}};
 
-/// Table 2B.1: 40 teeth, beta = 30 deg, load at the tip 0.25 m_n from the sharp end; deflection of the flank and of the
+/// Table 2B.1: 40 teeth, beta = 30 deg, load at the tip 0.25 m_n from the acute end; deflection of the flank and of the
 /// centre surface below along the line of contact through the load [1e-6 mm/N]. Beyond 0.5 m_n the printed z do not fit
 /// the deflections, by a factor of two at 2.5 m_n; z_fitting does. E = 209000 MPa is not printed but follows from
 /// stresses elsewhere. The loaded tip of this model is at 242.487 mm (title of fig. 2.20), where the reference radius
 /// and m_n make 240.940 mm.
 struct SurfaceAndCentre {
-  double z;          ///< from the sharp end, as printed [m_n]
+  double z;          ///< from the acute end, as printed [m_n]
   double z_fitting;  ///< [m_n]
   double flank, centre;
 };

@@ -23,7 +23,7 @@ InfluenceModel thesis_gear(int teeth, double helix_deg, double tip_radius = not_
   return InfluenceModel(gear, {1, 0.3});
 }
 
-/// Where the line of contact through a point of tooth 0 (radius, z from the sharp end) meets a tooth at x from that
+/// Where the line of contact through a point of tooth 0 (radius, z from the acute end) meets a tooth at x from that
 /// end; the radius may lie off the flank.
 FlankPoint point_of_contact(const GearMesh& mesh, double radius, double z, int tooth, double x) {
   const double base = mesh.form.base_radius();
@@ -49,7 +49,7 @@ std::vector<FlankPoint> contact_line(const GearMesh& mesh, double radius, double
 struct Figures {
   double mid{0};                        ///< mid face under a load there, reference diameter
   double acute{0}, obtuse{0};            ///< 0.25 m_n from either end, under themselves
-  double far_before{0}, far_behind{0};  ///< 4 m_n from a load at mid face, towards the sharp and the blunt end
+  double far_before{0}, far_behind{0};  ///< 4 m_n from a load at mid face, towards the acute and the obtuse end
   double least_adjacent{INFINITY}, most_adjacent{0};  ///< peak of a next tooth over that of the loaded one
 };
 
@@ -108,7 +108,7 @@ TEST_CASE("Deflections of the thesis' gears have the sizes it gives", "[referenc
     const auto far = [](const Figures& f) { return (f.far_before + f.far_behind) / 2; };
     INFO("far from the load: " << far(small) << ", " << far(medium) << ", " << far(large_spur) << ", " << far(large));
     INFO("mid face: " << small.mid << ", " << medium.mid << ", " << large_spur.mid << ", " << large.mid);
-    INFO("sharp over blunt end: " << small.acute / small.obtuse << ", " << medium.acute / medium.obtuse << ", "
+    INFO("acute over obtuse end: " << small.acute / small.obtuse << ", " << medium.acute / medium.obtuse << ", "
                                   << large.acute / large.obtuse);
     INFO("tipping: " << large.far_before - large.far_behind);
     INFO("adjacent: " << large_spur.least_adjacent << " to " << large_spur.most_adjacent << ", helical "
@@ -130,7 +130,7 @@ TEST_CASE("Deflections of the thesis' gears have the sizes it gives", "[referenc
   }
 }
 
-TEST_CASE("What a rigid body takes off is the thesis' part of the gear body", "[reference][compliance][fe][.soak]") {
+TEST_CASE("The deflection removed by a rigid body is the thesis' part of the gear body", "[reference][compliance][fe][.soak]") {
   for (const thesis::GearBodyPart& part : thesis::gear_body_part) {
     const auto far_and_near = [&](bool rigid_body) {
       const InfluenceModel model = thesis_gear(part.teeth, part.helix_deg, not_given, rigid_body);
@@ -195,7 +195,7 @@ TEST_CASE("Least influence values of five gears are those of an independent calc
     // The share that would make both the same: a hold gives in inverse proportion to it.
     const double share = axial_hold_share * hold / (value - least + hold);
     WARN("Z " << teeth << ": " << least << ", hold " << hold << " of it; independent " << value << ", as a share of " << share);
-    // Model: where its points lie is not told. Only 18 teeth, where the tooth still moves at 12 m_n, differ by more.
+    // Model: the source does not give its points. Only 18 teeth, where the tooth still moves at 12 m_n, differ by more.
     CHECK(least == Approx(value).epsilon(teeth == 18 ? 0.2 : 0.03));
     if (hold > 0.08 * value) {
       log_share += std::log(share);

@@ -50,7 +50,7 @@ TEST_CASE("The example study has the rig's gears, torque, phases and shafts", "[
   }
 }
 
-TEST_CASE("The rig's shafts give way under a load at mid face as Haddad calculated", "[reference][rig][core][shaft]") {
+TEST_CASE("The rig's shafts deflect under a load at mid face as Haddad calculated", "[reference][rig][core][shaft]") {
   const GearPair pair = make_gear_pair(rig::pair_data());
   const PathOfContact path(pair);
   const auto at = [&](double z) {

@@ -167,7 +167,7 @@ TEST_CASE("Lead and profile errors together cost less than the product of their 
   }
 }
 
-TEST_CASE("ISO's mesh stiffness knows neither the face width nor the wheel's body", "[reference][haddad][iso]") {
+TEST_CASE("ISO's mesh stiffness depends neither on the face width nor on the wheel's body", "[reference][haddad][iso]") {
   // Section 3.3, figs 3.12, 3.15 and 3.17: by the standard the larger wheel is the stiffer one, and width has no influence.
   const auto c_gamma = [](int wheel_teeth, double face_width) {
     return iso_stiffness(mesh_cases::pair(18, wheel_teeth, 30, 10, face_width), {}, {}).c_gamma;
@@ -177,7 +177,7 @@ TEST_CASE("ISO's mesh stiffness knows neither the face width nor the wheel's bod
   CHECK(c_gamma(54, 20) == c_gamma(54, 120));
 }
 
-TEST_CASE("Finite elements give way more the larger the wheel is and the wider a spur pair", "[.soak][reference][haddad][fe]") {
+TEST_CASE("Finite elements yield more the larger the wheel is and the wider a spur pair", "[.soak][reference][haddad][fe]") {
   // Section 3.3; the same specific load throughout. A helical pair's narrow disc tilts under the axial load: haddad_trends.md.
   const auto stiffness = [](double helix_angle, int wheel_teeth, double face_width) {
     const auto text = [](const auto& value) { return std::to_string(value); };

@@ -87,7 +87,7 @@ TEST_CASE(
   CHECK(std::abs(after.mesh.peak_to_peak / example.published - 1) <= 0.08);
 }
 
-TEST_CASE("TM-100260: teeth of standard height hand over on a tip edge where the vertex moves farthest",
+TEST_CASE("TM-100260: teeth of standard height have their transfer point on a tip edge where the vertex moves farthest",
           "[reference][contact]") {
   // At + 1 % centre distance the contact ratio falls to 1.35 or so: the limit (eps_alpha - 1)/2 of a pitch, see
   // ParabolaCheck, is passed by crossing of 10 minutes only. The paper's analysis knows surfaces without edges.

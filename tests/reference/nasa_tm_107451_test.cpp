@@ -93,7 +93,7 @@ TEST_CASE(
   CHECK(branches.face_end > 2 * branches.tip);
   CHECK(branches.tip >= 5);
   CHECK(branches.other <= 2);
-  // Discontinuous: at the hand-over the speed jumps by the whole difference of the two.
+  // Discontinuous: at the transfer point the speed jumps by the whole difference of the two.
   REQUIRE(mesh.transfers.size() == 1);
   CHECK(std::abs(mesh.transfers[0].slope_jump() - std::abs(slopes.tip - slopes.face_end)) <= 1e-9);
 }
@@ -221,7 +221,7 @@ TEST_CASE(
   }
   CHECK(on_surface >= 20);
   CHECK(highest_z - lowest_z >= 0.8 * pair.face_width);
-  // A localised contact is not enough (conclusion of section 3): pairs still hand over with a jump in speed.
+  // A localised contact is not enough (conclusion of section 3): the speed still jumps at the transfer point.
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, crossed, kPositions);
   REQUIRE(mesh.transfers.size() == 1);
   CHECK(mesh.transfers[0].slope_jump() >= 0.8 * slope);

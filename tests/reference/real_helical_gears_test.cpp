@@ -129,7 +129,7 @@ TEST_CASE(
   }
 
   // Misaligned: the path shifts to the closing end, the transmission error keeps its shape: one rise, one fall, one
-  // hand-over a pitch.
+  // transfer point a pitch.
   double peak[2];
   for (const double sign : {1.0, -1.0}) {
     Misalignment misalignment;

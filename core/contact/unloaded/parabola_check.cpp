@@ -98,10 +98,10 @@ std::string verdict(const ParabolaCheck& check, const LeadingPair& leading_pair,
   for (const Transfer& t : leading_pair.transfers) {
     const double degrees = t.phi1 / units::deg;
     if (!leaves_well(t)) {
-      return text("the pair that leaves still gains at the hand-over at %.3f deg", degrees) + cause(leading_pair);
+      return text("the pair that leaves still gains at the transfer point at %.3f deg", degrees) + cause(leading_pair);
     }
     if (!enters_well(t)) {
-      return text("the pair that enters still falls behind at the hand-over at %.3f deg", degrees) + cause(leading_pair);
+      return text("the pair that enters still falls behind at the transfer point at %.3f deg", degrees) + cause(leading_pair);
     }
   }
   const double off = check.found / check.wanted - 1.0;
@@ -129,7 +129,7 @@ ParabolaCheck check_parabola(const FlankAssembly& assembly, const UnloadedMesh& 
     return check;
   }
   if (mesh.transfers.empty()) {
-    check.why = "no pair hands over to another: the pairs share the lead, there is no parabola";
+    check.why = "no transfer point: the pairs lead together, there is no parabola";
     return check;
   }
   const LeadingPair leading_pair = follow_leading_pair(assembly, mesh);

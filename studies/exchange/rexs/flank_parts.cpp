@@ -15,7 +15,7 @@ namespace {
 
 constexpr int lines_of_change = 81;  ///< of a direction along which something changes: a relief over a tenth of the flank has eight of them
 constexpr int lines_without = 3;     ///< of one along which nothing does
-constexpr int looks = 4;             ///< places between two lines at which the departure is sought
+constexpr int looks = 4;             ///< points between two lines at which the departure is sought
 
 double sum_of(const std::vector<FlankPart>& parts, double r, double z) {
   double sum = 0.0;

@@ -8,7 +8,7 @@
 
 namespace flankwright::studies::rexs {
 
-/// A part of a flank's modification that no key of a study says.
+/// A part of a flank's modification that no key of a study describes.
 struct FlankPart {
   std::function<double(double r, double z)> removed{};  ///< material at radius and axial position [mm], transverse base tangent [mm]
   bool along_profile{true}, along_face{true};         ///< whether it changes along the profile, along the face

@@ -9,7 +9,7 @@ namespace flankwright::studies::rexs {
 bool is_archive(std::string_view bytes);
 
 /// The text of the one REXS file in an archive: the entry that ends in .rexs, .rexsj, .xml or .json, or the only one there is. Other
-/// entries may stand beside it, the format keeps pictures and tables there; they are not looked at.
+/// entries, such as pictures and tables of the format, are ignored.
 ///
 /// @param name  stands for the archive in messages
 /// @throws StudyErrors with one problem: a damaged or encrypted archive, none or several such entries, or one of more than

@@ -13,7 +13,7 @@ struct RexsExportOptions {
   std::string date;            ///< "2026-11-21T19:00:00+00:00"
 };
 
-/// A study as a REXS model, and what of it the format has no place for.
+/// A study as a REXS model, and the parts that the format cannot hold.
 struct ExportedStage {
   Model model;
   std::vector<std::string> notes;

@@ -77,7 +77,7 @@ class Import {
     StudyText text;
     text.comment(fmt::format("Stage {} of {}, REXS {}{}.", parts_.stage->id, file, model.version,
                              model.application.empty() ? "" : ", written by " + model.application + " " + model.application_version));
-    text.comment("Behind each value stands the attribute that it came from. Amounts of modifications count as removed along the transverse");
+    text.comment("The comment behind each value names the attribute that it came from. Amounts of modifications count as removed along the transverse");
     text.comment("base tangent; z runs along the pinion's u axis, from mid face.");
     if (!reading_.warnings().empty()) {
       text.comment("");
@@ -111,7 +111,7 @@ class Import {
     text.table("load");
     const auto value = [](const ImportedTorque& torque) { return number_text(torque.torque / units::newton_metre); };
     if (torques.empty()) {
-      text.key("torque", "0", "the file does not tell the torque on the pinion");
+      text.key("torque", "0", "the file does not give the torque on the pinion");
       return;
     }
     text.key("torque", value(torques.front()), torques.front().source);
@@ -152,7 +152,7 @@ ImportedStudy import_stage(const std::string& text, const std::string& name, con
   const Model model = parse_model(text, name);
   Reading reading(model, name);
   ImportedStudy study = Import(reading, options).study();
-  // The schema's own limits (a module of 2 m, a helix angle of 60 deg) are checked where they are kept; grids stand in files yet to be.
+  // The schema's own limits (a module of 2 m, a helix angle of 60 deg) are checked where they are kept; grids are in files yet to be written.
   std::string without_grids;
   for (std::size_t at = 0; at < study.text.size();) {
     const std::size_t end = std::min(study.text.find('\n', at), study.text.size());

@@ -53,7 +53,7 @@ class JsonReading {
     bool operator()(int depth, Json::parse_event_t, Json&) const { return depth <= 64; }
   };
 
-  /// What the parser says, without its number and place: these are told by the line.
+  /// The parser's message without its number and position, which the line of the error has.
   static std::string text_of_error(std::string_view what) {
     const std::size_t colon = what.rfind("; ");
     return std::string(colon == std::string_view::npos ? what.substr(what.find(": ") + 2) : what.substr(colon + 2));
@@ -112,7 +112,7 @@ class JsonReading {
     return attribute;
   }
 
-  /// The value stands under a key that names its type.
+  /// The value has a key that names its type.
   void fill(Attribute& attribute, const std::string& type, const Json& value, const std::string& of) const {
     const auto text_of = [](const Json& v) { return v.is_string() ? v.get<std::string>() : v.is_null() ? "" : shown(v); };
     if (type.ends_with("_array_coded") && value.is_object()) {

@@ -65,7 +65,7 @@ class Condition {
     return Taken{newton_mm_per_kw * power->value / speed->value, power->source + " at the speed of " + Reading::name_of(shaft)};
   }
 
-  /// A gear of several meshes, as a sun's: how these share its torque no file tells.
+  /// A gear of several meshes, such as a sun: files do not give the torque of each mesh.
   bool shares_torque(const Component& gear) const {
     return std::ranges::count_if(reading_.model().relations, [&](const Relation& relation) {
              return relation.type == "stage" && (relation.role("gear_1") == gear.id || relation.role("gear_2") == gear.id);

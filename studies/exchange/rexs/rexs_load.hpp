@@ -18,7 +18,7 @@ struct ImportedTorque {
 
 /// Torques on the pinion: of the stage's gear data, or from the external loads on the shafts, through the other stages of the gear
 /// unit as far as shafts carry one gear and one load or two gears, and gears have one mate (friction and bearings left out; a power needs
-/// the shaft's speed). One entry a load case; without load cases one; empty where nothing tells a torque.
+/// the shaft's speed). One entry a load case; without load cases one; empty where the file has no torque.
 std::vector<ImportedTorque> read_torques(Reading& reading, const StageParts& parts);
 
 }  // namespace flankwright::studies::rexs

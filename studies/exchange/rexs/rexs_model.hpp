@@ -70,7 +70,7 @@ struct Model {
 /// Text forms of the format.
 enum class Form { Xml, Json };
 
-/// Reads either form, told by its first character, or unpacked from an archive, see rexs_archive.hpp.
+/// Reads either form, distinguished by its first character, or unpacked from an archive, see rexs_archive.hpp.
 ///
 /// @param name  stands for the file in messages
 /// @throws StudyErrors with one problem, and its line where the form has one: damaged XML, JSON or archive, not

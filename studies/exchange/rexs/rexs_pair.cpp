@@ -195,7 +195,7 @@ class PairReading {
     }
   }
 
-  /// Without a tool the root diameter tells the dedendum.
+  /// Without a tool the root diameter gives the dedendum.
   void read_dedendum(Member m) {
     RackProfile& rack = data(m).rack;
     const std::string key = prefix(m) + "rack.dedendum";

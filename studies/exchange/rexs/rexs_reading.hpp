@@ -43,7 +43,7 @@ class Reading {
   /// The component that a relation has in a role. @throws StudyErrors where there is none, or no component of that id
   const Component& in_role(const Relation& relation, std::string_view role) const;
 
-  /// Something that the study does not say as the file does; each is told once more on stderr.
+  /// A difference between study and file; each is repeated on stderr.
   void warn(std::string text);
   const std::vector<std::string>& warnings() const { return warnings_; }
 

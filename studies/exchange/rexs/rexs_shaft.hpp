@@ -18,7 +18,7 @@ struct ImportedShaft {
 /// torque enters; a shaft that is otherwise is left out with a warning that says why. Without shaft or sections nothing is said.
 ///
 /// Positions become those along z, see ShaftData. Bearings without radial_stiffness are rigid, cones cylinders of their mean diameters:
-/// both are told.
+/// both are reported.
 /// @throws StudyErrors where an attribute is no number or of a wrong unit
 std::optional<ImportedShaft> read_shaft(Reading& reading, const GearParts& parts, double face_width);
 

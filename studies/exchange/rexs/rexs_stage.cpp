@@ -95,7 +95,7 @@ void find_flanks(const Reading& reading, GearParts& parts, bool left) {
 }
 
 void find_rest(Reading& reading, GearParts& parts) {
-  // Up to 1.2 the tool stands at the gear, then at the flank, through a manufacturing step.
+  // Up to 1.2 the tool belongs to the gear, then to the flank, through a manufacturing step.
   for (const Component* of : {parts.flank, parts.gear}) {
     if (of == nullptr || parts.tool != nullptr) continue;
     const auto tools = reading.related(*of, {"rack_shaped_tool"});

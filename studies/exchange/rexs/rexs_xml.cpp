@@ -18,7 +18,7 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(blanks) - first + 1));
 }
 
-/// A REXS file in XML and where its elements stand.
+/// A REXS file in XML with the positions of its elements.
 class XmlReading {
  public:
   XmlReading(std::string_view text, const std::string& name) : text_(text), name_(name) {

@@ -1,13 +1,13 @@
-// What accuracy costs: a ladder of rungs beside the finest, and what `fidelity.accuracy` has chosen.
+// The cost of accuracy: fidelity levels compared with the finest one, and the choice made for `fidelity.accuracy`.
 
 const FIGURES = ["worst", "te_mean", "te_peak_to_peak", "te_harmonic_1", "te_harmonic_2", "te_harmonic_3", "te_harmonic_4", "te_harmonic_5",
   "peak_contact_stress", "peak_line_load", "load_factor"];
-const figure_words = (name) => (name === "worst" ? "worst of all figures" : words(name));
+const figure_words = (name) => (name === "worst" ? "worst of all quantities" : words(name));
 const AXIS_STYLE = ["circle", "rect", "triangle", "rectRot", "star", "crossRot", "cross", "rect", "triangle", "circle", "rectRot", "circle"];
 /** Errors below this are drawn at it: a logarithmic axis has no 0 [%]. */
 const LEAST_DRAWN_ERROR = 1e-3;
 
-const is_best = (rung, figure) => (figure === "worst" ? rung.pareto_best : list(rung.pareto_best_in).includes(figure));
+const is_best = (level, figure) => (figure === "worst" ? level.pareto_best : list(level.pareto_best_in).includes(figure));
 
 function settings_text(settings) {
   const { compliance, gap, quadrature, positions, peaks } = record(settings);
@@ -16,77 +16,77 @@ function settings_text(settings) {
     .map((part) => `${part}`.replace(/_/g, " ")).join(", ");
 }
 
-/** "coarser by one figure": the cheapest rung within an error, for the headline. */
-const cheapest_within = (rungs, percent) => rungs
-  .filter((rung) => rung.axis !== "finest" && record(rung.error_percent).worst <= percent)
-  .reduce((best, rung) => (best && best.seconds <= rung.seconds ? best : rung), null);
+/** The cheapest level within an error, for the headline. */
+const cheapest_within = (levels, percent) => levels
+  .filter((level) => level.axis !== "finest" && record(level.error_percent).worst <= percent)
+  .reduce((best, level) => (best && best.seconds <= level.seconds ? best : level), null);
 
 function accuracy_headline(accuracy) {
-  const rungs = list(accuracy.rungs).map(record), finest = rungs.find((rung) => rung.axis === "finest") || {};
-  const enough = cheapest_within(rungs, 5);
-  if (!enough) return `No rung of the ladder comes within 5 % of the finest, which takes ${time_text(finest.seconds)}`;
-  return `Within ${fmt(enough.error_percent.worst, 2)} % of the finest rung in ${time_text(enough.seconds)} instead of ${time_text(finest.seconds)}: “${enough.name}”`;
+  const levels = list(accuracy.rungs).map(record), finest = levels.find((level) => level.axis === "finest") || {};
+  const enough = cheapest_within(levels, 5);
+  if (!enough) return `No fidelity level comes within 5 % of the finest, which takes ${time_text(finest.seconds)}`;
+  return `Within ${fmt(enough.error_percent.worst, 2)} % of the finest level in ${time_text(enough.seconds)} instead of ${time_text(finest.seconds)}: “${enough.name}”`;
 }
 
-function draw_ladder(plot, rungs, figure, height = 460) {
-  const shown = rungs.filter((rung) => rung.axis !== "finest" && is_number(rung.seconds) && is_number(record(rung.error_percent)[figure]));
-  const point = (rung) => ({ x: rung.seconds, y: Math.max(record(rung.error_percent)[figure], LEAST_DRAWN_ERROR), note: rung.name });
-  const axes = unique(shown.map((rung) => rung.axis));
-  const front = shown.filter((rung) => is_best(rung, figure)).sort((a, b) => a.seconds - b.seconds);
+function draw_levels(plot, levels, figure, height = 460) {
+  const shown = levels.filter((level) => level.axis !== "finest" && is_number(level.seconds) && is_number(record(level.error_percent)[figure]));
+  const point = (level) => ({ x: level.seconds, y: Math.max(record(level.error_percent)[figure], LEAST_DRAWN_ERROR), note: level.name });
+  const axes = unique(shown.map((level) => level.axis));
+  const front = shown.filter((level) => is_best(level, figure)).sort((a, b) => a.seconds - b.seconds);
   const decade = (value) => (Number.isInteger(Math.round(Math.log10(value) * 1e6) / 1e6) ? fmt(value) : "");
   const log_axis = { type: "logarithmic", ticks: { callback: decade } };
   xy_chart(plot, {
     label: `Error of ${figure_words(figure)} against seconds`,
     curves: [
       { label: "Pareto-best", points: front.map(point), colour: css_colour("ink"), width: 1.2, dashed: true, order: 2 },
-      { label: "Pareto-best rungs", quiet: true, points: front.map(point), colour: css_colour("ink"), fill: "transparent", scatter: true, hollow: true, size: 9, order: 2 },
+      { label: "Pareto-best levels", quiet: true, points: front.map(point), colour: css_colour("ink"), fill: "transparent", scatter: true, hollow: true, size: 9, order: 2 },
       ...axes.map((axis, i) => ({
-        label: axis, points: shown.filter((rung) => rung.axis === axis).map(point), colour: sequence_colour(i), scatter: true,
+        label: axis, points: shown.filter((level) => level.axis === axis).map(point), colour: sequence_colour(i), scatter: true,
         hollow: ["star", "crossRot", "cross"].includes(AXIS_STYLE[i]), style: AXIS_STYLE[i % AXIS_STYLE.length], size: 5,
       })),
     ],
     x: "seconds of one thread, influence values known", y: "error [%]",
     x_range: log_axis, y_range: log_axis, read_x: time_text, read_y: (y) => `${fmt(y, 3)} %`, nearest: "xy", height,
-    labels: front.map((rung) => ({ ...point(rung), text: rung.name })),
+    labels: front.map((level) => ({ ...point(level), text: level.name })),
   });
 }
 
 function build_accuracy(results, body) {
   const choice = record(results.accuracy_choice);
   if (choice.estimate_percent) build_accuracy_choice(choice, body);
-  const accuracy = record(results.accuracy), rungs = list(accuracy.rungs).map(record);
-  if (rungs.length === 0) return;
+  const accuracy = record(results.accuracy), levels = list(accuracy.rungs).map(record);
+  if (levels.length === 0) return;
   const state = { figure: "worst" };
   const redraw = figure(figure_grid(body), {
-    title: "Error against time, rung by rung",
+    title: "Error and time of each fidelity level",
     wide: true,
-    caption: "Each mark is one way to analyse all load cases, held against the finest. One axis is varied at a time from the finest; "
-      + "whole settings are what one would run. No other rung is both as fast and as close as one with a ring. Errors below "
-      + `${LEAST_DRAWN_ERROR} % are drawn there.`,
-  }, (plot) => draw_ladder(plot, rungs, state.figure));
+    caption: "Each mark is a fidelity level: all load cases analysed with its models and resolution, compared with the finest level. Most levels differ "
+      + "from the finest along one axis; the whole settings are complete choices for practical use. A level with a ring is Pareto-best: no other level "
+      + `is both as fast and as accurate. Errors below ${LEAST_DRAWN_ERROR} % are drawn at that value.`,
+  }, (plot) => draw_levels(plot, levels, state.figure));
   const { node } = choice_of_figure(state, redraw);
   body.prepend(node);
   table(body, {
-    title: "Rungs",
-    note: "Errors in per cent of the finest rung, the worst of the load cases: TE mean in units of the mean deflection of the mesh, peak to peak and "
-      + "harmonics in units of the peak to peak, at least 2 % of that deflection. Seconds of one thread with influence values known; first run: with the "
-      + "finite elements that the compliance needs.",
-    columns: [{ label: "Rung" }, { label: "Axis" }, { label: "Error of" }, { label: "Time", unit: "s", digits: 3 }, { label: "First run", unit: "s", digits: 3 },
+    title: "Fidelity levels",
+    note: "Errors are differences from the finest level in per cent, in the worst load case. The TE mean is related to the mean deflection of the mesh; peak "
+      + "to peak and harmonics are related to the peak to peak, or to 2 % of that deflection where this is larger. Times are of one thread with influence "
+      + "values known; the first run includes the finite elements that the compliance needs.",
+    columns: [{ label: "Level" }, { label: "Axis" }, { label: "Error of" }, { label: "Time", unit: "s", digits: 3 }, { label: "First run", unit: "s", digits: 3 },
       { label: "TE mean", unit: "%", digits: 2 }, { label: "TE p-p", unit: "%", digits: 2 }, { label: "TE harmonic 1", unit: "%", digits: 2 },
       { label: "Stress", unit: "%", digits: 2 }, { label: "Line load", unit: "%", digits: 2 }, { label: "Worst", unit: "%", digits: 2 }, { label: "Best" }, { label: "Settings" }],
-    rows: rungs.map((rung) => {
-      const e = record(rung.error_percent);
-      return [rung.name, rung.axis, rung.varies, rung.seconds, rung.first_run_seconds, e.te_mean ?? null, e.te_peak_to_peak ?? null, e.te_harmonic_1 ?? null,
-        e.peak_contact_stress ?? null, e.peak_line_load ?? null, e.worst ?? null, rung.pareto_best ? "yes" : "", settings_text(rung.settings)];
+    rows: levels.map((level) => {
+      const e = record(level.error_percent);
+      return [level.name, level.axis, level.varies, level.seconds, level.first_run_seconds, e.te_mean ?? null, e.te_peak_to_peak ?? null, e.te_harmonic_1 ?? null,
+        e.peak_contact_stress ?? null, e.peak_line_load ?? null, e.worst ?? null, level.pareto_best ? "yes" : "", settings_text(level.settings)];
     }),
   });
   const own = record(accuracy.reference_resolution_error_percent);
   table(body, {
-    title: "Observed orders of convergence, and what is left of the finest's own resolution",
-    note: "By the three finest levels of an axis: halving the step divides the change by 2 to the order. Not regular: in some load case the changes "
-      + "do not shrink as a power, or change sign. The last column is estimated from the same changes.",
-    columns: [{ label: "Figure" }, ...list(accuracy.orders).map((axis) => ({ label: `${axis.axis} ${list(axis.levels).join(", ")}`, digits: 2 })),
-      { label: "Left in the finest", unit: "%", digits: 2 }],
+    title: "Observed orders of convergence and remaining error of the finest level",
+    note: "The three finest levels of an axis give its order p: halving the step divides the change by 2 to the power p. An axis is not regular where in some "
+      + "load case the changes do not shrink as a power or change sign. The last column is estimated from the same changes.",
+    columns: [{ label: "Quantity" }, ...list(accuracy.orders).map((axis) => ({ label: `${axis.axis} ${list(axis.levels).join(", ")}`, digits: 2 })),
+      { label: "Error of the finest", unit: "%", digits: 2 }],
     rows: FIGURES.filter((name) => name !== "worst").map((name) =>
       [figure_words(name), ...list(accuracy.orders).map((axis) => { const p = record(axis.order)[name]; return { text: is_number(p) ? fmt(p, 2) : "not regular", value: p }; }),
         own[name] ?? null]),
@@ -113,9 +113,9 @@ function build_accuracy_choice(choice, body) {
     resolution: "quadrature and positions",
     effects: list(record(choice.effects).left_out).length > 0 ? `without ${list(choice.effects.left_out).join(", ")}` : "all that are called for" };
   table(body, {
-    title: "What was chosen, and what it costs in accuracy",
-    note: "Estimated errors in per cent, the worst of the load cases. What the study gives itself stays and is not judged. "
-        + "Quadrature and positions together: their sum.",
+    title: "Chosen settings and their estimated errors",
+    note: "Errors are estimates in per cent for the worst load case. Settings that the study gives are kept and not estimated. "
+        + "The row of the resolution is the sum of quadrature and positions.",
     columns: [{ label: "Setting" }, { label: "Used" }, ...FIGURES.map((name) => ({ label: figure_words(name), digits: 2 }))],
     rows: [...Object.entries(used).map(([name, value]) => {
       const part = record(choice[name]);
@@ -128,9 +128,9 @@ function build_accuracy_choice(choice, body) {
   const levels = list(record(choice.quadrature).levels).map(record)
     .map((l, i, all) => level(`${fmt(l.intervals)} intervals, ${fmt(l.positions)} positions`, l, i === all.length - 1));
   table(body, {
-    title: "What was considered",
-    note: "Models resolved coarsely, then the resolutions of the load case that asked for the finest one.",
-    columns: [{ label: "Rung" }, { label: "Chosen" }, { label: "Estimated error, worst figure", unit: "%", digits: 2 }, { label: "Time", unit: "s", digits: 2 }],
+    title: "Candidates",
+    note: "Models are compared at a coarse resolution. The resolutions are those tried for the load case that needs the finest one.",
+    columns: [{ label: "Candidate" }, { label: "Chosen" }, { label: "Estimated error, worst quantity", unit: "%", digits: 2 }, { label: "Time", unit: "s", digits: 2 }],
     rows: [...tried, ...levels],
   });
 }

@@ -1,4 +1,4 @@
-// How sure: the error of the figures, scenes that the optimiser has not seen, other designs and other starts.
+// Assurance: discretisation errors, fresh scenes that the optimiser has not seen, other designs and other starts.
 
 /** Spread of each design over the fresh scenes: least to largest as a line, the quantiles as a bar, the mean as a mark. */
 function draw_spread(plot, validation, unit) {
@@ -44,7 +44,7 @@ function error_facts(optimise) {
   ];
 }
 
-/** What the starts found: "3 of 3 starts end at this optimum". */
+/** Result of the starts: "3 of 3 starts end here". */
 function starts_fact(optimise) {
   const starts = list(optimise.starts).length, optima = list(optimise.optima).map(record);
   if (starts === 0) return null;

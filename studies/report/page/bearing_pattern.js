@@ -1,17 +1,17 @@
-// The bearing pattern: where a marking compound is pressed off, and the contact ellipses that make it up.
+// The bearing pattern: the area from which a marking compound is wiped off, and the contact ellipses along the path.
 
 /** Separations beyond this multiple of the compound's thickness are left blank. */
 const PATTERN_REACH = 3;
 
 /** Outline of a contact ellipse on one gear's flank [{z, r}]; a line where the ellipse has no end. */
 function ellipse_outline(station, gear, reach) {
-  const ellipse = record(station.ellipse), place = place_on(station, gear);
+  const ellipse = record(station.ellipse), point = point_on(station, gear);
   const major = record(record(ellipse.major)[gear]), minor = record(record(ellipse.minor)[gear]);
-  if (!place || !is_number(ellipse.semi_minor_mm) || ![major.radius, major.z, minor.radius, minor.z].every(is_number)) {
+  if (!point || !is_number(ellipse.semi_minor_mm) || ![major.radius, major.z, minor.radius, minor.z].every(is_number)) {
     return null;
   }
   const along = is_number(ellipse.semi_major_mm) ? ellipse.semi_major_mm : Infinity;
-  const at = (a, b) => ({ z: place.z + a * major.z + b * minor.z, r: place.r + a * major.radius + b * minor.radius });
+  const at = (a, b) => ({ z: point.z + a * major.z + b * minor.z, r: point.r + a * major.radius + b * minor.radius });
   if (along > 4 * reach) {
     const b = ellipse.semi_minor_mm, a = 4 * reach;
     return { closed: true, points: [at(-a, -b), at(a, -b), at(a, b), at(-a, b)] };
@@ -24,7 +24,7 @@ function ellipse_outline(station, gear, reach) {
   return { closed: true, points };
 }
 
-/** Every n-th carrying station, about `count` of them, always with the first and the last. */
+/** Every n-th station of the leading pair, about `count` of them, always with the first and the last. */
 function spread(stations, count) {
   if (stations.length <= count) return stations;
   return Array.from({ length: count }, (_, k) => stations[Math.round((k * (stations.length - 1)) / (count - 1))]);
@@ -44,14 +44,14 @@ function outline(pen, trace) {
 function draw_ellipses(pen, stations, gear, reach, to_x, to_y) {
   for (const station of stations) {
     const ellipse = ellipse_outline(station, gear, reach);
-    const place = place_on(station, gear);
+    const point = point_on(station, gear);
     if (ellipse) {
       outline(pen, () => {
         ellipse.points.forEach((p, i) => (i ? pen.lineTo(to_x(p.z), to_y(p.r)) : pen.moveTo(to_x(p.z), to_y(p.r))));
         pen.closePath();
       });
-    } else if (place) {
-      outline(pen, () => pen.arc(to_x(place.z), to_y(place.r), 3, 0, 2 * Math.PI));
+    } else if (point) {
+      outline(pen, () => pen.arc(to_x(point.z), to_y(point.r), 3, 0, 2 * Math.PI));
     }
   }
 }
@@ -67,7 +67,7 @@ function draw_pattern(plot, results, scene, gear) {
   const scale = { low: 0, high: PATTERN_REACH * thickness };
   const raster = grid_raster(grid, area);
   raster.values = raster.values.map((value) => (is_number(value) && value <= scale.high ? value : null));
-  const carrying = pair_way(scene, record(record(results.geometry).pinion).teeth).filter((station) => station.carries);
+  const carrying = pair_run(scene, record(record(results.geometry).pinion).teeth).filter((station) => station.carries);
   const marked = spread(carrying, 5);
   flank_maps(plot, {
     maps: [{

@@ -1,9 +1,9 @@
-// Load cases: the entries of `loaded` grouped by scene and torque, and which of them the reader looks at.
+// Load cases: the entries of `loaded` grouped by scene and torque, and the selection of one of them.
 
 const DESIGN_ORDER = ["before", "given", "after"];
 const DESIGN_LABEL = { before: "Before", given: "As given", after: "After" };
 
-/** What tells scenes {name, torque_Nm} apart: their names, their torques, or both. @return scene -> label */
+/** Labels that distinguish scenes {name, torque_Nm}: by their names, their torques, or both. @return scene -> label */
 function scene_labels(scenes) {
   const several = (of) => unique(scenes.map(of)).length > 1;
   const torques = several((scene) => scene.torque_Nm), names = several((scene) => scene.name);
@@ -36,10 +36,10 @@ const summary_of = (entry) => record(record(entry).summary);
 const same_scene = (scene, load_case) =>
   scene.name === load_case.scene && (!is_number(scene.torque_Nm) || Math.abs(scene.torque_Nm - load_case.torque) <= 1e-5 * Math.abs(load_case.torque));
 
-/** The scenes of an optimisation, the one that governs first: by its weight at the optimum, then by its objective. */
+/** The scenes of an optimisation, the governing one first: by weight at the optimum, then by objective. */
 function scenes_by_rank(optimise) {
   const governing = record(optimise.governing);
-  // Of a list of objectives the multipliers are those of the last one.
+  // With several objectives in lexicographic order the multipliers belong to the last one.
   const weights = (governing.objective_name ?? optimise.objective_name) === optimise.objective_name ? list(governing.scenes).map(record) : [];
   const scenes = list(optimise.scenes).map(record).map((scene) => {
     const found = weights.find((w) => w.name === scene.name && (!is_number(w.torque_Nm) || w.torque_Nm === scene.torque_Nm));
@@ -49,7 +49,7 @@ function scenes_by_rank(optimise) {
   return scenes.sort((a, b) => Math.abs(b.governs) - Math.abs(a.governs) || value(b) - value(a));
 }
 
-/** True where a study asks for transmission error alone: its objective, or all that it expects of the loaded contact. */
+/** True where a study asks for transmission error alone: by its objective, or by all its expectations of the loaded contact. */
 function asks_for_te(results) {
   const objective = record(results.optimise).objective_name;
   if (objective) return /^te_/.test(objective);
@@ -57,7 +57,7 @@ function asks_for_te(results) {
   return expected.length > 0 && expected.every((key) => /te_/.test(key));
 }
 
-/** The load case that governs: by its weight at the optimum or its objective there; else of the largest stress, or TE where that is asked for. */
+/** The governing load case: by its weight or objective at the optimum; else the one with the largest stress, or TE where the study asks for it. */
 function governing_case(cases, results) {
   const ranked = scenes_by_rank(record(results.optimise)).filter((scene) => scene.governs !== 0 || is_number(scene.after));
   for (const scene of ranked) {
@@ -73,7 +73,7 @@ function governing_case(cases, results) {
 }
 
 /**
- * The one case that a group of figures shows; every choice on the page sets it for all of the group.
+ * The case that a group of figures shows; every choice on the page sets it for the whole group.
  * @param remark  added to the label of the case that is shown first
  */
 function case_selection(cases, first, remark) {

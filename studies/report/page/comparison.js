@@ -1,10 +1,10 @@
-// The optimum beside what a designer would grind without one: rules of thumb and a full-factorial search.
+// The optimum compared with designs found without an optimiser: rules of thumb and a full-factorial search.
 
 /**
  * Horizontal bars from zero.
  * @param rows  [{label, value, colour, hollow?, note?}], or several bars in a row: [{label, values, bars: [{value, colour, what}]}];
- *              a value that is none leaves its place empty
- * @param limit  bars beyond it, either way, end there with a break
+ *              a missing value leaves its row empty
+ * @param limit  longer bars, positive or negative, end there with a break
  */
 function draw_bars(plot, { rows, unit, label, limit = Infinity }) {
   const width = Math.max(320, plot.clientWidth || 900), row_height = 24, top = 8, bottom = 40;
@@ -82,9 +82,9 @@ function build_comparison(results, body) {
   const designs = compared_designs(optimise);
   const note = (value) => percent_change(after.objective, value);
   figure(figure_grid(body), {
-    title: `${capital(name)} of the optimum and of other designs`,
+    title: `${capital(name)} of the optimum and other designs`,
     wide: true,
-    caption: `Over the same scenes; a rule may use modifications that the study leaves as they are. ${comparison_caption(record(optimise.comparison))} Hollow bars violate a constraint.`,
+    caption: `All designs are analysed over the same scenes. A rule may use modifications that the study does not vary. ${comparison_caption(record(optimise.comparison))} Hollow bars violate a constraint.`,
   }, (plot) => draw_bars(plot, {
     label: "Objective of every design compared", unit,
     rows: [{ label: "optimum", value: after.objective, colour: design_colour("after"), note: `${fmt(after.objective)} ${unit}` },
@@ -93,7 +93,7 @@ function build_comparison(results, body) {
   }));
   table(body, {
     title: "Designs compared",
-    columns: [{ label: "Design" }, { label: capital(name), unit }, { label: "Against the optimum" }, { label: "Constraints met" },
+    columns: [{ label: "Design" }, { label: capital(name), unit }, { label: "Compared with the optimum" }, { label: "Constraints met" },
       { label: "Modifications" }, { label: "Basis" }],
     rows: designs.map((design) => [design.name, design.objective ?? null, note(design.objective),
       design.failure ? design.failure : design.feasible ? "yes" : "no", modifications_in_words(design), in_symbols(design.basis || "–")]),

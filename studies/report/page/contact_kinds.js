@@ -1,6 +1,6 @@
-// Unloaded contact: its kinds, the scenes of the results, and the way of one tooth pair through the mesh.
+// Unloaded contact: its kinds, the scenes of the results, and the run of one tooth pair through the mesh.
 
-/** Kind of contact -> words, colour and mark; the mark tells the kinds apart without colour. */
+/** Kind of contact -> words, colour and mark; the marks distinguish the kinds without colour. */
 const CONTACT_KINDS = {
   line: { label: "line contact", colour: 0, style: "rect" },
   surface: { label: "surface contact", colour: 2, style: "circle" },
@@ -29,10 +29,10 @@ function unloaded_scenes(results) {
 }
 
 /**
- * All positions of all pairs as stations of one pair on its way through the mesh, in the order of motion; with `turned`, the
- * pinion's turn since the pair was at the pitch point [deg].
+ * All positions of all pairs as stations of one pair on its run through the mesh, in the order of motion. `turned` is the
+ * rotation of the pinion since the pair was at the pitch point [deg].
  */
-function pair_way(scene, pinion_teeth) {
+function pair_run(scene, pinion_teeth) {
   const pitch = 360 / pinion_teeth;
   return list(scene.pairs).map(record)
     .flatMap((pair) => list(pair.positions).map(record)
@@ -41,8 +41,8 @@ function pair_way(scene, pinion_teeth) {
     .sort((a, b) => a.turned - b.turned);
 }
 
-/** Place of a station on one gear's flank, or null. */
-function place_on(station, gear) {
+/** Point of a station on one gear's flank, or null. */
+function point_on(station, gear) {
   const { z_mm: z, radius_mm: r } = record(station[gear]);
   return is_number(z) && is_number(r) ? { z, r } : null;
 }

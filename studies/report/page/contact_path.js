@@ -3,21 +3,21 @@
 const PATH_HEIGHT = 330;
 const PATH_MARGIN = { left: 56, right: 74, top: 26, bottom: 40 };
 
-/** Pieces of a way between its jumps: an edge contact may leave one end of the tooth and go on at the other. */
-function continuous_pieces(places, bounds) {
+/** Pieces of a path between its jumps: an edge contact may leave one end of the tooth and continue at the other. */
+function continuous_pieces(stations, bounds) {
   const depth = bounds.tip - bounds.form;
   const pieces = [];
-  places.forEach((place, i) => {
-    const before = places[i - 1];
-    const jumps = !before || place.contact === "line" || before.contact === "line"
-      || Math.abs(place.z - before.z) > 0.3 * bounds.half_face || Math.abs(place.r - before.r) > 0.3 * depth;
+  stations.forEach((station, i) => {
+    const before = stations[i - 1];
+    const jumps = !before || station.contact === "line" || before.contact === "line"
+      || Math.abs(station.z - before.z) > 0.3 * bounds.half_face || Math.abs(station.r - before.r) > 0.3 * depth;
     if (jumps) pieces.push([]);
-    pieces[pieces.length - 1].push(place);
+    pieces[pieces.length - 1].push(station);
   });
   return pieces;
 }
 
-/** An arrowhead beside the step from one place to the next, on the side of `centre`, where no mark hides it. */
+/** An arrowhead beside the step from one station to the next, on the side of `centre` and clear of the marks. */
 function draw_arrow(pen, from, to, centre, size) {
   const middle = { x: (from.x + to.x) / 2, y: (from.y + to.y) / 2 };
   const angle = Math.atan2(to.y - from.y, to.x - from.x);
@@ -102,12 +102,12 @@ function path_legend(plot, kinds) {
   const entry = (draw, text) => el("span", {}, sample(draw), ` ${text}`);
   plot.append(el("p", { class: "mark-legend" },
     ...kinds.map((kind) => entry((pen) => draw_mark(pen, kind, size / 2, size / 2, 4.5, true), kind_words(kind))),
-    entry(line(4, 1), "carries the mesh (filled)"), entry(line(1.2, 0.6), "another pair leads (hollow)")));
+    entry(line(4, 1), "the pair leads (filled)"), entry(line(1.2, 0.6), "another pair leads (hollow)")));
 }
 
-function draw_flank_path(plot, way, bounds, gear) {
-  const places = way.map((station) => ({ ...place_on(station, gear), contact: station.contact, carries: station.carries,
-    turned: station.turned })).filter((place) => is_number(place.z));
+function draw_flank_path(plot, run, bounds, gear) {
+  const stations = run.map((station) => ({ ...point_on(station, gear), contact: station.contact, carries: station.carries,
+    turned: station.turned })).filter((station) => is_number(station.z));
   const depth = bounds.tip - bounds.form;
   const area = { z: [-1.06 * bounds.half_face, 1.06 * bounds.half_face],
     r: [bounds.form - 0.12 * depth, bounds.tip + 0.12 * depth] };
@@ -120,7 +120,7 @@ function draw_flank_path(plot, way, bounds, gear) {
   const to_y = (r) => frame.top + frame.height * (1 - (r - area.r[0]) / (area.r[1] - area.r[0]));
   draw_flank(pen, bounds, frame, to_x, to_y);
 
-  const pixels = places.map((place) => ({ ...place, x: to_x(place.z), y: to_y(place.r) }));
+  const pixels = stations.map((station) => ({ ...station, x: to_x(station.z), y: to_y(station.r) }));
   const pieces = continuous_pieces(pixels, bounds);
   const ink = css_colour("ink");
   const stroke = (line, line_width, colour) => {
@@ -135,7 +135,7 @@ function draw_flank_path(plot, way, bounds, gear) {
     stroke(piece, 1.2, faded(ink, 0.6));
     piece.forEach((at, i) => i && at.carries && piece[i - 1].carries && stroke([piece[i - 1], at], 4, ink));
   }
-  // Marks are thinned to a distance at which they can be told apart; the last one before a change of kind stays.
+  // Marks are thinned to a legible distance; the last one before a change of kind is kept.
   let last = null;
   pixels.forEach((at, i) => {
     const changes = !last || last.contact !== at.contact || last.carries !== at.carries || i === pixels.length - 1;
@@ -158,7 +158,7 @@ function draw_flank_path(plot, way, bounds, gear) {
     }, null);
     read_out.textContent = near === null ? "\u00a0" : `${kind_words(near.at.contact)}, z ${fmt(near.at.z, 3)} mm, radius `
       + `${fmt(near.at.r, 5)} mm, ${fmt(near.at.turned, 3)}° of pinion turn from the pitch point`
-      + `${near.at.carries ? ", carries" : ""}`;
+      + `${near.at.carries ? ", leads" : ""}`;
   });
   canvas.addEventListener("pointerleave", () => (read_out.textContent = "\u00a0"));
   plot.append(canvas, read_out);
@@ -166,8 +166,8 @@ function draw_flank_path(plot, way, bounds, gear) {
 
 /** Both flanks side by side under one legend. */
 function draw_contact_paths(plot, results, scene) {
-  const way = pair_way(scene, record(record(results.geometry).pinion).teeth);
-  const kinds = Object.keys(CONTACT_KINDS).filter((kind) => way.some((station) => station.contact === kind));
+  const run = pair_run(scene, record(record(results.geometry).pinion).teeth);
+  const kinds = Object.keys(CONTACT_KINDS).filter((kind) => run.some((station) => station.contact === kind));
   if (kinds.length === 0) {
     plot.append(el("p", { class: "empty" }, "The flanks do not touch in this scene."));
     return;
@@ -176,5 +176,5 @@ function draw_contact_paths(plot, results, scene) {
   const flanks = ["pinion", "wheel"].map((gear) => ({ gear, bounds: flank_bounds(results, gear), half: el("div") }))
     .filter((flank) => flank.bounds);
   plot.append(el("div", { class: "flanks" }, ...flanks.map((flank) => flank.half)));
-  flanks.forEach(({ gear, bounds, half }) => draw_flank_path(half, way, bounds, gear));
+  flanks.forEach(({ gear, bounds, half }) => draw_flank_path(half, run, bounds, gear));
 }

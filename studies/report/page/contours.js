@@ -57,7 +57,7 @@ function contour_segments(grid, level) {
   return segments;
 }
 
-/** Draws the contour lines of `levels` and writes each level once, where its line is nearest to the map's diagonal, unless another stands there. */
+/** Draws the contour lines of `levels` and writes each level once, where its line is nearest to the map's diagonal, unless another label is there. */
 function draw_contours(pen, grid, levels, to_x, to_y) {
   const left = to_x(grid.z[0]), right = to_x(grid.z[grid.z.length - 1]);
   const low = to_y(grid.r[0]), high = to_y(grid.r[grid.r.length - 1]);
@@ -77,11 +77,11 @@ function draw_contours(pen, grid, levels, to_x, to_y) {
     pen.lineWidth = 1;
     pen.stroke();
 
-    const places = segments.map(([from]) => [to_x(from[0]), to_y(from[1])])
+    const spots = segments.map(([from]) => [to_x(from[0]), to_y(from[1])])
       .filter(([x, y]) => x > left + 16 && x < right - 16 && y > high + 10 && y < low - 10);
-    if (places.length === 0) return;
+    if (spots.length === 0) return;
     const off_diagonal = ([x, y]) => Math.abs((x - left) / (right - left) - (low - y) / (low - high));
-    const [x, y] = places.reduce((best, place) => (off_diagonal(place) < off_diagonal(best) ? place : best));
+    const [x, y] = spots.reduce((best, spot) => (off_diagonal(spot) < off_diagonal(best) ? spot : best));
     if (written.some((other) => Math.hypot(other[0] - x, other[1] - y) < 22)) return;
     written.push([x, y]);
     pen.textAlign = "center";

@@ -1,10 +1,10 @@
-// What it costs: analyses, seconds, what only the first run of a pair takes, and the resolutions at which it was computed.
+// The cost of a run: analyses, seconds, time of the first run of a pair alone, and the resolutions.
 
 const STEP_WORDS = {
-  load_distribution: "loaded contact", proof_of_the_optimum: "proof of the optimum", effect_sizes: "sizes of effects", finite_elements: "finite elements",
-  fit_of_pinion: "fit of the pinion", fit_of_wheel: "fit of the wheel", accuracy_ladder: "all rungs", samples: "samples",
+  load_distribution: "loaded contact", proof_of_the_optimum: "assessment of the optimum", effect_sizes: "sizes of effects", finite_elements: "finite elements",
+  fit_of_pinion: "fit of the pinion", fit_of_wheel: "fit of the wheel", accuracy_ladder: "all fidelity levels", samples: "samples",
 };
-/** Steps whose result is kept: a second run of the same pair has them for nothing. */
+/** Steps whose result is kept: a second run of the same pair does not repeat them. */
 const KEPT_STEPS = ["finite_elements", "fit_of_pinion", "fit_of_wheel"];
 
 function draw_steps(plot, results) {

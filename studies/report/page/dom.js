@@ -55,26 +55,26 @@ const error_decimals = (error) => {
 function with_error(value, error, digits = 3) {
   if (!is_number(value) || !is_number(error) || !(error > 0)) return fmt(value, digits);
   const decimals = error_decimals(error);
-  // An error below the fifth digit says no more than that the value is exact to what anyone reads.
+  // With an error below the fifth digit the value is exact to all digits shown.
   if (error < 1e-5 * Math.abs(value)) return fmt(value, 5);
   return `${fixed(value, decimals)} ± ${fixed(error, decimals)}`;
 }
 
-/** A time in the unit that it is spoken of. */
+/** A time in its usual unit. */
 const time_text = (s) => (!is_number(s) ? "–" : s < 0.1 ? `${fmt(1000 * s, 2)} ms` : s < 100 ? `${fmt(s, 2)} s` : s < 6000 ? `${fmt(s / 60, 2)} min` : `${fmt(s / 3600, 2)} h`);
 
 /** Units as they are printed: um -> µm, Nm -> N·m. */
 const pretty_unit = (unit) =>
   (typeof unit === "string" ? unit : "").replace(/\bum\b/g, "µm").replace(/\bNm\b/g, "N·m").replace(/^deg$/, "°").replace(/\^2\b/g, "²");
 
-/** Names that a person writes for keys and outputs, key -> {name, symbol, sense}, in the order of tables; the page is given them with the results. */
+/** Plain names of keys and outputs, key -> {name, symbol, sense}, in the order of tables; they are stored in the page with the results. */
 const NAMES = new Map();
 
 function learn_names(names) {
   for (const [key, name, symbol, sense] of list(names)) NAMES.set(key, { name, symbol, sense });
 }
 
-/** What a loaded cycle is summed up by, in the order of tables: {key, name, unit, topic, is_list, is_headline, has_error, smaller_is_worse}. */
+/** The summary quantities of a loaded cycle, in the order of tables: {key, name, unit, topic, is_list, is_headline, has_error, smaller_is_worse}. */
 const QUANTITIES = [];
 
 function learn_quantities(quantities) {

@@ -1,4 +1,4 @@
-// Which effects are on and why, how large each is, and where the time went.
+// The effects with their reasons and sizes, and the time of the run.
 
 const effect_measures = [
   { title: "Effect on the mean transmission error", key: "te_mean_change_um", unit: "µm" },
@@ -8,20 +8,20 @@ const effect_measures = [
 
 const without_round_off = (value, round_off) => (is_number(value) && Math.abs(value) <= round_off ? 0 : value);
 
-/** Bars of one measure, an effect a row: exact where it was left out, and its estimate. */
+/** Bars of one measure, a row for each effect: the exact value by leaving it out, and the estimate. */
 function effect_rows(effects, key) {
   const sides = [{ from: "exact", what: "left out", colour: sequence_colour(0) }, { from: "estimate", what: "estimate", colour: sequence_colour(1) }]
     .filter((side) => effects.some((effect) => effect[side.from]));
   const value_of = (effect, side) => record(effect[side.from])[key] ?? null;
   const all = effects.flatMap((effect) => sides.map((side) => value_of(effect, side)));
-  const round_off = 1e-12 * maximum(all.filter(is_number).map(Math.abs));  // what an effect without effect leaves of such figures
+  const round_off = 1e-12 * maximum(all.filter(is_number).map(Math.abs));  // left by an effect that changes nothing
   return effects.map((effect) => {
     const bars = sides.map((side) => ({ ...side, value: without_round_off(value_of(effect, side), round_off) }));
     return { label: words(effect.name), bars, values: bars.map((bar) => bar.value), note: bars.map((bar) => fmt(bar.value, 3)).join(" / ") };
   });
 }
 
-/** Where one row is more than ten times as long as any other, bars end at one and a half of that: else no other would be seen. */
+/** Limit of the bars: where one row is more than ten times as long as the next, one and a half of the next, so that the others stay visible. */
 function bar_limit(rows) {
   const lengths = rows.map((row) => Math.max(0, ...row.values.filter(is_number).map(Math.abs))).sort((a, b) => b - a);
   return lengths.length > 1 && lengths[1] > 0 && lengths[0] > 10 * lengths[1] ? 1.5 * lengths[1] : Infinity;
@@ -30,9 +30,9 @@ function bar_limit(rows) {
 function time_figure(results, entries, grid) {
   const timed = entries.filter((entry) => entry.seconds > 0);
   if (!(results.seconds > 0) || timed.length === 0) return;
-  const title = "Share of the time";
-  figure(grid, { title, caption: `Of ${fmt(results.seconds, 3)} s: what effects did to build meshes, on all threads together, and the steps of the run, `
-    + "which include them. What is off took none." }, (plot) => draw_bars(plot, { unit: "%", label: title, rows: timed.map((entry) => {
+  const title = "Fraction of the time";
+  figure(grid, { title, caption: `Fraction of ${fmt(results.seconds, 3)} s, for the work of effects on building meshes, all threads together, and for the steps of the run, `
+    + "which include this work." }, (plot) => draw_bars(plot, { unit: "%", label: title, rows: timed.map((entry) => {
     const share = (100 * entry.seconds) / results.seconds;
     return { label: words(entry.name), value: share, colour: sequence_colour(entry.on ? 0 : 2), note: fmt(share, 2) };
   }) }));
@@ -45,8 +45,8 @@ function effect_figures(results, effects, steps, body) {
   for (const { title, key, unit } of sized.length > 0 ? effect_measures : []) {
     const rows = effect_rows(sized, key), limit = bar_limit(rows);
     figure(grid, { title,
-      caption: `With the effect less without it, in the load case in which it is largest${is_exact ? "; exact by leaving it out" : ""}; `
-        + `the estimate at no more than 32 positions, to first order where that holds.${limit < Infinity ? " The broken bar goes on beyond the axis." : ""}` }, (plot) => {
+      caption: `Result with the effect minus result without it, in the load case with the largest difference${is_exact ? "; exact by leaving it out" : ""}. `
+        + `The estimate uses at most 32 positions, to first order where this is valid.${limit < Infinity ? " The broken bar continues beyond the axis." : ""}` }, (plot) => {
       plot.append(el("p", { class: "key" },
         ...(is_exact ? [el("span", { class: "dot", style: `background:${sequence_colour(0)}` }), " left out   "] : []),
         el("span", { class: "dot", style: `background:${sequence_colour(1)}` }), " estimate"));
@@ -67,20 +67,20 @@ function build_effects(results, body) {
   const effects = list(results.effects).map(record), steps = list(results.steps).map(record);
   const longest = Math.max(0, maximum([...effects, ...steps].map((entry) => entry.seconds)));
   effect_figures(results, effects, steps, body);
-  // A share in per cent of what the run computed: below 1e-10 it is round-off.
+  // In per cent of the run's own result: values below 1e-10 are round-off.
   const share = (effect) => without_round_off(record(effect.exact || effect.estimate).share_percent ?? null, 1e-10);
   table(body, {
     title: "Effects in this run",
-    note: "Which effects of the mesh were called for, why, how large each is (the largest of its shares of mean deflection, variation and stress), "
-      + "and the time of its own code; what is off costs nothing.",
+    note: "Effects of the mesh with the reason for being on or off. The size is the largest contribution to mean deflection, variation and stress. "
+      + "The time is that of the effect's own code; an effect that is off takes none.",
     columns: [{ label: "Effect" }, { label: "On" }, { label: "Why" }, { label: "Size", unit: "%", digits: 3 }, { label: "Time", unit: "s" }],
     rows: effects.map((effect) => [words(effect.name), { text: effect.on ? "yes" : "no", class: effect.on ? "good" : "off" },
       effect.why ?? "", share(effect), time_cell(effect.seconds, longest)]),
   });
   if (steps.length === 0) return;
   table(body, {
-    title: "Where the rest of the time went",
-    columns: [{ label: "Step" }, { label: "What" }, { label: "Time", unit: "s" }],
+    title: "Time of the steps",
+    columns: [{ label: "Step" }, { label: "Work" }, { label: "Time", unit: "s" }],
     rows: steps.map((step) => [words(step.name), step.why ?? "", time_cell(step.seconds, longest)]),
   });
 }

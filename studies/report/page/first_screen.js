@@ -1,4 +1,4 @@
-// The first screen: panels that answer what a reader asks before anything else. Each task has its own; what a panel shows small stands large below.
+// The first screen: panels with the main results. Each task has its own panels; sections below show the same in full.
 
 /**
  * A panel of the first screen with a heading; draw(plot) is called now and whenever the colours change.
@@ -18,7 +18,7 @@ function panel(parent, { title, span, href }, draw) {
 const facts = (rows) => el("dl", { class: "facts" }, ...rows.filter((row) => row && row[1] !== null && row[1] !== undefined)
   .flatMap(([name, value, style]) => [el("dt", {}, name), el("dd", { class: style ?? null }, value)]));
 
-/** Panels of the task; what fails says so and leaves the rest of the page alone. */
+/** Panels of the task. An error is reported in the panel and does not affect the rest of the page. */
 function draw_first_screen(results, selection) {
   const first = document.getElementById("first");
   try {

@@ -1,7 +1,7 @@
-// Compliance of single gears: how far the fit and the other models are from finite elements, and deflection curves.
+// Compliance of single gears: the fit and the other models compared with finite elements, and deflection curves.
 
 const FORM_LABEL = {
-  kernels: "Sum of kernels (ours)",
+  kernels: "Sum of kernels",
   thesis_in_master: "Haddad's curves, body inside",
   thesis_separate: "Haddad's curves, body apart",
 };
@@ -31,7 +31,7 @@ function fit_headline(fits) {
     const own = residual_rows(fit).filter((row) => row.form === "kernels" && row.teeth_apart === 0);
     return own.find((row) => row.points === "unseen") || own[0];
   });
-  const parts = fits.flatMap((fit, i) => (closest[i] ? [`${fit.gear}: half of all pairs of places within `
+  const parts = fits.flatMap((fit, i) => (closest[i] ? [`${fit.gear}: half of all pairs of stations within `
     + `${fmt(closest[i].median_percent, 2)} % of finite elements, 95 % within ${fmt(closest[i].share_95_percent, 2)} %`] : []));
   return parts.length ? capital(parts.join("; ")) : "No gear could be fitted";
 }
@@ -65,9 +65,9 @@ function add_choice(parent, label, options, state, key, redraw) {
 function draw_deflections(plot, fit, state) {
   const curves = list(fit.curves).map(record);
   const loads = unique(curves.map((curve) => record(curve.load).u));
-  const places = unique(curves.map((curve) => record(curve.load).zeta)).sort((a, b) => a - b);
+  const stations = unique(curves.map((curve) => record(curve.load).zeta)).sort((a, b) => a - b);
   const teeth = unique(curves.map((curve) => curve.tooth)).sort((a, b) => a - b);
-  const ends = ["sharp end", "mid face", "blunt end"];
+  const ends = ["acute end", "mid face", "obtuse end"];
   const area = el("div");
   const draw = () => {
     clear_plot(area);
@@ -85,14 +85,14 @@ function draw_deflections(plot, fit, state) {
         dashed: curve.model === "thin slices" || curve.model === "thesis",
         order: curve.model === "finite elements" ? 1 : 0,
       })),
-      x: "from the sharp end [modules]", y: "deflection · E mₙ / F",
-      read_x: (x) => `${fmt(x, 3)} modules from the sharp end`, read_y: (y) => fmt(y, 3), height: 340,
+      x: "from the acute end [modules]", y: "deflection · E mₙ / F",
+      read_x: (x) => `${fmt(x, 3)} modules from the acute end`, read_y: (y) => fmt(y, 3), height: 340,
     });
   };
   const choices = el("div");
   const option = (value, label) => ({ value: String(value), label });
   add_choice(choices, "Load at the", loads.map((u) => option(u, HEIGHT_LABEL[u] || `u = ${fmt(u, 2)}`)), state, "u", draw);
-  add_choice(choices, "of the", places.map((zeta, i) => option(zeta, places.length === 3 ? ends[i] : fmt(zeta, 3))),
+  add_choice(choices, "of the", stations.map((zeta, i) => option(zeta, stations.length === 3 ? ends[i] : fmt(zeta, 3))),
     state, "zeta", draw);
   const tooth_name = (tooth) => (tooth === 0 ? "the loaded one" : `${fmt(Math.abs(tooth))} ${tooth > 0 ? "after" : "before"} it`);
   add_choice(choices, "Tooth", teeth.map((tooth) => option(tooth, tooth_name(tooth))), state, "tooth", draw);
@@ -113,7 +113,7 @@ function draw_residual_shares(plot, fit) {
     dashed: row.points === "fitted",
   }));
   xy_chart(plot, {
-    label: "Share of the pairs of places within a residual",
+    label: "Fraction of the pairs of stations within a residual",
     curves,
     x: "|model − finite elements| / finite elements [%]", y: "pairs within it [%]",
     x_range: { type: "logarithmic", min: 0.01, ticks: { callback: (value) => (Number.isInteger(Math.log10(value)) ? fmt(value) : "") } },
@@ -125,9 +125,9 @@ function draw_residual_shares(plot, fit) {
 function residual_table(body, fit) {
   table(body, {
     title: `Residuals of the ${fit.gear}'s fits`,
-    note: "|model − finite elements| / |finite elements| over all pairs of places so many pitches apart; unseen places lie "
-      + "between those fitted. Where a compliance passes through zero that says little: the last column has the largest error "
-      + "relative to the places' own compliances, √(K_pp K_qq).",
+    note: "Residuals are |model − finite elements| / |finite elements| over all pairs of stations with the stated distance in pitches. Unseen stations lie "
+      + "between those fitted. A relative residual means little where a compliance passes through zero; the last column therefore has the largest error "
+      + "relative to the own compliances of the stations, √(K_pp K_qq).",
     columns: [{ label: "Form" }, { label: "Status" }, { label: "Teeth" }, { label: "Places" }, { label: "Pairs", digits: 7 },
       { label: "Median", unit: "%", digits: 3 }, { label: "95 %", unit: "%", digits: 3 }, { label: "Worst", unit: "%", digits: 3 }, { label: "Worst of own", unit: "%", digits: 3 }],
     rows: residual_rows(fit).map((row) => [FORM_LABEL[row.form], record(fit.residuals[row.form]).status ?? null,
@@ -146,11 +146,11 @@ function fit_facts(body, fit) {
     ["coefficients", fit.coefficients ?? null, ""],
     ["pairs fitted", fit.pairs ?? null, ""],
     ["valid for u", between(range.u), "−1 root, 1 tip"],
-    ["valid for distances from the sharp end", between(range.zeta), "modules"],
+    ["valid for distances from the acute end", between(range.zeta), "modules"],
     ["valid for teeth apart", range.teeth_apart ?? null, "pitches"],
-    ["lowest eigenvalue, of the largest", fit.lowest_eigenvalue ?? null, `over ${plural(fit.eigenvalue_teeth, "tooth").replace("tooths", "teeth")}`],
+    ["lowest eigenvalue / largest", fit.lowest_eigenvalue ?? null, `over ${plural(fit.eigenvalue_teeth, "tooth").replace("tooths", "teeth")}`],
     ["median standard error of a coefficient", record(fit.uncertainty).median_standard_error ?? null, ""],
-    ["shaft motion taken out", elements.removed_shaft_motion ?? null, ""],
+    ["shaft motion removed", elements.removed_shaft_motion ?? null, ""],
     ["shaft diameter", gear_body.shaft_diameter_mm ?? null, "mm"],
     ["bore diameter", gear_body.bore_diameter_mm ?? null, "mm"],
     ["unknowns", elements.unknowns ?? null, ""],
@@ -159,7 +159,7 @@ function fit_facts(body, fit) {
     ["fit", fit.fit_seconds ?? null, "s"],
   ];
   table(body, {
-    title: `What the ${fit.gear}'s fit is and took`,
+    title: `Fit of the ${fit.gear} and its cost`,
     columns: [{ label: "Quantity" }, { label: "Value", digits: 7 }, { label: "Unit" }],
     rows: rows.filter(([, value]) => value !== null)
       .map(([name, value, unit]) => [name, { text: is_number(value) ? fmt(value, value > 1e4 ? 7 : 4) : value, value }, unit]),
@@ -183,8 +183,8 @@ function build_deflections(results, body) {
       title: `${fit_title(fit)}: deflection along a tooth under a point load`,
       wide: true,
       caption: "Deflection of the tooth's centre surface along the flank normal at the height of the load, times E mₙ / F, "
-        + "without local contact and shaft motion. A plate and slices know of neither the gear body nor other teeth; the "
-        + "slices' load is spread over one module of the contact line.",
+        + "without local contact and shaft motion. The plate and the slices model neither the gear body nor other teeth; the "
+        + "load on the slices is spread over one module of the contact line.",
     }, (plot) => draw_deflections(plot, fit, state));
   }
 }
@@ -194,10 +194,10 @@ function build_residuals(results, body) {
     if (residual_rows(fit).length === 0) continue;
     const grid = figure_grid(body);
     figure(grid, {
-      title: `${fit_title(fit)}: residuals on places fitted and unseen`,
+      title: `${fit_title(fit)}: residuals at fitted and unseen stations`,
       wide: true,
-      caption: "Share of all pairs of places that a fit meets within a relative residual: the further left, the closer. "
-        + "Dashed: places fitted; full: places that the fit has not seen.",
+      caption: "Fraction of all pairs of stations within a relative residual: the further left a curve, the closer the fit. "
+        + "Dashed: fitted stations; full: stations that the fit has not seen.",
     }, (plot) => draw_residual_shares(plot, fit));
     residual_table(body, fit);
     const tables = el("div", { class: "tables" });

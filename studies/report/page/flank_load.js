@@ -3,17 +3,17 @@
 const FLANK_QUANTITIES = [
   { unit: "MPa", title: "Contact stress on the pinion flank",
     values_of: (_, columns) => list(columns.contact_stress_MPa),
-    caption: "Hertzian pressure; over the whole cycle the largest that each place meets, each cell one quadrature point of a "
-      + "contact line, grey never loaded." },
+    caption: "Hertzian pressure. Over the whole cycle each cell shows the largest value at its point; a cell is a quadrature point of a "
+      + "contact line. Grey areas are never loaded." },
   { unit: "N/mm", title: "Line load on the pinion flank",
     values_of: (_, columns) => list(columns.load_N_per_mm),
-    caption: "Load per unit length of contact line over the whole field of contact; a ridge towards one face end is "
-      + "misalignment that the flanks do not take up." },
+    caption: "Load per unit length of contact line over the whole field of contact. A ridge towards one face end shows "
+      + "misalignment that the modifications do not compensate." },
   { unit: "µm", title: "Gap before the load on the pinion flank", is_gap: true,
     values_of: (position, columns) => list(columns.gap_um).map((gap) => (is_number(gap) ? gap - least_gap(position) : null)),
-    caption: "Distance of the unloaded flanks along the flank normal, counted from where they touch first in that mesh position: what the "
-      + "load has to close; over the whole cycle the least at each place. Grey the load does not "
-      + "close: a tenth more than the largest gap that it does." },
+    caption: "Distance of the unloaded flanks along the flank normal, measured from the first contact in that mesh position. The "
+      + "load has to close it. Over the whole cycle each cell shows the smallest value at its point. In grey areas the gap is more than a tenth "
+      + "above the largest gap that the load closes." },
 ];
 
 const least_gap = (position) =>
@@ -28,7 +28,7 @@ const closed_gap = (entry) => maximum(list(record(entry).cycle).map(record).flat
   });
 }));
 
-/** What the maps of a quantity in a load case share, worked out once: {area, scale, designs: [{design, points, raster}]}. */
+/** Common data of the maps of a quantity in a load case, computed once: {area, scale, designs: [{design, points, raster}]}. */
 function flank_clouds(load_case, quantity) {
   load_case.clouds = load_case.clouds || new Map();
   if (load_case.clouds.has(quantity)) return load_case.clouds.get(quantity);
@@ -53,7 +53,7 @@ function nearest_phase(points, wanted) {
   return points.reduce((best, { phase }) => (best === null || apart(phase) < apart(best) ? phase : best), null);
 }
 
-/** The contact lines of one mesh position, every quadrature point a stretch of its line in the colour of its value, bare ones thin and grey. */
+/** The contact lines of one mesh position: each quadrature point is a segment in the colour of its value; unloaded ones are thin and grey. */
 function draw_contact_lines(pen, points, { scale, rank }, to_x, to_y) {
   const middle = (a, b) => [(to_x(a.z) + to_x(b.z)) / 2, (to_y(a.r) + to_y(b.r)) / 2];
   const stretch = (line, i) => {
@@ -141,8 +141,8 @@ function build_flank_load(results, body, selection) {
     phase = wanted;
     redraws.forEach((redraw) => redraw());
   });
-  body.append(el("p", { class: "remark" }, "The slider moves through the mesh cycle: at each position the contact lines of all teeth in mesh are drawn, thick in the "
-    + "colour of what they carry, thin where they are bare, edges that hover over a tip or a root included."));
+  body.append(el("p", { class: "remark" }, "The slider moves through the mesh cycle. At each position the contact lines of all teeth in mesh are drawn: thick in the "
+    + "colour of their value where they are loaded, thin where they are not. Lines that lie over a tip or root edge without touching it are included."));
   const grid = figure_grid(body);
   const paired = selection.cases.some((load_case) => designs_of(load_case).length > 1);
   for (const quantity of FLANK_QUANTITIES) {

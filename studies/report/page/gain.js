@@ -1,9 +1,9 @@
-// How much better, scene by scene, and against what a designer would have ground without an optimiser.
+// The gain in each scene, the constraints and the further objectives.
 
 const MOST_SCENES = 8;
 
 
-/** Bars of each row, before above after or after alone, with whiskers of the error where it is known. @param rows [{label, before?, after, before_error?, after_error?, strong?}] */
+/** Bars of each row, before above after or after alone, with error whiskers where errors are known. @param rows [{label, before?, after, before_error?, after_error?, strong?}] */
 function draw_pairs(plot, rows, unit) {
   const width = Math.max(280, plot.clientWidth || 400), paired = rows.some((row) => is_number(row.before)), row_height = paired ? 22 : 20, bottom = 2;
   const note = (row) => (paired ? `${fmt(row.before, 3)} → ${fmt(row.after, 3)}` : with_error(row.after, row.after_error, 3));
@@ -33,17 +33,17 @@ function draw_pairs(plot, rows, unit) {
   plot.append(picture);
 }
 
-/** "26 of 27 scenes are better; most is lost in aligned, +9.7 %." */
+/** "26 of 27 scenes are better; “aligned” is worse by 9.7 %." */
 function scenes_sentence(scenes, label) {
   const known = scenes.filter((scene) => is_number(scene.before) && is_number(scene.after));
   if (known.length < 2) return null;
   const better = known.filter((scene) => scene.after < scene.before).length;
   if (better === known.length) return `All ${known.length} scenes are better.`;
   const lost = known.reduce((a, b) => (b.after / b.before > a.after / a.before ? b : a));
-  return `${better} of ${known.length} scenes are better; “${label(lost)}” pays ${percent_change(lost.before, lost.after)}.`;
+  return `${better} of ${known.length} scenes are better; “${label(lost)}” changes by ${percent_change(lost.before, lost.after)}.`;
 }
 
-/** What each constraint is at, before and after, and its limit. */
+/** Each constraint: its values before and after, and its limits. */
 function constraint_facts(optimise) {
   const before = record(record(optimise.before).constraints), errors = record(record(optimise.after).constraints_error);
   return constraint_rows(optimise).map((row) => {
@@ -54,7 +54,7 @@ function constraint_facts(optimise) {
   });
 }
 
-/** Of a list of objectives those behind the first: [[name, "0.393 → 0.09 µm"]]. */
+/** The further objectives of a lexicographic list: [[name, "0.393 → 0.09 µm"]]. */
 function later_facts(optimise) {
   const from = list(record(optimise.before).later_objectives), to = list(record(optimise.after).later_objectives);
   return list(optimise.stages).slice(1).map((stage, i) => {

@@ -1,14 +1,14 @@
-// How the outputs of each load case answer to the parameters of analyse.gradients: bars for a step of each, derivatives in numbers.
+// Gradients of the outputs of each load case by the parameters of analyse.gradients: bars for a step of each, and derivatives in numbers.
 
 const gradients_of = (load_case) => record(final_entry(load_case).gradients);
 
-/** A step that a designer or a workshop would think in, in the parameter's unit. */
+/** A practical step of a parameter, in its unit. */
 function parameter_step(unit, torque) {
   if (unit === "N·m" && is_number(torque)) return 0.01 * torque;
   return unit === "mm" ? 0.1 : 1;
 }
 
-/** What of a summary is shown, of values and of derivatives alike; with bars where it is looked at first. */
+/** The quantities of a summary that are shown, with bars for the main ones. */
 const gradient_outputs = () => [
   ...QUANTITIES.filter((of) => of.is_headline).map((of) => ({
     column: { label: capital(of.name), unit: of.unit }, of: (s) => quantity_in(s, of), bars: ["te_peak_to_peak_um", "peak_contact_stress_MPa", "peak_root_stress_MPa"].includes(of.key),
@@ -38,7 +38,7 @@ function build_gradients(results, body, selection) {
     const { label, unit } = output.column;
     case_figure(grid, selection, {
       title: `${label}: a step more of each parameter`,
-      caption: "Change to first order, all else as it is: exact while contact points keep their contact and the peak its place.",
+      caption: "Change to first order with all other parameters fixed. It is exact while no contact point opens or closes and the peak stays at its point.",
     }, (plot, load_case) => {
       const rows = gradient_rows(load_case, output);
       if (rows.length > 0) draw_bars(plot, { rows, unit, label });
@@ -46,7 +46,7 @@ function build_gradients(results, body, selection) {
   }
   table(body, {
     title: "In numbers, per unit of the parameter",
-    note: "In the output's unit per unit of the parameter; K_H without spikes. results.json has the derivatives of everything else, to the last point.",
+    note: "Derivatives are in the unit of the output per unit of the parameter; K_H is without spikes. results.json has the derivatives of all other outputs and points.",
     columns: [{ label: "Scene" }, { label: "Torque", unit: "N·m", digits: 6 }, { label: "Parameter" }, { label: "per" }, ...outputs.map(({ column }) => column)],
     rows: cases.flatMap((load_case) => {
       const { parameters, units, summary } = gradients_of(load_case);

@@ -1,6 +1,6 @@
-// What to grind: the modifications before and after, rounded to what a machine can be set to, and the topography that they make.
+// Modifications to grind: before and after, rounded to the steps of the machine, and the resulting topography.
 
-/** What is ground in steps of it where the study gives none. */
+/** The grinding step where the study gives none. */
 const DEFAULT_STEP = { um: 0.1, mm: 0.1 };
 
 const given_value = (results, key) => list(results.given).map(record).find((given) => given.key === key)?.value;
@@ -22,7 +22,7 @@ function ground(value, step) {
 }
 
 /**
- * Everything that is to be ground: [{gear, key, before, after, unit, step, given, bound}] in the order of the names. Left out: given amounts that
+ * All modifications to grind: [{gear, key, before, after, unit, step, given, bound}] in the order of the names. Left out: given amounts that
  * are 0, and heights and lengths of reliefs that are not ground.
  */
 function grinding_rows(results) {
@@ -52,7 +52,7 @@ function grinding_rows(results) {
   return shown.map((row) => ({ ...row, gear: row.key.split(".")[0] })).sort((a, b) => place(a.key) - place(b.key));
 }
 
-/** Where a relief sets in, as drawings say it: "from d_Ca 219.8 mm". */
+/** Start of a relief as on drawings: "from d_Ca 219.8 mm". */
 function relief_start(results, row) {
   const gear = record(record(results.geometry)[row.gear]), height = Number(ground(row.after, row.step ?? 1e-3));
   if (/tip_relief\.height$/.test(row.key) && is_number(gear.tip_diameter_mm)) return `from d_Ca ${fixed(gear.tip_diameter_mm - 2 * height, 2)} mm`;

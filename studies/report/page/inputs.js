@@ -1,4 +1,4 @@
-// Notes, and what was given and used.
+// Notes, and the given and used inputs.
 
 function build_notes(results, body) {
   body.append(el("ul", { class: "notes" }, ...list(results.notes).map((note) =>
@@ -14,7 +14,7 @@ function flattened(value, key = "") {
   return Object.entries(value).flatMap(([name, child]) => flattened(child, key ? `${key}.${name}` : name));
 }
 
-/** A dotted key that may go on in the next line behind a dot. */
+/** A dotted key that may break after a dot. */
 const key_cell = (key) => ({ text: key,
   draw: () => el("span", {}, ...`${key}`.split(/(?<=\.)/).flatMap((part) => [part, el("wbr")])) });
 
@@ -25,7 +25,7 @@ function build_inputs(results, body) {
   if (list(results.given).length) {
     table(tables, {
       title: "Given",
-      note: "What the study file and the command line say, as written. Texts in quotes carry their own unit.",
+      note: "Values of the study file and the command line as written. Texts in quotes contain their unit.",
       columns: [...columns, { label: "Unit" }],
       rows: list(results.given).map(record).map((given) => [key_cell(given.key ?? ""), given.value ?? null, { text: pretty_unit(given.unit ?? ""), class: "word" }]),
     });
@@ -34,7 +34,7 @@ function build_inputs(results, body) {
   if (used.length) {
     table(tables, {
       title: "Used",
-      note: "What the run took, defaults and derived values included.",
+      note: "Values used by the run, with defaults and derived values.",
       columns,
       rows: used,
     });

@@ -1,7 +1,7 @@
 // Transmission error, its harmonics, load sharing and mesh stiffness over the mesh cycle, before and after; load cases in numbers.
 
 /**
- * A curve over the mesh cycle [{x, y}], closed by its first point one pitch later. A cycle at phases of one's own choice, which
+ * A curve over the mesh cycle [{x, y}], closed by its first point one pitch later. A cycle at given phases, which
  * has no harmonics, stays open.
  */
 function cycle_points(entry, value_of) {
@@ -37,7 +37,7 @@ function cycle_curves(selection, value_of, remove_mean) {
     designs_of(load_case).map((design) => curve(load_case, design, load_case === selection.current)));
 }
 
-/** Range of an axis with room around its curves and at least `least` wide; curves in the background do not widen it where they stand apart. */
+/** Range of an axis with a margin around its curves, at least `least` wide; background curves that lie apart do not widen it. */
 function readable_range(all, least, with_background = false) {
   const curves = with_background ? all : all.filter((curve) => !curve.quiet);
   const values = numbers(curves.flatMap((curve) => curve.points.map((point) => point.y)));
@@ -47,7 +47,7 @@ function readable_range(all, least, with_background = false) {
   return { min: middle - half, max: middle + half };
 }
 
-/** What is the smallest variation of TE worth drawing: four times its error, or a thousandth of its mean. */
+/** The smallest range of TE to draw: four times its error, or a thousandth of its mean. */
 function least_te_range(load_case) {
   const summaries = designs_of(load_case).map((design) => summary_of(load_case.designs[design]));
   return maximum(summaries.flatMap((s) => [4 * (s.te_peak_to_peak_um_error ?? 0), 1e-3 * Math.abs(s.te_mean_um ?? 0), 1e-6]));
@@ -107,22 +107,22 @@ function build_transmission_error(results, body, selection) {
   const others = selection.cases.length > 1 ? " Thin lines are the other scenes." : "";
   case_figure(grid, selection, {
     title: "Transmission error over the mesh cycle",
-    caption: "Lag of the wheel along the flank normal while the mesh advances by one base pitch; what varies excites "
-      + `noise, what is constant does not.${others}`,
+    caption: "Lag of the wheel along the flank normal while the mesh advances by one base pitch. Its variation excites "
+      + `noise; a constant lag does not.${others}`,
   }, (plot) => draw_te_cycle(plot, selection));
   const has_harmonics = selection.cases.some((load_case) =>
     designs_of(load_case).some((design) => list(summary_of(load_case.designs[design]).te_harmonics_um).length > 0));
   const has_errors = selection.cases.some((load_case) =>
     designs_of(load_case).some((design) => numbers(summary_of(load_case.designs[design]).te_harmonics_um_error).length > 0));
-  if (!has_harmonics) return; // phases of one's own choice have none
+  if (!has_harmonics) return; // cycles at given phases have none
   case_figure(grid, selection, {
     title: "Harmonics of the transmission error",
-    caption: "Amplitudes at multiples of the tooth-mesh frequency: the first orders are the ones that are heard."
+    caption: "Amplitudes at multiples of the tooth-mesh frequency; the first orders are the audible ones."
       + (has_errors ? " Whiskers are the estimated discretisation error; a hollow bar is smaller than its error." : ""),
   }, (plot, load_case) => draw_te_harmonics(plot, load_case));
 }
 
-/** Share of the force that one tooth pair carries on its way through the mesh: the teeth of all positions, side by side. */
+/** Fraction of the force that one tooth pair carries on its run through the mesh, from the teeth of all positions. */
 function sharing_curve(entry) {
   const points = list(entry.cycle).map(record).flatMap((position) => list(position.teeth).map(record)
     .map((tooth) => ({ x: position.phase + tooth.tooth, y: is_number(tooth.share) ? 100 * tooth.share : null })));
@@ -131,12 +131,12 @@ function sharing_curve(entry) {
 
 function draw_sharing(plot, load_case) {
   xy_chart(plot, {
-    label: "Load sharing of a tooth pair on its way through the mesh",
+    label: "Load sharing of a tooth pair on its run through the mesh",
     curves: designs_of(load_case).map((design) => ({
       label: DESIGN_LABEL[design], points: sharing_curve(load_case.designs[design]), colour: design_colour(design), width: 2.6,
     })),
     x: "phase of the tooth pair's line [base pitches]",
-    y: "share of the force [%]",
+    y: "fraction of the force [%]",
     read_x: (x) => `line phase ${fmt(x)}`,
     read_y: (y) => `${fmt(y, 3)} %`,
     y_range: { beginAtZero: true },
@@ -149,13 +149,13 @@ function build_stiffness(results, body, selection) {
   const grid = figure_grid(body);
   case_figure(grid, selection, {
     title: "Load sharing",
-    caption: "Share of the whole force that one tooth pair carries while its contact line travels from the first touch to the last. "
-      + "With errors that differ from tooth to tooth the curve has one branch a pair.",
+    caption: "Fraction of the whole force that one tooth pair carries from its first to its last contact. "
+      + "With errors that differ from tooth to tooth the curve has a branch for each pair.",
   }, draw_sharing);
   case_figure(grid, selection, {
     title: "Mesh stiffness over the mesh cycle",
-    caption: "Load along the flank normal per unit of face width and of deflection, all tooth pairs together; "
-      + "its steps are teeth that enter and leave the mesh.",
+    caption: "Load along the flank normal per unit of face width and of deflection, for all tooth pairs together. "
+      + "Steps occur where teeth enter and leave the mesh.",
   }, (plot) => {
     const curves = cycle_curves(selection, (position) => position.stiffness_N_per_mm_um, false);
     xy_chart(plot, {
@@ -193,17 +193,17 @@ function load_factor_table(body, rows) {
   };
   table(body, {
     title: "Load distribution factors",
-    note: "Squares of ratios of peak contact stress to the perfect pair's: of what changes along the face alone (K_Hβ), along the "
-      + "profile and from tooth to tooth alone (K_Hα), and of everything (K_H), which is not their product. Peaks are sought between the "
-      + "positions too; without spikes leaves out short contact lines and what lies near their ends on tip edges. ISO 6336, method C, "
-      + "from its own stiffness.",
+    note: "Squared ratios of the peak contact stress to that of the perfect pair. K_Hβ has only deviations along the face, K_Hα only those along the "
+      + "profile and from tooth to tooth, K_H all of them; K_H is not the product of the two. Peaks are sought between the "
+      + "positions too. Values without spikes leave out short contact lines and line ends on tip edges. ISO 6336 values follow method C "
+      + "with the stiffness of the standard.",
     columns: [...case_columns, { label: "By" },
       { label: "K_Hβ" }, { label: "K_Hα" }, { label: "K_Hβ·K_Hα" }, { label: "K_H" }, { label: "Peak stress", unit: "MPa" }],
     rows: rated.flatMap(lines),
   });
 }
 
-/** Every number of every load case; a column that nobody filled is left out. */
+/** All numbers of all load cases; empty columns are left out. */
 function build_load_cases(results, body, { cases }) {
   const iso = (key) => (entry) => record(summary_of(entry).iso6336)[key];
   const plain = (key) => (entry) => summary_of(entry)[key];
@@ -228,12 +228,12 @@ function build_load_cases(results, body, { cases }) {
   };
   for (const topic of unique(QUANTITIES.map((of) => of.topic))) {
     numbers_table(`${topic} over the mesh cycle`,
-      "Peaks are the largest values over the positions and all teeth in contact; ± is the estimated discretisation error, where there is an estimate.",
+      "Peaks are the largest values over the positions and all teeth in contact; ± is the estimated discretisation error where it is available.",
       QUANTITIES.filter((of) => of.topic === topic).map(known_to));
   }
-  numbers_table("How far the numbers hold",
-    symbols("c′ and c_γ are those of ISO 6336; f_sh is the misalignment by the shafts, its mean; the change of the harmonics is what the last "
-      + "doubling of positions brought; the KKT residual is the largest error of the contact conditions."), [
+  numbers_table("Numerical quality, and stiffness by ISO 6336",
+    symbols("c′ and c_γ are those of ISO 6336; f_sh is the mean misalignment by the shafts. The change of harmonics is that by the last "
+      + "doubling of positions. The KKT residual is the largest error of the contact conditions."), [
       [{ label: "f_sh", unit: "µm" }, plain("shaft_misalignment_um")],
       [{ label: "c′, ISO", unit: "N/(mm µm)" }, iso("c_prime")],
       [{ label: "c_γ, ISO", unit: "N/(mm µm)" }, iso("c_gamma")],

@@ -1,4 +1,4 @@
-// Fills the sections that the page has; one that fails says so and leaves the others alone.
+// Fills the sections of the page. An error is reported in its section and does not affect the others.
 
 const BUILDERS = {
   accuracy: build_accuracy,

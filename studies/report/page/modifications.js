@@ -7,7 +7,7 @@ function topography_grid(modification) {
   return grid.z.length > 1 && grid.r.length > 1 && grid.rows.length === grid.r.length ? grid : null;
 }
 
-/** The range of removal that the designs of a gear share; what is unmodified gets a range of 1 um. */
+/** The common range of removal of a gear's designs; an unmodified flank gets a range of 1 um. */
 function removal_scale(entries) {
   const values = numbers(entries.flatMap(({ grid }) => grid.rows.flat()));
   const scale = { low: Math.min(0, minimum(values)), high: maximum(values) };
@@ -50,7 +50,7 @@ function draw_topography(plot, gear, entries) {
   flank_maps(plot, { maps, area, scale, unit: "µm", r_title: `${gear} radius [mm]` });
 }
 
-/** An amount as it is shown: below a nanometre, or a millionth of any other unit, there is nothing but how far a solver went. */
+/** An amount as it is shown: values below a nanometre, or a millionth of any other unit, are solver tolerance and become 0. */
 const settled = (value, unit) => (Math.abs(value) < (unit === "um" ? 1e-3 : 1e-6) ? 0 : value ?? null);
 
 function variable_table(body, optimise) {
@@ -97,7 +97,7 @@ function build_modifications(results, body) {
     figure(grid, {
       title: `The ${gear} flank as a surface`,
       wide: modified.length > 1,
-      caption: "Removed material drops below the unmodified flank, the dashed frame; heights are magnified.",
+      caption: "The surface lies below the unmodified flank (dashed frame) by the removed material; heights are magnified.",
     }, (plot) => draw_surfaces(plot, modified.map((entry) => ({ title: design_title(entry), grid: entry.grid })), removal_scale(own), gear, state));
   }
   if (results.optimise) variable_table(body, record(results.optimise));

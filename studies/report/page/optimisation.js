@@ -1,4 +1,4 @@
-// What the optimiser did: the objective of every scene, the constraints, the way to the optimum.
+// The optimisation: the objective of every scene, the constraints and the history of the search.
 
 /** Dumbbells: one row a scene, from the value before to the value after. */
 function draw_scene_objectives(plot, scenes, unit) {
@@ -52,8 +52,8 @@ function build_scenes(results, body) {
     figure(figure_grid(body), {
       title: `${capital(name)} of every scene`,
       wide: true,
-      caption: `What the change of the flanks does to the ${name} in each misalignment and torque of the set; `
-        + "a scene that moves to the right pays for the others.",
+      caption: `Change of the ${name} by the optimised flanks in each scene; `
+        + "a scene that moves to the right becomes worse in favour of the others.",
     }, (plot) => draw_scene_objectives(plot, scenes, unit));
     table(body, {
       title: `${capital(name)} by scene`,
@@ -88,7 +88,7 @@ function build_convergence(results, body) {
   figure(grid, {
     title: "Objective over the evaluations",
     wide: !violated,
-    caption: "Every analysis that the solver asked for; open points violate a constraint.",
+    caption: "All analyses of the solver; open points violate a constraint.",
   }, (plot) => {
     const points = history.map((step) => ({ x: step.evaluation, y: step.objective }));
     const feasible = (i) => !(history[i].constraint_violation > 0);

@@ -6,7 +6,7 @@ Chart.defaults.maintainAspectRatio = false;
 // Twice the screen's resolution at least, so that the printed page stays sharp.
 Chart.defaults.devicePixelRatio = Math.max(2, window.devicePixelRatio || 1);
 
-/** A tick's number with as many decimals as tell it from its neighbours. */
+/** A tick's number with as many decimals as distinguish it from its neighbours. */
 function tick_text(value, _, ticks) {
   const step = ticks.length > 1 ? Math.abs(ticks[1].value - ticks[0].value) : 0;
   const decimals = step > 0 ? Math.ceil(-Math.log10(step) - 1e-9) : -1;
@@ -34,13 +34,13 @@ const legend = (show, of_lines = false) => ({
     usePointStyle: true,
     boxWidth: 18,
     boxHeight: 7,
-    // Long enough to tell dashed from full; points would become ellipses.
+    // Long enough to show the dashes; points would become ellipses.
     ...(of_lines ? { pointStyleWidth: 30, generateLabels: labels_with_dashes } : {}),
     filter: (item, data) => !data.datasets[item.datasetIndex].quiet,
   },
 });
 
-/** Plugin that writes texts beside points, where they cover neither another such point nor another text; without a text where there is no such place. */
+/** Plugin that writes texts beside points where they cover neither another such point nor another text; texts without room are left out. */
 const point_labels = (labels) => ({
   id: "point_labels",
   afterDatasetsDraw: ({ ctx: pen, scales, chartArea: area }) => {

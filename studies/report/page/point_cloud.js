@@ -1,8 +1,8 @@
-// Contact points of a mesh cycle on the pinion flank, and the raster in which each place carries the point nearest to it.
+// Contact points of a mesh cycle on the pinion flank, and the raster in which each cell has the value of the point nearest to it.
 
 /**
  * All contact points of a mesh cycle: [{z, r, value, phase, tooth}].
- * @param values_of  (position, columns of one tooth's points) -> values of a quantity; one that is no number leaves its point out
+ * @param values_of  (position, columns of one tooth's points) -> values of a quantity; points without a number are left out
  */
 function contact_points(entry, values_of) {
   const points = [];
@@ -35,11 +35,11 @@ function point_spacing(points, area) {
 }
 
 /**
- * Every raster cell carries the point nearest to it, distances counted in point spacings; cells further than `reach`
- * spacings from any point stay empty. Of points at the same place the one that tells more counts. A bare point yields to another
- * within a spacing: tip edges that hover over a flank outside the path of contact do not hide what the flank carries.
- * @param is_bare   value -> whether there is nothing to tell at its point
- * @param outranks  (a, b) -> whether value a tells more than b
+ * Every raster cell has the value of the point nearest to it, distances counted in point spacings; cells further than `reach`
+ * spacings from any point stay empty. Among coincident points the higher-ranking one counts. An unloaded point is replaced by another
+ * within a spacing: tip edges over a flank outside the path of contact do not hide the load on the flank.
+ * @param is_bare   value -> whether its point is unloaded
+ * @param outranks  (a, b) -> whether value a ranks above b
  */
 function nearest_points(points, area, { is_bare, outranks }, columns = 240, rows = 120, reach = 1.6) {
   const { dz, dr } = point_spacing(points, area);
@@ -60,9 +60,9 @@ function nearest_points(points, area, { is_bare, outranks }, columns = 240, rows
         const cell = row * columns + column;
         if (apart > reach * reach) continue;
         const d = is_bare(point.value) ? apart + 1 : apart;
-        // Closer than a hundredth of a spacing counts as the same place.
-        const same_place = Math.abs(d - distance[cell]) < 1e-4;
-        if (same_place ? outranks(point.value, owner[cell].value) : d < distance[cell]) {
+        // Points closer than a hundredth of a spacing coincide.
+        const coincide = Math.abs(d - distance[cell]) < 1e-4;
+        if (coincide ? outranks(point.value, owner[cell].value) : d < distance[cell]) {
           distance[cell] = d;
           owner[cell] = point;
         }

@@ -1,6 +1,6 @@
-// How widely an optimum was sought, what rounding it to the grinder's steps costs, and what a gain in one objective costs in another.
+// The starts of a search, the loss by rounding to the grinder's steps, and the Pareto front of several objectives.
 
-/** The front over two of its objectives, by their places in the list; of two objectives in all its points are joined. */
+/** The front over two of its objectives, by their indices in the list; with two objectives the points are joined. */
 function draw_front(plot, front, [across, up], height = 320) {
   const objectives = list(front.objectives).map(record), [first, second] = [objectives[across], objectives[up]];
   const named = ({ name, unit }) => `${words(name)} [${pretty_unit(unit)}]`;
@@ -35,17 +35,17 @@ function front_table(body, front, units) {
   });
 }
 
-/** From where the searches began, where each ended, and which different optima they found. */
+/** Start and end of each search, and the different optima. */
 function starts_tables(body, optimise, units) {
   const starts = list(optimise.starts).map(record), unit = pretty_unit(optimise.objective_unit);
   if (starts.length === 0) return;
   const paths = Object.keys(record(starts[0].from));
   const of_variables = paths.map((path) => ({ label: words(path), unit: pretty_unit(units[path]), digits: 3 }));
-  const bumpy = /sigma$/.test(optimise.over || "") ? " Mean + kσ, which may fall where a single scene rises, has more of them than the worst case." : "";
+  const bumpy = /sigma$/.test(optimise.over || "") ? " Mean + kσ has more local optima than the worst case, because it may fall where a single scene rises." : "";
   table(body, {
     title: "Where the searches started",
-    note: starts.length === 1 ? `One search, from the values of the file: its end is a local optimum, and more starts may find a better one.${bumpy}`
-      : `The first from the values of the file, the others from a space-filling set; each ends in a local optimum.${bumpy}`,
+    note: starts.length === 1 ? `One search was made, from the values of the file. It ends in a local optimum; more starts may find a better one.${bumpy}`
+      : `The first search starts from the values of the file, the others from a space-filling set. Each ends in a local optimum.${bumpy}`,
     columns: [{ label: "Start" }, ...of_variables, { label: "Ended at", unit }, { label: "Analyses" }, { label: "Status" }],
     rows: starts.map((start, i) => [i + 1, ...paths.map((path) => settled(record(start.from)[path], units[path])),
       start.objective ?? null, start.evaluations ?? null, words(start.status)]),
@@ -55,7 +55,7 @@ function starts_tables(body, optimise, units) {
   table(body, {
     title: "Optima from several starts",
     note: optimise.multimodal ? "The starts found different optima: the problem is multimodal, and more starts may find a better one."
-      : "All starts that ended well found the same optimum.",
+      : "All converged starts found the same optimum.",
     columns: [{ label: "Found by" }, ...of_variables, { label: "Objective", unit }],
     rows: optima.map((optimum) => [`${optimum.found_by} of ${starts.length}`,
       ...paths.map((path) => settled(record(optimum.variables)[path], units[path])), optimum.objective ?? null]),
@@ -74,8 +74,8 @@ function build_search(results, body) {
       figure(grid, {
         title: names.length === 2 ? "What a gain in one costs in the other" : capital(`${names[pair[1]]} against ${names[pair[0]]}`),
         wide: names.length === 2,
-        caption: (names.length === 2 ? "Each point is a design of its own; none of them is better in both."
-          : "Every design of the front; none of them is better in all three, so points that look beaten here gain in the third.")
+        caption: (names.length === 2 ? "Each point is a different design; none of them is better in both."
+          : "Every design of the front; none of them is better in all three. Points that look worse here are better in the third objective.")
           + (front.message ? ` ${capital(front.message)}.` : ""),
       }, (plot) => draw_front(plot, front, pair));
     }
@@ -84,7 +84,7 @@ function build_search(results, body) {
   if (optimise.rounded) {
     const exact = record(record(optimise.exact).variables), ground = record(record(optimise.rounded).variables);
     table(body, {
-      title: "Rounded to what can be ground",
+      title: "Rounded to the grinder's steps",
       columns: [{ label: "Modification" }, { label: "Optimum" }, { label: "To grind", digits: 6 }],
       rows: [...Object.keys(ground).map((path) => [`${words(path)} [${pretty_unit(units[path])}]`, settled(exact[path], units[path]), ground[path]]),
         [`${words(optimise.objective_name)} [${unit}]`, record(optimise.exact).objective, record(optimise.rounded).objective]],

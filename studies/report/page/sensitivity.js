@@ -1,13 +1,13 @@
-// What holds the optimum where it is, and how the objective answers to a step of each variable and tolerance.
+// The active conditions at the optimum, and the change of the objective by a step of each variable and tolerance.
 
 function build_governing(results, body) {
   const optimise = record(results.optimise), governing = record(optimise.governing);
   body.append(el("ul", { class: "statements" }, ...list(governing.words).map((sentence) => el("li", {}, pretty_unit(sentence)))));
   const residual = governing.residual;
   if (!is_number(residual)) return;
-  body.append(el("p", { class: "remark" }, "Weights and gains are the multipliers that balance the exact derivatives of everything "
-    + `that is active at this design; what is left over is ${residual < 1e-6 ? "less than 0.0001" : fmt(100 * residual, 2)} % of the start's objective over a `
-    + `variable's range; gains below ${fmt(governing.resolution, 2)} ${pretty_unit(governing.objective_unit)} are nothing${residual > 1e-3 ? ": the design lies at a kink of another kind or was not optimised to the end" : ""}.`));
+  body.append(el("p", { class: "remark" }, "Weights and gains are the multipliers that balance the exact derivatives of all "
+    + `conditions active at this design. The remainder is ${residual < 1e-6 ? "less than 0.0001" : fmt(100 * residual, 2)} % of the start's objective over the range of a `
+    + `variable. Gains below ${fmt(governing.resolution, 2)} ${pretty_unit(governing.objective_unit)} are insignificant.${residual > 1e-3 ? " The remainder is large: the design lies at a kink of another kind, or the search has not converged." : ""}`));
 }
 
 /** Rows of a tornado, the widest first: a bar for a step down and one for a step up. */
@@ -45,13 +45,13 @@ function build_sensitivity(results, body) {
     });
   };
   draw("variable", "A step of each variable",
-    `Change of the ${name}, to first order with kinks, all else as it is. At an optimum no step within bounds and limits makes it smaller; `
-    + "hollow bars would leave the bounds.");
+    `Change of the ${name} to first order, kinks included, with all other variables fixed. At an optimum no step within bounds and limits reduces it. `
+    + "Hollow bars leave the bounds.");
   draw("tolerance", "A step of each tolerance",
-    `Change of the ${name} where housing, workshop or load differ by this much in every scene and the flanks stay as they are.`);
+    `Change of the ${name} by this deviation of housing, manufacture or load in every scene, with unchanged flanks.`);
   table(body, {
     title: "Sensitivity of the optimum",
-    note: "Optimised anew: to first order, where the design follows the step.",
+    note: "The last column is to first order for a design that is optimised anew after the step.",
     columns: [{ label: "Quantity" }, { label: "Step" }, { label: "Step unit" }, { label: "A step less", unit }, { label: "A step more", unit },
       { label: "A step more, optimised anew", unit }],
     rows: entries.map((s) => [words(s.name), s.step, pretty_unit(s.unit), shown(s.less), shown(s.more),

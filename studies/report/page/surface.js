@@ -4,7 +4,7 @@ const SURFACE_HEIGHT = 330;
 const SURFACE_TILT = (32 * Math.PI) / 180;  // of the view below the horizontal
 
 /**
- * Places of the picture, the flank's middle at the origin: face width along u, radius along v, each counted in half face widths of the
+ * Projection of the flank with its middle at the origin: face width along u, radius along v, both in half face widths of the
  * drawing, removed material downwards.
  */
 function surface_view(grid, scale, turn, width) {

@@ -1,4 +1,4 @@
-// A sweep: how every output scatters over the samples, which parameter that comes from, and its mean over two of them.
+// A sweep: how every output scatters over the samples, the contribution of each parameter, and the mean over two of them.
 
 const sweep_unit = (unit) => (unit === "-" ? "" : pretty_unit(unit));
 const output_cell = (name) => ({ text: words(name), draw: () => symbols(words(name)) });
@@ -7,7 +7,7 @@ const output_cell = (name) => ({ text: words(name), draw: () => symbols(words(na
 const sweep_outputs = (sweep) => list(sweep.outputs).map((name) => [name, record(record(sweep.statistics)[name])])
   .filter(([, of]) => of.samples > 0);
 
-/** The output that a reader asks for first. */
+/** The main output of a sweep. */
 const leading_output = (outputs) => (outputs.find(([name]) => name === "peak_contact_stress_MPa") || outputs[0] || [""])[0];
 
 function sweep_headline(sweep) {
@@ -63,7 +63,7 @@ function draw_histogram(name, of) {
 function build_scatter(results, body) {
   const sweep = record(results.sweep), outputs = sweep_outputs(sweep);
   figure(figure_grid(body), {
-    title: "How every output scatters",
+    title: "Scatter of every output",
     wide: true,
     caption: `Counts over all ${fmt(sweep.samples - sweep.failed, 9)} samples that succeeded; full line: mean, dashed: 1 % and 99 %. The samples `
       + "themselves are in samples.csv and results.sqlite, not in this page.",
@@ -77,9 +77,9 @@ function build_scatter(results, body) {
       record(of.worst).study ?? null]),
   });
   table(body, {
-    title: "What scattered",
+    title: "Scattered parameters",
     note: `Sampler ${words(sweep.sampler)}, seed ${sweep.seed}; every parameter independent of the others. Sections after the response maps show the `
-      + "nominal sample: the study as it is written, and medians where it gives no value.",
+      + "nominal sample: the values of the study, and medians where it gives none.",
     columns: [{ label: "Parameter" }, { label: "Unit" }, { label: "Distribution" }, { label: "Lowest drawn" }, { label: "Highest drawn" }],
     rows: list(sweep.parameters).map(record).map((p) => [words(p.path), sweep_unit(p.unit), p.distribution, record(p.range).low ?? null,
       record(p.range).high ?? null]),
@@ -111,7 +111,7 @@ function draw_tornado(plot, indices, most = Infinity) {
     picture.append(svg("line", { x1: to_x(tick), x2: to_x(tick), y1: top, y2: height - bottom, class: "grid-line" }),
       svg("text", { x: to_x(tick), y: height - bottom + 15, "text-anchor": "middle", class: "muted" }, `${fmt(100 * tick)}`));
   }
-  picture.append(svg("text", { x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle", class: "muted" }, "share of the variance [%]"));
+  picture.append(svg("text", { x: (left + width - right) / 2, y: height - 6, "text-anchor": "middle", class: "muted" }, "fraction of the variance [%]"));
   rows.forEach((row, i) => {
     const y = top + row_height * (i + 0.5), per_cent = (share) => fmt(100 * share, 3);
     const whisker = (value, error, at) => svg("line", { x1: to_x(value - error), x2: to_x(value + error), y1: at, y2: at,
@@ -134,7 +134,7 @@ function build_indices(results, body) {
   const state = { output: leading_output(outputs) };
   const options = outputs.map(([name]) => ({ value: name, label: words(name) }));
   figure(figure_grid(body), {
-    title: "Which parameter the scatter comes from",
+    title: "Contribution of each parameter to the scatter",
     wide: true,
     caption: `Sobol indices from ${fmt(sweep.index_blocks, 9)} blocks of samples: what of an output's variance a parameter has alone, and with its `
       + "interactions with others.",
@@ -152,7 +152,7 @@ function build_indices(results, body) {
   const shown_total = (total) => (is_number(total) ? (total < 1e-6 ? 0 : 100 * total) : null);
   table(body, {
     title: "Total Sobol indices",
-    note: "Share of the variance with all interactions; below a ten-thousandth of a per cent: 0.",
+    note: "Fraction of the variance with all interactions; values below a ten-thousandth of a per cent are shown as 0.",
     columns: [{ label: "Output" }, ...parameters.map((p) => ({ label: words(p.path), unit: "%", digits: 2 }))],
     rows: outputs.map(([name, of]) => [output_cell(name),
       ...parameters.map((p) => shown_total(record(record(of.indices)[p.path]).total))]),
@@ -216,8 +216,8 @@ function build_response_maps(results, body) {
   figure(figure_grid(body), {
     title: "An output over two parameters",
     wide: true,
-    caption: "Mean over the samples in each part of the plane, whatever the other parameters are; where nothing is painted no sample lies. "
-      + "First shown: the two parameters with the largest total indices.",
+    caption: "Mean over the samples in each cell of the plane, over all values of the other parameters. Cells without samples are blank. "
+      + "The two parameters with the largest total indices are shown first.",
   }, (plot) => {
     const area = el("div"), choices = el("div");
     const draw = () => {

@@ -1,4 +1,4 @@
-// The first screens of the tasks: which panels, and in which order.
+// The first screens of the tasks: their panels in order.
 
 function optimise_first(first, results, selection) {
   const optimise = record(results.optimise);
@@ -15,18 +15,18 @@ function optimise_first(first, results, selection) {
   if (front) panel(first, { title: "Topography to grind", span: 12, href: "modifications" }, (plot) => small_topographies(plot, results, 236));
 }
 
-/** How far the headline figures of a load case are known, and how. */
+/** The headline quantities of a load case with their estimated errors. */
 function known_to_panel(plot, results, selection) {
   const summary = summary_of(final_entry(selection.current));
   const shown = QUANTITIES.filter((of) => of.is_headline && of.has_error && is_number(quantity_in(summary, of)));
   const rows = shown.map((of) => [capital(of.name), `${with_error(quantity_in(summary, of), quantity_in(summary, of, "_error"), 4)} ${of.unit}`]);
   const estimated = shown.some((of) => is_number(quantity_in(summary, of, "_error")));
   const change = record(summary.te_convergence).harmonic_change_um;
-  plot.append(facts([...rows, is_number(change) ? ["Twice the positions", `move the harmonics by at most ${fmt(change, 2)} µm`] : null,
+  plot.append(facts([...rows, is_number(change) ? ["Twice the positions", `change the harmonics by at most ${fmt(change, 2)} µm`] : null,
     estimated ? ["±", "estimated discretisation error"] : ["Discretisation", "its error was not estimated"]]));
 }
 
-/** The figure that a study asks about in every load case, the governing one first. */
+/** The quantity that a study asks about, in every load case; the governing case comes first. */
 function cases_panel(plot, selection, key, unit) {
   const rows = selection.cases.map((load_case) => ({ load_case, summary: summary_of(final_entry(load_case)) }))
     .filter(({ summary }) => is_number(summary[key])).sort((a, b) => b.summary[key] - a.summary[key]);
@@ -58,7 +58,7 @@ function unloaded_first(first, results) {
   const scene = worst_unloaded(unloaded_scenes(results)), data = scene.data, geometry = record(results.geometry);
   const where = unloaded_scenes(results).length > 1 ? `, ${scene.label}` : "";
   panel(first, { title: `Unloaded transmission error${where}`, span: 7, href: "unloaded" }, (plot) => draw_unloaded_te(plot, data, 360 / record(geometry.pinion).teeth, 220));
-  panel(first, { title: "What the contact does", span: 5, href: "unloaded" },
+  panel(first, { title: "Contact in words", span: 5, href: "unloaded" },
     (plot) => draw_words(plot, data, record(geometry.pinion).teeth / record(geometry.wheel).teeth));
   panel(first, { title: `Path of contact${where}`, span: 9, href: "unloaded" }, (plot) => draw_contact_paths(plot, results, data));
   panel(first, { title: "What it costs", span: 3, href: "effects" }, (plot) => cost_panel(plot, results));
@@ -81,25 +81,25 @@ function sweep_facts(sweep) {
 function sweep_first(first, results) {
   const sweep = record(results.sweep), outputs = sweep_outputs(sweep), leading = leading_output(outputs);
   const shown = SWEEP_FIRST.map((name) => outputs.find(([own]) => own === name)).filter(Boolean).slice(0, 4);
-  panel(first, { title: "How far the outputs scatter", span: 6, href: "scatter" }, (plot) => plot.append(
+  panel(first, { title: "Scatter of the outputs", span: 6, href: "scatter" }, (plot) => plot.append(
     el("div", { class: "small-multiples two" }, ...shown.map(([name, of]) => el("div", {}, draw_histogram(name, of)))),
     el("p", { class: "fine" }, "Full line: mean; dashed: 1 % and 99 % of the samples.")));
-  panel(first, { title: `Where the scatter of the ${words(leading)} comes from`, span: 6, href: "indices" },
+  panel(first, { title: `Causes of the scatter of the ${words(leading)}`, span: 6, href: "indices" },
     (plot) => draw_tornado(plot, record(record(record(sweep.statistics)[leading]).indices), 9));
   panel(first, { title: `How sure: ${words(leading)}`, span: 8, href: "scatter" }, (plot) => plot.append(facts(sweep_facts(sweep))));
   panel(first, { title: "What it costs", span: 4, href: "effects" }, (plot) => cost_panel(plot, results));
 }
 
 function accuracy_first(first, results) {
-  const rungs = list(record(results.accuracy).rungs).map(record);
-  panel(first, { title: "Error against time", span: 7, href: "accuracy" }, (plot) => draw_ladder(plot, rungs, "worst", 400));
-  panel(first, { title: "The cheapest rung within an error", span: 5, href: "accuracy" }, (plot) => {
-    const rows = [10, 5, 2, 1, 0.5, 0.1].map((percent) => ({ percent, rung: cheapest_within(rungs, percent) })).filter(({ rung }) => rung);
-    const tightest = rows.filter(({ rung }, i) => rows[i + 1]?.rung !== rung), finest = rungs.find((rung) => rung.axis === "finest");
-    plot.append(facts(tightest.map(({ percent, rung }) => [`Within ${fmt(percent)} %`,
-      el("span", {}, el("b", {}, `${rung.name}, ${time_text(rung.seconds)}`), el("small", {}, ` ${settings_text(rung.settings)}`))])));
+  const levels = list(record(results.accuracy).rungs).map(record);
+  panel(first, { title: "Error and time of each fidelity level", span: 7, href: "accuracy" }, (plot) => draw_levels(plot, levels, "worst", 400));
+  panel(first, { title: "Cheapest level within an error", span: 5, href: "accuracy" }, (plot) => {
+    const rows = [10, 5, 2, 1, 0.5, 0.1].map((percent) => ({ percent, level: cheapest_within(levels, percent) })).filter(({ level }) => level);
+    const tightest = rows.filter(({ level }, i) => rows[i + 1]?.level !== level), finest = levels.find((level) => level.axis === "finest");
+    plot.append(facts(tightest.map(({ percent, level }) => [`Within ${fmt(percent)} %`,
+      el("span", {}, el("b", {}, `${level.name}, ${time_text(level.seconds)}`), el("small", {}, ` ${settings_text(level.settings)}`))])));
     if (finest) plot.append(facts([["The finest", el("span", {}, el("b", {}, time_text(finest.seconds)), el("small", {}, ` ${settings_text(finest.settings)}`))]]));
-    plot.append(el("p", { class: "fine" }, "Seconds of one thread with influence values known. Errors against the finest rung, the worst figure of all load cases."));
+    plot.append(el("p", { class: "fine" }, "Times are of one thread with influence values known. Errors are differences from the finest level, of the worst quantity in all load cases."));
   });
 }
 

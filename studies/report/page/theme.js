@@ -16,7 +16,7 @@ const css_colour = (name) => getComputedStyle(document.documentElement).getPrope
 /** The given opacity applied to a #rrggbb colour. */
 const faded = (colour, opacity) => colour + Math.round(opacity * 255).toString(16).padStart(2, "0");
 
-/** One colour a design wherever it is drawn: "before" against everything else. */
+/** The colour of a design, the same in all figures: one for "before", one for all others. */
 const design_colour = (design) => css_colour(design === "before" ? "before" : "after");
 
 const figures = [];

@@ -71,7 +71,7 @@ function draw_teeth(plot, geometry) {
       "stroke-width": 2 * line }));
   }
   picture.append(svg("circle", { cx: 0, cy: -r_w[0], r: 3.5 * line, class: "pitch-point" }));
-  // Below the pitch point and above it: there the bodies are, and no tooth comes near.
+  // Below and above the pitch point, on the gear bodies and clear of the teeth.
   const words_at = (y, text, name) => svg("text", { x: 0, y: -y, class: name, "text-anchor": "middle",
     style: `font-size:${(0.1 * pitch).toFixed(3)}px` }, text);
   picture.append(words_at(r_w[0] - 0.85 * half_height, `pinion, ${pinion.teeth} teeth`, "name"),

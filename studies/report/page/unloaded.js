@@ -1,15 +1,15 @@
-// Unloaded tooth contact: transmission error of single pairs and of the mesh, hand-overs, and what it all says in words.
+// Unloaded tooth contact: transmission error of single pairs and of the mesh, transfer points, and a description in words.
 
 const pair_points = (pair, y_of) => list(pair.positions).map(record).map((position) => ({
   x: position.phi1_deg, y: y_of(position), note: CONTACT_KINDS[position.contact]?.label,
 }));
 
-/** Range of the axis: the mesh's own curve with room around it; pairs out of mesh may leave the picture. */
+/** Range of the axis: the curve of the mesh with a margin; pairs out of mesh may leave the plot. */
 function te_range(mesh_values, pair_values) {
   const low = minimum(mesh_values), high = maximum(mesh_values);
   const full = Math.max(high, maximum(pair_values)) - Math.min(low, minimum(pair_values));
   if (!is_number(low) || !is_number(full) || full === 0) return {};
-  // A mesh without transmission error, but for round-off, is seen against its pairs.
+  // A mesh without transmission error, except for round-off, is scaled by its pairs.
   const room = high - low > 1e-6 * full ? 2 * (high - low) : 0.1 * full;
   const clip = (bound, value) => (value === undefined || !is_number(value) ? bound : value);
   return {
@@ -18,13 +18,13 @@ function te_range(mesh_values, pair_values) {
   };
 }
 
-/** Where the curves are counted from: 0, or their highest point where backlash lifts them far off their own variation. */
+/** Datum of the curves: 0, or their highest point where backlash is large compared with their variation. */
 function te_datum(values) {
   const low = minimum(values), high = maximum(values);
   return high - low > 0 && Math.abs(high) > 20 * (high - low) && Math.abs(high) > 1 ? high : 0;
 }
 
-/** Hand-overs as points with what the pairs do there. */
+/** Transfer points with the slopes of both pairs. */
 const transfer_points = (mesh) => list(mesh.transfers).map(record).map((transfer) => {
   const jump = transfer.slope_jump_arcsec_per_deg;
   const slopes = is_number(jump) ? `, slope ${fmt(transfer.slope_before_arcsec_per_deg, 3)} to `
@@ -55,7 +55,7 @@ function draw_unloaded_te(plot, scene, pitch, height = 320) {
   const points = [...phi.map((x, i) => ({ x, y: te[i] })), ...closing, ...transfers].filter((p) => is_number(p.x)).sort((a, b) => a.x - b.x);
   curves.push({ label: "mesh", points: points.map(({ x, y }) => ({ x, y })), colour: css_colour("ink"), width: 3, order: 1 });
   if (transfers.length) {
-    curves.push({ label: "hand-over", points: transfers, colour: css_colour("ink"), fill: css_colour("surface"),
+    curves.push({ label: "transfer point", points: transfers, colour: css_colour("ink"), fill: css_colour("surface"),
       scatter: true, hollow: true, size: 5, order: 0 });
   }
   xy_chart(plot, {
@@ -82,34 +82,34 @@ function mesh_harmonics(plot, mesh) {
 
 const largest_jump = (scene) => maximum(list(record(scene.mesh).transfers).map((t) => record(t).slope_jump_arcsec_per_deg));
 
-function hand_over_words(scene, speed_ratio) {
+function transfer_words(scene, speed_ratio) {
   const count = list(record(scene.mesh).transfers).length;
-  if (count === 0) return "One pair hands over to the next without a step: no slope jump.";
+  if (count === 0) return "The contact passes from pair to pair without a slope jump.";
   const jump = largest_jump(scene);
-  if (!is_number(jump)) return `${plural(count, "hand-over")} a pitch.`;
-  // arcsec of the wheel per degree of the pinion against the wheel's mean speed.
+  if (!is_number(jump)) return `${plural(count, "transfer point")} a pitch.`;
+  // arcsec of the wheel per degree of the pinion, relative to the wheel's mean speed
   const step = is_number(speed_ratio) ? ` The wheel's speed steps up by ${fmt((100 * jump) / 3600 / speed_ratio, 2)} % there.` : "";
-  return `${plural(count, "hand-over")} a pitch, the slope of the transmission error jumping by up to `
+  return `${plural(count, "transfer point")} a pitch; the slope of the transmission error jumps by up to `
     + `${fmt(jump, 3)} arcsec/deg.${step}`;
 }
 
 function parabola_words(parabola) {
   const { wanted_arcsec_per_deg2: wanted, found_arcsec_per_deg2: found, shift_deg: shift, residual_arcsec: residual } = parabola;
-  if (!parabola.holds) return `The designed parabola does not hold: ${parabola.why || "no reason is stored"}.`;
-  const centred = Math.abs(shift) < 0.001;  // deg: less is nothing on any machine
+  if (!parabola.holds) return `The designed parabola is not achieved: ${parabola.why || "no reason is stored"}.`;
+  const centred = Math.abs(shift) < 0.001;  // deg: smaller shifts cannot be manufactured or measured
   const vertex = centred ? "in" : `${fmt(Math.abs(shift), 2)}° ${shift < 0 ? "before" : "after"}`;
   const kept = residual < 0.001 ? "below 0.001" : fmt(residual, 2);  // arcsec
-  return `The designed parabola holds: a = ${fmt(found, 3)} arcsec/deg² of ${fmt(wanted, 3)} wanted, its vertex `
-    + `${vertex} the middle of the mesh, kept to ${kept} arcsec.`;
+  return `The designed parabola is achieved: a = ${fmt(found, 3)} arcsec/deg² (designed ${fmt(wanted, 3)}), vertex `
+    + `${vertex} the middle of the mesh, residual ${kept} arcsec.`;
 }
 
 function draw_words(plot, scene, speed_ratio) {
   const say = (label, text, name) => el("li", { class: name }, el("strong", {}, `${label}: `), text);
   const parabola = scene.parabolic_te ? record(scene.parabolic_te) : null;
   plot.append(el("ul", { class: "notes" },
-    say("A pair on its way", sequence_words(scene.sequence)),
-    say("While it carries", sequence_words(scene.carrying_sequence)),
-    say("Hand-over", hand_over_words(scene, speed_ratio)),
+    say("A pair through the mesh", sequence_words(scene.sequence)),
+    say("While it leads", sequence_words(scene.carrying_sequence)),
+    say("Transfer point", transfer_words(scene, speed_ratio)),
     parabola ? say("Parabola", parabola_words(parabola), parabola.holds ? "good" : "bad") : null));
 }
 
@@ -118,13 +118,13 @@ function scene_table(body, scenes) {
   table(body, {
     title: "Unloaded contact in numbers",
     columns: [{ label: "Scene" }, { label: "TE peak to peak", unit: "arcsec" }, { label: "1st harmonic", unit: "arcsec" },
-      { label: "Hand-overs" }, { label: "Slope jump", unit: "arcsec/deg", digits: 3 },
+      { label: "Transfer points" }, { label: "Slope jump", unit: "arcsec/deg", digits: 3 },
       { label: "Pinion marked", unit: "%", digits: 3 }, { label: "Wheel marked", unit: "%", digits: 3 },
-      ...(has_parabola ? [{ label: "Parabola" }] : []), { label: "A pair carries on" }],
+      ...(has_parabola ? [{ label: "Parabola" }] : []), { label: "Contact of the leading pair" }],
     rows: scenes.map(({ label, data }) => {
       const mesh = record(data.mesh), pattern = record(data.bearing_pattern), parabola = record(data.parabolic_te);
       const jump = largest_jump(data);
-      const verdict = { text: parabola.holds ? "holds" : data.parabolic_te ? "does not hold" : "–",
+      const verdict = { text: parabola.holds ? "achieved" : data.parabolic_te ? "not achieved" : "–",
         class: parabola.holds ? "good" : data.parabolic_te ? "bad" : "off" };
       return [label, mesh.peak_to_peak_arcsec ?? null, list(mesh.harmonics_arcsec)[0] ?? null, list(mesh.transfers).length,
         is_number(jump) ? jump : null, record(pattern.pinion).covered_percent ?? null,
@@ -142,29 +142,29 @@ function build_unloaded(results, body) {
   selection.add_choice(body);
   const grid = figure_grid(body);
   case_figure(grid, selection, {
-    title: "What the contact does",
+    title: "Contact in words",
     wide: true,
-    caption: "Kinds of contact in the order in which a tooth pair meets them, how the mesh passes from pair to pair, and what "
-      + "became of a parabolic transmission error that was designed in.",
+    caption: "Kinds of contact in the order of a tooth pair's run through the mesh, the transfer from pair to pair, and the check of a "
+      + "predesigned parabolic transmission error.",
   }, (plot, { data }) => draw_words(plot, data, speed_ratio));
   case_figure(grid, selection, {
     title: "Path of contact",
     wide: true,
-    caption: "The way of one tooth pair over both flanks, tip at the top, arrows in the direction of motion; bold where the pair "
-      + "carries the mesh. Marks on the outline are edge contact. Each axis has its own scale.",
+    caption: "Contact point of one tooth pair on both flanks, tip at the top, arrows in the direction of motion. The path is bold where the pair "
+      + "leads. Marks on the outline are edge contact. Each axis has its own scale.",
   }, (plot, { data }) => draw_contact_paths(plot, results, data));
   case_figure(grid, selection, {
     title: "Unloaded transmission error",
     wide: true,
-    caption: "Each tooth pair alone, and the pair that leads at every instant as the bold line of the mesh; where two "
-      + "pairs cross, the contact is handed over and the slope jumps. Negative where material is removed.",
+    caption: "Thin lines are single tooth pairs; the bold line of the mesh follows the leading pair. At a transfer point two "
+      + "pairs cross and the slope jumps. Values are negative where material is removed.",
   }, (plot, { data }) => draw_unloaded_te(plot, data, 360 / teeth("pinion")));
   if (scenes.some(({ data }) => data.bearing_pattern)) {
     for (const gear of ["pinion", "wheel"]) {
       case_figure(grid, selection, {
         title: `Bearing pattern of the ${gear}`,
-        caption: "How close the flanks come on a run through the mesh; the contour line is the edge of what the marking "
-          + "compound shows. Outlined: contact ellipses of the same thickness along the path, dots for edge contact. Blank: "
+        caption: "Smallest separation of the flanks on a run through the mesh. The contour line is the edge of the pattern that the marking "
+          + "compound shows. Outlines are contact ellipses for the same thickness, dots are edge contact. Blank areas are "
           + "further apart than three times the thickness.",
       }, (plot, { data }) => draw_pattern(plot, results, data, gear));
     }

@@ -1,4 +1,4 @@
-// The design over scenes that it was not optimised on, drawn from the tolerances.
+// Validation of the design on fresh scenes, drawn from the tolerances and not used by the optimiser.
 
 function build_validation(results, body) {
   const optimise = record(results.optimise), validation = record(optimise.validation);
@@ -10,7 +10,7 @@ function build_validation(results, body) {
   figure(figure_grid(body), {
     title: `${capital(name)} over ${fmt(validation.samples, 7)} drawn scenes`,
     wide: true,
-    caption: "How often each value occurs in scenes that the optimiser has not seen: "
+    caption: "Frequency of each value in scenes that the optimiser has not seen, drawn from: "
       + `${list(validation.tolerances).map(record).map((t) => `${words(t.name)} ${t.distribution}`).join("; ")}.`,
   }, (plot) => bar_chart(plot, {
     label: "Histogram over the drawn scenes", labels: middles, x: unit ? `${name} [${unit}]` : name, y: "scenes", unit: "scenes",

@@ -56,7 +56,7 @@ std::vector<NamedText> hierarchy_tables(const FidelityHierarchy& hierarchy) {
 
 std::string hierarchy_summary(const FidelityHierarchy& hierarchy) {
   const auto share = [](const PerFigure& error, Figure f) { return percent * error[static_cast<std::size_t>(f)]; };
-  std::string out = fmt::format("{:<24}  {:<18}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}\n", "rung", "axis", "seconds", "TE mean", "TE p-p", "TE 1st",
+  std::string out = fmt::format("{:<24}  {:<18}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}\n", "level", "axis", "seconds", "TE mean", "TE p-p", "TE 1st",
                                 "sigma", "worst, %");
   for (const HierarchyStep* step : all_steps(hierarchy)) {
     const PerFigure& e = step->error;
@@ -64,7 +64,7 @@ std::string hierarchy_summary(const FidelityHierarchy& hierarchy) {
                        step->result.seconds, share(e, Figure::TeMean), share(e, Figure::TePeakToPeak), share(e, Figure::TeHarmonic1),
                        share(e, Figure::PeakContactStress), percent * largest(e), step->best ? "  *" : "");
   }
-  return out + "* none is both as fast and as close; errors in per cent of the finest, worst over the scenes; seconds of one thread, influence values known\n";
+  return out + "* Pareto-best: no other level is both as fast and as accurate; errors in per cent of the finest level, worst over the scenes; seconds of one thread, influence values known\n";
 }
 
 }  // namespace flankwright::studies

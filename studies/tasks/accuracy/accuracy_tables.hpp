@@ -11,7 +11,7 @@ namespace flankwright::studies {
 /// accuracy.csv and accuracy_orders.csv.
 std::vector<NamedText> hierarchy_tables(const FidelityHierarchy& hierarchy);
 
-/// What the task prints: a line for each level.
+/// Summary on the terminal: a line for each level.
 std::string hierarchy_summary(const FidelityHierarchy& hierarchy);
 
 }  // namespace flankwright::studies

@@ -15,14 +15,14 @@ void run_accuracy(StudyRun& run) {
   StudyResults& results = run.results();
   LevelRunner runner(run.level_subject(), run.progress());
   results.hierarchy = std::make_shared<const FidelityHierarchy>(run_hierarchy(runner, run.progress()));
-  results.steps.push_back({"accuracy_ladder", "all rungs of the ladder together", results.hierarchy->seconds});
-  if (!results.hierarchy->usable()) results.requirements.push_back("the finest rung of the ladder did not converge");
+  results.steps.push_back({"accuracy_ladder", "all fidelity levels together", results.hierarchy->seconds});
+  if (!results.hierarchy->usable()) results.requirements.push_back("the finest fidelity level did not converge");
 }
 
 }  // namespace
 
 const Task accuracy_task{.name = "accuracy",
-                         .meaning = "The task `accuracy`: [what accuracy costs](tasks/accuracy/README.md).",
+                         .meaning = "The task `accuracy`: [the cost of accuracy](tasks/accuracy/README.md).",
                          .compares_bodies = true,
                          .keys = accuracy_keys,
                          .run = run_accuracy,

@@ -4,7 +4,7 @@
 
 namespace flankwright::studies {
 
-/// What `flankwright new accuracy` prints: a study that runs as it is.
+/// Template of `flankwright new accuracy`: a study that runs as it is.
 std::string accuracy_template();
 
 }  // namespace flankwright::studies

@@ -30,7 +30,7 @@ std::vector<int> halvings(int from, int least) {
   return levels;
 }
 
-/// The finest rung with one thing changed.
+/// The finest level with one setting changed.
 void add_varied(std::vector<FidelityLevel>& fidelity_levels, const char* axis, const std::string& name, ErrorKind kind, const auto& change) {
   FidelityLevel level = fidelity_levels.front();
   level.axis = axis;
@@ -177,7 +177,7 @@ FidelityHierarchy run_hierarchy(LevelRunner& runner, const ProgressReport& progr
   const std::vector<FidelityLevel> fidelity_levels = hierarchy_levels(runner);
   int done = 0;
   const auto step = [&](const FidelityLevel& level) {
-    if (progress) progress("climbing the ladder", done++, static_cast<int>(fidelity_levels.size()), level.name);
+    if (progress) progress("fidelity levels", done++, static_cast<int>(fidelity_levels.size()), level.name);
     HierarchyStep made{runner.run(level)};
     made.first_seconds = made.result.seconds + runner.first_seconds(level.compliance);
     return made;

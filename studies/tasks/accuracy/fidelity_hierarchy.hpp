@@ -7,17 +7,17 @@
 
 namespace flankwright::studies {
 
-/// One rung beside the finest.
+/// One level with its error compared with the finest.
 struct HierarchyStep {
   LevelResult result;
   PerFigure error{};               ///< shares, worst over the load cases, see figure_errors()
-  double first_seconds{not_given};  ///< of this rung where no influence values are kept yet: theirs (wall) added [s]
-  /// No other rung is both as fast and as close in the worst figure (all), in this one figure (the array).
+  double first_seconds{not_given};  ///< of this level without kept influence values: their wall time added [s]
+  /// Pareto-best: no other level is both as fast and as accurate, in the worst quantity (`best`) or in one (`best_in`).
   bool best{false};
   std::array<bool, figure_count> best_in{};
 };
 
-/// How figures converge along one axis whose steps halve.
+/// Orders of convergence along one axis whose steps halve.
 struct AxisOrder {
   std::string axis;
   std::vector<int> levels;  ///< the three finest: intervals or positions, coarse to fine
@@ -27,7 +27,7 @@ struct AxisOrder {
 
 struct FidelityHierarchy {
   std::vector<DesignScene> scenes;  ///< load cases
-  HierarchyStep reference;           ///< the finest rung
+  HierarchyStep reference;           ///< the finest level
   std::vector<HierarchyStep> steps;  ///< all others
   std::vector<AxisOrder> orders;
   PerFigure reference_error{};    ///< of the reference's own resolution, estimated by its last halvings, share; worst over the load cases
@@ -35,13 +35,14 @@ struct FidelityHierarchy {
   bool usable() const { return reference.result.usable(); }
 };
 
-/// The rungs of a study's ladder, the finest first: one axis varied at a time from there, whole settings after.
+/// The fidelity levels of a study, the finest first: one axis varied at a time from there, then whole settings.
 std::vector<FidelityLevel> hierarchy_levels(const LevelRunner& runner);
 
-/// Runs every rung of the study's load cases and holds them against the finest.
+/// Analyses the study's load cases at every level and compares each level with the finest.
 FidelityHierarchy run_hierarchy(LevelRunner& runner, const ProgressReport& progress);
 
-/// Which of some rungs no other one is at least as good as in cost and error, and better in one. Equal ones all count.
+/// Marks the Pareto-best of some levels: those that no other one equals in cost and error and exceeds in one of them. Equal
+/// levels all count.
 std::vector<bool> pareto_best(const std::vector<double>& cost, const std::vector<double>& error);
 
 }  // namespace flankwright::studies

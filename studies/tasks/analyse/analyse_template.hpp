@@ -4,7 +4,7 @@
 
 namespace flankwright::studies {
 
-/// What `flankwright new analyse` prints: a study that runs as it is.
+/// Template of `flankwright new analyse`: a study that runs as it is.
 std::string analyse_template();
 
 }  // namespace flankwright::studies

@@ -9,7 +9,7 @@
 
 namespace flankwright::studies {
 
-/// What is to be solved and fitted for one gear of a study.
+/// Data of one gear of a study to be solved and fitted.
 /// @throws InvalidInput  as influence_table_task()
 GearFitTask gear_fit_task(const Study& study, const GearPair& pair, Member member);
 
@@ -17,8 +17,8 @@ GearFitTask gear_fit_task(const Study& study, const GearPair& pair, Member membe
 /// @throws InvalidInput  as gear_fit_task(), and under the study's keys where a gear cannot be meshed
 std::vector<GearFit> fit_gears(const Study& study, const GearPair& pair, const ProgressReport& progress);
 
-/// What was not met, in one line: finite elements that could not be factorised, or a fit that failed or did not
-/// converge; empty where all was. How close a fit comes is no requirement, but can be made one by [expect].
+/// The requirement that is not met, in one line: finite elements that could not be factorised, or a fit that failed or did not
+/// converge; empty where all was. The accuracy of a fit is no requirement, but can be made one by [expect].
 std::string unmet_requirement(const GearFit& fit);
 
 }  // namespace flankwright::studies

@@ -20,7 +20,7 @@ std::vector<SchemaKey> fit_keys() {
        .fallback = "\"one_tooth_accurate\"", .meaning = "sum of kernels that is fitted: one tooth, or several that are coupled",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.fit.several_teeth = v.text == "several_teeth"; }},
       {.path = "fit.test_grid", .kind = Word, .words = {"on", "off"}, .fallback = "\"on\"",
-       .meaning = "on: compared with finite elements on places that the fit has not seen as well",
+       .meaning = "on: compared with finite elements at stations that the fit has not seen as well",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.fit.test_grid = v.text == "on"; }},
       {.path = "fit.max_iterations", .kind = Integer, .range = {.low = 1, .high = 100'000}, .fallback = "300",
        .meaning = "steps of the least squares, then it ends unconverged with the best so far",

@@ -9,7 +9,7 @@ namespace flankwright::studies {
 /// number a line; fit_residuals.csv and deflection_curves.csv of both gears.
 std::vector<NamedText> fit_tables(const std::vector<GearFit>& fits);
 
-/// What a run prints: how each fit ended, and its residuals beside those of the thesis' forms.
+/// Summary on the terminal: the status of each fit, and its residuals beside those of the thesis' forms.
 std::string fit_summary(const std::vector<GearFit>& fits);
 
 }  // namespace flankwright::studies

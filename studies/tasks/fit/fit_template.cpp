@@ -5,9 +5,9 @@
 namespace flankwright::studies {
 
 std::string fit_template() {
-  static constexpr std::string_view text = R"(# Compliance of each gear by finite elements, fitted by a sum of kernels and shown beside other models. Flank
-# modifications, loads and misalignment play no part in it.
-title = "My gears, how far they give way"
+  static constexpr std::string_view text = R"(# Compliance of each gear by finite elements, fitted by a sum of kernels and compared with other models. Flank
+# modifications, loads and misalignment do not enter.
+title = "Compliance of my gears"
 task = "fit"
 
 [pair]
@@ -25,7 +25,7 @@ rack = { addendum = 1, dedendum = 1.25, root_radius = 0.39 }         # in normal
 teeth = 40
 face_width = 40
 
-[pinion.body]                        # what the teeth stand on; [wheel.body] alike
+[pinion.body]                        # the gear below its teeth; [wheel.body] alike
 # shaft_diameter = 40                # mm; by default 0.8 d, at most 25 m_n/cos(beta)
 # bore_diameter = 2                  # mm; by default 0.05 of the shaft
 # shaft_overhang = 20                # mm beyond each face end; by default half the shaft's diameter
@@ -37,10 +37,10 @@ poissons_ratio = 0.3
 [fit]
 gear = "both"                        # or "pinion", "wheel"
 form = "one_tooth_accurate"          # the loaded tooth alone; "several_teeth" couples its neighbours, less closely
-# test_grid = "off"                  # leaves out the comparison on places that the fit has not seen
+# test_grid = "off"                  # leaves out the comparison at stations that the fit has not seen
 # max_iterations = 600               # steps of the least squares
 
-# What the fit must reach, for `flankwright test`:
+# Required accuracy of the fit, for `flankwright test`:
 # [expect]
 # "fit.residuals.kernels.unseen.0.median_percent" = { max = 1 }      # 0: the loaded tooth, 1: one pitch away ...
 )";

@@ -4,7 +4,7 @@
 
 namespace flankwright::studies {
 
-/// What `flankwright new fit` prints: a study that runs as it is.
+/// Template of `flankwright new fit`: a study that runs as it is.
 std::string fit_template();
 
 }  // namespace flankwright::studies

@@ -13,7 +13,7 @@
 
 namespace flankwright::studies {
 
-/// Designs over scenes drawn afresh from the study's tolerances.
+/// Designs over fresh scenes, drawn from the study's tolerances.
 struct Validation {
   unsigned long seed{0};
   std::vector<std::string> scenes;       ///< names
@@ -21,14 +21,14 @@ struct Validation {
   double seconds{not_given};
 };
 
-/// What an optimum is held against, and what holds it where it is.
+/// Assessment of an optimum: comparison with other designs, validation on fresh scenes, and its active conditions.
 struct Assessment {
   std::optional<RuleBasis> basis;        ///< of the rules, where they were asked for
   std::vector<ComparedDesign> rules;     ///< empty: not asked for
   std::vector<VariantSearch> variants;   ///< one a placement of the levels; empty: not asked for
   std::optional<Validation> validation;  ///< none: not asked for
   std::optional<Optimum> optimum;        ///< of the design before rounding; none where it cannot be analysed
-  std::optional<DesignTask> judged;      ///< what the optimum is of: the task, or of a list its last objective under limits on those before it
+  std::optional<DesignTask> judged;      ///< the problem of the optimum: the task, or for a list of objectives the last one under limits on those before it
   double seconds{not_given};
 };
 
@@ -40,8 +40,8 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
 /// "Over 500 scenes drawn afresh (seed 1) the design is better in 98.2 %, ..."
 std::string validation_in_words(const Validation& validation, const DesignTask& task);
 
-/// What governs the optimum, a sentence each: scenes with their weights, variables at a bound, constraints and earlier objectives at
-/// their limit with what they cost; a gain below the optimum's resolution is nothing.
+/// The active conditions at the optimum, a sentence each: scenes with their weights, variables at a bound, constraints and earlier
+/// objectives at their limit with the gain of a step beyond; a gain below the optimum's resolution counts as nothing.
 /// @param judged  Assessment::judged
 std::vector<std::string> optimum_in_words(const Optimum& optimum, const DesignTask& judged);
 

@@ -7,7 +7,7 @@ namespace flankwright::studies {
 // A row is read as a row:
 // clang-format off
 
-std::vector<SchemaKey> proof_keys() {
+std::vector<SchemaKey> assessment_keys() {
   using enum ValueKind;
   return {
       {.path = "optimise.comparison.rules", .kind = Word, .words = {"on", "off"}, .fallback = "\"on\"",

@@ -7,6 +7,6 @@
 namespace flankwright::studies {
 
 /// Keys of [optimise] that say what an optimum is compared with.
-std::vector<SchemaKey> proof_keys();
+std::vector<SchemaKey> assessment_keys();
 
 }  // namespace flankwright::studies

@@ -5,10 +5,10 @@
 
 namespace flankwright::studies {
 
-/// CSV tables of a proof: comparison.csv, sensitivity.csv and validation.csv, as far as there is something to say.
+/// CSV tables of an assessment: comparison.csv, sensitivity.csv and validation.csv, those that the study asks for.
 std::vector<NamedText> assessment_tables(const Assessment& assessment);
 
-/// What a run prints: the best rule and the best variants beside the optimum, and what governs it.
+/// Summary on the terminal: the best rule and the best variants beside the optimum, and what governs it.
 std::string assessment_summary(const Assessment& assessment, const DesignTask& task, double optimum);
 
 }  // namespace flankwright::studies

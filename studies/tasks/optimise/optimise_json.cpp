@@ -81,7 +81,7 @@ Json design_report_json(const DesignReport& report, const DesignTask& task) {
   return json;
 }
 
-/// The goal of a block of the last epigraph: the last of a list of objectives is minimised, those before it are bounded.
+/// The objective of a block of the last epigraph: the last of a list of objectives is minimised, those before it are bounded.
 Objective objective_of_block(const DesignTask& task, int block) {
   std::vector<Objective> objectives{task.combined_objective()};
   objectives.insert(objectives.end(), task.later_objectives.begin(), task.later_objectives.end());
@@ -89,7 +89,7 @@ Objective objective_of_block(const DesignTask& task, int block) {
   return objectives[static_cast<std::size_t>(block)];
 }
 
-/// What of the design holds the optimum where it is.
+/// The conditions of the design that are active at the optimum.
 Json active_json(const ActiveBound& active, const DesignTask& task) {
   Json json{{"multiplier", active.multiplier}};
   const EpigraphRow& row = active.row;

@@ -11,7 +11,7 @@ namespace flankwright::studies {
 /// scenes.csv, history.csv, pareto.csv where there is a front, and the tables of the assessment.
 std::vector<NamedText> optimise_tables(const StudyResults& results);
 
-/// What an optimisation prints: variables, objective and constraints before and after, and the work of the search.
+/// Summary on the terminal: variables, objective and constraints before and after, and the work of the search.
 std::string optimise_summary(const StudyResults& results);
 
 }  // namespace flankwright::studies

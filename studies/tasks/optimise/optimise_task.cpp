@@ -19,7 +19,7 @@ namespace {
 
 std::vector<SchemaKey> all_optimise_keys() {
   std::vector<SchemaKey> all = optimise_keys();
-  for (SchemaKey& key : proof_keys()) all.push_back(std::move(key));
+  for (SchemaKey& key : assessment_keys()) all.push_back(std::move(key));
   return all;
 }
 

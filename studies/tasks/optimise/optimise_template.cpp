@@ -28,7 +28,7 @@ name = "aligned"
 [[scenes]]
 name = "housing bends"
 misalignment.mesh_misalignment = 12  # um over the face width; + opens at +z
-weight = 2                           # its share in mean and mean+2sigma
+weight = 2                           # in mean and mean+2sigma
 
 [[scenes]]
 name = "part load, other way"

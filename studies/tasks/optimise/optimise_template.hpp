@@ -4,7 +4,7 @@
 
 namespace flankwright::studies {
 
-/// What `flankwright new optimise` prints: a study that runs as it is.
+/// Template of `flankwright new optimise`: a study that runs as it is.
 std::string optimise_template();
 
 }  // namespace flankwright::studies

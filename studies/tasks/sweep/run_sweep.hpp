@@ -9,7 +9,7 @@
 namespace flankwright::studies {
 
 /// Analyses every sample of a sweep's shard that the store does not have yet, in parallel; a sample that fails is kept with its reason.
-/// What a sample gives depends on the study and its number alone, not on the threads or on how often the sweep was interrupted.
+/// The result of a sample depends on the study and its number alone, not on the threads or on how often the sweep was interrupted.
 void run_samples(SweepStore& store, const SweepDesign& design, const SampleAnalysis& analysis, Shard shard, const ProgressReport& progress);
 
 /// The sweep of a nominal result, as far as it is not in the store yet, and its statistics; they enter the result as `sweep`. A share of

@@ -15,12 +15,12 @@ struct SampleFailure {
   std::string reason;
 };
 
-/// Of what no load is needed for, in arcsec.
+/// Outputs of unloaded contact, in arcsec.
 void add_harmonics(std::vector<double>& values, const std::vector<double>& amplitudes) {
   for (const double amplitude : amplitudes) values.push_back(in_arcsec(amplitude));
 }
 
-/// What a sample has beside the entries of cycle_quantities().
+/// Outputs of a sample beside the entries of cycle_quantities().
 struct IsoOutput {
   const char* name;
   double (*value)(const IsoLoadFactors&);
@@ -55,7 +55,7 @@ SampleResult SampleAnalysis::analyse(const std::vector<double>& values) const {
     const FlankCondition condition = apply_effects(nominal_.effects, swept.flanks());
     return {"", is_loaded() ? loaded_outputs(condition, swept.scene.torques.front()) : unloaded_outputs(condition)};
   } catch (const InvalidInput& problem) {
-    return {problem.field() + ": allowed is " + problem.allowed(), {}};  // without the value, which stands in the sample
+    return {problem.field() + ": allowed is " + problem.allowed(), {}};  // without the value, which the sample has
   } catch (const SampleFailure& failure) {
     return {failure.reason, {}};
   }

@@ -17,14 +17,14 @@ struct SweepOutput {
   bool smaller_is_worse{false};  ///< of the worst sample: stiffness
 };
 
-/// What became of one sample.
+/// Outcome of one sample.
 struct SampleResult {
   std::string failure;          ///< why there are no outputs; empty: there are
   std::vector<double> outputs;  ///< in the units of the outputs; empty where it failed
 };
 
 /// Analyses single samples of a sweep against what the nominal run built once: gears, compliance, influence matrices. Those hold for every
-/// sample of a placement (MeshPlacement); a sample with another one has its influence matrices built for itself. Every call stands alone,
+/// sample of a placement (MeshPlacement); a sample with another one has its influence matrices built for itself. Every call is independent,
 /// from any thread.
 class SampleAnalysis {
  public:

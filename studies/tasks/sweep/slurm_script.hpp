@@ -4,7 +4,7 @@
 
 namespace flankwright::studies {
 
-/// What `flankwright new slurm` prints: a script that runs a sweep in parts.
+/// Text of `flankwright new slurm`: a script that runs a sweep in parts.
 std::string slurm_script();
 
 }  // namespace flankwright::studies

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::array toleranced{"helix_slope", "profile_slope", "pitch"};
 
-/// The keys that an item of [sweep.parameters] stands for: one, or the three of an error that a tolerance class covers.
+/// The keys of an item of [sweep.parameters]: one, or the three of an error that a tolerance class covers.
 std::vector<const SchemaKey*> keys_of(StudyReading& reading, const Item& item) {
   const std::string shown = "sweep.parameters." + item.name;
   if (item.name == "pinion.error" || item.name == "wheel.error") {
@@ -106,7 +106,7 @@ void check_design(StudyReading& reading) {
   }
 }
 
-/// Parameters that the study gives no value stand at their medians.
+/// Parameters without a value in the study take their medians.
 void set_nominal(StudyReading& reading) {
   Study& study = reading.builder.study;
   SweptCondition nominal = SweptCondition::of(study);

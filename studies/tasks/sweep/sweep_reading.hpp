@@ -7,7 +7,7 @@ namespace flankwright::studies {
 /// The parameters of [sweep].
 void read_sweep(StudyReading& reading);
 
-/// Whether the samples can be made. A parameter that the study gives no value stands at its median in the study itself, the nominal
+/// Whether the samples can be made. A parameter without a value in the study takes its median in the study itself, the nominal
 /// sample. Needs the scenes, and problems of the pair known.
 void check_sweep(StudyReading& reading);
 

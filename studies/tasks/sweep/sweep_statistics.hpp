@@ -21,7 +21,7 @@ struct Histogram {
   std::size_t part(double value) const;
 };
 
-/// What a sweep says of one output, over the samples that have it; NaN where none does.
+/// Statistics of one output over the samples that have it; NaN where none does.
 struct OutputStatistics {
   SweepOutput output;
   long long count{0};
@@ -43,7 +43,7 @@ struct ResponseMap {
   double mean(std::size_t ix, std::size_t iy) const;  ///< NaN of an empty part
 };
 
-/// How often samples failed for a reason.
+/// Number of samples that failed for a reason.
 struct FailureCount {
   std::string reason;
   long long count{0}, first{-1};  ///< first: a sample that did

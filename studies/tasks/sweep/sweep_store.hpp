@@ -21,7 +21,7 @@ struct Shard {
   bool operator==(const Shard&) const = default;
 };
 
-/// A sample as it stands in the store.
+/// A sample as stored.
 struct StoredSample {
   long long id{0};
   std::vector<double> values;  ///< of the parameters

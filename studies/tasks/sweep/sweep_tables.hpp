@@ -15,7 +15,7 @@ std::string worst_study_name(const SweepOutput& output);
 /// sweep_statistics.csv and sweep_indices.csv; none without a sweep.
 std::vector<NamedText> sweep_tables(const StudyResults& results);
 
-/// What a sweep prints: a line an output.
+/// Summary on the terminal: a line for each output.
 std::string sweep_summary(const StudyResults& results);
 
 /// Writes samples.csv (all samples, line by line, so that memory does not grow with them) and the studies of the worst samples.

@@ -5,7 +5,7 @@
 namespace flankwright::studies {
 
 std::string sweep_template() {
-  static constexpr std::string_view head = R"(# How much a pair's figures scatter when housing, torque and manufacture do, and which of them is to blame.
+  static constexpr std::string_view head = R"(# Scatter of a pair's results by housing, torque and manufacture, and the contribution of each.
 title = "My pair, as it comes off the line"
 task = "sweep"
 )";
@@ -27,8 +27,8 @@ sampler = "sobol"                    # or "latin_hypercube", "monte_carlo"; "gri
 seed = 1                             # another seed, other samples
 # indices = "off"                    # all samples independent, but no Sobol indices
 
-# What scatters, in the unit of its key. Also { truncated_normal = [mean, deviation, low, high] }, { grid = [low, high, levels] } and
-# { values = [...] }. What has no value above stands at its median in the nominal sample.
+# Scattered parameters, in the unit of their keys. Also { truncated_normal = [mean, deviation, low, high] }, { grid = [low, high, levels] } and
+# { values = [...] }. A parameter without a value above has its median in the nominal sample.
 [sweep.parameters]
 "misalignment.mesh_misalignment" = { normal = [0, 6] }               # um: mean, standard deviation
 "load.torque" = { uniform = [250, 350] }                             # N·m
@@ -36,7 +36,7 @@ seed = 1                             # another seed, other samples
 "wheel.error.helix_slope" = { iso_1328_class = 6 }
 # "pinion.modification.lead_crowning" = { uniform = [4, 8] }
 
-# A run that was interrupted goes on where it stopped when it is started again. What the results must say, for `flankwright test`:
+# An interrupted run continues when it is started again. Expected results, for `flankwright test`:
 # [expect]
 # "sweep.statistics.peak_contact_stress_MPa.quantiles.99 %" = { max = 900 }
 )";

@@ -4,7 +4,7 @@
 
 namespace flankwright::studies {
 
-/// What `flankwright new sweep` prints: a study that runs as it is.
+/// Template of `flankwright new sweep`: a study that runs as it is.
 std::string sweep_template();
 
 }  // namespace flankwright::studies

@@ -49,7 +49,7 @@ TEST_CASE("A helical pair shares its load and yields as in CalculiX' contact of 
   compare_with(helical_figures(), 0.09);
 }
 
-TEST_CASE("Sharp and blunt ends of helical teeth take load off as in CalculiX' contact of whole gears", "[reference][contact-truth][slow]") {
+TEST_CASE("Acute and obtuse ends of helical teeth take load off as in CalculiX' contact of whole gears", "[reference][contact-truth][slow]") {
   const ContactFigure figure = helical_figures().front();
   const auto structure = held_structure(figure.task, coarse_mesh());
   const OwnAnswer own = own_answer(figure.task, figure.torque, structure.get());

@@ -18,7 +18,7 @@ constexpr PeakTolerance tolerance{1e-9, 1e-15, 1e-6};
 
 }  // namespace
 
-TEST_CASE("A smooth summit is found where the slope vanishes, in a few samples", "[core][base][closed-form]") {
+TEST_CASE("A smooth maximum is found where the slope vanishes, in a few samples", "[core][base][closed-form]") {
   int samples = 0;
   const auto f = [&](double x, const Sample*) {
     ++samples;
@@ -48,7 +48,7 @@ TEST_CASE("A kink is found with both its sides, and the mean of their slopes tha
   CHECK(samples <= 60);
 }
 
-TEST_CASE("A function that rises to an end has its summit there", "[core][base]") {
+TEST_CASE("A function that rises to an end has its maximum there", "[core][base]") {
   const double sign = GENERATE(1.0, -1.0);
   const auto f = [&](double x, const Sample*) { return Sample{x, sign * x - 0.1 * x * x, sign - 0.2 * x}; };
   const Peak<Sample> peak = find_peak<Sample>(f, -2.0, 2.0, 0.3, 0.2, tolerance);

@@ -57,7 +57,7 @@ TEST_CASE("A kink at the root, of any ratio of the slopes, does not spoil the br
   CHECK(std::abs(s.root.x - 0.3) <= kBracket);
 }
 
-TEST_CASE("The place of a jump is bracketed though no argument gives zero", "[core][base]") {
+TEST_CASE("A jump is bracketed though no argument gives zero", "[core][base]") {
   const double place = 1.0 / 3.0;
   const double before = GENERATE(1.0, 1e-9, 1e9);
   const auto f = [&](double x) { return x < place ? before : -1.0; };

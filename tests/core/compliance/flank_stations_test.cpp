@@ -16,7 +16,7 @@ TEST_CASE("u counts radii from the start of the involute to the tip", "[core][co
   CHECK(flank_radius(form, 0) == Approx(0.5 * (form.form_radius() + form.tip_radius())).epsilon(1e-15));
 }
 
-TEST_CASE("A place off the flank is refused by what is wrong with it", "[core][compliance]") {
+TEST_CASE("A station off the flank is refused by the name of its wrong coordinate", "[core][compliance]") {
   CHECK_NOTHROW(require_on_flank({3, 1, 0}, 6));
   CHECK_NOTHROW(require_on_flank({0, -1, 6}, 6));
   CHECK_THROWS_WITH(require_on_flank({0, 1.01, 3}, 6), Catch::Contains("place.u"));

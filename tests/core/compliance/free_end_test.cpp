@@ -98,7 +98,7 @@ class LoadedBlock {
 
 }  // namespace
 
-TEST_CASE("A block pressed up to its free end gives way as the law says", "[core][compliance][fe]") {
+TEST_CASE("A block pressed up to its free end yields by the free-end law", "[core][compliance][fe]") {
   const double nu = GENERATE(0.2, 0.3);
   const LoadedBlock block(nu);
   const FreeEnd end(nu);
@@ -122,7 +122,7 @@ TEST_CASE("A block pressed up to its free end gives way as the law says", "[core
   CHECK(end.strength > nu * nu);
 }
 
-TEST_CASE("The sharp edge of a leaning end gives way as the law says, and the blunt one holds", "[core][compliance][fe]") {
+TEST_CASE("The acute edge of an oblique end yields by the free-end law, and the obtuse one does not", "[core][compliance][fe]") {
   const double nu = 0.3, lean = GENERATE(-28.0, -14.0, 14.0, 28.0) * units::deg;
   const LoadedBlock block(nu, lean);
   const FreeEnd end(nu, lean), upright(nu);

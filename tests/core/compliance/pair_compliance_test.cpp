@@ -85,7 +85,7 @@ TEST_CASE("Contact points lie on the finite-element gears as in the housing: sam
   CHECK(teeth > 0);  // the case has points on different teeth
 }
 
-TEST_CASE("A thin slice's influence is its own: diagonal, and by the length it stands for", "[core][compliance]") {
+TEST_CASE("The influence of thin slices is diagonal, and depends on the length of each slice", "[core][compliance]") {
   const GearPair pair = pair_of(Hand::Right, WorkingFlank::Right);
   const ThinSlicePair slices{ThinSlice(pair, {}, {})};
   const std::vector<ContactPoint> points =

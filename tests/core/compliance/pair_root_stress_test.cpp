@@ -75,7 +75,7 @@ TEST_CASE("Fillets of both gears feel forces where these are in the housing", "[
                                (pair[station.member].tip_radius - pair[station.member].form_radius) -
                            1)
                         .margin(1e-11));
-      // zeta runs from the sharp end, opposite ends on both gears: with z on one, against it on the other.
+      // zeta runs from the acute end, opposite ends on both gears: with z on one, against it on the other.
       const double along_z = (points[i].z - station.z) / kStressModule;
       const double sense = (pinion ? -1 : 1) * (pair.contact_line_sense() >= 0 ? 1.0 : -1.0);
       CHECK(s[2] == Approx(sense * along_z).margin(1e-11));

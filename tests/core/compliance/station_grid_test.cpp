@@ -19,7 +19,7 @@ Eigen::VectorXd table_of(const StationGrid& grid, Function&& f) {
 
 }  // namespace
 
-TEST_CASE("A grid's table is itself at its places", "[core][compliance]") {
+TEST_CASE("A grid's table is itself at its stations", "[core][compliance]") {
   const StationGrid grid = station_grid(GENERATE(2.0, 7.3, 30.0));
   const std::vector<FlankStation> stations = grid.stations(3);
   REQUIRE(static_cast<Eigen::Index>(stations.size()) == grid.size());
@@ -45,7 +45,7 @@ TEST_CASE("A grid reproduces what is cubic in u and in zeta", "[core][compliance
   }
 }
 
-TEST_CASE("Between places the error falls with the fourth power of the step", "[core][compliance]") {
+TEST_CASE("Between stations the error falls with the fourth power of the step", "[core][compliance]") {
   const auto f = [](double u, double zeta) { return std::exp(0.7 * u) * std::cos(1.3 * zeta); };
   const auto worst = [&](int radii, int axial) {
     std::vector<double> us, zetas;

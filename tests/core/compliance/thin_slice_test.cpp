@@ -120,7 +120,7 @@ TEST_CASE("Structural compliance goes with 1/E and, at one Hertzian share, not w
   CHECK(scaled.calibration() == Approx(steel.calibration()).epsilon(0.1));  // model
 }
 
-TEST_CASE("Equal gears may change places", "[core][compliance]") {
+TEST_CASE("Equal gears may be exchanged", "[core][compliance]") {
   const GearPair pair = pair_of(33, 33, 10 * deg);
   const ThinSlice slice(pair, kSteel, kSteel);
   const double low = pair.pinion.form_radius + 0.2, high = pair.pinion.tip_radius - 0.3;

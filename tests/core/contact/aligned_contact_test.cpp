@@ -62,7 +62,7 @@ TEST_CASE("Aligned involute gears touch along a line and transmit exactly their 
   }
 }
 
-TEST_CASE("The mesh of aligned gears has no transmission error and no hand-over", "[core][contact][closed-form]") {
+TEST_CASE("The mesh of aligned gears has no transmission error and no transfer point", "[core][contact][closed-form]") {
   for (const PairData& data : aligned_pairs()) {
     const GearPair pair = make_gear_pair(data);
     const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene_of(pair), 16);
@@ -71,7 +71,7 @@ TEST_CASE("The mesh of aligned gears has no transmission error and no hand-over"
     CHECK(mesh.transmission_error.size() == 16);
     for (const double te : mesh.transmission_error) CHECK(std::abs(te) <= 1e-12);  // round-off
     CHECK(mesh.peak_to_peak <= 1e-12);
-    REQUIRE(mesh.harmonics.size() == 7);  // orders that 16 samples can tell apart
+    REQUIRE(mesh.harmonics.size() == 7);  // orders that 16 samples resolve
     for (const double amplitude : mesh.harmonics) CHECK(amplitude <= 1e-12);
   }
 }

@@ -190,13 +190,13 @@ TEST_CASE("Both flanks show the same pattern in conjugate points", "[core][conta
 }
 
 TEST_CASE("Eight positions give the pattern of a parabola to a 64th of its height", "[core][contact][convergence]") {
-  // Linear between positions and hand-overs: without the latter the valley between two arcs would be cut off.
+  // Linear between positions and transfer points: without the latter the valley between two arcs would be cut off.
   const GearPair pair = make_gear_pair(reference::nasa_tm_107451::pair_data());
   Modification m;
   m.lead_crowning = 0.040;
   m.parabolic_te = 1e-3;
   Misalignment misalignment;
-  misalignment.crossing = 1 * arcmin;  // moves the hand-over off the positions
+  misalignment.crossing = 1 * arcmin;  // moves the transfer point off the positions
   const FlankAssembly scene = scene_of(pair, misalignment, m);
   const UnloadedMesh fine = analyse_unloaded_mesh(pair, scene, 512), coarse = analyse_unloaded_mesh(pair, scene, 8);
   const Eigen::MatrixXd wanted = bearing_pattern(scene, fine, Member::Pinion, 61, 5).separation;
@@ -231,7 +231,7 @@ TEST_CASE("A pair that enters after the last position closes the pitch in the pa
   }
 }
 
-TEST_CASE("What overhangs the mate is not marked", "[core][contact]") {
+TEST_CASE("The part of a face that overhangs the mate is not marked", "[core][contact]") {
   const GearPair pair = make_gear_pair(pair_data(20, 40, 10 * deg, 0.0, 0.0, 36.0, 30.0));
   Misalignment misalignment;
   misalignment.axial_offset = 1.5;  // the wheel covers -13.5 .. 16.5 of the pinion
@@ -289,7 +289,7 @@ TEST_CASE("A symmetric pair has a symmetric pattern, and a crossed one bears at 
   }
 }
 
-TEST_CASE("Of any pair the pattern has no gaps, and the point that leads is in it", "[core][contact][slow]") {
+TEST_CASE("The pattern of any pair has no gaps and contains the leading point", "[core][contact][slow]") {
   Random random(20260311);
   int scenes = 0;
   while (scenes < 12) {

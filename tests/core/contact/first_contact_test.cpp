@@ -93,8 +93,8 @@ TEST_CASE("The cusp at the base circle does not pass for contact", "[core][conta
   }
 }
 
-TEST_CASE("Of two summits of a hollow flank the higher touches, wherever they lie", "[core][contact][closed-form]") {
-  // Metal rises by H towards both ends and end relief takes it away again: summits at the reliefs' starts z0. A lead
+TEST_CASE("The higher of two maxima of a hollow flank touches, wherever they lie", "[core][contact][closed-form]") {
+  // Metal rises by H towards both ends and end relief takes it away again: maxima at the reliefs' starts z0. A lead
   // slope S decides which of them leads, by S z0/b.
   const GearPair pair = make_gear_pair(pair_data(24, 48, 0.0));
   const double hollow = 0.012, length = 6.0, z0 = 15.0 - length, slope = GENERATE(0.0004, -0.0004, 0.003, -0.003);
@@ -108,7 +108,7 @@ TEST_CASE("Of two summits of a hollow flank the higher touches, wherever they li
   CHECK(std::abs(contact.pinion_z + std::copysign(z0, slope)) <= 1e-9);
 }
 
-TEST_CASE("Of two summits that lie between the sections searched the higher touches", "[core][contact][independent]") {
+TEST_CASE("The higher of two maxima between the searched sections touches", "[core][contact][independent]") {
   struct Case {
     double beta, hollow, slope;  // deg, mm, mm
     EndRelief pinion, wheel;

@@ -21,7 +21,7 @@ TEST_CASE("An aligned wheel faces the pinion across the centre distance", "[core
   CHECK(assembly.speed_ratio() == 0.5);
 }
 
-TEST_CASE("Misalignment places the wheel as its definition says", "[core][contact]") {
+TEST_CASE("Misalignment moves the wheel by its definition", "[core][contact]") {
   PairData data = pair_data(20, 40, 10 * deg);
   const WorkingFlank flank = GENERATE(WorkingFlank::Right, WorkingFlank::Left);
   data.working_flank = flank;

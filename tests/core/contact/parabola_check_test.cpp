@@ -70,7 +70,7 @@ TEST_CASE("A shifted parabola is found again, to round-off", "[core][contact][cl
   CHECK(check.why.empty());
 }
 
-TEST_CASE("The residual is the largest distance from the best parabola, hand-overs included",
+TEST_CASE("The residual is the largest distance from the best parabola, transfer points included",
           "[core][contact][closed-form]") {
   UnloadedMesh mesh = parabolic_mesh(1e-3, 0.1 * kPitch, 0.0);
   mesh.transfers[0].transmission_error -= 0.03 * kHeight;
@@ -85,32 +85,32 @@ TEST_CASE("The residual is the largest distance from the best parabola, hand-ove
   CHECK(check.why == "the arc departs from its parabola by 6 % of its height");
 }
 
-TEST_CASE("A parabola that is not the one asked for does not hold, and says by how much", "[core][contact]") {
+TEST_CASE("A parabola other than the designed one is not achieved, and its deviation is reported", "[core][contact]") {
   const ParabolaCheck check = check_parabola(any_scene(), parabolic_mesh(0.85e-3, 0.05 * kPitch, 0.0), 1e-3);
   CHECK(check.right_sign);
   CHECK_FALSE(check.holds);
   CHECK(check.why == "the parabola's coefficient differs by -15 % from the one asked for");
 }
 
-TEST_CASE("Slopes of the wrong sign at a hand-over are an impact", "[core][contact]") {
+TEST_CASE("Slopes of the wrong sign at a transfer point are an impact", "[core][contact]") {
   UnloadedMesh mesh = parabolic_mesh(1e-3, 0.05 * kPitch, 0.0, ContactKind::PinionTip);
   mesh.transfers[0].slope_before = 1e-5;
   ParabolaCheck check = check_parabola(any_scene(), mesh, 1e-3);
   CHECK_FALSE(check.right_sign);
   CHECK_FALSE(check.holds);
   CHECK(check.why ==
-        "the pair that leaves still gains at the hand-over at -8.100 deg; contact runs on a tip or root edge over "
+        "the pair that leaves still gains at the transfer point at -8.100 deg; contact runs on a tip or root edge over "
         "100 % of the pitch: a larger parabola shifts less");
   mesh.transfers[0].slope_before = -1e-5;
   mesh.transfers[0].slope_after = -1e-6;
   check = check_parabola(any_scene(), mesh, 1e-3);
   CHECK_FALSE(check.right_sign);
-  CHECK(check.why.rfind("the pair that enters still falls behind at the hand-over at -8.100 deg", 0) == 0);
+  CHECK(check.why.rfind("the pair that enters still falls behind at the transfer point at -8.100 deg", 0) == 0);
   mesh.transfers[0].slope_after = NAN;  // an unknown slope is not a right one
   CHECK_FALSE(check_parabola(any_scene(), mesh, 1e-3).right_sign);
 }
 
-TEST_CASE("An aligned pair hands over at the very end of its pitch, once", "[core][contact][symmetry]") {
+TEST_CASE("An aligned pair has one transfer point, at the very end of its pitch", "[core][contact][symmetry]") {
   Modification parabola;
   parabola.parabolic_te = 1e-3;
   parabola.lead_crowning = 0.01;
@@ -134,7 +134,7 @@ TEST_CASE("Pairs that share the lead have no parabola", "[core][contact]") {
   const ParabolaCheck check = check_parabola(any_scene(), mesh, 1e-3);
   CHECK_FALSE(check.holds);
   CHECK(std::isnan(check.found));
-  CHECK(check.why.rfind("no pair hands over to another", 0) == 0);
+  CHECK(check.why.rfind("no transfer point", 0) == 0);
 }
 
 TEST_CASE("A parabola traced by the face end does not hold: the line of contact has no crown to lean on",
@@ -149,7 +149,7 @@ TEST_CASE("A parabola traced by the face end does not hold: the line of contact 
         "crowning or less misalignment");
 }
 
-TEST_CASE("A mesh that loses contact, a coefficient of nothing and too few positions are told apart",
+TEST_CASE("A mesh that loses contact, a zero coefficient and too few positions have different reasons",
           "[core][contact]") {
   UnloadedMesh mesh = parabolic_mesh(1e-3, 0.05 * kPitch, 0.0);
   CHECK_THROWS_AS(check_parabola(any_scene(), mesh, 0.0), InvalidInput);

@@ -90,7 +90,7 @@ class Waves : public DeviationField {
 
 }  // namespace
 
-TEST_CASE("Of the many summits of wavy flanks the highest touches", "[core][contact][independent]") {
+TEST_CASE("The highest of many maxima of wavy flanks touches", "[core][contact][independent]") {
   constexpr double kRoundOff = 1e-11;  // rad
   Random random(27);
   int with_several_maxima = 0;

@@ -164,7 +164,7 @@ TEST_CASE("A misaligned pair's gap leaves that of the plane of action with the s
   CHECK((half - opposite).cwiseAbs().maxCoeff() <= third_order);
 }
 
-TEST_CASE("Flanks that give way along the profile are nearer than the plane of action has them", "[core][contact]") {
+TEST_CASE("Flanks modified along the profile are nearer than on the plane of action", "[core][contact]") {
   // Contact slides to where less is removed: by slope^2/(2 kappa) with the slope of what is removed and the relative curvature.
   const GearPair pair = make_gear_pair(pair_data(20, 40, 0.0));
   const PathOfContact path(pair);
@@ -248,7 +248,7 @@ TEST_CASE("The gap's derivative over the whole flanks agrees with central differ
   CHECK(on_edges > 60);
 }
 
-TEST_CASE("The gap is continuous through zero misalignment, its places too", "[core][contact]") {
+TEST_CASE("The gap is continuous through zero misalignment, and so are its points", "[core][contact]") {
   constexpr double kTiny = 1e-9;  // rad or mm
   constexpr double kRoundOff = 1e-12;
   for (const GearPair& pair : pairs()) {
@@ -279,7 +279,7 @@ TEST_CASE("The gap is continuous through zero misalignment, its places too", "[c
   }
 }
 
-TEST_CASE("Wild random flanks have a finite gap, finite derivatives and places on both flanks", "[core][contact][random]") {
+TEST_CASE("Extreme random flanks have a finite gap, finite derivatives and points on both flanks", "[core][contact][random]") {
   Random random(99);
   int points_seen = 0;
   for (int i = 0; i < 60; ++i) {

@@ -33,7 +33,7 @@ Transition locate(const ToothContactSolver& solver, ToothContact before, ToothCo
 TEST_CASE("Between kinds of contact the transmission error is continuous, and its slope where the point does not jump",
           "[core][contact]") {
   constexpr double kRoundOff = 1e-14;       // rad: two angles
-  constexpr double kSlopeRoundOff = 1e-8;   // a summit known to 1e-6 mm or so, by how fast the slope changes with its place
+  constexpr double kSlopeRoundOff = 1e-8;   // a maximum known to about 1e-6 mm, times the change of slope with its position
   constexpr double kSamePlace = 1e-3;       // mm
   std::set<std::string> seen;
   struct Case {
@@ -66,7 +66,7 @@ TEST_CASE("Between kinds of contact the transmission error is continuous, and it
         const double step = t.after.phi1 - t.before.phi1;
         CHECK(std::abs(t.after.transmission_error - t.before.transmission_error) <=
               kRoundOff + step * std::max(std::abs(t.before.slope), std::abs(t.after.slope)));
-        // The higher of two summits takes over where the point jumps: the slope rises.
+        // The higher of two maxima takes over where the point jumps: the slope rises.
         if (jump <= kSamePlace) CHECK(std::abs(t.after.slope - t.before.slope) <= kSlopeRoundOff);
         else CHECK(t.after.slope >= t.before.slope - kSlopeRoundOff);
         // Both sides' slopes are those of differences away from the transition.

@@ -12,7 +12,7 @@ using namespace flankwright::contact_cases;
 using units::deg;
 using units::pi;
 
-TEST_CASE("The mesh follows the leading pair, and every hand-over is located where two pairs are equal",
+TEST_CASE("The mesh follows the leading pair, and every transfer point is located where two pairs are equal",
           "[core][contact]") {
   Random random(99);
   int transfers = 0;
@@ -77,7 +77,7 @@ TEST_CASE("Harmonic amplitudes of a sum of cosines are its coefficients", "[core
   for (std::size_t i = 0; i < 10; ++i) CHECK(std::abs(found[i] - expected[i]) <= 1e-14);  // round-off
 }
 
-TEST_CASE("No more harmonics are reported than the samples can tell apart", "[core][contact]") {
+TEST_CASE("No more harmonics are reported than the samples resolve", "[core][contact]") {
   CHECK(harmonic_amplitudes({}).empty());
   CHECK(harmonic_amplitudes({1.0}).empty());
   CHECK(harmonic_amplitudes({1.0, 2.0}).empty());
@@ -239,12 +239,12 @@ TEST_CASE("Located crests and troughs do not depend on the number of positions",
     const UnloadedMesh coarse = analyse_unloaded_mesh(mesh.pair, mesh.scene, positions);
     CAPTURE(beta / deg, crossing / units::arcmin, positions);
     CHECK(std::abs(coarse.largest - fine.largest) <= 1e-12);  // round-off of the angles
-    CHECK(std::abs(coarse.smallest - fine.smallest) <= 1e-12);  // hand-overs lag by the tolerance of the lead
+    CHECK(std::abs(coarse.smallest - fine.smallest) <= 1e-12);  // transfer points lag by the tolerance of the lead over other pairs
     CHECK(coarse.transfers.size() == fine.transfers.size());
   }
 }
 
-TEST_CASE("With cumulative pitch errors the hand-over moves to where the pairs really meet", "[core][contact]") {
+TEST_CASE("With cumulative pitch errors the transfer point moves to the angle at which the pairs are equal", "[core][contact]") {
   const ModifiedMesh nominal = modified_mesh(0.0, 0.0);
   FlankAssembly scene = nominal.scene;
   scene.pinion.error.cumulative_pitch = {0.0, 0.002, -0.001, 0.0, 0.001};

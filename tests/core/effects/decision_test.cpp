@@ -31,7 +31,7 @@ FlankCondition with_errors() {
 
 }  // namespace
 
-TEST_CASE("Every effect has a name of its own and says why it is on or off", "[core][effects]") {
+TEST_CASE("Every effect has a unique name and a reason for being on or off", "[core][effects]") {
   const auto names = effect_names();
   CHECK(std::set<std::string_view>(names.begin(), names.end()).size() == names.size());
   for (const EffectFacts& facts : {EffectFacts{}, EffectFacts{true, true, {misaligned(), modified(), with_errors()}, true, true, true, true}}) {
@@ -134,7 +134,7 @@ TEST_CASE("A list of effects neither switches whole-surface contact on nor off",
   }
 }
 
-TEST_CASE("What is decided about effects does not depend on the order of their registration", "[core][effects]") {
+TEST_CASE("Decisions about effects do not depend on the order of their registration", "[core][effects]") {
   EffectList shuffled = registered_effects();
   std::mt19937 random(1);
   const EffectFacts facts{true, true, {misaligned(), modified()}, true};

@@ -17,7 +17,7 @@ TEST_CASE("A contact softens by each gear's own ends, wherever the mate ends", "
   REQUIRE(model.axial_offset == 4);
   for (std::size_t i = 0; i < model.positions[0].points.size(); ++i) {
     const ContactPoint& p = model.positions[0].points[i];
-    // The end where a gear is sharp is its mate's blunt one.
+    // The acute end of a gear is the obtuse end of its mate.
     const double cosine = std::cos(gears.base_helix_angle), lean = -acute_end(gears, Member::Pinion) * gears.base_helix_angle;
     const ContactLaw expected(
         ContactSide::of(pinion, p.pinion_depth, p.pinion_tip_distance, {(15 + p.z) / cosine, (15 - p.z) / cosine}, lean),

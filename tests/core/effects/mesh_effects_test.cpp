@@ -171,7 +171,7 @@ TEST_CASE("An effect that is off costs no instruction", "[.][core][effects][inst
   }
 }
 
-TEST_CASE("What an effect costs is counted over all copies of a choice", "[core][effects]") {
+TEST_CASE("The time of an effect is summed over all copies of a choice", "[core][effects]") {
   const Scene scene;
   const EffectDecisions decisions = decide_effects(scene.facts());
   const MeshEffects effects = mesh_effects(decisions);

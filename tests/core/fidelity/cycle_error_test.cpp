@@ -9,7 +9,7 @@ using namespace flankwright;
 
 namespace {
 
-/// A cycle with `intervals`, held against half of them.
+/// A cycle with `intervals`, compared with half of them.
 struct Judged {
   ResolvedCycle resolved;
   CycleFigures figures;

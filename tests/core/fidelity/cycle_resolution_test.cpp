@@ -17,7 +17,7 @@ std::vector<double> cosine(int positions, int order, double amplitude) {
 
 }  // namespace
 
-TEST_CASE("What half the positions resolve does not change, what they alias does", "[core][load][resolution]") {
+TEST_CASE("Harmonics that half the positions resolve do not change, aliased ones do", "[core][load][resolution]") {
   constexpr double kRoundOff = 1e-14;
   CHECK(cycle_convergence(cosine(32, 3, 2.0)).harmonic_change == Approx(0).margin(kRoundOff));
   // 16 positions take order 13 for order 3.

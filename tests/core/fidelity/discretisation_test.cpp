@@ -120,7 +120,7 @@ TEST_CASE("More accuracy never takes a coarser resolution, and what is kept is w
   }
 }
 
-TEST_CASE("What is not to be chosen stands", "[core][load][discretisation]") {
+TEST_CASE("Intervals or positions that are not to be chosen stay as given", "[core][load][discretisation]") {
   const LoadCase drawn = random_case(3, 6.0);
   const DiscretisationSearch search{.accuracy = 0.05, .fewest_intervals = 5, .choose_intervals = false};
   const Discretisation chosen = choose_discretisation(drawn.mesh(), QuadratureRule::Gauss2, drawn.condition, drawn.torque, search);

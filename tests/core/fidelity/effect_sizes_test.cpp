@@ -41,7 +41,7 @@ class SlicesOnBodies final : public PairCompliance {
   double body_;
 };
 
-/// Gives way to the load's moment about mid face.
+/// Yields to the load's moment about mid face.
 class Tilting final : public PairCompliance {
  public:
   explicit Tilting(double compliance) : compliance_(compliance) {}
@@ -137,7 +137,7 @@ TEST_CASE("The size of each effect where it matters and where it does not", "[co
   SUCCEED();
 }
 
-TEST_CASE("What first order leaves falls as the square of the effect", "[core][load][effects]") {
+TEST_CASE("The error of first order falls as the square of the effect", "[core][load][effects]") {
   const auto error = [](double misalignment) {
     EffectScene s = scene(3e5);
     s.condition.misalignment.mesh_misalignment = misalignment;
@@ -181,7 +181,7 @@ TEST_CASE("Contact off the plane of action has a size where flanks are relieved 
   CHECK(estimated(s, relieved, "whole_surface_gap").size.influence.share == Approx(exact.share).epsilon(0.15));
 }
 
-TEST_CASE("What nothing would give way without has no size", "[core][load][effects]") {
+TEST_CASE("An effect without which nothing would yield has no size", "[core][load][effects]") {
   const EffectScene s = scene(3e5);
   const EffectDecisions bending_only = without(decisions_of(s), "hertzian_contact", "left out");
   CHECK(std::isnan(exact_influence(s, bending_only, "bending").share));

@@ -32,7 +32,7 @@ TEST_CASE("An analysis that chooses its resolution doubles it until the figures 
   CHECK(as_given.error > coarse.accuracy);
 }
 
-TEST_CASE("What one of intervals and positions brings alone, the other is not doubled for", "[fidelity]") {
+TEST_CASE("Intervals are not doubled for the error of positions, nor positions for that of intervals", "[fidelity]") {
   const GearPair gears = mesh_cases::pair(20, 40, 20.0, 3.0, 30.0);
   const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 4}, equally_spaced_phases(8)});
   const LoadedCycle cycle = analyse_cycle(model, {}, mesh_cases::torque_for(gears, 60.0));

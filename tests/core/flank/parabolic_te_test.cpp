@@ -13,7 +13,7 @@
 // A pinion's point that touches at phi1 + x falls behind by K x^2/2 when it is asked to touch at phi1, K =
 // (rho_1^2/r_b2)(1/rho_1 + 1/rho_2) (for the wheel's point (rho_2 N1/N2)^2 for rho_1^2). If the lag itself were removed,
 // contact would slide to where -a (phi1 + x)^2 - K x^2/2 is largest and keep only K/(K + 2 a) of the parabola: the flank has to
-// give way by K/(K - 2 a) of the lag.
+// yield by K/(K - 2 a) of the lag.
 
 using namespace flankwright;
 using namespace flankwright::contact_cases;
@@ -111,7 +111,7 @@ TEST_CASE("An aligned pair's transmission error is the predesigned parabola to r
   }
 }
 
-TEST_CASE("The flank gives way by as much more than the lag as contact would slide", "[core][flank][closed-form]") {
+TEST_CASE("Removal exceeds the lag by the sliding of the contact", "[core][flank][closed-form]") {
   const double beta = GENERATE(0.0, 20.0) * deg, a = GENERATE(1e-4, 3e-3);
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const GearPair pair = make_gear_pair(pair_data(30, 100, beta, 0.2, -0.1));

@@ -4,20 +4,13 @@
 #include <cmath>
 #include <string>
 
+#include "tests/core/flank/sample_flank_frame.hpp"
+
 using namespace flankwright;
 
 namespace {
 
-const FlankFrame frame{.pitch_radius = 50.0,
-                       .reference_radius = 49.5,
-                       .tip_radius = 54.0,
-                       .active_root_radius = 47.0,
-                       .face_width = 30.0,
-                       .base_radius = 46.5,
-                       .pitch_roll = std::sqrt(50.0 * 50.0 - 46.5 * 46.5),
-                       .helix_rate = 0.01,
-                       .pinion_turn = 1.0,
-                       .wheel_base_radius = 90.0};
+const FlankFrame frame = sample_flank_frame();
 constexpr double active_height = 7.0;                  // r_a - r_Nf
 
 constexpr double kRemovalRoundOff = 1e-15;  // mm: amounts are of the order of 0.01 mm

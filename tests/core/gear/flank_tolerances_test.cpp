@@ -68,7 +68,7 @@ TEST_CASE("Tolerances are rounded as drawings state them", "[core][gear][iso1328
   CHECK(rounded(3.14) == Approx(3.1));
 }
 
-TEST_CASE("What the standard does not cover is refused by name", "[core][gear][iso1328]") {
+TEST_CASE("Data outside the standard are refused by name", "[core][gear][iso1328]") {
   const auto field_refused = [](auto change, int tolerance_class = 6) -> std::string {
     ToleranceData gear = whole_roots;
     change(gear);

@@ -159,7 +159,7 @@ TEST_CASE("The NASA pair keeps the relations of its report's appendix 2", "[core
   CHECK(pair.overlap_ratio > 1.0);
 }
 
-TEST_CASE("Tooth thickness at tip and elsewhere is where the two flanks stand", "[core][gear]") {
+TEST_CASE("Tooth thickness at tip and elsewhere is the distance of the two flanks", "[core][gear]") {
   const double x = GENERATE(-0.2, 0.0, 0.6);
   const double beta = GENERATE(0.0, 25 * deg);
   const GearPair pair = make_gear_pair(pair_of(21, 40, 5.0, beta, x, 0.0));
@@ -194,7 +194,7 @@ TEST_CASE("Contact of an undercut pinion ends at its form circle", "[core][gear]
   CHECK(pair.path_start > pair.path_length - pair.wheel.roll_length_at(pair.wheel.tip_radius));
 }
 
-TEST_CASE("What cannot be built is refused by the name of its field", "[core][gear][invalid-input]") {
+TEST_CASE("A gear that cannot be built is refused by the name of its field", "[core][gear][invalid-input]") {
   const PairData good = pair_of(20, 50, 3.0, 15 * deg);
   CHECK(refused_fields(good).empty());
   const auto with = [&](const std::function<void(PairData&)>& change) {

@@ -77,7 +77,7 @@ TEST_CASE("A gap common to the whole mesh is no deflection that the mean's error
   }
 }
 
-TEST_CASE("What extremes hide between samples is bounded for kinks, jumps and smooth tops", "[core][load][cycle-figures]") {
+TEST_CASE("The error of sampled extremes is bounded for kinks, jumps and smooth maxima", "[core][load][cycle-figures]") {
   const int n = GENERATE(12, 16, 33, 64);
   const double shift = GENERATE(0.0, 0.013, 0.4111);
   const auto turned = [&](double x) { return x + shift - std::floor(x + shift); };

@@ -153,7 +153,7 @@ TEST_CASE("The torque of Haddad's pair is his normal force", "[core][load][hadda
 TEST_CASE("Thin slices make Haddad's pair stiffer than finite elements that hold the gear bodies",
           "[core][load][haddad]") {
   // Model: slices know the teeth and their foundation at ISO's stiffness (measured: 0.64 of his transmission error);
-  // his influence functions also hold the wind-up of both gear bodies.
+  // his influence functions also hold the torsion of both gear bodies.
   const LoadedCycle cycle = analyse_cycle(haddad_model(), {}, haddad::torque);
   REQUIRE(cycle.usable());
   const double ratio = cycle.positions[0].load.transmission_error / units::um / haddad::transmission_error_a;

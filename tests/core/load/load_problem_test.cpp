@@ -143,11 +143,11 @@ TEST_CASE("Loads balance the force, never pull, and never overlap the flanks", "
     const LoadProblem problem = gear_like_problem(random.integer(2, 60), random, structure);
     const LoadDistribution found = solve_load_distribution(problem);
     REQUIRE(found.usable());
-    const auto proof = load_cases::optimality(problem, found.line_load, found.transmission_error);
-    CHECK(proof.non_negative);
-    CHECK(proof.balance <= 4e-16 * static_cast<double>(problem.gap.size()));
-    CHECK(proof.loaded <= kRoundOff);
-    CHECK(proof.unloaded <= kRoundOff);
+    const auto conditions = load_cases::optimality(problem, found.line_load, found.transmission_error);
+    CHECK(conditions.non_negative);
+    CHECK(conditions.balance <= 4e-16 * static_cast<double>(problem.gap.size()));
+    CHECK(conditions.loaded <= kRoundOff);
+    CHECK(conditions.unloaded <= kRoundOff);
     CHECK(found.line_load.cwiseProduct(found.remaining_gap).lpNorm<Eigen::Infinity>() <=
           kRoundOff * found.line_load.maxCoeff() * (found.transmission_error - problem.gap.minCoeff()));
   }
@@ -212,7 +212,7 @@ TEST_CASE("Without force the flanks touch where the gap is least", "[core][load]
   CHECK(found.kkt_residual == 0.0);
 }
 
-TEST_CASE("What keeps a load distribution from being found is a status", "[core][load]") {
+TEST_CASE("A load distribution that is not found has a status", "[core][load]") {
   const LoadDistribution none = solve_load_distribution({{}, {}, {}, {}, 100.0});
   CHECK(none.status == LoadStatus::NoContactPoints);
   CHECK_FALSE(none.usable());

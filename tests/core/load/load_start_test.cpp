@@ -16,7 +16,7 @@ double mean_iterations(const LoadedCycle& cycle) {
 
 }  // namespace
 
-TEST_CASE("Points of a graded line correspond by their place between its ends", "[core][load]") {
+TEST_CASE("Points of a graded line correspond by their position between its ends", "[core][load]") {
   const GearPair gears = mesh_cases::pair(18, 54, 20.0, 3.0, 30.0);
   const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 6}, equally_spaced_phases(32)});
   int compared = 0;

@@ -275,7 +275,7 @@ TEST_CASE("A summary reads the worst of the cycle", "[core][load]") {
         Approx(load / mean_load).epsilon(0.05));  // discretisation: 16 positions count 1/16 pitch
 }
 
-TEST_CASE("Where no point lies the cycle says so instead of inventing a load", "[core][load]") {
+TEST_CASE("A position without contact points is reported instead of inventing a load", "[core][load]") {
   // A helical pair that depends on its overlap and has lost nearly all of it to an axial offset.
   PairData data = mesh_cases::pair_data(12, 13, 25, 4, 20);
   data.pinion.rack.addendum = data.wheel.rack.addendum = 0.4;

@@ -293,7 +293,7 @@ TEST_CASE("Located peaks and K_Hbeta follow what moves the mesh to where they ar
   CHECK(std::abs(load_factor_gradients(unmoved, rated, unmoved, rated).without_spikes.lead[0] - difference) <= kLocated * (std::abs(difference) + 1 / motion.change));
 }
 
-TEST_CASE("A mesh that does not know itself further along refuses what moves it", "[core][load][gradient][input]") {
+TEST_CASE("A mesh without perturbed meshes refuses derivatives by parameters that move it", "[core][load][gradient][input]") {
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
   const MeshModel model = mesh_cases::model(gears, {{}, {0.5}});
   CHECK_THROWS_AS(analyse_cycle(model, {}, torque_for(gears, 100), offset_and_torque), InvalidInput);

@@ -21,7 +21,7 @@ MeshModel surface_model(const GearPair& gears, const MeshResolution& resolution,
   return make_mesh_model(gears, steel, steel, resolution, effects, MeshPlacement::of(GapModel::WholeSurface, misalignment));
 }
 
-/// Crowned, relieved and skewed: contact at summits, on tips and at face ends.
+/// Crowned, relieved and skewed: contact at maxima, on tips and at face ends.
 FlankCondition surface_condition() {
   FlankCondition c;
   c.pinion_modification.lead_crowning = 6 * um;

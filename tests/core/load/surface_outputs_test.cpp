@@ -86,7 +86,7 @@ TEST_CASE("Rating, line ends and root stress of aligned flanks are the same by e
   CHECK(rated.without_spikes.lead > 1.02);
 }
 
-TEST_CASE("Of misaligned flanks outputs differ between the gaps by what the gaps do", "[core][load][line-ends][load-factors]") {
+TEST_CASE("Outputs of misaligned flanks differ between the two gap models as the gaps do", "[core][load][line-ends][load-factors]") {
   const GearPair gears = mesh_cases::pair(23, 41, 25, 4, 30);
   FlankCondition condition;
   condition.pinion_modification.lead_crowning = 5 * um;

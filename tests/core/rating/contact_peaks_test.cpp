@@ -70,7 +70,7 @@ TEST_CASE("No sampling of the cycle finds a higher peak than the one located, an
   CHECK(without == Approx(located.without_spikes.contact_stress.value).epsilon(kSampled));
 }
 
-TEST_CASE("The place of a located peak carries the peak", "[core][load][peaks]") {
+TEST_CASE("The station of a located peak carries the peak", "[core][load][peaks]") {
   constexpr double kRoundOff = 1e-9;  // the same position solved from another start
   const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
   const FlankCondition condition = misaligned(8 * units::um);
@@ -84,7 +84,7 @@ TEST_CASE("The place of a located peak carries the peak", "[core][load][peaks]")
   CHECK(here.with_spikes.contact_stress.z == Approx(peak.z).margin(1e-6));
 }
 
-TEST_CASE("What counts without spikes are long lines away from the tip edges, cut exactly", "[core][load][peaks]") {
+TEST_CASE("Peaks without spikes count long lines away from the tip edges, cut exactly", "[core][load][peaks]") {
   constexpr double kRoundOff = 1e-12;
   const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
   const MeshModel model = mesh_of(gears)({0.6});

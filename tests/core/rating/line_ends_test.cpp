@@ -88,7 +88,7 @@ TEST_CASE("Line ends come to what a fine line carries there", "[core][load][line
   const double coarse = distance(5), fine = distance(20);
   CAPTURE(coarse, fine);
   CHECK(fine < 0.25 * coarse);
-  CHECK(fine < 6);  // N/mm of about 100, which falls steeply at the sharp end of a face
+  CHECK(fine < 6);  // N/mm of about 100, which falls steeply at the acute end of a face
 }
 
 TEST_CASE("Line ends take no part in the equilibrium and need a contact law", "[core][load][line-ends]") {

@@ -113,7 +113,7 @@ TEST_CASE("A peak at which another point just gains contact follows every parame
   constexpr double kDifference = 5e-3;
   const GearPair gears = mesh_cases::pair(20, 30, 20, 4, 40);
   const double torque = torque_for(gears, 200);
-  // At fixed places along the face few points stand for a line: each that gains contact takes load off the others.
+  // At fixed points along the face few points represent a line: each that gains contact takes load off the others.
   const MeshAt mesh = mesh_of(gears, {QuadratureRule::Gauss2, 4});
   FlankCondition condition = crowned_and_relieved();
   std::vector<Moved> moved = movable();
@@ -138,7 +138,7 @@ TEST_CASE("A peak at which another point just gains contact follows every parame
         const double difference = (read(up).value - read(down).value) / (2 * step);
         CAPTURE(p, read(here).phase, read(up).phase, read(here).value);
         CHECK(std::abs((*slopes)[static_cast<Eigen::Index>(p)] - difference) <= kDifference * (std::abs(difference) + 1e-4 * read(here).value / step));
-        // Only geometry holds a phase; one that goes with the torque is that of contact just gained or lost, or of a smooth summit.
+        // Only geometry holds a phase; one that goes with the torque is that of contact just gained or lost, or of a smooth maximum.
         if (p == moved.size()) kinks += std::abs(read(up).phase - read(down).phase) > 10 * kFineSearch ? 1 : 0;
       }
     }

@@ -60,7 +60,7 @@ double total_weight(const Optimum& optimum) {
 
 }  // namespace
 
-TEST_CASE("Multipliers of a worst case balance at the optimum and their scenes' weights are one together", "[optimize][proof]") {
+TEST_CASE("Multipliers of a worst case balance at the optimum and their scenes' weights are one together", "[optimize][assessment]") {
   const Solved solved(helical({0.0, 12.0, -12.0}, 6));
   constexpr double solver = 1e-4;  // Ipopt ends at 1e-7 of its own scaling
   CHECK(solved.optimum.residual < solver);
@@ -72,7 +72,7 @@ TEST_CASE("Multipliers of a worst case balance at the optimum and their scenes' 
   CHECK(first_order_optimality(elsewhere, elsewhere.start()).residual > 0.01);
 }
 
-TEST_CASE("The objective answers to a step of anything as the exact derivatives say", "[optimize][proof]") {
+TEST_CASE("The objective answers to a step of anything as the exact derivatives say", "[optimize][assessment]") {
   const DesignTask task = helical({0.0, 12.0, -12.0}, 6);
   const Solved solved(task);
   for (const Sensitivity& s : solved.optimum.sensitivities) {
@@ -90,7 +90,7 @@ TEST_CASE("The objective answers to a step of anything as the exact derivatives 
   }
 }
 
-TEST_CASE("Over the whole surface a step of a misalignment takes the points with it", "[optimize][proof]") {
+TEST_CASE("Over the whole surface a step of a misalignment takes the points with it", "[optimize][assessment]") {
   DesignTask task = spur({6.0});
   task.gap = GapModel::WholeSurface;
   task.pinion_modification.lead_crowning = 8 * units::um;
@@ -109,7 +109,7 @@ TEST_CASE("Over the whole surface a step of a misalignment takes the points with
   }
 }
 
-TEST_CASE("No step of a variable makes an optimum better, and its bounds say what they cost", "[optimize][proof]") {
+TEST_CASE("No step of a variable improves an optimum, and its bounds have their gains", "[optimize][assessment]") {
   DesignTask task = helical({0.0, 12.0, -12.0}, 6);
   task.variables[0].upper = 0.004;  // less lead crowning than the optimum wants
   const Solved solved(task);
@@ -134,7 +134,7 @@ TEST_CASE("No step of a variable makes an optimum better, and its bounds say wha
   CHECK(0.1 * bound.gain == Approx(found).epsilon(second_order));
 }
 
-TEST_CASE("A constraint's multiplier is what a wider limit gains", "[optimize][proof]") {
+TEST_CASE("A constraint's multiplier is what a wider limit gains", "[optimize][assessment]") {
   DesignTask task = helical({0.0, 12.0, -12.0}, 6);
   DesignProblem free(task);
   const DesignReport unbounded = optimise_design(free, SolverOptions{}).after;
@@ -151,7 +151,7 @@ TEST_CASE("A constraint's multiplier is what a wider limit gains", "[optimize][p
   CHECK(share * 100.0 * solved.optimum.constraints.front().gain == Approx(found).epsilon(second_order));
 }
 
-TEST_CASE("A tolerance costs less where the design follows it", "[optimize][proof]") {
+TEST_CASE("A tolerance costs less where the design follows it", "[optimize][assessment]") {
   const DesignTask task = helical({0.0, 12.0, -12.0}, 6);
   const Solved solved(task);
   for (const Sensitivity& s : solved.optimum.sensitivities) {
@@ -172,7 +172,7 @@ TEST_CASE("A tolerance costs less where the design follows it", "[optimize][proo
   CHECK(0.1 * torque.optimised_anew == Approx(found).epsilon(second_order));
 }
 
-TEST_CASE("Of a mean every scene has its own weight", "[optimize][proof]") {
+TEST_CASE("In a mean every scene has its own weight", "[optimize][assessment]") {
   DesignTask task = helical({0.0, 12.0}, 6);
   task.over = Aggregate::Mean;
   task.scenes[1].weight = 3.0;
@@ -184,7 +184,7 @@ TEST_CASE("Of a mean every scene has its own weight", "[optimize][proof]") {
   CHECK(solved.optimum.residual < solver);
 }
 
-TEST_CASE("Several outputs share the weight of their scene", "[optimize][proof]") {
+TEST_CASE("Several outputs share the weight of their scene", "[optimize][assessment]") {
   DesignTask task = helical({0.0, 12.0, -12.0}, 6);
   task.objective = {term(Output::PeakContactStress, 0, 0.01), term(Output::TePeakToPeak, 0, 1.0)};
   const Solved solved(task);
@@ -193,7 +193,7 @@ TEST_CASE("Several outputs share the weight of their scene", "[optimize][proof]"
   CHECK(total_weight(solved.optimum) == Approx(1.0).epsilon(solver));
 }
 
-TEST_CASE("A tied modification follows in sensitivities and multipliers", "[optimize][proof]") {
+TEST_CASE("A tied modification follows in sensitivities and multipliers", "[optimize][assessment]") {
   DesignTask task = helical({0.0, 12.0, -12.0}, 6);
   // Half of each um of lead crowning on the wheel as well.
   LinkingConstraint link;
@@ -213,7 +213,7 @@ TEST_CASE("A tied modification follows in sensitivities and multipliers", "[opti
   CHECK(solved.model.objective(step) - solved.after.objective == Approx(found).epsilon(second_order).margin(2e-6 * solved.after.objective));
 }
 
-TEST_CASE("A bounded sum of modifications says what its limit costs", "[optimize][proof]") {
+TEST_CASE("A bounded sum of modifications has the gain of its limit", "[optimize][assessment]") {
   DesignTask task = helical({0.0, 12.0, -12.0}, 6);
   ModificationConstraint sum;
   sum.name = "lead_crowning + profile_crowning";
@@ -234,7 +234,7 @@ TEST_CASE("A bounded sum of modifications says what its limit costs", "[optimize
   CHECK(share * solved.optimum.sums.front().gain == Approx(found).epsilon(second_order));
 }
 
-TEST_CASE("Of a list the last objective is governed, and the limit of the first says what it costs", "[optimize][proof]") {
+TEST_CASE("In a list the last objective is governed, and the limit of the first has its gain", "[optimize][assessment]") {
   DesignTask task = helical({0.0, 12.0, -12.0}, 6);
   task.later_objectives = {Objective{{term(Output::TePeakToPeak)}, Aggregate::Worst}};
   DesignProblem problem(task);

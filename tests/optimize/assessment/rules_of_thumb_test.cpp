@@ -25,7 +25,7 @@ NamedDesign named(const std::vector<NamedDesign>& designs, const std::string& na
 
 }  // namespace
 
-TEST_CASE("Relief starts where its length of path ends", "[optimize][proof]") {
+TEST_CASE("Relief starts where its length of path ends", "[optimize][assessment]") {
   const GearPair pair = helical().pair;
   const double length = GENERATE(0.0, 1.0, 8.0);
   for (const Gear* gear : {&pair.pinion, &pair.wheel}) {
@@ -35,7 +35,7 @@ TEST_CASE("Relief starts where its length of path ends", "[optimize][proof]") {
   }
 }
 
-TEST_CASE("Short relief of the thesis' pair reaches about 2.5 mm below the tip, as the thesis says", "[optimize][proof]") {
+TEST_CASE("Short relief of the thesis' pair reaches about 2.5 mm below the tip, as the thesis says", "[optimize][assessment]") {
   const DesignProblem problem(helical({0.0}, 4));
   const NamedDesign design = named(rules_of_thumb(problem.task(), rule_basis(problem)), "short tip relief");
   // Section 4.3.3: "about 2.5 mm", and that 5 .. 6 mm is "nearly twice" as much: model error, half a millimetre.
@@ -44,7 +44,7 @@ TEST_CASE("Short relief of the thesis' pair reaches about 2.5 mm below the tip, 
   CHECK(design.wheel.tip_relief.height == Approx(published).margin(scatter));
 }
 
-TEST_CASE("Long relief starts at the pitch point", "[optimize][proof]") {
+TEST_CASE("Long relief starts at the pitch point", "[optimize][assessment]") {
   const DesignProblem problem(helical({0.0}, 4));
   const NamedDesign design = named(rules_of_thumb(problem.task(), rule_basis(problem)), "long tip relief");
   constexpr double round_off = 1e-9;  // without profile shift the addendum is a module above the pitch point
@@ -52,7 +52,7 @@ TEST_CASE("Long relief starts at the pitch point", "[optimize][proof]") {
   CHECK(design.wheel.tip_relief.height == Approx(10.0).epsilon(round_off));
 }
 
-TEST_CASE("Relief to single contact leaves a base pitch of the path alone", "[optimize][proof]") {
+TEST_CASE("Relief to single contact leaves a base pitch of the path alone", "[optimize][assessment]") {
   const DesignProblem problem(spur({0.0}));
   const GearPair& pair = problem.task().pair;
   const NamedDesign design = named(rules_of_thumb(problem.task(), rule_basis(problem)), "tip relief to single contact");
@@ -65,7 +65,7 @@ TEST_CASE("Relief to single contact leaves a base pitch of the path alone", "[op
   CHECK(pinion_start > wheel_start);
 }
 
-TEST_CASE("Amounts follow from the deflections and the misalignment of the scenes", "[optimize][proof]") {
+TEST_CASE("Amounts follow from the deflections and the misalignment of the scenes", "[optimize][assessment]") {
   DesignTask task = helical({0.0, 16.0, -12.0}, 4);
   task.scenes[1].torque *= 0.5;
   const DesignProblem problem(task);
@@ -87,7 +87,7 @@ TEST_CASE("Amounts follow from the deflections and the misalignment of the scene
   CHECK(both.pinion.lead_crowning == named(rules, "crowning of half the misalignment").pinion.lead_crowning);
 }
 
-TEST_CASE("The deflection is half at half the torque and the rules stay what they are for any start", "[optimize][proof]") {
+TEST_CASE("The deflection is half at half the torque and the rules stay what they are for any start", "[optimize][assessment]") {
   DesignTask task = spur({0.0, 10.0});
   const RuleBasis full = rule_basis(DesignProblem(task));
   for (DesignScene& scene : task.scenes) scene.torque *= 0.5;
@@ -105,7 +105,7 @@ TEST_CASE("The deflection is half at half the torque and the rules stay what the
   CHECK(named(rules, "unmodified").pinion.topography == task.pinion_modification.topography);  // as measured
 }
 
-TEST_CASE("Every rule has a name of its own; aligned pairs have no lead rules", "[optimize][proof]") {
+TEST_CASE("Every rule has a name of its own; aligned pairs have no lead rules", "[optimize][assessment]") {
   const DesignProblem misaligned(spur({0.0, 10.0})), aligned(spur({0.0}));
   std::set<std::string> names;
   for (const NamedDesign& d : rules_of_thumb(misaligned.task(), rule_basis(misaligned))) names.insert(d.name);
@@ -116,7 +116,7 @@ TEST_CASE("Every rule has a name of its own; aligned pairs have no lead rules", 
   }
 }
 
-TEST_CASE("A compared design has the figures of its own analysis, and failures and broken bounds never win", "[optimize][proof]") {
+TEST_CASE("A compared design has the figures of its own analysis, and failures and broken bounds never win", "[optimize][assessment]") {
   DesignTask task = helical({0.0, 12.0}, 4);
   DesignProblem problem(task);
   NamedDesign crowned{"crowned", "", {}, {}};

@@ -11,7 +11,7 @@
 using namespace flankwright;
 using namespace flankwright::design_tasks;
 
-TEST_CASE("A spread has the moments and quantiles of its numbers", "[optimize][proof]") {
+TEST_CASE("A spread has the moments and quantiles of its numbers", "[optimize][assessment]") {
   std::vector<double> values(101);
   std::iota(values.begin(), values.end(), 0.0);  // 0 .. 100: quantiles are the shares themselves
   std::swap(values.front(), values[50]);
@@ -30,14 +30,14 @@ TEST_CASE("A spread has the moments and quantiles of its numbers", "[optimize][p
   CHECK(spread_of({1.0}).quantiles[2] == 1.0);
 }
 
-TEST_CASE("Shares and histograms count every number once", "[optimize][proof]") {
+TEST_CASE("Shares and histograms count every number once", "[optimize][assessment]") {
   CHECK(share_below({1.0, 2.0, 3.0, not_given}, {2.0, 2.0, 4.0, 0.0}) == Approx(2.0 / 3.0));
   CHECK(std::isnan(share_below({not_given}, {1.0})));
   CHECK(histogram({0.0, 0.5, 0.99, 1.0, 2.0, not_given}, 0.0, 2.0, 2) == std::vector<int>{3, 2});
   CHECK(histogram({1.0, 1.0}, 1.0, 1.0, 3) == std::vector<int>{2, 0, 0});
 }
 
-TEST_CASE("Validation gives each design the measures of its own analyses, on one thread and on two", "[optimize][proof][determinism]") {
+TEST_CASE("Validation gives each design the measures of its own analyses, on one thread and on two", "[optimize][assessment][determinism]") {
   const DesignTask task = spur({0.0});
   const std::vector<DesignScene> drawn = spur({3.0, -7.0, 15.0}).scenes;
   NamedDesign crowned{"crowned", "", {}, {}};

@@ -10,7 +10,7 @@
 using namespace flankwright;
 using namespace flankwright::design_tasks;
 
-TEST_CASE("Levels fill a budget and never exceed it", "[optimize][proof]") {
+TEST_CASE("Levels fill a budget and never exceed it", "[optimize][assessment]") {
   CHECK(levels_for(2, 100) == std::vector<int>{10, 10});
   CHECK(levels_for(2, 110) == std::vector<int>{11, 10});
   CHECK(levels_for(3, 1) == std::vector<int>{1, 1, 1});
@@ -25,7 +25,7 @@ TEST_CASE("Levels fill a budget and never exceed it", "[optimize][proof]") {
   }
 }
 
-TEST_CASE("Levels are evenly spaced, between the bounds or in the middles", "[optimize][proof]") {
+TEST_CASE("Levels are evenly spaced, between the bounds or in the middles", "[optimize][assessment]") {
   CHECK(level_value(LevelPlacement::BoundToBound, 0, 5) == 0.0);
   CHECK(level_value(LevelPlacement::BoundToBound, 4, 5) == 1.0);
   CHECK(level_value(LevelPlacement::BoundToBound, 1, 5) == 0.25);
@@ -34,7 +34,7 @@ TEST_CASE("Levels are evenly spaced, between the bounds or in the middles", "[op
   CHECK(level_value(LevelPlacement::BoundToBound, 0, 1) == 0.5);
 }
 
-TEST_CASE("The search finds the best of all combinations", "[optimize][proof]") {
+TEST_CASE("The search finds the best of all combinations", "[optimize][assessment]") {
   DesignProblem problem(spur({0.0, 12.0}));
   const VariantSearch search = search_variants(problem, LevelPlacement::BoundToBound, 20);
   REQUIRE(search.levels == std::vector<int>{5, 4});
@@ -52,7 +52,7 @@ TEST_CASE("The search finds the best of all combinations", "[optimize][proof]") 
   CHECK(problem.objective(problem.analyse(search.x, false)) == Approx(search.best.objective).epsilon(1e-11));
 }
 
-TEST_CASE("One thread and two find the same variant, of equals the first", "[optimize][proof][determinism]") {
+TEST_CASE("One thread and two find the same variant, of equals the first", "[optimize][assessment][determinism]") {
   DesignTask task = spur({8.0, -8.0});  // mirrored: +slope and -slope are equals
   const auto search_with = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
@@ -64,7 +64,7 @@ TEST_CASE("One thread and two find the same variant, of equals the first", "[opt
   CHECK(one.best.design.name == two.best.design.name);
 }
 
-TEST_CASE("Variants that break a constraint are counted and not taken", "[optimize][proof]") {
+TEST_CASE("Variants that break a constraint are counted and not taken", "[optimize][assessment]") {
   DesignTask task = spur({0.0, 12.0});
   task.constraints = {{term(Output::PeakContactStress), 1.0}};  // nothing meets 1 MPa
   const VariantSearch none = search_variants(DesignProblem(task), LevelPlacement::Middles, 9);

@@ -115,7 +115,7 @@ Statistics draw(unsigned seed, int count, const std::string& compliance, int fin
 
 }  // namespace
 
-TEST_CASE("What is shown by default is what a finer run shows, and the stated error holds", "[studies][default-resolution][slow]") {
+TEST_CASE("Default results agree with a finer run within the stated error", "[studies][default-resolution][slow]") {
   // Slices need no finite elements. They do not support each other, so that their loads are less smooth: twice what is asked of teeth.
   const Statistics found = draw(11, 3, "thin_slice", 2);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -126,7 +126,7 @@ TEST_CASE("What is shown by default is what a finer run shows, and the stated er
   }
 }
 
-TEST_CASE("What is shown by default for 200 industrial pairs is what a run four times finer shows", "[studies][default-resolution][.soak]") {
+TEST_CASE("Default results of 200 industrial pairs agree with a run four times finer", "[studies][default-resolution][.soak]") {
   const Statistics found = draw(1, 200, "fitted", 4);
   for (std::size_t i = 0; i < 3; ++i) {
     WARN(fmt::format("figure {}: median {:.3f} %, 95 % below {:.3f} %, stated error holds in {:.1f} %", i, 100 * found.median[i],

@@ -36,7 +36,7 @@ compliance = "thin_slice"
 
 }  // namespace
 
-TEST_CASE("An accuracy chooses what the study leaves open, says so and keeps it", "[studies][accuracy][fidelity-choice]") {
+TEST_CASE("An accuracy chooses the settings that the study leaves open, reports them and is kept", "[studies][accuracy][fidelity-choice]") {
   const StudyResults results = run_study(small_study("accuracy = \"10 %\""));
   CHECK(results.requirements.empty());
   REQUIRE(results.fidelity_choice);
@@ -86,7 +86,7 @@ TEST_CASE("The figures of a run with an accuracy are within it of a far finer ru
   CHECK(coarse.peak_line_load == Approx(truth.peak_line_load).epsilon(line_load_error));
 }
 
-TEST_CASE("What a study gives beside an accuracy stays as it is", "[studies][accuracy][fidelity-choice]") {
+TEST_CASE("Settings that a study gives beside an accuracy are kept", "[studies][accuracy][fidelity-choice]") {
   const StudyResults results = run_study(small_study("accuracy = \"20 %\"\ngap = \"plane_of_action\"\nquadrature = { rule = \"gauss2\", intervals = 7 }",
                                                      "[cycle]\npositions = 18\n"));
   REQUIRE(results.fidelity_choice);

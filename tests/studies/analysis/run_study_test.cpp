@@ -235,7 +235,7 @@ TEST_CASE("Two runs differ in their times only", "[studies][results][determinism
   CHECK(first.dump() == second.dump());
 }
 
-TEST_CASE("Given repeats the study's keys and used says what became of the rest", "[studies][results][slow]") {
+TEST_CASE("Given repeats the study's keys, and used has all settings", "[studies][results][slow]") {
   const json results = results_of(small::analysis(), {{"cycle.positions", "5"}});
   bool has_positions = false;
   for (const json& given : results["given"]) has_positions = has_positions || given["key"] == "cycle.positions";
@@ -245,7 +245,7 @@ TEST_CASE("Given repeats the study's keys and used says what became of the rest"
   CHECK(results["loaded"][0]["cycle"].size() == 5);
 }
 
-TEST_CASE("A rigid study ignores its torques and says so", "[studies][run]") {
+TEST_CASE("A rigid study ignores its torques, with a note", "[studies][run]") {
   const json results = results_of(small::analysis(), {{"fidelity.compliance", "rigid"}});
   CHECK(results["loaded"].empty());
   CHECK(results["unloaded_scenes"].size() == 2);

@@ -89,7 +89,7 @@ const std::string slices = "compliance = \"thin_slice\"\n";
 
 }  // namespace
 
-TEST_CASE("No harmonic is farther off than stated where few positions tell what an effect does", "[studies][accuracy][fidelity-choice]") {
+TEST_CASE("The error of harmonics is within the stated one where an effect acts at few positions", "[studies][accuracy][fidelity-choice]") {
   const Honesty of = honesty(relieved_pinion, slices, slices);
   CHECK(of.kept);
   CHECK(headline(of.stated) <= 0.01);

@@ -18,7 +18,7 @@ using study_texts::results_of;
 
 }  // namespace
 
-TEST_CASE("Results say how large each effect is as far as it was asked for", "[studies][effects]") {
+TEST_CASE("Results have the size of each effect as far as the study asks for it", "[studies][effects]") {
   // At the resolution that estimates are made at, so that they differ by their order alone.
   const std::vector<Override> coarse{{"cycle.positions", "16"}, {"fidelity.quadrature", "{ rule = \"graded\", intervals = 6 }"}};
   const auto sized = [&](const char* how) {
@@ -47,7 +47,7 @@ TEST_CASE("Results say how large each effect is as far as it was asked for", "[s
   }
 }
 
-TEST_CASE("Steps of a run that are no effects stand beside them", "[studies][effects]") {
+TEST_CASE("The results list steps of a run beside its effects", "[studies][effects]") {
   const json results = results_of(small::optimisation());
   std::set<std::string> steps;
   for (const json& step : results["steps"]) {

@@ -22,7 +22,7 @@ TEST_CASE("A file is written whole, replaced whole, and leaves nothing beside it
   CHECK(folder.names() == Names{"a.txt"});
 }
 
-TEST_CASE("A place that cannot be written is refused and nothing half-written stays", "[studies][results]") {
+TEST_CASE("A folder that cannot be written is refused and nothing half-written stays", "[studies][results]") {
   const ScratchFolder folder;
   folder.file("file", "text");
   std::filesystem::create_directory(folder.path() / "taken");

@@ -35,7 +35,7 @@ std::vector<std::string> listed(const std::string& help, const std::string& head
 
 }  // namespace
 
-TEST_CASE("Every command teaches by example, and shells and the manual know all of it", "[studies][cli]") {
+TEST_CASE("Every command has examples, and completions and manual are complete", "[studies][cli]") {
   const ScratchFolder folder;
   const std::vector<std::string> commands = listed(run(folder, {"--help"}).out, "Subcommands:", "");
   REQUIRE(commands.size() >= 9);

@@ -105,7 +105,7 @@ TEST_CASE("Check warns of what a run would warn of first", "[studies][cli]") {
   CHECK_THAT(run(folder, {"check", "small.toml", "--set", "pair.centre_distance=424"}).err, Contains("the transverse contact ratio is 0.744"));
 }
 
-TEST_CASE("Bad input of any other kind is exit code 2 and says what is allowed", "[studies][cli]") {
+TEST_CASE("Any other bad input has exit code 2 and a message with the allowed values", "[studies][cli]") {
   const ScratchFolder folder;
   folder.file("small.toml", small::analysis());
   folder.file("broken.toml", "title = \"no end\n");
@@ -183,7 +183,7 @@ TEST_CASE("Report rebuilds the same page from the stored results", "[studies][cl
   CHECK(text_of(folder.path() / "r" / "report.html") == page);
 }
 
-TEST_CASE("Test runs every study of a folder and says which differ", "[studies][cli][slow]") {
+TEST_CASE("The command test runs every study of a folder and reports those that differ", "[studies][cli][slow]") {
   const ScratchFolder folder;
   std::filesystem::create_directory(folder.path() / "set");
   const std::string key = "[expect]\n\"unloaded.mesh.peak_to_peak_arcsec\" = ";

@@ -103,14 +103,14 @@ TEST_CASE("A study by finite elements: equal gears are solved once, kept, and ba
   CHECK(doubled.structures.finite_elements->gears[0].from_cache);
   CHECK(doubled.loaded[0].summary.te_mean == Approx(2 * kept.loaded[0].summary.te_mean).epsilon(1e-9));  // same stress
 
-  // Teeth that do not know of each other give way less: their loads push on their neighbours' flanks.
+  // Teeth that do not know of each other yield less: their loads push on their neighbours' flanks.
   const StudyResults alone = run_twins(twins, {{"fidelity.effects", R"(["bending", "gear_body_compliance", "hertzian_contact", "tip_corner", "extended_contact_region"])"}});
   CHECK(alone.loaded[0].summary.te_mean < kept.loaded[0].summary.te_mean);
   CHECK(alone.structures.finite_elements->gears[0].from_cache);  // a run that tells more will do
   CHECK(std::isnan(alone.loaded[0].summary.peak_root_stress));
 }
 
-TEST_CASE("The mere estimate of a size takes no run with rigid bodies, and says so", "[studies][fe][slow]") {
+TEST_CASE("The estimate of a size takes no run with rigid bodies, and reports it", "[studies][fe][slow]") {
   const ScratchCache cache;
   const StudyResults elastic = run_twins(twins, {{"fidelity.effect_sizes", "estimated"}});
   CHECK(cache.files().size() == 1);
@@ -210,7 +210,7 @@ variables = { "pinion.modification.lead_slope" = [-30, 30] }
   CHECK_THROWS_WITH(parse_study(text, "twins.toml", {{"fidelity.effects", R"(["bending"])"}}), Catch::Contains("root_stress"));
 }
 
-TEST_CASE("What a gear's finite elements refuse is refused when the study is read, under its key", "[studies][fe]") {
+TEST_CASE("A gear that finite elements refuse is refused when the study is read, under its key", "[studies][fe]") {
   CHECK(twins_refusal({}).empty());
   CHECK(twins_refusal({{"pinion.body.shaft_diameter", "30"}, {"wheel.body.bore_diameter", "5"}}).empty());
   CHECK_THAT(twins_refusal({{"pinion.body.shaft_diameter", "40"}}), Catch::Contains("pinion.body.shaft_diameter"));
@@ -221,7 +221,7 @@ TEST_CASE("What a gear's finite elements refuse is refused when the study is rea
              Catch::Contains("pitches apart touch at once"));
 }
 
-TEST_CASE("A gear's body that the compliance does not know of is said to be left out", "[studies][fe]") {
+TEST_CASE("A gear body that the compliance does not model is reported as left out", "[studies][fe]") {
   const StudyResults results = run_twins(twins, {{"fidelity.compliance", "thin_slice"}, {"pinion.body.shaft_diameter", "20"}});
   REQUIRE(results.notes.size() == 1);
   CHECK_THAT(results.notes[0], Catch::Contains("does not know of it"));
@@ -257,7 +257,7 @@ TEST_CASE("A study by fitted compliance: a coarse mesh of its gears and the libr
   CHECK(ours.loaded[0].summary.peak_root_stress == Approx(fe.loaded[0].summary.peak_root_stress).epsilon(0.06));
 }
 
-TEST_CASE("A gear that the library of fits does not know has a fit of its own, to the run that fe takes", "[studies][fitted]") {
+TEST_CASE("A gear outside the library of fits has its own fit, to the run that fe takes", "[studies][fitted]") {
   const ScratchCache cache;
   const std::vector<Override> by_fit{{"fidelity.compliance", "fitted"}, {"pair.pressure_angle", "17"}};
   const StudyResults ours = run_twins(twins, by_fit);
@@ -312,7 +312,7 @@ TEST_CASE("A damaged fit is made anew from the runs that are kept", "[studies][f
   CHECK_THAT(second.structures.notes.back(), Catch::Contains("is not used"));
 }
 
-TEST_CASE("What cannot be meshed is refused by fitted compliance under the study's key", "[studies][fitted]") {
+TEST_CASE("A gear that cannot be meshed is refused by fitted compliance under the study's key", "[studies][fitted]") {
   const auto refused = [](const std::string& key, const std::string& value) {
     return twins_refusal({{"fidelity.compliance", "fitted"}, {key, value}});
   };

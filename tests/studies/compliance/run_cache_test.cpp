@@ -100,7 +100,7 @@ TEST_CASE("A folder that cannot be written costs a note and nothing else", "[stu
   CHECK(!cache.find(run_key, notes));
 }
 
-TEST_CASE("The folder of kept runs is what the environment says", "[studies][cache]") {
+TEST_CASE("The folder of kept runs follows the environment", "[studies][cache]") {
   const auto value_of = [](const char* name) { return std::string(std::getenv(name) ? std::getenv(name) : ""); };
   const std::string own = value_of("FLANKWRIGHT_CACHE"), caches = value_of("XDG_CACHE_HOME");
   ::setenv("FLANKWRIGHT_CACHE", "/a", 1);

@@ -33,7 +33,7 @@ TEST_CASE("Every modification, misalignment and output has a name that a person 
   for (const std::string& output : output_names()) CHECK(known.count(output) == 1);
 }
 
-TEST_CASE("What is said of a relief is found beside its amount", "[studies][report][modification]") {
+TEST_CASE("The remark on a relief is beside its amount", "[studies][report][modification]") {
   // The table of what to grind leaves out the extent and the choices of a relief that is none: it looks for "amount" beside them.
   std::set<std::string> amounts;
   for (const ModificationDescriptor& d : modification_parameters) {

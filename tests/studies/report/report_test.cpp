@@ -79,7 +79,7 @@ TEST_CASE("The report of a loaded analysis shows pictures before tables", "[stud
   CHECK(section_ids(render_report(sample::loaded_results(2))) == expected);
 }
 
-TEST_CASE("The report of an optimisation says first what to grind and what it gains, then everything else", "[studies][report]") {
+TEST_CASE("The report of an optimisation begins with the modifications to grind and their gain", "[studies][report]") {
   const std::vector<std::string> expected{"modifications", "scenes",      "flank-load", "transmission-error",
                                           "stiffness",     "convergence", "load-cases", "unloaded",
                                           "gear-pair",     "effects",     "notes",      "inputs"};
@@ -106,7 +106,7 @@ TEST_CASE("The page is given the names that a person writes", "[studies][report]
         Json({"pinion.modification.lead_slope", "pinion lead slope", "C_Hβ", "+ removes at z = +b/2"}));
 }
 
-TEST_CASE("The first screen stands before the links to the sections", "[studies][report]") {
+TEST_CASE("The first screen comes before the links to the sections", "[studies][report]") {
   const std::string page = render_report(sample::optimise_results(1, 2));
   const std::size_t headline = page.find("id=\"headline\""), first = page.find("id=\"first\""), links = page.find("<nav"), sections = page.find("<section id=\"modifications\">");
   CHECK((headline < first && first < links && links < sections && sections != std::string::npos));
@@ -191,7 +191,7 @@ TEST_CASE("A report survives sections that are missing, empty or of another shap
   CHECK(section_ids(render_stored_report("{}")).empty());
 }
 
-TEST_CASE("What is not a JSON object is refused", "[studies][report]") {
+TEST_CASE("Text that is not a JSON object is refused", "[studies][report]") {
   CHECK_THROWS_AS(render_stored_report(""), InvalidInput);
   CHECK_THROWS_AS(render_stored_report("[1, 2]"), InvalidInput);
   CHECK_THROWS_AS(render_stored_report("{\"title\": "), InvalidInput);

@@ -66,7 +66,7 @@ TEST_CASE("Without an index every entry of a list must meet it, with one that en
   CHECK_FALSE(met(range("a.list", 0.0, 9.0)));  // the list itself is no number
 }
 
-TEST_CASE("What is missing, null or no number is not met", "[studies][expect]") {
+TEST_CASE("A value that is missing, null or no number does not meet an expectation", "[studies][expect]") {
   const std::string key = GENERATE("a.c", "nowhere", "a.nothing", "a.text", "a", "loaded.7.summary.te", "empty.x",
                                    "a.b.c", "a.list.99999999999999999999", "");
   CAPTURE(key);

@@ -70,7 +70,7 @@ json loaded(const std::vector<Override>& overrides) {
 
 }  // namespace
 
-TEST_CASE("Every number of a loaded result has its derivatives at the same place of its gradients", "[studies][gradient]") {
+TEST_CASE("Every number of a loaded result has its derivatives at the same path of its gradients", "[studies][gradient]") {
   constexpr double kDifference = 5e-5;  // step^2 times curvature of central differences, and loads' round-off over the step, relative
   struct Key {
     std::string path;
@@ -186,7 +186,7 @@ torque_position = 0
   }
 }
 
-TEST_CASE("Derivatives of located peaks and load factors stand beside them", "[studies][gradient]") {
+TEST_CASE("Located peaks and load factors have their derivatives", "[studies][gradient]") {
   // Both peaks of a difference are located to 2e-4 base pitches; step^2 times curvature. All parameters move at once, by a step each.
   constexpr double kLocated = 5e-4, kDifference = 0.02;
   const std::vector<std::tuple<std::string, double, double>> keys{
@@ -216,7 +216,7 @@ TEST_CASE("Derivatives of located peaks and load factors stand beside them", "[s
   }
 }
 
-TEST_CASE("What has no derivative is refused", "[studies][gradient][input]") {
+TEST_CASE("A parameter without derivatives is refused", "[studies][gradient][input]") {
   CHECK(problem_of("[analyse]\ngradients = [\"pair.helix_angle\"]").key == "analyse.gradients");
   CHECK_THAT(problem_of("[analyse]\ngradients = [\"misalignment.crosing\"]").allowed, Catch::Contains("did you mean crossing?"));
   CHECK(problem_of("[analyse]\ngradients = \"misalignment.crossing\"").key == "analyse.gradients");

@@ -15,7 +15,7 @@
 #include "tests/studies/study_texts.hpp"
 #include "tests/studies/tasks/sweep/small_sweep.hpp"
 
-/// An output is one row of cycle_quantities(): whatever stands in that table stands everywhere.
+/// An output is one row of cycle_quantities(): every row of that table appears in all outputs.
 namespace flankwright::studies {
 namespace {
 

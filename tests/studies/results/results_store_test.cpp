@@ -48,7 +48,7 @@ const StudyResults& optimised() {
 
 }  // namespace
 
-TEST_CASE("The store of an optimisation answers in SQL what the results say", "[studies][results][store]") {
+TEST_CASE("The store of an optimisation agrees with the results", "[studies][results][store]") {
   const ScratchFolder folder;
   const std::filesystem::path file = folder.path() / "results.sqlite";
   const StudyResults& results = optimised();
@@ -87,7 +87,7 @@ TEST_CASE("The store of an optimisation answers in SQL what the results say", "[
         std::vector<Row>{{"te_peak_to_peak", "um", "NULL", "5.0"}});
 }
 
-TEST_CASE("Least values and sums of modifications stand among the constraints", "[studies][results][store]") {
+TEST_CASE("Least values and sums of modifications are among the constraints", "[studies][results][store]") {
   const ScratchFolder folder;
   const std::filesystem::path file = folder.path() / "results.sqlite";
   const StudyResults results = run_study(parse_study(small::optimisation() + R"(

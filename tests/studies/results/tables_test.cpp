@@ -65,7 +65,7 @@ TEST_CASE("CSV tables read back whole, whatever a scene is called", "[studies][t
     for (const Row& row : rows) CHECK(row.size() == rows.front().size());
     CHECK(rows[1].front() == awkward);
   }
-  // One line a hand-over, and one for each grid point of both flanks in both scenes.
+  // One line for each transfer point, and one for each grid point of both flanks in both scenes.
   std::size_t transfers = 0, grid_points = 0;
   for (const UnloadedResult& unloaded : results.unloaded) {
     transfers += unloaded.mesh.transfers.size();

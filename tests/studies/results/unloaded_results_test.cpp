@@ -88,7 +88,7 @@ TEST_CASE("The pairs that carry are the mesh's curve, at every position some pai
   }
 }
 
-TEST_CASE("At a hand-over the pair that enters is the faster one, and the slopes are those of the curves",
+TEST_CASE("At a transfer point the pair that enters is the faster one, and the slopes are those of the curves",
           "[studies][results][physics]") {
   const json results = results_of(parabola_study);
   for (const json& unloaded : results["unloaded_scenes"]) {
@@ -180,11 +180,11 @@ TEST_CASE("A designed parabola is judged in every scene; where it does not hold 
   CHECK_THAT(summary, Catch::Contains("parabola holds") && Catch::Contains("parabola does not hold: "));
 
   CHECK_FALSE(results_of(small::analysis())["unloaded"].contains("parabolic_te"));
-  // Three positions do not tell a parabola.
+  // Three positions do not determine a parabola.
   CHECK(results_of(parabola_study, {{"cycle.positions", "3"}})["unloaded"]["parabolic_te"]["holds"] == false);
 }
 
-TEST_CASE("The arc of a surface of revolution asks for its parabola", "[studies][results][physics]") {
+TEST_CASE("The arc of a surface of revolution designs a parabola", "[studies][results][physics]") {
   const std::vector<Override> crowned{{"pair.helix_angle", "0"},
                                       {"pinion.modification.parabolic_te", "0"},
                                       {"pinion.generation", "{ kind = \"revolution\", half_apex = 80, distance = 15, arc_radius = 2000 }"}};

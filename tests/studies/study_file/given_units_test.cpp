@@ -14,7 +14,7 @@ TEST_CASE("A bare number of a study is shown with the unit of its key", "[studie
   CHECK(unit_of_given({"sweep.parameters.load.torque.truncated_normal", "[300, 10, 250, 350]"}) == "N·m");
 }
 
-TEST_CASE("What carries its unit or has none is shown without", "[studies][results]") {
+TEST_CASE("Values with their own unit, or without one, are shown without unit", "[studies][results]") {
   CHECK(unit_of_given({"misalignment.crossing", "\"3 arcsec\""}).empty());
   CHECK(unit_of_given({"pinion.teeth", "25"}).empty());
   CHECK(unit_of_given({"pinion.profile_shift", "0.2"}).empty());

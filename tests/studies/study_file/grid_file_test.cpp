@@ -94,7 +94,7 @@ TEST_CASE("The order of the rows changes no bit", "[studies][grid-file][determin
   }
 }
 
-TEST_CASE("What is wrong with a grid file is said in one line with its place", "[studies][grid-file][errors]") {
+TEST_CASE("A mistake in a grid file is reported in one line with its position", "[studies][grid-file][errors]") {
   const std::string names = "allowed is once each, radius_mm (or diameter_mm), z_mm, deviation_um (or removal_um)";
   const std::string number = "allowed is a number -1000 .. 1000";
   CHECK(refusal("") ==
@@ -175,7 +175,7 @@ TEST_CASE("No damage to a grid file makes the reader fail otherwise than with er
   CHECK(valid < 3000);
 }
 
-TEST_CASE("The example grids hold what their formulas say", "[studies][grid-file][examples]") {
+TEST_CASE("The example grids agree with their formulas", "[studies][grid-file][examples]") {
   const auto beyond = [](double x, double start) { return std::pow(std::max(0.0, x / start - 1.0), 2); };
   const auto longitudinal = [&](double, double z) { return -50.0 * beyond(std::abs(z), 23.0); };
   const auto three_dimensional = [&](double r, double z) {

@@ -75,7 +75,7 @@ TEST_CASE("A study without a key has the defaults of the data types", "[studies]
   CHECK(parse_study(replaced(small_study, "title = \"Small\"\n", ""), "dir/pump.toml").title == "pump");
 }
 
-TEST_CASE("A diametral pitch stands for the module 25.4 mm / P", "[studies][study-file]") {
+TEST_CASE("A diametral pitch P is the module 25.4 mm / P", "[studies][study-file]") {
   const std::string text = replaced(small_study, "normal_module = 4", "normal_diametral_pitch = 5");
   CHECK(parse_study(text, "inch.toml").pair.normal_module == Approx(5.08).epsilon(file_round_off));
   const auto both =

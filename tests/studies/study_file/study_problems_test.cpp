@@ -134,7 +134,7 @@ TEST_CASE("A misspelt key names the key that was meant", "[studies][study-file]"
   CHECK_THAT(problem_of(more).allowed, Catch::Contains("did you mean " + meant + "?"));
 }
 
-TEST_CASE("Geometry that cannot be built is reported where its key stands", "[studies][study-file]") {
+TEST_CASE("Geometry that cannot be built is reported at its key", "[studies][study-file]") {
   const std::vector<StudyProblem> problems =
       problems_of(replaced(small_study, "helix_angle = 20", "helix_angle = 20\ncentre_distance = 50"));
   REQUIRE(problems.size() == 1);
@@ -142,7 +142,7 @@ TEST_CASE("Geometry that cannot be built is reported where its key stands", "[st
   CHECK(problems.front().line == 5);
 }
 
-TEST_CASE("What is not TOML is one problem with line and column and no key", "[studies][study-file]") {
+TEST_CASE("Text that is not TOML is one problem with line and column and no key", "[studies][study-file]") {
   const std::vector<StudyProblem> problems = problems_of("title = \"x\"\n[pair\n");
   REQUIRE(problems.size() == 1);
   CHECK(problems.front().line == 2);

@@ -88,7 +88,7 @@ TEST_CASE("A shaft is read with its units, the gear's material and one bearing t
   CHECK(read_shafts(pair_text + shaft_text, {{"pinion.shaft.bearings.1.axial_stiffness", "5"}}).pinion_shaft->bearings[0].axial_stiffness == 0.0);
 }
 
-TEST_CASE("Shafts that cannot be are refused with the place that says so", "[studies][shaft]") {
+TEST_CASE("Impossible shafts are refused with their position in the file", "[studies][shaft]") {
   CHECK(shaft_problems(pair_text + shaft_text).empty());
   const int lines = static_cast<int>(std::count(pair_text.begin(), pair_text.end(), '\n'));
   struct Case {
@@ -115,7 +115,7 @@ TEST_CASE("Shafts that cannot be are refused with the place that says so", "[stu
   CHECK(problems.front().line == lines + wrong.line);
 }
 
-TEST_CASE("The effect shafts is on where a shaft is described and load runs, and says so", "[studies][shaft]") {
+TEST_CASE("The effect shafts is on where a shaft is described and loaded, with its reason", "[studies][shaft]") {
   const json rigid = run_shafts(pair_text), with = run_shafts(pair_text + shaft_text);
   CHECK(effect(rigid, "shafts").at("on") == false);
   CHECK(effect(with, "shafts").at("on") == true);
@@ -162,7 +162,7 @@ TEST_CASE("The best lead slope takes back what the shafts do", "[studies][shaft]
   CHECK(optimise.at("after").at("objective").get<double>() < 0.85 * optimise.at("before").at("objective").get<double>());
 }
 
-TEST_CASE("Finite elements leave their wind-up to start where the study's torque leaves the gear", "[studies][shaft][fe]") {
+TEST_CASE("Finite elements leave their torsion to start where the study's torque leaves the gear", "[studies][shaft][fe]") {
   const auto task = [](const std::string& text, Member member, const std::vector<Override>& overrides = {}) {
     std::vector<Override> all = overrides;
     all.push_back({"fidelity.compliance", "fe"});
@@ -171,7 +171,7 @@ TEST_CASE("Finite elements leave their wind-up to start where the study's torque
   };
   const auto end = [&](auto&&... of) { return task(of...).gear.body.torque_end; };
   using Overrides = std::vector<Override>;
-  // The sharp end of a right-hand pinion is at +b/2, its mate's at -b/2.
+  // The acute end of a right-hand pinion is at +b/2, its mate's at -b/2.
   CHECK(end(pair_text, Member::Pinion) == FaceEnd::Obtuse);
   CHECK(end(pair_text + shaft_text, Member::Pinion) == FaceEnd::Obtuse);
   CHECK(end(pair_text + shaft_text, Member::Wheel) == FaceEnd::Obtuse);

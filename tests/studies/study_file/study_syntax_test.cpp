@@ -6,7 +6,7 @@
 using namespace flankwright::studies;
 using Catch::Contains;
 
-TEST_CASE("A decimal comma and a unit without quotes are told for what they are", "[studies][syntax]") {
+TEST_CASE("A decimal comma and a unit without quotes are reported as such", "[studies][syntax]") {
   CHECK(syntax_hint("normal_module = 3,25   # mm") == "; decimals stand behind a point: 3.25");
   CHECK(syntax_hint("\tprofile_shift=-0,2") == "; decimals stand behind a point: -0.2");
   CHECK(syntax_hint("face_width = 40 mm\r") == "; a value with its unit is a text in quotes: \"40 mm\"");

@@ -39,7 +39,7 @@ TEST_CASE("Every template is a study that can be read as it is", "[studies][temp
   CHECK(parse_study(study_template("fit"), "fit.toml").task == &find_task("fit"));
 }
 
-TEST_CASE("The job script for Slurm asks for as many tasks as it makes shards", "[studies][template]") {
+TEST_CASE("The job script for Slurm has as many tasks as shards", "[studies][template]") {
   const std::string script = study_template("slurm");
   std::smatch array, shards;
   REQUIRE(std::regex_search(script, array, std::regex("#SBATCH --array=1-(\\d+)")));
@@ -82,7 +82,7 @@ TEST_CASE("Every default of the schema is a value that its key accepts", "[studi
   }
 }
 
-TEST_CASE("Keys of the schema are unique and say what they mean", "[studies][schema]") {
+TEST_CASE("Keys of the schema are unique and have a meaning", "[studies][schema]") {
   std::map<std::string, int> count;
   for (const SchemaKey& key : study_schema()) {
     CAPTURE(key.path);

@@ -6,7 +6,7 @@
 
 namespace flankwright::testing {
 
-/// A compliance that tells places apart: (2 + u_p + u_q) / (1 + distance), 1/4 of it for every pitch.
+/// A compliance with a distinct value for each pair of stations: (2 + u_p + u_q) / (1 + distance), 1/4 of it for every pitch.
 class DistanceCompliance final : public FlankCompliance {
  public:
   static double between(const FlankStation& a, const FlankStation& b) {

@@ -32,7 +32,7 @@ const FormResiduals& residuals_of(const GearFitResult& result, const std::string
 
 }  // namespace
 
-TEST_CASE("A gear's fit is judged on places that it has not seen and drawn beside the other models",
+TEST_CASE("A gear's fit is compared with finite elements at unseen stations and drawn beside the other models",
           "[core][compliance][comparison]") {
   int last = -1;
   std::vector<std::string> labels;

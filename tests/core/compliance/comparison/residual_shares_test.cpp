@@ -31,7 +31,7 @@ InfluenceSample missed_sample() {
 
 }  // namespace
 
-TEST_CASE("Shares of residuals are those of the known pairs, told apart by teeth", "[core][compliance][comparison]") {
+TEST_CASE("Fractions of residuals are those of the known pairs, separate for each distance of teeth", "[core][compliance][comparison]") {
   InfluenceSample sample = missed_sample();
   sample.compliance(3, 2) = sample.compliance(2, 3) = std::numeric_limits<double>::quiet_NaN();
   const std::vector<ResidualDistribution> shares = residual_distributions(DistanceCompliance(), 1, {&sample, 1});
@@ -53,7 +53,7 @@ TEST_CASE("Shares of residuals are those of the known pairs, told apart by teeth
   CHECK(shares[1].worst_of_own < 0.3 * shares[1].worst());
 }
 
-TEST_CASE("Where a model has no value it is infinitely far off, and the other pairs are judged as they are",
+TEST_CASE("A pair without a model value has an infinite residual, and the other pairs keep theirs",
           "[core][compliance][comparison]") {
   struct Partial final : FlankCompliance {
     Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const override {

@@ -18,7 +18,7 @@ GearMeshOptions fine_ends(double end_element) {
   return options;
 }
 
-/// Row by row from the root to the tip, at these distances from the sharp end [modules].
+/// Row by row from the root to the tip, at these distances from the acute end [modules].
 std::vector<FlankPoint> points(const GearMesh& mesh, const std::vector<double>& distances) {
   std::vector<FlankPoint> result;
   for (const double u : {0.0, 0.5, 1.0}) {
@@ -32,7 +32,7 @@ std::vector<FlankPoint> points(const GearMesh& mesh, const std::vector<double>& 
 
 }  // namespace
 
-TEST_CASE("What a point deflects under its own load grows towards the sharp end", "[core][compliance][fe]") {
+TEST_CASE("The deflection of a point under its own load grows towards the acute end", "[core][compliance][fe]") {
   const InfluenceModel model(gear_of(GENERATE(18, 27), 30, 4), kUnit, fine_ends(0.3));
   const std::vector<double> distances{0, 0.1, 0.2, 0.3, 0.5, 1.0};
   const Eigen::MatrixXd k = model.influence(points(model.mesh(), distances)).compliance;

@@ -118,7 +118,7 @@ TEST_CASE("A wide face has longer layers in the middle and no more of them", "[c
   }
 }
 
-TEST_CASE("What cannot be meshed is refused by the name of what is wrong", "[core][compliance][fe]") {
+TEST_CASE("A gear that cannot be meshed is refused by the name of the wrong quantity", "[core][compliance][fe]") {
   const auto field = [](const GearToMesh& gear, const GearMeshOptions& options = coarse()) {
     try {
       gear_mesh(gear, options);

@@ -45,7 +45,7 @@ const std::vector<FlankStation> kScattered{{4, -0.9, 0.1}, {3, 0.2, 2.9}, {4, 1,
 
 }  // namespace
 
-TEST_CASE("At places of its grid an influence table gives its tables, on any tooth and either way round",
+TEST_CASE("At stations of its grid an influence table gives its tables, on any tooth and in both directions",
           "[core][compliance][fe]") {
   const StationGrid grid = small_grid();
   const std::vector<Eigen::MatrixXd> tables = kernel_tables(grid, 2);
@@ -76,7 +76,7 @@ TEST_CASE("Interpolated influence is symmetric to the last bit and positive semi
   CHECK((table.evaluate(reversed).reverse() - k).cwiseAbs().maxCoeff() < 1e-14 * k.maxCoeff());
 }
 
-TEST_CASE("A table that is not positive semi-definite is lifted by just enough, and says by how much",
+TEST_CASE("A table that is not positive semi-definite is lifted by the least amount, and reports it",
           "[core][compliance][fe]") {
   const StationGrid grid = small_grid();
   std::vector<Eigen::MatrixXd> tables = kernel_tables(grid, 2);

@@ -106,7 +106,7 @@ TEST_CASE("The same gear gives the same bits again", "[core][compliance][fe]") {
   CHECK(run() == run());
 }
 
-TEST_CASE("A helical tooth gives way most at the tip of its sharp end, and drags its neighbours along",
+TEST_CASE("A helical tooth yields most at the tip of its acute end, and moves its neighbours",
           "[core][compliance][fe]") {
   const InfluenceModel model(gear_of(18, 30, 8), kUnit, coarse());
   const std::vector<FlankPoint> where = points(model.mesh());
@@ -132,7 +132,7 @@ TEST_CASE("A helical tooth gives way most at the tip of its sharp end, and drags
   }
 }
 
-TEST_CASE("On a rigid body teeth give way less, what lies below their own material does not matter, and they hardly move each other",
+TEST_CASE("On a rigid body teeth yield less, the material below them does not matter, and they hardly move each other",
           "[core][compliance][fe]") {
   const GearToMesh gear = gear_of(40, 15, 4);
   const InfluenceModel elastic(gear, kUnit, coarse());
@@ -152,7 +152,7 @@ TEST_CASE("On a rigid body teeth give way less, what lies below their own materi
   // Discretisation: another shaft moves the elements below, between which a load deep in the tooth is shared out.
   CHECK((on_rigid_body(20) - rigid).cwiseAbs().maxCoeff() < 1e-3 * rigid.maxCoeff());
 
-  // Whatever is held gives way less to any load: the difference is positive semi-definite, as long as no motion is taken off.
+  // Whatever is held yields less to any load: the difference is positive semi-definite, as long as no motion is taken off.
   const Eigen::MatrixXd free = elastic.influence(where, RemovedRigidMotion::None).compliance;
   const Eigen::VectorXd values = symmetric_eigenvalues(free - rigid);
   CHECK(values.minCoeff() > -1e-12 * values.maxCoeff());  // round-off x condition

@@ -49,7 +49,7 @@ GearPair pair_of(int pinion, int wheel, double helix_deg, double width) {
 
 }  // namespace
 
-TEST_CASE("A solved table is the gear's influence matrix at the places of its grid", "[core][compliance][fe]") {
+TEST_CASE("A solved table is the gear's influence matrix at the stations of its grid", "[core][compliance][fe]") {
   const double module = 3, modulus = 206000;
   const GearToMesh gear = gear_of(14, 20, 3, 0, module);
   const StationGrid grid = coarse_grid(3);
@@ -136,7 +136,7 @@ TEST_CASE("No two contact points of a mesh position lie further apart than said"
   CHECK(most == teeth_apart_in_contact(pair));
 }
 
-TEST_CASE("Influence between grid places is near the finite elements' own", "[.soak][core][compliance][fe]") {
+TEST_CASE("Influence between grid stations is near the finite elements' own", "[.soak][core][compliance][fe]") {
   const int teeth = GENERATE(18, 40);
   const double width = 12;
   const GearToMesh gear = gear_of(teeth, 30, width);

@@ -59,7 +59,7 @@ std::vector<FlankStation> test_stations(double face) {
 
 }  // namespace
 
-TEST_CASE("What a fit adds to given values is what they lack", "[core][compliance][fitted]") {
+TEST_CASE("A fit adds to given values exactly what they lack", "[core][compliance][fitted]") {
   const GearProportions gear = helical_gear();
   const SyntheticGear truth(gear);
   const KernelForm form = KernelForm::correction();
@@ -101,7 +101,7 @@ TEST_CASE("A refinement's samples lie on the whole flank of any face, and are wh
   }
 }
 
-TEST_CASE("Layers of the coarse mesh are about as long as places of a table are apart at most", "[core][compliance][fitted]") {
+TEST_CASE("Layers of the coarse mesh are about as long as the largest distance of stations of a table", "[core][compliance][fitted]") {
   for (const double face : {3.0, 8.0, 12.0, 25.0}) {
     const std::vector<double> planes = gear_mesh(standard_gear({20, 20 * deg, face, 0}), coarse_mesh()).planes;
     double longest = 0;
@@ -216,7 +216,7 @@ TEST_CASE("A fit made on a narrower face serves a wide one", "[.soak][core][comp
   CHECK(found.share_95 < 0.04);
 }
 
-TEST_CASE("What evaluating a fitted gear costs", "[.soak][core][compliance][fitted]") {
+TEST_CASE("Time of evaluating a fitted gear", "[.soak][core][compliance][fitted]") {
   const GearProportions gear{24, 20 * deg, 12, 0};
   const auto model = refined(gear);
   std::mt19937 random(2);

@@ -25,7 +25,7 @@ Eigen::MatrixXd kernels_between(const GearProportions& gear, const std::vector<d
 
 }  // namespace
 
-TEST_CASE("The shipped library's fits have converged and meet what is asked of unseen places", "[core][compliance][fitted]") {
+TEST_CASE("The shipped library's fits have converged and are within their limits at unseen stations", "[core][compliance][fitted]") {
   int stopped = 0;
   for (const CorrectionEntry& entry : CorrectionLibrary::shipped().entries()) {
     CAPTURE(entry.gear.teeth, entry.gear.helix_angle / deg, entry.gear.profile_shift);
@@ -128,7 +128,7 @@ TEST_CASE("Racks between those of the library change its kernels in proportion t
   CHECK((sum - 0.5 * (addendum + root + dedendum)).norm() < 1e-12 * sum.norm());  // round-off
 }
 
-TEST_CASE("What the library does not know is said by name, with its range", "[core][compliance][fitted]") {
+TEST_CASE("A gear outside the library is reported by the quantity and its range", "[core][compliance][fitted]") {
   const CorrectionLibrary& library = CorrectionLibrary::shipped();
   GearToMesh gear = standard_gear({24, 20 * deg, 10, 0.2});
   CHECK(library.unknown(gear, 0.3).empty());

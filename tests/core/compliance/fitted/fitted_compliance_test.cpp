@@ -86,7 +86,7 @@ TEST_CASE("A table with an entry missing, unknown, double or impossible is refus
   CHECK(field_of(changed) == "fit table");
 }
 
-TEST_CASE("A fit refuses points that it knows nothing of, and tells which lie beyond its sample",
+TEST_CASE("A fit refuses points outside its domain, and reports those beyond its sample",
           "[core][compliance][fitted]") {
   std::mt19937 random(5);
   const FittedCompliance fit = any_fit(random);

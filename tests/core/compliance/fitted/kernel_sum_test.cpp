@@ -98,7 +98,7 @@ TEST_CASE("A kernel of constant lengths without warp is its closed form", "[core
   CHECK(K(0, 2) == 0);  // another tooth
 }
 
-TEST_CASE("The body winds up as a shaft in torsion", "[core][compliance][fitted][closed-form]") {
+TEST_CASE("The body twists as a shaft in torsion", "[core][compliance][fitted][closed-form]") {
   KernelForm form{{Kernel{Smoothness::Matern32, Reach::Tooth, {1, {}}, {1, {}}, {1, {}}}}, {}, true};
   const double c = 0.02, w = GENERATE(1e-3, 2.0);
   const std::vector<double> x{0, 0, 0, 0, 0, 0, 0, 0, std::log(c), std::log(w)};
@@ -112,7 +112,7 @@ TEST_CASE("The body winds up as a shaft in torsion", "[core][compliance][fitted]
   CHECK(K(0, 1) >= c * (4 - w));
   CHECK(K(0, 1) == K(1, 0));
   CHECK(K(1, 1) >= c * (7 - w));
-  CHECK(std::abs(K(2, 0)) < 1e-15);  // nothing winds up where the torque leaves; round-off
+  CHECK(std::abs(K(2, 0)) < 1e-15);  // no twist where the torque leaves; round-off
 }
 
 TEST_CASE("The compliance is smooth where a point passes the load", "[core][compliance][fitted]") {

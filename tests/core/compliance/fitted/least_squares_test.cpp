@@ -46,7 +46,7 @@ TEST_CASE("Least squares meet NIST's certified values from both of its starts",
   CHECK(2 * result.cost == Approx(1.2455138894e-1).epsilon(1e-8));
 }
 
-TEST_CASE("A fit that may not go on says so, and one that cannot begin too", "[core][compliance][fitted]") {
+TEST_CASE("A fit that ends early reports it, and so does one that cannot begin", "[core][compliance][fitted]") {
   const std::array<double, 2> start{500, 0.0001}, absurd{1, -1e6};
   const LeastSquaresResult stopped = solve_least_squares(Misra{}, start, {1, 1e-14});
   CHECK(stopped.status == FitStatus::IterationLimit);

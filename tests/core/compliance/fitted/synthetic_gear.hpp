@@ -9,9 +9,9 @@
 namespace flankwright::testing {
 
 /// Influence values of a gear that can be had in milliseconds and know nothing of kernels: each tooth a tapered Mindlin
-/// plate, clamped at its root, with ends cut obliquely (one sharp, one blunt), solved by Ritz' method with Legendre
+/// plate, clamped at its root, with ends cut obliquely (one acute, one obtuse), solved by Ritz' method with Legendre
 /// polynomials; under all teeth an elastic base, k/sqrt(1 + d^2) between places a distance d apart; and a body that
-/// winds up and tilts. E = m_n = 1. Each part is symmetric and positive semi-definite.
+/// twists and tilts. E = m_n = 1. Each part is symmetric and positive semi-definite.
 class SyntheticGear {
  public:
   explicit SyntheticGear(GearProportions facts, double skew = 0.25);

@@ -69,7 +69,7 @@ TEST_CASE("A pair's compliance is built without a store, and the same with one",
   for (const GearStructures* built : {&made, &found}) CHECK(deflection(*built, Member::Wheel) == deflection(alone, Member::Wheel));
 }
 
-TEST_CASE("What a pair's compliance cannot be built from is refused under the names of its gears", "[compliance][fe]") {
+TEST_CASE("Data that no compliance can be built from are refused under the names of the gears", "[compliance][fe]") {
   CHECK(!build_compliance(twins(ComplianceModel::ThinSlice)).finite_elements);
   const auto refused = [](const ComplianceTask& task, const ComplianceBuild& build = {}) {
     try {

@@ -12,7 +12,7 @@ using namespace flankwright;
 
 namespace {
 
-/// An edge that hardly gives way; much less would be round-off beside the plate.
+/// An edge that hardly yields; much less would be round-off beside the plate.
 constexpr EdgeCompliance kClamped{1e-5, 0, 1e-5};
 
 PlateShape uniform(double thickness, double height, double length, double nu) {

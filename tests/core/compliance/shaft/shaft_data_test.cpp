@@ -20,7 +20,7 @@ ShaftData sound() {
 
 }  // namespace
 
-TEST_CASE("A sound shaft has no problem and knows its length and side of torque", "[core][compliance][shaft]") {
+TEST_CASE("A sound shaft has no problem, its length and its side of torque", "[core][compliance][shaft]") {
   ShaftData shaft = sound();
   CHECK(find_problems(shaft, kGearWidth).empty());
   CHECK(shaft.length() == 160);
@@ -30,7 +30,7 @@ TEST_CASE("A sound shaft has no problem and knows its length and side of torque"
   CHECK(shaft.torque_side() == 1);
 }
 
-TEST_CASE("What a shaft cannot be is refused by its field", "[core][compliance][shaft]") {
+TEST_CASE("An impossible shaft is refused by the name of its field", "[core][compliance][shaft]") {
   struct Case {
     const char* field;
     void (*spoil)(ShaftData&);

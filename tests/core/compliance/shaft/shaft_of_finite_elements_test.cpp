@@ -65,7 +65,7 @@ ShaftBeam beam_clamped_at(const GearMesh& mesh, int end) {
 
 }  // namespace
 
-TEST_CASE("What finite elements keep and what the beam holds add up to the whole gear on its shaft",
+TEST_CASE("The deflections kept by finite elements and those of the beam add up to the whole gear on its shaft",
           "[core][compliance][shaft][fe]") {
   const int end = GENERATE(-1, 1);  // where the shaft is clamped and the torque leaves
   GearToMesh gear = gear_on_long_shaft();

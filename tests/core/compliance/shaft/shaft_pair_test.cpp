@@ -124,7 +124,7 @@ TEST_CASE("A mirrored pair on mirrored shafts yields the same", "[core][complian
 TEST_CASE("Where a load's moments act does not matter on a shaft that is rigid inside the gear", "[core][compliance][shaft]") {
   const GearPair pair = pair_of(20);
   ShaftData shaft = plain();
-  shaft.sections = {{70, 60}, {60, 5000}, {70, 60}};  // gives way 1e-7 as much as the rest
+  shaft.sections = {{70, 60}, {60, 5000}, {70, 60}};  // yields 1e-7 as much as the rest
   const auto points = points_of(pair);
   const Eigen::MatrixXd here = ShaftPair(pair, shaft, std::nullopt, GearBodyIn::Shaft).influence(points, 0.0);
   const Eigen::MatrixXd there = ShaftPair(pair, shaft, std::nullopt, GearBodyIn::Structure).influence(points, 0.0);

@@ -6,21 +6,13 @@
 #include <string>
 
 #include "core/flank/removal.hpp"
+#include "tests/core/flank/sample_flank_frame.hpp"
 
 using namespace flankwright;
 
 namespace {
 
-const FlankFrame frame{.pitch_radius = 50.0,
-                       .reference_radius = 49.5,
-                       .tip_radius = 54.0,
-                       .active_root_radius = 47.0,
-                       .face_width = 30.0,
-                       .base_radius = 46.5,
-                       .pitch_roll = std::sqrt(50.0 * 50.0 - 46.5 * 46.5),
-                       .helix_rate = 0.01,
-                       .pinion_turn = 1.0,
-                       .wheel_base_radius = 90.0};
+const FlankFrame frame = sample_flank_frame();
 
 bool is_half_of(const ModificationDescriptor& half, const ModificationDescriptor& both) { return half.key == both.half || half.key == both.other_half; }
 
@@ -146,7 +138,7 @@ TEST_CASE("Every modification parameter is read back as set and leaves the other
   CHECK(names.size() == modification_parameters.size());
 }
 
-TEST_CASE("Profile crowning stands for both halves and reads their mean", "[core][gear]") {
+TEST_CASE("Profile crowning sets both halves and reads their mean", "[core][gear]") {
   Modification m;
   set(m, parameter_of("profile_crowning"), 6.0);
   CHECK(m.addendum_crowning == 6.0);

@@ -13,7 +13,7 @@ using command_line::run;
 using command_line::ScratchFolder;
 using command_line::text_of;
 
-TEST_CASE("What an optimisation left goes to REXS and back into a study that check accepts", "[studies][rexs][cli]") {
+TEST_CASE("An optimised design goes to REXS and back into a study that check accepts", "[studies][rexs][cli]") {
   const ScratchFolder folder;
   folder.file("small.toml", small::optimisation());
   REQUIRE(run(folder, {"run", "small.toml", "--out", "r"}).exit_code == 0);

@@ -72,7 +72,7 @@ constexpr double round_off = 1e-12;
 
 }  // namespace
 
-TEST_CASE("A file of two stages asks which, then gives either", "[studies][rexs][import]") {
+TEST_CASE("A file of two stages needs a choice, and gives either", "[studies][rexs][import]") {
   const std::string text = sample_file("two_stages.rexs");
   CHECK_THAT(refusal(text), Contains("--stage 1   cylindrical_stage 10") && Contains("cylindrical_gear 7 with 21 teeth"));
   CHECK_THAT(refusal(text, {.stage = 3}), Contains("--stage = 3") && Contains("--stage 2"));
@@ -106,7 +106,7 @@ TEST_CASE("A file of two stages asks which, then gives either", "[studies][rexs]
   CHECK(import_text(text, {.stage = 11}).text == second.text);
 }
 
-TEST_CASE("A planetary gear unit gives sun and planet, and says what it lacks", "[studies][rexs][import]") {
+TEST_CASE("A planetary gear unit gives sun and planet, and reports missing data", "[studies][rexs][import]") {
   const std::string text = sample_file("planetary.rexsj");
   const rexs::ImportedStudy imported = import_text(text, {.stage = 1});
   const Study study = study_of(imported);
@@ -118,7 +118,7 @@ TEST_CASE("A planetary gear unit gives sun and planet, and says what it lacks", 
   CHECK(study_of(import_text(text, {.stage = 1, .slope_end = rexs::SlopeEnd::DatumFace})).pinion_modification.lead_slope == -study.pinion_modification.lead_slope);
   // The sun's torque is shared by three planets, how the file does not say.
   CHECK(study.torques == std::vector{0.0});
-  CHECK_THAT(imported.text, Contains("not tell the torque"));
+  CHECK_THAT(imported.text, Contains("not give the torque"));
   // Every attribute of the stage that was not taken is named.
   CHECK_THAT(imported.text, Contains("cylindrical_stage 11:") && Contains("tooth_tip_chamfer") && Contains("10 x coupling"));
   CHECK_THAT(refusal(text, {.stage = 4}), Contains("ring_gear 58") && Contains("internal gears are not modelled"));
@@ -182,7 +182,7 @@ TEST_CASE("Amounts of another range are carried on to the borders of the flank",
         Approx(44.0 - std::hypot(rb, roll)).epsilon(1e-9));
 }
 
-TEST_CASE("What no key of a study says is named and not lost", "[studies][rexs][import]") {
+TEST_CASE("Data without a key of a study are named", "[studies][rexs][import]") {
   const std::string component = GENERATE(
       "type=\"triangular_tip_relief\">" + attribute("triangular_tip_relief_depth", "0.01"),
       "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01") + attribute("tip_relief_datum_diameter", "85") + attribute("shape_of_relief", "logarithmic", "none"),
@@ -231,7 +231,7 @@ double worst_departure(const rexs::ImportedStudy& imported, const Removed& remov
 
 }  // namespace
 
-TEST_CASE("What no key says but a grid can is laid as a grid, and how near is said", "[studies][rexs][import]") {
+TEST_CASE("Modifications without a key become a grid, and its departure is reported", "[studies][rexs][import]") {
   constexpr double smooth = 1e-9;         // [mm] a parabola is a cubic spline's own; decimals of the table
   constexpr double beside_a_kink = 1e-4;  // [mm] discretisation: slope 2 um/mm jumps between lines half a millimetre apart
   const auto relief = [](double amount, double share) { return share > 0.0 ? amount * share : 0.0; };
@@ -269,7 +269,7 @@ TEST_CASE("What no key says but a grid can is laid as a grid, and how near is sa
                         [&](double, double z) { return squared(0.01, (20.0 - z) / 40.0); }) < smooth);
 }
 
-TEST_CASE("What cannot be a study is refused with component and attribute", "[studies][rexs][import][errors]") {
+TEST_CASE("A stage that no study can describe is refused with component and attribute", "[studies][rexs][import][errors]") {
   const std::string good = small_file();
   REQUIRE(refusal(good).empty());
   CHECK_THAT(refusal(replaced(good, attribute("number_of_teeth", "20", "none"), attribute("number_of_teeth", "20.5", "none"))),

@@ -67,7 +67,7 @@ TEST_CASE("A REXS model survives both of its forms", "[studies][rexs]") {
   CHECK(model_text(parse_model(model_text(model, Form::Json), "a"), Form::Json) == model_text(model, Form::Json));
 }
 
-TEST_CASE("Elements of XML know their line", "[studies][rexs]") {
+TEST_CASE("Elements of XML have their line", "[studies][rexs]") {
   const Model model = parse_model("<model version='1.6'>\n<components>\n<component id='7' type='a'>\n\n<attribute id='b' unit='mm'> 3 </attribute></component>\n"
                                   "</components></model>", "a");
   CHECK(model.components.front().line == 3);
@@ -76,7 +76,7 @@ TEST_CASE("Elements of XML know their line", "[studies][rexs]") {
   CHECK(model.components.front().find("c") == nullptr);
 }
 
-TEST_CASE("A damaged REXS file is refused in one line with its place", "[studies][rexs][errors]") {
+TEST_CASE("A damaged REXS file is refused in one line with its position", "[studies][rexs][errors]") {
   CHECK_THAT(model_refusal(""), Contains("gears.rexs: file = without content"));
   CHECK_THAT(model_refusal("PK\x03\x04rest"), Contains("a damaged ZIP archive"));
   CHECK_THAT(model_refusal("hello"), Contains("XML starts with <, JSON with {"));

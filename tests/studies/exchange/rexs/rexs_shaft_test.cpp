@@ -50,7 +50,7 @@ rexs::ImportedStudy shaft_study(const std::string& text) { return rexs::import_s
 
 }  // namespace
 
-TEST_CASE("A shaft with its bearings comes from the file with every number in its place", "[studies][rexs][import]") {
+TEST_CASE("A shaft with its bearings is imported with all numbers", "[studies][rexs][import]") {
   const rexs::ImportedStudy imported = shaft_study(file_with_shaft());
   const Study study = parse_study(imported.text, "gears.toml");
   REQUIRE(study.pinion_shaft);
@@ -70,7 +70,7 @@ TEST_CASE("A shaft with its bearings comes from the file with every number in it
   CHECK_THAT(imported.text, Contains("rolling_bearing_with_catalog_geometry 14: it has no radial_stiffness and is taken as rigid"));
 }
 
-TEST_CASE("Where no bearing holds a shaft axially its first one does, and it is said so", "[studies][rexs][import]") {
+TEST_CASE("Where no bearing supports a shaft axially its first one does, and this is reported", "[studies][rexs][import]") {
   const rexs::ImportedStudy imported = shaft_study(replaced(file_with_shaft(), of_shaft("axial_stiffness", "1E+8", "N / m"), ""));
   const Study study = parse_study(imported.text, "gears.toml");
   REQUIRE(study.pinion_shaft);

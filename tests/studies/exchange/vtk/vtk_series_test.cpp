@@ -166,7 +166,7 @@ TEST_CASE("The drawn flanks are the involutes through their contact lines", "[st
   }
 }
 
-TEST_CASE("What a position could not compute is NaN in its place, and the points behind it keep their values", "[studies][vtk]") {
+TEST_CASE("A value that was not computed is NaN, and the following points keep their values", "[studies][vtk]") {
   Json json = Json::parse(results_json(run_study(parse_study(small::analysis(), "a", {{"cycle.positions", "2"}, {"cycle.peaks", "sampled"}}))));
   Json& points = json["loaded"][0]["cycle"][0]["teeth"][0]["points"];
   REQUIRE(points.size() > 2);
@@ -179,7 +179,7 @@ TEST_CASE("What a position could not compute is NaN in its place, and the points
   CHECK(gaps[2] == points[2]["gap_um"].get<double>());
 }
 
-TEST_CASE("What has no loaded contact has no series", "[studies][vtk][errors]") {
+TEST_CASE("Results without loaded contact have no series", "[studies][vtk][errors]") {
   const std::string unloaded = results_json(run_study(parse_study(small::analysis(), "a", {{"load.torque", "0"}})));
   CHECK_THROWS_AS(vtk_series(unloaded, "a"), InvalidInput);
   CHECK_THROWS_AS(vtk_series("{}", "a"), InvalidInput);

@@ -42,7 +42,7 @@ gap = "plane_of_action"
 intervals = 8
 positions = 48
 )";
-  const StudyResults results = run_study(parse_study(text, "ladder.toml"));
+  const StudyResults results = run_study(parse_study(text, "levels.toml"));
   REQUIRE(results.requirements.empty());
   REQUIRE(results.hierarchy);
   return *results.hierarchy;
@@ -58,7 +58,7 @@ double error(const HierarchyStep& step, Figure figure) { return step.error[stati
 
 }  // namespace
 
-TEST_CASE("The finest rung has no error, every other one has its own, and these fall with intervals and positions", "[studies][accuracy][ladder][slow]") {
+TEST_CASE("The finest level has no error, every other one has its own, and these fall with intervals and positions", "[studies][accuracy][levels][slow]") {
   const FidelityHierarchy hierarchy = hierarchy_of(20.0, "lead_crowning = 6\n");
   CHECK(largest(hierarchy.reference.error) == 0.0);
   CHECK(hierarchy.reference.best);
@@ -69,7 +69,7 @@ TEST_CASE("The finest rung has no error, every other one has its own, and these 
     CHECK(s.first_seconds == s.result.seconds);  // thin slices keep nothing
     CHECK(std::isfinite(largest(s.error)));
   }
-  // Rigid teeth give way by the flanks' contact alone, less than half of what the mesh does.
+  // Rigid teeth yield by the flanks' contact alone, less than half of what the mesh does.
   CHECK(error(step(hierarchy, "rigid"), Figure::TeMean) > 0.5);
   CHECK(error(step(hierarchy, "rigid"), Figure::TeMean) < 1.0);
 
@@ -84,7 +84,7 @@ TEST_CASE("The finest rung has no error, every other one has its own, and these 
   CHECK(error(step(hierarchy, "gauss2 5"), Figure::TePeakToPeak) > error(step(hierarchy, "graded 4"), Figure::TePeakToPeak));
 }
 
-TEST_CASE("Without modification, misalignment and free ends spur lines carry evenly: quadrature has no error", "[studies][accuracy][ladder][closed-form]") {
+TEST_CASE("Without modification, misalignment and free ends spur lines carry evenly: quadrature has no error", "[studies][accuracy][levels][closed-form]") {
   const FidelityHierarchy hierarchy = hierarchy_of(0.0, "", R"(effects = ["bending", "hertzian_contact", "tip_corner", "extended_contact_region"])");
   constexpr double kRoundOff = 1e-9;
   for (const HierarchyStep& s : hierarchy.steps) {
@@ -99,12 +99,12 @@ TEST_CASE("Without modification, misalignment and free ends spur lines carry eve
   CHECK(hierarchy.reference.result.scenes[0][Figure::PeakLineLoad] == Approx(force / 30.0).epsilon(kRoundOff));
 }
 
-TEST_CASE("What is as good in cost and error as another one and better in one keeps it from the front", "[studies][accuracy][ladder]") {
+TEST_CASE("A level as good as another in cost and error, and better in one, keeps that one from the front", "[studies][accuracy][levels]") {
   CHECK(pareto_best({1, 2, 3, 2}, {5, 3, 4, 3}) == std::vector<bool>{true, true, false, true});
   CHECK(pareto_best({1, 1}, {2, 1}) == std::vector<bool>{false, true});
 }
 
-TEST_CASE("A ladder's JSON and tables name every rung once", "[studies][accuracy][ladder]") {
+TEST_CASE("JSON and tables of a hierarchy name every level once", "[studies][accuracy][levels]") {
   const FidelityHierarchy hierarchy = hierarchy_of(0.0);
   const Json json = hierarchy_json(hierarchy);
   REQUIRE(json.at("rungs").size() == hierarchy.steps.size() + 1);

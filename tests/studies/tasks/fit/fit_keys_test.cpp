@@ -17,7 +17,7 @@ Study fit_study(const std::vector<Override>& overrides = {}) {
 
 }  // namespace
 
-TEST_CASE("The task fit takes both gears, one tooth and a test grid unless told otherwise", "[studies][fit]") {
+TEST_CASE("By default the task fit takes both gears, one tooth and a test grid", "[studies][fit]") {
   const FitChoice usual = study_texts::read("", {{"task", "fit"}}).fit;
   CHECK((usual.pinion && usual.wheel && !usual.several_teeth && usual.test_grid));
   CHECK(usual.max_iterations == 300);

@@ -20,7 +20,7 @@ const SceneTolerance& tolerance(const Study& study, const std::string& path, boo
   return study.optimise.assessment.tolerances.front();
 }
 
-TEST_CASE("An optimum is held against rules of thumb, and against no more unless it is asked for", "[studies][proof]") {
+TEST_CASE("By default an optimum is compared with rules of thumb alone", "[studies][assessment]") {
   const AssessmentTable by_default = read().optimise.assessment;
   CHECK(by_default.rules);
   CHECK(by_default.variants == 0.0);
@@ -33,7 +33,7 @@ TEST_CASE("An optimum is held against rules of thumb, and against no more unless
   CHECK(asked.variants == 10.0);
 }
 
-TEST_CASE("Tolerances are read in the unit of their key, classes as that gear's tolerances", "[studies][proof]") {
+TEST_CASE("Tolerances are read in the unit of their key, classes as that gear's tolerances", "[studies][assessment]") {
   const Study study = read(R"(
 [optimise.tolerances]
 "misalignment.mesh_misalignment" = { normal = [0, "0.006 mm"] }
@@ -49,7 +49,7 @@ TEST_CASE("Tolerances are read in the unit of their key, classes as that gear's 
   CHECK(study.optimise.assessment.tolerances.size() == 5);
 }
 
-TEST_CASE("A bearing clearance tilts by up to clearance over span, after all that replaces values", "[studies][proof]") {
+TEST_CASE("A bearing clearance tilts by up to clearance over span, after all that replaces values", "[studies][assessment]") {
   const Study study = read(R"(
 [optimise.tolerances]
 "wheel.bearing_clearance" = { clearance = 30, span = "0.2 m" }
@@ -65,7 +65,7 @@ TEST_CASE("A bearing clearance tilts by up to clearance over span, after all tha
   }
 }
 
-TEST_CASE("Tolerances that cannot be drawn are refused at their line", "[studies][proof]") {
+TEST_CASE("Tolerances that cannot be drawn are refused at their line", "[studies][assessment]") {
   const auto allowed = [](const std::string& line) { return problem_of("[optimise.tolerances]\n" + line + "\n").allowed; };
   CHECK_THAT(allowed("\"misalignment.crosing\" = { normal = [0, 1] }"), Contains("did you mean"));
   CHECK_THAT(allowed("\"pinion.modification.lead_crowning\" = { normal = [0, 1] }"), Contains("bearing_clearance"));
@@ -77,7 +77,7 @@ TEST_CASE("Tolerances that cannot be drawn are refused at their line", "[studies
   CHECK(problem_of("[optimise.tolerances]\n\"misalignment.crossing\" = 3\n").line == 14);
 }
 
-TEST_CASE("Scenes cannot be drawn from nothing", "[studies][proof]") {
+TEST_CASE("Scenes cannot be drawn from nothing", "[studies][assessment]") {
   const StudyProblem problem = problem_of("[optimise.validation]\nsamples = 100\n");
   CHECK(problem.key == "optimise.validation.samples");
   CHECK_THAT(problem.allowed, Contains("optimise.tolerances"));

@@ -38,7 +38,7 @@ void remove_seconds(json& node) {
   }
 }
 
-TEST_CASE("The proof in results.json hangs together", "[studies][proof]") {
+TEST_CASE("The assessment in results.json is consistent", "[studies][assessment]") {
   const StudyResults results = run_study(parse_study(assessed_study(), "small.toml"));
   const json optimise = json::parse(results_json(results))["optimise"];
   const double optimum = optimise["after"]["objective"];
@@ -98,14 +98,14 @@ TEST_CASE("The proof in results.json hangs together", "[studies][proof]") {
   }
 }
 
-TEST_CASE("The same study gives the same proof", "[studies][proof][determinism]") {
+TEST_CASE("The same study gives the same assessment", "[studies][assessment][determinism]") {
   json a = results_of(assessed_study())["optimise"], b = results_of(assessed_study())["optimise"];
   remove_seconds(a);
   remove_seconds(b);
   CHECK(a == b);
 }
 
-TEST_CASE("Without rules there is nothing to compare with and no section for it", "[studies][proof]") {
+TEST_CASE("Without rules there is nothing to compare with and no section for it", "[studies][assessment]") {
   const StudyResults results = run_study(parse_study(small::optimisation(), "small.toml", {{"optimise.comparison.rules", "off"}}));
   const json optimise = json::parse(results_json(results))["optimise"];
   CHECK(optimise["comparison"]["rules"].empty());
@@ -113,7 +113,7 @@ TEST_CASE("Without rules there is nothing to compare with and no section for it"
   CHECK(render_report(results_document(results)).find("<section id=\"comparison\">") == std::string::npos);
 }
 
-TEST_CASE("Drawn scenes stand beside the listed ones and errors that only they have enter", "[studies][proof]") {
+TEST_CASE("Drawn scenes are added to the listed ones, and errors that only they have enter", "[studies][assessment]") {
   const StudyResults results = run_study(parse_study(small::optimisation() + R"(
 [optimise.scenes_drawn]
 samples = 3

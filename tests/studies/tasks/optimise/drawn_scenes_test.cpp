@@ -23,7 +23,7 @@ twist = 3
 )" + more);
 }
 
-TEST_CASE("Drawn scenes are the nominal one with the toleranced values in place, or added", "[studies][proof]") {
+TEST_CASE("Drawn scenes are the nominal one with its toleranced values replaced or added to", "[studies][assessment]") {
   const Study study = tolerant_study();
   constexpr int samples = 2048;
   const std::vector<Scene> scenes = draw_scenes(study, {samples, 1});
@@ -48,7 +48,7 @@ TEST_CASE("Drawn scenes are the nominal one with the toleranced values in place,
   CHECK(tilt == Approx(0.0).margin(0.005 * largest_tilt));
 }
 
-TEST_CASE("A scene depends on the seed and its number only", "[studies][proof][determinism]") {
+TEST_CASE("A scene depends on the seed and its number only", "[studies][assessment][determinism]") {
   const Study study = tolerant_study();
   const std::vector<Scene> few = draw_scenes(study, {8, 1}), many = draw_scenes(study, {64, 1}), other = draw_scenes(study, {8, 2});
   for (std::size_t i = 0; i < few.size(); ++i) {

@@ -74,7 +74,7 @@ TEST_CASE("A sum of modifications may be bounded from both sides", "[studies][op
   CHECK(sum.maximum == Approx(0.030).epsilon(optimisation_round_off));
 }
 
-TEST_CASE("What [optimise] cannot mean is refused where it stands", "[studies][optimise-keys]") {
+TEST_CASE("Impossible values of [optimise] are refused at their position", "[studies][optimise-keys]") {
   struct Row {
     std::string tables;
     std::vector<Override> overrides;
@@ -112,7 +112,7 @@ TEST_CASE("Any k of sigma and any level of the tail are read", "[studies][optimi
   CHECK(tail.level == 0.75);
 }
 
-TEST_CASE("Results say what is ground, what the exact optimum is, and that it is one", "[studies][optimise-keys]") {
+TEST_CASE("Results have the rounded design, the exact optimum and its optimality", "[studies][optimise-keys]") {
   const json optimise = run_optimisation(wheel_link, {{"optimise.step", "1"},
                                         {"optimise.starts", "2"},
                                         {"optimise.objective", "[\"peak_contact_stress\", \"te_peak_to_peak\"]"}})["optimise"];
@@ -133,7 +133,7 @@ TEST_CASE("Results say what is ground, what the exact optimum is, and that it is
   CHECK(optimise["optimality"]["residual"].get<double>() < 1e-3);
 }
 
-TEST_CASE("A front stands in the results and in a table of its own", "[studies][optimise-keys]") {
+TEST_CASE("A front is in the results and has its own table", "[studies][optimise-keys]") {
   const Study study = read_optimisation("", {{"optimise.pareto.objectives", "[\"peak_contact_stress\", \"te_peak_to_peak\"]"},
                                 {"optimise.pareto.points", "3"},
                                 {"optimise.max_evaluations", "400"}});

@@ -55,7 +55,7 @@ TEST_CASE("A tolerance class is that gear's tolerance, and of an error all three
   CHECK(parameter(study, "wheel.error.helix_slope").distribution == Distribution::within_tolerance(wheel.helix_slope / units::um));
 }
 
-TEST_CASE("A parameter without a value stands at its median in the nominal sample, one with a value there", "[studies][sweep]") {
+TEST_CASE("In the nominal sample a parameter has its value, or its median where the study gives none", "[studies][sweep]") {
   const Study study = sweep_keys("samples = 100");
   CHECK(study.pinion_modification.lead_crowning == Approx(8.0 * units::um));
   CHECK(study.torques == std::vector<double>{1014.868 * units::newton_metre});
@@ -74,7 +74,7 @@ TEST_CASE("A grid has as many samples as its levels make", "[studies][sweep]") {
   CHECK(design.values(5) == std::vector<double>{1000.0, 6.0});
 }
 
-TEST_CASE("What a sweep cannot do is refused by name", "[studies][sweep]") {
+TEST_CASE("Parameters that a sweep cannot vary are refused by name", "[studies][sweep]") {
   using Row = std::tuple<std::string, std::string, std::string>;
   const auto [settings, more, said] = GENERATE(table<std::string, std::string, std::string>({
       Row{"", "\"pinion.teeth\" = { values = [17, 18] }\n", "sweep.parameters.pinion.teeth"},

@@ -49,7 +49,7 @@ TEST_CASE("A store gives back what was put in, bit for bit, and goes on where it
   CHECK(!store.find(21));
 }
 
-TEST_CASE("What was not committed is lost, what was is not", "[studies][sweep][store]") {
+TEST_CASE("Uncommitted samples are lost, committed ones are not", "[studies][sweep][store]") {
   const ScratchFolder folder;
   const auto file = folder.path() / "results.sqlite";
   {
@@ -156,7 +156,7 @@ TEST_CASE("A disk that fills up ends a run in one line and leaves what was commi
   CHECK(store.find(count + 499)->values == sample(count + 499).values);
 }
 
-TEST_CASE("A place where nothing can be written is refused in one line", "[studies][sweep][store]") {
+TEST_CASE("A folder that cannot be written is refused in one line", "[studies][sweep][store]") {
   const ScratchFolder folder;
   folder.file("plain", "no folder");
   CHECK_THROWS_WITH(SweepStore(folder.path() / "plain" / "results.sqlite", study_with(), stored_outputs), Contains("a place that can be written"));
