@@ -16,13 +16,13 @@ class HertzianContactEffect final : public Effect {
   }
   void act(MeshBuilder& builder) const override {
     const MeshParts& parts = builder.parts;
-    const double modulus = contact_modulus(parts.pinion_material, parts.wheel_material);
+    const double modulus = contact_modulus(parts.material.pinion, parts.material.wheel);
     for (std::size_t i = 0; i < builder.points.size(); ++i) {
       const ContactPoint& point = builder.points[i];
       const TipDistances& tips = builder.tip_distances[i];
       const EndDistances& ends = builder.end_distances[i];
-      builder.laws.emplace_back(ContactSide::of(parts.pinion_material, point.pinion_depth, tips.pinion, ends.pinion, ends.pinion_lean),
-                              ContactSide::of(parts.wheel_material, point.wheel_depth, tips.wheel, ends.wheel, ends.wheel_lean),
+      builder.laws.emplace_back(ContactSide::of(parts.material.pinion, point.pinion_depth, tips.pinion, ends.pinion, ends.pinion_lean),
+                              ContactSide::of(parts.material.wheel, point.wheel_depth, tips.wheel, ends.wheel, ends.wheel_lean),
                               point.relative_radius, modulus);
     }
   }

@@ -13,10 +13,10 @@ class ManufacturingErrorsEffect final : public Effect {
   EffectStage stage() const override { return EffectStage::Condition; }
   EffectCall called_for(const EffectFacts& facts) const override {
     const bool any = std::ranges::any_of(facts.conditions,
-                                         [](const FlankCondition& c) { return faulty(c.pinion_error) || faulty(c.wheel_error); });
+                                         [](const FlankCondition& c) { return faulty(c.error.pinion) || faulty(c.error.wheel); });
     return {any, any ? "a gear has manufacturing errors" : "no manufacturing errors are given"};
   }
-  void clear_from(FlankCondition& condition) const override { condition.pinion_error = condition.wheel_error = {}; }
+  void clear_from(FlankCondition& condition) const override { condition.error.pinion = condition.error.wheel = {}; }
 
  private:
   static bool faulty(const ManufacturingError& e) {

@@ -17,8 +17,7 @@ namespace flankwright {
 /// The parts of a loaded mesh. All must outlive what is built from them.
 struct MeshParts {
   const GearPair& pair;
-  const Material& pinion_material;
-  const Material& wheel_material;
+  const PerGear<Material>& material;
   const MeshPlacement& placement;
   const PairCompliance* structure{nullptr};    ///< teeth and gear bodies; null: rigid
   const PairCompliance* shafts{nullptr};       ///< null: rigid

@@ -13,10 +13,10 @@ class ModificationsEffect final : public Effect {
   EffectStage stage() const override { return EffectStage::Condition; }
   EffectCall called_for(const EffectFacts& facts) const override {
     const bool any = std::ranges::any_of(
-        facts.conditions, [](const FlankCondition& c) { return modified(c.pinion_modification) || modified(c.wheel_modification); });
+        facts.conditions, [](const FlankCondition& c) { return modified(c.modification.pinion) || modified(c.modification.wheel); });
     return {any, any ? "a flank is modified or will be" : "no flank is modified"};
   }
-  void clear_from(FlankCondition& condition) const override { condition.pinion_modification = condition.wheel_modification = {}; }
+  void clear_from(FlankCondition& condition) const override { condition.modification.pinion = condition.modification.wheel = {}; }
 
  private:
   static bool modified(const Modification& m) {

@@ -25,11 +25,10 @@ struct Case {
 class Cases {
  public:
   Cases(const EffectScene& scene, EffectMeshes& meshes)
-      : scene_(scene), meshes_(meshes), slices_(ThinSlice(scene.pair, scene.pinion_material, scene.wheel_material)) {
+      : scene_(scene), meshes_(meshes), slices_(ThinSlice(scene.pair, scene.material.pinion, scene.material.wheel)) {
     gears_.pair = scene.pair;
-    gears_.pinion_material = scene.pinion_material;
-    gears_.wheel_material = scene.wheel_material;
-    gears_.contact_modulus = contact_modulus(scene.pinion_material, scene.wheel_material);
+    gears_.material = scene.material;
+    gears_.contact_modulus = contact_modulus(scene.material.pinion, scene.material.wheel);
   }
 
   /// @param left_out  name of what the decisions leave out; empty: nothing

@@ -17,7 +17,7 @@ namespace flankwright {
 /// One load case, from which effects are left out. Everything that it refers to must outlive it.
 struct EffectScene {
   GearPair pair;
-  Material pinion_material, wheel_material;
+  PerGear<Material> material;
   MeshResolution resolution;
   const PairCompliance* structure{nullptr};  ///< null: thin slices
   const PairCompliance* shafts{nullptr};     ///< null: rigid

@@ -19,6 +19,15 @@ enum class Member { Pinion, Wheel };
 /// The gear as study files and messages name it: "pinion", "wheel".
 constexpr const char* name_of(Member member) { return member == Member::Pinion ? "pinion" : "wheel"; }
 
+/// One of something for each gear.
+template <class T>
+struct PerGear {
+  T pinion{}, wheel{};
+  constexpr T& operator[](Member m) { return m == Member::Pinion ? pinion : wheel; }
+  constexpr const T& operator[](Member m) const { return m == Member::Pinion ? pinion : wheel; }
+  bool operator==(const PerGear&) const = default;
+};
+
 /// Flank of the pinion that carries load: right is the drive side, left the coast side.
 enum class WorkingFlank { Right, Left };
 
@@ -52,6 +61,7 @@ struct PairData {
   WorkingFlank working_flank{WorkingFlank::Right};
   GearData pinion, wheel;
 
+  GearData& operator[](Member m) { return m == Member::Pinion ? pinion : wheel; }
   const GearData& operator[](Member m) const { return m == Member::Pinion ? pinion : wheel; }
 };
 

@@ -48,7 +48,7 @@ double linear_part(const GearPair& pair, const FlankCondition& condition, int to
 /// Tooth pairs after which slopes repeat on the gear with the longer list.
 int teeth_told_apart(const FlankCondition& condition) {
   std::size_t most = 1;
-  for (const ManufacturingError* error : {&condition.pinion_error, &condition.wheel_error}) {
+  for (const ManufacturingError* error : {&condition.error.pinion, &condition.error.wheel}) {
     most = std::max({most, error->helix_slopes.size(), error->profile_slopes.size()});
   }
   return static_cast<int>(most);
@@ -66,8 +66,8 @@ double largest_pitch_step(const ManufacturingError& error) {
 double profile_deviation(const GearPair& pair, const FlankCondition& condition, int tooth) {
   constexpr int sections = 16;  // the errors' profiles are straight in the radius, curved a little in the roll length
   FlankCondition errors;
-  errors.pinion_error.profile_slope = tooth_error(condition.pinion_error, tooth).profile_slope;
-  errors.wheel_error.profile_slope = tooth_error(condition.wheel_error, tooth).profile_slope;
+  errors.error.pinion.profile_slope = tooth_error(condition.error.pinion, tooth).profile_slope;
+  errors.error.wheel.profile_slope = tooth_error(condition.error.wheel, tooth).profile_slope;
   std::vector<std::pair<double, double>> stations;
   for (int i = 0; i <= sections; ++i) {
     stations.emplace_back(pair.path_start + (pair.path_end - pair.path_start) * i / sections, 0.0);
@@ -109,7 +109,7 @@ Eigen::RowVectorXd misalignment_derivative(const MeshModel& model, const FlankCo
 }  // namespace
 
 IsoDeviations iso_deviations(const GearPair& pair, const FlankCondition& condition) {
-  IsoDeviations deviations{0.0, std::max(largest_pitch_step(condition.pinion_error), largest_pitch_step(condition.wheel_error))};
+  IsoDeviations deviations{0.0, std::max(largest_pitch_step(condition.error.pinion), largest_pitch_step(condition.error.wheel))};
   for (int tooth = 0; tooth < teeth_told_apart(condition); ++tooth) {
     deviations.misalignment = std::max(deviations.misalignment, std::abs(linear_part(pair, condition, tooth)));
     deviations.base_pitch = std::max(deviations.base_pitch, profile_deviation(pair, condition, tooth));

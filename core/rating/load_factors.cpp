@@ -36,10 +36,10 @@ FlankCondition perfect_part(const FlankCondition& condition) {
 
 FlankCondition lead_part(const FlankCondition& condition) {
   FlankCondition part = perfect_part(condition);
-  part.pinion_modification = only(condition.pinion_modification, ModificationClass::Lead);
-  part.wheel_modification = only(condition.wheel_modification, ModificationClass::Lead);
-  part.pinion_error = lead_of(condition.pinion_error);
-  part.wheel_error = lead_of(condition.wheel_error);
+  part.modification.pinion = only(condition.modification.pinion, ModificationClass::Lead);
+  part.modification.wheel = only(condition.modification.wheel, ModificationClass::Lead);
+  part.error.pinion = lead_of(condition.error.pinion);
+  part.error.wheel = lead_of(condition.error.wheel);
   part.misalignment.crossing = condition.misalignment.crossing;
   part.misalignment.intersecting = condition.misalignment.intersecting;
   part.misalignment.pinion_lead_angle = condition.misalignment.pinion_lead_angle;
@@ -49,10 +49,10 @@ FlankCondition lead_part(const FlankCondition& condition) {
 
 FlankCondition profile_part(const FlankCondition& condition) {
   FlankCondition part = perfect_part(condition);
-  part.pinion_modification = only(condition.pinion_modification, ModificationClass::Profile);
-  part.wheel_modification = only(condition.wheel_modification, ModificationClass::Profile);
-  part.pinion_error = profile_of(condition.pinion_error);
-  part.wheel_error = profile_of(condition.wheel_error);
+  part.modification.pinion = only(condition.modification.pinion, ModificationClass::Profile);
+  part.modification.wheel = only(condition.modification.wheel, ModificationClass::Profile);
+  part.error.pinion = profile_of(condition.error.pinion);
+  part.error.wheel = profile_of(condition.error.wheel);
   part.misalignment.pinion_pressure_angle = condition.misalignment.pinion_pressure_angle;
   return part;
 }
@@ -62,7 +62,7 @@ FlankCondition whole_condition(const FlankCondition& condition) { return conditi
 bool acts(const MeshParameter& parameter, ConditionPart part) {
   FlankCondition only;
   if (const auto* gear = std::get_if<GearParameter>(&parameter)) {
-    set(gear->member == Member::Pinion ? only.pinion_modification : only.wheel_modification, gear->parameter, 1.0);
+    set(only.modification[gear->member], gear->parameter, 1.0);
   } else if (const auto* misalignment = std::get_if<MisalignmentParameter>(&parameter)) {
     only.misalignment.*(*misalignment) = 1.0;
   } else {
@@ -74,8 +74,8 @@ bool acts(const MeshParameter& parameter, ConditionPart part) {
 bool has_other_part(const FlankCondition& condition) {
   const auto shaped = [](const Modification& m) { return m.topography != nullptr || only(m, ModificationClass::Topography) != Modification{}; };
   const auto twisted = [](const ManufacturingError& e) { return e.twist != 0.0 || !e.twists.empty(); };
-  return shaped(condition.pinion_modification) || shaped(condition.wheel_modification) || twisted(condition.pinion_error) ||
-         twisted(condition.wheel_error) || condition.misalignment.centre_distance != 0.0;
+  return shaped(condition.modification.pinion) || shaped(condition.modification.wheel) || twisted(condition.error.pinion) ||
+         twisted(condition.error.wheel) || condition.misalignment.centre_distance != 0.0;
 }
 
 LoadFactors load_factors(const ContactPeaks& perfect, const ContactPeaks& lead, const ContactPeaks& profile,

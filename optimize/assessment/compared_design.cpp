@@ -14,7 +14,7 @@ ComparedDesign compared(const DesignProblem& problem, const NamedDesign& design)
   ComparedDesign result;
   result.design = design;
   try {
-    const DesignAnalysis analysis = problem.analyse_design(design.pinion, design.wheel);
+    const DesignAnalysis analysis = problem.analyse_design(design.modification);
     for (int s = 0; s < problem.scenes(); ++s) result.scene_measures.push_back(problem.scene_measure(analysis, s));
     result.objective = problem.objective(analysis);
     result.constraint_violation = problem.violation(analysis);

@@ -11,7 +11,7 @@ namespace flankwright {
 struct NamedDesign {
   std::string name;
   std::string basis;  ///< the rule it follows, with its source, or where it comes from
-  Modification pinion, wheel;
+  PerGear<Modification> modification;
 };
 
 /// The result of a design over the scenes of a task.

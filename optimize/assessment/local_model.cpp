@@ -60,8 +60,7 @@ double LocalModel::Peak::at(const Eigen::VectorXd& steps) const {
   return largest;
 }
 
-LocalModel::LocalModel(const DesignProblem& problem, const Modification& pinion, const Modification& wheel,
-                       const std::vector<AssessedParameter>& parameters, const std::vector<ActiveBound>& active)
+LocalModel::LocalModel(const DesignProblem& problem, const PerGear<Modification>& modification, const std::vector<AssessedParameter>& parameters, const std::vector<ActiveBound>& active)
     : task_(problem.task()),
       parameters_(static_cast<int>(parameters.size())),
       measures_(task_.scenes.size()),
@@ -71,7 +70,7 @@ LocalModel::LocalModel(const DesignProblem& problem, const Modification& pinion,
   for (const AssessedParameter& p : parameters) of_mesh.push_back(p.parameter);
   for (const LinkingConstraint& link : task_.links) of_mesh.push_back(GearParameter{link.linked.member, link.linked.parameter});
   tbb::parallel_for(0, problem.scenes(), [&](int s) {
-    const LoadedCycle cycle = problem.analyse_scene(s, pinion, wheel, of_mesh);
+    const LoadedCycle cycle = problem.analyse_scene(s, modification, of_mesh);
     const MeshModel& model = problem.model(s);
     const auto slope_of = [&](const Eigen::VectorXd& gradient) {
       Eigen::VectorXd slope = gradient.head(parameters_);

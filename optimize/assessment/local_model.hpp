@@ -55,8 +55,8 @@ class LocalModel {
 
   /// @param active  what has a multiplier at this design, for lagrangian_slope()
   /// @throws std::runtime_error where a scene's load distribution does not converge
-  LocalModel(const DesignProblem& problem, const Modification& pinion, const Modification& wheel,
-             const std::vector<AssessedParameter>& parameters, const std::vector<ActiveBound>& active = {});
+  LocalModel(const DesignProblem& problem, const PerGear<Modification>& modification, const std::vector<AssessedParameter>& parameters,
+             const std::vector<ActiveBound>& active = {});
 
   int scenes() const { return static_cast<int>(measures_.size()); }
   int parameters() const { return parameters_; }

@@ -14,17 +14,17 @@ namespace {
 struct Rule {
   std::string name;   ///< empty: nothing is changed
   std::string basis;
-  std::function<void(Modification& pinion, Modification& wheel)> apply;
+  std::function<void(PerGear<Modification>&)> apply;
 };
 
 Rule nothing() {
-  return {"", "", [](Modification&, Modification&) {}};
+  return {"", "", [](PerGear<Modification>&) {}};
 }
 
 Rule tip_relief(const std::string& name, const std::string& basis, double amount, double pinion_height, double wheel_height) {
-  return {name, basis, [=](Modification& pinion, Modification& wheel) {
-            pinion.tip_relief = {amount, pinion_height, ReliefShape::Linear};
-            wheel.tip_relief = {amount, wheel_height, ReliefShape::Linear};
+  return {name, basis, [=](PerGear<Modification>& modification) {
+            modification.pinion.tip_relief = {amount, pinion_height, ReliefShape::Linear};
+            modification.wheel.tip_relief = {amount, wheel_height, ReliefShape::Linear};
           }};
 }
 
@@ -46,8 +46,8 @@ std::vector<Rule> profile_rules(const GearPair& pair, const RuleBasis& basis) {
     rules.push_back(tip_relief("tip relief to single contact", "as sizing programs propose; deflection of a single pair, ISO 6336-1",
                                basis.single_pair_deflection, pinion, wheel));
   }
-  rules.push_back({"profile crowning", "Haddad 1991 section 4.3.3; mean deflection", [amount = basis.deflection](Modification& pinion, Modification&) {
-                     set(pinion, parameter_of("profile_crowning"), amount);
+  rules.push_back({"profile crowning", "Haddad 1991 section 4.3.3; mean deflection", [amount = basis.deflection](PerGear<Modification>& modification) {
+                     set(modification.pinion, parameter_of("profile_crowning"), amount);
                    }});
   return rules;
 }
@@ -56,14 +56,14 @@ std::vector<Rule> lead_rules(const GearPair& pair, const RuleBasis& basis) {
   std::vector<Rule> rules{nothing()};
   if (!(basis.misalignment > 0.0)) return rules;
   const auto crowning = [](const std::string& name, const std::string& source, double amount) {
-    return Rule{name, source, [amount](Modification& pinion, Modification&) { pinion.lead_crowning = amount; }};
+    return Rule{name, source, [amount](PerGear<Modification>& modification) { modification.pinion.lead_crowning = amount; }};
   };
   rules.push_back(crowning("crowning of half the misalignment", "Munro and Myers, Haddad 1991 section 4.2.4", 0.5 * basis.misalignment));
   rules.push_back(crowning("crowning after ISO 6336-1", "annex B: half the misalignment, 10 .. 40 um",
                            std::clamp(0.5 * basis.misalignment, 10.0 * units::um, 40.0 * units::um)));
   const double length = std::min(0.1 * pair.face_width, pair.data.normal_module);
   rules.push_back({"end relief after ISO 6336-1", "annex B: the misalignment, over the smaller of 0.1 b and m_n",
-                   [amount = basis.misalignment, length](Modification& pinion, Modification&) { pinion.end_relief = {amount, length}; }});
+                   [amount = basis.misalignment, length](PerGear<Modification>& modification) { modification.pinion.end_relief = {amount, length}; }});
   return rules;
 }
 
@@ -82,7 +82,7 @@ RuleBasis rule_basis(const DesignProblem& problem) {
   for (int s = 0; s < problem.scenes(); ++s) {
     const DesignScene& scene = task.scenes[static_cast<std::size_t>(s)];
     FlankCondition condition = scene.condition;
-    condition.pinion_modification = condition.wheel_modification = {};
+    condition.modification.pinion = condition.modification.wheel = {};
     const double misalignment = iso_deviations(task.pair, condition).misalignment;
     basis.misalignment = std::max(basis.misalignment, misalignment);
     if (scene.torque == basis.torque && misalignment < least) {
@@ -92,7 +92,7 @@ RuleBasis rule_basis(const DesignProblem& problem) {
   }
   const double specific_load = basis.torque / task.pair.pinion.base_radius / problem.model(chosen).face_width;
   basis.single_pair_deflection = specific_load / problem.model(chosen).iso.c_prime * units::um;
-  const LoadedCycle cycle = problem.analyse_scene(chosen, {}, {});
+  const LoadedCycle cycle = problem.analyse_scene(chosen, {});
   if (cycle.usable()) basis.deflection = specific_load / summarise(problem.model(chosen), cycle).mean_stiffness * units::um;
   return basis;
 }
@@ -106,12 +106,12 @@ std::vector<NamedDesign> rules_of_thumb(const DesignTask& task, const RuleBasis&
   std::vector<NamedDesign> designs;
   for (const Rule& profile : profile_rules(task.pair, basis)) {
     for (const Rule& lead : lead_rules(task.pair, basis)) {
-      NamedDesign design{joined(profile.name, lead.name, " and "), joined(profile.basis, lead.basis, "; "), {}, {}};
+      NamedDesign design{joined(profile.name, lead.name, " and "), joined(profile.basis, lead.basis, "; "), {}};
       if (design.name.empty()) design.name = "unmodified";
-      design.pinion.topography = task.pinion_modification.topography;
-      design.wheel.topography = task.wheel_modification.topography;
-      profile.apply(design.pinion, design.wheel);
-      lead.apply(design.pinion, design.wheel);
+      design.modification.pinion.topography = task.modification.pinion.topography;
+      design.modification.wheel.topography = task.modification.wheel.topography;
+      profile.apply(design.modification);
+      lead.apply(design.modification);
       designs.push_back(std::move(design));
     }
   }

@@ -18,7 +18,7 @@ std::vector<ValidatedDesign> validate_designs(const DesignTask& task, const std:
   tbb::parallel_for(0, problem.scenes(), [&](int s) {
     for (std::size_t d = 0; d < designs.size(); ++d) {
       try {
-        const LoadedCycle cycle = problem.analyse_scene(s, designs[d].pinion, designs[d].wheel);
+        const LoadedCycle cycle = problem.analyse_scene(s, designs[d].modification);
         validated[d].measures[static_cast<std::size_t>(s)] = problem.scene_measure(task.combined_objective(), cycle, s);
       } catch (const std::runtime_error&) {  // not every mesh position converged: stays NaN, which spread_of() counts
       }

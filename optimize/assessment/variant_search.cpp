@@ -60,8 +60,8 @@ VariantSearch search_variants(const DesignProblem& problem, LevelPlacement place
   for (std::int64_t first = 0; first < count; first += batch_size) {
     std::vector<NamedDesign> batch;
     for (std::int64_t i = first; i < std::min(count, first + batch_size); ++i) {
-      NamedDesign design{"variant " + std::to_string(i + 1), "", {}, {}};
-      problem.apply(combination(placement, search.levels, i), design.pinion, design.wheel);
+      NamedDesign design{"variant " + std::to_string(i + 1), "", {}};
+      design.modification = problem.modification(combination(placement, search.levels, i));
       batch.push_back(std::move(design));
     }
     const std::vector<ComparedDesign> compared = compare_designs(problem, batch);

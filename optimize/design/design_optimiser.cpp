@@ -140,7 +140,7 @@ DesignProblem last_stage(const DesignProblem& problem, const std::vector<Lexicog
 DesignReport report_design(const DesignProblem& problem, DesignAnalysis analysis) {
   const DesignTask& task = problem.task();
   const auto value_of = [&](const DesignVariable& v) {
-    return get(v.member == Member::Pinion ? analysis.pinion_modification : analysis.wheel_modification, v.parameter);
+    return get(analysis.modification[v.member], v.parameter);
   };
   DesignReport report;
   for (const DesignVariable& v : task.variables) report.variables.push_back(value_of(v));
@@ -148,7 +148,7 @@ DesignReport report_design(const DesignProblem& problem, DesignAnalysis analysis
   for (int s = 0; s < problem.scenes(); ++s) report.scene_measures.push_back(problem.scene_measure(analysis, s));
   for (const OutputConstraint& c : task.constraints) report.constraint_values.push_back(problem.constraint_value(analysis, c));
   for (const ModificationConstraint& c : task.modification_constraints) {
-    report.modification_values.push_back(c.value(analysis.pinion_modification, analysis.wheel_modification));
+    report.modification_values.push_back(c.value(analysis.modification));
   }
   for (const Objective& objective : task.later_objectives) report.later_objectives.push_back(problem.value(objective, analysis));
   report.objective = problem.objective(analysis);

@@ -93,7 +93,7 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_str
 }
 
 MeshModel DesignProblem::mesh(const MeshPlacement& placement) const {
-  return make_mesh_model(task_.pair, task_.pinion_material, task_.wheel_material, task_.resolution, task_.effects, placement,
+  return make_mesh_model(task_.pair, task_.material, task_.resolution, task_.effects, placement,
                          task_.structure.get(), task_.root_stress.get(), task_.shafts.get());
 }
 
@@ -116,7 +116,7 @@ Eigen::VectorXd DesignProblem::start() const {
   Eigen::VectorXd x(variables());
   for (int i = 0; i < variables(); ++i) {
     const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
-    const Modification& given = v.member == Member::Pinion ? task_.pinion_modification : task_.wheel_modification;
+    const Modification& given = task_.modification[v.member];
     x[i] = std::clamp(v.scaled(get(given, v.parameter)), 0.0, 1.0);
   }
   return x;
@@ -135,25 +135,23 @@ double DesignProblem::unscaled(const Eigen::VectorXd& x, int i) const {
   return task_.variables[static_cast<std::size_t>(i)].unscaled(x[i]);
 }
 
-void DesignProblem::apply(const Eigen::VectorXd& x, Modification& pinion, Modification& wheel) const {
-  pinion = task_.pinion_modification;
-  wheel = task_.wheel_modification;
+PerGear<Modification> DesignProblem::modification(const Eigen::VectorXd& x) const {
+  PerGear<Modification> modification = task_.modification;
   for (int i = 0; i < variables(); ++i) {
     const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
-    set(v.member == Member::Pinion ? pinion : wheel, v.parameter, unscaled(x, i));
+    set(modification[v.member], v.parameter, unscaled(x, i));
   }
   for (const LinkingConstraint& link : task_.links) {
-    set(link.linked.member == Member::Pinion ? pinion : wheel, link.linked.parameter,
-        link.factor * unscaled(x, static_cast<int>(link.as)) + link.offset);
+    set(modification[link.linked.member], link.linked.parameter, link.factor * unscaled(x, static_cast<int>(link.as)) + link.offset);
   }
+  return modification;
 }
 
-LoadedCycle DesignProblem::analyse_scene(int scene, const Modification& pinion, const Modification& wheel,
+LoadedCycle DesignProblem::analyse_scene(int scene, const PerGear<Modification>& modification,
                                          const std::vector<MeshParameter>& parameters, const LoadedCycle* earlier) const {
   const DesignScene& of_task = task_.scenes[static_cast<std::size_t>(scene)];
   FlankCondition condition = of_task.condition;
-  condition.pinion_modification = pinion;
-  condition.wheel_modification = wheel;
+  condition.modification = modification;
   const auto analyse = [&](const MeshModel& mesh_model) {
     return analyse_cycle(mesh_model, condition, of_task.torque, parameters, {}, root_stresses_, earlier);
   };
@@ -167,12 +165,12 @@ void DesignProblem::add_root_stress(DesignAnalysis& analysis) const {
   for (int s = 0; s < scenes(); ++s) flankwright::add_root_stress(model(s), analysis.cycles[static_cast<std::size_t>(s)]);
 }
 
-DesignAnalysis DesignProblem::run(const Modification& pinion, const Modification& wheel, bool with_derivatives, const DesignAnalysis& earlier) const {
-  DesignAnalysis analysis{pinion, wheel, std::vector<LoadedCycle>(task_.scenes.size())};
+DesignAnalysis DesignProblem::run(const PerGear<Modification>& modification, bool with_derivatives, const DesignAnalysis& earlier) const {
+  DesignAnalysis analysis{modification, std::vector<LoadedCycle>(task_.scenes.size())};
   const std::vector<MeshParameter> none;
   const auto analyse = [&](int s) {
     const auto at = static_cast<std::size_t>(s);
-    analysis.cycles[at] = analyse_scene(s, pinion, wheel, with_derivatives ? parameters_ : none, earlier.cycles.empty() ? nullptr : &earlier.cycles[at]);
+    analysis.cycles[at] = analyse_scene(s, modification, with_derivatives ? parameters_ : none, earlier.cycles.empty() ? nullptr : &earlier.cycles[at]);
   };
   // A thread that waits for its scenes must not take up another start of a multi-start meanwhile.
   tbb::this_task_arena::isolate([&] { tbb::parallel_for(0, scenes(), analyse); });
@@ -182,9 +180,7 @@ DesignAnalysis DesignProblem::run(const Modification& pinion, const Modification
 const DesignAnalysis& DesignProblem::analyse(const Eigen::VectorXd& x, bool with_derivatives) {
   const bool known = last_x_.size() == x.size() && last_x_ == x && (last_has_derivatives_ || !with_derivatives);
   if (known) return last_;
-  Modification pinion, wheel;
-  apply(x, pinion, wheel);
-  last_ = run(pinion, wheel, with_derivatives, last_);
+  last_ = run(modification(x), with_derivatives, last_);
   last_x_ = x;
   last_has_derivatives_ = with_derivatives;
   ++analyses_;
@@ -192,7 +188,7 @@ const DesignAnalysis& DesignProblem::analyse(const Eigen::VectorXd& x, bool with
 }
 
 DesignAnalysis DesignProblem::analyse_given() const {
-  return run(task_.pinion_modification, task_.wheel_modification, false);
+  return run(task_.modification, false);
 }
 
 double DesignProblem::scene_measure(const Objective& objective, const LoadedCycle& cycle, int scene) const {
@@ -240,7 +236,7 @@ double DesignProblem::violation(const DesignAnalysis& analysis) const {
   for (const OutputConstraint& c : task_.constraints) worst = std::max(worst, c.excess(constraint_value(analysis, c)));
   for (const ObjectiveBound& bound : task_.objective_bounds) worst = std::max(worst, value(bound.objective, analysis) / bound.limit - 1.0);
   for (const ModificationConstraint& c : task_.modification_constraints) {
-    const double sum = c.value(analysis.pinion_modification, analysis.wheel_modification);
+    const double sum = c.value(analysis.modification);
     worst = std::max(worst, std::max(sum - c.maximum, c.minimum - sum) / modification_scale(c));
   }
   return worst;

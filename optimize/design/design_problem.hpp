@@ -11,7 +11,7 @@ namespace flankwright {
 
 /// All scenes of a task analysed for one design.
 struct DesignAnalysis {
-  Modification pinion_modification, wheel_modification;
+  PerGear<Modification> modification;
   std::vector<LoadedCycle> cycles;  ///< one per scene
 };
 
@@ -44,7 +44,7 @@ class DesignProblem {
   /// Value of variable i [mm; parabolic_te 1/rad].
   double unscaled(const Eigen::VectorXd& x, int i) const;
   /// Modifications of a scaled design.
-  void apply(const Eigen::VectorXd& x, Modification& pinion, Modification& wheel) const;
+  PerGear<Modification> modification(const Eigen::VectorXd& x) const;
 
   /// Analyses every scene; derivatives are with respect to the unscaled variables and the modifications linked to them.
   /// The last analysis is kept and returned again for the same x (upgraded by a new run where derivatives are missing).
@@ -54,12 +54,11 @@ class DesignProblem {
   /// Analyses the task's own modifications as given, whatever the bounds.
   DesignAnalysis analyse_given() const;
   /// Analyses any modifications; neither remembered nor counted.
-  DesignAnalysis analyse_design(const Modification& pinion, const Modification& wheel) const { return run(pinion, wheel, false); }
+  DesignAnalysis analyse_design(const PerGear<Modification>& modification) const { return run(modification, false); }
   /// One scene of that, with derivatives by any parameters; those that move the mesh (moves_mesh()) need two perturbed
   /// meshes each, which are not kept.
   /// @param earlier  the scene's cycle for a design that differs by little, see analyse_cycle(); null: none
-  LoadedCycle analyse_scene(int scene, const Modification& pinion, const Modification& wheel,
-                            const std::vector<MeshParameter>& parameters = {}, const LoadedCycle* earlier = nullptr) const;
+  LoadedCycle analyse_scene(int scene, const PerGear<Modification>& modification, const std::vector<MeshParameter>& parameters = {}, const LoadedCycle* earlier = nullptr) const;
   /// Root stress is analysed where the task minimises or bounds it; this adds it where not, to be shown.
   void add_root_stress(DesignAnalysis& analysis) const;
 
@@ -91,11 +90,11 @@ class DesignProblem {
  private:
   MeshModel mesh(const MeshPlacement& placement) const;
   /// @param earlier  one that loads start from; without cycles: none
-  DesignAnalysis run(const Modification& pinion, const Modification& wheel, bool with_derivatives, const DesignAnalysis& earlier = {}) const;
+  DesignAnalysis run(const PerGear<Modification>& modification, bool with_derivatives, const DesignAnalysis& earlier = {}) const;
 
   DesignTask task_;
   RootStresses root_stresses_;  ///< with every analysis where the task asks for them
-    std::vector<std::shared_ptr<const MeshModel>> models_;  ///< per scene; copies of the problem share them
+  std::vector<std::shared_ptr<const MeshModel>> models_;  ///< per scene; copies of the problem share them
   std::vector<MeshParameter> parameters_;  ///< variables, then linked modifications
   Eigen::VectorXd start_;  ///< empty: the task's own
   Eigen::VectorXd last_x_;

@@ -6,9 +6,9 @@ double DesignVariable::outside_factor() const { return flankwright::outside_fact
 
 const char* DesignVariable::unit() const { return unit_of(describe(parameter).kind); }
 
-double ModificationConstraint::value(const Modification& pinion, const Modification& wheel) const {
+double ModificationConstraint::value(const PerGear<Modification>& modification) const {
   double sum = 0.0;
-  for (const Term& term : terms) sum += term.factor * get(term.member == Member::Pinion ? pinion : wheel, term.parameter);
+  for (const Term& term : terms) sum += term.factor * get(modification[term.member], term.parameter);
   return sum;
 }
 

@@ -62,7 +62,7 @@ struct ModificationConstraint {
   double maximum{std::numeric_limits<double>::infinity()};
   double minimum{-std::numeric_limits<double>::infinity()};
 
-  double value(const Modification& pinion, const Modification& wheel) const;
+  double value(const PerGear<Modification>& modification) const;
   /// As DesignVariable has them, of the first term.
   double outside_factor() const;
   const char* unit() const;
@@ -101,7 +101,7 @@ struct DesignScene {
 /// The variables of a design, its objectives and its constraints.
 struct DesignTask {
   GearPair pair;
-  Material pinion_material, wheel_material;
+  PerGear<Material> material;
   MeshResolution resolution;
   MeshEffects effects;
   GapModel gap{GapModel::PlaneOfAction};
@@ -109,7 +109,7 @@ struct DesignTask {
   std::shared_ptr<const PairCompliance> search_structure{};  ///< cheaper and nearly the same, to search by before `structure`; null: none
   std::shared_ptr<const PairRootStress> root_stress;     ///< null: none
   std::shared_ptr<const PairCompliance> shafts;          ///< null: rigid
-  Modification pinion_modification, wheel_modification;  ///< values of parameters that are not varied, and the start of those that are
+  PerGear<Modification> modification;  ///< values of parameters that are not varied, and the start of those that are
   std::vector<DesignScene> scenes;                       ///< the first is the nominal one
   std::vector<DesignVariable> variables;
   std::vector<ObjectiveTerm> objective;

@@ -79,7 +79,7 @@ ProgramValues DirectProgram::evaluate(const Eigen::VectorXd& x, bool with_gradie
         [&] { return Eigen::VectorXd(aggregate_gradient(bound.objective, analysis) / bound.limit); });
   }
   for (const ModificationConstraint& c : task.modification_constraints) {
-    const double sum = c.value(analysis.pinion_modification, analysis.wheel_modification), scale = problem_.modification_scale(c);
+    const double sum = c.value(analysis.modification), scale = problem_.modification_scale(c);
     const auto slope = [&](double sign) { return Eigen::VectorXd(sign / scale * problem_.modification_slope(c)); };
     if (c.maximum < no_limit) add((sum - c.maximum) / scale, [&] { return slope(1.0); });
     if (c.minimum > -no_limit) add((c.minimum - sum) / scale, [&] { return slope(-1.0); });

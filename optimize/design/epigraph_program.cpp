@@ -239,7 +239,7 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
     }
     case Kind::ModificationBound: {
       const ModificationConstraint& bound = task.modification_constraints[static_cast<std::size_t>(row.index)];
-      const double sum = bound.value(analysis.pinion_modification, analysis.wheel_modification);
+      const double sum = bound.value(analysis.modification);
       const double scale = problem_.modification_scale(bound), sign = row.side;
       values.constraints[at] = sign * (sum - (row.side > 0 ? bound.maximum : bound.minimum)) / scale;
       jacobian.head(n) = sign / scale * problem_.modification_slope(bound);

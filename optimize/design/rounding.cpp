@@ -68,11 +68,10 @@ class StepSearch {
   /// Whether one of the scenes tried first is as bad as the best design's worst; that one is tried first from then on.
   bool fails_early(const Eigen::VectorXd& x) {
     if (!(problem_.task().over == Aggregate::Worst) || !is_feasible(best_)) return false;
-    DesignAnalysis analysis;
-    problem_.apply(x, analysis.pinion_modification, analysis.wheel_modification);
+    const PerGear<Modification> modification = problem_.modification(x);
     for (std::size_t k = 0; k < std::min(scenes_tried_first, first_.size()); ++k) {
       const int scene = first_[k];
-      const LoadedCycle cycle = problem_.analyse_scene(scene, analysis.pinion_modification, analysis.wheel_modification);
+      const LoadedCycle cycle = problem_.analyse_scene(scene, modification);
       if (cycle.usable() && problem_.scene_measure(problem_.task().combined_objective(), cycle, scene) < best_.objective) continue;
       std::rotate(first_.begin(), first_.begin() + static_cast<std::ptrdiff_t>(k), first_.begin() + static_cast<std::ptrdiff_t>(k) + 1);
       return true;

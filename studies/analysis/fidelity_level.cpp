@@ -71,7 +71,7 @@ MeshOfResolution LevelRunner::mesh(const FidelityLevel& level, const DesignScene
   const MeshPlacement placement = MeshPlacement::of(level.gap, scene.condition.misalignment);
   return [this, on = effects(level), placement, structure = structures(level.compliance).pair](const MeshResolution& resolution) {
     const Study& study = subject_.study;
-    return make_mesh_model(subject_.pair, study.pinion_material, study.wheel_material, resolution, on, placement, structure.get(),
+    return make_mesh_model(subject_.pair, study.material, resolution, on, placement, structure.get(),
                            nullptr, subject_.shafts.get());
   };
 }

@@ -40,7 +40,7 @@ MeshResolution estimate_resolution(const StudyResults& results) {
 
 EffectScene scene_of(const StudyResults& results, const FlankCondition& condition, double torque, const MeshResolution& resolution) {
   const Study& study = results.study;
-  return {results.pair, study.pinion_material, study.wheel_material, resolution, results.structures.pair.get(), results.shafts.get(),
+  return {results.pair, study.material.pinion, study.material.wheel, resolution, results.structures.pair.get(), results.shafts.get(),
           condition, torque};
 }
 
@@ -97,7 +97,7 @@ std::vector<CycleFigures> figures_with(const StudyResults& results, const std::v
     auto known = models.find(placement);
     if (known == models.end()) {
       const MeshResolution resolution{study.fidelity.quadrature, results.phases};
-      known = models.emplace(placement, make_mesh_model(results.pair, study.pinion_material, study.wheel_material, resolution, effects, placement,
+      known = models.emplace(placement, make_mesh_model(results.pair, study.material, resolution, effects, placement,
                                                         results.structures.pair.get(), nullptr, results.shafts.get())).first;
     }
     of_scene.push_back(&known->second);

@@ -5,7 +5,7 @@
 namespace flankwright::studies {
 
 FlankCondition condition_of(const Study& study, const Scene& scene) {
-  return {study.pinion_modification, study.wheel_modification, scene.pinion_error, scene.wheel_error, scene.misalignment};
+  return {study.modification, scene.error, scene.misalignment};
 }
 
 std::vector<FlankCondition> conditions_of(const Study& study) {
@@ -18,7 +18,7 @@ EffectFacts effect_facts(const Study& study) {
   EffectFacts facts;
   facts.coupled_teeth = facts.gear_bodies = couples_teeth(study.fidelity.compliance);
   facts.root_stress = wants_root_stress(study);
-  facts.shafts = study.pinion_shaft || study.wheel_shaft;
+  facts.shafts = study.shaft.pinion || study.shaft.wheel;
   facts.whole_surface = study.fidelity.gap == GapModel::WholeSurface;
   for (const Scene& scene : study.scenes) {
     for (double torque : scene.torques) {

@@ -49,8 +49,8 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
                       name, gear->member == Member::Pinion ? "before" : "beyond"));
     }
   }
-  note_crowning(study.pinion_modification, pair.pinion, notes);
-  note_crowning(study.wheel_modification, pair.wheel, notes);
+  note_crowning(study.modification.pinion, pair.pinion, notes);
+  note_crowning(study.modification.wheel, pair.wheel, notes);
   if (pair.transverse_contact_ratio < 1.0) {
     notes.push_back(fmt::format("the transverse contact ratio is {:.3g}: in each section no teeth touch for a while, the overlap ratio of {:.3g} alone carries the mesh on",
                                 pair.transverse_contact_ratio, pair.overlap_ratio));

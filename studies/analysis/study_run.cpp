@@ -46,7 +46,7 @@ MeshModel StudyRun::mesh(const MeshPlacement& placement, const MeshResolution& r
                const std::vector<MeshParameter>& parameters) {
   const MeshPlaced placed = [&](const MeshPlacement& at) {
     const Study& study = results_.study;
-    return make_mesh_model(results_.pair, study.pinion_material, study.wheel_material, resolution, results_.mesh_effects, at,
+    return make_mesh_model(results_.pair, study.material, resolution, results_.mesh_effects, at,
                            structures().pair.get(), root_stress, results_.shafts.get());
   };
   return with_perturbed_meshes(placed(placement), placed, parameters);
@@ -136,7 +136,7 @@ const GearStructures& StudyRun::structures() {
   if (!has_structure_) {
     results_.structures = gear_structures(results_.study, results_.pair, progress_);
     const Study& study = results_.study;
-    results_.deflections = gear_deflections(results_.pair, study.pinion_material, study.wheel_material, results_.structures.pair.get(),
+    results_.deflections = gear_deflections(results_.pair, study.material.pinion, study.material.wheel, results_.structures.pair.get(),
                                             study.fidelity.compliance == ComplianceModel::Fe ? "finite elements" : "fitted");
     has_structure_ = true;
     if (const auto& runs = results_.structures.finite_elements) {

@@ -45,7 +45,7 @@ double mesh_te_at(const UnloadedMesh& mesh, double phi1) {
 
 /// a of the parabola that was designed into the pair [1/rad]; 0 where none was.
 double wanted_parabola(const GearPair& pair, const FlankCondition& condition) {
-  double a = condition.pinion_modification.parabolic_te + condition.wheel_modification.parabolic_te;
+  double a = condition.modification.pinion.parabolic_te + condition.modification.wheel.parabolic_te;
   for (const Member member : {Member::Pinion, Member::Wheel}) {
     const auto* tool = std::get_if<RevolutionTool>(&pair.data[member].generation);
     if (tool != nullptr) a += parabola_of_arc(pair, member, tool->arc_radius);
@@ -73,8 +73,7 @@ void append_kind(std::string& sequence, std::string& last, const ToothContact& c
 
 UnloadedResult analyse_unloaded(const GearPair& pair, const std::string& scene, const FlankCondition& condition, int positions,
                                 double marking_thickness) {
-  const FlankAssembly placed = assemble_flanks(pair, condition.misalignment, condition.pinion_modification,
-                                           condition.wheel_modification, condition.pinion_error, condition.wheel_error);
+  const FlankAssembly placed = assemble_flanks(pair, condition);
   UnloadedResult result;
   result.scene = scene;
   result.marking_thickness = marking_thickness;

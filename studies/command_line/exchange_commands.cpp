@@ -85,8 +85,8 @@ int export_command(const ExportCommand& options) {
     }
     if (options.grid) {
       const GearPair pair = make_gear_pair(study.pair);
-      write_export(folder / "grid-pinion.csv", grid_table(pair, Member::Pinion, study.pinion_modification, layout, study.title));
-      write_export(folder / "grid-wheel.csv", grid_table(pair, Member::Wheel, study.wheel_modification, layout, study.title));
+      write_export(folder / "grid-pinion.csv", grid_table(pair, Member::Pinion, study.modification.pinion, layout, study.title));
+      write_export(folder / "grid-wheel.csv", grid_table(pair, Member::Wheel, study.modification.wheel, layout, study.title));
     }
   }
   if (options.vtk) export_vtk(json, results, folder / "vtk");

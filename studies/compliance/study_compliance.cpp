@@ -47,18 +47,15 @@ bool solves_finite_elements(const Study& study) {
 ComplianceTask compliance_task(const Study& study, const GearPair& pair) {
   ComplianceTask task{.pair = pair,
                       .model = study.fidelity.compliance,
-                      .pinion_material = study.pinion_material,
-                      .wheel_material = study.wheel_material,
-                      .pinion_body = study.pinion_body,
-                      .wheel_body = study.wheel_body,
-                      .pinion_shaft = study.pinion_shaft,
-                      .wheel_shaft = study.wheel_shaft,
+                      .material = {study.material.pinion, study.material.wheel},
+                      .body = {study.body.pinion, study.body.wheel},
+                      .shaft = {study.shaft.pinion, study.shaft.wheel},
                       .root_stress = wants_root_stress(study),
                       .rigid_bodies = wants_rigid_bodies(study)};
   if (study.task->single_gears) {
     task.model = ComplianceModel::Fe;
-    task.pinion_shaft.reset();
-    task.wheel_shaft.reset();
+    task.shaft.pinion.reset();
+    task.shaft.wheel.reset();
   }
   return task;
 }

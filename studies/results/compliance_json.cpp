@@ -103,8 +103,8 @@ Json compliance_json(const GearStructures& structures, const Study& study) {
   };
   Json json{{"model", to_string(study.fidelity.compliance)},
             {"seconds", runs.seconds},
-            {"pinion", gear(Member::Pinion, study.pinion_material)},
-            {"wheel", gear(Member::Wheel, study.wheel_material)}};
+            {"pinion", gear(Member::Pinion, study.material.pinion)},
+            {"wheel", gear(Member::Wheel, study.material.wheel)}};
   if (structures.correction(Member::Pinion)) json["fits"] = fits_json(CorrectionLibrary::shipped());
   return json;
 }

@@ -243,16 +243,15 @@ void add_topography(const GearPair& pair, Member member, const Modification& mod
 
 Json modifications_json(const StudyResults& results) {
   Json maps = Json::array();
-  const auto add_both = [&](const Modification& pinion, const Modification& wheel, const char* design) {
-    add_topography(results.pair, Member::Pinion, pinion, design, maps);
-    add_topography(results.pair, Member::Wheel, wheel, design, maps);
+  const auto add_both = [&](const PerGear<Modification>& modification, const char* design) {
+    for (const Member m : {Member::Pinion, Member::Wheel}) add_topography(results.pair, m, modification[m], design, maps);
   };
   if (results.design) {
     for (const auto& [report, name] : {std::pair{&results.design->before, "before"}, std::pair{&results.design->after, "after"}}) {
-      add_both(report->analysis.pinion_modification, report->analysis.wheel_modification, name);
+      add_both(report->analysis.modification, name);
     }
   } else {
-    add_both(results.study.pinion_modification, results.study.wheel_modification, "given");
+    add_both(results.study.modification, "given");
   }
   return maps;
 }

@@ -41,14 +41,14 @@ Json grid_json(const GivenGrid& grid) {
 
 Json macro_json(const StudyResults& results, Member member) {
   const Gear& gear = results.pair[member];
-  const Material& material = member == Member::Pinion ? results.study.pinion_material : results.study.wheel_material;
+  const Material& material = results.study.material[member];
   return {{"teeth", gear.data.teeth},
           {"face_width_mm", gear.data.face_width},
           {"profile_shift", gear.data.profile_shift},
           {"tip_diameter_mm", 2.0 * gear.tip_radius},
           {"rack", {{"addendum", gear.data.rack.addendum}, {"dedendum", gear.data.rack.dedendum}, {"root_radius", gear.data.rack.root_radius}}},
           {"generation", generation_json(gear.data.generation)},
-          {"grid", grid_json(member == Member::Pinion ? results.study.pinion_grid : results.study.wheel_grid)},
+          {"grid", grid_json(results.study.grid[member])},
           {"youngs_modulus_MPa", material.youngs_modulus},
           {"poissons_ratio", material.poissons_ratio}};
 }
@@ -56,7 +56,7 @@ Json macro_json(const StudyResults& results, Member member) {
 Json used_gear_json(const StudyResults& results, Member member) {
   Json json = macro_json(results, member);
   if (const auto& runs = results.structures.finite_elements) json["body"] = body_json((*runs)[member].body);
-  json["shaft"] = shaft_json(member == Member::Pinion ? results.study.pinion_shaft : results.study.wheel_shaft);
+  json["shaft"] = shaft_json(results.study.shaft[member]);
   return json;
 }
 

@@ -49,7 +49,7 @@ struct Scene {
   double weight{1.0};
   Misalignment misalignment;
   std::vector<double> torques;  ///< on the pinion [N mm], >= 0
-  ManufacturingError pinion_error, wheel_error;
+  PerGear<ManufacturingError> error;
 };
 
 /// A measured or topological flank: the file that the study names and what was read from it.
@@ -93,7 +93,7 @@ struct GradientParameter {
 
 /// [fit]: which gears' compliance is fitted, and how.
 struct FitChoice {
-  bool pinion{true}, wheel{true};
+  PerGear<bool> gears{true, true};
   bool several_teeth{false};  ///< KernelForm::several_teeth(), else one_tooth_accurate()
   bool test_grid{true};      ///< compared at stations that the fit has not seen
   int max_iterations{300};   ///< trust-region steps
@@ -129,14 +129,14 @@ struct Study {
   std::string file;  ///< path as given
   const Task* task{registered_tasks().front()};  ///< never null
   PairData pair;
-  Modification pinion_modification, wheel_modification;  ///< with the field of the grid below
-  GivenGrid pinion_grid, wheel_grid;
-  std::vector<std::string> pinion_tooth_grids, wheel_tooth_grids;  ///< files of single teeth's errors, empty: none of this tooth
-  ManufacturingError pinion_error, wheel_error;
+  PerGear<Modification> modification;  ///< with the field of the grid below
+  PerGear<GivenGrid> grid;
+  PerGear<std::vector<std::string>> tooth_grids;  ///< files of single teeth's errors, empty: none of this tooth
+  PerGear<ManufacturingError> error;
   Misalignment misalignment;
-  Material pinion_material, wheel_material;
-  GearBody pinion_body, wheel_body;  ///< bodies below the teeth in finite elements
-  std::optional<ShaftData> pinion_shaft, wheel_shaft;  ///< empty: rigid
+  PerGear<Material> material;
+  PerGear<GearBody> body;  ///< bodies below the teeth in finite elements
+  PerGear<std::optional<ShaftData>> shaft;  ///< empty: rigid
   std::vector<double> torques;  ///< base [load] torque list [N mm]; {0} where [load] is absent
   double marking_thickness{6.35e-3};  ///< of the compound that shows the bearing pattern [mm], > 0
   Cycle cycle;

@@ -10,13 +10,13 @@ namespace flankwright::studies {
 namespace {
 
 GivenGrid& grid(StudyBuilder& builder, Member m) {
-  return m == Member::Pinion ? builder.study.pinion_grid : builder.study.wheel_grid;
+  return builder.study.grid[m];
 }
 std::vector<std::string>& tooth_grids(StudyBuilder& builder, Member m) {
-  return m == Member::Pinion ? builder.study.pinion_tooth_grids : builder.study.wheel_tooth_grids;
+  return builder.study.tooth_grids[m];
 }
 ManufacturingError& error(Scene& scene, Member m) {
-  return m == Member::Pinion ? scene.pinion_error : scene.wheel_error;
+  return scene.error[m];
 }
 
 /// One number for all teeth, or one for each.

@@ -5,10 +5,10 @@ namespace flankwright::studies {
 namespace {
 
 GearData& gear(StudyBuilder& builder, Member m) {
-  return m == Member::Pinion ? builder.study.pair.pinion : builder.study.pair.wheel;
+  return builder.study.pair[m];
 }
 GenerationKeys& generation(StudyBuilder& builder, Member m) {
-  return m == Member::Pinion ? builder.pinion_generation : builder.wheel_generation;
+  return builder.generation[m];
 }
 
 std::vector<std::string> task_names() {

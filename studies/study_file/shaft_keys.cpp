@@ -6,7 +6,7 @@ namespace {
 
 /// The gear's shaft, made by the first of its keys; its material is unknown until the keys of materials say.
 ShaftData& shaft(StudyBuilder& builder, Member m) {
-  std::optional<ShaftData>& of_gear = m == Member::Pinion ? builder.study.pinion_shaft : builder.study.wheel_shaft;
+  std::optional<ShaftData>& of_gear = builder.study.shaft[m];
   if (!of_gear) of_gear = ShaftData{.material = {not_given, not_given}};
   return *of_gear;
 }

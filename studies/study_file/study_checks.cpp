@@ -42,7 +42,7 @@ void check_tooth_lists(StudyReading& reading) {
   const StudyBuilder& builder = reading.builder;
   for (const Member m : members) {
     const auto error_of = [m](const Scene& scene) -> const ManufacturingError& {
-      return m == Member::Pinion ? scene.pinion_error : scene.wheel_error;
+      return scene.error[m];
     };
     const std::string prefix = std::string(name_of(m)) + ".error.";
     const int teeth = builder.study.pair[m].teeth;
@@ -75,7 +75,7 @@ bool asks_derivative(const Study& study, Member m, ModificationParameter paramet
 /// A relief with an amount needs an extent above 0; an extent to be varied needs an amount.
 void check_relief(StudyReading& reading, Member m, const ModificationDescriptor& of_amount, const ModificationDescriptor& of_extent) {
   const Study& study = reading.builder.study;
-  const Modification& modification = m == Member::Pinion ? study.pinion_modification : study.wheel_modification;
+  const Modification& modification = study.modification[m];
   const std::string prefix = std::string(name_of(m)) + ".modification.";
   const std::string amount_path = prefix + std::string(of_amount.key), path = prefix + std::string(of_extent.key);
   const DesignVariable* amount = find_variable(study, m, of_amount.parameter);
@@ -112,7 +112,7 @@ void check_parabola(StudyReading& reading, Member m) {
       reading.refuse_key(key, "allowed is " + problem.allowed());
     }
   };
-  check(path, (m == Member::Pinion ? study.pinion_modification : study.wheel_modification).parabolic_te);
+  check(path, study.modification[m].parabolic_te);
   if (const DesignVariable* variable = find_variable(study, m, parameter_of("parabolic_te"))) {
     check("optimise.variables." + path, variable->upper);
   }

@@ -37,8 +37,7 @@ void read_keys(StudyReading& reading) {
 void settle_base(StudyBuilder& builder) {
   builder.study.misalignment = builder.base.misalignment;
   builder.study.torques = builder.base.torques;
-  builder.study.pinion_error = builder.base.pinion_error;
-  builder.study.wheel_error = builder.base.wheel_error;
+  builder.study.error = builder.base.error;
 }
 
 }  // namespace

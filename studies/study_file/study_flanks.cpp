@@ -182,22 +182,22 @@ void read_grids(StudyReading& reading) {
   if (!reading.problems.empty()) return;
   Study& study = reading.builder.study;
   const GearPair pair = make_gear_pair(study.pair);
-  GridReading(reading, pair, Member::Pinion).read(study.pinion_modification, study.pinion_grid);
-  GridReading(reading, pair, Member::Wheel).read(study.wheel_modification, study.wheel_grid);
-  const auto pinion_teeth = GridReading(reading, pair, Member::Pinion).read_teeth(study.pinion_tooth_grids);
-  const auto wheel_teeth = GridReading(reading, pair, Member::Wheel).read_teeth(study.wheel_tooth_grids);
-  study.pinion_error.topographies = pinion_teeth;
-  study.wheel_error.topographies = wheel_teeth;
+  GridReading(reading, pair, Member::Pinion).read(study.modification.pinion, study.grid.pinion);
+  GridReading(reading, pair, Member::Wheel).read(study.modification.wheel, study.grid.wheel);
+  const auto pinion_teeth = GridReading(reading, pair, Member::Pinion).read_teeth(study.tooth_grids.pinion);
+  const auto wheel_teeth = GridReading(reading, pair, Member::Wheel).read_teeth(study.tooth_grids.wheel);
+  study.error.pinion.topographies = pinion_teeth;
+  study.error.wheel.topographies = wheel_teeth;
   for (Scene& scene : study.scenes) {
-    scene.pinion_error.topographies = pinion_teeth;
-    scene.wheel_error.topographies = wheel_teeth;
+    scene.error.pinion.topographies = pinion_teeth;
+    scene.error.wheel.topographies = wheel_teeth;
   }
 }
 
 void read_generation(StudyReading& reading) {
   StudyBuilder& builder = reading.builder;
-  read_generation(reading, "pinion.generation", builder.pinion_generation, builder.study.pair.pinion);
-  read_generation(reading, "wheel.generation", builder.wheel_generation, builder.study.pair.wheel);
+  read_generation(reading, "pinion.generation", builder.generation.pinion, builder.study.pair.pinion);
+  read_generation(reading, "wheel.generation", builder.generation.wheel, builder.study.pair.wheel);
 }
 
 }  // namespace flankwright::studies

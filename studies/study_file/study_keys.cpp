@@ -9,10 +9,10 @@ namespace flankwright::studies {
 namespace {
 
 GearBody& body(StudyBuilder& builder, Member m) {
-  return m == Member::Pinion ? builder.study.pinion_body : builder.study.wheel_body;
+  return builder.study.body[m];
 }
 Material& material(StudyBuilder& builder, Member m) {
-  return m == Member::Pinion ? builder.study.pinion_material : builder.study.wheel_material;
+  return builder.study.material[m];
 }
 
 constexpr Range misalignment_angle = within(60.0);  // arcmin: a degree, far beyond any housing
@@ -51,12 +51,12 @@ std::vector<SchemaKey> working_condition_rows() {
       {.path = "material.youngs_modulus", .quantity = Quantity::Stress, .range = above_zero(1e7), .fallback = "206000",
        .meaning = "E of both gears",
        .store = [](StudyBuilder& d, Member, const Value& v) {
-         d.study.pinion_material.youngs_modulus = d.study.wheel_material.youngs_modulus = v.number;
+         d.study.material.pinion.youngs_modulus = d.study.material.wheel.youngs_modulus = v.number;
        }},
       {.path = "material.poissons_ratio", .range = {.low = 0.0, .high = 0.5, .high_open = true}, .fallback = "0.3",
        .meaning = "nu of both gears",
        .store = [](StudyBuilder& d, Member, const Value& v) {
-         d.study.pinion_material.poissons_ratio = d.study.wheel_material.poissons_ratio = v.number;
+         d.study.material.pinion.poissons_ratio = d.study.material.wheel.poissons_ratio = v.number;
        }},
       {.path = "gear.material.youngs_modulus", .quantity = Quantity::Stress, .range = above_zero(1e7),
        .fallback = "(as [material])", .meaning = "E of this gear",

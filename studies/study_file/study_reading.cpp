@@ -211,7 +211,7 @@ namespace {
 void store(const SchemaKey& key, const Value& value, StudyBuilder& builder, Scene& scene) {
   if (const auto* in_study = std::get_if<StoreInStudy>(&key.store)) (*in_study)(builder, key.member, value);
   if (const auto* in_scene = std::get_if<StoreInScene>(&key.store)) (*in_scene)(scene, key.member, value);
-  Modification& modification = key.member == Member::Pinion ? builder.study.pinion_modification : builder.study.wheel_modification;
+  Modification& modification = builder.study.modification[key.member];
   if (const auto* parameter = std::get_if<ModificationParameter>(&key.store)) set(modification, *parameter, value.number);
   if (const auto* choice = std::get_if<const ModificationChoice*>(&key.store)) (*choice)->set(modification, static_cast<std::size_t>(value.integer));
 }

@@ -68,7 +68,7 @@ struct StudyBuilder {
   Study study;
   Scene base;  ///< values of [misalignment], [load] and the errors, before any scene
   std::optional<Hand> wheel_hand;
-  GenerationKeys pinion_generation, wheel_generation;
+  PerGear<GenerationKeys> generation;
 };
 
 using StoreInStudy = void (*)(StudyBuilder&, Member, const Value&);

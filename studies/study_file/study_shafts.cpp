@@ -19,9 +19,9 @@ void complete(ShaftData& shaft, const Material& of_gear) {
 void read_shaft(StudyReading& reading, Member member) {
   Study& study = reading.builder.study;
   const bool pinion = member == Member::Pinion;
-  std::optional<ShaftData>& shaft = pinion ? study.pinion_shaft : study.wheel_shaft;
+  std::optional<ShaftData>& shaft = pinion ? study.shaft.pinion : study.shaft.wheel;
   if (!shaft) return;
-  complete(*shaft, pinion ? study.pinion_material : study.wheel_material);
+  complete(*shaft, pinion ? study.material.pinion : study.material.wheel);
   const std::string table = pinion ? "pinion.shaft" : "wheel.shaft";
   const bool has_problem =
       std::ranges::any_of(reading.problems, [&](const StudyProblem& problem) { return problem.key.starts_with(table); });
@@ -40,15 +40,15 @@ void read_shafts(StudyReading& reading) {
   read_shaft(reading, Member::Wheel);
   const Study& study = reading.builder.study;
   const bool listed = std::ranges::find(study.fidelity.effects, "shafts") != study.fidelity.effects.end();
-  if (!listed || study.pinion_shaft || study.wheel_shaft) return;
+  if (!listed || study.shaft.pinion || study.shaft.wheel) return;
   const Match* match = reading.find("fidelity.effects");
   reading.refuse(reading.where("fidelity.effects"), "fidelity.effects", match == nullptr ? nullptr : match->node,
                  "\"shafts\" needs a shaft: allowed is a list without it, or [pinion.shaft] or [wheel.shaft] as well");
 }
 
 std::shared_ptr<const ShaftPair> make_shafts(const Study& study, const GearPair& pair) {
-  if (!study.pinion_shaft && !study.wheel_shaft) return nullptr;
-  return std::make_shared<const ShaftPair>(pair, study.pinion_shaft, study.wheel_shaft,
+  if (!study.shaft.pinion && !study.shaft.wheel) return nullptr;
+  return std::make_shared<const ShaftPair>(pair, study.shaft.pinion, study.shaft.wheel,
                                            couples_teeth(study.fidelity.compliance) ? GearBodyIn::Structure : GearBodyIn::Shaft);
 }
 

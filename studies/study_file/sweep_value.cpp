@@ -50,7 +50,7 @@ void set_swept(SweptCondition& condition, const SchemaKey& key, double value) {
     stored.numbers = {inside};
     (*in_scene)(condition.scene, key.member, stored);
   } else {
-    set(key.member == Member::Pinion ? condition.pinion_modification : condition.wheel_modification,
+    set(condition.modification[key.member],
         std::get<ModificationParameter>(key.store), inside);
   }
 }

@@ -18,12 +18,12 @@ bool is_in_range(const SchemaKey& key, double value);
 /// What a study says of a swept key, and where the sample puts its own value.
 struct SweptCondition {
   Scene scene;
-  Modification pinion_modification, wheel_modification;
+  PerGear<Modification> modification;
 
   /// Of the study itself, the nominal sample.
-  static SweptCondition of(const Study& study) { return {study.scenes.front(), study.pinion_modification, study.wheel_modification}; }
+  static SweptCondition of(const Study& study) { return {study.scenes.front(), study.modification}; }
   FlankCondition flanks() const {
-    return {pinion_modification, wheel_modification, scene.pinion_error, scene.wheel_error, scene.misalignment};
+    return {modification, scene.error, scene.misalignment};
   }
 };
 

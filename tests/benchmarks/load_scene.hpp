@@ -41,7 +41,7 @@ inline MeshModel model(int positions, int intervals, bool root_stress) {
   const GearPair pair = make_gear_pair(reference::haddad_18_54::pair_data());
   const CoupledSlices structure(pair);
   const mesh_cases::SyntheticRootStress fillets(pair);
-  return make_mesh_model(pair, {}, {}, {{QuadratureRule::Gauss2, intervals}, equally_spaced_phases(positions)}, {}, {}, &structure,
+  return make_mesh_model(pair, {}, {{QuadratureRule::Gauss2, intervals}, equally_spaced_phases(positions)}, {}, {}, &structure,
                          root_stress ? &fillets : nullptr);
 }
 
@@ -50,16 +50,16 @@ inline constexpr double torque = 1014.868e3;  // N mm
 /// Modified on both gears, misaligned, and not perfectly made.
 inline FlankCondition condition() {
   FlankCondition condition;
-  Modification& pinion = condition.pinion_modification;
+  Modification& pinion = condition.modification.pinion;
   pinion.lead_crowning = 0.0077;
   pinion.lead_slope = 0.0005;
   pinion.addendum_crowning = pinion.dedendum_crowning = 0.0024;
   pinion.tip_relief = {0.008, 2.5, ReliefShape::Linear};
   pinion.twist = 0.002;
-  condition.wheel_modification.tip_relief = {0.006, 2.5, ReliefShape::Parabolic};
-  condition.wheel_modification.end_relief = {0.004, 10.0};
-  condition.pinion_error.helix_slope = 0.002;
-  condition.wheel_error.pitch_step = 0.001;
+  condition.modification.wheel.tip_relief = {0.006, 2.5, ReliefShape::Parabolic};
+  condition.modification.wheel.end_relief = {0.004, 10.0};
+  condition.error.pinion.helix_slope = 0.002;
+  condition.error.wheel.pitch_step = 0.001;
   condition.misalignment.mesh_misalignment = 0.008;
   condition.misalignment.crossing = 0.2 * units::arcmin;
   return condition;

@@ -32,7 +32,7 @@ double observed_order(const std::vector<int>& intervals, const std::vector<doubl
 
 FlankCondition crowned(double crowning_um, double misalignment_um) {
   FlankCondition condition;
-  condition.pinion_modification.lead_crowning = crowning_um * units::um;
+  condition.modification.pinion.lead_crowning = crowning_um * units::um;
   condition.misalignment.mesh_misalignment = misalignment_um * units::um;
   return condition;
 }
@@ -106,8 +106,8 @@ TEST_CASE("Mean and first harmonic of the transmission error settle with the num
   // The first slope of f_t jumps where teeth gain and lose contact: second order for integrals over the pitch.
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
   FlankCondition condition = crowned(20, 30);
-  condition.pinion_modification.tip_relief =
-      condition.wheel_modification.tip_relief = {30 * units::um, 3.0, ReliefShape::Parabolic};
+  condition.modification.pinion.tip_relief =
+      condition.modification.wheel.tip_relief = {30 * units::um, 3.0, ReliefShape::Parabolic};
   const auto at = [&](int positions) { return summary(gears, condition, 200, 10, positions); };
   const CycleSummary exact = at(256);
   for (int positions : {16, 32, 64}) {

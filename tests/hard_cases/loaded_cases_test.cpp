@@ -125,7 +125,7 @@ TEST_CASE("Hard: an edge that runs along its mate before the path begins carries
                            {{"load.torque", "[1e-9, 40]"}, {"fidelity.gap", gap}, {"cycle.positions", "16"}, sampled_peaks});
   check_balances(results);
   CAPTURE(gap);
-  const FlankAssembly scene = assemble_flanks(results.pair, {}, results.study.pinion_modification, results.study.wheel_modification, {}, {});
+  const FlankAssembly scene = assemble_flanks(results.pair, {.modification = results.study.modification});
   const PathOfContact path(results.pair);
   const LoadedCycle &light = results.loaded[0].cycle, &heavy = results.loaded[1].cycle;
   double on_edge = 0.0;  // N/mm

@@ -56,13 +56,13 @@ double largest_displacement(const GearPair& pair, const Misalignment& m) {
 }
 
 void check_unloaded(const Study& study, const GearPair& pair, const FlankCondition& c, Findings& findings) {
-  const FlankAssembly scene = assemble_flanks(pair, c.misalignment, c.pinion_modification, c.wheel_modification, c.pinion_error, c.wheel_error);
+  const FlankAssembly scene = assemble_flanks(pair, c);
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, study.cycle.positions);
   if (mesh.missing > 0) return;
   // The pair's way through the mesh, and as much again for tips that touch early and late.
   const double turned = 2.0 * units::pi / pair.data.pinion.teeth * (pair.total_contact_ratio() + 2.0);
-  const double largest = largest_deviation(pair, c.pinion_modification, c.pinion_error, turned) +
-                         largest_deviation(pair, c.wheel_modification, c.wheel_error, turned) + largest_displacement(pair, c.misalignment);
+  const double largest = largest_deviation(pair, c.modification.pinion, c.error.pinion, turned) +
+                         largest_deviation(pair, c.modification.wheel, c.error.wheel, turned) + largest_displacement(pair, c.misalignment);
   // A tip that reaches below its mate's form circle may push the mate's flank away with nothing moved at all.
   const bool interferes = pair.pinion.fillet_interference || pair.wheel.fillet_interference;
   for (const double te : mesh.transmission_error) {
@@ -83,7 +83,7 @@ void check_unloaded(const Study& study, const GearPair& pair, const FlankConditi
 
 /// How many tooth pairs' flanks can meet at all.
 int pairs_that_meet(const GearPair& pair, const FlankCondition& c, double phase) {
-  const FlankAssembly scene = assemble_flanks(pair, c.misalignment, c.pinion_modification, c.wheel_modification, c.pinion_error, c.wheel_error);
+  const FlankAssembly scene = assemble_flanks(pair, c);
   const PathOfContact path(pair);
   const ToothContactSolver solver(scene);
   int meeting = 0;
@@ -121,7 +121,7 @@ void check_loaded(const Study& study, const GearPair& pair, const FlankCondition
   std::vector<MeshParameter> parameters;
   for (const studies::GradientParameter& p : study.gradients) parameters.push_back(p.parameter);
   const MeshPlaced placed = [&](const MeshPlacement& placement) {
-    return make_mesh_model(pair, study.pinion_material, study.wheel_material, {study.fidelity.quadrature, equally_spaced_phases(study.cycle.positions)}, {}, placement);
+    return make_mesh_model(pair, study.material, {study.fidelity.quadrature, equally_spaced_phases(study.cycle.positions)}, {}, placement);
   };
   const MeshModel model = with_perturbed_meshes(placed(MeshPlacement::of(study.fidelity.gap, condition.misalignment)), placed, parameters);
   for (const double torque : study.scenes.front().torques) {
@@ -142,7 +142,7 @@ SceneVerdict examine(const std::string& text, const std::string& name) {
     const Study study = studies::parse_study(text, name);
     const GearPair pair = make_gear_pair(study.pair);
     const studies::Scene& scene = study.scenes.front();
-    const FlankCondition condition{study.pinion_modification, study.wheel_modification, scene.pinion_error, scene.wheel_error, scene.misalignment};
+    const FlankCondition condition{study.modification, scene.error, scene.misalignment};
     check_unloaded(study, pair, condition, findings);
     check_loaded(study, pair, condition, findings);
   } catch (const InvalidInput& problem) {

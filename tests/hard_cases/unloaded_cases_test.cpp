@@ -70,7 +70,7 @@ TEST_CASE("Hard: contact that leaves the flank for an edge and a corner takes it
   const auto contact_at = [&](double minutes, double phi1 = 0.0) {
     Misalignment misalignment = base.misalignment;
     misalignment.crossing = minutes * arcmin;
-    const FlankAssembly scene = assemble_flanks(pair, misalignment, base.pinion_modification, base.wheel_modification, {}, {});
+    const FlankAssembly scene = assemble_flanks(pair, {.modification = base.modification, .misalignment = misalignment});
     return find_tooth_contact(scene, 0, phi1);
   };
   const double phi1 = GENERATE(0.0, 0.12, -0.12);
@@ -143,7 +143,7 @@ TEST_CASE("Hard: an edge that runs along its mate before the path begins takes t
   const auto results = results_at("12");
   const studies::Study base = study("edge_before_the_path");
   REQUIRE(results.pair.pinion.fillet_interference);
-  const FlankAssembly scene = assemble_flanks(results.pair, {}, base.pinion_modification, base.wheel_modification, {}, {});
+  const FlankAssembly scene = assemble_flanks(results.pair, {.modification = base.modification});
   const UnloadedMesh& mesh = results.unloaded.front().mesh;
   CHECK(mesh.missing == 0);
   for (std::size_t i = 0; i < mesh.phi1.size(); ++i) {
@@ -202,7 +202,7 @@ TEST_CASE("Hard: flanks pass from convex through flat to hollow without a jump",
     last = mesh.transmission_error;
     // Both ways to the first touch: the nearest of all points, and the maximum of the wheel's angle.
     const studies::LoadedResult& loaded = results.loaded.front();
-    const FlankAssembly scene = assemble_flanks(results.pair, {}, results.study.pinion_modification, {}, {}, {});
+    const FlankAssembly scene = assemble_flanks(results.pair, {.modification = {results.study.modification.pinion, {}}});
     const PathOfContact path(results.pair);
     for (const LoadedPosition& position : loaded.cycle.positions) {
       const double phi1 = path.pinion_angle_at(position.phase, results.pair);

@@ -226,7 +226,7 @@ TEST_CASE("A budget is kept, and the best design met so far comes back", "[optim
 
 TEST_CASE("A start outside the bounds is reported as given and optimised from inside", "[optimize][design]") {
   DesignTask task = spur({10.0, -10.0});
-  task.pinion_modification.lead_crowning = 0.060;  // bounds 0 .. 0.040
+  task.modification.pinion.lead_crowning = 0.060;  // bounds 0 .. 0.040
   const DesignResult result = optimise(task);
   CHECK(lead_crowning_um(result.before) == Approx(60.0));
   CHECK(lead_crowning_um(result.after) <= 40.0);

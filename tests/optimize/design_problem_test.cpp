@@ -29,11 +29,11 @@ void check_same_bits(const DesignAnalysis& a, const DesignAnalysis& b) {
 
 TEST_CASE("The start is the given modification, moved into the bounds", "[optimize][design]") {
   DesignTask task = helical();
-  task.pinion_modification.lead_crowning = 0.010;  // of 0 .. 0.040
-  task.pinion_modification.lead_slope = -0.050;    // below -0.020
-  task.pinion_modification.addendum_crowning =
+  task.modification.pinion.lead_crowning = 0.010;  // of 0 .. 0.040
+  task.modification.pinion.lead_slope = -0.050;    // below -0.020
+  task.modification.pinion.addendum_crowning =
       0.040;  // profile crowning is the mean of both halves: 0.035 of 0 .. 0.030
-  task.pinion_modification.dedendum_crowning = 0.030;
+  task.modification.pinion.dedendum_crowning = 0.030;
   const DesignProblem problem(task);
   constexpr double round_off = 1e-15;
   CHECK(problem.start()[0] == Approx(0.25).epsilon(round_off));
@@ -43,12 +43,11 @@ TEST_CASE("The start is the given modification, moved into the bounds", "[optimi
 
 TEST_CASE("A scaled design sets what is varied and nothing else", "[optimize][design]") {
   DesignTask task = helical();
-  task.pinion_modification.twist = 0.007;
-  task.wheel_modification.lead_crowning = 0.003;
-  task.wheel_modification.tip_relief = {0.010, 2.0, ReliefShape::Parabolic};
+  task.modification.pinion.twist = 0.007;
+  task.modification.wheel.lead_crowning = 0.003;
+  task.modification.wheel.tip_relief = {0.010, 2.0, ReliefShape::Parabolic};
   const DesignProblem problem(task);
-  Modification pinion, wheel;
-  problem.apply(Eigen::Vector3d(0.5, 0.25, 1.0), pinion, wheel);
+  const auto [pinion, wheel] = problem.modification(Eigen::Vector3d(0.5, 0.25, 1.0));
   constexpr double round_off = 1e-15;
   CHECK(pinion.lead_crowning == Approx(0.020).epsilon(round_off));
   CHECK(pinion.lead_slope == Approx(-0.010).epsilon(round_off));

@@ -32,7 +32,7 @@ DesignTask helical(const std::vector<double>& misalignments_um, int positions) {
   data.pinion.face_width = data.wheel.face_width = 120.0;
   DesignTask task;
   task.pair = make_gear_pair(data);
-  task.pinion_material = task.wheel_material = {209000.0, 0.3};
+  task.material.pinion = task.material.wheel = {209000.0, 0.3};
   task.resolution = {{QuadratureRule::Gauss2, 5}, equally_spaced_phases(positions)};
   task.root_stress = std::make_shared<const mesh_cases::SyntheticRootStress>(task.pair);
   add_scenes(task, 1014.868, misalignments_um);

@@ -38,8 +38,8 @@ TEST_CASE("A tied modification follows its variable, and gradients go through it
   const Eigen::VectorXd x = random_design(problem.variables(), generator);
   const DesignAnalysis at = problem.analyse(x, true);
   constexpr double round_off = 1e-15;
-  CHECK(at.wheel_modification.lead_crowning == Approx(0.5 * problem.unscaled(x, 0) + 0.002).epsilon(round_off));
-  CHECK(at.wheel_modification.addendum_crowning == Approx(0.030 - problem.unscaled(x, 2)).epsilon(round_off));
+  CHECK(at.modification.wheel.lead_crowning == Approx(0.5 * problem.unscaled(x, 0) + 0.002).epsilon(round_off));
+  CHECK(at.modification.wheel.addendum_crowning == Approx(0.030 - problem.unscaled(x, 2)).epsilon(round_off));
 
   const ObjectiveTerm stress = term(Output::PeakContactStress);
   const auto leader = leading_candidates(stress, problem.model(1), at.cycles[1], 0.0, 1).front();

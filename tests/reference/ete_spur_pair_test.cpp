@@ -52,7 +52,7 @@ class ReliefStudy {
   explicit ReliefStudy(double amount) {
     for (Member m : {Member::Pinion, Member::Wheel}) {
       const Gear& gear = pair_[m];
-      Modification& to = m == Member::Pinion ? condition_.pinion_modification : condition_.wheel_modification;
+      Modification& to = condition_.modification[m];
       to.topography = std::make_shared<RollParabola>(gear.roll_length_at(gear.working_pitch_radius),
                                                      gear.roll_length_at(gear.tip_radius), amount);
     }

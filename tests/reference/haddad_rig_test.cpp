@@ -39,7 +39,7 @@ TEST_CASE("The example study has the rig's gears, torque, phases and shafts", "[
   CHECK(study.pair.wheel.rack.dedendum == data.wheel.rack.dedendum);
   CHECK(study.pair.centre_distance == data.centre_distance);
   CHECK(study.torques.back() == Approx(rig::torque));
-  for (const auto& [given, known] : {std::pair{study.pinion_shaft, rig::pinion_shaft()}, std::pair{study.wheel_shaft, rig::wheel_shaft()}}) {
+  for (const auto& [given, known] : {std::pair{study.shaft.pinion, rig::pinion_shaft()}, std::pair{study.shaft.wheel, rig::wheel_shaft()}}) {
     REQUIRE(given);
     CHECK(given->length() == known.length());
     CHECK(given->sections[0].outer_diameter == known.sections[0].outer_diameter);

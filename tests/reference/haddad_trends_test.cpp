@@ -25,7 +25,7 @@ struct Mesh {
   double torque() const { return 100 * pair.face_width * pair.pinion.base_radius * std::cos(pair.base_helix_angle); }
   ContactPeaks peaks(const FlankCondition& condition) const {
     const MeshAt mesh_at = [this](const std::vector<double>& phases) {
-      return make_mesh_model(pair, mesh_cases::steel, mesh_cases::steel, {quadrature, phases}, effects, {}, structure.get());
+      return make_mesh_model(pair, {mesh_cases::steel, mesh_cases::steel}, {quadrature, phases}, effects, {}, structure.get());
     };
     return locate_peaks(mesh_at, condition, torque());
   }
@@ -48,8 +48,8 @@ std::shared_ptr<const PairCompliance> plates(const GearPair& pair, double poisso
 
 FlankCondition lead_error(double helix_slope, double crowning = 0.0) {
   FlankCondition condition;
-  condition.pinion_error.helix_slope = helix_slope * units::um;
-  condition.pinion_modification.lead_crowning = crowning * units::um;
+  condition.error.pinion.helix_slope = helix_slope * units::um;
+  condition.modification.pinion.lead_crowning = crowning * units::um;
   return condition;
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("The load along a spur tooth turns two modules from its ends, by Poiss
   const double phase = (pair.pitch_point - pair.path_start) / pair.transverse_base_pitch + PathOfContact::extension;
   const auto along_face = [&](double poissons_ratio, const MeshEffects& effects) {  // of the pair that carries all, by distance from the end [m_n]
     const auto structure = plates(pair, poissons_ratio);
-    const MeshModel model = make_mesh_model(pair, mesh_cases::steel, mesh_cases::steel, {{QuadratureRule::Graded, 16}, {phase}}, effects, {},
+    const MeshModel model = make_mesh_model(pair, {mesh_cases::steel, mesh_cases::steel}, {{QuadratureRule::Graded, 16}, {phase}}, effects, {},
                                             structure.get());
     const LoadedCycle cycle = analyse_cycle(model, {}, Mesh{pair}.torque());
     std::map<double, double> loads;
@@ -156,7 +156,7 @@ TEST_CASE("Lead and profile errors together cost less than the product of their 
   // Section 4.4: in every case, F_beta_y = 8 um with f_Halpha up to 15 um; metal added where stress peaks, at the pinion's roots.
   const Mesh mesh{helical_18_54()};
   FlankCondition both = lead_error(8);
-  both.pinion_error.profile_slope = GENERATE(-4, -15) * units::um;
+  both.error.pinion.profile_slope = GENERATE(-4, -15) * units::um;
   const LoadFactors factors = mesh.factors(both);
   for (const LoadFactors::Triple& k : {factors.without_spikes, factors.with_spikes}) {
     CAPTURE(k.lead, k.profile, k.combined);

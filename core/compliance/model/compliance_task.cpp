@@ -13,7 +13,7 @@ InfluenceTableTask influence_table_task(const ComplianceTask& task, Member membe
   const GearPair& pair = task.pair;
   const Gear& gear = pair[member];
   InfluenceTableTask run{.gear = {gear.data, pair.data.normal_module, pair.data.pressure_angle, pair.data.helix_angle, {}},
-                         .poissons_ratio = (pinion ? task.pinion_material : task.wheel_material).poissons_ratio,
+                         .poissons_ratio = (pinion ? task.material.pinion : task.material.wheel).poissons_ratio,
                          .teeth_apart = std::max(2, teeth_apart_in_contact(pair)),
                          .grid = station_grid(gear.data.face_width / pair.data.normal_module),
                          .root_stress = task.root_stress};
@@ -26,9 +26,9 @@ InfluenceTableTask influence_table_task(const ComplianceTask& task, Member membe
   if (task.model == ComplianceModel::Fitted) run.mesh = coarse_mesh();
   with_gear_names(task.model, member, [&] {
     const ToothForm form(run.gear.gear, run.gear.normal_module, run.gear.pressure_angle, run.gear.helix_angle);
-    run.gear.body = complete_body(pinion ? task.pinion_body : task.wheel_body, form, run.gear.normal_module);
+    run.gear.body = complete_body(pinion ? task.body.pinion : task.body.wheel, form, run.gear.normal_module);
     // The gear's torsion starts where the torque leaves it, and the shaft's own bearings hold it axially.
-    if (const std::optional<ShaftData>& shaft = pinion ? task.pinion_shaft : task.wheel_shaft) {
+    if (const std::optional<ShaftData>& shaft = pinion ? task.shaft.pinion : task.shaft.wheel) {
       run.removed = RemovedRigidMotion::WholeTranslationTorsionAndTilt;
       run.gear.body.torque_end = shaft->torque_side() == acute_end(pair, member) ? FaceEnd::Acute : FaceEnd::Obtuse;
     }

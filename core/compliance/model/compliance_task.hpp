@@ -14,10 +14,10 @@ namespace flankwright {
 struct ComplianceTask {
   GearPair pair;
   ComplianceModel model{ComplianceModel::Fitted};
-  Material pinion_material{}, wheel_material{};
-  GearBody pinion_body{}, wheel_body{};  ///< below the teeth
+  PerGear<Material> material{};
+  PerGear<GearBody> body{};  ///< below the teeth
   /// Empty: rigid. A shaft tells at which end the torque leaves the gear, and its bearings hold the gear axially.
-  std::optional<ShaftData> pinion_shaft{}, wheel_shaft{};
+  PerGear<std::optional<ShaftData>> shaft{};
   bool root_stress{false};   ///< solved by finite elements, whatever the model
   bool rigid_bodies{false};  ///< also wanted: the same gears on rigid bodies, where the model couples teeth
 };

@@ -25,8 +25,8 @@ GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuil
       }
       return result;
     };
-    const GearStructure pinion = structure(Member::Pinion, task.pinion_material);
-    const GearStructure wheel = structure(Member::Wheel, task.wheel_material);
+    const GearStructure pinion = structure(Member::Pinion, task.material.pinion);
+    const GearStructure wheel = structure(Member::Wheel, task.material.wheel);
     structures.pair = std::make_shared<const StructuralPair>(task.pair, pinion, wheel);
   }
   if (const auto& pinion = runs.root_stress(Member::Pinion)) {

@@ -42,12 +42,12 @@ void apply_pinion_errors(const GearPair& pair, const Misalignment& misalignment,
 
 }  // namespace
 
-FlankAssembly assemble_flanks(const GearPair& pair, const Misalignment& misalignment, const Modification& pinion_modification,
-                          const Modification& wheel_modification, const ManufacturingError& pinion_error,
-                          const ManufacturingError& wheel_error) {
+FlankAssembly assemble_flanks(const GearPair& pair, const FlankCondition& condition) {
+  const auto flank = [&](Member m) { return make_flank(pair, m, condition.modification[m], condition.error[m]); };
+  const Misalignment& misalignment = condition.misalignment;
   FlankAssembly assembly;
-  assembly.pinion = make_flank(pair, Member::Pinion, pinion_modification, pinion_error);
-  assembly.wheel = make_flank(pair, Member::Wheel, wheel_modification, wheel_error);
+  assembly.pinion = flank(Member::Pinion);
+  assembly.wheel = flank(Member::Wheel);
   if (misalignment.pinion_lead_angle != 0.0 || misalignment.pinion_pressure_angle != 0.0) {
     apply_pinion_errors(pair, misalignment, assembly.pinion);
   }

@@ -2,7 +2,7 @@
 
 #include <Eigen/Geometry>
 
-#include "core/contact/assembly/misalignment.hpp"
+#include "core/contact/assembly/flank_condition.hpp"
 #include "core/flank/flank.hpp"
 #include "core/gear/gear_pair.hpp"
 
@@ -20,6 +20,8 @@ struct FlankAssembly {
   int pinion_teeth{0}, wheel_teeth{0};
   double nominal_phase_rate{0.0};  ///< base pitches the contact point advances per radian of phi1: N1 / (2 pi)
 
+  Flank& operator[](Member m) { return m == Member::Pinion ? pinion : wheel; }
+  const Flank& operator[](Member m) const { return m == Member::Pinion ? pinion : wheel; }
   double speed_ratio() const { return static_cast<double>(pinion_teeth) / wheel_teeth; }
 };
 
@@ -29,8 +31,6 @@ struct FlankAssembly {
 /// In both the flank's angular position at the (changed) pitch cylinder and the tip and form radii stay.
 /// The tilts of the wheel are combined into one rotation vector.
 /// @throws InvalidInput where an error leaves no usable helicoid
-FlankAssembly assemble_flanks(const GearPair& pair, const Misalignment& misalignment, const Modification& pinion_modification,
-                          const Modification& wheel_modification, const ManufacturingError& pinion_error,
-                          const ManufacturingError& wheel_error);
+FlankAssembly assemble_flanks(const GearPair& pair, const FlankCondition& condition);
 
 }  // namespace flankwright

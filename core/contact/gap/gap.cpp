@@ -19,10 +19,10 @@ double own_z(const ContactPoint& point, Member m, const Misalignment& misalignme
 
 /// The flank with its predesigned parabola as the lag that it gives in the plane of action, see removal().
 Flank flank_in_plane_of_action(const GearPair& pair, Member m, const FlankCondition& condition) {
-  Modification modification = condition.modification(m);
+  Modification modification = condition.modification[m];
   modification.parabolic_te = 0.0;
-  Flank flank = make_flank(pair, m, modification, condition.error(m));
-  flank.modification.parabolic_te = condition.modification(m).parabolic_te;
+  Flank flank = make_flank(pair, m, modification, condition.error[m]);
+  flank.modification.parabolic_te = condition.modification[m].parabolic_te;
   return flank;
 }
 
@@ -46,7 +46,7 @@ Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& p
   const Flank pinion = flank_in_plane_of_action(pair, Member::Pinion, condition);
   const Flank wheel = flank_in_plane_of_action(pair, Member::Wheel, condition);
   const Flank nominal = make_flank(pair, Member::Pinion, {}, {});
-  const Flank changed = assemble_flanks(pair, condition.misalignment, {}, {}, {}, {}).pinion;
+  const Flank changed = assemble_flanks(pair, {.misalignment = condition.misalignment}).pinion;
   const bool is_nominal = condition.misalignment.pinion_lead_angle == 0.0 && condition.misalignment.pinion_pressure_angle == 0.0;
   Gap gap{Eigen::VectorXd(n), Eigen::VectorXd(n)};
   for (int i = 0; i < n; ++i) {
@@ -66,7 +66,7 @@ Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& p
 Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition,
                                Member member, ModificationParameter parameter) {
   const double cos_base_helix = std::cos(pair.base_helix_angle);
-  const RemovalDerivative removed(condition.modification(member), pair.flank_frame(member), parameter);
+  const RemovalDerivative removed(condition.modification[member], pair.flank_frame(member), parameter);
   Eigen::VectorXd derivative(points.size());
   for (Eigen::Index i = 0; i < derivative.size(); ++i) {
     const ContactPoint& point = points[static_cast<std::size_t>(i)];

@@ -5,21 +5,9 @@
 #include <vector>
 
 #include "core/contact/path/contact_points.hpp"
-#include "core/contact/assembly/misalignment.hpp"
-#include "core/flank/removal.hpp"
+#include "core/contact/assembly/flank_condition.hpp"
 
 namespace flankwright {
-
-/// The part of a working condition that shapes the gap between the flanks.
-struct FlankCondition {
-  Modification pinion_modification, wheel_modification;
-  ManufacturingError pinion_error, wheel_error;
-  Misalignment misalignment;
-
-  const Modification& modification(Member m) const { return m == Member::Pinion ? pinion_modification : wheel_modification; }
-  const ManufacturingError& error(Member m) const { return m == Member::Pinion ? pinion_error : wheel_error; }
-  bool operator==(const FlankCondition&) const = default;
-};
 
 /// How the gap between the flanks is found.
 enum class GapModel {

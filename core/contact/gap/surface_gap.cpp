@@ -8,11 +8,10 @@ namespace flankwright {
 SurfaceGap::SurfaceGap(const GearPair& pair, const FlankCondition& condition)
     : pair_(pair),
       condition_(condition),
-      assembly_(assemble_flanks(pair, condition.misalignment, condition.pinion_modification, condition.wheel_modification,
-                             condition.pinion_error, condition.wheel_error)),
+      assembly_(assemble_flanks(pair, condition)),
       density_(search_density(assembly_)) {
   for (Member m : {Member::Pinion, Member::Wheel}) {
-    const double coefficient = condition.modification(m).parabolic_te;
+    const double coefficient = condition.modification[m].parabolic_te;
     if (coefficient != 0.0) parabola_[static_cast<std::size_t>(m)] = make_conjugate_field(pair, m, coefficient);
   }
 }
@@ -78,10 +77,10 @@ Gap SurfaceGap::at(const std::vector<ContactPoint>& points, double line_phase) c
 }
 
 Eigen::VectorXd SurfaceGap::derivative(const Gap& gap, Member member, ModificationParameter parameter) const {
-  const Flank& flank = member == Member::Pinion ? assembly_.pinion : assembly_.wheel;
+  const Flank& flank = assembly_[member];
   const bool of_parabola = parameter == parameter_of("parabolic_te");  // a field of the roll length, see Flank
   const auto& parabola = parabola_[static_cast<std::size_t>(member)];
-  const RemovalDerivative removed(condition_.modification(member), flank.frame, parameter);
+  const RemovalDerivative removed(condition_.modification[member], flank.frame, parameter);
   const auto by_parameter = [&](double radius, double z) {
     const double roll = flank.roll_at(radius);
     if (of_parabola && parabola) return parabola->coefficient_slope(roll, z);

@@ -201,7 +201,7 @@ double BearingPattern::covered(double thickness) const {
 BearingPattern bearing_pattern(const FlankAssembly& assembly, const UnloadedMesh& mesh, Member member, int rows, int columns) {
   if (rows < 2) throw InvalidInput("rows", std::to_string(rows), "an integer of at least 2");
   if (columns < 2) throw InvalidInput("columns", std::to_string(columns), "an integer of at least 2");
-  const Flank& flank = member == Member::Pinion ? assembly.pinion : assembly.wheel;
+  const Flank& flank = assembly[member];
   BearingPattern pattern;
   pattern.radius = equally_spaced(flank.form_radius, flank.tip_radius, rows);
   pattern.z = equally_spaced(-flank.half_face, flank.half_face, columns);

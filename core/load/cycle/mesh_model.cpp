@@ -36,7 +36,7 @@ std::vector<double> equally_spaced_phases(int n) {
 }
 
 std::optional<ContactPoint> MeshModel::place(const PathOfContact& path, double phase, int tooth, double z) const {
-  const MeshParts parts{pair, pinion_material, wheel_material, placement};
+  const MeshParts parts{pair, material, placement};
   MeshBuilder builder(parts, phase);
   effects.act(EffectStage::Region, builder);
   const auto point = contact_point(pair, path, phase, tooth, z, builder.with_extended_region);
@@ -47,7 +47,7 @@ std::optional<ContactPoint> MeshModel::place(const PathOfContact& path, double p
 }
 
 std::optional<ContactLaw> MeshModel::contact_law(const ContactPoint& point) const {
-  const MeshParts parts{pair, pinion_material, wheel_material, placement};
+  const MeshParts parts{pair, material, placement};
   MeshBuilder builder(parts, point.phase);
   builder.set_points({point});
   effects.act(local_stages, builder);
@@ -66,16 +66,15 @@ double MeshModel::mean_line_load(double force) const {
   return length > 0.0 ? force * static_cast<double>(positions.size()) / length : not_given;
 }
 
-MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
+MeshModel make_mesh_model(const GearPair& pair, const PerGear<Material>& material,
                           const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
                           const PairCompliance* structure, const PairRootStress* root_stress,
                           const PairCompliance* shafts) {
-  const ThinSlicePair slices(ThinSlice(pair, pinion_material, wheel_material));
+  const ThinSlicePair slices(ThinSlice(pair, material.pinion, material.wheel));
   MeshModel model;
   model.pair = pair;
-  model.pinion_material = pinion_material;
-  model.wheel_material = wheel_material;
-  model.contact_modulus = contact_modulus(pinion_material, wheel_material);
+  model.material = material;
+  model.contact_modulus = contact_modulus(material.pinion, material.wheel);
   model.calibration = slices.slice().calibration();
   model.iso = slices.slice().iso();
   return mesh_with_effects(std::move(model), resolution, effects, placement, structure != nullptr ? *structure : slices, root_stress, shafts);
@@ -99,7 +98,7 @@ MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, c
   model.placement = placement;
   model.axial_offset = axial_offset;
   model.face_width = face_end - face_start;
-  const MeshParts parts{pair, model.pinion_material, model.wheel_material, placement, &structure, shafts, root_stress};
+  const MeshParts parts{pair, model.material, placement, &structure, shafts, root_stress};
   const PathOfContact path(pair);
   model.positions.clear();
   model.positions.reserve(resolution.phases.size());

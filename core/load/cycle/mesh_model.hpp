@@ -51,7 +51,7 @@ struct PerturbedMeshes {
 
 struct MeshModel {
   GearPair pair;
-  Material pinion_material, wheel_material;
+  PerGear<Material> material;
   MeshEffects effects;
   MeshPlacement placement;
   double axial_offset{0.0};      ///< of the wheel, which shortens the common face [mm]
@@ -83,7 +83,7 @@ struct MeshModel {
 /// @param shafts       added to it, coupling all points; null: rigid shafts
 /// @throws InvalidInput where no effect makes the points compliant, no phase is given, or the gears do not overlap
 ///                       axially
-MeshModel make_mesh_model(const GearPair& pair, const Material& pinion_material, const Material& wheel_material,
+MeshModel make_mesh_model(const GearPair& pair, const PerGear<Material>& material,
                           const MeshResolution& resolution, const MeshEffects& effects = {}, const MeshPlacement& placement = {},
                           const PairCompliance* structure = nullptr, const PairRootStress* root_stress = nullptr,
                           const PairCompliance* shafts = nullptr);

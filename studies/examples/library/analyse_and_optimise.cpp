@@ -39,7 +39,7 @@ int main() {
     task.scenes.push_back({std::to_string(misalignment), 1.0, torque, {}});
     task.scenes.back().condition.misalignment.mesh_misalignment = misalignment * units::um;
   }
-  task.pinion_modification.tip_relief.height = 1.5;
+  task.modification.pinion.tip_relief.height = 1.5;
   task.variables = {{"lead crowning", Member::Pinion, parameter_of("lead_crowning"), 0.0, 40 * units::um},
                     {"tip relief", Member::Pinion, parameter_of("tip_relief.amount"), 0.0, 40 * units::um}};
   task.objective = {{Output::TePeakToPeak, 0, 1.0, "te_peak_to_peak"}};

@@ -79,8 +79,8 @@ class Export {
     result_.model.relations.push_back({.id = id, .type = type, .order = order, .refs = std::move(refs)});
   }
 
-  const Modification& modification(Member m) const { return m == Member::Pinion ? study_.pinion_modification : study_.wheel_modification; }
-  const GivenGrid& grid(Member m) const { return m == Member::Pinion ? study_.pinion_grid : study_.wheel_grid; }
+  const Modification& modification(Member m) const { return study_.modification[m]; }
+  const GivenGrid& grid(Member m) const { return study_.grid[m]; }
 
   int add_gear(Member m) {
     const Gear& gear = pair_[m];
@@ -279,7 +279,7 @@ class Export {
   }
 
   void add_material(Member m, int gear) {
-    const Material& material = m == Member::Pinion ? study_.pinion_material : study_.wheel_material;
+    const Material& material = study_.material[m];
     const int id = add("material");
     attribute("elastic_modulus", before("2.0") ? "N / mm^2" : "MPa", ValueType::Number, number_text(material.youngs_modulus));
     number("poisson_ratio", material.poissons_ratio);

@@ -35,7 +35,7 @@ class PairReading {
 
  private:
   const Component& gear(Member m) const { return *parts_[m].gear; }
-  GearData& data(Member m) { return m == Member::Pinion ? pair_.data.pinion : pair_.data.wheel; }
+  GearData& data(Member m) { return pair_.data[m]; }
   static std::string prefix(Member m) { return m == Member::Pinion ? "pinion." : "wheel."; }
   void remark(const std::string& key, const std::string& text) { pair_.remarks[key] = text; }
   std::optional<Taken> number(const Component* component, std::string_view id, Dimension dimension = Dimension::None) {

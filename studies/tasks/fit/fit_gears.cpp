@@ -24,7 +24,7 @@ GearFitTask gear_fit_task(const Study& study, const GearPair& pair, Member membe
   const FitChoice& choice = study.fit;
   GearFitTask task;
   task.gear = influence_table_task(compliance_task(study, pair), member).gear;
-  task.material = member == Member::Pinion ? study.pinion_material : study.wheel_material;
+  task.material = study.material[member];
   task.form = choice.several_teeth ? KernelForm::several_teeth() : KernelForm::one_tooth_accurate();
   if (choice.several_teeth) {
     task.fit.scale_floor = several_teeth_floor;
@@ -40,7 +40,7 @@ GearFitTask gear_fit_task(const Study& study, const GearPair& pair, Member membe
 std::vector<GearFit> fit_gears(const Study& study, const GearPair& pair, const ProgressReport& progress) {
   std::vector<GearFit> fits;
   for (const Member member : {Member::Pinion, Member::Wheel}) {
-    if (!(member == Member::Pinion ? study.fit.pinion : study.fit.wheel)) continue;
+    if (!study.fit.gears[member]) continue;
     const Stopwatch clock;
     const auto report = [&](const std::string& label, int done, int total) {
       if (progress) progress(fmt::format("{}: {}", name_of(member), label), done, total, "");

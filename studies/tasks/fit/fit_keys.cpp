@@ -13,8 +13,8 @@ std::vector<SchemaKey> fit_keys() {
       {.path = "fit.gear", .kind = Word, .words = {"both", "pinion", "wheel"}, .fallback = "\"both\"",
        .meaning = "whose compliance is fitted",
        .store = [](StudyBuilder& d, Member, const Value& v) {
-         d.study.fit.pinion = v.text != "wheel";
-         d.study.fit.wheel = v.text != "pinion";
+         d.study.fit.gears.pinion = v.text != "wheel";
+         d.study.fit.gears.wheel = v.text != "pinion";
        }},
       {.path = "fit.form", .kind = Word, .words = {"one_tooth_accurate", "several_teeth"},
        .fallback = "\"one_tooth_accurate\"", .meaning = "sum of kernels that is fitted: one tooth, or several that are coupled",

@@ -28,8 +28,8 @@ Validation validate(const Study& study, const DesignProblem& problem, const Desi
   const Stopwatch clock;
   Validation validation{.seed = study.optimise.assessment.validation.seed, .scenes = {}, .designs = {}};
   std::vector<NamedDesign> designs{
-      {"before", "", design.before.analysis.pinion_modification, design.before.analysis.wheel_modification},
-      {"after", "", design.after.analysis.pinion_modification, design.after.analysis.wheel_modification}};
+      {"before", "", design.before.analysis.modification.pinion, design.before.analysis.modification.wheel},
+      {"after", "", design.after.analysis.modification.pinion, design.after.analysis.modification.wheel}};
   if (best_rule != nullptr) designs.push_back(best_rule->design);
   for (const DesignScene& scene : drawn) validation.scenes.push_back(scene.name);
   validation.designs = validate_designs(problem.task(), drawn, designs);
@@ -105,7 +105,7 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
   if (usable && !best.analysis.cycles.empty()) {
     const DesignProblem last = last_stage(problem, design.stages);
     const std::vector<AssessedParameter> parameters = assessed_parameters(last.task());
-    const LocalModel model(last, best.analysis.pinion_modification, best.analysis.wheel_modification, parameters, design.optimality.active);
+    const LocalModel model(last, best.analysis.modification, parameters, design.optimality.active);
     assessment.optimum = find_optimum(last, design.optimality, model, parameters, best.variables);
     assessment.judged = last.task();
   }

@@ -11,7 +11,7 @@ namespace {
 Json modifications_json(const NamedDesign& design) {
   Json json = Json::array();
   for (const Member member : {Member::Pinion, Member::Wheel}) {
-    const Modification& m = member == Member::Pinion ? design.pinion : design.wheel;
+    const Modification& m = design.modification[member];
     // Halves that are alike are said at once, others each by itself.
     const auto alike = [&](const ModificationDescriptor& p) { return find_parameter(p.half)->get(m) == find_parameter(p.other_half)->get(m); };
     const auto is_said = [&](const ModificationDescriptor& p) {

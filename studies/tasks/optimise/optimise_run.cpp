@@ -64,16 +64,14 @@ class OptimiseRun {
     const Study& study = results_.study;
     DesignTask task;
     task.pair = results_.pair;
-    task.pinion_material = study.pinion_material;
-    task.wheel_material = study.wheel_material;
+    task.material = study.material;
     task.resolution = {study.fidelity.quadrature, results_.phases};
     task.gap = gap_model(results_.effects);
     task.effects = results_.mesh_effects;
     task.structure = run_.structures().pair;
     if (study.fidelity.accuracy && study.fidelity.compliance == ComplianceModel::Fe) task.search_structure = structure_to_search_by();
     task.shafts = results_.shafts;
-    task.pinion_modification = study.pinion_modification;
-    task.wheel_modification = study.wheel_modification;
+    task.modification = study.modification;
     task.variables = study.optimise.variables;
     task.objective = study.optimise.objective;
     task.over = study.optimise.over;
@@ -126,8 +124,7 @@ class OptimiseRun {
   /// The scenes of a design's report.
   DesignScene scene_of(const DesignReport& report, int s) const {
     DesignScene scene = results_.design_task->scenes[static_cast<std::size_t>(s)];
-    scene.condition.pinion_modification = report.analysis.pinion_modification;
-    scene.condition.wheel_modification = report.analysis.wheel_modification;
+    scene.condition.modification = report.analysis.modification;
     return scene;
   }
 

@@ -35,7 +35,7 @@ std::vector<FlankCondition> optimise_conditions(const Study& study) {
   std::vector<FlankCondition> all = conditions_of(study);
   for (FlankCondition& condition : all) {
     for (const DesignVariable& v : study.optimise.variables) {
-      set(v.member == Member::Pinion ? condition.pinion_modification : condition.wheel_modification, v.parameter, v.upper != 0.0 ? v.upper : v.lower);
+      set(condition.modification[v.member], v.parameter, v.upper != 0.0 ? v.upper : v.lower);
     }
   }
   for (const Scene& scene : draw_scenes(study, {.samples = study.optimise.assessment.tolerances.empty() ? 0 : 4})) all.push_back(condition_of(study, scene));

@@ -68,7 +68,7 @@ std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& conditi
   const MeshModel* model = &nominal_.models.front();
   std::optional<MeshModel> own;
   if (placement != model->placement) {
-    own = make_mesh_model(nominal_.pair, study.pinion_material, study.wheel_material, {study.fidelity.quadrature, nominal_.phases},
+    own = make_mesh_model(nominal_.pair, study.material, {study.fidelity.quadrature, nominal_.phases},
                           nominal_.mesh_effects, placement, nominal_.structures.pair.get(),
                           nominal_.structures.root_stress.get(), nominal_.shafts.get());
     model = &*own;
@@ -78,7 +78,7 @@ std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& conditi
     throw SampleFailure{"the load distribution did not converge at " + std::to_string(cycle.failures) + " mesh positions"};
   }
   const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) {
-    return make_mesh_model(nominal_.pair, study.pinion_material, study.wheel_material, {study.fidelity.quadrature, phases}, nominal_.mesh_effects,
+    return make_mesh_model(nominal_.pair, study.material, {study.fidelity.quadrature, phases}, nominal_.mesh_effects,
                            placement, nominal_.structures.pair.get(), nullptr, nominal_.shafts.get());
   };
   const CycleSummary summary = resolve_cycle(*model, cycle, at, condition, torque, {.seek_extremes = seeks_extremes(study)}).summary;
@@ -90,8 +90,7 @@ std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& conditi
 }
 
 std::vector<double> SampleAnalysis::unloaded_outputs(const FlankCondition& condition) const {
-  const FlankAssembly scene = assemble_flanks(nominal_.pair, condition.misalignment, condition.pinion_modification,
-                                          condition.wheel_modification, condition.pinion_error, condition.wheel_error);
+  const FlankAssembly scene = assemble_flanks(nominal_.pair, condition);
   const UnloadedMesh mesh = analyse_unloaded_mesh(nominal_.pair, scene, nominal_.study.cycle.positions);
   if (mesh.missing > 0) throw SampleFailure{"no tooth pair touches at " + std::to_string(mesh.missing) + " of the mesh positions"};
   std::vector<double> values{in_arcsec(mesh.peak_to_peak), in_um(mesh.peak_to_peak * nominal_.pair.wheel.base_radius)};

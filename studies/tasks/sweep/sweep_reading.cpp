@@ -66,7 +66,7 @@ bool is_swept(const SweepTable& sweep, const std::string& path) {
 void check_reliefs(StudyReading& reading, const SweptCondition& nominal) {
   const SweepTable& sweep = reading.builder.study.sweep;
   for (const std::string gear : {"pinion.", "wheel."}) {
-    const Modification& m = gear == "pinion." ? nominal.pinion_modification : nominal.wheel_modification;
+    const Modification& m = gear == "pinion." ? nominal.modification.pinion : nominal.modification.wheel;
     for (const ModificationDescriptor& amount : modification_parameters) {
       if (amount.extent.empty()) continue;
       const std::string path = gear + "modification." + std::string(amount.key), extent = gear + "modification." + std::string(amount.extent);
@@ -115,12 +115,10 @@ void set_nominal(StudyReading& reading) {
   }
   check_reliefs(reading, nominal);
   study.scenes = {nominal.scene};
-  study.pinion_modification = nominal.pinion_modification;
-  study.wheel_modification = nominal.wheel_modification;
+  study.modification = nominal.modification;
   study.misalignment = nominal.scene.misalignment;
   study.torques = nominal.scene.torques;
-  study.pinion_error = nominal.scene.pinion_error;
-  study.wheel_error = nominal.scene.wheel_error;
+  study.error = nominal.scene.error;
 }
 
 }  // namespace

@@ -68,9 +68,9 @@ std::vector<GivenValue> deciding_settings(const Study& study) {
   const auto add_file = [&](const std::string& key, const std::string& file) {
     if (!file.empty()) settings.emplace("contents of " + key, fingerprint(read_whole(fs::path(study.file).parent_path() / file)));
   };
-  add_file("pinion.modification.grid", study.pinion_grid.file);
-  add_file("wheel.modification.grid", study.wheel_grid.file);
-  for (const auto& [gear, files] : {std::pair{"pinion", &study.pinion_tooth_grids}, std::pair{"wheel", &study.wheel_tooth_grids}}) {
+  add_file("pinion.modification.grid", study.grid.pinion.file);
+  add_file("wheel.modification.grid", study.grid.wheel.file);
+  for (const auto& [gear, files] : {std::pair{"pinion", &study.tooth_grids.pinion}, std::pair{"wheel", &study.tooth_grids.wheel}}) {
     for (std::size_t k = 0; k < files->size(); ++k) add_file(fmt::format("{}.error.grids.{}", gear, k), (*files)[k]);
   }
   std::vector<GivenValue> list;

@@ -29,7 +29,7 @@ inline ContactTask contact_task(const PairData& data, double phase, double appro
                                 double crossing_urad = 0) {
   const GearPair pair = make_gear_pair(data);
   ContactTask task{.pair = data, .phase = phase, .approach = approach_um * units::um};
-  task.condition.pinion_modification.lead_crowning = lead_crowning_um * units::um;
+  task.condition.modification.pinion.lead_crowning = lead_crowning_um * units::um;
   task.condition.misalignment.crossing = 1e-6 * crossing_urad;
   const double module = data.normal_module;
   task.bore_radius = {pair.pinion.root_radius - 2.5 * module,

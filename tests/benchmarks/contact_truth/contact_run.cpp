@@ -25,8 +25,7 @@ struct ContactModel {
 
   ContactModel(const ContactTask& task, const ContactMeshOptions& options)
       : pair(make_gear_pair(task.pair)),
-        scene(assemble_flanks(pair, task.condition.misalignment, task.condition.pinion_modification,
-                              task.condition.wheel_modification, {}, {})) {
+        scene(assemble_flanks(pair, {.modification = task.condition.modification, .misalignment = task.condition.misalignment})) {
     // A pair may be pressed together this far before A and after E [base pitches].
     constexpr double beyond = 0.15;
     const PathOfContact path(pair);

@@ -20,7 +20,7 @@ void compare_with(const std::vector<ContactFigure>& figures, double load_error) 
   // Coarse elements on our side: they take 0.4 to 0.5 um off 43 um of approach and 0.001 off the shares.
   const auto structure = held_structure(figures.front().task, coarse_mesh());
   for (const ContactFigure& figure : figures) {
-    CAPTURE(figure.task.phase, figure.task.condition.pinion_modification.lead_crowning);
+    CAPTURE(figure.task.phase, figure.task.condition.modification.pinion.lead_crowning);
     const OwnAnswer own = own_answer(figure.task, figure.torque, structure.get());
     REQUIRE(own.loaded.load.usable());
     // Model: ours is stiffer by 2 to 4 % (the split into structure and contact,
@@ -70,9 +70,9 @@ TEST_CASE("The outside model's loaded flanks are the true ones", "[contact-truth
   const ContactCase c = contact_cases()[static_cast<std::size_t>(GENERATE(1, 4, 7))];
   CAPTURE(c.name);
   const GearPair pair = make_gear_pair(c.task.pair);
-  const FlankAssembly scene = assemble_flanks(pair, {}, c.task.condition.pinion_modification, {}, {}, {});
+  const FlankAssembly scene = assemble_flanks(pair, {.modification = {c.task.condition.modification.pinion, {}}});
   for (const Member m : {Member::Pinion, Member::Wheel}) {
-    const Flank& flank = m == Member::Pinion ? scene.pinion : scene.wheel;
+    const Flank& flank = scene[m];
     const ContactMesh mesh = contact_mesh(
         {&pair, &flank, m, c.task.phase, c.task.bore_radius[m == Member::Pinion ? 0 : 1], 0, 1, c.task.half_face},
         contact_mesh_options("coarse"));

@@ -46,7 +46,7 @@ double OwnAnswer::peak_stress() const {
 
 OwnAnswer own_answer(const ContactTask& task, double torque, const PairCompliance* structure) {
   constexpr int intervals = 12;  // of a line; another eight move the transmission error by less than 0.1 %
-  OwnAnswer answer{make_mesh_model(make_gear_pair(task.pair), task.material, task.material,
+  OwnAnswer answer{make_mesh_model(make_gear_pair(task.pair), {task.material, task.material},
                                    {{QuadratureRule::Graded, intervals}, {task.phase}}, {},
                                    MeshPlacement::of(GapModel::PlaneOfAction, task.condition.misalignment), structure),
                    {}};

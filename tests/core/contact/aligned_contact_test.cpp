@@ -131,7 +131,7 @@ TEST_CASE("The mirror image of a gear pair has the same transmission error", "[c
     const auto error_at = [&](const PairData& d, const Misalignment& m, const Modification& m1,
                               const Modification& m2) {
       std::vector<double> te;
-      const FlankAssembly scene = assemble_flanks(make_gear_pair(d), m, m1, m2, {}, {});
+      const FlankAssembly scene = assemble_flanks(make_gear_pair(d), {.modification = {m1, m2}, .misalignment = m});
       for (const double phi1 : {-0.1, 0.0, 0.06}) te.push_back(find_tooth_contact(scene, 0, phi1).transmission_error);
       return te;
     };

@@ -29,7 +29,7 @@ inline PairData pair_data(int z1, int z2, double beta, double x1 = 0.0, double x
 
 inline FlankAssembly scene_of(const GearPair& pair, const Misalignment& misalignment = {}, const Modification& pinion = {},
                           const Modification& wheel = {}) {
-  return assemble_flanks(pair, misalignment, pinion, wheel, {}, {});
+  return assemble_flanks(pair, {.modification = {pinion, wheel}, .misalignment = misalignment});
 }
 
 /// Wheel angle at which the wheel's flank passes through one point of the pinion's flank; -infinity where the point

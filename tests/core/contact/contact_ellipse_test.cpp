@@ -61,7 +61,7 @@ TEST_CASE("A pitch deviation turns a flank and leaves its curvature", "[core][co
   const GearPair pair = make_gear_pair(pair_data(24, 61, 14 * deg));
   ManufacturingError pinion, wheel;
   (GENERATE(true, false) ? pinion : wheel).cumulative_pitch = {0.2};
-  const FlankAssembly scene = assemble_flanks(pair, {}, {}, {}, pinion, wheel);
+  const FlankAssembly scene = assemble_flanks(pair, {.error = {pinion, wheel}});
   const ToothContact contact = find_tooth_contact(scene, 0, 0.03);
   REQUIRE(contact.kind == ContactKind::Line);
   // The involute's radius of curvature is that of the place, whatever parameter the flank gives it.

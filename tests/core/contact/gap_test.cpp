@@ -26,8 +26,7 @@ struct Comparison {
 
 /// The smallest gap over all teeth and what the first contact says of it: the wheel turns back by the smallest gap.
 Comparison compare(const GearPair& pair, const FlankCondition& condition, double phi1) {
-  const FlankAssembly scene = assemble_flanks(pair, condition.misalignment, condition.pinion_modification,
-                                          condition.wheel_modification, condition.pinion_error, condition.wheel_error);
+  const FlankAssembly scene = assemble_flanks(pair, condition);
   double te = -INFINITY;
   for (int tooth = -5; tooth <= 5; ++tooth) {
     const ToothContact contact = find_tooth_contact(scene, tooth, phi1);
@@ -83,14 +82,14 @@ TEST_CASE(
 TEST_CASE("The smallest gap of modified flanks is the unloaded transmission error, to first order in the amounts",
           "[core][contact][independent]") {
   FlankCondition condition;
-  condition.pinion_modification.lead_crowning = 12 * um;
-  condition.pinion_modification.tip_relief = {25 * um, 1.2, ReliefShape::Linear};
-  condition.pinion_modification.twist = 5 * um;
-  condition.wheel_modification.addendum_crowning = 6 * um;
-  condition.wheel_modification.end_relief = {10 * um, 5.0};
-  condition.wheel_modification.profile_slope = -4 * um;
-  condition.wheel_error.helix_slope = 8 * um;
-  condition.pinion_error.profile_slope = 5 * um;
+  condition.modification.pinion.lead_crowning = 12 * um;
+  condition.modification.pinion.tip_relief = {25 * um, 1.2, ReliefShape::Linear};
+  condition.modification.pinion.twist = 5 * um;
+  condition.modification.wheel.addendum_crowning = 6 * um;
+  condition.modification.wheel.end_relief = {10 * um, 5.0};
+  condition.modification.wheel.profile_slope = -4 * um;
+  condition.error.wheel.helix_slope = 8 * um;
+  condition.error.pinion.profile_slope = 5 * um;
   condition.misalignment.crossing = 0.5 * arcmin;
   condition.misalignment.axial_offset = 0.3;
   for (const GearPair& pair : pairs()) {
@@ -111,9 +110,9 @@ TEST_CASE("Each of two gears and both sides of a ledger make the same gap", "[co
   const std::vector<ContactPoint> points = contact_points(pair, path, {}, 1.4, true, -path.half_face, path.half_face);
   const double cos_b = std::cos(pair.base_helix_angle);
   FlankCondition removed, added;
-  removed.pinion_modification.lead_slope = removed.wheel_modification.lead_slope = 6 * um;
-  added.pinion_error.helix_slope = added.wheel_error.helix_slope = -6 * um;
-  added.pinion_error.pitch_step = 2 * um;
+  removed.modification.pinion.lead_slope = removed.modification.wheel.lead_slope = 6 * um;
+  added.error.pinion.helix_slope = added.error.wheel.helix_slope = -6 * um;
+  added.error.pinion.pitch_step = 2 * um;
   const Gap none = plane_of_action_gap(pair, points, {}), a = plane_of_action_gap(pair, points, removed);
   const Gap b = plane_of_action_gap(pair, points, added);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -131,14 +130,14 @@ TEST_CASE("Every tooth pair in mesh has the errors of its own two teeth", "[core
   const PathOfContact path(pair);
   const std::vector<ContactPoint> points = contact_points(pair, path, {}, 1.4, true, -path.half_face, path.half_face);
   FlankCondition listed;
-  listed.pinion_error.helix_slopes.resize(23);
-  listed.wheel_error.profile_slopes.resize(46);
-  listed.wheel_error.twists.resize(46);
+  listed.error.pinion.helix_slopes.resize(23);
+  listed.error.wheel.profile_slopes.resize(46);
+  listed.error.wheel.twists.resize(46);
   const auto slope = [](int tooth) { return (2.0 + 3 * tooth) * um; };
   for (int tooth = -2; tooth < 4; ++tooth) {
-    listed.pinion_error.helix_slopes[static_cast<std::size_t>((tooth + 23) % 23)] = slope(tooth);
-    listed.wheel_error.profile_slopes[static_cast<std::size_t>((tooth + 46) % 46)] = 0.5 * slope(tooth);
-    listed.wheel_error.twists[static_cast<std::size_t>((tooth + 46) % 46)] = -slope(tooth);
+    listed.error.pinion.helix_slopes[static_cast<std::size_t>((tooth + 23) % 23)] = slope(tooth);
+    listed.error.wheel.profile_slopes[static_cast<std::size_t>((tooth + 46) % 46)] = 0.5 * slope(tooth);
+    listed.error.wheel.twists[static_cast<std::size_t>((tooth + 46) % 46)] = -slope(tooth);
   }
   const Gap gap = plane_of_action_gap(pair, points, listed);
   int teeth = 0;
@@ -146,9 +145,9 @@ TEST_CASE("Every tooth pair in mesh has the errors of its own two teeth", "[core
     const int tooth = points[i].tooth;
     if (i == 0 || tooth != points[i - 1].tooth) ++teeth;
     FlankCondition alike;  // all teeth as this pair's
-    alike.pinion_error.helix_slope = slope(tooth);
-    alike.wheel_error.profile_slope = 0.5 * slope(tooth);
-    alike.wheel_error.twist = -slope(tooth);
+    alike.error.pinion.helix_slope = slope(tooth);
+    alike.error.wheel.profile_slope = 0.5 * slope(tooth);
+    alike.error.wheel.twist = -slope(tooth);
     const Eigen::Index k = static_cast<Eigen::Index>(i);
     CHECK(std::abs(gap.total[k] - plane_of_action_gap(pair, points, alike).total[k]) <= 1e-15);
   }
@@ -165,15 +164,15 @@ TEST_CASE("Errors of single teeth make the same unloaded contact as gap, to firs
   };
   const GearPair pair = make_gear_pair(pair_data(23, 57, 15 * deg, 0.3, -0.1, 40.0, 30.0));
   FlankCondition condition;
-  condition.pinion_modification.lead_crowning = 6 * um;  // contact stays off the face ends
-  condition.pinion_error.helix_slopes.resize(23);
-  condition.wheel_error.cumulative_pitch.resize(57);
-  condition.wheel_error.topographies.resize(57);
+  condition.modification.pinion.lead_crowning = 6 * um;  // contact stays off the face ends
+  condition.error.pinion.helix_slopes.resize(23);
+  condition.error.wheel.cumulative_pitch.resize(57);
+  condition.error.wheel.topographies.resize(57);
   for (const int tooth : {-1, 0, 1, 2}) {
-    condition.pinion_error.helix_slopes[static_cast<std::size_t>((tooth + 23) % 23)] = 4 * tooth * um;
-    condition.wheel_error.cumulative_pitch[static_cast<std::size_t>((tooth + 57) % 57)] = (tooth % 2 == 0 ? 3 : -2) * um;
+    condition.error.pinion.helix_slopes[static_cast<std::size_t>((tooth + 23) % 23)] = 4 * tooth * um;
+    condition.error.wheel.cumulative_pitch[static_cast<std::size_t>((tooth + 57) % 57)] = (tooth % 2 == 0 ? 3 : -2) * um;
   }
-  condition.wheel_error.topographies[1] = condition.wheel_error.topographies[56] = std::make_shared<Crown>();
+  condition.error.wheel.topographies[1] = condition.error.wheel.topographies[56] = std::make_shared<Crown>();
   for (const double turn : {-0.4, -0.2, 0.0, 0.2, 0.4}) {
     const Comparison c = compare(pair, condition, turn * 2 * pi / pair.data.pinion.teeth);
     CAPTURE(turn, c.gap, c.contact);
@@ -191,7 +190,7 @@ TEST_CASE("The gap's derivative for every parameter agrees with central differen
       contact_points(pair, path, {QuadratureRule::Gauss2, 7}, 1.37, true, -path.half_face, path.half_face);
   REQUIRE(points.size() >= 14);
   FlankCondition condition;
-  for (Modification* m : {&condition.pinion_modification, &condition.wheel_modification}) {
+  for (Modification* m : {&condition.modification.pinion, &condition.modification.wheel}) {
     m->lead_crowning = 8 * um;
     m->lead_slope = -5 * um;
     m->addendum_crowning = m->dedendum_crowning = 6 * um;
@@ -208,7 +207,7 @@ TEST_CASE("The gap's derivative for every parameter agrees with central differen
   for (const ModificationDescriptor& p : modification_parameters) {
     FlankCondition up = condition, down = condition;
     const auto side = [member](FlankCondition& c) -> Modification& {
-      return member == Member::Pinion ? c.pinion_modification : c.wheel_modification;
+      return c.modification[member];
     };
     const double value = get(side(condition), p.parameter);
     set(side(up), p.parameter, value + kStep);

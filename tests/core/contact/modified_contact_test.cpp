@@ -114,7 +114,7 @@ TEST_CASE("Pitch errors move a pair's transmission error by the metal on its own
   ManufacturingError pinion, wheel;
   pinion.pitch_step = 0.003;
   wheel.cumulative_pitch = {0.0, -0.001, 0.002};
-  const FlankAssembly scene = assemble_flanks(pair, {}, {}, {}, pinion, wheel);
+  const FlankAssembly scene = assemble_flanks(pair, {.error = {pinion, wheel}});
   for (int tooth = -1; tooth <= 1; ++tooth) {
     const ToothContact contact = find_tooth_contact(scene, tooth, -tooth * 2 * pi / 21);
     const double metal = pitch_deviation(pinion, tooth) + pitch_deviation(wheel, tooth);

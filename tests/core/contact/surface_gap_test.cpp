@@ -36,18 +36,18 @@ FlankCondition misaligned_by(const Misalignment& misalignment) {
 }
 
 FlankAssembly scene_of(const GearPair& pair, const FlankCondition& c) {
-  return assemble_flanks(pair, c.misalignment, c.pinion_modification, c.wheel_modification, c.pinion_error, c.wheel_error);
+  return assemble_flanks(pair, c);
 }
 
 /// A condition that a designer might meet, all kinds of modification, error and misalignment in it.
 FlankCondition random_condition(Random& random, const GearPair& pair) {
   FlankCondition c;
-  c.pinion_modification = random_modification(random, pair.pinion);
-  c.wheel_modification = random_modification(random, pair.wheel);
-  if (random.coin()) c.pinion_modification.parabolic_te = random(0.0, 5e-4);
-  if (random.coin()) c.wheel_modification.parabolic_te = random(0.0, 5e-4);
-  c.pinion_error.pitch_step = random(-5 * um, 5 * um);
-  c.wheel_error.helix_slope = random(-8 * um, 8 * um);
+  c.modification.pinion = random_modification(random, pair.pinion);
+  c.modification.wheel = random_modification(random, pair.wheel);
+  if (random.coin()) c.modification.pinion.parabolic_te = random(0.0, 5e-4);
+  if (random.coin()) c.modification.wheel.parabolic_te = random(0.0, 5e-4);
+  c.error.pinion.pitch_step = random(-5 * um, 5 * um);
+  c.error.wheel.helix_slope = random(-8 * um, 8 * um);
   c.misalignment = random_misalignment(random);
   return c;
 }
@@ -169,7 +169,7 @@ TEST_CASE("Flanks modified along the profile are nearer than on the plane of act
   const GearPair pair = make_gear_pair(pair_data(20, 40, 0.0));
   const PathOfContact path(pair);
   FlankCondition condition;
-  condition.pinion_modification.profile_slope = 10 * um;
+  condition.modification.pinion.profile_slope = 10 * um;
   constexpr double kPhase = 0.8;
   std::vector<ContactPoint> inner;
   for (const ContactPoint& point : points_of(pair, kPhase, 1)) {
@@ -201,7 +201,7 @@ TEST_CASE("The gap's derivative over the whole flanks agrees with central differ
     FlankCondition condition = random_condition(random, pair);
     // Extents to vary on every flank.
     for (Member m : {Member::Pinion, Member::Wheel}) {
-      Modification& to = m == Member::Pinion ? condition.pinion_modification : condition.wheel_modification;
+      Modification& to = condition.modification[m];
       const double height = pair[m].tip_radius - pair[m].active_root_radius;
       to.tip_relief = {15 * um, 0.31 * height, random.coin() ? ReliefShape::Linear : ReliefShape::Parabolic};
       to.root_relief = {10 * um, 0.23 * height, ReliefShape::Parabolic};
@@ -216,7 +216,7 @@ TEST_CASE("The gap's derivative over the whole flanks agrees with central differ
         const double step = p.parameter == parameter_of("parabolic_te") ? 1e-2 * kStep : kStep;
         const auto moved = [&](double by) {
           FlankCondition c = condition;
-          Modification& modification = m == Member::Pinion ? c.pinion_modification : c.wheel_modification;
+          Modification& modification = c.modification[m];
           if (p.parameter == parameter_of("profile_crowning")) {
             modification.addendum_crowning += by;
             modification.dedendum_crowning += by;
@@ -289,8 +289,8 @@ TEST_CASE("Extreme random flanks have a finite gap, finite derivatives and point
     FlankCondition condition;
     condition.misalignment = wild_misalignment(random, data.normal_module);
     condition.misalignment.axial_offset = 0.0;
-    condition.pinion_modification = wild_modification(random, pair, pair.pinion);
-    condition.wheel_modification = wild_modification(random, pair, pair.wheel);
+    condition.modification.pinion = wild_modification(random, pair, pair.pinion);
+    condition.modification.wheel = wild_modification(random, pair, pair.wheel);
     const double phase = random(0.0, 1.0);
     CHECK_NOTHROW(SurfaceGap(pair, {}));
     std::optional<SurfaceGap> unmodified, modified;
@@ -307,7 +307,7 @@ TEST_CASE("Extreme random flanks have a finite gap, finite derivatives and point
     for (Member m : {Member::Pinion, Member::Wheel}) {
       for (const ModificationDescriptor& p : modification_parameters) {
         // The amount of a relief without extent has no derivative.
-        const Modification& given = condition.modification(m);
+        const Modification& given = condition.modification[m];
         if (!p.extent.empty() && find_parameter(p.extent)->get(given) == 0.0) continue;
         CAPTURE(std::string(p.key));
         CHECK(modified->derivative(gap, m, p.parameter).allFinite());

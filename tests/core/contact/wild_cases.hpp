@@ -79,15 +79,15 @@ inline WildCase wild_case(Random& random) {
     const GearPair pair = make_gear_pair(data);
     const Misalignment misalignment = wild_misalignment(random, data.normal_module);
     const Modification pinion = wild_modification(random, pair, pair.pinion), wheel = wild_modification(random, pair, pair.wheel);
-    ManufacturingError pinion_error, wheel_error;
+    PerGear<ManufacturingError> error;
     if (random.coin()) {
-      pinion_error.pitch_step = random(-20 * units::um, 20 * units::um);
+      error.pinion.pitch_step = random(-20 * units::um, 20 * units::um);
       const double first = random(-20 * units::um, 20 * units::um), last = random(-20 * units::um, 20 * units::um);
-      wheel_error.cumulative_pitch = {first, 0.0, last};
+      error.wheel.cumulative_pitch = {first, 0.0, last};
     }
     const double phi1 = random(-0.5, 0.5) * (pair.total_contact_ratio() + 0.5) * 2 * units::pi / data.pinion.teeth;
     try {
-      return {pair, assemble_flanks(pair, misalignment, pinion, wheel, pinion_error, wheel_error), phi1};
+      return {pair, assemble_flanks(pair, {.modification = {pinion, wheel}, .error = error, .misalignment = misalignment}), phi1};
     } catch (const InvalidInput&) {
       // an error of the helix or pressure angle that takes the base circle beyond the tip
     }

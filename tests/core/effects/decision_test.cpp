@@ -19,13 +19,13 @@ FlankCondition misaligned() {
 
 FlankCondition modified() {
   FlankCondition condition;
-  condition.wheel_modification.lead_crowning = 5 * units::um;
+  condition.modification.wheel.lead_crowning = 5 * units::um;
   return condition;
 }
 
 FlankCondition with_errors() {
   FlankCondition condition;
-  condition.pinion_error.cumulative_pitch = {0.0, 3 * units::um};
+  condition.error.pinion.cumulative_pitch = {0.0, 3 * units::um};
   return condition;
 }
 
@@ -69,14 +69,14 @@ TEST_CASE("Every modification, error and misalignment is noticed", "[core][effec
   for (const ModificationDescriptor& p : modification_parameters) {
     if (p.kind == ParameterKind::Extent) continue;  // without an amount it removes nothing
     FlankCondition condition;
-    set(condition.pinion_modification, p.parameter, 1 * units::um);
+    set(condition.modification.pinion, p.parameter, 1 * units::um);
     CAPTURE(std::string(p.key));
     CHECK(is_on(decide_effects({true, false, {condition}}), "modifications"));
   }
   for (double ManufacturingError::*error : {&ManufacturingError::helix_slope, &ManufacturingError::profile_slope,
                                             &ManufacturingError::twist, &ManufacturingError::pitch_step}) {
     FlankCondition condition;
-    condition.wheel_error.*error = -1 * units::um;
+    condition.error.wheel.*error = -1 * units::um;
     CHECK(is_on(decide_effects({true, false, {condition}}), "manufacturing_errors"));
   }
   for (double Misalignment::*part :

@@ -13,7 +13,7 @@ TEST_CASE("A contact softens by each gear's own ends, wherever the mate ends", "
   MeshPlacement placement;
   placement.misalignment.axial_offset = 4;
   const Material pinion{206000, 0.3}, wheel{110000, 0.34};
-  const MeshModel model = make_mesh_model(gears, pinion, wheel, {{QuadratureRule::Gauss2, 6}, {0.8}}, {}, placement);
+  const MeshModel model = make_mesh_model(gears, {pinion, wheel}, {{QuadratureRule::Gauss2, 6}, {0.8}}, {}, placement);
   REQUIRE(model.axial_offset == 4);
   for (std::size_t i = 0; i < model.positions[0].points.size(); ++i) {
     const ContactPoint& p = model.positions[0].points[i];

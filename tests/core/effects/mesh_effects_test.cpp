@@ -60,15 +60,15 @@ struct Scene {
   static FlankCondition all_kinds() {
     FlankCondition condition;
     condition.misalignment.mesh_misalignment = 10 * units::um;
-    condition.wheel_modification.lead_crowning = 5 * units::um;
-    condition.pinion_error.cumulative_pitch = {0.0, 3 * units::um};
+    condition.modification.wheel.lead_crowning = 5 * units::um;
+    condition.error.pinion.cumulative_pitch = {0.0, 3 * units::um};
     return condition;
   }
   EffectFacts facts() const { return {.loaded = true, .conditions = {condition}, .coupled_teeth = true, .gear_bodies = true, .shafts = true, .whole_surface = true}; }
 
   LoadedCycle run(const EffectDecisions& decisions, const MeshEffects& effects) const {
     const FlankCondition left = apply_effects(decisions, condition);
-    const MeshModel model = make_mesh_model(pair, {}, {}, {{}, equally_spaced_phases(4)}, effects,
+    const MeshModel model = make_mesh_model(pair, {}, {{}, equally_spaced_phases(4)}, effects,
                                             MeshPlacement::of(gap_model(decisions), left.misalignment), &structure, nullptr, &shafts);
     return analyse_cycle(model, left, 3e5);
   }
@@ -152,7 +152,7 @@ TEST_CASE("An effect that is off costs no instruction", "[.][core][effects][inst
   InstructionCount counter;
   REQUIRE(counter.possible());
   const auto instructions = [&](const MeshEffects& effects) {
-    const auto make = [&] { make_mesh_model(scene.pair, {}, {}, {{}, equally_spaced_phases(4)}, effects, {}, &scene.structure, nullptr, &scene.shafts); };
+    const auto make = [&] { make_mesh_model(scene.pair, {}, {{}, equally_spaced_phases(4)}, effects, {}, &scene.structure, nullptr, &scene.shafts); };
     make();  // warms up
     counter.start();
     make();
@@ -215,7 +215,7 @@ TEST_CASE("A new effect is one class and no other code", "[core][effects]") {
   }
   // It tilts until the load's moment is less.
   const auto moment = [](const LoadedPosition& at, const LoadedCycle& cycle, const Scene& of) {
-    const MeshModel model = make_mesh_model(of.pair, {}, {}, {{}, {at.phase}});
+    const MeshModel model = make_mesh_model(of.pair, {}, {{}, {at.phase}});
     double sum = 0.0;
     for (std::size_t i = 0; i < model.positions[0].points.size(); ++i) {
       const ContactPoint& point = model.positions[0].points[i];

@@ -37,15 +37,15 @@ LoadCase random_case(unsigned seed, double widest = 15.0) {
   const int teeth = static_cast<int>(uniform(17.0, 50.0));
   LoadCase drawn{mesh_cases::pair(teeth, static_cast<int>(teeth * uniform(1.0, 4.0)), helix, module, module * uniform(4.0, widest)), {}};
   FlankCondition& c = drawn.condition;
-  if (in_one_of(0.6)) c.pinion_modification.lead_crowning = amount(2, 15);
-  if (in_one_of(0.4)) c.pinion_modification.addendum_crowning = c.pinion_modification.dedendum_crowning = amount(1, 10);
-  for (Modification* modification : {&c.pinion_modification, &c.wheel_modification}) {
+  if (in_one_of(0.6)) c.modification.pinion.lead_crowning = amount(2, 15);
+  if (in_one_of(0.4)) c.modification.pinion.addendum_crowning = c.modification.pinion.dedendum_crowning = amount(1, 10);
+  for (Modification* modification : {&c.modification.pinion, &c.modification.wheel}) {
     if (!in_one_of(0.4)) continue;
     const ReliefShape shape = in_one_of(0.5) ? ReliefShape::Linear : ReliefShape::Parabolic;
     modification->tip_relief = {amount(3, 30), module * uniform(0.2, 0.6), shape};
   }
   if (in_one_of(0.7)) c.misalignment.mesh_misalignment = amount(-20, 20);
-  if (in_one_of(0.3)) c.pinion_error.helix_slope = amount(-8, 8);
+  if (in_one_of(0.3)) c.error.pinion.helix_slope = amount(-8, 8);
   drawn.torque = mesh_cases::torque_for(drawn.gears, module * uniform(4.0, 40.0));
   return drawn;
 }
@@ -135,7 +135,7 @@ TEST_CASE("Load cases sought together keep what each of them needs, whoever solv
   const GearPair gears = mesh_cases::pair(20, 40, 15, 4, 30);
   FlankCondition tilted;
   tilted.misalignment.mesh_misalignment = 15 * units::um;
-  tilted.pinion_modification.lead_crowning = 5 * units::um;
+  tilted.modification.pinion.lead_crowning = 5 * units::um;
   const LoadCase easy{gears, {}, mesh_cases::torque_for(gears, 300)}, hard{gears, tilted, mesh_cases::torque_for(gears, 60)};
   const std::vector<ResolutionCase> cases{{easy.mesh(), easy.condition, easy.torque}, {hard.mesh(), hard.condition, hard.torque}};
   DiscretisationSearch search{.accuracy = 0.02};

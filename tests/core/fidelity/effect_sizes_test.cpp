@@ -58,7 +58,7 @@ class Tilting final : public PairCompliance {
 GearPair helical_pair() { return mesh_cases::pair(20, 31, 15, 5, 40); }
 
 EffectScene scene(double torque) {
-  return {.pair = helical_pair(), .pinion_material = {}, .wheel_material = {}, .resolution = {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(12)},
+  return {.pair = helical_pair(), .material = {}, .resolution = {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(12)},
           .condition = {}, .pinion_torque = torque};
 }
 
@@ -96,10 +96,10 @@ TEST_CASE("The size of each effect where it matters and where it does not", "[co
   };
   row("misalignment", 0.2, 1e-3, [](EffectScene& s) { s.condition.misalignment.mesh_misalignment = 15 * units::um; },
       [](EffectScene& s) { s.condition.misalignment.mesh_misalignment = 5e-4 * units::um; });
-  row("modifications", 0.1, 1e-3, [](EffectScene& s) { s.condition.pinion_modification.lead_crowning = 10 * units::um; },
-      [](EffectScene& s) { s.condition.pinion_modification.lead_crowning = 1e-3 * units::um; });
-  row("manufacturing_errors", 0.1, 1e-3, [](EffectScene& s) { s.condition.wheel_error.helix_slope = 10 * units::um; },
-      [](EffectScene& s) { s.condition.wheel_error.helix_slope = 1e-3 * units::um; });
+  row("modifications", 0.1, 1e-3, [](EffectScene& s) { s.condition.modification.pinion.lead_crowning = 10 * units::um; },
+      [](EffectScene& s) { s.condition.modification.pinion.lead_crowning = 1e-3 * units::um; });
+  row("manufacturing_errors", 0.1, 1e-3, [](EffectScene& s) { s.condition.error.wheel.helix_slope = 10 * units::um; },
+      [](EffectScene& s) { s.condition.error.wheel.helix_slope = 1e-3 * units::um; });
   row("bending", 0.5, 1e-2, [](EffectScene&) {}, [&](EffectScene& s) { s.structure = &stiff_teeth; });
   row("adjacent_teeth", 0.05, 1e-3, [&](EffectScene& s) { s.structure = &tied; }, [&](EffectScene& s) { s.structure = &loose; });
   row("gear_body_compliance", 0.05, 1e-3, [&](EffectScene& s) { s.structure = &soft_bodies; }, [&](EffectScene& s) { s.structure = &stiff_bodies; });
@@ -109,12 +109,12 @@ TEST_CASE("The size of each effect where it matters and where it does not", "[co
       }, [&](EffectScene& s) { s.shafts = &stiff; });
   row("hertzian_contact", 0.2, 1e-2, [](EffectScene&) {}, [&](EffectScene& s) { s.structure = &soft_teeth; });
   row("tip_corner", 1e-3, 1e-4, [](EffectScene&) {}, [](EffectScene& s) {
-        s.condition.pinion_modification.tip_relief = {200 * units::um, 3.0};
-        s.condition.wheel_modification.tip_relief = {200 * units::um, 3.0};
+        s.condition.modification.pinion.tip_relief = {200 * units::um, 3.0};
+        s.condition.modification.wheel.tip_relief = {200 * units::um, 3.0};
       });
   // What remains without Poisson's ratio is the bending of sharp edges.
   row("free_ends", 5e-3, 2e-3, [](EffectScene&) {}, [](EffectScene& s) {
-        s.pinion_material.poissons_ratio = s.wheel_material.poissons_ratio = 0;
+        s.material.pinion.poissons_ratio = s.material.wheel.poissons_ratio = 0;
       });
   row("extended_contact_region", 1e-3, 1e-9, [](EffectScene& s) { s.pinion_torque = 3e6; }, [](EffectScene& s) { s.pinion_torque = 1.0; });
   for (const Row& r : rows) {
@@ -141,7 +141,7 @@ TEST_CASE("The error of first order falls as the square of the effect", "[core][
   const auto error = [](double misalignment) {
     EffectScene s = scene(3e5);
     s.condition.misalignment.mesh_misalignment = misalignment;
-    s.condition.pinion_modification.lead_crowning = 4 * units::um;
+    s.condition.modification.pinion.lead_crowning = 4 * units::um;
     // Between A and E all points stay loaded; beyond, some are always about to lose contact.
     const EffectDecisions decisions = without(decisions_of(s), "extended_contact_region", "left out");
     const EffectInfluence exact = exact_influence(s, decisions, "misalignment");
@@ -156,7 +156,7 @@ TEST_CASE("The error of first order falls as the square of the effect", "[core][
 TEST_CASE("Without trust in first order sizes are exact", "[core][load][effects]") {
   EffectScene s = scene(3e5);
   s.condition.misalignment.mesh_misalignment = 6 * units::um;
-  s.condition.wheel_modification.lead_crowning = 5 * units::um;
+  s.condition.modification.wheel.lead_crowning = 5 * units::um;
   const EffectDecisions decisions = decisions_of(s);
   constexpr double solver = 1e-9;  // both are solutions of one convex programme, from different starts
   for (const EstimatedSize& size : estimate_effect_sizes(s, decisions, {.trust = 0.0})) {
@@ -173,7 +173,7 @@ TEST_CASE("Contact off the plane of action has a size where flanks are relieved 
   s.resolution.phases = equally_spaced_phases(4);
   const EffectDecisions aligned = decisions_of(s, true);
   CHECK(exact_influence(s, aligned, "whole_surface_gap").share < 5e-3);  // before A the clearances differ, see SurfaceGap
-  s.condition.pinion_modification.tip_relief = {60 * units::um, 4.0};
+  s.condition.modification.pinion.tip_relief = {60 * units::um, 4.0};
   s.condition.misalignment.centre_distance = 0.3;
   const EffectDecisions relieved = decisions_of(s, true);
   const EffectInfluence exact = exact_influence(s, relieved, "whole_surface_gap");

@@ -29,7 +29,7 @@ struct Generated {
 };
 
 Generated generate(PairData data, Member member, double coefficient) {
-  (member == Member::Pinion ? data.pinion : data.wheel).generation = ParabolicRack{coefficient};
+  data[member].generation = ParabolicRack{coefficient};
   Generated made{make_gear_pair(data), {}};
   made.flank = make_flank(made.pair, member, {}, {});
   made.flank.fields = {make_generated_field(made.pair, member)};

@@ -37,7 +37,7 @@ struct Revolved {
 };
 
 Revolved revolve(const RevolutionTool& tool, PairData data = data_of(), Member member = Member::Pinion) {
-  (member == Member::Pinion ? data.pinion : data.wheel).generation = tool;
+  data[member].generation = tool;
   Revolved made{make_gear_pair(data), {}, not_given};
   made.flank = make_flank(made.pair, member, {}, {});
   made.flank.fields = {make_generated_field(made.pair, member)};
@@ -246,8 +246,8 @@ TEST_CASE("An arc's parabola of transmission error is the one unloaded contact f
   data.centre_distance = stretch * 0.5 * 60 * data.normal_module;
   const auto made = revolve(paper_tool(), data, member);
   const GearPair& pair = made.pair;
-  FlankAssembly scene = assemble_flanks(pair, {}, {}, {}, {}, {});
-  (member == Member::Pinion ? scene.pinion : scene.wheel).fields = made.flank.fields;
+  FlankAssembly scene = assemble_flanks(pair, {});
+  scene[member].fields = made.flank.fields;
   const double contact = member == Member::Pinion ? made.reference_roll : pair.path_length - made.reference_roll;
   const double vertex = (contact - pair.pitch_point) / pair.pinion.base_radius;
   const double coarse = second_difference(scene, vertex, 0.04), fine = second_difference(scene, vertex, 0.02);

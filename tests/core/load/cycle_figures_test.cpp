@@ -10,7 +10,7 @@ namespace {
 
 FlankCondition crowned_and_tilted() {
   FlankCondition condition;
-  condition.pinion_modification.lead_crowning = 6 * units::um;
+  condition.modification.pinion.lead_crowning = 6 * units::um;
   condition.misalignment.mesh_misalignment = 5 * units::um;
   return condition;
 }

@@ -21,7 +21,7 @@ struct Scene {
 
 Scene random_scene(const GearPair& gears, Random& random) {
   Scene scene;
-  for (Modification* m : {&scene.condition.pinion_modification, &scene.condition.wheel_modification}) {
+  for (Modification* m : {&scene.condition.modification.pinion, &scene.condition.modification.wheel}) {
     m->lead_crowning = random.uniform(1.0, 8.0) * units::um;
     m->lead_slope = random.uniform(-3.0, 3.0) * units::um;
     m->addendum_crowning = m->dedendum_crowning = random.uniform(0.5, 4.0) * units::um;
@@ -42,7 +42,7 @@ Scene random_scene(const GearPair& gears, Random& random) {
 void shift(Scene& scene, const MeshParameter& parameter, double by) {
   if (const auto* gear = std::get_if<GearParameter>(&parameter)) {
     FlankCondition& c = scene.condition;
-    Modification& m = gear->member == Member::Pinion ? c.pinion_modification : c.wheel_modification;
+    Modification& m = c.modification[gear->member];
     set(m, gear->parameter, get(m, gear->parameter) + by);
   } else if (const auto* misalignment = std::get_if<MisalignmentParameter>(&parameter)) {
     scene.condition.misalignment.*(*misalignment) += by;
@@ -161,7 +161,7 @@ TEST_CASE("Every output's derivative by modification, misalignment and torque is
   const bool helical = GENERATE(false, true);
   const GearPair gears = helical ? mesh_cases::pair(18, 54, 30, 10, 120) : mesh_cases::pair(20, 40, 0, 4, 30);
   const mesh_cases::SyntheticRootStress fillets(gears);
-  const MeshModel model = make_mesh_model(gears, {}, {}, {{QuadratureRule::Gauss2, 4}, equally_spaced_phases(7)}, {}, {}, nullptr, &fillets);
+  const MeshModel model = make_mesh_model(gears, {}, {{QuadratureRule::Gauss2, 4}, equally_spaced_phases(7)}, {}, {}, nullptr, &fillets);
   const std::vector<MeshParameter> parameters = all_kinds();
   Random random(helical ? 61 : 62);
   int compared = 0, kinks = 0;

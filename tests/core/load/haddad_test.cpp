@@ -17,7 +17,7 @@ const Material kMaterial{haddad::youngs_modulus, haddad::poissons_ratio};
 
 MeshModel haddad_model(const MeshEffects& effects = {}) {
   const GearPair gears = make_gear_pair(reference::haddad_18_54::pair_data());
-  return make_mesh_model(gears, kMaterial, kMaterial, {{QuadratureRule::Gauss2, 5}, {haddad::phase_a, haddad::phase_b}},
+  return make_mesh_model(gears, {kMaterial, kMaterial}, {{QuadratureRule::Gauss2, 5}, {haddad::phase_a, haddad::phase_b}},
                          effects);
 }
 
@@ -91,9 +91,9 @@ TEST_CASE("Deviations of the flanks are Haddad's errors, metal added positive", 
   constexpr double kModel = 1e-3;
   const MeshModel model = haddad_model();
   FlankCondition slope, crowning, profile;
-  slope.pinion_error.helix_slope = 8 * units::um;  // printed as -8: his slope adds metal towards the other end
-  crowning.pinion_modification.lead_crowning = 8 * units::um;
-  profile.pinion_modification.addendum_crowning = profile.wheel_modification.addendum_crowning = 8 * units::um;
+  slope.error.pinion.helix_slope = 8 * units::um;  // printed as -8: his slope adds metal towards the other end
+  crowning.modification.pinion.lead_crowning = 8 * units::um;
+  profile.modification.pinion.addendum_crowning = profile.modification.wheel.addendum_crowning = 8 * units::um;
   const auto check = [&](const FlankCondition& condition, double haddad::Errors::*column) {
     const MeshPosition& at = model.positions[0];
     const Gap gap = plane_of_action_gap(model.pair, at.points, condition);

@@ -54,11 +54,11 @@ TEST_CASE("A cycle that starts from an earlier one's loads ends at the same, soo
   const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 6}, equally_spaced_phases(32)});
   const double torque = mesh_cases::torque_for(gears, 200.0);
   FlankCondition condition;
-  condition.pinion_modification.lead_crowning = 6 * units::um;
-  condition.pinion_modification.tip_relief = {10 * units::um, 0.4, ReliefShape::Linear};
+  condition.modification.pinion.lead_crowning = 6 * units::um;
+  condition.modification.pinion.tip_relief = {10 * units::um, 0.4, ReliefShape::Linear};
   const LoadedCycle earlier = analyse_cycle(model, condition, torque);
   const double change = GENERATE(1e-3, 0.1, 5.0);  // um
-  condition.pinion_modification.lead_crowning += change * units::um;
+  condition.modification.pinion.lead_crowning += change * units::um;
   const LoadedCycle alone = analyse_cycle(model, condition, torque);
   const LoadedCycle after = analyse_cycle(model, condition, torque, {}, {}, RootStresses::WithLoads, &earlier);
   REQUIRE(alone.usable());

@@ -29,7 +29,7 @@ inline GearPair pair(int z1, int z2, double helix_angle_deg, double module, doub
 }
 
 inline MeshModel model(const GearPair& gears, const MeshResolution& resolution, const MeshEffects& effects = {}) {
-  return make_mesh_model(gears, steel, steel, resolution, effects);
+  return make_mesh_model(gears, {steel, steel}, resolution, effects);
 }
 
 /// The pair's mesh at whatever phases are asked for.
@@ -45,14 +45,14 @@ inline double torque_for(const GearPair& gears, double line_load) {
 /// A condition with something of everything.
 inline FlankCondition worked_condition() {
   FlankCondition condition;
-  condition.pinion_modification.lead_crowning = 6 * units::um;
-  condition.pinion_modification.lead_slope = -4 * units::um;
-  condition.pinion_modification.tip_relief = {10 * units::um, 0.4, ReliefShape::Linear};
-  condition.pinion_modification.twist = 3 * units::um;
-  condition.wheel_modification.addendum_crowning = 5 * units::um;
-  condition.wheel_modification.end_relief = {8 * units::um, 1.0};
-  condition.pinion_error.helix_slope = 3 * units::um;
-  condition.wheel_error.profile_slope = -2 * units::um;
+  condition.modification.pinion.lead_crowning = 6 * units::um;
+  condition.modification.pinion.lead_slope = -4 * units::um;
+  condition.modification.pinion.tip_relief = {10 * units::um, 0.4, ReliefShape::Linear};
+  condition.modification.pinion.twist = 3 * units::um;
+  condition.modification.wheel.addendum_crowning = 5 * units::um;
+  condition.modification.wheel.end_relief = {8 * units::um, 1.0};
+  condition.error.pinion.helix_slope = 3 * units::um;
+  condition.error.wheel.profile_slope = -2 * units::um;
   condition.misalignment.mesh_misalignment = 9 * units::um;
   condition.misalignment.crossing = 20 * units::arcsec;
   condition.misalignment.intersecting = -30 * units::arcsec;

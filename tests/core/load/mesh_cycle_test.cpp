@@ -147,9 +147,9 @@ TEST_CASE("A lead slope cancels the misalignment of the mesh", "[core][load]") {
   for (FlankCondition* c : {&misaligned, &corrected_pinion, &corrected_wheel, &worse}) {
     c->misalignment.mesh_misalignment = misalignment;
   }
-  corrected_pinion.pinion_modification.lead_slope = -misalignment;
-  corrected_wheel.wheel_modification.lead_slope = -misalignment;
-  worse.pinion_modification.lead_slope = misalignment;
+  corrected_pinion.modification.pinion.lead_slope = -misalignment;
+  corrected_wheel.modification.wheel.lead_slope = -misalignment;
+  worse.modification.pinion.lead_slope = misalignment;
   const LoadedCycle aligned = analyse_cycle(model, {}, torque), bad = analyse_cycle(model, misaligned, torque);
   for (const FlankCondition& corrected : {corrected_pinion, corrected_wheel}) {
     const LoadedCycle good = analyse_cycle(model, corrected, torque);
@@ -172,7 +172,7 @@ TEST_CASE("Moving the wheel away as a whole moves the transmission error and no 
   const MeshModel model = mesh_cases::model(gears, {{}, equally_spaced_phases(6)});
   FlankCondition apart, thick;
   apart.misalignment.centre_distance = 0.05;              // to first order no more than a gap everywhere
-  thick.pinion_error.cumulative_pitch = {7 * units::um};  // every tooth is as much too thick
+  thick.error.pinion.cumulative_pitch = {7 * units::um};  // every tooth is as much too thick
   const double torque = torque_for(gears, 60.0);
   const LoadedCycle there = analyse_cycle(model, {}, torque);
   const double cos_base = std::cos(gears.base_helix_angle);
@@ -281,7 +281,7 @@ TEST_CASE("A position without contact points is reported instead of inventing a 
   data.pinion.rack.addendum = data.wheel.rack.addendum = 0.4;
   const GearPair gears = make_gear_pair(data);
   REQUIRE(gears.transverse_contact_ratio < 0.9);
-  const MeshModel model = make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, {{}, equally_spaced_phases(16)},
+  const MeshModel model = make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, {{}, equally_spaced_phases(16)},
                                           MeshEffects::all_but({"extended_contact_region"}), MeshPlacement::of(GapModel::PlaneOfAction, {.axial_offset = 19.5}));
   const LoadedCycle cycle = analyse_cycle(model, {}, torque_for(gears, 10.0));
   CHECK(cycle.failures > 0);

@@ -66,7 +66,7 @@ TEST_CASE("An axial offset leaves the common face only", "[core][load]") {
   const GearPair gears = make_gear_pair(data);
   const double offset = GENERATE(0.0, 5.0, -5.0);
   const MeshPlacement shifted = MeshPlacement::of(GapModel::PlaneOfAction, {.axial_offset = offset});
-  const MeshModel model = make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, {{}, {1.0}}, {}, shifted);
+  const MeshModel model = make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, {{}, {1.0}}, {}, shifted);
   const double end = std::min(15.0, offset + 13.0), start = std::max(-15.0, offset - 13.0);
   CHECK(model.face_width == Approx(end - start).epsilon(kRoundOff));
   for (const ContactPoint& point : model.positions[0].points) {
@@ -104,6 +104,6 @@ TEST_CASE("A mesh model that cannot be built is refused", "[core][load][input]")
   CHECK_THROWS_AS(mesh_cases::model(gears, {{QuadratureRule::Gauss2, 0}, {0.5}}), InvalidInput);
   CHECK_THROWS_AS(mesh_cases::model(gears, {{}, {0.5}}, MeshEffects::all_but({"bending", "hertzian_contact"})), InvalidInput);
   const MeshPlacement apart = MeshPlacement::of(GapModel::PlaneOfAction, {.axial_offset = 30.0});
-  CHECK_THROWS_AS(make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, {{}, {0.5}}, {}, apart), InvalidInput);
-  CHECK_THROWS_AS(make_mesh_model(gears, {-1.0, 0.3}, mesh_cases::steel, {{}, {0.5}}), InvalidInput);
+  CHECK_THROWS_AS(make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, {{}, {0.5}}, {}, apart), InvalidInput);
+  CHECK_THROWS_AS(make_mesh_model(gears, {{-1.0, 0.3}, mesh_cases::steel}, {{}, {0.5}}), InvalidInput);
 }

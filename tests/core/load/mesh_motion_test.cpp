@@ -40,7 +40,7 @@ struct MotionCase {
   }
   MeshModel alone(double value, const MeshResolution& resolved) const { return alone(MeshPlacement::of(gap, at(value).misalignment), resolved); }
   MeshModel alone(const MeshPlacement& placement, const MeshResolution& resolved) const {
-    return make_mesh_model(gears, steel, steel, resolved, effects, placement, nullptr, root_stress);
+    return make_mesh_model(gears, {steel, steel}, resolved, effects, placement, nullptr, root_stress);
   }
   LoadedCycle solved(double value, const MeshModel& model, const std::vector<MeshParameter>& parameters = {}) const {
     return analyse_cycle(model, at(value), torque_for(gears, 150), parameters);
@@ -180,8 +180,8 @@ TEST_CASE("Differences of solved cycles close in with the square of their step o
   of.root_stress = &roots;
   of.gap = GapModel::WholeSurface;
   of.by = motion.by;
-  of.condition.pinion_modification.lead_crowning = 6 * units::um;
-  of.condition.wheel_modification.addendum_crowning = 8 * units::um;
+  of.condition.modification.pinion.lead_crowning = 6 * units::um;
+  of.condition.modification.wheel.addendum_crowning = 8 * units::um;
   of.condition.misalignment = {.crossing = 3e-4, .intersecting = -8e-4, .centre_distance = 0.2, .axial_offset = 2.1, .mesh_misalignment = 4 * units::um};
   of.resolution = {{QuadratureRule::Graded, 3}, equally_spaced_phases(3)};
   const double value = of.condition.misalignment.*of.by, h = motion.h;
@@ -212,7 +212,7 @@ TEST_CASE("Even teeth that lose face to an offset carry what more torque would g
   // Aligned spur teeth without free ends know load per face width only: by F/(b - s), d/ds = F/b d/dF.
   MotionCase of{mesh_cases::pair(20, 33, 0, 4, 30)};
   of.effects = MeshEffects::all_but({"free_ends"});
-  of.condition.pinion_modification.tip_relief = {8 * units::um, 2, ReliefShape::Linear};
+  of.condition.modification.pinion.tip_relief = {8 * units::um, 2, ReliefShape::Linear};
   const MeshModel model = of.mesh(0.0, {{QuadratureRule::Gauss3, 4}, equally_spaced_phases(6)});
   const LoadedCycle cycle = of.solved(0.0, model, offset_and_torque);
   const double torque_over_face = torque_for(of.gears, 150) / of.gears.face_width;
@@ -232,7 +232,7 @@ TEST_CASE("Within a wider mate's face a wheel's offset turns it along its helix,
   const double helix = GENERATE(0.0, 20.0);
   MotionCase of = unequal_faces(helix, 60, 30);
   of.effects = MeshEffects::all_but({"free_ends"});
-  of.condition.wheel_modification.tip_relief = {8 * units::um, 2, ReliefShape::Linear};
+  of.condition.modification.wheel.tip_relief = {8 * units::um, 2, ReliefShape::Linear};
   const double offset = 4, step = 1e-5;
   const auto mesh = [&](double phase) { return of.mesh(offset, {{QuadratureRule::Graded, 4}, {phase}}); };
   const PathOfContact path(of.gears);
@@ -262,7 +262,7 @@ TEST_CASE("Located peaks and K_Hbeta follow what moves the mesh to where they ar
   MotionCase of = unequal_faces(motion.helix, 40, 40);
   of.gap = motion.gap;
   of.by = motion.by;
-  of.condition.pinion_modification.lead_crowning = 5 * units::um;
+  of.condition.modification.pinion.lead_crowning = 5 * units::um;
   of.condition.misalignment.mesh_misalignment = 6 * units::um;
   const double torque = torque_for(of.gears, 150);
   const auto resolved = [](const std::vector<double>& phases) { return MeshResolution{{QuadratureRule::Graded, 5}, phases}; };

@@ -15,11 +15,11 @@ namespace {
 
 /// The same seen in a mirror at the mid-face plane.
 FlankCondition mirrored(FlankCondition c) {
-  for (Modification* m : {&c.pinion_modification, &c.wheel_modification}) {
+  for (Modification* m : {&c.modification.pinion, &c.modification.wheel}) {
     m->lead_slope = -m->lead_slope;
     m->twist = -m->twist;
   }
-  for (ManufacturingError* e : {&c.pinion_error, &c.wheel_error}) {
+  for (ManufacturingError* e : {&c.error.pinion, &c.error.wheel}) {
     e->helix_slope = -e->helix_slope;
     e->twist = -e->twist;
   }

@@ -12,7 +12,7 @@ namespace {
 MeshModel model_with_root_stress(const GearPair& gears, const MeshResolution& resolution,
                                  const MeshEffects& effects = {}) {
   const mesh_cases::SyntheticRootStress root_stress(gears);
-  return make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, resolution, effects, {}, nullptr, &root_stress);
+  return make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, resolution, effects, {}, nullptr, &root_stress);
 }
 
 }  // namespace
@@ -79,17 +79,16 @@ TEST_CASE("Derivatives of root stress are what central differences say", "[core]
                                               {Member::Pinion, parameter_of("lead_slope")},
                                               {Member::Wheel, parameter_of("profile_crowning")}};
   FlankCondition condition;
-  condition.pinion_modification.lead_crowning = 0.008;
-  condition.pinion_modification.lead_slope = 0.003;
-  set(condition.wheel_modification, parameter_of("profile_crowning"), 0.005);
+  condition.modification.pinion.lead_crowning = 0.008;
+  condition.modification.pinion.lead_slope = 0.003;
+  set(condition.modification.wheel, parameter_of("profile_crowning"), 0.005);
   const double torque = mesh_cases::torque_for(gears, 300);
   const LoadedCycle at = analyse_cycle(model, condition, torque, {parameters.begin(), parameters.end()});
   constexpr double step = 1e-6;  // mm
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     const auto shifted = [&](double by) {
       FlankCondition moved = condition;
-      Modification& modification =
-          parameters[p].member == Member::Pinion ? moved.pinion_modification : moved.wheel_modification;
+      Modification& modification = moved.modification[parameters[p].member];
       set(modification, parameters[p].parameter, get(modification, parameters[p].parameter) + by);
       return analyse_cycle(model, moved, torque);
     };

@@ -175,7 +175,7 @@ TEST_CASE("Derivatives with respect to every modification are those of central d
   int compared = 0, skipped = 0;
   for (int design = 0; design < 6; ++design) {
     FlankCondition condition;
-    for (Modification* m : {&condition.pinion_modification, &condition.wheel_modification}) {
+    for (Modification* m : {&condition.modification.pinion, &condition.modification.wheel}) {
       for (const ModificationDescriptor& p : modification_parameters) {
         set(*m, p.parameter,
             p.kind == ParameterKind::Extent ? random.uniform(0.3, 0.9) * gears.data.normal_module : random.uniform(0.5, 4.0) * units::um);
@@ -199,12 +199,11 @@ TEST_CASE("Derivatives with respect to every modification are those of central d
         int set_changes = 0;
         const auto changed = [&](double step) {
           FlankCondition other = condition;
-          Modification& m =
-              parameters[p].member == Member::Pinion ? other.pinion_modification : other.wheel_modification;
+          Modification& m = other.modification[parameters[p].member];
           set(m, parameters[p].parameter, get(m, parameters[p].parameter) + step);
           if (parameters[p].parameter ==
               parameter_of("profile_crowning")) {  // moves both halves, whatever they were
-            const Modification& given = condition.modification(parameters[p].member);
+            const Modification& given = condition.modification[parameters[p].member];
             m.addendum_crowning = given.addendum_crowning + step;
             m.dedendum_crowning = given.dedendum_crowning + step;
           }

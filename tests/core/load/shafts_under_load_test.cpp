@@ -21,7 +21,7 @@ ShaftData shaft(double diameter, bool torque_at_first_end = true) {
 }
 
 MeshModel model_with(const GearPair& gears, const PairCompliance* shafts, int positions = 4) {
-  return make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(positions)}, {},
+  return make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(positions)}, {},
                          {}, nullptr, nullptr, shafts);
 }
 
@@ -91,7 +91,7 @@ TEST_CASE("Derivatives with shafts are those of central differences", "[core][lo
   const ShaftPair shafts(gears, shaft(50), shaft(60, false), GearBodyIn::Shaft);
   const MeshModel model = model_with(gears, &shafts, 2);
   FlankCondition condition;
-  condition.pinion_modification.lead_crowning = 4 * units::um;
+  condition.modification.pinion.lead_crowning = 4 * units::um;
   const std::vector<GearParameter> parameters{{Member::Pinion, parameter_of("lead_slope")},
                                               {Member::Wheel, parameter_of("lead_crowning")}};
   const LoadedCycle cycle = analyse_cycle(model, condition, torque, {parameters.begin(), parameters.end()});
@@ -99,7 +99,7 @@ TEST_CASE("Derivatives with shafts are those of central differences", "[core][lo
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     const auto moved = [&](double by) {
       FlankCondition c = condition;
-      Modification& m = parameters[p].member == Member::Pinion ? c.pinion_modification : c.wheel_modification;
+      Modification& m = c.modification[parameters[p].member];
       set(m, parameters[p].parameter, get(m, parameters[p].parameter) + by);
       return analyse_cycle(model, c, torque);
     };

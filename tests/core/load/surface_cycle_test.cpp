@@ -18,18 +18,18 @@ namespace {
 
 MeshModel surface_model(const GearPair& gears, const MeshResolution& resolution, const Misalignment& misalignment = {},
                         const MeshEffects& effects = {}) {
-  return make_mesh_model(gears, steel, steel, resolution, effects, MeshPlacement::of(GapModel::WholeSurface, misalignment));
+  return make_mesh_model(gears, {steel, steel}, resolution, effects, MeshPlacement::of(GapModel::WholeSurface, misalignment));
 }
 
 /// Crowned, relieved and skewed: contact at maxima, on tips and at face ends.
 FlankCondition surface_condition() {
   FlankCondition c;
-  c.pinion_modification.lead_crowning = 6 * um;
-  c.pinion_modification.tip_relief = {30 * um, 2.1, ReliefShape::Parabolic};
-  c.wheel_modification.addendum_crowning = 15 * um;
-  c.wheel_modification.profile_slope = -5 * um;
-  c.wheel_error.helix_slope = 4 * um;
-  c.pinion_error.pitch_step = 2 * um;
+  c.modification.pinion.lead_crowning = 6 * um;
+  c.modification.pinion.tip_relief = {30 * um, 2.1, ReliefShape::Parabolic};
+  c.modification.wheel.addendum_crowning = 15 * um;
+  c.modification.wheel.profile_slope = -5 * um;
+  c.error.wheel.helix_slope = 4 * um;
+  c.error.pinion.pitch_step = 2 * um;
   c.misalignment.crossing = 2 * arcmin;
   c.misalignment.intersecting = -3 * arcmin;
   c.misalignment.centre_distance = 0.08;
@@ -45,12 +45,11 @@ TEST_CASE("As the load vanishes the loaded transmission error becomes the unload
   const bool edges = GENERATE(false, true);
   if (edges) {
     // Hollow leads and a pitch error that brings the next tooth in by its tip edge.
-    condition.pinion_modification = condition.wheel_modification = {};
-    condition.pinion_modification.lead_crowning = -5 * um;
-    condition.pinion_error.pitch_step = 40 * um;
+    condition.modification.pinion = condition.modification.wheel = {};
+    condition.modification.pinion.lead_crowning = -5 * um;
+    condition.error.pinion.pitch_step = 40 * um;
   }
-  const FlankAssembly scene = assemble_flanks(gears, condition.misalignment, condition.pinion_modification,
-                                          condition.wheel_modification, condition.pinion_error, condition.wheel_error);
+  const FlankAssembly scene = assemble_flanks(gears, condition);
   const PathOfContact path(gears);
   constexpr int kIntervals = 300;
   const std::vector<double> phases{0.02, 0.21, 0.4, 0.63, 0.87};
@@ -156,7 +155,7 @@ TEST_CASE("The ends of lines carry what the whole surface leaves there", "[core]
 TEST_CASE("Gradients over the whole surface agree with central differences", "[core][load]") {
   const GearPair gears = mesh_cases::pair(23, 41, 20, 4, 30);
   FlankCondition condition = surface_condition();
-  condition.pinion_modification.parabolic_te = 2e-4;
+  condition.modification.pinion.parabolic_te = 2e-4;
   const MeshPlaced placed = [&](const MeshPlacement& at) { return surface_model(gears, {{QuadratureRule::Gauss2, 5}, {0.15, 0.48, 0.83}}, at.misalignment); };
   const double torque = torque_for(gears, 200);
   const std::vector<MeshParameter> parameters{GearParameter{Member::Pinion, parameter_of("lead_crowning")},
@@ -177,7 +176,7 @@ TEST_CASE("Gradients over the whole surface agree with central differences", "[c
     const auto shifted = [&](double by) {
       FlankCondition c = condition;
       if (const auto* gear = std::get_if<GearParameter>(&parameters[p])) {
-        Modification& m = gear->member == Member::Pinion ? c.pinion_modification : c.wheel_modification;
+        Modification& m = c.modification[gear->member];
         set(m, gear->parameter, get(m, gear->parameter) + by);
       } else {
         c.misalignment.*std::get<MisalignmentParameter>(parameters[p]) += by;

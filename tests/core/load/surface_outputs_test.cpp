@@ -19,7 +19,7 @@ namespace {
 /// Without the extended region, before whose start the two gaps turn different gears to meet (SurfaceGap).
 MeshModel mesh_by(GapModel gap, const GearPair& gears, const MeshResolution& resolution, const Misalignment& misalignment,
                   const PairRootStress* roots = nullptr) {
-  return make_mesh_model(gears, steel, steel, resolution, MeshEffects::all_but({"extended_contact_region"}),
+  return make_mesh_model(gears, {steel, steel}, resolution, MeshEffects::all_but({"extended_contact_region"}),
                          MeshPlacement::of(gap, misalignment), nullptr, roots);
 }
 
@@ -47,8 +47,8 @@ TEST_CASE("Rating, line ends and root stress of aligned flanks are the same by e
   const double helix = GENERATE(0.0, 25.0);
   const GearPair gears = mesh_cases::pair(23, 41, helix, 4, 30);
   FlankCondition condition;
-  condition.pinion_modification.lead_crowning = 5 * um;
-  condition.wheel_modification.lead_slope = 3 * um;
+  condition.modification.pinion.lead_crowning = 5 * um;
+  condition.modification.wheel.lead_slope = 3 * um;
   condition.misalignment.mesh_misalignment = 7 * um;
   const double torque = torque_for(gears, 150);
   const mesh_cases::SyntheticRootStress roots(gears);
@@ -89,7 +89,7 @@ TEST_CASE("Rating, line ends and root stress of aligned flanks are the same by e
 TEST_CASE("Outputs of misaligned flanks differ between the two gap models as the gaps do", "[core][load][line-ends][load-factors]") {
   const GearPair gears = mesh_cases::pair(23, 41, 25, 4, 30);
   FlankCondition condition;
-  condition.pinion_modification.lead_crowning = 5 * um;
+  condition.modification.pinion.lead_crowning = 5 * um;
   condition.misalignment.intersecting = 20 * units::arcmin;
   condition.misalignment.centre_distance = 0.3;
   const double torque = torque_for(gears, 300);

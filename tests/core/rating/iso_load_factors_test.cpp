@@ -29,18 +29,18 @@ TEST_CASE("ISO's misalignment is the linear part of the gap along the face", "[c
   c.misalignment.mesh_misalignment = -7 * units::um;
   CHECK(iso_deviations(gears, c).misalignment == Approx(7 * units::um).epsilon(kRoundOff));
   // Crowning, reliefs and profiles are not linear along the face.
-  c.pinion_modification.lead_crowning = 20 * units::um;
-  c.wheel_modification.end_relief = {10 * units::um, 20};
-  c.pinion_error.profile_slope = 9 * units::um;
+  c.modification.pinion.lead_crowning = 20 * units::um;
+  c.modification.wheel.end_relief = {10 * units::um, 20};
+  c.error.pinion.profile_slope = 9 * units::um;
   CHECK(iso_deviations(gears, c).misalignment == Approx(7 * units::um).epsilon(kRoundOff));
   // A lead slope that removes where the misalignment closes takes it back, an error that adds there takes it on.
-  c.pinion_modification.lead_slope = -7 * units::um;  // removes at -z, where the mesh is closed
+  c.modification.pinion.lead_slope = -7 * units::um;  // removes at -z, where the mesh is closed
   c.misalignment.mesh_misalignment = 7 * units::um;   // opens at +z
   CHECK(iso_deviations(gears, c).misalignment == Approx(0).margin(1e-15));
-  c.wheel_error.helix_slope = -3 * units::um;
+  c.error.wheel.helix_slope = -3 * units::um;
   CHECK(iso_deviations(gears, c).misalignment == Approx(3 * units::um).epsilon(kRoundOff));
   // Teeth that differ: the worst of them.
-  c.pinion_error.helix_slopes = {0, -2 * units::um, 2 * units::um};
+  c.error.pinion.helix_slopes = {0, -2 * units::um, 2 * units::um};
   CHECK(iso_deviations(gears, c).misalignment == Approx(5 * units::um).epsilon(kRoundOff));
   // Crossing axes: an angle in the plane of action, by cos(alpha_wt), over the face.
   FlankCondition crossed;
@@ -54,18 +54,18 @@ TEST_CASE("ISO's pitch deviation is the largest single step or profile deviation
   constexpr double kRoundOff = 1e-12;
   const GearPair& gears = haddad();
   FlankCondition c;
-  c.pinion_error.pitch_step = -4 * units::um;
+  c.error.pinion.pitch_step = -4 * units::um;
   CHECK(iso_deviations(gears, c).base_pitch == Approx(4 * units::um).epsilon(kRoundOff));
-  c.wheel_error.cumulative_pitch = {0, 3 * units::um, 9 * units::um, 1 * units::um};  // steps 3, 6, -8, and -1 back to the first
+  c.error.wheel.cumulative_pitch = {0, 3 * units::um, 9 * units::um, 1 * units::um};  // steps 3, 6, -8, and -1 back to the first
   CHECK(iso_deviations(gears, c).base_pitch == Approx(8 * units::um).epsilon(kRoundOff));
   // A profile slope over the active profile of the pinion; both gears' active profiles are those of A to E.
-  c.pinion_error.profile_slope = 12 * units::um;
+  c.error.pinion.profile_slope = 12 * units::um;
   CHECK(iso_deviations(gears, c).base_pitch == Approx(12 * units::um).epsilon(kRoundOff));
-  c.pinion_error.profile_slopes = {0, 3 * units::um};
+  c.error.pinion.profile_slopes = {0, 3 * units::um};
   CHECK(iso_deviations(gears, c).base_pitch == Approx(15 * units::um).epsilon(kRoundOff));
-  c.pinion_error.profile_slopes.clear();
+  c.error.pinion.profile_slopes.clear();
   // Modifications are meant, not deviations.
-  c.pinion_modification.tip_relief = {40 * units::um, 5, ReliefShape::Linear};
+  c.modification.pinion.tip_relief = {40 * units::um, 5, ReliefShape::Linear};
   CHECK(iso_deviations(gears, c).base_pitch == Approx(12 * units::um).epsilon(kRoundOff));
 }
 
@@ -121,11 +121,11 @@ TEST_CASE("ISO's factors change with misalignment, modifications, offset and tor
   FlankCondition condition;
   condition.misalignment.mesh_misalignment = misaligned;
   condition.misalignment.axial_offset = 1.5;
-  condition.pinion_error.pitch_step = pitch;
-  condition.wheel_error.helix_slopes = {0, 3 * units::um, -2 * units::um};
-  condition.pinion_modification.lead_slope = 1 * units::um;
-  condition.wheel_modification.end_relief = {6 * units::um, 0.2 * gears.face_width};
-  condition.wheel_modification.tip_relief = {6 * units::um, 2, ReliefShape::Linear};
+  condition.error.pinion.pitch_step = pitch;
+  condition.error.wheel.helix_slopes = {0, 3 * units::um, -2 * units::um};
+  condition.modification.pinion.lead_slope = 1 * units::um;
+  condition.modification.wheel.end_relief = {6 * units::um, 0.2 * gears.face_width};
+  condition.modification.wheel.tip_relief = {6 * units::um, 2, ReliefShape::Linear};
   const double torque = mesh_cases::torque_for(gears, 200);
   const std::vector<MeshParameter> parameters{&Misalignment::mesh_misalignment, &Misalignment::crossing, GearParameter{Member::Pinion, parameter_of("lead_slope")},
                                               GearParameter{Member::Wheel, parameter_of("end_relief.amount")},
@@ -133,7 +133,7 @@ TEST_CASE("ISO's factors change with misalignment, modifications, offset and tor
   const std::vector<double> steps{1e-5, 2e-8, 1e-5, 1e-5, 1e-5, 1e-3, 1e-4 * torque};
   const GapModel gap = misaligned < 5e-3 ? GapModel::WholeSurface : GapModel::PlaneOfAction;  // the standard asks for neither
   const MeshPlaced placed = [&](const MeshPlacement& placement) {
-    return make_mesh_model(gears, mesh_cases::steel, mesh_cases::steel, {{}, {0.3}}, {}, placement);
+    return make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, {{}, {0.3}}, {}, placement);
   };
   const auto mesh = [&](const FlankCondition& c) { return placed(MeshPlacement::of(gap, c.misalignment)); };
   const auto factors = [&](const FlankCondition& c, double by_torque) {
@@ -147,7 +147,7 @@ TEST_CASE("ISO's factors change with misalignment, modifications, offset and tor
     const auto moved = [&](double by) {
       FlankCondition c = condition;
       if (const auto* gear = std::get_if<GearParameter>(&parameters[p])) {
-        Modification& m = gear->member == Member::Pinion ? c.pinion_modification : c.wheel_modification;
+        Modification& m = c.modification[gear->member];
         set(m, gear->parameter, get(m, gear->parameter) + by);
       } else if (const auto* misalignment = std::get_if<MisalignmentParameter>(&parameters[p])) {
         c.misalignment.*(*misalignment) += by;

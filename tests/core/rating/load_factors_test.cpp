@@ -25,19 +25,19 @@ LoadFactors factors_of(const GearPair& gears, const FlankCondition& condition, d
 
 FlankCondition lead_and_profile() {
   FlankCondition c;
-  c.pinion_modification.lead_crowning = 6 * units::um;
-  c.wheel_modification.lead_slope = -4 * units::um;
-  c.pinion_modification.end_relief = {8 * units::um, 10};
-  c.wheel_modification.tip_relief = {10 * units::um, 3, ReliefShape::Linear};
-  c.pinion_modification.root_relief = {5 * units::um, 2, ReliefShape::Parabolic};
-  set(c.wheel_modification, parameter_of("profile_crowning"), 4 * units::um);
-  c.pinion_modification.profile_slope = 2 * units::um;
-  c.pinion_error.helix_slope = 3 * units::um;
-  c.pinion_error.profile_slope = -4 * units::um;
-  c.pinion_error.pitch_step = 2 * units::um;
-  c.pinion_error.helix_slopes = {0, 2 * units::um, -1 * units::um};
-  c.wheel_error.profile_slopes = {1 * units::um, 0};
-  c.wheel_error.cumulative_pitch = {1 * units::um, -2 * units::um, 0, 3 * units::um};
+  c.modification.pinion.lead_crowning = 6 * units::um;
+  c.modification.wheel.lead_slope = -4 * units::um;
+  c.modification.pinion.end_relief = {8 * units::um, 10};
+  c.modification.wheel.tip_relief = {10 * units::um, 3, ReliefShape::Linear};
+  c.modification.pinion.root_relief = {5 * units::um, 2, ReliefShape::Parabolic};
+  set(c.modification.wheel, parameter_of("profile_crowning"), 4 * units::um);
+  c.modification.pinion.profile_slope = 2 * units::um;
+  c.error.pinion.helix_slope = 3 * units::um;
+  c.error.pinion.profile_slope = -4 * units::um;
+  c.error.pinion.pitch_step = 2 * units::um;
+  c.error.pinion.helix_slopes = {0, 2 * units::um, -1 * units::um};
+  c.error.wheel.profile_slopes = {1 * units::um, 0};
+  c.error.wheel.cumulative_pitch = {1 * units::um, -2 * units::um, 0, 3 * units::um};
   c.misalignment.crossing = 10 * units::arcsec;
   c.misalignment.intersecting = -20 * units::arcsec;
   c.misalignment.mesh_misalignment = 5 * units::um;
@@ -62,7 +62,7 @@ TEST_CASE("Every modification parameter belongs to one part", "[core][load][load
   for (const ModificationDescriptor& named : modification_parameters) {
     CAPTURE(named.key);
     FlankCondition condition;
-    set(condition.pinion_modification, named.parameter, 1e-3);
+    set(condition.modification.pinion, named.parameter, 1e-3);
     const bool lead = lead_part(condition) == condition, profile = profile_part(condition) == condition;
     CHECK(lead + profile + has_other_part(condition) == 1);
     CHECK((perfect_part(condition) == FlankCondition{}));

@@ -52,8 +52,8 @@ TEST_CASE("Twin gears share alike before and after the middle of the path", "[co
 TEST_CASE("A tooth that lags carries less", "[core][load][load-sharing]") {
   const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
   FlankCondition condition;
-  condition.pinion_error.cumulative_pitch = std::vector<double>(18, 0.0);
-  condition.pinion_error.cumulative_pitch[2] = -3 * units::um;
+  condition.error.pinion.cumulative_pitch = std::vector<double>(18, 0.0);
+  condition.error.pinion.cumulative_pitch[2] = -3 * units::um;
   const auto perfect = shares_at(gears, 0.3), with_error = shares_at(gears, 0.3, condition);
   CHECK(with_error.at(2) < perfect.at(2));
   CHECK(with_error.at(1) > perfect.at(1));

@@ -16,8 +16,8 @@ constexpr double kFineSearch = 2e-6;  // base pitches: what moves with a step mu
 
 FlankCondition crowned_and_relieved() {
   FlankCondition condition;
-  condition.pinion_modification.lead_crowning = 5 * units::um;
-  condition.wheel_modification.tip_relief = {8 * units::um, 3, ReliefShape::Linear};
+  condition.modification.pinion.lead_crowning = 5 * units::um;
+  condition.modification.wheel.tip_relief = {8 * units::um, 3, ReliefShape::Linear};
   condition.misalignment.mesh_misalignment = 6 * units::um;
   return condition;
 }
@@ -30,9 +30,9 @@ struct Moved {
 
 std::vector<Moved> movable() {
   return {{GearParameter{Member::Pinion, parameter_of("lead_crowning")},
-           [](FlankCondition& c, double by) { c.pinion_modification.lead_crowning += by; }},
+           [](FlankCondition& c, double by) { c.modification.pinion.lead_crowning += by; }},
           {GearParameter{Member::Wheel, parameter_of("tip_relief.amount")},
-           [](FlankCondition& c, double by) { c.wheel_modification.tip_relief.amount += by; }},
+           [](FlankCondition& c, double by) { c.modification.wheel.tip_relief.amount += by; }},
           {&Misalignment::mesh_misalignment, [](FlankCondition& c, double by) { c.misalignment.mesh_misalignment += by; }}};
 }
 

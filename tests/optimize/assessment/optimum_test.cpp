@@ -25,33 +25,32 @@ struct Solved {
         result(optimise_design(problem, SolverOptions{})),
         after(result.after),
         parameters(assessed_parameters(task)),
-        model(problem, after.analysis.pinion_modification, after.analysis.wheel_modification, parameters, result.optimality.active),
+        model(problem, after.analysis.modification, parameters, result.optimality.active),
         optimum(find_optimum(problem, result.optimality, model, parameters, after.variables)) {}
 };
 
 /// The objective with one parameter moved by some of its steps and everything analysed again.
-double moved_objective(const DesignTask& task, Modification pinion, Modification wheel, const AssessedParameter& p, double steps) {
+double moved_objective(const DesignTask& task, PerGear<Modification> modification, const AssessedParameter& p, double steps) {
   DesignTask moved = task;
-  const auto member_is_pinion = [](const GearParameter& g) { return g.member == Member::Pinion; };
   for (DesignScene& scene : moved.scenes) {
     if (const auto* m = std::get_if<MisalignmentParameter>(&p.parameter)) scene.condition.misalignment.*(*m) += steps * p.inside;
     if (std::holds_alternative<PinionTorque>(p.parameter)) scene.torque *= 1.0 + steps * p.inside;
     const auto* g = std::get_if<GearParameter>(&p.parameter);
     if (g == nullptr || p.variable >= 0) continue;
-    ManufacturingError& manufacturing = member_is_pinion(*g) ? scene.condition.pinion_error : scene.condition.wheel_error;
+    ManufacturingError& manufacturing = scene.condition.error[g->member];
     (g->parameter == parameter_of("lead_slope") ? manufacturing.helix_slope : manufacturing.profile_slope) += steps * units::um;
   }
   if (p.variable >= 0) {
     const auto& g = std::get<GearParameter>(p.parameter);
-    Modification& m = member_is_pinion(g) ? pinion : wheel;
+    Modification& m = modification[g.member];
     set(m, g.parameter, get(m, g.parameter) + steps * p.inside);
   }
   const DesignProblem problem(moved);
-  return problem.objective(problem.analyse_design(pinion, wheel));
+  return problem.objective(problem.analyse_design(modification));
 }
 
 double moved_objective(const DesignTask& task, const DesignReport& after, const AssessedParameter& p, double steps) {
-  return moved_objective(task, after.analysis.pinion_modification, after.analysis.wheel_modification, p, steps);
+  return moved_objective(task, after.analysis.modification, p, steps);
 }
 
 double total_weight(const Optimum& optimum) {
@@ -93,17 +92,17 @@ TEST_CASE("The objective answers to a step of anything as the exact derivatives 
 TEST_CASE("Over the whole surface a step of a misalignment takes the points with it", "[optimize][assessment]") {
   DesignTask task = spur({6.0});
   task.gap = GapModel::WholeSurface;
-  task.pinion_modification.lead_crowning = 8 * units::um;
+  task.modification.pinion.lead_crowning = 8 * units::um;
   task.scenes.front().condition.misalignment.centre_distance = 0.2;
   const DesignProblem problem(task);
   const std::vector<AssessedParameter> parameters = assessed_parameters(task);
-  const LocalModel model(problem, task.pinion_modification, task.wheel_modification, parameters);
+  const LocalModel model(problem, task.modification, parameters);
   const double now = model.objective(Eigen::VectorXd::Zero(model.parameters()));
   for (std::size_t i = 0; i < parameters.size(); ++i) {
     if (!moves_mesh(task.gap, parameters[i].parameter)) continue;
     CAPTURE(parameters[i].name);
     constexpr double share = 0.01, second_order = 1e-4;  // of a step, relative; round-off of the objective over it is less
-    const auto found = [&](double steps) { return moved_objective(task, task.pinion_modification, task.wheel_modification, parameters[i], steps); };
+    const auto found = [&](double steps) { return moved_objective(task, task.modification, parameters[i], steps); };
     const double slope = (model.objective(share * Eigen::VectorXd::Unit(model.parameters(), static_cast<Eigen::Index>(i))) - now) / share;
     CHECK(slope == Approx((found(share) - found(-share)) / (2 * share)).epsilon(second_order).margin(1e-7 * now));
   }
@@ -205,10 +204,10 @@ TEST_CASE("A tied modification follows in sensitivities and multipliers", "[opti
   CHECK(solved.optimum.residual < solver);
   // A step of both, analysed again.
   constexpr double share = 0.01, second_order = 0.03;
-  Modification pinion = solved.after.analysis.pinion_modification, wheel = solved.after.analysis.wheel_modification;
-  pinion.lead_crowning += share * units::um;
-  wheel.lead_crowning += 0.5 * share * units::um;
-  const double found = solved.problem.objective(solved.problem.analyse_design(pinion, wheel)) - solved.after.objective;
+  PerGear<Modification> changed = solved.after.analysis.modification;
+  changed.pinion.lead_crowning += share * units::um;
+  changed.wheel.lead_crowning += 0.5 * share * units::um;
+  const double found = solved.problem.objective(solved.problem.analyse_design(changed)) - solved.after.objective;
   const Eigen::VectorXd step = share * Eigen::VectorXd::Unit(solved.model.parameters(), 0);
   CHECK(solved.model.objective(step) - solved.after.objective == Approx(found).epsilon(second_order).margin(2e-6 * solved.after.objective));
 }
@@ -242,7 +241,7 @@ TEST_CASE("In a list the last objective is governed, and the limit of the first 
   const DesignProblem last = last_stage(problem, result.stages);
   const std::vector<AssessedParameter> parameters = assessed_parameters(last.task());
   const DesignAnalysis& analysis = result.after.analysis;
-  const LocalModel model(last, analysis.pinion_modification, analysis.wheel_modification, parameters, result.optimality.active);
+  const LocalModel model(last, analysis.modification, parameters, result.optimality.active);
   const Optimum optimum = find_optimum(last, result.optimality, model, parameters, result.after.variables);
   constexpr double round_off = 1e-12, solver = 1e-3;
   CHECK(model.objective(Eigen::VectorXd::Zero(model.parameters())) == Approx(result.after.later_objectives[0]).epsilon(round_off));

@@ -40,24 +40,24 @@ TEST_CASE("Short relief of the thesis' pair reaches about 2.5 mm below the tip, 
   const NamedDesign design = named(rules_of_thumb(problem.task(), rule_basis(problem)), "short tip relief");
   // Section 4.3.3: "about 2.5 mm", and that 5 .. 6 mm is "nearly twice" as much: model error, half a millimetre.
   constexpr double published = 2.5, scatter = 0.6;
-  CHECK(design.pinion.tip_relief.height == Approx(published).margin(scatter));
-  CHECK(design.wheel.tip_relief.height == Approx(published).margin(scatter));
+  CHECK(design.modification.pinion.tip_relief.height == Approx(published).margin(scatter));
+  CHECK(design.modification.wheel.tip_relief.height == Approx(published).margin(scatter));
 }
 
 TEST_CASE("Long relief starts at the pitch point", "[optimize][assessment]") {
   const DesignProblem problem(helical({0.0}, 4));
   const NamedDesign design = named(rules_of_thumb(problem.task(), rule_basis(problem)), "long tip relief");
   constexpr double round_off = 1e-9;  // without profile shift the addendum is a module above the pitch point
-  CHECK(design.pinion.tip_relief.height == Approx(10.0).epsilon(round_off));
-  CHECK(design.wheel.tip_relief.height == Approx(10.0).epsilon(round_off));
+  CHECK(design.modification.pinion.tip_relief.height == Approx(10.0).epsilon(round_off));
+  CHECK(design.modification.wheel.tip_relief.height == Approx(10.0).epsilon(round_off));
 }
 
 TEST_CASE("Relief to single contact leaves a base pitch of the path alone", "[optimize][assessment]") {
   const DesignProblem problem(spur({0.0}));
   const GearPair& pair = problem.task().pair;
   const NamedDesign design = named(rules_of_thumb(problem.task(), rule_basis(problem)), "tip relief to single contact");
-  const double pinion_start = pair.pinion.roll_length_at(pair.pinion.tip_radius - design.pinion.tip_relief.height);
-  const double wheel_start = pair.path_length - pair.wheel.roll_length_at(pair.wheel.tip_radius - design.wheel.tip_relief.height);
+  const double pinion_start = pair.pinion.roll_length_at(pair.pinion.tip_radius - design.modification.pinion.tip_relief.height);
+  const double wheel_start = pair.path_length - pair.wheel.roll_length_at(pair.wheel.tip_radius - design.modification.wheel.tip_relief.height);
   constexpr double round_off = 1e-9;
   // From the start of contact, a base pitch on the pair's successor comes: there single contact begins and ends.
   CHECK(pinion_start - pair.path_start == Approx(pair.transverse_base_pitch).epsilon(round_off));
@@ -77,22 +77,22 @@ TEST_CASE("Amounts follow from the deflections and the misalignment of the scene
   CHECK(basis.deflection < basis.single_pair_deflection);
   CHECK(basis.deflection > 0.3 * basis.single_pair_deflection);
   const std::vector<NamedDesign> rules = rules_of_thumb(problem.task(), basis);
-  CHECK(named(rules, "crowning of half the misalignment").pinion.lead_crowning == Approx(0.008).epsilon(round_off));
-  CHECK(named(rules, "crowning after ISO 6336-1").pinion.lead_crowning == Approx(0.010).epsilon(round_off));  // at least 10 um
-  CHECK(named(rules, "end relief after ISO 6336-1").pinion.end_relief.amount == Approx(0.016).epsilon(round_off));
-  CHECK(named(rules, "end relief after ISO 6336-1").pinion.end_relief.length == Approx(10.0).epsilon(round_off));
+  CHECK(named(rules, "crowning of half the misalignment").modification.pinion.lead_crowning == Approx(0.008).epsilon(round_off));
+  CHECK(named(rules, "crowning after ISO 6336-1").modification.pinion.lead_crowning == Approx(0.010).epsilon(round_off));  // at least 10 um
+  CHECK(named(rules, "end relief after ISO 6336-1").modification.pinion.end_relief.amount == Approx(0.016).epsilon(round_off));
+  CHECK(named(rules, "end relief after ISO 6336-1").modification.pinion.end_relief.length == Approx(10.0).epsilon(round_off));
   const NamedDesign both = named(rules, "short tip relief and crowning of half the misalignment");
-  CHECK(both.pinion.tip_relief == named(rules, "short tip relief").pinion.tip_relief);
-  CHECK(both.wheel.tip_relief.amount == both.pinion.tip_relief.amount);
-  CHECK(both.pinion.lead_crowning == named(rules, "crowning of half the misalignment").pinion.lead_crowning);
+  CHECK(both.modification.pinion.tip_relief == named(rules, "short tip relief").modification.pinion.tip_relief);
+  CHECK(both.modification.wheel.tip_relief.amount == both.modification.pinion.tip_relief.amount);
+  CHECK(both.modification.pinion.lead_crowning == named(rules, "crowning of half the misalignment").modification.pinion.lead_crowning);
 }
 
 TEST_CASE("The deflection is half at half the torque and the rules stay what they are for any start", "[optimize][assessment]") {
   DesignTask task = spur({0.0, 10.0});
   const RuleBasis full = rule_basis(DesignProblem(task));
   for (DesignScene& scene : task.scenes) scene.torque *= 0.5;
-  task.pinion_modification.lead_crowning = 0.02;  // where the search starts is no rule
-  task.pinion_modification.topography = std::make_shared<const EvenField>();
+  task.modification.pinion.lead_crowning = 0.02;  // where the search starts is no rule
+  task.modification.pinion.topography = std::make_shared<const EvenField>();
   const DesignProblem problem(task);
   const RuleBasis half = rule_basis(problem);
   constexpr double round_off = 1e-9;
@@ -101,8 +101,8 @@ TEST_CASE("The deflection is half at half the torque and the rules stay what the
   CHECK(half.deflection == Approx(0.5 * full.deflection).epsilon(hertz));
   CHECK(half.deflection > 0.5 * full.deflection);
   const std::vector<NamedDesign> rules = rules_of_thumb(problem.task(), half);
-  CHECK(named(rules, "unmodified").pinion.lead_crowning == 0.0);
-  CHECK(named(rules, "unmodified").pinion.topography == task.pinion_modification.topography);  // as measured
+  CHECK(named(rules, "unmodified").modification.pinion.lead_crowning == 0.0);
+  CHECK(named(rules, "unmodified").modification.pinion.topography == task.modification.pinion.topography);  // as measured
 }
 
 TEST_CASE("Every rule has a name of its own; aligned pairs have no lead rules", "[optimize][assessment]") {
@@ -111,17 +111,17 @@ TEST_CASE("Every rule has a name of its own; aligned pairs have no lead rules", 
   for (const NamedDesign& d : rules_of_thumb(misaligned.task(), rule_basis(misaligned))) names.insert(d.name);
   CHECK(names.size() == 20);  // five profile rules by four lead rules
   for (const NamedDesign& d : rules_of_thumb(aligned.task(), rule_basis(aligned))) {
-    CHECK(d.pinion.lead_crowning == 0.0);
-    CHECK(d.pinion.end_relief.amount == 0.0);
+    CHECK(d.modification.pinion.lead_crowning == 0.0);
+    CHECK(d.modification.pinion.end_relief.amount == 0.0);
   }
 }
 
 TEST_CASE("A compared design has the figures of its own analysis, and failures and broken bounds never win", "[optimize][assessment]") {
   DesignTask task = helical({0.0, 12.0}, 4);
   DesignProblem problem(task);
-  NamedDesign crowned{"crowned", "", {}, {}};
-  crowned.pinion.lead_crowning = 0.010;
-  const std::vector<ComparedDesign> compared = compare_designs(problem, {{"plain", "", {}, {}}, crowned});
+  NamedDesign crowned{"crowned", "", {}};
+  crowned.modification.pinion.lead_crowning = 0.010;
+  const std::vector<ComparedDesign> compared = compare_designs(problem, {{"plain", "", {}}, crowned});
   Eigen::Vector3d x(0.25, 0.5, 0.0);  // 10 um of 0 .. 40, no slope, no profile crowning
   CHECK(compared[1].objective == problem.objective(problem.analyse(x, false)));
   CHECK(compared[1].scene_measures.size() == 2);
@@ -131,7 +131,7 @@ TEST_CASE("A compared design has the figures of its own analysis, and failures a
   task.scenes.pop_back();
   task.constraints = {{term(Output::PeakContactStress), 1.0001 * stress_aligned_plain}};
   const DesignProblem bounded(task);
-  const std::vector<ComparedDesign> again = compare_designs(bounded, {crowned, {"plain", "", {}, {}}});
+  const std::vector<ComparedDesign> again = compare_designs(bounded, {crowned, {"plain", "", {}}});
   CHECK_FALSE(again[0].feasible());
   CHECK(best_of(again) == &again[1]);
   CHECK(best_of({again[0]}) == nullptr);

@@ -40,16 +40,16 @@ TEST_CASE("Shares and histograms count every number once", "[optimize][assessmen
 TEST_CASE("Validation gives each design the measures of its own analyses, on one thread and on two", "[optimize][assessment][determinism]") {
   const DesignTask task = spur({0.0});
   const std::vector<DesignScene> drawn = spur({3.0, -7.0, 15.0}).scenes;
-  NamedDesign crowned{"crowned", "", {}, {}};
-  crowned.pinion.lead_crowning = 0.008;
+  NamedDesign crowned{"crowned", "", {}};
+  crowned.modification.pinion.lead_crowning = 0.008;
   const auto validated_with = [&](std::size_t threads) {
     const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-    return validate_designs(task, drawn, {{"plain", "", {}, {}}, crowned});
+    return validate_designs(task, drawn, {{"plain", "", {}}, crowned});
   };
   const std::vector<ValidatedDesign> one = validated_with(1), two = validated_with(2);
   REQUIRE(one.size() == 2);
   DesignProblem problem(spur({3.0, -7.0, 15.0}));
-  const DesignAnalysis expected = problem.analyse_design(crowned.pinion, crowned.wheel);
+  const DesignAnalysis expected = problem.analyse_design(crowned.modification);
   for (int s = 0; s < 3; ++s) CHECK(one[1].measures[static_cast<std::size_t>(s)] == problem.scene_measure(expected, s));
   for (std::size_t d = 0; d < 2; ++d) CHECK(one[d].measures == two[d].measures);
   // Crowning helps where the mesh is far out of line.

@@ -30,8 +30,8 @@ TEST_CASE("Every modification parameter is read from a study file, in the unit o
     for (const std::string gear : {"pinion", "wheel"}) {
       CAPTURE(gear, std::string(d.key));
       const Study study = read("[" + gear + ".modification]\n" + with_value(d));
-      const Modification& changed = gear == "pinion" ? study.pinion_modification : study.wheel_modification;
-      const Modification& other = gear == "pinion" ? study.wheel_modification : study.pinion_modification;
+      const Modification& changed = gear == "pinion" ? study.modification.pinion : study.modification.wheel;
+      const Modification& other = gear == "pinion" ? study.modification.wheel : study.modification.pinion;
       CHECK(d.get(changed) * outside_factor(d.kind) == Approx(value_outside).epsilon(1e-14));
       CHECK((other == Modification{}));
       const SchemaKey& key = *study_keys().at(gear + ".modification." + std::string(d.key));
@@ -46,7 +46,7 @@ TEST_CASE("Every modification's choice is read from a study file", "[studies][st
   for (const ModificationChoice& c : modification_choices) {
     CAPTURE(std::string(c.key));
     const auto with_word = [&](std::string_view word) {
-      return read("[wheel.modification]\n" + std::string(c.key) + " = \"" + std::string(word) + "\"\n").wheel_modification;
+      return read("[wheel.modification]\n" + std::string(c.key) + " = \"" + std::string(word) + "\"\n").modification.wheel;
     };
     CHECK((with_word(c.words[0]) == Modification{}));
     CHECK((with_word(c.words[1]) != Modification{}));

@@ -40,12 +40,12 @@ torque = [100, "1 kN·m"]
 )");
   CHECK(study.pair.normal_module == 4.0);
   CHECK(study.pair.helix_angle == Approx(std::acos(-1.0) / 9.0).epsilon(file_round_off));
-  CHECK(study.pinion_modification.lead_crowning == Approx(0.008).epsilon(file_round_off));
-  CHECK(study.pinion_modification.tip_relief.amount == Approx(0.010).epsilon(file_round_off));
-  CHECK(study.pinion_modification.tip_relief.height == 2.5);
-  CHECK(study.pinion_modification.tip_relief.shape == ReliefShape::Parabolic);
-  CHECK(study.wheel_modification.tip_relief.amount == 0.0);
-  CHECK(study.wheel_error.helix_slope == Approx(-0.004).epsilon(file_round_off));
+  CHECK(study.modification.pinion.lead_crowning == Approx(0.008).epsilon(file_round_off));
+  CHECK(study.modification.pinion.tip_relief.amount == Approx(0.010).epsilon(file_round_off));
+  CHECK(study.modification.pinion.tip_relief.height == 2.5);
+  CHECK(study.modification.pinion.tip_relief.shape == ReliefShape::Parabolic);
+  CHECK(study.modification.wheel.tip_relief.amount == 0.0);
+  CHECK(study.error.wheel.helix_slope == Approx(-0.004).epsilon(file_round_off));
   CHECK(study.misalignment.crossing == Approx(3.0 * std::acos(-1.0) / 10800.0).epsilon(file_round_off));
   CHECK(study.misalignment.centre_distance == 0.05);
   CHECK(study.misalignment.mesh_misalignment == Approx(0.012).epsilon(file_round_off));
@@ -61,7 +61,7 @@ TEST_CASE("A study without a key has the defaults of the data types", "[studies]
   CHECK(std::isnan(study.pair.pinion.tip_diameter));
   CHECK(study.pair.pinion.rack.root_radius == RackProfile{}.root_radius);
   CHECK(study.pair.wheel.rack.dedendum == RackProfile{}.dedendum);
-  CHECK(study.wheel_material.youngs_modulus == Material{}.youngs_modulus);
+  CHECK(study.material.wheel.youngs_modulus == Material{}.youngs_modulus);
   CHECK(study.torques == std::vector<double>{0.0});
   CHECK(study.cycle.positions == Cycle{}.positions);
   CHECK(study.cycle.phases.empty());
@@ -89,28 +89,28 @@ TEST_CASE("A diametral pitch P is the module 25.4 mm / P", "[studies][study-file
 
 TEST_CASE("A gear's own material overrides the common one", "[studies][study-file]") {
   const Study study = read("[wheel.material]\nyoungs_modulus = \"110 GPa\"\n[material]\nyoungs_modulus = 200000\n");
-  CHECK(study.pinion_material.youngs_modulus == 200000.0);
-  CHECK(study.wheel_material.youngs_modulus == Approx(110000.0).epsilon(file_round_off));
-  CHECK(study.wheel_material.poissons_ratio == 0.3);
+  CHECK(study.material.pinion.youngs_modulus == 200000.0);
+  CHECK(study.material.wheel.youngs_modulus == Approx(110000.0).epsilon(file_round_off));
+  CHECK(study.material.wheel.poissons_ratio == 0.3);
 }
 
 TEST_CASE("Profile crowning sets both halves, and giving a half as well is refused", "[studies][study-file]") {
   const Study study = read("[wheel.modification]\nprofile_crowning = 6\n");
-  CHECK(study.wheel_modification.addendum_crowning == Approx(0.006).epsilon(file_round_off));
-  CHECK(study.wheel_modification.dedendum_crowning == Approx(0.006).epsilon(file_round_off));
-  CHECK(read("[wheel.modification]\naddendum_crowning = 5\n").wheel_modification.dedendum_crowning == 0.0);
+  CHECK(study.modification.wheel.addendum_crowning == Approx(0.006).epsilon(file_round_off));
+  CHECK(study.modification.wheel.dedendum_crowning == Approx(0.006).epsilon(file_round_off));
+  CHECK(read("[wheel.modification]\naddendum_crowning = 5\n").modification.wheel.dedendum_crowning == 0.0);
   CHECK(problem_of("[wheel.modification]\nprofile_crowning = 6\ndedendum_crowning = 2\n").key ==
         "wheel.modification.dedendum_crowning");
 }
 
 TEST_CASE("A pitch error is a step for every tooth, or a list with one entry a tooth", "[studies][study-file]") {
-  CHECK(read("[pinion.error]\npitch = 3\n").pinion_error.pitch_step == Approx(0.003).epsilon(file_round_off));
+  CHECK(read("[pinion.error]\npitch = 3\n").error.pinion.pitch_step == Approx(0.003).epsilon(file_round_off));
   std::string list = "[0";
   for (int tooth = 1; tooth < 20; ++tooth) list += ", " + std::to_string(tooth % 3);
   const Study study = read("[pinion.error]\npitch = " + list + "]\n");
-  CHECK(study.pinion_error.pitch_step == 0.0);
-  CHECK(study.pinion_error.cumulative_pitch.size() == 20);
-  CHECK(study.pinion_error.cumulative_pitch[5] == Approx(0.002).epsilon(file_round_off));
+  CHECK(study.error.pinion.pitch_step == 0.0);
+  CHECK(study.error.pinion.cumulative_pitch.size() == 20);
+  CHECK(study.error.pinion.cumulative_pitch[5] == Approx(0.002).epsilon(file_round_off));
   const StudyProblem problem = problem_of("[wheel.error]\npitch = [1, 2, 3]\n");
   CHECK(problem.line == 14);
   CHECK_THAT(problem.allowed, Catch::Contains("30"));
@@ -142,8 +142,8 @@ pinion.error.helix_slope = 7
   CHECK(hot.misalignment.crossing == study.misalignment.crossing);
   CHECK(hot.misalignment.mesh_misalignment == Approx(0.012).epsilon(file_round_off));
   CHECK(hot.torques == std::vector<double>{3e5});
-  CHECK(hot.pinion_error.helix_slope == Approx(0.007).epsilon(file_round_off));
-  CHECK(study.pinion_error.helix_slope == 0.0);
+  CHECK(hot.error.pinion.helix_slope == Approx(0.007).epsilon(file_round_off));
+  CHECK(study.error.pinion.helix_slope == 0.0);
 
   const StudyProblem problem = problem_of("[[scenes]]\npinion.teeth = 21\n");
   CHECK(problem.line == 14);

@@ -70,13 +70,13 @@ TEST_CASE("The predesigned parabola is read in arcsec per square degree or 1/rad
           "[studies][study-file]") {
   // 1 arcsec/deg^2 = (pi/648000) / (pi/180)^2 rad^-1 = 1/(20 pi) rad^-1.
   const double one = 1.0 / (20.0 * std::acos(-1.0));
-  CHECK(read("[pinion.modification]\nparabolic_te = 0.3\n").pinion_modification.parabolic_te ==
+  CHECK(read("[pinion.modification]\nparabolic_te = 0.3\n").modification.pinion.parabolic_te ==
         Approx(0.3 * one).epsilon(flanks_round_off));
-  CHECK(read("[wheel.modification]\nparabolic_te = \"0.3 arcsec/deg²\"\n").wheel_modification.parabolic_te ==
+  CHECK(read("[wheel.modification]\nparabolic_te = \"0.3 arcsec/deg²\"\n").modification.wheel.parabolic_te ==
         Approx(0.3 * one).epsilon(flanks_round_off));
-  CHECK(read("", {{"pinion.modification.parabolic_te", "0.01 1/rad"}}).pinion_modification.parabolic_te ==
+  CHECK(read("", {{"pinion.modification.parabolic_te", "0.01 1/rad"}}).modification.pinion.parabolic_te ==
         Approx(0.01).epsilon(flanks_round_off));
-  CHECK(read().pinion_modification.parabolic_te == 0.0);
+  CHECK(read().modification.pinion.parabolic_te == 0.0);
   CHECK_THAT(problem_of("[pinion.modification]\nparabolic_te = \"3 um\"\n").allowed, Catch::Contains("arcsec/deg^2, 1/rad"));
 
   const Study study = read("[optimise.variables]\npinion.modification.parabolic_te = [0, 0.5]\n");
@@ -166,21 +166,21 @@ TEST_CASE("The marking compound is 0.00025 in thick by default", "[studies][stud
 TEST_CASE("A grid file beside the study is read and fitted, wherever the program runs", "[studies][study-file][grid]") {
   const GridCase grid(crowned_grid());
   const Study study = read_study(grid.study_path(grid_table));
-  REQUIRE(study.pinion_modification.topography);
-  CHECK_FALSE(study.wheel_modification.topography);
-  CHECK(study.pinion_grid.file == "flank.csv");
-  CHECK(study.pinion_grid.rows == 6);
-  CHECK(study.pinion_grid.columns == 7);
-  CHECK(study.pinion_grid.lowest_radius == 41.0);
-  CHECK(study.pinion_grid.highest_radius == 46.0);
-  CHECK(study.pinion_grid.lowest_z == -18.0);
-  CHECK(study.pinion_grid.highest_z == 18.0);
-  CHECK(study.pinion_grid.largest < 1e-12);  // through every point: round-off of some um
+  REQUIRE(study.modification.pinion.topography);
+  CHECK_FALSE(study.modification.wheel.topography);
+  CHECK(study.grid.pinion.file == "flank.csv");
+  CHECK(study.grid.pinion.rows == 6);
+  CHECK(study.grid.pinion.columns == 7);
+  CHECK(study.grid.pinion.lowest_radius == 41.0);
+  CHECK(study.grid.pinion.highest_radius == 46.0);
+  CHECK(study.grid.pinion.lowest_z == -18.0);
+  CHECK(study.grid.pinion.highest_z == 18.0);
+  CHECK(study.grid.pinion.largest < 1e-12);  // through every point: round-off of some um
 
   // Metal removed by 8 um (18/20)^2 normal to the flank at z = 18 mm, more along the base tangent.
   const GearPair pair = make_gear_pair(study.pair);
   const double rho = std::sqrt(43.0 * 43.0 - pair.pinion.base_radius * pair.pinion.base_radius);
-  CHECK(study.pinion_modification.topography->at(rho, 18.0).value ==
+  CHECK(study.modification.pinion.topography->at(rho, 18.0).value ==
         Approx(8e-3 * 0.81 / std::cos(pair.base_helix_angle)).epsilon(1e-6));  // six decimals in the file
 }
 
@@ -193,7 +193,7 @@ TEST_CASE("Single teeth may have a measured grid each, in every scene", "[studie
   };
   const int teeth = read_study(grid.study_path("")).pair.pinion.teeth;
   const Study study = read_study(grid.study_path(table(teeth)));
-  const auto& fields = study.scenes.front().pinion_error.topographies;
+  const auto& fields = study.scenes.front().error.pinion.topographies;
   REQUIRE(static_cast<int>(fields.size()) == teeth);
   CHECK(fields[0] == nullptr);
   REQUIRE(fields[1] != nullptr);
@@ -202,7 +202,7 @@ TEST_CASE("Single teeth may have a measured grid each, in every scene", "[studie
   const GearPair pair = make_gear_pair(study.pair);
   const double rho = pair.pinion.roll_length_at(43.0);
   CHECK(fields[1]->at(rho, 18.0).value == Approx(0.008 * 0.81 / std::cos(pair.base_helix_angle)).epsilon(1e-9));
-  CHECK(study.wheel_error.topographies.empty());
+  CHECK(study.error.wheel.topographies.empty());
   const auto problems = grid.problems(table(teeth - 1));
   REQUIRE(problems.size() == 1);
   CHECK(problems.front().key == "pinion.error.grids");
@@ -217,11 +217,11 @@ TEST_CASE("A grid may be smoothed, and its distance from the points is reported"
   const GridCase grid(rough);
   const Study study =
       read_study(grid.study_path(grid_table + "grid_smoothing = { profile_pieces = 1, face_pieces = 2 }\n"));
-  CHECK(study.pinion_grid.profile_pieces == 1);
-  CHECK(study.pinion_grid.face_pieces == 2);
-  CHECK(study.pinion_grid.largest > 1e-3);  // of the 3 um that stick out
-  CHECK(study.pinion_grid.rms > 0.0);
-  CHECK(study.pinion_grid.rms < study.pinion_grid.largest);
+  CHECK(study.grid.pinion.profile_pieces == 1);
+  CHECK(study.grid.pinion.face_pieces == 2);
+  CHECK(study.grid.pinion.largest > 1e-3);  // of the 3 um that stick out
+  CHECK(study.grid.pinion.rms > 0.0);
+  CHECK(study.grid.pinion.rms < study.grid.pinion.largest);
 
   const auto problems = grid.problems(grid_table + "grid_smoothing.face_pieces = 40\n");
   REQUIRE(problems.size() == 1);

@@ -68,9 +68,9 @@ std::vector<StudyProblem> shaft_problems(const std::string& text, const std::vec
 
 TEST_CASE("A shaft is read with its units, the gear's material and one bearing that holds axially", "[studies][shaft]") {
   const Study study = read_shafts(pair_text + shaft_text, {{"material.youngs_modulus", "210000"}});
-  REQUIRE(study.pinion_shaft);
-  CHECK_FALSE(study.wheel_shaft);
-  const ShaftData& shaft = *study.pinion_shaft;
+  REQUIRE(study.shaft.pinion);
+  CHECK_FALSE(study.shaft.wheel);
+  const ShaftData& shaft = *study.shaft.pinion;
   REQUIRE(shaft.sections.size() == 2);
   CHECK(shaft.sections[0].outer_diameter == 50.0);
   CHECK(shaft.sections[0].inner_diameter == 0.0);
@@ -84,8 +84,8 @@ TEST_CASE("A shaft is read with its units, the gear's material and one bearing t
   CHECK(shaft.bearings[1].axial_stiffness == 0.0);
   CHECK(shaft.gear_stiffens);
   CHECK(shaft.material.youngs_modulus == 210000.0);
-  CHECK_FALSE(read_shafts(pair_text + shaft_text + "gear_stiffens = \"no\"\n").pinion_shaft->gear_stiffens);
-  CHECK(read_shafts(pair_text + shaft_text, {{"pinion.shaft.bearings.1.axial_stiffness", "5"}}).pinion_shaft->bearings[0].axial_stiffness == 0.0);
+  CHECK_FALSE(read_shafts(pair_text + shaft_text + "gear_stiffens = \"no\"\n").shaft.pinion->gear_stiffens);
+  CHECK(read_shafts(pair_text + shaft_text, {{"pinion.shaft.bearings.1.axial_stiffness", "5"}}).shaft.pinion->bearings[0].axial_stiffness == 0.0);
 }
 
 TEST_CASE("Impossible shafts are refused with their position in the file", "[studies][shaft]") {
@@ -187,12 +187,12 @@ TEST_CASE("Errors of single teeth are read as lists, one value a tooth", "[studi
   for (int tooth = 3; tooth < 21; ++tooth) values += ", 0";
   values += "]";
   const Study study = read_shafts(pair_text + "[pinion.error]\nhelix_slope = " + values + "\nprofile_slope = 5\ntwist = " + values + "\n");
-  CHECK(study.pinion_error.helix_slope == 0.0);
-  REQUIRE(study.pinion_error.helix_slopes.size() == 21);
-  CHECK(study.pinion_error.helix_slopes[1] == Approx(-0.002).epsilon(shaft_round_off));
-  CHECK(study.pinion_error.profile_slope == Approx(0.005).epsilon(shaft_round_off));
-  CHECK(study.pinion_error.profile_slopes.empty());
-  CHECK(study.pinion_error.twists[2] == Approx(0.003).epsilon(shaft_round_off));
+  CHECK(study.error.pinion.helix_slope == 0.0);
+  REQUIRE(study.error.pinion.helix_slopes.size() == 21);
+  CHECK(study.error.pinion.helix_slopes[1] == Approx(-0.002).epsilon(shaft_round_off));
+  CHECK(study.error.pinion.profile_slope == Approx(0.005).epsilon(shaft_round_off));
+  CHECK(study.error.pinion.profile_slopes.empty());
+  CHECK(study.error.pinion.twists[2] == Approx(0.003).epsilon(shaft_round_off));
   for (const char* key : {"helix_slope", "profile_slope", "twist", "pitch"}) {
     const std::vector<StudyProblem> problems = shaft_problems(pair_text + "[pinion.error]\n" + key + " = [1, 2, 3]\n");
     REQUIRE(problems.size() == 1);

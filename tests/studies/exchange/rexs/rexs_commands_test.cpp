@@ -27,14 +27,14 @@ TEST_CASE("An optimised design goes to REXS and back into a study that check acc
   CHECK(run(folder, {"check", "deep/back.toml"}).exit_code == 0);
   const auto variables = Json::parse(text_of(folder.path() / "r/results.json"))["optimise"]["after"]["variables"];
   const Study back = read_study((folder.path() / "deep/back.toml").string());
-  CHECK(back.pinion_modification.lead_crowning == Approx(1e-3 * variables["pinion.modification.lead_crowning"].get<double>()).epsilon(1e-14));
-  CHECK(back.pinion_modification.end_relief.amount == Approx(1e-3 * variables["pinion.modification.end_relief.amount"].get<double>()).epsilon(1e-14));
+  CHECK(back.modification.pinion.lead_crowning == Approx(1e-3 * variables["pinion.modification.lead_crowning"].get<double>()).epsilon(1e-14));
+  CHECK(back.modification.pinion.end_relief.amount == Approx(1e-3 * variables["pinion.modification.end_relief.amount"].get<double>()).epsilon(1e-14));
 
   // As the study gave them: no modification at all.
   REQUIRE(run(folder, {"export", "r", "--rexs", "--given", "--out", "x"}).exit_code == 0);
   const Ending given = run(folder, {"import", "x/stage.rexs"});
   CHECK(given.exit_code == 0);
-  CHECK(parse_study(given.out, "given").pinion_modification == Modification{});
+  CHECK(parse_study(given.out, "given").modification.pinion == Modification{});
 }
 
 TEST_CASE("Import and export name what they cannot use", "[studies][rexs][cli][errors]") {

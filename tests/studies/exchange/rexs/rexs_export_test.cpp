@@ -93,10 +93,10 @@ TEST_CASE("A study survives the way to REXS and back to its last digit", "[studi
   check_same(study.pair.wheel, back.pair.wheel);
   check_same(make_gear_pair(study.pair).centre_distance, make_gear_pair(back.pair).centre_distance);
   check_same(make_gear_pair(study.pair).pinion.tip_radius, make_gear_pair(back.pair).pinion.tip_radius);
-  check_same(study.pinion_modification, back.pinion_modification);
-  check_same(study.wheel_modification, back.wheel_modification);
-  check_same(study.pinion_material.youngs_modulus, back.pinion_material.youngs_modulus);
-  check_same(study.wheel_material.youngs_modulus, back.wheel_material.youngs_modulus);
+  check_same(study.modification.pinion, back.modification.pinion);
+  check_same(study.modification.wheel, back.modification.wheel);
+  check_same(study.material.pinion.youngs_modulus, back.material.pinion.youngs_modulus);
+  check_same(study.material.wheel.youngs_modulus, back.material.wheel.youngs_modulus);
   REQUIRE(back.scenes.size() == 2);
   check_same(study.torques[0], back.scenes[0].torques.front());
   check_same(study.torques[1], back.scenes[1].torques.front());
@@ -140,9 +140,9 @@ TEST_CASE("Every modification parameter survives the way to REXS and back, as a 
     Study back = parse_study(text, "back.toml");
     const GearPair pair = make_gear_pair(study.pair);
     for (const auto& grid : imported.grids) {
-      back.pinion_modification.topography = make_grid_field(parse_grid(grid.text, grid.name), pair.pinion.base_radius, pair.base_helix_angle).field;
+      back.modification.pinion.topography = make_grid_field(parse_grid(grid.text, grid.name), pair.pinion.base_radius, pair.base_helix_angle).field;
     }
-    const Flank there = make_flank(pair, Member::Pinion, study.pinion_modification, {}), here = make_flank(pair, Member::Pinion, back.pinion_modification, {});
+    const Flank there = make_flank(pair, Member::Pinion, study.modification.pinion, {}), here = make_flank(pair, Member::Pinion, back.modification.pinion, {});
     double largest = 0.0, departure = 0.0;
     for (int i = 0; i <= 10; ++i) {
       for (int j = 0; j <= 10; ++j) {

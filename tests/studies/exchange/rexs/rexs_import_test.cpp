@@ -92,7 +92,7 @@ TEST_CASE("A file of two stages needs a choice, and gives either", "[studies][re
   CHECK(study.pair.helix_angle == Approx(10 * units::deg).epsilon(round_off));
   CHECK(study.pair.centre_distance == 180.0);
   CHECK(study.pair.pinion.profile_shift == 0.12);
-  CHECK(study.pinion_material.youngs_modulus == 208000.0);
+  CHECK(study.material.pinion.youngs_modulus == 208000.0);
   // A tip diameter of 1 mm is a placeholder, and said to be none.
   CHECK(std::isnan(study.pair.pinion.tip_diameter));
   REQUIRE(second.warnings.size() == 1);
@@ -112,10 +112,10 @@ TEST_CASE("A planetary gear unit gives sun and planet, and reports missing data"
   const Study study = study_of(imported);
   CHECK(study.pair.pinion.teeth == 17);
   CHECK(study.pair.wheel.teeth == 22);
-  CHECK(study.pinion_modification.lead_crowning == Approx(0.004).epsilon(round_off));
-  CHECK(study.pinion_modification.lead_slope == Approx(-0.007).epsilon(round_off));
-  CHECK(study.wheel_modification == Modification{});
-  CHECK(study_of(import_text(text, {.stage = 1, .slope_end = rexs::SlopeEnd::DatumFace})).pinion_modification.lead_slope == -study.pinion_modification.lead_slope);
+  CHECK(study.modification.pinion.lead_crowning == Approx(0.004).epsilon(round_off));
+  CHECK(study.modification.pinion.lead_slope == Approx(-0.007).epsilon(round_off));
+  CHECK(study.modification.wheel == Modification{});
+  CHECK(study_of(import_text(text, {.stage = 1, .slope_end = rexs::SlopeEnd::DatumFace})).modification.pinion.lead_slope == -study.modification.pinion.lead_slope);
   // The sun's torque is shared by three planets, how the file does not say.
   CHECK(study.torques == std::vector{0.0});
   CHECK_THAT(imported.text, Contains("not give the torque"));
@@ -127,23 +127,23 @@ TEST_CASE("A planetary gear unit gives sun and planet, and reports missing data"
 TEST_CASE("The same stage in other units is the same study", "[studies][rexs][import][units]") {
   std::string text = modified({"type=\"tip_relief\">" + attribute("tip_relief_depth", "0.025") + attribute("tip_relief_datum_diameter", "85")});
   const Study study = study_of(import_text(text));
-  CHECK(study.pinion_modification.tip_relief.amount == Approx(0.025).epsilon(round_off));
-  CHECK(study.pinion_modification.tip_relief.height == Approx(1.5).epsilon(round_off));  // d_a = 88 mm
+  CHECK(study.modification.pinion.tip_relief.amount == Approx(0.025).epsilon(round_off));
+  CHECK(study.modification.pinion.tip_relief.height == Approx(1.5).epsilon(round_off));  // d_a = 88 mm
   text = replaced(text, attribute("tip_relief_depth", "0.025"), attribute("tip_relief_depth", "25", "mum"));
   text = replaced(text, attribute("tip_relief_datum_diameter", "85"), attribute("tip_relief_datum_diameter", "0.085", "m"));
   text = replaced(text, attribute("normal_module", "4"), attribute("normal_module", "0.4", "cm"));
   text = replaced(text, attribute("helix_angle_reference_diameter", "0", "deg"), attribute("helix_angle_reference_diameter", "0", "\xc2\xb0"));
   const Study other = study_of(import_text(text));
   CHECK(other.pair.normal_module == Approx(study.pair.normal_module).epsilon(round_off));
-  CHECK(other.pinion_modification.tip_relief.amount == Approx(0.025).epsilon(round_off));
-  CHECK(other.pinion_modification.tip_relief.height == Approx(1.5).epsilon(round_off));
+  CHECK(other.modification.pinion.tip_relief.amount == Approx(0.025).epsilon(round_off));
+  CHECK(other.modification.pinion.tip_relief.height == Approx(1.5).epsilon(round_off));
 }
 
 TEST_CASE("Ends and flanks follow the datum face", "[studies][rexs][import]") {
   const std::vector<std::string> at_flank{"type=\"helix_slope\">" + attribute("helix_slope", "0.010"),
                                           "type=\"profile_twist\">" + attribute("profile_twist", "0.003")};
   const std::string negative = modified(at_flank);
-  const Modification from_low = study_of(import_text(negative)).pinion_modification;
+  const Modification from_low = study_of(import_text(negative)).modification.pinion;
   CHECK(from_low.lead_slope == Approx(0.010));
   CHECK(from_low.twist == Approx(0.003));
   // The datum face at the other end: what was seen as the right flank is now the left one, and both amounts turn round.
@@ -154,13 +154,13 @@ TEST_CASE("Ends and flanks follow the datum face", "[studies][rexs][import]") {
     const std::string start = "<component id=\"" + id + "\" type=\"cylindrical_gear\">\n";
     positive = replaced(positive, start, start + attribute("datum_face_orientation", "positive", "none"));
   }
-  const Modification from_high = study_of(import_text(positive)).pinion_modification;
+  const Modification from_high = study_of(import_text(positive)).modification.pinion;
   CHECK(from_high.lead_slope == -from_low.lead_slope);
   CHECK(from_high.twist == -from_low.twist);
 }
 
 TEST_CASE("Amounts of another range are carried on to the borders of the flank", "[studies][rexs][import]") {
-  const auto flank = [](const std::string& component) { return study_of(import_text(modified({component}))).pinion_modification; };
+  const auto flank = [](const std::string& component) { return study_of(import_text(modified({component}))).modification.pinion; };
   // Crowning 8 um at 10 mm off centre is 32 um at the ends of a 40 mm face: a parabola.
   CHECK(flank("type=\"helix_crowning\">" + attribute("helix_crowning_amount_datum_face", "0.008") + attribute("helix_crowning_amount_non_datum_face", "0.008") +
               attribute("coordinate_where_helix_crowning_is_specified_datum_face", "-10") +
@@ -192,7 +192,7 @@ TEST_CASE("Data without a key of a study are named", "[studies][rexs][import]") 
       "type=\"topographical_modification\">" + attribute("coordinates_of_topographical_modification", "<array><c>1</c></array>"));
   CAPTURE(component);
   const rexs::ImportedStudy imported = import_text(modified({component}));
-  CHECK(study_of(imported).pinion_modification == Modification{});
+  CHECK(study_of(imported).modification.pinion == Modification{});
   REQUIRE(imported.warnings.size() == 1);
   CHECK_THAT(imported.warnings.front(), Contains(" 20: not taken, "));
   CHECK_THAT(imported.text, Contains("#   - " + imported.warnings.front()));
@@ -205,7 +205,7 @@ TEST_CASE("Equal end reliefs are one, modifications of one kind add up", "[studi
                                       "type=\"helix_slope\">" + attribute("helix_slope", "0.004"),
                                       "type=\"helix_slope\">" + attribute("helix_slope", "0.003"),
                                   })))
-                             .pinion_modification;
+                             .modification.pinion;
   CHECK(m.end_relief.amount == Approx(0.010));
   CHECK(m.end_relief.length == 5.0);
   CHECK(m.lead_slope == Approx(0.007));

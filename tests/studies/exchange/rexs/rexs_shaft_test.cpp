@@ -53,9 +53,9 @@ rexs::ImportedStudy shaft_study(const std::string& text) { return rexs::import_s
 TEST_CASE("A shaft with its bearings is imported with all numbers", "[studies][rexs][import]") {
   const rexs::ImportedStudy imported = shaft_study(file_with_shaft());
   const Study study = parse_study(imported.text, "gears.toml");
-  REQUIRE(study.pinion_shaft);
-  CHECK_FALSE(study.wheel_shaft);
-  const ShaftData& shaft = *study.pinion_shaft;
+  REQUIRE(study.shaft.pinion);
+  CHECK_FALSE(study.shaft.wheel);
+  const ShaftData& shaft = *study.shaft.pinion;
   REQUIRE(shaft.sections.size() == 2);
   CHECK(shaft.sections[0].length == 70.0);
   CHECK(shaft.sections[0].inner_diameter == 10.0);
@@ -73,15 +73,15 @@ TEST_CASE("A shaft with its bearings is imported with all numbers", "[studies][r
 TEST_CASE("Where no bearing supports a shaft axially its first one does, and this is reported", "[studies][rexs][import]") {
   const rexs::ImportedStudy imported = shaft_study(replaced(file_with_shaft(), of_shaft("axial_stiffness", "1E+8", "N / m"), ""));
   const Study study = parse_study(imported.text, "gears.toml");
-  REQUIRE(study.pinion_shaft);
-  CHECK(std::isinf(study.pinion_shaft->bearings[0].axial_stiffness));
+  REQUIRE(study.shaft.pinion);
+  CHECK(std::isinf(study.shaft.pinion->bearings[0].axial_stiffness));
   CHECK_THAT(imported.text, Contains("shaft 7: no bearing has an axial_stiffness"));
 }
 
 TEST_CASE("A shaft whose axis runs against the pinion's is the same from its other end", "[studies][rexs][import]") {
   const Study study = parse_study(shaft_study(file_with_shaft("-1")).text, "gears.toml");
-  REQUIRE(study.pinion_shaft);
-  const ShaftData& shaft = *study.pinion_shaft;
+  REQUIRE(study.shaft.pinion);
+  const ShaftData& shaft = *study.shaft.pinion;
   CHECK(shaft.sections[0].length == 90.0);
   CHECK(shaft.bearings[0].position == 10.0);
   CHECK(shaft.bearings[1].position == 145.0);
@@ -94,7 +94,7 @@ TEST_CASE("A shaft that a study cannot have is named with the reason", "[studies
   const std::string good = file_with_shaft();
   const auto why = [](const std::string& text) {
     const rexs::ImportedStudy imported = shaft_study(text);
-    CHECK_FALSE(parse_study(imported.text, "gears.toml").pinion_shaft);
+    CHECK_FALSE(parse_study(imported.text, "gears.toml").shaft.pinion);
     REQUIRE(imported.warnings.size() == 1);
     return imported.warnings.front();
   };

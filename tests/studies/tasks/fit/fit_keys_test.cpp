@@ -19,13 +19,13 @@ Study fit_study(const std::vector<Override>& overrides = {}) {
 
 TEST_CASE("By default the task fit takes both gears, one tooth and a test grid", "[studies][fit]") {
   const FitChoice usual = study_texts::read("", {{"task", "fit"}}).fit;
-  CHECK((usual.pinion && usual.wheel && !usual.several_teeth && usual.test_grid));
+  CHECK((usual.gears.pinion && usual.gears.wheel && !usual.several_teeth && usual.test_grid));
   CHECK(usual.max_iterations == 300);
   const FitChoice other =
       fit_study(
           {{"fit.gear", "wheel"}, {"fit.form", "several_teeth"}, {"fit.test_grid", "off"}, {"fit.max_iterations", "7"}})
           .fit;
-  CHECK((!other.pinion && other.wheel && other.several_teeth && !other.test_grid));
+  CHECK((!other.gears.pinion && other.gears.wheel && other.several_teeth && !other.test_grid));
   CHECK(other.max_iterations == 7);
 }
 

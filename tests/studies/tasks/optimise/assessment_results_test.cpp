@@ -122,7 +122,7 @@ samples = 3
 )", "small.toml"));
   REQUIRE(results.design_task->scenes.size() == 6);
   CHECK(results.design_task->scenes[5].name == "drawn 3");
-  CHECK(results.design_task->scenes[5].condition.pinion_error.helix_slope != 0.0);
+  CHECK(results.design_task->scenes[5].condition.error.pinion.helix_slope != 0.0);
   // The error misaligns: unmodified flanks see another stress than in the nominal scene.
   CHECK(results.design->before.scene_measures[5] != results.design->before.scene_measures[0]);
 }

@@ -33,11 +33,11 @@ TEST_CASE("Drawn scenes are the nominal one with its toleranced values replaced 
   for (const Scene& scene : scenes) {
     mean += scene.misalignment.mesh_misalignment / samples;
     squares += std::pow(scene.misalignment.mesh_misalignment, 2) / samples;
-    helix = std::max(helix, std::abs(scene.pinion_error.helix_slope));
+    helix = std::max(helix, std::abs(scene.error.pinion.helix_slope));
     tilt += (scene.misalignment.intersecting - 2.0 * units::arcmin) / samples;
     CHECK(std::abs(scene.misalignment.crossing) <= largest_tilt);
     CHECK(std::abs(scene.misalignment.intersecting - 2.0 * units::arcmin) <= largest_tilt * (1.0 + 1e-12));
-    CHECK(scene.pinion_error.twist == Approx(3.0 * units::um));  // as the study has it
+    CHECK(scene.error.pinion.twist == Approx(3.0 * units::um));  // as the study has it
     CHECK(scene.torques == study.scenes.front().torques);
     CHECK(scene.weight == 1.0);
   }

@@ -60,8 +60,8 @@ TEST_CASE("A sample of a sweep is the analysis of its own study, bit for bit", "
 TEST_CASE("A sample's own study finds the measured grids of the sweep's from anywhere", "[studies][sweep]") {
   Study study = sweep_study("samples = 24");
   study.file = "/gears/pump/sweep.toml";
-  study.wheel_grid.file = "../flanks/wheel.csv";
-  study.pinion_tooth_grids = {"a.csv", "", "/b.csv"};
+  study.grid.wheel.file = "../flanks/wheel.csv";
+  study.tooth_grids.pinion = {"a.csv", "", "/b.csv"};
   const std::string text = sample_study(study, "one \"worst\"", {0.5, 1000.0, 8.0});
   CHECK_THAT(text, Catch::Contains("'/gears/flanks/wheel.csv'") && Catch::Contains("[ '/gears/pump/a.csv', '', '/b.csv' ]"));
   CHECK_THAT(text, !Catch::Contains("[sweep") && Catch::Contains("one \"worst\""));

@@ -95,7 +95,7 @@ TEST_CASE("A measured grid with other contents is another study", "[studies][swe
   Study study = study_with();
   const ScratchFolder folder;
   study.file = (folder.path() / "sweep.toml").string();
-  study.pinion_grid.file = "flank.csv";
+  study.grid.pinion.file = "flank.csv";
   folder.file("flank.csv", "a");
   const auto file = folder.path() / "results.sqlite";
   { SweepStore store(file, study, stored_outputs); }
