@@ -42,12 +42,13 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
 }
 
 int dispatch(int argc, char** argv) {
-  CLI::App app{"Flankwright designs the micro-geometry of involute spur and helical gears.\n"
-               "A study file goes in; results, pictures and chosen flank modifications come out.\n\n"
-               "  flankwright new optimise > my-gear.toml     a commented study to start from\n"
-               "  flankwright check my-gear.toml              what is wrong with it, if anything\n"
-               "  flankwright run my-gear.toml                results/my-gear/report.html",
-               "flankwright"};
+  CLI::App app{
+      "Flankwright designs the micro-geometry of involute spur and helical gears.\n"
+      "A study file goes in; results, pictures and chosen flank modifications come out.\n\n"
+      "  flankwright new optimise > my-gear.toml     a commented study to start from\n"
+      "  flankwright check my-gear.toml              what is wrong with it, if anything\n"
+      "  flankwright run my-gear.toml                results/my-gear/report.html",
+      "flankwright"};
   app.set_version_flag("--version", std::string("flankwright ") + version());
   app.require_subcommand(1);
 
@@ -56,60 +57,69 @@ int dispatch(int argc, char** argv) {
   std::string study, kind, folder;
   int threads = 0;
   CLI::App* run = app.add_subcommand("run", "do the study's task; writes results.json, report.html and CSV tables");
-  run->footer("Examples:\n"
-               "  flankwright run pump.toml                                   results/pump/report.html\n"
-               "  flankwright run pump.toml --out today --threads 2\n"
-               "  flankwright run pump.toml --set load.torque=250 --set misalignment.crossing=\"3 arcmin\"\n"
-               "  flankwright run pump.toml --set scenes.1.load.torque=300    the second scene's");
+  run->footer(
+      "Examples:\n"
+      "  flankwright run pump.toml                                   results/pump/report.html\n"
+      "  flankwright run pump.toml --out today --threads 2\n"
+      "  flankwright run pump.toml --set load.torque=250 --set misalignment.crossing=\"3 arcmin\"\n"
+      "  flankwright run pump.toml --set scenes.1.load.torque=300    the second scene's");
   run->add_option("study", options.study, "study file (TOML)")->required();
   run->add_option("-o,--out", options.folder, "folder for the results (default: results/ + the study's name)");
   run->add_option("--threads", threads, "threads to use (default: all cores); results do not depend on it")->check(CLI::Range(1, 1024));
   run->add_option("--set", settings, "key.path=value: overrides the study file, may be repeated")->allow_extra_args(false);
   run->add_option("--shard", options.shard, "k/n: of a sweep the k-th of n parts of the samples alone; `merge` puts them together");
   CLI::App* merge = app.add_subcommand("merge", "put the shards of a sweep together: the results of an unshared run");
-  merge->footer("Example:\n"
-               "  flankwright merge pump.toml                                 after flankwright run pump.toml --shard 1/3 ... 3/3");
+  merge->footer(
+      "Example:\n"
+      "  flankwright merge pump.toml                                 after flankwright run pump.toml --shard 1/3 ... 3/3");
   merge->add_option("study", options.study, "study file of the sweep")->required();
   merge->add_option("-o,--out", options.folder, "folder that the shards were given (default: results/ + the study's name)");
   merge->add_option("--threads", threads, "threads to use")->check(CLI::Range(1, 1024));
   merge->add_option("--set", settings, "key.path=value, as for the shards")->allow_extra_args(false);
   CLI::App* check = app.add_subcommand("check", "read and validate a study; every problem with file:line:column");
-  check->footer("Examples:\n"
-               "  flankwright check pump.toml                                 pump.toml:12:1: pinion.teeth = 2: allowed is an integer 5 .. 1000\n"
-               "  flankwright check pump.toml --set pinion.teeth=17");
+  check->footer(
+      "Examples:\n"
+      "  flankwright check pump.toml                                 pump.toml:12:1: pinion.teeth = 2: allowed is an integer 5 .. 1000\n"
+      "  flankwright check pump.toml --set pinion.teeth=17");
   check->add_option("study", study, "study file")->required();
   check->add_option("--set", settings, "key.path=value")->allow_extra_args(false);
   CLI::App* make = app.add_subcommand("new", "print a commented study file");
-  make->footer("Examples:\n"
-               "  flankwright new analyse > pump.toml                         one pair as it runs\n"
-               "  flankwright new optimise > pump.toml                        modifications that hold over many conditions\n"
-               "  flankwright new slurm > pump.sbatch                         a job script for the shards of a sweep");
+  make->footer(
+      "Examples:\n"
+      "  flankwright new analyse > pump.toml                         one pair as it runs\n"
+      "  flankwright new optimise > pump.toml                        modifications that hold over many conditions\n"
+      "  flankwright new slurm > pump.sbatch                         a job script for the shards of a sweep");
   make->add_option("kind", kind, "analyse, optimise, sweep, accuracy or fit; slurm: a job script for the shards of a sweep")->required();
   CLI::App* keys = app.add_subcommand("keys", "print the reference of all keys of a study file, in Markdown");
-  keys->footer("Examples:\n"
-               "  flankwright keys | less\n"
-               "  flankwright keys > studies/keys.md                          the page of the repository");
+  keys->footer(
+      "Examples:\n"
+      "  flankwright keys | less\n"
+      "  flankwright keys > studies/keys.md                          the page of the repository");
   CLI::App* report = app.add_subcommand("report", "rebuild report.html from a results folder");
-  report->footer("Example:\n"
-               "  flankwright report results/pump");
+  report->footer(
+      "Example:\n"
+      "  flankwright report results/pump");
   report->add_option("folder", folder, "results folder")->required();
   CLI::App* test = app.add_subcommand("test", "run studies that have an [expect] table; exit 1 where one differs");
-  test->footer("Examples:\n"
-               "  flankwright test gears/                                     every study of the folder that has an [expect] table, a line each\n"
-               "  flankwright test pump.toml valve.toml");
+  test->footer(
+      "Examples:\n"
+      "  flankwright test gears/                                     every study of the folder that has an [expect] table, a line each\n"
+      "  flankwright test pump.toml valve.toml");
   test->add_option("paths", paths, "study files or folders of them")->required();
   test->add_option("--threads", threads, "threads to use")->check(CLI::Range(1, 1024));
   CLI::App* library = app.add_subcommand("library", "make the library of tooth compliance fits anew; goes on where FILE ends");
-  library->footer("Example:\n"
-               "  flankwright library teeth.txt                               hours; killed, it goes on where the file ends");
+  library->footer(
+      "Example:\n"
+      "  flankwright library teeth.txt                               hours; killed, it goes on where the file ends");
   library->add_option("file", study, "file to write")->required();
   library->add_option("--threads", threads, "finite-element runs abreast")->check(CLI::Range(1, 1024));
   ImportCommand from;
   CLI::App* import = app.add_subcommand("import", "make a study of a stage in a REXS file");
-  import->footer("Examples:\n"
-               "  flankwright import gearbox.rexs                             one stage: its study on stdout; several: they are listed\n"
-               "  flankwright import gearbox.rexs --stage 2 --out pump.toml   flank grids of the file go beside pump.toml\n"
-               "  flankwright import gearbox.rexsj --helix-slope datum > pump.toml");
+  import->footer(
+      "Examples:\n"
+      "  flankwright import gearbox.rexs                             one stage: its study on stdout; several: they are listed\n"
+      "  flankwright import gearbox.rexs --stage 2 --out pump.toml   flank grids of the file go beside pump.toml\n"
+      "  flankwright import gearbox.rexsj --helix-slope datum > pump.toml");
   import->add_option("file", from.file, "REXS file, XML or JSON")->required();
   import->add_option("-o,--out", from.study, "study file to write (default: stdout)");
   import->add_option("--stage", from.stage, "which stage, of several: its number, as they are listed without this option");
@@ -117,11 +127,12 @@ int dispatch(int argc, char** argv) {
       ->check(CLI::IsMember({"non-datum", "datum"}));
   ExportCommand to;
   CLI::App* exporting = app.add_subcommand("export", "write what a results folder holds in the formats of other programs");
-  exporting->footer("Examples:\n"
-               "  flankwright export results/pump --rexs                      results/pump/stage.rexs, after an optimisation with what it found\n"
-               "  flankwright export results/pump --rexsj --rexs-version 2.0 --out to-supplier\n"
-               "  flankwright export results/pump --grid --grid-points 5x9 --grid-margin 0.05\n"
-               "  flankwright export results/pump --vtk                       open results/pump/vtk/contact-1.pvd in ParaView");
+  exporting->footer(
+      "Examples:\n"
+      "  flankwright export results/pump --rexs                      results/pump/stage.rexs, after an optimisation with what it found\n"
+      "  flankwright export results/pump --rexsj --rexs-version 2.0 --out to-supplier\n"
+      "  flankwright export results/pump --grid --grid-points 5x9 --grid-margin 0.05\n"
+      "  flankwright export results/pump --vtk                       open results/pump/vtk/contact-1.pvd in ParaView");
   exporting->add_option("folder", to.results, "results folder")->required();
   exporting->add_option("-o,--out", to.folder, "folder for the files (default: the results folder)");
   exporting->add_flag("--rexs", to.rexs, "stage.rexs: the pair with its flank modifications, REXS in XML");
@@ -134,10 +145,11 @@ int dispatch(int argc, char** argv) {
   exporting->add_flag("--given", to.given, "flanks as the study gave them, not as an optimisation left them");
   std::string docs;
   CLI::App* completion = app.add_subcommand("completion", "print what a shell needs to complete commands, or the manual page");
-  completion->footer("Examples:\n"
-                     "  source <(flankwright completion bash)                       for this shell\n"
-                     "  flankwright completion zsh > ~/.zfunc/_flankwright\n"
-                     "  flankwright completion man | man -l -");
+  completion->footer(
+      "Examples:\n"
+      "  source <(flankwright completion bash)                       for this shell\n"
+      "  flankwright completion zsh > ~/.zfunc/_flankwright\n"
+      "  flankwright completion man | man -l -");
   completion->add_option("for", docs, "bash, zsh or man")->required()->check(CLI::IsMember({"bash", "zsh", "man"}));
   std::vector<std::string> commands;
   for (const CLI::App* command : std::as_const(app).get_subcommands([](const CLI::App*) { return true; })) commands.push_back(command->get_name());

@@ -26,9 +26,7 @@ struct Dual {
   friend Dual operator-(const Dual& a) { return {-a.value, -a.gradient}; }
   friend Dual operator+(const Dual& a, const Dual& b) { return {a.value + b.value, a.gradient + b.gradient}; }
   friend Dual operator-(const Dual& a, const Dual& b) { return {a.value - b.value, a.gradient - b.gradient}; }
-  friend Dual operator*(const Dual& a, const Dual& b) {
-    return {a.value * b.value, a.gradient * b.value + b.gradient * a.value};
-  }
+  friend Dual operator*(const Dual& a, const Dual& b) { return {a.value * b.value, a.gradient * b.value + b.gradient * a.value}; }
   // With plain numbers on one side the other gradient is not worth the arithmetic.
   friend Dual operator+(const Dual& a, double b) { return {a.value + b, a.gradient}; }
   friend Dual operator+(double a, const Dual& b) { return {a + b.value, b.gradient}; }

@@ -10,13 +10,12 @@ namespace flankwright {
 /// is second-order forward differentiation; as plain data it is a surface's value with its derivatives.
 struct Jet {
   double value{0.0};
-  double u{0.0}, v{0.0};               ///< first derivatives
-  double uu{0.0}, uv{0.0}, vv{0.0};    ///< second derivatives
+  double u{0.0}, v{0.0};             ///< first derivatives
+  double uu{0.0}, uv{0.0}, vv{0.0};  ///< second derivatives
 
   Jet() = default;
   Jet(double constant) : value(constant) {}  // NOLINT(google-explicit-constructor): constants mix freely with variables
-  Jet(double f, double fu, double fv, double fuu, double fuv, double fvv)
-      : value(f), u(fu), v(fv), uu(fuu), uv(fuv), vv(fvv) {}
+  Jet(double f, double fu, double fv, double fuu, double fuv, double fvv) : value(f), u(fu), v(fv), uu(fuu), uv(fuv), vv(fvv) {}
 
   static Jet variable_u(double at) { return {at, 1.0, 0.0, 0.0, 0.0, 0.0}; }
   static Jet variable_v(double at) { return {at, 0.0, 1.0, 0.0, 0.0, 0.0}; }
@@ -25,9 +24,7 @@ struct Jet {
   Jet& operator-=(const Jet& b) { return *this = *this - b; }
 
   friend Jet operator-(const Jet& a) { return {-a.value, -a.u, -a.v, -a.uu, -a.uv, -a.vv}; }
-  friend Jet operator+(const Jet& a, const Jet& b) {
-    return {a.value + b.value, a.u + b.u, a.v + b.v, a.uu + b.uu, a.uv + b.uv, a.vv + b.vv};
-  }
+  friend Jet operator+(const Jet& a, const Jet& b) { return {a.value + b.value, a.u + b.u, a.v + b.v, a.uu + b.uu, a.uv + b.uv, a.vv + b.vv}; }
   friend Jet operator-(const Jet& a, const Jet& b) { return a + (-b); }
   friend Jet operator*(const Jet& a, const Jet& b) {
     return {a.value * b.value,
@@ -42,12 +39,7 @@ struct Jet {
 
 /// f(a) from f, f' and f'' at a.value.
 inline Jet chain(const Jet& a, double f, double df, double ddf) {
-  return {f,
-          df * a.u,
-          df * a.v,
-          df * a.uu + ddf * a.u * a.u,
-          df * a.uv + ddf * a.u * a.v,
-          df * a.vv + ddf * a.v * a.v};
+  return {f, df * a.u, df * a.v, df * a.uu + ddf * a.u * a.u, df * a.uv + ddf * a.u * a.v, df * a.vv + ddf * a.v * a.v};
 }
 
 /// f(a, b), f a function of two variables with the derivatives in `f` (f.u with respect to a, f.v to b).

@@ -41,9 +41,8 @@ struct Peak {
 /// @param curvature  estimate of -f'' for the first step, > 0
 /// @param rising, falling  samples already known on either side of the maximum
 template <class Sample, class Evaluate>
-Peak<Sample> find_peak(const Evaluate& evaluate, double lo, double hi, double guess, double curvature,
-                       const PeakTolerance& tolerance, std::optional<Sample> rising = std::nullopt,
-                       std::optional<Sample> falling = std::nullopt) {
+Peak<Sample> find_peak(const Evaluate& evaluate, double lo, double hi, double guess, double curvature, const PeakTolerance& tolerance,
+                       std::optional<Sample> rising = std::nullopt, std::optional<Sample> falling = std::nullopt) {
   constexpr int most_samples = 200;  // bisection alone needs 60 or so
   Peak<Sample> peak{evaluate(guess, static_cast<const Sample*>(nullptr)), std::move(rising), std::move(falling)};
   double last_position = guess, last_slope = 0.0;  // of the sample before; none yet

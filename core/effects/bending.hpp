@@ -10,9 +10,7 @@ class BendingEffect final : public Effect {
   std::string_view name() const override { return "bending"; }
   EffectStage stage() const override { return EffectStage::Structure; }
   bool makes_compliant() const override { return true; }
-  EffectCall called_for(const EffectFacts& facts) const override {
-    return {facts.loaded, facts.loaded ? "teeth bend under load" : "no load"};
-  }
+  EffectCall called_for(const EffectFacts& facts) const override { return {facts.loaded, facts.loaded ? "teeth bend under load" : "no load"}; }
   /// The structure's blocks between points of one tooth; they are positive semi-definite on their own.
   void act(MeshBuilder& builder) const override {
     const Eigen::MatrixXd& structure = builder.structural_influence();

@@ -28,8 +28,7 @@ EffectDecisions decide_effects(const EffectFacts& facts, const EffectList& effec
 /// Effects switched by hand: exactly those named whose requirements are named too. Effects that other keys switch stay
 /// as called for.
 /// @throws InvalidInput for an unknown name
-EffectDecisions chosen_effects(const EffectFacts& facts, const std::vector<std::string>& names,
-                               const EffectList& effects = registered_effects());
+EffectDecisions chosen_effects(const EffectFacts& facts, const std::vector<std::string>& names, const EffectList& effects = registered_effects());
 
 /// True where the effect of that name is on.
 bool is_on(const EffectDecisions& decisions, std::string_view name);

@@ -11,14 +11,14 @@ namespace flankwright {
 
 /// The settings of a study on which effects depend.
 struct EffectFacts {
-  bool loaded{false};         ///< some torque is above zero
-  bool unloaded{false};       ///< some torque is zero
+  bool loaded{false};                        ///< some torque is above zero
+  bool unloaded{false};                      ///< some torque is zero
   std::vector<FlankCondition> conditions{};  ///< of all scenes
-  bool coupled_teeth{false};  ///< the compliance model couples teeth
-  bool gear_bodies{false};    ///< and how the gears' bodies yield
-  bool shafts{false};         ///< a gear's shaft is described
-  bool root_stress{false};    ///< finite elements are made anyway, or something asks for peak_root_stress
-  bool whole_surface{false};  ///< contact is sought over the whole flanks
+  bool coupled_teeth{false};                 ///< the compliance model couples teeth
+  bool gear_bodies{false};                   ///< and how the gears' bodies yield
+  bool shafts{false};                        ///< a gear's shaft is described
+  bool root_stress{false};                   ///< finite elements are made anyway, or something asks for peak_root_stress
+  bool whole_surface{false};                 ///< contact is sought over the whole flanks
 };
 
 /// Whether a scene calls for an effect, and why or why not.
@@ -30,16 +30,16 @@ struct EffectCall {
 /// Where between flanks and stress an effect acts. Effects are asked stage by stage, and by name within one, so that the order of
 /// their registration never shows in a result.
 enum class EffectStage {
-  Unloaded,    ///< contact without load, beside the loaded mesh
-  Condition,   ///< the shape of the flanks: left out by clear_from()
-  Region,      ///< how far along the plane of action points are made
-  Placement,   ///< where the points lie
-  Body,        ///< the gear bodies
-  Structure,   ///< what yields when loads act anywhere on the mesh: the influence matrix
-  Coupling,    ///< its coupling between teeth
-  ContactSite, ///< a point's surroundings, for the contact law
-  ContactLaw,  ///< what yields under a point's own load
-  Roots,       ///< what is read off the loads
+  Unloaded,     ///< contact without load, beside the loaded mesh
+  Condition,    ///< the shape of the flanks: left out by clear_from()
+  Region,       ///< how far along the plane of action points are made
+  Placement,    ///< where the points lie
+  Body,         ///< the gear bodies
+  Structure,    ///< what yields when loads act anywhere on the mesh: the influence matrix
+  Coupling,     ///< its coupling between teeth
+  ContactSite,  ///< a point's surroundings, for the contact law
+  ContactLaw,   ///< what yields under a point's own load
+  Roots,        ///< what is read off the loads
 };
 
 /// One physical effect: its name, the rule for when a scene calls for it, and what it does to a mesh. An effect that is

@@ -61,9 +61,8 @@ EffectInfluence EffectInfluence::between(const CycleOutputs& with, const CycleOu
 }
 
 EffectDecisions within_budget(EffectDecisions decisions, std::vector<EffectSize> sizes, double budget) {
-  std::erase_if(sizes, [&](const EffectSize& size) {
-    return !may_be_dropped(size.name) || !is_on(decisions, size.name) || std::isnan(size.influence.share);
-  });
+  std::erase_if(
+      sizes, [&](const EffectSize& size) { return !may_be_dropped(size.name) || !is_on(decisions, size.name) || std::isnan(size.influence.share); });
   std::ranges::sort(sizes, {}, [](const EffectSize& size) { return std::pair(size.influence.share, size.name); });
   double spent = 0.0;
   for (const EffectSize& size : sizes) {

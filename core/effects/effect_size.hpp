@@ -24,11 +24,11 @@ struct EffectInfluence {
   double te_peak_to_peak{not_given};      ///< [mm]
   double peak_contact_stress{not_given};  ///< [MPa]
   double relative_stress{not_given};      ///< of the peak stress with the effect [-]
-  double te_harmonic{not_given};          ///< largest change of a harmonic, amplitude and phase, over the orders 1 .. 5; 0 where none is resolved [mm]
+  double te_harmonic{not_given};  ///< largest change of a harmonic, amplitude and phase, over the orders 1 .. 5; 0 where none is resolved [mm]
   /// The largest of these as shares [-]: of the mean approach, peak to peak and harmonics of the peak to peak (at least quiet of the mean
   /// approach, since shares of next to nothing mean nothing), and of the peak stress, all with the effect.
   double share{not_given};
-  std::string largest_in;                 ///< which of them that is, in words
+  std::string largest_in;  ///< which of them that is, in words
 
   static constexpr double quiet{0.02};
 

@@ -27,7 +27,8 @@ class FreeEndsEffect final : public Effect {
     const auto lean = [&](Member member) { return -acute_end(pair, member) * std::abs(pair.base_helix_angle); };
     for (std::size_t i = 0; i < builder.points.size(); ++i) {
       const double z = builder.points[i].z;
-      builder.end_distances[i] = {distances(pair.pinion, z), distances(pair.wheel, z - builder.parts.axial_offset()), lean(Member::Pinion), lean(Member::Wheel)};
+      builder.end_distances[i] = {distances(pair.pinion, z), distances(pair.wheel, z - builder.parts.axial_offset()), lean(Member::Pinion),
+                                  lean(Member::Wheel)};
     }
   }
 };

@@ -11,9 +11,7 @@ class HertzianContactEffect final : public Effect {
   std::string_view name() const override { return "hertzian_contact"; }
   EffectStage stage() const override { return EffectStage::ContactLaw; }
   bool makes_compliant() const override { return true; }
-  EffectCall called_for(const EffectFacts& facts) const override {
-    return {facts.loaded, facts.loaded ? "flanks flatten under load" : "no load"};
-  }
+  EffectCall called_for(const EffectFacts& facts) const override { return {facts.loaded, facts.loaded ? "flanks flatten under load" : "no load"}; }
   void act(MeshBuilder& builder) const override {
     const MeshParts& parts = builder.parts;
     const double modulus = contact_modulus(parts.material.pinion, parts.material.wheel);
@@ -22,8 +20,8 @@ class HertzianContactEffect final : public Effect {
       const TipDistances& tips = builder.tip_distances[i];
       const EndDistances& ends = builder.end_distances[i];
       builder.laws.emplace_back(ContactSide::of(parts.material.pinion, point.pinion_depth, tips.pinion, ends.pinion, ends.pinion_lean),
-                              ContactSide::of(parts.material.wheel, point.wheel_depth, tips.wheel, ends.wheel, ends.wheel_lean),
-                              point.relative_radius, modulus);
+                                ContactSide::of(parts.material.wheel, point.wheel_depth, tips.wheel, ends.wheel, ends.wheel_lean),
+                                point.relative_radius, modulus);
     }
   }
 };

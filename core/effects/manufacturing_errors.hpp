@@ -12,8 +12,7 @@ class ManufacturingErrorsEffect final : public Effect {
   std::string_view name() const override { return "manufacturing_errors"; }
   EffectStage stage() const override { return EffectStage::Condition; }
   EffectCall called_for(const EffectFacts& facts) const override {
-    const bool any = std::ranges::any_of(facts.conditions,
-                                         [](const FlankCondition& c) { return faulty(c.error.pinion) || faulty(c.error.wheel); });
+    const bool any = std::ranges::any_of(facts.conditions, [](const FlankCondition& c) { return faulty(c.error.pinion) || faulty(c.error.wheel); });
     return {any, any ? "a gear has manufacturing errors" : "no manufacturing errors are given"};
   }
   void clear_from(FlankCondition& condition) const override { condition.error.pinion = condition.error.wheel = {}; }

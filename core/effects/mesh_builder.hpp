@@ -35,7 +35,7 @@ struct TipDistances {
 /// if there were none.
 struct EndDistances {
   std::array<double, 2> pinion{ContactSide::no_ends}, wheel{ContactSide::no_ends};  ///< [mm]
-  double pinion_lean{0}, wheel_lean{0};  ///< ContactSide::end_lean [rad]
+  double pinion_lean{0}, wheel_lean{0};                                             ///< ContactSide::end_lean [rad]
 };
 
 /// One mesh position while effects build it, each adding its part. Without any it is rigid.
@@ -60,8 +60,8 @@ class MeshBuilder {
 
   const MeshParts& parts;
   double phase;
-  bool with_extended_region{false};         ///< points before A and after E as well
-  bool with_gear_bodies{false};             ///< these are compliant as well
+  bool with_extended_region{false};  ///< points before A and after E as well
+  bool with_gear_bodies{false};      ///< these are compliant as well
   std::vector<ContactPoint> points;
   Eigen::MatrixXd influence;                ///< K, symmetric, positive semi-definite [mm/N]
   std::vector<TipDistances> tip_distances;  ///< one a point

@@ -21,9 +21,9 @@
 namespace flankwright {
 
 const EffectList& registered_effects() {
-  static const std::tuple<AdjacentTeethEffect, BendingEffect, ExtendedContactRegionEffect, FreeEndsEffect,
-                          GearBodyComplianceEffect, HertzianContactEffect, ManufacturingErrorsEffect, MisalignmentEffect, ModificationsEffect, RootStressEffect,
-                          ShaftsEffect, TipCornerEffect, UnloadedContactEffect, WholeSurfaceGapEffect>
+  static const std::tuple<AdjacentTeethEffect, BendingEffect, ExtendedContactRegionEffect, FreeEndsEffect, GearBodyComplianceEffect,
+                          HertzianContactEffect, ManufacturingErrorsEffect, MisalignmentEffect, ModificationsEffect, RootStressEffect, ShaftsEffect,
+                          TipCornerEffect, UnloadedContactEffect, WholeSurfaceGapEffect>
       effects;
   static const EffectList list = std::apply([](const auto&... effect) { return in_order_of_flow({&effect...}); }, effects);
   return list;

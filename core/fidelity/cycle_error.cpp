@@ -84,7 +84,8 @@ CycleErrors position_errors(const LoadedCycle& fine, const CycleSummary& summary
     // Beyond what half the positions resolve, the aliases of the orders that are.
     const bool resolved = 2 * k < half.size();
     const int order = static_cast<int>(k);
-    errors.te_harmonics.push_back(of_positions * (resolved ? std::abs(harmonic_phasor(te, order) - harmonic_phasor(half, order)) : summary.te_harmonics[k - 1]));
+    errors.te_harmonics.push_back(of_positions *
+                                  (resolved ? std::abs(harmonic_phasor(te, order) - harmonic_phasor(half, order)) : summary.te_harmonics[k - 1]));
   }
   const auto unseen = [&](Figure figure, const std::vector<double>& samples) {
     return extremes != nullptr ? extremes->unseen[static_cast<std::size_t>(figure)] : unseen_rise(samples);

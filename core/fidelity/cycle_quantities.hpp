@@ -15,16 +15,16 @@ namespace flankwright {
 /// Results, their gradients and errors, tables, sweeps, objectives and the report are written from these rows: an
 /// output more is a row more.
 struct CycleQuantity {
-  std::string_view name;    ///< "te_peak_to_peak": as objectives and bounds name it
-  std::string_view key;     ///< "te_peak_to_peak_um": in results, with its unit
-  std::string_view words;   ///< "peak-to-peak TE"
-  std::string_view topic;   ///< its table in the report: "Transmission error"
+  std::string_view name;       ///< "te_peak_to_peak": as objectives and bounds name it
+  std::string_view key;        ///< "te_peak_to_peak_um": in results, with its unit
+  std::string_view words;      ///< "peak-to-peak TE"
+  std::string_view topic;      ///< its table in the report: "Transmission error"
   std::string_view heading{};  ///< "TE p-p": of its column in the table of a run, a list's first entry; empty: not shown there
-  int decimals{2};          ///< shown in that column
-  std::string_view unit{};  ///< "um"; "" of a plain number
-  double unit_size{1.0};    ///< internal units in one of it: mm in one um
+  int decimals{2};             ///< shown in that column
+  std::string_view unit{};     ///< "um"; "" of a plain number
+  double unit_size{1.0};       ///< internal units in one of it: mm in one um
   bool smaller_is_worse{false};
-  bool is_list{false};      ///< one entry for each order, from 1 on; else one
+  bool is_list{false};  ///< one entry for each order, from 1 on; else one
 
   using Values = std::vector<double> (*)(const CycleSummary&);
   using Errors = std::vector<double> (*)(const CycleErrors&);

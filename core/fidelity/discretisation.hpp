@@ -22,7 +22,7 @@ struct ResolutionCase {
 /// The figures of a resolution, and their errors.
 struct ResolutionLevel {
   int intervals{0}, positions{0};
-  CycleFigures figures;  ///< with extremes between the positions where they were sought
+  CycleFigures figures;                            ///< with extremes between the positions where they were sought
   PerFigure quadrature_error{}, position_error{};  ///< estimated shares, as figure_errors() counts them
   bool extremes_sought{false};                     ///< false: the errors alone show that the level does not suffice
   PerFigure error() const;                         ///< their sum
@@ -31,13 +31,13 @@ struct ResolutionLevel {
 struct DiscretisationSearch {
   /// Refined until headline(root_sum_square(spent, ResolutionLevel::error())) <= accuracy in every load case [-], > 0.
   double accuracy{0.01};
-  PerFigure spent{};  ///< errors of other causes, which no resolution lessens, as shares
-  int fewest_intervals{6}, most_intervals{48};    ///< powers of two times the fewest; half of them must still be meaningful
-  int fewest_positions{16}, most_positions{128};  ///< powers of two times the fewest, >= 12
+  PerFigure spent{};                                    ///< errors of other causes, which no resolution lessens, as shares
+  int fewest_intervals{6}, most_intervals{48};          ///< powers of two times the fewest; half of them must still be meaningful
+  int fewest_positions{16}, most_positions{128};        ///< powers of two times the fewest, >= 12
   bool choose_intervals{true}, choose_positions{true};  ///< false: the fewest are used, and count as exact
-  bool seek_extremes{true};    ///< false: extremes are those of the positions, as they are with any rule but Graded
+  bool seek_extremes{true};                             ///< false: extremes are those of the positions, as they are with any rule but Graded
   std::function<void(int intervals, int positions, int load_cases)> starting{};  ///< called before every level is solved; may be empty
-  ForEachIndex for_each{};     ///< over load cases; empty: one after the other. Changes nothing but the time
+  ForEachIndex for_each{};  ///< over load cases; empty: one after the other. Changes nothing but the time
 };
 
 /// Points and positions that keep an accuracy in all load cases, and the evidence.
@@ -48,8 +48,8 @@ struct Discretisation {
   PerFigure quadrature_error{}, position_error{}, total_error{};
   std::size_t governing{0};             ///< load case that needed the finest resolution
   std::vector<ResolutionLevel> levels;  ///< what was solved of it, coarse to fine
-  bool kept{false};       ///< headline(root_sum_square(spent, error())) <= accuracy
-  int failures{0};        ///< positions without a usable load distribution; the search ends there
+  bool kept{false};                     ///< headline(root_sum_square(spent, error())) <= accuracy
+  int failures{0};                      ///< positions without a usable load distribution; the search ends there
 
   /// Of quadrature and positions together.
   const PerFigure& error() const { return total_error; }

@@ -36,7 +36,9 @@ class Cases {
     FlankCondition condition = apply_effects(decisions, scene_.condition);
     const MeshPlacement placement = MeshPlacement::of(gap_model(decisions), condition.misalignment);
     const PairCompliance& structure = scene_.structure != nullptr ? *scene_.structure : slices_;
-    const auto make = [&] { return mesh_with_effects(gears_, scene_.resolution, mesh_effects(decisions), placement, structure, nullptr, scene_.shafts); };
+    const auto make = [&] {
+      return mesh_with_effects(gears_, scene_.resolution, mesh_effects(decisions), placement, structure, nullptr, scene_.shafts);
+    };
     return {meshes_.mesh(left_out, placement, make), std::move(condition)};
   }
 
@@ -144,8 +146,8 @@ std::optional<Solution> first_order(const LoadProblem& problem, const Eigen::Vec
   return next;
 }
 
-EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, const std::string& name, const Case& all,
-                       const LoadedCycle& cycle, const CycleOutputs& with, double trust) {
+EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, const std::string& name, const Case& all, const LoadedCycle& cycle,
+                       const CycleOutputs& with, double trust) {
   const Stopwatch clock;
   EstimatedSize result{{name, {}, not_given}};
   const EffectDecisions rest = without(decisions, name, "left out");
@@ -215,7 +217,8 @@ std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const
   return estimate_effect_sizes(scene, decisions, options, meshes);
 }
 
-std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options, EffectMeshes& meshes) {
+std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options,
+                                                 EffectMeshes& meshes) {
   const Cases cases(scene, meshes);
   const Case all = cases.with(decisions);
   const LoadedCycle cycle = analyse_cycle(*all.model, all.condition, scene.pinion_torque);

@@ -75,7 +75,8 @@ struct SizeOptions {
 /// and linear in its loads, dw/dF = w/F, the envelope theorem's sum a_i w_i (...)_i / F.) Where SizeOptions::trust is
 /// exceeded the position is solved again.
 /// @param meshes  shared between load cases
-std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options, EffectMeshes& meshes);
+std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options,
+                                                 EffectMeshes& meshes);
 std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const EffectDecisions& decisions, const SizeOptions& options = {});
 
 }  // namespace flankwright

@@ -35,7 +35,8 @@ bool refine(AutomaticResolution& from, const ResolvedCycle& resolved, const Load
   return more_positions;
 }
 
-ResolvedAnalysis analyse_resolved(const MeshOfResolution& mesh_for, const FlankCondition& condition, double pinion_torque, AutomaticResolution automatic) {
+ResolvedAnalysis analyse_resolved(const MeshOfResolution& mesh_for, const FlankCondition& condition, double pinion_torque,
+                                  AutomaticResolution automatic) {
   ResolvedAnalysis made;
   do {
     const Quadrature quadrature{QuadratureRule::Graded, automatic.intervals}, half{QuadratureRule::Graded, automatic.intervals / 2};

@@ -6,9 +6,9 @@ namespace flankwright {
 
 /// Start and limits of an analysis that chooses its own resolution. Points follow the rule Graded.
 struct AutomaticResolution {
-  double accuracy{0.01};  ///< refined until headline_error() <= accuracy [-], > 0
-  int intervals{12}, positions{32};             ///< to begin with, >= 2 and >= 4
-  int most_intervals{48}, most_positions{128};  ///< none of them is doubled beyond
+  double accuracy{0.01};                                ///< refined until headline_error() <= accuracy [-], > 0
+  int intervals{12}, positions{32};                     ///< to begin with, >= 2 and >= 4
+  int most_intervals{48}, most_positions{128};          ///< none of them is doubled beyond
   bool choose_intervals{true}, choose_positions{true};  ///< false: as they are to begin with
 };
 
@@ -25,8 +25,8 @@ bool refine(AutomaticResolution& from, const ResolvedCycle& resolved, const Load
 struct ResolvedAnalysis {
   MeshResolution resolution;
   MeshModel model;
-  LoadedCycle cycle;       ///< of it
-  ResolvedCycle resolved;  ///< its figures and their errors
+  LoadedCycle cycle;        ///< of it
+  ResolvedCycle resolved;   ///< its figures and their errors
   double error{not_given};  ///< headline_error() [-]; NaN where a position failed
 };
 
@@ -34,6 +34,7 @@ struct ResolvedAnalysis {
 /// whichever cause most of the error, are doubled until the accuracy is kept or the limits are reached.
 /// @param pinion_torque  [N mm], > 0
 /// @throws InvalidInput  as `mesh_for` does
-ResolvedAnalysis analyse_resolved(const MeshOfResolution& mesh_for, const FlankCondition& condition, double pinion_torque, AutomaticResolution automatic = {});
+ResolvedAnalysis analyse_resolved(const MeshOfResolution& mesh_for, const FlankCondition& condition, double pinion_torque,
+                                  AutomaticResolution automatic = {});
 
 }  // namespace flankwright

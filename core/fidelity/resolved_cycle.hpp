@@ -9,12 +9,12 @@ namespace flankwright {
 
 /// The figures of a cycle with extremes between its positions, and the error of each.
 struct ResolvedCycle {
-  CycleSummary summary;        ///< of positions and extremes together
-  CycleErrorParts error_parts; ///< NaN where no coarser cycle was given
-  CycleErrors errors;          ///< their sum
+  CycleSummary summary;         ///< of positions and extremes together
+  CycleErrorParts error_parts;  ///< NaN where no coarser cycle was given
+  CycleErrors errors;           ///< their sum
   CycleExtremes extremes;
   std::shared_ptr<const MeshModel> extreme_mesh;  ///< at extremes.phases, without root stress; null where there are none
-  LoadedCycle extreme_cycle;   ///< of it
+  LoadedCycle extreme_cycle;                      ///< of it
 };
 
 /// The mesh at phases of one's choice [base pitches], with what derivatives by these parameters need.
@@ -22,7 +22,7 @@ using MeshWithParameters = std::function<MeshModel(const std::vector<double>& ph
 
 /// What is resolved beyond the positions of a cycle.
 struct CycleResolving {
-  bool seek_extremes{true};          ///< false: extremes are those of the positions
+  bool seek_extremes{true};            ///< false: extremes are those of the positions
   const LoadedCycle* coarse{nullptr};  ///< at coarse_phases() or at all phases of the cycle, with fewer intervals; null: no error is estimated
 };
 

@@ -13,9 +13,7 @@ namespace {
 /// A polynomial of degree <= 3 a column, row a the coefficient of t^a.
 using Polynomials = Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 4>;
 
-Eigen::Vector4d powers(double t) {
-  return {1.0, t, t * t, t * t * t};
-}
+Eigen::Vector4d powers(double t) { return {1.0, t, t * t, t * t * t}; }
 
 /// The same polynomials as functions of the distance from t.
 Polynomials seen_from(double t, Polynomials p) {
@@ -87,8 +85,7 @@ Basis make_basis(const std::vector<double>& points, int pieces) {
   const std::vector<double> breaks = breaks_of(points, pieces);
   const double down = points[0] - points[1], up = points[points.size() - 1] - points[points.size() - 2];
   const Polynomials lowest = b_splines(breaks, 0, degree);
-  const Polynomials highest =
-      seen_from(breaks[breaks.size() - 1] - breaks[breaks.size() - 2], b_splines(breaks, pieces - 1, degree));
+  const Polynomials highest = seen_from(breaks[breaks.size() - 1] - breaks[breaks.size() - 2], b_splines(breaks, pieces - 1, degree));
   Basis basis;
   basis.size = pieces + degree;
   const auto add = [&basis](double origin, Eigen::Index first, const Polynomials& polynomials) {
@@ -131,17 +128,11 @@ Eigen::MatrixXd values_at(const Basis& basis, const std::vector<double>& points)
 
 }  // namespace
 
-int spline_degree(int points) {
-  return std::min(3, points - 1);
-}
+int spline_degree(int points) { return std::min(3, points - 1); }
 
-int most_spline_pieces(int points) {
-  return std::max(1, points - 3);
-}
+int most_spline_pieces(int points) { return std::max(1, points - 3); }
 
-std::size_t SplineNet::piece_at(double x) const {
-  return static_cast<std::size_t>(std::ranges::upper_bound(joints, x) - joints.begin());
-}
+std::size_t SplineNet::piece_at(double x) const { return static_cast<std::size_t>(std::ranges::upper_bound(joints, x) - joints.begin()); }
 
 Jet BicubicSpline::at(double u, double v) const {
   const std::size_t i = u_.piece_at(u), j = v_.piece_at(v);
@@ -151,8 +142,7 @@ Jet BicubicSpline::at(double u, double v) const {
   const Eigen::Vector4d value = patch * powers(t);
   const Eigen::Vector4d slope = patch * Eigen::Vector4d(0.0, 1.0, 2.0 * t, 3.0 * t * t);
   const Eigen::Vector4d curve = patch * Eigen::Vector4d(0.0, 0.0, 2.0, 6.0 * t);
-  return {s_value.dot(value), s_slope.dot(value), s_value.dot(slope),
-          s_curve.dot(value), s_slope.dot(slope), s_value.dot(curve)};
+  return {s_value.dot(value), s_slope.dot(value), s_value.dot(slope), s_curve.dot(value), s_slope.dot(slope), s_value.dot(curve)};
 }
 
 SplineFit fit_spline(const GridSamples& samples, SplinePieces pieces) {
@@ -174,16 +164,14 @@ SplineFit fit_spline(const GridSamples& samples, SplinePieces pieces) {
   for (std::size_t i = 0; i < along_u.first.size(); ++i) {
     for (std::size_t j = 0; j < along_v.first.size(); ++j) {
       const Polynomials &m_u = along_u.b_splines[i], &m_v = along_v.b_splines[j];
-      fit.spline.patches_.push_back(m_u * weights.block(along_u.first[i], along_v.first[j], m_u.cols(), m_v.cols()) *
-                                    m_v.transpose());
+      fit.spline.patches_.push_back(m_u * weights.block(along_u.first[i], along_v.first[j], m_u.cols(), m_v.cols()) * m_v.transpose());
     }
   }
 
   Eigen::MatrixXd distance = samples.values;
   for (Eigen::Index i = 0; i < distance.rows(); ++i) {
     for (Eigen::Index j = 0; j < distance.cols(); ++j) {
-      distance(i, j) -=
-          fit.spline.at(samples.u[static_cast<std::size_t>(i)], samples.v[static_cast<std::size_t>(j)]).value;
+      distance(i, j) -= fit.spline.at(samples.u[static_cast<std::size_t>(i)], samples.v[static_cast<std::size_t>(j)]).value;
     }
   }
   fit.rms = std::sqrt(distance.array().square().mean());
@@ -192,8 +180,7 @@ SplineFit fit_spline(const GridSamples& samples, SplinePieces pieces) {
 }
 
 SplineFit interpolating_spline(const GridSamples& samples) {
-  return fit_spline(samples, {most_spline_pieces(static_cast<int>(samples.u.size())),
-                              most_spline_pieces(static_cast<int>(samples.v.size()))});
+  return fit_spline(samples, {most_spline_pieces(static_cast<int>(samples.u.size())), most_spline_pieces(static_cast<int>(samples.v.size()))});
 }
 
 }  // namespace flankwright

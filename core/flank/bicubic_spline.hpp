@@ -60,8 +60,7 @@ class BicubicSpline {
   friend SplineFit fit_spline(const GridSamples& samples, SplinePieces pieces);
 
   SplineNet u_, v_;
-  std::vector<Eigen::Matrix4d>
-      patches_;  ///< v runs fastest; entry (a, b) multiplies the powers a and b of the distances along u and v
+  std::vector<Eigen::Matrix4d> patches_;  ///< v runs fastest; entry (a, b) multiplies the powers a and b of the distances along u and v
 };
 
 /// A spline and how far it passes from the samples it was made from, in their unit.

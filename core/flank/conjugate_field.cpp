@@ -58,9 +58,7 @@ class ConjugateField final : public PredesignedField {
     const std::optional<Root> root = touching_angle(end, z);
     if (!root) return not_given;
     const Touch<Number> mark = *touch(Number::variable(root->angle, 0), Number(z), Number::variable(a_, 1));
-    const auto at_fixed_roll = [&](const Number& f) {
-      return f.gradient[1] - f.gradient[0] * mark.roll.gradient[1] / mark.roll.gradient[0];
-    };
+    const auto at_fixed_roll = [&](const Number& f) { return f.gradient[1] - f.gradient[0] * mark.roll.gradient[1] / mark.roll.gradient[0]; };
     return -at_fixed_roll(mark.along) + (rho - end) * at_fixed_roll(mark.d_roll);
   }
 
@@ -115,8 +113,7 @@ class ConjugateField final : public PredesignedField {
     const Scalar base = atan2(y, x) - atan2(along, Scalar(rb));  // polar angle where the base tangent starts
     // The tangent along/r_b e - D' t is square to the normal (sine, cosine).
     const Scalar c = cos(base), s = sin(base);
-    return Touch<Scalar>{rb * (start_ + own + frame_.helix_rate * z - base), along,
-                         along / rb * (sine * c + cosine * s) / (cosine * c - sine * s)};
+    return Touch<Scalar>{rb * (start_ + own + frame_.helix_rate * z - base), along, along / rb * (sine * c + cosine * s) / (cosine * c - sine * s)};
   }
 
   /// phi1 at which the flank touches at roll length rho in the section z, to |rho(phi1) - rho| <= 1e-13 (rho + r_b), by Newton from
@@ -157,9 +154,9 @@ class ConjugateField final : public PredesignedField {
   FlankFrame frame_;
   bool on_pinion_;
   double mate_base_radius_, centre_distance_;
-  double speed_ratio_;       ///< N1/N2
-  double start_;             ///< inv(alpha_wt) [rad]
-  double a_;                 ///< [1/rad]
+  double speed_ratio_;                                                     ///< N1/N2
+  double start_;                                                           ///< inv(alpha_wt) [rad]
+  double a_;                                                               ///< [1/rad]
   double lowest_{0.0}, highest_{std::numeric_limits<double>::infinity()};  ///< roll lengths between which the field is exact [mm]
 };
 

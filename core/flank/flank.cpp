@@ -10,7 +10,7 @@ namespace flankwright {
 
 SurfacePoint surface_point(const Flank& flank, double rho, double z, int tooth, double rotation) {
   const Point3<Jet> p = flank_point(flank, Jet::variable_u(rho), Jet::variable_v(z), tooth, rotation);
-  const auto gather = [&](double Jet::* part) { return Eigen::Vector3d(p.x.*part, p.y.*part, p.z.*part); };
+  const auto gather = [&](double Jet::*part) { return Eigen::Vector3d(p.x.*part, p.y.*part, p.z.*part); };
   SurfacePoint point;
   point.position = gather(&Jet::value);
   point.d_rho = gather(&Jet::u);
@@ -23,8 +23,7 @@ SurfacePoint surface_point(const Flank& flank, double rho, double z, int tooth, 
   return point;
 }
 
-Flank make_flank(const GearPair& pair, Member member, const Modification& modification,
-                 const ManufacturingError& error) {
+Flank make_flank(const GearPair& pair, Member member, const Modification& modification, const ManufacturingError& error) {
   const Gear& gear = pair[member];
   Flank flank;
   flank.base_radius = gear.base_radius;

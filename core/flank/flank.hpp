@@ -30,12 +30,12 @@ inline constexpr double lowest_start = 1.0 + 5e-5;
 /// eq. A.1.1, with theta the negative of its theta_1 + mu_1. The parameter rectangle is lowest_roll() .. highest_roll() by
 /// -half_face .. half_face.
 struct Flank {
-  double base_radius{not_given};   ///< r_b [mm]
-  double helix_rate{0.0};          ///< s/p, signed [rad/mm]
-  double origin{not_given};        ///< theta of the involute's start in the section z = 0 at rotation 0 [rad]
-  double form_radius{not_given};   ///< lower end of the flank [mm], >= r_b * lowest_start
-  double tip_radius{not_given};    ///< upper end [mm]
-  double half_face{not_given};     ///< b/2 [mm]
+  double base_radius{not_given};  ///< r_b [mm]
+  double helix_rate{0.0};         ///< s/p, signed [rad/mm]
+  double origin{not_given};       ///< theta of the involute's start in the section z = 0 at rotation 0 [rad]
+  double form_radius{not_given};  ///< lower end of the flank [mm], >= r_b * lowest_start
+  double tip_radius{not_given};   ///< upper end [mm]
+  double half_face{not_given};    ///< b/2 [mm]
   FlankFrame frame;
   Modification modification;  ///< without what became a field
   ManufacturingError error;
@@ -44,17 +44,15 @@ struct Flank {
 
   double lowest_roll() const { return roll_at(form_radius); }
   double highest_roll() const { return roll_at(tip_radius); }
-  double roll_at(double radius) const {
-    return std::sqrt(std::max(0.0, (radius - base_radius) * (radius + base_radius)));
-  }
+  double roll_at(double radius) const { return std::sqrt(std::max(0.0, (radius - base_radius) * (radius + base_radius))); }
 
   /// D of tooth `tooth` at roll length rho and axial position z [mm].
   template <class Scalar>
   Scalar deviation(const Scalar& rho, const Scalar& z, int tooth) const {
     using std::sqrt;
     const Scalar r = sqrt(rho * rho + base_radius * base_radius);
-    Scalar d = chain(DeviationFormula(modification, tooth_error(error, tooth), frame).at(value_of(r), value_of(z)), r, z) -
-               pitch_deviation(error, tooth);
+    Scalar d =
+        chain(DeviationFormula(modification, tooth_error(error, tooth), frame).at(value_of(r), value_of(z)), r, z) - pitch_deviation(error, tooth);
     for (const auto& field : fields) d += evaluate(*field, rho, z);
     if (const DeviationField* measured = tooth_topography(error, tooth)) d += evaluate(*measured, rho, z);
     return d;
@@ -125,7 +123,6 @@ FlankThroughPoint<Scalar> rotation_through(const Flank& flank, const Point3<Scal
 /// Flank of one gear of the pair in the canonical sense (pinion driving in +y); a left working flank is mirrored into it.
 /// The predesigned parabola becomes the flank that has it exactly (make_conjugate_field).
 /// @throws InvalidInput "parabolic_te" where no flank has that parabola
-Flank make_flank(const GearPair& pair, Member member, const Modification& modification,
-                         const ManufacturingError& error);
+Flank make_flank(const GearPair& pair, Member member, const Modification& modification, const ManufacturingError& error);
 
 }  // namespace flankwright

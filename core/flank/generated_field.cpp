@@ -43,7 +43,9 @@ class GeneratedField final : public DeviationField {
     return {mark.deviation.value + missing * mark.d_roll.value,
             mark.d_roll.value + missing * rho_rho,
             mark.d_z.value + missing * rho_z,
-            rho_rho, rho_z, z_z};
+            rho_rho,
+            rho_z,
+            z_z};
   }
 
   /// D(end, z) + (rho - end) dD/drho(end, z). The parameter that stays at `end` while z changes is a Jet, found by Newton steps

@@ -13,13 +13,9 @@ namespace {
 
 std::string mm(double number) { return in_words(number) + " mm"; }
 
-[[noreturn]] void refuse(const std::string& value, const std::string& allowed) {
-  throw InvalidInput("grid", value, allowed);
-}
+[[noreturn]] void refuse(const std::string& value, const std::string& allowed) { throw InvalidInput("grid", value, allowed); }
 
-double roll_length(double radius, double base_radius) {
-  return std::sqrt((radius - base_radius) * (radius + base_radius));
-}
+double roll_length(double radius, double base_radius) { return std::sqrt((radius - base_radius) * (radius + base_radius)); }
 
 void check_line(const std::vector<double>& points, const std::string& name) {
   if (points.size() < 2 || points.size() > most_grid_lines) {
@@ -30,8 +26,7 @@ void check_line(const std::vector<double>& points, const std::string& name) {
       refuse(mm(points[i]) + " among the " + name, "a length within " + mm(largest_grid_length));
     }
     if (i > 0 && points[i] - points[i - 1] < smallest_grid_step) {
-      refuse(mm(points[i]) + " after " + mm(points[i - 1]),
-             name + " that increase by at least " + mm(smallest_grid_step));
+      refuse(mm(points[i]) + " after " + mm(points[i - 1]), name + " that increase by at least " + mm(smallest_grid_step));
     }
   }
 }
@@ -39,8 +34,7 @@ void check_line(const std::vector<double>& points, const std::string& name) {
 int checked_pieces(std::optional<int> given, std::size_t points, const std::string& field) {
   const int most = most_spline_pieces(static_cast<int>(points));
   if (given && (*given < 1 || *given > most)) {
-    throw InvalidInput(field, std::to_string(*given),
-                       "an integer 1 .. " + std::to_string(most) + " on " + std::to_string(points) + " points");
+    throw InvalidInput(field, std::to_string(*given), "an integer 1 .. " + std::to_string(most) + " on " + std::to_string(points) + " points");
   }
   return given.value_or(most);
 }
@@ -87,8 +81,7 @@ void validate(const MeasuredGrid& grid, double base_radius) {
 
 GridCoverage check_coverage(const MeasuredGrid& grid, const FlankFrame& frame) {
   // Share of the range between `low` and `high` that the grid spans from `first` to `last`.
-  const auto share = [](double first, double last, double low, double high, const std::string& found,
-                        const std::string& allowed) {
+  const auto share = [](double first, double last, double low, double high, const std::string& found, const std::string& allowed) {
     const double margin = widest_grid_margin * (high - low);
     if (first - low > margin || high - last > margin) refuse(found, allowed);
     return (std::min(last, high) - std::max(first, low)) / (high - low);
@@ -96,21 +89,17 @@ GridCoverage check_coverage(const MeasuredGrid& grid, const FlankFrame& frame) {
   const auto roll = [&](double radius) { return roll_length(radius, frame.base_radius); };
   const std::string margin = std::to_string(static_cast<int>(100.0 * widest_grid_margin)) + " %";
   GridCoverage coverage;
-  coverage.profile = share(roll(grid.radii.front()), roll(grid.radii.back()), roll(frame.active_root_radius),
-                           roll(frame.tip_radius), "radii " + mm(grid.radii.front()) + " .. " + mm(grid.radii.back()),
-                           "radii that leave at most " + margin +
-                               " of the active roll length to either side, which goes from radius " +
+  coverage.profile = share(roll(grid.radii.front()), roll(grid.radii.back()), roll(frame.active_root_radius), roll(frame.tip_radius),
+                           "radii " + mm(grid.radii.front()) + " .. " + mm(grid.radii.back()),
+                           "radii that leave at most " + margin + " of the active roll length to either side, which goes from radius " +
                                mm(frame.active_root_radius) + " to " + mm(frame.tip_radius));
   const double half = 0.5 * frame.face_width;
-  coverage.face =
-      share(grid.z.front(), grid.z.back(), -half, half, "z " + mm(grid.z.front()) + " .. " + mm(grid.z.back()),
-            "z from mid face that leaves at most " + margin + " of the face width to either side, " + mm(-half) +
-                " .. " + mm(half));
+  coverage.face = share(grid.z.front(), grid.z.back(), -half, half, "z " + mm(grid.z.front()) + " .. " + mm(grid.z.back()),
+                        "z from mid face that leaves at most " + margin + " of the face width to either side, " + mm(-half) + " .. " + mm(half));
   return coverage;
 }
 
-GridFit make_grid_field(const MeasuredGrid& grid, double base_radius, double base_helix_angle,
-                        const GridFitOptions& options) {
+GridFit make_grid_field(const MeasuredGrid& grid, double base_radius, double base_helix_angle, const GridFitOptions& options) {
   validate(grid, base_radius);
   const double cos_beta_b = std::cos(base_helix_angle);
   GridSamples removed{{}, grid.z, grid.deviation / -cos_beta_b};

@@ -75,7 +75,6 @@ struct GridFit {
 /// @throws InvalidInput with field "grid" as validate() does, or where the flank folds over itself (between two
 /// neighbouring radii D changes by at least as much as rho); with field "grid.profile_pieces" or "grid.face_pieces"
 /// where these are out of range
-GridFit make_grid_field(const MeasuredGrid& grid, double base_radius, double base_helix_angle,
-                        const GridFitOptions& options = {});
+GridFit make_grid_field(const MeasuredGrid& grid, double base_radius, double base_helix_angle, const GridFitOptions& options = {});
 
 }  // namespace flankwright

@@ -24,7 +24,11 @@ class FlankPolynomial {
   Jet at(double r, double z) const {
     const double y = r - pitch_radius_, crown = y > 0.0 ? above_ : below_;
     return {level_ + (y_ + yz_ * z + crown * y) * y + (z_ + zz_ * z) * z,
-            y_ + yz_ * z + 2.0 * crown * y, z_ + 2.0 * zz_ * z + yz_ * y, 2.0 * crown, yz_, 2.0 * zz_};
+            y_ + yz_ * z + 2.0 * crown * y,
+            z_ + 2.0 * zz_ * z + yz_ * y,
+            2.0 * crown,
+            yz_,
+            2.0 * zz_};
   }
 
  private:

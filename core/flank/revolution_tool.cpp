@@ -37,8 +37,7 @@ double arc_for_parabola(const GearPair& pair, Member member, double coefficient)
   const ArcLaw law(pair, member);
   const double largest = law.strength / law.relative_radius;
   if (!(coefficient >= 0.0 && coefficient < largest)) {
-    throw InvalidInput("coefficient", std::to_string(coefficient),
-                       std::string("0 or more and below ").append(std::to_string(largest)));
+    throw InvalidInput("coefficient", std::to_string(coefficient), std::string("0 or more and below ").append(std::to_string(largest)));
   }
   return coefficient == 0.0 ? std::numeric_limits<double>::infinity() : law.strength / coefficient - law.relative_radius;
 }

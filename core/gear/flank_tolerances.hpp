@@ -6,11 +6,11 @@ namespace flankwright {
 
 /// The data on which the tolerances of one gear depend.
 struct ToleranceData {
-  int teeth{0};                           ///< z, 5 .. 1000
-  double reference_diameter{not_given};   ///< d [mm], 5 .. 15000
-  double normal_module{not_given};        ///< m_n [mm], 0.5 .. 70
-  double face_width{not_given};           ///< b [mm], 4 .. 1200
-  double helix_angle{not_given};          ///< |beta| [rad], 0 .. 45 deg
+  int teeth{0};                          ///< z, 5 .. 1000
+  double reference_diameter{not_given};  ///< d [mm], 5 .. 15000
+  double normal_module{not_given};       ///< m_n [mm], 0.5 .. 70
+  double face_width{not_given};          ///< b [mm], 4 .. 1200
+  double helix_angle{not_given};         ///< |beta| [rad], 0 .. 45 deg
 
   static ToleranceData of(const GearPair& pair, Member member);
 };

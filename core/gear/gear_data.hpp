@@ -42,22 +42,22 @@ struct RackProfile {
 
 /// The data of one gear of a pair, besides the common rack angles.
 struct GearData {
-  int teeth{0};                     ///< z, >= 5
-  double face_width{0.0};           ///< b [mm], > 0
-  double profile_shift{0.0};        ///< x, coefficient of the normal module [-]
-  double tip_diameter{not_given};   ///< d_a [mm]; not given: from rack and profile shift
+  int teeth{0};                    ///< z, >= 5
+  double face_width{0.0};          ///< b [mm], > 0
+  double profile_shift{0.0};       ///< x, coefficient of the normal module [-]
+  double tip_diameter{not_given};  ///< d_a [mm]; not given: from rack and profile shift
   RackProfile rack;
-  Generation generation;            ///< what cuts the flanks
+  Generation generation;  ///< what cuts the flanks
 };
 
 /// The data of an external parallel-axis involute pair [ISO 21771].
 struct PairData {
-  double normal_module{0.0};                  ///< m_n [mm], > 0
-  double pressure_angle{20 * units::deg};     ///< alpha_n, normal section [rad], 10 .. 35 deg
-  double helix_angle{0.0};                    ///< |beta| at the reference cylinder [rad], 0 .. 45 deg
-  double centre_distance{not_given};          ///< a [mm]; not given: free of backlash
-  Hand pinion_hand{Hand::Right};              ///< of the pinion, the wheel's is the opposite
-  Member driver{Member::Pinion};              ///< which gear drives
+  double normal_module{0.0};               ///< m_n [mm], > 0
+  double pressure_angle{20 * units::deg};  ///< alpha_n, normal section [rad], 10 .. 35 deg
+  double helix_angle{0.0};                 ///< |beta| at the reference cylinder [rad], 0 .. 45 deg
+  double centre_distance{not_given};       ///< a [mm]; not given: free of backlash
+  Hand pinion_hand{Hand::Right};           ///< of the pinion, the wheel's is the opposite
+  Member driver{Member::Pinion};           ///< which gear drives
   WorkingFlank working_flank{WorkingFlank::Right};
   GearData pinion, wheel;
 

@@ -31,8 +31,7 @@ class Findings {
 void check_rack(const GearData& gear, const std::string& name, const PairData& pair, Findings& findings) {
   const RackProfile& rack = gear.rack;
   findings.require(rack.addendum > 0.0 && rack.addendum <= 2.0, name + ".rack.addendum", rack.addendum, "above 0, at most 2");
-  findings.require(rack.dedendum > 0.0 && rack.dedendum <= 2.5, name + ".rack.dedendum", rack.dedendum,
-                   "above 0, at most 2.5");
+  findings.require(rack.dedendum > 0.0 && rack.dedendum <= 2.5, name + ".rack.dedendum", rack.dedendum, "above 0, at most 2.5");
   if (!(rack.dedendum > 0.0)) return;
   const double largest = full_tip_rounding(rack.dedendum, pair.pressure_angle);
   findings.require(largest > 0.0, name + ".rack.dedendum", rack.dedendum,
@@ -61,8 +60,7 @@ Gear single_gear(Member m, const PairData& pair) {
   gear.helix_rate = tan_base_helix / gear.base_radius;
   // ISO 6336-1: z_n = z / (cos^2(beta_b) cos(beta)).
   gear.virtual_teeth = gear.data.teeth * (1.0 + tan_base_helix * tan_base_helix) / cos_beta;
-  gear.tooth_thickness =
-      pair.normal_module * (0.5 * units::pi + 2.0 * gear.data.profile_shift * std::tan(pair.pressure_angle)) / cos_beta;
+  gear.tooth_thickness = pair.normal_module * (0.5 * units::pi + 2.0 * gear.data.profile_shift * std::tan(pair.pressure_angle)) / cos_beta;
   return gear;
 }
 
@@ -76,18 +74,16 @@ void check_gear(Member m, const PairData& pair, Findings& findings) {
     findings.add(InvalidInput(name + "." + problem.field(), problem.value(), problem.allowed()));
     return;
   }
-  findings.require(generated.root_radius > 0.0, name + ".profile_shift", gear.data.profile_shift,
-                   "large enough to leave a root circle");
+  findings.require(generated.root_radius > 0.0, name + ".profile_shift", gear.data.profile_shift, "large enough to leave a root circle");
   const bool given_tip = !std::isnan(gear.data.tip_diameter);
   const std::string tip_field = name + (given_tip ? ".tip_diameter" : ".profile_shift");
   const double tip_value = given_tip ? gear.data.tip_diameter : gear.data.profile_shift;
   const double form = std::max(generated.form_radius, gear.base_radius);
-  findings.require(gear.tip_radius > form, tip_field, tip_value,
-                   "a tip circle above the form circle, diameter " + in_words(2.0 * form) + " mm");
+  findings.require(gear.tip_radius > form, tip_field, tip_value, "a tip circle above the form circle, diameter " + in_words(2.0 * form) + " mm");
   if (gear.tip_radius > form) {
     findings.require(gear.tooth_thickness_at(gear.tip_radius) > 0.0, tip_field, tip_value,
-                     "a tooth that is not pointed: its thickness at the tip is " +
-                         in_words(gear.tooth_thickness_at(gear.tip_radius)) + " mm, and must be above 0");
+                     "a tooth that is not pointed: its thickness at the tip is " + in_words(gear.tooth_thickness_at(gear.tip_radius)) +
+                         " mm, and must be above 0");
   }
 }
 
@@ -105,20 +101,16 @@ void mesh(GearPair& pair) {
   // ISO 21771: inv(alpha_wt) = inv(alpha_t) + 2 tan(alpha_n) (x1 + x2) / (z1 + z2) where the flanks have no backlash.
   const double backlash_free_angle =
       shift_sum == 0.0 ? pair.transverse_pressure_angle
-                       : inverse_involute(involute(pair.transverse_pressure_angle) +
-                                          2.0 * std::tan(data.pressure_angle) * shift_sum / teeth);
+                       : inverse_involute(involute(pair.transverse_pressure_angle) + 2.0 * std::tan(data.pressure_angle) * shift_sum / teeth);
   pair.backlash_free_centre_distance =
-      shift_sum == 0.0 ? reference_distance
-                       : reference_distance * std::cos(pair.transverse_pressure_angle) / std::cos(backlash_free_angle);
+      shift_sum == 0.0 ? reference_distance : reference_distance * std::cos(pair.transverse_pressure_angle) / std::cos(backlash_free_angle);
   pair.centre_distance = std::isnan(data.centre_distance) ? pair.backlash_free_centre_distance : data.centre_distance;
   pair.working_transverse_pressure_angle =
-      std::isnan(data.centre_distance) ? backlash_free_angle
-                                       : std::acos((g1.base_radius + g2.base_radius) / pair.centre_distance);
+      std::isnan(data.centre_distance) ? backlash_free_angle : std::acos((g1.base_radius + g2.base_radius) / pair.centre_distance);
   const double alpha_wt = pair.working_transverse_pressure_angle;
   for (Gear* gear : {&g1, &g2}) {
     gear->working_pitch_radius = pair.centre_distance * gear->data.teeth / teeth;
-    const GeneratedProfile generated =
-        generated_profile(gear->data, data.normal_module, data.pressure_angle, data.helix_angle);
+    const GeneratedProfile generated = generated_profile(gear->data, data.normal_module, data.pressure_angle, data.helix_angle);
     gear->root_radius = generated.root_radius;
     gear->form_radius = generated.form_radius;
     gear->undercut = generated.undercut;
@@ -130,8 +122,7 @@ void mesh(GearPair& pair) {
   // Without a given centre distance the pair is free of backlash by construction, not just to round-off.
   pair.backlash = std::isnan(data.centre_distance)
                       ? 0.0
-                      : pitch - g1.tooth_thickness_at(g1.working_pitch_radius) -
-                            g2.tooth_thickness_at(g2.working_pitch_radius);
+                      : pitch - g1.tooth_thickness_at(g1.working_pitch_radius) - g2.tooth_thickness_at(g2.working_pitch_radius);
   pair.face_width = std::min(data.pinion.face_width, data.wheel.face_width);
 
   pair.path_length = pair.centre_distance * std::sin(alpha_wt);
@@ -184,21 +175,18 @@ void check_mesh(const PairData& data, Findings& findings) {
 
 std::vector<InvalidInput> find_problems(const PairData& data) {
   Findings findings;
-  findings.require(data.normal_module > 0.0 && std::isfinite(data.normal_module), "pair.normal_module", data.normal_module,
-                   "above 0 mm");
+  findings.require(data.normal_module > 0.0 && std::isfinite(data.normal_module), "pair.normal_module", data.normal_module, "above 0 mm");
   findings.require(data.pressure_angle >= 10 * units::deg && data.pressure_angle <= 35 * units::deg, "pair.pressure_angle",
                    data.pressure_angle / units::deg, "10 .. 35 deg");
-  findings.require(data.helix_angle >= 0.0 && data.helix_angle <= 45 * units::deg, "pair.helix_angle",
-                   data.helix_angle / units::deg, "0 .. 45 deg");
+  findings.require(data.helix_angle >= 0.0 && data.helix_angle <= 45 * units::deg, "pair.helix_angle", data.helix_angle / units::deg, "0 .. 45 deg");
   for (Member m : {Member::Pinion, Member::Wheel}) {
     const std::string name = name_of(m);
     const GearData& gear = data[m];
     findings.require(gear.teeth >= 5, name + ".teeth", gear.teeth, "an integer of at least 5");
-    findings.require(gear.face_width > 0.0 && std::isfinite(gear.face_width), name + ".face_width", gear.face_width,
-                     "above 0 mm");
+    findings.require(gear.face_width > 0.0 && std::isfinite(gear.face_width), name + ".face_width", gear.face_width, "above 0 mm");
     findings.require(std::abs(gear.profile_shift) <= 2.0, name + ".profile_shift", gear.profile_shift, "-2 .. 2");
-    findings.require(std::isnan(gear.tip_diameter) || (gear.tip_diameter > 0.0 && std::isfinite(gear.tip_diameter)),
-                     name + ".tip_diameter", gear.tip_diameter, "above 0 mm");
+    findings.require(std::isnan(gear.tip_diameter) || (gear.tip_diameter > 0.0 && std::isfinite(gear.tip_diameter)), name + ".tip_diameter",
+                     gear.tip_diameter, "above 0 mm");
     check_rack(gear, name, data, findings);
     findings.add(find_tool_problems(data, m));
   }
@@ -207,13 +195,12 @@ std::vector<InvalidInput> find_problems(const PairData& data) {
   for (Member m : {Member::Pinion, Member::Wheel}) check_gear(m, data, findings);
   const double base_radii = single_gear(Member::Pinion, data).base_radius + single_gear(Member::Wheel, data).base_radius;
   if (!std::isnan(data.centre_distance)) {
-    findings.require(data.centre_distance > base_radii && std::isfinite(data.centre_distance), "pair.centre_distance",
-                     data.centre_distance, "above the sum of the base radii, " + in_words(base_radii) + " mm");
+    findings.require(data.centre_distance > base_radii && std::isfinite(data.centre_distance), "pair.centre_distance", data.centre_distance,
+                     "above the sum of the base radii, " + in_words(base_radii) + " mm");
   }
   const double alpha_t = std::atan(std::tan(data.pressure_angle) / std::cos(data.helix_angle));
   const double shift_sum = data.pinion.profile_shift + data.wheel.profile_shift;
-  const double working_involute = involute(alpha_t) + 2.0 * std::tan(data.pressure_angle) * shift_sum /
-                                                          (data.pinion.teeth + data.wheel.teeth);
+  const double working_involute = involute(alpha_t) + 2.0 * std::tan(data.pressure_angle) * shift_sum / (data.pinion.teeth + data.wheel.teeth);
   findings.require(working_involute > 0.0, "pinion.profile_shift", data.pinion.profile_shift,
                    "a sum of profile shifts that leaves a positive working pressure angle");
   if (findings.empty()) check_mesh(data, findings);

@@ -20,8 +20,8 @@ struct ParabolicRack {
 /// an arc instead of its generatrix, that holds the tooth inside. The cone touches the straight rack along the generatrix in mid
 /// face; the arc touches the generatrix on the rolling line.
 struct RevolutionTool {
-  double half_apex{0.0};  ///< alpha, between generatrix and axis of the cone [rad], 0 < alpha < pi/2
-  double distance{0.0};   ///< d, height of the cone from its apex to its rim along the axis [mm], > 0
+  double half_apex{0.0};                                       ///< alpha, between generatrix and axis of the cone [rad], 0 < alpha < pi/2
+  double distance{0.0};                                        ///< d, height of the cone from its apex to its rim along the axis [mm], > 0
   double arc_radius{std::numeric_limits<double>::infinity()};  ///< rho of the arc [mm], > 0; infinite: the cone
 };
 

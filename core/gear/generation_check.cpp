@@ -47,8 +47,7 @@ std::vector<InvalidInput> find_tool_problems(const PairData& pair, Member member
   };
   const Generation& generation = pair[member].generation;
   if (const auto* rack = std::get_if<ParabolicRack>(&generation)) {
-    require(rack->coefficient >= 0.0 && std::isfinite(rack->coefficient), "coefficient", in_words(rack->coefficient),
-            "0 or more, finite (1/mm)");
+    require(rack->coefficient >= 0.0 && std::isfinite(rack->coefficient), "coefficient", in_words(rack->coefficient), "0 or more, finite (1/mm)");
   }
   if (const auto* tool = std::get_if<RevolutionTool>(&generation)) {
     require(pair.helix_angle == 0.0, "kind", "revolution", "a spur pair (pair.helix_angle = 0) for this tool");
@@ -61,9 +60,7 @@ std::vector<InvalidInput> find_tool_problems(const PairData& pair, Member member
 }
 
 double largest_parabola_coefficient(const Gear& gear, const PairData& pair) {
-  const auto accepts = [&](double coefficient) {
-    return generates(ParabolicSection({coefficient}, pair), gear, FlankStart::Active);
-  };
+  const auto accepts = [&](double coefficient) { return generates(ParabolicSection({coefficient}, pair), gear, FlankStart::Active); };
   double refused = 1.0 / gear.reference_radius;
   while (accepts(refused)) refused *= 2.0;
   return limit_between(0.0, refused, accepts);
@@ -85,13 +82,11 @@ std::vector<InvalidInput> find_generation_problems(const Gear& gear, const PairD
     };
     if (!accepts(tool->distance, infinity)) {
       const double least = least_above(tool->distance, [&](double distance) { return accepts(distance, infinity); });
-      return problem("distance", tool->distance,
-                     "at least " + in_words(least) + " mm, so that the tool reaches over the tooth and the face");
+      return problem("distance", tool->distance, "at least " + in_words(least) + " mm, so that the tool reaches over the tooth and the face");
     }
     if (!accepts(tool->distance, tool->arc_radius)) {
       const double least = least_above(tool->arc_radius, [&](double radius) { return accepts(tool->distance, radius); });
-      return problem("arc_radius", tool->arc_radius,
-                     "at least " + in_words(least) + " mm, below which the flank folds over itself");
+      return problem("arc_radius", tool->arc_radius, "at least " + in_words(least) + " mm, below which the flank folds over itself");
     }
   }
   return {};

@@ -9,14 +9,11 @@ namespace flankwright {
 
 double Gear::pressure_angle_at(double radius) const { return std::acos(std::min(1.0, base_radius / radius)); }
 
-double Gear::roll_length_at(double radius) const {
-  return std::sqrt(std::max(0.0, (radius - base_radius) * (radius + base_radius)));
-}
+double Gear::roll_length_at(double radius) const { return std::sqrt(std::max(0.0, (radius - base_radius) * (radius + base_radius))); }
 
 double Gear::tooth_thickness_at(double radius) const {
   const double alpha_t = pressure_angle_at(reference_radius);
-  return 2.0 * radius *
-         (0.5 * tooth_thickness / reference_radius + involute(alpha_t) - involute(pressure_angle_at(radius)));
+  return 2.0 * radius * (0.5 * tooth_thickness / reference_radius + involute(alpha_t) - involute(pressure_angle_at(radius)));
 }
 
 int GearPair::contact_line_sense() const {

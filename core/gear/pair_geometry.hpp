@@ -10,19 +10,19 @@ struct Gear {
   Member member{Member::Pinion};
   GearData data;
   Hand hand{Hand::Right};
-  double reference_radius{not_given};    ///< r
-  double base_radius{not_given};         ///< r_b
-  double tip_radius{not_given};          ///< r_a
-  double root_radius{not_given};         ///< r_f
-  double working_pitch_radius{not_given};///< r_w
-  double form_radius{not_given};         ///< r_Ff: where the involute meets the root fillet (undercut considered)
-  double active_root_radius{not_given};  ///< start of active profile r_Nf: lowest radius the mate's tip reaches, >= r_Ff
-  double tooth_thickness{not_given};     ///< s_t, transverse arc at the reference circle
-  double tip_thickness{not_given};       ///< s_at, transverse arc at the tip, > 0
-  double virtual_teeth{not_given};       ///< z_n of the equivalent spur gear [ISO 6336-1]
-  double helix_rate{not_given};          ///< 1/p = tan(beta_b) / r_b: turn of the transverse section per mm of z [rad/mm], >= 0
-  bool undercut{false};                  ///< the fillet cuts into the involute
-  bool fillet_interference{false};       ///< the mate's tip reaches below the form circle; the path of contact ends there
+  double reference_radius{not_given};      ///< r
+  double base_radius{not_given};           ///< r_b
+  double tip_radius{not_given};            ///< r_a
+  double root_radius{not_given};           ///< r_f
+  double working_pitch_radius{not_given};  ///< r_w
+  double form_radius{not_given};           ///< r_Ff: where the involute meets the root fillet (undercut considered)
+  double active_root_radius{not_given};    ///< start of active profile r_Nf: lowest radius the mate's tip reaches, >= r_Ff
+  double tooth_thickness{not_given};       ///< s_t, transverse arc at the reference circle
+  double tip_thickness{not_given};         ///< s_at, transverse arc at the tip, > 0
+  double virtual_teeth{not_given};         ///< z_n of the equivalent spur gear [ISO 6336-1]
+  double helix_rate{not_given};            ///< 1/p = tan(beta_b) / r_b: turn of the transverse section per mm of z [rad/mm], >= 0
+  bool undercut{false};                    ///< the fillet cuts into the involute
+  bool fillet_interference{false};         ///< the mate's tip reaches below the form circle; the path of contact ends there
 
   /// Transverse pressure angle at radius r >= r_b [rad].
   double pressure_angle_at(double radius) const;
@@ -39,21 +39,21 @@ struct Gear {
 struct GearPair {
   PairData data;
   Gear pinion, wheel;
-  double transverse_pressure_angle{not_given};         ///< alpha_t
-  double working_transverse_pressure_angle{not_given}; ///< alpha_wt
-  double base_helix_angle{not_given};                  ///< |beta_b|
-  double working_helix_angle{not_given};               ///< |beta_w|
-  double centre_distance{not_given};                   ///< a_w used
-  double backlash_free_centre_distance{not_given};     ///< a_w at which the teeth have no backlash
-  double backlash{not_given};                          ///< circumferential backlash at the working pitch circle, transverse; < 0: jams
-  double transverse_base_pitch{not_given};             ///< p_bt
-  double face_width{not_given};                        ///< common to both gears, both centred on z = 0
-  double transverse_contact_ratio{not_given};          ///< eps_alpha
-  double overlap_ratio{not_given};                     ///< eps_beta
-  double path_length{not_given};                       ///< T1 T2 = a sin(alpha_wt): rho_1 + rho_2
-  double path_start{not_given};                        ///< rho_1 at A
-  double path_end{not_given};                          ///< rho_1 at E
-  double pitch_point{not_given};                       ///< rho_1 at C
+  double transverse_pressure_angle{not_given};          ///< alpha_t
+  double working_transverse_pressure_angle{not_given};  ///< alpha_wt
+  double base_helix_angle{not_given};                   ///< |beta_b|
+  double working_helix_angle{not_given};                ///< |beta_w|
+  double centre_distance{not_given};                    ///< a_w used
+  double backlash_free_centre_distance{not_given};      ///< a_w at which the teeth have no backlash
+  double backlash{not_given};                           ///< circumferential backlash at the working pitch circle, transverse; < 0: jams
+  double transverse_base_pitch{not_given};              ///< p_bt
+  double face_width{not_given};                         ///< common to both gears, both centred on z = 0
+  double transverse_contact_ratio{not_given};           ///< eps_alpha
+  double overlap_ratio{not_given};                      ///< eps_beta
+  double path_length{not_given};                        ///< T1 T2 = a sin(alpha_wt): rho_1 + rho_2
+  double path_start{not_given};                         ///< rho_1 at A
+  double path_end{not_given};                           ///< rho_1 at E
+  double pitch_point{not_given};                        ///< rho_1 at C
 
   double total_contact_ratio() const { return transverse_contact_ratio + overlap_ratio; }
   double gear_ratio() const { return static_cast<double>(data.wheel.teeth) / data.pinion.teeth; }

@@ -62,13 +62,12 @@ GeneratedPoint<Scalar> envelope(const RollingCircle& circle, const ToolPoint<Sca
   const Scalar delta = atan2(rise, run), tan_delta = rise / run;
   const Scalar turn = 1.0 - tool.slope * tan_delta;
   const Scalar advance = tool.depth - rb * delta;
-  return {a + advance, advance - shortfall, length / rb * (tool.slope + tan_delta) / turn,
-          tool.lead_slope * sqrt(1.0 + tan_delta * tan_delta) / turn, pressure_sine};
+  return {a + advance, advance - shortfall, length / rb * (tool.slope + tan_delta) / turn, tool.lead_slope * sqrt(1.0 + tan_delta * tan_delta) / turn,
+          pressure_sine};
 }
 
 template <class Section, class Scalar>
-GeneratedPoint<Scalar> generated_point(const Section& section, const RollingCircle& circle, const Scalar& parameter,
-                                       const Scalar& z) {
+GeneratedPoint<Scalar> generated_point(const Section& section, const RollingCircle& circle, const Scalar& parameter, const Scalar& z) {
   return envelope(circle, section.at(parameter, z));
 }
 
@@ -85,8 +84,7 @@ std::optional<double> tool_parameter(const Section& section, const RollingCircle
   const auto attempt = [&](double parameter) -> Trial {
     const auto point = generated_point(section, circle, Number::variable(parameter, 0), Number(z));
     const double rate = point.roll.gradient[0];
-    return {parameter, rho - point.roll.value, rate,
-            rate > 0.0 && point.pressure_sine.value > 0.0 && point.d_roll.value < 1.0};
+    return {parameter, rho - point.roll.value, rate, rate > 0.0 && point.pressure_sine.value > 0.0 && point.d_roll.value < 1.0};
   };
   const double tolerance = 1e-13 * (std::abs(rho) + circle.base_radius);
   Trial trial = attempt(section.guess((rho - circle.tangent_length) * circle.sin_alpha / circle.cos_alpha, z));

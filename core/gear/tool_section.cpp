@@ -15,8 +15,7 @@ ParabolicSection::ParabolicSection(const ParabolicRack& tool, const PairData& pa
 RevolutionSection::RevolutionSection(const RevolutionTool& tool, const PairData& pair, const GearData& gear)
     : sin_(std::sin(tool.half_apex)),
       cos_(std::cos(tool.half_apex)),
-      apex_distance_(tool.distance / cos_ -
-                     (gear.rack.dedendum - gear.profile_shift) * pair.normal_module / std::cos(pair.pressure_angle)),
+      apex_distance_(tool.distance / cos_ - (gear.rack.dedendum - gear.profile_shift) * pair.normal_module / std::cos(pair.pressure_angle)),
       curvature_(1.0 / tool.arc_radius) {}
 
 }  // namespace flankwright

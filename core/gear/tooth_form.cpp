@@ -15,9 +15,7 @@ namespace {
 
 using units::pi;
 
-[[noreturn]] void reject(const char* field, double value, const std::string& allowed) {
-  throw InvalidInput(field, std::to_string(value), allowed);
-}
+[[noreturn]] void reject(const char* field, double value, const std::string& allowed) { throw InvalidInput(field, std::to_string(value), allowed); }
 
 /// Where the increasing or decreasing f changes sign between a and b, to the last few bits; without a change of sign
 /// the end where f is nearest to zero, so that a radius that misses an end by round-off finds that end.
@@ -35,8 +33,7 @@ double full_tip_rounding(double dedendum, double pressure_angle) {
   return (pi / 4 - dedendum * std::tan(pressure_angle)) * std::cos(pressure_angle) / (1 - std::sin(pressure_angle));
 }
 
-ToothForm::ToothForm(NoTip, const GearData& gear, double normal_module, double pressure_angle, double helix_angle)
-    : helix_angle_(helix_angle) {
+ToothForm::ToothForm(NoTip, const GearData& gear, double normal_module, double pressure_angle, double helix_angle) : helix_angle_(helix_angle) {
   if (gear.teeth < 5) reject("teeth", gear.teeth, "an integer of at least 5");
   if (!(normal_module > 0) || !std::isfinite(normal_module)) reject("normal_module", normal_module, "more than 0 mm");
   if (!(pressure_angle > 0 && pressure_angle < pi / 4)) {
@@ -51,9 +48,7 @@ ToothForm::ToothForm(NoTip, const GearData& gear, double normal_module, double p
   const double rho = gear.rack.root_radius;
   const double largest = full_tip_rounding(h, pressure_angle);
   if (!(h > 0 && largest >= 0)) {
-    reject(
-        "rack.dedendum", h,
-        "more than 0 and at most " + std::to_string(pi / 4 / std::tan(pressure_angle)) + ", where the tool is pointed");
+    reject("rack.dedendum", h, "more than 0 and at most " + std::to_string(pi / 4 / std::tan(pressure_angle)) + ", where the tool is pointed");
   }
   // A full rounding is usually given to a few digits; the excess allowed is round-off.
   constexpr double kRoundOff = 1e-12;
@@ -66,34 +61,28 @@ ToothForm::ToothForm(NoTip, const GearData& gear, double normal_module, double p
   reference_radius_ = gear.teeth * normal_module / (2 * cos_beta);
   base_radius_ = reference_radius_ * std::cos(transverse_pressure_angle_);
   const double tan_alpha_t = std::tan(transverse_pressure_angle_);
-  base_half_angle_ = (pi / 2 + 2 * gear.profile_shift * std::tan(pressure_angle)) / gear.teeth + tan_alpha_t -
-                     transverse_pressure_angle_;
+  base_half_angle_ = (pi / 2 + 2 * gear.profile_shift * std::tan(pressure_angle)) / gear.teeth + tan_alpha_t - transverse_pressure_angle_;
   rounding_ = rho * normal_module;
   tool_depth_ = (h - gear.profile_shift) * normal_module;
   rounding_centre_ =
-      (pi / 4 + h * std::tan(pressure_angle) + rho * (1 - std::sin(pressure_angle)) / std::cos(pressure_angle)) *
-      normal_module / cos_beta;
+      (pi / 4 + h * std::tan(pressure_angle) + rho * (1 - std::sin(pressure_angle)) / std::cos(pressure_angle)) * normal_module / cos_beta;
   root_radius_ = reference_radius_ - tool_depth_;
   if (!(root_radius_ > 0)) reject("rack.dedendum", h, "less than leaves the root circle a positive radius");
   locate_form_radius();
   if (undercut_ && !(waist() > 0)) {
-    reject("profile_shift", gear.profile_shift,
-           "large enough that the undercut from both sides does not sever the tooth");
+    reject("profile_shift", gear.profile_shift, "large enough that the undercut from both sides does not sever the tooth");
   }
 }
 
 ToothForm::ToothForm(const GearData& gear, double normal_module, double pressure_angle, double helix_angle)
     : ToothForm(NoTip{}, gear, normal_module, pressure_angle, helix_angle) {
-  tip_radius_ = std::isnan(gear.tip_diameter)
-                    ? reference_radius_ + (gear.rack.addendum + gear.profile_shift) * normal_module
-                    : gear.tip_diameter / 2;
+  tip_radius_ = std::isnan(gear.tip_diameter) ? reference_radius_ + (gear.rack.addendum + gear.profile_shift) * normal_module : gear.tip_diameter / 2;
   if (!(tip_radius_ > form_radius_) || !std::isfinite(tip_radius_)) {
     reject("tip_diameter", 2 * tip_radius_, "more than the form diameter, " + std::to_string(2 * form_radius_) + " mm");
   }
 }
 
-GeneratedProfile generated_profile(const GearData& gear, double normal_module, double pressure_angle,
-                                   double helix_angle) {
+GeneratedProfile generated_profile(const GearData& gear, double normal_module, double pressure_angle, double helix_angle) {
   const ToothForm form(ToothForm::NoTip{}, gear, normal_module, pressure_angle, helix_angle);
   return {form.form_radius_, form.root_radius_, form.undercut_};
 }
@@ -104,8 +93,7 @@ ToothForm::Trochoid ToothForm::trochoid(double lambda) const {
   const double lambda_n = std::atan2(std::sin(lambda) * cos_beta, std::cos(lambda));
   const double depth = tool_depth_ - rounding_ * (1 - std::sin(lambda_n));
   const double theta =
-      (rounding_centre_ + depth * std::cos(lambda) / std::sin(lambda) - rounding_ * std::cos(lambda_n) / cos_beta) /
-      reference_radius_;
+      (rounding_centre_ + depth * std::cos(lambda) / std::sin(lambda) - rounding_ * std::cos(lambda_n) / cos_beta) / reference_radius_;
   return {depth, theta};
 }
 
@@ -122,8 +110,7 @@ double ToothForm::fillet_rise(double lambda) const {
   const double length = std::hypot(sine * cos_beta, cosine);  // of (sin, cos) lambda_n before scaling
   const double by_lambda = cos_beta / (length * length);      // d(lambda_n)/d(lambda)
   const double depth_slope = rounding_ * cosine / length * by_lambda;
-  const double theta_slope =
-      (depth_slope * cosine / sine - depth / (sine * sine) + rounding_ * sine / length * by_lambda) / reference_radius_;
+  const double theta_slope = (depth_slope * cosine / sine - depth / (sine * sine) + rounding_ * sine / length * by_lambda) / reference_radius_;
   const double downwards = reference_radius_ * theta_slope * sine - depth / sine * (theta_slope - 1);  // along the tangent
   return -downwards * std::cos(lambda - theta);
 }
@@ -133,9 +120,7 @@ double ToothForm::fillet_radius(double lambda) const {
   return std::hypot(reference_radius_ - depth, depth * std::cos(lambda) / std::sin(lambda));
 }
 
-double ToothForm::roll_length(double radius) const {
-  return std::sqrt(std::max(0.0, (radius - base_radius_) * (radius + base_radius_)));
-}
+double ToothForm::roll_length(double radius) const { return std::sqrt(std::max(0.0, (radius - base_radius_) * (radius + base_radius_))); }
 
 double ToothForm::involute_half_angle(double roll_length) const {
   const double roll_angle = roll_length / base_radius_;
@@ -145,13 +130,10 @@ double ToothForm::involute_half_angle(double roll_length) const {
 ProfilePoint ToothForm::involute_point(double roll_length) const {
   const double radius = std::hypot(base_radius_, roll_length);
   const double half_angle = involute_half_angle(roll_length);
-  return {radius * std::sin(half_angle), radius * std::cos(half_angle),
-          std::atan(roll_length / base_radius_) - half_angle};
+  return {radius * std::sin(half_angle), radius * std::cos(half_angle), std::atan(roll_length / base_radius_) - half_angle};
 }
 
-double ToothForm::involute_rise(double roll_length) const {
-  return roll_length / base_radius_ * std::cos(involute_point(roll_length).tangent_angle);
-}
+double ToothForm::involute_rise(double roll_length) const { return roll_length / base_radius_ * std::cos(involute_point(roll_length).tangent_angle); }
 
 void ToothForm::locate_form_radius() {
   // The tool's flank ends at depth d: it cuts the involute down to the roll length r sin(alpha_t) - d / sin(alpha_t).
@@ -175,9 +157,7 @@ void ToothForm::locate_form_radius() {
   form_radius_ = std::max(base_radius_, fillet_radius(fillet_start_));
 }
 
-double ToothForm::waist() const {
-  return root_tangent_point(0).x;
-}
+double ToothForm::waist() const { return root_tangent_point(0).x; }
 
 double ToothForm::half_angle(double radius) const {
   const ProfilePoint p = at_radius(radius);

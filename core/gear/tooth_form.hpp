@@ -31,8 +31,7 @@ double full_tip_rounding(double dedendum, double pressure_angle);
 /// @param helix_angle     |beta| at the reference cylinder [rad], 0 <= beta < 60 deg
 /// @throws InvalidInput   the rack cannot exist ("rack.dedendum", "rack.root_radius"), the undercut severs the tooth
 ///                        ("profile_shift"), or an argument is out of range
-GeneratedProfile generated_profile(const GearData& gear, double normal_module, double pressure_angle,
-                                   double helix_angle);
+GeneratedProfile generated_profile(const GearData& gear, double normal_module, double pressure_angle, double helix_angle);
 
 /// A point of the right-hand profile of a tooth, transverse section. The origin is the gear's centre and y runs up the
 /// tooth's centre line.

@@ -37,8 +37,7 @@ class Line {
       if (z < z0 || z > z1) continue;
       const double t = (z - z0) / (z1 - z0);
       const auto between = [t](double a, double b) { return (1.0 - t) * a + t * b; };
-      return peaks(z, between(load(i), load(i + 1)),
-                   std::sqrt(between(stress(i) * stress(i), stress(i + 1) * stress(i + 1))));
+      return peaks(z, between(load(i), load(i + 1)), std::sqrt(between(stress(i) * stress(i), stress(i + 1) * stress(i + 1))));
     }
     return {};
   }
@@ -214,8 +213,7 @@ std::vector<double> line_events(const MeshModel& model, double line_share) {
   return events;
 }
 
-ContactPeaks locate_peaks(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque,
-                          const PeakSearch& search) {
+ContactPeaks locate_peaks(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque, const PeakSearch& search) {
   check(search);
   std::vector<double> knots = line_events(mesh_at({0.0}), search.spikes.line_share);
   if (knots.front() > 0.0) knots.insert(knots.begin(), 0.0);

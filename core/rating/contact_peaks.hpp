@@ -38,12 +38,12 @@ struct ContactPeaks {
     LinePeak contact_stress;  ///< sigma_H [MPa]
     LinePeak line_load;       ///< [N/mm]
   };
-  Pair with_spikes, without_spikes;  ///< value NaN without a point
-  int positions{0};        ///< mesh positions solved
-  int failures{0};         ///< of these without a usable load distribution: the peaks are then those of the others
-  double search_step{not_given};     ///< used [base pitches]
-  double phase_tolerance{not_given}; ///< used [base pitches]
-  SpikeRule spikes{};                ///< used
+  Pair with_spikes, without_spikes;   ///< value NaN without a point
+  int positions{0};                   ///< mesh positions solved
+  int failures{0};                    ///< of these without a usable load distribution: the peaks are then those of the others
+  double search_step{not_given};      ///< used [base pitches]
+  double phase_tolerance{not_given};  ///< used [base pitches]
+  SpikeRule spikes{};                 ///< used
 };
 
 /// At one mesh position. Where the rule's cut falls between two points of a line, the cut counts too: w and sigma_H^2 are taken as
@@ -69,8 +69,7 @@ struct PeakSearch {
 /// and end at exact phases, which are looked at for themselves: there the peaks have kinks or jumps.
 /// @param pinion_torque  [N mm], > 0
 /// @throws InvalidInput where a search parameter is out of range
-ContactPeaks locate_peaks(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque,
-                          const PeakSearch& search = {});
+ContactPeaks locate_peaks(const MeshAt& mesh_at, const FlankCondition& condition, double pinion_torque, const PeakSearch& search = {});
 
 /// All phases at which some line of the pair begins or ends at A0, A, E or B0 at either face end, or at which its
 /// length between A and E is line_share of the longest. They are not reduced by whole pitches, and their order is the

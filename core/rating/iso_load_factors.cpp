@@ -117,8 +117,8 @@ IsoDeviations iso_deviations(const GearPair& pair, const FlankCondition& conditi
   return deviations;
 }
 
-IsoLoadFactors iso_load_factors(const GearPair& pair, const IsoStiffness& stiffness, const IsoDeviations& deviations,
-                                double pinion_torque, double face_width) {
+IsoLoadFactors iso_load_factors(const GearPair& pair, const IsoStiffness& stiffness, const IsoDeviations& deviations, double pinion_torque,
+                                double face_width) {
   IsoLoadFactors factors;
   factors.deviations = deviations;
   factors.specific_load = pinion_torque / pair.pinion.reference_radius / face_width;

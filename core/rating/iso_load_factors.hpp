@@ -23,11 +23,11 @@ IsoDeviations iso_deviations(const GearPair& pair, const FlankCondition& conditi
 /// Load distribution factors by ISO 6336-1, method C, with K_A = K_v = 1, from these deviations and the standard's own stiffness.
 struct IsoLoadFactors {
   IsoDeviations deviations;
-  double specific_load{not_given};    ///< F_m/b = F_t/b at the reference circle [N/mm]
-  double running_in{not_given};       ///< y_alpha = 0.075 f_pe, at most 3 um: case-hardened gears [mm]
-  double lead{not_given};             ///< K_Hbeta [-], >= 1
-  double profile{not_given};          ///< K_Halpha [-], 1 .. profile_limit
-  double profile_limit{not_given};    ///< eps_gamma / (eps_alpha Z_eps^2) [-]
+  double specific_load{not_given};                    ///< F_m/b = F_t/b at the reference circle [N/mm]
+  double running_in{not_given};                       ///< y_alpha = 0.075 f_pe, at most 3 um: case-hardened gears [mm]
+  double lead{not_given};                             ///< K_Hbeta [-], >= 1
+  double profile{not_given};                          ///< K_Halpha [-], 1 .. profile_limit
+  double profile_limit{not_given};                    ///< eps_gamma / (eps_alpha Z_eps^2) [-]
   double combined() const { return lead * profile; }  ///< K_H [-], Haddad eq. 4.15a
 };
 
@@ -42,8 +42,8 @@ struct IsoLoadFactors {
 /// K_Hbeta; the thesis' form is kept because its comparison is repeated here.
 /// @param pinion_torque  [N mm], > 0
 /// @param face_width     common [mm]
-IsoLoadFactors iso_load_factors(const GearPair& pair, const IsoStiffness& stiffness, const IsoDeviations& deviations,
-                                double pinion_torque, double face_width);
+IsoLoadFactors iso_load_factors(const GearPair& pair, const IsoStiffness& stiffness, const IsoDeviations& deviations, double pinion_torque,
+                                double face_width);
 
 /// Derivatives of IsoLoadFactors and IsoDeviations::misalignment, 1 x m each. All else depends on errors and geometry alone. On a kink (no
 /// misalignment, equal teeth, a limit of K_Halpha) that of the one that counts.

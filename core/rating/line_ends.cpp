@@ -32,8 +32,7 @@ double line_load_for(const ContactLaw& law, double deflection) {
   return bracketed_root(excess, 0.0, -deflection, high, excess(high), 1e-12 * high).x;
 }
 
-std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, const LoadedPosition& loaded,
-                               const FlankCondition& condition) {
+std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, const LoadedPosition& loaded, const FlankCondition& condition) {
   std::vector<LineEnd> ends;
   if (!loaded.load.usable()) return ends;
   const LineRegion region(model);

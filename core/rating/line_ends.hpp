@@ -27,8 +27,7 @@ struct LineEnd {
 /// 121). There are two entries for each line that has a part between A and E and a point, by tooth and rising z; none
 /// without Hertzian contact.
 /// @param condition  of the solved position
-std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, const LoadedPosition& loaded,
-                               const FlankCondition& condition);
+std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, const LoadedPosition& loaded, const FlankCondition& condition);
 
 /// The line load that deflects a contact by c(w) = deflection [N/mm], to 1e-12 relative; 0 for a deflection of 0 or less.
 double line_load_for(const ContactLaw& law, double deflection);

@@ -20,7 +20,7 @@ ManufacturingError profile_of(const ManufacturingError& e) {
   return part;
 }
 
-double squared_ratio(const ContactPeaks& peaks, const ContactPeaks& perfect, ContactPeaks::Pair ContactPeaks::* which) {
+double squared_ratio(const ContactPeaks& peaks, const ContactPeaks& perfect, ContactPeaks::Pair ContactPeaks::*which) {
   if (peaks.failures > 0 || perfect.failures > 0) return not_given;
   const double ratio = (peaks.*which).contact_stress.value / (perfect.*which).contact_stress.value;
   return ratio * ratio;
@@ -78,11 +78,9 @@ bool has_other_part(const FlankCondition& condition) {
          twisted(condition.error.wheel) || condition.misalignment.centre_distance != 0.0;
 }
 
-LoadFactors load_factors(const ContactPeaks& perfect, const ContactPeaks& lead, const ContactPeaks& profile,
-                         const ContactPeaks& combined) {
-  const auto triple = [&](ContactPeaks::Pair ContactPeaks::* which) {
-    return LoadFactors::Triple{squared_ratio(lead, perfect, which), squared_ratio(profile, perfect, which),
-                               squared_ratio(combined, perfect, which)};
+LoadFactors load_factors(const ContactPeaks& perfect, const ContactPeaks& lead, const ContactPeaks& profile, const ContactPeaks& combined) {
+  const auto triple = [&](ContactPeaks::Pair ContactPeaks::*which) {
+    return LoadFactors::Triple{squared_ratio(lead, perfect, which), squared_ratio(profile, perfect, which), squared_ratio(combined, perfect, which)};
   };
   return {triple(&ContactPeaks::without_spikes), triple(&ContactPeaks::with_spikes)};
 }

@@ -34,16 +34,15 @@ bool has_other_part(const FlankCondition& condition);
 /// 4.18 ...); pitting follows stress, so that it prefers those here.
 struct LoadFactors {
   struct Triple {
-    double lead{not_given};      ///< K_Hbeta [-]
-    double profile{not_given};   ///< K_Halpha [-]
-    double combined{not_given};  ///< K_H [-]
+    double lead{not_given};                            ///< K_Hbeta [-]
+    double profile{not_given};                         ///< K_Halpha [-]
+    double combined{not_given};                        ///< K_H [-]
     double product() const { return lead * profile; }  ///< K_Hbeta K_Halpha [-]
   };
   Triple without_spikes, with_spikes;
 };
 
 /// From the peaks of the four conditions at one torque; NaN where one of them has none, or failed at some position.
-LoadFactors load_factors(const ContactPeaks& perfect, const ContactPeaks& lead, const ContactPeaks& profile,
-                         const ContactPeaks& combined);
+LoadFactors load_factors(const ContactPeaks& perfect, const ContactPeaks& lead, const ContactPeaks& profile, const ContactPeaks& combined);
 
 }  // namespace flankwright

@@ -79,7 +79,9 @@ double phase_slope(const MeshModel& model, const PerturbedMeshes& perturbed, con
 MeshModel mesh_along(const PlacedPeak& at, const std::vector<MeshParameter>& parameters) {
   MeshModel held = at.mesh_at({at.peak.phase});
   constexpr MisalignmentParameter offset = &Misalignment::axial_offset;
-  const auto is_offset = [](const MeshParameter& p) { return std::holds_alternative<MisalignmentParameter>(p) && std::get<MisalignmentParameter>(p) == offset; };
+  const auto is_offset = [](const MeshParameter& p) {
+    return std::holds_alternative<MisalignmentParameter>(p) && std::get<MisalignmentParameter>(p) == offset;
+  };
   const auto of_offset = std::ranges::find(held.perturbed, offset, &PerturbedMeshes::parameter);
   if (std::ranges::none_of(parameters, is_offset) || of_offset == held.perturbed.end()) return held;
   const double by_phase = phase_slope(held, *of_offset, at), step = of_offset->step;
@@ -124,7 +126,8 @@ Reading read(const PlacedPeak& at, const MeshModel& model, const LoadedCycle& cy
   // Between points w and sigma^2 are linear: sigma^n = (1 - t) sigma_0^n + t sigma_1^n.
   const double next = values[station.point + 1], t = station.share, n = at.of_stress ? 2.0 : 1.0;
   const double value = std::pow((1.0 - t) * std::pow(first, n) + t * std::pow(next, n), 1.0 / n), mean = std::pow(value, n - 1.0);
-  Reading reading{value, ((1.0 - t) * std::pow(first, n - 1.0) * slopes.row(station.point) + t * std::pow(next, n - 1.0) * slopes.row(station.point + 1)) / mean};
+  Reading reading{
+      value, ((1.0 - t) * std::pow(first, n - 1.0) * slopes.row(station.point) + t * std::pow(next, n - 1.0) * slopes.row(station.point + 1)) / mean};
   for (const Eigen::Index p : moving_among(model.placement.gap, parameters)) {
     const PerturbedMeshes& perturbed = perturbed_meshes(model, std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]));
     reading.slopes[p] += share_slope(model, perturbed, position, at.peak.tooth, station) * (std::pow(next, n) - std::pow(first, n)) / (n * mean);
@@ -155,8 +158,9 @@ std::optional<Eigen::RowVectorXd> gradient_of_sides(const PlacedPeak& at, const 
   std::vector<Reading> sides;
   for (std::size_t k = 0; k < away.size(); ++k) {
     const MeshPosition& there = model.positions[k + 1];
-    const LineStation same = station.share == 0.0 ? LineStation{same_points(model.positions.front(), there)[static_cast<std::size_t>(station.point)]}
-                                              : station_on_line(model, there, at.peak.tooth, at.peak.z - away[k] / PathOfContact(model.pair).slope);
+    const LineStation same = station.share == 0.0
+                                 ? LineStation{same_points(model.positions.front(), there)[static_cast<std::size_t>(station.point)]}
+                                 : station_on_line(model, there, at.peak.tooth, at.peak.z - away[k] / PathOfContact(model.pair).slope);
     if (same.point < 0) return std::nullopt;
     sides.push_back(read(at, model, cycle, k + 1, same, parameters));
   }
@@ -206,8 +210,7 @@ PeakGradients peak_gradients_of_part(const MeshAt& mesh_at, const FlankCondition
   return gradients;
 }
 
-LoadFactorGradients load_factor_gradients(const RatedPeaks& perfect, const RatedPeaks& lead, const RatedPeaks& profile,
-                                          const RatedPeaks& combined) {
+LoadFactorGradients load_factor_gradients(const RatedPeaks& perfect, const RatedPeaks& lead, const RatedPeaks& profile, const RatedPeaks& combined) {
   const LoadFactors factors = load_factors(perfect.peaks, lead.peaks, profile.peaks, combined.peaks);
   const auto triple = [&](const LoadFactors::Triple& value, auto gradient, auto peak) {
     const auto relative = [&](const RatedPeaks& rated) -> Eigen::RowVectorXd {

@@ -54,7 +54,6 @@ struct RatedPeaks {
 };
 
 /// dK = 2 K (dsigma/sigma - dsigma_0/sigma_0).
-LoadFactorGradients load_factor_gradients(const RatedPeaks& perfect, const RatedPeaks& lead, const RatedPeaks& profile,
-                                          const RatedPeaks& combined);
+LoadFactorGradients load_factor_gradients(const RatedPeaks& perfect, const RatedPeaks& lead, const RatedPeaks& profile, const RatedPeaks& combined);
 
 }  // namespace flankwright

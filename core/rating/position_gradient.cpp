@@ -44,8 +44,7 @@ void add_line_ends(const MeshModel& model, const FlankCondition& condition, cons
   for (Eigen::Index i = 0; i < gap.rows(); ++i) {
     const LineEnd& end = ends[static_cast<std::size_t>(i)];
     if (!(end.line_load > 0.0)) continue;
-    const Eigen::RowVectorXd deflection =
-        loaded.transmission_error_derivative - gap.row(i) - extrapolated(at, end, gradient.structural_deflection);
+    const Eigen::RowVectorXd deflection = loaded.transmission_error_derivative - gap.row(i) - extrapolated(at, end, gradient.structural_deflection);
     gradient.line_end_load.row(i) = deflection / model.contact_law(end.point)->slope(end.line_load);
     gradient.line_end_stress.row(i) = end.contact_stress / (2.0 * end.line_load) * gradient.line_end_load.row(i);
   }
@@ -88,7 +87,8 @@ Eigen::VectorXd end_readings(const PerturbedPosition::Stage& stage, const std::v
 
 /// Where the mesh moves, and with it an end's position and contact law: dw = (d(f_t - g - S) - dc at w held)/c', and
 /// the stress follows the curvature.
-void move_line_ends(const MeshModel& model, const PerturbedPosition& way, const std::vector<LineEnd>& ends, Eigen::Index column, PositionGradient& gradient) {
+void move_line_ends(const MeshModel& model, const PerturbedPosition& way, const std::vector<LineEnd>& ends, Eigen::Index column,
+                    PositionGradient& gradient) {
   const Eigen::VectorXd slopes = way.slope([&](const PerturbedPosition::Stage& s) { return end_readings(s, ends); });
   const Eigen::Index n = std::ssize(ends);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -115,7 +115,8 @@ PositionGradient position_gradient(const MeshModel& model, const FlankCondition&
   add_line_ends(model, condition, at, loaded, ends, parameters, gradient);
   for (const Eigen::Index p : moving_among(model.placement.gap, parameters)) {
     const PerturbedPosition way(model, condition, loaded, position, std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]), p);
-    gradient.point_force.col(p) = way.point_slope([](const PerturbedPosition::Stage& s) { return Eigen::VectorXd(s.at.weight.cwiseProduct(s.loaded.load.line_load)); });
+    gradient.point_force.col(p) =
+        way.point_slope([](const PerturbedPosition::Stage& s) { return Eigen::VectorXd(s.at.weight.cwiseProduct(s.loaded.load.line_load)); });
     gradient.structural_deflection.col(p) = way.point_slope([](const PerturbedPosition::Stage& s) { return s.loaded.load.structural_deflection; });
     gradient.error.col(p) += way.point_slope([](const PerturbedPosition::Stage& s) { return clearances(s.at); });
     move_line_ends(model, way, ends, p, gradient);

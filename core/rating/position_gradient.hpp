@@ -18,8 +18,8 @@ struct PositionGradient {
   Eigen::MatrixXd contact_deflection;     ///< of c(w) [mm]
   Eigen::MatrixXd gap, error;             ///< of Gap::total and Gap::error, before load [mm]
   // Row per entry.
-  Eigen::MatrixXd shares;                            ///< of load_sharing() [-]
-  Eigen::MatrixXd line_end_load, line_end_stress;    ///< of line_ends() [N/mm, MPa]; NaN by what moves the mesh where their number changes with it
+  Eigen::MatrixXd shares;                          ///< of load_sharing() [-]
+  Eigen::MatrixXd line_end_load, line_end_stress;  ///< of line_ends() [N/mm, MPa]; NaN by what moves the mesh where their number changes with it
 };
 
 /// With dF the change of the force, of a point that bears load

@@ -60,7 +60,8 @@ double LocalModel::Peak::at(const Eigen::VectorXd& steps) const {
   return largest;
 }
 
-LocalModel::LocalModel(const DesignProblem& problem, const PerGear<Modification>& modification, const std::vector<AssessedParameter>& parameters, const std::vector<ActiveBound>& active)
+LocalModel::LocalModel(const DesignProblem& problem, const PerGear<Modification>& modification, const std::vector<AssessedParameter>& parameters,
+                       const std::vector<ActiveBound>& active)
     : task_(problem.task()),
       parameters_(static_cast<int>(parameters.size())),
       measures_(task_.scenes.size()),

@@ -11,12 +11,12 @@ namespace flankwright {
 
 /// A parameter whose influence on a design is assessed, in steps of a size known in a workshop.
 struct AssessedParameter {
-  std::string name;   ///< as the study names it: "pinion.modification.lead_crowning", "misalignment.crossing"
-  double step{1.0};   ///< one step [unit]
-  std::string unit;   ///< "um", "mm", "arcmin", "%"
+  std::string name;  ///< as the study names it: "pinion.modification.lead_crowning", "misalignment.crossing"
+  double step{1.0};  ///< one step [unit]
+  std::string unit;  ///< "um", "mm", "arcmin", "%"
   MeshParameter parameter;
-  double inside{1.0};     ///< one step in internal units, added metal with its sign; torque: fraction of each scene's
-  int variable{-1};       ///< index of the design variable it is; -1: a tolerance
+  double inside{1.0};  ///< one step in internal units, added metal with its sign; torque: fraction of each scene's
+  int variable{-1};    ///< index of the design variable it is; -1: a tolerance
 };
 
 /// One step of a modification in its outside unit, see assessed_parameters(). @param unit  DesignVariable::unit()

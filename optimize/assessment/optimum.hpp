@@ -40,7 +40,7 @@ struct Optimum {
   };
   /// A bounded sum of modifications at its limit.
   struct Sum {
-    int constraint{-1};      ///< of the task's modification constraints
+    int constraint{-1};  ///< of the task's modification constraints
     bool upper{false};
     double gain{not_given};  ///< change of the objective where the limit moves out by one step (as of its first modification), <= 0
   };
@@ -53,8 +53,8 @@ struct Optimum {
   std::vector<Bound> bounds;            ///< largest gain first; every variable at a bound
   std::vector<Constraint> constraints;  ///< largest gain first
   std::vector<Sum> sums;                ///< largest gain first
-  std::vector<Objective> objectives;              ///< largest gain first
-  double residual{not_given};  ///< Optimality::residual: a share of the start's objective [-]; 0 is first-order optimal
+  std::vector<Objective> objectives;    ///< largest gain first
+  double residual{not_given};           ///< Optimality::residual: a share of the start's objective [-]; 0 is first-order optimal
   /// Accuracy of the optimum's objective [outside units]: a smaller gain counts as none. The residual, or `asked` where
   /// it is smaller, of the start's objective.
   double resolution{not_given};

@@ -12,7 +12,7 @@ namespace {
 
 /// Adds one rule's modification to both gears.
 struct Rule {
-  std::string name;   ///< empty: nothing is changed
+  std::string name;  ///< empty: nothing is changed
   std::string basis;
   std::function<void(PerGear<Modification>&)> apply;
 };
@@ -38,17 +38,16 @@ std::vector<Rule> profile_rules(const GearPair& pair, const RuleBasis& basis) {
     const auto [pinion, wheel] = over(0.5 * overlap);
     rules.push_back(tip_relief("short tip relief", "Munro, Haddad 1991 eq. 4.13; mean deflection", basis.deflection, pinion, wheel));
   }
-  rules.push_back(tip_relief("long tip relief", "Munro, Haddad 1991 section 4.3.3: from the pitch point; mean deflection",
-                             basis.deflection, pair.pinion.tip_radius - pair.pinion.working_pitch_radius,
-                             pair.wheel.tip_radius - pair.wheel.working_pitch_radius));
+  rules.push_back(tip_relief("long tip relief", "Munro, Haddad 1991 section 4.3.3: from the pitch point; mean deflection", basis.deflection,
+                             pair.pinion.tip_radius - pair.pinion.working_pitch_radius, pair.wheel.tip_radius - pair.wheel.working_pitch_radius));
   if (one_or_two_pairs) {
     const auto [pinion, wheel] = over(overlap);
     rules.push_back(tip_relief("tip relief to single contact", "as sizing programs propose; deflection of a single pair, ISO 6336-1",
                                basis.single_pair_deflection, pinion, wheel));
   }
-  rules.push_back({"profile crowning", "Haddad 1991 section 4.3.3; mean deflection", [amount = basis.deflection](PerGear<Modification>& modification) {
-                     set(modification.pinion, parameter_of("profile_crowning"), amount);
-                   }});
+  rules.push_back(
+      {"profile crowning", "Haddad 1991 section 4.3.3; mean deflection",
+       [amount = basis.deflection](PerGear<Modification>& modification) { set(modification.pinion, parameter_of("profile_crowning"), amount); }});
   return rules;
 }
 
@@ -63,13 +62,13 @@ std::vector<Rule> lead_rules(const GearPair& pair, const RuleBasis& basis) {
                            std::clamp(0.5 * basis.misalignment, 10.0 * units::um, 40.0 * units::um)));
   const double length = std::min(0.1 * pair.face_width, pair.data.normal_module);
   rules.push_back({"end relief after ISO 6336-1", "annex B: the misalignment, over the smaller of 0.1 b and m_n",
-                   [amount = basis.misalignment, length](PerGear<Modification>& modification) { modification.pinion.end_relief = {amount, length}; }});
+                   [amount = basis.misalignment, length](PerGear<Modification>& modification) {
+                     modification.pinion.end_relief = {amount, length};
+                   }});
   return rules;
 }
 
-std::string joined(const std::string& a, const std::string& b, const char* between) {
-  return a.empty() || b.empty() ? a + b : a + between + b;
-}
+std::string joined(const std::string& a, const std::string& b, const char* between) { return a.empty() || b.empty() ? a + b : a + between + b; }
 
 }  // namespace
 

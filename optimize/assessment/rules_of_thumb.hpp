@@ -8,9 +8,9 @@ namespace flankwright {
 
 /// The data of the rules of thumb.
 struct RuleBasis {
-  double torque{not_given};        ///< design torque: the largest of the scenes [N mm]
-  double misalignment{not_given};  ///< largest F_beta_y over the scenes, of housing and errors, see IsoDeviations [mm]
-  double deflection{not_given};    ///< F_bt/(b c_m): c_m mean mesh stiffness of the unmodified pair, Haddad eq. 2.17b [mm]
+  double torque{not_given};                  ///< design torque: the largest of the scenes [N mm]
+  double misalignment{not_given};            ///< largest F_beta_y over the scenes, of housing and errors, see IsoDeviations [mm]
+  double deflection{not_given};              ///< F_bt/(b c_m): c_m mean mesh stiffness of the unmodified pair, Haddad eq. 2.17b [mm]
   double single_pair_deflection{not_given};  ///< F_bt/(b c'): c' of ISO 6336-1, method B [mm]
 };
 

@@ -27,7 +27,7 @@ struct Spread {
   int count{0};   ///< numbers
   int failed{0};  ///< NaN
   double mean{not_given};
-  double deviation{not_given};            ///< of the sample, n - 1; NaN for fewer than two
+  double deviation{not_given};  ///< of the sample, n - 1; NaN for fewer than two
   double least{not_given}, greatest{not_given};
   std::array<double, 5> quantiles{not_given, not_given, not_given, not_given, not_given};  ///< at `shares`
 };

@@ -30,9 +30,7 @@ Eigen::VectorXd combination(LevelPlacement placement, const std::vector<int>& le
 
 }  // namespace
 
-const char* to_string(LevelPlacement placement) {
-  return placement == LevelPlacement::BoundToBound ? "bound to bound" : "middles of equal parts";
-}
+const char* to_string(LevelPlacement placement) { return placement == LevelPlacement::BoundToBound ? "bound to bound" : "middles of equal parts"; }
 
 std::vector<int> levels_for(int variables, std::int64_t budget) {
   std::vector<int> levels(static_cast<std::size_t>(variables), 1);

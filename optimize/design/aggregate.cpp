@@ -48,11 +48,18 @@ std::vector<double> tail_weights(double level, const std::vector<double>& measur
 std::string to_string(const Aggregation& over) {
   std::ostringstream text;
   switch (over.kind) {
-    case Aggregate::Nominal: return "nominal";
-    case Aggregate::Worst: return "worst";
-    case Aggregate::Mean: return "mean";
-    case Aggregate::MeanPlusSigmas: text << "mean+" << over.sigmas << "sigma"; break;
-    case Aggregate::Cvar: text << "cvar " << over.level; break;
+    case Aggregate::Nominal:
+      return "nominal";
+    case Aggregate::Worst:
+      return "worst";
+    case Aggregate::Mean:
+      return "mean";
+    case Aggregate::MeanPlusSigmas:
+      text << "mean+" << over.sigmas << "sigma";
+      break;
+    case Aggregate::Cvar:
+      text << "cvar " << over.level;
+      break;
   }
   return text.str();
 }

@@ -49,9 +49,7 @@ class DesignRun {
     return options;
   }
 
-  bool is_spent() const {
-    return result_.evaluations >= options_.solver.max_evaluations || clock_.seconds() >= options_.solver.max_seconds;
-  }
+  bool is_spent() const { return result_.evaluations >= options_.solver.max_evaluations || clock_.seconds() >= options_.solver.max_seconds; }
 
   void take(const LocalRun& run) {
     result_.status = run.status;
@@ -139,9 +137,7 @@ DesignProblem last_stage(const DesignProblem& problem, const std::vector<Lexicog
 
 DesignReport report_design(const DesignProblem& problem, DesignAnalysis analysis) {
   const DesignTask& task = problem.task();
-  const auto value_of = [&](const DesignVariable& v) {
-    return get(analysis.modification[v.member], v.parameter);
-  };
+  const auto value_of = [&](const DesignVariable& v) { return get(analysis.modification[v.member], v.parameter); };
   DesignReport report;
   for (const DesignVariable& v : task.variables) report.variables.push_back(value_of(v));
   for (const LinkingConstraint& link : task.links) report.linked.push_back(value_of(link.linked));

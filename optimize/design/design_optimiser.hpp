@@ -14,13 +14,13 @@ namespace flankwright {
 
 /// One design with what the task asks of it.
 struct DesignReport {
-  std::vector<double> variables;          ///< value of each design variable [mm]
+  std::vector<double> variables;            ///< value of each design variable [mm]
   std::vector<double> linked;               ///< value of each linked modification [mm]
-  double objective{not_given};            ///< outside units (MPa, um, N/mm; weighted sum for a table)
-  std::vector<double> scene_measures;     ///< per scene, outside units
-  std::vector<double> constraint_values;  ///< per constraint, nearest to its bound over the scenes, inside units
+  double objective{not_given};              ///< outside units (MPa, um, N/mm; weighted sum for a table)
+  std::vector<double> scene_measures;       ///< per scene, outside units
+  std::vector<double> constraint_values;    ///< per constraint, nearest to its bound over the scenes, inside units
   std::vector<double> modification_values;  ///< per modification constraint [mm]
-  std::vector<double> later_objectives;   ///< of a list, after the first, outside units
+  std::vector<double> later_objectives;     ///< of a list, after the first, outside units
   DesignAnalysis analysis;
 };
 
@@ -35,20 +35,20 @@ struct LexicographicStage {
 struct DesignResult {
   SolverStatus status{SolverStatus::NotRun};
   std::string message{"optimise_design() was not called"};
-  std::string solver, finisher;  ///< as asked for
-  std::string finished_by;       ///< LocalRun::finished_by of the run that `status` is of
-  std::string formulation;       ///< "epigraph" (smooth, exact gradients) or "direct" (values of the true peaks)
-  DesignReport before;           ///< the task's own modifications as given
-  DesignReport after;            ///< what is to be ground: the best design met, on the variables' steps where they have any
-  std::optional<DesignReport> exact;  ///< the best design before it was rounded
-  Optimality optimality;         ///< of the best design before it was rounded, by the last objective
+  std::string solver, finisher;            ///< as asked for
+  std::string finished_by;                 ///< LocalRun::finished_by of the run that `status` is of
+  std::string formulation;                 ///< "epigraph" (smooth, exact gradients) or "direct" (values of the true peaks)
+  DesignReport before;                     ///< the task's own modifications as given
+  DesignReport after;                      ///< what is to be ground: the best design met, on the variables' steps where they have any
+  std::optional<DesignReport> exact;       ///< the best design before it was rounded
+  Optimality optimality;                   ///< of the best design before it was rounded, by the last objective
   std::vector<LexicographicStage> stages;  ///< of a list of objectives; empty for one
-  std::vector<LocalRun> runs;         ///< one a start, of the first objective
-  std::vector<LocalOptimum> optima;   ///< the different ones among them, best first
-  int evaluations{-1};           ///< analyses of the whole scene set, all starts, stages and rounding
-  int gradient_evaluations{-1};  ///< of these, with derivatives
-  int failures{-1};              ///< analyses that did not converge; survived
-  int rounds{-1};                ///< of candidate generation (1 for "direct") in the best run
+  std::vector<LocalRun> runs;              ///< one a start, of the first objective
+  std::vector<LocalOptimum> optima;        ///< the different ones among them, best first
+  int evaluations{-1};                     ///< analyses of the whole scene set, all starts, stages and rounding
+  int gradient_evaluations{-1};            ///< of these, with derivatives
+  int failures{-1};                        ///< analyses that did not converge; survived
+  int rounds{-1};                          ///< of candidate generation (1 for "direct") in the best run
   double seconds{not_given};
   std::vector<SolverStep> history;  ///< one entry per analysis of the best run and the stages after it
 
@@ -71,9 +71,7 @@ struct DesignOptions {
 /// design on, each under limits on those before it, then rounding.
 /// @throws InvalidInput for an unknown solver or one that cannot take the task's constraints
 DesignResult optimise_design(DesignProblem& problem, const DesignOptions& options);
-inline DesignResult optimise_design(DesignProblem& problem, const SolverOptions& options) {
-  return optimise_design(problem, DesignOptions{options});
-}
+inline DesignResult optimise_design(DesignProblem& problem, const SolverOptions& options) { return optimise_design(problem, DesignOptions{options}); }
 
 /// What the optimality of a result is about: the problem itself, or of a list the last objective's, those before it at the limits they kept.
 DesignProblem last_stage(const DesignProblem& problem, const std::vector<LexicographicStage>& stages);

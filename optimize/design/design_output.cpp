@@ -31,8 +31,8 @@ SmoothValue effective_contact_ratio(const ObjectiveTerm&, const MeshModel& model
     const LoadedPosition& position = cycle.positions[i];
     std::map<int, SmoothValue> shares;
     for (Eigen::Index j = 0; j < place.weight.size(); ++j) {
-      SmoothValue& share = shares.try_emplace(place.points[static_cast<std::size_t>(j)].tooth, SmoothValue{0.0, Eigen::VectorXd::Zero(m)})
-                               .first->second;
+      SmoothValue& share =
+          shares.try_emplace(place.points[static_cast<std::size_t>(j)].tooth, SmoothValue{0.0, Eigen::VectorXd::Zero(m)}).first->second;
       share.value += place.weight[j] * position.load.line_load[j] / cycle.force;
       if (m > 0) share.gradient += place.weight[j] / cycle.force * position.line_load_derivative.row(j).transpose();
     }
@@ -55,8 +55,8 @@ bool is_near_edge(const MeshModel& model, const ContactPoint& point, double marg
     return radius > gear.tip_radius - margin * (gear.tip_radius - gear.active_root_radius);
   };
   const double inset = margin * model.face_width;
-  return point.z < model.face_start() + inset || point.z > model.face_end() - inset ||
-         near_tip(Member::Pinion, point.pinion_radius) || near_tip(Member::Wheel, point.wheel_radius);
+  return point.z < model.face_start() + inset || point.z > model.face_end() - inset || near_tip(Member::Pinion, point.pinion_radius) ||
+         near_tip(Member::Wheel, point.wheel_radius);
 }
 
 Eigen::VectorXd contact_stresses(const ObjectiveTerm&, const MeshModel&, const LoadedCycle& cycle, int position) {
@@ -67,7 +67,9 @@ Eigen::RowVectorXd contact_stress_slope(const ObjectiveTerm&, const PeakCandidat
   return at(cycle, candidate.position).contact_stress_derivative.row(candidate.other);
 }
 
-Eigen::VectorXd line_loads(const ObjectiveTerm&, const MeshModel&, const LoadedCycle& cycle, int position) { return at(cycle, position).load.line_load; }
+Eigen::VectorXd line_loads(const ObjectiveTerm&, const MeshModel&, const LoadedCycle& cycle, int position) {
+  return at(cycle, position).load.line_load;
+}
 
 Eigen::RowVectorXd line_load_slope(const ObjectiveTerm&, const PeakCandidate& candidate, const MeshModel&, const LoadedCycle& cycle) {
   return at(cycle, candidate.position).line_load_derivative.row(candidate.other);
@@ -110,14 +112,22 @@ Eigen::RowVectorXd edge_load_slope(const ObjectiveTerm& term, const PeakCandidat
 }
 
 constexpr std::array rows{
-    DesignOutput{.output = Output::PeakContactStress, .name = "peak_contact_stress", .unit = "MPa",
-                 .at_points = contact_stresses, .point_derivative = contact_stress_slope},
+    DesignOutput{.output = Output::PeakContactStress,
+                 .name = "peak_contact_stress",
+                 .unit = "MPa",
+                 .at_points = contact_stresses,
+                 .point_derivative = contact_stress_slope},
     DesignOutput{.output = Output::TePeakToPeak, .name = "te_peak_to_peak", .unit = "um", .per_inside = 1.0 / units::um},
-    DesignOutput{.output = Output::TeHarmonic, .name = "te_harmonic", .unit = "um", .per_inside = 1.0 / units::um, .has_orders = true, .smooth = harmonic},
+    DesignOutput{
+        .output = Output::TeHarmonic, .name = "te_harmonic", .unit = "um", .per_inside = 1.0 / units::um, .has_orders = true, .smooth = harmonic},
     DesignOutput{.output = Output::LoadFactor, .name = "load_factor", .unit = "1", .at_points = load_factors, .point_derivative = load_factor_slope},
-    DesignOutput{.output = Output::PeakLineLoad, .name = "peak_line_load", .unit = "N/mm", .at_points = line_loads, .point_derivative = line_load_slope},
-    DesignOutput{.output = Output::PeakRootStress, .name = "peak_root_stress", .unit = "MPa",
-                 .at_points = fillet_stresses, .point_derivative = fillet_stress_slope},
+    DesignOutput{
+        .output = Output::PeakLineLoad, .name = "peak_line_load", .unit = "N/mm", .at_points = line_loads, .point_derivative = line_load_slope},
+    DesignOutput{.output = Output::PeakRootStress,
+                 .name = "peak_root_stress",
+                 .unit = "MPa",
+                 .at_points = fillet_stresses,
+                 .point_derivative = fillet_stress_slope},
     DesignOutput{.output = Output::EffectiveContactRatio, .name = "effective_contact_ratio", .unit = "1", .smooth = effective_contact_ratio},
     DesignOutput{.output = Output::EdgeLoad, .name = "edge_load", .unit = "N/mm", .at_points = edge_loads, .point_derivative = edge_load_slope},
 };

@@ -22,15 +22,15 @@ enum class Output {
   /// Number of tooth pairs that share the load, mean over the positions of 1 / sum of squared fractions: their count
   /// where they carry alike, less where one carries most; smooth, unlike the count [-]
   EffectiveContactRatio,
-  EdgeLoad            ///< peak line load within ObjectiveTerm::edge_margin of a tip edge or a face end [N/mm]
+  EdgeLoad  ///< peak line load within ObjectiveTerm::edge_margin of a tip edge or a face end [N/mm]
 };
 
 /// One output with its weight in an objective.
 struct ObjectiveTerm {
   Output output{Output::PeakContactStress};
-  int harmonic{0};      ///< order for TeHarmonic, 1 .. 10
-  double weight{1.0};   ///< per unit of the output outside (MPa, um, N/mm), > 0
-  std::string name;     ///< as the study names it: "te_harmonic_1"
+  int harmonic{0};           ///< order for TeHarmonic, 1 .. 10
+  double weight{1.0};        ///< per unit of the output outside (MPa, um, N/mm), > 0
+  std::string name;          ///< as the study names it: "te_harmonic_1"
   double edge_margin{0.05};  ///< of EdgeLoad: share of the common face width and of either gear's active height, 0 .. 0.5
 
   /// Factor from the inside unit to the unit that the weight and every report refer to (MPa, um, N/mm, 1).
@@ -39,7 +39,6 @@ struct ObjectiveTerm {
   /// The name of its output: that of its row, with the order of a harmonic.
   std::string own_name() const;
 };
-
 
 /// Value of a smooth function of the design and its gradient with respect to the design variables [per mm].
 struct SmoothValue {

@@ -47,9 +47,7 @@ bool asks_for_root_stress(const DesignTask& task) {
   return std::any_of(terms.begin(), terms.end(), [](const ObjectiveTerm& t) { return t.output == Output::PeakRootStress; });
 }
 
-RootStresses root_stresses_for(const DesignTask& task) {
-  return asks_for_root_stress(task) ? RootStresses::WithLoads : RootStresses::Later;
-}
+RootStresses root_stresses_for(const DesignTask& task) { return asks_for_root_stress(task) ? RootStresses::WithLoads : RootStresses::Later; }
 
 void check_root_stress(const DesignTask& task) {
   if (asks_for_root_stress(task) && !task.root_stress) {
@@ -83,9 +81,8 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_str
     if (!(scene.torque > 0.0)) throw InvalidInput("load.torque", std::to_string(scene.torque), "above 0 to optimise");
     models.try_emplace(MeshPlacement::of(task_.gap, scene.condition.misalignment));
   }
-  tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for_each(models, [this](auto& known) { known.second = std::make_shared<const MeshModel>(mesh(known.first)); });
-  });
+  tbb::this_task_arena::isolate(
+      [&] { tbb::parallel_for_each(models, [this](auto& known) { known.second = std::make_shared<const MeshModel>(mesh(known.first)); }); });
   for (const DesignScene& scene : task_.scenes) models_.push_back(models.at(MeshPlacement::of(task_.gap, scene.condition.misalignment)));
   for (const ModificationConstraint& c : task_.modification_constraints) {
     if (modification_scale(c) == 0.0) throw InvalidInput("optimise.constraints." + c.name, "no variable in it", "a sum that a variable changes");
@@ -93,11 +90,12 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_str
 }
 
 MeshModel DesignProblem::mesh(const MeshPlacement& placement) const {
-  return make_mesh_model(task_.pair, task_.material, task_.resolution, task_.effects, placement,
-                         task_.structure.get(), task_.root_stress.get(), task_.shafts.get());
+  return make_mesh_model(task_.pair, task_.material, task_.resolution, task_.effects, placement, task_.structure.get(), task_.root_stress.get(),
+                         task_.shafts.get());
 }
 
-DesignProblem DesignProblem::judged_by(const Objective& objective, std::vector<ObjectiveBound> bounds, std::vector<ScalarisedObjective> scalarisation) const {
+DesignProblem DesignProblem::judged_by(const Objective& objective, std::vector<ObjectiveBound> bounds,
+                                       std::vector<ScalarisedObjective> scalarisation) const {
   DesignProblem other = *this;
   other.task_.objective = objective.terms;
   other.task_.over = objective.over;
@@ -131,9 +129,7 @@ Eigen::VectorXd DesignProblem::scaled_design(const std::vector<double>& values) 
   return x;
 }
 
-double DesignProblem::unscaled(const Eigen::VectorXd& x, int i) const {
-  return task_.variables[static_cast<std::size_t>(i)].unscaled(x[i]);
-}
+double DesignProblem::unscaled(const Eigen::VectorXd& x, int i) const { return task_.variables[static_cast<std::size_t>(i)].unscaled(x[i]); }
 
 PerGear<Modification> DesignProblem::modification(const Eigen::VectorXd& x) const {
   PerGear<Modification> modification = task_.modification;
@@ -147,8 +143,8 @@ PerGear<Modification> DesignProblem::modification(const Eigen::VectorXd& x) cons
   return modification;
 }
 
-LoadedCycle DesignProblem::analyse_scene(int scene, const PerGear<Modification>& modification,
-                                         const std::vector<MeshParameter>& parameters, const LoadedCycle* earlier) const {
+LoadedCycle DesignProblem::analyse_scene(int scene, const PerGear<Modification>& modification, const std::vector<MeshParameter>& parameters,
+                                         const LoadedCycle* earlier) const {
   const DesignScene& of_task = task_.scenes[static_cast<std::size_t>(scene)];
   FlankCondition condition = of_task.condition;
   condition.modification = modification;
@@ -170,7 +166,8 @@ DesignAnalysis DesignProblem::run(const PerGear<Modification>& modification, boo
   const std::vector<MeshParameter> none;
   const auto analyse = [&](int s) {
     const auto at = static_cast<std::size_t>(s);
-    analysis.cycles[at] = analyse_scene(s, modification, with_derivatives ? parameters_ : none, earlier.cycles.empty() ? nullptr : &earlier.cycles[at]);
+    analysis.cycles[at] =
+        analyse_scene(s, modification, with_derivatives ? parameters_ : none, earlier.cycles.empty() ? nullptr : &earlier.cycles[at]);
   };
   // A thread that waits for its scenes must not take up another start of a multi-start meanwhile.
   tbb::this_task_arena::isolate([&] { tbb::parallel_for(0, scenes(), analyse); });
@@ -187,9 +184,7 @@ const DesignAnalysis& DesignProblem::analyse(const Eigen::VectorXd& x, bool with
   return last_;
 }
 
-DesignAnalysis DesignProblem::analyse_given() const {
-  return run(task_.modification, false);
-}
+DesignAnalysis DesignProblem::analyse_given() const { return run(task_.modification, false); }
 
 double DesignProblem::scene_measure(const Objective& objective, const LoadedCycle& cycle, int scene) const {
   double sum = 0.0;
@@ -253,9 +248,7 @@ Eigen::VectorXd DesignProblem::modification_slope(const ModificationConstraint& 
   return scaled(slope);
 }
 
-double DesignProblem::modification_scale(const ModificationConstraint& constraint) const {
-  return modification_slope(constraint).cwiseAbs().sum();
-}
+double DesignProblem::modification_scale(const ModificationConstraint& constraint) const { return modification_slope(constraint).cwiseAbs().sum(); }
 
 std::vector<double> DesignProblem::scene_weights() const {
   std::vector<double> weights;

@@ -58,7 +58,8 @@ class DesignProblem {
   /// One scene of that, with derivatives by any parameters; those that move the mesh (moves_mesh()) need two perturbed
   /// meshes each, which are not kept.
   /// @param earlier  the scene's cycle for a design that differs by little, see analyse_cycle(); null: none
-  LoadedCycle analyse_scene(int scene, const PerGear<Modification>& modification, const std::vector<MeshParameter>& parameters = {}, const LoadedCycle* earlier = nullptr) const;
+  LoadedCycle analyse_scene(int scene, const PerGear<Modification>& modification, const std::vector<MeshParameter>& parameters = {},
+                            const LoadedCycle* earlier = nullptr) const;
   /// Root stress is analysed where the task minimises or bounds it; this adds it where not, to be shown.
   void add_root_stress(DesignAnalysis& analysis) const;
 
@@ -93,10 +94,10 @@ class DesignProblem {
   DesignAnalysis run(const PerGear<Modification>& modification, bool with_derivatives, const DesignAnalysis& earlier = {}) const;
 
   DesignTask task_;
-  RootStresses root_stresses_;  ///< with every analysis where the task asks for them
+  RootStresses root_stresses_;                            ///< with every analysis where the task asks for them
   std::vector<std::shared_ptr<const MeshModel>> models_;  ///< per scene; copies of the problem share them
-  std::vector<MeshParameter> parameters_;  ///< variables, then linked modifications
-  Eigen::VectorXd start_;  ///< empty: the task's own
+  std::vector<MeshParameter> parameters_;                 ///< variables, then linked modifications
+  Eigen::VectorXd start_;                                 ///< empty: the task's own
   Eigen::VectorXd last_x_;
   bool last_has_derivatives_{false};
   DesignAnalysis last_;

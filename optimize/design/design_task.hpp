@@ -20,7 +20,7 @@ struct DesignVariable {
   Member member{Member::Pinion};
   ModificationParameter parameter{};
   double lower{0.0}, upper{0.0};  ///< [mm; parabolic_te 1/rad], lower < upper
-  double step{0.0};  ///< the grinder can set multiples of this, unit as the bounds; 0: any value
+  double step{0.0};               ///< the grinder can set multiples of this, unit as the bounds; 0: any value
 
   /// Value scaled to the range: 0 at the lower bound, 1 at the upper [-].
   double scaled(double value) const { return (value - lower) / (upper - lower); }
@@ -32,7 +32,7 @@ struct DesignVariable {
 
 /// A modification parameter that follows a variable: factor * variable + offset.
 struct LinkingConstraint {
-  DesignVariable linked;    ///< bounds as the variable's give them; no step
+  DesignVariable linked;  ///< bounds as the variable's give them; no step
   std::size_t as{0};      ///< index of the variable
   double factor{1.0};     ///< between the inside units [-]
   double offset{0.0};     ///< [mm; parabolic_te 1/rad]
@@ -73,8 +73,8 @@ struct Objective {
   std::vector<ObjectiveTerm> terms;
   Aggregation over;
 
-  std::string name() const;   ///< "te_harmonic_1 + te_harmonic_2"
-  const char* unit() const;   ///< of its values outside; "weighted sum" of several terms
+  std::string name() const;  ///< "te_harmonic_1 + te_harmonic_2"
+  const char* unit() const;  ///< of its values outside; "weighted sum" of several terms
 };
 
 /// An objective that may not exceed a limit.
@@ -105,12 +105,12 @@ struct DesignTask {
   MeshResolution resolution;
   MeshEffects effects;
   GapModel gap{GapModel::PlaneOfAction};
-  std::shared_ptr<const PairCompliance> structure;       ///< null: thin slices
+  std::shared_ptr<const PairCompliance> structure;           ///< null: thin slices
   std::shared_ptr<const PairCompliance> search_structure{};  ///< cheaper and nearly the same, to search by before `structure`; null: none
-  std::shared_ptr<const PairRootStress> root_stress;     ///< null: none
-  std::shared_ptr<const PairCompliance> shafts;          ///< null: rigid
-  PerGear<Modification> modification;  ///< values of parameters that are not varied, and the start of those that are
-  std::vector<DesignScene> scenes;                       ///< the first is the nominal one
+  std::shared_ptr<const PairRootStress> root_stress;         ///< null: none
+  std::shared_ptr<const PairCompliance> shafts;              ///< null: rigid
+  PerGear<Modification> modification;                        ///< values of parameters that are not varied, and the start of those that are
+  std::vector<DesignScene> scenes;                           ///< the first is the nominal one
   std::vector<DesignVariable> variables;
   std::vector<ObjectiveTerm> objective;
   Aggregation over;

@@ -17,9 +17,7 @@ struct CandidateChoice {
 
 /// Stresses and loads: half the peak, which on the design problems tried is one round of solving instead of three. Differences of
 /// f_t come in pairs of positions, of which the leading ones are enough.
-CandidateChoice choice_for(Output output) {
-  return output == Output::TePeakToPeak ? CandidateChoice{0.15, 60} : CandidateChoice{0.5, 400};
-}
+CandidateChoice choice_for(Output output) { return output == Output::TePeakToPeak ? CandidateChoice{0.15, 60} : CandidateChoice{0.5, 400}; }
 
 constexpr double auxiliary_limit = 100.0;  // u <= 100 of what it is counted in: no active bound at any sensible design
 
@@ -130,8 +128,8 @@ void EpigraphProgram::restart_from(const Eigen::VectorXd& x) {
   for (const ObjectiveBlock& block : blocks_) {
     for (int s = 0; s < block.scenes(); ++s) {
       for (int k = 0; k < static_cast<int>(block.objective().terms.size()); ++k) {
-        const double peak = output_value(block.objective().terms[static_cast<std::size_t>(k)], problem_.model(s),
-                                         analysis.cycles[static_cast<std::size_t>(s)]);
+        const double peak =
+            output_value(block.objective().terms[static_cast<std::size_t>(k)], problem_.model(s), analysis.cycles[static_cast<std::size_t>(s)]);
         double& slot = start_[block.bound(s, k)];
         slot = std::max(slot, peak / block.peak(k));
       }
@@ -149,8 +147,7 @@ void EpigraphProgram::choose_rows(const DesignAnalysis& analysis) {
   const DesignTask& task = problem_.task();
   rows_.clear();
   const auto leader = [&](EpigraphRow row) {
-    row.candidate = leading_candidates(term_of(row), problem_.model(row.scene),
-                                       analysis.cycles[static_cast<std::size_t>(row.scene)], 0.0, 1).front();
+    row.candidate = leading_candidates(term_of(row), problem_.model(row.scene), analysis.cycles[static_cast<std::size_t>(row.scene)], 0.0, 1).front();
     return row;
   };
   for (const EpigraphRow& row : candidates_) {
@@ -195,7 +192,7 @@ double EpigraphProgram::by_output(const EpigraphRow& row) const {
 }
 
 void EpigraphProgram::write_objective(int at, const ObjectiveBlock& block, const Eigen::VectorXd& y, double factor, double shift,
-                                 ProgramValues& values) const {
+                                      ProgramValues& values) const {
   const SmoothValue value = block.value(y);
   values.constraints[at] = factor * value.value * block.scale() - shift;
   values.constraint_jacobian.row(at) = factor * block.scale() * value.gradient;
@@ -210,8 +207,8 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
     case Kind::Floor:
     case Kind::Ceiling: {
       const ObjectiveBlock& block = blocks_[static_cast<std::size_t>(row.objective)];
-      const SmoothValue value = candidate_value(term_of(row), row.candidate, problem_.model(row.scene),
-                                                analysis.cycles[static_cast<std::size_t>(row.scene)]);
+      const SmoothValue value =
+          candidate_value(term_of(row), row.candidate, problem_.model(row.scene), analysis.cycles[static_cast<std::size_t>(row.scene)]);
       const double sign = row.kind == Kind::Floor ? 1.0 : -1.0;
       const int u = block.bound(row.scene, row.index);
       values.constraints[at] = sign * (value.value / block.peak(row.index) - y[u]);
@@ -221,15 +218,15 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
     }
     case Kind::OutputBound: {
       const OutputConstraint& bound = task.constraints[static_cast<std::size_t>(row.index)];
-      const SmoothValue value = candidate_value(bound.output, row.candidate, problem_.model(row.scene),
-                                                analysis.cycles[static_cast<std::size_t>(row.scene)]);
+      const SmoothValue value =
+          candidate_value(bound.output, row.candidate, problem_.model(row.scene), analysis.cycles[static_cast<std::size_t>(row.scene)]);
       values.constraints[at] = bound.excess(value.value);
       jacobian.head(n) = by_output(row) * problem_.scaled(value.gradient);
       return;
     }
     case Kind::ObjectiveBound:
-      return write_objective(at, blocks_[static_cast<std::size_t>(row.objective)], y, 1.0 / task.objective_bounds[static_cast<std::size_t>(row.index)].limit,
-                        1.0, values);
+      return write_objective(at, blocks_[static_cast<std::size_t>(row.objective)], y,
+                             1.0 / task.objective_bounds[static_cast<std::size_t>(row.index)].limit, 1.0, values);
     case Kind::ScalarisedObjective: {
       const ScalarisedObjective& scalarised = task.scalarisation[static_cast<std::size_t>(row.index)];
       write_objective(at, blocks_[static_cast<std::size_t>(row.objective)], y, 1.0 / scalarised.range, scalarised.origin / scalarised.range, values);
@@ -245,7 +242,8 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
       jacobian.head(n) = sign / scale * problem_.modification_slope(bound);
       return;
     }
-    case Kind::ObjectiveHelper: return;  // written by the block
+    case Kind::ObjectiveHelper:
+      return;  // written by the block
   }
 }
 

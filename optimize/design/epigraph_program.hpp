@@ -13,18 +13,20 @@ namespace flankwright {
 /// A row of an EpigraphProgram in terms of the design.
 struct EpigraphRow {
   enum class Kind {
-    Floor,         ///< candidate <= u of an objective's output in a scene
-    Ceiling,       ///< u <= candidate, where the objective falls with u
-    OutputBound,   ///< an OutputConstraint
-    ObjectiveHelper,    ///< a row of ObjectiveBlock
-    ObjectiveBound, ScalarisedObjective, ModificationBound
+    Floor,            ///< candidate <= u of an objective's output in a scene
+    Ceiling,          ///< u <= candidate, where the objective falls with u
+    OutputBound,      ///< an OutputConstraint
+    ObjectiveHelper,  ///< a row of ObjectiveBlock
+    ObjectiveBound,
+    ScalarisedObjective,
+    ModificationBound
   };
   Kind kind{Kind::Floor};
-  int scene{-1};  ///< -1: none
-  int index{-1};  ///< of the term within its objective, or of the constraint, bound or scalarised objective
-  int objective{-1};   ///< of Floor, Ceiling and ObjectiveHelper: block
+  int scene{-1};      ///< -1: none
+  int index{-1};      ///< of the term within its objective, or of the constraint, bound or scalarised objective
+  int objective{-1};  ///< of Floor, Ceiling and ObjectiveHelper: block
   PeakCandidate candidate{};
-  int side{1};    ///< ModificationBound: 1 maximum, -1 minimum
+  int side{1};  ///< ModificationBound: 1 maximum, -1 minimum
 
   auto operator<=>(const EpigraphRow&) const = default;
 };
@@ -75,8 +77,8 @@ class EpigraphProgram : public NonlinearProgram {
 
   DesignProblem& problem_;
   DesignLog& log_;
-  std::vector<ObjectiveBlock> blocks_;    ///< what is minimised, then what is bounded
-  std::set<EpigraphRow> candidates_; ///< floors and upper output bounds met so far
+  std::vector<ObjectiveBlock> blocks_;  ///< what is minimised, then what is bounded
+  std::set<EpigraphRow> candidates_;    ///< floors and upper output bounds met so far
   std::vector<EpigraphRow> rows_;
   int variables_{0};
   double objective_scale_{1.0};

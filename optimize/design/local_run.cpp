@@ -66,8 +66,7 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
     const bool stalled = solved.status == SolverStatus::Stalled;
     // Done when the true peaks are what the candidates promised, or a stalled round has gained nothing.
     const double excess = log.entries().back().objective - solved.objective * program.objective_scale();
-    const bool holds = excess <= round_tolerance * program.objective_scale() &&
-                       log.entries().back().constraint_violation <= DesignLog::tolerance;
+    const bool holds = excess <= round_tolerance * program.objective_scale() && log.entries().back().constraint_violation <= DesignLog::tolerance;
     const double gain = (last - log.best()->objective) / program.objective_scale();
     // A majorant has a next one, as long as rounds descend.
     const bool settled = !program.is_majorant() || gain <= round_tolerance;

@@ -10,7 +10,7 @@ struct LocalRun {
   SolverStatus status{SolverStatus::NotRun};
   std::string message;
   std::string finished_by;                 ///< the finisher where it went on from a kink, else empty
-  bool epigraph{false};  ///< smooth, exact gradients; else values of the true peaks
+  bool epigraph{false};                    ///< smooth, exact gradients; else values of the true peaks
   Eigen::VectorXd start, x;                ///< scaled designs: first and best
   double objective{not_given};             ///< at x, outside units
   double constraint_violation{not_given};  ///< at x [-]
@@ -18,7 +18,7 @@ struct LocalRun {
   int failures{-1};                        ///< analyses that did not converge; survived
   int rounds{-1};                          ///< of candidate generation (1 without epigraph)
   double seconds{not_given};
-  std::vector<SolverStep> history;         ///< one entry per analysis: true objective and violation
+  std::vector<SolverStep> history;  ///< one entry per analysis: true objective and violation
 };
 
 /// Searches from problem.start().

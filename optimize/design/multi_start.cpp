@@ -91,10 +91,12 @@ std::vector<LocalOptimum> distinct_optima(const std::vector<LocalRun>& runs, dou
   for (std::size_t i : order) {
     const bool ended_well = runs[i].status == SolverStatus::Converged || runs[i].status == SolverStatus::Stalled;
     if (!ended_well || !(runs[i].constraint_violation <= DesignLog::tolerance)) continue;
-    const bool same = !optima.empty() && runs[i].objective - runs[optima.back().run].objective <=
-                                             same_objective * std::abs(runs[optima.back().run].objective);
-    if (same) ++optima.back().found_by;
-    else optima.push_back({i, 1});
+    const bool same =
+        !optima.empty() && runs[i].objective - runs[optima.back().run].objective <= same_objective * std::abs(runs[optima.back().run].objective);
+    if (same)
+      ++optima.back().found_by;
+    else
+      optima.push_back({i, 1});
   }
   return optima;
 }

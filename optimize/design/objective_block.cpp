@@ -43,7 +43,6 @@ int ObjectiveBlock::bound(int scene, int term) const {
   return shares_one_bound() ? first_ : first_ + scene * static_cast<int>(objective_.terms.size()) + term;
 }
 
-
 double ObjectiveBlock::measure(const Eigen::VectorXd& y, int scene) const {
   double sum = 0.0;
   for (std::size_t k = 0; k < term_weights_.size(); ++k) sum += term_weights_[k] * y[bound(scene, static_cast<int>(k))];

@@ -55,7 +55,7 @@ class ObjectiveBlock {
   Eigen::VectorXd measures(const Eigen::VectorXd& y) const;
 
   Objective objective_;
-  Eigen::VectorXd shares_;          ///< p_s
+  Eigen::VectorXd shares_;  ///< p_s
   std::vector<double> peaks_;
   std::vector<double> term_weights_;  ///< w_k, sum 1
   double scale_{0.0};

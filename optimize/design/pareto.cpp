@@ -49,9 +49,7 @@ class FrontTracing {
     return options;
   }
 
-  bool is_out_of_budget() const {
-    return front_.evaluations >= options_.max_evaluations || clock_.seconds() >= options_.max_seconds;
-  }
+  bool is_out_of_budget() const { return front_.evaluations >= options_.max_evaluations || clock_.seconds() >= options_.max_seconds; }
 
   bool is_spent() {
     const bool spent = is_out_of_budget();
@@ -266,7 +264,8 @@ double ParetoFront::unevenness() const {
 
 ParetoFront trace_front(const DesignProblem& problem, const std::vector<Objective>& objectives, int points, const DesignOptions& options) {
   options.solver.validate();
-  if (objectives.size() < 2 || objectives.size() > 3) throw InvalidInput("optimise.pareto.objectives", std::to_string(objectives.size()), "two or three");
+  if (objectives.size() < 2 || objectives.size() > 3)
+    throw InvalidInput("optimise.pareto.objectives", std::to_string(objectives.size()), "two or three");
   if (points < static_cast<int>(objectives.size())) {
     throw InvalidInput("optimise.pareto.points", std::to_string(points), "at least one for each objective");
   }

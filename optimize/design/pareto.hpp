@@ -13,17 +13,17 @@ struct ParetoPoint {
   std::vector<double> values;  ///< of the objectives, outside units
   SolverStatus status{SolverStatus::NotRun};
   double constraint_violation{not_given};  ///< [-]
-  bool dominated{false};       ///< another point is no worse in every objective and better in one, beyond `same`
+  bool dominated{false};                   ///< another point is no worse in every objective and better in one, beyond `same`
 };
 
 /// Designs whose objectives cannot be improved without loss in another.
 struct ParetoFront {
   std::vector<Objective> objectives;
-  std::vector<ParetoPoint> points;    ///< of two objectives along the front, from the best of the first to the best of the second
-  std::vector<double> ideal, worst;   ///< per objective over the points where each one alone is best, outside units
+  std::vector<ParetoPoint> points;   ///< of two objectives along the front, from the best of the first to the best of the second
+  std::vector<double> ideal, worst;  ///< per objective over the points where each one alone is best, outside units
   int evaluations{0}, failures{0};
   double seconds{not_given};
-  std::string message;                ///< the reason for fewer points than wanted; empty without
+  std::string message;  ///< the reason for fewer points than wanted; empty without
 
   static constexpr double same = 1e-4;  ///< of an objective's range [-]
   /// Longest over shortest distance between neighbours of a front of two objectives, scaled to their ranges; 1 is even;

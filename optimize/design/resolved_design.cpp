@@ -45,7 +45,8 @@ double combined(const Objective& minimised, const Measures& measures, double shi
 ResolvedValue value_of(const Objective& minimised, const Measures& measures, const std::vector<double>& weights) {
   const double value = aggregate(minimised.over, measures.values, weights);
   if (std::ranges::any_of(measures.errors, [](double e) { return std::isnan(e); })) return {value, not_given};
-  return {value, std::max(std::abs(combined(minimised, measures, 1.0, weights) - value), std::abs(combined(minimised, measures, -1.0, weights) - value))};
+  return {value,
+          std::max(std::abs(combined(minimised, measures, 1.0, weights) - value), std::abs(combined(minimised, measures, -1.0, weights) - value))};
 }
 
 }  // namespace

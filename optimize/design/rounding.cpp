@@ -31,7 +31,8 @@ class StepSearch {
   }
 
   RoundedDesign run() {
-    while (improve_singly() || improve_in_pairs()) {}
+    while (improve_singly() || improve_in_pairs()) {
+    }
     return best_;
   }
 

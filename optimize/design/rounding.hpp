@@ -8,10 +8,10 @@ namespace flankwright {
 
 /// A design on the grinder's steps.
 struct RoundedDesign {
-  Eigen::VectorXd x;                        ///< scaled; variables with a step are multiples of it within their bounds
-  double objective{not_given};              ///< outside units
-  double constraint_violation{not_given};   ///< [-]
-  int analyses{0};                          ///< of the whole scene set, including those that ended at a scene too bad for a worst case
+  Eigen::VectorXd x;                       ///< scaled; variables with a step are multiples of it within their bounds
+  double objective{not_given};             ///< outside units
+  double constraint_violation{not_given};  ///< [-]
+  int analyses{0};                         ///< of the whole scene set, including those that ended at a scene too bad for a worst case
 };
 
 /// Best neighbour of a design on the steps of its variables: from the nearest values, single variables and then pairs of them move by

@@ -44,9 +44,8 @@ std::vector<Ranked> rank(const ObjectiveTerm& term, const MeshModel& model, cons
       }
     }
   }
-  std::sort(ranked.begin(), ranked.end(), [](const Ranked& a, const Ranked& b) {
-    return a.value != b.value ? a.value > b.value : a.candidate < b.candidate;
-  });
+  std::sort(ranked.begin(), ranked.end(),
+            [](const Ranked& a, const Ranked& b) { return a.value != b.value ? a.value > b.value : a.candidate < b.candidate; });
   return ranked;
 }
 
@@ -67,8 +66,8 @@ ResolvedValue resolved_value(const ObjectiveTerm& term, const MeshModel& model, 
   return found;
 }
 
-std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle,
-                                              double margin, std::size_t most) {
+std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, double margin,
+                                              std::size_t most) {
   std::vector<PeakCandidate> leading;
   if (design_output(term.output).has_orders && margin > 0.0) {
     for (int direction = 0; direction < harmonic_directions; ++direction) leading.push_back({-1, direction});
@@ -82,8 +81,7 @@ std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const M
   return leading;
 }
 
-SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& candidate, const MeshModel& model,
-                            const LoadedCycle& cycle) {
+SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& candidate, const MeshModel& model, const LoadedCycle& cycle) {
   if (!cycle.usable()) throw std::runtime_error("the load distribution did not converge at every mesh position");
   const DesignOutput& row = design_output(term.output);
   if (row.smooth != nullptr) return row.smooth(term, model, cycle, candidate.other);

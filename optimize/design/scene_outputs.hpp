@@ -22,12 +22,11 @@ ResolvedValue resolved_value(const ObjectiveTerm& term, const MeshModel& model, 
 /// Candidates whose value is at least (1 - margin) of the output's, largest first (equals by position), at most `most`.
 /// A harmonic's are its directions, all of them; with margin 0 the amplitude itself.
 /// @param margin  0 keeps the peak only
-std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle,
-                                              double margin, std::size_t most);
+std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, double margin,
+                                              std::size_t most);
 
 /// Value and exact gradient of one candidate; the gradient stays empty where the cycle carries no derivatives. At a harmonic's
 /// zero, where the amplitude (whole_output) has a kink, its gradient is 0, one of its subgradients.
-SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& candidate, const MeshModel& model,
-                            const LoadedCycle& cycle);
+SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& candidate, const MeshModel& model, const LoadedCycle& cycle);
 
 }  // namespace flankwright

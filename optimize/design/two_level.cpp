@@ -47,7 +47,8 @@ void join(const DesignResult& coarse, DesignResult& fine) {
   } else if (fine.status == SolverStatus::EvaluationLimit) {
     // The finisher's own limit: the coarse optimum had been found, and the best design that was met from there on is kept.
     fine.status = fine.optimality.satisfied() ? SolverStatus::Converged : SolverStatus::Stalled;
-    fine.message = coarse.message + "; the fine level ended after " + std::to_string(most_fine_analyses) + " analyses with the best design it had met";
+    fine.message =
+        coarse.message + "; the fine level ended after " + std::to_string(most_fine_analyses) + " analyses with the best design it had met";
   }
   fine.evaluations += coarse.evaluations;
   fine.gradient_evaluations += coarse.gradient_evaluations;

@@ -13,7 +13,8 @@ struct LevelWork {
 
 /// A design sought coarsely and finished finely.
 struct TwoLevelDesign {
-  DesignResult design;  ///< of the fine level: before, after, constraints, optimality; starts, optima and the first part of the history are the coarse level's
+  DesignResult
+      design;  ///< of the fine level: before, after, constraints, optimality; starts, optima and the first part of the history are the coarse level's
   LevelWork search, fine;
   double objective_seen_by_search{not_given};  ///< of the coarse optimum, as the coarse level has it, outside units
 };

@@ -91,7 +91,8 @@ Distribution Distribution::grid(double low, double high, int n) {
 double Distribution::quantile(double u) const {
   assert(u > 0.0 && u < 1.0);
   switch (kind_) {
-    case Kind::Normal: return mean_ + deviation_ * normal_quantile(u);
+    case Kind::Normal:
+      return mean_ + deviation_ * normal_quantile(u);
     case Kind::TruncatedNormal: {
       const double below_low = normal_probability((low_ - mean_) / deviation_);
       const double above_high = normal_probability((mean_ - high_) / deviation_);
@@ -101,7 +102,8 @@ double Distribution::quantile(double u) const {
       const double x = from_low <= from_high ? normal_quantile(from_low) : -normal_quantile(from_high);
       return std::clamp(mean_ + deviation_ * x, low_, high_);
     }
-    case Kind::Uniform: return low_ + u * (high_ - low_);
+    case Kind::Uniform:
+      return low_ + u * (high_ - low_);
     case Kind::Values: {
       const auto level = static_cast<std::size_t>(u * static_cast<double>(values_.size()));
       return values_[std::min(level, values_.size() - 1)];

@@ -66,14 +66,17 @@ std::vector<double> SampleDesign::point(long long i) const {
 double SampleDesign::coordinate(std::uint64_t i, int dimension) const {
   const auto stream = static_cast<std::uint64_t>(dimension);
   switch (sampler_) {
-    case Sampler::Sobol: return scrambled_sobol(static_cast<std::uint32_t>(i), dimension, seed_);
+    case Sampler::Sobol:
+      return scrambled_sobol(static_cast<std::uint32_t>(i), dimension, seed_);
     case Sampler::LatinHypercube: {
       const auto n = static_cast<std::uint64_t>(samples_);
       const std::uint64_t part = shuffled_place(i, n, seed_, shuffle_streams | stream);
       return (static_cast<double>(part) + random_uniform(seed_, jitter_streams | stream, i)) / static_cast<double>(n);
     }
-    case Sampler::MonteCarlo: return random_uniform(seed_, stream, i);
-    case Sampler::Grid: break;
+    case Sampler::MonteCarlo:
+      return random_uniform(seed_, stream, i);
+    case Sampler::Grid:
+      break;
   }
   __builtin_unreachable();
 }

@@ -52,8 +52,7 @@ class RecordedProgram final : public Ipopt::TNLP {
 
   SolverEnding& ending() { return ending_; }
 
-  bool get_nlp_info(Ipopt::Index& n, Ipopt::Index& m, Ipopt::Index& nnz_jac_g, Ipopt::Index& nnz_h_lag,
-                    IndexStyleEnum& index_style) override {
+  bool get_nlp_info(Ipopt::Index& n, Ipopt::Index& m, Ipopt::Index& nnz_jac_g, Ipopt::Index& nnz_h_lag, IndexStyleEnum& index_style) override {
     n = n_;
     m = m_;
     nnz_jac_g = n_ * m_;
@@ -62,8 +61,7 @@ class RecordedProgram final : public Ipopt::TNLP {
     return true;
   }
 
-  bool get_bounds_info(Ipopt::Index n, Ipopt::Number* x_l, Ipopt::Number* x_u, Ipopt::Index m, Ipopt::Number* g_l,
-                       Ipopt::Number* g_u) override {
+  bool get_bounds_info(Ipopt::Index n, Ipopt::Number* x_l, Ipopt::Number* x_u, Ipopt::Index m, Ipopt::Number* g_l, Ipopt::Number* g_u) override {
     for (int i = 0; i < n; ++i) {
       x_l[i] = std::max(recorder_.lower()[i], -kNoBound);
       x_u[i] = std::min(recorder_.upper()[i], kNoBound);
@@ -73,8 +71,8 @@ class RecordedProgram final : public Ipopt::TNLP {
     return true;
   }
 
-  bool get_starting_point(Ipopt::Index n, bool init_x, Ipopt::Number* x, bool init_z, Ipopt::Number*, Ipopt::Number*,
-                          Ipopt::Index, bool init_lambda, Ipopt::Number*) override {
+  bool get_starting_point(Ipopt::Index n, bool init_x, Ipopt::Number* x, bool init_z, Ipopt::Number*, Ipopt::Number*, Ipopt::Index, bool init_lambda,
+                          Ipopt::Number*) override {
     if (init_z || init_lambda) return false;
     if (init_x) std::copy_n(recorder_.start().data(), n, x);
     return true;
@@ -98,8 +96,8 @@ class RecordedProgram final : public Ipopt::TNLP {
     return point.usable;
   }
 
-  bool eval_jac_g(Ipopt::Index, const Ipopt::Number* x, bool, Ipopt::Index, Ipopt::Index, Ipopt::Index* rows,
-                  Ipopt::Index* columns, Ipopt::Number* values) override {
+  bool eval_jac_g(Ipopt::Index, const Ipopt::Number* x, bool, Ipopt::Index, Ipopt::Index, Ipopt::Index* rows, Ipopt::Index* columns,
+                  Ipopt::Number* values) override {
     // Dense, by columns: the order of Eigen's storage.
     if (values == nullptr) {
       for (int j = 0, k = 0; j < n_; ++j) {
@@ -115,9 +113,9 @@ class RecordedProgram final : public Ipopt::TNLP {
     return point.usable;
   }
 
-  void finalize_solution(Ipopt::SolverReturn, Ipopt::Index n, const Ipopt::Number* x, const Ipopt::Number*,
-                         const Ipopt::Number*, Ipopt::Index m, const Ipopt::Number*, const Ipopt::Number* lambda,
-                         Ipopt::Number, const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
+  void finalize_solution(Ipopt::SolverReturn, Ipopt::Index n, const Ipopt::Number* x, const Ipopt::Number*, const Ipopt::Number*, Ipopt::Index m,
+                         const Ipopt::Number*, const Ipopt::Number* lambda, Ipopt::Number, const Ipopt::IpoptData*,
+                         Ipopt::IpoptCalculatedQuantities*) override {
     ending_.x = Eigen::Map<const Eigen::VectorXd>(x, n);
     // L = f + lambda' c - ...: non-negative for c <= 0 but for round-off.
     ending_.multipliers = Eigen::Map<const Eigen::VectorXd>(lambda, m).cwiseMax(0.0);

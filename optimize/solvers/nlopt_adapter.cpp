@@ -31,18 +31,16 @@ struct Algorithm {
   nlopt::algorithm code;
 };
 
-constexpr std::array kAlgorithms{
-    Algorithm{"nlopt:slsqp", nlopt::LD_SLSQP},       Algorithm{"nlopt:mma", nlopt::LD_MMA},
-    Algorithm{"nlopt:ccsaq", nlopt::LD_CCSAQ},       Algorithm{"nlopt:lbfgs", nlopt::LD_LBFGS},
-    Algorithm{"nlopt:cobyla", nlopt::LN_COBYLA},     Algorithm{"nlopt:bobyqa", nlopt::LN_BOBYQA},
-    Algorithm{"nlopt:sbplx", nlopt::LN_SBPLX},       Algorithm{"nlopt:neldermead", nlopt::LN_NELDERMEAD},
-    Algorithm{"nlopt:crs2_lm", nlopt::GN_CRS2_LM},   Algorithm{"nlopt:isres", nlopt::GN_ISRES},
-    Algorithm{"nlopt:direct_l", nlopt::GN_DIRECT_L}, Algorithm{"nlopt:esch", nlopt::GN_ESCH},
-    Algorithm{"nlopt:mlsl", nlopt::G_MLSL}};
+constexpr std::array kAlgorithms{Algorithm{"nlopt:slsqp", nlopt::LD_SLSQP},       Algorithm{"nlopt:mma", nlopt::LD_MMA},
+                                 Algorithm{"nlopt:ccsaq", nlopt::LD_CCSAQ},       Algorithm{"nlopt:lbfgs", nlopt::LD_LBFGS},
+                                 Algorithm{"nlopt:cobyla", nlopt::LN_COBYLA},     Algorithm{"nlopt:bobyqa", nlopt::LN_BOBYQA},
+                                 Algorithm{"nlopt:sbplx", nlopt::LN_SBPLX},       Algorithm{"nlopt:neldermead", nlopt::LN_NELDERMEAD},
+                                 Algorithm{"nlopt:crs2_lm", nlopt::GN_CRS2_LM},   Algorithm{"nlopt:isres", nlopt::GN_ISRES},
+                                 Algorithm{"nlopt:direct_l", nlopt::GN_DIRECT_L}, Algorithm{"nlopt:esch", nlopt::GN_ESCH},
+                                 Algorithm{"nlopt:mlsl", nlopt::G_MLSL}};
 
 nlopt::algorithm algorithm_named(std::string_view name) {
-  const auto* found =
-      std::find_if(kAlgorithms.begin(), kAlgorithms.end(), [&](const Algorithm& a) { return a.name == name; });
+  const auto* found = std::find_if(kAlgorithms.begin(), kAlgorithms.end(), [&](const Algorithm& a) { return a.name == name; });
   assert(found != kAlgorithms.end() && "solve() checks the name");
   return found->code;
 }
@@ -108,8 +106,7 @@ class Session {
     // A known point without its gradients is an old one: noted when it was new.
     if (!point.usable || (gradients_ && point.values.objective_gradient.size() == 0)) return;
     const double f = point.values.objective;
-    const bool better = !any_ || point.violation < base_.violation ||
-                        (point.violation == base_.violation && f < base_.values.objective);
+    const bool better = !any_ || point.violation < base_.violation || (point.violation == base_.violation && f < base_.values.objective);
     if (better) {
       base_x_ = x;
       base_ = point;
@@ -164,9 +161,7 @@ std::vector<double> scaled(std::vector<double> values, double factor) {
   return values;
 }
 
-std::vector<double> to_std(const Eigen::VectorXd& v) {
-  return {v.data(), v.data() + v.size()};
-}
+std::vector<double> to_std(const Eigen::VectorXd& v) { return {v.data(), v.data() + v.size()}; }
 
 void run(nlopt::opt& optimiser, std::vector<double>& x, SolverEnding& ending) {
   double objective = 0.0;
@@ -210,8 +205,7 @@ SolverEnding solve_with_nlopt(Recorder& recorder, const SolverOptions& options) 
   nlopt::opt optimiser(code, n);
   optimiser.set_min_objective(objective_callback, &session);
   if (m > 0) {
-    optimiser.add_inequality_mconstraint(constraints_callback, &session,
-                                         std::vector<double>(m, options.constraint_tolerance));
+    optimiser.add_inequality_mconstraint(constraints_callback, &session, std::vector<double>(m, options.constraint_tolerance));
   }
   optimiser.set_lower_bounds(to_std(recorder.lower()));
   optimiser.set_upper_bounds(to_std(recorder.upper()));
@@ -219,8 +213,7 @@ SolverEnding solve_with_nlopt(Recorder& recorder, const SolverOptions& options) 
   if (code == nlopt::GN_CRS2_LM || code == nlopt::GN_ISRES) {
     // Their step between successive best points is small by chance now and then: no test of convergence.
     const int factor = code == nlopt::GN_CRS2_LM ? kCrs2Population : kIsresPopulation;
-    session.watch_population(factor * static_cast<int>(n + 1),
-                             Eigen::Map<const Eigen::VectorXd>(step_tolerances.data(), n));
+    session.watch_population(factor * static_cast<int>(n + 1), Eigen::Map<const Eigen::VectorXd>(step_tolerances.data(), n));
   } else {
     optimiser.set_xtol_abs(step_tolerances);
   }
@@ -242,14 +235,12 @@ SolverEnding solve_with_nlopt(Recorder& recorder, const SolverOptions& options) 
     const bool was_feasible = recorder.best_is_feasible();
     run(optimiser, x, ending);
     const bool gained =
-        recorder.best_is_feasible() &&
-        (!was_feasible || recorder.best_objective() < before - options.tolerance * std::max(1.0, std::abs(before)));
+        recorder.best_is_feasible() && (!was_feasible || recorder.best_objective() < before - options.tolerance * std::max(1.0, std::abs(before)));
     again = restarts && gained && recorder.stop_reason().status == SolverStatus::NotRun;
     if (again) x = to_std(recorder.best_x());
   } while (again);
   if (recorder.stop_reason().status != SolverStatus::NotRun) return recorder.stop_reason();
-  if (session.population_collapsed())
-    return {SolverStatus::Converged, "the population has drawn together", recorder.best_x(), {}};
+  if (session.population_collapsed()) return {SolverStatus::Converged, "the population has drawn together", recorder.best_x(), {}};
   ending.x = Eigen::Map<const Eigen::VectorXd>(x.data(), n);
   if (!ending.x.allFinite()) {
     ending.x.resize(0);

@@ -76,14 +76,12 @@ Recorder::Recorder(NonlinearProgram& program, const SolverOptions& options, bool
   for (int i = 0; i < n; ++i) {
     const auto labelled = [i](std::string name) { return name.append("[").append(std::to_string(i)).append("]"); };
     if (!(lower_[i] <= upper_[i])) {
-      throw InvalidInput(labelled("bounds"), std::to_string(lower_[i]) + " .. " + std::to_string(upper_[i]),
-                         "a lower bound not above the upper");
+      throw InvalidInput(labelled("bounds"), std::to_string(lower_[i]) + " .. " + std::to_string(upper_[i]), "a lower bound not above the upper");
     }
     const bool below = start_[i] < lower_[i] - kStartSlack * std::max(1.0, std::abs(lower_[i]));
     const bool above = start_[i] > upper_[i] + kStartSlack * std::max(1.0, std::abs(upper_[i]));
     if (!std::isfinite(start_[i]) || below || above) {
-      throw InvalidInput(labelled("start"), std::to_string(start_[i]),
-                         std::to_string(lower_[i]) + " .. " + std::to_string(upper_[i]));
+      throw InvalidInput(labelled("start"), std::to_string(start_[i]), std::to_string(lower_[i]) + " .. " + std::to_string(upper_[i]));
     }
   }
   start_ = start_.cwiseMax(lower_).cwiseMin(upper_);
@@ -108,8 +106,7 @@ const Recorder::Point& Recorder::at(const Eigen::VectorXd& x_asked, bool gradien
   }
   if (evaluations_ >= options_.max_evaluations) {
     stop(SolverStatus::EvaluationLimit, "the limit of " + std::to_string(options_.max_evaluations) +
-                                            (options_.max_evaluations == 1 ? " evaluation" : " evaluations") +
-                                            " was reached");
+                                            (options_.max_evaluations == 1 ? " evaluation" : " evaluations") + " was reached");
   }
 
   known_in_a_row_ = 0;
@@ -180,9 +177,7 @@ void Recorder::stop(SolverStatus status, const std::string& message) {
   throw StopRun{};
 }
 
-double Recorder::seconds() const {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-}
+double Recorder::seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
 
 SolverResult Recorder::result(SolverEnding ending) {
   SolverResult result;
@@ -233,8 +228,8 @@ SolverResult Recorder::result(SolverEnding ending) {
     }
   }
   if (any && failures_ > 0) {
-    result.message += "; " + std::to_string(failures_) + (failures_ == 1 ? " evaluation" : " evaluations") +
-                      " failed, the first with: " + first_failure_;
+    result.message +=
+        "; " + std::to_string(failures_) + (failures_ == 1 ? " evaluation" : " evaluations") + " failed, the first with: " + first_failure_;
   }
   result.evaluations = evaluations_;
   result.gradient_evaluations = gradient_evaluations_;

@@ -15,9 +15,8 @@ void require_acceptable(const SolverTraits& traits, const Recorder& recorder, in
   const std::string name{traits.name};
   const int m = recorder.program().constraints();
   if (m > 0 && !traits.constraints) {
-    throw InvalidInput(
-        "optimise.solver", name + " with " + std::to_string(m) + " constraints",
-        "a solver that takes constraints: " + solvers_where([](const SolverTraits& t) { return t.constraints; }));
+    throw InvalidInput("optimise.solver", name + " with " + std::to_string(m) + " constraints",
+                       "a solver that takes constraints: " + solvers_where([](const SolverTraits& t) { return t.constraints; }));
   }
   if (traits.global && !(recorder.lower().allFinite() && recorder.upper().allFinite())) {
     throw InvalidInput("optimise.solver", name + " with an infinite bound", "finite bounds for a global solver");

@@ -79,19 +79,15 @@ void SolverOptions::validate() const {
   };
   // Written so that NaN is refused.
   require(tolerance > 0.0 && tolerance < 1.0, "optimise.tolerance", tolerance, "a number above 0 and below 1");
-  require(constraint_tolerance > 0.0 && constraint_tolerance < std::numeric_limits<double>::infinity(),
-          "optimise.constraint_tolerance", constraint_tolerance, "a finite number above 0");
+  require(constraint_tolerance > 0.0 && constraint_tolerance < std::numeric_limits<double>::infinity(), "optimise.constraint_tolerance",
+          constraint_tolerance, "a finite number above 0");
   require(max_evaluations >= 1, "optimise.max_evaluations", max_evaluations, "an integer of at least 1");
   require(max_seconds > 0.0, "optimise.max_seconds", max_seconds, "a number above 0");
 }
 
-bool uses_gradients(const std::string& solver_name) {
-  return solver_traits(solver_name).gradients;
-}
+bool uses_gradients(const std::string& solver_name) { return solver_traits(solver_name).gradients; }
 
-bool accepts_constraints(const std::string& solver_name) {
-  return solver_traits(solver_name).constraints;
-}
+bool accepts_constraints(const std::string& solver_name) { return solver_traits(solver_name).constraints; }
 
 std::vector<std::string> solver_names() {
   std::vector<std::string> names;

@@ -11,8 +11,8 @@ namespace flankwright::studies {
 /// The size of an effect in that load case of a study in which it is largest.
 struct SizeInStudy {
   std::string scene;
-  double torque{not_given};  ///< on the pinion [N mm]
-  EffectSize size;           ///< its seconds those of all load cases
+  double torque{not_given};           ///< on the pinion [N mm]
+  EffectSize size;                    ///< its seconds those of all load cases
   int positions{0}, solved_again{0};  ///< of an estimate over all load cases, see EstimatedSize
 };
 

@@ -19,7 +19,7 @@ namespace {
 /// finite elements it was up to 1.09 times as large.
 constexpr double safety = 1.25;
 constexpr double thin_slice_share = 0.5, fitted_share = 0.7;  ///< of the accuracy, that a cheaper compliance may take
-constexpr double gap_share = 0.7;           ///< of the accuracy that the compliance leaves
+constexpr double gap_share = 0.7;                             ///< of the accuracy that the compliance leaves
 
 bool is_given(const Study& study, std::string_view prefix) {
   return std::ranges::any_of(study.given, [&](const GivenValue& g) { return g.key.starts_with(prefix); });
@@ -74,7 +74,9 @@ void choose_compliance(LevelRunner& runner, FidelityChoice& choice) {
   const LevelResult fitted = candidate(ComplianceModel::Fitted), slices = candidate(ComplianceModel::ThinSlice);
   const PerFigure by_fit = fit_errors(fitted), by_slices = added(differences(slices, fitted), by_fit);
   choice.compliances = {{"thin_slice", by_slices, slices.seconds}, {"fitted", by_fit, fitted.seconds}, {"fe", {}, not_given}};
-  const std::size_t taken = headline(by_slices) <= thin_slice_share * choice.accuracy ? 0 : headline(by_fit) <= fitted_share * choice.accuracy ? 1 : 2;
+  const std::size_t taken = headline(by_slices) <= thin_slice_share * choice.accuracy ? 0
+                            : headline(by_fit) <= fitted_share * choice.accuracy      ? 1
+                                                                                      : 2;
   choice.compliances[taken].chosen = true;
   choice.compliance_error = choice.compliances[taken].error;
   choice.fidelity.compliance = compliance_model(choice.compliances[taken].name);
@@ -121,7 +123,8 @@ void choose_resolution(LevelRunner& runner, FidelityChoice& choice, const Progre
   }
   int analysed = 0;
   search.starting = [&](int intervals, int positions, int load_cases) {
-    if (progress) progress("choosing accuracy", analysed, 0, fmt::format("{} load cases by {} intervals, {} positions", load_cases, intervals, positions));
+    if (progress)
+      progress("choosing accuracy", analysed, 0, fmt::format("{} load cases by {} intervals, {} positions", load_cases, intervals, positions));
     analysed += load_cases;
   };
   choice.discretisation = choose_discretisation(cases, seeking.fidelity.quadrature.rule, search);

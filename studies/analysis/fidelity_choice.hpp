@@ -10,9 +10,9 @@ namespace flankwright::studies {
 
 /// A candidate model with its estimated error.
 struct ModelCandidate {
-  std::string name;            ///< "thin_slice"
-  PerFigure error{};           ///< relative to the more expensive model, worst over the load cases; NaN where it was not computed
-  double seconds{not_given};   ///< processor time of all load cases, coarsely resolved [s]
+  std::string name;           ///< "thin_slice"
+  PerFigure error{};          ///< relative to the more expensive model, worst over the load cases; NaN where it was not computed
+  double seconds{not_given};  ///< processor time of all load cases, coarsely resolved [s]
   bool chosen{false};
 };
 
@@ -26,12 +26,12 @@ struct FidelityChoice {
   std::vector<ModelCandidate> compliances, gaps;  ///< candidates; empty where given
   /// Estimated shares, worst over the load cases; of the resolution: of quadrature and positions together, see Discretisation::error().
   PerFigure compliance_error{}, gap_error{}, quadrature_error{}, position_error{}, resolution_error{};
-  LeftOutEffects left_out;       ///< by the run, see drop_small_effects()
-  std::string governing;         ///< scene of the load case that needs the finest resolution
+  LeftOutEffects left_out;             ///< by the run, see drop_small_effects()
+  std::string governing;               ///< scene of the load case that needs the finest resolution
   double governing_torque{not_given};  ///< its torque [N mm]
-  Discretisation discretisation; ///< of the governing load case
-  int failures{0};               ///< positions without a usable load distribution: nothing is known
-  bool kept{false};              ///< headline(error()) <= accuracy
+  Discretisation discretisation;       ///< of the governing load case
+  int failures{0};                     ///< positions without a usable load distribution: nothing is known
+  bool kept{false};                    ///< headline(error()) <= accuracy
   double choosing_seconds{not_given};  ///< wall time, with finite elements where they were not kept
 
   /// Errors of compliance, gap, discretisation and left-out effects together. They are independent and each is estimated on

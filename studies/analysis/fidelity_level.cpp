@@ -20,9 +20,12 @@ constexpr int repeats = 3;
 
 const char* to_string(ErrorKind kind) {
   switch (kind) {
-    case ErrorKind::Model: return "model";
-    case ErrorKind::Discretisation: return "discretisation";
-    case ErrorKind::Both: return "both";
+    case ErrorKind::Model:
+      return "model";
+    case ErrorKind::Discretisation:
+      return "discretisation";
+    case ErrorKind::Both:
+      return "both";
   }
   __builtin_unreachable();
 }
@@ -71,8 +74,7 @@ MeshOfResolution LevelRunner::mesh(const FidelityLevel& level, const DesignScene
   const MeshPlacement placement = MeshPlacement::of(level.gap, scene.condition.misalignment);
   return [this, on = effects(level), placement, structure = structures(level.compliance).pair](const MeshResolution& resolution) {
     const Study& study = subject_.study;
-    return make_mesh_model(subject_.pair, study.material, resolution, on, placement, structure.get(),
-                           nullptr, subject_.shafts.get());
+    return make_mesh_model(subject_.pair, study.material, resolution, on, placement, structure.get(), nullptr, subject_.shafts.get());
   };
 }
 

@@ -26,7 +26,7 @@ struct FidelityLevel {
   GapModel gap{GapModel::PlaneOfAction};
   Quadrature quadrature;
   int positions{32};
-  bool located_peaks{false};  ///< peaks sought between the positions; false: of the positions only
+  bool located_peaks{false};            ///< peaks sought between the positions; false: of the positions only
   std::vector<std::string> left_out{};  ///< names of effects that are on in the study and off at this level
 };
 
@@ -41,7 +41,7 @@ struct LevelResult {
 struct LevelSubject {
   Study study;
   GearPair pair;
-  std::vector<DesignScene> scenes;  ///< load cases, with effects applied
+  std::vector<DesignScene> scenes;                 ///< load cases, with effects applied
   std::shared_ptr<const PairCompliance> shafts{};  ///< null: rigid
 };
 

@@ -6,8 +6,7 @@
 namespace flankwright::studies {
 
 const ContactPeaks& LoadRater::peaks_of(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque) {
-  const auto found = std::ranges::find_if(
-      known_, [&](const Known& k) { return k.torque == pinion_torque && k.condition == condition; });
+  const auto found = std::ranges::find_if(known_, [&](const Known& k) { return k.torque == pinion_torque && k.condition == condition; });
   if (found != known_.end()) return found->peaks;
   known_.push_back({condition, pinion_torque, locate_peaks(mesh_for(condition.misalignment, {}), condition, pinion_torque)});
   return known_.back().peaks;

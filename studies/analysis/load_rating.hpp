@@ -13,7 +13,7 @@ struct LoadRating {
   ContactPeaks perfect, lead, profile, combined;  ///< of the parts of the condition, see load_factors.hpp
   LoadFactors factors;
   PeakGradients peak_gradients, perfect_gradients;  ///< of the whole condition and of the perfect part
-  LoadFactorGradients factor_gradients;      ///< empty rows where no derivatives were asked for
+  LoadFactorGradients factor_gradients;             ///< empty rows where no derivatives were asked for
 };
 
 /// The mesh for a misalignment, see MeshPlacement, with what derivatives by these parameters need, see with_perturbed_meshes().
@@ -23,8 +23,7 @@ using MeshFor = std::function<MeshAt(const Misalignment& misalignment, const std
 class LoadRater {
  public:
   /// @param parameters  derivatives are given with respect to these; none by default
-  LoadRating rate(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque,
-                  const std::vector<MeshParameter>& parameters = {});
+  LoadRating rate(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque, const std::vector<MeshParameter>& parameters = {});
 
  private:
   const ContactPeaks& peaks_of(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque);

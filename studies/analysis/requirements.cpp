@@ -16,13 +16,13 @@ void add_unmet_by_load_cases(StudyResults& results) {
   }
   for (const LoadedResult& loaded : results.loaded) {
     if (loaded.cycle.usable()) continue;
-    const auto apart = std::ranges::count_if(loaded.cycle.positions, [](const LoadedPosition& position) {
-      return position.load.status == LoadStatus::NoContactPoints;
-    });
+    const auto apart = std::ranges::count_if(loaded.cycle.positions,
+                                             [](const LoadedPosition& position) { return position.load.status == LoadStatus::NoContactPoints; });
     if (apart > 0) {
-      unmet.push_back(fmt::format("scene \"{}\": no point of the flanks can touch the mate at {} mesh positions; misalignment may have moved the faces past "
-                                  "each other",
-                                  loaded.scene, apart));
+      unmet.push_back(
+          fmt::format("scene \"{}\": no point of the flanks can touch the mate at {} mesh positions; misalignment may have moved the faces past "
+                      "each other",
+                      loaded.scene, apart));
     }
     if (loaded.cycle.failures > apart) {
       unmet.push_back(
@@ -43,15 +43,16 @@ void add_unmet_by_design(const DesignProblem& problem, StudyResults& results) {
     const double value = design.after.constraint_values[c];
     if (!(constraint.excess(value) > DesignLog::tolerance)) continue;
     const double factor = constraint.output.outside_factor();
-    unmet.push_back(fmt::format("the constraint {} {} {:.4g} is violated: {:.4g} {}", constraint.output.name, constraint.is_least() ? ">=" : "<=",
-                                constraint.limit() * factor, value * factor, constraint.output.unit()));
+    unmet.push_back(fmt::format("the constraint {} {} {:.4g} is violated: {:.4g} {}", constraint.output.name,
+                                constraint.is_least() ? ">=" : "<=", constraint.limit() * factor, value * factor, constraint.output.unit()));
   }
   for (std::size_t c = 0; c < asked.modification_constraints.size(); ++c) {
     const ModificationConstraint& constraint = asked.modification_constraints[c];
     const double value = design.after.modification_values[c];
     const double slack = DesignLog::tolerance * problem.modification_scale(constraint);
     if (value <= constraint.maximum + slack && value >= constraint.minimum - slack) continue;
-    unmet.push_back(fmt::format("the constraint on {} is violated: {:.4g} {}", constraint.name, value * constraint.outside_factor(), constraint.unit()));
+    unmet.push_back(
+        fmt::format("the constraint on {} is violated: {:.4g} {}", constraint.name, value * constraint.outside_factor(), constraint.unit()));
   }
 }
 

@@ -19,11 +19,13 @@ std::optional<FidelityChoice> fidelity_choice(const Study& study, const Progress
 
 StudyResults run_study(const Study& study, const ProgressReport& progress) {
   const std::optional<FidelityChoice> choice = fidelity_choice(study, progress);
-  StudyResults results = choice ? StudyRun(with_choice(study, *choice), progress, choice->effects_budget()).finish() : StudyRun(study, progress).finish();
+  StudyResults results =
+      choice ? StudyRun(with_choice(study, *choice), progress, choice->effects_budget()).finish() : StudyRun(study, progress).finish();
   if (!choice) return results;
   results.fidelity_choice = choice;
   results.fidelity_choice->left_out = results.left_out;
-  results.steps.insert(results.steps.begin(), {"accuracy_choice", "an accuracy is asked for: models and resolution by estimates", choice->choosing_seconds});
+  results.steps.insert(results.steps.begin(),
+                       {"accuracy_choice", "an accuracy is asked for: models and resolution by estimates", choice->choosing_seconds});
   results.seconds += choice->choosing_seconds;
   if (!choice->kept) results.requirements.push_back(unmet_accuracy(*choice));
   return results;

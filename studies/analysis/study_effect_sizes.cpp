@@ -40,8 +40,8 @@ MeshResolution estimate_resolution(const StudyResults& results) {
 
 EffectScene scene_of(const StudyResults& results, const FlankCondition& condition, double torque, const MeshResolution& resolution) {
   const Study& study = results.study;
-  return {results.pair, study.material.pinion, study.material.wheel, resolution, results.structures.pair.get(), results.shafts.get(),
-          condition, torque};
+  return {results.pair, study.material.pinion, study.material.wheel, resolution, results.structures.pair.get(), results.shafts.get(), condition,
+          torque};
 }
 
 void add_exact(const StudyResults& results, const LoadedResult& loaded, std::vector<SizeInStudy>& sizes) {
@@ -97,8 +97,10 @@ std::vector<CycleFigures> figures_with(const StudyResults& results, const std::v
     auto known = models.find(placement);
     if (known == models.end()) {
       const MeshResolution resolution{study.fidelity.quadrature, results.phases};
-      known = models.emplace(placement, make_mesh_model(results.pair, study.material, resolution, effects, placement,
-                                                        results.structures.pair.get(), nullptr, results.shafts.get())).first;
+      known = models
+                  .emplace(placement, make_mesh_model(results.pair, study.material, resolution, effects, placement, results.structures.pair.get(),
+                                                      nullptr, results.shafts.get()))
+                  .first;
     }
     of_scene.push_back(&known->second);
   }
@@ -158,7 +160,8 @@ EffectSizes study_effect_sizes(const StudyResults& results) {
   std::vector<std::vector<EstimatedSize>> estimates(cases.size());
   EffectMeshes meshes;
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
-    estimates[i] = estimate_effect_sizes(scene_of(results, cases[i]->condition, cases[i]->torque, estimate_resolution(results)), results.effects, {}, meshes);
+    estimates[i] =
+        estimate_effect_sizes(scene_of(results, cases[i]->condition, cases[i]->torque, estimate_resolution(results)), results.effects, {}, meshes);
   });
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const EstimatedSize& estimate : estimates[i]) {
@@ -185,9 +188,8 @@ LeftOutEffects drop_small_effects(StudyResults& results, const std::vector<Desig
       results.mesh_effects = mesh_effects(rest);
       return {names, change};
     }
-    sizes.erase(std::ranges::max_element(sizes, {}, [&](const EffectSize& size) {
-      return std::ranges::find(names, size.name) != names.end() ? size.influence.share : 0.0;
-    }));
+    sizes.erase(std::ranges::max_element(
+        sizes, {}, [&](const EffectSize& size) { return std::ranges::find(names, size.name) != names.end() ? size.influence.share : 0.0; }));
   }
   return left_out;
 }

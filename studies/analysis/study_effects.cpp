@@ -4,9 +4,7 @@
 
 namespace flankwright::studies {
 
-FlankCondition condition_of(const Study& study, const Scene& scene) {
-  return {study.modification, scene.error, scene.misalignment};
-}
+FlankCondition condition_of(const Study& study, const Scene& scene) { return {study.modification, scene.error, scene.misalignment}; }
 
 std::vector<FlankCondition> conditions_of(const Study& study) {
   std::vector<FlankCondition> conditions;

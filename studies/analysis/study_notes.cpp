@@ -23,8 +23,9 @@ void note_crowning(const Modification& given, const Gear& gear, std::vector<std:
   const double extents = (gear.working_pitch_radius - gear.form_radius) / dedendum;
   if (given.dedendum_crowning != 0.0 && !no_dedendum && extents > 2.0) {
     const double amount = given.dedendum_crowning / units::um;
-    notes.push_back(fmt::format("the {}'s dedendum touches over a height of {:.3g} mm only, where it is crowned by {:.4g} um: at the form circle that is {:.4g} um", name,
-                                dedendum, amount, amount * extents * extents));
+    notes.push_back(fmt::format(
+        "the {}'s dedendum touches over a height of {:.3g} mm only, where it is crowned by {:.4g} um: at the form circle that is {:.4g} um", name,
+        dedendum, amount, amount * extents * extents));
   }
 }
 
@@ -43,21 +44,23 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
     const char* name = name_of(gear->member);
     if (gear->undercut) notes.push_back(fmt::format("the {} is undercut: its involute starts at diameter {:.6g} mm", name, 2.0 * gear->form_radius));
     if (gear->fillet_interference) {
-      notes.push_back(
-          fmt::format("the mate's tip reaches below the {}'s form circle: the path of contact ends there, {} it the edge that the fillet leaves carries load; "
-                      "what touches the fillet itself is not modelled",
-                      name, gear->member == Member::Pinion ? "before" : "beyond"));
+      notes.push_back(fmt::format(
+          "the mate's tip reaches below the {}'s form circle: the path of contact ends there, {} it the edge that the fillet leaves carries load; "
+          "what touches the fillet itself is not modelled",
+          name, gear->member == Member::Pinion ? "before" : "beyond"));
     }
   }
   note_crowning(study.modification.pinion, pair.pinion, notes);
   note_crowning(study.modification.wheel, pair.wheel, notes);
   if (pair.transverse_contact_ratio < 1.0) {
-    notes.push_back(fmt::format("the transverse contact ratio is {:.3g}: in each section no teeth touch for a while, the overlap ratio of {:.3g} alone carries the mesh on",
-                                pair.transverse_contact_ratio, pair.overlap_ratio));
+    notes.push_back(fmt::format(
+        "the transverse contact ratio is {:.3g}: in each section no teeth touch for a while, the overlap ratio of {:.3g} alone carries the mesh on",
+        pair.transverse_contact_ratio, pair.overlap_ratio));
   }
   if (pair.backlash < -units::um) {
-    notes.push_back(fmt::format("the teeth have a backlash of {:.4g} um at this centre distance: they would jam; only the working flanks are analysed",
-                                pair.backlash / units::um));
+    notes.push_back(
+        fmt::format("the teeth have a backlash of {:.4g} um at this centre distance: they would jam; only the working flanks are analysed",
+                    pair.backlash / units::um));
   }
   return notes;
 }

@@ -32,13 +32,13 @@ struct SweepStatistics;
 /// Loaded contact of one scene at one torque, for one design.
 struct LoadedResult {
   std::string scene;
-  double torque{not_given};    ///< on the pinion [N mm]
-  std::string design{"given"}; ///< "given", or "before" / "after" an optimisation
+  double torque{not_given};     ///< on the pinion [N mm]
+  std::string design{"given"};  ///< "given", or "before" / "after" an optimisation
   LoadedCycle cycle;
-  ResolvedCycle resolved;      ///< with extremes between the positions, and errors
-  CycleSummary summary;        ///< of `resolved`
-  std::size_t model{0};        ///< index into StudyResults::models
-  FlankCondition condition;    ///< that it was solved for
+  ResolvedCycle resolved;    ///< with extremes between the positions, and errors
+  CycleSummary summary;      ///< of `resolved`
+  std::size_t model{0};      ///< index into StudyResults::models
+  FlankCondition condition;  ///< that it was solved for
   IsoLoadFactors iso;
   std::optional<LoadRating> rating{};  ///< none where peaks are sampled, or phases were given
 };
@@ -53,15 +53,15 @@ struct RunStep {
 struct SearchWork {
   LevelWork search, fine;
   double objective_seen_by_search{not_given};  ///< of the optimum on the coarse level, outside units
-  double objective_at_positions{not_given};    ///< of what is to be ground, at the fine level's positions alone: what it is compared by, outside units
+  double objective_at_positions{not_given};  ///< of what is to be ground, at the fine level's positions alone: what it is compared by, outside units
 };
 
 /// One gear's fit, as the task "fit" makes it.
 struct GearFit {
   Member member{Member::Pinion};
   GearFitResult result;
-  bool several_teeth{true};    ///< form used
-  double seconds{not_given};   ///< wall time
+  bool several_teeth{true};   ///< form used
+  double seconds{not_given};  ///< wall time
 };
 
 /// Everything a study produced, in internal units.
@@ -70,28 +70,28 @@ struct StudyResults {
   GearPair pair;
   std::vector<UnloadedResult> unloaded;
   std::vector<LoadedResult> loaded;
-  std::vector<MeshModel> models;  ///< one per placement
-  std::vector<double> phases;     ///< of the loaded mesh positions [base pitches]
-  GearStructures structures;      ///< empty where no structure was asked for, or none needed
+  std::vector<MeshModel> models;            ///< one per placement
+  std::vector<double> phases;               ///< of the loaded mesh positions [base pitches]
+  GearStructures structures;                ///< empty where no structure was asked for, or none needed
   std::shared_ptr<const ShaftPair> shafts;  ///< null where they are rigid
   EffectDecisions effects;
-  MeshEffects mesh_effects;       ///< those of them that are on, as all meshes of the study have them
+  MeshEffects mesh_effects;  ///< those of them that are on, as all meshes of the study have them
   EffectSizes effect_sizes;
-  LeftOutEffects left_out;        ///< of what an accuracy leaves to them
+  LeftOutEffects left_out;  ///< of what an accuracy leaves to them
   std::vector<RunStep> steps;
-  std::optional<FidelityChoice> fidelity_choice;  ///< where the study asks for an accuracy
+  std::optional<FidelityChoice> fidelity_choice;       ///< where the study asks for an accuracy
   std::shared_ptr<const FidelityHierarchy> hierarchy;  ///< of the task "accuracy"
   std::optional<DesignTask> design_task;
-  std::optional<DesignResult> design;      ///< its figures as they are shown: with extremes between the positions
-  std::optional<SearchWork> search_work;   ///< how the design was found
+  std::optional<DesignResult> design;        ///< its figures as they are shown: with extremes between the positions
+  std::optional<SearchWork> search_work;     ///< how the design was found
   DesignErrors before_errors, after_errors;  ///< of the design's reports
   std::optional<ParetoFront> front;
-  std::shared_ptr<const Assessment> assessment;    ///< of the design
-  std::vector<GearDeflections> deflections;  ///< of both gears, where the compliance is of single gears
+  std::shared_ptr<const Assessment> assessment;  ///< of the design
+  std::vector<GearDeflections> deflections;      ///< of both gears, where the compliance is of single gears
   std::shared_ptr<const SweepStatistics> sweep;  ///< of the task "sweep": the rest of the results is its nominal sample
-  std::vector<GearFit> fits;              ///< of the task "fit", one a gear
-  std::vector<std::string> notes;         ///< for the reader, one sentence each
-  std::vector<std::string> requirements;  ///< requirements that were not met (exit code 1), one line each
+  std::vector<GearFit> fits;                     ///< of the task "fit", one a gear
+  std::vector<std::string> notes;                ///< for the reader, one sentence each
+  std::vector<std::string> requirements;         ///< requirements that were not met (exit code 1), one line each
   double seconds{not_given};
 };
 

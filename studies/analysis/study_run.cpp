@@ -43,11 +43,11 @@ void StudyRun::report(const std::string& label, int done, int total, const std::
 }
 
 MeshModel StudyRun::mesh(const MeshPlacement& placement, const MeshResolution& resolution, const PairRootStress* root_stress,
-               const std::vector<MeshParameter>& parameters) {
+                         const std::vector<MeshParameter>& parameters) {
   const MeshPlaced placed = [&](const MeshPlacement& at) {
     const Study& study = results_.study;
-    return make_mesh_model(results_.pair, study.material, resolution, results_.mesh_effects, at,
-                           structures().pair.get(), root_stress, results_.shafts.get());
+    return make_mesh_model(results_.pair, study.material, resolution, results_.mesh_effects, at, structures().pair.get(), root_stress,
+                           results_.shafts.get());
   };
   return with_perturbed_meshes(placed(placement), placed, parameters);
 }
@@ -91,7 +91,8 @@ std::vector<std::size_t> StudyRun::models_for(const std::vector<DesignScene>& sc
   return models;
 }
 
-std::vector<MeshModel> StudyRun::meshes(const std::vector<MeshPlacement>& placements, const MeshResolution& resolution, const std::vector<MeshParameter>& parameters) {
+std::vector<MeshModel> StudyRun::meshes(const std::vector<MeshPlacement>& placements, const MeshResolution& resolution,
+                                        const std::vector<MeshParameter>& parameters) {
   std::vector<MeshModel> made(placements.size());
   if (placements.empty()) return made;
   const PairRootStress* root_stress = structures().root_stress.get();
@@ -141,11 +142,11 @@ const GearStructures& StudyRun::structures() {
     has_structure_ = true;
     if (const auto& runs = results_.structures.finite_elements) {
       const bool is_structural = couples_teeth(results_.study.fidelity.compliance);
-      results_.steps.push_back({"finite_elements",
-                                is_structural ? std::string("compliance is ") + to_string(results_.study.fidelity.compliance) +
-                                                    ": influence values of both gears"
-                                              : "root stress of both gears",
-                                runs->seconds});
+      results_.steps.push_back(
+          {"finite_elements",
+           is_structural ? std::string("compliance is ") + to_string(results_.study.fidelity.compliance) + ": influence values of both gears"
+                         : "root stress of both gears",
+           runs->seconds});
       note_fits();
       results_.notes.insert(results_.notes.end(), results_.structures.notes.begin(), results_.structures.notes.end());
     }
@@ -164,8 +165,8 @@ void StudyRun::note_fits() {
 
 void StudyRun::add_unloaded(const Scene& scene) {
   const FlankCondition condition = apply_effects(results_.effects, condition_of(results_.study, scene));
-  results_.unloaded.push_back(analyse_unloaded(results_.pair, scene.name, condition, results_.study.cycle.positions,
-                                               results_.study.marking_thickness));
+  results_.unloaded.push_back(
+      analyse_unloaded(results_.pair, scene.name, condition, results_.study.cycle.positions, results_.study.marking_thickness));
   const std::optional<ParabolaCheck>& parabola = results_.unloaded.back().parabola;
   if (parabola && !parabola->holds) {
     results_.notes.push_back("scene \"" + scene.name + "\": the designed parabola of the transmission error does not hold: " + parabola->why);
@@ -186,7 +187,8 @@ void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::str
     const MeshModel& model = results_.models[models[i]];
     const IsoLoadFactors iso = iso_load_factors(model.pair, model.iso, iso_deviations(model.pair, scene.condition), scene.torque, model.face_width);
     const CycleSummary summary = shown[i].summary;
-    results_.loaded.push_back({scene.name, scene.torque, design, std::move(cycles[i]), std::move(shown[i]), summary, models[i], scene.condition, iso});
+    results_.loaded.push_back(
+        {scene.name, scene.torque, design, std::move(cycles[i]), std::move(shown[i]), summary, models[i], scene.condition, iso});
   }
 }
 
@@ -205,7 +207,8 @@ void StudyRun::size_effects() {
   const Stopwatch clock;
   results_.effect_sizes = study_effect_sizes(results_);
   if (results_.effect_sizes.estimated.empty()) return;
-  results_.steps.push_back({"effect_sizes", results_.effect_sizes.exact.empty() ? "estimates" : "estimates, and each left out in turn", clock.seconds()});
+  results_.steps.push_back(
+      {"effect_sizes", results_.effect_sizes.exact.empty() ? "estimates" : "estimates, and each left out in turn", clock.seconds()});
 }
 
 std::vector<MeshParameter> StudyRun::gradient_parameters() const {
@@ -244,9 +247,8 @@ void StudyRun::analyse_loaded(const std::vector<DesignScene>& scenes) {
   const std::vector<MeshParameter> parameters = gradient_parameters();
   const std::vector<std::size_t> models = models_for(scenes);
   std::vector<LoadedCycle> cycles(scenes.size());
-  tbb::parallel_for(std::size_t{0}, scenes.size(), [&](std::size_t i) {
-    cycles[i] = analyse_cycle(results_.models[models[i]], scenes[i].condition, scenes[i].torque, parameters);
-  });
+  tbb::parallel_for(std::size_t{0}, scenes.size(),
+                    [&](std::size_t i) { cycles[i] = analyse_cycle(results_.models[models[i]], scenes[i].condition, scenes[i].torque, parameters); });
   report("analysing", static_cast<int>(scenes.size()), static_cast<int>(scenes.size()));
   add_loaded(scenes, "given", std::move(cycles));
 }

@@ -13,8 +13,7 @@ constexpr int pattern_rows = 33, pattern_columns = 49;  // of a bearing pattern,
 constexpr double shared_lead = 1e-12;                   // rad: mesh TE - pair TE <= shared_lead, the round-off of the angles
 
 /// Change of radius and z in a gear's frame along a direction in the tangent plane.
-FlankDirection seen_in(const Eigen::Matrix3d& axes, const Eigen::Vector3d& centre, const Eigen::Vector3d& point,
-                       const Eigen::Vector3d& direction) {
+FlankDirection seen_in(const Eigen::Matrix3d& axes, const Eigen::Vector3d& centre, const Eigen::Vector3d& point, const Eigen::Vector3d& direction) {
   const Eigen::Vector3d p = axes.transpose() * (point - centre), v = axes.transpose() * direction;
   return {p.head<2>().normalized().dot(v.head<2>()), v.z()};
 }
@@ -24,8 +23,7 @@ ContactMark mark_of(const FlankAssembly& scene, const ToothContact& contact, dou
   mark.ellipse = contact_ellipse(scene, contact, marking_thickness);
   if (std::isnan(mark.ellipse.semi_minor)) return mark;
   const double rotation = contact.phi1 + contact.tooth * 2.0 * units::pi / scene.pinion_teeth;
-  const SurfacePoint at =
-      surface_point(scene.pinion, scene.pinion.roll_at(contact.pinion_radius), contact.pinion_z, contact.tooth, rotation);
+  const SurfacePoint at = surface_point(scene.pinion, scene.pinion.roll_at(contact.pinion_radius), contact.pinion_z, contact.tooth, rotation);
   const auto on_both = [&](double d_rho, double d_z, FlankDirection& pinion, FlankDirection& wheel) {
     const Eigen::Vector3d direction = d_rho * at.d_rho + d_z * at.d_z;
     pinion = seen_in(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero(), at.position, direction);
@@ -39,8 +37,7 @@ ContactMark mark_of(const FlankAssembly& scene, const ToothContact& contact, dou
 /// The mesh's transmission error at an angle of its list.
 double mesh_te_at(const UnloadedMesh& mesh, double phi1) {
   const auto found = std::lower_bound(mesh.phi1.begin(), mesh.phi1.end(), phi1);
-  return found == mesh.phi1.end() ? not_given
-                                  : mesh.transmission_error[static_cast<std::size_t>(found - mesh.phi1.begin())];
+  return found == mesh.phi1.end() ? not_given : mesh.transmission_error[static_cast<std::size_t>(found - mesh.phi1.begin())];
 }
 
 /// a of the parabola that was designed into the pair [1/rad]; 0 where none was.

@@ -31,7 +31,7 @@ struct UnloadedResult {
   std::vector<std::vector<ContactMark>> marks;  ///< of mesh.pairs[i].positions[j]
   double marking_thickness{not_given};          ///< [mm]
   BearingPattern pinion_pattern, wheel_pattern;
-  std::optional<ParabolaCheck> parabola;        ///< where a parabolic transmission error was designed in
+  std::optional<ParabolaCheck> parabola;  ///< where a parabolic transmission error was designed in
 };
 
 /// Tooth contact analysis of one scene over one pitch.

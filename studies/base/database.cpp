@@ -24,10 +24,13 @@ void Database::check(int code) const {
   const std::string reason = handle_ ? sqlite3_errmsg(handle_.get()) : sqlite3_errstr(code);
   switch (code & 0xff) {
     case SQLITE_BUSY:
-    case SQLITE_LOCKED: refuse("a store that no other run is using (" + reason + ")");
+    case SQLITE_LOCKED:
+      refuse("a store that no other run is using (" + reason + ")");
     case SQLITE_CORRUPT:
-    case SQLITE_NOTADB: refuse("an undamaged store; it was left as it is: move it away to start anew (" + reason + ")");
-    default: refuse("a place that can be written (" + reason + ")");
+    case SQLITE_NOTADB:
+      refuse("an undamaged store; it was left as it is: move it away to start anew (" + reason + ")");
+    default:
+      refuse("a place that can be written (" + reason + ")");
   }
 }
 

@@ -52,7 +52,6 @@ constexpr std::array others{
     Row{"fe", "finite elements"},
 };
 
-
 std::vector<PlainName> make_names() {
   std::vector<PlainName> names;
   const auto add = [&names](const std::string& key, const std::string& name, const Row& row) {
@@ -61,8 +60,10 @@ std::vector<PlainName> make_names() {
   for (const std::string gear : {"pinion", "wheel"}) {
     for_each_modification_key([&](const auto& key) {
       const Row row = [&]() -> Row {
-        if constexpr (requires { key.symbol; }) return {key.key, key.name, key.symbol, key.sense};
-        else return {key.key, key.name};
+        if constexpr (requires { key.symbol; })
+          return {key.key, key.name, key.symbol, key.sense};
+        else
+          return {key.key, key.name};
       }();
       add(gear + ".modification." + std::string(row.key), gear + " " + std::string(row.name), row);
     });
@@ -92,7 +93,8 @@ std::string word_in_words(const std::string& word) {
   if (known != by_key.end()) return known->second;
   if (word.empty() || std::isalpha(static_cast<unsigned char>(word.front())) == 0) return word;
   std::string words = word;
-  std::ranges::replace_if(words, [](char c) { return c == '.' || c == '_'; }, ' ');
+  std::ranges::replace_if(
+      words, [](char c) { return c == '.' || c == '_'; }, ' ');
   return words;
 }
 

@@ -33,8 +33,7 @@ void Progress::show(const std::string& label, int done, int total, const std::st
   std::string text;
   if (total > 0) {
     const int filled = bar_width * done / total;
-    text = fmt::format("{} [{}{}] {}/{}  {:.0f} s", label, std::string(filled, '#'), std::string(bar_width - filled, '.'), done,
-                       total, seconds);
+    text = fmt::format("{} [{}{}] {}/{}  {:.0f} s", label, std::string(filled, '#'), std::string(bar_width - filled, '.'), done, total, seconds);
     if (const auto left = seconds_left(now, done, total)) text += fmt::format(", about {:.0f} s left", *left);
   } else {
     text = fmt::format("{}: {} analyses  {:.0f} s", label, done, seconds);

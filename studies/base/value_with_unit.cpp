@@ -146,8 +146,7 @@ std::string tidy_unit(std::string_view written) {
   unit = replaced_all(unit, "\u03bc", "u");    // Greek mu
   unit = replaced_all(unit, "\u00b0", "deg");  // degree sign
   unit = replaced_all(unit, "\u00b2", "2");    // superscript two
-  for (const std::string_view sign : {" ", "\t", "\u00a0", "\u00b7", "\u22c5", "*"})
-    unit = replaced_all(unit, sign, "");
+  for (const std::string_view sign : {" ", "\t", "\u00a0", "\u00b7", "\u22c5", "*"}) unit = replaced_all(unit, sign, "");
   return unit;
 }
 
@@ -173,17 +172,11 @@ std::optional<std::pair<double, std::string_view>> split_number(std::string_view
 
 }  // namespace
 
-std::string_view default_unit(Quantity quantity) {
-  return convention(quantity).shown;
-}
+std::string_view default_unit(Quantity quantity) { return convention(quantity).shown; }
 
-double internal_value(double bare, Quantity quantity) {
-  return bare * factor_of(quantity);
-}
+double internal_value(double bare, Quantity quantity) { return bare * factor_of(quantity); }
 
-double outside_value(double internal, Quantity quantity) {
-  return internal / factor_of(quantity);
-}
+double outside_value(double internal, Quantity quantity) { return internal / factor_of(quantity); }
 
 double parse_value_with_unit(std::string_view text, Quantity quantity) {
   const Convention c = convention(quantity);

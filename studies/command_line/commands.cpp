@@ -66,8 +66,8 @@ TestLine test_study(const fs::path& path) {
     if (study.task->run_in_folder != nullptr) study.task->run_in_folder(results, {}, {});
     const std::vector<Comparison> comparisons = compare(study.expect, results_document(results));
     const std::string different = differences(comparisons);
-    std::string text = fmt::format("{}  {}  ({} expectation{}, {:.1f} s)\n", different.empty() ? "met " : "DIFF", path.string(),
-                                   comparisons.size(), comparisons.size() == 1 ? "" : "s", results.seconds);
+    std::string text = fmt::format("{}  {}  ({} expectation{}, {:.1f} s)\n", different.empty() ? "met " : "DIFF", path.string(), comparisons.size(),
+                                   comparisons.size() == 1 ? "" : "s", results.seconds);
     return {text + different, different.empty()};
   } catch (const InvalidInput& problem) {
     return {fmt::format("BAD   {}\n{}\n", path.string(), problem.what()), false, true};
@@ -77,8 +77,7 @@ TestLine test_study(const fs::path& path) {
 /// The study of a command, and the folder for its results, which is made.
 std::pair<Study, fs::path> opened(const RunOptions& options) {
   const Study study = read_study(options.study, options.overrides);
-  const fs::path folder =
-      options.folder.empty() ? fs::path("results") / fs::path(options.study).stem() : fs::path(options.folder);
+  const fs::path folder = options.folder.empty() ? fs::path("results") / fs::path(options.study).stem() : fs::path(options.folder);
   make_folder(folder);
   spdlog::info("{} ({})", study.title, options.study);
   return {study, folder};
@@ -143,8 +142,7 @@ int merge_command(const RunOptions& options) {
 
 int check_command(const std::string& path, const std::vector<Override>& overrides) {
   const Study study = read_study(path, overrides);
-  fmt::print("{}: valid, task {}, {} scene{}\n", path, study.task->name, study.scenes.size(),
-             study.scenes.size() == 1 ? "" : "s");
+  fmt::print("{}: valid, task {}, {} scene{}\n", path, study.task->name, study.scenes.size(), study.scenes.size() == 1 ? "" : "s");
   std::fflush(stdout);
   for (const std::string& note : study_notes(study, make_gear_pair(study.pair))) spdlog::warn("{}", note);
   return 0;

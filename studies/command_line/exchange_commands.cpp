@@ -46,11 +46,11 @@ void export_vtk(const std::string& json, const fs::path& results, const fs::path
 
 int import_command(const ImportCommand& options) {
   const fs::path study = options.study;
-  const rexs::ImportedStudy imported = rexs::import_stage(
-      read_whole(options.file), options.file,
-      {.stage = options.stage,
-       .slope_end = options.slope_end == "datum" ? rexs::SlopeEnd::DatumFace : rexs::SlopeEnd::NonDatumFace,
-       .grid_stem = (options.study.empty() ? fs::path(options.file) : study).stem().string()});
+  const rexs::ImportedStudy imported =
+      rexs::import_stage(read_whole(options.file), options.file,
+                         {.stage = options.stage,
+                          .slope_end = options.slope_end == "datum" ? rexs::SlopeEnd::DatumFace : rexs::SlopeEnd::NonDatumFace,
+                          .grid_stem = (options.study.empty() ? fs::path(options.file) : study).stem().string()});
   if (options.study.empty()) {
     if (!imported.grids.empty()) throw InvalidInput("--out", "not given", "a study file: the stage has flank grids that are stored beside it");
     std::fputs(imported.text.c_str(), stdout);

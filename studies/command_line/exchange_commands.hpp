@@ -23,7 +23,7 @@ struct ExportCommand {
   std::string rexs_version{"1.7"};
   std::string grid_points{"9x15"};  ///< along the profile x along the face
   double grid_margin{0.0};          ///< share of the active flank that is left out at each border
-  bool given{false};  ///< flanks of the study file also where an optimisation has changed them
+  bool given{false};                ///< flanks of the study file also where an optimisation has changed them
 };
 
 /// Writes the contents of a results folder in the requested formats, at least one.

@@ -43,8 +43,8 @@ struct Step {
 std::vector<ReferenceProfile> other_profiles() {
   const RackProfile standard;
   std::vector<ReferenceProfile> profiles;
-  for (const RackProfile& rack : {RackProfile{1.4, standard.dedendum, standard.root_radius},
-                                  RackProfile{standard.addendum, standard.dedendum, 0.2}, RackProfile{standard.addendum, 1.6, 0.25}}) {
+  for (const RackProfile& rack : {RackProfile{1.4, standard.dedendum, standard.root_radius}, RackProfile{standard.addendum, standard.dedendum, 0.2},
+                                  RackProfile{standard.addendum, 1.6, 0.25}}) {
     profiles.push_back({.rack = rack});
   }
   for (const double angle : {17.5, 22.5}) profiles.push_back({.pressure_angle = angle * units::deg});
@@ -82,9 +82,8 @@ std::string mesh_line(const char* name, const GearMeshOptions& mesh) {
   return fmt::format(
       "# {} mesh: flank {} fillet {} half_thickness {} adjacent_flank {} adjacent_fillet {} end {} growth {} largest {} "
       "most_layers {} body_growth {} shaft {} layer_share {}\n",
-      name, mesh.flank_elements, mesh.fillet_elements, mesh.half_thickness_elements, mesh.adjacent_flank_elements,
-      mesh.adjacent_fillet_elements, mesh.end_element, mesh.axial_growth, mesh.largest_element,
-      mesh.most_layers, mesh.body_growth, mesh.shaft_elements, mesh.layer_share);
+      name, mesh.flank_elements, mesh.fillet_elements, mesh.half_thickness_elements, mesh.adjacent_flank_elements, mesh.adjacent_fillet_elements,
+      mesh.end_element, mesh.axial_growth, mesh.largest_element, mesh.most_layers, mesh.body_growth, mesh.shaft_elements, mesh.layer_share);
 }
 
 /// Settings that a file must have been made with to be continued.
@@ -115,10 +114,8 @@ std::vector<CorrectionEntry> entries_so_far(const std::filesystem::path& path, c
 /// The correction of a tooth by a finer mesh does not reach its neighbours: one on either side suffices. Runs are kept, so that
 /// another form is fitted, or an interrupted library gone on with, without solving them again.
 InfluenceTableRun run_by(const GearMeshOptions& mesh, const Step& step) {
-  const InfluenceTableTask task{.gear = standard_gear(step.gear, step.profile),
-                                .teeth_apart = 1,
-                                .mesh = mesh,
-                                .grid = station_grid(step.gear.relative_face)};
+  const InfluenceTableTask task{
+      .gear = standard_gear(step.gear, step.profile), .teeth_apart = 1, .mesh = mesh, .grid = station_grid(step.gear.relative_face)};
   DiskStore store;  // of a folder that cannot be used nothing is said: the run is made anew
   if (auto kept = store.find(task)) return std::move(kept->value);
   InfluenceTableRun run = solve_influence_table(task, std::numeric_limits<double>::infinity());
@@ -147,9 +144,7 @@ int library_command(const std::string& path) {
   const std::vector<Step> list = steps();
   std::vector<CorrectionEntry> entries = entries_so_far(path, list);
   Progress progress;
-  const auto show = [&] {
-    progress.show("library of fits", static_cast<int>(entries.size()), static_cast<int>(list.size()), {});
-  };
+  const auto show = [&] { progress.show("library of fits", static_cast<int>(entries.size()), static_cast<int>(list.size()), {}); };
   show();
   const auto abreast = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
   while (entries.size() < list.size()) {
@@ -176,8 +171,7 @@ int library_command(const std::string& path) {
     write_whole(path, text);
     show();
   }
-  const auto missed = std::ranges::count_if(
-      entries, [](const CorrectionEntry& entry) { return entry.status != FitStatus::Converged; });
+  const auto missed = std::ranges::count_if(entries, [](const CorrectionEntry& entry) { return entry.status != FitStatus::Converged; });
   fmt::print("{}: {} gears, {} fits that did not converge\n", path, entries.size(), missed);
   return missed == 0 ? 0 : 1;
 }

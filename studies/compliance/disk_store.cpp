@@ -59,8 +59,7 @@ RootStressTable root_stress_from_store(const InfluenceTableTask& task, const Sto
   for (int m = -task.teeth_apart; m <= task.teeth_apart; ++m) {
     root.stress.push_back(stored_matrix(stored, root_stress_name(m)));
     const Eigen::MatrixXd& stress = root.stress.back();
-    if (stress.rows() != 3 * root.fillet.size() || stress.cols() != task.grid.size() ||
-        root.fillet.tangent >= root.fillet.along.size()) {
+    if (stress.rows() != 3 * root.fillet.size() || stress.cols() != task.grid.size() || root.fillet.tangent >= root.fillet.along.size()) {
       throw InvalidInput("run", root_stress_name(m), "as large as its grids");
     }
   }
@@ -158,7 +157,9 @@ std::optional<Kept<InfluenceTableRun>> DiskStore::find(const InfluenceTableTask&
   }
 }
 
-std::string DiskStore::keep(const InfluenceTableTask& task, const InfluenceTableRun& run) { return keep_under(cache_key(task), to_store(run), notes_); }
+std::string DiskStore::keep(const InfluenceTableTask& task, const InfluenceTableRun& run) {
+  return keep_under(cache_key(task), to_store(run), notes_);
+}
 
 std::optional<Kept<CorrectionEntry>> DiskStore::find_fit(const InfluenceTableTask& coarse, const std::vector<double>& start) {
   return kept(fit_key(coarse, start), "fit", notes_,

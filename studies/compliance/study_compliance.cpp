@@ -16,9 +16,7 @@ namespace {
 /// Fraction of the machine's memory that runs may take.
 constexpr double share_of_memory = 0.8;
 
-double machine_memory() {
-  return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE));
-}
+double machine_memory() { return static_cast<double>(::sysconf(_SC_PHYS_PAGES)) * static_cast<double>(::sysconf(_SC_PAGE_SIZE)); }
 
 }  // namespace
 
@@ -35,8 +33,7 @@ bool wants_root_stress(const Study& study) {
 bool wants_rigid_bodies(const Study& study) {
   const Fidelity& fidelity = study.fidelity;
   if (study.task->single_gears || !couples_teeth(fidelity.compliance)) return false;
-  const bool left_out =
-      !fidelity.automatic_effects && std::ranges::find(fidelity.effects, "gear_body_compliance") == fidelity.effects.end();
+  const bool left_out = !fidelity.automatic_effects && std::ranges::find(fidelity.effects, "gear_body_compliance") == fidelity.effects.end();
   return left_out || study.task->compares_bodies || fidelity.effect_sizes == EffectSizing::Exact;
 }
 

@@ -17,12 +17,11 @@ bool has(const Json& results, const char* key) {
   return found != results.end() && found->is_structured() && !found->empty();
 }
 
-bool has_loaded(const Json& results) {
-  return has(results, "loaded") && results.at("loaded").is_array();
-}
+bool has_loaded(const Json& results) { return has(results, "loaded") && results.at("loaded").is_array(); }
 
 bool has_gradients(const Json& results) {
-  return has_loaded(results) && std::ranges::any_of(results.at("loaded"), [](const Json& entry) { return entry.is_object() && has(entry, "gradients"); });
+  return has_loaded(results) &&
+         std::ranges::any_of(results.at("loaded"), [](const Json& entry) { return entry.is_object() && has(entry, "gradients"); });
 }
 
 bool has_sweep(const Json& results) { return has(results, "sweep") && results.at("sweep").is_object(); }
@@ -69,9 +68,7 @@ constexpr Section sections[] = {
     {"sensitivity", "Sensitivity of the optimum", [](const Json& r) { return has_assessment(r, "sensitivity"); }},
     {"search", "Search, rounding and compromises", searched},
     {"convergence", "Convergence",
-     [](const Json& r) {
-       return has(r, "optimise") && r.at("optimise").is_object() && has(r.at("optimise"), "history");
-     }},
+     [](const Json& r) { return has(r, "optimise") && r.at("optimise").is_object() && has(r.at("optimise"), "history"); }},
     {"gradients", "Derivatives of the results", has_gradients},
     {"load-cases", "Load cases in numbers", has_loaded},
     {"unloaded", "Unloaded contact", [](const Json& r) { return has(r, "unloaded"); }},
@@ -83,8 +80,7 @@ constexpr Section sections[] = {
     {"inputs", "Given and used", [](const Json& r) { return has(r, "given") || has(r, "used"); }},
 };
 
-std::string replace_all(std::string_view text,
-                        const std::vector<std::pair<std::string_view, std::string_view>>& rules) {
+std::string replace_all(std::string_view text, const std::vector<std::pair<std::string_view, std::string_view>>& rules) {
   std::string out;
   out.reserve(text.size());
   for (std::size_t at = 0; at < text.size();) {
@@ -107,9 +103,7 @@ std::string escape_html(std::string_view text) {
 
 /// JSON that is valid inside a script element: pure ASCII (which also covers U+2028 and U+2029), and without '<',
 /// so that neither "</script" nor "<!--" can occur. '<' can only be inside a JSON string, where \u003c means the same.
-std::string script_safe(const Json& value) {
-  return replace_all(value.dump(-1, ' ', true, Json::error_handler_t::replace), {{"<", "\\u003c"}});
-}
+std::string script_safe(const Json& value) { return replace_all(value.dump(-1, ' ', true, Json::error_handler_t::replace), {{"<", "\\u003c"}}); }
 
 std::string text_or(const Json& results, const char* key, const char* fallback) {
   const auto found = results.find(key);

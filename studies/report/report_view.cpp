@@ -103,8 +103,14 @@ Json report_view(const Json& results) {
   for (const PlainName& name : plain_names()) names.push_back({name.key, name.name, name.symbol, name.sense});
   Json& quantities = view["quantities"] = Json::array();
   for (const CycleQuantity& q : cycle_quantities()) {
-    quantities.push_back({{"key", q.key}, {"name", CycleEntry{&q, q.is_list ? 1 : 0}.words()}, {"unit", q.unit}, {"topic", q.topic}, {"is_list", q.is_list},
-                          {"is_headline", !q.heading.empty()}, {"has_error", q.errors != nullptr}, {"smaller_is_worse", q.smaller_is_worse}});
+    quantities.push_back({{"key", q.key},
+                          {"name", CycleEntry{&q, q.is_list ? 1 : 0}.words()},
+                          {"unit", q.unit},
+                          {"topic", q.topic},
+                          {"is_list", q.is_list},
+                          {"is_headline", !q.heading.empty()},
+                          {"has_error", q.errors != nullptr},
+                          {"smaller_is_worse", q.smaller_is_worse}});
   }
   return view;
 }

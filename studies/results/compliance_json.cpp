@@ -71,22 +71,27 @@ Json fits_json(const CorrectionLibrary& library) {
   }
   const CorrectionGrid& standard = library.standard();
   const auto ends = [](const auto& values) { return Json{values.front(), values.back()}; };
-  return {{"gears", library.entries().size()},
-          {"teeth", ends(standard.teeth())},
-          {"helix_angle_deg", {standard.helix_angles().front() / units::deg, standard.helix_angles().back() / units::deg}},
-          {"profile_shift", ends(standard.profile_shifts())},
-          {"interpolation", "polynomials through all gears in 1/z, helix angle and profile shift; departures of other racks and pressure angles added"},
-          {"largest_residual_percent", residuals_json(worst)}};
+  return {
+      {"gears", library.entries().size()},
+      {"teeth", ends(standard.teeth())},
+      {"helix_angle_deg", {standard.helix_angles().front() / units::deg, standard.helix_angles().back() / units::deg}},
+      {"profile_shift", ends(standard.profile_shifts())},
+      {"interpolation", "polynomials through all gears in 1/z, helix angle and profile shift; departures of other racks and pressure angles added"},
+      {"largest_residual_percent", residuals_json(worst)}};
 }
 
 }  // namespace
 
 const char* name_of(RemovedRigidMotion removed) {
   switch (removed) {
-    case RemovedRigidMotion::None: return "none";
-    case RemovedRigidMotion::TranslationAndTorsion: return "transverse translation and torsion";
-    case RemovedRigidMotion::TranslationTorsionAndTilt: return "transverse translation, torsion and tilt";
-    case RemovedRigidMotion::WholeTranslationTorsionAndTilt: return "translation, torsion and tilt";
+    case RemovedRigidMotion::None:
+      return "none";
+    case RemovedRigidMotion::TranslationAndTorsion:
+      return "transverse translation and torsion";
+    case RemovedRigidMotion::TranslationTorsionAndTilt:
+      return "transverse translation, torsion and tilt";
+    case RemovedRigidMotion::WholeTranslationTorsionAndTilt:
+      return "translation, torsion and tilt";
   }
   __builtin_unreachable();
 }
@@ -135,9 +140,7 @@ Json curve_json(const DeflectionCurve& curve) {
 }
 
 Json deflections_json(const GearDeflections& deflections) {
-  return {{"gear", name_of(deflections.member)},
-          {"teeth", deflections.teeth},
-          {"curves", list(deflections.curves, curve_json)}};
+  return {{"gear", name_of(deflections.member)}, {"teeth", deflections.teeth}, {"curves", list(deflections.curves, curve_json)}};
 }
 
 }  // namespace flankwright::studies

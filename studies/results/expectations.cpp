@@ -33,8 +33,7 @@ bool is_met(const Expectation& e, double found) {
 }
 
 /// Follows the rest of a dotted path from a node; adds a comparison for every leaf it reaches.
-void follow(const Json* node, const std::string& path, const std::string& rest, const Expectation& e,
-            std::vector<Comparison>& found) {
+void follow(const Json* node, const std::string& path, const std::string& rest, const Expectation& e, std::vector<Comparison>& found) {
   if (node && rest.empty() && (node->is_string() || node->is_boolean())) {
     const std::string text = node->is_string() ? node->get<std::string>() : node->dump();
     found.push_back({path, in_words(e), not_given, text, !e.is.empty() && text == e.is});

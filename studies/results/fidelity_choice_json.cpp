@@ -23,7 +23,10 @@ Json candidates_json(const std::vector<ModelCandidate>& candidates) {
 
 Json levels_json(const std::vector<ResolutionLevel>& levels) {
   return list(levels, [](const ResolutionLevel& level) -> Json {
-    return {{"intervals", level.intervals}, {"positions", level.positions}, {"error_percent", estimates_json(level.error())}, {"outputs", figures_json(level.figures)}};
+    return {{"intervals", level.intervals},
+            {"positions", level.positions},
+            {"error_percent", estimates_json(level.error())},
+            {"outputs", figures_json(level.figures)}};
   });
 }
 

@@ -111,8 +111,8 @@ Json teeth_json(const MeshPosition& at, const LoadedPosition& position, const Po
                         {"error_um", um(gradient.error, i)}});
     }
     for (; e < std::ssize(ends) && ends[static_cast<std::size_t>(e)].tooth == tooth; ++e) {
-      line_ends.push_back({{"load_N_per_mm", outside.row(gradient.line_end_load.row(e))},
-                           {"contact_stress_MPa", outside.row(gradient.line_end_stress.row(e))}});
+      line_ends.push_back(
+          {{"load_N_per_mm", outside.row(gradient.line_end_load.row(e))}, {"contact_stress_MPa", outside.row(gradient.line_end_stress.row(e))}});
     }
     Json entry{{"tooth", tooth}, {"points", std::move(points)}, {"line_ends", std::move(line_ends)}, {"share", outside.row(gradient.shares.row(k))}};
     for (const auto& [member, key] : {std::pair{Member::Pinion, "pinion_root_stress_MPa"}, std::pair{Member::Wheel, "wheel_root_stress_MPa"}}) {

@@ -18,8 +18,7 @@ Json pair_json(const ContactPeaks::Pair& peaks) {
 }
 
 Json triple_json(const LoadFactors::Triple& factors) {
-  return {{"K_Hbeta", factors.lead}, {"K_Halpha", factors.profile}, {"K_H", factors.combined},
-          {"K_Hbeta_times_K_Halpha", factors.product()}};
+  return {{"K_Hbeta", factors.lead}, {"K_Halpha", factors.profile}, {"K_H", factors.combined}, {"K_Hbeta_times_K_Halpha", factors.product()}};
 }
 
 }  // namespace
@@ -27,11 +26,8 @@ Json triple_json(const LoadFactors::Triple& factors) {
 Json peaks_json(const LoadRating& rating, const MeshModel& model) {
   return {{"without_spikes", pair_json(rating.combined.without_spikes)},
           {"with_spikes", pair_json(rating.combined.with_spikes)},
-          {"perfect_pair",
-           {{"without_spikes", pair_json(rating.perfect.without_spikes)}, {"with_spikes", pair_json(rating.perfect.with_spikes)}}},
-          {"spike_rule",
-           {{"line_share", rating.spikes.line_share},
-            {"end_distance_mm", rating.spikes.end_distance * model.pair.data.normal_module}}},
+          {"perfect_pair", {{"without_spikes", pair_json(rating.perfect.without_spikes)}, {"with_spikes", pair_json(rating.perfect.with_spikes)}}},
+          {"spike_rule", {{"line_share", rating.spikes.line_share}, {"end_distance_mm", rating.spikes.end_distance * model.pair.data.normal_module}}},
           {"positions", rating.combined.positions},
           {"phase_tolerance", rating.combined.phase_tolerance}};
 }

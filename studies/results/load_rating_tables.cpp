@@ -20,7 +20,7 @@ struct Definition {
   std::array<double, 4> (*values)(const LoadedResult&);  ///< K_Hbeta, K_Halpha, K_H, the product of the first two
 };
 
-std::array<double, 4> values_of(const std::optional<LoadRating>& rating, LoadFactors::Triple LoadFactors::* which) {
+std::array<double, 4> values_of(const std::optional<LoadRating>& rating, LoadFactors::Triple LoadFactors::*which) {
   const LoadFactors::Triple factors = rating ? rating->factors.*which : LoadFactors::Triple{};
   return {factors.lead, factors.profile, factors.combined, factors.product()};
 }
@@ -29,7 +29,9 @@ constexpr std::array<Definition, 3> definitions{{
     {"without_spikes", "without spikes", [](const LoadedResult& l) { return values_of(l.rating, &LoadFactors::without_spikes); }},
     {"with_spikes", "with spikes", [](const LoadedResult& l) { return values_of(l.rating, &LoadFactors::with_spikes); }},
     {"iso6336", "ISO 6336",
-     [](const LoadedResult& l) { return std::array{l.iso.lead, l.iso.profile, l.iso.combined(), l.iso.combined()}; }},
+     [](const LoadedResult& l) {
+       return std::array{l.iso.lead, l.iso.profile, l.iso.combined(), l.iso.combined()};
+     }},
 }};
 
 /// Empty where there is none.
@@ -42,8 +44,8 @@ std::string load_factors_csv(const StudyResults& results) {
   for (const LoadedResult& loaded : results.loaded) {
     for (const Definition& definition : definitions) {
       const auto k = definition.values(loaded);
-      csv += fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, definition.name,
-                         field(k[0]), field(k[1]), field(k[2]), field(k[3]));
+      csv += fmt::format("{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, definition.name, field(k[0]),
+                         field(k[1]), field(k[2]), field(k[3]));
     }
   }
   return csv;
@@ -66,13 +68,12 @@ std::string load_sharing_csv(const StudyResults& results) {
 
 std::string load_factors_table(const StudyResults& results, std::size_t width) {
   if (std::ranges::none_of(results.loaded, [](const LoadedResult& l) { return l.rating.has_value(); })) return {};
-  std::string out = fmt::format("\n{:<{}}  {:<14}  {:>8}  {:>8}  {:>8}  {:>15}\n", "load factors", width, "by", "K_Hbeta", "K_Halpha", "K_H",
-                                "K_Hbeta*K_Halpha");
+  std::string out =
+      fmt::format("\n{:<{}}  {:<14}  {:>8}  {:>8}  {:>8}  {:>15}\n", "load factors", width, "by", "K_Hbeta", "K_Halpha", "K_H", "K_Hbeta*K_Halpha");
   for (const LoadedResult& loaded : results.loaded) {
     for (const Definition& definition : definitions) {
       const auto k = definition.values(loaded);
-      out += fmt::format("{:<{}}  {:<14}  {:>8.3f}  {:>8.3f}  {:>8.3f}  {:>15.3f}\n", loaded.scene, width, definition.label, k[0], k[1],
-                         k[2], k[3]);
+      out += fmt::format("{:<{}}  {:<14}  {:>8.3f}  {:>8.3f}  {:>8.3f}  {:>15.3f}\n", loaded.scene, width, definition.label, k[0], k[1], k[2], k[3]);
     }
   }
   return out;

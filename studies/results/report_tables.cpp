@@ -41,7 +41,9 @@ std::string gears_csv(const Json& geometry) {
   return csv;
 }
 
-std::string case_fields(const Json& loaded) { return field(loaded.at("scene")) + "," + field(loaded.at("torque_Nm")) + "," + field(loaded.at("design")); }
+std::string case_fields(const Json& loaded) {
+  return field(loaded.at("scene")) + "," + field(loaded.at("torque_Nm")) + "," + field(loaded.at("design"));
+}
 
 /// Every number of every summary: a line each, since what is rated differs from case to case.
 std::string summary_csv(const Json& cases) {
@@ -69,10 +71,11 @@ std::string design_csv(const Json& optimise) {
   const Json &before = optimise.at("before"), &after = optimise.at("after");
   std::string csv = "kind,name,unit,before,after,max\n";
   for (const auto& [name, value] : before.at("variables").items()) {
-    csv += "variable," + name + "," + field(before.at("variable_units").at(name)) + "," + field(value) + "," + field(after.at("variables").at(name)) + ",\n";
+    csv += "variable," + name + "," + field(before.at("variable_units").at(name)) + "," + field(value) + "," + field(after.at("variables").at(name)) +
+           ",\n";
   }
-  csv += "objective," + field(optimise.at("objective_name")) + "," + field(optimise.at("objective_unit")) + "," + field(before.at("objective")) + "," +
-         field(after.at("objective")) + ",\n";
+  csv += "objective," + field(optimise.at("objective_name")) + "," + field(optimise.at("objective_unit")) + "," + field(before.at("objective")) +
+         "," + field(after.at("objective")) + ",\n";
   for (const auto& [name, bound] : before.at("constraints").items()) {
     csv += "constraint," + name + "," + field(bound.at("unit")) + "," + field(bound.at("value")) + "," +
            field(after.at("constraints").at(name).at("value")) + "," + field(bound.at("max")) + "\n";
@@ -111,9 +114,8 @@ std::string given_csv(const Json& given) {
 }  // namespace
 
 std::vector<NamedText> report_tables(const Json& json) {
-  std::vector<NamedText> tables{{"gears.csv", gears_csv(json.at("geometry"))},
-                                {"given.csv", given_csv(json.at("given"))},
-                                {"used.csv", key_value_csv(json.at("used"))}};
+  std::vector<NamedText> tables{
+      {"gears.csv", gears_csv(json.at("geometry"))}, {"given.csv", given_csv(json.at("given"))}, {"used.csv", key_value_csv(json.at("used"))}};
   if (!json.at("effects").empty()) tables.push_back({"effects.csv", effects_csv(json["effects"])});
   if (!json.at("steps").empty()) tables.push_back({"steps.csv", steps_csv(json["steps"])});
   if (!json.at("loaded").empty()) {

@@ -68,8 +68,7 @@ Json geometry_json(const GearPair& pair) {
           {"transverse_contact_ratio", pair.transverse_contact_ratio},
           {"overlap_ratio", pair.overlap_ratio},
           {"total_contact_ratio", pair.total_contact_ratio()},
-          {"path_of_contact_mm",
-           {{"T1_A", pair.path_start}, {"T1_C", pair.pitch_point}, {"T1_E", pair.path_end}, {"T1_T2", pair.path_length}}},
+          {"path_of_contact_mm", {{"T1_A", pair.path_start}, {"T1_C", pair.pitch_point}, {"T1_E", pair.path_end}, {"T1_T2", pair.path_length}}},
           {"pinion", gear_json(pair, Member::Pinion)},
           {"wheel", gear_json(pair, Member::Wheel)}};
 }
@@ -222,8 +221,7 @@ void add_topography(const GearPair& pair, Member member, const Modification& mod
     z.push_back((static_cast<double>(i) / (topography_sections - 1) - 0.5) * gear.data.face_width);
   }
   for (int j = 0; j < topography_sections; ++j) {
-    const double r = gear.active_root_radius +
-                     (gear.tip_radius - gear.active_root_radius) * j / (topography_sections - 1);
+    const double r = gear.active_root_radius + (gear.tip_radius - gear.active_root_radius) * j / (topography_sections - 1);
     radius.push_back(r);
     Json row = Json::array();
     for (const auto& position : z) {
@@ -257,10 +255,14 @@ Json modifications_json(const StudyResults& results) {
 }
 
 Json units_json() {
-  return {{"length", "mm"},        {"modification", "um"},      {"deflection", "um"},
+  return {{"length", "mm"},
+          {"modification", "um"},
+          {"deflection", "um"},
           {"te_um", "along the flank normal, positive: the wheel lags"},
           {"te_arcsec", "phi2 - (N1/N2) phi1 at the wheel, negative where material is removed"},
-          {"load", "N per mm of contact line"}, {"stress", "MPa"}, {"stiffness", "N/(mm um), transverse"}};
+          {"load", "N per mm of contact line"},
+          {"stress", "MPa"},
+          {"stiffness", "N/(mm um), transverse"}};
 }
 
 /// Numbers that were not computed are null, in the document as in its text.

@@ -58,14 +58,12 @@ void add_tables(Database& database, const StudyResults& results) {
   for (std::size_t i = 0; i < task.variables.size(); ++i) {
     const DesignVariable& v = task.variables[i];
     const double factor = v.outside_factor();
-    variables.row(v.path, v.unit(), v.lower * factor, v.upper * factor, design.before.variables[i] * factor,
-                  design.after.variables[i] * factor);
+    variables.row(v.path, v.unit(), v.lower * factor, v.upper * factor, design.before.variables[i] * factor, design.after.variables[i] * factor);
   }
   Statement scenes(database, "INSERT INTO scenes VALUES (?, ?, ?, ?, ?)");
   for (std::size_t s = 0; s < task.scenes.size(); ++s) {
     const DesignScene& scene = task.scenes[s];
-    scenes.row(scene.name, scene.torque / units::newton_metre, scene.weight, design.before.scene_measures[s],
-               design.after.scene_measures[s]);
+    scenes.row(scene.name, scene.torque / units::newton_metre, scene.weight, design.before.scene_measures[s], design.after.scene_measures[s]);
   }
   Statement history(database, "INSERT INTO history VALUES (?, ?, ?)");
   for (const SolverStep& step : design.history) {
@@ -82,18 +80,15 @@ void add_tables(Database& database, const StudyResults& results) {
   for (std::size_t c = 0; c < task.modification_constraints.size(); ++c) {
     const ModificationConstraint& of = task.modification_constraints[c];
     const double factor = of.outside_factor();
-    constraints.row(of.name, of.unit(), bound(of.minimum, factor), bound(of.maximum, factor),
-                    design.before.modification_values[c] * factor, design.after.modification_values[c] * factor);
+    constraints.row(of.name, of.unit(), bound(of.minimum, factor), bound(of.maximum, factor), design.before.modification_values[c] * factor,
+                    design.after.modification_values[c] * factor);
   }
 }
 
 /// A file that is removed when this goes, unless it was moved to its place.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const fs::path& place)
-      : place_(place), path_(place.string() + ".tmp" + std::to_string(::getpid())) {
-    remove();
-  }
+  explicit TemporaryFile(const fs::path& place) : place_(place), path_(place.string() + ".tmp" + std::to_string(::getpid())) { remove(); }
   ~TemporaryFile() { remove(); }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;

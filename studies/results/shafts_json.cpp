@@ -14,22 +14,24 @@ Json stiffness_json(double stiffness, double unit) { return std::isinf(stiffness
 
 Json shaft_json(const std::optional<ShaftData>& shaft) {
   if (!shaft) return false;
-  return {{"sections", list(shaft->sections, [](const ShaftSection& section) -> Json {
-             return {{"length_mm", section.length},
-                     {"outer_diameter_mm", section.outer_diameter},
-                     {"inner_diameter_mm", section.inner_diameter}};
-           })},
-          {"bearings", list(shaft->bearings, [](const ShaftBearing& bearing) -> Json {
-             return {{"position_mm", bearing.position},
-                     {"radial_stiffness_N_per_um", stiffness_json(bearing.radial_stiffness, newton_per_micrometre)},
-                     {"axial_stiffness_N_per_um", stiffness_json(bearing.axial_stiffness, newton_per_micrometre)},
-                     {"tilting_stiffness_Nm_per_rad", bearing.tilting_stiffness / units::newton_metre}};
-           })},
-          {"gear_position_mm", shaft->gear_position},
-          {"torque_position_mm", shaft->torque_position},
-          {"gear_stiffens", shaft->gear_stiffens},
-          {"youngs_modulus_MPa", shaft->material.youngs_modulus},
-          {"poissons_ratio", shaft->material.poissons_ratio}};
+  return {
+      {"sections",
+       list(shaft->sections,
+            [](const ShaftSection& section) -> Json {
+              return {{"length_mm", section.length}, {"outer_diameter_mm", section.outer_diameter}, {"inner_diameter_mm", section.inner_diameter}};
+            })},
+      {"bearings", list(shaft->bearings,
+                        [](const ShaftBearing& bearing) -> Json {
+                          return {{"position_mm", bearing.position},
+                                  {"radial_stiffness_N_per_um", stiffness_json(bearing.radial_stiffness, newton_per_micrometre)},
+                                  {"axial_stiffness_N_per_um", stiffness_json(bearing.axial_stiffness, newton_per_micrometre)},
+                                  {"tilting_stiffness_Nm_per_rad", bearing.tilting_stiffness / units::newton_metre}};
+                        })},
+      {"gear_position_mm", shaft->gear_position},
+      {"torque_position_mm", shaft->torque_position},
+      {"gear_stiffens", shaft->gear_stiffens},
+      {"youngs_modulus_MPa", shaft->material.youngs_modulus},
+      {"poissons_ratio", shaft->material.poissons_ratio}};
 }
 
 void add_shaft_motion(const LoadedResult& loaded, const StudyResults& results, Json& json) {

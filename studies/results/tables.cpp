@@ -17,22 +17,20 @@ namespace flankwright::studies {
 namespace {
 
 /// Empty where there is no root stress.
-std::string root_field(const RootStressPeak& peak) {
-  return std::isnan(peak.stress) ? std::string() : fmt::format("{}", peak.stress);
-}
+std::string root_field(const RootStressPeak& peak) { return std::isnan(peak.stress) ? std::string() : fmt::format("{}", peak.stress); }
 
 std::string cycle_csv(const StudyResults& results) {
-  std::string csv = "scene,torque_Nm,design,phase,te_um,te_base_tangent_um,stiffness_N_per_mm_um,kkt_residual,"
-                    "pinion_root_stress_MPa,wheel_root_stress_MPa\n";
+  std::string csv =
+      "scene,torque_Nm,design,phase,te_um,te_base_tangent_um,stiffness_N_per_mm_um,kkt_residual,"
+      "pinion_root_stress_MPa,wheel_root_stress_MPa\n";
   const double cos_base_helix = std::cos(results.pair.base_helix_angle);
   for (const LoadedResult& loaded : results.loaded) {
     const MeshModel& model = results.models[loaded.model];
     for (std::size_t k = 0; k < loaded.cycle.positions.size(); ++k) {
       const LoadedPosition& p = loaded.cycle.positions[k];
       const double te = in_um(p.load.transmission_error);
-      csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design,
-                         p.phase, te, te / cos_base_helix, p.stiffness, p.load.kkt_residual,
-                         root_field(root_stress_peak(model.positions[k], p, Member::Pinion)),
+      csv += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, p.phase, te,
+                         te / cos_base_helix, p.stiffness, p.load.kkt_residual, root_field(root_stress_peak(model.positions[k], p, Member::Pinion)),
                          root_field(root_stress_peak(model.positions[k], p, Member::Wheel)));
     }
   }
@@ -51,10 +49,9 @@ std::string points_csv(const StudyResults& results) {
       for (std::size_t j = 0; j < model.positions[k].points.size(); ++j) {
         const ContactPoint& c = model.positions[k].points[j];
         const auto i = static_cast<Eigen::Index>(j);
-        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque),
-                           loaded.design, p.phase, c.tooth, c.z, c.pinion_radius, c.wheel_radius, p.load.line_load[i],
-                           p.contact_stress[i], in_um(p.load.contact_deflection[i]), in_um(p.load.structural_deflection[i]),
-                           in_um(p.gap.total[i]), in_um(p.gap.error[i]));
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design, p.phase,
+                           c.tooth, c.z, c.pinion_radius, c.wheel_radius, p.load.line_load[i], p.contact_stress[i],
+                           in_um(p.load.contact_deflection[i]), in_um(p.load.structural_deflection[i]), in_um(p.gap.total[i]), in_um(p.gap.error[i]));
       }
     }
   }

@@ -94,9 +94,10 @@ Json used_json(const StudyResults& results) {
               {"gap", to_string(study.fidelity.gap)},
               {"quadrature", quadrature_json(study.fidelity.quadrature)},
               {"accuracy", study.fidelity.accuracy ? Json(*study.fidelity.accuracy) : Json()},
-             {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
+              {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
   if (study.misalignment.pinion_lead_angle != 0.0) {
-    used["misalignment"] = {{"pinion_lead_angle", "lead angle changed, normal pressure angle kept: pitch radius, base radius and screw parameter follow"}};
+    used["misalignment"] = {
+        {"pinion_lead_angle", "lead angle changed, normal pressure angle kept: pitch radius, base radius and screw parameter follow"}};
   }
   for (const Member member : {Member::Pinion, Member::Wheel}) {
     if (const auto& correction = results.structures.correction(member)) {

@@ -23,10 +23,10 @@
 namespace flankwright::studies {
 
 struct Cycle {
-  int positions{32};           ///< mesh positions over one base pitch, >= 1
-  bool automatic_positions{true};  ///< doubled from `positions` on where the figures need more; `positions` without load
+  int positions{32};                 ///< mesh positions over one base pitch, >= 1
+  bool automatic_positions{true};    ///< doubled from `positions` on where the figures need more; `positions` without load
   std::optional<bool> locate_peaks;  ///< as the study says; see locates_peaks()
-  std::vector<double> phases;  ///< explicit phases of the reference tooth pair [base pitches]; empty: use `positions`
+  std::vector<double> phases;        ///< explicit phases of the reference tooth pair [base pitches]; empty: use `positions`
 };
 
 /// Whether and how the sizes of effects are found.
@@ -36,7 +36,7 @@ struct Fidelity {
   ComplianceModel compliance{ComplianceModel::Fitted};
   GapModel gap{GapModel::PlaneOfAction};
   Quadrature quadrature{QuadratureRule::Graded, 12};
-  bool automatic_intervals{true};    ///< doubled from those of `quadrature` on where the figures need more
+  bool automatic_intervals{true};  ///< doubled from those of `quadrature` on where the figures need more
   bool automatic_effects{true};
   std::vector<std::string> effects;  ///< switched on by hand where automatic_effects is false
   std::optional<double> accuracy;    ///< share that the rest shall keep, as far as it is not given; see choose_fidelity()
@@ -54,9 +54,9 @@ struct Scene {
 
 /// A measured or topological flank: the file that the study names and what was read from it.
 struct GivenGrid {
-  std::string file;              ///< as written; empty: none
-  std::optional<int> profile_pieces, face_pieces;  ///< of a smoothed surface; empty: it passes through every point
-  int rows{0}, columns{0};       ///< radii and axial positions
+  std::string file;                                            ///< as written; empty: none
+  std::optional<int> profile_pieces, face_pieces;              ///< of a smoothed surface; empty: it passes through every point
+  int rows{0}, columns{0};                                     ///< radii and axial positions
   double lowest_radius{not_given}, highest_radius{not_given};  ///< [mm]
   double lowest_z{not_given}, highest_z{not_given};            ///< [mm]
   double rms{not_given}, largest{not_given};                   ///< distance of the fitted surface from the points [mm]
@@ -70,12 +70,12 @@ struct OptimiseTable {
   std::vector<OutputConstraint> constraints;
   std::vector<LinkingConstraint> links;
   std::vector<ModificationConstraint> modification_constraints;
-  std::vector<Objective> later_objectives;                 ///< later objectives of a list
+  std::vector<Objective> later_objectives;  ///< later objectives of a list
   double lexicographic_tolerance{0.01};
   double edge_margin{0.05};
-  double step{0.0};                       ///< of variables that have none of their own [mm]; amounts only
+  double step{0.0};  ///< of variables that have none of their own [mm]; amounts only
   int starts{1};
-  std::vector<Objective> pareto_objectives;         ///< empty: no front
+  std::vector<Objective> pareto_objectives;  ///< empty: no front
   int pareto_points{9};
   int max_evaluations{2000};
   double max_seconds{std::numeric_limits<double>::infinity()};
@@ -85,18 +85,18 @@ struct OptimiseTable {
 
 /// One parameter of analyse.gradients.
 struct GradientParameter {
-  std::string path;         ///< as the study names it: "misalignment.crossing"
+  std::string path;  ///< as the study names it: "misalignment.crossing"
   MeshParameter parameter;
-  std::string unit;         ///< of a bare number of that key
-  double unit_size{1.0};    ///< one such unit in internal ones
+  std::string unit;       ///< of a bare number of that key
+  double unit_size{1.0};  ///< one such unit in internal ones
 };
 
 /// [fit]: which gears' compliance is fitted, and how.
 struct FitChoice {
   PerGear<bool> gears{true, true};
   bool several_teeth{false};  ///< KernelForm::several_teeth(), else one_tooth_accurate()
-  bool test_grid{true};      ///< compared at stations that the fit has not seen
-  int max_iterations{300};   ///< trust-region steps
+  bool test_grid{true};       ///< compared at stations that the fit has not seen
+  int max_iterations{300};    ///< trust-region steps
 };
 
 /// [accuracy]: the finest fidelity level, which all others are compared with; graded quadrature, located peaks.
@@ -109,7 +109,7 @@ struct AccuracyTable {
 
 /// [expect]: one key of results.json and its expected value.
 struct Expectation {
-  std::string key;      ///< dotted path, array indices as numbers; "loaded.summary.x" means every entry of loaded
+  std::string key;  ///< dotted path, array indices as numbers; "loaded.summary.x" means every entry of loaded
   double value{std::numeric_limits<double>::quiet_NaN()};
   double within_relative{std::numeric_limits<double>::quiet_NaN()};  ///< "2 %" -> 0.02
   double within_absolute{std::numeric_limits<double>::quiet_NaN()};
@@ -126,7 +126,7 @@ struct GivenValue {
 
 struct Study {
   std::string title;
-  std::string file;  ///< path as given
+  std::string file;                              ///< path as given
   const Task* task{registered_tasks().front()};  ///< never null
   PairData pair;
   PerGear<Modification> modification;  ///< with the field of the grid below
@@ -135,18 +135,18 @@ struct Study {
   PerGear<ManufacturingError> error;
   Misalignment misalignment;
   PerGear<Material> material;
-  PerGear<GearBody> body;  ///< bodies below the teeth in finite elements
+  PerGear<GearBody> body;                   ///< bodies below the teeth in finite elements
   PerGear<std::optional<ShaftData>> shaft;  ///< empty: rigid
-  std::vector<double> torques;  ///< base [load] torque list [N mm]; {0} where [load] is absent
-  double marking_thickness{6.35e-3};  ///< of the compound that shows the bearing pattern [mm], > 0
+  std::vector<double> torques;              ///< base [load] torque list [N mm]; {0} where [load] is absent
+  double marking_thickness{6.35e-3};        ///< of the compound that shows the bearing pattern [mm], > 0
   Cycle cycle;
   Fidelity fidelity;
-  std::vector<Scene> scenes;    ///< never empty: without [[scenes]] the one nominal scene of the base tables
+  std::vector<Scene> scenes;                 ///< never empty: without [[scenes]] the one nominal scene of the base tables
   std::vector<GradientParameter> gradients;  ///< derivatives asked for; meaningful where the task is "analyse"
-  OptimiseTable optimise;       ///< of the task "optimise"
-  SweepTable sweep;             ///< of the task "sweep"
-  AccuracyTable accuracy;       ///< of the task "accuracy"
-  FitChoice fit;                ///< of the task "fit"
+  OptimiseTable optimise;                    ///< of the task "optimise"
+  SweepTable sweep;                          ///< of the task "sweep"
+  AccuracyTable accuracy;                    ///< of the task "accuracy"
+  FitChoice fit;                             ///< of the task "fit"
   std::vector<Expectation> expect;
   std::vector<GivenValue> given;
   std::string text;  ///< all of it as TOML, with what the command line set
@@ -154,14 +154,13 @@ struct Study {
 
 /// Whether any scene has a torque.
 inline bool has_torque(const Study& study) {
-  return std::ranges::any_of(study.scenes, [](const Scene& scene) { return std::ranges::any_of(scene.torques, [](double torque) { return torque > 0.0; }); });
+  return std::ranges::any_of(study.scenes,
+                             [](const Scene& scene) { return std::ranges::any_of(scene.torques, [](double torque) { return torque > 0.0; }); });
 }
 
 /// Whether peaks between the positions, and the load distribution factors that follow, belong to the results: unless the study says
 /// otherwise in an analysis, not beside an optimisation's many scenes; never where explicit phases are asked for.
-inline bool locates_peaks(const Study& study) {
-  return study.cycle.phases.empty() && study.cycle.locate_peaks.value_or(study.task->one_design);
-}
+inline bool locates_peaks(const Study& study) { return study.cycle.phases.empty() && study.cycle.locate_peaks.value_or(study.task->one_design); }
 
 /// Whether the summary's extremes are sought between the positions: unless the study samples peaks or gives phases. Points at fixed places
 /// (all rules but Graded) enter and leave a line whole, and what they do between positions is no property of the gears.

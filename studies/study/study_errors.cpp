@@ -28,8 +28,6 @@ std::string lines_of(const std::vector<StudyProblem>& problems) {
 }  // namespace
 
 StudyErrors::StudyErrors(std::vector<StudyProblem> problems)
-    : InvalidInput(problems.at(0).key, problems.at(0).value, problems.at(0).allowed),
-      problems_(std::move(problems)),
-      lines_(lines_of(problems_)) {}
+    : InvalidInput(problems.at(0).key, problems.at(0).value, problems.at(0).allowed), problems_(std::move(problems)), lines_(lines_of(problems_)) {}
 
 }  // namespace flankwright::studies

@@ -21,7 +21,7 @@ struct SweepTable {
   Sampler sampler{Sampler::Sobol};
   long long samples{1000};  ///< of a grid: all combinations of its levels
   unsigned long seed{1};
-  bool indices{true};       ///< samples are laid out in blocks for Sobol indices; never in a grid
+  bool indices{true};  ///< samples are laid out in blocks for Sobol indices; never in a grid
   std::vector<SweepParameter> parameters;
 };
 

@@ -52,19 +52,18 @@ double tolerance_of(const SchemaKey& key, const FlankTolerances& tolerances) {
 }
 
 std::optional<NamedDistribution> read_class(const SchemaKey& key, const toml::node& node, const GearPair* pair) {
-  const bool has_tolerance = key.path.ends_with(".error.helix_slope") || key.path.ends_with(".error.profile_slope") ||
-                             key.path.ends_with(".error.pitch");
+  const bool has_tolerance =
+      key.path.ends_with(".error.helix_slope") || key.path.ends_with(".error.profile_slope") || key.path.ends_with(".error.pitch");
   if (!has_tolerance) refuse("another distribution: iso_1328_class is for helix_slope, profile_slope and pitch of an error");
   const auto* number = node.as_integer();
   if (number == nullptr || number->get() < 1 || number->get() > 11) refuse("a class 1 .. 11");
   if (pair == nullptr) return std::nullopt;
   const int tolerance_class = static_cast<int>(number->get());
   try {
-    const double tolerance =
-        tolerance_of(key, flank_tolerances(ToleranceData::of(*pair, key.member), tolerance_class)) / units::um;
-    return NamedDistribution{Distribution::within_tolerance(tolerance),
-                             fmt::format("ISO 1328-1 class {}: normal, mean 0, deviation {:.4g}, cut off at \u00b1{:.4g}", tolerance_class,
-                                         tolerance / 3.0, tolerance)};
+    const double tolerance = tolerance_of(key, flank_tolerances(ToleranceData::of(*pair, key.member), tolerance_class)) / units::um;
+    return NamedDistribution{
+        Distribution::within_tolerance(tolerance),
+        fmt::format("ISO 1328-1 class {}: normal, mean 0, deviation {:.4g}, cut off at \u00b1{:.4g}", tolerance_class, tolerance / 3.0, tolerance)};
   } catch (const InvalidInput& problem) {
     refuse("a gear that ISO 1328-1 covers: " + problem.field() + " is " + problem.value() + ", covered is " + problem.allowed());
   }
@@ -99,8 +98,7 @@ NamedDistribution read_named(const SchemaKey& key, const std::string& name, cons
   }
   const std::vector<double> values = bare_numbers(key, node, 1, 100'000);
   check_ends(key, values);
-  return {Distribution::values(values), values.size() <= 8 ? fmt::format("{:g}", fmt::join(values, ", "))
-                                                           : fmt::format("{} values", values.size())};
+  return {Distribution::values(values), values.size() <= 8 ? fmt::format("{:g}", fmt::join(values, ", ")) : fmt::format("{} values", values.size())};
 }
 
 }  // namespace

@@ -9,15 +9,9 @@ namespace flankwright::studies {
 
 namespace {
 
-GivenGrid& grid(StudyBuilder& builder, Member m) {
-  return builder.study.grid[m];
-}
-std::vector<std::string>& tooth_grids(StudyBuilder& builder, Member m) {
-  return builder.study.tooth_grids[m];
-}
-ManufacturingError& error(Scene& scene, Member m) {
-  return scene.error[m];
-}
+GivenGrid& grid(StudyBuilder& builder, Member m) { return builder.study.grid[m]; }
+std::vector<std::string>& tooth_grids(StudyBuilder& builder, Member m) { return builder.study.tooth_grids[m]; }
+ManufacturingError& error(Scene& scene, Member m) { return scene.error[m]; }
 
 /// One number for all teeth, or one for each.
 void store(const Value& v, double& of_all, std::vector<double>& of_each) {
@@ -46,8 +40,12 @@ SchemaKey row_of(const ModificationDescriptor& d) {
 }
 
 SchemaKey row_of(const ModificationChoice& c) {
-  return {.path = "gear.modification." + std::string(c.key), .kind = ValueKind::Word, .words = {c.words.begin(), c.words.end()},
-          .fallback = fmt::format("\"{}\"", c.words.front()), .meaning = std::string(c.meaning), .store = &c};
+  return {.path = "gear.modification." + std::string(c.key),
+          .kind = ValueKind::Word,
+          .words = {c.words.begin(), c.words.end()},
+          .fallback = fmt::format("\"{}\"", c.words.front()),
+          .meaning = std::string(c.meaning),
+          .store = &c};
 }
 
 /// Every modification: its numbers, then its choices.

@@ -4,12 +4,8 @@ namespace flankwright::studies {
 
 namespace {
 
-GearData& gear(StudyBuilder& builder, Member m) {
-  return builder.study.pair[m];
-}
-GenerationKeys& generation(StudyBuilder& builder, Member m) {
-  return builder.generation[m];
-}
+GearData& gear(StudyBuilder& builder, Member m) { return builder.study.pair[m]; }
+GenerationKeys& generation(StudyBuilder& builder, Member m) { return builder.generation[m]; }
 
 std::vector<std::string> task_names() {
   std::vector<std::string> names;

@@ -75,8 +75,7 @@ bool is_number(std::string_view text, double& number) {
   return status == std::errc{} && end == plain.data() + plain.size();
 }
 
-[[noreturn]] void refuse(const std::string& file, int line, int column, const std::string& key, std::string_view value,
-                         const std::string& allowed) {
+[[noreturn]] void refuse(const std::string& file, int line, int column, const std::string& key, std::string_view value, const std::string& allowed) {
   constexpr std::size_t most_shown = 60;
   std::string shown(value.substr(0, most_shown));
   if (value.size() > most_shown) shown += "...";
@@ -94,8 +93,7 @@ class GridText {
 
   /// The points in the order of the file.
   std::vector<Row> read() {
-    if (!next_line())
-      refuse(file_, 0, 0, "file", "without content", "a line of column names, then a line for each point");
+    if (!next_line()) refuse(file_, 0, 0, "file", "without content", "a line of column names, then a line for each point");
     read_header();
     std::vector<Row> rows;
     bool more = next_line();
@@ -142,7 +140,8 @@ class GridText {
   /// True where the line behind the header holds units and no numbers; they belong to the columns that have none.
   bool read_units() {
     const std::vector<Cell> cells = cells_of(line_, separator_);
-    if (cells.size() != columns_.size() || !std::ranges::all_of(cells, [](const Cell& cell) { return grid_unit(cell.text).has_value(); })) return false;
+    if (cells.size() != columns_.size() || !std::ranges::all_of(cells, [](const Cell& cell) { return grid_unit(cell.text).has_value(); }))
+      return false;
     for (std::size_t i = 0; i < cells.size(); ++i) {
       GridColumn& column = columns_[i];
       if (column.has_unit) refuse(file_, number_, cells[i].column, "unit", cells[i].text, "one unit: the header has it already");
@@ -155,7 +154,8 @@ class GridText {
     const std::vector<Cell> cells = cells_of(line_, separator_);
     if (cells.size() != columns_.size()) {
       refuse(file_, number_, 1, "line", line_,
-             std::to_string(columns_.size()) + " numbers with the separator of the first line" + (separator_ == ',' ? " (a comma, so no decimal commas)" : ""));
+             std::to_string(columns_.size()) + " numbers with the separator of the first line" +
+                 (separator_ == ',' ? " (a comma, so no decimal commas)" : ""));
     }
     Row row;
     row.line = number_;
@@ -191,9 +191,7 @@ std::vector<double> distinct(const std::vector<Row>& rows, double (Row::*coordin
   return values;
 }
 
-std::string place_of(double radius, double z) {
-  return "radius_mm " + text_of(radius) + ", z_mm " + text_of(z);
-}
+std::string place_of(double radius, double z) { return "radius_mm " + text_of(radius) + ", z_mm " + text_of(z); }
 
 }  // namespace
 
@@ -209,8 +207,7 @@ MeasuredGrid parse_grid(std::string_view text, const std::string& name) {
   MeasuredGrid grid{distinct(rows, &Row::radius), distinct(rows, &Row::z), {}};
   const std::size_t m = grid.radii.size(), n = grid.z.size();
   if (m < 2 || n < 2) {
-    refuse(name, 0, 0, "grid", std::to_string(m) + " radii with " + std::to_string(n) + " axial positions",
-           "at least 2 x 2");
+    refuse(name, 0, 0, "grid", std::to_string(m) + " radii with " + std::to_string(n) + " axial positions", "at least 2 x 2");
   }
   // With no point twice, a point is missing where the sorted rows first differ from the full grid.
   for (std::size_t k = 0; k < m * n; ++k) {

@@ -16,23 +16,37 @@ struct Name {
 };
 
 using enum GridQuantity;
-constexpr std::array<Name, 19> names{{{"radius", Radius, 1.0},        {"r", Radius, 1.0},
-                                      {"diameter", Radius, 0.5},      {"d", Radius, 0.5},
-                                      {"durchmesser", Radius, 0.5},   {"z", Z, 1.0},
-                                      {"face", Z, 1.0},               {"facewidth", Z, 1.0},
-                                      {"width", Z, 1.0},              {"axial", Z, 1.0},
-                                      {"breite", Z, 1.0},             {"zahnbreite", Z, 1.0},
-                                      {"deviation", Deviation, 1.0},  {"dev", Deviation, 1.0},
-                                      {"abweichung", Deviation, 1.0}, {"removal", Deviation, -1.0},
-                                      {"removed", Deviation, -1.0},   {"abtrag", Deviation, -1.0},
+constexpr std::array<Name, 19> names{{{"radius", Radius, 1.0},
+                                      {"r", Radius, 1.0},
+                                      {"diameter", Radius, 0.5},
+                                      {"d", Radius, 0.5},
+                                      {"durchmesser", Radius, 0.5},
+                                      {"z", Z, 1.0},
+                                      {"face", Z, 1.0},
+                                      {"facewidth", Z, 1.0},
+                                      {"width", Z, 1.0},
+                                      {"axial", Z, 1.0},
+                                      {"breite", Z, 1.0},
+                                      {"zahnbreite", Z, 1.0},
+                                      {"deviation", Deviation, 1.0},
+                                      {"dev", Deviation, 1.0},
+                                      {"abweichung", Deviation, 1.0},
+                                      {"removal", Deviation, -1.0},
+                                      {"removed", Deviation, -1.0},
+                                      {"abtrag", Deviation, -1.0},
                                       {"error", Deviation, 1.0}}};
 
 struct UnitName {
   std::string_view name;
   double size;  ///< [mm]
 };
-constexpr std::array<UnitName, 7> unit_names{{{"mm", 1.0}, {"um", units::um}, {"mum", units::um}, {"\xc2\xb5m", units::um}, {"\xce\xbcm", units::um},
-                                              {"in", units::inch}, {"mil", 1e-3 * units::inch}}};
+constexpr std::array<UnitName, 7> unit_names{{{"mm", 1.0},
+                                              {"um", units::um},
+                                              {"mum", units::um},
+                                              {"\xc2\xb5m", units::um},
+                                              {"\xce\xbcm", units::um},
+                                              {"in", units::inch},
+                                              {"mil", 1e-3 * units::inch}}};
 
 /// In small letters, without quotes, blanks, brackets and what joins name and unit.
 std::string bare(std::string_view cell) {

@@ -15,7 +15,7 @@ constexpr std::string_view pinion = "pinion.", wheel = "wheel.";
 
 /// The keys of one table of a study file, tables inside it included unless they have a section of their own.
 struct Section {
-  std::string table;         ///< "pinion.rack"; "" for keys that lie in no table
+  std::string table;  ///< "pinion.rack"; "" for keys that lie in no table
   std::string heading;
   std::string introduction;  ///< may be empty
   std::vector<const SchemaKey*> keys{};
@@ -50,9 +50,7 @@ std::vector<Section> sections_in_order() {
 }
 
 /// The path of the pinion's twin of a key of the wheel; any other path as it is.
-std::string as_of_pinion(const std::string& path) {
-  return path.starts_with(wheel) ? std::string(pinion) + path.substr(wheel.size()) : path;
-}
+std::string as_of_pinion(const std::string& path) { return path.starts_with(wheel) ? std::string(pinion) + path.substr(wheel.size()) : path; }
 
 /// True where a key lies in a table, or in one inside it.
 bool lies_in(const std::string& path, const std::string& table) {

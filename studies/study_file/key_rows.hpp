@@ -13,15 +13,9 @@ std::vector<SchemaKey> working_condition_rows();  ///< misalignment, material, l
 std::vector<SchemaKey> shaft_rows();              ///< shafts and their bearings
 std::vector<SchemaKey> scene_rows();              ///< scenes and expectations
 
-constexpr Range above_zero(double high) {
-  return {.low = 0.0, .high = high, .low_open = true};
-}
-constexpr Range from_zero(double high) {
-  return {.low = 0.0, .high = high};
-}
-constexpr Range within(double magnitude) {
-  return {.low = -magnitude, .high = magnitude};
-}
+constexpr Range above_zero(double high) { return {.low = 0.0, .high = high, .low_open = true}; }
+constexpr Range from_zero(double high) { return {.low = 0.0, .high = high}; }
+constexpr Range within(double magnitude) { return {.low = -magnitude, .high = magnitude}; }
 
 inline constexpr Range removal_range = within(1000.0);                // um: beyond a millimetre it is no micro-geometry
 inline constexpr Range any_length = {.low = 0.001, .high = 10000.0};  // mm: from watches to girth gears

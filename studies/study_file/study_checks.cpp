@@ -18,13 +18,12 @@ bool is_geometry(const std::string& path) {
   const std::string table = path.substr(0, path.find('.'));
   if (table == "pair") return true;
   const std::string rest = path.substr(std::min(path.size(), table.size() + 1));
-  const bool is_micro = rest.starts_with("modification") || rest.starts_with("error") || rest.starts_with("material") ||
-                        rest.starts_with("body") || rest.starts_with("shaft");
+  const bool is_micro = rest.starts_with("modification") || rest.starts_with("error") || rest.starts_with("material") || rest.starts_with("body") ||
+                        rest.starts_with("shaft");
   return (table == "pinion" || table == "wheel") && !is_micro;
 }
 
-void check_tooth_list(StudyReading& reading, const std::string& path, const std::vector<double>& deviations,
-                      int teeth) {
+void check_tooth_list(StudyReading& reading, const std::string& path, const std::vector<double>& deviations, int teeth) {
   if (!reading.positions.contains(path) || deviations.empty() || static_cast<int>(deviations.size()) == teeth) return;
   const Position at = reading.where(path);
   reading.problems.push_back({at.file, at.line, at.column, path, "a list of " + std::to_string(deviations.size()),
@@ -41,9 +40,7 @@ void check_tooth_lists(StudyReading& reading, const std::string& prefix, const M
 void check_tooth_lists(StudyReading& reading) {
   const StudyBuilder& builder = reading.builder;
   for (const Member m : members) {
-    const auto error_of = [m](const Scene& scene) -> const ManufacturingError& {
-      return scene.error[m];
-    };
+    const auto error_of = [m](const Scene& scene) -> const ManufacturingError& { return scene.error[m]; };
     const std::string prefix = std::string(name_of(m)) + ".error.";
     const int teeth = builder.study.pair[m].teeth;
     check_tooth_lists(reading, prefix, error_of(builder.base), teeth);
@@ -57,8 +54,7 @@ void check_tooth_lists(StudyReading& reading) {
 /// A variable, or what is tied to one.
 const DesignVariable* find_variable(const Study& study, Member m, ModificationParameter parameter) {
   const auto& variables = study.optimise.variables;
-  const auto found = std::ranges::find_if(
-      variables, [&](const DesignVariable& v) { return v.member == m && v.parameter == parameter; });
+  const auto found = std::ranges::find_if(variables, [&](const DesignVariable& v) { return v.member == m && v.parameter == parameter; });
   if (found != variables.end()) return &*found;
   const auto& links = study.optimise.links;
   const auto link = std::ranges::find_if(links, [&](const LinkingConstraint& t) { return t.linked.member == m && t.linked.parameter == parameter; });
@@ -82,21 +78,18 @@ void check_relief(StudyReading& reading, Member m, const ModificationDescriptor&
   const DesignVariable* extent = find_variable(study, m, of_extent.parameter);
   const bool has_amount = amount != nullptr || of_amount.get(modification) != 0.0;
   if (extent != nullptr && !has_amount) {
-    return reading.refuse_key("optimise.variables." + path,
-        "has no effect while " + amount_path + " is 0: give it a value or make it a variable");
+    return reading.refuse_key("optimise.variables." + path, "has no effect while " + amount_path + " is 0: give it a value or make it a variable");
   }
   const bool has_derivative = asks_derivative(study, m, of_amount.parameter);
   if (!has_amount && !has_derivative) return;
   if (extent != nullptr && extent->lower <= 0.0) {
-    return reading.refuse_key("optimise.variables." + path,
-                      "allowed is a lower bound above 0 mm: the relief is spread over it");
+    return reading.refuse_key("optimise.variables." + path, "allowed is a lower bound above 0 mm: the relief is spread over it");
   }
   if (extent != nullptr || of_extent.get(modification) > 0.0) return;
   const std::string asked_by = has_amount ? (amount != nullptr ? "optimise.variables." : "") + amount_path : "analyse.gradients";
   const bool is_given = reading.find(path) != nullptr;
   const Position at = reading.where(is_given ? path : asked_by);
-  reading.refuse(at, path, is_given ? reading.find(path)->node : nullptr,
-                 "set " + path + " above 0 mm: the relief's amount is spread over it");
+  reading.refuse(at, path, is_given ? reading.find(path)->node : nullptr, "set " + path + " above 0 mm: the relief's amount is spread over it");
 }
 
 /// A predesigned parabola, given or at the upper end of a variable, must have a flank.
@@ -139,16 +132,15 @@ void check_presence(StudyReading& reading) {
   for (const SchemaKey& key : study_schema()) {
     const bool in_list = key.path.find("[].") != std::string::npos;  // checked where the list is read
     if (in_list || !is_required(key) || reading.find(key.path) != nullptr) continue;
-    const bool is_replaced = std::ranges::any_of(exclusive_keys(), [&](const ExclusiveKeys& keys) {
-      return keys.first == key.path && reading.find(keys.second) != nullptr;
-    });
+    const bool is_replaced = std::ranges::any_of(
+        exclusive_keys(), [&](const ExclusiveKeys& keys) { return keys.first == key.path && reading.find(keys.second) != nullptr; });
     if (!is_replaced) reading.refuse_key(key.path, "required: allowed is " + allowed_values(key));
   }
 }
 
 void check_pair(StudyReading& reading) {
-  const bool has_problem = std::ranges::any_of(
-      reading.problems, [](const StudyProblem& problem) { return problem.key.empty() || is_geometry(problem.key); });
+  const bool has_problem =
+      std::ranges::any_of(reading.problems, [](const StudyProblem& problem) { return problem.key.empty() || is_geometry(problem.key); });
   if (has_problem) return;
   const PairData& pair = reading.builder.study.pair;
   if (reading.find("wheel.hand") != nullptr && reading.builder.wheel_hand == pair.pinion_hand) {
@@ -158,8 +150,7 @@ void check_pair(StudyReading& reading) {
   for (const InvalidInput& problem : find_problems(pair)) {
     const bool is_pitch = problem.field() == "pair.normal_module" && reading.find(problem.field()) == nullptr;
     const Position at = reading.where(is_pitch ? "pair.normal_diametral_pitch" : problem.field());
-    reading.problems.push_back(
-        {at.file, at.line, at.column, problem.field(), problem.value(), "allowed is " + problem.allowed()});
+    reading.problems.push_back({at.file, at.line, at.column, problem.field(), problem.value(), "allowed is " + problem.allowed()});
   }
 }
 

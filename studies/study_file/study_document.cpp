@@ -132,8 +132,7 @@ toml::table* element(toml::node& node, const std::string& index) {
   toml::array* array = node.as_array();
   std::size_t i = 0;
   const auto [end, status] = std::from_chars(index.data(), index.data() + index.size(), i);
-  if (array == nullptr || status != std::errc{} || end != index.data() + index.size() || i >= array->size())
-    return nullptr;
+  if (array == nullptr || status != std::errc{} || end != index.data() + index.size() || i >= array->size()) return nullptr;
   return array->get(i)->as_table();
 }
 
@@ -209,8 +208,7 @@ std::string formatted(const toml::node& node) {
 
 }  // namespace
 
-StudyDocument::StudyDocument(std::string_view text, std::string name, const std::vector<Override>& overrides,
-                             std::vector<StudyProblem>& problems)
+StudyDocument::StudyDocument(std::string_view text, std::string name, const std::vector<Override>& overrides, std::vector<StudyProblem>& problems)
     : name_(std::move(name)), lines_(split(text, '\n')), root_(parse_toml(text, name_)) {
   for (const Override& one : overrides) merge(one, problems);
 }
@@ -231,8 +229,7 @@ void StudyDocument::merge(const Override& override_, std::vector<StudyProblem>& 
     toml::node* next = table->get(parts[i]);
     if (next != nullptr && next->is_array()) {
       table = element(*next, parts[i + 1]);
-      if (table == nullptr || i + 2 == parts.size())
-        return refuse("allowed is a table of this array, counted from 0, and its key");
+      if (table == nullptr || i + 2 == parts.size()) return refuse("allowed is a table of this array, counted from 0, and its key");
       ++i;
       continue;
     }
@@ -264,8 +261,8 @@ Position StudyDocument::position(const toml::node& node, const Position& around)
 std::string StudyDocument::text_of(const toml::node& node) const {
   if (const toml::table* table = node.as_table(); table != nullptr && !table->is_inline()) return "a table";
   const toml::source_region& source = node.source();
-  const bool in_file = source.begin.line >= 1 && source.end.line <= lines_.size() &&
-                       source.begin.line <= source.end.line && !(source.path && *source.path == command_line);
+  const bool in_file = source.begin.line >= 1 && source.end.line <= lines_.size() && source.begin.line <= source.end.line &&
+                       !(source.path && *source.path == command_line);
   if (!in_file) return formatted(node);
   std::string text;
   for (std::size_t line = source.begin.line; line <= source.end.line; ++line) {
@@ -289,8 +286,7 @@ std::vector<GivenValue> StudyDocument::given() const {
     const std::string prefix = path.empty() ? "" : path + ".";
     if (const toml::table* table = node.as_table()) {
       for (const auto& [key, value] : *table) self(self, value, prefix + std::string(key.str()));
-    } else if (const toml::array* array = node.as_array();
-               array != nullptr && array->is_homogeneous(toml::node_type::table) && !array->empty()) {
+    } else if (const toml::array* array = node.as_array(); array != nullptr && array->is_homogeneous(toml::node_type::table) && !array->empty()) {
       for (std::size_t i = 0; i < array->size(); ++i) self(self, *array->get(i), prefix + std::to_string(i));
     } else {
       values.push_back({path, text_of(node)});

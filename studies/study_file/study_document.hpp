@@ -23,8 +23,7 @@ class StudyDocument {
  public:
   /// @param problems  receives what is wrong with an override
   /// @throws StudyErrors where the text is not TOML
-  StudyDocument(std::string_view text, std::string name, const std::vector<Override>& overrides,
-                std::vector<StudyProblem>& problems);
+  StudyDocument(std::string_view text, std::string name, const std::vector<Override>& overrides, std::vector<StudyProblem>& problems);
 
   const toml::table& root() const { return root_; }
   const std::string& name() const { return name_; }

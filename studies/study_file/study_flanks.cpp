@@ -38,9 +38,7 @@ std::string keys_in_words(const GenerationKind& kind) {
 /// True where every key below `path` is one that the kind needs or may have, and none is missing.
 bool check_generation_keys(StudyReading& reading, const std::string& path, const GenerationKind& kind) {
   const std::size_t before = reading.problems.size();
-  const auto has = [](const std::vector<std::string_view>& keys, std::string_view key) {
-    return std::ranges::find(keys, key) != keys.end();
-  };
+  const auto has = [](const std::vector<std::string_view>& keys, std::string_view key) { return std::ranges::find(keys, key) != keys.end(); };
   for (const std::string_view key : kind.needed) {
     const std::string missing = path + "." + std::string(key);
     if (reading.find(missing) != nullptr) continue;
@@ -82,10 +80,7 @@ void read_generation(StudyReading& reading, const std::string& path, const Gener
 class GridReading {
  public:
   GridReading(StudyReading& reading, const GearPair& pair, Member member)
-      : reading_(reading),
-        pair_(pair),
-        member_(member),
-        prefix_(member == Member::Pinion ? "pinion.modification." : "wheel.modification.") {}
+      : reading_(reading), pair_(pair), member_(member), prefix_(member == Member::Pinion ? "pinion.modification." : "wheel.modification.") {}
 
   /// The fitted field and what is to be said about it; problems go to the reading.
   void read(Modification& modification, GivenGrid& grid) const {
@@ -156,8 +151,7 @@ class GridReading {
   void refuse_grid(const Match& match, const std::string& path, const InvalidInput& problem) const {
     constexpr std::string_view pieces = "grid.";
     const std::string& field = problem.field();
-    const Match* smoothing =
-        field.starts_with(pieces) ? reading_.find(prefix_ + "grid_smoothing." + field.substr(pieces.size())) : nullptr;
+    const Match* smoothing = field.starts_with(pieces) ? reading_.find(prefix_ + "grid_smoothing." + field.substr(pieces.size())) : nullptr;
     const Match& at = smoothing == nullptr ? match : *smoothing;
     reading_.refuse(at.position, at.path, at.node, path + ": " + problem.value() + ": allowed is " + problem.allowed());
   }

@@ -4,9 +4,7 @@
 
 namespace flankwright::studies {
 
-bool is_not_table(const toml::node& node) {
-  return !node.is_table();
-}
+bool is_not_table(const toml::node& node) { return !node.is_table(); }
 
 bool is_filled_table(const toml::node& node) {
   const toml::table* table = node.as_table();
@@ -44,8 +42,7 @@ std::vector<Item> items_of(StudyReading& reading, const std::string& key, const 
   return found;
 }
 
-double number_of(StudyReading& reading, const Position& at, const std::string& path, const toml::node& node,
-                 const SchemaKey& rule) {
+double number_of(StudyReading& reading, const Position& at, const std::string& path, const toml::node& node, const SchemaKey& rule) {
   try {
     return read_number(rule, node);
   } catch (const InvalidInput& problem) {

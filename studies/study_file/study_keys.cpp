@@ -8,12 +8,8 @@ namespace flankwright::studies {
 
 namespace {
 
-GearBody& body(StudyBuilder& builder, Member m) {
-  return builder.study.body[m];
-}
-Material& material(StudyBuilder& builder, Member m) {
-  return builder.study.material[m];
-}
+GearBody& body(StudyBuilder& builder, Member m) { return builder.study.body[m]; }
+Material& material(StudyBuilder& builder, Member m) { return builder.study.material[m]; }
 
 constexpr Range misalignment_angle = within(60.0);  // arcmin: a degree, far beyond any housing
 

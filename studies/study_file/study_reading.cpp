@@ -7,13 +7,9 @@ namespace flankwright::studies {
 
 namespace {
 
-[[noreturn]] void refuse_value(const std::string& allowed) {
-  throw InvalidInput("", "", allowed);
-}
+[[noreturn]] void refuse_value(const std::string& allowed) { throw InvalidInput("", "", allowed); }
 
-[[noreturn]] void refuse_range(const SchemaKey& key) {
-  refuse_value(allowed_values(key) + (key.hint.empty() ? "" : "; " + key.hint));
-}
+[[noreturn]] void refuse_range(const SchemaKey& key) { refuse_value(allowed_values(key) + (key.hint.empty() ? "" : "; " + key.hint)); }
 
 /// Inside the range, or on a bound that the conversion of units missed by round-off: then the bound.
 double checked(const SchemaKey& key, double value) {
@@ -84,8 +80,7 @@ Value read_word_list(const SchemaKey& key, const toml::node& node) {
 
 }  // namespace
 
-void StudyReading::refuse(const Position& at, const std::string& key, const toml::node* node,
-                          const std::string& allowed) {
+void StudyReading::refuse(const Position& at, const std::string& key, const toml::node* node, const std::string& allowed) {
   constexpr std::size_t longest_value = 60;
   std::string value = node == nullptr ? "(not given)" : document.text_of(*node);
   if (value.size() > longest_value) {
@@ -115,8 +110,7 @@ Position StudyReading::where(const std::string& path) const {
   return {document.name(), 1, 1};
 }
 
-std::map<std::string, Match> match_keys(StudyReading& reading, const toml::table& table, const KeyIndex& keys,
-                                        const std::string& prefix) {
+std::map<std::string, Match> match_keys(StudyReading& reading, const toml::table& table, const KeyIndex& keys, const std::string& prefix) {
   std::map<std::string, Match> matches;
   const auto visit = [&](const auto& self, const toml::table& level, const std::string& above) -> void {
     for (const auto& [name, node] : level) {
@@ -134,8 +128,7 @@ std::map<std::string, Match> match_keys(StudyReading& reading, const toml::table
           reading.refuse(position, prefix + path, &node, "allowed is a table");
         }
       } else if (&keys == &scene_keys() && (study_keys().contains(path) || is_table(study_keys(), path))) {
-        reading.refuse(position, prefix + path, &node,
-                       "a scene may override misalignment.*, load.torque, pinion.error.* and wheel.error.*");
+        reading.refuse(position, prefix + path, &node, "a scene may override misalignment.*, load.torque, pinion.error.* and wheel.error.*");
       } else {
         reading.refuse(position, prefix + path, &node, "unknown key" + nearest_key_hint(keys, path));
       }

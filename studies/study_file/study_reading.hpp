@@ -44,8 +44,7 @@ struct StudyReading {
 /// Matches the keys of a table; unknown ones become problems.
 ///
 /// @param prefix  of the paths in messages
-std::map<std::string, Match> match_keys(StudyReading& reading, const toml::table& table, const KeyIndex& keys,
-                                        const std::string& prefix);
+std::map<std::string, Match> match_keys(StudyReading& reading, const toml::table& table, const KeyIndex& keys, const std::string& prefix);
 
 /// The value of a key that is a number, an integer, a text or words, in internal units.
 ///

@@ -111,8 +111,7 @@ std::string nearest_key_hint(const KeyIndex& keys, const std::string& path) {
   const std::string last = path.substr(parent.size());
   std::vector<std::string> siblings;
   for (const auto& [name, key] : keys) {
-    if (name.starts_with(parent))
-      siblings.push_back(name.substr(parent.size(), name.find('.', parent.size()) - parent.size()));
+    if (name.starts_with(parent)) siblings.push_back(name.substr(parent.size(), name.find('.', parent.size()) - parent.size()));
   }
   const std::string sibling = nearest_word(last, siblings);
   if (!sibling.empty()) return ", did you mean " + sibling + "?";
@@ -129,13 +128,9 @@ std::string nearest_key_hint(const KeyIndex& keys, const std::string& path) {
   return namesake.empty() ? "" : ", did you mean " + namesake + "?";
 }
 
-bool is_described_fallback(const SchemaKey& key) {
-  return key.fallback.starts_with('(');
-}
+bool is_described_fallback(const SchemaKey& key) { return key.fallback.starts_with('('); }
 
-bool is_required(const SchemaKey& key) {
-  return key.fallback.starts_with("(required");
-}
+bool is_required(const SchemaKey& key) { return key.fallback.starts_with("(required"); }
 
 std::string range_in_words(const Range& range, Quantity quantity) {
   const bool has_low = std::isfinite(range.low);

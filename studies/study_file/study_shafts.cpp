@@ -23,8 +23,7 @@ void read_shaft(StudyReading& reading, Member member) {
   if (!shaft) return;
   complete(*shaft, pinion ? study.material.pinion : study.material.wheel);
   const std::string table = pinion ? "pinion.shaft" : "wheel.shaft";
-  const bool has_problem =
-      std::ranges::any_of(reading.problems, [&](const StudyProblem& problem) { return problem.key.starts_with(table); });
+  const bool has_problem = std::ranges::any_of(reading.problems, [&](const StudyProblem& problem) { return problem.key.starts_with(table); });
   if (has_problem) return;  // what could not be read is missing below
   for (const InvalidInput& problem : find_problems(*shaft, study.pair[member].face_width)) {
     const std::string key = table + "." + problem.field();

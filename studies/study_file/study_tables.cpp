@@ -51,8 +51,7 @@ void read_within(StudyReading& reading, const Item& item, Expectation& expectati
 void read_expectation(StudyReading& reading, const Item& item) {
   const std::string shown = "expect." + item.name;
   const toml::table* table = item.node->as_table();
-  const std::string allowed =
-      "allowed is { value = ..., within = ... }, { min = ... }, { max = ... }, { min = ..., max = ... } or { is = ... }";
+  const std::string allowed = "allowed is { value = ..., within = ... }, { min = ... }, { max = ... }, { min = ..., max = ... } or { is = ... }";
   if (table == nullptr) return reading.refuse(item.position, shown, item.node, allowed);
   for (const auto& [name, value] : *table) {
     if (name != "value" && name != "within" && name != "min" && name != "max" && name != "is") {

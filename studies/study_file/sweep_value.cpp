@@ -50,8 +50,7 @@ void set_swept(SweptCondition& condition, const SchemaKey& key, double value) {
     stored.numbers = {inside};
     (*in_scene)(condition.scene, key.member, stored);
   } else {
-    set(condition.modification[key.member],
-        std::get<ModificationParameter>(key.store), inside);
+    set(condition.modification[key.member], std::get<ModificationParameter>(key.store), inside);
   }
 }
 

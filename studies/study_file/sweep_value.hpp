@@ -22,9 +22,7 @@ struct SweptCondition {
 
   /// Of the study itself, the nominal sample.
   static SweptCondition of(const Study& study) { return {study.scenes.front(), study.modification}; }
-  FlankCondition flanks() const {
-    return {modification, scene.error, scene.misalignment};
-  }
+  FlankCondition flanks() const { return {modification, scene.error, scene.misalignment}; }
 };
 
 /// What a sweep's parameters do at the low and at the high end of their distributions, one by one; what is out of range there is left out. For

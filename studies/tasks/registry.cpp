@@ -14,12 +14,7 @@ namespace flankwright::studies {
 
 std::span<const Task* const> registered_tasks() {
   static constexpr std::array tasks{
-      &analyse_task,
-      &optimise_task,
-      &sweep_task,
-      &accuracy_task,
-      &fit_task,
-      &geometry_task,
+      &analyse_task, &optimise_task, &sweep_task, &accuracy_task, &fit_task, &geometry_task,
   };
   return tasks;
 }

@@ -66,10 +66,11 @@ void report_cycle(bool root_stress, int repetitions) {
     factorisations += position.load.factorisations;
     residual = std::max(residual, position.load.kkt_residual);
   }
-  std::printf("cycle%-18s %4.1f points, %.1f Newton steps, %.1f factorisations a position, residual %.0e\n"
-              "                        %7.3f ms, with eight gradients %7.3f ms, of which gradients %4.1f %%\n",
-              root_stress ? " with root stress" : "", static_cast<double>(points) / positions, static_cast<double>(steps) / positions,
-              static_cast<double>(factorisations) / positions, residual, plain, with_gradients, median(shares));
+  std::printf(
+      "cycle%-18s %4.1f points, %.1f Newton steps, %.1f factorisations a position, residual %.0e\n"
+      "                        %7.3f ms, with eight gradients %7.3f ms, of which gradients %4.1f %%\n",
+      root_stress ? " with root stress" : "", static_cast<double>(points) / positions, static_cast<double>(steps) / positions,
+      static_cast<double>(factorisations) / positions, residual, plain, with_gradients, median(shares));
   if (!cycle.usable() || std::isnan(sum)) std::printf("  NOT SOLVED at %d positions\n", cycle.failures);
 }
 
@@ -78,8 +79,8 @@ std::vector<LoadProblem> programmes_of_cycle(int per_line) {
   const FlankCondition condition = load_scene::condition();
   std::vector<LoadProblem> problems;
   for (const MeshPosition& at : model.positions) {
-    problems.push_back({at.influence, at.weight, plane_of_action_gap(model.pair, at.points, condition).total, at.laws,
-                        model.normal_force(load_scene::torque)});
+    problems.push_back(
+        {at.influence, at.weight, plane_of_action_gap(model.pair, at.points, condition).total, at.laws, model.normal_force(load_scene::torque)});
   }
   return problems;
 }
@@ -116,10 +117,11 @@ void report_references(int per_line, int repetitions) {
       }
     });
     const double equal = own(std::max(1e-12, 0.1 * worst));
-    std::printf("  %-15s %9.3f ms a cycle, residual %.0e, %5.1f gradients each, %9.3f ms outside callbacks\n"
-                "    this solver   %9.3f ms a cycle, residual %.0e: %.0f times as fast, %.0f times as the other's own work alone\n",
-                name, total, worst, static_cast<double>(evaluations) / positions, total - callbacks, equal, residual, total / equal,
-                (total - callbacks) / equal);
+    std::printf(
+        "  %-15s %9.3f ms a cycle, residual %.0e, %5.1f gradients each, %9.3f ms outside callbacks\n"
+        "    this solver   %9.3f ms a cycle, residual %.0e: %.0f times as fast, %.0f times as the other's own work alone\n",
+        name, total, worst, static_cast<double>(evaluations) / positions, total - callbacks, equal, residual, total / equal,
+        (total - callbacks) / equal);
   };
   reference("Ipopt", reference_solvers::solve_by_ipopt);
   reference("NLopt SLSQP", reference_solvers::solve_by_slsqp);
@@ -132,9 +134,8 @@ LoadProblem refined_problem(Eigen::Index n) {
   const double length = 400.0;  // mm of contact line
   problem.weight = Eigen::VectorXd::Constant(n, length / static_cast<double>(n));
   const Eigen::VectorXd z = Eigen::VectorXd::LinSpaced(n, 0.0, length);
-  problem.influence = Eigen::MatrixXd::NullaryExpr(n, n, [&](Eigen::Index i, Eigen::Index j) {
-    return 4e-7 * std::exp(-std::abs(z[i] - z[j]) / 20.0) + 2e-8;
-  });
+  problem.influence =
+      Eigen::MatrixXd::NullaryExpr(n, n, [&](Eigen::Index i, Eigen::Index j) { return 4e-7 * std::exp(-std::abs(z[i] - z[j]) / 20.0) + 2e-8; });
   problem.gap = z.unaryExpr([&](double s) { return 0.012 * std::pow(s / length - 0.4, 2) + 0.004 * std::sin(s / 15.0); });
   problem.laws = load_cases::random_laws(n, random);
   problem.force = 12000.0;

@@ -28,8 +28,11 @@ constexpr std::array<std::array<double, 2>, 10> gauss{{{0.013046735741414139, 0.
 class Programme {
  public:
   explicit Programme(const LoadProblem& problem)
-      : problem_(problem), size_(problem.gap.size()), gap_(problem.gap.array() - problem.gap.minCoeff()),
-        load_per_share_(problem.force * problem.weight.cwiseInverse()), even_(problem.weight / problem.weight.sum()) {
+      : problem_(problem),
+        size_(problem.gap.size()),
+        gap_(problem.gap.array() - problem.gap.minCoeff()),
+        load_per_share_(problem.force * problem.weight.cwiseInverse()),
+        even_(problem.weight / problem.weight.sum()) {
     scale_ = (problem.force * problem.influence * even_ + local(even_)).mean();
   }
 
@@ -47,9 +50,7 @@ class Programme {
     }
     return sum / scale_;
   }
-  Eigen::VectorXd gradient(const Eigen::VectorXd& x) const {
-    return (problem_.force * problem_.influence * x + local(x) + gap_) / scale_;
-  }
+  Eigen::VectorXd gradient(const Eigen::VectorXd& x) const { return (problem_.force * problem_.influence * x + local(x) + gap_) / scale_; }
   Eigen::MatrixXd hessian(const Eigen::VectorXd& x) const {
     Eigen::MatrixXd H = problem_.force / scale_ * problem_.influence;
     for (std::size_t i = 0; i < problem_.laws.size(); ++i) {
@@ -91,26 +92,22 @@ class Callback {
 
 class IpoptProgramme final : public Ipopt::TNLP {
  public:
-  IpoptProgramme(const Programme& programme, Answer& answer)
-      : programme_(programme), answer_(answer), n_(static_cast<int>(programme.size())) {}
+  IpoptProgramme(const Programme& programme, Answer& answer) : programme_(programme), answer_(answer), n_(static_cast<int>(programme.size())) {}
 
-  bool get_nlp_info(Ipopt::Index& n, Ipopt::Index& m, Ipopt::Index& nnz_jac_g, Ipopt::Index& nnz_h_lag,
-                    IndexStyleEnum& index_style) override {
+  bool get_nlp_info(Ipopt::Index& n, Ipopt::Index& m, Ipopt::Index& nnz_jac_g, Ipopt::Index& nnz_h_lag, IndexStyleEnum& index_style) override {
     n = nnz_jac_g = n_;
     m = 1;
     nnz_h_lag = n_ * (n_ + 1) / 2;
     index_style = C_STYLE;
     return true;
   }
-  bool get_bounds_info(Ipopt::Index n, Ipopt::Number* x_l, Ipopt::Number* x_u, Ipopt::Index, Ipopt::Number* g_l,
-                       Ipopt::Number* g_u) override {
+  bool get_bounds_info(Ipopt::Index n, Ipopt::Number* x_l, Ipopt::Number* x_u, Ipopt::Index, Ipopt::Number* g_l, Ipopt::Number* g_u) override {
     std::fill_n(x_l, n, 0.0);
     std::fill_n(x_u, n, 2e19);
     g_l[0] = g_u[0] = 1.0;
     return true;
   }
-  bool get_starting_point(Ipopt::Index n, bool, Ipopt::Number* x, bool, Ipopt::Number*, Ipopt::Number*, Ipopt::Index, bool,
-                          Ipopt::Number*) override {
+  bool get_starting_point(Ipopt::Index n, bool, Ipopt::Number* x, bool, Ipopt::Number*, Ipopt::Number*, Ipopt::Index, bool, Ipopt::Number*) override {
     std::copy_n(programme_.even().data(), n, x);
     return true;
   }
@@ -159,8 +156,8 @@ class IpoptProgramme final : public Ipopt::TNLP {
     }
     return true;
   }
-  void finalize_solution(Ipopt::SolverReturn, Ipopt::Index, const Ipopt::Number* x, const Ipopt::Number*, const Ipopt::Number*,
-                         Ipopt::Index, const Ipopt::Number*, const Ipopt::Number*, Ipopt::Number, const Ipopt::IpoptData*,
+  void finalize_solution(Ipopt::SolverReturn, Ipopt::Index, const Ipopt::Number* x, const Ipopt::Number*, const Ipopt::Number*, Ipopt::Index,
+                         const Ipopt::Number*, const Ipopt::Number*, Ipopt::Number, const Ipopt::IpoptData*,
                          Ipopt::IpoptCalculatedQuantities*) override {
     answer_.line_load = programme_.loads(at(x).cwiseMax(0.0));
   }

@@ -23,7 +23,7 @@ TEST_CASE("Ipopt and SLSQP find the loads that the solver finds", "[core][load][
     REQUIRE(sequential.line_load.size() == found.line_load.size());
     CHECK((interior.line_load - found.line_load).cwiseAbs().maxCoeff() <= kInteriorPoint * mean);
     CHECK((sequential.line_load - found.line_load).cwiseAbs().maxCoeff() <= kQuasiNewton * mean);
-    CHECK(natural_residual(problem, found.line_load) <= 1e-11);  // round-off
+    CHECK(natural_residual(problem, found.line_load) <= 1e-11);                                        // round-off
     CHECK(natural_residual(problem, Eigen::VectorXd::Constant(found.line_load.size(), mean)) > 1e-2);  // it can tell
   }
 }

@@ -65,9 +65,8 @@ double report(const char* name, const GearPair& pair, const FlankAssembly& scene
   });
   UnloadedMesh mesh;
   const Milliseconds analysis = time_of(repetitions, [&] { mesh = analyse_unloaded_mesh(pair, scene, positions); });
-  std::printf("%-36s %8.2f us/contact %8.3f ms/TCA (elapsed %8.3f)   TE %9.4f arcsec%s\n", name,
-              1e3 * per_contact.processor / contacts, analysis.processor, analysis.elapsed, mesh.peak_to_peak / units::arcsec,
-              std::isnan(sum) ? " (no contact)" : "");
+  std::printf("%-36s %8.2f us/contact %8.3f ms/TCA (elapsed %8.3f)   TE %9.4f arcsec%s\n", name, 1e3 * per_contact.processor / contacts,
+              analysis.processor, analysis.elapsed, mesh.peak_to_peak / units::arcsec, std::isnan(sum) ? " (no contact)" : "");
   return analysis.processor;
 }
 
@@ -122,12 +121,10 @@ int main(int argc, char** argv) {
   Misalignment housing;
   housing.crossing = housing.intersecting = 1 * arcmin;
   housing.mesh_misalignment = 0.008;
-  const double analytic =
-      report("18/54 modified, misaligned", haddad, scene_of(haddad, housing, pinion, wheel), repetitions);
+  const double analytic = report("18/54 modified, misaligned", haddad, scene_of(haddad, housing, pinion, wheel), repetitions);
   const MeasuredGrid grid = measured_flank(haddad);
   pinion.topography = make_grid_field(grid, haddad.pinion.base_radius, haddad.base_helix_angle).field;
-  const double with_grid =
-      report("18/54 the same, pinion 15 x 15 grid", haddad, scene_of(haddad, housing, pinion, wheel), repetitions);
+  const double with_grid = report("18/54 the same, pinion 15 x 15 grid", haddad, scene_of(haddad, housing, pinion, wheel), repetitions);
 
   Modification relieved;
   relieved.tip_relief = {0.020, 1.5, ReliefShape::Linear};

@@ -46,8 +46,8 @@ class DirectInfluence final : public FlankCompliance {
     const ToothForm& form = model_.mesh().form;
     std::vector<FlankPoint> points;
     for (const FlankStation& p : places) {
-      points.push_back({p.tooth - (lowest + highest) / 2,
-                        form.form_radius() + (p.u + 1) / 2 * (form.tip_radius() - form.form_radius()), p.zeta - kFace / 2});
+      points.push_back(
+          {p.tooth - (lowest + highest) / 2, form.form_radius() + (p.u + 1) / 2 * (form.tip_radius() - form.form_radius()), p.zeta - kFace / 2});
     }
     return model_.influence(points).compliance;
   }
@@ -61,8 +61,8 @@ Eigen::VectorXd transmission_errors(const std::shared_ptr<const FlankCompliance>
   const GearPair pair = twins();
   constexpr double kModulus = 206000;
   const StructuralPair gears(pair, {structure, kModulus}, {structure, kModulus});
-  const MeshModel model = make_mesh_model(pair, {{kModulus, 0.3}, {kModulus, 0.3}},
-                                          {{QuadratureRule::Gauss2, 5}, equally_spaced_phases(6)}, {}, {}, &gears);
+  const MeshModel model =
+      make_mesh_model(pair, {{kModulus, 0.3}, {kModulus, 0.3}}, {{QuadratureRule::Gauss2, 5}, equally_spaced_phases(6)}, {}, {}, &gears);
   const LoadedCycle cycle = analyse_cycle(model, {}, 2000);
   REQUIRE(cycle.usable());
   Eigen::VectorXd errors(std::ssize(cycle.positions));
@@ -79,8 +79,7 @@ std::shared_ptr<const FlankCompliance> table(StationGrid grid) {
 
 }  // namespace
 
-TEST_CASE("The transmission error by an influence table comes to that by the finite elements' own values",
-          "[convergence][fe]") {
+TEST_CASE("The transmission error by an influence table comes to that by the finite elements' own values", "[convergence][fe]") {
   const Eigen::VectorXd direct = transmission_errors(std::make_shared<DirectInfluence>());
   const auto error_of = [&](StationGrid grid) {
     return ((transmission_errors(table(std::move(grid))) - direct).array() / direct.array()).abs().maxCoeff();

@@ -9,8 +9,7 @@ using namespace flankwright;
 namespace {
 
 /// Without free ends: next to them the load turns as a logarithm does, which no order of Gauss' follows.
-CycleSummary summary(const GearPair& gears, const FlankCondition& condition, double line_load, int intervals,
-                     int positions) {
+CycleSummary summary(const GearPair& gears, const FlankCondition& condition, double line_load, int intervals, int positions) {
   const MeshModel model =
       mesh_cases::model(gears, {{QuadratureRule::Gauss2, intervals}, equally_spaced_phases(positions)}, MeshEffects::all_but({"free_ends"}));
   return summarise(model, analyse_cycle(model, condition, mesh_cases::torque_for(gears, line_load)));
@@ -39,8 +38,7 @@ FlankCondition crowned(double crowning_um, double misalignment_um) {
 
 }  // namespace
 
-TEST_CASE("Where a spur line is in contact all along, two Gauss points an interval converge with the fourth order",
-          "[convergence][load]") {
+TEST_CASE("Where a spur line is in contact all along, two Gauss points an interval converge with the fourth order", "[convergence][load]") {
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
   const FlankCondition condition = crowned(6, 4);
   const double exact = summary(gears, condition, 400, 160, 4).te_mean;
@@ -101,13 +99,11 @@ TEST_CASE("Intervals that end where lines do take the ripple off the transmissio
   CHECK(graded < 0.1 * fixed);
 }
 
-TEST_CASE("Mean and first harmonic of the transmission error settle with the number of positions",
-          "[convergence][load]") {
+TEST_CASE("Mean and first harmonic of the transmission error settle with the number of positions", "[convergence][load]") {
   // The first slope of f_t jumps where teeth gain and lose contact: second order for integrals over the pitch.
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
   FlankCondition condition = crowned(20, 30);
-  condition.modification.pinion.tip_relief =
-      condition.modification.wheel.tip_relief = {30 * units::um, 3.0, ReliefShape::Parabolic};
+  condition.modification.pinion.tip_relief = condition.modification.wheel.tip_relief = {30 * units::um, 3.0, ReliefShape::Parabolic};
   const auto at = [&](int positions) { return summary(gears, condition, 200, 10, positions); };
   const CycleSummary exact = at(256);
   for (int positions : {16, 32, 64}) {

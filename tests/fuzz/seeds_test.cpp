@@ -12,7 +12,8 @@ namespace {
 
 std::vector<std::filesystem::path> seeds(const std::string& reader) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(FLANKWRIGHT_SOURCE_DIR) / "tests/fuzz/seeds" / reader)) files.push_back(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(FLANKWRIGHT_SOURCE_DIR) / "tests/fuzz/seeds" / reader))
+    files.push_back(entry.path());
   std::ranges::sort(files);
   return files;
 }

@@ -27,9 +27,7 @@ bool ends_with_any(const std::string& key, std::initializer_list<const char*> en
   return std::any_of(endings.begin(), endings.end(), [&](const char* ending) { return key.ends_with(ending); });
 }
 
-bool is_left_out(const std::string& key) {
-  return ends_with_any(key, {"seconds", "residual", "complementarity", "file", "version"});
-}
+bool is_left_out(const std::string& key) { return ends_with_any(key, {"seconds", "residual", "complementarity", "file", "version"}); }
 
 /// Collects numbers of both, told apart by their keys; false where the shapes differ.
 bool collect(const Json& one, const Json& other, const std::string& path, Numbers& numbers) {

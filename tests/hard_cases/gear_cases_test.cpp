@@ -112,8 +112,10 @@ TEST_CASE("Hard: a vanishing helix is a spur gear", "[hard_cases]") {
 
 TEST_CASE("Hard: per millimetre a wide face does what a narrow one does", "[hard_cases]") {
   const auto wide = [](double width) {
-    return run("any_face_width", {{"pinion.face_width", in_digits(width)}, {"wheel.face_width", in_digits(width)},
-                                  {"load.torque", "[0, " + in_digits(10.0 * width) + "]"}, sampled});
+    return run("any_face_width", {{"pinion.face_width", in_digits(width)},
+                                  {"wheel.face_width", in_digits(width)},
+                                  {"load.torque", "[0, " + in_digits(10.0 * width) + "]"},
+                                  sampled});
   };
   const auto narrow = wide(1.5);
   check_aligned(narrow);
@@ -163,8 +165,8 @@ TEST_CASE("Hard: stress and deflection stay finite at either end of Poisson's ra
       const auto& points = results.models.front().positions[i].points;
       for (std::size_t j = 0; j < points.size(); ++j) {
         const auto row = static_cast<Eigen::Index>(j);
-        const double stress = std::sqrt(cycle.positions[i].load.line_load[row] * 206000.0 /
-                                        (2.0 * units::pi * (1.0 - value * value) * points[j].relative_radius));
+        const double stress =
+            std::sqrt(cycle.positions[i].load.line_load[row] * 206000.0 / (2.0 * units::pi * (1.0 - value * value) * points[j].relative_radius));
         CHECK(std::abs(cycle.positions[i].contact_stress[row] - stress) <= 1e-12 * stress);
       }
     }
@@ -176,15 +178,18 @@ TEST_CASE("Hard: stress and deflection stay finite at either end of Poisson's ra
 
 TEST_CASE("Hard: units and size change nothing but the scale", "[hard_cases]") {
   // Slices are calibrated to ISO 6336-1's c' under 300 N/mm, a load with a scale of its own: similar are flanks that yield locally alone.
-  const studies::Override local{"fidelity.effects", R"(["hertzian_contact", "tip_corner", "extended_contact_region", "modifications", "misalignment"])"};
+  const studies::Override local{"fidelity.effects",
+                                R"(["hertzian_contact", "tip_corner", "extended_contact_region", "modifications", "misalignment"])"};
   const bool bends = GENERATE(true, false);
   const auto inches = bends ? run("extreme_units", {sampled}) : run("extreme_units", {sampled, local});
   check_balances(inches);
   // The same shape in millimetres, `scale` times as large.
   const auto scaled = [&](double scale) {
     const double um = 25.4e3 * scale, mm = 25.4 * scale;
-    Settings settings{{"pair.normal_module", in_digits(mm / 8)}, sampled,
-                      {"pinion.face_width", in_digits(1.2 * mm)}, {"wheel.face_width", in_digits(1.2 * mm)},
+    Settings settings{{"pair.normal_module", in_digits(mm / 8)},
+                      sampled,
+                      {"pinion.face_width", in_digits(1.2 * mm)},
+                      {"wheel.face_width", in_digits(1.2 * mm)},
                       {"pinion.modification.lead_crowning", in_digits(0.0003 * um)},
                       {"pinion.modification.profile_crowning", in_digits(0.0002 * um)},
                       {"load.torque", "[0, " + in_digits(1800 * 0.45359237 * 9.80665 * 0.0254 * scale * scale * scale) + "]"}};

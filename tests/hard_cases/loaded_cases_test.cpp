@@ -22,7 +22,8 @@ TEST_CASE("Hard: misalignment passes through zero without a step", "[hard_cases]
   constexpr double kRoundOff = 1e-13;  // mm
   for (double amount = 1.0; amount > 1e-13; amount *= 0.01) {
     const auto results = run("misalignment_through_zero", {{"scenes.0.misalignment.mesh_misalignment", in_digits(-amount)},
-                                                           {"scenes.2.misalignment.mesh_misalignment", in_digits(amount)}, sampled_peaks});
+                                                           {"scenes.2.misalignment.mesh_misalignment", in_digits(amount)},
+                                                           sampled_peaks});
     check_balances(results);
     CAPTURE(amount);
     REQUIRE(results.loaded.size() == 3);
@@ -111,7 +112,8 @@ TEST_CASE("Hard: reliefs far beyond the deflection leave one pair in contact", "
     }
     return counts;
   };
-  const auto results = run("relief_beyond_deflection", {sampled_peaks}), half = run("relief_beyond_deflection", {sampled_peaks, {"load.torque", "25"}});
+  const auto results = run("relief_beyond_deflection", {sampled_peaks}),
+             half = run("relief_beyond_deflection", {sampled_peaks, {"load.torque", "25"}});
   check_balances(results);
   check_balances(half);
   const auto counts = teeth_in_contact(results), of_half = teeth_in_contact(half);
@@ -121,8 +123,7 @@ TEST_CASE("Hard: reliefs far beyond the deflection leave one pair in contact", "
 
 TEST_CASE("Hard: an edge that runs along its mate before the path begins carries load", "[hard_cases]") {
   const std::string gap = GENERATE("plane_of_action", "whole_surface");
-  const auto results = run("edge_before_the_path",
-                           {{"load.torque", "[1e-9, 40]"}, {"fidelity.gap", gap}, {"cycle.positions", "16"}, sampled_peaks});
+  const auto results = run("edge_before_the_path", {{"load.torque", "[1e-9, 40]"}, {"fidelity.gap", gap}, {"cycle.positions", "16"}, sampled_peaks});
   check_balances(results);
   CAPTURE(gap);
   const FlankAssembly scene = assemble_flanks(results.pair, {.modification = results.study.modification});
@@ -156,8 +157,7 @@ TEST_CASE("Hard: quadrature points that nearly coincide share their load evenly"
   check_balances(results);
   // 3 um of face over the shaft's length: what bends within it, relative to what bends.
   constexpr double kModel = 1e-4;
-  CHECK(largest_difference(results.loaded.front().cycle, few.loaded.front().cycle) <=
-        kModel * few.loaded.front().summary.te_mean);
+  CHECK(largest_difference(results.loaded.front().cycle, few.loaded.front().cycle) <= kModel * few.loaded.front().summary.te_mean);
   const MeshModel& model = results.models.front();
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const Eigen::VectorXd& loads = results.loaded.front().cycle.positions[i].load.line_load;
@@ -173,8 +173,12 @@ TEST_CASE("Hard: quadrature points that nearly coincide share their load evenly"
 TEST_CASE("Hard: faces that a tilt moves past each other touch nowhere, and it is said so", "[hard_cases]") {
   // The wheel's rim, some 76 mm from its axis, moves along the face by 60 arcmin of it, 1.3 mm: the faces are 0.7 mm wide.
   const auto tilted_by = [](const std::string& minutes) {
-    return run("any_face_width", {{"pinion.face_width", "0.7"}, {"wheel.face_width", "0.7"}, {"fidelity.gap", "whole_surface"},
-                                  {"fidelity.effects", "auto"}, {"misalignment.intersecting", minutes}, sampled_peaks});
+    return run("any_face_width", {{"pinion.face_width", "0.7"},
+                                  {"wheel.face_width", "0.7"},
+                                  {"fidelity.gap", "whole_surface"},
+                                  {"fidelity.effects", "auto"},
+                                  {"misalignment.intersecting", minutes},
+                                  sampled_peaks});
   };
   const auto apart = tilted_by("-60");
   for (const LoadedPosition& position : apart.loaded.front().cycle.positions) CHECK(position.load.status == LoadStatus::NoContactPoints);

@@ -140,7 +140,10 @@ class Drawing {
     out_.line("quadrature.intervals", random_.integer(1, 8));
     if (one_in(8)) {
       out_.table("analyse");
-      out_.line("gradients", std::string(R"(["pinion.modification.lead_crowning", "load.torque", "misalignment.mesh_misalignment", "misalignment.crossing", "misalignment.axial_offset"])"));
+      out_.line(
+          "gradients",
+          std::string(
+              R"(["pinion.modification.lead_crowning", "load.torque", "misalignment.mesh_misalignment", "misalignment.crossing", "misalignment.axial_offset"])"));
     }
   }
 

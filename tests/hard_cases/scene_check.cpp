@@ -51,8 +51,8 @@ double largest_deviation(const GearPair& pair, const Modification& m, const Manu
 double largest_displacement(const GearPair& pair, const Misalignment& m) {
   const double reach = 2.0 * (pair.wheel.tip_radius + pair.pinion.tip_radius) + pair.wheel.data.face_width + pair.pinion.data.face_width;
   const double angles = std::abs(m.crossing) + std::abs(m.intersecting) + std::abs(m.pinion_lead_angle) + std::abs(m.pinion_pressure_angle);
-  return angles * reach + std::abs(m.centre_distance) + std::abs(m.axial_offset) + std::abs(m.mesh_misalignment) *
-         std::max(pair.pinion.data.face_width, pair.wheel.data.face_width) / pair.face_width;
+  return angles * reach + std::abs(m.centre_distance) + std::abs(m.axial_offset) +
+         std::abs(m.mesh_misalignment) * std::max(pair.pinion.data.face_width, pair.wheel.data.face_width) / pair.face_width;
 }
 
 void check_unloaded(const Study& study, const GearPair& pair, const FlankCondition& c, Findings& findings) {
@@ -104,7 +104,8 @@ void check_position(const MeshPosition& at, const LoadedPosition& position, doub
   findings.require(load.usable(), "load distribution found, residual", load.kkt_residual);
   if (!load.usable()) return;
   findings.require(load.kkt_residual <= LoadOptions{}.tolerance, "residual of the optimality conditions", load.kkt_residual);
-  findings.require(load.line_load.allFinite() && load.line_load.minCoeff() >= 0.0, "loads are numbers and none pulls [N/mm]", load.line_load.minCoeff());
+  findings.require(load.line_load.allFinite() && load.line_load.minCoeff() >= 0.0, "loads are numbers and none pulls [N/mm]",
+                   load.line_load.minCoeff());
   findings.require(position.contact_stress.allFinite(), "contact stress is a number [MPa]", position.contact_stress.sum());
   findings.require(std::abs(at.weight.dot(load.line_load) / force - 1.0) <= 1e-9, "forces balance the torque", at.weight.dot(load.line_load) / force);
   findings.require(std::isfinite(position.stiffness) && position.stiffness > 0.0, "mesh stiffness [N/(mm um)]", position.stiffness);
@@ -126,7 +127,8 @@ void check_loaded(const Study& study, const GearPair& pair, const FlankCondition
   const MeshModel model = with_perturbed_meshes(placed(MeshPlacement::of(study.fidelity.gap, condition.misalignment)), placed, parameters);
   for (const double torque : study.scenes.front().torques) {
     const LoadedCycle cycle = analyse_cycle(model, condition, torque, parameters);
-    for (std::size_t i = 0; i < cycle.positions.size(); ++i) check_position(model.positions[i], cycle.positions[i], cycle.force, pair, condition, findings);
+    for (std::size_t i = 0; i < cycle.positions.size(); ++i)
+      check_position(model.positions[i], cycle.positions[i], cycle.force, pair, condition, findings);
     if (!cycle.usable()) continue;
     const CycleSummary summary = summarise(model, cycle);
     findings.require(std::isfinite(summary.peak_contact_stress) && std::isfinite(summary.te_mean), "summary is of numbers", summary.te_mean);
@@ -156,8 +158,7 @@ SceneVerdict examine(const std::string& text, const std::string& name) {
 
 std::string save_scene(const std::string& folder, const std::string& study, std::uint64_t seed, std::uint64_t index, const std::string& why) {
   std::filesystem::create_directories(folder);
-  const std::filesystem::path path =
-      std::filesystem::path(folder) / ("scene-" + std::to_string(seed) + "-" + std::to_string(index) + ".toml");
+  const std::filesystem::path path = std::filesystem::path(folder) / ("scene-" + std::to_string(seed) + "-" + std::to_string(index) + ".toml");
   std::string reason = why;
   std::ranges::replace(reason, '\n', ' ');
   studies::write_whole(path, "# seed " + std::to_string(seed) + ", index " + std::to_string(index) + "\n# " + reason + "\n" + study);

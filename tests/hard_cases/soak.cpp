@@ -66,7 +66,8 @@ int main(int argc, char** argv) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     std::printf("seed %llu up to index %llu: %llu passed, %llu refused, %llu failed, %.0f s\n", static_cast<unsigned long long>(seed),
                 static_cast<unsigned long long>(to), static_cast<unsigned long long>(counts[SceneVerdict::Passed]),
-                static_cast<unsigned long long>(counts[SceneVerdict::Refused]), static_cast<unsigned long long>(counts[SceneVerdict::Failed]), seconds);
+                static_cast<unsigned long long>(counts[SceneVerdict::Refused]), static_cast<unsigned long long>(counts[SceneVerdict::Failed]),
+                seconds);
     std::fflush(stdout);
   }
   return counts[SceneVerdict::Failed] == 0 ? 0 : 1;

@@ -46,9 +46,7 @@ TEST_CASE("Hard: aligned flanks touch along a line and transmit without error", 
 }
 
 TEST_CASE("Hard: a crossing that cancels a lead error is approached continuously", "[hard_cases]") {
-  const auto crossed_by = [](double minutes) {
-    return peak_to_peak("crossing_cancels_lead_error", {{"misalignment.crossing", in_digits(minutes)}});
-  };
+  const auto crossed_by = [](double minutes) { return peak_to_peak("crossing_cancels_lead_error", {{"misalignment.crossing", in_digits(minutes)}}); };
   const double singular = crossed_by(3.0), far = crossed_by(4.0);
   REQUIRE(far > 1.0 * arcsec);
   for (const double distance : {1e-9, 1e-8, 1e-6, 1e-4, 1e-2}) {
@@ -173,7 +171,8 @@ TEST_CASE("Hard: an edge that runs along its mate before the path begins takes t
 TEST_CASE("Hard: a relief that beyond the tip is steeper than the flank overflows nothing", "[hard_cases][slow]") {
   const std::string gap = GENERATE("plane_of_action", "whole_surface");
   for (const double height : {0.2, 0.16, 0.14, 0.12, 0.1, 0.085}) {
-    const auto results = run("relief_steeper_than_the_flank", {{"wheel.modification.tip_relief.height", in_digits(height)}, {"fidelity.gap", gap}, {"cycle.peaks", "sampled"}});
+    const auto results = run("relief_steeper_than_the_flank",
+                             {{"wheel.modification.tip_relief.height", in_digits(height)}, {"fidelity.gap", gap}, {"cycle.peaks", "sampled"}});
     check_balances(results);
     CAPTURE(gap, height);
     const UnloadedMesh& mesh = results.unloaded.front().mesh;

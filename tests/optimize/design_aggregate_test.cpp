@@ -8,8 +8,7 @@ using namespace flankwright;
 
 namespace {
 
-constexpr Aggregate all_aggregates[] = {Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean,
-                                        Aggregate::MeanPlusSigmas, Aggregate::Cvar};
+constexpr Aggregate all_aggregates[] = {Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean, Aggregate::MeanPlusSigmas, Aggregate::Cvar};
 constexpr double round_off = 1e-14;
 
 std::vector<double> random_numbers(std::size_t n, std::mt19937& generator) {

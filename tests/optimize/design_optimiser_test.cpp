@@ -10,8 +10,7 @@ using namespace flankwright::design_tasks;
 
 namespace {
 
-DesignResult optimise(const DesignTask& task, const std::string& solver = "ipopt", int max_evaluations = 2000,
-                      double tolerance = 1e-7) {
+DesignResult optimise(const DesignTask& task, const std::string& solver = "ipopt", int max_evaluations = 2000, double tolerance = 1e-7) {
   DesignProblem problem(task);
   SolverOptions options;
   options.name = solver;
@@ -20,12 +19,8 @@ DesignResult optimise(const DesignTask& task, const std::string& solver = "ipopt
   return optimise_design(problem, options);
 }
 
-double lead_crowning_um(const DesignReport& report) {
-  return report.variables[0] / units::um;
-}
-double lead_slope_um(const DesignReport& report) {
-  return report.variables[1] / units::um;
-}
+double lead_crowning_um(const DesignReport& report) { return report.variables[0] / units::um; }
+double lead_slope_um(const DesignReport& report) { return report.variables[1] / units::um; }
 
 }  // namespace
 
@@ -63,7 +58,7 @@ TEST_CASE("A single misaligned scene is cancelled by the lead slope", "[optimize
   const double misalignment = GENERATE(8.0, -8.0);  // um, opens at +z where positive
   DesignTask task = spur({misalignment});
   task.effects = MeshEffects::all_but({"free_ends"});  // even lines: any slope that is left shows in the peak
-  task.variables.erase(task.variables.begin());  // the slope alone
+  task.variables.erase(task.variables.begin());        // the slope alone
   const DesignResult result = optimise(task);
   CAPTURE(misalignment, result.message);
   // The wheel opens the mesh at +z by F; removing F at -z brings the flanks parallel again.
@@ -75,8 +70,7 @@ TEST_CASE("A single misaligned scene is cancelled by the lead slope", "[optimize
   CHECK(result.after.objective == Approx(best).epsilon(1e-4));  // the optimiser's tolerance
 }
 
-TEST_CASE("The first harmonic of the transmission error vanishes when it alone is minimised",
-          "[optimize][design][physics]") {
+TEST_CASE("The first harmonic of the transmission error vanishes when it alone is minimised", "[optimize][design][physics]") {
   DesignTask task = helical({0.0}, 16);
   task.variables.push_back({"pinion.modification.twist", Member::Pinion, parameter_of("twist"), -0.020, 0.020});
   task.variables.push_back({"pinion.modification.profile_slope", Member::Pinion, parameter_of("profile_slope"), -0.015, 0.015});
@@ -91,8 +85,7 @@ TEST_CASE("The first harmonic of the transmission error vanishes when it alone i
 
 TEST_CASE("The optimum respects a bound on the transmission error, and pays for it", "[optimize][design]") {
   DesignTask task = spur({10.0, -10.0});
-  task.variables.push_back(
-      {"pinion.modification.profile_crowning", Member::Pinion, parameter_of("profile_crowning"), 0.0, 0.040});
+  task.variables.push_back({"pinion.modification.profile_crowning", Member::Pinion, parameter_of("profile_crowning"), 0.0, 0.040});
   const DesignResult free = optimise(task);
   DesignProblem problem(task);
   OutputConstraint bound{term(Output::TePeakToPeak)};
@@ -153,7 +146,8 @@ TEST_CASE("Mean + k sigma has several optima, of which several starts find the o
   CHECK(result.after.objective == Approx(global.after.objective).epsilon(tolerance));
 }
 
-TEST_CASE("Where a solver stalls on a kink the finisher goes on from its best design, unless none is asked for", "[optimize][design][finisher][slow]") {
+TEST_CASE("Where a solver stalls on a kink the finisher goes on from its best design, unless none is asked for",
+          "[optimize][design][finisher][slow]") {
   const auto finished = [&](double misalignment, const std::string& solver, const std::string& finisher) {
     DesignTask task = spur({misalignment, -misalignment});
     task.variables.push_back({"pinion.modification.profile_crowning", Member::Pinion, parameter_of("profile_crowning"), 0.0, 0.040});
@@ -256,8 +250,8 @@ TEST_CASE("A parabola of transmission error is chosen over misalignment, and onl
   without.objective = {term(Output::TePeakToPeak)};
   without.variables.pop_back();
   DesignTask with = without;
-  with.variables.push_back({"pinion.modification.parabolic_te", Member::Pinion, parameter_of("parabolic_te"), 0.0,
-                            0.02 * units::arcsec_per_square_deg});
+  with.variables.push_back(
+      {"pinion.modification.parabolic_te", Member::Pinion, parameter_of("parabolic_te"), 0.0, 0.02 * units::arcsec_per_square_deg});
   const DesignResult plain = optimise(without), parabolic = optimise(with);
   CAPTURE(plain.after.objective, parabolic.after.objective, parabolic.after.variables[2] / units::arcsec_per_square_deg);
   CHECK(parabolic.after.objective <= plain.after.objective * (1.0 + 1e-3));  // a further variable; local searches

@@ -13,9 +13,7 @@ using namespace flankwright::design_tasks;
 
 namespace {
 
-const LoadedCycle& cycle_of(const DesignAnalysis& analysis, int scene) {
-  return analysis.cycles[static_cast<std::size_t>(scene)];
-}
+const LoadedCycle& cycle_of(const DesignAnalysis& analysis, int scene) { return analysis.cycles[static_cast<std::size_t>(scene)]; }
 
 /// Every variable that a relief offers, beside the three of the small task: also heights and a wheel parameter.
 DesignTask task_with_reliefs() {
@@ -93,8 +91,7 @@ TEST_CASE("Leading candidates are the peak and all that come near it", "[optimiz
       const std::vector<double> values = all_values(output, model, cycle);
       const double peak = *std::max_element(values.begin(), values.end());
       CHECK(output_value(output, model, cycle) == peak);
-      const auto near =
-          std::count_if(values.begin(), values.end(), [&](double v) { return v >= (1.0 - margin) * peak; });
+      const auto near = std::count_if(values.begin(), values.end(), [&](double v) { return v >= (1.0 - margin) * peak; });
 
       const std::vector<PeakCandidate> leading = leading_candidates(output, model, cycle, margin, 100000);
       CHECK(static_cast<long>(leading.size()) == near);
@@ -130,8 +127,7 @@ TEST_CASE("Gradients of every output are what central differences say", "[optimi
       for (int s = 0; s < problem.scenes(); ++s) {
         for (const PeakCandidate& candidate : leading_candidates(output, problem.model(s), cycle_of(at, s), 0.1, 3)) {
           const SmoothValue value = candidate_value(output, candidate, problem.model(s), cycle_of(at, s));
-          checks.push_back(
-              {output, s, candidate, problem.scaled(value.gradient), Eigen::VectorXd(problem.variables())});
+          checks.push_back({output, s, candidate, problem.scaled(value.gradient), Eigen::VectorXd(problem.variables())});
         }
       }
     }
@@ -174,8 +170,7 @@ TEST_CASE("An output of a cycle that failed somewhere is refused", "[optimize][d
   }
 }
 
-TEST_CASE("A harmonic's directions never exceed its amplitude and fall short of it by no more than half a per cent",
-          "[optimize][design][outputs]") {
+TEST_CASE("A harmonic's directions never exceed its amplitude and fall short of it by no more than half a per cent", "[optimize][design][outputs]") {
   DesignProblem problem(helical());
   std::mt19937 generator(11);
   const ObjectiveTerm first = term(Output::TeHarmonic, 1);
@@ -207,7 +202,8 @@ TEST_CASE("Where one pair carries all the load the effective contact ratio is on
     for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
       Eigen::VectorXd& load = cycle.positions[i].load.line_load;
       std::map<int, double> lengths;
-      for (Eigen::Index j = 0; j < load.size(); ++j) lengths[model.positions[i].points[static_cast<std::size_t>(j)].tooth] += model.positions[i].weight[j];
+      for (Eigen::Index j = 0; j < load.size(); ++j)
+        lengths[model.positions[i].points[static_cast<std::size_t>(j)].tooth] += model.positions[i].weight[j];
       double total = 0.0;
       for (const auto& [tooth, length] : lengths) total += weight_of(tooth, lengths);
       for (Eigen::Index j = 0; j < load.size(); ++j) {

@@ -29,10 +29,9 @@ void check_same_bits(const DesignAnalysis& a, const DesignAnalysis& b) {
 
 TEST_CASE("The start is the given modification, moved into the bounds", "[optimize][design]") {
   DesignTask task = helical();
-  task.modification.pinion.lead_crowning = 0.010;  // of 0 .. 0.040
-  task.modification.pinion.lead_slope = -0.050;    // below -0.020
-  task.modification.pinion.addendum_crowning =
-      0.040;  // profile crowning is the mean of both halves: 0.035 of 0 .. 0.030
+  task.modification.pinion.lead_crowning = 0.010;      // of 0 .. 0.040
+  task.modification.pinion.lead_slope = -0.050;        // below -0.020
+  task.modification.pinion.addendum_crowning = 0.040;  // profile crowning is the mean of both halves: 0.035 of 0 .. 0.030
   task.modification.pinion.dedendum_crowning = 0.030;
   const DesignProblem problem(task);
   constexpr double round_off = 1e-15;
@@ -119,8 +118,7 @@ TEST_CASE("A harmonic that the mesh positions do not resolve is refused", "[opti
   DesignTask task = helical({0.0}, 8);
   task.objective = {term(Output::TeHarmonic, 3)};
   CHECK_NOTHROW(DesignProblem(task));
-  task.objective = {
-      term(Output::TeHarmonic, 4)};  // two positions to a period: the amplitude depends on where they fall
+  task.objective = {term(Output::TeHarmonic, 4)};  // two positions to a period: the amplitude depends on where they fall
   CHECK_THROWS_AS(DesignProblem(task), InvalidInput);
   task.objective = {term(Output::PeakContactStress)};
   task.constraints = {{term(Output::TeHarmonic, 5), 0.001}};

@@ -40,9 +40,7 @@ DesignTask with_two_outputs_and_a_bound(const Aggregation& over) {
   return task;
 }
 
-Eigen::VectorXd row_values(EpigraphProgram& program, const Eigen::VectorXd& y) {
-  return program.evaluate(y, false).constraints;
-}
+Eigen::VectorXd row_values(EpigraphProgram& program, const Eigen::VectorXd& y) { return program.evaluate(y, false).constraints; }
 
 }  // namespace
 
@@ -57,9 +55,9 @@ TEST_CASE("The direct programme's gradients are what central differences say", "
 }
 
 TEST_CASE("The epigraph programme's gradients are what central differences say", "[optimize][design][gradient]") {
-  const Aggregation over = GENERATE(Aggregation(Aggregate::Nominal), Aggregation(Aggregate::Worst), Aggregation(Aggregate::Mean),
-                                    Aggregation(Aggregate::MeanPlusSigmas, 2.0), Aggregation(Aggregate::MeanPlusSigmas, 0.7),
-                                    Aggregation(Aggregate::Cvar, 2.0, 0.5));
+  const Aggregation over =
+      GENERATE(Aggregation(Aggregate::Nominal), Aggregation(Aggregate::Worst), Aggregation(Aggregate::Mean),
+               Aggregation(Aggregate::MeanPlusSigmas, 2.0), Aggregation(Aggregate::MeanPlusSigmas, 0.7), Aggregation(Aggregate::Cvar, 2.0, 0.5));
   const bool several_outputs = GENERATE(true, false);
   CAPTURE(to_string(over), several_outputs);
   DesignTask task = with_two_outputs_and_a_bound(over);

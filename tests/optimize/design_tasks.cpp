@@ -60,19 +60,17 @@ DesignTask spur(const std::vector<double>& misalignments_um) {
 }
 
 ObjectiveTerm term(Output output, int harmonic, double weight) {
-  const char* names[] = {"peak_contact_stress", "te_peak_to_peak", "te_harmonic_",
-                         "load_factor",         "peak_line_load",  "peak_root_stress",
-                         "effective_contact_ratio", "edge_load"};
+  const char* names[] = {"peak_contact_stress", "te_peak_to_peak",         "te_harmonic_", "load_factor", "peak_line_load",
+                         "peak_root_stress",    "effective_contact_ratio", "edge_load"};
   std::string name = names[static_cast<int>(output)];
   if (output == Output::TeHarmonic) name += std::to_string(harmonic);
   return {output, harmonic, weight, name};
 }
 
 std::vector<ObjectiveTerm> all_outputs() {
-  return {term(Output::PeakContactStress), term(Output::TePeakToPeak),  term(Output::TeHarmonic, 1),
-          term(Output::TeHarmonic, 2),     term(Output::TeHarmonic, 3), term(Output::LoadFactor),
-          term(Output::PeakLineLoad),      term(Output::PeakRootStress), term(Output::EffectiveContactRatio),
-          term(Output::EdgeLoad)};
+  return {term(Output::PeakContactStress),     term(Output::TePeakToPeak), term(Output::TeHarmonic, 1), term(Output::TeHarmonic, 2),
+          term(Output::TeHarmonic, 3),         term(Output::LoadFactor),   term(Output::PeakLineLoad),  term(Output::PeakRootStress),
+          term(Output::EffectiveContactRatio), term(Output::EdgeLoad)};
 }
 
 Eigen::VectorXd random_design(int variables, std::mt19937& generator) {

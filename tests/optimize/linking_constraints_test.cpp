@@ -32,7 +32,7 @@ DesignTask shared_crowning(double factor, double offset) {
 TEST_CASE("A tied modification follows its variable, and gradients go through it", "[optimize][design][ties][gradient]") {
   DesignTask task = helical();
   task.links = {link(0, Member::Wheel, parameter_of("lead_crowning"), 0.5, 0.002),
-               link(2, Member::Wheel, parameter_of("profile_crowning"), -1.0, 0.030)};
+                link(2, Member::Wheel, parameter_of("profile_crowning"), -1.0, 0.030)};
   DesignProblem problem(task);
   std::mt19937 generator(21);
   const Eigen::VectorXd x = random_design(problem.variables(), generator);
@@ -78,8 +78,7 @@ TEST_CASE("A bound on a sum of modifications holds, whichever solver, and is fel
   DesignProblem free(task);
   const DesignResult unbounded = optimise_design(free, SolverOptions{});
   const double total = unbounded.after.variables[0] + unbounded.after.variables[1];
-  ModificationConstraint sum{"sum", {{Member::Pinion, parameter_of("lead_crowning"), 1.0},
-                                     {Member::Wheel, parameter_of("lead_crowning"), 1.0}}};
+  ModificationConstraint sum{"sum", {{Member::Pinion, parameter_of("lead_crowning"), 1.0}, {Member::Wheel, parameter_of("lead_crowning"), 1.0}}};
   sum.maximum = 0.5 * total;
   task.modification_constraints = {sum};
   DesignProblem problem(task);

@@ -16,8 +16,7 @@ namespace {
 /// Transmission error alone has three optima here, 0.748, 0.787 and 0.812 um.
 DesignTask trading_task() {
   DesignTask task = spur({10.0, -10.0});
-  task.variables.push_back(
-      {"pinion.modification.profile_crowning", Member::Pinion, parameter_of("profile_crowning"), 0.0, 0.040});
+  task.variables.push_back({"pinion.modification.profile_crowning", Member::Pinion, parameter_of("profile_crowning"), 0.0, 0.040});
   return task;
 }
 
@@ -84,7 +83,8 @@ TEST_CASE("A front of three objectives has the best of each among its corners an
   CHECK(std::isnan(front.unevenness()));
 }
 
-TEST_CASE("An objective that can vanish stays near zero at its best point, and the other objective is minimised there", "[optimize][design][pareto]") {
+TEST_CASE("An objective that can vanish stays near zero at its best point, and the other objective is minimised there",
+          "[optimize][design][pareto]") {
   DesignProblem problem(trading_task());
   std::mt19937 generator(2);
   problem.set_start(random_design(3, generator));

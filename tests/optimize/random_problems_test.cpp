@@ -44,8 +44,8 @@ DesignTask random_task(unsigned seed) {
   variable("lead_crowning", parameter_of("lead_crowning"), 0.0, 4.0);
   variable("lead_slope", parameter_of("lead_slope"), -2.0, 2.0);
   variable("profile_crowning", parameter_of("profile_crowning"), 0.0, 3.0);
-  task.objective = {one_of<ObjectiveTerm>(generator, {term(Output::PeakContactStress), term(Output::TePeakToPeak),
-                                                      term(Output::TeHarmonic, 1), term(Output::LoadFactor)})};
+  task.objective = {one_of<ObjectiveTerm>(
+      generator, {term(Output::PeakContactStress), term(Output::TePeakToPeak), term(Output::TeHarmonic, 1), term(Output::LoadFactor)})};
   task.over = one_of<Aggregation>(generator, {Aggregate::Worst, Aggregate::Mean, {Aggregate::Cvar, 2.0, 0.5}});
   return task;
 }
@@ -64,7 +64,7 @@ void check_problem(unsigned seed) {
   const bool agree = result.optima.front().found_by >= 3;
   CAPTURE(result.optima.front().found_by);
   CHECK((agree || result.is_multimodal()));
-  CHECK(result.optimality.satisfied());  // smooth or on a kink, which `active` then marks
+  CHECK(result.optimality.satisfied());                                      // smooth or on a kink, which `active` then marks
   CHECK(result.after.objective <= result.before.objective * (1.0 + 1e-12));  // round-off
 }
 

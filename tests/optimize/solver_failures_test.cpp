@@ -44,8 +44,7 @@ class Bendable final : public NonlinearProgram {
 };
 
 bool is_global(const std::string& name) {
-  return name == "nlopt:crs2_lm" || name == "nlopt:isres" || name == "nlopt:direct_l" || name == "nlopt:esch" ||
-         name == "nlopt:mlsl";
+  return name == "nlopt:crs2_lm" || name == "nlopt:isres" || name == "nlopt:direct_l" || name == "nlopt:esch" || name == "nlopt:mlsl";
 }
 
 SolverOptions options_for(const std::string& name, int max_evaluations = 1000) {
@@ -189,8 +188,7 @@ TEST_CASE("local solvers take variables without bounds", "[optimize][solver]") {
     if (is_global(name)) {
       CHECK_THROWS_AS(solve(problem, options_for(name)), InvalidInput);
     } else {
-      CHECK(solve(problem, options_for(name)).objective ==
-            Approx(0.0).margin(1e-8));  // model: the step tolerance, squared
+      CHECK(solve(problem, options_for(name)).objective == Approx(0.0).margin(1e-8));  // model: the step tolerance, squared
     }
   }
 }
@@ -200,8 +198,7 @@ TEST_CASE("solvers that cannot take a programme are refused with those that can"
   for (const std::string& name : solver_names()) {
     if (accepts_constraints(name)) continue;
     CAPTURE(name);
-    CHECK_THROWS_WITH(solve(problem, options_for(name)),
-                      Catch::Contains("ipopt, nlopt:slsqp, nlopt:mma, nlopt:ccsaq, nlopt:cobyla, nlopt:isres"));
+    CHECK_THROWS_WITH(solve(problem, options_for(name)), Catch::Contains("ipopt, nlopt:slsqp, nlopt:mma, nlopt:ccsaq, nlopt:cobyla, nlopt:isres"));
   }
   CHECK(problem.evaluations == 0);
 }

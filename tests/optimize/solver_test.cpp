@@ -61,9 +61,7 @@ void check_books(const SolverResult& result, const KnownProblem& problem) {
   CHECK(result.seconds >= 0.0);
 }
 
-bool same_bits(double a, double b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
-}
+bool same_bits(double a, double b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 void check_same_run(const SolverResult& a, const SolverResult& b) {
   CHECK(a.status == b.status);
@@ -102,8 +100,7 @@ TEST_CASE("the problem library's gradients agree with central differences", "[op
         const double scale = 1.0 + std::abs(at.objective) + std::abs(at.objective_gradient[i]);
         CHECK(std::abs((up.objective - down.objective) / (2.0 * h) - at.objective_gradient[i]) <= 1e-6 * scale);
         if (problem->constraints() == 0) continue;
-        const Eigen::VectorXd difference =
-            (up.constraints - down.constraints) / (2.0 * h) - at.constraint_jacobian.col(i);
+        const Eigen::VectorXd difference = (up.constraints - down.constraints) / (2.0 * h) - at.constraint_jacobian.col(i);
         CHECK(difference.cwiseAbs().maxCoeff() <= 1e-6 * (1.0 + at.constraints.cwiseAbs().maxCoeff()));
       }
     }
@@ -124,8 +121,7 @@ TEST_CASE("every solver solves every problem that it accepts", "[optimize][solve
       CAPTURE(expectation.solver, problem->name(), result.message, result.evaluations);
 
       CHECK(result.solver == expectation.solver);
-      CHECK(std::abs(result.objective - problem->optimum()) <=
-            expectation.tolerance * std::max(1.0, std::abs(problem->optimum())));
+      CHECK(std::abs(result.objective - problem->optimum()) <= expectation.tolerance * std::max(1.0, std::abs(problem->optimum())));
       CHECK(result.constraint_violation <= options.constraint_tolerance);
       CHECK(result.evaluations <= options.max_evaluations);
       if (expectation.converges) CHECK(result.status == SolverStatus::Converged);
@@ -219,8 +215,7 @@ TEST_CASE("the same input gives the same bits, and only stochastic solvers heed 
     CAPTURE(name);
     const SolverResult first = run(1), other = run(2);
     check_same_run(first, run(1));
-    const bool stochastic =
-        name == "nlopt:crs2_lm" || name == "nlopt:isres" || name == "nlopt:esch" || name == "nlopt:mlsl";
+    const bool stochastic = name == "nlopt:crs2_lm" || name == "nlopt:isres" || name == "nlopt:esch" || name == "nlopt:mlsl";
     if (!stochastic) {
       check_same_run(first, other);
       continue;
@@ -241,8 +236,7 @@ TEST_CASE("Ipopt's multipliers make the Lagrangian stationary on HS100", "[optim
   REQUIRE(result.status == SolverStatus::Converged);
   REQUIRE(result.multipliers.size() == 4);
   const ProgramValues at = problem.evaluate(result.x, true);
-  const Eigen::VectorXd residual =
-      at.objective_gradient + at.constraint_jacobian.transpose() * result.multipliers;  // no bound is active
+  const Eigen::VectorXd residual = at.objective_gradient + at.constraint_jacobian.transpose() * result.multipliers;  // no bound is active
   // Model: Ipopt's scaled residual of 1e-9 times its scaling, below 100 here, with a margin of ten.
   CHECK(residual.cwiseAbs().maxCoeff() <= 1e-6);
   CHECK((result.multipliers.array() >= 0.0).all());
@@ -252,8 +246,7 @@ TEST_CASE("Ipopt's multipliers make the Lagrangian stationary on HS100", "[optim
   CHECK(result.multipliers[3] > 0.1);
 }
 
-TEST_CASE("a minimax epigraph's multipliers are weights of the active functions: they sum to one",
-          "[optimize][solver]") {
+TEST_CASE("a minimax epigraph's multipliers are weights of the active functions: they sum to one", "[optimize][solver]") {
   CharalambousBandler2 problem;
   SolverOptions options;
   options.tolerance = 1e-9;

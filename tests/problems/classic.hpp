@@ -73,8 +73,7 @@ class HockSchittkowski71 final : public KnownProblem {
     if (with_gradients) {
       values.objective_gradient = vector_of(x[3] * (sum + x[0]), x[0] * x[3], x[0] * x[3] + 1.0, x[0] * sum);
       values.constraint_jacobian.resize(2, 4);
-      values.constraint_jacobian.row(0) =
-          -vector_of(x[1] * x[2] * x[3], x[0] * x[2] * x[3], x[0] * x[1] * x[3], x[0] * x[1] * x[2]).transpose();
+      values.constraint_jacobian.row(0) = -vector_of(x[1] * x[2] * x[3], x[0] * x[2] * x[3], x[0] * x[1] * x[3], x[0] * x[1] * x[2]).transpose();
       values.constraint_jacobian.row(1) = 2.0 * x.transpose();
     }
     return values;
@@ -85,30 +84,27 @@ class HockSchittkowski71 final : public KnownProblem {
 class HockSchittkowski100 final : public KnownProblem {
  public:
   HockSchittkowski100()
-      : KnownProblem(
-            {.name = "HS100",
-             .constraints = 4,
-             .lower = Eigen::VectorXd::Constant(7, -10.0),
-             .upper = Eigen::VectorXd::Constant(7, 10.0),
-             .start = vector_of(1.0, 2.0, 0.0, 4.0, 0.0, 1.0, 1.0),
-             .optimum = 680.6300573,
-             .minimiser = vector_of(2.330499, 1.951372, -0.4775414, 4.365726, -0.6244870, 1.038131, 1.594227)}) {}
+      : KnownProblem({.name = "HS100",
+                      .constraints = 4,
+                      .lower = Eigen::VectorXd::Constant(7, -10.0),
+                      .upper = Eigen::VectorXd::Constant(7, 10.0),
+                      .start = vector_of(1.0, 2.0, 0.0, 4.0, 0.0, 1.0, 1.0),
+                      .optimum = 680.6300573,
+                      .minimiser = vector_of(2.330499, 1.951372, -0.4775414, 4.365726, -0.6244870, 1.038131, 1.594227)}) {}
 
  private:
   ProgramValues values_at(const Eigen::VectorXd& x, bool with_gradients) override {
     const double a = x[0], b = x[1], c = x[2], d = x[3], e = x[4], f = x[5], g = x[6];
     const auto power = [](double base, int exponent) { return std::pow(base, exponent); };
     ProgramValues values;
-    values.objective = power(a - 10.0, 2) + 5.0 * power(b - 12.0, 2) + power(c, 4) + 3.0 * power(d - 11.0, 2) +
-                       10.0 * power(e, 6) + 7.0 * f * f + power(g, 4) - 4.0 * f * g - 10.0 * f - 8.0 * g;
+    values.objective = power(a - 10.0, 2) + 5.0 * power(b - 12.0, 2) + power(c, 4) + 3.0 * power(d - 11.0, 2) + 10.0 * power(e, 6) + 7.0 * f * f +
+                       power(g, 4) - 4.0 * f * g - 10.0 * f - 8.0 * g;
     values.constraints =
-        vector_of(2.0 * a * a + 3.0 * power(b, 4) + c + 4.0 * d * d + 5.0 * e - 127.0,
-                  7.0 * a + 3.0 * b + 10.0 * c * c + d - e - 282.0, 23.0 * a + b * b + 6.0 * f * f - 8.0 * g - 196.0,
-                  4.0 * a * a + b * b - 3.0 * a * b + 2.0 * c * c + 5.0 * f - 11.0 * g);
+        vector_of(2.0 * a * a + 3.0 * power(b, 4) + c + 4.0 * d * d + 5.0 * e - 127.0, 7.0 * a + 3.0 * b + 10.0 * c * c + d - e - 282.0,
+                  23.0 * a + b * b + 6.0 * f * f - 8.0 * g - 196.0, 4.0 * a * a + b * b - 3.0 * a * b + 2.0 * c * c + 5.0 * f - 11.0 * g);
     if (with_gradients) {
-      values.objective_gradient =
-          vector_of(2.0 * (a - 10.0), 10.0 * (b - 12.0), 4.0 * power(c, 3), 6.0 * (d - 11.0), 60.0 * power(e, 5),
-                    14.0 * f - 4.0 * g - 10.0, 4.0 * power(g, 3) - 4.0 * f - 8.0);
+      values.objective_gradient = vector_of(2.0 * (a - 10.0), 10.0 * (b - 12.0), 4.0 * power(c, 3), 6.0 * (d - 11.0), 60.0 * power(e, 5),
+                                            14.0 * f - 4.0 * g - 10.0, 4.0 * power(g, 3) - 4.0 * f - 8.0);
       values.constraint_jacobian.resize(4, 7);
       values.constraint_jacobian << 4.0 * a, 12.0 * power(b, 3), 1.0, 8.0 * d, 5.0, 0.0, 0.0,  //
           7.0, 3.0, 20.0 * c, 1.0, -1.0, 0.0, 0.0,                                             //

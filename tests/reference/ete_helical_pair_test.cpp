@@ -24,8 +24,7 @@ studies::Study example() { return studies::read_study(FLANKWRIGHT_SOURCE_DIR "/s
 Sweep thin_slice_sweep() {
   const studies::Study study = example();
   const GearPair pair = make_gear_pair(study.pair);
-  const MeshModel model = make_mesh_model(pair, study.material,
-                                          {study.fidelity.quadrature, equally_spaced_phases(20)});
+  const MeshModel model = make_mesh_model(pair, study.material, {study.fidelity.quadrature, equally_spaced_phases(20)});
   FlankCondition condition;
   condition.modification = study.modification;
   const double to_base_tangent = 1.0 / (std::cos(pair.base_helix_angle) * units::um);

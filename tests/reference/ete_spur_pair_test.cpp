@@ -53,8 +53,7 @@ class ReliefStudy {
     for (Member m : {Member::Pinion, Member::Wheel}) {
       const Gear& gear = pair_[m];
       Modification& to = condition_.modification[m];
-      to.topography = std::make_shared<RollParabola>(gear.roll_length_at(gear.working_pitch_radius),
-                                                     gear.roll_length_at(gear.tip_radius), amount);
+      to.topography = std::make_shared<RollParabola>(gear.roll_length_at(gear.working_pitch_radius), gear.roll_length_at(gear.tip_radius), amount);
     }
   }
 
@@ -62,12 +61,10 @@ class ReliefStudy {
   BothGaps at(double phase) const {
     const double line_phase = phase + PathOfContact::extension;
     const PathOfContact path(pair_);
-    for (const ContactPoint& point :
-         contact_points(pair_, path, {QuadratureRule::Midpoint, 1}, line_phase, true, -7.5, 7.5)) {
+    for (const ContactPoint& point : contact_points(pair_, path, {QuadratureRule::Midpoint, 1}, line_phase, true, -7.5, 7.5)) {
       if (point.tooth != 0) continue;
       const Gap surface = SurfaceGap(pair_, condition_).at({point}, line_phase);
-      return {plane_of_action_gap(pair_, {point}, condition_).total[0], surface.total[0],
-              surface.nearest[0].pinion_radius - point.pinion_radius};
+      return {plane_of_action_gap(pair_, {point}, condition_).total[0], surface.total[0], surface.nearest[0].pinion_radius - point.pinion_radius};
     }
     return {not_given, not_given, not_given};
   }
@@ -91,8 +88,7 @@ class ReliefStudy {
 
 }  // namespace
 
-TEST_CASE("ETE paper case 1: contact off the line of action changes the unloaded transmission error by 8.2 % at position 8",
-          "[reference][contact]") {
+TEST_CASE("ETE paper case 1: contact off the line of action changes the unloaded transmission error by 8.2 % at position 8", "[reference][contact]") {
   // Section 3.1: at position 8 the two programs differ most, by 1.221 um or 8.2 % of LDP's value, which was 14.9 um
   // then. The phases of the ten positions are not stated: position 8 is found by that value, on the pair that has entered and leads
   // (the pair about to leave passes the same value with 10.9 %).

@@ -60,15 +60,11 @@ std::vector<PrintedOutput> outputs() {
   };
   return {perfect("null-a", 0, haddad::transmission_error_a, haddad::null_a),
           perfect("null-b", 1, haddad::transmission_error_b, haddad::null_b),
-          with_errors("1, helix slope", haddad::helix_slope_output,
-                      [](std::size_t i) { return haddad::errors[i].helix_slope; }),
-          with_errors("2, lead crowning", haddad::lead_crowning_output,
-                      [](std::size_t i) { return haddad::errors[i].lead_crowning; }),
-          with_errors("6, addendum crowning", haddad::addendum_crowning_output,
-                      [](std::size_t i) { return haddad::errors[i].addendum_crowning; }),
-          with_errors("8, pitch", haddad::pitch_error_output, [](std::size_t i) {
-            return haddad::pitch_errors[static_cast<std::size_t>(haddad::null_a[i].tooth - 3)];
-          })};
+          with_errors("1, helix slope", haddad::helix_slope_output, [](std::size_t i) { return haddad::errors[i].helix_slope; }),
+          with_errors("2, lead crowning", haddad::lead_crowning_output, [](std::size_t i) { return haddad::errors[i].lead_crowning; }),
+          with_errors("6, addendum crowning", haddad::addendum_crowning_output, [](std::size_t i) { return haddad::errors[i].addendum_crowning; }),
+          with_errors("8, pitch", haddad::pitch_error_output,
+                      [](std::size_t i) { return haddad::pitch_errors[static_cast<std::size_t>(haddad::null_a[i].tooth - 3)]; })};
 }
 
 }  // namespace
@@ -80,14 +76,13 @@ TEST_CASE("With finite elements of our own the thesis' sample outputs come out",
   auto wheel = std::async(std::launch::async, [&] { return influence_table(pair, Member::Wheel); });
   const auto pinion = influence_table(pair, Member::Pinion);
   const StructuralPair structure(pair, {pinion, kMaterial.youngs_modulus}, {wheel.get(), kMaterial.youngs_modulus});
-  const MeshModel model = make_mesh_model(pair, {kMaterial, kMaterial},
-                                          {{QuadratureRule::Gauss2, 5}, {haddad::phase_a, haddad::phase_b}}, {}, {}, &structure);
+  const MeshModel model =
+      make_mesh_model(pair, {kMaterial, kMaterial}, {{QuadratureRule::Gauss2, 5}, {haddad::phase_a, haddad::phase_b}}, {}, {}, &structure);
   const double cos_base = std::cos(pair.base_helix_angle);
 
   for (const PrintedOutput& printed : outputs()) {
     const MeshPosition& at = model.positions[static_cast<std::size_t>(printed.position)];
-    LoadProblem problem{at.influence, at.weight * cos_base, Eigen::VectorXd(at.weight.size()), at.laws,
-                        haddad::normal_force};
+    LoadProblem problem{at.influence, at.weight * cos_base, Eigen::VectorXd(at.weight.size()), at.laws, haddad::normal_force};
     Eigen::VectorXd load(at.weight.size());
     for (std::size_t i = 0; i < at.points.size(); ++i) {
       const ContactPoint& point = at.points[i];
@@ -104,9 +99,7 @@ TEST_CASE("With finite elements of our own the thesis' sample outputs come out",
     const auto peak_stress = [&](const Eigen::VectorXd& loads) {
       double peak = 0;
       for (std::size_t i = 0; i < at.points.size(); ++i) {
-        peak = std::max(peak, hertz_line(loads[static_cast<Eigen::Index>(i)], at.points[i].relative_radius,
-                                         model.contact_modulus)
-                                  .peak_pressure);
+        peak = std::max(peak, hertz_line(loads[static_cast<Eigen::Index>(i)], at.points[i].relative_radius, model.contact_modulus).peak_pressure);
       }
       return peak;
     };
@@ -114,8 +107,8 @@ TEST_CASE("With finite elements of our own the thesis' sample outputs come out",
     const double rms = std::sqrt((found.line_load - load).squaredNorm() / static_cast<double>((load.array() > 0).count()));
     const double peak = found.line_load.maxCoeff() / load.maxCoeff();
     const double stress = peak_stress(found.line_load) / peak_stress(load);
-    WARN(printed.name << ": f_t " << f_t << " (" << printed.transmission_error << "), peak load " << peak << ", peak stress "
-                      << stress << " of the printed, rms " << rms << " N/mm");
+    WARN(printed.name << ": f_t " << f_t << " (" << printed.transmission_error << "), peak load " << peak << ", peak stress " << stress
+                      << " of the printed, rms " << rms << " N/mm");
     // Model: the thesis' curves are fits to a coarse mesh, not reciprocal, and its wheel of 54 teeth is interpolated
     // between 40 and 100 (2.6, 3.4).
     const bool pitch = printed.name[0] == '8';

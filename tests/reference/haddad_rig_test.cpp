@@ -23,8 +23,7 @@ std::vector<double> added_error(const std::vector<studies::Override>& overrides)
     const LoadedCycle &idle = results.loaded[2 * phase].cycle, &loaded = results.loaded[2 * phase + 1].cycle;
     REQUIRE(loaded.usable());
     CHECK(loaded.positions[phase].phase == rig::phases[phase]);
-    added.push_back((loaded.transmission_error()[static_cast<Eigen::Index>(phase)] -
-                     idle.transmission_error()[static_cast<Eigen::Index>(phase)]) /
+    added.push_back((loaded.transmission_error()[static_cast<Eigen::Index>(phase)] - idle.transmission_error()[static_cast<Eigen::Index>(phase)]) /
                     units::um);
   }
   return added;

@@ -39,9 +39,8 @@ GearPair helical_18_54() { return mesh_cases::pair(18, 54, 30, 10, 120); }
 /// Both gears' teeth as cantilever plates: slices that hold on to each other.
 std::shared_ptr<const PairCompliance> plates(const GearPair& pair, double poissons_ratio = mesh_cases::steel.poissons_ratio) {
   const auto plate = [&](Member m) {
-    return GearStructure{
-        std::make_shared<CantileverPlate>(tooth_form(pair, m), pair.data.normal_module, pair.face_width, poissons_ratio),
-        mesh_cases::steel.youngs_modulus};
+    return GearStructure{std::make_shared<CantileverPlate>(tooth_form(pair, m), pair.data.normal_module, pair.face_width, poissons_ratio),
+                         mesh_cases::steel.youngs_modulus};
   };
   return std::make_shared<StructuralPair>(pair, plate(Member::Pinion), plate(Member::Wheel));
 }
@@ -86,8 +85,8 @@ TEST_CASE("The load along a spur tooth turns two modules from its ends, by Poiss
   const double phase = (pair.pitch_point - pair.path_start) / pair.transverse_base_pitch + PathOfContact::extension;
   const auto along_face = [&](double poissons_ratio, const MeshEffects& effects) {  // of the pair that carries all, by distance from the end [m_n]
     const auto structure = plates(pair, poissons_ratio);
-    const MeshModel model = make_mesh_model(pair, {mesh_cases::steel, mesh_cases::steel}, {{QuadratureRule::Graded, 16}, {phase}}, effects, {},
-                                            structure.get());
+    const MeshModel model =
+        make_mesh_model(pair, {mesh_cases::steel, mesh_cases::steel}, {{QuadratureRule::Graded, 16}, {phase}}, effects, {}, structure.get());
     const LoadedCycle cycle = analyse_cycle(model, {}, Mesh{pair}.torque());
     std::map<double, double> loads;
     for (std::size_t i = 0; i < model.positions[0].points.size(); ++i) {
@@ -113,8 +112,8 @@ TEST_CASE("Full contact under a misalignment is best crowned by sqrt(3)/4 of it"
   // (Myers, quoted in section 4.2.4: 0.426 f). One pair of teeth, bending slices: stress^2 is proportional to w.
   const GearPair pair = mesh_cases::pair(18, 72, 0, 10, 120);
   const double phase = (pair.pitch_point - pair.path_start) / pair.transverse_base_pitch + PathOfContact::extension;
-  const MeshModel model = mesh_cases::model(pair, {{QuadratureRule::Midpoint, 240}, {phase}},
-                                            MeshEffects::all_but({"hertzian_contact", "extended_contact_region"}));
+  const MeshModel model =
+      mesh_cases::model(pair, {{QuadratureRule::Midpoint, 240}, {phase}}, MeshEffects::all_but({"hertzian_contact", "extended_contact_region"}));
   const auto peak = [&](double misalignment, double crowning) {
     const LoadedCycle cycle = analyse_cycle(model, lead_error(misalignment, crowning), Mesh{pair}.torque());
     const double stress = peaks_at(model, model.positions[0], cycle.positions[0]).without_spikes.contact_stress.value;

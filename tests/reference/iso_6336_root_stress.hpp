@@ -39,8 +39,8 @@ inline Iso6336Root iso_6336_root(const GearData& gear, double alpha) {
   const auto involute = [](double a) { return std::tan(a) - a; };
   const double gamma = (units::pi / 2 + 2 * x * std::tan(alpha)) / z + involute(alpha) - involute(alpha_tip);
   const double alpha_F = alpha_tip - gamma;
-  root.lever = 0.5 * ((std::cos(gamma) - std::sin(gamma) * std::tan(alpha_F)) * tip -
-                      z * std::cos(units::pi / 3 - theta) - G / std::cos(theta) + rho);
+  root.lever =
+      0.5 * ((std::cos(gamma) - std::sin(gamma) * std::tan(alpha_F)) * tip - z * std::cos(units::pi / 3 - theta) - G / std::cos(theta) + rho);
   root.form = 6 * root.lever * std::cos(alpha_F) / (root.chord * root.chord * std::cos(alpha));
   const double L = root.chord / root.lever, q = root.chord / (2 * curvature_radius);
   root.correction = (1.2 + 0.13 * L) * std::pow(q, 1 / (1.21 + 2.3 / L));

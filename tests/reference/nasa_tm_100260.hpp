@@ -47,8 +47,7 @@ inline constexpr Example examples[]{{5 * units::arcmin, 0.0, 0.30 * units::arcse
 /// -m21'/2 of eq. (8), with the factor N1/N2 that it lacks: a [1/rad].
 inline double coefficient() {
   const double ratio = 20.0 / 40.0, r1 = 20 * units::inch / 10.0 / 2, curvature = 1 / tool.arc_radius;
-  const double slope = ratio * (1 + ratio) * std::tan(pressure_angle) * curvature /
-                       ((1 + ratio) / (r1 * std::sin(pressure_angle)) + curvature);
+  const double slope = ratio * (1 + ratio) * std::tan(pressure_angle) * curvature / ((1 + ratio) / (r1 * std::sin(pressure_angle)) + curvature);
   return slope / 2;
 }
 

@@ -38,16 +38,14 @@ const double full_depth = 1.0 + 0.5 * revolved::centre_distance_change * 30.0;
 
 }  // namespace
 
-TEST_CASE("TM-100260: the aligned pair's transmission error is the parabola of eq. 8 with its missing factor",
-          "[reference][contact]") {
+TEST_CASE("TM-100260: the aligned pair's transmission error is the parabola of eq. 8 with its missing factor", "[reference][contact]") {
   const GearPair pair = make_gear_pair(revolved::pair_data());
   CHECK(std::abs(parabola_of_arc(pair, Member::Pinion, revolved::tool.arc_radius) / revolved::coefficient() - 1) <= 1e-12);
   CHECK(std::abs(height / arcsec - 0.3166) <= 1e-4);
   const Analysis aligned = analyse(pair, {});
   CAPTURE(aligned.check.why);
   CHECK(aligned.check.holds);
-  CHECK(std::abs(aligned.check.found / revolved::coefficient() - 1) <=
-        1e-4);  // model: the parabola is the error's second order
+  CHECK(std::abs(aligned.check.found / revolved::coefficient() - 1) <= 1e-4);  // model: the parabola is the error's second order
   CHECK(std::abs(aligned.check.shift) <= 1e-4 * pi / 20);
   CHECK(std::abs(aligned.mesh.peak_to_peak / height - 1) <= 1e-3);
   // Eq. 8 as printed would give twice that.
@@ -57,9 +55,7 @@ TEST_CASE("TM-100260: the aligned pair's transmission error is the parabola of e
   }
 }
 
-TEST_CASE(
-    "TM-100260: with a changed centre distance and misaligned axes it stays this parabola, and only its vertex moves",
-    "[reference][contact]") {
+TEST_CASE("TM-100260: with a changed centre distance and misaligned axes it stays this parabola, and only its vertex moves", "[reference][contact]") {
   const revolved::Example example = GENERATE(from_range(std::begin(revolved::examples), std::end(revolved::examples)));
   const double sign = GENERATE(1.0, -1.0);
   const GearPair pair = make_gear_pair(revolved::pair_data(full_depth));
@@ -69,8 +65,7 @@ TEST_CASE(
   misaligned.crossing = sign * example.crossing;
   misaligned.intersecting = sign * example.intersecting;
   const Analysis before = analyse(pair, apart), after = analyse(pair, misaligned);
-  CAPTURE(sign, example.crossing / arcmin, example.intersecting / arcmin, after.check.why, after.check.shift,
-          before.check.shift);
+  CAPTURE(sign, example.crossing / arcmin, example.intersecting / arcmin, after.check.why, after.check.shift, before.check.shift);
   CHECK(after.check.holds);
   CHECK(after.check.right_sign);
   CHECK(std::abs(after.check.found / revolved::coefficient() - 1) <= 5e-4);  // model: second order of the angles
@@ -87,8 +82,7 @@ TEST_CASE(
   CHECK(std::abs(after.mesh.peak_to_peak / example.published - 1) <= 0.08);
 }
 
-TEST_CASE("TM-100260: teeth of standard height have their transfer point on a tip edge where the vertex moves farthest",
-          "[reference][contact]") {
+TEST_CASE("TM-100260: teeth of standard height have their transfer point on a tip edge where the vertex moves farthest", "[reference][contact]") {
   // At + 1 % centre distance the contact ratio falls to 1.35 or so: the limit (eps_alpha - 1)/2 of a pitch, see
   // ParabolaCheck, is passed by crossing of 10 minutes only. The paper's analysis knows surfaces without edges.
   const GearPair pair = make_gear_pair(revolved::pair_data());
@@ -103,8 +97,7 @@ TEST_CASE("TM-100260: teeth of standard height have their transfer point on a ti
   CHECK(beyond.mesh.peak_to_peak > 1.1 * height);
 }
 
-TEST_CASE("TM-100260: a cone without arc localises the contact and leaves no predesigned error",
-          "[reference][contact]") {
+TEST_CASE("TM-100260: a cone without arc localises the contact and leaves no predesigned error", "[reference][contact]") {
   // Case 2 of fig. 5.
   PairData data = revolved::pair_data();
   data.pinion.generation = RevolutionTool{revolved::tool.half_apex, revolved::tool.distance};

@@ -45,9 +45,7 @@ Slopes slopes_of(const FlankAssembly& scene) {
           std::abs(scene.wheel.helix_rate / scene.pinion.helix_rate) - scene.speed_ratio()};
 }
 
-bool is_tip(const ToothContact& c) {
-  return c.kind == ContactKind::PinionTip || c.kind == ContactKind::WheelTip;
-}
+bool is_tip(const ToothContact& c) { return c.kind == ContactKind::PinionTip || c.kind == ContactKind::WheelTip; }
 
 /// Checks every leading contact off the corners against the two slopes; counts them.
 struct Branches {
@@ -98,8 +96,7 @@ TEST_CASE(
   CHECK(std::abs(mesh.transfers[0].slope_jump() - std::abs(slopes.tip - slopes.face_end)) <= 1e-9);
 }
 
-TEST_CASE("TM-107451, figs 2 and 3: crossing of the axes by 3 minutes does the same as the lead-angle error",
-          "[reference][contact][closed-form]") {
+TEST_CASE("TM-107451, figs 2 and 3: crossing of the axes by 3 minutes does the same as the lead-angle error", "[reference][contact][closed-form]") {
   const double minutes = GENERATE(3.0, -3.0);
   const GearPair pair = make_gear_pair(nasa::pair_data());
   const Slopes equal = slopes_of(scene_of(pair, errors(0.0, minutes, 0.0)));
@@ -160,12 +157,10 @@ TEST_CASE(
   CHECK(at_end == kPositions);
 }
 
-TEST_CASE("TM-107451, fig. 9: crossing by 3 minutes with a lead-angle error of -3 transmits without error",
-          "[reference][contact]") {
+TEST_CASE("TM-107451, fig. 9: crossing by 3 minutes with a lead-angle error of -3 transmits without error", "[reference][contact]") {
   const GearPair pair = make_gear_pair(nasa::pair_data());
   Misalignment both = errors(3.0, -3.0, 0.0);
-  CHECK(analyse_unloaded_mesh(pair, scene_of(pair, both), kPositions).peak_to_peak <=
-        1e-3 * arcsec);  // model: second order
+  CHECK(analyse_unloaded_mesh(pair, scene_of(pair, both), kPositions).peak_to_peak <= 1e-3 * arcsec);  // model: second order
   SECTION("at the nominal centre distance on edges") {
     for (const ToothContact& c : leading_contacts(analyse_unloaded_mesh(pair, scene_of(pair, both), kPositions))) {
       CHECK((c.kind == ContactKind::FaceEnd || c.kind == ContactKind::Corner || is_tip(c)));

@@ -23,8 +23,7 @@ using units::um;
 namespace {
 
 constexpr double kFace = 92.0, kHalf = 46.0;
-constexpr double kFitRipple =
-    0.3 * um;  // discretisation: the spline overshoots where a parabola sets in between two of 15 points
+constexpr double kFitRipple = 0.3 * um;  // discretisation: the spline overshoots where a parabola sets in between two of 15 points
 
 GearPair real_pair() {
   PairData data;
@@ -37,9 +36,7 @@ GearPair real_pair() {
 }
 
 /// Zero up to `start`, from there a parabola that reaches 1 at twice that.
-double beyond(double distance, double start) {
-  return distance > start ? std::pow(distance / start - 1, 2) : 0.0;
-}
+double beyond(double distance, double start) { return distance > start ? std::pow(distance / start - 1, 2) : 0.0; }
 
 /// The pinion with a deviation [mm, + = metal added] measured on 9 x 15 points that stop short of the flank's borders.
 Modification measured(const GearPair& pair, const std::function<double(double r, double z)>& deviation) {
@@ -68,9 +65,7 @@ std::vector<ToothContact> passage(const GearPair& pair, const FlankAssembly& sce
   return contacts;
 }
 
-double lag(const GearPair& pair, const ToothContact& c) {
-  return -c.transmission_error * pair.wheel.base_radius;
-}
+double lag(const GearPair& pair, const ToothContact& c) { return -c.transmission_error * pair.wheel.base_radius; }
 
 }  // namespace
 
@@ -79,12 +74,10 @@ TEST_CASE(
     "modified zones",
     "[reference][contact]") {
   const GearPair pair = real_pair();
-  const FlankAssembly scene =
-      scene_of(pair, {}, measured(pair, [](double, double z) { return -50 * um * beyond(std::abs(z), kFace / 4); }));
+  const FlankAssembly scene = scene_of(pair, {}, measured(pair, [](double, double z) { return -50 * um * beyond(std::abs(z), kFace / 4); }));
   const std::vector<ToothContact> contacts = passage(pair, scene);
   // In on the wheel's tip at the end of the face that meets first, out over the pinion's tip at the other.
-  CHECK(sequence_of_kinds(contacts) ==
-        std::vector<ContactKind>{ContactKind::WheelTip, ContactKind::Surface, ContactKind::PinionTip});
+  CHECK(sequence_of_kinds(contacts) == std::vector<ContactKind>{ContactKind::WheelTip, ContactKind::Surface, ContactKind::PinionTip});
   double last_in = INFINITY, last_out = 0.0;
   int inside = 0;
   for (const ToothContact& c : contacts) {
@@ -106,15 +99,12 @@ TEST_CASE(
   CHECK(analyse_unloaded_mesh(pair, scene, 64).peak_to_peak <= 0.1 * arcsec);  // some pair is always in the middle
 }
 
-TEST_CASE(
-    "Real helical gears, three-dimensional modification: the leading pair stays inside the flanks, misaligned or not",
-    "[reference][contact]") {
+TEST_CASE("Real helical gears, three-dimensional modification: the leading pair stays inside the flanks, misaligned or not", "[reference][contact]") {
   const GearPair pair = real_pair();
   const double middle = 0.5 * (pair.pinion.active_root_radius + pair.pinion.tip_radius);
   const double quarter = 0.25 * (pair.pinion.tip_radius - pair.pinion.active_root_radius);
-  const Modification modified = measured(pair, [&](double r, double z) {
-    return -25 * um * (beyond(std::abs(z), kFace / 4) + beyond(std::abs(r - middle), quarter));
-  });
+  const Modification modified =
+      measured(pair, [&](double r, double z) { return -25 * um * (beyond(std::abs(z), kFace / 4) + beyond(std::abs(r - middle), quarter)); });
   const UnloadedMesh aligned = analyse_unloaded_mesh(pair, scene_of(pair, {}, modified), 64);
   CHECK(aligned.peak_to_peak * pair.wheel.base_radius <= kFitRipple);
   for (const ToothContact& c : leading_contacts(aligned)) {
@@ -159,11 +149,10 @@ TEST_CASE(
   const double top = GENERATE(1.0, -1.0) * kFace / 4;
   const GearPair pair = real_pair();
   REQUIRE(pair.contact_line_sense() == 1);  // pairs come in at z = +b/2
-  const FlankAssembly scene = scene_of(
-      pair, {}, measured(pair, [&](double, double z) { return -50 * um * std::pow((z - top) / (0.75 * kFace), 2); }));
+  const FlankAssembly scene =
+      scene_of(pair, {}, measured(pair, [&](double, double z) { return -50 * um * std::pow((z - top) / (0.75 * kFace), 2); }));
   const std::vector<ToothContact> contacts = passage(pair, scene);
-  CHECK(sequence_of_kinds(contacts) ==
-        std::vector<ContactKind>{ContactKind::WheelTip, ContactKind::Surface, ContactKind::PinionTip});
+  CHECK(sequence_of_kinds(contacts) == std::vector<ContactKind>{ContactKind::WheelTip, ContactKind::Surface, ContactKind::PinionTip});
   int before = 0, on_flank = 0, after = 0;
   for (const ToothContact& c : contacts) {
     CAPTURE(top, c.phi1, c.pinion_z);
@@ -187,8 +176,7 @@ TEST_CASE(
 
 TEST_CASE("Real helical gears, helix deviation from one face end: the pair rides on that end", "[reference][contact]") {
   const GearPair pair = real_pair();
-  const FlankAssembly scene =
-      scene_of(pair, {}, measured(pair, [](double, double z) { return -50 * um * std::pow((z + kHalf) / kFace, 2); }));
+  const FlankAssembly scene = scene_of(pair, {}, measured(pair, [](double, double z) { return -50 * um * std::pow((z + kHalf) / kFace, 2); }));
   std::vector<ToothContact> contacts = passage(pair, scene);
   const std::vector<ContactKind> sequence = sequence_of_kinds(contacts);
   REQUIRE(sequence.size() >= 2);
@@ -207,6 +195,5 @@ TEST_CASE("Real helical gears, helix deviation from one face end: the pair rides
     }
   }
   CHECK(lag(pair, contacts.front()) >= 40 * um);
-  for (const ToothContact& c : leading_contacts(analyse_unloaded_mesh(pair, scene, 64)))
-    CHECK(c.kind == ContactKind::FaceEnd);
+  for (const ToothContact& c : leading_contacts(analyse_unloaded_mesh(pair, scene, 64))) CHECK(c.kind == ContactKind::FaceEnd);
 }

@@ -27,8 +27,14 @@ int occurrences(const std::string& text, const std::string& part) {
 }
 
 /// Coarser than the example itself, so that each takes a second at most.
-const std::vector<std::string> reduced{"--set", "fidelity.quadrature.intervals=4", "--set", "cycle.positions=8", "--set", "cycle.peaks=sampled", "--set", "sweep.samples=110",
-                                       "--set", "accuracy.finest.compliance=thin_slice", "--set", "accuracy.finest.gap=plane_of_action", "--set", "accuracy.finest.intervals=8", "--set", "accuracy.finest.positions=16"};
+const std::vector<std::string> reduced{"--set", "fidelity.quadrature.intervals=4",
+                                       "--set", "cycle.positions=8",
+                                       "--set", "cycle.peaks=sampled",
+                                       "--set", "sweep.samples=110",
+                                       "--set", "accuracy.finest.compliance=thin_slice",
+                                       "--set", "accuracy.finest.gap=plane_of_action",
+                                       "--set", "accuracy.finest.intervals=8",
+                                       "--set", "accuracy.finest.positions=16"};
 
 }  // namespace
 
@@ -48,7 +54,8 @@ TEST_CASE("Every example is valid, meets its expectations and runs without a com
     // One example shows on purpose how a designed parabola is lost.
     const bool is_parabola = file.ends_with("/parabolic-te.toml");
     // Some gears are said to need finite elements of their own.
-    const auto outside = occurrences(ending.err, "warning: the pinion is outside the library") + occurrences(ending.err, "warning: the wheel is outside the library");
+    const auto outside =
+        occurrences(ending.err, "warning: the pinion is outside the library") + occurrences(ending.err, "warning: the wheel is outside the library");
     CHECK(occurrences(ending.err, "warning") - outside == (is_parabola ? 1 : 0));
     CHECK(occurrences(ending.err, "\"beyond its limit\": the designed parabola") == (is_parabola ? 1 : 0));
   }
@@ -56,33 +63,28 @@ TEST_CASE("Every example is valid, meets its expectations and runs without a com
 
 TEST_CASE("The fit of the example converges and meets what the study expects of it", "[.soak][studies][examples][fit]") {
   const command_line::ScratchFolder folder;
-  const command_line::Ending ending =
-      command_line::run(folder, {"run", FLANKWRIGHT_SOURCE_DIR "/studies/examples/fit-18.toml", "--out", "fit"});
+  const command_line::Ending ending = command_line::run(folder, {"run", FLANKWRIGHT_SOURCE_DIR "/studies/examples/fit-18.toml", "--out", "fit"});
   CAPTURE(ending.out, ending.err);
   CHECK(ending.exit_code == 0);
-  CHECK(folder.names("fit") == std::vector<std::string>{"deflection_curves.csv", "fit_pinion.csv", "fit_residuals.csv", "gears.csv",
-                                                        "given.csv", "report.html", "results.json", "used.csv"});
+  CHECK(folder.names("fit") == std::vector<std::string>{"deflection_curves.csv", "fit_pinion.csv", "fit_residuals.csv", "gears.csv", "given.csv",
+                                                        "report.html", "results.json", "used.csv"});
 }
 
-TEST_CASE("The robust example beats its start in the worst scene, and scenes become alike",
-          "[studies][examples][physics]") {
-  const Study study = read_study(FLANKWRIGHT_SOURCE_DIR "/studies/examples/helical-18-54.toml",
-                                 {{"cycle.positions", "8"}, {"fidelity.quadrature.intervals", "4"}});
+TEST_CASE("The robust example beats its start in the worst scene, and scenes become alike", "[studies][examples][physics]") {
+  const Study study =
+      read_study(FLANKWRIGHT_SOURCE_DIR "/studies/examples/helical-18-54.toml", {{"cycle.positions", "8"}, {"fidelity.quadrature.intervals", "4"}});
   const StudyResults results = run_study(study);
   REQUIRE(results.design);
   const DesignReport &before = results.design->before, &after = results.design->after;
   CHECK(after.objective < 0.9 * before.objective);
   const auto [least, most] = std::minmax_element(after.scene_measures.begin(), after.scene_measures.end());
-  const auto [least_before, most_before] =
-      std::minmax_element(before.scene_measures.begin(), before.scene_measures.end());
+  const auto [least_before, most_before] = std::minmax_element(before.scene_measures.begin(), before.scene_measures.end());
   CHECK(*most - *least < 0.5 * (*most_before - *least_before));
 }
 
 TEST_CASE("The robust example takes a quarter off the worst stress, the quiet one nine tenths off the first harmonic",
           "[.soak][studies][examples][physics]") {
-  const auto run = [](const char* name) {
-    return run_study(read_study(std::string(FLANKWRIGHT_SOURCE_DIR "/studies/examples/") + name + ".toml"));
-  };
+  const auto run = [](const char* name) { return run_study(read_study(std::string(FLANKWRIGHT_SOURCE_DIR "/studies/examples/") + name + ".toml")); };
   const StudyResults robust = run("robust-18-54");
   CHECK(robust.design->status == SolverStatus::Converged);
   CHECK(robust.design->runs.front().evaluations <= 150);
@@ -95,12 +97,11 @@ TEST_CASE("The robust example takes a quarter off the worst stress, the quiet on
 }
 
 TEST_CASE("The unloaded examples are at their published figures, at any number of positions", "[studies][examples][slow]") {
-  for (const char* name : {"nasa-30-100", "nasa-30-100-parabolic-rack", "nasa-20-40-crowned", "parabolic-te",
-                           "real-17-44-longitudinal", "real-17-44-three-dimensional", "real-17-44-one-sided-helix"}) {
+  for (const char* name : {"nasa-30-100", "nasa-30-100-parabolic-rack", "nasa-20-40-crowned", "parabolic-te", "real-17-44-longitudinal",
+                           "real-17-44-three-dimensional", "real-17-44-one-sided-helix"}) {
     for (const char* positions : {"16", "32"}) {
       CAPTURE(name, positions);
-      const Study study = read_study(std::string(FLANKWRIGHT_SOURCE_DIR "/studies/examples/") + name + ".toml",
-                                     {{"cycle.positions", positions}});
+      const Study study = read_study(std::string(FLANKWRIGHT_SOURCE_DIR "/studies/examples/") + name + ".toml", {{"cycle.positions", positions}});
       CHECK_FALSE(study.expect.empty());
       CHECK(differences(compare(study.expect, results_document(run_study(study)))) == "");
     }

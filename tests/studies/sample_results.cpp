@@ -31,9 +31,7 @@ struct Gear {
 };
 const Gear pinion{18}, wheel{54};
 
-double involute(double angle) {
-  return std::tan(angle) - angle;
-}
+double involute(double angle) { return std::tan(angle) - angle; }
 
 json profile(const Gear& gear) {
   json x = json::array(), y = json::array();
@@ -42,9 +40,7 @@ json profile(const Gear& gear) {
   std::vector<std::pair<double, double>> side;  // radius, half angle
   const double half_pitch = pi / gear.teeth;
   side.emplace_back(gear.r_f, half_pitch);
-  const auto half_angle = [&](double r) {
-    return half_pitch / 2 + involute(alpha_t) - involute(std::acos(std::min(1.0, gear.r_b / r)));
-  };
+  const auto half_angle = [&](double r) { return half_pitch / 2 + involute(alpha_t) - involute(std::acos(std::min(1.0, gear.r_b / r))); };
   side.emplace_back(gear.r_f, std::min(half_pitch, half_angle(start) * 1.08));
   for (int i = 0; i <= steps; ++i) {
     const double r = start + (gear.r_a - start) * i / steps;
@@ -76,12 +72,8 @@ json gear_entry(const Gear& gear, const char* hand) {
 }
 
 /// Ends of the path of contact, from the pinion's base tangent point [mm].
-double path_start() {
-  return (pinion.r + wheel.r) * std::sin(alpha_t) - std::sqrt(wheel.r_a * wheel.r_a - wheel.r_b * wheel.r_b);
-}
-double path_end() {
-  return std::sqrt(pinion.r_a * pinion.r_a - pinion.r_b * pinion.r_b);
-}
+double path_start() { return (pinion.r + wheel.r) * std::sin(alpha_t) - std::sqrt(wheel.r_a * wheel.r_a - wheel.r_b * wheel.r_b); }
+double path_end() { return std::sqrt(pinion.r_a * pinion.r_a - pinion.r_b * pinion.r_b); }
 
 json geometry() {
   const double epsilon_alpha = (path_end() - path_start()) / base_pitch;
@@ -99,8 +91,7 @@ json geometry() {
 }
 
 /// One mesh cycle: `tilt` is the misalignment left in the mesh, `relief` how much of it the flanks take up (0 .. 1).
-json loaded_entry(const std::string& scene, double torque, const char* design, double tilt, double relief,
-                  int positions) {
+json loaded_entry(const std::string& scene, double torque, const char* design, double tilt, double relief, int positions) {
   constexpr int points_a_line = 10;
   const double mean_load = torque * 1e3 / pinion.r_b / (1.6 * face_width);
   double peak_load = 0, peak_stress = 0, te_low = 1e9, te_high = -1e9;
@@ -116,12 +107,9 @@ json loaded_entry(const std::string& scene, double torque, const char* design, d
         if (s < path_start() || s > path_end()) continue;
         const double along = (s - path_start()) / (path_end() - path_start());
         const double edge = (1 - relief) * 0.5 * std::exp(-12 * std::min(along, 1 - along));
-        const double bow =
-            relief * (0.35 - 1.2 * (2 * z / face_width) * (2 * z / face_width) - std::pow(2 * along - 1, 6));
-        const double load =
-            std::max(0.0, mean_load * (1 + (1 - 0.6 * relief) * tilt * 2 * z / face_width + edge + 0.4 * bow));
-        const double rho =
-            s * ((pinion.r + wheel.r) * std::sin(alpha_t) - s) / ((pinion.r + wheel.r) * std::sin(alpha_t));
+        const double bow = relief * (0.35 - 1.2 * (2 * z / face_width) * (2 * z / face_width) - std::pow(2 * along - 1, 6));
+        const double load = std::max(0.0, mean_load * (1 + (1 - 0.6 * relief) * tilt * 2 * z / face_width + edge + 0.4 * bow));
+        const double rho = s * ((pinion.r + wheel.r) * std::sin(alpha_t) - s) / ((pinion.r + wheel.r) * std::sin(alpha_t));
         const double stress = 190 * std::sqrt(load / std::max(rho, 1.0));
         peak_load = std::max(peak_load, load);
         peak_stress = std::max(peak_stress, stress);
@@ -150,24 +138,25 @@ json loaded_entry(const std::string& scene, double torque, const char* design, d
   }
   json harmonics = json::array();
   for (int n = 1; n <= 10; ++n) harmonics.push_back((1 - 0.7 * relief) * (1 + tilt) * 0.6 / (n * n));
-  return {{"scene", scene},
-          {"torque_Nm", torque},
-          {"design", design},
-          {"cycle", cycle},
-          {"summary",
-           {{"te_peak_to_peak_um", te_high - te_low},
-            {"te_harmonics_um", harmonics},
-            {"te_mean_um", (te_high + te_low) / 2},
-            {"peak_load_N_per_mm", peak_load},
-            {"peak_contact_stress_MPa", peak_stress},
-            {"peak_root_stress_MPa", nullptr},
-            {"mean_stiffness_N_per_mm_um", 19 - 2 * relief},
-            {"load_factor", peak_load / mean_load},
-            {"peaks", {{"without_spikes", {{"contact_stress_MPa", 0.9 * peak_stress}}}, {"with_spikes", {{"contact_stress_MPa", peak_stress}}}}},
-            {"load_factors",
-             {{"without_spikes", {{"K_Hbeta", 1 + tilt / 3}, {"K_Halpha", 1.02}, {"K_H", 1.01 + tilt / 3}, {"K_Hbeta_times_K_Halpha", 1.02 + tilt / 3}}},
-              {"with_spikes", {{"K_Hbeta", 1 + tilt / 2}, {"K_Halpha", nullptr}, {"K_H", nullptr}, {"K_Hbeta_times_K_Halpha", nullptr}}}}},
-            {"iso6336", {{"c_prime", 13.9}, {"c_gamma", 20.1}, {"K_Hbeta", 1 + tilt / 2}, {"K_Halpha", nullptr}}}}}};
+  return {
+      {"scene", scene},
+      {"torque_Nm", torque},
+      {"design", design},
+      {"cycle", cycle},
+      {"summary",
+       {{"te_peak_to_peak_um", te_high - te_low},
+        {"te_harmonics_um", harmonics},
+        {"te_mean_um", (te_high + te_low) / 2},
+        {"peak_load_N_per_mm", peak_load},
+        {"peak_contact_stress_MPa", peak_stress},
+        {"peak_root_stress_MPa", nullptr},
+        {"mean_stiffness_N_per_mm_um", 19 - 2 * relief},
+        {"load_factor", peak_load / mean_load},
+        {"peaks", {{"without_spikes", {{"contact_stress_MPa", 0.9 * peak_stress}}}, {"with_spikes", {{"contact_stress_MPa", peak_stress}}}}},
+        {"load_factors",
+         {{"without_spikes", {{"K_Hbeta", 1 + tilt / 3}, {"K_Halpha", 1.02}, {"K_H", 1.01 + tilt / 3}, {"K_Hbeta_times_K_Halpha", 1.02 + tilt / 3}}},
+          {"with_spikes", {{"K_Hbeta", 1 + tilt / 2}, {"K_Halpha", nullptr}, {"K_H", nullptr}, {"K_Hbeta_times_K_Halpha", nullptr}}}}},
+        {"iso6336", {{"c_prime", 13.9}, {"c_gamma", 20.1}, {"K_Hbeta", 1 + tilt / 2}, {"K_Halpha", nullptr}}}}}};
 }
 
 json topography(const char* gear, const Gear& g, const char* design, double crowning, double relief) {
@@ -220,16 +209,15 @@ json unloaded_part() {
       const double x = 0.5 * i;
       const char* kind = x > 14 ? "pinion_tip" : x < -14 ? "wheel_tip" : "surface";
       const double s = std::clamp(x / 14, -1.0, 1.0);
-      positions.push_back(
-          {{"phi1_deg", x + tooth * pitch_angle},
-           {"phi2_deg", (x + tooth * pitch_angle) / 3},
-           {"te_arcsec", pair_te(x)},
-           {"te_slope_arcsec_per_deg", -0.11 * x},
-           {"contact", kind},
-           {"carries", std::abs(x) <= pitch_angle / 2},
-           {"pinion", {{"radius_mm", pinion.r + (s > 0 ? 10 : 5.5) * s}, {"z_mm", 2 * s + (x - 14 * s) * 4}}},
-           {"wheel", {{"radius_mm", wheel.r - 9 * s}, {"z_mm", 2 * s + (x - 14 * s) * 4}}},
-           {"ellipse", ellipse(kind)}});
+      positions.push_back({{"phi1_deg", x + tooth * pitch_angle},
+                           {"phi2_deg", (x + tooth * pitch_angle) / 3},
+                           {"te_arcsec", pair_te(x)},
+                           {"te_slope_arcsec_per_deg", -0.11 * x},
+                           {"contact", kind},
+                           {"carries", std::abs(x) <= pitch_angle / 2},
+                           {"pinion", {{"radius_mm", pinion.r + (s > 0 ? 10 : 5.5) * s}, {"z_mm", 2 * s + (x - 14 * s) * 4}}},
+                           {"wheel", {{"radius_mm", wheel.r - 9 * s}, {"z_mm", 2 * s + (x - 14 * s) * 4}}},
+                           {"ellipse", ellipse(kind)}});
     }
     pairs.push_back({{"tooth", tooth}, {"sequence", "wheel_tip, surface, pinion_tip"}, {"positions", positions}});
   }
@@ -253,8 +241,7 @@ json unloaded_part() {
           {"sequence", "wheel_tip, surface, pinion_tip"},
           {"carrying_sequence", "surface"},
           {"pairs", pairs},
-          {"bearing_pattern",
-           {{"marking_thickness_um", 6.35}, {"pinion", pattern(pinion, 71.0)}, {"wheel", pattern(wheel, 70.0)}}},
+          {"bearing_pattern", {{"marking_thickness_um", 6.35}, {"pinion", pattern(pinion, 71.0)}, {"wheel", pattern(wheel, 70.0)}}},
           {"parabolic_te",
            {{"wanted_arcsec_per_deg2", 0.055},
             {"found_arcsec_per_deg2", 0.0551},
@@ -276,15 +263,11 @@ json frame(const char* task) {
   const json given = json::array({{{"key", "pair.normal_module"}, {"value", "10"}, {"unit", "mm"}},
                                   {{"key", "pair.helix_angle"}, {"value", "30"}, {"unit", "deg"}},
                                   {{"key", "misalignment.crossing"}, {"value", "\"3 arcmin\""}}});
-  const json effects =
-      json::array({{{"name", "tooth_bending"}, {"on", true}, {"why", "a torque is given"}, {"seconds", 0.42}},
-                   {{"name", "hertzian_contact"}, {"on", true}, {"why", "a torque is given"}, {"seconds", 0.13}},
-                   {{"name", "misalignment"}, {"on", true}, {"why", "crossing is not zero"}, {"seconds", 0.004}},
-                   {{"name", "shaft_deflection"}, {"on", false}, {"why", "no shaft data"}, {"seconds", 0.0}}});
-  const json used = {{"pair",
-                      {{"normal_module_mm", 10.0},
-                       {"pinion", {{"face_width_mm", face_width}}},
-                       {"wheel", {{"face_width_mm", face_width}}}}},
+  const json effects = json::array({{{"name", "tooth_bending"}, {"on", true}, {"why", "a torque is given"}, {"seconds", 0.42}},
+                                    {{"name", "hertzian_contact"}, {"on", true}, {"why", "a torque is given"}, {"seconds", 0.13}},
+                                    {{"name", "misalignment"}, {"on", true}, {"why", "crossing is not zero"}, {"seconds", 0.004}},
+                                    {{"name", "shaft_deflection"}, {"on", false}, {"why", "no shaft data"}, {"seconds", 0.0}}});
+  const json used = {{"pair", {{"normal_module_mm", 10.0}, {"pinion", {{"face_width_mm", face_width}}}, {"wheel", {{"face_width_mm", face_width}}}}},
                      {"fidelity", {{"compliance", "thin_slice"}, {"gap", "plane_of_action"}}},
                      {"cycle", {{"phases", {0.0, 0.25, 0.5, 0.75}}}}};
   return {{"title", "Haddad 18:54"},
@@ -316,8 +299,7 @@ json loaded_results(int scenes) {
   json results = frame("analyse");
   results["loaded"] = json::array();
   for (int k = 0; k < scenes; ++k) {
-    results["loaded"].push_back(
-        loaded_entry("misaligned " + std::to_string(3 * k) + " µm", 1014.868, "given", 0.25 * k, 0.2, 32));
+    results["loaded"].push_back(loaded_entry("misaligned " + std::to_string(3 * k) + " µm", 1014.868, "given", 0.25 * k, 0.2, 32));
   }
   results["modifications"] = {topography("pinion", pinion, "given", 8, 8), topography("wheel", wheel, "given", 0, 0)};
   return results;
@@ -343,16 +325,13 @@ json optimise_results(int scenes, int positions) {
     worst_after = std::max(worst_after, stress[1]);
   }
   for (int i = 0; i < 40; ++i) {
-    history.push_back(
-        {{"evaluation", i + 1},
-         {"objective", worst_after + (worst_before - worst_after) * std::exp(-i / 6.0) * (1 + 0.2 * std::sin(i))},
-         {"constraint_violation", i < 6 ? 0.3 * (6 - i) : 0.0}});
+    history.push_back({{"evaluation", i + 1},
+                       {"objective", worst_after + (worst_before - worst_after) * std::exp(-i / 6.0) * (1 + 0.2 * std::sin(i))},
+                       {"constraint_violation", i < 6 ? 0.3 * (6 - i) : 0.0}});
   }
   const auto design = [](double crowning, double relief, double objective, double te) {
-    return json{{"variables",
-                 {{"pinion.modification.lead_crowning", crowning}, {"pinion.modification.tip_relief.amount", relief}}},
-                {"variable_units",
-                 {{"pinion.modification.lead_crowning", "um"}, {"pinion.modification.tip_relief.amount", "um"}}},
+    return json{{"variables", {{"pinion.modification.lead_crowning", crowning}, {"pinion.modification.tip_relief.amount", relief}}},
+                {"variable_units", {{"pinion.modification.lead_crowning", "um"}, {"pinion.modification.tip_relief.amount", "um"}}},
                 {"objective", objective},
                 {"constraints", {{"te_peak_to_peak", {{"value", te}, {"max", 1.5}, {"unit", "um"}}}}}};
   };
@@ -369,8 +348,7 @@ json optimise_results(int scenes, int positions) {
                          {"after", design(13.42, 21.7, worst_after, 1.12)},
                          {"scenes", objectives},
                          {"history", history}};
-  results["modifications"] = {topography("pinion", pinion, "before", 0, 0),
-                              topography("pinion", pinion, "after", 13.42, 21.7)};
+  results["modifications"] = {topography("pinion", pinion, "before", 0, 0), topography("pinion", pinion, "after", 13.42, 21.7)};
   results["unloaded"] = unloaded_part();
   return results;
 }

@@ -7,9 +7,7 @@
 
 namespace flankwright::studies::study_texts {
 
-Study read(const std::string& more, const std::vector<Override>& overrides) {
-  return parse_study(small_study + more, "small.toml", overrides);
-}
+Study read(const std::string& more, const std::vector<Override>& overrides) { return parse_study(small_study + more, "small.toml", overrides); }
 
 std::vector<StudyProblem> problems_of(const std::string& text, const std::vector<Override>& overrides) {
   try {
@@ -31,8 +29,6 @@ Json results_of(const std::string& text, const std::vector<Override>& overrides)
   return Json::parse(results_json(run_study(parse_study(text, "small.toml", overrides))));
 }
 
-std::string replaced(std::string text, const std::string& from, const std::string& to) {
-  return text.replace(text.find(from), from.size(), to);
-}
+std::string replaced(std::string text, const std::string& from, const std::string& to) { return text.replace(text.find(from), from.size(), to); }
 
 }  // namespace flankwright::studies::study_texts

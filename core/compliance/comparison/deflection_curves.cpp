@@ -25,14 +25,12 @@ std::vector<double> subdivided(const std::vector<double>& nodes) {
 }  // namespace
 
 NamedModel named_model(std::string name, int teeth_apart, const FlankCompliance& compliance) {
-  return {std::move(name), teeth_apart,
-          [&compliance](std::span<const FlankStation> stations, std::span<const FlankStation> loads) {
+  return {std::move(name), teeth_apart, [&compliance](std::span<const FlankStation> stations, std::span<const FlankStation> loads) {
             const auto columns = static_cast<Eigen::Index>(loads.size());
             Eigen::MatrixXd result(static_cast<Eigen::Index>(stations.size()), columns);
             // Tooth by tooth: teeth on either side of the load are further apart than a model needs to cover.
             for (auto first = stations.begin(); first != stations.end();) {
-              const auto last = std::find_if(first, stations.end(),
-                                             [&](const FlankStation& station) { return station.tooth != first->tooth; });
+              const auto last = std::find_if(first, stations.end(), [&](const FlankStation& station) { return station.tooth != first->tooth; });
               std::vector<FlankStation> all(first, last);
               all.insert(all.end(), loads.begin(), loads.end());
               const Eigen::Index rows = last - first;
@@ -44,8 +42,7 @@ NamedModel named_model(std::string name, int teeth_apart, const FlankCompliance&
 }
 
 std::vector<DeflectionCurve> deflection_curves(std::span<const NamedModel> models, const std::vector<double>& us,
-                                               const std::vector<double>& load_zetas, const std::vector<double>& zetas,
-                                               int teeth_apart) {
+                                               const std::vector<double>& load_zetas, const std::vector<double>& zetas, int teeth_apart) {
   std::vector<DeflectionCurve> curves;
   for (const double u : us) {
     std::vector<FlankStation> loads;
@@ -70,10 +67,8 @@ std::vector<DeflectionCurve> deflection_curves(std::span<const NamedModel> model
   return curves;
 }
 
-std::vector<DeflectionCurve> gear_deflection_curves(std::span<const NamedModel> models, double face_width,
-                                                    int teeth_apart) {
-  return deflection_curves(models, {1, 0, -1}, {0, face_width / 2, face_width},
-                           subdivided(station_grid(face_width).zetas()), teeth_apart);
+std::vector<DeflectionCurve> gear_deflection_curves(std::span<const NamedModel> models, double face_width, int teeth_apart) {
+  return deflection_curves(models, {1, 0, -1}, {0, face_width / 2, face_width}, subdivided(station_grid(face_width).zetas()), teeth_apart);
 }
 
 }  // namespace flankwright

@@ -24,7 +24,7 @@ NamedModel named_model(std::string name, int teeth_apart, const FlankCompliance&
 /// Deflection along one tooth, at the height of the load, under a point load.
 struct DeflectionCurve {
   std::string model;
-  FlankStation load;            ///< on tooth 0
+  FlankStation load;          ///< on tooth 0
   int tooth{0};               ///< that deflects
   std::vector<double> zeta;   ///< [m_n] from the acute end
   std::vector<double> value;  ///< E m_n K [-], one a zeta
@@ -39,13 +39,11 @@ struct DeflectionCurve {
 /// @param teeth_apart  neighbours looked at on either side, >= 0
 /// @returns  for every height, load, model and tooth, in this order
 std::vector<DeflectionCurve> deflection_curves(std::span<const NamedModel> models, const std::vector<double>& us,
-                                               const std::vector<double>& load_zetas, const std::vector<double>& zetas,
-                                               int teeth_apart);
+                                               const std::vector<double>& load_zetas, const std::vector<double>& zetas, int teeth_apart);
 
 /// The most telling curves of a gear. Loads act at tip, middle and root of the acute end, mid face and the obtuse end.
 /// Deflections are at most a quarter of a module apart, and closer near the ends.
 /// @param face_width  B = b/m_n [-], > 0
-std::vector<DeflectionCurve> gear_deflection_curves(std::span<const NamedModel> models, double face_width,
-                                                    int teeth_apart);
+std::vector<DeflectionCurve> gear_deflection_curves(std::span<const NamedModel> models, double face_width, int teeth_apart);
 
 }  // namespace flankwright

@@ -16,8 +16,8 @@ std::vector<FlankPoint> flank_points(const GearMesh& mesh, std::span<const Flank
   return points;
 }
 
-Eigen::MatrixXd finite_element_deflections(const InfluenceModel& model, std::span<const FlankStation> stations,
-                                           std::span<const FlankStation> loads, RemovedRigidMotion removed) {
+Eigen::MatrixXd finite_element_deflections(const InfluenceModel& model, std::span<const FlankStation> stations, std::span<const FlankStation> loads,
+                                           RemovedRigidMotion removed) {
   const GearMesh& mesh = model.mesh();
   std::vector<FlankStation> all(stations.begin(), stations.end());
   all.insert(all.end(), loads.begin(), loads.end());

@@ -15,7 +15,7 @@ std::vector<FlankPoint> flank_points(const GearMesh& mesh, std::span<const Flank
 /// Solved influence values of a gear, E m_n K [-]: row: where it deflects; column: where the force acts.
 /// @param model  of a gear whose matrix is factorised
 /// @throws InvalidInput as flank_points()
-Eigen::MatrixXd finite_element_deflections(const InfluenceModel& model, std::span<const FlankStation> stations,
-                                           std::span<const FlankStation> loads, RemovedRigidMotion removed);
+Eigen::MatrixXd finite_element_deflections(const InfluenceModel& model, std::span<const FlankStation> stations, std::span<const FlankStation> loads,
+                                           RemovedRigidMotion removed);
 
 }  // namespace flankwright

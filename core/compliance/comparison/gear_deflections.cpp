@@ -18,8 +18,8 @@ std::vector<GearDeflections> gear_deflections(const GearPair& pair, const Materi
     const ToothForm form = tooth_form(pair, member);
     const CantileverPlate plate(form, module, face, nu);
     const ThinSliceTooth slices(form, module, face, nu);
-    const std::vector<NamedModel> models{named_model(name, neighbours, *(*of_gears)[member].compliance),
-                                         named_model("plate", 0, plate), named_model("thin slices", 0, slices)};
+    const std::vector<NamedModel> models{named_model(name, neighbours, *(*of_gears)[member].compliance), named_model("plate", 0, plate),
+                                         named_model("thin slices", 0, slices)};
     all.push_back({member, pair[member].data.teeth, gear_deflection_curves(models, face / module, neighbours)});
   }
   return all;

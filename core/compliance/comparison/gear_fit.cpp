@@ -54,9 +54,7 @@ std::vector<InfluenceSample> without_faint_pairs(std::vector<InfluenceSample> sa
   return samples;
 }
 
-Stations cells_of(const Stations& grid) {
-  return {centres(grid.us), centres(grid.zetas)};
-}
+Stations cells_of(const Stations& grid) { return {centres(grid.us), centres(grid.zetas)}; }
 
 Stations own_stations(double face, int radii) {
   const StationGrid grid = station_grid(face, radii);
@@ -86,8 +84,7 @@ class GearFitRun {
     }
     apart_ = task.form.couples_teeth() ? task.teeth_apart : 0;
     const GearToMesh& gear = task.gear;
-    result_.gear = {gear.gear.teeth, gear.helix_angle, gear.gear.face_width / gear.normal_module,
-                    gear.gear.profile_shift};
+    result_.gear = {gear.gear.teeth, gear.helix_angle, gear.gear.face_width / gear.normal_module, gear.gear.profile_shift};
     result_.body = gear.body;
     result_.removed = task.removed;
   }
@@ -123,12 +120,10 @@ class GearFitRun {
   /// Samples of one grid on the loaded tooth and one on several.
   std::vector<InfluenceSample> samples(const InfluenceModel& model, const Stations& own, const Stations& adjacent) {
     report("solving loads", result_.loads, total_loads_);
-    std::vector<InfluenceSample> all =
-        finite_element_samples(model, result_.gear, own.us, own.zetas, 0, task_.removed);
+    std::vector<InfluenceSample> all = finite_element_samples(model, result_.gear, own.us, own.zetas, 0, task_.removed);
     result_.loads += own.count();
     if (apart_ == 0) return all;
-    std::vector<InfluenceSample> several =
-        finite_element_samples(model, result_.gear, adjacent.us, adjacent.zetas, apart_, task_.removed);
+    std::vector<InfluenceSample> several = finite_element_samples(model, result_.gear, adjacent.us, adjacent.zetas, apart_, task_.removed);
     result_.loads += adjacent.count();
     all.insert(all.end(), several.begin() + 1, several.end());
     return all;
@@ -164,17 +159,16 @@ class GearFitRun {
     const std::vector<InfluenceSample> for_thesis = without_faint_pairs(fitted_);
     for (const ThesisBody body : {ThesisBody::InMasterFunction, ThesisBody::Separate}) {
       ThesisFitResult other = fit_thesis_form(for_thesis, body);
-      add_residuals(body == ThesisBody::Separate ? "thesis_separate" : "thesis_in_master", other.status,
-                    other.fit ? &*other.fit : nullptr, apart_);
+      add_residuals(body == ThesisBody::Separate ? "thesis_separate" : "thesis_in_master", other.status, other.fit ? &*other.fit : nullptr, apart_);
       thesis = std::move(other.fit);
     }
     report("comparing", 1, 3);
     const CantileverPlate plate(model.mesh().form, gear.normal_module, gear.gear.face_width, nu);
     const ThinSliceTooth slices(model.mesh().form, gear.normal_module, gear.gear.face_width, nu);
-    std::vector<NamedModel> models{{"finite elements", task_.mesh.teeth_each_side,
-                                    [&](std::span<const FlankStation> stations, std::span<const FlankStation> loads) {
-                                      return finite_element_deflections(model, stations, loads, task_.removed);
-                                    }}};
+    std::vector<NamedModel> models{
+        {"finite elements", task_.mesh.teeth_each_side, [&](std::span<const FlankStation> stations, std::span<const FlankStation> loads) {
+           return finite_element_deflections(model, stations, loads, task_.removed);
+         }}};
     if (fit) models.push_back(named_model("fitted", apart_, *fit));
     if (thesis) models.push_back(named_model("thesis", apart_, *thesis));
     models.push_back(named_model("plate", 0, plate));
@@ -195,8 +189,7 @@ class GearFitRun {
       const std::vector<FlankStation> some = on_tooth(adjacent_, tooth);
       stations.insert(stations.end(), some.begin(), some.end());
     }
-    const Eigen::VectorXd values =
-        Eigen::SelfAdjointEigenSolver<MatrixXd>(everywhere.evaluate(stations), Eigen::EigenvaluesOnly).eigenvalues();
+    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<MatrixXd>(everywhere.evaluate(stations), Eigen::EigenvaluesOnly).eigenvalues();
     result_.lowest_eigenvalue = values.minCoeff() / values.maxCoeff();
     result_.eigenvalue_teeth = record.range.teeth_apart + 1;
   }
@@ -212,9 +205,8 @@ class GearFitRun {
 
 }  // namespace
 
-std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model, const GearProportions& gear,
-                                                    const std::vector<double>& us, const std::vector<double>& zetas,
-                                                    int teeth_apart, RemovedRigidMotion removed) {
+std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model, const GearProportions& gear, const std::vector<double>& us,
+                                                    const std::vector<double>& zetas, int teeth_apart, RemovedRigidMotion removed) {
   const Stations grid{us, zetas};
   const std::vector<FlankStation> loads = on_tooth(grid, 0);
   std::vector<FlankStation> stations;
@@ -247,8 +239,6 @@ std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model,
   return samples;
 }
 
-GearFitResult fit_gear(const GearFitTask& task, const FitProgress& progress) {
-  return GearFitRun(task, progress).finish();
-}
+GearFitResult fit_gear(const GearFitTask& task, const FitProgress& progress) { return GearFitRun(task, progress).finish(); }
 
 }  // namespace flankwright

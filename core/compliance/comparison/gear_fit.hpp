@@ -73,8 +73,7 @@ GearFitResult fit_gear(const GearFitTask& task, const FitProgress& progress = {}
 /// Influence values between the stations us x zetas on tooth 0 and, for each m = 1 .. teeth_apart, between those of
 /// teeth 0 and m. The load is on tooth 0, which is meshed finely; the deflection is read on both neighbours m pitches
 /// away. These differ only by their mesh and count as each other's reciprocal.
-std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model, const GearProportions& gear,
-                                                    const std::vector<double>& us, const std::vector<double>& zetas,
-                                                    int teeth_apart, RemovedRigidMotion removed);
+std::vector<InfluenceSample> finite_element_samples(const InfluenceModel& model, const GearProportions& gear, const std::vector<double>& us,
+                                                    const std::vector<double>& zetas, int teeth_apart, RemovedRigidMotion removed);
 
 }  // namespace flankwright

@@ -14,8 +14,7 @@ double ResidualDistribution::at(double share) const {
   return residual[static_cast<std::size_t>(found - kResidualShares.begin())];
 }
 
-std::vector<ResidualDistribution> residual_distributions(const FlankCompliance& model, int teeth_apart,
-                                                         std::span<const InfluenceSample> samples) {
+std::vector<ResidualDistribution> residual_distributions(const FlankCompliance& model, int teeth_apart, std::span<const InfluenceSample> samples) {
   std::map<int, std::vector<double>> residuals;
   std::map<int, double> worst_of_own;
   for (const InfluenceSample& sample : samples) {

@@ -9,8 +9,7 @@
 namespace flankwright {
 
 /// Fractions of the pairs at which a distribution of residuals is given.
-inline constexpr std::array<double, 17> kResidualShares{0.01, 0.05, 0.1,  0.2,  0.3,  0.4,  0.5,   0.6, 0.7,
-                                                        0.8,  0.9,  0.95, 0.97, 0.98, 0.99, 0.995, 1};
+inline constexpr std::array<double, 17> kResidualShares{0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 0.97, 0.98, 0.99, 0.995, 1};
 
 /// Distribution of the relative residuals |K_model - K| / |K| over all known pairs of points so many teeth apart, each
 /// once, the diagonal included: the residual that a share of the pairs does not exceed, for kResidualShares. Where a
@@ -32,7 +31,6 @@ struct ResidualDistribution {
 /// One entry per number of teeth apart that occurs and that the model covers, in rising order.
 /// @param teeth_apart  the largest that the model covers
 /// @param samples      with known own compliances
-std::vector<ResidualDistribution> residual_distributions(const FlankCompliance& model, int teeth_apart,
-                                                         std::span<const InfluenceSample> samples);
+std::vector<ResidualDistribution> residual_distributions(const FlankCompliance& model, int teeth_apart, std::span<const InfluenceSample> samples);
 
 }  // namespace flankwright

@@ -7,10 +7,9 @@
 namespace flankwright {
 namespace {
 
-constexpr int kBrickLocal[20][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1},
-                                    {1, -1, 1},   {1, 1, 1},   {-1, 1, 1}, {0, -1, -1}, {1, 0, -1},
-                                    {0, 1, -1},   {-1, 0, -1}, {0, -1, 1}, {1, 0, 1},   {0, 1, 1},
-                                    {-1, 0, 1},   {-1, -1, 0}, {1, -1, 0}, {1, 1, 0},   {-1, 1, 0}};
+constexpr int kBrickLocal[20][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1},  {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1},
+                                    {-1, 1, 1},   {0, -1, -1}, {1, 0, -1},  {0, 1, -1},  {-1, 0, -1}, {0, -1, 1}, {1, 0, 1},
+                                    {0, 1, 1},    {-1, 0, 1},  {-1, -1, 0}, {1, -1, 0},  {1, 1, 0},   {-1, 1, 0}};
 constexpr int kFaceLocal[8][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, -1}, {1, 0}, {0, 1}, {-1, 0}};
 
 /// Factor of a node's function along one direction, and its derivative: 1 - x^2 at a mid-side, 1 + x x_i elsewhere.
@@ -25,8 +24,7 @@ Factor factor(double x, int node) {
 struct Lame {
   double lambda, mu;
   explicit Lame(const Material& material)
-      : lambda(material.youngs_modulus * material.poissons_ratio /
-               ((1 + material.poissons_ratio) * (1 - 2 * material.poissons_ratio))),
+      : lambda(material.youngs_modulus * material.poissons_ratio / ((1 + material.poissons_ratio) * (1 - 2 * material.poissons_ratio))),
         mu(material.youngs_modulus / (2 * (1 + material.poissons_ratio))) {}
 };
 
@@ -77,8 +75,7 @@ Eigen::Matrix<double, 60, 60> brick_stiffness(const BrickNodes& nodes, const Mat
         const Eigen::Matrix3d jacobian = nodes * shape.derivatives;
         const double weight = gauss3_weights[i] * gauss3_weights[j] * gauss3_weights[k] * jacobian.determinant();
         const Eigen::Matrix<double, 3, 20> gradient = (shape.derivatives * jacobian.inverse()).transpose();
-        gradients.col(point++) =
-            std::sqrt(std::max(0.0, weight)) * Eigen::Map<const Eigen::Matrix<double, 60, 1>>(gradient.data());
+        gradients.col(point++) = std::sqrt(std::max(0.0, weight)) * Eigen::Map<const Eigen::Matrix<double, 60, 1>>(gradient.data());
       }
     }
   }
@@ -117,8 +114,8 @@ double brick_quality(const BrickNodes& nodes) {
   return largest > 0 ? smallest / largest : -1;
 }
 
-Eigen::Matrix<double, 6, 1> brick_stress(const BrickNodes& nodes, const BrickNodes& displacements,
-                                         const Eigen::Vector3d& local, const Material& material) {
+Eigen::Matrix<double, 6, 1> brick_stress(const BrickNodes& nodes, const BrickNodes& displacements, const Eigen::Vector3d& local,
+                                         const Material& material) {
   const BrickShape shape = brick_shape(local);
   const Eigen::Matrix3d jacobian = nodes * shape.derivatives;
   const Eigen::Matrix3d gradient = displacements * shape.derivatives * jacobian.inverse();

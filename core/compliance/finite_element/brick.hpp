@@ -39,8 +39,8 @@ Eigen::Matrix<double, 60, 60> brick_stiffness(const BrickNodes& nodes, const Mat
 double brick_quality(const BrickNodes& nodes);
 
 /// Stress [MPa] at a local position, (xx, yy, zz, xy, yz, zx), from the displacements of the nodes [mm], 3 x 20.
-Eigen::Matrix<double, 6, 1> brick_stress(const BrickNodes& nodes, const BrickNodes& displacements,
-                                         const Eigen::Vector3d& local, const Material& material);
+Eigen::Matrix<double, 6, 1> brick_stress(const BrickNodes& nodes, const BrickNodes& displacements, const Eigen::Vector3d& local,
+                                         const Material& material);
 
 /// Abscissae and weights of the three-point Gauss rule on [-1, 1].
 inline constexpr double gauss3_abscissae[3] = {-0.774596669241483377, 0.0, 0.774596669241483377};

@@ -28,8 +28,8 @@ Eigen::Matrix<double, 24, 3> face_stress(const FaceNodes& nodes, double xi, doub
   const double plane = material.youngs_modulus / (1 - nu * nu), shear = material.youngs_modulus / (2 * (1 + nu));
   Eigen::Matrix<double, 24, 3> result;
   for (int i = 0; i < 8; ++i) {
-    result.middleRows<3>(3 * i) << plane * (slopes(i, 0) * t + nu * slopes(i, 1) * a),
-        plane * (slopes(i, 1) * a + nu * slopes(i, 0) * t), shear * (slopes(i, 1) * t + slopes(i, 0) * a);
+    result.middleRows<3>(3 * i) << plane * (slopes(i, 0) * t + nu * slopes(i, 1) * a), plane * (slopes(i, 1) * a + nu * slopes(i, 0) * t),
+        shear * (slopes(i, 1) * t + slopes(i, 0) * a);
   }
   return result;
 }
@@ -66,8 +66,7 @@ struct FilletStress::Layout {
       const auto first = 2 * static_cast<Eigen::Index>(i);
       const int edge[] = {faces[i][0], faces[i][4], faces[i][1]};
       for (int k = 0; k < 3; ++k) profile.col(first + k) = back * mesh.solid.nodes.col(edge[k]).head<2>();
-      for (const double xi : {-kGauss2, kGauss2})
-        stations.push_back(ends.back() + arc(profile.middleCols<3>(first), xi));
+      for (const double xi : {-kGauss2, kGauss2}) stations.push_back(ends.back() + arc(profile.middleCols<3>(first), xi));
       ends.push_back(ends.back() + arc(profile.middleCols<3>(first), 1));
     }
     for (double& station : stations) station /= ends.back();
@@ -79,15 +78,10 @@ struct FilletStress::Layout {
   }
 };
 
-FilletStress::FilletStress(const GearMesh& mesh, const Material& material)
-    : FilletStress(mesh, material, Layout(mesh)) {}
+FilletStress::FilletStress(const GearMesh& mesh, const Material& material) : FilletStress(mesh, material, Layout(mesh)) {}
 
 FilletStress::FilletStress(const GearMesh& mesh, const Material& material, const Layout& layout)
-    : half_width_(mesh.face_width / 2),
-      profile_(layout.profile),
-      ends_(layout.ends),
-      along_(layout.stations),
-      z_(layout.heights) {
+    : half_width_(mesh.face_width / 2), profile_(layout.profile), ends_(layout.ends), along_(layout.stations), z_(layout.heights) {
   if (!(material.youngs_modulus > 0)) {
     throw InvalidInput("material.youngs_modulus", std::to_string(material.youngs_modulus), "more than 0 MPa");
   }
@@ -106,8 +100,7 @@ FilletStress::FilletStress(const GearMesh& mesh, const Material& material, const
         const auto station = static_cast<int>((2 * layer + point / 2) * 2 * elements + 2 * i + point % 2);
         const Eigen::Matrix<double, 24, 3> stress = face_stress(nodes, xi, eta, material);
         for (int row = 0; row < 24; ++row) {
-          for (int c = 0; c < 3; ++c)
-            entries.emplace_back(3 * face[row / 3] + row % 3, 3 * station + c, stress(row, c));
+          for (int c = 0; c < 3; ++c) entries.emplace_back(3 * face[row / 3] + row % 3, 3 * station + c, stress(row, c));
         }
       }
     }
@@ -123,9 +116,7 @@ double FilletStress::along(const ProfilePoint& point) const {
   double nearest = INFINITY, found = 0;
   for (std::size_t i = 0; i + 1 < ends_.size(); ++i) {
     const Eigen::Matrix<double, 2, 3> edge = profile_.middleCols<3>(2 * static_cast<Eigen::Index>(i));
-    const auto at = [&](double x) -> Eigen::Vector2d {
-      return edge * Eigen::Vector3d(x * (x - 1) / 2, 1 - x * x, x * (x + 1) / 2);
-    };
+    const auto at = [&](double x) -> Eigen::Vector2d { return edge * Eigen::Vector3d(x * (x - 1) / 2, 1 - x * x, x * (x + 1) / 2); };
     for (int k = -kParts; k < kParts; ++k) {
       const double begin = static_cast<double>(k) / kParts, step = 1.0 / kParts;
       const Eigen::Vector2d from = at(begin), chord = at(begin + step) - from;

@@ -87,8 +87,7 @@ GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options) {
   }
 
   mesh.planes = face_planes(width, gear.normal_module, options);
-  const std::vector<double> beyond =
-      overhang_planes(overhang, options.largest_element * gear.normal_module, options.body_growth);
+  const std::vector<double> beyond = overhang_planes(overhang, options.largest_element * gear.normal_module, options.body_growth);
   SweepPlanes planes;
   for (std::size_t i = beyond.size(); i-- > 0;) planes.z.push_back(-width / 2 - beyond[i]);
   planes.first = static_cast<int>(planes.z.size());

@@ -42,7 +42,7 @@ struct GearMesh {
   int teeth_each_side{0};
   double shaft_diameter{not_given};  ///< [mm]
   bool rigid_body{false};            ///< GearBody::rigid
-  double torque_end{not_given};  ///< z of the face end where torque and axial force leave, -b/2 or b/2 [mm]
+  double torque_end{not_given};      ///< z of the face end where torque and axial force leave, -b/2 or b/2 [mm]
   SolidMesh solid{};
   std::vector<NodeSupport> supports{};
   std::vector<double> planes{};                  ///< z of the layers' ends on the face width, ascending [mm]

@@ -54,8 +54,7 @@ class InfluenceModel {
   const Material& material() const { return material_; }
 
   /// @throws InvalidInput  a point outside the ranges of FlankPoint
-  InfluenceMatrix influence(const std::vector<FlankPoint>& points,
-                            RemovedRigidMotion removed = RemovedRigidMotion::TranslationTorsionAndTilt) const;
+  InfluenceMatrix influence(const std::vector<FlankPoint>& points, RemovedRigidMotion removed = RemovedRigidMotion::TranslationTorsionAndTilt) const;
 
  private:
   Material material_;

@@ -18,8 +18,7 @@ double lowest_eigenvalue(const std::vector<Eigen::MatrixXd>& tables) {
   Eigen::MatrixXd lower(teeth * n, teeth * n);
   for (Eigen::Index i = 0; i < teeth; ++i) {
     for (Eigen::Index j = 0; j <= i; ++j) {
-      lower.block(i * n, j * n, n, n) =
-          scale.asDiagonal() * tables[static_cast<std::size_t>(i - j)].transpose() * scale.asDiagonal();
+      lower.block(i * n, j * n, n, n) = scale.asDiagonal() * tables[static_cast<std::size_t>(i - j)].transpose() * scale.asDiagonal();
     }
   }
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(lower, Eigen::EigenvaluesOnly).eigenvalues()[0];
@@ -28,14 +27,8 @@ double lowest_eigenvalue(const std::vector<Eigen::MatrixXd>& tables) {
 }  // namespace
 
 InfluenceTable::InfluenceTable(StationGrid grid, std::vector<Eigen::MatrixXd> tables, TableProjection projection)
-    : grid_(std::move(grid)),
-      tables_(std::move(tables)),
-      along_u_(grid_.us()),
-      along_zeta_(grid_.zetas()),
-      projection_(projection) {
-  const auto fits = [&](const Eigen::MatrixXd& t) {
-    return t.rows() == grid_.size() && t.cols() == grid_.size() && t.allFinite();
-  };
+    : grid_(std::move(grid)), tables_(std::move(tables)), along_u_(grid_.us()), along_zeta_(grid_.zetas()), projection_(projection) {
+  const auto fits = [&](const Eigen::MatrixXd& t) { return t.rows() == grid_.size() && t.cols() == grid_.size() && t.allFinite(); };
   if (tables_.empty() || !std::ranges::all_of(tables_, fits) || !(tables_.front().diagonal().minCoeff() > 0)) {
     throw InvalidInput("tables", std::to_string(tables_.size()) + " tables",
                        "finite square ones of the grid's size, the first with a positive diagonal");
@@ -43,8 +36,7 @@ InfluenceTable::InfluenceTable(StationGrid grid, std::vector<Eigen::MatrixXd> ta
   make_coefficients();
 }
 
-InfluenceTable::InfluenceTable(StationGrid grid, std::vector<Eigen::MatrixXd> tables)
-    : InfluenceTable(std::move(grid), std::move(tables), {}) {
+InfluenceTable::InfluenceTable(StationGrid grid, std::vector<Eigen::MatrixXd> tables) : InfluenceTable(std::move(grid), std::move(tables), {}) {
   Eigen::MatrixXd& own = tables_.front();
   own = (0.5 * (own + own.transpose())).eval();
   projection_.lowest_eigenvalue = lowest_eigenvalue(tables_);
@@ -94,24 +86,21 @@ Eigen::MatrixXd InfluenceTable::evaluate(std::span<const FlankStation> points) c
     for (const auto& [tooth, rows] : of_tooth) {
       if (tooth > loaded) break;
       if (loaded - tooth > teeth_apart()) {
-        throw InvalidInput("place.tooth", std::to_string(loaded - tooth) + " pitches apart",
-                           "at most " + std::to_string(teeth_apart()));
+        throw InvalidInput("place.tooth", std::to_string(loaded - tooth) + " pitches apart", "at most " + std::to_string(teeth_apart()));
       }
       const Eigen::MatrixXd& table = coefficients_[static_cast<std::size_t>(loaded - tooth)];
       for (const std::size_t q : columns) {
         const LocalStation& force = stations[q];
         deflection.setZero();
         for (int k = 0; k < 4; ++k) {
-          deflection.noalias() += table.middleCols<4>(force.rows[static_cast<std::size_t>(k)]) *
-                                  (force.along_u[k] * force.along_zeta);
+          deflection.noalias() += table.middleCols<4>(force.rows[static_cast<std::size_t>(k)]) * (force.along_u[k] * force.along_zeta);
         }
         for (const std::size_t p : rows) {
           if (tooth == loaded && p > q) break;
           const LocalStation& station = stations[p];
           double value = 0;
           for (int k = 0; k < 4; ++k) {
-            value += station.along_u[k] *
-                     station.along_zeta.dot(deflection.segment<4>(station.rows[static_cast<std::size_t>(k)]));
+            value += station.along_u[k] * station.along_zeta.dot(deflection.segment<4>(station.rows[static_cast<std::size_t>(k)]));
           }
           const auto i = static_cast<Eigen::Index>(p), j = static_cast<Eigen::Index>(q);
           result(i, j) = result(j, i) = value;

@@ -43,7 +43,7 @@ class InfluenceTable final : public FlankCompliance {
   Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const override;
 
   const StationGrid& grid() const { return grid_; }
-  const std::vector<Eigen::MatrixXd>& tables() const { return tables_; }  ///< with what was added
+  const std::vector<Eigen::MatrixXd>& tables() const { return tables_; }    ///< with what was added
   int teeth_apart() const { return static_cast<int>(tables_.size()) - 1; }  ///< M
   const TableProjection& projection() const { return projection_; }
 

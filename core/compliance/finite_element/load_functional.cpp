@@ -148,8 +148,7 @@ SectionMotion shaft_motion(const GearMesh& mesh, double z) {
       rigid << Eigen::Matrix3d::Identity(), Eigen::Matrix3d{{0, -r.z(), r.y()}, {r.z(), 0, -r.x()}, {-r.y(), r.x(), 0}};
       normal += area * rigid * rigid.transpose();
       for (int k = 0; k < 20; ++k) {
-        nodal.try_emplace(mesh.solid.bricks(k, brick), Eigen::Matrix<double, 6, 3>::Zero()).first->second +=
-            area * shape.values[k] * rigid;
+        nodal.try_emplace(mesh.solid.bricks(k, brick), Eigen::Matrix<double, 6, 3>::Zero()).first->second += area * shape.values[k] * rigid;
       }
     }
   }
@@ -163,9 +162,7 @@ SectionMotion shaft_motion(const GearMesh& mesh, double z) {
   return motion;
 }
 
-Eigen::SparseMatrix<double> NetFunctionals::whole() const {
-  return centre - motions * taken_off;
-}
+Eigen::SparseMatrix<double> NetFunctionals::whole() const { return centre - motions * taken_off; }
 
 NetFunctionals net_functionals(const GearMesh& mesh, const std::vector<FlankPoint>& points, RemovedRigidMotion removed) {
   const auto count = static_cast<int>(points.size());

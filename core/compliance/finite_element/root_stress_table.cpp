@@ -15,9 +15,7 @@ const Eigen::MatrixXd* RootStressTable::response(int tooth, int loaded_tooth) co
   return std::abs(apart) > teeth_each_side() ? nullptr : &stress[static_cast<std::size_t>(apart + teeth_each_side())];
 }
 
-std::vector<double> fillet_zetas(double face_width) {
-  return axial_stations(face_width, {0.25, 0.4, 0.6});
-}
+std::vector<double> fillet_zetas(double face_width) { return axial_stations(face_width, {0.25, 0.4, 0.6}); }
 
 FilletGrid fillet_grid(const GearMesh& mesh, const FilletStress& fillet) {
   const double tangent = fillet.along(mesh.form.root_tangent_point(30 * units::deg));

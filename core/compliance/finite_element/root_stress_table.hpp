@@ -29,7 +29,7 @@ struct FilletGrid {
 /// fillet (18 teeth), but its near field is narrower than the distance between the points of a contact line: each would
 /// show by itself.
 struct RootStressTable {
-  StationGrid grid;     ///< points of the forces
+  StationGrid grid;   ///< points of the forces
   FilletGrid fillet;  ///< points of the stresses
   /// (s_tt, s_aa, s_ta) m_n^2 / F of every fillet point on tooth 0, three rows each, under a force at every point of
   /// the grid on tooth m, for m = -M .. M, teeth counted as in GearToMesh; 3 P x grid.size().

@@ -27,9 +27,7 @@ struct Polar {
   Eigen::Vector2d point() const { return {-radius * std::sin(angle), radius * std::cos(angle)}; }
 };
 
-Polar blend(const Polar& a, const Polar& b, double t) {
-  return {a.radius + t * (b.radius - a.radius), a.angle + t * (b.angle - a.angle)};
-}
+Polar blend(const Polar& a, const Polar& b, double t) { return {a.radius + t * (b.radius - a.radius), a.angle + t * (b.angle - a.angle)}; }
 
 /// Collects quads; points that fall together become one node.
 class Builder {
@@ -57,8 +55,8 @@ class Builder {
   void grid(int columns, int rows, SectionPart part, At&& at) {
     for (int i = 0; i < 2 * columns; i += 2) {
       for (int j = 0; j < 2 * rows; j += 2) {
-        quads_.push_back({node(at(i, j)), node(at(i + 2, j)), node(at(i + 2, j + 2)), node(at(i, j + 2)),
-                          node(at(i + 1, j)), node(at(i + 2, j + 1)), node(at(i + 1, j + 2)), node(at(i, j + 1))});
+        quads_.push_back({node(at(i, j)), node(at(i + 2, j)), node(at(i + 2, j + 2)), node(at(i, j + 2)), node(at(i + 1, j)), node(at(i + 2, j + 1)),
+                          node(at(i + 1, j + 2)), node(at(i, j + 1))});
         parts_.push_back(part);
       }
     }
@@ -78,9 +76,7 @@ class Builder {
   }
 
  private:
-  static std::uint64_t key(long long i, long long j) {
-    return (static_cast<std::uint64_t>(i) << 32) ^ (static_cast<std::uint64_t>(j) & 0xffffffffU);
-  }
+  static std::uint64_t key(long long i, long long j) { return (static_cast<std::uint64_t>(i) << 32) ^ (static_cast<std::uint64_t>(j) & 0xffffffffU); }
   double cell_;
   std::vector<Eigen::Vector2d> points_;
   std::vector<std::array<int, 8>> quads_;
@@ -283,8 +279,7 @@ void GearMeshOptions::validate() const {
 }
 
 double default_shaft_diameter(const ToothForm& form, double normal_module) {
-  return std::min({1.6 * form.reference_radius(), 25 * normal_module / std::cos(form.helix_angle()),
-                   2 * form.root_radius() - 1.2 * normal_module});
+  return std::min({1.6 * form.reference_radius(), 25 * normal_module / std::cos(form.helix_angle()), 2 * form.root_radius() - 1.2 * normal_module});
 }
 
 double rim_radius(const ToothForm& form, double shaft_diameter, double normal_module) {
@@ -292,19 +287,16 @@ double rim_radius(const ToothForm& form, double shaft_diameter, double normal_mo
   return root - shaft < 1.8 * normal_module ? shaft : root - 1.25 * normal_module;
 }
 
-SectionRadii section_radii(const ToothForm& form, int teeth, double normal_module, const GearBody& body,
-                           const GearMeshOptions& options) {
+SectionRadii section_radii(const ToothForm& form, int teeth, double normal_module, const GearBody& body, const GearMeshOptions& options) {
   options.validate();
   if (!(form.tip_half_angle() > 0)) {
     throw InvalidInput("tip_diameter", std::to_string(2 * form.tip_radius()), "a tooth that is not pointed");
   }
   if (2 * options.teeth_each_side + 1 > teeth) {
-    throw InvalidInput("options.teeth_each_side", std::to_string(options.teeth_each_side),
-                       "at most half the number of teeth");
+    throw InvalidInput("options.teeth_each_side", std::to_string(options.teeth_each_side), "at most half the number of teeth");
   }
   const double root = form.root_radius();
-  const double shaft =
-      (std::isnan(body.shaft_diameter) ? default_shaft_diameter(form, normal_module) : body.shaft_diameter) / 2;
+  const double shaft = (std::isnan(body.shaft_diameter) ? default_shaft_diameter(form, normal_module) : body.shaft_diameter) / 2;
   const double bore = std::isnan(body.bore_diameter) ? default_bore_share * shaft : body.bore_diameter / 2;
   // The blocks of the teeth need at least half a module of rim.
   if (!(shaft > 0 && shaft <= root - 0.5 * normal_module)) {
@@ -317,8 +309,7 @@ SectionRadii section_radii(const ToothForm& form, int teeth, double normal_modul
   return {shaft, bore};
 }
 
-SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module, const GearBody& body,
-                         const GearMeshOptions& options) {
+SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module, const GearBody& body, const GearMeshOptions& options) {
   const SectionRadii radii = section_radii(form, teeth, normal_module, body, options);
   const double root = form.root_radius(), shaft = radii.shaft, bore = radii.bore;
 
@@ -334,9 +325,8 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
   for (int m = -options.teeth_each_side; m <= options.teeth_each_side; ++m) centres.push_back(m * pitch);
 
   for (int m = -options.teeth_each_side; m <= options.teeth_each_side; ++m) {
-    const HalfTooth half =
-        m == 0 ? half_tooth(form, teeth, rim, options.flank_elements, options.fillet_elements)
-               : half_tooth(form, teeth, rim, options.adjacent_flank_elements, options.adjacent_fillet_elements);
+    const HalfTooth half = m == 0 ? half_tooth(form, teeth, rim, options.flank_elements, options.fillet_elements)
+                                  : half_tooth(form, teeth, rim, options.adjacent_flank_elements, options.adjacent_fillet_elements);
     const auto at = [&](int side, int step, int level) {
       const double of_flank = std::min(1.0, step / (2.0 * half.involute));
       const Polar p = blend(half.inner[step], half.profile[step], at_half_step(half_thickness_fractions(across, of_flank), level));
@@ -368,12 +358,9 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
     std::vector<double> ring = graded(half_angle, std::min(pitch / 3, half_angle), options.body_growth, kWidest);
     const auto n = static_cast<int>(ring.size()) - 1;
     const auto angle = [&](int i) {
-      return i <= 2 * n ? last + half_angle * at_half_step(ring, i)
-                        : first - half_angle * at_half_step(ring, 4 * n - i);
+      return i <= 2 * n ? last + half_angle * at_half_step(ring, i) : first - half_angle * at_half_step(ring, 4 * n - i);
     };
-    const auto at = [&](int i, int j) {
-      return blend({rim, angle(i)}, {root, angle(i)}, at_half_step(below_fillet, 2 * across - j)).point();
-    };
+    const auto at = [&](int i, int j) { return blend({rim, angle(i)}, {root, angle(i)}, at_half_step(below_fillet, 2 * across - j)).point(); };
     builder.grid(2 * n, across, SectionPart::Body, at);
     for (int i = 0; i < 4 * n; ++i) angles.push_back(angle(i));
   }
@@ -395,8 +382,7 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
       }
       around = std::move(joined.division);
       const std::array<double, 3> at{from, 0.5 * (from + to), to};
-      builder.grid(around.elements(), 1, part,
-                   [&](int i, int j) { return Polar{at[static_cast<std::size_t>(j)], around.angle(i)}.point(); });
+      builder.grid(around.elements(), 1, part, [&](int i, int j) { return Polar{at[static_cast<std::size_t>(j)], around.angle(i)}.point(); });
       for (std::size_t m = 0; m < centres.size(); ++m) {
         const auto node = [&](double radius) { return builder.node(Polar{radius, centres[m]}.point()); };
         lines[m].centre_line.push_back({node(at[0]), node(at[1]), node(at[2])});

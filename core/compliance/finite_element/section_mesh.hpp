@@ -89,7 +89,7 @@ enum class SectionPart { LoadedTooth, Body, Shaft };
 /// counter-clockwise, mid-sides 1-2, 2-3, 3-4, 4-1. All nodes of flanks and fillets lie exactly on them.
 struct SectionMesh {
   double root_radius{not_given};  ///< [mm]
-  Eigen::Matrix2Xd nodes;  ///< [mm]
+  Eigen::Matrix2Xd nodes;         ///< [mm]
   Eigen::Matrix<int, 8, Eigen::Dynamic> quads;
   std::vector<SectionPart> parts;   ///< of every quad
   std::vector<SectionTooth> teeth;  ///< -n .. n, counter-clockwise
@@ -106,8 +106,7 @@ struct SectionRadii {
 /// @throws InvalidInput  a tooth without a tip ("tip_diameter"), a shaft that does not fit into the root
 ///                       ("body.shaft_diameter"), a bore that does not fit into the shaft ("body.bore_diameter"), an
 ///                       option out of range, or fewer teeth than are to be detailed ("options.teeth_each_side")
-SectionRadii section_radii(const ToothForm& form, int teeth, double normal_module, const GearBody& body,
-                           const GearMeshOptions& options);
+SectionRadii section_radii(const ToothForm& form, int teeth, double normal_module, const GearBody& body, const GearMeshOptions& options);
 
 /// The toothed ring has one block per half tooth, spanned between the profile (flank, fillet, half the root land) and
 /// the line that comes down the tooth's centre and turns, on a circle below the root, towards the gap's centre; where
@@ -115,7 +114,6 @@ SectionRadii section_radii(const ToothForm& form, int teeth, double normal_modul
 /// elements (GearMeshOptions::layer_share).
 ///
 /// @throws InvalidInput  as section_radii()
-SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module, const GearBody& body,
-                         const GearMeshOptions& options);
+SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module, const GearBody& body, const GearMeshOptions& options);
 
 }  // namespace flankwright

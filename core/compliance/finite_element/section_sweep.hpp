@@ -59,12 +59,12 @@ class SectionSweep {
   const SweepPlanes& planes_;
   double twist_;
   std::vector<std::vector<int>> ends_;             ///< of every level (2^level layers are joined): numbers of the planes between its joined layers
-  std::vector<int> quad_levels_, node_levels_;      ///< the latter: highest of the quads around
-  std::vector<std::map<LayerSpan, int>> numbers_;   ///< of the nodes above every section node
+  std::vector<int> quad_levels_, node_levels_;     ///< the latter: highest of the quads around
+  std::vector<std::map<LayerSpan, int>> numbers_;  ///< of the nodes above every section node
   std::vector<Eigen::Vector3d> points_;
   std::vector<std::array<int, 20>> bricks_;
   std::vector<TiedNode> ties_;
-  std::vector<int> tie_of_;                         ///< for every node the number of its tie, or -1
+  std::vector<int> tie_of_;  ///< for every node the number of its tie, or -1
 };
 
 }  // namespace flankwright

@@ -107,8 +107,7 @@ void check(const SolidMesh& mesh, const Material& material, const std::vector<No
   }
   const auto alone = std::find(used.begin(), used.end(), 0);
   if (alone != used.end()) {
-    throw InvalidInput("mesh.nodes", "number " + std::to_string(alone - used.begin()) + " is in no brick",
-                       "nodes that belong to a brick");
+    throw InvalidInput("mesh.nodes", "number " + std::to_string(alone - used.begin()) + " is in no brick", "nodes that belong to a brick");
   }
   std::vector<char> tied(static_cast<std::size_t>(n), 0);
   for (const TiedNode& tie : mesh.tied) {
@@ -263,8 +262,7 @@ struct SolidModel::Assembled {
 SolidModel::SolidModel(const SolidMesh& mesh, const Material& material, const std::vector<NodeSupport>& supports)
     : SolidModel(Assembled(mesh, material, supports)) {}
 
-SolidModel::SolidModel(Assembled&& assembled)
-    : motion_(std::move(assembled.motion)), factor_(assembled.lower, assembled.node_of) {}
+SolidModel::SolidModel(Assembled&& assembled) : motion_(std::move(assembled.motion)), factor_(assembled.lower, assembled.node_of) {}
 
 Eigen::MatrixXd SolidModel::solve(const Eigen::SparseMatrix<double>& loads) const {
   assert(loads.rows() == motion_.rows());

@@ -18,8 +18,8 @@ std::vector<FlankPoint> flank_points(const GearMesh& mesh, const StationGrid& gr
   std::vector<FlankPoint> points;
   for (int tooth = -mesh.teeth_each_side; tooth <= mesh.teeth_each_side; ++tooth) {
     for (const FlankStation& station : grid.stations(tooth)) {
-      points.push_back({tooth, form.form_radius() + (station.u + 1) / 2 * (form.tip_radius() - form.form_radius()),
-                        station.zeta - mesh.face_width / 2});
+      points.push_back(
+          {tooth, form.form_radius() + (station.u + 1) / 2 * (form.tip_radius() - form.form_radius()), station.zeta - mesh.face_width / 2});
     }
   }
   return points;
@@ -30,8 +30,8 @@ std::vector<FlankPoint> flank_points(const GearMesh& mesh, const StationGrid& gr
 InfluenceTableTask in_modules(InfluenceTableTask task) {
   GearToMesh& gear = task.gear;
   const double module = gear.normal_module;
-  for (double* length : {&gear.gear.face_width, &gear.gear.tip_diameter, &gear.body.shaft_diameter,
-                         &gear.body.bore_diameter, &gear.body.shaft_overhang, &gear.normal_module}) {
+  for (double* length : {&gear.gear.face_width, &gear.gear.tip_diameter, &gear.body.shaft_diameter, &gear.body.bore_diameter,
+                         &gear.body.shaft_overhang, &gear.normal_module}) {
     *length /= module;
   }
   return task;
@@ -42,15 +42,13 @@ bool alike_but_for_size(const InfluenceTableTask& one, const InfluenceTableTask&
   const auto fields = [](const InfluenceTableTask& task) {
     const GearToMesh& gear = task.gear;
     return std::tie(gear.gear.teeth, gear.gear.face_width, gear.gear.profile_shift, gear.gear.tip_diameter, gear.gear.rack, gear.pressure_angle,
-                    gear.helix_angle, gear.body, task.poissons_ratio, task.teeth_apart, task.mesh, task.removed, task.root_stress,
-                    task.grid.us(), task.grid.zetas());
+                    gear.helix_angle, gear.body, task.poissons_ratio, task.teeth_apart, task.mesh, task.removed, task.root_stress, task.grid.us(),
+                    task.grid.zetas());
   };
   return fields(a) == fields(b);
 }
 
-int teeth_apart_in_contact(const GearPair& pair) {
-  return static_cast<int>(std::floor(PathOfContact(pair).last_line_phase()));
-}
+int teeth_apart_in_contact(const GearPair& pair) { return static_cast<int>(std::floor(PathOfContact(pair).last_line_phase())); }
 
 double expected_bytes(Eigen::Index unknowns) {
   const auto n = static_cast<double>(unknowns);
@@ -62,10 +60,7 @@ namespace {
 /// Solves into a run, which holds what was done before an allocation fails.
 class TableSolver {
  public:
-  TableSolver(const InfluenceTableTask& task, const TableProgress& progress, InfluenceTableRun& run)
-      : task_(task),
-        progress_(progress),
-        run_(run) {}
+  TableSolver(const InfluenceTableTask& task, const TableProgress& progress, InfluenceTableRun& run) : task_(task), progress_(progress), run_(run) {}
 
   void solve(double memory_limit) {
     report(0);
@@ -120,8 +115,7 @@ class TableSolver {
 
 }  // namespace
 
-InfluenceTableRun solve_influence_table(const InfluenceTableTask& task, double memory_limit,
-                                        const TableProgress& progress) {
+InfluenceTableRun solve_influence_table(const InfluenceTableTask& task, double memory_limit, const TableProgress& progress) {
   const double face_width = task.gear.gear.face_width / task.gear.normal_module;
   if (!(std::abs(task.grid.face_width() - face_width) <= 1e-9 * face_width)) {  // round-off of the division
     throw InvalidInput("grid", std::to_string(task.grid.face_width()) + " modules", std::to_string(face_width));

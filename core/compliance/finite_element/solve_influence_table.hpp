@@ -14,10 +14,10 @@ namespace flankwright {
 struct InfluenceTableTask {
   GearToMesh gear;
   double poissons_ratio{0.3};
-  int teeth_apart{2};    ///< M, 1 .. (teeth - 1)/2: so many teeth on either side are meshed in detail
+  int teeth_apart{2};      ///< M, 1 .. (teeth - 1)/2: so many teeth on either side are meshed in detail
   GearMeshOptions mesh{};  ///< its teeth_each_side is replaced by teeth_apart
   RemovedRigidMotion removed{RemovedRigidMotion::TranslationTorsionAndTilt};
-  StationGrid grid;        ///< as wide as the face
+  StationGrid grid;         ///< as wide as the face
   bool root_stress{false};  ///< the same run also solves for root stress
 };
 
@@ -32,7 +32,7 @@ int teeth_apart_in_contact(const GearPair& pair);
 /// A table and what it took.
 struct InfluenceTableRun {
   FactorStatus status{FactorStatus::NotPositiveDefinite};
-  std::optional<InfluenceTable> table;  ///< empty unless status is Factorised
+  std::optional<InfluenceTable> table;         ///< empty unless status is Factorised
   std::optional<RootStressTable> root_stress;  ///< empty unless asked for and status is Factorised
   RunStatistics statistics;
 };
@@ -54,7 +54,6 @@ using TableProgress = std::function<void(int done, int total)>;
 /// @param memory_limit  OutOfMemory where expected_bytes() > memory_limit, before anything large is allocated, and where an
 ///                      allocation fails after all
 /// @throws InvalidInput  as gear_mesh(), and "grid" where it is not as wide as the face
-InfluenceTableRun solve_influence_table(const InfluenceTableTask& task, double memory_limit,
-                                        const TableProgress& progress = {});
+InfluenceTableRun solve_influence_table(const InfluenceTableTask& task, double memory_limit, const TableProgress& progress = {});
 
 }  // namespace flankwright

@@ -61,8 +61,7 @@ struct OneCore {
 };
 
 /// METIS' nested dissection of the node graph, as an ordering of the rows.
-std::vector<int> order_rows(const Eigen::SparseMatrix<double>& lower, const Eigen::VectorXi& node_of,
-                            cholmod_common& common) {
+std::vector<int> order_rows(const Eigen::SparseMatrix<double>& lower, const Eigen::VectorXi& node_of, cholmod_common& common) {
   const auto n = static_cast<int>(lower.rows());
   std::vector<int> group(n), first;  // consecutive numbers of the nodes that have rows
   for (int i = 0; i < n; ++i) {
@@ -133,8 +132,7 @@ struct SparseCholesky::Factor {
       view.dtype = CHOLMOD_DOUBLE;
       cholmod_dense* x = cholmod_solve(CHOLMOD_A, l, &view, &common);
       if (!x) throw std::bad_alloc();
-      result.middleCols(begin, columns) =
-          Eigen::Map<const Eigen::MatrixXd>(static_cast<double*>(x->x), right_sides.rows(), columns);
+      result.middleCols(begin, columns) = Eigen::Map<const Eigen::MatrixXd>(static_cast<double*>(x->x), right_sides.rows(), columns);
       cholmod_free_dense(&x, &common);
     }
     return result;
@@ -145,8 +143,7 @@ struct SparseCholesky::Factor {
 // those of a gear that is held stay above 1e-9.
 constexpr double kSmallestPivot = 1e-13;
 
-SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& lower, const Eigen::VectorXi& node_of)
-    : factor_(std::make_unique<Factor>()) {
+SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& lower, const Eigen::VectorXi& node_of) : factor_(std::make_unique<Factor>()) {
   assert(lower.rows() == lower.cols() && lower.isCompressed() && node_of.size() == lower.rows());
   cholmod_common& common = factor_->common;
   common.print = 0;
@@ -173,8 +170,7 @@ SparseCholesky::SparseCholesky(const Eigen::SparseMatrix<double>& lower, const E
   if (factor_->l) cholmod_factorize(&a, factor_->l, &common);
   if (!factor_->l || common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE) {
     status_ = FactorStatus::OutOfMemory;
-  } else if (common.status == CHOLMOD_OK && factor_->l->minor == factor_->l->n &&
-             cholmod_rcond(factor_->l, &common) > kSmallestPivot) {
+  } else if (common.status == CHOLMOD_OK && factor_->l->minor == factor_->l->n && cholmod_rcond(factor_->l, &common) > kSmallestPivot) {
     status_ = FactorStatus::Factorised;
   } else {
     status_ = FactorStatus::NotPositiveDefinite;
@@ -185,15 +181,9 @@ SparseCholesky::~SparseCholesky() = default;
 SparseCholesky::SparseCholesky(SparseCholesky&&) noexcept = default;
 SparseCholesky& SparseCholesky::operator=(SparseCholesky&&) noexcept = default;
 
-std::size_t SparseCholesky::factor_entries() const {
-  return factor_->l ? factor_->l->xsize : 0;
-}
-std::size_t SparseCholesky::peak_bytes() const {
-  return factor_->common.memory_usage;
-}
-double SparseCholesky::flops() const {
-  return factor_->common.fl;
-}
+std::size_t SparseCholesky::factor_entries() const { return factor_->l ? factor_->l->xsize : 0; }
+std::size_t SparseCholesky::peak_bytes() const { return factor_->common.memory_usage; }
+double SparseCholesky::flops() const { return factor_->common.fl; }
 
 Eigen::MatrixXd SparseCholesky::solve(const Eigen::MatrixXd& right_sides) const {
   assert(status_ == FactorStatus::Factorised);

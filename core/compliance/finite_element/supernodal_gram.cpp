@@ -126,7 +126,8 @@ Eigen::MatrixXd supernodal_gram(const cholmod_factor& factor, const Eigen::Spars
     for (int begin = 0; begin < below; begin += kRowsAtOnce) {
       const int rows = std::min(kRowsAtOnce, below - begin);
       product.resize(rows, count);
-      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, count, size, 1.0, l + size + begin, height, y.data(), size, 0.0, product.data(), rows);
+      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, count, size, 1.0, l + size + begin, height, y.data(), size, 0.0, product.data(),
+                  rows);
       for (int i = 0; i < rows;) {
         const auto row = [&](int r) { return supernodes.row(s, size + begin + r); };
         const int above = supernodes.of_row(row(i));

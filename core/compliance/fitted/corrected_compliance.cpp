@@ -8,18 +8,12 @@
 
 namespace flankwright {
 
-CorrectedCompliance::CorrectedCompliance(std::shared_ptr<const FlankCompliance> coarse, const GearProportions& gear,
-                                     std::vector<double> coefficients)
-    : coarse_(std::move(coarse)),
-      gear_(gear),
-      form_(KernelForm::correction()),
-      coefficients_(std::move(coefficients)) {
+CorrectedCompliance::CorrectedCompliance(std::shared_ptr<const FlankCompliance> coarse, const GearProportions& gear, std::vector<double> coefficients)
+    : coarse_(std::move(coarse)), gear_(gear), form_(KernelForm::correction()), coefficients_(std::move(coefficients)) {
   if (!coarse_) throw InvalidInput("coarse", "none", "a compliance");
   gear_.validate();
-  if (static_cast<int>(coefficients_.size()) != form_.count() ||
-      !std::ranges::all_of(coefficients_, [](double c) { return std::isfinite(c); })) {
-    throw InvalidInput("coefficients", std::to_string(coefficients_.size()),
-                       std::to_string(form_.count()) + " finite numbers");
+  if (static_cast<int>(coefficients_.size()) != form_.count() || !std::ranges::all_of(coefficients_, [](double c) { return std::isfinite(c); })) {
+    throw InvalidInput("coefficients", std::to_string(coefficients_.size()), std::to_string(form_.count()) + " finite numbers");
   }
 }
 

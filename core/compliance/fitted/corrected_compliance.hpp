@@ -19,8 +19,7 @@ class CorrectedCompliance final : public FlankCompliance {
   /// @param coarse        of the same gear by coarse_mesh()
   /// @param coefficients  of KernelForm::correction(), finite
   /// @throws InvalidInput "coarse", "gear" or "coefficients"
-  CorrectedCompliance(std::shared_ptr<const FlankCompliance> coarse, const GearProportions& gear,
-                    std::vector<double> coefficients);
+  CorrectedCompliance(std::shared_ptr<const FlankCompliance> coarse, const GearProportions& gear, std::vector<double> coefficients);
 
   /// @throws InvalidInput as the coarse compliance
   Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const override;

@@ -28,8 +28,8 @@ GearToMesh standard_gear(const GearProportions& gear_proportions, const Referenc
   return gear;
 }
 
-InfluenceSample element_sample(const GearProportions& gear, const GearMeshOptions& mesh,
-                               const std::vector<FlankStation>& stations, const ReferenceProfile& profile) {
+InfluenceSample element_sample(const GearProportions& gear, const GearMeshOptions& mesh, const std::vector<FlankStation>& stations,
+                               const ReferenceProfile& profile) {
   const InfluenceModel model(standard_gear(gear, profile), {1.0, 0.3}, mesh);
   const ToothForm& form = model.mesh().form;
   std::vector<FlankPoint> points;

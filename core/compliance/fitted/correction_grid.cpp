@@ -67,9 +67,7 @@ CorrectionGrid::CorrectionGrid(std::vector<CorrectionEntry> entries) : entries_(
   sort_unique(teeth_);
   sort_unique(helix_angles_);
   sort_unique(profile_shifts_);
-  const auto key = [](const CorrectionEntry& entry) {
-    return std::tuple(entry.gear.teeth, entry.gear.helix_angle, entry.gear.profile_shift);
-  };
+  const auto key = [](const CorrectionEntry& entry) { return std::tuple(entry.gear.teeth, entry.gear.helix_angle, entry.gear.profile_shift); };
   std::ranges::sort(entries_, {}, key);
   if (std::ranges::adjacent_find(entries_, {}, key) != entries_.end()) wrong("an entry twice");
   if (entries_.size() != teeth_.size() * helix_angles_.size() * profile_shifts_.size()) wrong("an entry missing");

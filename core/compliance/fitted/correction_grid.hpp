@@ -51,8 +51,8 @@ class CorrectionGrid {
   explicit CorrectionGrid(std::vector<CorrectionEntry> entries);
 
   const std::vector<CorrectionEntry>& entries() const { return entries_; }
-  const std::vector<int>& teeth() const { return teeth_; }                      ///< ascending
-  const std::vector<double>& helix_angles() const { return helix_angles_; }     ///< ascending [rad]
+  const std::vector<int>& teeth() const { return teeth_; }                       ///< ascending
+  const std::vector<double>& helix_angles() const { return helix_angles_; }      ///< ascending [rad]
   const std::vector<double>& profile_shifts() const { return profile_shifts_; }  ///< ascending
 
   /// The gear itself, or the nearest value of each parameter within the ranges of the entries.

@@ -55,7 +55,7 @@ class CorrectionLibrary {
   ReferenceProfile nearest(ReferenceProfile profile) const;
 
   std::vector<CorrectionEntry> entries_;
-  std::vector<CorrectionGrid> grids_;  ///< the standard one, other racks, other pressure angles
+  std::vector<CorrectionGrid> grids_;       ///< the standard one, other racks, other pressure angles
   std::vector<ReferenceProfile> profiles_;  ///< of the grids
   std::size_t racks_{0};                    ///< how many other racks, 0 or 3
 };

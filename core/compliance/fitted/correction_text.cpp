@@ -51,9 +51,7 @@ std::optional<CorrectionEntry> entry_in(std::string_view line) {
   const std::vector<double> x = numbers_in(line);
   const auto count = static_cast<std::size_t>(KernelForm::correction().count());
   if (x.size() != kBeforeCoefficients + count + count * (count + 1) / 2) return std::nullopt;
-  const auto residuals = [&](std::size_t at) {
-    return ResidualStatistics{0, static_cast<int>(x[at]), x[at + 1], x[at + 2], x[at + 3]};
-  };
+  const auto residuals = [&](std::size_t at) { return ResidualStatistics{0, static_cast<int>(x[at]), x[at + 1], x[at + 2], x[at + 3]}; };
   CorrectionEntry entry;
   entry.gear = {static_cast<int>(x[0]), x[1] * units::deg, x[3], x[2]};
   entry.profile = {{x[4], x[5], x[6]}, x[7] * units::deg};

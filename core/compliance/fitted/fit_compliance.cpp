@@ -19,8 +19,7 @@ using Eigen::Index;
 /// Relative residuals of all pairs, and the ridge.
 class PairResiduals final : public ResidualFunction {
  public:
-  PairResiduals(std::span<const InfluenceSample> samples, const KernelForm& form, const FitOptions& options,
-                std::span<const double> anchor)
+  PairResiduals(std::span<const InfluenceSample> samples, const KernelForm& form, const FitOptions& options, std::span<const double> anchor)
       : form_(form), anchor_(anchor.begin(), anchor.end()) {
     for (const InfluenceSample& sample : samples) {
       sums_.emplace_back(form, sample.gear, sample.points);
@@ -40,8 +39,7 @@ class PairResiduals final : public ResidualFunction {
           if (std::isnan(known) || (apart > 0 && !form.couples_teeth())) continue;
           const double own = std::sqrt(sample.compliance(p, p) * sample.compliance(q, q));
           const double floor = std::isnan(own) ? 0 : options.scale_floor * own;
-          const auto [entry, is_new] =
-              found.try_emplace({static_cast<double>(apart), a.u, a.zeta, b.u, b.zeta}, pairs_.size());
+          const auto [entry, is_new] = found.try_emplace({static_cast<double>(apart), a.u, a.zeta, b.u, b.zeta}, pairs_.size());
           if (is_new) {
             pairs_.push_back({sums_.size() - 1, p, q, 0, 0});
             count.push_back(0);
@@ -106,9 +104,7 @@ class PairResiduals final : public ResidualFunction {
     Index p, q;
     double known, scale;
   };
-  static const FlankStation& station(const InfluenceSample& sample, Index p) {
-    return sample.points[static_cast<std::size_t>(p)];
-  }
+  static const FlankStation& station(const InfluenceSample& sample, Index p) { return sample.points[static_cast<std::size_t>(p)]; }
   /// Whether p comes first: on the tooth further ahead or, on the same tooth, higher up or further along.
   static bool ahead(const InfluenceSample& sample, Index p, Index q) {
     const FlankStation &a = station(sample, p), &b = station(sample, q);
@@ -128,8 +124,7 @@ Eigen::MatrixXd covariance_at(const PairResiduals& function, std::span<const dou
   const int m = function.residual_count(), n = function.coefficient_count();
   std::vector<double> residuals(static_cast<std::size_t>(m)), jacobian(static_cast<std::size_t>(m) * x.size());
   function.evaluate(x, residuals, jacobian);
-  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> J(jacobian.data(), m,
-                                                                                                   n);
+  const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>> J(jacobian.data(), m, n);
   Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
   normal.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());
   // Residuals carry 1/sqrt(N) each, as J does: it cancels in (J'J)^-1 times the sum of squares.
@@ -224,8 +219,7 @@ std::vector<double> flat_start(const KernelForm& form, std::span<const Influence
     const double spread = kSpread[static_cast<std::size_t>(is_far ? far++ : near++) % kSpread.size()];
     x[offset] = 0.5 * std::log(is_far ? body : tooth);
     x[offset + static_cast<std::size_t>(kernel.amplitude.count())] = std::log((is_far ? 2.0 : 1.0) * spread);
-    x[offset + static_cast<std::size_t>(kernel.amplitude.count() + kernel.axial.count())] =
-        std::log((is_far ? 4.0 : 1.0) * spread);
+    x[offset + static_cast<std::size_t>(kernel.amplitude.count() + kernel.axial.count())] = std::log((is_far ? 4.0 : 1.0) * spread);
     offset += static_cast<std::size_t>(kernel.count());
     if (is_far) x[offset - 2] = std::log(1.5);
   }
@@ -249,8 +243,7 @@ std::vector<double> flat_start(const KernelForm& form, std::span<const Influence
   return x;
 }
 
-FitResult fit_compliance(std::span<const InfluenceSample> all_samples, const KernelForm& form,
-                         const FitOptions& options) {
+FitResult fit_compliance(std::span<const InfluenceSample> all_samples, const KernelForm& form, const FitOptions& options) {
   form.validate();
   options.validate(form);
   if (all_samples.empty()) throw InvalidInput("samples", "none", "at least one");

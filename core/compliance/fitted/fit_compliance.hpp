@@ -55,7 +55,6 @@ std::vector<double> flat_start(const KernelForm& form, std::span<const Influence
 /// Fits a form to influence values of one gear.
 /// @param samples  all of the same gear; where the form couples no teeth, pairs on different teeth are left out
 /// @throws InvalidInput where a sample, the form or an option is out of range, or the samples are of different gears
-FitResult fit_compliance(std::span<const InfluenceSample> samples, const KernelForm& form,
-                         const FitOptions& options = {});
+FitResult fit_compliance(std::span<const InfluenceSample> samples, const KernelForm& form, const FitOptions& options = {});
 
 }  // namespace flankwright

@@ -52,9 +52,7 @@ class Reader {
   void operator()(const std::string& name, bool& value) { value = whole(name, 0, 1) == 1; }
   template <class Enum>
   requires std::is_enum_v<Enum>
-  void operator()(const std::string& name, Enum& value, int count) {
-    value = static_cast<Enum>(whole(name, 0, count - 1));
-  }
+  void operator()(const std::string& name, Enum& value, int count) { value = static_cast<Enum>(whole(name, 0, count - 1)); }
   template <class List>
   void resize(const std::string& name, List& list, int most) {
     list.resize(static_cast<std::size_t>(whole(name, 0, most)));
@@ -68,8 +66,7 @@ class Reader {
     double value = 0;
     (*this)(name, value);
     if (!(value >= least && value <= most) || value != std::floor(value)) {
-      throw InvalidInput(name, std::to_string(value),
-                         "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
+      throw InvalidInput(name, std::to_string(value), "a whole number from " + std::to_string(least) + " to " + std::to_string(most));
     }
     return static_cast<int>(value);
   }
@@ -130,8 +127,7 @@ void visit_record(Visitor& visit, Record& record, const std::vector<std::string>
   visit.resize("standard_errors", record.standard_errors, static_cast<int>(coefficient_names.size()));
   if (record.standard_errors.empty()) return;
   if (record.standard_errors.size() != coefficient_names.size()) {
-    throw InvalidInput("standard_errors", std::to_string(record.standard_errors.size()),
-                       "0 or " + std::to_string(coefficient_names.size()));
+    throw InvalidInput("standard_errors", std::to_string(record.standard_errors.size()), "0 or " + std::to_string(coefficient_names.size()));
   }
   for (std::size_t i = 0; i < coefficient_names.size(); ++i) {
     visit("standard_error." + coefficient_names[i], record.standard_errors[i]);

@@ -21,8 +21,7 @@ std::pair<int, int> teeth_of(std::span<const FlankStation> points) {
 
 }  // namespace
 
-FittedCompliance::FittedCompliance(KernelForm form, const GearProportions& gear, std::vector<double> coefficients,
-                                   FitRecord record)
+FittedCompliance::FittedCompliance(KernelForm form, const GearProportions& gear, std::vector<double> coefficients, FitRecord record)
     : form_(std::move(form)), gear_(gear), coefficients_(std::move(coefficients)), record_(std::move(record)) {
   form_.validate();
   gear_.validate();
@@ -33,8 +32,7 @@ FittedCompliance::FittedCompliance(KernelForm form, const GearProportions& gear,
     if (!std::isfinite(coefficient)) throw InvalidInput("fit.coefficients", "not finite", "finite numbers");
   }
   if (record_.range.teeth_apart > 0 && !form_.couples_teeth()) {
-    throw InvalidInput("fit.range.teeth_apart", std::to_string(record_.range.teeth_apart),
-                       "0 for a form without kernels between teeth");
+    throw InvalidInput("fit.range.teeth_apart", std::to_string(record_.range.teeth_apart), "0 for a form without kernels between teeth");
   }
   if (!record_.standard_errors.empty() && record_.standard_errors.size() != coefficients_.size()) {
     throw InvalidInput("fit.standard_errors", std::to_string(record_.standard_errors.size()),
@@ -82,16 +80,13 @@ bool FittedCompliance::covers(std::span<const FlankStation> points) const {
   if (points.empty()) return true;
   const FitRange& range = record_.range;
   const auto [lowest, highest] = teeth_of(points);
-  return highest - lowest <= range.teeth_apart &&
-         std::all_of(points.begin(), points.end(), [&](const FlankStation& point) {
-           return point.u >= range.u_min && point.u <= range.u_max && point.zeta >= range.zeta_min &&
-                  point.zeta <= range.zeta_max;
+  return highest - lowest <= range.teeth_apart && std::all_of(points.begin(), points.end(), [&](const FlankStation& point) {
+           return point.u >= range.u_min && point.u <= range.u_max && point.zeta >= range.zeta_min && point.zeta <= range.zeta_max;
          });
 }
 
 bool FittedCompliance::operator==(const FittedCompliance& other) const {
-  return form_ == other.form_ && gear_ == other.gear_ && coefficients_ == other.coefficients_ &&
-         record_ == other.record_;
+  return form_ == other.form_ && gear_ == other.gear_ && coefficients_ == other.coefficients_ && record_ == other.record_;
 }
 
 }  // namespace flankwright

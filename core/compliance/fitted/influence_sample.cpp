@@ -46,8 +46,7 @@ void InfluenceSample::validate() const {
   const auto n = static_cast<Eigen::Index>(points.size());
   if (n == 0) throw InvalidInput("sample.points", "none", "at least one point");
   if (compliance.rows() != n || compliance.cols() != n) {
-    throw InvalidInput("sample.compliance",
-                       std::to_string(compliance.rows()) + " x " + std::to_string(compliance.cols()),
+    throw InvalidInput("sample.compliance", std::to_string(compliance.rows()) + " x " + std::to_string(compliance.cols()),
                        "as many rows and columns as points, " + std::to_string(n));
   }
   if (given.size() != 0 && (given.rows() != n || given.cols() != n || !given.allFinite())) {
@@ -60,8 +59,7 @@ void InfluenceSample::validate() const {
       throw InvalidInput("sample.zeta", std::to_string(point.zeta), "0 .. " + std::to_string(gear.relative_face));
     }
   }
-  if (compliance.array().isInf().any())
-    throw InvalidInput("sample.compliance", "inf", "finite values, or NaN where unknown");
+  if (compliance.array().isInf().any()) throw InvalidInput("sample.compliance", "inf", "finite values, or NaN where unknown");
   for (Eigen::Index p = 0; p < n; ++p) {
     if (compliance(p, p) <= 0) {
       throw InvalidInput("sample.compliance", std::to_string(compliance(p, p)), "a positive diagonal");

@@ -26,7 +26,7 @@ struct GearProportions {
 struct InfluenceSample {
   GearProportions gear;
   std::vector<FlankStation> points;  ///< n
-  Eigen::MatrixXd compliance;      ///< E m_n K [-], n x n; NaN where it was not computed
+  Eigen::MatrixXd compliance;        ///< E m_n K [-], n x n; NaN where it was not computed
   /// The part of it that is known otherwise, n x n, symmetric; empty: none. The rest is fitted, with errors relative to
   /// the whole.
   Eigen::MatrixXd given{};

@@ -30,9 +30,7 @@ void validate(const EndPolynomial& polynomial, const std::string& field) {
 
 }  // namespace
 
-KernelForm KernelForm::one_tooth() {
-  return {{Kernel{}, Kernel{}}, {BodyPart{}}, true};
-}
+KernelForm KernelForm::one_tooth() { return {{Kernel{}, Kernel{}}, {BodyPart{}}, true}; }
 
 KernelForm KernelForm::one_tooth_accurate() {
   Kernel smooth;
@@ -52,9 +50,7 @@ KernelForm KernelForm::several_teeth() {
   return form;
 }
 
-KernelForm KernelForm::correction() {
-  return {{Kernel{}, Kernel{}}, {}, false};
-}
+KernelForm KernelForm::correction() { return {{Kernel{}, Kernel{}}, {}, false}; }
 
 int KernelForm::tooth_count() const {
   int sum = kWarpCoefficients;

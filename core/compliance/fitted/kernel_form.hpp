@@ -96,8 +96,8 @@ struct KernelForm {
 
   static KernelForm one_tooth();           ///< two kernels, 109 coefficients
   static KernelForm one_tooth_accurate();  ///< three kernels, 173 coefficients
-  static KernelForm several_teeth();  ///< near and far kernels, 273 coefficients: for points on different teeth too
-  static KernelForm correction();     ///< two kernels on one tooth and no body, 79 coefficients
+  static KernelForm several_teeth();       ///< near and far kernels, 273 coefficients: for points on different teeth too
+  static KernelForm correction();          ///< two kernels on one tooth and no body, 79 coefficients
 
   int tooth_count() const;  ///< coefficients of warp and kernels, the first ones
   int body_count() const;   ///< coefficients of torsion and body parts, the last ones

@@ -54,8 +54,7 @@ Correlation correlation(double Q) {
 }
 
 Correlation correlation(Smoothness smoothness, double Q) {
-  return smoothness == Smoothness::Matern32 ? correlation<Smoothness::Matern32>(Q)
-                                            : correlation<Smoothness::Matern52>(Q);
+  return smoothness == Smoothness::Matern32 ? correlation<Smoothness::Matern32>(Q) : correlation<Smoothness::Matern52>(Q);
 }
 
 /// sum_i c_i basis(i, p) for every p, each in the same order: a point's value does not depend on which others there
@@ -103,8 +102,7 @@ KernelSum::KernelSum(const KernelForm& form, const GearProportions& gear, std::s
     tooth_.push_back(point.tooth);
     u_[p] = u;
     zeta_[p] = zeta;
-    warp_basis_.col(p) << u, std::exp(-zeta), 0.175 * std::exp(-zeta / 0.35), -std::exp(zeta - B),
-        -0.175 * std::exp((zeta - B) / 0.35);
+    warp_basis_.col(p) << u, std::exp(-zeta), 0.175 * std::exp(-zeta / 0.35), -std::exp(zeta - B), -0.175 * std::exp((zeta - B) / 0.35);
     body_basis_.col(p) << 1, t, u, t * t, t * u, t * t * t, u * u, t * t * t * t, t * t * u, t * t * t * t * t;
     const Ends ends = ends_at(zeta, B);
     for (std::size_t k = 0; k < kernels_.size(); ++k) {
@@ -137,8 +135,7 @@ void KernelSum::set_coefficients(std::span<const double> x) {
       c += basis.rows();
       return sum;
     };
-    const Eigen::ArrayXd log_g = linear(at.amplitude_basis), log_lz = linear(at.axial_basis),
-                         log_lr = linear(at.radial_basis);
+    const Eigen::ArrayXd log_g = linear(at.amplitude_basis), log_lz = linear(at.axial_basis), log_lr = linear(at.radial_basis);
     const auto exponential = [](double value) { return std::exp(value); };
     at.h = (log_g + 0.5 * (log_lz + log_lr)).unaryExpr(exponential);
     at.axial_square = (2 * log_lz).unaryExpr(exponential);
@@ -207,9 +204,7 @@ double KernelSum::torsion(Index p, Index q) const {
   return 0.5 * torsion_compliance_ * (torsion_reach_[p] + torsion_reach_[q] - std::sqrt(d * d + w * w) - w);
 }
 
-double KernelSum::turning_cosine(int teeth_apart) const {
-  return std::cos(2 * units::pi * teeth_apart / teeth_);
-}
+double KernelSum::turning_cosine(int teeth_apart) const { return std::cos(2 * units::pi * teeth_apart / teeth_); }
 
 double KernelSum::coupling(std::size_t body, int teeth_apart) const {
   switch (form_.bodies[body].coupling) {
@@ -257,8 +252,7 @@ double KernelSum::with_gradient(Index p, Index q, std::span<double> gradient) co
     const double w = torsion_width_, d = zeta_[p] - zeta_[q], K = torsion(p, q);
     const auto at = static_cast<std::size_t>(torsion_offset_);
     gradient[at] = K;
-    gradient[at + 1] = 0.5 * torsion_compliance_ * w *
-                       (w / torsion_reach_[p] + w / torsion_reach_[q] - w / std::sqrt(d * d + w * w) - 1);
+    gradient[at + 1] = 0.5 * torsion_compliance_ * w * (w / torsion_reach_[p] + w / torsion_reach_[q] - w / std::sqrt(d * d + w * w) - 1);
     value += K;
   }
   for (std::size_t k = 0; k < bodies_.size(); ++k) value += body_gradient(k, p, q, gradient);

@@ -60,7 +60,7 @@ class KernelSum {
   Eigen::VectorXd s_;                                                                ///< warped zeta, n
   Eigen::MatrixXd body_basis_;                                                       ///< beta, 10 x n
   double torsion_compliance_{0.0}, torsion_width_{0.0};                              ///< c, w
-  Eigen::VectorXd torsion_reach_;  ///< v(zeta), n; empty where the form has none
+  Eigen::VectorXd torsion_reach_;                                                    ///< v(zeta), n; empty where the form has none
   int torsion_offset_{0};
   std::vector<KernelAtPoints> kernels_;
   std::vector<BodyAtPoints> bodies_;

@@ -45,12 +45,10 @@ void LeastSquaresOptions::validate() const {
   if (!(cost_tolerance > 0)) throw InvalidInput("fit.cost_tolerance", std::to_string(cost_tolerance), "positive");
 }
 
-LeastSquaresResult solve_least_squares(const ResidualFunction& function, std::span<const double> start,
-                                       const LeastSquaresOptions& options) {
+LeastSquaresResult solve_least_squares(const ResidualFunction& function, std::span<const double> start, const LeastSquaresOptions& options) {
   options.validate();
   if (static_cast<int>(start.size()) != function.coefficient_count()) {
-    throw InvalidInput("fit.start", std::to_string(start.size()) + " coefficients",
-                       std::to_string(function.coefficient_count()));
+    throw InvalidInput("fit.start", std::to_string(start.size()) + " coefficients", std::to_string(function.coefficient_count()));
   }
   LeastSquaresResult result;
   result.coefficients.assign(start.begin(), start.end());
@@ -98,10 +96,14 @@ LeastSquaresResult solve_least_squares(const ResidualFunction& function, std::sp
 
 const char* to_string(FitStatus status) {
   switch (status) {
-    case FitStatus::NotRun: return "not run";
-    case FitStatus::Converged: return "converged";
-    case FitStatus::IterationLimit: return "iteration limit";
-    case FitStatus::Failed: return "failed";
+    case FitStatus::NotRun:
+      return "not run";
+    case FitStatus::Converged:
+      return "converged";
+    case FitStatus::IterationLimit:
+      return "iteration limit";
+    case FitStatus::Failed:
+      return "failed";
   }
   __builtin_unreachable();
 }

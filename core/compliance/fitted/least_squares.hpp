@@ -52,7 +52,6 @@ struct LeastSquaresResult {
 /// Minimises half the sum of squares by Levenberg and Marquardt's method (Ceres, normal equations by Cholesky). One
 /// thread and Eigen's own kernels throughout: the same input gives the same bits.
 /// @throws InvalidInput where the start has the wrong size or an option is out of range
-LeastSquaresResult solve_least_squares(const ResidualFunction& function, std::span<const double> start,
-                                       const LeastSquaresOptions& options);
+LeastSquaresResult solve_least_squares(const ResidualFunction& function, std::span<const double> start, const LeastSquaresOptions& options);
 
 }  // namespace flankwright

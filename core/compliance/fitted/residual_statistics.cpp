@@ -7,8 +7,7 @@
 
 namespace flankwright {
 
-std::vector<ResidualStatistics> residual_statistics(const FlankCompliance& model,
-                                                    std::span<const InfluenceSample> samples, double floor) {
+std::vector<ResidualStatistics> residual_statistics(const FlankCompliance& model, std::span<const InfluenceSample> samples, double floor) {
   std::map<int, std::vector<double>> errors;
   for (const InfluenceSample& sample : samples) {
     sample.validate();
@@ -17,8 +16,7 @@ std::vector<ResidualStatistics> residual_statistics(const FlankCompliance& model
       for (Eigen::Index q = 0; q <= p; ++q) {
         const double known = sample.at(p, q);
         if (std::isnan(known)) continue;
-        const int apart = std::abs(sample.points[static_cast<std::size_t>(p)].tooth -
-                                   sample.points[static_cast<std::size_t>(q)].tooth);
+        const int apart = std::abs(sample.points[static_cast<std::size_t>(p)].tooth - sample.points[static_cast<std::size_t>(q)].tooth);
         const double own = std::sqrt(sample.compliance(p, p) * sample.compliance(q, q));
         const double scale = std::isnan(own) ? std::abs(known) : std::max(std::abs(known), floor * own);
         const double error = std::abs(K(p, q) + sample.given_at(p, q) - known);
@@ -30,8 +28,7 @@ std::vector<ResidualStatistics> residual_statistics(const FlankCompliance& model
   for (auto& [apart, sorted] : errors) {
     std::sort(sorted.begin(), sorted.end());
     const auto n = sorted.size();
-    statistics.push_back(
-        {apart, static_cast<int>(n), sorted[(n - 1) / 2], sorted[(95 * n + 99) / 100 - 1], sorted.back()});
+    statistics.push_back({apart, static_cast<int>(n), sorted[(n - 1) / 2], sorted[(95 * n + 99) / 100 - 1], sorted.back()});
   }
   return statistics;
 }

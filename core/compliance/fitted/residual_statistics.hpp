@@ -26,7 +26,6 @@ struct ResidualStatistics {
 /// @param floor  [-], >= 0: on gears of few teeth the compliance between a far corner's points passes through zero, where
 ///               a relative figure says nothing; with 0.01 such pairs count relative to a hundredth of their own values
 /// @throws InvalidInput where a sample is not valid or has a point outside the model
-std::vector<ResidualStatistics> residual_statistics(const FlankCompliance& model,
-                                                    std::span<const InfluenceSample> samples, double floor = 0);
+std::vector<ResidualStatistics> residual_statistics(const FlankCompliance& model, std::span<const InfluenceSample> samples, double floor = 0);
 
 }  // namespace flankwright

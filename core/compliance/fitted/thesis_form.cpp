@@ -20,8 +20,7 @@ struct Point {
 };
 
 /// K at `where` under a load at `load`, and its derivatives with respect to the ten functions.
-double one_way(ThesisBody body, double B, std::span<const double> c, Point where, Point load,
-               std::array<double, own_functions>& d) {
+double one_way(ThesisBody body, double B, std::span<const double> c, Point where, Point load, std::array<double, own_functions>& d) {
   std::array<double, own_functions> v;
   for (std::size_t i = 0; i < own_functions; ++i) v[i] = c[3 * i] + load.u * (c[3 * i + 1] + load.u * c[3 * i + 2]);
   const double zbar = where.zeta - load.zeta, distance = std::abs(zbar);
@@ -46,8 +45,7 @@ double one_way(ThesisBody body, double B, std::span<const double> c, Point where
   d[g2] = by_where * end_0(where.zeta) + by_load * end_0(load.zeta);
   d[log_g3] = -v[g2] * g3 * (by_where * end_0(where.zeta) * where.zeta + by_load * end_0(load.zeta) * load.zeta);
   d[g4] = by_where * end_1(where.zeta) + by_load * end_1(load.zeta);
-  d[log_g5] =
-      -v[g4] * g5 * (by_where * end_1(where.zeta) * (B - where.zeta) + by_load * end_1(load.zeta) * (B - load.zeta));
+  d[log_g5] = -v[g4] * g5 * (by_where * end_1(where.zeta) * (B - where.zeta) + by_load * end_1(load.zeta) * (B - load.zeta));
   return inside ? root * F : root * F + gear;
 }
 
@@ -90,8 +88,7 @@ class ThesisResiduals final : public ResidualFunction {
       const auto n = static_cast<Index>(sample.points.size());
       for (Index p = 0; p < n; ++p) {
         for (Index q = 0; q <= p; ++q) {
-          const FlankStation &a = sample.points[static_cast<std::size_t>(p)],
-                           &b = sample.points[static_cast<std::size_t>(q)];
+          const FlankStation &a = sample.points[static_cast<std::size_t>(p)], &b = sample.points[static_cast<std::size_t>(q)];
           const double known = sample.at(p, q);
           if (std::abs(a.tooth - b.tooth) == apart && !std::isnan(known) && known != 0) {
             pairs_.push_back({{a.u, a.zeta}, {b.u, b.zeta}, known});
@@ -102,16 +99,13 @@ class ThesisResiduals final : public ResidualFunction {
   }
 
   int residual_count() const override { return static_cast<int>(pairs_.size()); }
-  int coefficient_count() const override {
-    return apart_ == 0 ? ThesisCompliance::kOwnCoefficients : ThesisCompliance::kAdjacentCoefficients;
-  }
+  int coefficient_count() const override { return apart_ == 0 ? ThesisCompliance::kOwnCoefficients : ThesisCompliance::kAdjacentCoefficients; }
   bool evaluate(std::span<const double> x, std::span<double> residuals, std::span<double> jacobian) const override {
     std::array<double, ThesisCompliance::kOwnCoefficients> gradient{};
     bool finite = true;
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       const auto& [p, q, known] = pairs_[i];
-      const double value =
-          apart_ == 0 ? own_tooth(body_, B_, x, p, q, gradient) : adjacent_tooth(B_, x, p, q, gradient);
+      const double value = apart_ == 0 ? own_tooth(body_, B_, x, p, q, gradient) : adjacent_tooth(B_, x, p, q, gradient);
       const double scale = 1 / (std::abs(known) * std::sqrt(static_cast<double>(pairs_.size())));
       residuals[i] = scale * (value - known);
       finite = finite && std::isfinite(residuals[i]);
@@ -158,9 +152,7 @@ ThesisCompliance::ThesisCompliance(ThesisBody body, const GearProportions& gear,
   }
 }
 
-int ThesisCompliance::teeth_apart() const {
-  return (static_cast<int>(coefficients_.size()) - kOwnCoefficients) / kAdjacentCoefficients;
-}
+int ThesisCompliance::teeth_apart() const { return (static_cast<int>(coefficients_.size()) - kOwnCoefficients) / kAdjacentCoefficients; }
 
 Eigen::MatrixXd ThesisCompliance::evaluate(std::span<const FlankStation> points) const {
   const std::span<const double> c(coefficients_);
@@ -170,15 +162,13 @@ Eigen::MatrixXd ThesisCompliance::evaluate(std::span<const FlankStation> points)
   Eigen::MatrixXd K(n, n);
   for (Index p = 0; p < n; ++p) {
     const FlankStation& a = points[static_cast<std::size_t>(p)];
-    if (!(a.zeta >= 0 && a.zeta <= B))
-      throw InvalidInput("point.zeta", std::to_string(a.zeta), "0 .. " + std::to_string(B));
+    if (!(a.zeta >= 0 && a.zeta <= B)) throw InvalidInput("point.zeta", std::to_string(a.zeta), "0 .. " + std::to_string(B));
     if (!(std::abs(a.u) <= 1.05)) throw InvalidInput("point.u", std::to_string(a.u), "-1.05 .. 1.05");
     for (Index q = 0; q <= p; ++q) {
       const FlankStation& b = points[static_cast<std::size_t>(q)];
       const int apart = std::abs(a.tooth - b.tooth);
       if (apart > teeth_apart()) {
-        throw InvalidInput("point.tooth", std::to_string(apart) + " teeth apart",
-                           "at most " + std::to_string(teeth_apart()));
+        throw InvalidInput("point.tooth", std::to_string(apart) + " teeth apart", "at most " + std::to_string(teeth_apart()));
       }
       const Point at_p{a.u, a.zeta}, at_q{b.u, b.zeta};
       const auto first = static_cast<std::size_t>(kOwnCoefficients + (apart - 1) * kAdjacentCoefficients);
@@ -189,8 +179,7 @@ Eigen::MatrixXd ThesisCompliance::evaluate(std::span<const FlankStation> points)
   return K;
 }
 
-ThesisFitResult fit_thesis_form(std::span<const InfluenceSample> samples, ThesisBody body,
-                                const LeastSquaresOptions& options) {
+ThesisFitResult fit_thesis_form(std::span<const InfluenceSample> samples, ThesisBody body, const LeastSquaresOptions& options) {
   if (samples.empty()) throw InvalidInput("samples", "none", "at least one");
   for (const InfluenceSample& sample : samples) {
     sample.validate();

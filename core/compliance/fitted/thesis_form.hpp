@@ -61,7 +61,6 @@ struct ThesisFitResult {
 /// Fits the thesis' form to influence values of one gear: least squares of the relative residuals, the loaded tooth and
 /// each distance between teeth on its own.
 /// @throws InvalidInput where a sample or an option is out of range, or the samples are of different gears
-ThesisFitResult fit_thesis_form(std::span<const InfluenceSample> samples, ThesisBody body,
-                                const LeastSquaresOptions& options = {});
+ThesisFitResult fit_thesis_form(std::span<const InfluenceSample> samples, ThesisBody body, const LeastSquaresOptions& options = {});
 
 }  // namespace flankwright

@@ -65,8 +65,7 @@ ContactSide ContactSide::of(const Material& material, double depth, double tip_d
   return {2 * (1 - nu * nu) / (units::pi * material.youngs_modulus), nu / (1 - nu), depth, tip_distance, end_distances, end_lean};
 }
 
-ContactLaw::ContactLaw(const ContactSide& pinion, const ContactSide& wheel, double relative_radius,
-                       double contact_modulus)
+ContactLaw::ContactLaw(const ContactSide& pinion, const ContactSide& wheel, double relative_radius, double contact_modulus)
     : half_width_at_unit_load_(hertz_line(1.0, relative_radius, contact_modulus).half_width) {
   const auto distance = [](const char* field, double given) {
     if (std::isnan(given)) throw InvalidInput(field, "nan", "a distance in mm or infinity");
@@ -83,9 +82,7 @@ ContactLaw::ContactLaw(const ContactSide& pinion, const ContactSide& wheel, doub
   }
 }
 
-double ContactLaw::half_width(double line_load) const {
-  return half_width_at_unit_load_ * std::sqrt(line_load);
-}
+double ContactLaw::half_width(double line_load) const { return half_width_at_unit_load_ * std::sqrt(line_load); }
 
 ContactLaw::Response ContactLaw::evaluate(double line_load) const {
   assert(line_load >= 0);

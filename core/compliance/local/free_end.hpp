@@ -46,9 +46,9 @@ namespace flankwright {
 /// the root of 1 + kappa/(1 - nu^2) at the very end: 11 % for nu = 0.3, 4 % half a half width away and 2 % a whole one.
 /// L does not account for that, so that stress there is over-estimated by as much.
 struct FreeEnd {
-  double strength{0};   ///< kappa [-], 0 .. 0.51
-  double reach{0};      ///< a [-], 0 .. 0.68
-  double bluntness{0};  ///< c [-]
+  double strength{0};               ///< kappa [-], 0 .. 0.51
+  double reach{0};                  ///< a [-], 0 .. 0.68
+  double bluntness{0};              ///< c [-]
   std::array<double, 2> leaning{};  ///< lambda of either end [-], > 0 at the acute one, 0 where the face is upright
   double leaning_reach{0};          ///< a' [-], 0.2 .. 0.68
 

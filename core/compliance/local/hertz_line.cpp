@@ -26,9 +26,7 @@ void validate(const Material& material) {
 double contact_modulus(const Material& first, const Material& second) {
   validate(first);
   validate(second);
-  const auto compliance = [](const Material& m) {
-    return (1 - m.poissons_ratio * m.poissons_ratio) / m.youngs_modulus;
-  };
+  const auto compliance = [](const Material& m) { return (1 - m.poissons_ratio * m.poissons_ratio) / m.youngs_modulus; };
   return 1 / (compliance(first) + compliance(second));
 }
 

@@ -4,10 +4,14 @@ namespace flankwright {
 
 const char* to_string(ComplianceModel model) {
   switch (model) {
-    case ComplianceModel::Rigid: return "rigid";
-    case ComplianceModel::ThinSlice: return "thin_slice";
-    case ComplianceModel::Fitted: return "fitted";
-    case ComplianceModel::Fe: return "fe";
+    case ComplianceModel::Rigid:
+      return "rigid";
+    case ComplianceModel::ThinSlice:
+      return "thin_slice";
+    case ComplianceModel::Fitted:
+      return "fitted";
+    case ComplianceModel::Fe:
+      return "fe";
   }
   __builtin_unreachable();
 }

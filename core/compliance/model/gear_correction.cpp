@@ -8,8 +8,7 @@ namespace flankwright {
 namespace {
 
 /// At stations between those fitted, on all teeth of the fine run.
-std::vector<ResidualStatistics> unseen_residuals(const CorrectedCompliance& model, const InfluenceTable& fine,
-                                                 const InfluenceSample& unseen) {
+std::vector<ResidualStatistics> unseen_residuals(const CorrectedCompliance& model, const InfluenceTable& fine, const InfluenceSample& unseen) {
   InfluenceSample sample{unseen.gear, {}, {}};
   for (int tooth = 0; tooth <= fine.teeth_apart(); ++tooth) {
     for (FlankStation station : unseen.points) {

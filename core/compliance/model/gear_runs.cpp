@@ -27,10 +27,14 @@ struct Use {
 GearRun& place_of(FiniteElementRuns& runs, const Use& use) {
   const std::size_t i = use.member == Member::Pinion ? 0 : 1;
   switch (use.purpose) {
-    case Purpose::Gear: return runs.gears[i];
-    case Purpose::RigidBody: return runs.rigid_body[i].emplace();
-    case Purpose::Fine: return runs.fine[i].emplace();
-    case Purpose::FitCoarse: return runs.narrow[i].emplace();
+    case Purpose::Gear:
+      return runs.gears[i];
+    case Purpose::RigidBody:
+      return runs.rigid_body[i].emplace();
+    case Purpose::Fine:
+      return runs.fine[i].emplace();
+    case Purpose::FitCoarse:
+      return runs.narrow[i].emplace();
   }
   __builtin_unreachable();
 }
@@ -83,11 +87,9 @@ std::vector<Job> jobs_of(const ComplianceTask& pair) {
 class JointProgress {
  public:
   JointProgress(const std::vector<Job*>& jobs, const ProgressReport& report) : report_(report), steps_(jobs.size()) {
-    const bool one_gear = std::ranges::all_of(jobs, [&](const Job* job) {
-      return std::ranges::all_of(job->uses, [&](const Use& use) { return use.member == jobs.front()->member(); });
-    });
-    label_ = one_gear ? std::string("solving the ") + name_of(jobs.front()->member()) + "'s finite elements"
-                      : "solving both gears' finite elements";
+    const bool one_gear = std::ranges::all_of(
+        jobs, [&](const Job* job) { return std::ranges::all_of(job->uses, [&](const Use& use) { return use.member == jobs.front()->member(); }); });
+    label_ = one_gear ? std::string("solving the ") + name_of(jobs.front()->member()) + "'s finite elements" : "solving both gears' finite elements";
   }
   void at(std::size_t job, int done, int total) {
     if (!report_) return;
@@ -130,9 +132,8 @@ void solve_side_by_side(const std::vector<Job*>& jobs, ComplianceModel model, co
   const auto solve = [&](std::size_t i) {
     const Stopwatch clock;
     Job& job = *jobs[i];
-    job.run = with_gear_names(model, job.member(), [&] {
-      return solve_influence_table(job.task, limit, [&](int done, int total) { progress.at(i, done, total); });
-    });
+    job.run = with_gear_names(model, job.member(),
+                              [&] { return solve_influence_table(job.task, limit, [&](int done, int total) { progress.at(i, done, total); }); });
     job.seconds = clock.seconds();
   };
   if (build.for_each) {
@@ -177,8 +178,8 @@ FiniteElementRuns solve_finite_elements(const ComplianceTask& task, const Compli
     std::shared_ptr<const RootStressTable> root_stress;
     if (job.run.root_stress) root_stress = std::make_shared<const RootStressTable>(std::move(*job.run.root_stress));
     for (const Use& use : job.uses) {
-      place_of(runs, use) = {table, root_stress, job.run.statistics, influence_table_task(task, use.member).gear.body,
-                             job.task.removed, job.from_cache, job.file, job.seconds};
+      place_of(runs, use) = {table,          root_stress, job.run.statistics, influence_table_task(task, use.member).gear.body, job.task.removed,
+                             job.from_cache, job.file,    job.seconds};
     }
   }
   runs.seconds = clock.seconds();

@@ -15,23 +15,23 @@ namespace flankwright {
 
 /// The resources of a build, and its progress report. Only the time depends on it.
 struct ComplianceBuild {
-  ComplianceStore* store{nullptr};  ///< null: nothing is kept
+  ComplianceStore* store{nullptr};                               ///< null: nothing is kept
   double memory_limit{std::numeric_limits<double>::infinity()};  ///< that all runs at one time may take [bytes], > 0
-  ForEachIndex for_each{};  ///< over finite-element runs; empty: one after the other
-  int abreast{1};           ///< runs that `for_each` has at one time, at most, >= 1
-  ProgressReport progress{};  ///< called by one thread at a time; may be empty
+  ForEachIndex for_each{};                                       ///< over finite-element runs; empty: one after the other
+  int abreast{1};                                                ///< runs that `for_each` has at one time, at most, >= 1
+  ProgressReport progress{};                                     ///< called by one thread at a time; may be empty
 };
 
 /// Influence values of one gear and where they came from.
 struct GearRun {
   std::shared_ptr<const InfluenceTable> table;
   std::shared_ptr<const RootStressTable> root_stress;  ///< null where the task does not want it
-  RunStatistics statistics;    ///< of the run, whenever it was made
-  GearBody body;               ///< used [mm]
+  RunStatistics statistics;                            ///< of the run, whenever it was made
+  GearBody body;                                       ///< used [mm]
   RemovedRigidMotion removed{RemovedRigidMotion::TranslationTorsionAndTilt};
   bool from_cache{false};
-  std::string file;            ///< where it is kept; empty: nowhere
-  double seconds{not_given};   ///< wall time in this build
+  std::string file;           ///< where it is kept; empty: nowhere
+  double seconds{not_given};  ///< wall time in this build
 };
 
 struct FiniteElementRuns {
@@ -42,7 +42,7 @@ struct FiniteElementRuns {
   std::array<std::optional<GearRun>, 2> narrow;
   /// As `gears` with rigid bodies; where ComplianceTask::rigid_bodies.
   std::array<std::optional<GearRun>, 2> rigid_body;
-  double seconds{not_given};     ///< wall time in this build
+  double seconds{not_given};  ///< wall time in this build
 
   const GearRun& operator[](Member m) const { return gears[m == Member::Pinion ? 0 : 1]; }
   const std::optional<GearRun>& fine_run(Member m) const { return fine[m == Member::Pinion ? 0 : 1]; }

@@ -17,8 +17,8 @@ GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuil
         auto& correction = structures.refinements[member == Member::Pinion ? 0 : 1];
         correction = gear_correction(task, runs, member, build);
         if (!correction->unknown.empty() && correction->fit.status != FitStatus::Converged) {
-          structures.notes.push_back(std::string("the ") + name_of(member) + "'s fit stopped after " +
-                                     std::to_string(correction->fit.iterations) + " steps, before it converged");
+          structures.notes.push_back(std::string("the ") + name_of(member) + "'s fit stopped after " + std::to_string(correction->fit.iterations) +
+                                     " steps, before it converged");
         }
         result.compliance = correction->compliance;
         if (result.on_rigid_body) result.on_rigid_body = correction->completed(result.on_rigid_body);

@@ -12,11 +12,11 @@ namespace flankwright {
 
 /// Both gears' structure and what it was made from.
 struct GearStructures {
-  std::shared_ptr<const PairCompliance> pair;  ///< null for "rigid" and "thin_slice", which need none
+  std::shared_ptr<const PairCompliance> pair;         ///< null for "rigid" and "thin_slice", which need none
   std::shared_ptr<const PairRootStress> root_stress;  ///< null where the task does not want it
   std::optional<FiniteElementRuns> finite_elements;
   std::array<std::optional<GearCorrection>, 2> refinements;  ///< pinion, wheel; of "fitted" only
-  std::vector<std::string> notes;  ///< library_notes(), and fits that did not converge
+  std::vector<std::string> notes;                            ///< library_notes(), and fits that did not converge
 
   const std::optional<GearCorrection>& correction(Member m) const { return refinements[m == Member::Pinion ? 0 : 1]; }
 };

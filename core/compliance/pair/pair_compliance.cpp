@@ -17,9 +17,7 @@ Eigen::MatrixXd ThinSlicePair::influence(const std::vector<ContactPoint>& points
   return diagonal.asDiagonal();
 }
 
-int acute_end(const GearPair& pair, Member member) {
-  return (member == Member::Pinion ? 1 : -1) * (pair.contact_line_sense() >= 0 ? 1 : -1);
-}
+int acute_end(const GearPair& pair, Member member) { return (member == Member::Pinion ? 1 : -1) * (pair.contact_line_sense() >= 0 ? 1 : -1); }
 
 int gear_tooth(Member member, int tooth_pair) { return member == Member::Pinion ? -tooth_pair : tooth_pair; }
 
@@ -46,7 +44,7 @@ Eigen::MatrixXd StructuralPair::influence_on_rigid_bodies(const std::vector<Cont
   return sum(&GearStructure::on_rigid_body, points, axial_offset);
 }
 
-Eigen::MatrixXd StructuralPair::sum(std::shared_ptr<const FlankCompliance> GearStructure::* of, const std::vector<ContactPoint>& points,
+Eigen::MatrixXd StructuralPair::sum(std::shared_ptr<const FlankCompliance> GearStructure::*of, const std::vector<ContactPoint>& points,
                                     double axial_offset) const {
   const IntervalMean intervals(points);
   const std::vector<ContactPoint>& fine = intervals.points();

@@ -50,7 +50,7 @@ class ThinSlicePair final : public PairCompliance {
 /// One gear's structure with its material's modulus.
 struct GearStructure {
   std::shared_ptr<const FlankCompliance> compliance;
-  double youngs_modulus{not_given};  ///< E [MPa], > 0
+  double youngs_modulus{not_given};                        ///< E [MPa], > 0
   std::shared_ptr<const FlankCompliance> on_rigid_body{};  ///< GearBody::rigid; null: not known
 };
 
@@ -67,7 +67,7 @@ class StructuralPair final : public PairCompliance {
   const GearStructure& operator[](Member m) const { return m == Member::Pinion ? pinion_ : wheel_; }
 
  private:
-  Eigen::MatrixXd sum(std::shared_ptr<const FlankCompliance> GearStructure::* of, const std::vector<ContactPoint>& points, double axial_offset) const;
+  Eigen::MatrixXd sum(std::shared_ptr<const FlankCompliance> GearStructure::*of, const std::vector<ContactPoint>& points, double axial_offset) const;
 
   GearPair pair_;
   GearStructure pinion_, wheel_;

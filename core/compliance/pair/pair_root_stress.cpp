@@ -68,7 +68,8 @@ RootStressInfluence TabulatedRootStress::influence(const std::vector<ContactPoin
       while (end < points.size() && points[end].tooth == points[begin].tooth) ++end;
       Eigen::MatrixXd weights(table->grid.size(), static_cast<Eigen::Index>(end - begin));
       for (std::size_t i = begin; i < end; ++i) {
-        weights.col(static_cast<Eigen::Index>(i - begin)) = per_unit_module * table->grid.weights(flank_station(pair_, member, points[i], axial_offset));
+        weights.col(static_cast<Eigen::Index>(i - begin)) =
+            per_unit_module * table->grid.weights(flank_station(pair_, member, points[i], axial_offset));
       }
       loaded_teeth.push_back(gear_tooth(member, points[begin].tooth));
       forces.push_back({static_cast<Eigen::Index>(begin), std::move(weights)});

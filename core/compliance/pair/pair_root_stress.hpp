@@ -34,9 +34,9 @@ class RootStressInfluence {
   };
   /// A table for the stress at some points of the fillets.
   struct Response {
-    Eigen::Index first_station{0};                    ///< its first row / 3
-    std::size_t forces{0};                          ///< which of the Forces
-    std::shared_ptr<const Eigen::MatrixXd> table;   ///< (s_tt, s_aa, s_ta) of every point, three rows each, x forces of the table [MPa/N]
+    Eigen::Index first_station{0};                 ///< its first row / 3
+    std::size_t forces{0};                         ///< which of the Forces
+    std::shared_ptr<const Eigen::MatrixXd> table;  ///< (s_tt, s_aa, s_ta) of every point, three rows each, x forces of the table [MPa/N]
   };
   /// @param points  n
   RootStressInfluence(std::vector<RootStation> of_places, Eigen::Index points, std::vector<Forces> forces, std::vector<Response> responses)
@@ -48,7 +48,8 @@ class RootStressInfluence {
   Eigen::VectorXd components(const Eigen::VectorXd& forces) const;
   /// The same at several positions: every table is read once for all of them.
   /// @param forces  a list for each of the positions
-  static std::vector<Eigen::VectorXd> components(const std::vector<const RootStressInfluence*>& positions, const std::vector<Eigen::VectorXd>& forces);
+  static std::vector<Eigen::VectorXd> components(const std::vector<const RootStressInfluence*>& positions,
+                                                 const std::vector<Eigen::VectorXd>& forces);
 
   /// The three components at one fillet point per unit force at every contact point, 3 x n [MPa/N].
   Eigen::Matrix3Xd components_of(Eigen::Index station) const;
@@ -77,8 +78,7 @@ class PairRootStress {
 /// From the tables of both gears.
 class TabulatedRootStress final : public PairRootStress {
  public:
-  TabulatedRootStress(const GearPair& pair, std::shared_ptr<const RootStressTable> pinion,
-                      std::shared_ptr<const RootStressTable> wheel)
+  TabulatedRootStress(const GearPair& pair, std::shared_ptr<const RootStressTable> pinion, std::shared_ptr<const RootStressTable> wheel)
       : pair_(pair), pinion_(std::move(pinion)), wheel_(std::move(wheel)) {}
   RootStressInfluence influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
 

@@ -26,8 +26,7 @@ EdgeCompliance tooth_foundation(double root_thickness, double poissons_ratio) {
           plane_strain * 18 / units::pi / (root_thickness * root_thickness)};
 }
 
-CantileverPlate::CantileverPlate(const ToothForm& form, double normal_module, double face_width, double poissons_ratio,
-                                 double correction)
+CantileverPlate::CantileverPlate(const ToothForm& form, double normal_module, double face_width, double poissons_ratio, double correction)
     : form_(form),
       normal_module_(normal_module),
       relative_face_(face_width / normal_module),

@@ -31,8 +31,7 @@ class CantileverPlate final : public FlankCompliance {
   /// @param poissons_ratio  nu, 0 <= nu < 0.5
   /// @param correction      of the numbers of polynomials, >= 1
   /// @throws InvalidInput as TaperedPlate
-  CantileverPlate(const ToothForm& form, double normal_module, double face_width, double poissons_ratio,
-                  double correction = 1);
+  CantileverPlate(const ToothForm& form, double normal_module, double face_width, double poissons_ratio, double correction = 1);
 
   /// E m_n K [-], n x n; 0 between teeth. @throws InvalidInput as require_on_flank()
   Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const override;

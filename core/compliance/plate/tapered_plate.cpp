@@ -123,8 +123,7 @@ TaperedPlate::TaperedPlate(const PlateShape& shape, int along, int up)
 }
 
 Eigen::VectorXd TaperedPlate::functional(const PlateLoad& load) const {
-  const double half_height =
-      std::clamp(load.half_height, 0.0, std::min(load.height - up_.low(), up_.high() - load.height));
+  const double half_height = std::clamp(load.half_height, 0.0, std::min(load.height - up_.low(), up_.high() - load.height));
   const Eigen::VectorXd p = weighted_mean(along_, along_rule_, load.along, load.half_length);
   const Eigen::VectorXd q = weighted_mean(up_, up_rule_, load.height, half_height);
   Eigen::VectorXd phi(p.size() * q.size());

@@ -19,15 +19,14 @@ ShaftBeam::ReducedLoad ShaftBeam::reduce(const BeamLoad& load) {
 
 double ShaftBeam::clamped(const ReducedLoad& a, const ReducedLoad& b, const Moments& lower) {
   const auto across = [](const Eigen::Vector3d& v) { return v.head<2>(); };
-  return lower.shear * across(a.force).dot(across(b.force)) + lower.axial * a.force.z() * b.force.z() +
-         lower.torsion * a.moment.z() * b.moment.z() + lower.bending * across(a.moment).dot(across(b.moment)) -
+  return lower.shear * across(a.force).dot(across(b.force)) + lower.axial * a.force.z() * b.force.z() + lower.torsion * a.moment.z() * b.moment.z() +
+         lower.bending * across(a.moment).dot(across(b.moment)) -
          lower.bending_1 * (across(a.moment).dot(b.turned_force) + a.turned_force.dot(across(b.moment))) +
          lower.bending_2 * a.turned_force.dot(b.turned_force);
 }
 
 ShaftBeam::Moments ShaftBeam::moments_to(double z) const {
-  const auto piece = static_cast<std::size_t>(
-      std::min(std::lower_bound(ends_.begin(), ends_.end(), z) - ends_.begin(), std::ssize(ends_) - 1));
+  const auto piece = static_cast<std::size_t>(std::min(std::lower_bound(ends_.begin(), ends_.end(), z) - ends_.begin(), std::ssize(ends_) - 1));
   const BeamPiece& rates = pieces_[piece];
   const double from = ends_[piece] - rates.length, d = z - from;
   Moments m = until_[piece];
@@ -40,8 +39,7 @@ ShaftBeam::Moments ShaftBeam::moments_to(double z) const {
   return m;
 }
 
-ShaftBeam::ShaftBeam(const std::vector<BeamPiece>& pieces, const std::vector<BeamSupport>& supports)
-    : pieces_(pieces), supports_(supports) {
+ShaftBeam::ShaftBeam(const std::vector<BeamPiece>& pieces, const std::vector<BeamSupport>& supports) : pieces_(pieces), supports_(supports) {
   assert(!pieces.empty());
   double end = 0.0;
   until_.emplace_back();
@@ -122,8 +120,7 @@ Eigen::MatrixXd ShaftBeam::flexibility(std::span<const BeamLoad> rows, std::span
   for (std::size_t i = 0; i < rows.size(); ++i) {
     for (std::size_t j = 0; j < columns.size(); ++j) {
       const Moments& lower = rows[i].z < columns[j].z ? row_moments[i] : column_moments[j];
-      result(static_cast<Eigen::Index>(i) / parts, static_cast<Eigen::Index>(j) / parts) +=
-          clamped(row_loads[i], column_loads[j], lower);
+      result(static_cast<Eigen::Index>(i) / parts, static_cast<Eigen::Index>(j) / parts) += clamped(row_loads[i], column_loads[j], lower);
     }
   }
   return result;

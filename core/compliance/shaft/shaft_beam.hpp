@@ -17,9 +17,9 @@ struct BeamPiece {
 
 /// A force and a moment on the beam's axis at z, or the motion of the section there that they do work on.
 struct BeamLoad {
-  double z{0.0};                                       ///< from the beam's first end [mm]
-  Eigen::Vector3d force{Eigen::Vector3d::Zero()};      ///< [N]
-  Eigen::Vector3d moment{Eigen::Vector3d::Zero()};     ///< about the axis in the section z [N mm]
+  double z{0.0};                                    ///< from the beam's first end [mm]
+  Eigen::Vector3d force{Eigen::Vector3d::Zero()};   ///< [N]
+  Eigen::Vector3d moment{Eigen::Vector3d::Zero()};  ///< about the axis in the section z [N mm]
 };
 
 /// A support: the motion that `direction` does work on is held by a spring.

@@ -32,8 +32,8 @@ void check_sections(const ShaftData& shaft, Findings& findings) {
     const std::string name = element("sections", i);
     findings.require(section.length > 0.0, name + "length", section.length, "above 0 mm");
     findings.require(section.outer_diameter > 0.0, name + "outer_diameter", section.outer_diameter, "above 0 mm");
-    findings.require(section.inner_diameter >= 0.0 && !(section.inner_diameter >= section.outer_diameter),
-                     name + "inner_diameter", section.inner_diameter, "0 mm or more, and below the outer diameter");
+    findings.require(section.inner_diameter >= 0.0 && !(section.inner_diameter >= section.outer_diameter), name + "inner_diameter",
+                     section.inner_diameter, "0 mm or more, and below the outer diameter");
   }
 }
 
@@ -45,8 +45,7 @@ void check_bearings(const ShaftData& shaft, Findings& findings) {
     const std::string name = element("bearings", i);
     findings.require(bearing.position >= 0.0 && bearing.position <= shaft.length(), name + "position", bearing.position,
                      "on the shaft, 0 .. " + std::to_string(shaft.length()) + " mm");
-    findings.require(std::ranges::find(positions, bearing.position) == positions.end(), name + "position", bearing.position,
-                     "a position of its own");
+    findings.require(std::ranges::find(positions, bearing.position) == positions.end(), name + "position", bearing.position, "a position of its own");
     findings.require(bearing.radial_stiffness > 0.0, name + "radial_stiffness", bearing.radial_stiffness, "above 0");
     findings.require(bearing.axial_stiffness >= 0.0, name + "axial_stiffness", bearing.axial_stiffness, "0 or more");
     findings.require(bearing.tilting_stiffness >= 0.0, name + "tilting_stiffness", bearing.tilting_stiffness, "0 or more");
@@ -77,8 +76,7 @@ std::vector<InvalidInput> find_problems(const ShaftData& shaft, double face_widt
   check_bearings(shaft, findings);
   const double length = shaft.length(), half = 0.5 * face_width;
   const double round_off = 1e-9 * length;  // ends are sums of lengths: a position within it of an end is on the shaft
-  findings.require(shaft.gear_position >= half - round_off && shaft.gear_position <= length - half + round_off,
-                   "gear_position", shaft.gear_position,
+  findings.require(shaft.gear_position >= half - round_off && shaft.gear_position <= length - half + round_off, "gear_position", shaft.gear_position,
                    "one that has the whole face on the shaft, " + std::to_string(half) + " .. " + std::to_string(length - half) + " mm");
   findings.require(shaft.torque_position >= 0.0 && shaft.torque_position <= length + round_off &&
                        !(std::abs(shaft.torque_position - shaft.gear_position) < half - round_off),

@@ -17,18 +17,18 @@ struct ShaftSection {
 
 /// The stiffness of a bearing at one position of the axis. Infinite is rigid.
 struct ShaftBearing {
-  double position{not_given};                                       ///< from the shaft's first end [mm]
-  double radial_stiffness{std::numeric_limits<double>::infinity()}; ///< in every direction across the axis [N/mm], > 0
-  double axial_stiffness{0.0};                                      ///< [N/mm], >= 0; 0: slides
-  double tilting_stiffness{0.0};                                    ///< [N mm/rad], >= 0; 0: swivels
+  double position{not_given};                                        ///< from the shaft's first end [mm]
+  double radial_stiffness{std::numeric_limits<double>::infinity()};  ///< in every direction across the axis [N/mm], > 0
+  double axial_stiffness{0.0};                                       ///< [N/mm], >= 0; 0: slides
+  double tilting_stiffness{0.0};                                     ///< [N mm/rad], >= 0; 0: swivels
 };
 
 /// The shaft that carries one gear. Positions run along the pair's z from the shaft's first end, the one of lowest z.
 struct ShaftData {
   std::vector<ShaftSection> sections{};  ///< from the first end on
   std::vector<ShaftBearing> bearings{};
-  double gear_position{not_given};     ///< of the gear's mid face [mm]
-  double torque_position{not_given};   ///< where the torque enters or leaves, outside the gear's face [mm]
+  double gear_position{not_given};    ///< of the gear's mid face [mm]
+  double torque_position{not_given};  ///< where the torque enters or leaves, outside the gear's face [mm]
   /// The gear is one with its shaft: over its face the section is that of the gear, see gear_seat(); false: it is the
   /// shaft's own.
   bool gear_stiffens{true};

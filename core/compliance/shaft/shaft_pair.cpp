@@ -8,9 +8,7 @@ namespace flankwright {
 namespace {
 
 double area(double outer, double inner) { return units::pi * (outer - inner) * (outer + inner) / 4.0; }
-double second_moment(double outer, double inner) {
-  return units::pi * (std::pow(outer, 4) - std::pow(inner, 4)) / 64.0;
-}
+double second_moment(double outer, double inner) { return units::pi * (std::pow(outer, 4) - std::pow(inner, 4)) / 64.0; }
 
 /// Cowper's, of a hollow circle.
 double shear_coefficient(double ratio, double nu) {
@@ -21,8 +19,7 @@ double shear_coefficient(double ratio, double nu) {
 BeamPiece piece(const Material& material, double length, double shear_diameter, double bending_diameter, double inner) {
   const double E = material.youngs_modulus, nu = material.poissons_ratio, G = E / (2.0 * (1.0 + nu));
   const double A = area(shear_diameter, inner);
-  return {length, 1.0 / (E * second_moment(bending_diameter, inner)),
-          1.0 / (shear_coefficient(inner / shear_diameter, nu) * G * A),
+  return {length, 1.0 / (E * second_moment(bending_diameter, inner)), 1.0 / (shear_coefficient(inner / shear_diameter, nu) * G * A),
           1.0 / (G * 2.0 * second_moment(shear_diameter, inner)), 1.0 / (E * A)};
 }
 
@@ -59,8 +56,8 @@ std::vector<BeamPiece> shaft_pieces(const ShaftData& shaft, const Gear& gear) {
       if (!(length > 0.0)) continue;
       const bool in_gear = i == 1 && shaft.gear_stiffens;
       const double root = 2.0 * gear.root_radius, mean = gear.root_radius + gear.tip_radius, own = section.outer_diameter;
-      pieces.push_back(piece(shaft.material, length, in_gear ? std::max(own, root) : own,
-                             in_gear ? std::max(own, mean) : own, section.inner_diameter));
+      pieces.push_back(
+          piece(shaft.material, length, in_gear ? std::max(own, root) : own, in_gear ? std::max(own, mean) : own, section.inner_diameter));
     }
     from = to;
   }
@@ -84,15 +81,13 @@ ShaftPair::ShaftPair(const GearPair& pair, std::optional<ShaftData> pinion, std:
   seat(Member::Wheel, wheel, wheel_);
 }
 
-std::vector<BeamLoad> ShaftPair::loads(Member member, const std::vector<ContactPoint>& points, double axial_offset,
-                                       GearBodyIn body) const {
+std::vector<BeamLoad> ShaftPair::loads(Member member, const std::vector<ContactPoint>& points, double axial_offset, GearBodyIn body) const {
   using Eigen::Vector3d;
   const bool is_pinion = member == Member::Pinion;
   const ShaftData& shaft = side(member)->data;
   const double alpha = pair_.working_transverse_pressure_angle, beta = pair_.base_helix_angle;
   // The pinion's outward normal, seen in W; the wheel is pushed along it, the pinion against it.
-  const Vector3d normal(std::cos(beta) * std::sin(alpha), std::cos(beta) * std::cos(alpha),
-                        -pair_.contact_line_sense() * std::sin(beta));
+  const Vector3d normal(std::cos(beta) * std::sin(alpha), std::cos(beta) * std::cos(alpha), -pair_.contact_line_sense() * std::sin(beta));
   const Vector3d force = is_pinion ? Vector3d(-normal) : normal;
   std::vector<BeamLoad> result;
   result.reserve(points.size() * static_cast<std::size_t>(parts(body)));
@@ -123,8 +118,7 @@ Eigen::MatrixXd ShaftPair::influence(const std::vector<ContactPoint>& points, do
   return sum;
 }
 
-ShaftMotion ShaftPair::motion(Member member, const std::vector<ContactPoint>& points, const Eigen::VectorXd& forces,
-                              double axial_offset) const {
+ShaftMotion ShaftPair::motion(Member member, const std::vector<ContactPoint>& points, const Eigen::VectorXd& forces, double axial_offset) const {
   ShaftMotion result;
   if (!has_shaft(member)) return result;
   // Where the line through the pitch point lies at mid face and at the ends of the common face.
@@ -135,9 +129,9 @@ ShaftMotion ShaftPair::motion(Member member, const std::vector<ContactPoint>& po
     stations[i].z = first + 0.5 * static_cast<double>(i) * (last - first);
     stations[i].phase = (pair_.pitch_point - path_.roll_at_start) / path_.base_pitch;
   }
-  const Eigen::VectorXd moved = side(member)->beam.flexibility(loads(member, stations, axial_offset, body_),
-                                                               loads(member, points, axial_offset, body_), parts(body_)) *
-                                forces / std::cos(pair_.base_helix_angle);
+  const Eigen::VectorXd moved =
+      side(member)->beam.flexibility(loads(member, stations, axial_offset, body_), loads(member, points, axial_offset, body_), parts(body_)) *
+      forces / std::cos(pair_.base_helix_angle);
   result.displacement = moved[1];
   result.misalignment = moved[2] - moved[0];
   return result;

@@ -62,8 +62,7 @@ class ShaftPair final : public PairCompliance {
 
   /// Motion of one gear's shaft under normal forces at the points; NaN where the gear has none.
   /// @param forces  [N], one a point
-  ShaftMotion motion(Member member, const std::vector<ContactPoint>& points, const Eigen::VectorXd& forces,
-                     double axial_offset) const;
+  ShaftMotion motion(Member member, const std::vector<ContactPoint>& points, const Eigen::VectorXd& forces, double axial_offset) const;
 
   bool has_shaft(Member member) const { return side(member).has_value(); }
 

@@ -17,12 +17,11 @@ double rack_factor(const RackProfile& rack, double pressure_angle) {
 
 }  // namespace
 
-double iso_flexibility(double virtual_teeth_pinion, double virtual_teeth_wheel, double shift_pinion,
-                       double shift_wheel) {
+double iso_flexibility(double virtual_teeth_pinion, double virtual_teeth_wheel, double shift_pinion, double shift_wheel) {
   const double z1 = virtual_teeth_pinion, z2 = virtual_teeth_wheel;
   const double x1 = shift_pinion, x2 = shift_wheel;
-  return 0.04723 + 0.15551 / z1 + 0.25791 / z2 - 0.00635 * x1 - 0.11654 * x1 / z1 - 0.00193 * x2 - 0.24188 * x2 / z2 +
-         0.00529 * x1 * x1 + 0.00182 * x2 * x2;
+  return 0.04723 + 0.15551 / z1 + 0.25791 / z2 - 0.00635 * x1 - 0.11654 * x1 / z1 - 0.00193 * x2 - 0.24188 * x2 / z2 + 0.00529 * x1 * x1 +
+         0.00182 * x2 * x2;
 }
 
 IsoStiffness iso_stiffness(const GearPair& pair, const Material& pinion, const Material& wheel) {
@@ -40,12 +39,10 @@ IsoStiffness iso_stiffness(const GearPair& pair, const Material& pinion, const M
   iso.c_theoretical = 1 / iso.q_prime;
   iso.correction_factor = 0.8;
   iso.blank_factor = 1;
-  iso.rack_factor =
-      0.5 * (rack_factor(data.pinion.rack, data.pressure_angle) + rack_factor(data.wheel.rack, data.pressure_angle));
+  iso.rack_factor = 0.5 * (rack_factor(data.pinion.rack, data.pressure_angle) + rack_factor(data.wheel.rack, data.pressure_angle));
   const double e1 = pinion.youngs_modulus, e2 = wheel.youngs_modulus;
   iso.material_factor = 2 * e1 * e2 / (e1 + e2) / kSteelModulus;
-  iso.normal_section =
-      iso.c_theoretical * iso.correction_factor * iso.blank_factor * iso.rack_factor * iso.material_factor;
+  iso.normal_section = iso.c_theoretical * iso.correction_factor * iso.blank_factor * iso.rack_factor * iso.material_factor;
   iso.c_prime = iso.normal_section * cos_beta;
   iso.c_gamma = iso.c_prime * (0.75 * pair.transverse_contact_ratio + 0.25);
   iso.within_range = x1 >= x2 && x1 + x2 >= -0.5 && x1 + x2 <= 2 && data.helix_angle <= 45 * units::deg;

@@ -31,8 +31,7 @@ struct IsoStiffness {
 ///
 ///     q' = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 - 0.00635 x_1 - 0.11654 x_1/z_n1
 ///          - 0.00193 x_2 - 0.24188 x_2/z_n2 + 0.00529 x_1^2 + 0.00182 x_2^2
-double iso_flexibility(double virtual_teeth_pinion, double virtual_teeth_wheel, double shift_pinion,
-                       double shift_wheel);
+double iso_flexibility(double virtual_teeth_pinion, double virtual_teeth_wheel, double shift_pinion, double shift_wheel);
 
 /// c' = C_M C_R C_B cos(beta) (E/E_steel) / q' and c_gamma_alpha = c' (0.75 eps_alpha + 0.25) [ISO 6336-1, method B],
 /// with C_B = (1 + 0.5 (1.2 - h_fP/m_n)) (1 - 0.02 (20 deg - alpha_n)).

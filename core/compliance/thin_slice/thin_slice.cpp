@@ -14,9 +14,7 @@ namespace {
 /// Line load at which ISO's stiffness is taken [N/mm].
 constexpr double kReferenceLoad = 300;
 
-double roll_length(double radius, double base_radius) {
-  return std::sqrt(std::max(0.0, (radius - base_radius) * (radius + base_radius)));
-}
+double roll_length(double radius, double base_radius) { return std::sqrt(std::max(0.0, (radius - base_radius) * (radius + base_radius))); }
 
 /// c(w)/w at the pinion's roll length rho_1, depths to the tooth centre planes, without tip factor [mm^2/N].
 double hertz_compliance(const GearPair& pair, const Material& pinion, const Material& wheel, double rho_1) {
@@ -29,8 +27,7 @@ double hertz_compliance(const GearPair& pair, const Material& pinion, const Mate
     return ContactSide::of(material, gear.tooth_thickness_at(radius) / 2 * cos_base / cos_alpha);
   };
   const double relative_radius = rho_1 * rho_2 / (rho_1 + rho_2) / cos_base;
-  const ContactLaw law(side(Member::Pinion, pinion, rho_1), side(Member::Wheel, wheel, rho_2), relative_radius,
-                       contact_modulus(pinion, wheel));
+  const ContactLaw law(side(Member::Pinion, pinion, rho_1), side(Member::Wheel, wheel, rho_2), relative_radius, contact_modulus(pinion, wheel));
   return law.deflection(kReferenceLoad) / kReferenceLoad;
 }
 
@@ -74,9 +71,7 @@ double ThinSlice::Table::operator()(double radius) const {
 }
 
 ThinSlice::ThinSlice(const GearPair& pair, const Material& pinion, const Material& wheel)
-    : pinion_(tooth_form(pair, Member::Pinion), pinion),
-      wheel_(tooth_form(pair, Member::Wheel), wheel),
-      iso_(iso_stiffness(pair, pinion, wheel)) {
+    : pinion_(tooth_form(pair, Member::Pinion), pinion), wheel_(tooth_form(pair, Member::Wheel), wheel), iso_(iso_stiffness(pair, pinion, wheel)) {
   const bool pitch_point_active = pair.pitch_point >= pair.path_start && pair.pitch_point <= pair.path_end;
   calibration_roll_length_ = pitch_point_active ? pair.pitch_point : 0.5 * (pair.path_start + pair.path_end);
   const double rho_1 = calibration_roll_length_;
@@ -85,8 +80,7 @@ ThinSlice::ThinSlice(const GearPair& pair, const Material& pinion, const Materia
   const double iso_compliance = units::um / iso_.normal_section;
   const double structure = iso_compliance - hertz_compliance(pair, pinion, wheel, rho_1);
   if (structure > 0) {
-    calibration_ =
-        structure / compliance(std::hypot(pair.pinion.base_radius, rho_1), std::hypot(pair.wheel.base_radius, rho_2));
+    calibration_ = structure / compliance(std::hypot(pair.pinion.base_radius, rho_1), std::hypot(pair.wheel.base_radius, rho_2));
   } else {
     status_ = ThinSliceStatus::HertzExceedsIso;
   }

@@ -8,12 +8,8 @@
 
 namespace flankwright {
 
-ThinSliceTooth::ThinSliceTooth(const ToothForm& form, double normal_module, double face_width, double poissons_ratio,
-                               double calibration)
-    : form_(form),
-      relative_face_(face_width / normal_module),
-      poissons_ratio_(poissons_ratio),
-      calibration_(calibration) {}
+ThinSliceTooth::ThinSliceTooth(const ToothForm& form, double normal_module, double face_width, double poissons_ratio, double calibration)
+    : form_(form), relative_face_(face_width / normal_module), poissons_ratio_(poissons_ratio), calibration_(calibration) {}
 
 Eigen::MatrixXd ThinSliceTooth::evaluate(std::span<const FlankStation> points) const {
   const auto n = static_cast<Eigen::Index>(points.size());

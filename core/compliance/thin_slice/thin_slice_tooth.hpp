@@ -22,8 +22,7 @@ class ThinSliceTooth final : public FlankCompliance {
   /// @param face_width      b [mm], > 0
   /// @param poissons_ratio  nu, 0 <= nu < 0.5
   /// @param calibration     > 0; 1 is Weber and Banaschek's tooth, ThinSlice::calibration() ISO's
-  ThinSliceTooth(const ToothForm& form, double normal_module, double face_width, double poissons_ratio,
-                 double calibration = 1);
+  ThinSliceTooth(const ToothForm& form, double normal_module, double face_width, double poissons_ratio, double calibration = 1);
 
   /// E m_n K [-], n x n; 0 between teeth. @throws InvalidInput as require_on_flank()
   Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const override;

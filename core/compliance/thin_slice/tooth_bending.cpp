@@ -12,10 +12,8 @@ namespace {
 using units::pi;
 
 /// Eight-point Gauss-Legendre rule on [-1, 1], positive half.
-constexpr std::array<double, 4> kAbscissa{0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959,
-                                          0.96028985649753623168};
-constexpr std::array<double, 4> kWeight{0.36268378337836198297, 0.31370664587788728734, 0.22238103445337447054,
-                                        0.10122853629037625915};
+constexpr std::array<double, 4> kAbscissa{0.18343464249564980494, 0.52553240991632898582, 0.79666647741362673959, 0.96028985649753623168};
+constexpr std::array<double, 4> kWeight{0.36268378337836198297, 0.31370664587788728734, 0.22238103445337447054, 0.10122853629037625915};
 /// Panels per smooth piece of the profile: the compliance then holds to 1e-6, and to 1e-4 at the tip of a tooth all but
 /// pointed (measured against 48 panels).
 constexpr int kPanels = 3;
@@ -63,9 +61,7 @@ ToothCompliance slice_compliance(const std::vector<SlicePiece>& pieces, double l
   result.bending = plane_strain * cos2 * 12 * slenderness;
   result.shear = plane_strain * cos2 * 2.4 / (1 - nu) * height;
   result.compression = plane_strain * sin2 * height;
-  result.foundation =
-      plane_strain *
-      (cos2 * (18 / pi * lever * lever + 2 * (1 - 2 * nu) / (1 - nu) * lever + 4.8 / pi) + sin2 * 2 * (1 - nu) / pi);
+  result.foundation = plane_strain * (cos2 * (18 / pi * lever * lever + 2 * (1 - 2 * nu) / (1 - nu) * lever + 4.8 / pi) + sin2 * 2 * (1 - nu) / pi);
   return result;
 }
 

@@ -57,8 +57,7 @@ Eigen::VectorXd SplineAxis::weights(double x) const {
   const auto i = static_cast<std::size_t>(above - 1);
   const double h = nodes_[i + 1] - nodes_[i], t = (x - nodes_[i]) / h, s = 1 - t;
   const auto row = static_cast<Eigen::Index>(i);
-  Eigen::VectorXd result =
-      h * h / 6 * ((s * s * s - s) * curvatures_.row(row) + (t * t * t - t) * curvatures_.row(row + 1)).transpose();
+  Eigen::VectorXd result = h * h / 6 * ((s * s * s - s) * curvatures_.row(row) + (t * t * t - t) * curvatures_.row(row + 1)).transpose();
   result[row] += s;
   result[row + 1] += t;
   return result;
@@ -100,12 +99,9 @@ std::vector<double> axial_stations(double face_width, const AxialSteps& steps) {
   const double first = steps.first, growth = steps.growth, largest = steps.largest;
   const double graded = (largest - first) / growth;  // modules over which steps grow
   const double graded_steps = std::log(largest / first) / growth;
-  const auto steps_to = [&](double d) {
-    return d < graded ? std::log1p(growth * d / first) / growth : graded_steps + (d - graded) / largest;
-  };
+  const auto steps_to = [&](double d) { return d < graded ? std::log1p(growth * d / first) / growth : graded_steps + (d - graded) / largest; };
   const auto distance_at = [&](double count) {
-    return count < graded_steps ? first / growth * std::expm1(growth * count)
-                                : graded + (count - graded_steps) * largest;
+    return count < graded_steps ? first / growth * std::expm1(growth * count) : graded + (count - graded_steps) * largest;
   };
   const double half = steps_to(0.5 * face_width);
   const int intervals = std::max(3, static_cast<int>(std::ceil(2 * half)));

@@ -60,8 +60,7 @@ FlankAssembly assemble_flanks(const GearPair& pair, const FlankCondition& condit
 
   const Eigen::Vector3d rotation = tilt(pair, misalignment);
   const double angle = rotation.norm();
-  const Eigen::Matrix3d tilted = angle == 0.0 ? Eigen::Matrix3d::Identity()
-                                              : Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
+  const Eigen::Matrix3d tilted = angle == 0.0 ? Eigen::Matrix3d::Identity() : Eigen::AngleAxisd(angle, rotation / angle).toRotationMatrix();
   assembly.wheel_axes = tilted * Eigen::Vector3d(-1.0, -1.0, 1.0).asDiagonal();
   assembly.wheel_centre = {pair.centre_distance + misalignment.centre_distance, 0.0, misalignment.axial_offset};
   return assembly;

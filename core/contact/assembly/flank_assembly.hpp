@@ -14,7 +14,7 @@ namespace flankwright {
 /// y = z x x. The pinion turns by phi1 about +z, the wheel by phi2 the other way round. A left working flank is analysed as
 /// its mirror image in the plane y = 0: hand of helix and `crossing` change sign, phi1 and phi2 count in the direction of drive.
 struct FlankAssembly {
-  Flank pinion, wheel;   ///< each in its own frame, x towards the mate
+  Flank pinion, wheel;           ///< each in its own frame, x towards the mate
   Eigen::Matrix3d wheel_axes;    ///< columns: wheel frame axes in W; the wheel frame is turned by pi about z, then tilted
   Eigen::Vector3d wheel_centre;  ///< mid-face centre of the wheel in W [mm]
   int pinion_teeth{0}, wheel_teeth{0};

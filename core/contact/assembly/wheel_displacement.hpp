@@ -33,8 +33,7 @@ class WheelDisplacement {
     const double dz = about_x_ * y - about_y_ * x + misalignment_.axial_offset;
     const double beta = pair_.base_helix_angle;
     const double opened = misalignment_.mesh_misalignment * z / pair_.face_width;
-    return std::cos(beta) * (dx * std::sin(alpha_) + dy * std::cos(alpha_) + opened) -
-           pair_.contact_line_sense() * std::sin(beta) * dz;
+    return std::cos(beta) * (dx * std::sin(alpha_) + dy * std::cos(alpha_) + opened) - pair_.contact_line_sense() * std::sin(beta) * dz;
   }
 
  private:

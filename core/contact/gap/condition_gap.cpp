@@ -6,8 +6,7 @@
 
 namespace flankwright {
 
-ConditionGap::ConditionGap(const GearPair& pair, GapModel model, const FlankCondition& condition)
-    : pair_(pair), condition_(condition) {
+ConditionGap::ConditionGap(const GearPair& pair, GapModel model, const FlankCondition& condition) : pair_(pair), condition_(condition) {
   if (model == GapModel::WholeSurface) surfaces_.emplace(pair, condition);
 }
 
@@ -22,7 +21,8 @@ Eigen::VectorXd ConditionGap::derivative(const std::vector<ContactPoint>& points
 
 Eigen::VectorXd ConditionGap::derivative(const std::vector<ContactPoint>& points, MisalignmentParameter parameter) const {
   if (surfaces_) {
-    throw InvalidInput("misalignment." + std::string(name_of(parameter)), "a derivative", "a parameter that leaves the contact points where they are");
+    throw InvalidInput("misalignment." + std::string(name_of(parameter)), "a derivative",
+                       "a parameter that leaves the contact points where they are");
   }
   return gap_derivative(pair_, points, condition_.misalignment, parameter);
 }

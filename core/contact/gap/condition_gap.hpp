@@ -22,8 +22,7 @@ class ConditionGap {
 
   /// dg/dp at each point for one modification parameter of one gear [mm/mm; parabolic_te mm rad], exact.
   /// @param gap  as at() gave it for these points
-  Eigen::VectorXd derivative(const std::vector<ContactPoint>& points, const Gap& gap, Member member,
-                             ModificationParameter parameter) const;
+  Eigen::VectorXd derivative(const std::vector<ContactPoint>& points, const Gap& gap, Member member, ModificationParameter parameter) const;
 
   /// dg/dp at each point for one number of the misalignment that leaves the points where they are [mm/rad or mm/mm], exact.
   /// @throws InvalidInput  where it moves them: in the plane of action the axial offset, over the whole surface any

@@ -63,8 +63,8 @@ Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& p
   return gap;
 }
 
-Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition,
-                               Member member, ModificationParameter parameter) {
+Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition, Member member,
+                               ModificationParameter parameter) {
   const double cos_base_helix = std::cos(pair.base_helix_angle);
   const RemovalDerivative removed(condition.modification[member], pair.flank_frame(member), parameter);
   Eigen::VectorXd derivative(points.size());

@@ -33,8 +33,8 @@ struct NearestPoint {
 
 /// Gap of unloaded flanks at each contact point, normal to the flank, before load.
 struct Gap {
-  Eigen::VectorXd total;     ///< g [mm]
-  Eigen::VectorXd error;     ///< the part that is not clearance, sign of Haddad's delta_e: metal added is positive [mm]
+  Eigen::VectorXd total;                ///< g [mm]
+  Eigen::VectorXd error;                ///< the part that is not clearance, sign of Haddad's delta_e: metal added is positive [mm]
   std::vector<NearestPoint> nearest{};  ///< of each point; WholeSurface only
 };
 
@@ -48,7 +48,7 @@ struct Gap {
 Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition);
 
 /// dg/dp at each point for one modification parameter of one gear [mm/mm; parabolic_te mm rad], exact.
-Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition,
-                               Member member, ModificationParameter parameter);
+Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition, Member member,
+                               ModificationParameter parameter);
 
 }  // namespace flankwright

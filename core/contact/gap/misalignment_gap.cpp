@@ -24,8 +24,7 @@ class PinionLeadSlope {
     const double cylinder = 0.5 * pair.data.normal_module * pair.data.pinion.teeth;  // r_p cos(beta)
     const double r_p = cylinder / std::cos(beta), tan_alpha = std::tan(alpha_n) / std::cos(beta);
     const double cos_alpha = 1.0 / std::sqrt(1.0 + tan_alpha * tan_alpha);
-    const double d_tan_alpha =
-        tan_alpha * std::tan(beta) * d_beta + d_alpha_n / (std::cos(alpha_n) * std::cos(alpha_n) * std::cos(beta));
+    const double d_tan_alpha = tan_alpha * std::tan(beta) * d_beta + d_alpha_n / (std::cos(alpha_n) * std::cos(alpha_n) * std::cos(beta));
     const double d_alpha = cos_alpha * cos_alpha * d_tan_alpha;
     const double sense = pair.contact_line_sense() == 0 ? 1.0 : pair.contact_line_sense();
     base_radius_ = r_p * cos_alpha;

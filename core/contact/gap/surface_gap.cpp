@@ -6,10 +6,7 @@
 namespace flankwright {
 
 SurfaceGap::SurfaceGap(const GearPair& pair, const FlankCondition& condition)
-    : pair_(pair),
-      condition_(condition),
-      assembly_(assemble_flanks(pair, condition)),
-      density_(search_density(assembly_)) {
+    : pair_(pair), condition_(condition), assembly_(assemble_flanks(pair, condition)), density_(search_density(assembly_)) {
   for (Member m : {Member::Pinion, Member::Wheel}) {
     const double coefficient = condition.modification[m].parabolic_te;
     if (coefficient != 0.0) parabola_[static_cast<std::size_t>(m)] = make_conjugate_field(pair, m, coefficient);
@@ -48,9 +45,9 @@ NearestPoint SurfaceGap::nearest_point(const SectionMaximum& found, int tooth) c
     const double stepping = on_wheel_circle ? 0.0 : touch.slope_rho;
     const Dual<1> removed = pinion.deviation(Dual<1>::variable(touch.rho, 0), Dual<1>(touch.z), tooth);
     const double by_pinion = (turning / pinion.base_radius + stepping) / (1.0 - removed.gradient[0]);
-    return NearestPoint::Side{std::hypot(pinion.base_radius, touch.rho),     touch.z,
-                              std::hypot(wheel.base_radius, touch.wheel_rho), touch.wheel_z,
-                              scale * by_pinion,                              scale * touch.wheel_pace / wheel.base_radius, share};
+    return NearestPoint::Side{
+        std::hypot(pinion.base_radius, touch.rho),    touch.z, std::hypot(wheel.base_radius, touch.wheel_rho), touch.wheel_z, scale * by_pinion,
+        scale * touch.wheel_pace / wheel.base_radius, share};
   };
   NearestPoint nearest;
   nearest.sides[0] = side(touch_at(found.at), 1.0 - found.share_beyond);

@@ -21,7 +21,8 @@ struct Node {
 
 std::vector<Node> nodes(QuadratureRule rule) {
   switch (rule) {
-    case QuadratureRule::Midpoint: return {{0.5, 1.0}};
+    case QuadratureRule::Midpoint:
+      return {{0.5, 1.0}};
     case QuadratureRule::Gauss2:
     case QuadratureRule::Graded: {
       const double d = 0.5 / std::sqrt(3.0);
@@ -45,17 +46,14 @@ void divide(double begin, double end, int n, Cut cut, std::vector<LineInterval>&
   }
 }
 
-std::vector<LineInterval> graded_intervals(const PathOfContact& path, int n, double line_phase, double face_start,
-                                           double face_end) {
+std::vector<LineInterval> graded_intervals(const PathOfContact& path, int n, double line_phase, double face_start, double face_end) {
   const auto towards_both_ends = [](double t) { return 0.5 * (1.0 - std::cos(units::pi * t)); };
   std::vector<LineInterval> intervals;
   if (path.slope == 0.0) {
     divide(face_start, face_end, n, towards_both_ends, intervals);
     return intervals;
   }
-  const auto z_at = [&](double phase) {
-    return std::clamp((phase - path.phase_at(line_phase, 0.0)) / path.slope, face_start, face_end);
-  };
+  const auto z_at = [&](double phase) { return std::clamp((phase - path.phase_at(line_phase, 0.0)) / path.slope, face_start, face_end); };
   // Where edges reach further than the extension, the mate's tip takes over from them there.
   std::array<double, 6> cuts{z_at(0.0),
                              z_at(PathOfContact::extension),
@@ -178,8 +176,8 @@ void set_rolls(const GearPair& pair, double pinion_roll, double wheel_roll, Cont
   point.relative_radius = pinion_roll * wheel_roll / (pinion_roll + wheel_roll) / cos_base_helix;
 }
 
-std::vector<LineInterval> line_intervals(const PathOfContact& path, const Quadrature& quadrature, double line_phase,
-                                         double face_start, double face_end) {
+std::vector<LineInterval> line_intervals(const PathOfContact& path, const Quadrature& quadrature, double line_phase, double face_start,
+                                         double face_end) {
   if (quadrature.rule == QuadratureRule::Graded) {
     return graded_intervals(path, quadrature.intervals, line_phase, face_start, face_end);
   }
@@ -200,8 +198,8 @@ std::optional<ContactPoint> contact_point(const GearPair& pair, const PathOfCont
   return point;
 }
 
-std::vector<ContactPoint> contact_points(const GearPair& pair, const PathOfContact& path, const Quadrature& quadrature,
-                                         double line_phase, bool with_extended_region, double face_start, double face_end) {
+std::vector<ContactPoint> contact_points(const GearPair& pair, const PathOfContact& path, const Quadrature& quadrature, double line_phase,
+                                         bool with_extended_region, double face_start, double face_end) {
   const std::vector<Node> rule = nodes(quadrature.rule);
   const double cos_base_helix = std::cos(pair.base_helix_angle);
   const int first = static_cast<int>(std::floor(-line_phase));

@@ -10,8 +10,10 @@ namespace flankwright {
 
 /// Quadrature rule on the intervals of a contact line.
 enum class QuadratureRule {
-  Gauss2, Gauss3, Midpoint,  ///< on equal intervals at fixed axial positions: points enter and leave as the line passes them
-  Graded,                    ///< two Gauss points on intervals that end where the line does, see line_intervals()
+  Gauss2,
+  Gauss3,
+  Midpoint,  ///< on equal intervals at fixed axial positions: points enter and leave as the line passes them
+  Graded,    ///< two Gauss points on intervals that end where the line does, see line_intervals()
 };
 
 /// The resolution of contact lines.
@@ -37,21 +39,21 @@ struct LineInterval {
 /// load falls to 0 a little way beyond A or E, max(2, n/2) intervals that grow as the square of the distance from there, and as many where edges
 /// reach further out.
 /// @param line_phase  of the line's leading end [base pitches]
-std::vector<LineInterval> line_intervals(const PathOfContact& path, const Quadrature& quadrature, double line_phase,
-                                         double face_start, double face_end);
+std::vector<LineInterval> line_intervals(const PathOfContact& path, const Quadrature& quadrature, double line_phase, double face_start,
+                                         double face_end);
 
 /// One quadrature point of a contact line in the plane of action, with the unmodified geometry around it. Lengths in mm.
 struct ContactPoint {
-  int tooth{0};            ///< tooth pair, k pitches ahead of the reference pair 0
-  double z{0.0};           ///< axial position, 0 at mid face
-  double phase{0.0};       ///< [base pitches] from A0
-  double weight{0.0};      ///< length of contact line that belongs to it, > 0: sum(weight * line load) is the normal force
+  int tooth{0};        ///< tooth pair, k pitches ahead of the reference pair 0
+  double z{0.0};       ///< axial position, 0 at mid face
+  double phase{0.0};   ///< [base pitches] from A0
+  double weight{0.0};  ///< length of contact line that belongs to it, > 0: sum(weight * line load) is the normal force
   double pinion_radius{not_given}, wheel_radius{not_given};
-  double relative_radius{not_given};  ///< rho_1 rho_2 / (rho_1 + rho_2) / cos(beta_b), normal section [Haddad 1991, eq. 2.15]
+  double relative_radius{not_given};                       ///< rho_1 rho_2 / (rho_1 + rho_2) / cos(beta_b), normal section [Haddad 1991, eq. 2.15]
   double pinion_depth{not_given}, wheel_depth{not_given};  ///< h = (s_yt/2) cos(beta_b) / cos(alpha_yt), flank to tooth centre
   double pinion_tip_distance{not_given}, wheel_tip_distance{not_given};  ///< (r_a - r_y) / cos(alpha_yt)
-  int interval{-1};        ///< of its line, where two Gauss points of the rule Graded share one; -1: none
-  double clearance{0.0};   ///< c_n of the unmodified pair, normal to the flank; 0 on the theoretical path of contact
+  int interval{-1};       ///< of its line, where two Gauss points of the rule Graded share one; -1: none
+  double clearance{0.0};  ///< c_n of the unmodified pair, normal to the flank; 0 on the theoretical path of contact
 };
 
 /// Fills radii, curvature, depths and tip distances of a point from its roll lengths on both gears [mm], both > 0.
@@ -73,7 +75,7 @@ std::optional<ContactPoint> contact_point(const GearPair& pair, const PathOfCont
 /// turn that the wheel lacks.
 /// @param line_phase  of tooth pair 0 [base pitches], see PathOfContact
 /// @param with_extended_region  false leaves out A0 .. A and E .. B0
-std::vector<ContactPoint> contact_points(const GearPair& pair, const PathOfContact& path, const Quadrature& quadrature,
-                                         double line_phase, bool with_extended_region, double face_start, double face_end);
+std::vector<ContactPoint> contact_points(const GearPair& pair, const PathOfContact& path, const Quadrature& quadrature, double line_phase,
+                                         bool with_extended_region, double face_start, double face_end);
 
 }  // namespace flankwright

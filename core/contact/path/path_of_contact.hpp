@@ -17,12 +17,12 @@ struct PathOfContact {
 
   explicit PathOfContact(const GearPair& pair);
 
-  double base_pitch;        ///< p_bt [mm]
-  double before, beyond;    ///< A0 A and E B0: the extension and what edges reach [base pitches]
-  double roll_at_start;     ///< pinion roll length at A0 [mm]; may be negative
-  double region_length;     ///< A0 B0 [base pitches]
-  double slope;             ///< d(phase)/dz, signed with the sense of the contact lines [1/mm]
-  double half_face;         ///< of the common face width [mm]
+  double base_pitch;      ///< p_bt [mm]
+  double before, beyond;  ///< A0 A and E B0: the extension and what edges reach [base pitches]
+  double roll_at_start;   ///< pinion roll length at A0 [mm]; may be negative
+  double region_length;   ///< A0 B0 [base pitches]
+  double slope;           ///< d(phase)/dz, signed with the sense of the contact lines [1/mm]
+  double half_face;       ///< of the common face width [mm]
 
   /// Phase at axial position z of the line whose leading end has phase `line_phase`.
   double phase_at(double line_phase, double z) const { return line_phase - std::abs(slope) * half_face + slope * z; }

@@ -67,8 +67,7 @@ class Passage {
     const double offset = (on_pinion_ ? -1.0 : 1.0) * assembly_.wheel_centre.z();
     if (std::abs(z + offset) > mate_.half_face) return infinity;
     const double pitch = 2.0 * units::pi / assembly_.pinion_teeth;
-    const double undisturbed =
-        self_.frame.pinion_turn * ((rho - self_.frame.pitch_roll) / self_.base_radius - self_.helix_rate * z);
+    const double undisturbed = self_.frame.pinion_turn * ((rho - self_.frame.pitch_roll) / self_.base_radius - self_.helix_rate * z);
     const int nearest = static_cast<int>(std::lround(undisturbed / pitch));
     double smallest = infinity;
     for (int tooth = nearest - 1; tooth <= nearest + 1; ++tooth) {

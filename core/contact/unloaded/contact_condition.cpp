@@ -89,9 +89,9 @@ FlankContact ContactCondition::at(double rho, double z, const FlankContact* near
   // Newton on rho2 - D(rho2, z2) = sqrt(r^2 - r_b^2); its last step is too short to change D or its slope. Where it
   // does not converge (kinks), the plain iteration does: |D'| < 1. Beyond the tip a relief goes on and may become
   // steeper than that; no point of the flank has such a radius then, and rho2 ends at its bound.
-  const double negligible = 1e-7;      // mm: squared it is below round-off
-  const double near_enough = 0.05;     // of the roll length: from further off no guess is taken
-  const double lowest = 0.1 * m.wheel_roll;  // keeps clear of the cusp of the involute
+  const double negligible = 1e-7;              // mm: squared it is below round-off
+  const double near_enough = 0.05;             // of the roll length: from further off no guess is taken
+  const double lowest = 0.1 * m.wheel_roll;    // keeps clear of the cusp of the involute
   const double highest = 10.0 * m.wheel_roll;  // and of overflow
   double rho2 = m.wheel_roll, last_step = std::numeric_limits<double>::infinity();
   if (near && std::abs(m.wheel_roll - near->wheel_roll) <= near_enough * m.wheel_roll) {
@@ -115,8 +115,7 @@ FlankContact ContactCondition::at(double rho, double z, const FlankContact* near
   // Gradient of the wheel's rotation with respect to the point, wheel frame; phi2 turns the other way.
   const double stretch = pace * wheel_.per_base_radius, per_square = 1.0 / (radius * radius);
   const double radial = (stretch - rb2 * per_square) / m.wheel_roll;
-  const Eigen::Vector3d rotation(radial * x - per_square * y, radial * y + per_square * x,
-                                 -wheel.helix_rate + d.gradient[1] * stretch);
+  const Eigen::Vector3d rotation(radial * x - per_square * y, radial * y + per_square * x, -wheel.helix_rate + d.gradient[1] * stretch);
   m.turn = -(assembly_.wheel_axes * rotation);
   if (m.on_wheel_end) {
     const ContactGradient axial = axial_gradient(m);
@@ -134,8 +133,7 @@ double ContactCondition::phi2(const FlankContact& m) const {
 }
 
 ContactGradient ContactCondition::radius_gradient(const FlankContact& m) const {
-  const Eigen::Vector3d outwards =
-      assembly_.wheel_axes * Eigen::Vector3d(m.point.x() / m.wheel_radius, m.point.y() / m.wheel_radius, 0.0);
+  const Eigen::Vector3d outwards = assembly_.wheel_axes * Eigen::Vector3d(m.point.x() / m.wheel_radius, m.point.y() / m.wheel_radius, 0.0);
   return {outwards.dot(m.along_rho), outwards.dot(m.along_z), outwards.dot(m.along_phi1)};
 }
 

@@ -19,10 +19,10 @@ struct FlankContact {
   ContactGradient angle;                               ///< of phi2 [rad]
   bool on_wheel_end{false};                            ///< on an end of the wheel's face, short of the section
 
-  Eigen::Vector3d point{Eigen::Vector3d::Zero()};      ///< in the wheel's frame [mm]
+  Eigen::Vector3d point{Eigen::Vector3d::Zero()};  ///< in the wheel's frame [mm]
   Eigen::Vector3d along_rho{Eigen::Vector3d::Zero()}, along_z{Eigen::Vector3d::Zero()},
-      along_phi1{Eigen::Vector3d::Zero()};             ///< derivatives of the point, housing
-  Eigen::Vector3d turn{Eigen::Vector3d::Zero()};       ///< d(phi2)/d(point), housing, wherever the point moves [rad/mm]
+      along_phi1{Eigen::Vector3d::Zero()};        ///< derivatives of the point, housing
+  Eigen::Vector3d turn{Eigen::Vector3d::Zero()};  ///< d(phi2)/d(point), housing, wherever the point moves [rad/mm]
 };
 
 /// One tooth pair at one pinion angle: the wheel angle phi2 that puts the wheel's flank through a point of the pinion's, with its
@@ -45,19 +45,15 @@ class ContactCondition {
   /// @param near  a contact nearby to guess the wheel's deviation from; affects the speed, not the result
   FlankContact at(double rho, double z, const FlankContact* near = nullptr) const;
 
-  double phi2(const FlankContact& contact) const;                     ///< [rad]
-  ContactGradient radius_gradient(const FlankContact& contact) const; ///< of wheel_radius [mm]
-  ContactGradient axial_gradient(const FlankContact& contact) const;  ///< of wheel_z [mm]
+  double phi2(const FlankContact& contact) const;                      ///< [rad]
+  ContactGradient radius_gradient(const FlankContact& contact) const;  ///< of wheel_radius [mm]
+  ContactGradient axial_gradient(const FlankContact& contact) const;   ///< of wheel_z [mm]
 
   /// Roll length on the pinion where undisturbed, parallel gears touch in the section z [mm]; any sign.
   double undisturbed_roll(double z) const { return roll_at_mid_face_ + roll_rate() * z; }
   /// Between these it lies on both profiles [mm].
-  double lowest_undisturbed_roll() const {
-    return std::max(assembly_.pinion.lowest_roll(), path_length_ - assembly_.wheel.highest_roll());
-  }
-  double highest_undisturbed_roll() const {
-    return std::min(assembly_.pinion.highest_roll(), path_length_ - assembly_.wheel.lowest_roll());
-  }
+  double lowest_undisturbed_roll() const { return std::max(assembly_.pinion.lowest_roll(), path_length_ - assembly_.wheel.highest_roll()); }
+  double highest_undisturbed_roll() const { return std::min(assembly_.pinion.highest_roll(), path_length_ - assembly_.wheel.lowest_roll()); }
   double roll_rate() const { return assembly_.pinion.base_radius * assembly_.pinion.helix_rate; }  ///< its derivative [mm/mm]
 
   /// Curvature -d2(phi2)/d(rho1)2 where undisturbed involutes touch at roll length rho1 of the pinion [rad/mm^2]:
@@ -77,9 +73,9 @@ class ContactCondition {
 
     const Flank& flank;
     DeviationFormula formula;
-    double pitch;            ///< [mm]
+    double pitch;                    ///< [mm]
     const DeviationField* measured;  ///< of this tooth; null: none
-    double per_base_radius;  ///< 1/r_b [1/mm]
+    double per_base_radius;          ///< 1/r_b [1/mm]
   };
 
   /// Point of the pinion's flank and its derivatives, in the housing and in the wheel's frame.
@@ -92,7 +88,7 @@ class ContactCondition {
   double pinion_origin_;  ///< theta of the involute's start at z = 0, turned [rad]
   double wheel_origin_;   ///< the wheel's at rotation 0, less its advance by whole pitches [rad]
   double roll_at_mid_face_;
-  double path_length_;    ///< between the base circles' tangent points [mm]
+  double path_length_;  ///< between the base circles' tangent points [mm]
 };
 
 }  // namespace flankwright

@@ -54,8 +54,8 @@ ContactEllipse contact_ellipse(const FlankAssembly& assembly, const ToothContact
   const double pinion_rotation = contact.phi1 + contact.tooth * 2.0 * units::pi / assembly.pinion_teeth;
   const double wheel_rotation = -contact.phi2 - contact.tooth * 2.0 * units::pi / assembly.wheel_teeth;
   const double wheel_roll = roll_of_point(assembly.wheel, contact.wheel_radius, contact.wheel_z, contact.tooth);
-  const SurfacePoint on_pinion = surface_point(assembly.pinion, assembly.pinion.roll_at(contact.pinion_radius),
-                                               contact.pinion_z, contact.tooth, pinion_rotation);
+  const SurfacePoint on_pinion =
+      surface_point(assembly.pinion, assembly.pinion.roll_at(contact.pinion_radius), contact.pinion_z, contact.tooth, pinion_rotation);
   const SurfacePoint on_wheel = surface_point(assembly.wheel, wheel_roll, contact.wheel_z, contact.tooth, wheel_rotation);
 
   const Eigen::Vector3d& normal = on_pinion.normal;

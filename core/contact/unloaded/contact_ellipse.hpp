@@ -15,9 +15,8 @@ namespace flankwright {
 struct ContactEllipse {
   double least_curvature{not_given};     ///< kappa_1 [1/mm]; 0 for line contact, < 0 would be a saddle: no ellipse
   double greatest_curvature{not_given};  ///< kappa_2 [1/mm], across the instantaneous line of contact
-  double semi_major{
-      not_given};  ///< sqrt(2 t/kappa_1) [mm]; infinite where kappa_1 <= 1e-12 kappa_2, the round-off of both
-  double semi_minor{not_given};  ///< sqrt(2 t/kappa_2) [mm]
+  double semi_major{not_given};          ///< sqrt(2 t/kappa_1) [mm]; infinite where kappa_1 <= 1e-12 kappa_2, the round-off of both
+  double semi_minor{not_given};          ///< sqrt(2 t/kappa_2) [mm]
   /// Axes on the pinion's flank as displacements along its two parameters for one semi-axis of unit length: d(rho),
   /// d(z) [mm/mm]. Of the two senses the one with d(z) > 0 for the major, d(rho) > 0 for the minor axis.
   double major_d_rho{not_given}, major_d_z{not_given};

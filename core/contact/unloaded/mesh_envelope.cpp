@@ -12,8 +12,8 @@ namespace flankwright {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr double margin = 0.25;  // pitches beyond the extended path, see MeshEnvelope
-constexpr double transfer_tolerance = 1e-13;              // rad of the pinion
+constexpr double margin = 0.25;                                // pitches beyond the extended path, see MeshEnvelope
+constexpr double transfer_tolerance = 1e-13;                   // rad of the pinion
 constexpr PeakTolerance extreme_tolerance{1e-9, 1e-16, 1e-7};  // rad of the pinion, rad of the wheel, rad of the pinion
 
 }  // namespace
@@ -76,8 +76,7 @@ void MeshEnvelope::look_ahead(MeshState& state, double step) const {
   }
 }
 
-void MeshEnvelope::follow(const MeshState& from, const MeshState& to, std::vector<Transfer>& transfers, double& smallest,
-                          double& largest) const {
+void MeshEnvelope::follow(const MeshState& from, const MeshState& to, std::vector<Transfer>& transfers, double& smallest, double& largest) const {
   if (!from.exists() || !to.exists()) return;
   const int before = from.leading().tooth, after = to.leading().tooth;
   const double split = before == after ? hidden_transfer(from, to) : transfer_point(from, to);
@@ -142,9 +141,7 @@ double MeshEnvelope::hidden_transfer(const MeshState& from, const MeshState& to)
     const double meet = (last_advance - advance - fall * width) / (rise - fall);
     if (advance + rise * meet <= leading_tolerance) continue;
     // The crest of the advance itself decides.
-    const auto lead_slope = [&](double phi1) {
-      return contact(c.tooth, phi1).slope - contact(first.tooth, phi1).slope;
-    };
+    const auto lead_slope = [&](double phi1) { return contact(c.tooth, phi1).slope - contact(first.tooth, phi1).slope; };
     const double crest = bracketed_root(lead_slope, from.phi1, rise, to.phi1, fall, 1e-6 * width).x;
     const ToothContact over = contact(c.tooth, crest), under = contact(first.tooth, crest);
     if (over.exists() && under.exists() && over.transmission_error > under.transmission_error + leading_tolerance) return crest;
@@ -160,8 +157,8 @@ void MeshEnvelope::follow_pair(const ToothContact& from, const ToothContact& to,
   const double curvature = std::abs(to.slope - from.slope) / width;
   const auto evaluate = [&](double phi1, const Sample*) { return Sample{contact(from.tooth, phi1), sign}; };
   const double guess = std::clamp(from.phi1 + std::abs(from.slope) / curvature, from.phi1, to.phi1);
-  const Peak<Sample> peak = find_peak<Sample>(evaluate, from.phi1, to.phi1, guess, curvature, extreme_tolerance,
-                                              Sample{from, sign}, Sample{to, sign});
+  const Peak<Sample> peak =
+      find_peak<Sample>(evaluate, from.phi1, to.phi1, guess, curvature, extreme_tolerance, Sample{from, sign}, Sample{to, sign});
   smallest = std::min(smallest, peak.top.contact.transmission_error);
   largest = std::max(largest, peak.top.contact.transmission_error);
 }

@@ -12,7 +12,7 @@ namespace flankwright {
 struct MeshState {
   double phi1{not_given};
   std::vector<ToothContact> contacts;  ///< those that exist, in order of tooth
-  int leading_index{-1};                      ///< index into contacts, -1 where no pair touches
+  int leading_index{-1};               ///< index into contacts, -1 where no pair touches
 
   bool exists() const { return leading_index >= 0; }
   const ToothContact& leading() const { return contacts[leading_index]; }
@@ -44,8 +44,7 @@ class MeshEnvelope {
 
   /// Evaluates the range between two states, `from` before `to`: appends transfer points to `transfers`, in order, and
   /// widens smallest .. largest by the crests and troughs of the leading pair.
-  void follow(const MeshState& from, const MeshState& to, std::vector<Transfer>& transfers, double& smallest,
-              double& largest) const;
+  void follow(const MeshState& from, const MeshState& to, std::vector<Transfer>& transfers, double& smallest, double& largest) const;
 
  private:
   struct Sample;

@@ -31,8 +31,7 @@ ToothContact leading_at(const UnloadedMesh& mesh, std::size_t position) {
   ToothContact leading;
   for (const PairCurve& pair : mesh.pairs) {
     for (const ToothContact& c : pair.positions) {
-      if (c.phi1 == mesh.phi1[position] && (!leading.exists() || c.transmission_error > leading.transmission_error))
-        leading = c;
+      if (c.phi1 == mesh.phi1[position] && (!leading.exists() || c.transmission_error > leading.transmission_error)) leading = c;
     }
   }
   return leading;
@@ -73,20 +72,14 @@ double share_of_pitch(const LeadingPair& leading_pair, std::initializer_list<Con
   return 100.0 * count / static_cast<double>(leading_pair.positions.size());
 }
 
-double on_face_end(const LeadingPair& leading_pair) {
-  return share_of_pitch(leading_pair, {ContactKind::FaceEnd, ContactKind::Corner});
-}
+double on_face_end(const LeadingPair& leading_pair) { return share_of_pitch(leading_pair, {ContactKind::FaceEnd, ContactKind::Corner}); }
 
 /// The cause of the departure from the parabola, as far as the kinds of contact show it.
 std::string cause(const LeadingPair& leading_pair) {
   const double ends = on_face_end(leading_pair);
-  const double tips = share_of_pitch(
-      leading_pair, {ContactKind::PinionTip, ContactKind::WheelTip, ContactKind::PinionRoot, ContactKind::WheelRoot});
-  if (ends > tips)
-    return text("; contact runs on a face end over %.0f %% of the pitch: more lead crowning or less misalignment",
-                ends);
-  if (tips > 0.0)
-    return text("; contact runs on a tip or root edge over %.0f %% of the pitch: a larger parabola shifts less", tips);
+  const double tips = share_of_pitch(leading_pair, {ContactKind::PinionTip, ContactKind::WheelTip, ContactKind::PinionRoot, ContactKind::WheelRoot});
+  if (ends > tips) return text("; contact runs on a face end over %.0f %% of the pitch: more lead crowning or less misalignment", ends);
+  if (tips > 0.0) return text("; contact runs on a tip or root edge over %.0f %% of the pitch: a larger parabola shifts less", tips);
   return "";
 }
 
@@ -109,8 +102,7 @@ std::string verdict(const ParabolaCheck& check, const LeadingPair& leading_pair,
     return text("the parabola's coefficient differs by %+.0f %% from the one asked for", 100.0 * off) + cause(leading_pair);
   }
   if (!(check.residual <= residual_tolerance * height)) {
-    return text("the arc departs from its parabola by %.0f %% of its height", 100.0 * check.residual / height) +
-           cause(leading_pair);
+    return text("the arc departs from its parabola by %.0f %% of its height", 100.0 * check.residual / height) + cause(leading_pair);
   }
   if (on_face_end(leading_pair) > 0.0) return "the parabola is there, but not on the flanks" + cause(leading_pair);
   return "";
@@ -119,8 +111,7 @@ std::string verdict(const ParabolaCheck& check, const LeadingPair& leading_pair,
 }  // namespace
 
 ParabolaCheck check_parabola(const FlankAssembly& assembly, const UnloadedMesh& mesh, double wanted) {
-  if (!(wanted > 0.0 && std::isfinite(wanted)))
-    throw InvalidInput("parabolic_te", std::to_string(wanted), "above 0 1/rad");
+  if (!(wanted > 0.0 && std::isfinite(wanted))) throw InvalidInput("parabolic_te", std::to_string(wanted), "above 0 1/rad");
   if (mesh.phi1.size() < 4) throw InvalidInput("positions", std::to_string(mesh.phi1.size()), "at least 4");
   ParabolaCheck check;
   check.wanted = wanted;
@@ -155,8 +146,8 @@ ParabolaCheck check_parabola(const FlankAssembly& assembly, const UnloadedMesh& 
       check.residual = std::max(check.residual, std::abs(point.error - height * (fit[0] + x * (fit[1] + x * fit[2]))));
     }
   }
-  check.right_sign = std::all_of(leading_pair.transfers.begin(), leading_pair.transfers.end(),
-                                 [](const Transfer& t) { return leaves_well(t) && enters_well(t); });
+  check.right_sign =
+      std::all_of(leading_pair.transfers.begin(), leading_pair.transfers.end(), [](const Transfer& t) { return leaves_well(t) && enters_well(t); });
   check.why = verdict(check, leading_pair, height);
   check.holds = check.why.empty();
   return check;

@@ -8,9 +8,9 @@ namespace flankwright {
 namespace {
 
 constexpr int pieces_per_stretch = 4;
-constexpr double absorbed = 0.5;      // of the relative curvature that a hollow may take away, see search_density()
-constexpr double sampled = 3.0;        // times the largest curvature on the grid bounds it
-constexpr double straight = 1e-9;     // 1/mm: a curvature up to this has no sign; over a face of 300 mm it is 10 nm
+constexpr double absorbed = 0.5;   // of the relative curvature that a hollow may take away, see search_density()
+constexpr double sampled = 3.0;    // times the largest curvature on the grid bounds it
+constexpr double straight = 1e-9;  // 1/mm: a curvature up to this has no sign; over a face of 300 mm it is 10 nm
 
 /// Counts stretches of one sign along a row of numbers.
 class Stretches {
@@ -31,7 +31,8 @@ class Stretches {
 bool has_field(const Flank& flank) { return !flank.fields.empty() || !flank.error.topographies.empty(); }
 
 bool adds_metal_in_relief(const Flank& flank) {
-  return std::ranges::any_of(modification_parameters, [&](const ModificationDescriptor& d) { return !d.extent.empty() && d.get(flank.modification) < 0.0; });
+  return std::ranges::any_of(modification_parameters,
+                             [&](const ModificationDescriptor& d) { return !d.extent.empty() && d.get(flank.modification) < 0.0; });
 }
 
 /// Second derivatives of both flanks' deviations together, with respect to rho1 and z, and over the arc lengths.
@@ -98,7 +99,7 @@ SearchDensity search_density(const FlankAssembly& assembly) {
     along_face = std::max(along_face, stretches.count());
   }
   density.cells = hollow ? std::clamp(2 * pieces_per_stretch * along_profile, 32, 64) : 1;
-  density.sections = hollow ? std::clamp(2 * pieces_per_stretch * along_face + 1, 33, 129)
+  density.sections = hollow   ? std::clamp(2 * pieces_per_stretch * along_face + 1, 33, 129)
                      : fields ? std::clamp(pieces_per_stretch * along_face + 1, 17, 129)
                               : 9;
   return density;

@@ -6,9 +6,9 @@ namespace flankwright {
 
 /// How finely first contact is searched so that no maximum is missed.
 struct SearchDensity {
-  int sections{0};  ///< transverse sections over the face, both ends included
+  int sections{0};               ///< transverse sections over the face, both ends included
   double hollow_curvature{0.0};  ///< largest -d2D/dz2 along a line of contact, with what sampling may have missed [1/mm], >= 0
-  int cells{1};     ///< pieces of the profile in each section, every one searched; 1 where a section has one maximum only
+  int cells{1};                  ///< pieces of the profile in each section, every one searched; 1 where a section has one maximum only
 };
 
 /// Judged from the two flanks' deviations D = D1(rho1, z) + D2(rho2, z) along the path on which undisturbed flanks touch,

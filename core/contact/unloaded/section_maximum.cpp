@@ -52,8 +52,7 @@ Touch touch_at(const FlankContact& m) {
 }
 
 SectionMaximum SectionSearch::at(double z, const SectionMaximum& neighbour, SectionAccuracy accuracy) const {
-  const Tolerance tolerance = accuracy == SectionAccuracy::Full ? Tolerance{{1e-8, 1e-16, 1e-6}, 1e-7}
-                                                                : Tolerance{{1e-3, 1e-10, 1e-3}, 1e-3};
+  const Tolerance tolerance = accuracy == SectionAccuracy::Full ? Tolerance{{1e-8, 1e-16, 1e-6}, 1e-7} : Tolerance{{1e-3, 1e-10, 1e-3}, 1e-3};
   return cells_ == 1 ? only_maximum(z, neighbour, tolerance) : highest_maximum(z, tolerance);
 }
 
@@ -81,8 +80,7 @@ SectionMaximum SectionSearch::only_maximum(double z, const SectionMaximum& neigh
   };
   guess = std::clamp(guess, range.lo, range.hi);
   const double curvature = condition_.undisturbed_curvature(guess);
-  return settle(z, range, tolerance,
-                find_peak<Sample>(evaluate, range.lo, range.hi, guess, curvature, tolerance.peak));
+  return settle(z, range, tolerance, find_peak<Sample>(evaluate, range.lo, range.hi, guess, curvature, tolerance.peak));
 }
 
 SectionMaximum SectionSearch::highest_maximum(double z, const Tolerance& tolerance) const {
@@ -108,8 +106,7 @@ SectionMaximum SectionSearch::highest_maximum(double z, const Tolerance& toleran
     };
     const double curvature = (lower.slope() - upper.slope()) / (range.hi - range.lo);
     const double guess = std::clamp(range.lo + lower.slope() / curvature, range.lo, range.hi);
-    consider(settle(z, range, tolerance,
-                    find_peak<Sample>(evaluate, range.lo, range.hi, guess, curvature, tolerance.peak, lower, upper)));
+    consider(settle(z, range, tolerance, find_peak<Sample>(evaluate, range.lo, range.hi, guess, curvature, tolerance.peak, lower, upper)));
   };
   for (int i = 0; i < cells_; ++i) {
     Range range{samples[i].position(), samples[i + 1].position()};
@@ -135,9 +132,7 @@ SectionMaximum SectionSearch::highest_maximum(double z, const Tolerance& toleran
 /// The maximum that a search along the profile has led to, held by the wheel's circles.
 SectionMaximum SectionSearch::settle(double z, const Range& range, const Tolerance& tolerance, const Peak<Sample>& peak) const {
   FlankContact m = peak.top.at;
-  const SectionBound of_profile = !peak.at_end     ? SectionBound::None
-                                  : m.angle.rho > 0.0 ? range.at_hi
-                                                      : range.at_lo;
+  const SectionBound of_profile = !peak.at_end ? SectionBound::None : m.angle.rho > 0.0 ? range.at_hi : range.at_lo;
   SectionBound bound = of_profile;
   if (!move_onto_wheel(z, range, tolerance, m, bound)) return missing(z);
   SectionMaximum best = finish(z, m, bound);
@@ -181,8 +176,7 @@ SectionMaximum SectionSearch::finish(double z, const FlankContact& m, SectionBou
 
 /// Takes a point that lies beyond the wheel's tip or form circle to where the section crosses that. False where the section
 /// misses the wheel's flank.
-bool SectionSearch::move_onto_wheel(double z, const Range& range, const Tolerance& tolerance, FlankContact& m,
-                                    SectionBound& bound) const {
+bool SectionSearch::move_onto_wheel(double z, const Range& range, const Tolerance& tolerance, FlankContact& m, SectionBound& bound) const {
   const Flank& wheel = condition_.assembly().wheel;
   const bool above_tip = m.wheel_radius > wheel.tip_radius;
   if (!above_tip && m.wheel_radius >= wheel.form_radius) return true;

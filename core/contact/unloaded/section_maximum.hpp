@@ -21,8 +21,8 @@ struct Touch {
 /// First contact in one transverse section of the pinion: the largest wheel angle over its roll length, inside both flanks. Where
 /// the wheel's face ends before the section does, that end is the rest of it, see ContactCondition.
 struct SectionMaximum {
-  bool exists{false};  ///< false where no point of the section lies on both flanks
-  double z{0.0};       ///< height of the section [mm]; the point's own is at.z
+  bool exists{false};                                     ///< false where no point of the section lies on both flanks
+  double z{0.0};                                          ///< height of the section [mm]; the point's own is at.z
   double phi2{-std::numeric_limits<double>::infinity()};  ///< [rad]
   /// d(phi2)/dz [rad/mm], exact, bounds that move with z included; 0 where the wheel's end holds the point, and what leads
   /// back into the face where the section runs along that end to no avail.

@@ -13,10 +13,10 @@ namespace {
 
 constexpr double flat_tolerance = 1e-9;  // mm along the base tangent, see ToothContactSolver
 constexpr double flat_fraction = 1.0 / 200.0;
-constexpr double coarse_error = 1e-12;     // rad: bound on what SectionAccuracy::Coarse leaves
+constexpr double coarse_error = 1e-12;         // rad: bound on what SectionAccuracy::Coarse leaves
 constexpr double announced_share = 1.0 / 4.0;  // of an interval of the face with a maximum: halved to this, hollow flanks only
 constexpr double hidden_share = 1.0 / 64.0;    // of an interval of the face that hides a maximum: halved to this
-constexpr double angle_round_off = 1e-15;  // rad: wheel angles closer than this are the same
+constexpr double angle_round_off = 1e-15;      // rad: wheel angles closer than this are the same
 // Along the face [mm], [rad], [mm]; see profile_tolerance.
 constexpr PeakTolerance face_tolerance{1e-7, 1e-16, 1e-6};
 
@@ -61,8 +61,7 @@ std::vector<double> FaceSearch::section_heights() const {
   const double rate = condition_.roll_rate();
   // Teeth that wind around their gear meet the mate again a turn later, as another pair: half a turn to either side is this one's.
   const double half_turn = units::pi * std::min(assembly_.pinion.base_radius, assembly_.wheel.base_radius);
-  const double from_middle =
-      condition_.undisturbed_roll(0.0) - 0.5 * (condition_.lowest_undisturbed_roll() + condition_.highest_undisturbed_roll());
+  const double from_middle = condition_.undisturbed_roll(0.0) - 0.5 * (condition_.lowest_undisturbed_roll() + condition_.highest_undisturbed_roll());
   if (rate != 0.0) {
     const double middle = -from_middle / rate, half_way = half_turn / std::abs(rate);
     lo = std::max(lo, middle - half_way);
@@ -108,9 +107,7 @@ SectionMaximum FaceSearch::solve() const {
   // slope that is round-off over the span marks a maximum, or a flat valley, by itself.
   const auto inside = [&](int i) { return i >= 0 && i < count; };
   const auto exists = [&](int i) { return inside(i) && coarse[i].exists; };
-  const auto rises = [&](int i, int step) {
-    return inside(i + step) && coarse[i].slope_z * (coarse[i + step].z - coarse[i].z) > angle_round_off;
-  };
+  const auto rises = [&](int i, int step) { return inside(i + step) && coarse[i].slope_z * (coarse[i + step].z - coarse[i].z) > angle_round_off; };
   for (int i = 0; i < count; ++i) {
     if (!coarse[i].exists) continue;
     for (const int step : {1, -1}) {
@@ -190,8 +187,8 @@ SectionMaximum FaceSearch::ascend(const SectionMaximum& from, const SectionMaxim
     const SectionMaximum &free = from.bound == SectionBound::None ? from : end, &held = &free == &from ? end : from;
     guess = std::clamp(free.z + (held.at.rho - free.at.rho) / condition_.roll_rate(), rising.z, falling.z);
   }
-  const Peak<SectionMaximum> peak = find_peak<SectionMaximum>(
-      evaluate, rising.z, falling.z, guess, fall / (falling.z - rising.z), face_tolerance, rising, falling);
+  const Peak<SectionMaximum> peak =
+      find_peak<SectionMaximum>(evaluate, rising.z, falling.z, guess, fall / (falling.z - rising.z), face_tolerance, rising, falling);
   SectionMaximum top = peak.top;
   if (top.z == from.z || top.z == end.z) top = evaluate(top.z, &top);  // those were coarse
   if (peak.rising->exists && peak.falling->exists) {
@@ -212,8 +209,7 @@ bool FaceSearch::is_flat_around(const SectionMaximum& best) const {
     if (std::abs(z) > assembly_.pinion.half_face) continue;
     const SectionMaximum neighbour = search_.at(z, best, SectionAccuracy::Coarse);
     if (neighbour.at.on_wheel_end) continue;  // beyond the wheel's face it is the end's point again
-    if (neighbour.exists && neighbour.bound == best.bound &&
-        (best.phi2 - neighbour.phi2) * assembly_.wheel.base_radius <= flat_tolerance) {
+    if (neighbour.exists && neighbour.bound == best.bound && (best.phi2 - neighbour.phi2) * assembly_.wheel.base_radius <= flat_tolerance) {
       return true;
     }
   }
@@ -225,11 +221,16 @@ ContactKind FaceSearch::kind_of(const SectionMaximum& best) const {
   const bool on_face_end = !flat && is_held_by_face_end(best);
   if (best.bound != SectionBound::None && on_face_end) return ContactKind::Corner;
   switch (best.bound) {
-    case SectionBound::PinionRoot: return ContactKind::PinionRoot;
-    case SectionBound::PinionTip: return ContactKind::PinionTip;
-    case SectionBound::WheelRoot: return ContactKind::WheelRoot;
-    case SectionBound::WheelTip: return ContactKind::WheelTip;
-    case SectionBound::None: break;
+    case SectionBound::PinionRoot:
+      return ContactKind::PinionRoot;
+    case SectionBound::PinionTip:
+      return ContactKind::PinionTip;
+    case SectionBound::WheelRoot:
+      return ContactKind::WheelRoot;
+    case SectionBound::WheelTip:
+      return ContactKind::WheelTip;
+    case SectionBound::None:
+      break;
   }
   if (flat) return ContactKind::Line;
   return on_face_end ? ContactKind::FaceEnd : ContactKind::Surface;
@@ -255,21 +256,28 @@ ToothContact ToothContactSolver::find(int tooth, double phi1) const {
   return contact;
 }
 
-ToothContact find_tooth_contact(const FlankAssembly& assembly, int tooth, double phi1) {
-  return ToothContactSolver(assembly).find(tooth, phi1);
-}
+ToothContact find_tooth_contact(const FlankAssembly& assembly, int tooth, double phi1) { return ToothContactSolver(assembly).find(tooth, phi1); }
 
 const char* to_string(ContactKind kind) {
   switch (kind) {
-    case ContactKind::None: return "none";
-    case ContactKind::Line: return "line";
-    case ContactKind::Surface: return "surface";
-    case ContactKind::PinionTip: return "pinion_tip";
-    case ContactKind::WheelTip: return "wheel_tip";
-    case ContactKind::PinionRoot: return "pinion_root";
-    case ContactKind::WheelRoot: return "wheel_root";
-    case ContactKind::FaceEnd: return "face_end";
-    case ContactKind::Corner: return "corner";
+    case ContactKind::None:
+      return "none";
+    case ContactKind::Line:
+      return "line";
+    case ContactKind::Surface:
+      return "surface";
+    case ContactKind::PinionTip:
+      return "pinion_tip";
+    case ContactKind::WheelTip:
+      return "wheel_tip";
+    case ContactKind::PinionRoot:
+      return "pinion_root";
+    case ContactKind::WheelRoot:
+      return "wheel_root";
+    case ContactKind::FaceEnd:
+      return "face_end";
+    case ContactKind::Corner:
+      return "corner";
   }
   __builtin_unreachable();
 }

@@ -7,23 +7,23 @@ namespace flankwright {
 
 /// The point of the flanks at which a tooth pair touches first.
 enum class ContactKind {
-  None,        ///< the flanks do not face each other at this angle
-  Line,        ///< along a line: aligned flanks
-  Surface,     ///< inside both flanks
-  PinionTip,   ///< tip edge of the pinion
+  None,       ///< the flanks do not face each other at this angle
+  Line,       ///< along a line: aligned flanks
+  Surface,    ///< inside both flanks
+  PinionTip,  ///< tip edge of the pinion
   WheelTip,
   PinionRoot,  ///< lower end of the pinion's flank (form circle)
   WheelRoot,
-  FaceEnd,     ///< face end of either gear
-  Corner       ///< two edges at once
+  FaceEnd,  ///< face end of either gear
+  Corner    ///< two edges at once
 };
 
 /// First contact of one tooth pair at one pinion angle.
 struct ToothContact {
   ContactKind kind{ContactKind::None};
   int tooth{0};
-  double phi1{not_given};         ///< pinion angle [rad]
-  double phi2{not_given};         ///< wheel angle at first touch [rad]
+  double phi1{not_given};                                ///< pinion angle [rad]
+  double phi2{not_given};                                ///< wheel angle at first touch [rad]
   double pinion_radius{not_given}, pinion_z{not_given};  ///< on the pinion [mm], its own frame
   double wheel_radius{not_given}, wheel_z{not_given};    ///< on the wheel [mm], its own frame
   /// delta_phi2 = phi2 - (N1/N2) phi1 [rad], wheel.

@@ -23,9 +23,9 @@ struct UnloadedMesh {
   /// Extremes of the envelope over the pitch, with both its ends. Transfer points, crests and troughs between positions
   /// are located, so they hardly depend on the number of positions. Wheel [rad]; not given where `missing` > 0.
   double largest{not_given}, smallest{not_given};
-  double peak_to_peak{not_given};          ///< largest - smallest [rad]
-  std::vector<double> harmonics;           ///< amplitude of orders 1 .. 10 of the pitch, fewer where positions allow fewer [rad]
-  int missing{0};                          ///< positions at which no pair touches
+  double peak_to_peak{not_given};  ///< largest - smallest [rad]
+  std::vector<double> harmonics;   ///< amplitude of orders 1 .. 10 of the pitch, fewer where positions allow fewer [rad]
+  int missing{0};                  ///< positions at which no pair touches
 };
 
 /// Tooth contact analysis over one pitch of the pinion, phi1 = -pi/N1 .. pi/N1. A transfer point at the very end of the

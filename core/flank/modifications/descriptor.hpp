@@ -14,9 +14,9 @@ enum class ModificationClass { Lead, Profile, Topography };
 
 /// What a parameter of a modification measures. Units inside the program: mm, and 1/rad for TeParabola.
 enum class ParameterKind {
-  Amount,    ///< material removed; enters the removal linearly
-  Extent,    ///< height or length over which an amount is spread, > 0 where the amount is not 0
-  TeParabola ///< a of a transmission error -a phi1^2; enters linearly
+  Amount,     ///< material removed; enters the removal linearly
+  Extent,     ///< height or length over which an amount is spread, > 0 where the amount is not 0
+  TeParabola  ///< a of a transmission error -a phi1^2; enters linearly
 };
 
 /// Unit in study files and reports.
@@ -36,7 +36,7 @@ struct ParameterText {
   std::string_view sense{};   ///< what a positive value does, where its sign can be mistaken
   std::string_view meaning;   ///< the line of the key reference
   ParameterKind kind{ParameterKind::Amount};
-  std::string_view extent{};  ///< key of the extent over which this amount is spread; empty: it needs none
+  std::string_view extent{};              ///< key of the extent over which this amount is spread; empty: it needs none
   std::string_view half{}, other_half{};  ///< keys of the two parameters that this one sets at once; empty: it is an independent number
 };
 
@@ -80,17 +80,22 @@ struct PolynomialAmounts {
 
 /// A modification whose removal is part of the polynomial: m.add_to(amounts).
 template <class M>
-concept PolynomialModification = requires(const M m, PolynomialAmounts& amounts) { m.add_to(amounts); };
+concept PolynomialModification = requires(const M m, PolynomialAmounts& amounts) {
+  m.add_to(amounts);
+};
 
 /// A modification whose removal is a separate term: M::Term(m, frame), then term.add(r, z, jet).
 template <class M>
-concept TermModification = requires { typename M::Term; };
+concept TermModification = requires {
+  typename M::Term;
+};
 
 /// The definition of a modification: its numbers as members (all 0: nothing is removed), its class, a row for each
 /// number and its removal.
 template <class M>
-concept DescribedModification = std::default_initializable<M> && std::equality_comparable<M> &&
-                                requires { { M::flank_class } -> std::convertible_to<ModificationClass>; M::parameters(); } &&
-                                (PolynomialModification<M> || TermModification<M>);
+concept DescribedModification = std::default_initializable<M> && std::equality_comparable<M> && requires {
+  { M::flank_class } -> std::convertible_to<ModificationClass>;
+  M::parameters();
+} &&(PolynomialModification<M> || TermModification<M>);
 
 }  // namespace flankwright

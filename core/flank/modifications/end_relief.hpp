@@ -14,15 +14,21 @@ struct EndReliefs {
   static constexpr ModificationClass flank_class = ModificationClass::Lead;
   static constexpr auto parameters() {
     using M = EndReliefs;
-    return std::array{row<M, &M::end_relief, &EndRelief::amount>({.key = "end_relief.amount", .name = "end relief", .symbol = "C_βI, C_βII",
-                                                                  .meaning = "removed at both face ends, linear", .extent = "end_relief.length"}),
-                      row<M, &M::end_relief, &EndRelief::length>(
-                          {.key = "end_relief.length", .name = "end relief length", .symbol = "L_CβI, L_CβII",
-                           .meaning = "axial, from each face end; above 0 where there is an amount", .kind = ParameterKind::Extent},
-                          [](const M& m, const FlankFrame& frame, double, double z) {
-                            const double start = 0.5 * frame.face_width - m.end_relief.length;
-                            return slope_by_extent(m.end_relief.amount, m.end_relief.length, ReliefShape::Linear, std::abs(z) - start);
-                          })};
+    return std::array{row<M, &M::end_relief, &EndRelief::amount>({.key = "end_relief.amount",
+                                                                  .name = "end relief",
+                                                                  .symbol = "C_βI, C_βII",
+                                                                  .meaning = "removed at both face ends, linear",
+                                                                  .extent = "end_relief.length"}),
+                      row<M, &M::end_relief, &EndRelief::length>({.key = "end_relief.length",
+                                                                  .name = "end relief length",
+                                                                  .symbol = "L_CβI, L_CβII",
+                                                                  .meaning = "axial, from each face end; above 0 where there is an amount",
+                                                                  .kind = ParameterKind::Extent},
+                                                                 [](const M& m, const FlankFrame& frame, double, double z) {
+                                                                   const double start = 0.5 * frame.face_width - m.end_relief.length;
+                                                                   return slope_by_extent(m.end_relief.amount, m.end_relief.length,
+                                                                                          ReliefShape::Linear, std::abs(z) - start);
+                                                                 })};
   }
 
   struct Term {

@@ -10,9 +10,11 @@ struct LeadSlope {
 
   static constexpr ModificationClass flank_class = ModificationClass::Lead;
   static constexpr auto parameters() {
-    return std::array{row<LeadSlope, &LeadSlope::lead_slope>(
-        {.key = "lead_slope", .name = "lead slope", .symbol = "C_Hβ", .sense = "+ removes at z = +b/2",
-         .meaning = "C_Hbeta over the face width; + removes at z = +b/2, zero at mid face"})};
+    return std::array{row<LeadSlope, &LeadSlope::lead_slope>({.key = "lead_slope",
+                                                              .name = "lead slope",
+                                                              .symbol = "C_Hβ",
+                                                              .sense = "+ removes at z = +b/2",
+                                                              .meaning = "C_Hbeta over the face width; + removes at z = +b/2, zero at mid face"})};
   }
   void add_to(PolynomialAmounts& sum) const { sum.lead_slope += lead_slope; }
   bool operator==(const LeadSlope&) const = default;

@@ -50,7 +50,9 @@ constexpr std::size_t choice_count = [] {
 template <class List, class M, std::size_t I>
 constexpr DescriptorOf<List> describe() {
   constexpr ParameterRow<M> row = M::parameters()[I];
-  DescriptorOf<List> described{row.text, {}, M::flank_class,
+  DescriptorOf<List> described{row.text,
+                               {},
+                               M::flank_class,
                                [](const List& m) {
                                  constexpr auto of = M::parameters()[I].get;
                                  return of(m);
@@ -88,16 +90,14 @@ constexpr auto joined(const Rows&... rows) {
 
 template <class List, class M>
 constexpr auto describe_one() {
-  return []<std::size_t... I>(std::index_sequence<I...>) {
-    return std::array<DescriptorOf<List>, sizeof...(I)>{describe<List, M, I>()...};
-  }(std::make_index_sequence<M::parameters().size()>());
+  return []<std::size_t... I>(std::index_sequence<I...>) { return std::array<DescriptorOf<List>, sizeof...(I)>{describe<List, M, I>()...}; }
+  (std::make_index_sequence<M::parameters().size()>());
 }
 
 template <class List, class M>
 constexpr auto describe_choices() {
-  return []<std::size_t... I>(std::index_sequence<I...>) {
-    return std::array<ChoiceOf<List>, sizeof...(I)>{describe_choice<List, M, I>()...};
-  }(std::make_index_sequence<choice_count<M>>());
+  return []<std::size_t... I>(std::index_sequence<I...>) { return std::array<ChoiceOf<List>, sizeof...(I)>{describe_choice<List, M, I>()...}; }
+  (std::make_index_sequence<choice_count<M>>());
 }
 
 }  // namespace detail

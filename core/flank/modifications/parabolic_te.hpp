@@ -16,7 +16,8 @@ struct ParabolicTe {
   static constexpr ModificationClass flank_class = ModificationClass::Topography;
   static constexpr auto parameters() {
     return std::array{row<ParabolicTe, &ParabolicTe::parabolic_te>(
-        {.key = "parabolic_te", .name = "parabolic transmission error",
+        {.key = "parabolic_te",
+         .name = "parabolic transmission error",
          .meaning = "a of the predesigned transmission error -a phi1^2: removed along the contact line of pinion angle phi1",
          .kind = ParameterKind::TeParabola})};
   }
@@ -27,7 +28,9 @@ struct ParabolicTe {
 
     Term(const ParabolicTe& m, const FlankFrame& frame)
         : amount(m.parabolic_te == 0.0 ? 0.0 : frame.wheel_base_radius * m.parabolic_te * frame.pinion_turn * frame.pinion_turn),
-          base_radius(frame.base_radius), pitch_roll(frame.pitch_roll), helix_rate(frame.helix_rate) {}
+          base_radius(frame.base_radius),
+          pitch_roll(frame.pitch_roll),
+          helix_rate(frame.helix_rate) {}
     void add(double r, double z, Jet& d) const {
       if (amount == 0.0) return;
       const double rho = std::sqrt((r - base_radius) * (r + base_radius)), k = amount;

@@ -14,14 +14,18 @@ struct ProfileCrowning {
   static constexpr auto parameters() {
     using M = ProfileCrowning;
     return std::array{
-        ParameterRow<M>{{.key = "profile_crowning", .name = "profile crowning", .symbol = "C_α",
+        ParameterRow<M>{{.key = "profile_crowning",
+                         .name = "profile crowning",
+                         .symbol = "C_α",
                          .meaning = "C_alpha: addendum and dedendum crowning at once",
-                         .half = "addendum_crowning", .other_half = "dedendum_crowning"},
+                         .half = "addendum_crowning",
+                         .other_half = "dedendum_crowning"},
                         [](const M& m) { return 0.5 * (m.addendum_crowning + m.dedendum_crowning); },
                         [](M& m, double value) { m.addendum_crowning = m.dedendum_crowning = value; }},
-        row<M, &M::addendum_crowning>({.key = "addendum_crowning", .name = "addendum crowning",
-                                       .meaning = "removed at the tip, parabola from the pitch point up"}),
-        row<M, &M::dedendum_crowning>({.key = "dedendum_crowning", .name = "dedendum crowning",
+        row<M, &M::addendum_crowning>(
+            {.key = "addendum_crowning", .name = "addendum crowning", .meaning = "removed at the tip, parabola from the pitch point up"}),
+        row<M, &M::dedendum_crowning>({.key = "dedendum_crowning",
+                                       .name = "dedendum crowning",
                                        .meaning = "removed at the start of active profile, parabola from the pitch point down"})};
   }
   void add_to(PolynomialAmounts& sum) const {

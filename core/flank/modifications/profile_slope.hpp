@@ -11,7 +11,10 @@ struct ProfileSlope {
   static constexpr ModificationClass flank_class = ModificationClass::Profile;
   static constexpr auto parameters() {
     return std::array{row<ProfileSlope, &ProfileSlope::profile_slope>(
-        {.key = "profile_slope", .name = "profile slope", .symbol = "C_Hα", .sense = "+ removes at the tip",
+        {.key = "profile_slope",
+         .name = "profile slope",
+         .symbol = "C_Hα",
+         .sense = "+ removes at the tip",
          .meaning = "C_Halpha over the active profile height; + removes at the tip, zero at the pitch point"})};
   }
   void add_to(PolynomialAmounts& sum) const { sum.profile_slope += profile_slope; }

@@ -9,8 +9,8 @@ enum class ReliefShape { Linear, Parabolic };
 
 /// Relief measured radially from the tip downwards (tip) or from the start of active profile upwards (root).
 struct ProfileRelief {
-  double amount{0.0};   ///< material removed at the tip / at the start of active profile [mm]
-  double height{0.0};   ///< radial extent [mm], > 0 where amount != 0
+  double amount{0.0};  ///< material removed at the tip / at the start of active profile [mm]
+  double height{0.0};  ///< radial extent [mm], > 0 where amount != 0
   ReliefShape shape{ReliefShape::Linear};
   bool operator==(const ProfileRelief&) const = default;
 };

@@ -12,19 +12,25 @@ struct RootRelief {
   static constexpr ModificationClass flank_class = ModificationClass::Profile;
   static constexpr auto parameters() {
     using M = RootRelief;
-    return std::array{row<M, &M::root_relief, &ProfileRelief::amount>(
-                          {.key = "root_relief.amount", .name = "root relief", .symbol = "C_αf",
-                           .meaning = "C_alpha_f, removed at the start of active profile", .extent = "root_relief.height"}),
+    return std::array{row<M, &M::root_relief, &ProfileRelief::amount>({.key = "root_relief.amount",
+                                                                       .name = "root relief",
+                                                                       .symbol = "C_αf",
+                                                                       .meaning = "C_alpha_f, removed at the start of active profile",
+                                                                       .extent = "root_relief.height"}),
                       row<M, &M::root_relief, &ProfileRelief::height>(
-                          {.key = "root_relief.height", .name = "root relief height",
-                           .meaning = "radial, from the start of active profile up; above 0 where there is an amount", .kind = ParameterKind::Extent},
+                          {.key = "root_relief.height",
+                           .name = "root relief height",
+                           .meaning = "radial, from the start of active profile up; above 0 where there is an amount",
+                           .kind = ParameterKind::Extent},
                           [](const M& m, const FlankFrame& frame, double r, double) {
                             const ProfileRelief& relief = m.root_relief;
                             return slope_by_extent(relief.amount, relief.height, relief.shape, frame.active_root_radius + relief.height - r);
                           })};
   }
   static constexpr auto choices() {
-    return std::array{ChoiceRow<RootRelief>{"root_relief.shape", "root relief shape", {"linear", "parabolic"},
+    return std::array{ChoiceRow<RootRelief>{"root_relief.shape",
+                                            "root relief shape",
+                                            {"linear", "parabolic"},
                                             "between its start and the start of active profile",
                                             [](auto& m, std::size_t word) { m.root_relief.shape = static_cast<ReliefShape>(word); }}};
   }

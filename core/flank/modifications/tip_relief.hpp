@@ -12,21 +12,26 @@ struct TipRelief {
   static constexpr ModificationClass flank_class = ModificationClass::Profile;
   static constexpr auto parameters() {
     using M = TipRelief;
-    return std::array{row<M, &M::tip_relief, &ProfileRelief::amount>(
-                          {.key = "tip_relief.amount", .name = "tip relief", .symbol = "C_αa",
-                           .meaning = "C_alpha_a, removed at the tip", .extent = "tip_relief.height"}),
-                      row<M, &M::tip_relief, &ProfileRelief::height>(
-                          {.key = "tip_relief.height", .name = "tip relief height",
-                           .meaning = "radial, from the tip down; above 0 where there is an amount", .kind = ParameterKind::Extent},
-                          [](const M& m, const FlankFrame& frame, double r, double) {
-                            const ProfileRelief& relief = m.tip_relief;
-                            return slope_by_extent(relief.amount, relief.height, relief.shape, r - (frame.tip_radius - relief.height));
-                          })};
+    return std::array{row<M, &M::tip_relief, &ProfileRelief::amount>({.key = "tip_relief.amount",
+                                                                      .name = "tip relief",
+                                                                      .symbol = "C_αa",
+                                                                      .meaning = "C_alpha_a, removed at the tip",
+                                                                      .extent = "tip_relief.height"}),
+                      row<M, &M::tip_relief, &ProfileRelief::height>({.key = "tip_relief.height",
+                                                                      .name = "tip relief height",
+                                                                      .meaning = "radial, from the tip down; above 0 where there is an amount",
+                                                                      .kind = ParameterKind::Extent},
+                                                                     [](const M& m, const FlankFrame& frame, double r, double) {
+                                                                       const ProfileRelief& relief = m.tip_relief;
+                                                                       return slope_by_extent(relief.amount, relief.height, relief.shape,
+                                                                                              r - (frame.tip_radius - relief.height));
+                                                                     })};
   }
   static constexpr auto choices() {
-    return std::array{ChoiceRow<TipRelief>{"tip_relief.shape", "tip relief shape", {"linear", "parabolic"},
-                                           "between its start and the tip",
-                                           [](auto& m, std::size_t word) { m.tip_relief.shape = static_cast<ReliefShape>(word); }}};
+    return std::array{ChoiceRow<TipRelief>{
+        "tip_relief.shape", "tip relief shape", {"linear", "parabolic"}, "between its start and the tip", [](auto& m, std::size_t word) {
+          m.tip_relief.shape = static_cast<ReliefShape>(word);
+        }}};
   }
 
   struct Term {

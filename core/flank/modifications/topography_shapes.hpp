@@ -21,8 +21,7 @@ inline constexpr std::array<TopographyShape, 11> topography_shapes{{
      "removed c P_0(profile) P_2(face): Legendre polynomials, -1 at the start of active profile and z = -b/2 .. 1 at the tip and z = +b/2"},
     {2, 0, "topography.profile_2", "topography, profile order 2", "Legendre polynomials; + removes at tip and root",
      "the same with P_2(profile) P_0(face)"},
-    {0, 3, "topography.face_3", "topography, lead order 3", "Legendre polynomials; + removes at z = +b/2",
-     "the same with P_0(profile) P_3(face)"},
+    {0, 3, "topography.face_3", "topography, lead order 3", "Legendre polynomials; + removes at z = +b/2", "the same with P_0(profile) P_3(face)"},
     {3, 0, "topography.profile_3", "topography, profile order 3", "Legendre polynomials; + removes at the tip",
      "the same with P_3(profile) P_0(face)"},
     {1, 2, "topography.profile_1_face_2", "topography, profile order 1 by lead order 2",
@@ -33,12 +32,12 @@ inline constexpr std::array<TopographyShape, 11> topography_shapes{{
      "the same with P_0(profile) P_4(face)"},
     {4, 0, "topography.profile_4", "topography, profile order 4", "Legendre polynomials; + removes at tip and root",
      "the same with P_4(profile) P_0(face)"},
-    {1, 3, "topography.profile_1_face_3", "topography, profile order 1 by lead order 3",
-     "Legendre polynomials; + removes at the tip at z = +b/2", "the same with P_1(profile) P_3(face)"},
-    {3, 1, "topography.profile_3_face_1", "topography, profile order 3 by lead order 1",
-     "Legendre polynomials; + removes at the tip at z = +b/2", "the same with P_3(profile) P_1(face)"},
-    {2, 2, "topography.profile_2_face_2", "topography, profile order 2 by lead order 2",
-     "Legendre polynomials; + removes at the four corners", "the same with P_2(profile) P_2(face)"},
+    {1, 3, "topography.profile_1_face_3", "topography, profile order 1 by lead order 3", "Legendre polynomials; + removes at the tip at z = +b/2",
+     "the same with P_1(profile) P_3(face)"},
+    {3, 1, "topography.profile_3_face_1", "topography, profile order 3 by lead order 1", "Legendre polynomials; + removes at the tip at z = +b/2",
+     "the same with P_3(profile) P_1(face)"},
+    {2, 2, "topography.profile_2_face_2", "topography, profile order 2 by lead order 2", "Legendre polynomials; + removes at the four corners",
+     "the same with P_2(profile) P_2(face)"},
 }};
 
 /// Sum of c_ij P_i((2 r - r_a - r_Nf)/(r_a - r_Nf)) P_j(2z/b) over topography_shapes.
@@ -48,12 +47,14 @@ struct TopographyShapes {
   static constexpr ModificationClass flank_class = ModificationClass::Topography;
   static constexpr auto parameters() {
     return []<std::size_t... K>(std::index_sequence<K...>) {
-      return std::array{ParameterRow<TopographyShapes>{
-          {.key = topography_shapes[K].key, .name = topography_shapes[K].name,
-           .sense = topography_shapes[K].sense, .meaning = topography_shapes[K].meaning},
-          [](const TopographyShapes& m) { return m.shapes[K]; },
-          [](TopographyShapes& m, double value) { m.shapes[K] = value; }}...};
-    }(std::make_index_sequence<topography_shapes.size()>());
+      return std::array{ParameterRow<TopographyShapes>{{.key = topography_shapes[K].key,
+                                                        .name = topography_shapes[K].name,
+                                                        .sense = topography_shapes[K].sense,
+                                                        .meaning = topography_shapes[K].meaning},
+                                                       [](const TopographyShapes& m) { return m.shapes[K]; },
+                                                       [](TopographyShapes& m, double value) { m.shapes[K] = value; }}...};
+    }
+    (std::make_index_sequence<topography_shapes.size()>());
   }
 
   class Term {

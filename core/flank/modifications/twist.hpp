@@ -10,9 +10,11 @@ struct Twist {
 
   static constexpr ModificationClass flank_class = ModificationClass::Topography;
   static constexpr auto parameters() {
-    return std::array{row<Twist, &Twist::twist>(
-        {.key = "twist", .name = "twist", .symbol = "S_α", .sense = "+ removes at the tip at z = +b/2",
-         .meaning = "removed twist * (y / h_active) * (z / b); + removes at the tip at z = +b/2"})};
+    return std::array{row<Twist, &Twist::twist>({.key = "twist",
+                                                 .name = "twist",
+                                                 .symbol = "S_α",
+                                                 .sense = "+ removes at the tip at z = +b/2",
+                                                 .meaning = "removed twist * (y / h_active) * (z / b); + removes at the tip at z = +b/2"})};
   }
   void add_to(PolynomialAmounts& sum) const { sum.twist += twist; }
   bool operator==(const Twist&) const = default;

@@ -9,9 +9,8 @@
 namespace flankwright {
 
 const char* name_of(Figure figure) {
-  constexpr std::array<const char*, figure_count> names{
-      "te_mean",        "te_peak_to_peak", "te_harmonic_1",       "te_harmonic_2",  "te_harmonic_3",
-      "te_harmonic_4",  "te_harmonic_5",   "peak_contact_stress", "peak_line_load", "load_factor"};
+  constexpr std::array<const char*, figure_count> names{"te_mean",       "te_peak_to_peak", "te_harmonic_1",       "te_harmonic_2",  "te_harmonic_3",
+                                                        "te_harmonic_4", "te_harmonic_5",   "peak_contact_stress", "peak_line_load", "load_factor"};
   return names[static_cast<std::size_t>(figure)];
 }
 
@@ -32,9 +31,7 @@ PerFigure figure_errors(const CycleFigures& figures, const CycleFigures& referen
   PerFigure errors{};
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const Figure figure = static_cast<Figure>(i);
-    const double scale = figure == Figure::TeMean              ? reference.mean_approach
-                         : figure < Figure::PeakContactStress ? variation
-                                                               : reference.value[i];
+    const double scale = figure == Figure::TeMean ? reference.mean_approach : figure < Figure::PeakContactStress ? variation : reference.value[i];
     errors[i] = std::abs(figures.value[i] - reference.value[i]) / scale;
   }
   return errors;

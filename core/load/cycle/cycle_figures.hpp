@@ -10,7 +10,16 @@ namespace flankwright {
 
 /// The quantities in which the accuracy of a loaded cycle is measured.
 enum class Figure {
-  TeMean, TePeakToPeak, TeHarmonic1, TeHarmonic2, TeHarmonic3, TeHarmonic4, TeHarmonic5, PeakContactStress, PeakLineLoad, LoadFactor
+  TeMean,
+  TePeakToPeak,
+  TeHarmonic1,
+  TeHarmonic2,
+  TeHarmonic3,
+  TeHarmonic4,
+  TeHarmonic5,
+  PeakContactStress,
+  PeakLineLoad,
+  LoadFactor
 };
 inline constexpr int figure_count = 10;
 inline constexpr int figure_harmonics = 5;
@@ -28,7 +37,7 @@ double headline(const PerFigure& values);
 PerFigure root_sum_square(const PerFigure& a, const PerFigure& b);
 
 struct CycleFigures {
-  PerFigure value{};              ///< transmission error [mm], stress [MPa], line load [N/mm], load factor [-]
+  PerFigure value{};                ///< transmission error [mm], stress [MPa], line load [N/mm], load factor [-]
   double mean_approach{not_given};  ///< mean of f_t - min(g): the approach of the flanks [mm]
   /// Of f_t, orders 1 .. figure_harmonics; their moduli are the harmonics. NaN beyond what the positions resolve [mm].
   std::array<std::complex<double>, figure_harmonics> te_phasor{};
@@ -71,11 +80,11 @@ class SampledCycle {
   PerFigure unseen() const;
 
  private:
-  std::vector<double> te_;                   ///< f_t [mm]
+  std::vector<double> te_;                       ///< f_t [mm]
   std::vector<double> peak_stress_, peak_load_;  ///< of each position [MPa], [N/mm]
-  double approach_{0.0};         ///< sum over the positions [mm]
-  double line_length_{0.0};      ///< on the theoretical path, sum over the positions [mm]
-  double force_{not_given};      ///< [N]
+  double approach_{0.0};                         ///< sum over the positions [mm]
+  double line_length_{0.0};                      ///< on the theoretical path, sum over the positions [mm]
+  double force_{not_given};                      ///< [N]
   int failures_{0};
 };
 

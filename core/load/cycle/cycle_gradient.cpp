@@ -31,7 +31,9 @@ PeakLocation location_of_peak(const LoadedCycle& cycle, const Values& values_of)
   return location;
 }
 
-const LoadedPosition& at(const LoadedCycle& cycle, const PeakLocation& location) { return cycle.positions[static_cast<std::size_t>(location.position)]; }
+const LoadedPosition& at(const LoadedCycle& cycle, const PeakLocation& location) {
+  return cycle.positions[static_cast<std::size_t>(location.position)];
+}
 
 /// A secant stiffness ~ F / (b approach) follows all three.
 Eigen::RowVectorXd secant_derivative(const LoadedCycle& cycle, double stiffness, double approach, const Eigen::RowVectorXd& d_approach) {
@@ -114,10 +116,12 @@ CycleGradient summary_gradient(const MeshModel& model, const LoadedCycle& cycle,
     gradient.te_harmonics.row(k) = te_harmonic(cycle, static_cast<int>(k) + 1).derivative;
   }
 
-  const PeakLocation load = location_of_peak(cycle, [](const LoadedPosition& p) -> const auto& { return p.load.line_load; });
+  const PeakLocation load = location_of_peak(
+      cycle, [](const LoadedPosition& p) -> const auto& { return p.load.line_load; });
   gradient.peak_line_load = at(cycle, load).line_load_derivative.row(load.index);
   gradient.load_factor = load_factor_derivative(model, cycle, load.position, load.index);
-  const PeakLocation stress = location_of_peak(cycle, [](const LoadedPosition& p) -> const auto& { return p.contact_stress; });
+  const PeakLocation stress = location_of_peak(
+      cycle, [](const LoadedPosition& p) -> const auto& { return p.contact_stress; });
   gradient.peak_contact_stress = at(cycle, stress).contact_stress_derivative.row(stress.index);
   gradient.pinion_root_stress = root_gradient(model, cycle, Member::Pinion);
   gradient.wheel_root_stress = root_gradient(model, cycle, Member::Wheel);

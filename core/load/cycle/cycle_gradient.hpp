@@ -9,9 +9,9 @@ namespace flankwright {
 
 /// Amplitude of one order of f_t over equally spaced positions.
 struct TeHarmonic {
-  double amplitude{not_given};     ///< [mm]
-  Eigen::RowVectorXd derivative;   ///< 1 x m; at amplitude 0, where it has a kink, 0, one of its subgradients
-  std::complex<double> phasor;     ///< its modulus is the amplitude [mm]
+  double amplitude{not_given};            ///< [mm]
+  Eigen::RowVectorXd derivative;          ///< 1 x m; at amplitude 0, where it has a kink, 0, one of its subgradients
+  std::complex<double> phasor;            ///< its modulus is the amplitude [mm]
   Eigen::RowVectorXcd phasor_derivative;  ///< 1 x m; smooth at amplitude 0 as well
 };
 /// @param order  below half the number of positions, >= 1

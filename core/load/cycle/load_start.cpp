@@ -70,8 +70,8 @@ Eigen::VectorXd starting_loads(const MeshModel& model, const LoadedCycle& cycle,
   const auto loads_of = [](const LoadedCycle& of, std::size_t k) -> const Eigen::VectorXd& { return of.positions[k].load.line_load; };
   const auto solved = [](const LoadedCycle& of, std::size_t k) { return of.positions[k].load.usable(); };
   const Eigen::Index n = std::ssize(model.positions[i].points);
-  const bool follows = earlier != nullptr && earlier->positions.size() == model.positions.size() && solved(*earlier, i) &&
-                       loads_of(*earlier, i).size() == n;
+  const bool follows =
+      earlier != nullptr && earlier->positions.size() == model.positions.size() && solved(*earlier, i) && loads_of(*earlier, i).size() == n;
   const auto known = [&](std::size_t back) { return i >= back && solved(cycle, i - back) && (!follows || solved(*earlier, i - back)); };
   if (!known(1)) return follows ? loads_of(*earlier, i) : Eigen::VectorXd();
 
@@ -81,10 +81,12 @@ Eigen::VectorXd starting_loads(const MeshModel& model, const LoadedCycle& cycle,
     Eigen::VectorXd change = loads_of(cycle, i - back);
     if (follows) change -= loads_of(*earlier, i - back);
     const std::vector<Eigen::Index> at = corresponding_points(model.positions[i - back], model.positions[i]);
-    return Eigen::VectorXd::NullaryExpr(n, [&](Eigen::Index j) {
-      const Eigen::Index k = at[static_cast<std::size_t>(j)];
-      return k < 0 ? not_given : change[k];
-    }).eval();
+    return Eigen::VectorXd::NullaryExpr(n,
+                                        [&](Eigen::Index j) {
+                                          const Eigen::Index k = at[static_cast<std::size_t>(j)];
+                                          return k < 0 ? not_given : change[k];
+                                        })
+        .eval();
   };
   const Eigen::VectorXd last = carried(1);
   const Eigen::VectorXd before = known(2) ? carried(2) : last;

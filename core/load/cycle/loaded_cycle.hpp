@@ -12,29 +12,30 @@ namespace flankwright {
 struct LoadedPosition {
   double phase{not_given};
   LoadDistribution load;
-  Gap gap;                           ///< before load
-  Eigen::VectorXd contact_stress;    ///< sigma_H per point [MPa]
+  Gap gap;                         ///< before load
+  Eigen::VectorXd contact_stress;  ///< sigma_H per point [MPa]
   /// Largest principal stress at every point of MeshPosition::root_stress [MPa]; empty without, or where it was left
   /// for later.
   Eigen::VectorXd root_stress;
-  double stiffness{not_given};       ///< secant, transverse, per mm of face width [N/(mm um)]; see analyse_cycle()
+  double stiffness{not_given};  ///< secant, transverse, per mm of face width [N/(mm um)]; see analyse_cycle()
   // Derivatives with respect to the parameters, one column each; those of root_stress: see root_stress_derivative().
-  Eigen::MatrixXd gap_derivative;             ///< d(gap.total)/dp, n x m
-  Eigen::MatrixXd line_load_derivative;       ///< dw/dp, n x m
-  Eigen::MatrixXd contact_stress_derivative;  ///< dsigma_H/dp, n x m
+  Eigen::MatrixXd gap_derivative;                    ///< d(gap.total)/dp, n x m
+  Eigen::MatrixXd line_load_derivative;              ///< dw/dp, n x m
+  Eigen::MatrixXd contact_stress_derivative;         ///< dsigma_H/dp, n x m
   Eigen::RowVectorXd transmission_error_derivative;  ///< df_t/dp, 1 x m
   Eigen::RowVectorXd approach_derivative;            ///< of f_t - min(g), one point's where several are nearest, 1 x m
-  Eigen::MatrixXd root_influence_derivative;  ///< of RootStressInfluence::components a w at held loads, three rows a fillet point, m columns; empty where no parameter moves the mesh
+  Eigen::MatrixXd
+      root_influence_derivative;  ///< of RootStressInfluence::components a w at held loads, three rows a fillet point, m columns; empty where no parameter moves the mesh
 };
 
 /// Loaded contact over the positions of a MeshModel.
 struct LoadedCycle {
   std::vector<LoadedPosition> positions;
-  double force{not_given};   ///< normal force [N]
+  double force{not_given};              ///< normal force [N]
   Eigen::RowVectorXd force_derivative;  ///< dF/dp, 1 x m
   /// Relative derivatives of MeshModel::face_width and of the length of contact lines that mean_line_load() takes, 1 x m.
   Eigen::RowVectorXd face_width_change, line_length_change;
-  int failures{0};           ///< positions without a usable load distribution
+  int failures{0};  ///< positions without a usable load distribution
 
   /// f_t of every position [mm]; NaN where a position failed.
   Eigen::VectorXd transmission_error() const;

@@ -27,8 +27,7 @@ void fill_stress(const MeshModel& model, const MeshPosition& at, LoadedPosition&
     if (w[i] <= 0.0) continue;
     const double radius = at.points[static_cast<std::size_t>(i)].relative_radius;
     position.contact_stress[i] = std::sqrt(w[i] * model.contact_modulus / (units::pi * radius));
-    position.contact_stress_derivative.row(i) =
-        position.contact_stress[i] / (2.0 * w[i]) * position.line_load_derivative.row(i);
+    position.contact_stress_derivative.row(i) = position.contact_stress[i] / (2.0 * w[i]) * position.line_load_derivative.row(i);
   }
 }
 
@@ -45,7 +44,8 @@ struct MovedMesh {
 };
 
 /// Without force flanks touch at the nearest point, and move with it.
-void fill_derivatives(const LoadProblemView& problem, const LoadSolver& solver, const std::vector<MovedMesh>& moved, ParameterSlopes slopes, LoadedPosition& position) {
+void fill_derivatives(const LoadProblemView& problem, const LoadSolver& solver, const std::vector<MovedMesh>& moved, ParameterSlopes slopes,
+                      LoadedPosition& position) {
   const Eigen::Index n = problem.gap.size(), m = slopes.gap.cols();
   for (const auto& [p, slope] : moved) slopes.gap.col(p) = slope.gap;
   position.line_load_derivative = Eigen::MatrixXd::Zero(n, m);
@@ -80,9 +80,8 @@ void add_moved_places(const MeshPosition& at, const std::vector<MovedMesh>& move
 
 }  // namespace
 
-LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
-                          const std::vector<MeshParameter>& parameters, const LoadOptions& options, RootStresses root_stresses,
-                          const LoadedCycle* earlier) {
+LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque, const std::vector<MeshParameter>& parameters,
+                          const LoadOptions& options, RootStresses root_stresses, const LoadedCycle* earlier) {
   LoadedCycle cycle;
   cycle.force = model.normal_force(pinion_torque);
   cycle.positions.resize(model.positions.size());

@@ -42,7 +42,7 @@ Eigen::RowVectorXd root_stress_derivative(const MeshPosition& at, const LoadedPo
 /// The largest root stress of one gear: tension side, largest principal stress at the surface.
 struct RootStressPeak {
   double stress{not_given};          ///< over all teeth and points [MPa]
-  RootStation station{};                 ///< where; the pair's tooth and z
+  RootStation station{};             ///< where; the pair's tooth and z
   double phase{not_given};           ///< of the position [base pitches]
   double tangent_stress{not_given};  ///< the same over the points at the 30 deg tangent only [MPa]
 };
@@ -61,18 +61,18 @@ Eigen::Index highest_root_stress(const MeshPosition& at, const LoadedPosition& p
 
 /// The main figures of a cycle.
 struct CycleSummary {
-  double te_peak_to_peak{not_given};           ///< of f_t over the positions [mm]
-  std::vector<double> te_harmonics;            ///< amplitudes of orders 1 .. 10 of the base pitch [mm]; empty for explicit phases
-  double te_mean{not_given};                   ///< [mm]
-  double peak_line_load{not_given};            ///< [N/mm]
-  double peak_contact_stress{not_given};       ///< [MPa]
-  double mean_stiffness{not_given};            ///< Haddad eq. 2.17b [N/(mm um)]
-  double least_stiffness{not_given}, largest_stiffness{not_given};  ///< eq. 2.16b over the positions [N/(mm um)]
+  double te_peak_to_peak{not_given};      ///< of f_t over the positions [mm]
+  std::vector<double> te_harmonics;       ///< amplitudes of orders 1 .. 10 of the base pitch [mm]; empty for explicit phases
+  double te_mean{not_given};              ///< [mm]
+  double peak_line_load{not_given};       ///< [N/mm]
+  double peak_contact_stress{not_given};  ///< [MPa]
+  double mean_stiffness{not_given};       ///< Haddad eq. 2.17b [N/(mm um)]
+  double least_stiffness{not_given}, largest_stiffness{not_given};                                       ///< eq. 2.16b over the positions [N/(mm um)]
   double stiffness_variation() const { return (largest_stiffness - least_stiffness) / mean_stiffness; }  ///< [-]
   /// Peak line load over the mean line load F / (mean length of the contact lines on the theoretical path) [-].
   double load_factor{not_given};
   double worst_kkt_residual{not_given};
-  double worst_condition{not_given};           ///< largest LoadDistribution::condition [-]
+  double worst_condition{not_given};                     ///< largest LoadDistribution::condition [-]
   RootStressPeak pinion_root_stress, wheel_root_stress;  ///< over the positions; NaN where the model has none
   double peak_root_stress{not_given};                    ///< the larger of both [MPa]
 };

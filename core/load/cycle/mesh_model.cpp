@@ -13,8 +13,8 @@ namespace {
 
 constexpr std::initializer_list<EffectStage> local_stages{EffectStage::ContactSite, EffectStage::ContactLaw};
 
-MeshPosition make_position(const MeshModel& model, const MeshParts& parts, const PathOfContact& path, const Quadrature& quadrature,
-                           double phase, const LineInterval& face) {
+MeshPosition make_position(const MeshModel& model, const MeshParts& parts, const PathOfContact& path, const Quadrature& quadrature, double phase,
+                           const LineInterval& face) {
   MeshBuilder builder(parts, phase);
   model.effects.act(EffectStage::Region, builder);
   builder.set_points(contact_points(model.pair, path, quadrature, phase, builder.with_extended_region, face.begin, face.end));
@@ -54,9 +54,7 @@ std::optional<ContactLaw> MeshModel::contact_law(const ContactPoint& point) cons
   return builder.laws.empty() ? std::nullopt : std::optional(builder.laws.front());
 }
 
-double MeshModel::normal_force(double pinion_torque) const {
-  return pinion_torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle));
-}
+double MeshModel::normal_force(double pinion_torque) const { return pinion_torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)); }
 
 double MeshModel::mean_line_load(double force) const {
   double length = 0.0;
@@ -66,9 +64,8 @@ double MeshModel::mean_line_load(double force) const {
   return length > 0.0 ? force * static_cast<double>(positions.size()) / length : not_given;
 }
 
-MeshModel make_mesh_model(const GearPair& pair, const PerGear<Material>& material,
-                          const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
-                          const PairCompliance* structure, const PairRootStress* root_stress,
+MeshModel make_mesh_model(const GearPair& pair, const PerGear<Material>& material, const MeshResolution& resolution, const MeshEffects& effects,
+                          const MeshPlacement& placement, const PairCompliance* structure, const PairRootStress* root_stress,
                           const PairCompliance* shafts) {
   const ThinSlicePair slices(ThinSlice(pair, material.pinion, material.wheel));
   MeshModel model;

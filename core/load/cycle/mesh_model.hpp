@@ -54,8 +54,8 @@ struct MeshModel {
   PerGear<Material> material;
   MeshEffects effects;
   MeshPlacement placement;
-  double axial_offset{0.0};      ///< of the wheel, which shortens the common face [mm]
-  double face_width{not_given};  ///< in contact [mm]
+  double axial_offset{0.0};           ///< of the wheel, which shortens the common face [mm]
+  double face_width{not_given};       ///< in contact [mm]
   double contact_modulus{not_given};  ///< E' [MPa]
   double calibration{not_given};      ///< kappa of the thin slice
   IsoStiffness iso;
@@ -83,9 +83,8 @@ struct MeshModel {
 /// @param shafts       added to it, coupling all points; null: rigid shafts
 /// @throws InvalidInput where no effect makes the points compliant, no phase is given, or the gears do not overlap
 ///                       axially
-MeshModel make_mesh_model(const GearPair& pair, const PerGear<Material>& material,
-                          const MeshResolution& resolution, const MeshEffects& effects = {}, const MeshPlacement& placement = {},
-                          const PairCompliance* structure = nullptr, const PairRootStress* root_stress = nullptr,
+MeshModel make_mesh_model(const GearPair& pair, const PerGear<Material>& material, const MeshResolution& resolution, const MeshEffects& effects = {},
+                          const MeshPlacement& placement = {}, const PairCompliance* structure = nullptr, const PairRootStress* root_stress = nullptr,
                           const PairCompliance* shafts = nullptr);
 
 /// The same gears with other effects or another placement: data of gears and materials alone are taken from the model,

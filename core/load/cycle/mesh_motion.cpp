@@ -136,11 +136,14 @@ MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load, con
   };
   const HeldLoads here = held_loads(model_.positions[position], gap, loads);
   const HeldLoads one = perturbed(one_, same_as.one), two = perturbed(two_, same_as.two);
-  const auto slope = [&](Eigen::VectorXd HeldLoads::* what) -> Eigen::VectorXd {
+  const auto slope = [&](Eigen::VectorXd HeldLoads::*what) -> Eigen::VectorXd {
     return forward_difference(here.*what, one.*what, two.*what, perturbed_.step).cwiseProduct(same_as.known);
   };
-  MeshSlope by{slope(&HeldLoads::gap), slope(&HeldLoads::deflection), forward_difference(here.force, one.force, two.force, perturbed_.step),
-               slope(&HeldLoads::relative_radius), {}};
+  MeshSlope by{slope(&HeldLoads::gap),
+               slope(&HeldLoads::deflection),
+               forward_difference(here.force, one.force, two.force, perturbed_.step),
+               slope(&HeldLoads::relative_radius),
+               {}};
   by.root_components = Eigen::VectorXd::Zero(here.root_components.size());
   if (here.root_components.size() == one.root_components.size() && here.root_components.size() == two.root_components.size()) {
     by.root_components = forward_difference(here.root_components, one.root_components, two.root_components, perturbed_.step);
@@ -148,9 +151,7 @@ MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load, con
   return by;
 }
 
-double MeshSlopes::face_width() const {
-  return forward_difference(model_.face_width, one_.model.face_width, two_.model.face_width, perturbed_.step);
-}
+double MeshSlopes::face_width() const { return forward_difference(model_.face_width, one_.model.face_width, two_.model.face_width, perturbed_.step); }
 
 double MeshSlopes::relative_line_length() const {
   double length = 0.0, slope = 0.0;
@@ -158,7 +159,7 @@ double MeshSlopes::relative_line_length() const {
     const MeshPosition& here = model_.positions[p];
     const Same same_as = same(p);
     const Eigen::VectorXd by = forward_difference(here.weight, as_at(same_as.one, one_.model.positions[p].weight),
-                                           as_at(same_as.two, two_.model.positions[p].weight), perturbed_.step);
+                                                  as_at(same_as.two, two_.model.positions[p].weight), perturbed_.step);
     for (Eigen::Index i = 0; i < here.weight.size(); ++i) {
       if (here.points[static_cast<std::size_t>(i)].clearance != 0.0) continue;
       length += here.weight[i];

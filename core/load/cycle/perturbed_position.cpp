@@ -3,7 +3,7 @@
 namespace flankwright {
 
 PerturbedPosition::PerturbedPosition(const MeshModel& model, const FlankCondition& condition, const LoadedPosition& loaded, std::size_t position,
-                 MisalignmentParameter parameter, Eigen::Index column)
+                                     MisalignmentParameter parameter, Eigen::Index column)
     : step_(perturbed_meshes(model, parameter).step), known_(Eigen::VectorXd::Ones(loaded.load.line_load.size())) {
   const std::vector<MeshModel>& perturbed = perturbed_meshes(model, parameter).meshes;
   const auto add_stage = [&](const MeshModel& mesh, const Eigen::VectorXd& line_load, double steps) {

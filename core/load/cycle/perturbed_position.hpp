@@ -26,7 +26,7 @@ class PerturbedPosition {
   /// @param loaded            position number `position` of the cycle, solved under some force
   /// @param column            index of the parameter among the cycle's
   PerturbedPosition(const MeshModel& model, const FlankCondition& condition, const LoadedPosition& loaded, std::size_t position,
-          MisalignmentParameter parameter, Eigen::Index column);
+                    MisalignmentParameter parameter, Eigen::Index column);
 
   /// Derivative of read(stage), a number or a vector; NaN throughout where the stages' vectors differ in size [per mm
   /// or rad].
@@ -43,7 +43,8 @@ class PerturbedPosition {
   /// The same where read(stage) has one value per point, following each point; 0 for points that a stage lacks.
   template <class Read>
   Eigen::VectorXd point_slope(const Read& read) const {
-    const Eigen::VectorXd slopes = forward_difference<Eigen::VectorXd>(read(stages_[0]), as_at(same_[0], read(stages_[1])), as_at(same_[1], read(stages_[2])), step_);
+    const Eigen::VectorXd slopes =
+        forward_difference<Eigen::VectorXd>(read(stages_[0]), as_at(same_[0], read(stages_[1])), as_at(same_[1], read(stages_[2])), step_);
     return slopes.cwiseProduct(known_);
   }
 

@@ -27,7 +27,9 @@ class Cholesky {
 
   /// Replaces the columns of y, n x m, by L'^-1 y.
   template <class Matrix>
-  void solve_transposed(Matrix& y) const { square().transpose().template triangularView<Eigen::Upper>().solveInPlace(y); }
+  void solve_transposed(Matrix& y) const {
+    square().transpose().template triangularView<Eigen::Upper>().solveInPlace(y);
+  }
   /// Replaces the columns of b, n x m, by H^-1 b.
   template <class Matrix>
   void solve(Matrix& b) const {

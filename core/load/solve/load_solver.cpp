@@ -29,10 +29,8 @@ constexpr double same_factor = 1e-9;
 
 void check(const LoadProblemView& problem, const Eigen::VectorXd& start) {
   const Eigen::Index n = problem.gap.size();
-  const auto sizes_match = problem.weight.size() == n && problem.influence.rows() == n &&
-                           problem.influence.cols() == n &&
-                           (problem.laws.empty() || static_cast<Eigen::Index>(problem.laws.size()) == n) &&
-                           (start.size() == 0 || start.size() == n);
+  const auto sizes_match = problem.weight.size() == n && problem.influence.rows() == n && problem.influence.cols() == n &&
+                           (problem.laws.empty() || static_cast<Eigen::Index>(problem.laws.size()) == n) && (start.size() == 0 || start.size() == n);
   if (!sizes_match) throw InvalidInput("load problem", "arrays of different size", "one entry per contact point");
   if (!problem.gap.allFinite() || !problem.weight.allFinite()) {
     throw InvalidInput("load problem", "not finite", "finite gaps, influences and weights");
@@ -94,8 +92,8 @@ LoadDistribution LoadSolver::solve(const LoadProblemView& problem, const LoadOpt
   } while (converged && add_penetrating(problem, options, result));
   fill(result);
   result.status = converged ? LoadStatus::Converged : LoadStatus::IterationLimit;
-  result.message = converged ? "converged"
-                             : "the load distribution did not converge within " + std::to_string(options.max_iterations) + " Newton steps";
+  result.message =
+      converged ? "converged" : "the load distribution did not converge within " + std::to_string(options.max_iterations) + " Newton steps";
   return result;
 }
 

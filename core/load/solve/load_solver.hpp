@@ -56,16 +56,16 @@ class LoadSolver {
   double condition() const;
 
   double force_{0.0};
-  double first_touch_{0.0};  ///< min(g) [mm]
-  double load_floor_{0.0};   ///< line load whose slope is used for that of no load [N/mm]
+  double first_touch_{0.0};           ///< min(g) [mm]
+  double load_floor_{0.0};            ///< line load whose slope is used for that of no load [N/mm]
   Eigen::VectorXd structural_, gap_;  ///< of all n points; gap_ from first touch
 
-  std::vector<Eigen::Index> points_;           ///< of the working set, ascending
-  std::vector<const ContactLaw*> laws_;        ///< of these, and so is all that follows
-  Eigen::MatrixXd influence_, hessian_;        ///< K; aKa + a c'
-  Eigen::VectorXd weight_, near_gap_;          ///< a; g from first touch
-  Eigen::VectorXd stiff_diagonal_;             ///< of aKa
-  Eigen::VectorXd floor_slope_;                ///< c' at load_floor_; NaN until computed
+  std::vector<Eigen::Index> points_;     ///< of the working set, ascending
+  std::vector<const ContactLaw*> laws_;  ///< of these, and so is all that follows
+  Eigen::MatrixXd influence_, hessian_;  ///< K; aKa + a c'
+  Eigen::VectorXd weight_, near_gap_;    ///< a; g from first touch
+  Eigen::VectorXd stiff_diagonal_;       ///< of aKa
+  Eigen::VectorXd floor_slope_;          ///< c' at load_floor_; NaN until computed
   bool has_negative_influence_{false};
   Iterate at_, next_;
   Eigen::VectorXd gradient_, forces_;
@@ -77,7 +77,6 @@ class LoadSolver {
 /// Solves one problem with a new solver.
 /// @param start  line loads to start from (scaled to the force), size n, or empty
 /// @throws InvalidInput where sizes differ, a weight is not positive, the force is negative or anything is not finite
-LoadDistribution solve_load_distribution(const LoadProblemView& problem, const LoadOptions& options = {},
-                                         const Eigen::VectorXd& start = {});
+LoadDistribution solve_load_distribution(const LoadProblemView& problem, const LoadOptions& options = {}, const Eigen::VectorXd& start = {});
 
 }  // namespace flankwright

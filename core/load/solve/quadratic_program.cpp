@@ -153,8 +153,8 @@ void QuadraticProgram::find_slacks(const QuadraticProblem& problem) {
 /// The unloaded point of the largest negative slack per length, -1 where there is none.
 Eigen::Index QuadraticProgram::most_penetrating(const QuadraticProblem& problem, const Flags& loaded) {
   find_slacks(problem);
-  const Eigen::VectorXd terms = problem.H.cwiseAbs() * (loads_ + step_.cwiseAbs()) + problem.g.cwiseAbs() +
-                                (problem.terms + std::abs(multiplier_)) * problem.a;
+  const Eigen::VectorXd terms =
+      problem.H.cwiseAbs() * (loads_ + step_.cwiseAbs()) + problem.g.cwiseAbs() + (problem.terms + std::abs(multiplier_)) * problem.a;
   Eigen::Index worst = -1;
   for (Eigen::Index i = 0; i < problem.x.size(); ++i) {
     if (loaded[i] || slack_[i] >= -round_off * terms[i]) continue;

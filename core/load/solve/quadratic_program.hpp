@@ -35,9 +35,9 @@ class QuadraticProgram {
   /// @returns      whether it was solved; false leaves the best loads found
   bool minimise(const QuadraticProblem& problem, const Flags& guess);
 
-  const Eigen::VectorXd& loads() const { return loads_; }  ///< x + d >= 0
-  double multiplier() const { return multiplier_; }        ///< of the balance: H d + g = multiplier a where loaded
-  const Cholesky& factor() const { return factor_; }       ///< of H over set()
+  const Eigen::VectorXd& loads() const { return loads_; }        ///< x + d >= 0
+  double multiplier() const { return multiplier_; }              ///< of the balance: H d + g = multiplier a where loaded
+  const Cholesky& factor() const { return factor_; }             ///< of H over set()
   const std::vector<Eigen::Index>& set() const { return set_; }  ///< points that were loaded last, ascending
   int factorisations() const { return factorisations_; }         ///< of the last minimise()
 

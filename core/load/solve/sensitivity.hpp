@@ -42,7 +42,7 @@ class LoadSensitivity {
  private:
   Eigen::Index size_;
   std::vector<Eigen::Index> loaded_;
-  Eigen::VectorXd weight_;    ///< of the loaded points
+  Eigen::VectorXd weight_;  ///< of the loaded points
   Cholesky factor_;
   Eigen::VectorXd response_;  ///< H^-1 a
   double stiffness_;          ///< a' H^-1 a

@@ -24,7 +24,7 @@ int main() {
   // One torque and one misalignment, as many points and positions as the figures need.
   FlankCondition misaligned;
   misaligned.misalignment.mesh_misalignment = 20 * units::um;
-  const auto mesh_for = [&](const MeshResolution& resolution) { return make_mesh_model(pair, {}, {}, resolution, {}, {}, structures.pair.get()); };
+  const auto mesh_for = [&](const MeshResolution& resolution) { return make_mesh_model(pair, {}, resolution, {}, {}, structures.pair.get()); };
   const ResolvedAnalysis analysis = analyse_resolved(mesh_for, misaligned, torque);
   const CycleSummary& shown = analysis.resolved.summary;
   std::printf("20 um misaligned: transmission error %.2f um peak to peak, contact stress %.0f MPa\n", shown.te_peak_to_peak / units::um,
@@ -50,7 +50,7 @@ int main() {
   const DesignResult design = optimise_by_two_levels(problem, options).design;
   for (const DesignReport* report : {&design.before, &design.after}) {
     std::printf("%s: lead crowning %.1f um, tip relief %.1f um, transmission error up to %.2f um, contact stress up to %.0f MPa\n",
-                report == &design.before ? "before" : "after", report->variables[0] / units::um, report->variables[1] / units::um,
-                report->objective, report->constraint_values[0]);
+                report == &design.before ? "before" : "after", report->variables[0] / units::um, report->variables[1] / units::um, report->objective,
+                report->constraint_values[0]);
   }
 }

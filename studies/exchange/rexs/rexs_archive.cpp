@@ -8,7 +8,6 @@
 #include <cctype>
 #include <memory>
 
-
 namespace flankwright::studies::rexs {
 
 namespace {
@@ -55,7 +54,8 @@ zip_uint64_t model_entry(zip_t* archive, const std::string& name) {
     if (std::ranges::any_of(endings, [&](std::string_view ending) { return entry.ends_with(ending); })) models.push_back(index);
   }
   if (models.empty() && files.size() == 1) return files.front();
-  if (models.size() != 1) refuse(name, 0, "file", "an archive with " + std::to_string(models.size()) + " models", "one entry .rexs, .rexsj, .xml or .json");
+  if (models.size() != 1)
+    refuse(name, 0, "file", "an archive with " + std::to_string(models.size()) + " models", "one entry .rexs, .rexsj, .xml or .json");
   return models.front();
 }
 
@@ -66,7 +66,9 @@ bool is_archive(std::string_view bytes) { return bytes.starts_with("PK\x03\x04")
 std::string unpack(std::string_view bytes, const std::string& name) {
   const Archive archive = open(bytes, name);
   const Entry entry{zip_fopen_index(archive.get(), model_entry(archive.get(), name), 0), &zip_fclose};
-  const auto refuse_entry = [&](const char* why) { refuse(name, 0, "file", "a damaged or encrypted ZIP archive", std::string("one that can be unpacked (") + why + ")"); };
+  const auto refuse_entry = [&](const char* why) {
+    refuse(name, 0, "file", "a damaged or encrypted ZIP archive", std::string("one that can be unpacked (") + why + ")");
+  };
   if (!entry) refuse_entry(zip_strerror(archive.get()));
   // What the archive says of its size is not believed.
   std::string text;

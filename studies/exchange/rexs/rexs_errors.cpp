@@ -7,7 +7,8 @@ namespace flankwright::studies::rexs {
 void refuse(const std::string& file, int line, const std::string& key, const std::string& value, const std::string& allowed) {
   constexpr std::size_t most_shown = 60;
   std::string shown = value.substr(0, most_shown);
-  std::ranges::replace_if(shown, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+  std::ranges::replace_if(
+      shown, [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
   throw StudyErrors({{file, line, line > 0 ? 1 : 0, key, value.size() > most_shown ? shown + "..." : shown, "allowed is " + allowed}});
 }
 

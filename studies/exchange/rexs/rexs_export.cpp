@@ -133,7 +133,8 @@ class Export {
         const int settings = add(settings_type);
         number("generated_addendum_modification_coefficient", pair_[m].data.profile_shift);
         length("machining_allowance", 0.0);
-        relate("manufacturing_step", {{flank, "workpiece", type}, {tool, "tool", "rack_shaped_tool"}, {settings, "manufacturing_settings", settings_type}}, 1);
+        relate("manufacturing_step",
+               {{flank, "workpiece", type}, {tool, "tool", "rack_shaped_tool"}, {settings, "manufacturing_settings", settings_type}}, 1);
       }
     }
     flank_ = study_.pair.working_flank == WorkingFlank::Right ? right : left;
@@ -261,7 +262,8 @@ class Export {
     lengths("topographical_modification_amounts", amounts);
     word("type_of_interpolation_topographical_modification", "spline");
     if (other) {
-      result_.notes.push_back(fmt::format("{}: what no component of the format says is exported as {} points of a topographical_modification", name_of(m), amounts.size()));
+      result_.notes.push_back(fmt::format("{}: what no component of the format says is exported as {} points of a topographical_modification",
+                                          name_of(m), amounts.size()));
     }
   }
 

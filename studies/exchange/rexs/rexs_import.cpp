@@ -77,7 +77,8 @@ class Import {
     StudyText text;
     text.comment(fmt::format("Stage {} of {}, REXS {}{}.", parts_.stage->id, file, model.version,
                              model.application.empty() ? "" : ", written by " + model.application + " " + model.application_version));
-    text.comment("The comment behind each value names the attribute that it came from. Amounts of modifications count as removed along the transverse");
+    text.comment(
+        "The comment behind each value names the attribute that it came from. Amounts of modifications count as removed along the transverse");
     text.comment("base tangent; z runs along the pinion's u axis, from mid face.");
     if (!reading_.warnings().empty()) {
       text.comment("");

@@ -9,9 +9,9 @@
 namespace flankwright::studies::rexs {
 
 struct RexsImportOptions {
-  std::optional<int> stage{};                   ///< which of the file's stages, see find_stage()
-  SlopeEnd slope_end{SlopeEnd::NonDatumFace};   ///< where a positive helix_slope removes
-  std::string grid_stem{};                      ///< grids are called stem + "-pinion.csv", "-wheel.csv"
+  std::optional<int> stage{};                  ///< which of the file's stages, see find_stage()
+  SlopeEnd slope_end{SlopeEnd::NonDatumFace};  ///< where a positive helix_slope removes
+  std::string grid_stem{};                     ///< grids are called stem + "-pinion.csv", "-wheel.csv"
 };
 
 /// A file that goes beside the study.

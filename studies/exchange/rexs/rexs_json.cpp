@@ -141,17 +141,22 @@ class JsonReading {
 
 Json value_json(const Attribute& attribute) {
   switch (attribute.type) {
-    case ValueType::Boolean: return {{"boolean", attribute.text == "true"}};
-    case ValueType::Integer: return {{"integer", Json::parse(attribute.text)}};
-    case ValueType::Number: return {{"floating_point", Json::parse(attribute.text)}};
-    case ValueType::Word: return {{"enum", attribute.text}};
+    case ValueType::Boolean:
+      return {{"boolean", attribute.text == "true"}};
+    case ValueType::Integer:
+      return {{"integer", Json::parse(attribute.text)}};
+    case ValueType::Number:
+      return {{"floating_point", Json::parse(attribute.text)}};
+    case ValueType::Word:
+      return {{"enum", attribute.text}};
     case ValueType::NumberArray: {
       Json numbers = Json::array();
       for (const std::string& number : attribute.array) numbers.push_back(Json::parse(number));
       return {{"floating_point_array", numbers}};
     }
     case ValueType::Text:
-    case ValueType::Other: break;
+    case ValueType::Other:
+      break;
   }
   return {{"string", attribute.text}};
 }
@@ -173,12 +178,8 @@ Json component_json(const Component& component) {
 Model parse_json(std::string_view text, const std::string& name) { return JsonReading(text, name).read(); }
 
 std::string json_text(const Model& model) {
-  Json root{{"version", model.version},
-            {"applicationId", model.application},
-            {"applicationVersion", model.application_version},
-            {"date", model.date},
-            {"relations", Json::array()},
-            {"components", Json::array()}};
+  Json root{{"version", model.version}, {"applicationId", model.application}, {"applicationVersion", model.application_version},
+            {"date", model.date},       {"relations", Json::array()},         {"components", Json::array()}};
   for (const Relation& relation : model.relations) {
     Json json{{"id", relation.id}, {"type", relation.type}, {"refs", Json::array()}};
     if (relation.order) json["order"] = *relation.order;

@@ -101,7 +101,8 @@ class Condition {
       const auto here = teeth(*from), there = teeth(*to);
       if (!here || !there || here->value == 0.0) continue;
       const GearTorque& torque = gears_.at(from->id);
-      gears_[to->id] = {std::abs(torque.torque * there->value / here->value), torque.source + ", through " + Reading::name_of(reading_.in_role(stage, "stage"))};
+      gears_[to->id] = {std::abs(torque.torque * there->value / here->value),
+                        torque.source + ", through " + Reading::name_of(reading_.in_role(stage, "stage"))};
     }
   }
 

@@ -10,9 +10,9 @@ namespace flankwright::studies::rexs {
 
 /// Torque on the pinion in one condition of the file.
 struct ImportedTorque {
-  std::string name{};    ///< "load case 3"; empty: the file's only condition
-  double torque{0.0};  ///< [N mm], >= 0
-  std::string source{};  ///< what it came from
+  std::string name{};      ///< "load case 3"; empty: the file's only condition
+  double torque{0.0};      ///< [N mm], >= 0
+  std::string source{};    ///< what it came from
   double time_share{0.0};  ///< operating_time_fraction, 0 .. 1; 0 where the file does not say
 };
 

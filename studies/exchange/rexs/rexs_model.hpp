@@ -15,11 +15,11 @@ enum class ValueType { Boolean, Integer, Number, Word, Text, NumberArray, Other 
 
 struct Attribute {
   std::string id;
-  std::string unit;                ///< as written; "none" or empty: a pure number
-  ValueType type{ValueType::Text}; ///< of files read from XML, which does not say, Text or NumberArray
-  std::string text{};              ///< scalar value
-  std::vector<std::string> array{};///< of a NumberArray
-  int line{0};                     ///< in the file, from 1; 0 where the form has no lines (JSON)
+  std::string unit;                  ///< as written; "none" or empty: a pure number
+  ValueType type{ValueType::Text};   ///< of files read from XML, which does not say, Text or NumberArray
+  std::string text{};                ///< scalar value
+  std::vector<std::string> array{};  ///< of a NumberArray
+  int line{0};                       ///< in the file, from 1; 0 where the form has no lines (JSON)
 };
 
 struct Component {

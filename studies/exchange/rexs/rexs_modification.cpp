@@ -17,9 +17,18 @@ namespace flankwright::studies::rexs {
 
 namespace {
 
-constexpr std::array<std::string_view, 12> modification_types{
-    "tip_relief",     "root_relief",           "profile_slope",             "profile_crowning",     "helix_slope",            "helix_crowning",
-    "profile_twist",  "end_relief_datum_face", "end_relief_non_datum_face", "triangular_tip_relief", "triangular_root_relief", "topographical_modification"};
+constexpr std::array<std::string_view, 12> modification_types{"tip_relief",
+                                                              "root_relief",
+                                                              "profile_slope",
+                                                              "profile_crowning",
+                                                              "helix_slope",
+                                                              "helix_crowning",
+                                                              "profile_twist",
+                                                              "end_relief_datum_face",
+                                                              "end_relief_non_datum_face",
+                                                              "triangular_tip_relief",
+                                                              "triangular_root_relief",
+                                                              "topographical_modification"};
 
 /// Equal to the digits that a unit leaves [mm].
 bool same_length(double a, double b) { return std::abs(a - b) <= 1e-9 * (1.0 + std::abs(a)); }
@@ -27,7 +36,12 @@ bool same_length(double a, double b) { return std::abs(a - b) <= 1e-9 * (1.0 + s
 class ModificationReading {
  public:
   ModificationReading(Reading& reading, const GearParts& parts, const GearPair& pair, Member member, SlopeEnd slope_end)
-      : reading_(reading), parts_(parts), gear_(pair[member]), frame_(pair.flank_frame(member)), base_helix_(pair.base_helix_angle), slope_end_(slope_end) {}
+      : reading_(reading),
+        parts_(parts),
+        gear_(pair[member]),
+        frame_(pair.flank_frame(member)),
+        base_helix_(pair.base_helix_angle),
+        slope_end_(slope_end) {}
 
   ImportedModification read() {
     if (parts_.flank == nullptr) return {};
@@ -103,7 +117,8 @@ class ModificationReading {
   }
 
   void warn_of_transition(const Component& c) {
-    if (reading_.word(&c, "specify_tangential_transition") == "true") note(c, "its tangential transition is not taken, the relief starts with a kink");
+    if (reading_.word(&c, "specify_tangential_transition") == "true")
+      note(c, "its tangential transition is not taken, the relief starts with a kink");
   }
 
   void read_relief(const Component& c, bool at_tip) {
@@ -120,14 +135,19 @@ class ModificationReading {
     const double end = at_tip ? frame_.tip_radius : frame_.active_root_radius;
     const double start = diameter ? 0.5 * *diameter : at_tip ? radius_below_tip(*roll) : radius_above_root(*roll);
     const double height = at_tip ? end - start : start - end;
-    if (!(height > 0.0)) return leave_out(c, fmt::format("it starts at radius {} mm, beyond the end of the profile at {} mm", difference_text(start), difference_text(end)));
-    if (!diameter) note(c, at_tip ? "its datum length is taken as roll length from the tip" : "its datum length is taken as roll length from the start of active profile");
+    if (!(height > 0.0))
+      return leave_out(
+          c, fmt::format("it starts at radius {} mm, beyond the end of the profile at {} mm", difference_text(start), difference_text(end)));
+    if (!diameter)
+      note(c, at_tip ? "its datum length is taken as roll length from the tip"
+                     : "its datum length is taken as roll length from the start of active profile");
     double amount = *depth;
     if (reference && !same_length(0.5 * *reference, end)) {
       const double share = height / std::abs(0.5 * *reference - start);
       if (!std::isfinite(share)) return leave_out(c, "it is evaluated where it starts");
       amount *= form(*shape, share);
-      note(c, fmt::format("its depth at diameter {} mm is carried on to diameter {} mm, where a study states it", number_text(*reference), difference_text(2.0 * end)));
+      note(c, fmt::format("its depth at diameter {} mm is carried on to diameter {} mm, where a study states it", number_text(*reference),
+                          difference_text(2.0 * end)));
     }
     ProfileRelief& relief = at_tip ? result_.modification.tip_relief : result_.modification.root_relief;
     if (relief.amount != 0.0 && (!same_length(relief.height, height) || relief.shape != *shape)) {
@@ -165,11 +185,13 @@ class ModificationReading {
       if (!diameter || same_length(0.5 * *diameter, border)) return amount;
       const double share = (border - pitch) / (0.5 * *diameter - pitch);
       if (!std::isfinite(share)) return amount;
-      note(c, fmt::format("its amount at diameter {} mm is carried on to diameter {} mm, where a study states it", number_text(*diameter), difference_text(2.0 * border)));
+      note(c, fmt::format("its amount at diameter {} mm is carried on to diameter {} mm, where a study states it", number_text(*diameter),
+                          difference_text(2.0 * border)));
       return amount * share * share;
     };
     if (const auto apex = length(c, "profile_highest_point"); apex && !same_length(*apex, 2.0 * pitch)) {
-      note(c, fmt::format("its highest point at {} mm is moved to the pitch circle, diameter {} mm", number_text(*apex), difference_text(2.0 * pitch)));
+      note(c,
+           fmt::format("its highest point at {} mm is moved to the pitch circle, diameter {} mm", number_text(*apex), difference_text(2.0 * pitch)));
     }
     if (tip) {
       result_.modification.addendum_crowning += carried(*tip, "diameter_where_profile_crowning_tip_is_specified", frame_.tip_radius);
@@ -194,7 +216,8 @@ class ModificationReading {
     const bool at_high_z = (slope_end_ == SlopeEnd::NonDatumFace) == parts_.datum_at_low_z;
     result_.modification.lead_slope += (at_high_z ? share : -share) * *amount;
     remark("lead_slope", c);
-    result_.remarks["lead_slope"] += slope_end_ == SlopeEnd::NonDatumFace ? "; + taken to remove at the non-datum face" : "; + taken to remove at the datum face";
+    result_.remarks["lead_slope"] +=
+        slope_end_ == SlopeEnd::NonDatumFace ? "; + taken to remove at the non-datum face" : "; + taken to remove at the datum face";
   }
 
   void read_helix_crowning(const Component& c) {
@@ -217,8 +240,10 @@ class ModificationReading {
       return add_part(c, removed, {.along_profile = false});
     }
     const double curvature = 0.5 * (left + right);
-    if (!same_length(std::abs(at_one), half) || !same_length(std::abs(at_two), half)) note(c, "its amounts are carried on to the ends of the face, where a study states them");
-    result_.modification.lead_crowning += same_length(one, two) && apex == 0.0 && same_length(-at_one, half) && same_length(at_two, half) ? one : curvature * half * half;
+    if (!same_length(std::abs(at_one), half) || !same_length(std::abs(at_two), half))
+      note(c, "its amounts are carried on to the ends of the face, where a study states them");
+    result_.modification.lead_crowning +=
+        same_length(one, two) && apex == 0.0 && same_length(-at_one, half) && same_length(at_two, half) ? one : curvature * half * half;
     remark("lead_crowning", c);
     if (apex == 0.0) return;
     const double slope = -2.0 * curvature * apex * frame_.face_width;
@@ -271,7 +296,8 @@ class ModificationReading {
 
   void add_end_relief(const EndOfFace& end, bool at_datum) {
     const double sense = at_datum == parts_.datum_at_low_z ? -1.0 : 1.0, start = 0.5 * frame_.face_width - end.length;
-    add_part(*end.component, [=](double, double z) { return end.amount * form(end.shape, (sense * z - start) / end.length); }, {.along_profile = false});
+    add_part(*end.component, [=](double, double z) { return end.amount * form(end.shape, (sense * z - start) / end.length); },
+             {.along_profile = false});
   }
 
   /// A study has the same linear relief at both ends; all else is a part of the grid.
@@ -299,7 +325,8 @@ class ModificationReading {
     std::string grid = "# " + Reading::name_of(c) + "\nradius_mm,z_mm,deviation_um\n";
     for (std::size_t i = 0; i < amounts->size(); ++i) {
       const double normal = -(*amounts)[i] * std::cos(base_helix_);
-      grid += fmt::format("{},{},{}\n", number_text(0.5 * (*diameters)[i]), number_text(parts_.datum_at_low_z ? (*z)[i] : -(*z)[i]), number_text(normal / units::um));
+      grid += fmt::format("{},{},{}\n", number_text(0.5 * (*diameters)[i]), number_text(parts_.datum_at_low_z ? (*z)[i] : -(*z)[i]),
+                          number_text(normal / units::um));
     }
     try {
       const std::shared_ptr<const DeviationField> field = make_grid_field(parse_grid(grid, "points"), frame_.base_radius, base_helix_).field;
@@ -327,8 +354,9 @@ class ModificationReading {
     const std::string of = result_.remarks.at("grid");
     try {
       GriddedParts laid = grid_of(parts_of_grid_, frame_, base_helix_);
-      reading_.warn(fmt::format("{}: taken as a grid of {} radii and {} axial positions; the surface through them departs from it by at most {:.2g} um",
-                                of, laid.radii, laid.positions, laid.departure / units::um));
+      reading_.warn(
+          fmt::format("{}: taken as a grid of {} radii and {} axial positions; the surface through them departs from it by at most {:.2g} um", of,
+                      laid.radii, laid.positions, laid.departure / units::um));
       result_.grid = "# " + of + "\n" + std::move(laid.text);
     } catch (const InvalidInput& problem) {
       reading_.warn(of + ": not taken, " + problem.what());
@@ -344,7 +372,8 @@ class ModificationReading {
       if (std::ranges::find(of_this, c) == of_this.end()) back_.push_back(Reading::name_of(*c));
     }
     if (!back_.empty()) {
-      reading_.warn(fmt::format("{}: not taken, the other flank carries the load; its own: {}", Reading::name_of(*parts_.other_flank), fmt::join(back_, ", ")));
+      reading_.warn(
+          fmt::format("{}: not taken, the other flank carries the load; its own: {}", Reading::name_of(*parts_.other_flank), fmt::join(back_, ", ")));
     }
   }
 

@@ -102,8 +102,8 @@ class PairReading {
     };
     const bool pinion = drives(Member::Pinion), wheel = drives(Member::Wheel);
     pair_.data.driver = wheel && !pinion ? Member::Wheel : Member::Pinion;
-    remark("pair.driver", pinion != wheel ? Reading::name_of(*(pinion ? parts_.gears[0] : parts_.gears[1]).data) + " is_driving_gear"
-                                          : "not in the file");
+    remark("pair.driver",
+           pinion != wheel ? Reading::name_of(*(pinion ? parts_.gears[0] : parts_.gears[1]).data) + " is_driving_gear" : "not in the file");
     pair_.data.working_flank = parts_.working_flank;
     remark("pair.working_flank", parts_.flank_is_given ? Reading::name_of(*parts_.gears[0].data) + " loaded_tooth_flank" : "not in the file");
   }
@@ -145,14 +145,14 @@ class PairReading {
       data(m).tip_diameter = tip->value;
       remark(prefix(m) + "tip_diameter", tip->source);
     } else {
-      reading_.warn(fmt::format("{} = {} mm cannot be that of a gear with reference diameter {} mm: not taken, it follows from the rack",
-                                tip->source, number_text(tip->value), difference_text(reference)));
+      reading_.warn(fmt::format("{} = {} mm cannot be that of a gear with reference diameter {} mm: not taken, it follows from the rack", tip->source,
+                                number_text(tip->value), difference_text(reference)));
     }
   }
 
   /// A coefficient, or a length in modules; moved to `value` with its remark.
-  bool read_coefficient(const Component* component, std::initializer_list<std::string_view> coefficients, std::string_view length,
-                        double& value, const std::string& key) {
+  bool read_coefficient(const Component* component, std::initializer_list<std::string_view> coefficients, std::string_view length, double& value,
+                        const std::string& key) {
     if (const auto taken = reading_.first_of(component, coefficients, Dimension::None)) {
       value = taken->value;
       remark(key, taken->source);

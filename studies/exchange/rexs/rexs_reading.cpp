@@ -17,8 +17,7 @@ void Reading::warn(std::string text) {
 
 std::string Reading::name_of(const Component& component) { return fmt::format("{} {}", component.type, component.id); }
 
-void Reading::refuse_attribute(const Component& component, std::string_view attribute, const std::string& value,
-                               const std::string& allowed) const {
+void Reading::refuse_attribute(const Component& component, std::string_view attribute, const std::string& value, const std::string& allowed) const {
   const Attribute* found = component.find(attribute);
   const int line = found != nullptr ? found->line : component.line;
   refuse(file_, line, name_of(component) + " " + std::string(attribute), value, allowed);
@@ -53,12 +52,10 @@ std::optional<Taken> Reading::number(const Component* component, std::string_vie
   if (found == nullptr) return std::nullopt;
   read_.insert(found);
   if (found->text.empty()) return std::nullopt;
-  return Taken{value_of(*component, *found, found->text, unit_of(*component, *found, dimension)),
-               name_of(*component) + " " + found->id};
+  return Taken{value_of(*component, *found, found->text, unit_of(*component, *found, dimension)), name_of(*component) + " " + found->id};
 }
 
-std::optional<Taken> Reading::first_of(const Component* component, std::initializer_list<std::string_view> attributes,
-                                       Dimension dimension) {
+std::optional<Taken> Reading::first_of(const Component* component, std::initializer_list<std::string_view> attributes, Dimension dimension) {
   for (const std::string_view attribute : attributes) {
     if (auto taken = number(component, attribute, dimension)) return taken;
   }

@@ -12,8 +12,8 @@ namespace flankwright::studies::rexs {
 
 namespace {
 
-constexpr double same_place = 1e-6;       ///< sections join where the gap between them is at most this [mm]
-constexpr double stiffest_bearing = 1e12; ///< radial and axial stiffnesses from here on are rigid [N/mm]
+constexpr double same_place = 1e-6;        ///< sections join where the gap between them is at most this [mm]
+constexpr double stiffest_bearing = 1e12;  ///< radial and axial stiffnesses from here on are rigid [N/mm]
 
 /// Why a shaft is not taken.
 struct LeftOut {
@@ -41,7 +41,8 @@ class ShaftReading {
     if (std::isnan(whole.material.youngs_modulus)) whole.material.youngs_modulus = Material{}.youngs_modulus;
     if (std::isnan(whole.material.poissons_ratio)) whole.material.poissons_ratio = Material{}.poissons_ratio;
     const std::vector<InvalidInput> problems = find_problems(whole, face_width);
-    if (!problems.empty()) throw LeftOut{fmt::format("{} = {}: allowed is {}", problems.front().field(), problems.front().value(), problems.front().allowed())};
+    if (!problems.empty())
+      throw LeftOut{fmt::format("{} = {}: allowed is {}", problems.front().field(), problems.front().value(), problems.front().allowed())};
     for (const std::string& note : notes_) reading_.warn(note);
     return std::move(result_);
   }
@@ -73,17 +74,20 @@ class ShaftReading {
   double diameter(const Component& section, const std::string& id, double fallback) {
     const auto begin = number(section, id + "_begin", Dimension::Length), end = number(section, id + "_end", Dimension::Length);
     const double one = begin.value_or(end.value_or(fallback)), two = end.value_or(one);
-    if (one != two) note(section, fmt::format("its cone is taken as a cylinder of the mean {}", id == "outer_diameter" ? "outer diameter" : "inner diameter"));
+    if (one != two)
+      note(section, fmt::format("its cone is taken as a cylinder of the mean {}", id == "outer_diameter" ? "outer diameter" : "inner diameter"));
     return 0.5 * (one + two);
   }
 
   void read_sections() {
     std::vector<std::pair<double, const Component*>> along;
-    for (const Component* section : reading_.related(shaft_, {"shaft_section"})) along.emplace_back(required(*section, {"u_coordinate_on_shaft"}), section);
+    for (const Component* section : reading_.related(shaft_, {"shaft_section"}))
+      along.emplace_back(required(*section, {"u_coordinate_on_shaft"}), section);
     std::ranges::stable_sort(along, {}, &std::pair<double, const Component*>::first);
     start_ = end_ = along.front().first;
     for (const auto& [from, section] : along) {
-      if (std::abs(from - end_) > same_place) throw LeftOut{fmt::format("{} does not begin where the one before it ends", Reading::name_of(*section))};
+      if (std::abs(from - end_) > same_place)
+        throw LeftOut{fmt::format("{} does not begin where the one before it ends", Reading::name_of(*section))};
       const double length = required(*section, {"length"});
       result_.data.sections.push_back({length, diameter(*section, "outer_diameter", 0.0), diameter(*section, "inner_diameter", 0.0)});
       end_ = from + length;
@@ -98,7 +102,8 @@ class ShaftReading {
       const Component* bearing = assembly ? reading_.model().find(*assembly) : nullptr;
       if (bearing == nullptr || bearing->type.find("bearing") == std::string::npos || (!is_inner && outer != shaft_.id)) continue;
       const Component* mate = is_inner ? (outer ? reading_.model().find(*outer) : nullptr) : inner ? reading_.model().find(*inner) : nullptr;
-      if (mate != nullptr && mate->type == "shaft") throw LeftOut{fmt::format("its {} sits on {}", Reading::name_of(*bearing), Reading::name_of(*mate))};
+      if (mate != nullptr && mate->type == "shaft")
+        throw LeftOut{fmt::format("its {} sits on {}", Reading::name_of(*bearing), Reading::name_of(*mate))};
       read_bearing(*bearing, is_inner ? "u_coordinate_on_shaft_inner_side" : "u_coordinate_on_shaft_outer_side");
     }
     if (result_.data.bearings.empty()) throw LeftOut{"it has no bearings"};
@@ -184,13 +189,15 @@ void write_shaft(const ImportedShaft& shaft, Member member, StudyText& text) {
   std::vector<std::string> sections, bearings;
   for (const ShaftSection& section : data.sections) {
     const std::string bore = section.inner_diameter > 0.0 ? ", inner_diameter = " + difference_text(section.inner_diameter) : "";
-    sections.push_back(fmt::format("{{ length = {}, outer_diameter = {}{} }}", difference_text(section.length), difference_text(section.outer_diameter), bore));
+    sections.push_back(
+        fmt::format("{{ length = {}, outer_diameter = {}{} }}", difference_text(section.length), difference_text(section.outer_diameter), bore));
   }
   for (const ShaftBearing& bearing : data.bearings) {
     std::string line = "{ position = " + difference_text(bearing.position);
     constexpr double newton_per_um = 1e3;  // [N/mm]
     if (std::isfinite(bearing.radial_stiffness)) line += ", radial_stiffness = " + number_text(bearing.radial_stiffness / newton_per_um);
-    if (bearing.axial_stiffness > 0.0) line += ", axial_stiffness = " + number_text(std::min(bearing.axial_stiffness, stiffest_bearing) / newton_per_um);
+    if (bearing.axial_stiffness > 0.0)
+      line += ", axial_stiffness = " + number_text(std::min(bearing.axial_stiffness, stiffest_bearing) / newton_per_um);
     if (bearing.tilting_stiffness > 0.0) line += ", tilting_stiffness = " + number_text(bearing.tilting_stiffness / units::newton_metre);
     bearings.push_back(line + " }");
   }

@@ -8,13 +8,13 @@ namespace flankwright::studies::rexs {
 
 /// What an attribute measures; says which units it may carry and what a number becomes inside.
 enum class Dimension {
-  None,    ///< "none" or no unit; also "%" as 1/100
-  Length,  ///< mm
-  Angle,   ///< rad
-  Torque,  ///< N mm
-  Stress,  ///< MPa
-  Power,   ///< kW
-  Speed,   ///< 1/min
+  None,             ///< "none" or no unit; also "%" as 1/100
+  Length,           ///< mm
+  Angle,            ///< rad
+  Torque,           ///< N mm
+  Stress,           ///< MPa
+  Power,            ///< kW
+  Speed,            ///< 1/min
   Stiffness,        ///< N/mm
   TiltingStiffness  ///< N mm/rad
 };

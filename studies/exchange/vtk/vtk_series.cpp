@@ -51,10 +51,14 @@ std::string packed(const std::vector<Number>& numbers) {
 std::string escaped(const std::string& text) {
   std::string out;
   for (const char c : text) {
-    if (c == '&') out += "&amp;";
-    else if (c == '<') out += "&lt;";
-    else if (c == '"') out += "&quot;";
-    else out += static_cast<unsigned char>(c) < ' ' || c == '-' ? ' ' : c;  // two hyphens would end a comment
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '<')
+      out += "&lt;";
+    else if (c == '"')
+      out += "&quot;";
+    else
+      out += static_cast<unsigned char>(c) < ' ' || c == '-' ? ' ' : c;  // two hyphens would end a comment
   }
   return out;
 }
@@ -138,9 +142,7 @@ struct MeshFrame {
   double roll(std::size_t gear, double radius) const { return std::sqrt(std::max(0.0, (radius - base[gear]) * (radius + base[gear]))); }
 
   /// How far a contact point is from the line of action [mm]: there both roll lengths make up the path.
-  double off_line(const Json& point) const {
-    return std::abs(roll(0, point.at("pinion_radius_mm")) + roll(1, point.at("wheel_radius_mm")) - path);
-  }
+  double off_line(const Json& point) const { return std::abs(roll(0, point.at("pinion_radius_mm")) + roll(1, point.at("wheel_radius_mm")) - path); }
 
   /// Where the point's radii on both gears meet: on the line of action, or beside it where a tip edge touches.
   std::array<double, 2> place(const Json& point) const {
@@ -159,8 +161,8 @@ struct MeshFrame {
 };
 
 const std::vector<std::pair<const char*, const char*>> point_fields{
-    {"load_N_per_mm", "load_N_per_mm"},   {"contact_stress_MPa", "contact_stress_MPa"},       {"gap_um", "gap_um"},
-    {"error_um", "error_um"},             {"contact_deflection_um", "contact_deflection_um"}, {"structural_deflection_um", "structural_deflection_um"},
+    {"load_N_per_mm", "load_N_per_mm"}, {"contact_stress_MPa", "contact_stress_MPa"},       {"gap_um", "gap_um"},
+    {"error_um", "error_um"},           {"contact_deflection_um", "contact_deflection_um"}, {"structural_deflection_um", "structural_deflection_um"},
     {"radius_mm", "pinion_radius_mm"}};
 
 PolyData contact_lines(const MeshFrame& frame, const Json& position) {
@@ -196,7 +198,8 @@ double roll_at_mid(const MeshFrame& frame, const Json& position) {
     for (const Json& point : tooth.at("points")) {
       if (frame.off_line(point) > off) continue;
       off = frame.off_line(point);
-      at_mid = frame.roll(0, point.at("pinion_radius_mm")) - frame.lead * point.at("z_mm").get<double>() - tooth.at("tooth").get<int>() * frame.base_pitch;
+      at_mid =
+          frame.roll(0, point.at("pinion_radius_mm")) - frame.lead * point.at("z_mm").get<double>() - tooth.at("tooth").get<int>() * frame.base_pitch;
     }
   }
   return at_mid;
@@ -216,7 +219,10 @@ PolyData flanks(const MeshFrame& frame, const Json& position, std::size_t gear, 
         const double z = std::lerp(-frame.half_face[gear], frame.half_face[gear], static_cast<double>(j) / (surface_points - 1));
         const double of_pinion = at_mid + tooth.at("tooth").get<int>() * frame.base_pitch + frame.lead * z;
         const auto [x, y] = frame.place(gear, frame.roll(gear, radius), gear == 0U ? of_pinion : frame.path - of_pinion);
-        const double removed = removal == nullptr ? 0.0 : number(removal->at("removal_um").at(static_cast<std::size_t>(i * surface_step)).at(static_cast<std::size_t>(j * surface_step)));
+        const double removed =
+            removal == nullptr
+                ? 0.0
+                : number(removal->at("removal_um").at(static_cast<std::size_t>(i * surface_step)).at(static_cast<std::size_t>(j * surface_step)));
         row.push_back(data.add_point(x, y, z, {removed, radius}));
       }
       for (std::size_t j = 0; i > 0 && j + 1 < row.size(); ++j) data.add_cell({before[j], before[j + 1], row[j + 1], row[j]}, tooth.at("tooth"));
@@ -230,7 +236,8 @@ void add_case(const Json& json, const MeshFrame& frame, std::size_t index, std::
   const Json& loaded = json.at("loaded").at(index);
   const std::string name = fmt::format("contact-{}", index + 1), design = loaded.at("design");
   const std::string comment = fmt::format("{}, {} N m, {}", loaded.at("scene").get<std::string>(), loaded.at("torque_Nm").get<double>(), design);
-  std::string collection = "<?xml version=\"1.0\"?>\n<!-- " + escaped(comment) + " -->\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
+  std::string collection = "<?xml version=\"1.0\"?>\n<!-- " + escaped(comment) +
+                           " -->\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n<Collection>\n";
   std::size_t k = 0;
   for (const Json& position : loaded.at("cycle")) {
     const std::array<std::pair<const char*, std::string>, 3> parts{

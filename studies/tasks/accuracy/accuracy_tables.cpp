@@ -26,10 +26,9 @@ std::string levels_csv(const FidelityHierarchy& hierarchy) {
   for (const HierarchyStep* step : all_steps(hierarchy)) {
     const FidelityLevel& r = step->result.level;
     const Json quadrature = quadrature_json(r.quadrature);
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", csv_field(r.name), r.axis,
-                       to_string(r.kind), to_string(r.compliance), to_string(r.gap), quadrature.at("rule").get<std::string>(), r.quadrature.intervals,
-                       r.positions, r.located_peaks ? "located" : "sampled", fmt::join(r.left_out, " "),
-                       step->result.seconds, step->first_seconds, step->best);
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", csv_field(r.name), r.axis, to_string(r.kind), to_string(r.compliance),
+                       to_string(r.gap), quadrature.at("rule").get<std::string>(), r.quadrature.intervals, r.positions,
+                       r.located_peaks ? "located" : "sampled", fmt::join(r.left_out, " "), step->result.seconds, step->first_seconds, step->best);
     for (double share : step->error) csv += fmt::format(",{}", percent * share);
     csv += fmt::format(",{}\n", percent * largest(step->error));
   }
@@ -56,15 +55,16 @@ std::vector<NamedText> hierarchy_tables(const FidelityHierarchy& hierarchy) {
 
 std::string hierarchy_summary(const FidelityHierarchy& hierarchy) {
   const auto share = [](const PerFigure& error, Figure f) { return percent * error[static_cast<std::size_t>(f)]; };
-  std::string out = fmt::format("{:<24}  {:<18}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}\n", "level", "axis", "seconds", "TE mean", "TE p-p", "TE 1st",
-                                "sigma", "worst, %");
+  std::string out = fmt::format("{:<24}  {:<18}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}  {:>9}\n", "level", "axis", "seconds", "TE mean", "TE p-p",
+                                "TE 1st", "sigma", "worst, %");
   for (const HierarchyStep* step : all_steps(hierarchy)) {
     const PerFigure& e = step->error;
-    out += fmt::format("{:<24}  {:<18}  {:>9.3g}  {:>9.2g}  {:>9.2g}  {:>9.2g}  {:>9.2g}  {:>9.2g}{}\n", step->result.level.name, step->result.level.axis,
-                       step->result.seconds, share(e, Figure::TeMean), share(e, Figure::TePeakToPeak), share(e, Figure::TeHarmonic1),
-                       share(e, Figure::PeakContactStress), percent * largest(e), step->best ? "  *" : "");
+    out += fmt::format("{:<24}  {:<18}  {:>9.3g}  {:>9.2g}  {:>9.2g}  {:>9.2g}  {:>9.2g}  {:>9.2g}{}\n", step->result.level.name,
+                       step->result.level.axis, step->result.seconds, share(e, Figure::TeMean), share(e, Figure::TePeakToPeak),
+                       share(e, Figure::TeHarmonic1), share(e, Figure::PeakContactStress), percent * largest(e), step->best ? "  *" : "");
   }
-  return out + "* Pareto-best: no other level is both as fast and as accurate; errors in per cent of the finest level, worst over the scenes; seconds of one thread, influence values known\n";
+  return out +
+         "* Pareto-best: no other level is both as fast and as accurate; errors in per cent of the finest level, worst over the scenes; seconds of one thread, influence values known\n";
 }
 
 }  // namespace flankwright::studies

@@ -5,7 +5,8 @@
 namespace flankwright::studies {
 
 std::string accuracy_template() {
-  static constexpr std::string_view head = R"(# The cost of accuracy: the pair is analysed at many fidelity levels, and each is compared with the finest.
+  static constexpr std::string_view head =
+      R"(# The cost of accuracy: the pair is analysed at many fidelity levels, and each is compared with the finest.
 title = "My pair at all fidelity levels"
 task = "accuracy"
 )";

@@ -69,7 +69,8 @@ void add_resolution_levels(std::vector<FidelityLevel>& fidelity_levels) {
   add_rule("gauss3 intervals", QuadratureRule::Gauss3, "gauss3", {5, 10, 20});
   add_rule("midpoints", QuadratureRule::Midpoint, "midpoint", {10, 20, 40});
   add_rule(graded_axis, QuadratureRule::Graded, "graded", halvings(finest.quadrature.intervals, 2));
-  for (int n : halvings(finest.positions, fewest_positions)) add(positions_axis, fmt::format("{} positions", n), [&](FidelityLevel& r) { r.positions = n; });
+  for (int n : halvings(finest.positions, fewest_positions))
+    add(positions_axis, fmt::format("{} positions", n), [&](FidelityLevel& r) { r.positions = n; });
   add("peaks", "peaks of the positions", [](FidelityLevel& r) { r.located_peaks = false; });
 }
 
@@ -91,7 +92,8 @@ void add_whole_settings(const FidelityLevel& finest, const Study& study, std::ve
   const Fidelity& given = study.fidelity;
   if (given.compliance <= finest.compliance) {
     fidelity_levels.push_back({"as the study has it", "whole settings", ErrorKind::Both, given.compliance, given.gap, given.quadrature,
-                     std::max(fewest_positions, study.cycle.positions), study.cycle.phases.empty() && study.cycle.locate_peaks.value_or(true)});
+                               std::max(fewest_positions, study.cycle.positions),
+                               study.cycle.phases.empty() && study.cycle.locate_peaks.value_or(true)});
   }
 }
 

@@ -10,7 +10,7 @@ namespace flankwright::studies {
 /// One level with its error compared with the finest.
 struct HierarchyStep {
   LevelResult result;
-  PerFigure error{};               ///< shares, worst over the load cases, see figure_errors()
+  PerFigure error{};                ///< shares, worst over the load cases, see figure_errors()
   double first_seconds{not_given};  ///< of this level without kept influence values: their wall time added [s]
   /// Pareto-best: no other level is both as fast and as accurate, in the worst quantity (`best`) or in one (`best_in`).
   bool best{false};
@@ -26,12 +26,12 @@ struct AxisOrder {
 };
 
 struct FidelityHierarchy {
-  std::vector<DesignScene> scenes;  ///< load cases
+  std::vector<DesignScene> scenes;   ///< load cases
   HierarchyStep reference;           ///< the finest level
   std::vector<HierarchyStep> steps;  ///< all others
   std::vector<AxisOrder> orders;
-  PerFigure reference_error{};    ///< of the reference's own resolution, estimated by its last halvings, share; worst over the load cases
-  double seconds{not_given};      ///< wall time of all of it
+  PerFigure reference_error{};  ///< of the reference's own resolution, estimated by its last halvings, share; worst over the load cases
+  double seconds{not_given};    ///< wall time of all of it
   bool usable() const { return reference.result.usable(); }
 };
 

@@ -45,8 +45,7 @@ void read_gradients(StudyReading& reading) {
       continue;
     }
     const Quantity quantity = known->second->quantity;
-    reading.builder.study.gradients.push_back(
-        {known->first, *parameter, std::string(default_unit(quantity)), internal_value(1.0, quantity)});
+    reading.builder.study.gradients.push_back({known->first, *parameter, std::string(default_unit(quantity)), internal_value(1.0, quantity)});
   }
 }
 

@@ -5,7 +5,8 @@
 namespace flankwright::studies {
 
 std::string analyse_template() {
-  static constexpr std::string_view head = R"(# A loaded tooth contact analysis. Bare numbers have the unit in the comment; a text may carry its own: "0.1 mm".
+  static constexpr std::string_view head =
+      R"(# A loaded tooth contact analysis. Bare numbers have the unit in the comment; a text may carry its own: "0.1 mm".
 title = "My pair, as it runs"
 task = "analyse"
 )";

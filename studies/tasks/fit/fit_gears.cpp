@@ -59,8 +59,8 @@ std::string unmet_requirement(const GearFit& fit) {
                        memory ? "out of memory" : "the stiffness matrix is singular to round-off");
   }
   if (fit.result.fit.status == FitStatus::Converged) return "";
-  return fmt::format("the {}'s fit did not converge ({} after {} steps): {}", name_of(fit.member),
-                     to_string(fit.result.fit.status), fit.result.fit.iterations, fit.result.fit.message);
+  return fmt::format("the {}'s fit did not converge ({} after {} steps): {}", name_of(fit.member), to_string(fit.result.fit.status),
+                     fit.result.fit.iterations, fit.result.fit.message);
 }
 
 }  // namespace flankwright::studies

@@ -25,9 +25,8 @@ Json distribution_json(const ResidualDistribution& d) {
 Json residuals_json(const std::vector<FormResiduals>& all) {
   Json json{{"share_percent", list(kResidualShares, [](double share) { return percent * share; })}};
   for (const FormResiduals& form : all) {
-    json[form.form] = {{"status", to_string(form.status)},
-                       {"fitted", list(form.fitted, distribution_json)},
-                       {"unseen", list(form.unseen, distribution_json)}};
+    json[form.form] = {
+        {"status", to_string(form.status)}, {"fitted", list(form.fitted, distribution_json)}, {"unseen", list(form.unseen, distribution_json)}};
   }
   return json;
 }
@@ -42,8 +41,7 @@ Json uncertainty_json(const FittedCompliance& fit, const Eigen::MatrixXd& covari
   Json least_certain = Json::array();
   for (std::size_t i = 0; i < std::min(uncertain_coefficients, order.size()); ++i) {
     const std::size_t c = order[i];
-    least_certain.push_back(
-        {{"coefficient", names[c]}, {"value", fit.coefficients()[c]}, {"standard_error", errors[c]}});
+    least_certain.push_back({{"coefficient", names[c]}, {"value", fit.coefficients()[c]}, {"standard_error", errors[c]}});
   }
   return {{"median_standard_error", order.empty() ? not_given : errors[order[order.size() / 2]]},
           {"least_certain", least_certain},

@@ -8,7 +8,6 @@ namespace flankwright::studies {
 
 namespace {
 
-
 std::string coefficients_csv(const FittedCompliance& fit) {
   const FitTable table = fit.to_table();
   std::string csv = "name,value\n";
@@ -29,9 +28,8 @@ std::string residuals_csv(const std::vector<GearFit>& fits) {
   std::string csv = "gear,form,points,teeth_apart,pairs,median_percent,share_95_percent,worst_percent,worst_percent_of_own\n";
   for (const GearFit& fit : fits) {
     for_each_distribution(fit.result, [&](const std::string& form, const char* points, const ResidualDistribution& d) {
-      csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", name_of(fit.member), form, points, d.teeth_apart, d.pairs,
-                         percent * d.median(), percent * d.share_95(), percent * d.worst(),
-                         percent * d.worst_of_own);
+      csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", name_of(fit.member), form, points, d.teeth_apart, d.pairs, percent * d.median(),
+                         percent * d.share_95(), percent * d.worst(), percent * d.worst_of_own);
     });
   }
   return csv;
@@ -42,8 +40,8 @@ std::string curves_csv(const std::vector<GearFit>& fits) {
   for (const GearFit& fit : fits) {
     for (const DeflectionCurve& curve : fit.result.curves) {
       for (std::size_t i = 0; i < curve.zeta.size(); ++i) {
-        csv += fmt::format("{},{},{},{},{},{},{}\n", name_of(fit.member), curve.model, curve.load.u, curve.load.zeta,
-                           curve.tooth, curve.zeta[i], curve.value[i]);
+        csv += fmt::format("{},{},{},{},{},{},{}\n", name_of(fit.member), curve.model, curve.load.u, curve.load.zeta, curve.tooth, curve.zeta[i],
+                           curve.value[i]);
       }
     }
   }
@@ -68,17 +66,15 @@ std::string fit_summary(const std::vector<GearFit>& fits) {
   std::string out;
   for (const GearFit& fit : fits) {
     const GearFitResult& result = fit.result;
-    out += fmt::format("{}: {} after {} steps, {} pairs; {} unknowns, {} loads, {:.0f} s\n", name_of(fit.member),
-                       to_string(result.fit.status), result.fit.iterations, result.fit.pairs,
-                       result.finite_elements.unknowns, result.loads, fit.seconds);
-    out += fmt::format("{:<18}  {:<7}  {:>11}  {:>8}  {:>9}  {:>9}  {:>9}  {:>9}\n", "residuals", "points", "teeth apart", "pairs",
-                       "median", "95 %", "worst", "of own");
+    out += fmt::format("{}: {} after {} steps, {} pairs; {} unknowns, {} loads, {:.0f} s\n", name_of(fit.member), to_string(result.fit.status),
+                       result.fit.iterations, result.fit.pairs, result.finite_elements.unknowns, result.loads, fit.seconds);
+    out += fmt::format("{:<18}  {:<7}  {:>11}  {:>8}  {:>9}  {:>9}  {:>9}  {:>9}\n", "residuals", "points", "teeth apart", "pairs", "median", "95 %",
+                       "worst", "of own");
     for_each_distribution(result, [&](const std::string& form, const char* points, const ResidualDistribution& d) {
-      out += fmt::format("{:<18}  {:<7}  {:>11}  {:>8}  {:>7.2f} %  {:>7.2f} %  {:>7.2f} %  {:>7.2f} %\n", form, points, d.teeth_apart,
-                         d.pairs, percent * d.median(), percent * d.share_95(), percent * d.worst(), percent * d.worst_of_own);
+      out += fmt::format("{:<18}  {:<7}  {:>11}  {:>8}  {:>7.2f} %  {:>7.2f} %  {:>7.2f} %  {:>7.2f} %\n", form, points, d.teeth_apart, d.pairs,
+                         percent * d.median(), percent * d.share_95(), percent * d.worst(), percent * d.worst_of_own);
     });
-    out += fmt::format("lowest eigenvalue over {} teeth: {:.2g} of the largest\n", result.eigenvalue_teeth,
-                       result.lowest_eigenvalue);
+    out += fmt::format("lowest eigenvalue over {} teeth: {:.2g} of the largest\n", result.eigenvalue_teeth, result.lowest_eigenvalue);
   }
   return out;
 }

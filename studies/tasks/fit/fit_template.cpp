@@ -5,7 +5,8 @@
 namespace flankwright::studies {
 
 std::string fit_template() {
-  static constexpr std::string_view text = R"(# Compliance of each gear by finite elements, fitted by a sum of kernels and compared with other models. Flank
+  static constexpr std::string_view text =
+      R"(# Compliance of each gear by finite elements, fitted by a sum of kernels and compared with other models. Flank
 # modifications, loads and misalignment do not enter.
 title = "Compliance of my gears"
 task = "fit"

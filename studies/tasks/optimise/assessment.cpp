@@ -27,9 +27,8 @@ Validation validate(const Study& study, const DesignProblem& problem, const Desi
                     const ComparedDesign* best_rule) {
   const Stopwatch clock;
   Validation validation{.seed = study.optimise.assessment.validation.seed, .scenes = {}, .designs = {}};
-  std::vector<NamedDesign> designs{
-      {"before", "", design.before.analysis.modification.pinion, design.before.analysis.modification.wheel},
-      {"after", "", design.after.analysis.modification.pinion, design.after.analysis.modification.wheel}};
+  std::vector<NamedDesign> designs{{"before", "", design.before.analysis.modification.pinion, design.before.analysis.modification.wheel},
+                                   {"after", "", design.after.analysis.modification.pinion, design.after.analysis.modification.wheel}};
   if (best_rule != nullptr) designs.push_back(best_rule->design);
   for (const DesignScene& scene : drawn) validation.scenes.push_back(scene.name);
   validation.designs = validate_designs(problem.task(), drawn, designs);
@@ -55,14 +54,16 @@ std::string bound_in_words(const Optimum::Bound& bound, const Optimum& optimum, 
   const DesignVariable& v = task.variables[static_cast<std::size_t>(bound.variable)];
   const double limit = (bound.upper ? v.upper : v.lower) * v.outside_factor();
   const double step = assessment_step(v.unit());
-  const std::string stands = fmt::format("The {} is at its {} bound, {:.4g} {}", plain_name(v.path), bound.upper ? "upper" : "lower", limit, v.unit());
+  const std::string stands =
+      fmt::format("The {} is at its {} bound, {:.4g} {}", plain_name(v.path), bound.upper ? "upper" : "lower", limit, v.unit());
   return gain_in_words(bound.gain, fmt::format("{}: {:.2g} {} {}", stands, step, v.unit(), bound.upper ? "more" : "less"), optimum, task);
 }
 
 std::string constraint_in_words(const Optimum::Constraint& constraint, const Optimum& optimum, const DesignTask& task) {
   const OutputConstraint& c = task.constraints[static_cast<std::size_t>(constraint.constraint)];
-  const std::string move = fmt::format("The constraint {} {} {:.4g} {} is active: a limit one per cent {}", plain_name(c.output.name), c.is_least() ? ">=" : "<=",
-                                       c.limit() * c.output.outside_factor(), c.output.unit(), c.is_least() ? "lower" : "higher");
+  const std::string move =
+      fmt::format("The constraint {} {} {:.4g} {} is active: a limit one per cent {}", plain_name(c.output.name),
+                  c.is_least() ? ">=" : "<=", c.limit() * c.output.outside_factor(), c.output.unit(), c.is_least() ? "lower" : "higher");
   return gain_in_words(constraint.gain, move, optimum, task);
 }
 
@@ -76,15 +77,15 @@ std::string sum_in_words(const Optimum::Sum& sum, const Optimum& optimum, const 
 
 std::string objective_in_words(const Optimum::Objective& objective, const Optimum& optimum, const DesignTask& task) {
   const ObjectiveBound& bound = task.objective_bounds[static_cast<std::size_t>(objective.bound)];
-  const std::string move = fmt::format("The objective before it, {}, is at the {:.4g} {} that it keeps: one per cent more", plain_name(bound.objective.name()),
-                                       bound.limit, bound.objective.unit());
+  const std::string move = fmt::format("The objective before it, {}, is at the {:.4g} {} that it keeps: one per cent more",
+                                       plain_name(bound.objective.name()), bound.limit, bound.objective.unit());
   return gain_in_words(objective.gain, move, optimum, task);
 }
 
 }  // namespace
 
-Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignResult& design,
-                    const std::vector<DesignScene>& drawn, const ProgressReport& progress) {
+Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignResult& design, const std::vector<DesignScene>& drawn,
+                          const ProgressReport& progress) {
   const Stopwatch clock;
   Assessment assessment;
   if (study.optimise.assessment.rules) {
@@ -123,9 +124,9 @@ std::string validation_in_words(const Validation& validation, const DesignTask& 
       before.greatest, after.greatest, task.objective_unit());
   if (validation.designs.size() > 2) {
     const ValidatedDesign& rule = validation.designs[2];
-    words += fmt::format(" It is better than the best rule of thumb ({}) in {:.1f} %, whose largest is {:.5g} {}.", rule.name,
-                         100.0 * share_below(validation.designs[1].measures, rule.measures), spread_of(rule.measures).greatest,
-                         task.objective_unit());
+    words +=
+        fmt::format(" It is better than the best rule of thumb ({}) in {:.1f} %, whose largest is {:.5g} {}.", rule.name,
+                    100.0 * share_below(validation.designs[1].measures, rule.measures), spread_of(rule.measures).greatest, task.objective_unit());
   }
   if (before.failed + after.failed > 0) words += fmt::format(" {} analyses did not converge.", before.failed + after.failed);
   return words;

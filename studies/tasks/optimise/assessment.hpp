@@ -28,14 +28,15 @@ struct Assessment {
   std::vector<VariantSearch> variants;   ///< one a placement of the levels; empty: not asked for
   std::optional<Validation> validation;  ///< none: not asked for
   std::optional<Optimum> optimum;        ///< of the design before rounding; none where it cannot be analysed
-  std::optional<DesignTask> judged;      ///< the problem of the optimum: the task, or for a list of objectives the last one under limits on those before it
+  std::optional<DesignTask>
+      judged;  ///< the problem of the optimum: the task, or for a list of objectives the last one under limits on those before it
   double seconds{not_given};
 };
 
 /// @param problem  that was optimised
 /// @param drawn    scenes to validate on; empty: none
-Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignResult& design,
-                    const std::vector<DesignScene>& drawn, const ProgressReport& progress);
+Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignResult& design, const std::vector<DesignScene>& drawn,
+                          const ProgressReport& progress);
 
 /// "Over 500 scenes drawn afresh (seed 1) the design is better in 98.2 %, ..."
 std::string validation_in_words(const Validation& validation, const DesignTask& task);

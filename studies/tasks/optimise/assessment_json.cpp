@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-
 namespace flankwright::studies {
 
 namespace {
@@ -22,7 +21,8 @@ Json modifications_json(const NamedDesign& design) {
     };
     for (const ModificationDescriptor& p : modification_parameters) {
       if (p.get(m) == 0.0 || !is_said(p)) continue;
-      const DesignVariable v{.path = std::string(name_of(member)) + ".modification." + std::string(p.key), .member = member, .parameter = p.parameter};
+      const DesignVariable v{
+          .path = std::string(name_of(member)) + ".modification." + std::string(p.key), .member = member, .parameter = p.parameter};
       json.push_back({{"name", v.path}, {"value", p.get(m) * v.outside_factor()}, {"unit", v.unit()}});
     }
   }
@@ -85,12 +85,11 @@ Json governing_json(const Optimum& optimum, const DesignTask& task) {
                                     {"unit", v.unit()},
                                     {"gain", b.gain}};
                           })},
-          {"constraints", list(optimum.constraints,
-                               [&](const Optimum::Constraint& c) -> Json {
-                                 return {{"name", task.constraints[static_cast<std::size_t>(c.constraint)].output.name},
-                                         {"step_percent", 1.0},
-                                         {"gain", c.gain}};
-                               })},
+          {"constraints",
+           list(optimum.constraints,
+                [&](const Optimum::Constraint& c) -> Json {
+                  return {{"name", task.constraints[static_cast<std::size_t>(c.constraint)].output.name}, {"step_percent", 1.0}, {"gain", c.gain}};
+                })},
           {"goals", list(optimum.objectives,
                          [&](const Optimum::Objective& g) -> Json {
                            const ObjectiveBound& bound = task.objective_bounds[static_cast<std::size_t>(g.bound)];
@@ -98,18 +97,18 @@ Json governing_json(const Optimum& optimum, const DesignTask& task) {
                          })},
           {"sums", list(optimum.sums, [&](const Optimum::Sum& s) -> Json {
              const ModificationConstraint& bound = task.modification_constraints[static_cast<std::size_t>(s.constraint)];
-             return {{"name", bound.name}, {"side", s.upper ? "upper" : "lower"}, {"step", assessment_step(bound.unit())},
-                     {"unit", bound.unit()}, {"gain", s.gain}};
+             return {{"name", bound.name},
+                     {"side", s.upper ? "upper" : "lower"},
+                     {"step", assessment_step(bound.unit())},
+                     {"unit", bound.unit()},
+                     {"gain", s.gain}};
            })}};
 }
 
 Json sensitivity_json(const Sensitivity& s) {
-  Json json{{"name", s.parameter.name},
-            {"kind", s.parameter.variable >= 0 ? "variable" : "tolerance"},
-            {"step", s.parameter.step},
-            {"unit", s.parameter.unit},
-            {"less", s.less},
-            {"more", s.more}};
+  Json json{{"name", s.parameter.name}, {"kind", s.parameter.variable >= 0 ? "variable" : "tolerance"},
+            {"step", s.parameter.step}, {"unit", s.parameter.unit},
+            {"less", s.less},           {"more", s.more}};
   if (s.parameter.variable >= 0) {
     json["within_bounds"] = {{"less", s.can_less}, {"more", s.can_more}};
   } else {
@@ -122,9 +121,9 @@ Json spread_json(const ValidatedDesign& design, double low, double high, int bin
   const Spread spread = spread_of(design.measures);
   Json quantiles = Json::array();
   for (std::size_t q = 0; q < Spread::shares.size(); ++q) quantiles.push_back({{"share", Spread::shares[q]}, {"value", spread.quantiles[q]}});
-  return {{"name", design.name},          {"analysed", spread.count},         {"failed", spread.failed},
-          {"mean", spread.mean},          {"deviation", spread.deviation},    {"least", spread.least},
-          {"greatest", spread.greatest},  {"quantiles", quantiles},           {"histogram", histogram(design.measures, low, high, bins)}};
+  return {{"name", design.name},         {"analysed", spread.count},      {"failed", spread.failed},
+          {"mean", spread.mean},         {"deviation", spread.deviation}, {"least", spread.least},
+          {"greatest", spread.greatest}, {"quantiles", quantiles},        {"histogram", histogram(design.measures, low, high, bins)}};
 }
 
 Json validation_json(const Validation& validation, const DesignTask& task, const AssessmentTable& asked) {

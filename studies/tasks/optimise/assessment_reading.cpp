@@ -62,9 +62,10 @@ void read_clearance(StudyReading& reading, const Item& item) {
   try {
     const double tilt = read_number(clearance, *table->get("clearance")) / read_number(span, *table->get("span")) / units::arcmin;
     for (const char* axis : {"misalignment.crossing", "misalignment.intersecting"}) {
-      tolerances_of(reading).push_back({axis, fmt::format("clearance of the {} bearings: uniform, {:.3g} arcmin either way, added",
-                                                          item.name.substr(0, item.name.find('.')), tilt),
-                                        Distribution::uniform(-tilt, tilt), true});
+      tolerances_of(reading).push_back(
+          {axis,
+           fmt::format("clearance of the {} bearings: uniform, {:.3g} arcmin either way, added", item.name.substr(0, item.name.find('.')), tilt),
+           Distribution::uniform(-tilt, tilt), true});
     }
   } catch (const InvalidInput& problem) {
     reading.refuse(item.position, shown, item.node, "allowed is { clearance = um, span = mm }: " + problem.allowed());
@@ -73,8 +74,8 @@ void read_clearance(StudyReading& reading, const Item& item) {
 
 void check_samples(StudyReading& reading) {
   const AssessmentTable& assessment = reading.builder.study.optimise.assessment;
-  for (const auto& [key, drawn] : {std::pair{"optimise.validation.samples", &assessment.validation},
-                                   std::pair{"optimise.scenes_drawn.samples", &assessment.scenes}}) {
+  for (const auto& [key, drawn] :
+       {std::pair{"optimise.validation.samples", &assessment.validation}, std::pair{"optimise.scenes_drawn.samples", &assessment.scenes}}) {
     if (drawn->samples == 0 || !assessment.tolerances.empty()) continue;
     reading.refuse(reading.where(key), key, reading.find(key)->node, "set optimise.tolerances: scenes are drawn from them");
   }

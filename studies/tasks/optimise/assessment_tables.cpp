@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-
 namespace flankwright::studies {
 
 namespace {
@@ -11,8 +10,7 @@ namespace {
 std::string comparison_csv(const Assessment& assessment) {
   std::string csv = "design,objective,constraint_violation,failure,basis\n";
   const auto add = [&](const ComparedDesign& d, const std::string& name) {
-    csv += fmt::format("{},{},{},{},{}\n", csv_field(name), d.objective, d.constraint_violation, csv_field(d.failure),
-                       csv_field(d.design.basis));
+    csv += fmt::format("{},{},{},{},{}\n", csv_field(name), d.objective, d.constraint_violation, csv_field(d.failure), csv_field(d.design.basis));
   };
   for (const ComparedDesign& rule : assessment.rules) add(rule, rule.design.name);
   for (const VariantSearch& search : assessment.variants) {

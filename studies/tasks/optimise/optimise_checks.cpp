@@ -11,7 +11,8 @@ bool minimises_root_stress(const Study& study) {
   const auto is_root_stress = [](const ObjectiveTerm& term) { return term.output == Output::PeakRootStress; };
   const auto in_objective = [&](const Objective& objective) { return std::ranges::any_of(objective.terms, is_root_stress); };
   const OptimiseTable& optimise = study.optimise;
-  return std::ranges::any_of(optimise.objective, is_root_stress) || std::ranges::any_of(optimise.constraints, is_root_stress, &OutputConstraint::output) ||
+  return std::ranges::any_of(optimise.objective, is_root_stress) ||
+         std::ranges::any_of(optimise.constraints, is_root_stress, &OutputConstraint::output) ||
          std::ranges::any_of(optimise.later_objectives, in_objective) || std::ranges::any_of(optimise.pareto_objectives, in_objective);
 }
 
@@ -22,16 +23,14 @@ void check_variables(StudyReading& reading) {
   };
   for (const ExclusiveKeys& keys : exclusive_keys()) {
     if (!is_variable(keys.first) || !is_variable(keys.second)) continue;
-    reading.refuse_key("optimise.variables." + keys.second,
-               "overlaps the variable " + keys.first + "; allowed is one of them");
+    reading.refuse_key("optimise.variables." + keys.second, "overlaps the variable " + keys.first + "; allowed is one of them");
   }
 }
 
 void check_optimise(StudyReading& reading) {
   const Study& study = reading.builder.study;
   const Match* variables = reading.find("optimise.variables");
-  const bool has_entry =
-      variables != nullptr && (!variables->node->is_table() || !variables->node->as_table()->empty());
+  const bool has_entry = variables != nullptr && (!variables->node->is_table() || !variables->node->as_table()->empty());
   if (!has_entry) reading.refuse_key("optimise.variables", "task \"optimise\" needs at least one variable");
   if (!study.optimise.constraints.empty() && !accepts_constraints(study.optimise.solver)) {
     reading.refuse_key("optimise.solver", "this solver takes no constraints; one that does: \"ipopt\"");
@@ -41,13 +40,16 @@ void check_optimise(StudyReading& reading) {
   }
   const bool smooth = uses_gradients(study.optimise.solver) && accepts_constraints(study.optimise.solver);  // the epigraph is
   if (!study.optimise.pareto_objectives.empty() && !smooth) {
-    reading.refuse_key("optimise.solver", "a Pareto front needs gradients and constraints: allowed is \"ipopt\", \"nlopt:slsqp\", \"nlopt:mma\" or \"nlopt:ccsaq\"");
+    reading.refuse_key("optimise.solver",
+                       "a Pareto front needs gradients and constraints: allowed is \"ipopt\", \"nlopt:slsqp\", \"nlopt:mma\" or \"nlopt:ccsaq\"");
   }
   if (study.optimise.later_objectives.size() > 0 && !accepts_constraints(study.optimise.solver)) {
-    reading.refuse_key("optimise.solver", "a list of objectives bounds the earlier ones: allowed is a solver that takes constraints, such as \"ipopt\"");
+    reading.refuse_key("optimise.solver",
+                       "a list of objectives bounds the earlier ones: allowed is a solver that takes constraints, such as \"ipopt\"");
   }
   if (reading.find("optimise.finisher") != nullptr && !smooth) {
-    reading.refuse_key("optimise.finisher", "has a meaning with a solver of gradients and constraints only: \"ipopt\", \"nlopt:slsqp\", \"nlopt:mma\" or \"nlopt:ccsaq\"");
+    reading.refuse_key("optimise.finisher",
+                       "has a meaning with a solver of gradients and constraints only: \"ipopt\", \"nlopt:slsqp\", \"nlopt:mma\" or \"nlopt:ccsaq\"");
   }
   const Match* over = reading.find("optimise.over");
   const bool free_sigmas = over != nullptr && over->node->is_string() && over->node->as_string()->get() == "mean+sigmas";

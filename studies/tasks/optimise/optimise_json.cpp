@@ -102,12 +102,23 @@ Json active_json(const ActiveBound& active, const DesignTask& task) {
   using Kind = EpigraphRow::Kind;
   switch (row.kind) {
     case Kind::Floor:
-    case Kind::Ceiling: json["output"] = objective_of_block(task, row.objective).terms[index].name; break;
-    case Kind::OutputBound: json["constraint"] = task.constraints[index].output.name; break;
-    case Kind::ModificationBound: json["constraint"] = task.modification_constraints[index].name; break;
-    case Kind::ObjectiveHelper: json["output"] = objective_of_block(task, row.objective).name(); break;
-    case Kind::ObjectiveBound: json["constraint"] = objective_of_block(task, row.objective).name(); break;
-    case Kind::ScalarisedObjective: break;  // of fronts only, whose points have no optimality of their own
+    case Kind::Ceiling:
+      json["output"] = objective_of_block(task, row.objective).terms[index].name;
+      break;
+    case Kind::OutputBound:
+      json["constraint"] = task.constraints[index].output.name;
+      break;
+    case Kind::ModificationBound:
+      json["constraint"] = task.modification_constraints[index].name;
+      break;
+    case Kind::ObjectiveHelper:
+      json["output"] = objective_of_block(task, row.objective).name();
+      break;
+    case Kind::ObjectiveBound:
+      json["constraint"] = objective_of_block(task, row.objective).name();
+      break;
+    case Kind::ScalarisedObjective:
+      break;  // of fronts only, whose points have no optimality of their own
   }
   if (row.scene >= 0) {
     const DesignScene& scene = task.scenes[static_cast<std::size_t>(row.scene)];
@@ -158,23 +169,24 @@ void add_starts(const DesignResult& design, const DesignTask& task, Json& json) 
   });
   json["optima"] = list(design.optima, [&](const LocalOptimum& optimum) -> Json {
     const LocalRun& run = design.runs[optimum.run];
-    return {{"start", optimum.run},
-            {"found_by", optimum.found_by},
-            {"objective", run.objective},
-            {"variables", scaled_design_json(run.x, task)}};
+    return {{"start", optimum.run}, {"found_by", optimum.found_by}, {"objective", run.objective}, {"variables", scaled_design_json(run.x, task)}};
   });
   json["multimodal"] = design.is_multimodal();
 }
 
 Json front_json(const ParetoFront& front, const DesignTask& task) {
-  return {{"objectives", list(front.objectives, [](const Objective& objective) -> Json { return {{"name", objective.name()}, {"unit", objective.unit()}}; })},
-          {"points", list(front.points, [&](const ParetoPoint& point) -> Json {
-             return {{"values", point.values},
-                     {"variables", scaled_design_json(point.x, task)},
-                     {"status", to_string(point.status)},
-                     {"constraint_violation", point.constraint_violation},
-                     {"dominated", point.dominated}};
-           })},
+  return {{"objectives", list(front.objectives,
+                              [](const Objective& objective) -> Json {
+                                return {{"name", objective.name()}, {"unit", objective.unit()}};
+                              })},
+          {"points", list(front.points,
+                          [&](const ParetoPoint& point) -> Json {
+                            return {{"values", point.values},
+                                    {"variables", scaled_design_json(point.x, task)},
+                                    {"status", to_string(point.status)},
+                                    {"constraint_violation", point.constraint_violation},
+                                    {"dominated", point.dominated}};
+                          })},
           {"ideal", front.ideal},
           {"worst", front.worst},
           {"unevenness", front.unevenness()},
@@ -222,18 +234,15 @@ Json optimise_json(const StudyResults& results) {
             {"after", design_report_json(design.after, task)},
             {"scenes", scenes},
             {"history", list(design.history, [](const SolverStep& step) -> Json {
-               return {{"evaluation", step.evaluation},
-                       {"objective", step.objective},
-                       {"constraint_violation", step.constraint_violation}};
+               return {{"evaluation", step.evaluation}, {"objective", step.objective}, {"constraint_violation", step.constraint_violation}};
              })}};
   add_errors(results.before_errors, task, json["before"]);
   add_errors(results.after_errors, task, json["after"]);
   if (results.search_work) json["assessment"] = assessment_json(*results.search_work, task.scenes.size());
   if (design.exact) {
     json["exact"] = design_report_json(*design.exact, task);
-    json["rounded"] = {{"variables", json["after"]["variables"]},
-                       {"objective", design.after.objective},
-                       {"loss_percent", 100.0 * design.rounding_loss()}};
+    json["rounded"] = {
+        {"variables", json["after"]["variables"]}, {"objective", design.after.objective}, {"loss_percent", 100.0 * design.rounding_loss()}};
   }
   if (!design.stages.empty()) {
     json["stages"] = list(design.stages, [](const LexicographicStage& stage) -> Json {

@@ -104,8 +104,8 @@ void read_variable(StudyReading& reading, const Item& item) {
   const SchemaKey* key = modification_key(reading, item.name, item.position, shown, item.node);
   if (key == nullptr) return;
   const toml::table* table = item.node->as_table();
-  const std::string allowed = "allowed are two numbers [low, high], or { range = [low, high], step = ... }" +
-                              range_in_words(key->range, key->quantity);
+  const std::string allowed =
+      "allowed are two numbers [low, high], or { range = [low, high], step = ... }" + range_in_words(key->range, key->quantity);
   if (table != nullptr && !has_only(reading, item, shown, {"range", "step"}, allowed)) return;
   const toml::node* range = table == nullptr ? item.node : table->get("range");
   const toml::array* bounds = range == nullptr ? nullptr : range->as_array();
@@ -131,8 +131,8 @@ void read_variable(StudyReading& reading, const Item& item) {
 void check_linked_value(StudyReading& reading, const Item& item, const std::string& shown, const SchemaKey& key, double value) {
   const double low = internal_value(key.range.low, key.quantity), high = internal_value(key.range.high, key.quantity);
   if (value >= low && value <= high) return;
-  reading.refuse(item.position, shown, item.node, "leaves its range at an end of the variable: allowed is a number" +
-                                                      range_in_words(key.range, key.quantity));
+  reading.refuse(item.position, shown, item.node,
+                 "leaves its range at an end of the variable: allowed is a number" + range_in_words(key.range, key.quantity));
 }
 
 void read_link(StudyReading& reading, const Item& item) {
@@ -154,7 +154,8 @@ void read_link(StudyReading& reading, const Item& item) {
     return reading.refuse(item.position, shown, item.node, "is a variable as well: allowed is one of the two");
   }
   if (key->quantity != study_keys().at(variable->path)->quantity) {
-    return reading.refuse(item.position, shown + ".as", as, "is of another unit: allowed is a variable in " + std::string(default_unit(key->quantity)));
+    return reading.refuse(item.position, shown + ".as", as,
+                          "is of another unit: allowed is a variable in " + std::string(default_unit(key->quantity)));
   }
   LinkingConstraint link{.linked = variable_of(*key), .as = static_cast<std::size_t>(variable - optimise.variables.begin())};
   const SchemaKey factor{.range = {.low = -1000.0, .high = 1000.0}}, offset{.quantity = key->quantity};
@@ -222,8 +223,9 @@ void read_modification_constraint(StudyReading& reading, const Item& item, const
     constraint.terms.push_back({key->member, std::get<ModificationParameter>(key->store), factor});
   }
   if (first == nullptr) {
-    return reading.refuse(item.position, shown, item.node, "allowed is an output, or a sum such as \"2 * pinion.modification.lead_crowning - "
-                                                           "wheel.modification.lead_crowning\" with spaces around the signs");
+    return reading.refuse(item.position, shown, item.node,
+                          "allowed is an output, or a sum such as \"2 * pinion.modification.lead_crowning - "
+                          "wheel.modification.lead_crowning\" with spaces around the signs");
   }
   const auto& variables = reading.builder.study.optimise.variables;
   const auto& links = reading.builder.study.optimise.links;

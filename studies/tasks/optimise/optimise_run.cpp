@@ -29,9 +29,7 @@ class OptimiseRun {
     options.max_seconds = study.optimise.max_seconds;
     options.seed = study.optimise.seed;
     const std::string unit = study.optimise.objective.size() == 1 ? study.optimise.objective.front().unit() : "";
-    options.progress = [&](int analyses, double best) {
-      run_.report("optimising", analyses, 0, fmt::format("best so far {:.5g} {}", best, unit));
-    };
+    options.progress = [&](int analyses, double best) { run_.report("optimising", analyses, 0, fmt::format("best so far {:.5g} {}", best, unit)); };
     DesignProblem problem(*results_.design_task);
     const DesignOptions choice{options, study.optimise.starts};
     TwoLevelDesign found = optimise_by_two_levels(problem, choice);
@@ -43,7 +41,8 @@ class OptimiseRun {
     }
     const DesignResult& design = *results_.design;
     results_.steps.push_back({"load_distribution", "all analyses of the optimisation", design.seconds});
-    results_.assessment = std::make_shared<const Assessment>(assess_optimum(study, problem, design, run_.loaded(draw_scenes(study, study.optimise.assessment.validation)), run_.progress()));
+    results_.assessment = std::make_shared<const Assessment>(
+        assess_optimum(study, problem, design, run_.loaded(draw_scenes(study, study.optimise.assessment.validation)), run_.progress()));
     results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", results_.assessment->seconds});
     results_.before_errors = show(problem, "before", results_.design->before);
     results_.after_errors = show(problem, "after", results_.design->after);

@@ -20,8 +20,8 @@ std::string scenes_csv(const StudyResults& results) {
   std::string csv = "scene,torque_Nm,weight,before,after\n";
   for (std::size_t s = 0; s < results.design_task->scenes.size(); ++s) {
     const DesignScene& scene = results.design_task->scenes[s];
-    csv += fmt::format("{},{},{},{},{}\n", csv_field(scene.name), in_Nm(scene.torque), scene.weight,
-                       results.design->before.scene_measures[s], results.design->after.scene_measures[s]);
+    csv += fmt::format("{},{},{},{},{}\n", csv_field(scene.name), in_Nm(scene.torque), scene.weight, results.design->before.scene_measures[s],
+                       results.design->after.scene_measures[s]);
   }
   return csv;
 }
@@ -69,9 +69,7 @@ std::string optimise_summary(const StudyResults& results) {
   for (const DesignVariable& v : task.variables) names.push_back(plain_name(v.path));
   std::set<double> torques;
   for (const DesignScene& s : task.scenes) torques.insert(s.torque);
-  const auto label = [&](const DesignScene& s) {
-    return torques.size() > 1 ? fmt::format("{}, {:.5g} N·m", s.name, in_Nm(s.torque)) : s.name;
-  };
+  const auto label = [&](const DesignScene& s) { return torques.size() > 1 ? fmt::format("{}, {:.5g} N·m", s.name, in_Nm(s.torque)) : s.name; };
   for (const DesignScene& s : task.scenes) names.push_back(label(s));
   const std::size_t width = widest(names, 24);
 
@@ -86,14 +84,15 @@ std::string optimise_summary(const StudyResults& results) {
     const double before = design.before.scene_measures[s], after = design.after.scene_measures[s];
     out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", label(task.scenes[s]), width, before, after, change(before, after));
   }
-  out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", "over the scenes", width, design.before.objective,
-                     design.after.objective, change(design.before.objective, design.after.objective));
+  out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", "over the scenes", width, design.before.objective, design.after.objective,
+                     change(design.before.objective, design.after.objective));
   out += error_row(width, results.before_errors.objective, results.after_errors.objective);
   for (std::size_t c = 0; c < task.constraints.size(); ++c) {
     const ObjectiveTerm& output = task.constraints[c].output;
     const OutputConstraint& bound = task.constraints[c];
     out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n",
-                       fmt::format("{} {} {:.5g} {}", plain_name(output.name), bound.is_least() ? ">=" : "<=", bound.limit() * output.outside_factor(), output.unit()),
+                       fmt::format("{} {} {:.5g} {}", plain_name(output.name),
+                                   bound.is_least() ? ">=" : "<=", bound.limit() * output.outside_factor(), output.unit()),
                        width, design.before.constraint_values[c] * output.outside_factor(),
                        design.after.constraint_values[c] * output.outside_factor(), "");
     if (c < results.after_errors.constraint_values.size()) {
@@ -101,8 +100,8 @@ std::string optimise_summary(const StudyResults& results) {
                        results.after_errors.constraint_values[c] * output.outside_factor());
     }
   }
-  out += fmt::format("\n{}: {} after {} analyses of {} scenes in {:.1f} s\n", design.solver, to_string(design.status),
-                     design.evaluations, task.scenes.size(), design.seconds);
+  out += fmt::format("\n{}: {} after {} analyses of {} scenes in {:.1f} s\n", design.solver, to_string(design.status), design.evaluations,
+                     task.scenes.size(), design.seconds);
   if (results.search_work) {
     const SearchWork& work = *results.search_work;
     const auto level = [&](const LevelWork& w) {

@@ -38,7 +38,8 @@ std::vector<FlankCondition> optimise_conditions(const Study& study) {
       set(condition.modification[v.member], v.parameter, v.upper != 0.0 ? v.upper : v.lower);
     }
   }
-  for (const Scene& scene : draw_scenes(study, {.samples = study.optimise.assessment.tolerances.empty() ? 0 : 4})) all.push_back(condition_of(study, scene));
+  for (const Scene& scene : draw_scenes(study, {.samples = study.optimise.assessment.tolerances.empty() ? 0 : 4}))
+    all.push_back(condition_of(study, scene));
   return all;
 }
 

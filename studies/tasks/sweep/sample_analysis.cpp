@@ -68,9 +68,8 @@ std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& conditi
   const MeshModel* model = &nominal_.models.front();
   std::optional<MeshModel> own;
   if (placement != model->placement) {
-    own = make_mesh_model(nominal_.pair, study.material, {study.fidelity.quadrature, nominal_.phases},
-                          nominal_.mesh_effects, placement, nominal_.structures.pair.get(),
-                          nominal_.structures.root_stress.get(), nominal_.shafts.get());
+    own = make_mesh_model(nominal_.pair, study.material, {study.fidelity.quadrature, nominal_.phases}, nominal_.mesh_effects, placement,
+                          nominal_.structures.pair.get(), nominal_.structures.root_stress.get(), nominal_.shafts.get());
     model = &*own;
   }
   const LoadedCycle cycle = analyse_cycle(*model, condition, torque);
@@ -78,8 +77,8 @@ std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& conditi
     throw SampleFailure{"the load distribution did not converge at " + std::to_string(cycle.failures) + " mesh positions"};
   }
   const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) {
-    return make_mesh_model(nominal_.pair, study.material, {study.fidelity.quadrature, phases}, nominal_.mesh_effects,
-                           placement, nominal_.structures.pair.get(), nullptr, nominal_.shafts.get());
+    return make_mesh_model(nominal_.pair, study.material, {study.fidelity.quadrature, phases}, nominal_.mesh_effects, placement,
+                           nominal_.structures.pair.get(), nullptr, nominal_.shafts.get());
   };
   const CycleSummary summary = resolve_cycle(*model, cycle, at, condition, torque, {.seek_extremes = seeks_extremes(study)}).summary;
   const IsoLoadFactors iso = iso_load_factors(model->pair, model->iso, iso_deviations(model->pair, condition), torque, model->face_width);

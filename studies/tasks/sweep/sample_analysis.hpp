@@ -12,7 +12,7 @@ namespace flankwright::studies {
 
 /// A figure that every sample has.
 struct SweepOutput {
-  std::string name;            ///< as in `loaded.summary` of results.json, or of `unloaded.mesh`; harmonics te_harmonic_1_um ...
+  std::string name;  ///< as in `loaded.summary` of results.json, or of `unloaded.mesh`; harmonics te_harmonic_1_um ...
   std::string unit;
   bool smaller_is_worse{false};  ///< of the worst sample: stiffness
 };

@@ -17,8 +17,7 @@ std::variant<SampleDesign, SensitivityDesign> make_design(const SweepTable& swee
 
 }  // namespace
 
-SweepDesign::SweepDesign(const SweepTable& sweep)
-    : parameters_(sweep.parameters), design_(make_design(sweep)), samples_(sweep.samples) {}
+SweepDesign::SweepDesign(const SweepTable& sweep) : parameters_(sweep.parameters), design_(make_design(sweep)), samples_(sweep.samples) {}
 
 int SweepDesign::block_size() const {
   const auto* blocks = std::get_if<SensitivityDesign>(&design_);

@@ -80,9 +80,10 @@ Json sweep_json(const StudyResults& results) {
   }
   return {{"samples", statistics.samples},
           {"failed", statistics.failed},
-          {"failures", list(statistics.failures, [](const FailureCount& f) -> Json {
-             return {{"reason", f.reason}, {"count", f.count}, {"first_sample", f.first}};
-           })},
+          {"failures", list(statistics.failures,
+                            [](const FailureCount& f) -> Json {
+                              return {{"reason", f.reason}, {"count", f.count}, {"first_sample", f.first}};
+                            })},
           {"seconds", statistics.seconds},
           {"sampler", to_string(sweep.sampler)},
           {"seed", sweep.seed},

@@ -97,9 +97,9 @@ void check_design(StudyReading& reading) {
   }
   const int coordinates = sweep.indices ? 2 * count : count;
   if (sweep.sampler == Sampler::Sobol && coordinates > sobol_dimensions) {
-    return reading.refuse_key("sweep.parameters",
-                      "the sampler \"sobol\" has " + std::to_string(sobol_dimensions) + " coordinates, a parameter takes " +
-                          (sweep.indices ? "2 with indices and 1 without" : "1") + "; another sampler has no limit");
+    return reading.refuse_key("sweep.parameters", "the sampler \"sobol\" has " + std::to_string(sobol_dimensions) +
+                                                      " coordinates, a parameter takes " + (sweep.indices ? "2 with indices and 1 without" : "1") +
+                                                      "; another sampler has no limit");
   }
   if (sweep.indices && sweep.samples < 2 * (count + 2)) {
     reading.refuse_key("sweep.samples", "at least " + std::to_string(2 * (count + 2)) + " for Sobol indices, or sweep.indices = \"off\"");

@@ -29,7 +29,7 @@ struct OutputStatistics {
   double deviation{not_given};  ///< standard deviation, n - 1 below the root; NaN of fewer than two
   double smallest{not_given}, largest{not_given};
   std::array<double, quantile_shares.size()> quantiles{};  ///< the value of rank share (n - 1), between two ranks linearly
-  long long worst{-1};          ///< number of the sample with the worst value, the first of equal ones
+  long long worst{-1};                                     ///< number of the sample with the worst value, the first of equal ones
   Histogram histogram;
   std::vector<SobolIndex> indices;  ///< one a parameter; empty where the design has no blocks
 };
@@ -51,14 +51,14 @@ struct FailureCount {
 
 struct SweepStatistics {
   long long samples{0}, failed{0};
-  double seconds{not_given};  ///< of computing the samples, over all runs that did
-  long long blocks{0};  ///< that the Sobol indices are from: none of their samples failed
-  std::vector<StoredSample> worst;    ///< of each output; an id of -1 where there is none
+  double seconds{not_given};        ///< of computing the samples, over all runs that did
+  long long blocks{0};              ///< that the Sobol indices are from: none of their samples failed
+  std::vector<StoredSample> worst;  ///< of each output; an id of -1 where there is none
   std::vector<OutputStatistics> outputs;
   /// How the samples lie over each parameter's range; the parts are those of the maps, and where there are few levels the levels.
   std::vector<Histogram> parameters;
-  std::vector<ResponseMap> maps;      ///< of every output over every two parameters
-  std::vector<FailureCount> failures; ///< most frequent first, at most 20
+  std::vector<ResponseMap> maps;       ///< of every output over every two parameters
+  std::vector<FailureCount> failures;  ///< most frequent first, at most 20
 };
 
 /// Reads the samples below design.samples() three times in their order and once sorted for each output; memory does not grow with

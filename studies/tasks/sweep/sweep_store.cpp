@@ -97,19 +97,19 @@ SweepStore::SweepStore(const fs::path& file, const Study& study, const std::vect
     check_same(study, shard);
   }
   database_.execute("COMMIT");
-  insert_.emplace(database_, "INSERT INTO samples VALUES (?, ?" + [&] {
-    std::string marks;
-    for (std::size_t k = 0; k < parameter_columns_.size() + output_columns_.size(); ++k) marks += ", ?";
-    return marks;
-  }() + ")");
+  insert_.emplace(
+      database_, "INSERT INTO samples VALUES (?, ?" + [&] {
+        std::string marks;
+        for (std::size_t k = 0; k < parameter_columns_.size() + output_columns_.size(); ++k) marks += ", ?";
+        return marks;
+      }() + ")");
 }
 
 SweepStore::~SweepStore() = default;
 
 void SweepStore::create(const Study& study, Shard shard) {
   database_.execute(fixed_tables);
-  database_.execute("CREATE TABLE samples (id INTEGER PRIMARY KEY, failure TEXT" +
-                    column_list(parameter_columns_, output_columns_, " REAL") + ")");
+  database_.execute("CREATE TABLE samples (id INTEGER PRIMARY KEY, failure TEXT" + column_list(parameter_columns_, output_columns_, " REAL") + ")");
   Statement sweep(database_, "INSERT INTO sweep VALUES (?, ?)");
   sweep.row("format", format_name);
   sweep.row("title", study.title);
@@ -128,9 +128,10 @@ void SweepStore::check_same(const Study& study, Shard shard) {
   Statement settings(database_, "SELECT key, value FROM settings");
   while (settings.next()) stored[settings.text(0).value_or("")] = settings.text(1).value_or("");
   const auto differs = [&](const std::string& key, const std::string& was, const std::string& is) {
-    database_.refuse(fmt::format("a folder for this study alone; the store is of a study in which {} is {}, not {}: choose another "
-                                 "with --out, or move the store away",
-                                 key, was, is));
+    database_.refuse(
+        fmt::format("a folder for this study alone; the store is of a study in which {} is {}, not {}: choose another "
+                    "with --out, or move the store away",
+                    key, was, is));
   };
   for (const GivenValue& g : deciding_settings(study)) {
     const auto found = stored.find(g.key);

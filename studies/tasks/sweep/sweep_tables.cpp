@@ -31,8 +31,8 @@ std::string statistics_csv(const SweepStatistics& statistics) {
   for (const double share : quantile_shares) csv += fmt::format(",{:.0f} %", 100.0 * share);
   csv += ",worst_sample\n";
   for (const OutputStatistics& of : statistics.outputs) {
-    csv += fmt::format("{},{},{},{},{},{},{}", of.output.name, of.output.unit, of.count, field(of.mean), field(of.deviation),
-                       field(of.smallest), field(of.largest));
+    csv += fmt::format("{},{},{},{},{},{},{}", of.output.name, of.output.unit, of.count, field(of.mean), field(of.deviation), field(of.smallest),
+                       field(of.largest));
     for (const double quantile : of.quantiles) csv += fmt::format(",{}", field(quantile));
     csv += fmt::format(",{}\n", of.worst);
   }
@@ -44,8 +44,8 @@ std::string indices_csv(const StudyResults& results) {
   for (const OutputStatistics& of : results.sweep->outputs) {
     for (std::size_t j = 0; j < of.indices.size(); ++j) {
       const SobolIndex& index = of.indices[j];
-      csv += fmt::format("{},{},{},{},{},{}\n", of.output.name, results.study.sweep.parameters[j].path, field(index.first),
-                         field(index.first_error), field(index.total), field(index.total_error));
+      csv += fmt::format("{},{},{},{},{},{}\n", of.output.name, results.study.sweep.parameters[j].path, field(index.first), field(index.first_error),
+                         field(index.total), field(index.total_error));
     }
   }
   return csv;
@@ -86,12 +86,11 @@ std::vector<NamedText> sweep_tables(const StudyResults& results) {
 
 std::string sweep_summary(const StudyResults& results) {
   const SweepStatistics& s = *results.sweep;
-  std::string out = fmt::format("{:<36}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>12}\n", "over the samples", "mean", "std", "1 %",
-                                "99 %", "worst", "of sample");
+  std::string out =
+      fmt::format("{:<36}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}  {:>12}\n", "over the samples", "mean", "std", "1 %", "99 %", "worst", "of sample");
   for (const OutputStatistics& of : s.outputs) {
     out += fmt::format("{:<36}  {:>11.5g}  {:>11.4g}  {:>11.5g}  {:>11.5g}  {:>11.5g}  {:>12}\n", labelled(of.output), of.mean, of.deviation,
-                       of.quantiles.front(), of.quantiles.back(), of.output.smaller_is_worse ? of.smallest : of.largest,
-                       of.worst);
+                       of.quantiles.front(), of.quantiles.back(), of.output.smaller_is_worse ? of.smallest : of.largest, of.worst);
   }
   out += fmt::format("\n{} samples in {:.1f} s", s.samples, s.seconds);
   if (s.failed > 0) out += fmt::format(", {} failed: {}", s.failed, s.failures.front().reason);

@@ -44,7 +44,8 @@ std::string sample_study(const Study& study, const std::string& title, const std
     overrides.push_back({"fidelity.quadrature.rule", "\"graded\""});
     overrides.push_back({"fidelity.quadrature.intervals", fmt::format("{}", study.fidelity.quadrature.intervals)});
   }
-  if (study.cycle.automatic_positions && study.cycle.phases.empty()) overrides.push_back({"cycle.positions", fmt::format("{}", study.cycle.positions)});
+  if (study.cycle.automatic_positions && study.cycle.phases.empty())
+    overrides.push_back({"cycle.positions", fmt::format("{}", study.cycle.positions)});
   add_grids(study, "pinion", study.grid.pinion, study.tooth_grids.pinion, overrides);
   add_grids(study, "wheel", study.grid.wheel, study.tooth_grids.wheel, overrides);
   std::vector<StudyProblem> problems;

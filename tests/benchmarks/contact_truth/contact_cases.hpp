@@ -25,8 +25,7 @@ inline PairData pair_data(double helix_angle_deg, double face_width, int wheel_t
 /// A position of such a pair; the bores leave 2.5 and 3.75 modules below the roots (of large
 /// wheels more, which the program's own mesh asks for). Aligned spur pairs are halved at
 /// mid face.
-inline ContactTask contact_task(const PairData& data, double phase, double approach_um, double lead_crowning_um = 0,
-                                double crossing_urad = 0) {
+inline ContactTask contact_task(const PairData& data, double phase, double approach_um, double lead_crowning_um = 0, double crossing_urad = 0) {
   const GearPair pair = make_gear_pair(data);
   ContactTask task{.pair = data, .phase = phase, .approach = approach_um * units::um};
   task.condition.modification.pinion.lead_crowning = lead_crowning_um * units::um;
@@ -65,13 +64,7 @@ inline std::vector<ContactCase> contact_cases() {
 /// narrow enough for the stress at the contact.
 inline ContactMeshOptions contact_mesh_options(std::string_view name) {
   if (name == "coarse") {
-    return {.flank = 10,
-            .fillet = 2,
-            .across = 3,
-            .into_depth = 2.6,
-            .end_layer = 2,
-            .layer_growth = 1.8,
-            .largest_layer = 8};
+    return {.flank = 10, .fillet = 2, .across = 3, .into_depth = 2.6, .end_layer = 2, .layer_growth = 1.8, .largest_layer = 8};
   }
   if (name == "ends") {
     ContactMeshOptions options = contact_mesh_options("coarse");
@@ -81,14 +74,7 @@ inline ContactMeshOptions contact_mesh_options(std::string_view name) {
     return options;
   }
   if (name == "fine") {
-    return {.flank = 16,
-            .across = 5,
-            .finest = 0.3,
-            .into_depth = 2,
-            .end_layer = 1,
-            .layer_growth = 1.5,
-            .largest_layer = 4,
-            .body_rings = 3};
+    return {.flank = 16, .across = 5, .finest = 0.3, .into_depth = 2, .end_layer = 1, .layer_growth = 1.5, .largest_layer = 4, .body_rings = 3};
   }
   if (name == "pressure") return {.flank = 24, .across = 5, .finest = 0.15};  // for the narrow pair
   return {};

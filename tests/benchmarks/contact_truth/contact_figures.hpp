@@ -29,11 +29,7 @@ inline std::vector<ContactFigure> spur_figures() {
   return {{contact_task(spur, 1.15, 45),
            2356561.784,
            {{0, 1.0}},
-           {{0, -20, last, 658.7},
-            {0, last, outer, 711.5},
-            {0, outer, middle, 712.54},
-            {0, middle, inner, 690.51},
-            {0, inner, 0, 695.73}}},
+           {{0, -20, last, 658.7}, {0, last, outer, 711.5}, {0, outer, middle, 712.54}, {0, middle, inner, 690.51}, {0, inner, 0, 695.73}}},
           {contact_task(spur, 0.65, 45),
            3791179.135,
            {{0, 0.47518}, {1, 0.52482}},
@@ -73,8 +69,6 @@ struct StressFigure {
   ContactTask task;
   LayerLoad layer;
 };
-inline StressFigure stress_figure() {
-  return {contact_task(pair_data(0, 10), 1.15, 45), {0, -3.0769, 0, 690.5817 * 3.0769, 1071.85}};
-}
+inline StressFigure stress_figure() { return {contact_task(pair_data(0, 10), 1.15, 45), {0, -3.0769, 0, 690.5817 * 3.0769, 1071.85}}; }
 
 }  // namespace flankwright::contact_truth

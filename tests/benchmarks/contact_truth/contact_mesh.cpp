@@ -15,9 +15,7 @@ using units::pi;
 struct Polar {
   double radius, angle;
 };
-Polar blend(const Polar& a, const Polar& b, double t) {
-  return {a.radius + t * (b.radius - a.radius), a.angle + t * (b.angle - a.angle)};
-}
+Polar blend(const Polar& a, const Polar& b, double t) { return {a.radius + t * (b.radius - a.radius), a.angle + t * (b.angle - a.angle)}; }
 
 /// The fillet and half the root land by arc length, 0 .. 1; angles from the tooth's centre line.
 class RootCurve {
@@ -40,8 +38,7 @@ class RootCurve {
 
  private:
   void add(const Polar& p) {
-    const double step =
-        points_.empty() ? 0 : std::hypot(p.radius - points_.back().radius, p.radius * (p.angle - points_.back().angle));
+    const double step = points_.empty() ? 0 : std::hypot(p.radius - points_.back().radius, p.radius * (p.angle - points_.back().angle));
     length_.push_back(length_.empty() ? 0 : length_.back() + step);
     points_.push_back(p);
   }
@@ -53,8 +50,7 @@ class RootCurve {
 std::vector<double> layer_ends(double length, const ContactMeshOptions& options, bool half) {
   const double reach = half ? length : length / 2;
   std::vector<double> ends{0};
-  for (double size = options.end_layer; ends.back() < reach;
-       size = std::min(size * options.layer_growth, options.largest_layer)) {
+  for (double size = options.end_layer; ends.back() < reach; size = std::min(size * options.layer_growth, options.largest_layer)) {
     ends.push_back(ends.back() + size);
   }
   if (ends.size() > 2 && ends.back() - reach > reach - ends[ends.size() - 2]) ends.pop_back();
@@ -74,8 +70,7 @@ class Section {
         options_(options),
         form_(tooth_form(*gear.pair, gear.member)),
         pitch_(2 * pi / (*gear.pair)[gear.member].data.teeth),
-        rim_(std::max(form_.root_radius() - 1.1 * gear.pair->data.normal_module,
-                      0.5 * (form_.root_radius() + gear.bore_radius))),
+        rim_(std::max(form_.root_radius() - 1.1 * gear.pair->data.normal_module, 0.5 * (form_.root_radius() + gear.bore_radius))),
         path_(*gear.pair),
         root_(form_, pitch_ / 2) {
     // Teeth counter-clockwise: pair k is tooth k of the pinion and -k of the wheel.
@@ -91,9 +86,7 @@ class Section {
   };
   const std::vector<Quad>& quads() const { return quads_; }
   std::size_t size() const { return places_.size(); }
-  bool at_bore(std::size_t node) const {
-    return places_[node].kind == Ring && places_[node].j == 2 * options_.body_rings;
-  }
+  bool at_bore(std::size_t node) const { return places_[node].kind == Ring && places_[node].j == 2 * options_.body_rings; }
 
   Eigen::Vector2d position(std::size_t node, double z) const {
     const Polar p = polar(places_[node], z);
@@ -115,9 +108,7 @@ class Section {
   int pair_of(int tooth) const { return pinion() ? tooth : -tooth; }
   int flank_elements(int tooth) const { return loaded(tooth) ? options_.flank : options_.far_flank; }
   int steps(int tooth) const { return flank_elements(tooth) + options_.fillet; }
-  int corner(int tooth) const {
-    return steps(tooth) - 1;
-  }  ///< where the inner line turns from the centre line to the rim
+  int corner(int tooth) const { return steps(tooth) - 1; }  ///< where the inner line turns from the centre line to the rim
   double turn() const {
     const double phi1 = path_.pinion_angle_at(gear_.line_phase, *gear_.pair);
     const double rotation = pinion() ? phi1 : -phi1 / gear_.pair->gear_ratio();
@@ -145,11 +136,9 @@ class Section {
     if (i > end) return root_.at((i - end) / (2.0 * options_.fillet));
     const double rho = std::sqrt(2 * form_.base_radius() * arc(tooth, side, i, z));
     const double radius = std::hypot(rho, form_.base_radius());
-    if (side < 0 || !loaded(tooth))
-      return {radius, form_.half_angle(std::clamp(radius, form_.form_radius(), form_.tip_radius()))};
+    if (side < 0 || !loaded(tooth)) return {radius, form_.half_angle(std::clamp(radius, form_.form_radius(), form_.tip_radius()))};
     const auto p = flank_point(*gear_.flank, rho, z, pair_of(tooth), 0.0);
-    const double centre =
-        gear_.flank->helix_rate * z - form_.half_angle((*gear_.pair)[gear_.member].working_pitch_radius);
+    const double centre = gear_.flank->helix_rate * z - form_.half_angle((*gear_.pair)[gear_.member].working_pitch_radius);
     return {std::hypot(p.x, p.y), std::remainder(std::atan2(p.y, p.x) - centre, 2 * pi)};
   }
 
@@ -192,8 +181,7 @@ class Section {
         return {rim_ + (form_.root_radius() - rim_) * p.j / (2.0 * options_.across), middle + pitch_ / 2};
       case Plain: {
         const double start = (last_ + 0.5) * pitch_, end = (first_ - 0.5) * pitch_ + 2 * pi;
-        return {rim_ + (form_.root_radius() - rim_) * p.j / (2.0 * options_.across),
-                start + (end - start) * plain(p.i)};
+        return {rim_ + (form_.root_radius() - rim_) * p.j / (2.0 * options_.across), start + (end - start) * plain(p.i)};
       }
       case Ring: {
         Polar at = polar(places_[static_cast<std::size_t>(around_[static_cast<std::size_t>(p.i)])], z);
@@ -309,8 +297,7 @@ ContactMesh contact_mesh(const ContactGear& gear, const ContactMeshOptions& opti
         brick[i + 16] = node(2 * layer + 1, quad.nodes[i]);
       }
       if (quad.face != 0) {
-        mesh.flanks[static_cast<std::size_t>(quad.pair - gear.first)].push_back(
-            {static_cast<int>(bricks.size()), quad.face});
+        mesh.flanks[static_cast<std::size_t>(quad.pair - gear.first)].push_back({static_cast<int>(bricks.size()), quad.face});
       }
       bricks.push_back(brick);
     }
@@ -319,8 +306,7 @@ ContactMesh contact_mesh(const ContactGear& gear, const ContactMeshOptions& opti
   for (std::size_t i = 0; i < points.size(); ++i) mesh.solid.nodes.col(static_cast<Eigen::Index>(i)) = points[i];
   mesh.solid.bricks.resize(20, std::ssize(bricks));
   for (std::size_t i = 0; i < bricks.size(); ++i) {
-    for (int k = 0; k < 20; ++k)
-      mesh.solid.bricks(k, static_cast<Eigen::Index>(i)) = bricks[i][static_cast<std::size_t>(k)];
+    for (int k = 0; k < 20; ++k) mesh.solid.bricks(k, static_cast<Eigen::Index>(i)) = bricks[i][static_cast<std::size_t>(k)];
   }
   return mesh;
 }

@@ -30,10 +30,8 @@ struct ContactModel {
     constexpr double beyond = 0.15;
     const PathOfContact path(pair);
     const auto may_touch = [&](int tooth) {
-      const double a = path.phase_at(task.phase + tooth, -path.half_face),
-                   b = path.phase_at(task.phase + tooth, path.half_face);
-      return std::max(a, b) > path.before - beyond &&
-             std::min(a, b) < path.path_end() + beyond;
+      const double a = path.phase_at(task.phase + tooth, -path.half_face), b = path.phase_at(task.phase + tooth, path.half_face);
+      return std::max(a, b) > path.before - beyond && std::min(a, b) < path.path_end() + beyond;
     };
     while (!may_touch(first)) ++first;
     while (may_touch(first - 1)) --first;
@@ -42,8 +40,7 @@ struct ContactModel {
     for (const Member m : {Member::Pinion, Member::Wheel}) {
       const std::size_t g = m == Member::Pinion ? 0 : 1;
       const Flank& flank = g == 0 ? scene.pinion : scene.wheel;
-      meshes[g] =
-          contact_mesh({&pair, &flank, m, task.phase, task.bore_radius[g], first, last, task.half_face}, options);
+      meshes[g] = contact_mesh({&pair, &flank, m, task.phase, task.bore_radius[g], first, last, task.half_face}, options);
     }
     first_node = {0, meshes[0].solid.nodes.cols()};
     first_brick = {0, meshes[0].solid.bricks.cols()};
@@ -63,20 +60,13 @@ struct ContactModel {
   std::size_t layers() const { return meshes[0].planes.size() - 1; }
 };
 
-std::string numbered(std::string name, std::size_t number) {
-  return name += std::to_string(number);
-}
+std::string numbered(std::string name, std::size_t number) { return name += std::to_string(number); }
 // Tooth pairs from -10 on.
-std::string slave(int tooth, std::size_t layer) {
-  return numbered(numbered("P", static_cast<std::size_t>(tooth + 10)) += "L", layer);
-}
-std::string master(int tooth) {
-  return numbered("W", static_cast<std::size_t>(tooth + 10));
-}
+std::string slave(int tooth, std::size_t layer) { return numbered(numbered("P", static_cast<std::size_t>(tooth + 10)) += "L", layer); }
+std::string master(int tooth) { return numbered("W", static_cast<std::size_t>(tooth + 10)); }
 
 /// The pinion's flanks are the slaves, a surface per layer so that each one's force is printed.
-void write_deck(std::ostream& out, const ContactModel& model, const ContactTask& task,
-                const ContactSettings& settings) {
+void write_deck(std::ostream& out, const ContactModel& model, const ContactTask& task, const ContactSettings& settings) {
   out << std::scientific << std::setprecision(12) << "*NODE\n";
   for (std::size_t g : {0U, 1U}) {
     for (Eigen::Index i = 0; i < model.meshes[g].solid.nodes.cols(); ++i) {
@@ -99,8 +89,7 @@ void write_deck(std::ostream& out, const ContactModel& model, const ContactTask&
   };
   for (int k = model.first; k <= model.last; ++k) {
     surface(master(k), 1, model.meshes[1].flanks[static_cast<std::size_t>(k - model.first)]);
-    for (std::size_t layer = 0; layer < model.layers(); ++layer)
-      surface(slave(k, layer), 0, model.layer_faces(0, k, layer));
+    for (std::size_t layer = 0; layer < model.layers(); ++layer) surface(slave(k, layer), 0, model.layer_faces(0, k, layer));
   }
   const auto node_set = [&](const std::string& name, std::size_t gear, const std::vector<int>& nodes) {
     out << "*NSET, NSET=" << name << '\n';
@@ -121,8 +110,7 @@ void write_deck(std::ostream& out, const ContactModel& model, const ContactTask&
       << settings.penalty << '\n';
   for (int k = model.first; k <= model.last; ++k) {
     for (std::size_t layer = 0; layer < model.layers(); ++layer) {
-      out << "*CONTACT PAIR, INTERACTION=CONTACT, TYPE=SURFACE TO SURFACE\n"
-          << slave(k, layer) << ", " << master(k) << '\n';
+      out << "*CONTACT PAIR, INTERACTION=CONTACT, TYPE=SURFACE TO SURFACE\n" << slave(k, layer) << ", " << master(k) << '\n';
     }
   }
   out << "*BOUNDARY\nBORE1, 1, 3\nBORE0, 3, 3\n";
@@ -178,8 +166,7 @@ void read_answer(std::istream& in, const ContactModel& model, bool half_face, Co
       const std::size_t i = answer.layers.size(), layer = i % model.layers();
       const int tooth = model.first + static_cast<int>(i / model.layers());
       const auto& planes = model.meshes[0].planes;
-      answer.layers.push_back({tooth, planes[layer], planes[layer + 1], std::hypot(force[0], force[1], force[2]),
-                               compression[{tooth, layer}]});
+      answer.layers.push_back({tooth, planes[layer], planes[layer + 1], std::hypot(force[0], force[1], force[2]), compression[{tooth, layer}]});
       complete = answer.layers.size() == model.layers() * static_cast<std::size_t>(model.last - model.first + 1);
     } else if (block != Nothing) {
       std::istringstream words(line);
@@ -190,8 +177,7 @@ void read_answer(std::istream& in, const ContactModel& model, bool half_face, Co
         if (!(words >> point >> xx >> yy >> zz >> xy >> xz >> yz) || !layer_of.contains(number)) continue;
         Eigen::Matrix3d stress;
         stress << xx, xy, xz, xy, yy, yz, xz, yz, zz;
-        const double lowest =
-            Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly).eigenvalues()[0];
+        const double lowest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly).eigenvalues()[0];
         compression[layer_of[number]] = std::max(compression[layer_of[number]], -lowest);
       } else {
         const std::size_t g = block == Bore0 ? 0 : 1;
@@ -232,12 +218,9 @@ double ContactAnswer::peak_compression() const {
   return peak;
 }
 
-bool calculix_is_installed() {
-  return std::system("command -v ccx > /dev/null 2>&1") == 0;
-}
+bool calculix_is_installed() { return std::system("command -v ccx > /dev/null 2>&1") == 0; }
 
-ContactAnswer run_calculix(const ContactTask& task, const ContactSettings& settings,
-                           const std::filesystem::path& folder) {
+ContactAnswer run_calculix(const ContactTask& task, const ContactSettings& settings, const std::filesystem::path& folder) {
   const ContactModel model(task, settings.mesh);
   std::filesystem::create_directories(folder);
   {
@@ -256,8 +239,7 @@ ContactAnswer run_calculix(const ContactTask& task, const ContactSettings& setti
   ContactAnswer answer;
   answer.unknowns = model.meshes[0].solid.nodes.size() + model.meshes[1].solid.nodes.size();
   const double before = seconds(usage());
-  const int code = std::system(
-      ("cd '" + folder.string() + "' && OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 ccx pair > ccx.log 2>&1").c_str());
+  const int code = std::system(("cd '" + folder.string() + "' && OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 ccx pair > ccx.log 2>&1").c_str());
   answer.processor_seconds = seconds(usage()) - before;
   answer.peak_bytes = 1024.0 * static_cast<double>(usage().ru_maxrss);  // of the largest run so far
   if (code != 0) return answer;

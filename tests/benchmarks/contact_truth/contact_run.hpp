@@ -12,10 +12,10 @@ namespace flankwright::contact_truth {
 /// One position of a pair in three-dimensional contact. Both gears are rigid at their bores; the wheel's is held, the
 /// pinion's turned.
 struct ContactTask {
-  PairData pair;               ///< the pinion drives its right flanks
-  FlankCondition condition{};  ///< modifications, and misalignment, which places the wheel
-  double phase{not_given};     ///< line phase of tooth pair 0 [base pitches], see PathOfContact
-  double approach{not_given};  ///< turn of the pinion from where undisturbed flanks touch, times r_b1 cos(beta_b) [mm]
+  PairData pair;                        ///< the pinion drives its right flanks
+  FlankCondition condition{};           ///< modifications, and misalignment, which places the wheel
+  double phase{not_given};              ///< line phase of tooth pair 0 [base pitches], see PathOfContact
+  double approach{not_given};           ///< turn of the pinion from where undisturbed flanks touch, times r_b1 cos(beta_b) [mm]
   std::array<double, 2> bore_radius{};  ///< pinion, wheel [mm]
   bool half_face{false};                ///< see ContactGear
   Material material{};                  ///< of both gears
@@ -55,7 +55,6 @@ bool calculix_is_installed();
 /// of surfaces by penalty, small displacements, one increment. Forces are CalculiX' sums over each layer. Stress is that
 /// in the integration points next to the flank: the pressures that CalculiX prints for its contact points do not add up
 /// to the force.
-ContactAnswer run_calculix(const ContactTask& task, const ContactSettings& settings,
-                           const std::filesystem::path& folder);
+ContactAnswer run_calculix(const ContactTask& task, const ContactSettings& settings, const std::filesystem::path& folder);
 
 }  // namespace flankwright::contact_truth

@@ -30,18 +30,15 @@ studies::Study study_of(const ContactTask& task, double torque, const char* comp
   std::ostringstream text;
   text.precision(17);
   const PairData& data = task.pair;
-  text << "task = \"analyse\"\n[pair]\nnormal_module = " << data.normal_module
-       << "\nhelix_angle = " << data.helix_angle / units::deg << "\n[pinion]\nteeth = " << data.pinion.teeth
-       << "\nface_width = " << data.pinion.face_width << "\n[wheel]\nteeth = " << data.wheel.teeth
-       << "\nface_width = " << data.wheel.face_width << "\n[load]\ntorque = " << torque * 1e-3
-       << "\n[fidelity]\ncompliance = \"" << compliance << "\"\n";
+  text << "task = \"analyse\"\n[pair]\nnormal_module = " << data.normal_module << "\nhelix_angle = " << data.helix_angle / units::deg
+       << "\n[pinion]\nteeth = " << data.pinion.teeth << "\nface_width = " << data.pinion.face_width << "\n[wheel]\nteeth = " << data.wheel.teeth
+       << "\nface_width = " << data.wheel.face_width << "\n[load]\ntorque = " << torque * 1e-3 << "\n[fidelity]\ncompliance = \"" << compliance
+       << "\"\n";
   return studies::parse_study(text.str(), "contact_truth");
 }
 
-void print_row(const char* model, double approach, double share, double stress, double line_end_to_middle,
-               double seconds) {
-  std::printf("| %s | %.2f | %.4f | %.0f | %.3f | %.1f |\n", model, approach / units::um, share, stress,
-              line_end_to_middle, seconds);
+void print_row(const char* model, double approach, double share, double stress, double line_end_to_middle, double seconds) {
+  std::printf("| %s | %.2f | %.4f | %.0f | %.3f | %.1f |\n", model, approach / units::um, share, stress, line_end_to_middle, seconds);
   std::fflush(stdout);
 }
 
@@ -65,13 +62,11 @@ void compare(const ContactCase& c, const ContactSettings& settings, const std::s
   while (layers < outside.layers.size() && outside.layers[layers].tooth == tooth) ++layers;
   const LayerLoad &first = outside.layers.front(), &middle = outside.layers[task.half_face ? layers - 1 : layers / 2];
   const auto load = [](const LayerLoad& l) { return l.force / (l.end - l.begin); };
-  print_row("CalculiX", task.approach, outside.share(tooth), hertzian_peak(task, outside), load(first) / load(middle),
-            outside.processor_seconds);
+  print_row("CalculiX", task.approach, outside.share(tooth), hertzian_peak(task, outside), load(first) / load(middle), outside.processor_seconds);
   const auto own = [&](const char* name, const PairCompliance* structure, double seconds) {
     const OwnAnswer answer = own_answer(task, outside.pinion_torque, structure);
     const auto at = [&](const LayerLoad& l) { return answer.mean_face_load(tooth, l.begin, l.end); };
-    print_row(name, answer.loaded.load.transmission_error, answer.share(tooth), answer.peak_stress(),
-              at(first) / at(middle), seconds);
+    print_row(name, answer.loaded.load.transmission_error, answer.share(tooth), answer.peak_stress(), at(first) / at(middle), seconds);
   };
   const Stopwatch held_clock;
   const auto held = held_structure(task);
@@ -85,8 +80,7 @@ void compare(const ContactCase& c, const ContactSettings& settings, const std::s
   std::printf("\nforce per mm of face, N/mm: tooth pair, z, CalculiX, fe held\n");
   const OwnAnswer answer = own_answer(task, outside.pinion_torque, held.get());
   for (const LayerLoad& l : outside.layers) {
-    std::printf("  %2d %8.2f %9.1f %9.1f\n", l.tooth, (l.begin + l.end) / 2, load(l),
-                answer.mean_face_load(l.tooth, l.begin, l.end));
+    std::printf("  %2d %8.2f %9.1f %9.1f\n", l.tooth, (l.begin + l.end) / 2, load(l), answer.mean_face_load(l.tooth, l.begin, l.end));
   }
 }
 

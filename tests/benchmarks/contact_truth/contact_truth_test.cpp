@@ -30,21 +30,18 @@ void compare_with(const std::vector<ContactFigure>& figures, double load_error) 
     for (const auto& [tooth, share] : figure.shares) CHECK(own.share(tooth) == Approx(share).margin(0.02));  // model
     for (const FaceLoad& load : figure.loads) {
       CAPTURE(load.tooth, load.begin);
-      CHECK(own.mean_face_load(load.tooth, load.begin, load.end) ==
-            Approx(load.per_face_width).epsilon(load_error));
+      CHECK(own.mean_face_load(load.tooth, load.begin, load.end) == Approx(load.per_face_width).epsilon(load_error));
     }
   }
 }
 
 }  // namespace
 
-TEST_CASE("A spur pair shares its load and yields as in CalculiX' contact of whole gears",
-          "[reference][contact-truth][slow]") {
+TEST_CASE("A spur pair shares its load and yields as in CalculiX' contact of whole gears", "[reference][contact-truth][slow]") {
   compare_with(spur_figures(), 0.03);
 }
 
-TEST_CASE("A helical pair shares its load and yields as in CalculiX' contact of whole gears",
-          "[reference][contact-truth][slow]") {
+TEST_CASE("A helical pair shares its load and yields as in CalculiX' contact of whole gears", "[reference][contact-truth][slow]") {
   // Next to where the shorter line ends 8.5 % too much, elsewhere within 4 %.
   compare_with(helical_figures(), 0.09);
 }
@@ -73,9 +70,8 @@ TEST_CASE("The outside model's loaded flanks are the true ones", "[contact-truth
   const FlankAssembly scene = assemble_flanks(pair, {.modification = {c.task.condition.modification.pinion, {}}});
   for (const Member m : {Member::Pinion, Member::Wheel}) {
     const Flank& flank = scene[m];
-    const ContactMesh mesh = contact_mesh(
-        {&pair, &flank, m, c.task.phase, c.task.bore_radius[m == Member::Pinion ? 0 : 1], 0, 1, c.task.half_face},
-        contact_mesh_options("coarse"));
+    const ContactMesh mesh = contact_mesh({&pair, &flank, m, c.task.phase, c.task.bore_radius[m == Member::Pinion ? 0 : 1], 0, 1, c.task.half_face},
+                                          contact_mesh_options("coarse"));
     CHECK(mesh.solid.quality() > 0.1);
     const double phi1 = PathOfContact(pair).pinion_angle_at(c.task.phase, pair);
     const double pitch = 2 * units::pi / pair[m].data.teeth, sense = m == Member::Pinion ? 1 : -1;
@@ -104,14 +100,7 @@ TEST_CASE("CalculiX balances torque and contact force and yields as ours does", 
   const ContactTask task = contact_task(pair_data(0, 10), 1.15, 45);
   const GearPair pair = make_gear_pair(task.pair);
   ContactSettings settings;
-  settings.mesh = {.flank = 6,
-                   .far_flank = 1,
-                   .fillet = 2,
-                   .across = 2,
-                   .into_depth = 3,
-                   .end_layer = 2.5,
-                   .largest_layer = 2.5,
-                   .body_rings = 1};
+  settings.mesh = {.flank = 6, .far_flank = 1, .fillet = 2, .across = 2, .into_depth = 3, .end_layer = 2.5, .largest_layer = 2.5, .body_rings = 1};
   const auto folder = std::filesystem::temp_directory_path() / ("flankwright_contact_" + std::to_string(std::rand()));
   const ContactAnswer outside = run_calculix(task, settings, folder);
   std::filesystem::remove_all(folder);

@@ -10,8 +10,7 @@
 
 namespace flankwright::contact_truth {
 
-InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_radius, double poissons_ratio,
-                            const GearMeshOptions& mesh) {
+InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_radius, double poissons_ratio, const GearMeshOptions& mesh) {
   const Gear& gear = pair[member];
   const double module = pair.data.normal_module, half = gear.data.face_width / 2;
   GearToMesh to_mesh{gear.data, module, pair.data.pressure_angle, pair.data.helix_angle, {}};
@@ -35,9 +34,8 @@ InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_rad
   std::vector<FlankPoint> points;
   for (int tooth = -apart; tooth <= apart; ++tooth) {
     for (const FlankStation& station : grid.stations(tooth)) {
-      points.push_back(
-          {tooth, model.form.form_radius() + (station.u + 1) / 2 * (model.form.tip_radius() - model.form.form_radius()),
-           std::clamp(station.zeta * module - half, -half, half)});
+      points.push_back({tooth, model.form.form_radius() + (station.u + 1) / 2 * (model.form.tip_radius() - model.form.form_radius()),
+                        std::clamp(station.zeta * module - half, -half, half)});
     }
   }
   const Eigen::SparseMatrix<double> functionals = net_functionals(model, points, RemovedRigidMotion::None).centre;
@@ -46,8 +44,7 @@ InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_rad
   const Eigen::MatrixXd deflections = module * (functionals.transpose() * solid.solve(loads));
   std::vector<Eigen::MatrixXd> tables;
   for (int m = 0; m <= apart; ++m) {
-    tables.push_back(
-        0.5 * (deflections.middleRows((apart - m) * n, n) + deflections.middleRows((apart + m) * n, n).transpose()));
+    tables.push_back(0.5 * (deflections.middleRows((apart - m) * n, n) + deflections.middleRows((apart + m) * n, n).transpose()));
   }
   return {grid, tables};
 }
@@ -55,12 +52,10 @@ InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_rad
 std::shared_ptr<const PairCompliance> held_structure(const ContactTask& task, const GearMeshOptions& mesh) {
   const GearPair pair = make_gear_pair(task.pair);
   const auto gear = [&](Member m, double bore) {
-    return GearStructure{
-        std::make_shared<const InfluenceTable>(held_at_bore(pair, m, bore, task.material.poissons_ratio, mesh)),
-        task.material.youngs_modulus};
+    return GearStructure{std::make_shared<const InfluenceTable>(held_at_bore(pair, m, bore, task.material.poissons_ratio, mesh)),
+                         task.material.youngs_modulus};
   };
-  return std::make_shared<const StructuralPair>(pair, gear(Member::Pinion, task.bore_radius[0]),
-                                                gear(Member::Wheel, task.bore_radius[1]));
+  return std::make_shared<const StructuralPair>(pair, gear(Member::Pinion, task.bore_radius[0]), gear(Member::Wheel, task.bore_radius[1]));
 }
 
 }  // namespace flankwright::contact_truth

@@ -40,14 +40,11 @@ double OwnAnswer::mean_face_load(int tooth, double begin, double end) const {
   return sum / samples;
 }
 
-double OwnAnswer::peak_stress() const {
-  return loaded.contact_stress.maxCoeff();
-}
+double OwnAnswer::peak_stress() const { return loaded.contact_stress.maxCoeff(); }
 
 OwnAnswer own_answer(const ContactTask& task, double torque, const PairCompliance* structure) {
   constexpr int intervals = 12;  // of a line; another eight move the transmission error by less than 0.1 %
-  OwnAnswer answer{make_mesh_model(make_gear_pair(task.pair), {task.material, task.material},
-                                   {{QuadratureRule::Graded, intervals}, {task.phase}}, {},
+  OwnAnswer answer{make_mesh_model(make_gear_pair(task.pair), {task.material, task.material}, {{QuadratureRule::Graded, intervals}, {task.phase}}, {},
                                    MeshPlacement::of(GapModel::PlaneOfAction, task.condition.misalignment), structure),
                    {}};
   answer.loaded = analyse_cycle(answer.model, task.condition, torque).positions.front();

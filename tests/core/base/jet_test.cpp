@@ -41,14 +41,12 @@ TEST_CASE("Jets differentiate quotient, root, sine, cosine and arc tangent as th
   const Jet u = Jet::variable_u(x), v = Jet::variable_v(y);
   check_equal(u / v, {x / y, 1 / y, -x / (y * y), 0, -1 / (y * y), 2 * x / (y * y * y)});
   const double root = std::sqrt(x * y);
-  check_equal(sqrt(u * v), {root, 0.5 * y / root, 0.5 * x / root, -0.25 * y * y / (root * x * y), 0.25 / root,
-                            -0.25 * x * x / (root * x * y)});
+  check_equal(sqrt(u * v), {root, 0.5 * y / root, 0.5 * x / root, -0.25 * y * y / (root * x * y), 0.25 / root, -0.25 * x * x / (root * x * y)});
   const double s = std::sin(x * y), c = std::cos(x * y);
   check_equal(sin(u * v), {s, y * c, x * c, -y * y * s, c - x * y * s, -x * x * s});
   check_equal(cos(u * v), {c, -y * s, -x * s, -y * y * c, -s - x * y * c, -x * x * c});
   const double q = x * x + y * y;
-  check_equal(atan2(u, v), {std::atan2(x, y), y / q, -x / q, -2 * x * y / (q * q), (x * x - y * y) / (q * q),
-                            2 * x * y / (q * q)});
+  check_equal(atan2(u, v), {std::atan2(x, y), y / q, -x / q, -2 * x * y / (q * q), (x * x - y * y) / (q * q), 2 * x * y / (q * q)});
 }
 
 TEST_CASE("Identities hold for jets in value and both orders of derivatives", "[core][base]") {

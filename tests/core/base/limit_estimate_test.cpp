@@ -30,6 +30,4 @@ TEST_CASE("Changes of both signs, or that grow, are not regular and count in ful
   CHECK(growing.error >= 2.0);
 }
 
-TEST_CASE("A sequence that stands still has no error", "[core][base][limit-estimate]") {
-  CHECK(estimate_limit(2.0, 2.0, 2.0).error == 0.0);
-}
+TEST_CASE("A sequence that stands still has no error", "[core][base][limit-estimate]") { CHECK(estimate_limit(2.0, 2.0, 2.0).error == 0.0); }

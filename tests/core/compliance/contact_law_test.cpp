@@ -15,10 +15,9 @@ namespace {
 
 const Material kSteel{};
 
-ContactLaw law_of(double depth_1, double depth_2, double radius, double tip_distance = INFINITY,
-                  const Material& first = kSteel, const Material& second = kSteel) {
-  return ContactLaw(ContactSide::of(first, depth_1, tip_distance), ContactSide::of(second, depth_2), radius,
-                    contact_modulus(first, second));
+ContactLaw law_of(double depth_1, double depth_2, double radius, double tip_distance = INFINITY, const Material& first = kSteel,
+                  const Material& second = kSteel) {
+  return ContactLaw(ContactSide::of(first, depth_1, tip_distance), ContactSide::of(second, depth_2), radius, contact_modulus(first, second));
 }
 
 /// Approach of the contact line to the point at a depth: the plane-strain strain under the middle of a Hertzian
@@ -47,8 +46,7 @@ TEST_CASE("The contact deflection is the strain under the pressure, summed over 
   const ContactLaw law = law_of(depth_1, depth_2, radius, INFINITY, steel, bronze);
   const double half_width = law.half_width(w);
   CAPTURE(w, half_width);
-  const double expected =
-      integrated_strain(w, depth_1, half_width, steel) + integrated_strain(w, depth_2, half_width, bronze);
+  const double expected = integrated_strain(w, depth_1, half_width, steel) + integrated_strain(w, depth_2, half_width, bronze);
   constexpr double kDiscretisation = 1e-6;  // midpoint rule, 200 000 cells
   CHECK(law.deflection(w) == Approx(expected).epsilon(kDiscretisation));
 }
@@ -70,9 +68,8 @@ TEST_CASE("Haddad's printed contact deflections follow from the formulas", "[cor
   struct Row {
     double phase, load, deflection;
   };
-  const Row row = GENERATE(Row{1.63711, 0.994, 0.035}, Row{0.49119, 57.319, 1.469}, Row{0.65263, 66.5, 1.671},
-                           Row{0.63711, 75.364, 1.868}, Row{0.87316, 77.793, 1.912}, Row{1.56324, 88.756, 2.038},
-                           Row{0.79855, 114.478, 2.695}, Row{0.4079, 202.647, 4.492});
+  const Row row = GENERATE(Row{1.63711, 0.994, 0.035}, Row{0.49119, 57.319, 1.469}, Row{0.65263, 66.5, 1.671}, Row{0.63711, 75.364, 1.868},
+                           Row{0.87316, 77.793, 1.912}, Row{1.56324, 88.756, 2.038}, Row{0.79855, 114.478, 2.695}, Row{0.4079, 202.647, 4.492});
   CAPTURE(row.phase, row.load);
   const Material material{209000, 0.3};
   const double alpha_t = std::atan(std::tan(20 * deg) / std::cos(30 * deg));
@@ -82,12 +79,10 @@ TEST_CASE("Haddad's printed contact deflections follow from the formulas", "[cor
     const double r = teeth * 10 / (2 * std::cos(30 * deg)), base = r * std::cos(alpha_t);
     const double radius = std::hypot(base, rho), alpha = std::atan(rho / base);
     const double half_angle = pi / (2 * teeth) + std::tan(alpha_t) - alpha_t - std::tan(alpha) + alpha;
-    return ContactSide::of(material, radius * half_angle * std::cos(beta_b) / std::cos(alpha),
-                           (tip_radius - radius) / std::cos(alpha));
+    return ContactSide::of(material, radius * half_angle * std::cos(beta_b) / std::cos(alpha), (tip_radius - radius) / std::cos(alpha));
   };
   const ContactSide pinion = side(18, 113.923, rho_1), wheel = side(54, 321.769, rho_2);
-  const ContactLaw law(pinion, wheel, rho_1 * rho_2 / (rho_1 + rho_2) / std::cos(beta_b),
-                       contact_modulus(material, material));
+  const ContactLaw law(pinion, wheel, rho_1 * rho_2 / (rho_1 + rho_2) / std::cos(beta_b), contact_modulus(material, material));
 
   // The thesis' own form, eqs 1.34 and 1.54.
   const double half_width = law.half_width(row.load);

@@ -21,8 +21,10 @@ namespace {
 class LoadedBlock {
  public:
   explicit LoadedBlock(double poissons_ratio, double lean = 0) : slope_(std::tan(lean)) {
-    mesh_ = block_mesh(cells(x_), cells(depth_), cells(along_),
-                       [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(at(x_, p.x()), at(depth_, p.y()), at(along_, p.z()) + slope_ * at(depth_, p.y())); }, &cube_);
+    mesh_ = block_mesh(
+        cells(x_), cells(depth_), cells(along_),
+        [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(at(x_, p.x()), at(depth_, p.y()), at(along_, p.z()) + slope_ * at(depth_, p.y())); },
+        &cube_);
     const Eigen::SparseMatrix<double> load = hertzian_load().sparseView();
     for (const bool free_end : {false, true}) {
       if (!free_end && lean != 0) continue;  // held along z alone is no plane strain there
@@ -111,8 +113,7 @@ TEST_CASE("A block pressed up to its free end yields by the free-end law", "[cor
       const double distance = block.distances()[i];
       CAPTURE(nu, depth, distance);
       // Fit: 0.02. Discretisation and the block's far sides: 0.01.
-      CHECK(block.deflection(true, j, i) - block.deflection(false, j, i) ==
-            Approx(end.at({distance, INFINITY}, depth, 1).value).margin(0.03));
+      CHECK(block.deflection(true, j, i) - block.deflection(false, j, i) == Approx(end.at({distance, INFINITY}, depth, 1).value).margin(0.03));
     }
   }
   // Per ln(depth), under the end face itself: softer than plane stress, which has 1. Discretisation.
@@ -172,7 +173,7 @@ TEST_CASE("Ends add up, each on its own side", "[core][compliance]") {
   const double endless = deflection(steel, none, none);
   const double one = deflection(steel, {0.3, INFINITY}, none) - endless, other = deflection(steel, none, {2, INFINITY}) - endless;
   CHECK(one > other);
-  CHECK(deflection(steel, {0.3, INFINITY}, {INFINITY, 2}) - endless == Approx(one + other).epsilon(1e-12));   // round-off
+  CHECK(deflection(steel, {0.3, INFINITY}, {INFINITY, 2}) - endless == Approx(one + other).epsilon(1e-12));  // round-off
   CHECK(deflection(steel, {0.3, 0.3}, none) - endless == Approx(2 * one).epsilon(1e-12));                    // round-off
   // Without Poisson's ratio nothing is held along the axis in the first place.
   CHECK(deflection(cork, none, {0, 0}) == deflection(cork, none, none));
@@ -183,8 +184,9 @@ TEST_CASE("Near an end too the law grows at every load and its slope is its deri
   const double distance = GENERATE(-1.0, 0.0, 1e-3, 0.05, 0.7, 30.0), lean = GENERATE(-0.7, -0.2, 0.0, 0.5);
   // Alike sides, so that none makes up for the other's.
   const ContactSide side = ContactSide::of({110000, 0.45}, 5, INFINITY, {distance, INFINITY}, lean);
-  const ContactLaw law = GENERATE_REF(ContactLaw(ContactSide::of(steel, 4, 0.8, {distance, 6}, lean), side, 9, contact_modulus(steel, {110000, 0.45})),
-                                      ContactLaw(side, side, 9, contact_modulus({110000, 0.45}, {110000, 0.45})));
+  const ContactLaw law =
+      GENERATE_REF(ContactLaw(ContactSide::of(steel, 4, 0.8, {distance, 6}, lean), side, 9, contact_modulus(steel, {110000, 0.45})),
+                   ContactLaw(side, side, 9, contact_modulus({110000, 0.45}, {110000, 0.45})));
   double last = 0;
   for (double w = 1e-9; w < 1e6; w *= 3.7) {
     CAPTURE(distance, lean, w);

@@ -35,10 +35,8 @@ TEST_CASE("The slopes of the Hertzian contact are its derivatives", "[core][comp
   const HertzLine contact = hertz_line(w, radius, modulus);
   const HertzLine below = hertz_line(w - step, radius, modulus), above = hertz_line(w + step, radius, modulus);
   constexpr double kDiscretisation = 1e-9;
-  CHECK(contact.half_width_slope ==
-        Approx((above.half_width - below.half_width) / (2 * step)).epsilon(kDiscretisation));
-  CHECK(contact.peak_pressure_slope ==
-        Approx((above.peak_pressure - below.peak_pressure) / (2 * step)).epsilon(kDiscretisation));
+  CHECK(contact.half_width_slope == Approx((above.half_width - below.half_width) / (2 * step)).epsilon(kDiscretisation));
+  CHECK(contact.peak_pressure_slope == Approx((above.peak_pressure - below.peak_pressure) / (2 * step)).epsilon(kDiscretisation));
 }
 
 TEST_CASE("An unloaded line contact has no width and an infinite slope", "[core][compliance]") {

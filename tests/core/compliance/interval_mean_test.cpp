@@ -86,7 +86,7 @@ TEST_CASE("A structure as smooth as the intervals are long is the same between p
 
 TEST_CASE("Points without a partner in their interval stay as they are", "[core][compliance][interval-mean]") {
   std::vector<ContactPoint> points = line({0, 1, 2, 3});
-  points.erase(points.begin() + 2);             // one of a pair is gone
+  points.erase(points.begin() + 2);  // one of a pair is gone
   for (ContactPoint& point : points) {
     if (point.interval == 2) point.clearance = 0.01;  // the extended region
   }

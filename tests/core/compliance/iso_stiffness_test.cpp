@@ -30,12 +30,10 @@ GearPair pair_of(int z1, int z2, double beta = 0, double x1 = 0, double x2 = 0, 
 
 }  // namespace
 
-TEST_CASE("ISO's flexibility of two racks is its constant, and 21.2 N/(mm um) the stiffness",
-          "[core][compliance][iso]") {
+TEST_CASE("ISO's flexibility of two racks is its constant, and 21.2 N/(mm um) the stiffness", "[core][compliance][iso]") {
   CHECK(iso_flexibility(INFINITY, INFINITY, 0, 0) == 0.04723);
   // Worked by hand for z_n 20 / 50, x 0.3 / 0.1.
-  const double q =
-      0.04723 + 0.0077755 + 0.0051582 - 0.001905 - 0.0017481 - 0.000193 - 0.00048376 + 0.0004761 + 0.0000182;
+  const double q = 0.04723 + 0.0077755 + 0.0051582 - 0.001905 - 0.0017481 - 0.000193 - 0.00048376 + 0.0004761 + 0.0000182;
   CHECK(iso_flexibility(20, 50, 0.3, 0.1) == Approx(q).epsilon(1e-12));  // round-off
 }
 

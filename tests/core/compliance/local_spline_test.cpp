@@ -7,8 +7,7 @@
 using namespace flankwright;
 
 TEST_CASE("B-splines and cardinal functions are the same spline", "[core][compliance]") {
-  const std::vector<double> nodes = GENERATE(std::vector<double>{0, 1, 1.5, 4}, std::vector<double>{-1, 0, 0.1, 2, 3},
-                                             station_grid(12).zetas());
+  const std::vector<double> nodes = GENERATE(std::vector<double>{0, 1, 1.5, 4}, std::vector<double>{-1, 0, 0.1, 2, 3}, station_grid(12).zetas());
   const SplineAxis cardinal(nodes);
   const LocalSpline local(nodes);
   const double width = nodes.back() - nodes.front();

@@ -48,15 +48,13 @@ Eigen::Vector3d in_housing(const GearPair& pair, const ContactPoint& point) {
 
 }  // namespace
 
-TEST_CASE("Contact points lie on the finite-element gears as in the housing: same radii and distances",
-          "[core][compliance]") {
-  const auto [hand, flank] = GENERATE(std::pair{Hand::Right, WorkingFlank::Right}, std::pair{Hand::Left, WorkingFlank::Right},
-                                      std::pair{Hand::Right, WorkingFlank::Left});
+TEST_CASE("Contact points lie on the finite-element gears as in the housing: same radii and distances", "[core][compliance]") {
+  const auto [hand, flank] =
+      GENERATE(std::pair{Hand::Right, WorkingFlank::Right}, std::pair{Hand::Left, WorkingFlank::Right}, std::pair{Hand::Right, WorkingFlank::Left});
   const double axial_offset = 5;
   const GearPair pair = pair_of(hand, flank);
   const PathOfContact path(pair);
-  const std::vector<ContactPoint> points =
-      contact_points(pair, path, {QuadratureRule::Gauss2, 4}, 0.7, false, -0.5 * kWidth, 0.5 * kWidth);
+  const std::vector<ContactPoint> points = contact_points(pair, path, {QuadratureRule::Gauss2, 4}, 0.7, false, -0.5 * kWidth, 0.5 * kWidth);
   int teeth = 0;
   for (Member member : {Member::Pinion, Member::Wheel}) {
     const GearMesh mesh = mesh_of(pair, member);
@@ -93,8 +91,7 @@ TEST_CASE("The influence of thin slices is diagonal, and depends on the length o
   const Eigen::MatrixXd influence = slices.influence(points, 0.0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     for (std::size_t j = 0; j < points.size(); ++j) {
-      const double expected =
-          i == j ? slices.slice().compliance(points[i].pinion_radius, points[i].wheel_radius) / points[i].weight : 0.0;
+      const double expected = i == j ? slices.slice().compliance(points[i].pinion_radius, points[i].wheel_radius) / points[i].weight : 0.0;
       CHECK(influence(i, j) == expected);
     }
   }

@@ -34,8 +34,7 @@ std::shared_ptr<const RootStressTable> telltale(double face_width) {
 
 TEST_CASE("Fillets of both gears feel forces where these are in the housing", "[core][compliance][root-stress]") {
   const auto [hand, flank] =
-      GENERATE(std::pair{Hand::Right, WorkingFlank::Right}, std::pair{Hand::Left, WorkingFlank::Right},
-               std::pair{Hand::Right, WorkingFlank::Left});
+      GENERATE(std::pair{Hand::Right, WorkingFlank::Right}, std::pair{Hand::Left, WorkingFlank::Right}, std::pair{Hand::Right, WorkingFlank::Left});
   PairData data;
   data.normal_module = kStressModule;
   data.helix_angle = 25 * units::deg;
@@ -71,9 +70,7 @@ TEST_CASE("Fillets of both gears feel forces where these are in the housing", "[
       // The same number of teeth apart, in the mesh's own sense of counting on either gear; round-off of splines.
       CHECK(s[0] == Approx((pinion ? -1 : 1) * (points[i].tooth - station.tooth)).margin(1e-11));
       const double radius = pinion ? points[i].pinion_radius : points[i].wheel_radius;
-      CHECK(s[1] == Approx(2 * (radius - pair[station.member].form_radius) /
-                               (pair[station.member].tip_radius - pair[station.member].form_radius) -
-                           1)
+      CHECK(s[1] == Approx(2 * (radius - pair[station.member].form_radius) / (pair[station.member].tip_radius - pair[station.member].form_radius) - 1)
                         .margin(1e-11));
       // zeta runs from the acute end, opposite ends on both gears: with z on one, against it on the other.
       const double along_z = (points[i].z - station.z) / kStressModule;

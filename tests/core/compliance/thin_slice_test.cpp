@@ -50,8 +50,7 @@ double hertz(const GearPair& pair, double rho_1, double w) {
 }
 
 double structure(const GearPair& pair, const ThinSlice& slice, double rho_1) {
-  return slice.compliance(std::hypot(pair.pinion.base_radius, rho_1),
-                          std::hypot(pair.wheel.base_radius, pair.path_length - rho_1));
+  return slice.compliance(std::hypot(pair.pinion.base_radius, rho_1), std::hypot(pair.wheel.base_radius, pair.path_length - rho_1));
 }
 
 }  // namespace
@@ -67,13 +66,12 @@ TEST_CASE("At the pitch point a pair of teeth is as stiff as ISO 6336-1 says", "
   // ISO again, by hand: x 0.2 / -0.1, C_B = 1.
   const double cos_beta = std::cos(beta), cos_base = std::cos(pair.base_helix_angle);
   const double zn1 = z1 / (cos_base * cos_base * cos_beta), zn2 = 3 * zn1;
-  const double q = 0.04723 + 0.15551 / zn1 + 0.25791 / zn2 - 0.00635 * 0.2 - 0.11654 * 0.2 / zn1 + 0.00193 * 0.1 +
-                   0.24188 * 0.1 / zn2 + 0.00529 * 0.04 + 0.00182 * 0.01;
+  const double q = 0.04723 + 0.15551 / zn1 + 0.25791 / zn2 - 0.00635 * 0.2 - 0.11654 * 0.2 / zn1 + 0.00193 * 0.1 + 0.24188 * 0.1 / zn2 +
+                   0.00529 * 0.04 + 0.00182 * 0.01;
   CHECK(total == Approx(q / 0.8 * 1e-3).epsilon(1e-12));  // round-off
 }
 
-TEST_CASE("Without ISO's correction for measured stiffness the exact tooth form gives ISO's flexibility itself",
-          "[core][compliance][iso]") {
+TEST_CASE("Without ISO's correction for measured stiffness the exact tooth form gives ISO's flexibility itself", "[core][compliance][iso]") {
   // q' of the standard was fitted to Weber and Banaschek's theory; with C_M = 1 nothing would be left to calibrate.
   // Model: the standard states -8 .. +5 % for its fit; the rest is the root section and the module that the Hertzian
   // part stands for.
@@ -82,8 +80,7 @@ TEST_CASE("Without ISO's correction for measured stiffness the exact tooth form 
   CAPTURE(z1, ratio);
   const GearPair pair = pair_of(z1, ratio * z1);
   const ThinSlice slice(pair, kSteel, kSteel);
-  const double theory =
-      structure(pair, slice, pair.pitch_point) / slice.calibration() + hertz(pair, pair.pitch_point, 300);
+  const double theory = structure(pair, slice, pair.pitch_point) / slice.calibration() + hertz(pair, pair.pitch_point, 300);
   CHECK(theory == Approx(slice.iso().q_prime * 1e-3).epsilon(0.03));
 }
 
@@ -110,12 +107,10 @@ TEST_CASE("Structural compliance goes with 1/E and, at one Hertzian share, not w
   const ThinSlice twice(pair, stiff, stiff);
   const double r1 = pair.pinion.working_pitch_radius, r2 = pair.wheel.working_pitch_radius;
   constexpr double kRoundOff = 1e-9;  // through the inversion of the profile
-  CHECK(twice.compliance(r1, r2) / twice.calibration() ==
-        Approx(steel.compliance(r1, r2) / steel.calibration() / 2).epsilon(kRoundOff));
+  CHECK(twice.compliance(r1, r2) / twice.calibration() == Approx(steel.compliance(r1, r2) / steel.calibration() / 2).epsilon(kRoundOff));
   const GearPair large = pair_of(20, 47, 15 * deg, 12);
   const ThinSlice scaled(large, kSteel, kSteel);
-  CHECK(scaled.compliance(3 * r1, 3 * r2) / scaled.calibration() ==
-        Approx(steel.compliance(r1, r2) / steel.calibration()).epsilon(kRoundOff));
+  CHECK(scaled.compliance(3 * r1, 3 * r2) / scaled.calibration() == Approx(steel.compliance(r1, r2) / steel.calibration()).epsilon(kRoundOff));
   // kappa itself moves a little: the Hertzian part depends on the module, ISO's stiffness does not.
   CHECK(scaled.calibration() == Approx(steel.calibration()).epsilon(0.1));  // model
 }
@@ -125,8 +120,7 @@ TEST_CASE("Equal gears may be exchanged", "[core][compliance]") {
   const ThinSlice slice(pair, kSteel, kSteel);
   const double low = pair.pinion.form_radius + 0.2, high = pair.pinion.tip_radius - 0.3;
   CHECK(slice.compliance(low, high) == Approx(slice.compliance(high, low)).epsilon(1e-14));  // round-off
-  CHECK(slice.compliance(low, high) ==
-        Approx(slice.compliance_of(Member::Pinion, low) + slice.compliance_of(Member::Wheel, high)).epsilon(1e-14));
+  CHECK(slice.compliance(low, high) == Approx(slice.compliance_of(Member::Pinion, low) + slice.compliance_of(Member::Wheel, high)).epsilon(1e-14));
 }
 
 TEST_CASE("The tabulated compliance is the computed one", "[core][compliance]") {
@@ -135,11 +129,9 @@ TEST_CASE("The tabulated compliance is the computed one", "[core][compliance]") 
   for (const Member member : {Member::Pinion, Member::Wheel}) {
     const ToothForm form = tooth_form(pair, member);
     for (int i = 0; i <= 13; ++i) {
-      const double radius =
-          std::min(form.form_radius() + (form.tip_radius() - form.form_radius()) * i / 13, form.tip_radius());
+      const double radius = std::min(form.form_radius() + (form.tip_radius() - form.form_radius()) * i / 13, form.tip_radius());
       const double exact = slice.calibration() * tooth_compliance(form, radius, 0.3).total() / 206000;
-      CHECK(slice.compliance_of(member, radius) ==
-            Approx(exact).epsilon(2e-4));  // discretisation: the bound the class states
+      CHECK(slice.compliance_of(member, radius) == Approx(exact).epsilon(2e-4));  // discretisation: the bound the class states
     }
   }
 }
@@ -147,10 +139,8 @@ TEST_CASE("The tabulated compliance is the computed one", "[core][compliance]") 
 TEST_CASE("Outside the flank the compliance is that of its end", "[core][compliance]") {
   const GearPair pair = pair_of(20, 40);
   const ThinSlice slice(pair, kSteel, kSteel);
-  CHECK(slice.compliance_of(Member::Pinion, pair.pinion.tip_radius + 1) ==
-        slice.compliance_of(Member::Pinion, pair.pinion.tip_radius));
-  CHECK(slice.compliance_of(Member::Wheel, pair.wheel.form_radius - 1) ==
-        slice.compliance_of(Member::Wheel, pair.wheel.form_radius));
+  CHECK(slice.compliance_of(Member::Pinion, pair.pinion.tip_radius + 1) == slice.compliance_of(Member::Pinion, pair.pinion.tip_radius));
+  CHECK(slice.compliance_of(Member::Wheel, pair.wheel.form_radius - 1) == slice.compliance_of(Member::Wheel, pair.wheel.form_radius));
 }
 
 TEST_CASE("Every buildable pair of 5 to 500 teeth can be calibrated", "[core][compliance]") {

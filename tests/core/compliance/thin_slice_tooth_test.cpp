@@ -21,8 +21,7 @@ ToothForm helical_form() {
 
 }  // namespace
 
-TEST_CASE("Thin slices under many point loads yield as under the line load that these make up",
-          "[core][compliance][thin-slice][physics]") {
+TEST_CASE("Thin slices under many point loads yield as under the line load that these make up", "[core][compliance][thin-slice][physics]") {
   const ToothForm form = helical_form();
   const double u = GENERATE(-0.5, 1.0), calibration = 1.3;
   const ThinSliceTooth teeth(form, 2, 16, 0.3, calibration);  // B = 8
@@ -37,8 +36,7 @@ TEST_CASE("Thin slices under many point loads yield as under the line load that 
   CHECK(deflection == Approx(line).epsilon(1e-12));  // round-off
 }
 
-TEST_CASE("Thin slices are not coupled beyond the spread, nor to other teeth",
-          "[core][compliance][thin-slice][physics]") {
+TEST_CASE("Thin slices are not coupled beyond the spread, nor to other teeth", "[core][compliance][thin-slice][physics]") {
   const ThinSliceTooth teeth(helical_form(), 2, 16, 0.3);
   const double reach = ThinSliceTooth::kSpread * std::cos(30 * units::deg);
   const std::vector<FlankStation> points{{0, 0.3, 4}, {0, 0.3, 4 + 0.9 * reach}, {0, 0.3, 4 + 1.1 * reach}, {1, 0.3, 4}};

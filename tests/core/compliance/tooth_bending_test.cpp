@@ -49,8 +49,7 @@ TEST_CASE("The profile rises with its parameter as differences of its height say
   }
 }
 
-TEST_CASE("A slice of constant thickness is the textbook cantilever in plane strain",
-          "[core][compliance][closed-form]") {
+TEST_CASE("A slice of constant thickness is the textbook cantilever in plane strain", "[core][compliance][closed-form]") {
   const double s = 2, l = 7, nu = 0.3, a = GENERATE(0.0, 0.4);
   const ToothCompliance q = slice_compliance({even_slice(1, 1 + l, s)}, 1 + l, a, nu);
   const double cos2 = std::cos(a) * std::cos(a), sin2 = std::sin(a) * std::sin(a);
@@ -90,15 +89,12 @@ TEST_CASE("The root's rotation is that of a half-plane under a linear traction",
   CHECK(coefficient == Approx(18 / pi).epsilon(5e-3));  // discretisation
   // The same coefficient out of the code: the second difference of the foundation over the lever.
   const double nu = 0.3;
-  const auto foundation = [&](double lever) {
-    return slice_compliance({even_slice(0, lever, 2.0)}, lever, 0, nu).foundation / (1 - nu * nu);
-  };
+  const auto foundation = [&](double lever) { return slice_compliance({even_slice(0, lever, 2.0)}, lever, 0, nu).foundation / (1 - nu * nu); };
   const double second = (foundation(6) - 2 * foundation(4) + foundation(2)) / 2;
   CHECK(second == Approx(18 / pi).epsilon(1e-12));  // round-off
 }
 
-TEST_CASE("At a Poisson's ratio of 0.3 the foundation has Weber and Banaschek's printed figures",
-          "[core][compliance][reference]") {
+TEST_CASE("At a Poisson's ratio of 0.3 the foundation has Weber and Banaschek's printed figures", "[core][compliance][reference]") {
   // (F/b)/E cos^2 a (5.2 (l/s)^2 + l/s + 1.4 (1 + 0.294 tan^2 a))
   const double a = 0.35, l = 3, s = 2.4;
   const double tan2 = std::tan(a) * std::tan(a);
@@ -112,15 +108,12 @@ TEST_CASE("Tooth compliance does not depend on the module", "[core][compliance]"
   for (const double share : {0.1, 0.5, 1.0}) {
     const double radius = small.form_radius() + share * (small.tip_radius() - small.form_radius());
     CHECK(tooth_compliance(large, std::min(12 * radius, large.tip_radius()), 0.3).total() ==
-          Approx(tooth_compliance(small, radius, 0.3).total())
-              .epsilon(1e-9));  // round-off, through the profile's inversion
+          Approx(tooth_compliance(small, radius, 0.3).total()).epsilon(1e-9));  // round-off, through the profile's inversion
   }
 }
 
 TEST_CASE("A load that points into the rim takes off the beam smoothly", "[core][compliance]") {
-  const auto total = [](double lever) {
-    return slice_compliance({even_slice(5, std::max(5.0, 5 + lever), 2.0)}, 5 + lever, 0.3, 0.3).total();
-  };
+  const auto total = [](double lever) { return slice_compliance({even_slice(5, std::max(5.0, 5 + lever), 2.0)}, 5 + lever, 0.3, 0.3).total(); };
   // Value and slope agree from both sides of a load at the root section.
   const double step = 1e-5;
   constexpr double kDiscretisation = 1e-4;  // one-sided differences of a curved function
@@ -138,8 +131,7 @@ TEST_CASE("A tooth grows more compliant towards its tip", "[core][compliance]") 
     // From a tenth of the involute up; at its very foot, next to an undercut's waist, the load's lever is short
     // already.
     const double share = 0.1 + 0.9 * i / 20;
-    const double radius =
-        std::min(form.form_radius() + share * (form.tip_radius() - form.form_radius()), form.tip_radius());
+    const double radius = std::min(form.form_radius() + share * (form.tip_radius() - form.form_radius()), form.tip_radius());
     const double q = tooth_compliance(form, radius, 0.3).total();
     REQUIRE(q > last);
     last = q;
@@ -164,8 +156,7 @@ TEST_CASE("The load on a spur tooth meets its centre line at r_b / cos(alpha')",
   const ToothCompliance q = tooth_compliance(form, radius, 0.3);
   const double cos2 = std::cos(angle) * std::cos(angle);
   CHECK(root < top);
-  CHECK(q.bending ==
-        Approx(0.91 * cos2 * 12 * slenderness).epsilon(1e-3));  // discretisation: last cell of the polyline
+  CHECK(q.bending == Approx(0.91 * cos2 * 12 * slenderness).epsilon(1e-3));  // discretisation: last cell of the polyline
   CHECK(q.shear == Approx(2.4 * 1.3 * cos2 * height).epsilon(1e-3));
 }
 

@@ -25,8 +25,7 @@ std::vector<PairData> aligned_pairs() {
 
 }  // namespace
 
-TEST_CASE("Aligned involute gears touch along a line and transmit exactly their ratio",
-          "[core][contact][closed-form]") {
+TEST_CASE("Aligned involute gears touch along a line and transmit exactly their ratio", "[core][contact][closed-form]") {
   constexpr double kRoundOff = 1e-12;  // rad
   const Hand hand = GENERATE(Hand::Right, Hand::Left);
   const WorkingFlank flank = GENERATE(WorkingFlank::Right, WorkingFlank::Left);
@@ -43,16 +42,15 @@ TEST_CASE("Aligned involute gears touch along a line and transmit exactly their 
       const double phi1 = 2 * pi / data.pinion.teeth * (extent * (i + 0.37) / 24.0 - 0.5 * extent);
       // The pair touches from when the leading end of its line enters at A until the trailing end leaves at E.
       const double leading = path.line_phase_at(phi1, pair), trailing = leading - pair.overlap_ratio;
-      const bool well_inside =
-          leading > PathOfContact::extension + 0.02 && trailing < path.region_length - PathOfContact::extension - 0.02;
+      const bool well_inside = leading > PathOfContact::extension + 0.02 && trailing < path.region_length - PathOfContact::extension - 0.02;
       const ToothContact contact = find_tooth_contact(scene, 0, phi1);
       if (!well_inside) continue;
       ++in_contact;
       CHECK(contact.kind == ContactKind::Line);
       CHECK(std::abs(contact.transmission_error) <= kRoundOff);
       // The point lies on the contact line: plane of action, moving along it with the base circle.
-      const double roll = pair.pitch_point + pair.pinion.base_radius * phi1 +
-                          pair.contact_line_sense() * std::tan(pair.base_helix_angle) * contact.pinion_z;
+      const double roll =
+          pair.pitch_point + pair.pinion.base_radius * phi1 + pair.contact_line_sense() * std::tan(pair.base_helix_angle) * contact.pinion_z;
       CHECK(std::abs(std::hypot(pair.pinion.base_radius, roll) - contact.pinion_radius) <= 1e-4);
       CHECK(std::abs(std::hypot(pair.wheel.base_radius, pair.path_length - roll) - contact.wheel_radius) <= 1e-4);
       CHECK(std::abs(contact.pinion_z) <= 0.5 * pair.face_width * (1 + 1e-12));
@@ -90,15 +88,13 @@ TEST_CASE("Any tooth pair is the reference pair, pitches later", "[core][contact
   }
 }
 
-TEST_CASE("A centre distance that changes with the wheel still backs onto the flank without transmission error",
-          "[core][contact][closed-form]") {
+TEST_CASE("A centre distance that changes with the wheel still backs onto the flank without transmission error", "[core][contact][closed-form]") {
   // Involutes keep their ratio at any centre distance; the flanks separate by inv(alpha') - inv(alpha) at both gears:
   // the wheel must turn on by (z1 + z2)/z2 times that to touch.
   const GearPair pair = make_gear_pair(pair_data(24, 41, 12 * deg, 0.2, 0.0));
   Misalignment misalignment;
   misalignment.centre_distance = GENERATE(-0.1, 0.05, 0.4);
-  const double alpha = std::acos((pair.pinion.base_radius + pair.wheel.base_radius) /
-                                 (pair.centre_distance + misalignment.centre_distance));
+  const double alpha = std::acos((pair.pinion.base_radius + pair.wheel.base_radius) / (pair.centre_distance + misalignment.centre_distance));
   const auto inv = [](double angle) { return std::tan(angle) - angle; };
   const double expected = -(24.0 + 41.0) / 41.0 * (inv(alpha) - inv(pair.working_transverse_pressure_angle));
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene_of(pair, misalignment), 12);
@@ -125,11 +121,9 @@ TEST_CASE("The mirror image of a gear pair has the same transmission error", "[c
     PairData data = random_pair_data(random);
     data.helix_angle = 18 * deg;
     const GearPair pair = make_gear_pair(data);
-    const Modification pinion = random_modification(random, pair.pinion),
-                       wheel = random_modification(random, pair.wheel);
+    const Modification pinion = random_modification(random, pair.pinion), wheel = random_modification(random, pair.wheel);
     const Misalignment misalignment = random_misalignment(random);
-    const auto error_at = [&](const PairData& d, const Misalignment& m, const Modification& m1,
-                              const Modification& m2) {
+    const auto error_at = [&](const PairData& d, const Misalignment& m, const Modification& m1, const Modification& m2) {
       std::vector<double> te;
       const FlankAssembly scene = assemble_flanks(make_gear_pair(d), {.modification = {m1, m2}, .misalignment = m});
       for (const double phi1 : {-0.1, 0.0, 0.06}) te.push_back(find_tooth_contact(scene, 0, phi1).transmission_error);

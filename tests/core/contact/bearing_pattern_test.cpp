@@ -16,8 +16,7 @@ using units::pi;
 
 namespace {
 
-BearingPattern pattern_of(const GearPair& pair, const FlankAssembly& scene, Member member, int rows = 21,
-                          int columns = 21) {
+BearingPattern pattern_of(const GearPair& pair, const FlankAssembly& scene, Member member, int rows = 21, int columns = 21) {
   return bearing_pattern(scene, analyse_unloaded_mesh(pair, scene, 64), member, rows, columns);
 }
 
@@ -68,14 +67,12 @@ TEST_CASE(
       CHECK(std::abs(by_crown.separation(i, j) - removed) <= 1e-3 * removed + 1e-9);  // model: D against the radii
       // Crossing closes at +z: first order by g cos(a) per mm of face.
       const double open = crossing * std::cos(pair.working_transverse_pressure_angle) * (15.0 - by_crossing.z[j]);
-      CHECK(std::abs(by_crossing.separation(i, j) - open) <=
-            2e-3 * open + 2e-6);  // model: second order of g times a tooth height, mm
+      CHECK(std::abs(by_crossing.separation(i, j) - open) <= 2e-3 * open + 2e-6);  // model: second order of g times a tooth height, mm
     }
   }
 }
 
-TEST_CASE("Around the path of contact the pattern is as wide as the ellipses along it",
-          "[core][contact][independent]") {
+TEST_CASE("Around the path of contact the pattern is as wide as the ellipses along it", "[core][contact][independent]") {
   // A crowned pair's path runs at mid face: along z the band of the ellipses reaches where d(separation) = t, in both.
   const double beta = GENERATE(0.0, 12.0, 30.0) * deg;
   const GearPair pair = make_gear_pair(pair_data(26, 57, beta));
@@ -178,8 +175,7 @@ TEST_CASE("Both flanks show the same pattern in conjugate points", "[core][conta
     const double at = (radius - on_wheel.radius.front()) / (on_wheel.radius[1] - on_wheel.radius[0]);
     const int k = static_cast<int>(at);
     for (int j = 1; j < 8; ++j) {
-      const double other =
-          on_wheel.separation(k, j) + (at - k) * (on_wheel.separation(k + 1, j) - on_wheel.separation(k, j));
+      const double other = on_wheel.separation(k, j) + (at - k) * (on_wheel.separation(k + 1, j) - on_wheel.separation(k, j));
       ++compared;
       CAPTURE(on_pinion.radius[i], on_pinion.z[j]);
       // model: the points are conjugate only as far as the flanks are nominal
@@ -236,8 +232,7 @@ TEST_CASE("The part of a face that overhangs the mate is not marked", "[core][co
   Misalignment misalignment;
   misalignment.axial_offset = 1.5;  // the wheel covers -13.5 .. 16.5 of the pinion
   const FlankAssembly scene = scene_of(pair, misalignment);
-  const BearingPattern pinion = pattern_of(pair, scene, Member::Pinion, 5, 37),
-                       wheel = pattern_of(pair, scene, Member::Wheel, 5, 31);
+  const BearingPattern pinion = pattern_of(pair, scene, Member::Pinion, 5, 37), wheel = pattern_of(pair, scene, Member::Wheel, 5, 31);
   for (int j = 0; j < 37; ++j) {
     const bool covered = pinion.z[j] >= -13.5 && pinion.z[j] <= 16.5;
     CAPTURE(pinion.z[j]);
@@ -247,8 +242,7 @@ TEST_CASE("The part of a face that overhangs the mate is not marked", "[core][co
   for (int j = 0; j < 31; ++j) CHECK(wheel.separation(3, j) <= 1e-9);
 }
 
-TEST_CASE("A symmetric pair has a symmetric pattern, and a crossed one bears at the closing ends",
-          "[core][contact][symmetry]") {
+TEST_CASE("A symmetric pair has a symmetric pattern, and a crossed one bears at the closing ends", "[core][contact][symmetry]") {
   const GearPair spur = make_gear_pair(pair_data(21, 44, 0.0));
   Modification m;
   m.lead_crowning = 0.012;
@@ -279,8 +273,7 @@ TEST_CASE("A symmetric pair has a symmetric pattern, and a crossed one bears at 
         CAPTURE(pattern.radius[i], pattern.z[j]);
         // At the closing face end, or at a tip: its own or where the mate's runs.
         const bool at_end = end * pattern.z[j] > 0.9 * 0.5 * helical.face_width;
-        const bool at_tip = pattern.radius[i] > helical[member].tip_radius - 0.3 ||
-                            pattern.radius[i] < helical[member].active_root_radius + 0.6;
+        const bool at_tip = pattern.radius[i] > helical[member].tip_radius - 0.3 || pattern.radius[i] < helical[member].active_root_radius + 0.6;
         CHECK((at_end || at_tip));
         CHECK(end * pattern.z[j] > 0.0);
       }
@@ -298,8 +291,7 @@ TEST_CASE("The pattern of any pair has no gaps and contains the leading point", 
     ++scenes;
     const GearPair pair = make_gear_pair(data);
     const Misalignment misalignment = random_misalignment(random);
-    const Modification pinion = random_modification(random, pair.pinion),
-                       wheel = random_modification(random, pair.wheel);
+    const Modification pinion = random_modification(random, pair.pinion), wheel = random_modification(random, pair.wheel);
     const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
     const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 32);
     if (mesh.missing > 0) continue;
@@ -315,8 +307,7 @@ TEST_CASE("The pattern of any pair has no gaps and contains the leading point", 
   }
 }
 
-TEST_CASE("Coverage grows with the compound's thickness, from the path of contact to all that ever faces the mate",
-          "[core][contact]") {
+TEST_CASE("Coverage grows with the compound's thickness, from the path of contact to all that ever faces the mate", "[core][contact]") {
   const GearPair pair = make_gear_pair(pair_data(20, 40, 0.0));
   Modification m;
   m.lead_crowning = 0.020;

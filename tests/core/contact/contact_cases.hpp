@@ -13,8 +13,7 @@
 namespace flankwright::contact_cases {
 
 /// A pair that leaves the wheel's teeth room; x1, x2 profile shifts, widths in mm.
-inline PairData pair_data(int z1, int z2, double beta, double x1 = 0.0, double x2 = 0.0, double b1 = 30.0,
-                          double b2 = 30.0) {
+inline PairData pair_data(int z1, int z2, double beta, double x1 = 0.0, double x2 = 0.0, double b1 = 30.0, double b2 = 30.0) {
   PairData data;
   data.normal_module = 3.0;
   data.helix_angle = beta;
@@ -28,15 +27,14 @@ inline PairData pair_data(int z1, int z2, double beta, double x1 = 0.0, double x
 }
 
 inline FlankAssembly scene_of(const GearPair& pair, const Misalignment& misalignment = {}, const Modification& pinion = {},
-                          const Modification& wheel = {}) {
+                              const Modification& wheel = {}) {
   return assemble_flanks(pair, {.modification = {pinion, wheel}, .misalignment = misalignment});
 }
 
 /// Wheel angle at which the wheel's flank passes through one point of the pinion's flank; -infinity where the point
 /// lies outside the wheel's flank.
 inline double wheel_angle(const FlankAssembly& scene, int tooth, double phi1, double rho, double z) {
-  const Point3<double> p =
-      flank_point(scene.pinion, rho, z, tooth, phi1 + tooth * 2.0 * units::pi / scene.pinion_teeth);
+  const Point3<double> p = flank_point(scene.pinion, rho, z, tooth, phi1 + tooth * 2.0 * units::pi / scene.pinion_teeth);
   const Eigen::Vector3d q = scene.wheel_axes.transpose() * (Eigen::Vector3d(p.x, p.y, p.z) - scene.wheel_centre);
   const double radius = q.head<2>().norm();
   if (radius > scene.wheel.tip_radius || radius < scene.wheel.form_radius || std::abs(q.z()) > scene.wheel.half_face) {
@@ -64,9 +62,7 @@ inline double highest_on_grid(const FlankAssembly& scene, double phi1, int inter
 class Random {
  public:
   explicit Random(unsigned seed) : generator_(seed) {}
-  double operator()(double from, double to) {
-    return from + (to - from) * static_cast<double>(generator_()) / 4294967296.0;
-  }
+  double operator()(double from, double to) { return from + (to - from) * static_cast<double>(generator_()) / 4294967296.0; }
   int integer(int from, int to) { return from + static_cast<int>(generator_() % static_cast<unsigned>(to - from + 1)); }
   bool coin() { return generator_() % 2 == 1; }
 

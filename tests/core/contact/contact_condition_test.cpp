@@ -9,8 +9,7 @@
 using namespace flankwright;
 using namespace flankwright::contact_cases;
 
-TEST_CASE("The wheel angle through a point is the flank's own inverse, and its gradient that of differences",
-          "[core][contact][independent]") {
+TEST_CASE("The wheel angle through a point is the flank's own inverse, and its gradient that of differences", "[core][contact][independent]") {
   Random random(8);
   for (int i = 0; i < 30; ++i) {
     const PairData data = random_pair_data(random);
@@ -32,8 +31,7 @@ TEST_CASE("The wheel angle through a point is the flank's own inverse, and its g
     CAPTURE(i);
     CHECK(std::abs(here.phi2(contact) - angle) <= 1e-14);  // round-off
     const auto difference = [&](double d_rho, double d_z, double d_phi1) {
-      return (wheel_angle(scene, 1, phi1 + d_phi1, rho + d_rho, z + d_z) -
-              wheel_angle(scene, 1, phi1 - d_phi1, rho - d_rho, z - d_z)) / (2 * h);
+      return (wheel_angle(scene, 1, phi1 + d_phi1, rho + d_rho, z + d_z) - wheel_angle(scene, 1, phi1 - d_phi1, rho - d_rho, z - d_z)) / (2 * h);
     };
     constexpr double kDiscretisation = 1e-8;  // h^2 times third derivatives, and round-off over h
     CHECK(std::abs(difference(h, 0, 0) - contact.angle.rho) <= kDiscretisation);

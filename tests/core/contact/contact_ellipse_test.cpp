@@ -30,8 +30,7 @@ double separation_at(const FlankAssembly& scene, const ToothContact& contact, do
 
 }  // namespace
 
-TEST_CASE("Aligned involutes touch along a line, with the closed form's curvature across it",
-          "[core][contact][closed-form]") {
+TEST_CASE("Aligned involutes touch along a line, with the closed form's curvature across it", "[core][contact][closed-form]") {
   const double beta = GENERATE(0.0, 14.0, 30.0) * deg;
   const Hand hand = GENERATE(Hand::Right, Hand::Left);
   PairData data = pair_data(24, 61, beta, 0.2, -0.1);
@@ -45,14 +44,12 @@ TEST_CASE("Aligned involutes touch along a line, with the closed form's curvatur
     const double rho1 = pair.pinion.roll_length_at(contact.pinion_radius), rho2 = pair.path_length - rho1;
     const double across = (1 / rho1 + 1 / rho2) * std::cos(pair.base_helix_angle);
     CAPTURE(beta / deg, phi1);
-    CHECK(std::abs(ellipse.greatest_curvature / across - 1) <=
-          1e-10);                                                // round-off: a point of contact known to 1e-10 mm
-    CHECK(std::abs(ellipse.least_curvature) <= 1e-12 * across);  // round-off of the two surfaces' curvatures
+    CHECK(std::abs(ellipse.greatest_curvature / across - 1) <= 1e-10);  // round-off: a point of contact known to 1e-10 mm
+    CHECK(std::abs(ellipse.least_curvature) <= 1e-12 * across);         // round-off of the two surfaces' curvatures
     CHECK(std::isinf(ellipse.semi_major));
     CHECK(std::abs(ellipse.semi_minor - std::sqrt(0.012 / across)) <= 1e-10);
     // The line of contact on the flank is the generator d(rho)/d(z) = r_b s/p, one unit of length along it.
-    CHECK(std::abs(ellipse.major_d_rho - pair.pinion.base_radius * scene.pinion.helix_rate * ellipse.major_d_z) <=
-          1e-10);
+    CHECK(std::abs(ellipse.major_d_rho - pair.pinion.base_radius * scene.pinion.helix_rate * ellipse.major_d_z) <= 1e-10);
     CHECK(std::abs(ellipse.major_d_z - std::cos(pair.base_helix_angle)) <= 1e-10);
   }
 }
@@ -88,12 +85,10 @@ TEST_CASE("A lead-crowned spur pair is curved along the face by its crowning", "
   CHECK(std::abs(ellipse.major_d_rho) <= 1e-6);
   // Across the line of contact rho_1 d(rho)/r_b is a length.
   const double rho1 = scene.pinion.roll_at(contact.pinion_radius);
-  CHECK(std::abs(ellipse.minor_d_rho * rho1 / pair.pinion.base_radius - 1) <=
-        1e-6);  // model: profile unmodified but for the crown's D
+  CHECK(std::abs(ellipse.minor_d_rho * rho1 / pair.pinion.base_radius - 1) <= 1e-6);  // model: profile unmodified but for the crown's D
 }
 
-TEST_CASE("The ellipse describes the gap that a direct evaluation finds around the point of contact",
-          "[core][contact][independent]") {
+TEST_CASE("The ellipse describes the gap that a direct evaluation finds around the point of contact", "[core][contact][independent]") {
   const Hand hand = GENERATE(Hand::Left, Hand::Right);
   PairData data = reference::nasa_tm_107451::pair_data();
   data.pinion_hand = hand;
@@ -122,8 +117,8 @@ TEST_CASE("The ellipse describes the gap that a direct evaluation finds around t
         const double s1 = e.semi_major * std::cos(angle * deg), s2 = e.semi_minor * std::sin(angle * deg);
         // discretisation: the fourth order over a tenth of an axis
         const double share = 0.1;
-        const double gap = separation_at(scene, contact, share * (s1 * e.major_d_rho + s2 * e.minor_d_rho),
-                                         share * (s1 * e.major_d_z + s2 * e.minor_d_z));
+        const double gap =
+            separation_at(scene, contact, share * (s1 * e.major_d_rho + s2 * e.minor_d_rho), share * (s1 * e.major_d_z + s2 * e.minor_d_z));
         CHECK(std::abs(gap / (0.001 * share * share) - 1) <= 1e-5);
       }
       // Unit lengths, at right angles.

@@ -55,8 +55,7 @@ TEST_CASE("The path of contact counts base pitches as Haddad does", "[core][cont
   }
 }
 
-TEST_CASE("At phi1 = 0 pair 0 is at the pitch point in mid face and moves a base pitch per pinion pitch",
-          "[core][contact]") {
+TEST_CASE("At phi1 = 0 pair 0 is at the pitch point in mid face and moves a base pitch per pinion pitch", "[core][contact]") {
   const GearPair pair = make_gear_pair(pair_data(21, 50, GENERATE(0.0, 0.3), 0.2));
   const PathOfContact path(pair);
   CHECK(std::abs(path.roll_at(path.phase_at(path.line_phase_at(0.0, pair), 0.0)) - pair.pitch_point) <= 1e-12);
@@ -66,8 +65,7 @@ TEST_CASE("At phi1 = 0 pair 0 is at the pitch point in mid face and moves a base
   CHECK(std::abs(path.phase_at(path.last_line_phase(), trailing) - path.region_length) <= 1e-13);
 }
 
-TEST_CASE("The weights of the contact points add up to the length of the contact lines",
-          "[core][contact][closed-form]") {
+TEST_CASE("The weights of the contact points add up to the length of the contact lines", "[core][contact][closed-form]") {
   const double beta = GENERATE(0.0, 12 * deg, 31 * deg);
   const QuadratureRule rule = GENERATE(QuadratureRule::Gauss2, QuadratureRule::Gauss3, QuadratureRule::Midpoint);
   const bool extended = GENERATE(true, false);
@@ -82,8 +80,7 @@ TEST_CASE("The weights of the contact points add up to the length of the contact
     double expected = 0.0;
     int ends = 0;
     for (int k = -6; k <= 6; ++k) {
-      const double from = path.phase_at(line_phase + k, -path.half_face),
-                   to = path.phase_at(line_phase + k, path.half_face);
+      const double from = path.phase_at(line_phase + k, -path.half_face), to = path.phase_at(line_phase + k, path.half_face);
       const double low = std::min(from, to), high = std::max(from, to);
       const double inside_low = std::max(low, margin), inside_high = std::min(high, path.region_length - margin);
       if (inside_high < inside_low) continue;
@@ -96,8 +93,7 @@ TEST_CASE("The weights of the contact points add up to the length of the contact
   }
 }
 
-TEST_CASE("Graded intervals end where a line does: weights add up to its length exactly, points move with it",
-          "[core][contact][closed-form]") {
+TEST_CASE("Graded intervals end where a line does: weights add up to its length exactly, points move with it", "[core][contact][closed-form]") {
   const double beta = GENERATE(12 * deg, -31 * deg);
   const bool extended = GENERATE(true, false);
   PairData data = pair_data(24, 60, std::abs(beta), 0.1);
@@ -116,9 +112,8 @@ TEST_CASE("Graded intervals end where a line does: weights add up to its length 
       expected += std::max(0.0, high - low) / std::abs(a - b) * pair.face_width / std::cos(pair.base_helix_angle);
     }
     CHECK(found == Approx(expected).epsilon(kRoundOff));
-    CHECK(std::is_sorted(points.begin(), points.end(), [](const ContactPoint& p, const ContactPoint& q) {
-      return p.tooth != q.tooth ? p.tooth < q.tooth : p.z < q.z;
-    }));
+    CHECK(std::is_sorted(points.begin(), points.end(),
+                         [](const ContactPoint& p, const ContactPoint& q) { return p.tooth != q.tooth ? p.tooth < q.tooth : p.z < q.z; }));
     // A line that turns with the gear keeps its points' places on the path wherever both its ends are the path's.
     const double step = 1e-3;
     const auto later = points_at(pair, line_phase + step, 4, extended, QuadratureRule::Graded);
@@ -130,8 +125,7 @@ TEST_CASE("Graded intervals end where a line does: weights add up to its length 
   }
 }
 
-TEST_CASE("Next to the theoretical path the clearance is the parabola of the relative curvature",
-          "[core][contact][closed-form]") {
+TEST_CASE("Next to the theoretical path the clearance is the parabola of the relative curvature", "[core][contact][closed-form]") {
   // A tip that meets the mate a distance d off the end of the path is the point of the (undisturbed, touching) flank at
   // arc length rho d/r_b from the contact point, so that c = (1/rho_1 + 1/rho_2) (rho d/r_b)^2/2 transversely: it
   // starts with zero slope and grows both ways.
@@ -213,7 +207,8 @@ TEST_CASE("Where the path ends at a form circle the flank's lower end meets the 
     // The corner itself: the edge that the wheel turns towards comes there a clearance earlier or later.
     const bool near_corner = std::abs(part - 1.0) < 0.001;
     if (!near_corner) {
-      const ContactKind edge = at_end ? ContactKind::WheelRoot : ContactKind::PinionRoot, tip = at_end ? ContactKind::PinionTip : ContactKind::WheelTip;
+      const ContactKind edge = at_end ? ContactKind::WheelRoot : ContactKind::PinionRoot,
+                        tip = at_end ? ContactKind::PinionTip : ContactKind::WheelTip;
       CHECK(contact.kind == (part < 1.0 ? edge : tip));
     }
     CHECK(std::abs(point.clearance + contact.transmission_error * pair.wheel.base_radius) <= kRoundOff);

@@ -24,8 +24,7 @@ TEST_CASE("No point of the pinion's flank lies inside the wheel's at first conta
     ++scenes;
     const GearPair pair = make_gear_pair(data);
     const Misalignment misalignment = random_misalignment(random);
-    const Modification pinion = random_modification(random, pair.pinion),
-                       wheel = random_modification(random, pair.wheel);
+    const Modification pinion = random_modification(random, pair.pinion), wheel = random_modification(random, pair.wheel);
     const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
     const double phi1 = random(-0.5, 0.5) * (pair.total_contact_ratio() + 0.3) * 2 * units::pi / data.pinion.teeth;
     const ToothContact contact = find_tooth_contact(scene, 0, phi1);
@@ -43,8 +42,7 @@ TEST_CASE("No point of the pinion's flank lies inside the wheel's at first conta
     CHECK(std::abs(contact.pinion_z) <= scene.pinion.half_face);
     CHECK(std::abs(contact.wheel_z) <= scene.wheel.half_face * (1 + 1e-12));
     // discretisation: the grid comes within half a step of it, on a slope of at most 1 in 20 (edges and corners)
-    const double step =
-        std::max(scene.pinion.highest_roll() - scene.pinion.lowest_roll(), 2 * scene.pinion.half_face) / kGrid;
+    const double step = std::max(scene.pinion.highest_roll() - scene.pinion.lowest_roll(), 2 * scene.pinion.half_face) / kGrid;
     CHECK(highest >= contact.phi2 - 0.5 * step / 20.0 / scene.wheel.base_radius);
   }
 }
@@ -113,8 +111,7 @@ TEST_CASE("The higher of two maxima between the searched sections touches", "[co
     double beta, hollow, slope;  // deg, mm, mm
     EndRelief pinion, wheel;
   };
-  const Case c = GENERATE(Case{20.0, 0.022, 0.002, {0.013, 7.5}, {0.019, 4.3}},
-                          Case{20.0, 0.025, -0.001, {0.046, 5.5}, {0.016, 8.8}},
+  const Case c = GENERATE(Case{20.0, 0.022, 0.002, {0.013, 7.5}, {0.019, 4.3}}, Case{20.0, 0.025, -0.001, {0.046, 5.5}, {0.016, 8.8}},
                           Case{0.0, 0.018, -0.005, {0.011, 5.9}, {0.046, 2.2}});
   const GearPair pair = make_gear_pair(pair_data(24, 48, c.beta * deg));
   Modification pinion, wheel;

@@ -41,8 +41,7 @@ TEST_CASE("Misalignment moves the wheel by its definition", "[core][contact]") {
   CHECK((assembly.wheel_centre - Eigen::Vector3d(pair.centre_distance + 0.1, 0, -0.7)).norm() <= 1e-13);
 }
 
-TEST_CASE("Pinion errors change base radius and helix by the report's equations 15 to 18",
-          "[core][contact][reference]") {
+TEST_CASE("Pinion errors change base radius and helix by the report's equations 15 to 18", "[core][contact][reference]") {
   const GearPair pair = make_gear_pair(reference::nasa_tm_107451::pair_data());
   const double small = 1e-6;  // rad; the equations are first order
   const double alpha_t = pair.transverse_pressure_angle, alpha_n = 20 * deg;
@@ -50,13 +49,10 @@ TEST_CASE("Pinion errors change base radius and helix by the report's equations 
   Misalignment pressure;
   pressure.pinion_pressure_angle = small;
   const Flank by_pressure = scene_of(pair, pressure).pinion;
-  const double d_alpha_t = std::sin(2 * alpha_t) / std::sin(2 * alpha_n);  // eq. 15
-  CHECK(std::abs((by_pressure.base_radius - r_b) / small / (-r_p * std::sin(alpha_t) * d_alpha_t) - 1) <=
-        1e-4);  // eq. 17
+  const double d_alpha_t = std::sin(2 * alpha_t) / std::sin(2 * alpha_n);                                         // eq. 15
+  CHECK(std::abs((by_pressure.base_radius - r_b) / small / (-r_p * std::sin(alpha_t) * d_alpha_t) - 1) <= 1e-4);  // eq. 17
   const double lambda_b = 90 * deg - pair.base_helix_angle;
-  const auto lambda_b_of = [](const Flank& flank) {
-    return std::atan(1 / (std::abs(flank.helix_rate) * flank.base_radius));
-  };
+  const auto lambda_b_of = [](const Flank& flank) { return std::atan(1 / (std::abs(flank.helix_rate) * flank.base_radius)); };
   const double d_lambda_b = 0.5 * std::sin(2 * lambda_b) * std::tan(alpha_t) * d_alpha_t;  // eq. 16
   CHECK(std::abs((lambda_b_of(by_pressure) - lambda_b) / small / d_lambda_b - 1) <= 1e-4);
   Misalignment lead;

@@ -34,10 +34,9 @@ Comparison compare(const GearPair& pair, const FlankCondition& condition, double
   }
   const PathOfContact path(pair);
   const double b = 0.5 * pair.face_width;
-  const std::vector<ContactPoint> points = contact_points(pair, path, {QuadratureRule::Midpoint, fine_intervals},
-                                                          path.line_phase_at(phi1, pair), true, -b, b);
-  return {plane_of_action_gap(pair, points, condition).total.minCoeff(),
-          -te * pair.wheel.base_radius * std::cos(pair.base_helix_angle)};
+  const std::vector<ContactPoint> points =
+      contact_points(pair, path, {QuadratureRule::Midpoint, fine_intervals}, path.line_phase_at(phi1, pair), true, -b, b);
+  return {plane_of_action_gap(pair, points, condition).total.minCoeff(), -te * pair.wheel.base_radius * std::cos(pair.base_helix_angle)};
 }
 
 std::vector<GearPair> pairs() {
@@ -49,9 +48,8 @@ std::vector<GearPair> pairs() {
 
 }  // namespace
 
-TEST_CASE(
-    "The smallest gap in the plane of action is the unloaded transmission error, to first order in any misalignment",
-    "[core][contact][independent]") {
+TEST_CASE("The smallest gap in the plane of action is the unloaded transmission error, to first order in any misalignment",
+          "[core][contact][independent]") {
   const double size = GENERATE(1.0, -1.0, 0.1);
   const std::vector<std::pair<std::string, std::function<void(Misalignment&)>>> misalignments{
       {"crossing", [&](Misalignment& m) { m.crossing = size * 2 * arcmin; }},
@@ -79,8 +77,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("The smallest gap of modified flanks is the unloaded transmission error, to first order in the amounts",
-          "[core][contact][independent]") {
+TEST_CASE("The smallest gap of modified flanks is the unloaded transmission error, to first order in the amounts", "[core][contact][independent]") {
   FlankCondition condition;
   condition.modification.pinion.lead_crowning = 12 * um;
   condition.modification.pinion.tip_relief = {25 * um, 1.2, ReliefShape::Linear};
@@ -186,8 +183,7 @@ TEST_CASE("The gap's derivative for every parameter agrees with central differen
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const GearPair pair = make_gear_pair(pair_data(23, 46, 15 * deg, 0.2));
   const PathOfContact path(pair);
-  const std::vector<ContactPoint> points =
-      contact_points(pair, path, {QuadratureRule::Gauss2, 7}, 1.37, true, -path.half_face, path.half_face);
+  const std::vector<ContactPoint> points = contact_points(pair, path, {QuadratureRule::Gauss2, 7}, 1.37, true, -path.half_face, path.half_face);
   REQUIRE(points.size() >= 14);
   FlankCondition condition;
   for (Modification* m : {&condition.modification.pinion, &condition.modification.wheel}) {
@@ -206,14 +202,11 @@ TEST_CASE("The gap's derivative for every parameter agrees with central differen
   constexpr double kDiscretisation = 1e-9;  // third derivative of the extents' t^2 times step^2, and round-off/step
   for (const ModificationDescriptor& p : modification_parameters) {
     FlankCondition up = condition, down = condition;
-    const auto side = [member](FlankCondition& c) -> Modification& {
-      return c.modification[member];
-    };
+    const auto side = [member](FlankCondition& c) -> Modification& { return c.modification[member]; };
     const double value = get(side(condition), p.parameter);
     set(side(up), p.parameter, value + kStep);
     set(side(down), p.parameter, value - kStep);
-    const Eigen::VectorXd difference =
-        (plane_of_action_gap(pair, points, up).total - plane_of_action_gap(pair, points, down).total) / (2 * kStep);
+    const Eigen::VectorXd difference = (plane_of_action_gap(pair, points, up).total - plane_of_action_gap(pair, points, down).total) / (2 * kStep);
     const Eigen::VectorXd exact = gap_derivative(pair, points, condition, member, p.parameter);
     CAPTURE(std::string(p.key));
     CHECK((exact - difference).lpNorm<Eigen::Infinity>() <= kDiscretisation);

@@ -43,8 +43,7 @@ struct Slopes {
 };
 
 Slopes closed_form_slopes(const GearPair& pair, double crossing) {
-  const double common =
-      pair.contact_line_sense() * crossing * std::cos(pair.working_transverse_pressure_angle) / pair.gear_ratio();
+  const double common = pair.contact_line_sense() * crossing * std::cos(pair.working_transverse_pressure_angle) / pair.gear_ratio();
   return {common * std::tan(pair.base_helix_angle), -common / std::tan(pair.base_helix_angle)};
 }
 
@@ -66,8 +65,7 @@ double gain_off_plane(const GearPair& pair, double crossing, bool pinion_tip) {
 
 }  // namespace
 
-TEST_CASE("Crossed axes bring edges into contact with the closed form's two slopes",
-          "[core][contact][closed-form][reference]") {
+TEST_CASE("Crossed axes bring edges into contact with the closed form's two slopes", "[core][contact][closed-form][reference]") {
   const Hand hand = GENERATE(Hand::Left, Hand::Right);
   const double crossing = GENERATE(3.0, -3.0, 0.3) * arcmin;
   const GearPair pair = nasa_pair(hand);
@@ -87,8 +85,7 @@ TEST_CASE("Crossed axes bring edges into contact with the closed form's two slop
     if (here.kind == ContactKind::FaceEnd) {
       ++on_face;
       const double z = std::copysign(0.5 * pair.face_width, crossing);
-      CHECK(std::abs(here.pinion_z - z) <=
-            0.1);  // mm, model: the tilted end face shifts by gamma times a tooth height or so
+      CHECK(std::abs(here.pinion_z - z) <= 0.1);  // mm, model: the tilted end face shifts by gamma times a tooth height or so
       const double te = closed_form_error(pair, crossing, phi1, here.pinion_z);
       CHECK(std::abs(here.transmission_error - te) <= kModel * std::abs(te));
       CHECK(std::abs(slope / slopes.face_end - 1) <= kModel);
@@ -97,12 +94,10 @@ TEST_CASE("Crossed axes bring edges into contact with the closed form's two slop
       REQUIRE((pinion_tip || here.kind == ContactKind::WheelTip));
       ++on_tip;
       const double s = (pinion_tip ? pair.path_end : pair.path_start) - pair.pitch_point;
-      const double z =
-          (s - pair.pinion.base_radius * phi1) / (pair.contact_line_sense() * std::tan(pair.base_helix_angle));
+      const double z = (s - pair.pinion.base_radius * phi1) / (pair.contact_line_sense() * std::tan(pair.base_helix_angle));
       const double gain = gain_off_plane(pair, crossing, pinion_tip);
       const double te = closed_form_error(pair, crossing, phi1, z);
-      CHECK(std::abs(here.transmission_error - te - gain) <=
-            0.2 * gain);  // model: the other terms of second order are smaller
+      CHECK(std::abs(here.transmission_error - te - gain) <= 0.2 * gain);  // model: the other terms of second order are smaller
       CHECK(std::abs(slope / slopes.tip - 1) <= kModel);
     }
   }
@@ -110,8 +105,7 @@ TEST_CASE("Crossed axes bring edges into contact with the closed form's two slop
   CHECK(on_tip >= 12);
 }
 
-TEST_CASE("Crossing and lead-angle error of 3 minutes give the same transmission error to first order",
-          "[core][contact][reference]") {
+TEST_CASE("Crossing and lead-angle error of 3 minutes give the same transmission error to first order", "[core][contact][reference]") {
   // Both tilt one gear's generating rack against the other's by the same angle in the pitch plane. The lead error
   // closes the mesh at +z on a left-hand pinion: its sign goes with the hand.
   const Hand hand = GENERATE(Hand::Left, Hand::Right);
@@ -146,8 +140,7 @@ TEST_CASE("Crossing and lead-angle error of 3 minutes give the same transmission
   }
 }
 
-TEST_CASE("Crossing of 3 minutes is taken back by a lead-angle error of the opposite sign",
-          "[core][contact][reference]") {
+TEST_CASE("Crossing of 3 minutes is taken back by a lead-angle error of the opposite sign", "[core][contact][reference]") {
   const GearPair pair = nasa_pair(Hand::Left);
   Misalignment both;
   both.crossing = reference::nasa_tm_107451::error;
@@ -170,8 +163,7 @@ TEST_CASE("A pressure-angle error of 3 minutes causes no transmission error", "[
   for (const PairCurve& curve : mesh.pairs) CHECK_FALSE(curve.positions.empty());
 }
 
-TEST_CASE("A rotation of the wheel in the plane of the axes acts through the pressure angle",
-          "[core][contact][closed-form]") {
+TEST_CASE("A rotation of the wheel in the plane of the axes acts through the pressure angle", "[core][contact][closed-form]") {
   // Spur gears: the wheel's flank turns by g about y, opening by g z sin(a) along the line of action: contact at the
   // end z < 0.
   const double angle = GENERATE(2.0, -2.0) * arcmin;
@@ -179,12 +171,10 @@ TEST_CASE("A rotation of the wheel in the plane of the axes acts through the pre
   Misalignment misalignment;
   misalignment.intersecting = angle;
   const ToothContact contact = find_tooth_contact(scene_of(pair, misalignment), 0, 0.01);
-  const double expected =
-      std::abs(angle) * 15.0 * std::sin(pair.working_transverse_pressure_angle) / pair.wheel.base_radius;
+  const double expected = std::abs(angle) * 15.0 * std::sin(pair.working_transverse_pressure_angle) / pair.wheel.base_radius;
   CHECK(contact.kind == ContactKind::FaceEnd);
   CHECK(contact.pinion_z * angle < 0.0);
-  CHECK(std::abs(contact.transmission_error / expected - 1) <=
-        3 * std::abs(angle) + 2e-3);  // model: ends tilt by the angle
+  CHECK(std::abs(contact.transmission_error / expected - 1) <= 3 * std::abs(angle) + 2e-3);  // model: ends tilt by the angle
 }
 
 TEST_CASE("A mesh misalignment puts the flanks on edge by half of it", "[core][contact][closed-form]") {

@@ -16,8 +16,7 @@ constexpr double kRoundOff = 1e-12;  // rad
 
 }  // namespace
 
-TEST_CASE("A lead crown touches at its top, without transmission error, while its top is in mesh",
-          "[core][contact][closed-form]") {
+TEST_CASE("A lead crown touches at its top, without transmission error, while its top is in mesh", "[core][contact][closed-form]") {
   const double crown = GENERATE(0.005, 0.020);
   const Member crowned = GENERATE(Member::Pinion, Member::Wheel);
   const GearPair pair = make_gear_pair(reference::nasa_tm_107451::pair_data());
@@ -60,8 +59,7 @@ TEST_CASE("A lead crown touches at its top, without transmission error, while it
   for (const double te : mesh.transmission_error) CHECK(std::abs(te) <= kRoundOff);
 }
 
-TEST_CASE("A spur pair with tip relief falls behind by the relief at its point of contact",
-          "[core][contact][closed-form]") {
+TEST_CASE("A spur pair with tip relief falls behind by the relief at its point of contact", "[core][contact][closed-form]") {
   const ReliefShape shape = GENERATE(ReliefShape::Linear, ReliefShape::Parabolic);
   const GearPair pair = make_gear_pair(pair_data(25, 50, 0.0));
   Modification m;
@@ -75,9 +73,8 @@ TEST_CASE("A spur pair with tip relief falls behind by the relief at its point o
     const ToothContact contact = find_tooth_contact(scene, 0, phi1);
     const double radius = std::hypot(rb1, rho);
     const double te = -removal(m, scene.pinion.frame, radius, 0.0) / rb2;
-    const double slope =
-        (removal(m, scene.pinion.frame, radius + 1e-3, 0.0) - removal(m, scene.pinion.frame, radius - 1e-3, 0.0)) /
-        2e-3 * rho / radius;  // along the line of action: dr = rho/r d(rho)
+    const double slope = (removal(m, scene.pinion.frame, radius + 1e-3, 0.0) - removal(m, scene.pinion.frame, radius - 1e-3, 0.0)) / 2e-3 * rho /
+                         radius;  // along the line of action: dr = rho/r d(rho)
     const double rho2 = pair.path_length - rho;
     const double k = (1 / rho + 1 / rho2) * (rho / rb1) * (rho / rb1);
     const double gain = slope * slope / (2 * k) / rb2;  // contact slides to where less is removed
@@ -108,8 +105,7 @@ TEST_CASE("A lead slope on both gears that cancels leaves line contact", "[core]
   CHECK(std::abs(contact.transmission_error) <= kRoundOff);
 }
 
-TEST_CASE("Pitch errors move a pair's transmission error by the metal on its own teeth",
-          "[core][contact][closed-form]") {
+TEST_CASE("Pitch errors move a pair's transmission error by the metal on its own teeth", "[core][contact][closed-form]") {
   const GearPair pair = make_gear_pair(pair_data(21, 44, 14 * deg));
   ManufacturingError pinion, wheel;
   pinion.pitch_step = 0.003;
@@ -129,8 +125,7 @@ TEST_CASE("Removing material never advances the wheel", "[core][contact]") {
     if (!find_problems(data).empty()) continue;
     const GearPair pair = make_gear_pair(data);
     const Misalignment misalignment = random_misalignment(random);
-    const Modification pinion = random_modification(random, pair.pinion),
-                       wheel = random_modification(random, pair.wheel);
+    const Modification pinion = random_modification(random, pair.pinion), wheel = random_modification(random, pair.wheel);
     const auto more = [&](Modification m) {
       m.lead_crowning += 0.004;
       m.addendum_crowning += 0.003;
@@ -142,10 +137,8 @@ TEST_CASE("Removing material never advances the wheel", "[core][contact]") {
       const ToothContact as_is = find_tooth_contact(scene_of(pair, misalignment, pinion, wheel), 0, phi1);
       if (!as_is.exists()) continue;
       CAPTURE(i, phi1, to_string(as_is.kind));
-      CHECK(find_tooth_contact(scene_of(pair, misalignment, more(pinion), wheel), 0, phi1).phi2 <=
-            as_is.phi2 + kRoundOff);
-      CHECK(find_tooth_contact(scene_of(pair, misalignment, pinion, more(wheel)), 0, phi1).phi2 <=
-            as_is.phi2 + kRoundOff);
+      CHECK(find_tooth_contact(scene_of(pair, misalignment, more(pinion), wheel), 0, phi1).phi2 <= as_is.phi2 + kRoundOff);
+      CHECK(find_tooth_contact(scene_of(pair, misalignment, pinion, more(wheel)), 0, phi1).phi2 <= as_is.phi2 + kRoundOff);
     }
   }
 }

@@ -16,9 +16,7 @@ namespace {
 constexpr int kTeeth = 20;
 constexpr double kPitch = 2 * pi / kTeeth, kHeight = 1e-3 * kPitch * kPitch / 4;  // of a = 1e-3 1/rad
 
-FlankAssembly any_scene() {
-  return scene_of(make_gear_pair(pair_data(kTeeth, 40, 0.0)));
-}
+FlankAssembly any_scene() { return scene_of(make_gear_pair(pair_data(kTeeth, 40, 0.0))); }
 
 /// A mesh whose error is one parabola a pitch with its vertex shifted: what a perfect analysis would return.
 UnloadedMesh parabolic_mesh(double a, double shift, double offset, ContactKind kind = ContactKind::Surface) {
@@ -57,8 +55,7 @@ UnloadedMesh parabolic_mesh(double a, double shift, double offset, ContactKind k
 }  // namespace
 
 TEST_CASE("A shifted parabola is found again, to round-off", "[core][contact][closed-form]") {
-  const double shift = GENERATE(-0.3, -0.05, 0.08, 0.4) * kPitch, a = GENERATE(1e-3, 1.05e-3),
-               offset = GENERATE(0.0, 2e-5);
+  const double shift = GENERATE(-0.3, -0.05, 0.08, 0.4) * kPitch, a = GENERATE(1e-3, 1.05e-3), offset = GENERATE(0.0, 2e-5);
   const ParabolaCheck check = check_parabola(any_scene(), parabolic_mesh(a, shift, offset), 1e-3);
   CAPTURE(shift / kPitch, check.why);
   CHECK(check.wanted == 1e-3);
@@ -70,8 +67,7 @@ TEST_CASE("A shifted parabola is found again, to round-off", "[core][contact][cl
   CHECK(check.why.empty());
 }
 
-TEST_CASE("The residual is the largest distance from the best parabola, transfer points included",
-          "[core][contact][closed-form]") {
+TEST_CASE("The residual is the largest distance from the best parabola, transfer points included", "[core][contact][closed-form]") {
   UnloadedMesh mesh = parabolic_mesh(1e-3, 0.1 * kPitch, 0.0);
   mesh.transfers[0].transmission_error -= 0.03 * kHeight;
   ParabolaCheck check = check_parabola(any_scene(), mesh, 1e-3);
@@ -137,10 +133,8 @@ TEST_CASE("Pairs that share the lead have no parabola", "[core][contact]") {
   CHECK(check.why.rfind("no transfer point", 0) == 0);
 }
 
-TEST_CASE("A parabola traced by the face end does not hold: the line of contact has no crown to lean on",
-          "[core][contact]") {
-  const ParabolaCheck check =
-      check_parabola(any_scene(), parabolic_mesh(1e-3, 0.05 * kPitch, 0.0, ContactKind::FaceEnd), 1e-3);
+TEST_CASE("A parabola traced by the face end does not hold: the line of contact has no crown to lean on", "[core][contact]") {
+  const ParabolaCheck check = check_parabola(any_scene(), parabolic_mesh(1e-3, 0.05 * kPitch, 0.0, ContactKind::FaceEnd), 1e-3);
   CHECK(check.right_sign);
   CHECK(check.residual <= 1e-10 * kHeight);
   CHECK_FALSE(check.holds);
@@ -149,8 +143,7 @@ TEST_CASE("A parabola traced by the face end does not hold: the line of contact 
         "crowning or less misalignment");
 }
 
-TEST_CASE("A mesh that loses contact, a zero coefficient and too few positions have different reasons",
-          "[core][contact]") {
+TEST_CASE("A mesh that loses contact, a zero coefficient and too few positions have different reasons", "[core][contact]") {
   UnloadedMesh mesh = parabolic_mesh(1e-3, 0.05 * kPitch, 0.0);
   CHECK_THROWS_AS(check_parabola(any_scene(), mesh, 0.0), InvalidInput);
   CHECK_THROWS_AS(check_parabola(any_scene(), mesh, NAN), InvalidInput);

@@ -35,9 +35,7 @@ FlankCondition misaligned_by(const Misalignment& misalignment) {
   return condition;
 }
 
-FlankAssembly scene_of(const GearPair& pair, const FlankCondition& c) {
-  return assemble_flanks(pair, c);
-}
+FlankAssembly scene_of(const GearPair& pair, const FlankCondition& c) { return assemble_flanks(pair, c); }
 
 /// A condition that a designer might meet, all kinds of modification, error and misalignment in it.
 FlankCondition random_condition(Random& random, const GearPair& pair) {
@@ -93,8 +91,7 @@ TEST_CASE("Aligned flanks are nearest where the plane of action has them", "[cor
   }
 }
 
-TEST_CASE("In the section of first contact the gap is the unloaded transmission error, whatever the misalignment",
-          "[core][contact][independent]") {
+TEST_CASE("In the section of first contact the gap is the unloaded transmission error, whatever the misalignment", "[core][contact][independent]") {
   constexpr double kRoundOff = 1e-11;  // mm, as above; on kinks of the places too
   Random random(20);
   int touching = 0;
@@ -126,8 +123,7 @@ TEST_CASE("In the section of first contact the gap is the unloaded transmission 
   CHECK(touching >= 100);
 }
 
-TEST_CASE("A misaligned pair's gap leaves that of the plane of action with the square of the misalignment",
-          "[core][contact][independent]") {
+TEST_CASE("A misaligned pair's gap leaves that of the plane of action with the square of the misalignment", "[core][contact][independent]") {
   using Case = std::pair<std::string, Misalignment>;
   const auto [name, misalignment] = GENERATE(values<Case>({{"crossing", {.crossing = 8 * arcmin}},
                                                            {"intersecting", {.intersecting = 8 * arcmin}},
@@ -146,13 +142,12 @@ TEST_CASE("A misaligned pair's gap leaves that of the plane of action with the s
   REQUIRE(inner.size() >= 10);
   const auto difference = [&](double size) {
     Misalignment m;
-    for (double Misalignment::* part : {&Misalignment::crossing, &Misalignment::intersecting, &Misalignment::centre_distance,
-                                        &Misalignment::pinion_lead_angle, &Misalignment::pinion_pressure_angle}) {
+    for (double Misalignment::*part : {&Misalignment::crossing, &Misalignment::intersecting, &Misalignment::centre_distance,
+                                       &Misalignment::pinion_lead_angle, &Misalignment::pinion_pressure_angle}) {
       m.*part = size * misalignment.*part;
     }
     const FlankCondition condition = misaligned_by(m);
-    return Eigen::VectorXd(SurfaceGap(pair, condition).at(inner, kPhase).total -
-                           plane_of_action_gap(pair, inner, condition).total);
+    return Eigen::VectorXd(SurfaceGap(pair, condition).at(inner, kPhase).total - plane_of_action_gap(pair, inner, condition).total);
   };
   const Eigen::VectorXd whole = difference(1.0), half = difference(0.5), opposite = difference(-0.5);
   CAPTURE(name, whole.cwiseAbs().maxCoeff() / um);
@@ -257,9 +252,8 @@ TEST_CASE("The gap is continuous through zero misalignment, and so are its point
     const Gap aligned = SurfaceGap(pair, {}).at(points, phase);
     const std::vector<ContactPoint> aligned_places = SurfaceGap(pair, {}).place(points, phase);
     CHECK(aligned_places.size() == points.size());
-    for (double Misalignment::* part : {&Misalignment::crossing, &Misalignment::intersecting, &Misalignment::centre_distance,
-                                        &Misalignment::pinion_lead_angle, &Misalignment::pinion_pressure_angle,
-                                        &Misalignment::mesh_misalignment}) {
+    for (double Misalignment::*part : {&Misalignment::crossing, &Misalignment::intersecting, &Misalignment::centre_distance,
+                                       &Misalignment::pinion_lead_angle, &Misalignment::pinion_pressure_angle, &Misalignment::mesh_misalignment}) {
       Misalignment up, down;
       up.*part = kTiny;
       down.*part = -kTiny;

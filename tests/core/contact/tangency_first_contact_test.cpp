@@ -24,8 +24,7 @@ Vector5 tangency_residual(const FlankAssembly& scene, double phi1, const Vector5
   const Eigen::Vector3d apart = on_pinion.position - (scene.wheel_axes * on_wheel.position + scene.wheel_centre);
   const Eigen::Vector3d normal = scene.wheel_axes * on_wheel.normal;
   Vector5 residual;
-  residual << apart, 100.0 * normal.dot(on_pinion.d_rho.normalized()),
-      100.0 * normal.dot(on_pinion.d_z.normalized());
+  residual << apart, 100.0 * normal.dot(on_pinion.d_rho.normalized()), 100.0 * normal.dot(on_pinion.d_z.normalized());
   return residual;
 }
 
@@ -76,8 +75,8 @@ TEST_CASE("Surface contact solves Litvin's five equations of tangency", "[core][
       if (contact.kind != ContactKind::Surface) continue;
       // At the pitch circles the crowns' second derivatives jump: no kink, but Newton may step across.
       Vector5 start;
-      start << scene.pinion.roll_at(contact.pinion_radius) + 0.05, contact.pinion_z - 0.2,
-          scene.wheel.roll_at(contact.wheel_radius) - 0.05, contact.wheel_z + 0.1, contact.phi2 - 1e-5;
+      start << scene.pinion.roll_at(contact.pinion_radius) + 0.05, contact.pinion_z - 0.2, scene.wheel.roll_at(contact.wheel_radius) - 0.05,
+          contact.wheel_z + 0.1, contact.phi2 - 1e-5;
       const Vector5 x = solve_tangency(scene, phi1, start);
       CAPTURE(crossing / arcmin, phi1, x.transpose());
       REQUIRE(tangency_residual(scene, phi1, x).norm() <= 1e-9);
@@ -91,8 +90,7 @@ TEST_CASE("Surface contact solves Litvin's five equations of tangency", "[core][
   CHECK(compared >= 25);
 }
 
-TEST_CASE("Contact inside the flanks of random modified, misaligned gears solves the five equations of tangency",
-          "[core][contact][independent]") {
+TEST_CASE("Contact inside the flanks of random modified, misaligned gears solves the five equations of tangency", "[core][contact][independent]") {
   constexpr double kRoundOff = 1e-12;  // rad
   Random random(31415);
   int compared = 0;
@@ -119,8 +117,8 @@ TEST_CASE("Contact inside the flanks of random modified, misaligned gears solves
       const ToothContact contact = find_tooth_contact(scene, 0, phi1);
       if (contact.kind != ContactKind::Surface) continue;
       Vector5 start;
-      start << scene.pinion.roll_at(contact.pinion_radius) + 0.01, contact.pinion_z - 0.05,
-          scene.wheel.roll_at(contact.wheel_radius) - 0.01, contact.wheel_z + 0.03, contact.phi2 - 1e-6;
+      start << scene.pinion.roll_at(contact.pinion_radius) + 0.01, contact.pinion_z - 0.05, scene.wheel.roll_at(contact.wheel_radius) - 0.01,
+          contact.wheel_z + 0.03, contact.phi2 - 1e-6;
       const Vector5 x = solve_tangency(scene, phi1, start);
       CAPTURE(scenes, phi1, x.transpose());
       REQUIRE(tangency_residual(scene, phi1, x).norm() <= 1e-9);

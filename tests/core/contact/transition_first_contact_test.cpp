@@ -30,11 +30,10 @@ Transition locate(const ToothContactSolver& solver, ToothContact before, ToothCo
 
 }  // namespace
 
-TEST_CASE("Between kinds of contact the transmission error is continuous, and its slope where the point does not jump",
-          "[core][contact]") {
-  constexpr double kRoundOff = 1e-14;       // rad: two angles
-  constexpr double kSlopeRoundOff = 1e-8;   // a maximum known to about 1e-6 mm, times the change of slope with its position
-  constexpr double kSamePlace = 1e-3;       // mm
+TEST_CASE("Between kinds of contact the transmission error is continuous, and its slope where the point does not jump", "[core][contact]") {
+  constexpr double kRoundOff = 1e-14;      // rad: two angles
+  constexpr double kSlopeRoundOff = 1e-8;  // a maximum known to about 1e-6 mm, times the change of slope with its position
+  constexpr double kSamePlace = 1e-3;      // mm
   std::set<std::string> seen;
   struct Case {
     double beta, crossing, end_relief, lead_crown, profile_crown;  // deg, arcmin, mm
@@ -67,8 +66,10 @@ TEST_CASE("Between kinds of contact the transmission error is continuous, and it
         CHECK(std::abs(t.after.transmission_error - t.before.transmission_error) <=
               kRoundOff + step * std::max(std::abs(t.before.slope), std::abs(t.after.slope)));
         // The higher of two maxima takes over where the point jumps: the slope rises.
-        if (jump <= kSamePlace) CHECK(std::abs(t.after.slope - t.before.slope) <= kSlopeRoundOff);
-        else CHECK(t.after.slope >= t.before.slope - kSlopeRoundOff);
+        if (jump <= kSamePlace)
+          CHECK(std::abs(t.after.slope - t.before.slope) <= kSlopeRoundOff);
+        else
+          CHECK(t.after.slope >= t.before.slope - kSlopeRoundOff);
         // Both sides' slopes are those of differences away from the transition.
         constexpr double kStep = 1e-6;
         const ToothContact earlier = solver.find(0, t.before.phi1 - kStep), later = solver.find(0, t.after.phi1 + kStep);
@@ -81,9 +82,8 @@ TEST_CASE("Between kinds of contact the transmission error is continuous, and it
       last = next;
     }
   }
-  for (const char* kinds : {"wheel_tip to surface", "surface to pinion_tip", "wheel_tip to line", "line to pinion_tip",
-                            "wheel_tip to corner", "corner to face_end", "face_end to corner", "corner to pinion_tip",
-                            "face_end to surface"}) {
+  for (const char* kinds : {"wheel_tip to surface", "surface to pinion_tip", "wheel_tip to line", "line to pinion_tip", "wheel_tip to corner",
+                            "corner to face_end", "face_end to corner", "corner to pinion_tip", "face_end to surface"}) {
     CAPTURE(kinds);
     CHECK(seen.count(kinds) == 1);
   }

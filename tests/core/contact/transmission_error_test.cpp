@@ -12,8 +12,7 @@ using namespace flankwright::contact_cases;
 using units::deg;
 using units::pi;
 
-TEST_CASE("The mesh follows the leading pair, and every transfer point is located where two pairs are equal",
-          "[core][contact]") {
+TEST_CASE("The mesh follows the leading pair, and every transfer point is located where two pairs are equal", "[core][contact]") {
   Random random(99);
   int transfers = 0;
   for (int i = 0; i < 6; ++i) {
@@ -22,8 +21,7 @@ TEST_CASE("The mesh follows the leading pair, and every transfer point is locate
     if (!find_problems(data).empty()) continue;
     const GearPair pair = make_gear_pair(data);
     const Misalignment misalignment = random_misalignment(random);
-    const Modification pinion = random_modification(random, pair.pinion),
-                       wheel = random_modification(random, pair.wheel);
+    const Modification pinion = random_modification(random, pair.pinion), wheel = random_modification(random, pair.wheel);
     const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
     const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 20);
     CAPTURE(i);
@@ -105,8 +103,7 @@ TEST_CASE("Each pair's curve lies inside its extended path of contact, in order 
     }
   }
   // Every pair passes every position of the pitch once: as many positions as the extended path has pitches.
-  CHECK(std::abs(static_cast<double>(positions) - 24 * path.last_line_phase()) <=
-        static_cast<double>(mesh.pairs.size()));
+  CHECK(std::abs(static_cast<double>(positions) - 24 * path.last_line_phase()) <= static_cast<double>(mesh.pairs.size()));
 }
 
 TEST_CASE("An edge that a fillet leaves reaches from the mate's tip circle to the line of action", "[core][contact][independent]") {
@@ -238,7 +235,7 @@ TEST_CASE("Located crests and troughs do not depend on the number of positions",
   for (const int positions : {16, 33, 64}) {
     const UnloadedMesh coarse = analyse_unloaded_mesh(mesh.pair, mesh.scene, positions);
     CAPTURE(beta / deg, crossing / units::arcmin, positions);
-    CHECK(std::abs(coarse.largest - fine.largest) <= 1e-12);  // round-off of the angles
+    CHECK(std::abs(coarse.largest - fine.largest) <= 1e-12);    // round-off of the angles
     CHECK(std::abs(coarse.smallest - fine.smallest) <= 1e-12);  // transfer points lag by the tolerance of the lead over other pairs
     CHECK(coarse.transfers.size() == fine.transfers.size());
   }

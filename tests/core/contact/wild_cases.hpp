@@ -61,8 +61,8 @@ inline PairData wild_pair_data(Random& random) {
 
 inline Misalignment wild_misalignment(Random& random, double module) {
   Misalignment m;
-  for (double Misalignment::* angle : {&Misalignment::crossing, &Misalignment::intersecting, &Misalignment::pinion_lead_angle,
-                                       &Misalignment::pinion_pressure_angle}) {
+  for (double Misalignment::*angle :
+       {&Misalignment::crossing, &Misalignment::intersecting, &Misalignment::pinion_lead_angle, &Misalignment::pinion_pressure_angle}) {
     if (random.coin()) m.*angle = random(-20.0, 20.0) * units::arcmin;
   }
   if (random.coin()) m.centre_distance = random(-0.02, 0.1) * module;

@@ -73,16 +73,15 @@ TEST_CASE("Every modification, error and misalignment is noticed", "[core][effec
     CAPTURE(std::string(p.key));
     CHECK(is_on(decide_effects({true, false, {condition}}), "modifications"));
   }
-  for (double ManufacturingError::*error : {&ManufacturingError::helix_slope, &ManufacturingError::profile_slope,
-                                            &ManufacturingError::twist, &ManufacturingError::pitch_step}) {
+  for (double ManufacturingError::*error :
+       {&ManufacturingError::helix_slope, &ManufacturingError::profile_slope, &ManufacturingError::twist, &ManufacturingError::pitch_step}) {
     FlankCondition condition;
     condition.error.wheel.*error = -1 * units::um;
     CHECK(is_on(decide_effects({true, false, {condition}}), "manufacturing_errors"));
   }
   for (double Misalignment::*part :
-       {&Misalignment::crossing, &Misalignment::intersecting, &Misalignment::centre_distance,
-        &Misalignment::axial_offset, &Misalignment::pinion_lead_angle, &Misalignment::pinion_pressure_angle,
-        &Misalignment::mesh_misalignment}) {
+       {&Misalignment::crossing, &Misalignment::intersecting, &Misalignment::centre_distance, &Misalignment::axial_offset,
+        &Misalignment::pinion_lead_angle, &Misalignment::pinion_pressure_angle, &Misalignment::mesh_misalignment}) {
     FlankCondition condition;
     condition.misalignment.*part = -1e-4;
     CHECK(is_on(decide_effects({true, false, {condition}}), "misalignment"));

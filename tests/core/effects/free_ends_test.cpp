@@ -19,10 +19,9 @@ TEST_CASE("A contact softens by each gear's own ends, wherever the mate ends", "
     const ContactPoint& p = model.positions[0].points[i];
     // The acute end of a gear is the obtuse end of its mate.
     const double cosine = std::cos(gears.base_helix_angle), lean = -acute_end(gears, Member::Pinion) * gears.base_helix_angle;
-    const ContactLaw expected(
-        ContactSide::of(pinion, p.pinion_depth, p.pinion_tip_distance, {(15 + p.z) / cosine, (15 - p.z) / cosine}, lean),
-        ContactSide::of(wheel, p.wheel_depth, p.wheel_tip_distance, {(22 + p.z - 4) / cosine, (22 - p.z + 4) / cosine}, -lean),
-        p.relative_radius, contact_modulus(pinion, wheel));
+    const ContactLaw expected(ContactSide::of(pinion, p.pinion_depth, p.pinion_tip_distance, {(15 + p.z) / cosine, (15 - p.z) / cosine}, lean),
+                              ContactSide::of(wheel, p.wheel_depth, p.wheel_tip_distance, {(22 + p.z - 4) / cosine, (22 - p.z + 4) / cosine}, -lean),
+                              p.relative_radius, contact_modulus(pinion, wheel));
     CAPTURE(p.z);
     CHECK(model.positions[0].laws[i].deflection(300) == Approx(expected.deflection(300)).epsilon(1e-14));  // round-off
   }
@@ -44,8 +43,8 @@ TEST_CASE("Even teeth of an aligned spur pair carry less at their free ends", "[
   for (const auto& [place, load] : with) {
     if (without.at(place) == 0) continue;  // of the pairs before and after
     CAPTURE(place.first, place.second);
-    CHECK(load == Approx(mirrored.at(place)).epsilon(1e-9));   // a spur pair is its own mirror image
-    CHECK(without.at(place) == Approx(600).epsilon(1e-9));     // independent slices know of no ends
+    CHECK(load == Approx(mirrored.at(place)).epsilon(1e-9));  // a spur pair is its own mirror image
+    CHECK(without.at(place) == Approx(600).epsilon(1e-9));    // independent slices know of no ends
     if (place.second < 0) CHECK(load > last);
     if (first == 0) first = load;
     last = load;

@@ -64,7 +64,9 @@ struct Scene {
     condition.error.pinion.cumulative_pitch = {0.0, 3 * units::um};
     return condition;
   }
-  EffectFacts facts() const { return {.loaded = true, .conditions = {condition}, .coupled_teeth = true, .gear_bodies = true, .shafts = true, .whole_surface = true}; }
+  EffectFacts facts() const {
+    return {.loaded = true, .conditions = {condition}, .coupled_teeth = true, .gear_bodies = true, .shafts = true, .whole_surface = true};
+  }
 
   LoadedCycle run(const EffectDecisions& decisions, const MeshEffects& effects) const {
     const FlankCondition left = apply_effects(decisions, condition);

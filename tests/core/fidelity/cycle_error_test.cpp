@@ -19,7 +19,8 @@ Judged judge(const GearPair& gears, const FlankCondition& condition, double torq
   const std::vector<double> phases = equally_spaced_phases(positions);
   const auto mesh = [&](int n, const std::vector<double>& at) { return mesh_cases::model(gears, {{QuadratureRule::Graded, n}, at}); };
   const MeshModel model = mesh(intervals, phases);
-  const LoadedCycle cycle = analyse_cycle(model, condition, torque), coarse = analyse_cycle(mesh(intervals / 2, coarse_phases(phases)), condition, torque);
+  const LoadedCycle cycle = analyse_cycle(model, condition, torque),
+                    coarse = analyse_cycle(mesh(intervals / 2, coarse_phases(phases)), condition, torque);
   const MeshWithParameters at = [&](const std::vector<double>& some, const std::vector<MeshParameter>&) { return mesh(intervals, some); };
   const ResolvedCycle resolved = resolve_cycle(model, cycle, at, condition, torque, {.coarse = &coarse});
   return {resolved, figures_of(model, cycle, resolved.summary)};
@@ -36,8 +37,10 @@ TEST_CASE("The stated error of a figure holds beside a cycle four times finer bo
   const PerFigure stated = error_shares(coarse.resolved.errors, coarse.figures), found = figure_errors(coarse.figures, fine.figures);
   for (const Figure figure : {Figure::TeMean, Figure::TePeakToPeak, Figure::TeHarmonic1, Figure::PeakContactStress}) {
     const auto i = static_cast<std::size_t>(figure);
-    CAPTURE(gears.pinion.data.teeth, line_load, name_of(figure), stated[i], found[i], coarse.resolved.extremes.phases, coarse.resolved.extremes.looked_at);
-    CAPTURE(coarse.resolved.summary.te_peak_to_peak, fine.resolved.summary.te_peak_to_peak, coarse.resolved.error_parts.points.te_peak_to_peak, coarse.resolved.error_parts.positions.te_peak_to_peak);
+    CAPTURE(gears.pinion.data.teeth, line_load, name_of(figure), stated[i], found[i], coarse.resolved.extremes.phases,
+            coarse.resolved.extremes.looked_at);
+    CAPTURE(coarse.resolved.summary.te_peak_to_peak, fine.resolved.summary.te_peak_to_peak, coarse.resolved.error_parts.points.te_peak_to_peak,
+            coarse.resolved.error_parts.positions.te_peak_to_peak);
     CHECK(found[i] <= stated[i]);
     CHECK(stated[i] < 0.5);  // and says something
   }

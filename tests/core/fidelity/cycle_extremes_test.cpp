@@ -27,7 +27,9 @@ Extremes extremes_of(const LoadedCycle& cycle) {
 }
 
 /// Spur and helical, crowned, misaligned and relieved: kinks of every sort.
-GearPair drawn_pair() { return GENERATE(mesh_cases::pair(25, 50, 0, 3, 30), mesh_cases::pair(18, 54, 30, 10, 120), mesh_cases::pair(23, 67, 12, 2, 40)); }
+GearPair drawn_pair() {
+  return GENERATE(mesh_cases::pair(25, 50, 0, 3, 30), mesh_cases::pair(18, 54, 30, 10, 120), mesh_cases::pair(23, 67, 12, 2, 40));
+}
 
 }  // namespace
 

@@ -89,7 +89,8 @@ TEST_CASE("Estimated errors of a resolution hold on random load cases", "[core][
 
 TEST_CASE("Estimated errors of a resolution hold on 200 random load cases", "[core][load][discretisation][.soak]") {
   const Honesty found = honesty(0, 200, 15.0, {.accuracy = 0.01});
-  WARN("within " << found.within << " of " << found.drawn << ", honest " << found.honest << ", over tenfold " << found.over_tenfold << ", not kept " << found.not_kept);
+  WARN("within " << found.within << " of " << found.drawn << ", honest " << found.honest << ", over tenfold " << found.over_tenfold << ", not kept "
+                 << found.not_kept);
   CHECK(found.within >= 190);  // 95 %: differences may cancel by chance
   CHECK(found.over_tenfold <= 50);
 }

@@ -58,12 +58,19 @@ class Tilting final : public PairCompliance {
 GearPair helical_pair() { return mesh_cases::pair(20, 31, 15, 5, 40); }
 
 EffectScene scene(double torque) {
-  return {.pair = helical_pair(), .material = {}, .resolution = {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(12)},
-          .condition = {}, .pinion_torque = torque};
+  return {.pair = helical_pair(),
+          .material = {},
+          .resolution = {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(12)},
+          .condition = {},
+          .pinion_torque = torque};
 }
 
 EffectDecisions decisions_of(const EffectScene& s, bool whole_surface = false) {
-  return decide_effects({.loaded = true, .conditions = {s.condition}, .coupled_teeth = s.structure != nullptr, .gear_bodies = s.structure != nullptr, .shafts = s.shafts != nullptr,
+  return decide_effects({.loaded = true,
+                         .conditions = {s.condition},
+                         .coupled_teeth = s.structure != nullptr,
+                         .gear_bodies = s.structure != nullptr,
+                         .shafts = s.shafts != nullptr,
                          .whole_surface = whole_surface});
 }
 
@@ -94,29 +101,41 @@ TEST_CASE("The size of each effect where it matters and where it does not", "[co
     hardly(made.does_not);
     rows.push_back(made);
   };
-  row("misalignment", 0.2, 1e-3, [](EffectScene& s) { s.condition.misalignment.mesh_misalignment = 15 * units::um; },
+  row(
+      "misalignment", 0.2, 1e-3, [](EffectScene& s) { s.condition.misalignment.mesh_misalignment = 15 * units::um; },
       [](EffectScene& s) { s.condition.misalignment.mesh_misalignment = 5e-4 * units::um; });
-  row("modifications", 0.1, 1e-3, [](EffectScene& s) { s.condition.modification.pinion.lead_crowning = 10 * units::um; },
+  row(
+      "modifications", 0.1, 1e-3, [](EffectScene& s) { s.condition.modification.pinion.lead_crowning = 10 * units::um; },
       [](EffectScene& s) { s.condition.modification.pinion.lead_crowning = 1e-3 * units::um; });
-  row("manufacturing_errors", 0.1, 1e-3, [](EffectScene& s) { s.condition.error.wheel.helix_slope = 10 * units::um; },
+  row(
+      "manufacturing_errors", 0.1, 1e-3, [](EffectScene& s) { s.condition.error.wheel.helix_slope = 10 * units::um; },
       [](EffectScene& s) { s.condition.error.wheel.helix_slope = 1e-3 * units::um; });
-  row("bending", 0.5, 1e-2, [](EffectScene&) {}, [&](EffectScene& s) { s.structure = &stiff_teeth; });
-  row("adjacent_teeth", 0.05, 1e-3, [&](EffectScene& s) { s.structure = &tied; }, [&](EffectScene& s) { s.structure = &loose; });
-  row("gear_body_compliance", 0.05, 1e-3, [&](EffectScene& s) { s.structure = &soft_bodies; }, [&](EffectScene& s) { s.structure = &stiff_bodies; });
-  row("shafts", 0.02, 1e-3, [&](EffectScene& s) {
+  row(
+      "bending", 0.5, 1e-2, [](EffectScene&) {}, [&](EffectScene& s) { s.structure = &stiff_teeth; });
+  row(
+      "adjacent_teeth", 0.05, 1e-3, [&](EffectScene& s) { s.structure = &tied; }, [&](EffectScene& s) { s.structure = &loose; });
+  row(
+      "gear_body_compliance", 0.05, 1e-3, [&](EffectScene& s) { s.structure = &soft_bodies; }, [&](EffectScene& s) { s.structure = &stiff_bodies; });
+  row(
+      "shafts", 0.02, 1e-3,
+      [&](EffectScene& s) {
         s.shafts = &soft;
         s.condition.misalignment.mesh_misalignment = 5 * units::um;
-      }, [&](EffectScene& s) { s.shafts = &stiff; });
-  row("hertzian_contact", 0.2, 1e-2, [](EffectScene&) {}, [&](EffectScene& s) { s.structure = &soft_teeth; });
-  row("tip_corner", 1e-3, 1e-4, [](EffectScene&) {}, [](EffectScene& s) {
+      },
+      [&](EffectScene& s) { s.shafts = &stiff; });
+  row(
+      "hertzian_contact", 0.2, 1e-2, [](EffectScene&) {}, [&](EffectScene& s) { s.structure = &soft_teeth; });
+  row(
+      "tip_corner", 1e-3, 1e-4, [](EffectScene&) {},
+      [](EffectScene& s) {
         s.condition.modification.pinion.tip_relief = {200 * units::um, 3.0};
         s.condition.modification.wheel.tip_relief = {200 * units::um, 3.0};
       });
   // What remains without Poisson's ratio is the bending of sharp edges.
-  row("free_ends", 5e-3, 2e-3, [](EffectScene&) {}, [](EffectScene& s) {
-        s.material.pinion.poissons_ratio = s.material.wheel.poissons_ratio = 0;
-      });
-  row("extended_contact_region", 1e-3, 1e-9, [](EffectScene& s) { s.pinion_torque = 3e6; }, [](EffectScene& s) { s.pinion_torque = 1.0; });
+  row(
+      "free_ends", 5e-3, 2e-3, [](EffectScene&) {}, [](EffectScene& s) { s.material.pinion.poissons_ratio = s.material.wheel.poissons_ratio = 0; });
+  row(
+      "extended_contact_region", 1e-3, 1e-9, [](EffectScene& s) { s.pinion_torque = 3e6; }, [](EffectScene& s) { s.pinion_torque = 1.0; });
   for (const Row& r : rows) {
     CAPTURE(r.name);
     for (const bool matters : {true, false}) {
@@ -125,11 +144,12 @@ TEST_CASE("The size of each effect where it matters and where it does not", "[co
       const EffectInfluence exact = exact_influence(s, decisions, r.name);
       const EstimatedSize estimate = estimated(s, decisions, r.name);
       UNSCOPED_INFO(r.name << (matters ? " matters: " : " does not: ") << 100 * exact.share << " % of " << exact.largest_in << "; estimate "
-                           << 100 * estimate.size.influence.share << " % with " << estimate.solved_again << " of " << estimate.positions << " solved again");
+                           << 100 * estimate.size.influence.share << " % with " << estimate.solved_again << " of " << estimate.positions
+                           << " solved again");
       if (matters) CHECK(exact.share >= r.at_least);
       if (!matters) CHECK(exact.share <= r.at_most);
-      constexpr double first_order = 0.15;   // what the second order leaves of a size
-      constexpr double negligible = 2e-4;    // of shares: below it a size is small, whatever its digits
+      constexpr double first_order = 0.15;  // what the second order leaves of a size
+      constexpr double negligible = 2e-4;   // of shares: below it a size is small, whatever its digits
       CHECK(estimate.size.influence.share == Approx(exact.share).epsilon(first_order).margin(negligible));
       CHECK(estimate.size.influence.te_mean == Approx(exact.te_mean).epsilon(first_order).margin(1e-3 * units::um));
     }
@@ -211,7 +231,7 @@ TEST_CASE("Effects below a budget are dropped and what is lost keeps it", "[core
     }
     CHECK(dropped >= most_dropped);
     most_dropped = dropped;
-    CHECK(is_on(kept, "misalignment"));  // costs nothing
+    CHECK(is_on(kept, "misalignment"));   // costs nothing
     constexpr double second_order = 1.2;  // of several at once
     CHECK(EffectInfluence::between(all, outputs_with(s, kept)).share <= second_order * budget);
   }

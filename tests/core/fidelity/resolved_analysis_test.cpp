@@ -46,7 +46,8 @@ TEST_CASE("Intervals are not doubled for the error of positions, nor positions f
     resolved.error_parts.positions.peak_contact_stress = positions * resolved.summary.peak_contact_stress;
     return resolved;
   };
-  const AutomaticResolution finest_lines{.accuracy = 0.01, .intervals = 48, .positions = 32}, finest_cycle{.accuracy = 0.01, .intervals = 12, .positions = 128};
+  const AutomaticResolution finest_lines{.accuracy = 0.01, .intervals = 48, .positions = 32},
+      finest_cycle{.accuracy = 0.01, .intervals = 12, .positions = 128};
   AutomaticResolution from = finest_lines;
   CHECK_FALSE(refine(from, with(0.03, 0.005), cycle));
   CHECK(from.positions == 32);

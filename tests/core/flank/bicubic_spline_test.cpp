@@ -49,15 +49,9 @@ double largest_difference(const Jet& a, const Jet& b) {
   return std::max({std::abs(d.value), std::abs(d.u), std::abs(d.v), std::abs(d.uu), std::abs(d.uv), std::abs(d.vv)});
 }
 
-Jet polynomial(const Jet& x, const std::array<double, 4>& c) {
-  return c[0] + x * (c[1] + x * (c[2] + x * Jet(c[3])));
-}
-Jet variable_u(double u) {
-  return Jet::variable_u(u);
-}
-Jet variable_v(double v) {
-  return Jet::variable_v(v);
-}
+Jet polynomial(const Jet& x, const std::array<double, 4>& c) { return c[0] + x * (c[1] + x * (c[2] + x * Jet(c[3]))); }
+Jet variable_u(double u) { return Jet::variable_u(u); }
+Jet variable_v(double v) { return Jet::variable_v(v); }
 
 /// A polynomial of the given degrees along u and v.
 Jet bicubic(double u, double v, int degree_u, int degree_v) {
@@ -70,8 +64,7 @@ Jet bicubic(double u, double v, int degree_u, int degree_v) {
 
 }  // namespace
 
-TEST_CASE("A spline of any number of pieces reproduces bicubic polynomials with all derivatives",
-          "[core][flank][spline][closed-form]") {
+TEST_CASE("A spline of any number of pieces reproduces bicubic polynomials with all derivatives", "[core][flank][spline][closed-form]") {
   const auto f = [](double u, double v) { return bicubic(u, v, 3, 3).value; };
   const GridSamples samples = sample(uneven_u, uneven_v, f);
   const int pieces_u = GENERATE(1, 2, 3, 4, 5), pieces_v = GENERATE(1, 2, 3, 4);
@@ -92,9 +85,7 @@ TEST_CASE("Few points along a direction give the polynomial through them", "[cor
   CHECK(most_spline_pieces(m) == (m == 5 ? 2 : 1));
   const Points u = even(1.0, 3.0, m), v = even(-2.0, 2.0, n);
   const int degree_u = spline_degree(m), degree_v = spline_degree(n);
-  const BicubicSpline spline = interpolating_spline(sample(u, v, [&](double a, double b) {
-                                 return bicubic(a, b, degree_u, degree_v).value;
-                               })).spline;
+  const BicubicSpline spline = interpolating_spline(sample(u, v, [&](double a, double b) { return bicubic(a, b, degree_u, degree_v).value; })).spline;
   for (const double a : {1.0, 1.3, 2.9}) {
     for (const double b : {-2.0, 0.1, 1.6}) {
       CHECK(largest_difference(spline.at(a, b), bicubic(a, b, degree_u, degree_v)) <= 10.0 * spline_round_off);
@@ -124,15 +115,13 @@ TEST_CASE("The breaks are the third to the third last point: truncated cubics th
   };
   const BicubicSpline spline = interpolating_spline(sample(uneven_u, uneven_v, truncated)).spline;
   double largest = 0.0;
-  for (double u = -3.0; u <= 4.0; u += 0.1)
-    largest = std::max(largest, std::abs(spline.at(u, 3.0).value - truncated(u, 0.0)));
+  for (double u = -3.0; u <= 4.0; u += 0.1) largest = std::max(largest, std::abs(spline.at(u, 3.0).value - truncated(u, 0.0)));
   const bool is_break = k >= 2 && k <= 5;
   CAPTURE(k, largest);
   CHECK((largest <= 100.0 * spline_round_off) == is_break);
 }
 
-TEST_CASE("Value, slopes and curvatures are continuous across every joint, those of the extension included",
-          "[core][flank][spline]") {
+TEST_CASE("Value, slopes and curvatures are continuous across every joint, those of the extension included", "[core][flank][spline]") {
   const BicubicSpline spline = interpolating_spline(rough_samples()).spline;
   // Round-off on second derivatives of order 10, and a step of two representable numbers.
   constexpr double step_error = 1e-11;
@@ -157,8 +146,7 @@ TEST_CASE("Value, slopes and curvatures are continuous across every joint, those
 TEST_CASE("Spline derivatives agree with central differences, inside and beyond the grid", "[core][flank][spline]") {
   const BicubicSpline spline = interpolating_spline(rough_samples()).spline;
   constexpr double h = 1e-5;
-  constexpr double difference_error =
-      1e-7;  // discretisation: h^2 or, across a joint, h times third derivatives of order 100; round-off/h
+  constexpr double difference_error = 1e-7;  // discretisation: h^2 or, across a joint, h times third derivatives of order 100; round-off/h
   for (double u = -5.03; u < 6.5; u += 0.53) {
     for (double v = -3.07; v < 11.0; v += 0.47) {
       const Jet f = spline.at(u, v);
@@ -175,16 +163,13 @@ TEST_CASE("Spline derivatives agree with central differences, inside and beyond 
   }
 }
 
-TEST_CASE(
-    "Interpolation of a smooth function converges with the fourth power of the spacing, curvature with the second",
-    "[core][flank][spline]") {
+TEST_CASE("Interpolation of a smooth function converges with the fourth power of the spacing, curvature with the second", "[core][flank][spline]") {
   const auto f = [](const Jet& u, const Jet& v) { return sin(u) * cos(0.7 * v) + 0.2 * u * v; };
   std::vector<double> value_errors, curvature_errors;
   for (const int intervals : {12, 24, 48}) {
-    const BicubicSpline spline =
-        interpolating_spline(sample(even(-2.0, 2.0, intervals + 1), even(-3.0, 3.0, intervals + 1),
-                                    [&](double u, double v) { return f(u, v).value; }))
-            .spline;
+    const BicubicSpline spline = interpolating_spline(sample(even(-2.0, 2.0, intervals + 1), even(-3.0, 3.0, intervals + 1), [&](double u, double v) {
+                                   return f(u, v).value;
+                                 })).spline;
     double value = 0.0, curvature = 0.0;
     for (double u = -2.0; u <= 2.0; u += 0.0137) {
       for (double v = -3.0; v <= 3.0; v += 0.0371) {
@@ -203,19 +188,16 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("Beyond the grid the curvature of the border fades and a straight line follows",
-          "[core][flank][spline][closed-form]") {
+TEST_CASE("Beyond the grid the curvature of the border fades and a straight line follows", "[core][flank][spline][closed-form]") {
   const BicubicSpline spline = interpolating_spline(rough_samples()).spline;
   // Border, direction outwards and outermost interval of u.
-  const auto [border, outwards, interval] =
-      GENERATE(table<double, double, double>({{-3.0, -1.0, 0.8}, {4.0, 1.0, 1.6}}));
+  const auto [border, outwards, interval] = GENERATE(table<double, double, double>({{-3.0, -1.0, 0.8}, {4.0, 1.0, 1.6}}));
   const double v = GENERATE(-1.0, 0.6, 3.3, 8.5);
   const Jet edge = spline.at(border, v);
   const double slope = outwards * edge.u;
   for (const double d : {0.3, 0.7, 1.5, 1.7, 20.0}) {
     const Jet f = spline.at(border + outwards * d, v);
-    const double bent =
-        d <= interval ? d * d * (3.0 * interval - d) / (6.0 * interval) : interval * (3.0 * d - interval) / 6.0;
+    const double bent = d <= interval ? d * d * (3.0 * interval - d) / (6.0 * interval) : interval * (3.0 * d - interval) / 6.0;
     CAPTURE(border, v, d);
     CHECK(std::abs(f.value - (edge.value + slope * d + edge.uu * bent)) <= 10.0 * spline_round_off * (1.0 + d));
     CHECK(std::abs(f.uu - edge.uu * std::max(0.0, 1.0 - d / interval)) <= 10.0 * spline_round_off);
@@ -230,9 +212,7 @@ TEST_CASE("At a corner the extension is the same along u first or v first", "[co
   // Of a product f(u) g(v) the spline is the product of splines, beyond the grid too.
   const auto f = [](double u) { return std::exp(0.4 * u); };
   const auto g = [](double v) { return 1.0 / (1.0 + v); };
-  const auto spline_of = [](const auto& function) {
-    return interpolating_spline(sample(uneven_u, uneven_v, function)).spline;
-  };
+  const auto spline_of = [](const auto& function) { return interpolating_spline(sample(uneven_u, uneven_v, function)).spline; };
   const BicubicSpline product = spline_of([&](double u, double v) { return f(u) * g(v); });
   const BicubicSpline along_u = spline_of([&](double u, double) { return f(u); });
   const BicubicSpline along_v = spline_of([&](double, double v) { return g(v); });
@@ -244,8 +224,7 @@ TEST_CASE("At a corner the extension is the same along u first or v first", "[co
   }
 }
 
-TEST_CASE("Beyond a ragged edge the extension grows linearly where the cubic of the last piece runs away",
-          "[core][flank][spline]") {
+TEST_CASE("Beyond a ragged edge the extension grows linearly where the cubic of the last piece runs away", "[core][flank][spline]") {
   // +-1 alternating: the worst that noise of that size can do.
   const auto alternating = [](double u, double) { return std::lround(u) % 2 == 0 ? 1.0 : -1.0; };
   const BicubicSpline spline = interpolating_spline(sample(even(0.0, 8.0, 9), {0.0, 1.0}, alternating)).spline;
@@ -257,8 +236,7 @@ TEST_CASE("Beyond a ragged edge the extension grows linearly where the cubic of 
   CHECK(spline.at(16.0, 0.5).value - edge.value <= 8.0 * (edge.u + 0.5 * edge.uu));
 }
 
-TEST_CASE("A fit with fewer pieces is the orthogonal projection of the samples",
-          "[core][flank][spline][least-squares]") {
+TEST_CASE("A fit with fewer pieces is the orthogonal projection of the samples", "[core][flank][spline][least-squares]") {
   const GridSamples samples = rough_samples();
   const int pieces_u = GENERATE(1, 3), pieces_v = GENERATE(1, 2);
   const SplineFit fit = fit_spline(samples, {pieces_u, pieces_v});
@@ -278,8 +256,7 @@ TEST_CASE("Every allowed number of pieces determines the fit", "[core][flank][sp
   std::mt19937 random(3);
   for (int n = 4; n <= 40; ++n) {
     Points u{0.0};
-    while (u.size() < static_cast<std::size_t>(n))
-      u.push_back(u.back() + 0.3 + static_cast<double>(random() % 1000) / 1000.0);
+    while (u.size() < static_cast<std::size_t>(n)) u.push_back(u.back() + 0.3 + static_cast<double>(random() % 1000) / 1000.0);
     for (double& x : u) x *= 4.0 / u.back();
     const GridSamples samples = sample(u, {0.0, 1.0}, f);
     for (int pieces = 1; pieces <= most_spline_pieces(n); ++pieces) {
@@ -293,8 +270,7 @@ TEST_CASE("Every allowed number of pieces determines the fit", "[core][flank][sp
 TEST_CASE("Symmetric samples give a symmetric spline and zero gives zero", "[core][flank][spline]") {
   const int pieces = GENERATE(2, 4, 6);
   const auto f = [](double u, double v) { return std::cos(u) * std::exp(-v * v) + v * v * v * v; };
-  const BicubicSpline spline =
-      fit_spline(sample(even(-2.0, 2.0, 9), even(-1.0, 1.0, 15), f), {pieces, 2 * pieces}).spline;
+  const BicubicSpline spline = fit_spline(sample(even(-2.0, 2.0, 9), even(-1.0, 1.0, 15), f), {pieces, 2 * pieces}).spline;
   for (const double u : {0.3, 1.1, 2.6}) {
     for (const double v : {0.2, 0.9, 1.4}) {
       const Jet a = spline.at(u, v), b = spline.at(-u, v), c = spline.at(u, -v);
@@ -302,8 +278,7 @@ TEST_CASE("Symmetric samples give a symmetric spline and zero gives zero", "[cor
       CHECK(largest_difference(a, {c.value, c.u, -c.v, c.uu, -c.uv, c.vv}) <= 10.0 * spline_round_off);
     }
   }
-  const SplineFit zero =
-      fit_spline(sample(even(-2.0, 2.0, 9), even(-1.0, 1.0, 15), [](double, double) { return 0.0; }), {pieces, pieces});
+  const SplineFit zero = fit_spline(sample(even(-2.0, 2.0, 9), even(-1.0, 1.0, 15), [](double, double) { return 0.0; }), {pieces, pieces});
   CHECK(largest_difference(zero.spline.at(0.7, 1.3), Jet()) == 0.0);
   CHECK(largest_difference(BicubicSpline().at(0.7, 1.3), Jet()) == 0.0);
 }

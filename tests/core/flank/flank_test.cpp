@@ -36,12 +36,8 @@ Modification strong_modification(ReliefShape shape) {
   return m;
 }
 
-Eigen::Vector3d position(const Point3<Dual<2>>& p) {
-  return {p.x.value, p.y.value, p.z.value};
-}
-Eigen::Vector3d tangent(const Point3<Dual<2>>& p, int i) {
-  return {p.x.gradient[i], p.y.gradient[i], p.z.gradient[i]};
-}
+Eigen::Vector3d position(const Point3<Dual<2>>& p) { return {p.x.value, p.y.value, p.z.value}; }
+Eigen::Vector3d tangent(const Point3<Dual<2>>& p, int i) { return {p.x.gradient[i], p.y.gradient[i], p.z.gradient[i]}; }
 
 }  // namespace
 
@@ -72,8 +68,7 @@ TEST_CASE("The unmodified flank is a helicoid of the reference helix angle and t
   const GearPair pair = nasa_pair(hand, WorkingFlank::Right);
   const Flank flank = make_flank(pair, member, {}, {});
   const Gear& gear = pair[member];
-  const double turn_per_mm =
-      (gear.hand == Hand::Right ? 1.0 : -1.0) * std::tan(pair.data.helix_angle) / gear.reference_radius;
+  const double turn_per_mm = (gear.hand == Hand::Right ? 1.0 : -1.0) * std::tan(pair.data.helix_angle) / gear.reference_radius;
   for (const double z : {-20.0, 3.0, 19.0}) {
     const Point3<double> there = flank_point(flank, 40.0, z, 0, 0.0);
     const Point3<double> here = flank_point(flank, 40.0, 0.0, 0, z * turn_per_mm);
@@ -144,9 +139,7 @@ TEST_CASE("The rotation through a point undoes the flank's own parametrisation",
   error.cumulative_pitch = {0.0, 0.004, -0.003};
   const Flank flank = make_flank(pair, member, strong_modification(shape), error);
   std::mt19937 generator(20250101);
-  const auto uniform = [&generator](double from, double to) {
-    return from + (to - from) * static_cast<double>(generator()) / 4294967296.0;
-  };
+  const auto uniform = [&generator](double from, double to) { return from + (to - from) * static_cast<double>(generator()) / 4294967296.0; };
   for (int i = 0; i < 2000; ++i) {
     const double rho = uniform(flank.lowest_roll() + 0.1, flank.highest_roll());
     const double z = uniform(-flank.half_face, flank.half_face), rotation = uniform(-0.5, 0.5);
@@ -164,17 +157,13 @@ TEST_CASE("The rotation through a point undoes the flank's own parametrisation",
 TEST_CASE("The rotation through a point has the exact gradient", "[core][flank]") {
   const GearPair pair = nasa_pair(Hand::Left, WorkingFlank::Right);
   const Flank flank = make_flank(pair, Member::Wheel, strong_modification(ReliefShape::Parabolic), {});
-  const auto at = [&](double x, double y, double z) {
-    return rotation_through(flank, Point3<double>{x, y, z}, 1).rotation;
-  };
-  constexpr double kStep = 1e-3;  // mm
-  constexpr double kDiscretisation =
-      1e-9;  // rad/mm: step^2 times third derivatives of about 1e-5 rad/mm^3, round-off/step
+  const auto at = [&](double x, double y, double z) { return rotation_through(flank, Point3<double>{x, y, z}, 1).rotation; };
+  constexpr double kStep = 1e-3;            // mm
+  constexpr double kDiscretisation = 1e-9;  // rad/mm: step^2 times third derivatives of about 1e-5 rad/mm^3, round-off/step
   for (const double radius : {285.0, 292.3, 297.6}) {
     const double x = radius * std::cos(0.04), y = radius * std::sin(0.04), z = 5.0;
     using Number = Dual<3>;
-    const auto found = rotation_through(
-        flank, Point3<Number>{Number::variable(x, 0), Number::variable(y, 1), Number::variable(z, 2)}, 1);
+    const auto found = rotation_through(flank, Point3<Number>{Number::variable(x, 0), Number::variable(y, 1), Number::variable(z, 2)}, 1);
     const Eigen::Vector3d expected((at(x + kStep, y, z) - at(x - kStep, y, z)) / (2 * kStep),
                                    (at(x, y + kStep, z) - at(x, y - kStep, z)) / (2 * kStep),
                                    (at(x, y, z + kStep) - at(x, y, z - kStep)) / (2 * kStep));

@@ -57,8 +57,7 @@ GridFit fit_on(const GearPair& pair, const MeasuredGrid& grid, const GridFitOpti
 
 /// Largest difference between the field and a normal deviation, on a fine net [mm, normal]: `beyond` spreads the net
 /// from the grid's own borders (0) to those of the active flank (1).
-double largest_error(const GearPair& pair, const MeasuredGrid& grid, const DeviationField& field,
-                     const Deviation& truth, double beyond) {
+double largest_error(const GearPair& pair, const MeasuredGrid& grid, const DeviationField& field, const Deviation& truth, double beyond) {
   const FlankFrame frame = pair.flank_frame(Member::Pinion);
   const double low = std::lerp(grid.radii.front(), frame.active_root_radius, beyond);
   const double high = std::lerp(grid.radii.back(), frame.tip_radius, beyond);
@@ -116,16 +115,13 @@ TEST_CASE("Added metal moves the flank along its normal by the deviation measure
   }
 }
 
-TEST_CASE("A grid of a lead crowning is that lead crowning, beyond the grid to the end of its fading curvature",
-          "[core][flank][grid][closed-form]") {
+TEST_CASE("A grid of a lead crowning is that lead crowning, beyond the grid to the end of its fading curvature", "[core][flank][grid][closed-form]") {
   const GearPair pair = real_pair();
   const FlankFrame frame = pair.flank_frame(Member::Pinion);
   Modification crowned;
   crowned.lead_crowning = 0.03;
   crowned.lead_slope = -0.01;
-  const Deviation measured = [&](double r, double z) {
-    return -std::cos(pair.base_helix_angle) * removal(crowned, frame, r, z);
-  };
+  const Deviation measured = [&](double r, double z) { return -std::cos(pair.base_helix_angle) * removal(crowned, frame, r, z); };
   const MeasuredGrid grid = paper_grid(pair, measured);
   const GridFit fit = fit_on(pair, grid);
   for (double rho = 8.0; rho < 33.0; rho += 2.7) {
@@ -143,16 +139,14 @@ TEST_CASE("A grid of a lead crowning is that lead crowning, beyond the grid to t
   CHECK(fit.field->at(20.0, 46.0).value == Approx(removal(crowned, frame, 60.0, 46.0) - missing).margin(grid_round_off));
 }
 
-TEST_CASE("A deviation that is bilinear in roll length and z comes back exactly from an uneven 2 x 2 grid",
-          "[core][flank][grid][closed-form]") {
+TEST_CASE("A deviation that is bilinear in roll length and z comes back exactly from an uneven 2 x 2 grid", "[core][flank][grid][closed-form]") {
   const double rb = 40.0, beta_b = 0.4;
   MeasuredGrid grid{{41.0, 50.0}, {-7.0, 20.0}, Eigen::MatrixXd(2, 2)};
   const auto truth = [](const Jet& rho, const Jet& z) { return 1e-3 * (2.0 - 0.3 * rho + 0.2 * z + 0.05 * rho * z); };
   for (Eigen::Index i : {0, 1}) {
     for (Eigen::Index j : {0, 1}) {
       const double r = grid.radii[static_cast<std::size_t>(i)];
-      grid.deviation(i, j) =
-          -std::cos(beta_b) * truth(std::sqrt(r * r - rb * rb), grid.z[static_cast<std::size_t>(j)]).value;
+      grid.deviation(i, j) = -std::cos(beta_b) * truth(std::sqrt(r * r - rb * rb), grid.z[static_cast<std::size_t>(j)]).value;
     }
   }
   const GridFit fit = make_grid_field(grid, rb, beta_b);
@@ -166,9 +160,8 @@ TEST_CASE("A deviation that is bilinear in roll length and z comes back exactly 
   }
 }
 
-TEST_CASE(
-    "The 9 x 15 grid of a smooth deviation of 50 um is within 1 um between its points, and to the borders of the flank",
-    "[core][flank][grid][published]") {
+TEST_CASE("The 9 x 15 grid of a smooth deviation of 50 um is within 1 um between its points, and to the borders of the flank",
+          "[core][flank][grid][published]") {
   // "TCA of real helical gears": "for helical gears with deviations up to 50 microns, the fitting accuracy is within 1
   // micron".
   const GearPair pair = real_pair();
@@ -194,9 +187,8 @@ TEST_CASE("A grid without deviation is the involute itself", "[core][flank][grid
   }
 }
 
-TEST_CASE(
-    "Fewer pieces smooth noise: the residual is the noise, the surface closer to the truth than through every point",
-    "[core][flank][grid][least-squares]") {
+TEST_CASE("Fewer pieces smooth noise: the residual is the noise, the surface closer to the truth than through every point",
+          "[core][flank][grid][least-squares]") {
   const GearPair pair = real_pair();
   const Deviation truth = [&](double r, double z) { return smooth_deviation(pair, r, z); };
   std::mt19937 random(11);
@@ -270,9 +262,8 @@ TEST_CASE("Coverage is the share of the active flank, and a grid of another flan
   const auto roll = [&](double r) { return pair.pinion.roll_length_at(r); };
   const GridCoverage coverage = check_coverage(grid, frame);
   CHECK(coverage.face == Approx(0.9).epsilon(1e-12));
-  CHECK(coverage.profile == Approx((roll(grid.radii.back()) - roll(grid.radii.front())) /
-                                   (roll(frame.tip_radius) - roll(frame.active_root_radius)))
-                                .epsilon(1e-12));
+  CHECK(coverage.profile ==
+        Approx((roll(grid.radii.back()) - roll(grid.radii.front())) / (roll(frame.tip_radius) - roll(frame.active_root_radius))).epsilon(1e-12));
 
   MeasuredGrid all = grid;
   all.radii.front() = frame.active_root_radius - 0.1;

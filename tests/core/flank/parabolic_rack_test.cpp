@@ -37,9 +37,7 @@ Generated generate(PairData data, Member member, double coefficient) {
 }
 
 /// Roll length at a share of the flank, 0 at the form and 1 at the tip circle.
-double roll_at(const Flank& flank, double share) {
-  return flank.lowest_roll() + share * (flank.highest_roll() - flank.lowest_roll());
-}
+double roll_at(const Flank& flank, double share) { return flank.lowest_roll() + share * (flank.highest_roll() - flank.lowest_roll()); }
 
 }  // namespace
 

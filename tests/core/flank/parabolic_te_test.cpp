@@ -35,8 +35,7 @@ Modification parabola(double a, double lead_crowning = 0.0) {
 
 /// K of the member that carries the parabola, at a point of contact.
 double falling_behind(const GearPair& pair, Member member, const ToothContact& contact) {
-  const double rho1 = pair.pinion.roll_length_at(contact.pinion_radius),
-               rho2 = pair.wheel.roll_length_at(contact.wheel_radius);
+  const double rho1 = pair.pinion.roll_length_at(contact.pinion_radius), rho2 = pair.wheel.roll_length_at(contact.wheel_radius);
   const double own = member == Member::Pinion ? rho1 : rho2 / pair.gear_ratio();
   return own * own * (1 / rho1 + 1 / rho2) / pair.wheel.base_radius;
 }
@@ -49,27 +48,23 @@ struct Absorption {
     const double b = pair.base_helix_angle, alpha = pair.working_transverse_pressure_angle, face = pair.face_width;
     const double pitch = 2 * pi / pair.data.pinion.teeth, rise = pair.contact_line_sense() * std::tan(b);
     // A lead-angle error of a left-hand pinion acts as the crossing of the same sign, TM-107451, fig. 3.
-    const double closing =
-        (misalignment.crossing - pair.contact_line_sense() * misalignment.pinion_lead_angle) * std::cos(alpha) -
-        misalignment.intersecting * std::sin(alpha);
+    const double closing = (misalignment.crossing - pair.contact_line_sense() * misalignment.pinion_lead_angle) * std::cos(alpha) -
+                           misalignment.intersecting * std::sin(alpha);
     z = closing * face * face / (8 * crown * std::pow(std::cos(b), 2));
     vertex = closing * rise / pair.gear_ratio() / (2 * a);
-    const double middle =
-        (0.5 * (pair.path_start + pair.path_end) - pair.pitch_point - z * rise) / pair.pinion.base_radius;
+    const double middle = (0.5 * (pair.path_start + pair.path_end) - pair.pitch_point - z * rise) / pair.pinion.base_radius;
     use = std::abs(vertex - middle) / (0.5 * (pair.transverse_contact_ratio - 1) * pitch);
   }
 };
 
-ParabolaCheck check(const GearPair& pair, const Misalignment& misalignment, const Modification& pinion,
-                    const Modification& wheel, double a) {
+ParabolaCheck check(const GearPair& pair, const Misalignment& misalignment, const Modification& pinion, const Modification& wheel, double a) {
   const FlankAssembly scene = scene_of(pair, misalignment, pinion, wheel);
   return check_parabola(scene, analyse_unloaded_mesh(pair, scene, 64), a);
 }
 
 }  // namespace
 
-TEST_CASE("The removal for a parabola is the same along each line of contact and on either gear",
-          "[core][flank][closed-form]") {
+TEST_CASE("The removal for a parabola is the same along each line of contact and on either gear", "[core][flank][closed-form]") {
   const double beta = GENERATE(0.0, 22.0) * deg, a = 4e-4;
   const GearPair pair = make_gear_pair(pair_data(25, 60, beta, 0.2, 0.1));
   const FlankFrame pinion = pair.flank_frame(Member::Pinion), wheel = pair.flank_frame(Member::Wheel);
@@ -77,8 +72,7 @@ TEST_CASE("The removal for a parabola is the same along each line of contact and
   for (const double phi1 : {-0.11, -0.02, 0.0, 0.07}) {
     for (const double z : {-12.0, 0.0, 5.0}) {
       // The line that touches at phi1: rho_1 = rho_w + r_b1 (phi1 + z/p), rho_2 the rest of the path.
-      const double rho1 = pair.pitch_point + pair.pinion.base_radius * (phi1 + pinion.helix_rate * z),
-                   rho2 = pair.path_length - rho1;
+      const double rho1 = pair.pitch_point + pair.pinion.base_radius * (phi1 + pinion.helix_rate * z), rho2 = pair.path_length - rho1;
       const double r1 = std::hypot(pair.pinion.base_radius, rho1), r2 = std::hypot(pair.wheel.base_radius, rho2);
       const double expected = pair.wheel.base_radius * a * phi1 * phi1;
       CHECK(std::abs(removal(m, pinion, r1, z) - expected) <= 1e-14);
@@ -121,8 +115,7 @@ TEST_CASE("Removal exceeds the lag by the sliding of the contact", "[core][flank
   for (const double phi1 : {-0.09, -0.03, 0.05, 0.09}) {
     const ToothContact contact = find_tooth_contact(scene, 0, phi1);
     const bool on_pinion = member == Member::Pinion;
-    const double radius = on_pinion ? contact.pinion_radius : contact.wheel_radius,
-                 z = on_pinion ? contact.pinion_z : contact.wheel_z;
+    const double radius = on_pinion ? contact.pinion_radius : contact.wheel_radius, z = on_pinion ? contact.pinion_z : contact.wheel_z;
     const double lag = removal(m, frame, radius, z);
     const double exact = make_conjugate_field(pair, member, a)->at(pair[member].roll_length_at(radius), z).value;
     const double k = falling_behind(pair, member, contact);
@@ -131,8 +124,7 @@ TEST_CASE("Removal exceeds the lag by the sliding of the contact", "[core][flank
   }
 }
 
-TEST_CASE("The conjugate flank's derivative by its coefficient is the lag's at the involute and that of differences elsewhere",
-          "[core][flank]") {
+TEST_CASE("The conjugate flank's derivative by its coefficient is the lag's at the involute and that of differences elsewhere", "[core][flank]") {
   const double beta = GENERATE(0.0, 20.0) * deg;
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const GearPair pair = make_gear_pair(pair_data(30, 100, beta, 0.2, -0.1));
@@ -154,8 +146,7 @@ TEST_CASE("The conjugate flank's derivative by its coefficient is the lag's at t
   }
 }
 
-TEST_CASE("Derivatives of the conjugate flank agree with differences, across the ends of its exact range too",
-          "[core][flank]") {
+TEST_CASE("Derivatives of the conjugate flank agree with differences, across the ends of its exact range too", "[core][flank]") {
   const double beta = GENERATE(0.0, 20.0) * deg;
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const GearPair pair = make_gear_pair(pair_data(30, 100, beta));
@@ -178,8 +169,7 @@ TEST_CASE("Derivatives of the conjugate flank agree with differences, across the
   }
 }
 
-TEST_CASE("A parabola that would fold the flank inside its pitch is refused with the largest that does not",
-          "[core][flank][closed-form]") {
+TEST_CASE("A parabola that would fold the flank inside its pitch is refused with the largest that does not", "[core][flank][closed-form]") {
   const GearPair pair = make_gear_pair(pair_data(18, 54, GENERATE(0.0, 20.0) * deg));
   // Lowest point that carries: half a pitch before the pitch point. Contact may slow down to half there, 2 a = K/2.
   const double rho1 = pair.pitch_point - pair.pinion.base_radius * pi / 18;
@@ -190,8 +180,7 @@ TEST_CASE("A parabola that would fold the flank inside its pitch is refused with
   CHECK_THROWS_WITH(make_conjugate_field(pair, Member::Pinion, 0.35 * k), Catch::Contains("over a whole pitch"));
 }
 
-TEST_CASE("Below the point where the flank would fold its slope continues, and the leading pair keeps the parabola",
-          "[core][flank]") {
+TEST_CASE("Below the point where the flank would fold its slope continues, and the leading pair keeps the parabola", "[core][flank]") {
   // 18 teeth: the active profile starts close to the base circle, where K is small.
   const GearPair pair = make_gear_pair(pair_data(18, 54, 0.0));
   const double a = 6e-3;
@@ -214,8 +203,7 @@ TEST_CASE("Over a pitch the parabola's height is a (pi/N1)^2, whatever carries i
   const GearPair pair = make_gear_pair(pair_data(30, 100, beta));
   const Modification carrier = parabola(a, 0.02);
   const bool on_pinion = member == Member::Pinion;
-  const FlankAssembly scene =
-      scene_of(pair, {}, on_pinion ? carrier : Modification{}, on_pinion ? Modification{} : carrier);
+  const FlankAssembly scene = scene_of(pair, {}, on_pinion ? carrier : Modification{}, on_pinion ? Modification{} : carrier);
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 64);
   CHECK(std::abs(mesh.peak_to_peak / (a * std::pow(pi / 30, 2)) - 1) <= 1e-7);  // round-off over 0.5 arcsec
   const ParabolaCheck found = check_parabola(scene, mesh, a);
@@ -229,8 +217,7 @@ TEST_CASE("Over a pitch the parabola's height is a (pi/N1)^2, whatever carries i
   CHECK(std::abs(shared.peak_to_peak / mesh.peak_to_peak - 1) <= 4e-3);
 }
 
-TEST_CASE("Misalignment of 3 minutes shifts the parabola of a crowned pair and leaves its coefficient",
-          "[core][flank][closed-form]") {
+TEST_CASE("Misalignment of 3 minutes shifts the parabola of a crowned pair and leaves its coefficient", "[core][flank][closed-form]") {
   const double a = 3e-3, crown = 0.120, sign = GENERATE(1.0, -1.0);
   const GearPair pair = make_gear_pair(reference::nasa_tm_107451::pair_data());
   Misalignment crossing, lead, intersecting, both;
@@ -244,15 +231,13 @@ TEST_CASE("Misalignment of 3 minutes shifts the parabola of a crowned pair and l
     CAPTURE(sign, expected.use, found.found / a, found.shift, expected.vertex, found.residual, found.why);
     CHECK(found.right_sign);
     CHECK(found.holds);
-    CHECK(std::abs(found.found / a - 1) <= 2e-3);  // model: second order in the misalignment
-    CHECK(std::abs(found.shift - expected.vertex) <=
-          0.08 * std::abs(expected.vertex) + 0.01 * pi / 30);  // model: K along the profile
+    CHECK(std::abs(found.found / a - 1) <= 2e-3);                                                         // model: second order in the misalignment
+    CHECK(std::abs(found.shift - expected.vertex) <= 0.08 * std::abs(expected.vertex) + 0.01 * pi / 30);  // model: K along the profile
     CHECK(found.residual <= 0.02 * a * std::pow(pi / 30, 2));
   }
 }
 
-TEST_CASE("The parabola holds until its vertex has moved by (eps_alpha - 1)/2 of a pitch, and not far beyond",
-          "[core][flank][closed-form][slow]") {
+TEST_CASE("The parabola holds until its vertex has moved by (eps_alpha - 1)/2 of a pitch, and not far beyond", "[core][flank][closed-form][slow]") {
   const double a = GENERATE(1e-3, 2e-3), crown = a == 1e-3 ? 0.020 : 0.040, sign = GENERATE(1.0, -1.0);
   const GearPair pair = make_gear_pair(reference::nasa_tm_107451::pair_data());
   double holds_to = 0.0, fails_from = 10.0;
@@ -274,8 +259,7 @@ TEST_CASE("The parabola holds until its vertex has moved by (eps_alpha - 1)/2 of
   CHECK(holds_to < fails_from + 0.2);
 }
 
-TEST_CASE("Crowning keeps a crossed spur pair's parabola on the flanks until the contact reaches the face end",
-          "[core][flank][closed-form]") {
+TEST_CASE("Crowning keeps a crossed spur pair's parabola on the flanks until the contact reaches the face end", "[core][flank][closed-form]") {
   // The closing g cos(a) z against C (2z/b)^2: contact at z = g cos(a) b^2/(8 C), at the face end from g = 4 C/(b
   // cos(a)) on.
   const double a = 3e-4, crown = GENERATE(0.004, 0.010);

@@ -11,7 +11,7 @@ using namespace flankwright;
 namespace {
 
 const FlankFrame frame = sample_flank_frame();
-constexpr double active_height = 7.0;                  // r_a - r_Nf
+constexpr double active_height = 7.0;  // r_a - r_Nf
 
 constexpr double kRemovalRoundOff = 1e-15;  // mm: amounts are of the order of 0.01 mm
 
@@ -76,7 +76,8 @@ TEST_CASE("Each amount is what is removed where it is specified", "[core][flank]
     CHECK(near(removed(parameter_of("root_relief.amount"), low + 0.3, z), 0.75 * c));
     CHECK(removed(parameter_of("root_relief.amount"), low + 1.2, z) == 0.0);
     CHECK(removed(parameter_of("twist"), pitch, z) == 0.0);
-    for (const ModificationParameter p : {parameter_of("profile_crowning"), parameter_of("profile_slope"), parameter_of("tip_relief.amount"), parameter_of("root_relief.amount")}) {
+    for (const ModificationParameter p :
+         {parameter_of("profile_crowning"), parameter_of("profile_slope"), parameter_of("tip_relief.amount"), parameter_of("root_relief.amount")}) {
       CHECK(removed(p, pitch, z) == 0.0);
     }
   }
@@ -174,9 +175,7 @@ TEST_CASE("Dual numbers carry the exact slope of the flank's removal", "[core][f
   constexpr double kStep = 1e-4, kDiscretisation = 1e-11;  // all parts at most quadratic: only round-off/step is left
   for (const double r : {47.5, 48.9, 51.1, 53.9}) {
     for (const double z : {-14.0, -3.0, 6.0, 13.3}) {
-      const auto net = [&](auto at_r, auto at_z) {
-        return removal(m, frame, at_r, at_z) - added_metal(error, frame, at_r, at_z);
-      };
+      const auto net = [&](auto at_r, auto at_z) { return removal(m, frame, at_r, at_z) - added_metal(error, frame, at_r, at_z); };
       const Dual<2> found = net(Dual<2>::variable(r, 0), Dual<2>::variable(z, 1));
       CAPTURE(r, z);
       CHECK(near(found.value, net(r, z)));

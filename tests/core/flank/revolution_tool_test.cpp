@@ -45,9 +45,7 @@ Revolved revolve(const RevolutionTool& tool, PairData data = data_of(), Member m
   return made;
 }
 
-double roll_at_share(const Flank& flank, double share) {
-  return flank.lowest_roll() + share * (flank.highest_roll() - flank.lowest_roll());
-}
+double roll_at_share(const Flank& flank, double share) { return flank.lowest_roll() + share * (flank.highest_roll() - flank.lowest_roll()); }
 
 /// How far a point of the rack's frame lies inside the tool: its distance from the circle of the arc, rho and centre in
 /// the meridian plane; from the generatrix for a cone.
@@ -118,11 +116,10 @@ TEST_CASE("The flank of a tool of revolution satisfies the paper's equation of m
       const double radial = std::hypot(xa, z) - a1 * std::sin(alpha), axial = ya + a1 * std::cos(alpha);
       const double beta = std::asin((axial * std::cos(alpha) - radial * std::sin(alpha)) / rho);
       // Eq. 19; the paper's rack moves by -r_1 phi_p (eq. 21).
-      const double residual = rho * std::sin(beta) * std::cos(theta) -
-                              a1 * std::sin(alpha) * std::sin(alpha + beta) * (std::cos(theta) - 1.0) -
-                              made.pair.pinion.reference_radius * psi *
-                                  (std::sin(alpha + beta) * std::cos(alpha - psi_c) -
-                                   std::cos(theta) * std::cos(alpha + beta) * std::sin(alpha - psi_c));
+      const double residual =
+          rho * std::sin(beta) * std::cos(theta) - a1 * std::sin(alpha) * std::sin(alpha + beta) * (std::cos(theta) - 1.0) -
+          made.pair.pinion.reference_radius * psi *
+              (std::sin(alpha + beta) * std::cos(alpha - psi_c) - std::cos(theta) * std::cos(alpha + beta) * std::sin(alpha - psi_c));
       CAPTURE(z, share);
       CHECK(std::abs(residual) <= 1e-11);  // mm, round-off
     }
@@ -161,9 +158,7 @@ TEST_CASE("At the reference circle a cone gives a lead crowning of z^2/(2 a_1 ta
   const double a1 = RevolutionSection(cone, made.pair.data, made.pair.pinion.data).apex_distance();
   const double curvature = 1.0 / (a1 * std::tan(cone.half_apex));
   CHECK(made.flank.fields.front()->at(made.reference_roll, 0.0).vv == Approx(curvature).epsilon(1e-12));
-  const auto model_error = [&](double z) {
-    return made.flank.fields.front()->at(made.reference_roll, z).value / (0.5 * curvature * z * z) - 1.0;
-  };
+  const auto model_error = [&](double z) { return made.flank.fields.front()->at(made.reference_roll, z).value / (0.5 * curvature * z * z) - 1.0; };
   CHECK(std::abs(model_error(0.5)) < 1e-3);
   CHECK(model_error(1.0) / model_error(0.5) == Approx(4.0).epsilon(0.01));  // the next term is z^4
 }

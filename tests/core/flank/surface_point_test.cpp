@@ -13,9 +13,7 @@ namespace {
 /// A smooth field with all derivatives, for want of a simpler one: A sin(k rho) cos(l z).
 class Waves : public DeviationField {
  public:
-  Jet at(double rho, double z) const override {
-    return 0.01 * (sin(0.3 * Jet::variable_u(rho)) * cos(0.2 * Jet::variable_v(z)));
-  }
+  Jet at(double rho, double z) const override { return 0.01 * (sin(0.3 * Jet::variable_u(rho)) * cos(0.2 * Jet::variable_v(z))); }
 };
 
 /// Every kind of deviation at once.
@@ -61,17 +59,17 @@ TEST_CASE("The involute helicoid is developable and curves across its straight l
 TEST_CASE("First and second derivatives of a flank with every kind of deviation agree with differences", "[core][flank]") {
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const Flank flank = waved_flank(member);
-  constexpr double kStep = 1e-3;             // mm
-  constexpr double kDiscretisation = 2e-7;   // first derivatives: third derivative * step^2 / 6
-  constexpr double kSecond = 1e-6;           // second: fourth * step^2 / 12, and round-off / step^2
+  constexpr double kStep = 1e-3;            // mm
+  constexpr double kDiscretisation = 2e-7;  // first derivatives: third derivative * step^2 / 6
+  constexpr double kSecond = 1e-6;          // second: fourth * step^2 / 12, and round-off / step^2
   const auto position = [&](double rho, double z) { return surface_point(flank, rho, z, 2, 0.3).position; };
   for (const double rho : {flank.lowest_roll() + 1.0, flank.roll_at(flank.frame.pitch_radius) + 0.7, flank.highest_roll() - 1.0}) {
     for (const double z : {-15.0, 2.0, 12.0}) {
       const SurfacePoint p = surface_point(flank, rho, z, 2, 0.3);
       const Eigen::Vector3d up = position(rho + kStep, z), down = position(rho - kStep, z);
       const Eigen::Vector3d right = position(rho, z + kStep), left = position(rho, z - kStep);
-      const Eigen::Vector3d mixed = (position(rho + kStep, z + kStep) - position(rho + kStep, z - kStep) -
-                                     position(rho - kStep, z + kStep) + position(rho - kStep, z - kStep));
+      const Eigen::Vector3d mixed =
+          (position(rho + kStep, z + kStep) - position(rho + kStep, z - kStep) - position(rho - kStep, z + kStep) + position(rho - kStep, z - kStep));
       CAPTURE(rho, z);
       CHECK((p.d_rho - (up - down) / (2 * kStep)).norm() <= kDiscretisation);
       CHECK((p.d_z - (right - left) / (2 * kStep)).norm() <= kDiscretisation);

@@ -32,10 +32,9 @@ TEST_CASE("Flank tolerances of class 5 are the standard's sums done by hand", "[
 TEST_CASE("Two classes up double every flank tolerance", "[core][gear][iso1328]") {
   for (int a = 1; a <= 9; ++a) {
     const FlankTolerances fine = flank_tolerances(whole_roots, a), coarse = flank_tolerances(whole_roots, a + 2);
-    for (double FlankTolerances::* of :
-         {&FlankTolerances::single_pitch, &FlankTolerances::cumulative_pitch, &FlankTolerances::profile_slope,
-          &FlankTolerances::profile_form, &FlankTolerances::profile_total, &FlankTolerances::helix_slope, &FlankTolerances::helix_form,
-          &FlankTolerances::helix_total}) {
+    for (double FlankTolerances::*of :
+         {&FlankTolerances::single_pitch, &FlankTolerances::cumulative_pitch, &FlankTolerances::profile_slope, &FlankTolerances::profile_form,
+          &FlankTolerances::profile_total, &FlankTolerances::helix_slope, &FlankTolerances::helix_form, &FlankTolerances::helix_total}) {
       CHECK(coarse.*of == Approx(2.0 * fine.*of).epsilon(round_off));
     }
   }

@@ -112,8 +112,7 @@ TEST_CASE("A wider centre distance opens the backlash by twice its involute diff
   data.centre_distance = tight.centre_distance + apart;
   const GearPair pair = make_gear_pair(data);
   const double alpha = std::acos((tight.pinion.base_radius + tight.wheel.base_radius) / data.centre_distance);
-  const double expected =
-      2 * data.centre_distance * (involute(alpha) - involute(tight.working_transverse_pressure_angle));
+  const double expected = 2 * data.centre_distance * (involute(alpha) - involute(tight.working_transverse_pressure_angle));
   CHECK(std::abs(pair.backlash - expected) <= 1e-12 * data.centre_distance);
   CHECK((pair.backlash > 0.0) == (apart > 0.0));
   CHECK(pair.backlash_free_centre_distance == tight.centre_distance);
@@ -135,14 +134,12 @@ TEST_CASE("The path of contact joins the tip circles, the pitch point and both b
 TEST_CASE("Haddad's 18:54 pair has the published radii and path of contact", "[core][gear][reference]") {
   namespace published = reference::haddad_18_54;
   const GearPair pair = make_gear_pair(published::pair_data());
-  CHECK(std::abs(pair.pinion.tip_radius - published::pinion_tip_radius) <=
-        published::half_digit_3);  // model: as printed
+  CHECK(std::abs(pair.pinion.tip_radius - published::pinion_tip_radius) <= published::half_digit_3);  // model: as printed
   CHECK(std::abs(pair.wheel.tip_radius - published::wheel_tip_radius) <= published::half_digit_3);
   CHECK(std::abs(pair.transverse_base_pitch - published::transverse_base_pitch) <= published::half_digit_4);
   CHECK(std::abs(pair.path_length - published::tangent_to_tangent) <= published::half_digit_4);
   CHECK(std::abs(pair.path_start - published::roll_at_path_start) <= published::half_digit_4);
-  CHECK(std::abs(pair.transverse_contact_ratio - (published::path_end - published::path_start)) <=
-        published::half_digit_5);
+  CHECK(std::abs(pair.transverse_contact_ratio - (published::path_end - published::path_start)) <= published::half_digit_5);
 }
 
 TEST_CASE("The NASA pair keeps the relations of its report's appendix 2", "[core][gear][reference]") {
@@ -164,8 +161,7 @@ TEST_CASE("Tooth thickness at tip and elsewhere is the distance of the two flank
   const double beta = GENERATE(0.0, 25 * deg);
   const GearPair pair = make_gear_pair(pair_of(21, 40, 5.0, beta, x, 0.0));
   const Gear& gear = pair.pinion;
-  for (const double r :
-       {gear.reference_radius * 1.001, 0.5 * (gear.reference_radius + gear.tip_radius), gear.tip_radius}) {
+  for (const double r : {gear.reference_radius * 1.001, 0.5 * (gear.reference_radius + gear.tip_radius), gear.tip_radius}) {
     const double half = half_angle_by_integration(gear.tooth_thickness, gear.reference_radius, gear.base_radius, r);
     CHECK(near(gear.tooth_thickness_at(r), 2 * r * half, 1e-11));  // discretisation: Simpson
   }
@@ -211,7 +207,7 @@ TEST_CASE("A gear that cannot be built is refused by the name of its field", "[c
   CHECK(names(with([](PairData& d) { d.helix_angle = 60 * deg; }), "pair.helix_angle"));
   CHECK(names(with([](PairData& d) { d.centre_distance = 100.0; }), "pair.centre_distance"));  // base radii: 101.7 mm
   CHECK(names(with([](PairData& d) { d.centre_distance = 114.5; }), "pair.centre_distance"));  // out of mesh
-  CHECK(names(with([](PairData& d) {  // the tip circles do not meet, whatever the overlap
+  CHECK(names(with([](PairData& d) {                                                           // the tip circles do not meet, whatever the overlap
                 d.centre_distance = 116.0;
                 d.pinion.face_width = d.wheel.face_width = 300.0;
               }),

@@ -71,8 +71,7 @@ TEST_CASE("At the spur limit the curvatures of rack and rolling meet", "[core][g
   const Gear gear = make_gear_pair(data).pinion;
   const double a = largest_parabola_coefficient(gear, data);
   const RollingCircle circle(gear);
-  const auto u = tool_parameter(ParabolicSection({a}, data), circle,
-                                GeneratedRange(gear, GeneratedRange::regular_margin).active, 0.0);
+  const auto u = tool_parameter(ParabolicSection({a}, data), circle, GeneratedRange(gear, GeneratedRange::regular_margin).active, 0.0);
   REQUIRE(u);
   // The envelope has a cusp where r sin(alpha*) + l - kappa l^2 = 0 (Euler-Savary), alpha* the rack's pressure angle there, l the
   // distance from the pitch point.
@@ -85,9 +84,7 @@ TEST_CASE("At the spur limit the curvatures of rack and rolling meet", "[core][g
 
 TEST_CASE("Accepted tools of revolution generate the whole flank", "[core][gear]") {
   std::mt19937 generator(20260501);
-  const auto uniform = [&generator](double from, double to) {
-    return from + (to - from) * static_cast<double>(generator()) / 4294967296.0;
-  };
+  const auto uniform = [&generator](double from, double to) { return from + (to - from) * static_cast<double>(generator()) / 4294967296.0; };
   int accepted = 0;
   for (int i = 0; i < 300; ++i) {
     PairData data = data_of(static_cast<int>(uniform(14, 60)), 0.0);

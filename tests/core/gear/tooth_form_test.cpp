@@ -71,8 +71,8 @@ TEST_CASE("The profile is the boundary of what a rolling rack sweeps", "[core][g
     int teeth;
     double shift, beta, rounding, dedendum;
   };
-  const Case c = GENERATE(Case{18, 0, 30, 0.39, 1.25}, Case{40, -0.4, 15, 0.25, 1.4}, Case{9, 0, 0, 0.38, 1.25},
-                          Case{6, 0.1, 30, 0.2, 1.2}, Case{25, 1.5, 0, 0.3, 1.25}, Case{100, 0, 20, 0, 1.25});
+  const Case c = GENERATE(Case{18, 0, 30, 0.39, 1.25}, Case{40, -0.4, 15, 0.25, 1.4}, Case{9, 0, 0, 0.38, 1.25}, Case{6, 0.1, 30, 0.2, 1.2},
+                          Case{25, 1.5, 0, 0.3, 1.25}, Case{100, 0, 20, 0, 1.25});
   CAPTURE(c.teeth, c.shift, c.beta, c.rounding);
   const double module = 4, alpha = 20 * deg, beta = c.beta * deg;
   const GearData gear = gear_of(c.teeth, c.shift, c.rounding, c.dedendum);
@@ -84,8 +84,7 @@ TEST_CASE("The profile is the boundary of what a rolling rack sweeps", "[core][g
     // Discretisation: the minimum over samples overshoots by the square of their spacing; a sharp corner is sampled
     // exactly.
     constexpr double kDiscretisation = 1e-7;
-    CHECK(form.half_angle(radius) ==
-          Approx(swept_half_angle(gear, module, alpha, beta, radius)).margin(kDiscretisation));
+    CHECK(form.half_angle(radius) == Approx(swept_half_angle(gear, module, alpha, beta, radius)).margin(kDiscretisation));
   }
 }
 
@@ -115,22 +114,19 @@ TEST_CASE("An undercut fillet crosses the involute at the form radius, at an ang
   CHECK(fillet.tangent_angle < involute.tangent_angle - 0.1);
 }
 
-TEST_CASE("The fillet's tangent is its derivative and its normal meets the rolling circle",
-          "[core][gear][tooth-form]") {
+TEST_CASE("The fillet's tangent is its derivative and its normal meets the rolling circle", "[core][gear][tooth-form]") {
   const double beta = GENERATE(0.0, 30.0) * deg;
   const ToothForm form(gear_of(18), 10, 20 * deg, beta);
   for (const double lambda : {0.6, 0.9, 1.2, 1.5}) {
     CAPTURE(beta, lambda);
     const double step = 1e-5;
-    const ProfilePoint p = form.fillet_point(lambda), a = form.fillet_point(lambda - step),
-                       b = form.fillet_point(lambda + step);
+    const ProfilePoint p = form.fillet_point(lambda), a = form.fillet_point(lambda - step), b = form.fillet_point(lambda + step);
     constexpr double kDiscretisation = 1e-8;  // central difference
     CHECK(p.tangent_angle == Approx(std::atan2(b.x - a.x, a.y - b.y)).margin(kDiscretisation));
     // Law of gearing: the rolling point that belongs to this position lies on the normal.
     const double theta = lambda - p.tangent_angle;
     const double r = form.reference_radius();
-    const double along = (r * std::sin(theta) - p.x) * std::sin(p.tangent_angle) -
-                         (r * std::cos(theta) - p.y) * std::cos(p.tangent_angle);
+    const double along = (r * std::sin(theta) - p.x) * std::sin(p.tangent_angle) - (r * std::cos(theta) - p.y) * std::cos(p.tangent_angle);
     CHECK(along == Approx(0).margin(1e-12 * r));  // round-off
   }
 }
@@ -157,8 +153,7 @@ TEST_CASE("Undercut begins at the classical number of teeth", "[core][gear][toot
   }
 }
 
-TEST_CASE("The 30 degree tangent of the normal section is 33.69 degrees in Haddad's transverse section",
-          "[core][gear][reference]") {
+TEST_CASE("The 30 degree tangent of the normal section is 33.69 degrees in Haddad's transverse section", "[core][gear][reference]") {
   const ToothForm form(gear_of(18, 0, 0.39), 10, 20 * deg, 30 * deg);
   const ProfilePoint p = form.root_tangent_point(30 * deg);
   CHECK(p.tangent_angle / deg == Approx(33.69).margin(0.005));  // model: printed to 0.01 deg
@@ -174,8 +169,7 @@ TEST_CASE("Points asked for by radius or height lie there", "[core][gear][tooth-
     const ProfilePoint by_radius = form.at_radius(radius);
     CHECK(std::hypot(by_radius.x, by_radius.y) == Approx(radius).epsilon(kRoundOff));
     CHECK(form.at_height(p.y).y == Approx(p.y).epsilon(kRoundOff));
-    CHECK(form.at_height(p.y).x ==
-          Approx(p.x).epsilon(1e-6));  // where the fillet runs flat x hangs on the square root of y
+    CHECK(form.at_height(p.y).x == Approx(p.x).epsilon(1e-6));  // where the fillet runs flat x hangs on the square root of y
   }
 }
 

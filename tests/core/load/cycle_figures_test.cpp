@@ -93,7 +93,7 @@ TEST_CASE("The error of sampled extremes is bounded for kinks, jumps and smooth 
     CHECK(bound >= hidden - kRoundOff);
     CHECK(bound <= at_most);
   };
-  check(kink, 1.0 / n);          // the rise of one step
+  check(kink, 1.0 / n);  // the rise of one step
   check(saw, 1.0 / n + 1e-12);
   check(smooth, 10.0 / (n * n) * 2.0);  // second order: half the curvature, (2 pi)^2 / 2, times the square of the step
 }

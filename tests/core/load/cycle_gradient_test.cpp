@@ -52,10 +52,9 @@ void shift(Scene& scene, const MeshParameter& parameter, double by) {
 }
 
 std::vector<MeshParameter> all_kinds() {
-  std::vector<MeshParameter> parameters{GearParameter{Member::Pinion, parameter_of("lead_crowning")},
-                                        GearParameter{Member::Pinion, parameter_of("tip_relief.amount")},
-                                        GearParameter{Member::Wheel, parameter_of("profile_crowning")},
-                                        GearParameter{Member::Wheel, parameter_of("twist")}};
+  std::vector<MeshParameter> parameters{
+      GearParameter{Member::Pinion, parameter_of("lead_crowning")}, GearParameter{Member::Pinion, parameter_of("tip_relief.amount")},
+      GearParameter{Member::Wheel, parameter_of("profile_crowning")}, GearParameter{Member::Wheel, parameter_of("twist")}};
   for (const NamedMisalignmentParameter& p : misalignment_parameters) {
     if (p.parameter != &Misalignment::axial_offset) parameters.push_back(p.parameter);  // moves the mesh: axial_offset_test.cpp
   }
@@ -134,8 +133,7 @@ Outputs outputs(const MeshModel& model, const Scene& scene, const std::vector<Me
   const CycleGradient gradient = summary_gradient(model, cycle, summary);
   all.add("te_peak_to_peak", summary.te_peak_to_peak, gradient.te_peak_to_peak);
   all.add("te_mean", summary.te_mean, gradient.te_mean);
-  all.add("te_harmonics", Eigen::Map<const Eigen::VectorXd>(summary.te_harmonics.data(), std::ssize(summary.te_harmonics)),
-          gradient.te_harmonics);
+  all.add("te_harmonics", Eigen::Map<const Eigen::VectorXd>(summary.te_harmonics.data(), std::ssize(summary.te_harmonics)), gradient.te_harmonics);
   all.add("peak_line_load", summary.peak_line_load, gradient.peak_line_load);
   all.add("peak_contact_stress", summary.peak_contact_stress, gradient.peak_contact_stress);
   all.add("load_factor", summary.load_factor, gradient.load_factor);
@@ -153,8 +151,7 @@ Outputs outputs(const MeshModel& model, const Scene& scene, const std::vector<Me
 
 }  // namespace
 
-TEST_CASE("Every output's derivative by modification, misalignment and torque is that of central differences",
-          "[core][load][gradient]") {
+TEST_CASE("Every output's derivative by modification, misalignment and torque is that of central differences", "[core][load][gradient]") {
   // Of the difference quotients, extrapolated from two steps, relative to the output's change over what moves it appreciably; points
   // that gain or lose contact within the step leave a kink, and are told apart by the quotients of the two steps, which differ.
   constexpr double kDiscretisation = 2e-7;
@@ -213,7 +210,8 @@ TEST_CASE("Twice the torque on a perfect pair without Hertzian contact doubles l
   constexpr double kRoundOff = 1e-10;
   // Linear slices that all touch from the start: w = T dw/dT, f_t = T df_t/dT; load factor and stiffness stay.
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
-  const MeshModel model = mesh_cases::model(gears, {{}, equally_spaced_phases(5)}, MeshEffects::all_but({"hertzian_contact", "extended_contact_region"}));
+  const MeshModel model =
+      mesh_cases::model(gears, {{}, equally_spaced_phases(5)}, MeshEffects::all_but({"hertzian_contact", "extended_contact_region"}));
   const double torque = mesh_cases::torque_for(gears, 200);
   const LoadedCycle cycle = analyse_cycle(model, {}, torque, {PinionTorque{}});
   const CycleSummary summary = summarise(model, cycle);

@@ -17,8 +17,7 @@ const Material kMaterial{haddad::youngs_modulus, haddad::poissons_ratio};
 
 MeshModel haddad_model(const MeshEffects& effects = {}) {
   const GearPair gears = make_gear_pair(reference::haddad_18_54::pair_data());
-  return make_mesh_model(gears, {kMaterial, kMaterial}, {{QuadratureRule::Gauss2, 5}, {haddad::phase_a, haddad::phase_b}},
-                         effects);
+  return make_mesh_model(gears, {kMaterial, kMaterial}, {{QuadratureRule::Gauss2, 5}, {haddad::phase_a, haddad::phase_b}}, effects);
 }
 
 /// Index of our point where the thesis has one: same tooth, same axial position to half its last digit.
@@ -45,9 +44,7 @@ int for_common_points(const MeshPosition& at, const Points& points, const Compar
   return common;
 }
 
-bool on_path(double phase) {
-  return phase >= reference::haddad_18_54::path_start && phase <= reference::haddad_18_54::path_end;
-}
+bool on_path(double phase) { return phase >= reference::haddad_18_54::path_start && phase <= reference::haddad_18_54::path_end; }
 
 }  // namespace
 
@@ -55,8 +52,7 @@ TEST_CASE("Our contact points are Haddad's", "[core][load][haddad]") {
   const MeshModel model = haddad_model();
   const auto check = [&](const MeshPosition& at, const auto& printed) {
     const int common = for_common_points(at, printed, [&](std::size_t, const haddad::Point& point, Eigen::Index i) {
-      CHECK(at.points[static_cast<std::size_t>(i)].phase ==
-            Approx(point.phase).margin(2 * haddad::phase_digit));  // round-off: digits
+      CHECK(at.points[static_cast<std::size_t>(i)].phase == Approx(point.phase).margin(2 * haddad::phase_digit));  // round-off: digits
       CHECK(at.weight[i] * std::cos(model.pair.base_helix_angle) == Approx(12.0).epsilon(1e-12));
     });
     // The thesis lists whole intervals; what lies outside the extended region has no counterpart here, and carries
@@ -97,22 +93,14 @@ TEST_CASE("Deviations of the flanks are Haddad's errors, metal added positive", 
   const auto check = [&](const FlankCondition& condition, double haddad::Errors::*column) {
     const MeshPosition& at = model.positions[0];
     const Gap gap = plane_of_action_gap(model.pair, at.points, condition);
-    const int common =
-        for_common_points(at, haddad::null_a, [&](std::size_t row, const haddad::Point&, Eigen::Index i) {
-          CHECK(gap.error[i] / units::um ==
-                Approx(haddad::errors[row].*column).epsilon(kModel).margin(haddad::last_digit));
-        });
+    const int common = for_common_points(at, haddad::null_a, [&](std::size_t row, const haddad::Point&, Eigen::Index i) {
+      CHECK(gap.error[i] / units::um == Approx(haddad::errors[row].*column).epsilon(kModel).margin(haddad::last_digit));
+    });
     CHECK(common >= 20);
   };
-  SECTION("helix slope") {
-    check(slope, &haddad::Errors::helix_slope);
-  }
-  SECTION("lead crowning") {
-    check(crowning, &haddad::Errors::lead_crowning);
-  }
-  SECTION("profile crowning") {
-    check(profile, &haddad::Errors::addendum_crowning);
-  }
+  SECTION("helix slope") { check(slope, &haddad::Errors::helix_slope); }
+  SECTION("lead crowning") { check(crowning, &haddad::Errors::lead_crowning); }
+  SECTION("profile crowning") { check(profile, &haddad::Errors::addendum_crowning); }
 }
 
 TEST_CASE("Haddad's loads give Haddad's stresses and contact deflections", "[core][load][haddad]") {
@@ -141,8 +129,7 @@ TEST_CASE("Haddad's loads give Haddad's stresses and contact deflections", "[cor
 }
 
 TEST_CASE("The torque of Haddad's pair is his normal force", "[core][load][haddad]") {
-  CHECK(haddad_model().normal_force(haddad::torque) ==
-        Approx(haddad::normal_force).epsilon(1e-5));  // model: his rounded angles
+  CHECK(haddad_model().normal_force(haddad::torque) == Approx(haddad::normal_force).epsilon(1e-5));  // model: his rounded angles
   for (const auto* printed : {&haddad::null_a}) {
     double sum = 0.0;
     for (const haddad::Point& point : *printed) sum += 12.0 * point.load;
@@ -150,8 +137,7 @@ TEST_CASE("The torque of Haddad's pair is his normal force", "[core][load][hadda
   }
 }
 
-TEST_CASE("Thin slices make Haddad's pair stiffer than finite elements that hold the gear bodies",
-          "[core][load][haddad]") {
+TEST_CASE("Thin slices make Haddad's pair stiffer than finite elements that hold the gear bodies", "[core][load][haddad]") {
   // Model: slices know the teeth and their foundation at ISO's stiffness (measured: 0.64 of his transmission error);
   // his influence functions also hold the torsion of both gear bodies.
   const LoadedCycle cycle = analyse_cycle(haddad_model(), {}, haddad::torque);

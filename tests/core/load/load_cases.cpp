@@ -8,9 +8,8 @@ Eigen::MatrixXd influence(Structure structure, Eigen::Index n, double compliance
       return compliance * random.vector(n, 0.5, 2.0).asDiagonal().toDenseMatrix();
     case Structure::DecayingKernel: {
       const double reach = random.log_uniform(0.5, 50.0);
-      return Eigen::MatrixXd::NullaryExpr(n, n, [&](Eigen::Index i, Eigen::Index j) {
-        return compliance * std::exp(-std::abs(static_cast<double>(i - j)) / reach);
-      });
+      return Eigen::MatrixXd::NullaryExpr(
+          n, n, [&](Eigen::Index i, Eigen::Index j) { return compliance * std::exp(-std::abs(static_cast<double>(i - j)) / reach); });
     }
     case Structure::LowRank: {
       const Eigen::Index rank = std::max<Eigen::Index>(1, n / 4);
@@ -28,10 +27,8 @@ Eigen::MatrixXd influence(Structure structure, Eigen::Index n, double compliance
 std::vector<ContactLaw> random_laws(Eigen::Index n, Random& random) {
   std::vector<ContactLaw> laws;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const double tip =
-        random.integer(0, 2) == 0 ? random.log_uniform(1e-3, 10.0) : std::numeric_limits<double>::infinity();
-    laws.push_back(
-        steel_law(random.log_uniform(1.0, 300.0), random.log_uniform(0.5, 50.0), random.log_uniform(0.5, 50.0), tip));
+    const double tip = random.integer(0, 2) == 0 ? random.log_uniform(1e-3, 10.0) : std::numeric_limits<double>::infinity();
+    laws.push_back(steel_law(random.log_uniform(1.0, 300.0), random.log_uniform(0.5, 50.0), random.log_uniform(0.5, 50.0), tip));
   }
   return laws;
 }
@@ -64,8 +61,7 @@ Optimality optimality(const LoadProblem& problem, const Eigen::VectorXd& w, doub
   const Eigen::VectorXd bent = problem.influence * forces, terms = problem.influence.cwiseAbs() * forces;
   double deflection = 0.0;
   for (Eigen::Index i = 0; i < w.size(); ++i) {
-    const double local =
-        problem.laws.empty() ? 0.0 : problem.laws[static_cast<std::size_t>(i)].deflection(std::max(0.0, w[i]));
+    const double local = problem.laws.empty() ? 0.0 : problem.laws[static_cast<std::size_t>(i)].deflection(std::max(0.0, w[i]));
     const double remaining = bent[i] + local + (problem.gap[i] - f);
     // f may be known to its last digit and no better.
     const double digits = std::numeric_limits<double>::epsilon() * std::abs(f);

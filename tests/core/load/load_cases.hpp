@@ -37,8 +37,7 @@ class Random {
 /// Contact of two steel teeth: radius R and depths in mm.
 inline ContactLaw steel_law(double relative_radius = 12.0, double depth_1 = 8.0, double depth_2 = 9.0,
                             double tip_distance = std::numeric_limits<double>::infinity()) {
-  return {ContactSide::of(steel, depth_1, tip_distance), ContactSide::of(steel, depth_2), relative_radius,
-          contact_modulus(steel, steel)};
+  return {ContactSide::of(steel, depth_1, tip_distance), ContactSide::of(steel, depth_2), relative_radius, contact_modulus(steel, steel)};
 }
 
 /// Structural influence, as it may come from any compliance model [mm/N].

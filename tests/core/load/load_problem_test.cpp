@@ -48,8 +48,7 @@ struct Slices {
   double approach() const {
     double span = 1e-6;
     while (force_at(problem.gap.minCoeff() + span) < problem.force) span *= 2.0;
-    return bisect([&](double f) { return force_at(f); }, problem.force, problem.gap.minCoeff(),
-                  problem.gap.minCoeff() + span);
+    return bisect([&](double f) { return force_at(f); }, problem.force, problem.gap.minCoeff(), problem.gap.minCoeff() + span);
   }
 };
 
@@ -78,11 +77,8 @@ LoadProblem two_springs(double force) {
 TEST_CASE("A single point yields by its gap, its bending and its contact", "[core][load][closed-form]") {
   constexpr double kRoundOff = 1e-14;
   const double force = GENERATE(1e-2, 1e3, 1e7);  // N
-  LoadProblem problem{Eigen::MatrixXd::Constant(1, 1, 4e-6),
-                      Eigen::VectorXd::Constant(1, 12.0),
-                      Eigen::VectorXd::Constant(1, 0.003),
-                      {steel_law()},
-                      force};
+  LoadProblem problem{
+      Eigen::MatrixXd::Constant(1, 1, 4e-6), Eigen::VectorXd::Constant(1, 12.0), Eigen::VectorXd::Constant(1, 0.003), {steel_law()}, force};
   const LoadDistribution found = solve_load_distribution(problem);
   REQUIRE(found.usable());
   const double contact = steel_law().deflection(force / 12.0);
@@ -119,8 +115,7 @@ TEST_CASE("Slices without coupling carry what a bisection over the approach find
   const bool contact = GENERATE(true, false);
   if (!bending && !contact) return;  // nothing would yield
   for (int trial = 0; trial < 8; ++trial) {
-    LoadProblem problem =
-        gear_like_problem(random.integer(1, 30), random, bending ? Structure::Slices : Structure::Rigid);
+    LoadProblem problem = gear_like_problem(random.integer(1, 30), random, bending ? Structure::Slices : Structure::Rigid);
     if (!contact) problem.laws.clear();
     const LoadDistribution found = solve_load_distribution(problem);
     CAPTURE(bending, contact, trial);
@@ -137,8 +132,7 @@ TEST_CASE("Slices without coupling carry what a bisection over the approach find
 TEST_CASE("Loads balance the force, never pull, and never overlap the flanks", "[core][load]") {
   constexpr double kRoundOff = 1e-12;
   Random random(32);
-  const auto structure =
-      GENERATE(Structure::Slices, Structure::DecayingKernel, Structure::LowRank, Structure::WholeBody);
+  const auto structure = GENERATE(Structure::Slices, Structure::DecayingKernel, Structure::LowRank, Structure::WholeBody);
   for (int trial = 0; trial < 20; ++trial) {
     const LoadProblem problem = gear_like_problem(random.integer(2, 60), random, structure);
     const LoadDistribution found = solve_load_distribution(problem);
@@ -230,36 +224,16 @@ TEST_CASE("A load distribution that is not found has a status", "[core][load]") 
 TEST_CASE("A load problem that is not one is refused", "[core][load][input]") {
   Random random(37);
   LoadProblem problem = gear_like_problem(4, random, Structure::Slices);
-  SECTION("a gap too few") {
-    problem.gap = problem.gap.head(3).eval();
-  }
-  SECTION("a law too few") {
-    problem.laws.pop_back();
-  }
-  SECTION("an influence matrix of another size") {
-    problem.influence = problem.influence.topRows(3).eval();
-  }
-  SECTION("a weight of zero") {
-    problem.weight[2] = 0.0;
-  }
-  SECTION("a negative weight") {
-    problem.weight[0] = -1.0;
-  }
-  SECTION("a gap that is not a number") {
-    problem.gap[1] = not_given;
-  }
-  SECTION("an infinite influence") {
-    problem.influence(1, 1) = infinity;
-  }
-  SECTION("a negative force") {
-    problem.force = -1.0;
-  }
-  SECTION("an infinite force") {
-    problem.force = infinity;
-  }
-  SECTION("a force that is not a number") {
-    problem.force = not_given;
-  }
+  SECTION("a gap too few") { problem.gap = problem.gap.head(3).eval(); }
+  SECTION("a law too few") { problem.laws.pop_back(); }
+  SECTION("an influence matrix of another size") { problem.influence = problem.influence.topRows(3).eval(); }
+  SECTION("a weight of zero") { problem.weight[2] = 0.0; }
+  SECTION("a negative weight") { problem.weight[0] = -1.0; }
+  SECTION("a gap that is not a number") { problem.gap[1] = not_given; }
+  SECTION("an infinite influence") { problem.influence(1, 1) = infinity; }
+  SECTION("a negative force") { problem.force = -1.0; }
+  SECTION("an infinite force") { problem.force = infinity; }
+  SECTION("a force that is not a number") { problem.force = not_given; }
   CHECK_THROWS_AS(solve_load_distribution(problem), InvalidInput);
 }
 

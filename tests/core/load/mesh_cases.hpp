@@ -38,9 +38,7 @@ inline MeshAt mesh_of(const GearPair& gears, const Quadrature& quadrature = {Qua
 }
 
 /// Torque on the pinion that gives a mean line load over b / cos(beta_b) [N mm].
-inline double torque_for(const GearPair& gears, double line_load) {
-  return line_load * gears.face_width * gears.pinion.base_radius;
-}
+inline double torque_for(const GearPair& gears, double line_load) { return line_load * gears.face_width * gears.pinion.base_radius; }
 
 /// A condition with something of everything.
 inline FlankCondition worked_condition() {
@@ -66,8 +64,7 @@ using Loads = std::map<std::pair<int, long>, double>;
 inline Loads loads_by_point(const MeshPosition& at, const LoadedPosition& loaded, int z_sign = 1, int tooth_sign = 1) {
   Loads loads;
   for (std::size_t i = 0; i < at.points.size(); ++i) {
-    loads[{tooth_sign * at.points[i].tooth, z_sign * std::lround(at.points[i].z / units::um)}] =
-        loaded.load.line_load[static_cast<Eigen::Index>(i)];
+    loads[{tooth_sign * at.points[i].tooth, z_sign * std::lround(at.points[i].z / units::um)}] = loaded.load.line_load[static_cast<Eigen::Index>(i)];
   }
   return loads;
 }

@@ -61,8 +61,7 @@ TEST_CASE("At every mesh position of every pair the loads add up to the force", 
   const double torque = torque_for(gears, GENERATE(1.0, 300.0));
   const LoadedCycle cycle = analyse_cycle(model, worked_condition(), torque);
   REQUIRE(cycle.usable());
-  CHECK(cycle.force ==
-        Approx(torque / (gears.pinion.base_radius * std::cos(gears.base_helix_angle))).epsilon(kRoundOff));
+  CHECK(cycle.force == Approx(torque / (gears.pinion.base_radius * std::cos(gears.base_helix_angle))).epsilon(kRoundOff));
   for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
     const LoadedPosition& at = cycle.positions[i];
     CHECK(model.positions[i].weight.dot(at.load.line_load) == Approx(cycle.force).epsilon(kRoundOff));
@@ -71,8 +70,7 @@ TEST_CASE("At every mesh position of every pair the loads add up to the force", 
     // f_t = contact + structural deflection + gap, where loaded.
     for (Eigen::Index k = 0; k < at.load.line_load.size(); ++k) {
       if (at.load.line_load[k] == 0.0) continue;
-      CHECK(at.load.contact_deflection[k] + at.load.structural_deflection[k] + at.gap.total[k] ==
-            Approx(at.load.transmission_error).epsilon(1e-11));
+      CHECK(at.load.contact_deflection[k] + at.load.structural_deflection[k] + at.gap.total[k] == Approx(at.load.transmission_error).epsilon(1e-11));
     }
   }
 }
@@ -119,8 +117,7 @@ TEST_CASE("One pair of spur teeth carries all near the pitch point, two share el
     // Aligned, without free ends: every tooth's line is loaded evenly.
     for (std::size_t k = 0; k < at.points.size(); ++k) {
       const double w = loaded.load.line_load[static_cast<Eigen::Index>(k)];
-      CHECK(w * gears.face_width ==
-            Approx(tooth_force(at, loaded, at.points[k].tooth)).epsilon(1e-9).margin(1e-9 * cycle.force));
+      CHECK(w * gears.face_width == Approx(tooth_force(at, loaded, at.points[k].tooth)).epsilon(1e-9).margin(1e-9 * cycle.force));
     }
   }
   // Of a pitch, the pair is alone for 2 - epsilon, less what tips reach early and late.
@@ -195,8 +192,7 @@ TEST_CASE("The way through the cycle does not change its results", "[core][load]
   const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
   std::vector<double> phases = equally_spaced_phases(12), reversed = phases;
   std::reverse(reversed.begin(), reversed.end());
-  const MeshModel forwards = mesh_cases::model(gears, {{}, phases}),
-                  backwards = mesh_cases::model(gears, {{}, reversed});
+  const MeshModel forwards = mesh_cases::model(gears, {{}, phases}), backwards = mesh_cases::model(gears, {{}, reversed});
   const double torque = torque_for(gears, 40.0);
   const LoadedCycle a = analyse_cycle(forwards, worked_condition(), torque);
   const LoadedCycle b = analyse_cycle(backwards, worked_condition(), torque);
@@ -213,10 +209,8 @@ TEST_CASE("A cycle repeats after one base pitch", "[core][load]") {
   const MeshModel model = mesh_cases::model(gears, {{}, {0.37, 1.37, -0.63}});
   const LoadedCycle cycle = analyse_cycle(model, worked_condition(), torque_for(gears, 40.0));
   for (std::size_t i : {1U, 2U}) {
-    CHECK(cycle.positions[i].load.transmission_error ==
-          Approx(cycle.positions[0].load.transmission_error).epsilon(kRoundOff));
-    CHECK(cycle.positions[i].load.line_load.maxCoeff() ==
-          Approx(cycle.positions[0].load.line_load.maxCoeff()).epsilon(kRoundOff));
+    CHECK(cycle.positions[i].load.transmission_error == Approx(cycle.positions[0].load.transmission_error).epsilon(kRoundOff));
+    CHECK(cycle.positions[i].load.line_load.maxCoeff() == Approx(cycle.positions[0].load.line_load.maxCoeff()).epsilon(kRoundOff));
   }
 }
 
@@ -226,13 +220,12 @@ TEST_CASE("Bending alone makes a perfect mesh linear", "[core][load]") {
   CAPTURE(named.name);
   const GearPair gears = make_gear_pair(named.data);
   // On the theoretical path all points touch at no load, so that nothing but the deflection grows with it.
-  const MeshModel model = mesh_cases::model(gears, {{}, equally_spaced_phases(6)},
-                                            MeshEffects::all_but({"hertzian_contact", "extended_contact_region"}));
+  const MeshModel model =
+      mesh_cases::model(gears, {{}, equally_spaced_phases(6)}, MeshEffects::all_but({"hertzian_contact", "extended_contact_region"}));
   const LoadedCycle light = analyse_cycle(model, {}, torque_for(gears, 1.0));
   const LoadedCycle heavy = analyse_cycle(model, {}, torque_for(gears, 1000.0));
   for (std::size_t i = 0; i < 6; ++i) {
-    CHECK(heavy.positions[i].load.transmission_error ==
-          Approx(1000.0 * light.positions[i].load.transmission_error).epsilon(kRoundOff));
+    CHECK(heavy.positions[i].load.transmission_error == Approx(1000.0 * light.positions[i].load.transmission_error).epsilon(kRoundOff));
     CHECK(heavy.positions[i].stiffness == Approx(light.positions[i].stiffness).epsilon(kRoundOff));
   }
 }
@@ -271,8 +264,7 @@ TEST_CASE("A summary reads the worst of the cycle", "[core][load]") {
   CHECK(summary.worst_kkt_residual <= 1e-12);
   // The mean length of the contact lines of a spur pair is eps_alpha b.
   const double mean_load = cycle.force / (gears.transverse_contact_ratio * gears.face_width);
-  CHECK(summary.load_factor ==
-        Approx(load / mean_load).epsilon(0.05));  // discretisation: 16 positions count 1/16 pitch
+  CHECK(summary.load_factor == Approx(load / mean_load).epsilon(0.05));  // discretisation: 16 positions count 1/16 pitch
 }
 
 TEST_CASE("A position without contact points is reported instead of inventing a load", "[core][load]") {
@@ -281,8 +273,9 @@ TEST_CASE("A position without contact points is reported instead of inventing a 
   data.pinion.rack.addendum = data.wheel.rack.addendum = 0.4;
   const GearPair gears = make_gear_pair(data);
   REQUIRE(gears.transverse_contact_ratio < 0.9);
-  const MeshModel model = make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, {{}, equally_spaced_phases(16)},
-                                          MeshEffects::all_but({"extended_contact_region"}), MeshPlacement::of(GapModel::PlaneOfAction, {.axial_offset = 19.5}));
+  const MeshModel model =
+      make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, {{}, equally_spaced_phases(16)},
+                      MeshEffects::all_but({"extended_contact_region"}), MeshPlacement::of(GapModel::PlaneOfAction, {.axial_offset = 19.5}));
   const LoadedCycle cycle = analyse_cycle(model, {}, torque_for(gears, 10.0));
   CHECK(cycle.failures > 0);
   CHECK_FALSE(cycle.usable());

@@ -36,12 +36,10 @@ TEST_CASE("A mesh model holds one weight, law and influence for every contact po
 }
 
 TEST_CASE("Doubling the intervals halves the slices and not the structure", "[core][load]") {
-  constexpr double kModel =
-      1e-12;  // round-off: a uniformly loaded aligned spur tooth is equally stiff in any number of slices
+  constexpr double kModel = 1e-12;  // round-off: a uniformly loaded aligned spur tooth is equally stiff in any number of slices
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
   const auto stiffness = [&](int intervals) {
-    const MeshModel model =
-        mesh_cases::model(gears, {{QuadratureRule::Gauss2, intervals}, {0.9}}, MeshEffects::all_but({"hertzian_contact"}));
+    const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Gauss2, intervals}, {0.9}}, MeshEffects::all_but({"hertzian_contact"}));
     const MeshPosition& at = model.positions[0];
     return at.influence.diagonal().cwiseInverse().sum();
   };
@@ -54,8 +52,7 @@ TEST_CASE("The normal force is that of the torque at the base circle and the bas
   const MeshModel model = mesh_cases::model(gears, {{}, {1.0}});
   // F_t = T/r, over cos(alpha_n) cos(beta): the textbook's route by the reference circle.
   const double torque = 1e6;  // N mm
-  const double by_reference =
-      torque / gears.pinion.reference_radius / (std::cos(20 * units::deg) * std::cos(30 * units::deg));
+  const double by_reference = torque / gears.pinion.reference_radius / (std::cos(20 * units::deg) * std::cos(30 * units::deg));
   CHECK(model.normal_force(torque) == Approx(by_reference).epsilon(kRoundOff));
 }
 
@@ -90,8 +87,7 @@ TEST_CASE("Effects that are switched off leave their part of the model out", "[c
   const MeshModel blunt = mesh_cases::model(gears, resolution, MeshEffects::all_but({"tip_corner"}));
   bool softer_somewhere = false;
   for (std::size_t i = 0; i < whole.positions[0].laws.size(); ++i) {
-    const double with = whole.positions[0].laws[i].deflection(300.0),
-                 without = blunt.positions[0].laws[i].deflection(300.0);
+    const double with = whole.positions[0].laws[i].deflection(300.0), without = blunt.positions[0].laws[i].deflection(300.0);
     CHECK(with >= without);
     softer_somewhere = softer_somewhere || with > 1.01 * without;
   }

@@ -87,13 +87,17 @@ TEST_CASE("Loaded contact changes with what moves the mesh as meshes made and so
   };
   using enum QuadratureRule;
   using enum GapModel;
-  const Motion motion = GENERATE(Motion{0, Gauss2, PlaneOfAction, &Misalignment::axial_offset, -1.3, 40}, Motion{0, Gauss2, PlaneOfAction, &Misalignment::axial_offset, 2.1, 40},
-                                 Motion{25, Graded, PlaneOfAction, &Misalignment::axial_offset, 2.1, 40}, Motion{25, Gauss2, WholeSurface, &Misalignment::axial_offset, -1.3, 40},
-                                 Motion{12, Graded, WholeSurface, &Misalignment::axial_offset, 2.1, 40}, Motion{25, Graded, WholeSurface, &Misalignment::crossing, 3e-4, 3e-4},
-                                 Motion{0, Gauss2, WholeSurface, &Misalignment::crossing, -2e-4, 3e-4}, Motion{25, Gauss2, WholeSurface, &Misalignment::intersecting, -8e-4, 8e-4},
-                                 Motion{25, Graded, WholeSurface, &Misalignment::centre_distance, 0.2, 1}, Motion{0, Graded, WholeSurface, &Misalignment::centre_distance, -0.1, 1},
-                                 Motion{25, Graded, WholeSurface, &Misalignment::pinion_lead_angle, 1e-4, 3e-4}, Motion{25, Gauss2, WholeSurface, &Misalignment::pinion_pressure_angle, 2e-4, 1e-3},
-                                 Motion{25, Graded, WholeSurface, &Misalignment::mesh_misalignment, 0.012, 0.02});
+  const Motion motion = GENERATE(
+      Motion{0, Gauss2, PlaneOfAction, &Misalignment::axial_offset, -1.3, 40}, Motion{0, Gauss2, PlaneOfAction, &Misalignment::axial_offset, 2.1, 40},
+      Motion{25, Graded, PlaneOfAction, &Misalignment::axial_offset, 2.1, 40},
+      Motion{25, Gauss2, WholeSurface, &Misalignment::axial_offset, -1.3, 40}, Motion{12, Graded, WholeSurface, &Misalignment::axial_offset, 2.1, 40},
+      Motion{25, Graded, WholeSurface, &Misalignment::crossing, 3e-4, 3e-4}, Motion{0, Gauss2, WholeSurface, &Misalignment::crossing, -2e-4, 3e-4},
+      Motion{25, Gauss2, WholeSurface, &Misalignment::intersecting, -8e-4, 8e-4},
+      Motion{25, Graded, WholeSurface, &Misalignment::centre_distance, 0.2, 1},
+      Motion{0, Graded, WholeSurface, &Misalignment::centre_distance, -0.1, 1},
+      Motion{25, Graded, WholeSurface, &Misalignment::pinion_lead_angle, 1e-4, 3e-4},
+      Motion{25, Gauss2, WholeSurface, &Misalignment::pinion_pressure_angle, 2e-4, 1e-3},
+      Motion{25, Graded, WholeSurface, &Misalignment::mesh_misalignment, 0.012, 0.02});
   const double helix = motion.helix, value = motion.value, change = motion.change, step = 5e-5 * change;
   MotionCase of = unequal_faces(helix, 40, 40);
   const mesh_cases::SyntheticRootStress roots(of.gears);
@@ -133,14 +137,15 @@ TEST_CASE("Loaded contact changes with what moves the mesh as meshes made and so
     const PositionGradient gradient = position_gradient(model, of.at(value), here, p, read.ends, by);
     CAPTURE(helix, name_of(of.by), value, p);
     const auto same_high = same_points(model.positions[p], above.positions[p]), same_low = same_points(model.positions[p], below.positions[p]);
-    for (const auto& [exact, values] : {std::pair{&gradient.point_force, &ReadPosition::point_force}, std::pair{&gradient.gap, &ReadPosition::gap},
-                                       std::pair{&gradient.error, &ReadPosition::error},
-                                       std::pair{&gradient.structural_deflection, &ReadPosition::structural_deflection},
-                                       std::pair{&gradient.contact_deflection, &ReadPosition::contact_deflection}}) {
+    for (const auto& [exact, values] :
+         {std::pair{&gradient.point_force, &ReadPosition::point_force}, std::pair{&gradient.gap, &ReadPosition::gap},
+          std::pair{&gradient.error, &ReadPosition::error}, std::pair{&gradient.structural_deflection, &ReadPosition::structural_deflection},
+          std::pair{&gradient.contact_deflection, &ReadPosition::contact_deflection}}) {
       const double size = std::max((read.*values).cwiseAbs().maxCoeff(), gradient.gap.col(0).cwiseAbs().maxCoeff() * change);
       for (Eigen::Index i = 0; i < exact->rows(); ++i) {
         const Eigen::Index h = same_high[static_cast<std::size_t>(i)], l = same_low[static_cast<std::size_t>(i)];
-        if (h >= 0 && l >= 0) check((*exact)(i, 0), (high.*values)[h], (low.*values)[l], values == &ReadPosition::point_force ? (read.*values).maxCoeff() : size);
+        if (h >= 0 && l >= 0)
+          check((*exact)(i, 0), (high.*values)[h], (low.*values)[l], values == &ReadPosition::point_force ? (read.*values).maxCoeff() : size);
       }
     }
     REQUIRE(read.ends.size() == high.ends.size());
@@ -182,7 +187,8 @@ TEST_CASE("Differences of solved cycles close in with the square of their step o
   of.by = motion.by;
   of.condition.modification.pinion.lead_crowning = 6 * units::um;
   of.condition.modification.wheel.addendum_crowning = 8 * units::um;
-  of.condition.misalignment = {.crossing = 3e-4, .intersecting = -8e-4, .centre_distance = 0.2, .axial_offset = 2.1, .mesh_misalignment = 4 * units::um};
+  of.condition.misalignment = {
+      .crossing = 3e-4, .intersecting = -8e-4, .centre_distance = 0.2, .axial_offset = 2.1, .mesh_misalignment = 4 * units::um};
   of.resolution = {{QuadratureRule::Graded, 3}, equally_spaced_phases(3)};
   const double value = of.condition.misalignment.*of.by, h = motion.h;
   const MeshModel model = of.mesh(value, of.resolution);
@@ -195,11 +201,12 @@ TEST_CASE("Differences of solved cycles close in with the square of their step o
   };
   const double deflection = cycle.positions.front().load.structural_deflection.maxCoeff();
   const CycleSummary far_up = moved(h), up = moved(h / 2), down = moved(-h / 2), far_down = moved(-h);
-  for (const auto& [exact, output] : {std::pair{&CycleGradient::te_mean, &CycleSummary::te_mean}, std::pair{&CycleGradient::te_peak_to_peak, &CycleSummary::te_peak_to_peak},
-                                      std::pair{&CycleGradient::peak_contact_stress, &CycleSummary::peak_contact_stress},
-                                      std::pair{&CycleGradient::peak_line_load, &CycleSummary::peak_line_load}, std::pair{&CycleGradient::load_factor, &CycleSummary::load_factor},
-                                      std::pair{&CycleGradient::mean_stiffness, &CycleSummary::mean_stiffness},
-                                      std::pair{&CycleGradient::peak_root_stress, &CycleSummary::peak_root_stress}}) {
+  for (const auto& [exact, output] :
+       {std::pair{&CycleGradient::te_mean, &CycleSummary::te_mean}, std::pair{&CycleGradient::te_peak_to_peak, &CycleSummary::te_peak_to_peak},
+        std::pair{&CycleGradient::peak_contact_stress, &CycleSummary::peak_contact_stress},
+        std::pair{&CycleGradient::peak_line_load, &CycleSummary::peak_line_load}, std::pair{&CycleGradient::load_factor, &CycleSummary::load_factor},
+        std::pair{&CycleGradient::mean_stiffness, &CycleSummary::mean_stiffness},
+        std::pair{&CycleGradient::peak_root_stress, &CycleSummary::peak_root_stress}}) {
     const double wide = (far_up.*output - far_down.*output) / (2 * h), narrow = (up.*output - down.*output) / h;
     const double extrapolated = (4 * narrow - wide) / 3, found = (gradient.*exact)[0];
     const double size = output == &CycleSummary::te_peak_to_peak ? deflection : here.*output;  // peak to peak: of what is taken off each other
@@ -255,7 +262,8 @@ TEST_CASE("Located peaks and K_Hbeta follow what moves the mesh to where they ar
     MisalignmentParameter by;
     double value, change;  ///< a change of loads by much of themselves
   };
-  const Motion motion = GENERATE(Motion{0, GapModel::PlaneOfAction, &Misalignment::axial_offset, 2, 40}, Motion{25, GapModel::PlaneOfAction, &Misalignment::axial_offset, 2, 40},
+  const Motion motion = GENERATE(Motion{0, GapModel::PlaneOfAction, &Misalignment::axial_offset, 2, 40},
+                                 Motion{25, GapModel::PlaneOfAction, &Misalignment::axial_offset, 2, 40},
                                  Motion{25, GapModel::WholeSurface, &Misalignment::crossing, 2e-4, 3e-4},
                                  Motion{25, GapModel::WholeSurface, &Misalignment::centre_distance, 0.2, 1});
   const double value = motion.value, step = 1e-4 * motion.change;
@@ -267,7 +275,9 @@ TEST_CASE("Located peaks and K_Hbeta follow what moves the mesh to where they ar
   const double torque = torque_for(of.gears, 150);
   const auto resolved = [](const std::vector<double>& phases) { return MeshResolution{{QuadratureRule::Graded, 5}, phases}; };
   const auto peaks = [&](const FlankCondition& condition) {
-    const auto mesh = [&](const std::vector<double>& phases) { return of.alone(MeshPlacement::of(of.gap, condition.misalignment), resolved(phases)); };
+    const auto mesh = [&](const std::vector<double>& phases) {
+      return of.alone(MeshPlacement::of(of.gap, condition.misalignment), resolved(phases));
+    };
     return locate_peaks(mesh, condition, torque, {.phase_tolerance = phase_tolerance});
   };
   const ContactPeaks here = peaks(of.at(value)), up = peaks(of.at(value + step)), down = peaks(of.at(value - step));
@@ -280,17 +290,20 @@ TEST_CASE("Located peaks and K_Hbeta follow what moves the mesh to where they ar
   };
   check(gradients.with_spikes.contact_stress, here.with_spikes.contact_stress, up.with_spikes.contact_stress, down.with_spikes.contact_stress);
   check(gradients.with_spikes.line_load, here.with_spikes.line_load, up.with_spikes.line_load, down.with_spikes.line_load);
-  check(gradients.without_spikes.contact_stress, here.without_spikes.contact_stress, up.without_spikes.contact_stress, down.without_spikes.contact_stress);
+  check(gradients.without_spikes.contact_stress, here.without_spikes.contact_stress, up.without_spikes.contact_stress,
+        down.without_spikes.contact_stress);
   check(gradients.without_spikes.line_load, here.without_spikes.line_load, up.without_spikes.line_load, down.without_spikes.line_load);
   if (!acts(of.by, lead_part) || acts(of.by, perfect_part)) return;
   // Nothing but leads: all of it is the part that K_Hbeta counts, and the perfect pair is not moved.
   REQUIRE(lead_part(of.at(value)) == of.at(value));
   const ContactPeaks perfect = peaks(perfect_part(of.at(value)));
   const MeshAt aligned_at = [&](const std::vector<double>& phases) { return of.alone(MeshPlacement::of(of.gap, {}), resolved(phases)); };
-  const RatedPeaks rated{here, gradients}, unmoved{perfect, peak_gradients_of_part(aligned_at, of.at(value), perfect_part, torque, perfect, {of.by, PinionTorque{}})};
+  const RatedPeaks rated{here, gradients},
+      unmoved{perfect, peak_gradients_of_part(aligned_at, of.at(value), perfect_part, torque, perfect, {of.by, PinionTorque{}})};
   const auto factor = [&](const ContactPeaks& found) { return load_factors(perfect, found, perfect, found).without_spikes.lead; };
   const double difference = (factor(up) - factor(down)) / (2 * step);
-  CHECK(std::abs(load_factor_gradients(unmoved, rated, unmoved, rated).without_spikes.lead[0] - difference) <= kLocated * (std::abs(difference) + 1 / motion.change));
+  CHECK(std::abs(load_factor_gradients(unmoved, rated, unmoved, rated).without_spikes.lead[0] - difference) <=
+        kLocated * (std::abs(difference) + 1 / motion.change));
 }
 
 TEST_CASE("A mesh without perturbed meshes refuses derivatives by parameters that move it", "[core][load][gradient][input]") {

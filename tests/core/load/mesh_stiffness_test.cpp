@@ -63,8 +63,7 @@ TEST_CASE("Twice the face under twice the torque is the same spur mesh", "[core]
   CHECK(wide.peak_contact_stress == Approx(narrow.peak_contact_stress).epsilon(kRoundOff));
 }
 
-TEST_CASE("Contacts of twice the size under twice the line load deflect twice as much at the same stress",
-          "[core][load]") {
+TEST_CASE("Contacts of twice the size under twice the line load deflect twice as much at the same stress", "[core][load]") {
   // Similarity: the contact law has no length in it but the ratio of depth to half width, which stays. Not so with
   // bending, whose calibration to ISO happens at one line load for all modules.
   constexpr double kRoundOff = 1e-9;

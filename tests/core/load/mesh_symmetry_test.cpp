@@ -40,10 +40,9 @@ TEST_CASE("A mirrored spur pair carries mirrored loads", "[core][load]") {
   const LoadedCycle there = analyse_cycle(model, worked_condition(), torque_for(gears, 100.0));
   const LoadedCycle mirror = analyse_cycle(model, mirrored(worked_condition()), torque_for(gears, 100.0));
   for (std::size_t i = 0; i < 8; ++i) {
-    CHECK(mirror.positions[i].load.transmission_error ==
-          Approx(there.positions[i].load.transmission_error).epsilon(kRoundOff));
-    CHECK(largest_difference(loads_by_point(model.positions[i], there.positions[i]),
-                             loads_by_point(model.positions[i], mirror.positions[i], -1)) <= kRoundOff * 100.0);
+    CHECK(mirror.positions[i].load.transmission_error == Approx(there.positions[i].load.transmission_error).epsilon(kRoundOff));
+    CHECK(largest_difference(loads_by_point(model.positions[i], there.positions[i]), loads_by_point(model.positions[i], mirror.positions[i], -1)) <=
+          kRoundOff * 100.0);
   }
 }
 
@@ -60,11 +59,9 @@ TEST_CASE("A helical pair of the other hand is the mirror image of the first", "
   const LoadedCycle mirror = analyse_cycle(left_model, mirrored(worked_condition()), torque);
   const LoadedCycle same = analyse_cycle(left_model, worked_condition(), torque);
   for (std::size_t i = 0; i < 6; ++i) {
-    CHECK(mirror.positions[i].load.transmission_error ==
-          Approx(there.positions[i].load.transmission_error).epsilon(kRoundOff));
+    CHECK(mirror.positions[i].load.transmission_error == Approx(there.positions[i].load.transmission_error).epsilon(kRoundOff));
     const auto loads = loads_by_point(right_model.positions[i], there.positions[i]);
-    CHECK(largest_difference(loads, loads_by_point(left_model.positions[i], mirror.positions[i], -1)) <=
-          kRoundOff * 100.0);
+    CHECK(largest_difference(loads, loads_by_point(left_model.positions[i], mirror.positions[i], -1)) <= kRoundOff * 100.0);
     // And only the mirrored condition does: the test can fail.
     CHECK(largest_difference(loads, loads_by_point(left_model.positions[i], same.positions[i], -1)) > 1.0);
   }
@@ -83,15 +80,14 @@ TEST_CASE("A helical pair driven on its other flank is the same as a pair of the
   FlankCondition reflected = worked_condition();
   reflected.misalignment.crossing = -reflected.misalignment.crossing;
   const MeshResolution resolution{{}, {0.2, 0.6}};
-  const MeshModel coast_model = mesh_cases::model(coast, resolution),
-                  drive_model = mesh_cases::model(drive, resolution);
+  const MeshModel coast_model = mesh_cases::model(coast, resolution), drive_model = mesh_cases::model(drive, resolution);
   const double torque = torque_for(coast, 100.0);
   const LoadedCycle a = analyse_cycle(coast_model, worked_condition(), torque);
   const LoadedCycle b = analyse_cycle(drive_model, reflected, torque);
   for (std::size_t i = 0; i < 2; ++i) {
     CHECK(a.positions[i].load.transmission_error == Approx(b.positions[i].load.transmission_error).epsilon(kRoundOff));
-    CHECK(largest_difference(loads_by_point(coast_model.positions[i], a.positions[i]),
-                             loads_by_point(drive_model.positions[i], b.positions[i])) <= kRoundOff * 100.0);
+    CHECK(largest_difference(loads_by_point(coast_model.positions[i], a.positions[i]), loads_by_point(drive_model.positions[i], b.positions[i])) <=
+          kRoundOff * 100.0);
   }
 }
 
@@ -109,7 +105,7 @@ TEST_CASE("Equal gears in perfect mesh run the same forwards and backwards", "[c
   for (std::size_t i = 0; i < forwards.size(); ++i) {
     CAPTURE(helix, forwards[i]);
     CHECK(a.positions[i].load.transmission_error == Approx(b.positions[i].load.transmission_error).epsilon(kRoundOff));
-    CHECK(largest_difference(loads_by_point(there.positions[i], a.positions[i]),
-                             loads_by_point(back.positions[i], b.positions[i], -1, -1)) <= kRoundOff * 200.0);
+    CHECK(largest_difference(loads_by_point(there.positions[i], a.positions[i]), loads_by_point(back.positions[i], b.positions[i], -1, -1)) <=
+          kRoundOff * 200.0);
   }
 }

@@ -135,8 +135,7 @@ TEST_CASE("Points that just touch without load do not make the quadratic program
     CAPTURE(bits);
     REQUIRE(found.solved);
     CHECK(found.multiplier == Approx(1.0).epsilon(kRoundOff));
-    CHECK((found.x - Eigen::VectorXd(Eigen::VectorXd::Unit(count, 0) + Eigen::VectorXd::Unit(count, 1))).norm() <=
-          kRoundOff);
+    CHECK((found.x - Eigen::VectorXd(Eigen::VectorXd::Unit(count, 0) + Eigen::VectorXd::Unit(count, 1))).norm() <= kRoundOff);
   }
   // The same with rounded coupling: nothing comes out as an exact zero.
   Random random(19);

@@ -22,8 +22,7 @@ void check_random_problems(int count, double largest, std::uint64_t seed) {
   int failed = 0, most_iterations = 0, first_failure = -1;
   double worst = 0.0;
   for (int i = 0; i < count; ++i) {
-    const LoadProblem problem =
-        load_cases::random_problem(static_cast<int>(random.log_uniform(1.0, largest + 1.0)), random);
+    const LoadProblem problem = load_cases::random_problem(static_cast<int>(random.log_uniform(1.0, largest + 1.0)), random);
     const LoadDistribution found = solve_load_distribution(problem);
     const bool good = found.usable() && found.kkt_residual <= kRoundOff &&
                       load_cases::optimality(problem, found.line_load, found.transmission_error).worst() <= kRoundOff;
@@ -95,13 +94,9 @@ void check_independence(int count, double largest, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("Every one of 3000 random load problems is solved", "[core][load][hard]") {
-  check_random_problems(3000, 200, 1991);
-}
+TEST_CASE("Every one of 3000 random load problems is solved", "[core][load][hard]") { check_random_problems(3000, 200, 1991); }
 
-TEST_CASE("Neither start nor order of points matters to random load problems", "[core][load][hard]") {
-  check_independence(400, 100, 2028);
-}
+TEST_CASE("Neither start nor order of points matters to random load problems", "[core][load][hard]") { check_independence(400, 100, 2028); }
 
 TEST_CASE("The number of threads does not change a bit of random load problems", "[core][load][hard]") {
   constexpr int count = 60;
@@ -111,9 +106,8 @@ TEST_CASE("The number of threads does not change a bit of random load problems",
   const auto solve_all = [&](int threads) {
     std::vector<LoadDistribution> found(count);
     tbb::task_arena(threads).execute([&] {
-      tbb::parallel_for(0, count, [&](int i) {
-        found[static_cast<std::size_t>(i)] = solve_load_distribution(problems[static_cast<std::size_t>(i)]);
-      });
+      tbb::parallel_for(0, count,
+                        [&](int i) { found[static_cast<std::size_t>(i)] = solve_load_distribution(problems[static_cast<std::size_t>(i)]); });
     });
     return found;
   };
@@ -125,9 +119,7 @@ TEST_CASE("The number of threads does not change a bit of random load problems",
   }
 }
 
-TEST_CASE("Neither start nor order of points matters to 20000 random load problems", "[.soak][core][load]") {
-  check_independence(20000, 400, 2030);
-}
+TEST_CASE("Neither start nor order of points matters to 20000 random load problems", "[.soak][core][load]") { check_independence(20000, 400, 2030); }
 
 TEST_CASE("Random load problems cover what they claim", "[core][load]") {
   Random random(2031);
@@ -141,10 +133,10 @@ TEST_CASE("Random load problems cover what they claim", "[core][load]") {
     const Eigen::VectorXd eigenvalues = symmetric_eigenvalues(problem.influence);
     worst_condition = std::max(worst_condition, eigenvalues.maxCoeff() / std::max(eigenvalues.minCoeff(), 1e-300));
   }
-  CHECK(least_load < 2e-3);        // N/mm
-  CHECK(most_load > 5e5);          // N/mm
-  CHECK(largest_gap > 0.5);        // mm
-  CHECK(worst_condition > 1e12);   // singular to round-off
+  CHECK(least_load < 2e-3);       // N/mm
+  CHECK(most_load > 5e5);         // N/mm
+  CHECK(largest_gap > 0.5);       // mm
+  CHECK(worst_condition > 1e12);  // singular to round-off
 }
 
 TEST_CASE("Every one of 100000 random load problems is solved", "[.soak][core][load]") {

@@ -9,8 +9,7 @@ using namespace flankwright;
 
 namespace {
 
-MeshModel model_with_root_stress(const GearPair& gears, const MeshResolution& resolution,
-                                 const MeshEffects& effects = {}) {
+MeshModel model_with_root_stress(const GearPair& gears, const MeshResolution& resolution, const MeshEffects& effects = {}) {
   const mesh_cases::SyntheticRootStress root_stress(gears);
   return make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, resolution, effects, {}, nullptr, &root_stress);
 }
@@ -64,11 +63,9 @@ TEST_CASE("Root stress left for later is the same to the bit", "[core][load][roo
 
 TEST_CASE("Twice the torque is twice the root stress where nothing else is nonlinear", "[core][load][root-stress]") {
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
-  const MeshModel model = model_with_root_stress(gears, {{}, equally_spaced_phases(4)},
-                                                 MeshEffects::all_but({"hertzian_contact", "extended_contact_region"}));
-  const auto peak = [&](double load) {
-    return summarise(model, analyse_cycle(model, {}, mesh_cases::torque_for(gears, load))).peak_root_stress;
-  };
+  const MeshModel model =
+      model_with_root_stress(gears, {{}, equally_spaced_phases(4)}, MeshEffects::all_but({"hertzian_contact", "extended_contact_region"}));
+  const auto peak = [&](double load) { return summarise(model, analyse_cycle(model, {}, mesh_cases::torque_for(gears, load))).peak_root_stress; };
   CHECK(peak(200) == Approx(2 * peak(100)).epsilon(1e-11));  // round-off
 }
 

@@ -30,9 +30,7 @@ auto central_difference(const Function& f, double step) {
   return ((4.0 * once(step) - once(2.0 * step)) / 3.0).eval();
 }
 
-Eigen::Array<bool, Eigen::Dynamic, 1> loaded_points(const LoadDistribution& d) {
-  return d.line_load.array() > 0.0;
-}
+Eigen::Array<bool, Eigen::Dynamic, 1> loaded_points(const LoadDistribution& d) { return d.line_load.array() > 0.0; }
 
 /// Loads and, last, the transmission error of a changed problem.
 Eigen::VectorXd answer(const LoadProblem& problem, int* set_changes, const LoadDistribution& reference) {
@@ -47,8 +45,7 @@ Eigen::VectorXd answer(const LoadProblem& problem, int* set_changes, const LoadD
 
 }  // namespace
 
-TEST_CASE("The derivatives of loads and transmission error are those of central differences",
-          "[core][load][gradient]") {
+TEST_CASE("The derivatives of loads and transmission error are those of central differences", "[core][load][gradient]") {
   constexpr double kDiscretisation = 1e-6;  // of the difference quotients, relative to the largest derivative
   Random random(51);
   int compared = 0;
@@ -87,8 +84,7 @@ TEST_CASE("The derivatives of loads and transmission error are those of central 
     CHECK((gap.line_load - by_gap.head(n)).lpNorm<Eigen::Infinity>() <= kDiscretisation * scale);
     CHECK(std::abs(gap.transmission_error[0] - by_gap[n]) <= kDiscretisation);
     const auto force = sensitivity.with_force();
-    CHECK((force.line_load - by_force.head(n)).lpNorm<Eigen::Infinity>() <=
-          kDiscretisation * force.line_load.lpNorm<Eigen::Infinity>());
+    CHECK((force.line_load - by_force.head(n)).lpNorm<Eigen::Infinity>() <= kDiscretisation * force.line_load.lpNorm<Eigen::Infinity>());
     CHECK(force.transmission_error[0] == Approx(by_force[n]).epsilon(kDiscretisation));
   }
   CHECK(compared >= 40);
@@ -133,8 +129,7 @@ TEST_CASE("Loads answer to gaps as gaps answer to loads", "[core][load][gradient
   }
 }
 
-TEST_CASE("Where a second spring is just reached the derivative is that of one side",
-          "[core][load][gradient][closed-form]") {
+TEST_CASE("Where a second spring is just reached the derivative is that of one side", "[core][load][gradient][closed-form]") {
   constexpr double kRoundOff = 1e-12;
   LoadProblem problem;
   problem.influence = Eigen::Vector2d(2e-6, 3e-6).asDiagonal();
@@ -159,18 +154,15 @@ TEST_CASE("Where a second spring is just reached the derivative is that of one s
     problem.force = force;
     return solve_load_distribution(problem).transmission_error;
   };
-  CHECK((f(touch) - f(touch - 100.0)) / 100.0 ==
-        Approx(alone).epsilon(1e-10));  // round-off: f is 0.005, the difference 2e-4
+  CHECK((f(touch) - f(touch - 100.0)) / 100.0 == Approx(alone).epsilon(1e-10));  // round-off: f is 0.005, the difference 2e-4
   CHECK((f(touch + 100.0) - f(touch)) / 100.0 == Approx(together).epsilon(1e-10));
 }
 
 TEST_CASE("Derivatives with respect to every modification are those of central differences", "[core][load][gradient]") {
-  constexpr double kDiscretisation =
-      1e-6;  // of the difference quotients, relative to the largest derivative at the position
+  constexpr double kDiscretisation = 1e-6;  // of the difference quotients, relative to the largest derivative at the position
   const bool helical = GENERATE(false, true);
   const GearPair gears = helical ? mesh_cases::pair(18, 54, 30, 10, 120) : mesh_cases::pair(20, 40, 0, 4, 30);
-  const MeshModel model = mesh_cases::model(
-      gears, {{QuadratureRule::Gauss2, 6}, helical ? std::vector{0.13, 0.71} : std::vector{0.4, 0.9, 1.15}});
+  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Gauss2, 6}, helical ? std::vector{0.13, 0.71} : std::vector{0.4, 0.9, 1.15}});
   Random random(helical ? 53 : 54);
   int compared = 0, skipped = 0;
   for (int design = 0; design < 6; ++design) {
@@ -201,8 +193,7 @@ TEST_CASE("Derivatives with respect to every modification are those of central d
           FlankCondition other = condition;
           Modification& m = other.modification[parameters[p].member];
           set(m, parameters[p].parameter, get(m, parameters[p].parameter) + step);
-          if (parameters[p].parameter ==
-              parameter_of("profile_crowning")) {  // moves both halves, whatever they were
+          if (parameters[p].parameter == parameter_of("profile_crowning")) {  // moves both halves, whatever they were
             const Modification& given = condition.modification[parameters[p].member];
             m.addendum_crowning = given.addendum_crowning + step;
             m.dedendum_crowning = given.dedendum_crowning + step;

@@ -21,8 +21,8 @@ ShaftData shaft(double diameter, bool torque_at_first_end = true) {
 }
 
 MeshModel model_with(const GearPair& gears, const PairCompliance* shafts, int positions = 4) {
-  return make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(positions)}, {},
-                         {}, nullptr, nullptr, shafts);
+  return make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, {{QuadratureRule::Gauss2, 8}, equally_spaced_phases(positions)}, {}, {},
+                         nullptr, nullptr, shafts);
 }
 
 /// Where the load of a position has its centre [mm].
@@ -49,8 +49,7 @@ TEST_CASE("Very thick shafts change nothing", "[core][load][shaft]") {
   CHECK((with.transmission_error() - rigid.transmission_error()).norm() < 1e-6 * rigid.transmission_error().norm());
 }
 
-TEST_CASE("The torque of a spur pinion is carried nearer to the end where it enters, alike from either end",
-          "[core][load][shaft][physics]") {
+TEST_CASE("The torque of a spur pinion is carried nearer to the end where it enters, alike from either end", "[core][load][shaft][physics]") {
   const GearPair gears = mesh_cases::pair(21, 40, 0, 4, kFace);
   const double torque = mesh_cases::torque_for(gears, 200);
   std::vector<double> centres;
@@ -92,8 +91,7 @@ TEST_CASE("Derivatives with shafts are those of central differences", "[core][lo
   const MeshModel model = model_with(gears, &shafts, 2);
   FlankCondition condition;
   condition.modification.pinion.lead_crowning = 4 * units::um;
-  const std::vector<GearParameter> parameters{{Member::Pinion, parameter_of("lead_slope")},
-                                              {Member::Wheel, parameter_of("lead_crowning")}};
+  const std::vector<GearParameter> parameters{{Member::Pinion, parameter_of("lead_slope")}, {Member::Wheel, parameter_of("lead_crowning")}};
   const LoadedCycle cycle = analyse_cycle(model, condition, torque, {parameters.begin(), parameters.end()});
   const double step = 0.002 * units::um;
   for (std::size_t p = 0; p < parameters.size(); ++p) {

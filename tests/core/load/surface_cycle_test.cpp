@@ -110,7 +110,7 @@ TEST_CASE("Points of the whole surface follow the misalignment and stay while mo
   const Misalignment apart{.centre_distance = 0.3};
   const MeshResolution resolution{{}, {0.9}};
   const MeshModel aligned = surface_model(gears, resolution), misaligned = surface_model(gears, resolution, apart);
-  const std::vector<ContactPoint> &a = aligned.positions[0].points, &b = misaligned.positions[0].points;
+  const std::vector<ContactPoint>&a = aligned.positions[0].points, &b = misaligned.positions[0].points;
   REQUIRE(a.size() == b.size());
   // Further apart, contact lies at a larger pressure angle: the same pinion angle touches elsewhere on the profile.
   double moved = 0.0;
@@ -132,7 +132,8 @@ TEST_CASE("The ends of lines carry what the whole surface leaves there", "[core]
   condition.misalignment.crossing = 2 * arcmin;
   condition.misalignment.centre_distance = 1.2;
   const double phase = (gears.pitch_point - gears.path_start) / gears.transverse_base_pitch + PathOfContact::extension;
-  const MeshModel model = surface_model(gears, {{QuadratureRule::Midpoint, 40}, {phase}}, condition.misalignment, MeshEffects::all_but({"free_ends"}));
+  const MeshModel model =
+      surface_model(gears, {{QuadratureRule::Midpoint, 40}, {phase}}, condition.misalignment, MeshEffects::all_but({"free_ends"}));
   const LoadedPosition loaded = analyse_cycle(model, condition, torque_for(gears, 300)).positions[0];
   const std::vector<ContactPoint>& points = model.positions[0].points;
   const Eigen::VectorXd &w = loaded.load.line_load, plane = plane_of_action_gap(gears, points, condition).total;
@@ -156,7 +157,9 @@ TEST_CASE("Gradients over the whole surface agree with central differences", "[c
   const GearPair gears = mesh_cases::pair(23, 41, 20, 4, 30);
   FlankCondition condition = surface_condition();
   condition.modification.pinion.parabolic_te = 2e-4;
-  const MeshPlaced placed = [&](const MeshPlacement& at) { return surface_model(gears, {{QuadratureRule::Gauss2, 5}, {0.15, 0.48, 0.83}}, at.misalignment); };
+  const MeshPlaced placed = [&](const MeshPlacement& at) {
+    return surface_model(gears, {{QuadratureRule::Gauss2, 5}, {0.15, 0.48, 0.83}}, at.misalignment);
+  };
   const double torque = torque_for(gears, 200);
   const std::vector<MeshParameter> parameters{GearParameter{Member::Pinion, parameter_of("lead_crowning")},
                                               GearParameter{Member::Pinion, parameter_of("tip_relief.amount")},
@@ -186,8 +189,7 @@ TEST_CASE("Gradients over the whole surface agree with central differences", "[c
     const double step = 2e-6;  // mm, rad or 1/rad
     const LoadedCycle up = shifted(step), down = shifted(-step);
     for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
-      const double by_differences =
-          (up.positions[i].load.transmission_error - down.positions[i].load.transmission_error) / (2 * step);
+      const double by_differences = (up.positions[i].load.transmission_error - down.positions[i].load.transmission_error) / (2 * step);
       const double exact = cycle.positions[i].transmission_error_derivative[static_cast<Eigen::Index>(p)];
       CAPTURE(p, i, exact, by_differences);
       // discretisation: the step's square times the third derivative; round-off of f_t, 1e-13 mm, over the step

@@ -19,8 +19,8 @@ namespace {
 /// Without the extended region, before whose start the two gaps turn different gears to meet (SurfaceGap).
 MeshModel mesh_by(GapModel gap, const GearPair& gears, const MeshResolution& resolution, const Misalignment& misalignment,
                   const PairRootStress* roots = nullptr) {
-  return make_mesh_model(gears, {steel, steel}, resolution, MeshEffects::all_but({"extended_contact_region"}),
-                         MeshPlacement::of(gap, misalignment), nullptr, roots);
+  return make_mesh_model(gears, {steel, steel}, resolution, MeshEffects::all_but({"extended_contact_region"}), MeshPlacement::of(gap, misalignment),
+                         nullptr, roots);
 }
 
 ContactPeaks peaks_by(GapModel gap, const GearPair& gears, const FlankCondition& condition, double torque) {

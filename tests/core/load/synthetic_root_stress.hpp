@@ -35,14 +35,15 @@ class SyntheticRootStress final : public PairRootStress {
         const double radius = station.member == Member::Pinion ? point.pinion_radius : point.wheel_radius;
         const double height = (radius - gear.root_radius) / module, apart = (point.z - station.z) / reach;
         const double share = point.tooth == station.tooth ? 1.0 : 0.1;
-        const double tension =
-            share * height * (1 - std::pow(station.along - 0.45, 2)) * std::exp(-apart * apart) / (module * module);
-        table.block<3, 1>(3 * static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(i)) << tension,
-            0.3 * tension, 0.4 * apart * tension;
+        const double tension = share * height * (1 - std::pow(station.along - 0.45, 2)) * std::exp(-apart * apart) / (module * module);
+        table.block<3, 1>(3 * static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(i)) << tension, 0.3 * tension, 0.4 * apart * tension;
       }
     }
     // The points are the forces of the table.
-    return {stations, table.cols(), {{0, Eigen::MatrixXd::Identity(table.cols(), table.cols())}}, {{0, 0, std::make_shared<const Eigen::MatrixXd>(table)}}};
+    return {stations,
+            table.cols(),
+            {{0, Eigen::MatrixXd::Identity(table.cols(), table.cols())}},
+            {{0, 0, std::make_shared<const Eigen::MatrixXd>(table)}}};
   }
 
  private:

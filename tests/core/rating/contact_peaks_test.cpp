@@ -36,9 +36,7 @@ TEST_CASE("Located peaks do not depend on where the search starts", "[core][load
   const auto [gears, by] = GENERATE(std::pair{mesh_cases::pair(18, 54, 30, 10, 120), 8.0}, std::pair{mesh_cases::pair(25, 31, 12, 2, 15), -6.0},
                                     std::pair{mesh_cases::pair(20, 40, 0, 4, 30), 5.0});
   const FlankCondition condition = misaligned(by * units::um);
-  const auto located = [&, &gears = gears](double step) {
-    return locate_peaks(mesh_of(gears), condition, torque_for(gears, 100), {.step = step});
-  };
+  const auto located = [&, &gears = gears](double step) { return locate_peaks(mesh_of(gears), condition, torque_for(gears, 100), {.step = step}); };
   const ContactPeaks few = located(1.0 / 16), many = located(1.0 / 64);
   CHECK(few.positions < many.positions);
   for (const auto which : {&ContactPeaks::with_spikes, &ContactPeaks::without_spikes}) {
@@ -47,8 +45,7 @@ TEST_CASE("Located peaks do not depend on where the search starts", "[core][load
   }
 }
 
-TEST_CASE("No sampling of the cycle finds a higher peak than the one located, and a fine one nearly finds it",
-          "[core][load][peaks]") {
+TEST_CASE("No sampling of the cycle finds a higher peak than the one located, and a fine one nearly finds it", "[core][load][peaks]") {
   constexpr double kLocated = 1e-3;   // as above
   constexpr double kSampled = 0.005;  // discretisation: 400 positions
   const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);

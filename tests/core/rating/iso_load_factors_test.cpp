@@ -46,8 +46,7 @@ TEST_CASE("ISO's misalignment is the linear part of the gap along the face", "[c
   FlankCondition crossed;
   crossed.misalignment.crossing = 1 * units::arcmin;
   // Model: displacements along the axis, tan(beta_b) times as large as the tilt allows, do not change along it.
-  CHECK(iso_deviations(gears, crossed).misalignment ==
-        Approx(units::arcmin * 120 * std::cos(gears.working_transverse_pressure_angle)).epsilon(1e-6));
+  CHECK(iso_deviations(gears, crossed).misalignment == Approx(units::arcmin * 120 * std::cos(gears.working_transverse_pressure_angle)).epsilon(1e-6));
 }
 
 TEST_CASE("ISO's pitch deviation is the largest single step or profile deviation", "[core][load][iso]") {
@@ -115,7 +114,8 @@ TEST_CASE("ISO's K_Halpha of a spur pair uses the load sharing of less than two 
 TEST_CASE("ISO's factors change with misalignment, modifications, offset and torque as central differences say", "[core][load][iso][gradient]") {
   // Relative; step^2 of the differences, and for the offset that of its own three meshes.
   constexpr double kDifference = 1e-6;
-  const auto [misaligned, pitch] = GENERATE(table<double, double>({{2e-3, 8e-3}, {40e-3, 60e-3}, {6e-3, 0.3}}));  // both branches of K_Hbeta; K_Halpha free and at its limit
+  const auto [misaligned, pitch] =
+      GENERATE(table<double, double>({{2e-3, 8e-3}, {40e-3, 60e-3}, {6e-3, 0.3}}));  // both branches of K_Hbeta; K_Halpha free and at its limit
   const bool helical = GENERATE(false, true);
   const GearPair gears = helical ? haddad() : mesh_cases::pair(20, 40, 0, 4, 30);
   FlankCondition condition;
@@ -127,9 +127,13 @@ TEST_CASE("ISO's factors change with misalignment, modifications, offset and tor
   condition.modification.wheel.end_relief = {6 * units::um, 0.2 * gears.face_width};
   condition.modification.wheel.tip_relief = {6 * units::um, 2, ReliefShape::Linear};
   const double torque = mesh_cases::torque_for(gears, 200);
-  const std::vector<MeshParameter> parameters{&Misalignment::mesh_misalignment, &Misalignment::crossing, GearParameter{Member::Pinion, parameter_of("lead_slope")},
+  const std::vector<MeshParameter> parameters{&Misalignment::mesh_misalignment,
+                                              &Misalignment::crossing,
+                                              GearParameter{Member::Pinion, parameter_of("lead_slope")},
                                               GearParameter{Member::Wheel, parameter_of("end_relief.amount")},
-                                              GearParameter{Member::Wheel, parameter_of("tip_relief.amount")}, &Misalignment::axial_offset, PinionTorque{}};
+                                              GearParameter{Member::Wheel, parameter_of("tip_relief.amount")},
+                                              &Misalignment::axial_offset,
+                                              PinionTorque{}};
   const std::vector<double> steps{1e-5, 2e-8, 1e-5, 1e-5, 1e-5, 1e-3, 1e-4 * torque};
   const GapModel gap = misaligned < 5e-3 ? GapModel::WholeSurface : GapModel::PlaneOfAction;  // the standard asks for neither
   const MeshPlaced placed = [&](const MeshPlacement& placement) {

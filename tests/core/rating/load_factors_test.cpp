@@ -13,9 +13,7 @@ using mesh_cases::torque_for;
 namespace {
 
 LoadFactors factors_of(const GearPair& gears, const FlankCondition& condition, double line_load = 100) {
-  const auto located = [&](const FlankCondition& part) {
-    return locate_peaks(mesh_of(gears), part, torque_for(gears, line_load));
-  };
+  const auto located = [&](const FlankCondition& part) { return locate_peaks(mesh_of(gears), part, torque_for(gears, line_load)); };
   const ContactPeaks perfect = located(perfect_part(condition)), whole = located(condition);
   const auto peaks = [&](const FlankCondition& part) {
     return part == condition ? whole : part == perfect_part(condition) ? perfect : located(part);
@@ -101,9 +99,7 @@ TEST_CASE("Bending slices under a misalignment have the linear load of ISO 6336'
   const double torque = torque_for(gears, 300);
   FlankCondition misaligned;
   misaligned.misalignment.mesh_misalignment = 4 * units::um;
-  const auto peaks = [&](const FlankCondition& c) {
-    return peaks_at(model, model.positions[0], analyse_cycle(model, c, torque).positions[0]);
-  };
+  const auto peaks = [&](const FlankCondition& c) { return peaks_at(model, model.positions[0], analyse_cycle(model, c, torque).positions[0]); };
   const LoadedPosition perfect = analyse_cycle(model, {}, torque).positions[0];
   const double mean = perfect.load.line_load[0], stiffness = mean / perfect.load.transmission_error;
   const double outermost = -model.positions[0].points.front().z;

@@ -29,11 +29,11 @@ struct Moved {
 };
 
 std::vector<Moved> movable() {
-  return {{GearParameter{Member::Pinion, parameter_of("lead_crowning")},
-           [](FlankCondition& c, double by) { c.modification.pinion.lead_crowning += by; }},
-          {GearParameter{Member::Wheel, parameter_of("tip_relief.amount")},
-           [](FlankCondition& c, double by) { c.modification.wheel.tip_relief.amount += by; }},
-          {&Misalignment::mesh_misalignment, [](FlankCondition& c, double by) { c.misalignment.mesh_misalignment += by; }}};
+  return {
+      {GearParameter{Member::Pinion, parameter_of("lead_crowning")}, [](FlankCondition& c, double by) { c.modification.pinion.lead_crowning += by; }},
+      {GearParameter{Member::Wheel, parameter_of("tip_relief.amount")},
+       [](FlankCondition& c, double by) { c.modification.wheel.tip_relief.amount += by; }},
+      {&Misalignment::mesh_misalignment, [](FlankCondition& c, double by) { c.misalignment.mesh_misalignment += by; }}};
 }
 
 RatedPeaks rated(const GearPair& gears, const FlankCondition& condition, ConditionPart part, const std::vector<MeshParameter>& parameters) {
@@ -64,7 +64,8 @@ void check_located(const GearPair& gears) {
   };
   const std::vector<RatedPeaks> up = at(kStep), down = at(-kStep);
   const double scale = 0.1 * here[3].peaks.with_spikes.contact_stress.value / condition.misalignment.mesh_misalignment;
-  for (const auto& pair : {std::pair{&ContactPeaks::with_spikes, &PeakGradients::with_spikes}, std::pair{&ContactPeaks::without_spikes, &PeakGradients::without_spikes}}) {
+  for (const auto& pair : {std::pair{&ContactPeaks::with_spikes, &PeakGradients::with_spikes},
+                           std::pair{&ContactPeaks::without_spikes, &PeakGradients::without_spikes}}) {
     for (std::size_t k = 0; k < here.size(); ++k) {
       CAPTURE(k, gears.data.helix_angle);
       const auto stress = [&](const RatedPeaks& r) { return (r.peaks.*pair.first).contact_stress.value; };
@@ -74,10 +75,12 @@ void check_located(const GearPair& gears) {
   }
   const LoadFactors high = load_factors(up[0].peaks, up[1].peaks, up[2].peaks, up[3].peaks);
   const LoadFactors low = load_factors(down[0].peaks, down[1].peaks, down[2].peaks, down[3].peaks);
-  for (const auto& [exact, factor] : {std::pair{&LoadFactorGradients::Triple::lead, &LoadFactors::Triple::lead}, std::pair{&LoadFactorGradients::Triple::profile, &LoadFactors::Triple::profile},
+  for (const auto& [exact, factor] : {std::pair{&LoadFactorGradients::Triple::lead, &LoadFactors::Triple::lead},
+                                      std::pair{&LoadFactorGradients::Triple::profile, &LoadFactors::Triple::profile},
                                       std::pair{&LoadFactorGradients::Triple::combined, &LoadFactors::Triple::combined}}) {
     const double difference = (high.without_spikes.*factor - low.without_spikes.*factor) / (2 * kStep);
-    CHECK(std::abs((gradients.without_spikes.*exact).sum() - difference) <= kLocated * (std::abs(difference) + 0.1 / condition.misalignment.mesh_misalignment));
+    CHECK(std::abs((gradients.without_spikes.*exact).sum() - difference) <=
+          kLocated * (std::abs(difference) + 0.1 / condition.misalignment.mesh_misalignment));
   }
   // Tip relief is no lead, crowning no profile, and none of them moves the perfect pair.
   CHECK(gradients.without_spikes.lead[1] == 0.0);
@@ -120,7 +123,9 @@ TEST_CASE("A peak at which another point just gains contact follows every parame
   std::vector<MeshParameter> parameters;
   for (const Moved& m : moved) parameters.push_back(m.parameter);
   parameters.push_back(PinionTorque{});
-  const auto peaks = [&](const FlankCondition& c, double by_torque) { return locate_peaks(mesh, c, by_torque, {.step = 1.0 / 12, .phase_tolerance = kFineSearch, .worth = 0.995}); };
+  const auto peaks = [&](const FlankCondition& c, double by_torque) {
+    return locate_peaks(mesh, c, by_torque, {.step = 1.0 / 12, .phase_tolerance = kFineSearch, .worth = 0.995});
+  };
   const ContactPeaks here = peaks(condition, torque);
   const PeakGradients gradients = peak_gradients(mesh, condition, torque, here, parameters);
   int kinks = 0;
@@ -132,12 +137,15 @@ TEST_CASE("A peak at which another point just gains contact follows every parame
       return peaks(c, p < moved.size() ? torque : torque + by);
     };
     const ContactPeaks up = at(step), down = at(-step);
-    for (const auto& [pair, exact] : {std::pair{&ContactPeaks::with_spikes, &gradients.with_spikes}, std::pair{&ContactPeaks::without_spikes, &gradients.without_spikes}}) {
-      for (const auto& [of, slopes] : {std::pair{&ContactPeaks::Pair::contact_stress, &exact->contact_stress}, std::pair{&ContactPeaks::Pair::line_load, &exact->line_load}}) {
+    for (const auto& [pair, exact] :
+         {std::pair{&ContactPeaks::with_spikes, &gradients.with_spikes}, std::pair{&ContactPeaks::without_spikes, &gradients.without_spikes}}) {
+      for (const auto& [of, slopes] :
+           {std::pair{&ContactPeaks::Pair::contact_stress, &exact->contact_stress}, std::pair{&ContactPeaks::Pair::line_load, &exact->line_load}}) {
         const auto read = [&, pair = pair, of = of](const ContactPeaks& found) -> const LinePeak& { return (found.*pair).*of; };
         const double difference = (read(up).value - read(down).value) / (2 * step);
         CAPTURE(p, read(here).phase, read(up).phase, read(here).value);
-        CHECK(std::abs((*slopes)[static_cast<Eigen::Index>(p)] - difference) <= kDifference * (std::abs(difference) + 1e-4 * read(here).value / step));
+        CHECK(std::abs((*slopes)[static_cast<Eigen::Index>(p)] - difference) <=
+              kDifference * (std::abs(difference) + 1e-4 * read(here).value / step));
         // Only geometry holds a phase; one that goes with the torque is that of contact just gained or lost, or of a smooth maximum.
         if (p == moved.size()) kinks += std::abs(read(up).phase - read(down).phase) > 10 * kFineSearch ? 1 : 0;
       }

@@ -66,7 +66,8 @@ Shown run(const std::string& text, const std::vector<Override>& overrides = {}) 
   const StudyResults results = run_study(parse_study(text, "drawn", overrides));
   const LoadedResult& loaded = results.loaded.at(0);
   double approach = 0.0;
-  for (const LoadedPosition& p : loaded.cycle.positions) approach += (p.load.transmission_error - p.gap.total.minCoeff()) / static_cast<double>(loaded.cycle.positions.size());
+  for (const LoadedPosition& p : loaded.cycle.positions)
+    approach += (p.load.transmission_error - p.gap.total.minCoeff()) / static_cast<double>(loaded.cycle.positions.size());
   return {loaded.summary, loaded.resolved.errors, std::max(loaded.summary.te_peak_to_peak, quiet_share * approach), results.study.fidelity.quadrature,
           results.study.cycle.positions};
 }
@@ -82,10 +83,11 @@ Errors compare(const std::string& text, int finer) {
                                  {"fidelity.quadrature.intervals", std::to_string(finer * shown.quadrature.intervals)},
                                  {"cycle.positions", std::to_string(finer * shown.positions)}});
   const double stress = truth.summary.peak_contact_stress;
-  return {{std::abs(shown.summary.te_peak_to_peak - truth.summary.te_peak_to_peak) / truth.variation,
-           std::abs(shown.summary.te_harmonics[0] - truth.summary.te_harmonics[0]) / truth.variation,
-           std::abs(shown.summary.peak_contact_stress - stress) / stress},
-          {shown.errors.te_peak_to_peak / truth.variation, shown.errors.te_harmonics[0] / truth.variation, shown.errors.peak_contact_stress / stress}};
+  return {
+      {std::abs(shown.summary.te_peak_to_peak - truth.summary.te_peak_to_peak) / truth.variation,
+       std::abs(shown.summary.te_harmonics[0] - truth.summary.te_harmonics[0]) / truth.variation,
+       std::abs(shown.summary.peak_contact_stress - stress) / stress},
+      {shown.errors.te_peak_to_peak / truth.variation, shown.errors.te_harmonics[0] / truth.variation, shown.errors.peak_contact_stress / stress}};
 }
 
 struct Statistics {

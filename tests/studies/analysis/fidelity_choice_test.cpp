@@ -31,7 +31,8 @@ torque = 150
 mesh_misalignment = 5
 [fidelity]
 compliance = "thin_slice"
-)" + fidelity + "\n" + more, "small.toml");
+)" + fidelity + "\n" + more,
+                     "small.toml");
 }
 
 }  // namespace
@@ -75,8 +76,8 @@ TEST_CASE("Effects below what an accuracy leaves are left out of an analysis, wi
 
 TEST_CASE("The figures of a run with an accuracy are within it of a far finer run", "[studies][accuracy][fidelity-choice]") {
   const StudyResults chosen = run_study(small_study("accuracy = \"5 %\"", "[cycle]\npeaks = \"sampled\"\n"));
-  const StudyResults fine = run_study(small_study("gap = \"whole_surface\"\nquadrature = { rule = \"graded\", intervals = 32 }",
-                                                  "[cycle]\npositions = 128\npeaks = \"sampled\"\n"));
+  const StudyResults fine = run_study(
+      small_study("gap = \"whole_surface\"\nquadrature = { rule = \"graded\", intervals = 32 }", "[cycle]\npositions = 128\npeaks = \"sampled\"\n"));
   const CycleSummary &coarse = chosen.loaded.at(0).summary, &truth = fine.loaded.at(0).summary;
   CHECK(coarse.te_peak_to_peak == Approx(truth.te_peak_to_peak).epsilon(0.05));
   CHECK(std::abs(coarse.te_harmonics[0] - truth.te_harmonics[0]) <= 0.05 * truth.te_peak_to_peak);
@@ -87,8 +88,8 @@ TEST_CASE("The figures of a run with an accuracy are within it of a far finer ru
 }
 
 TEST_CASE("Settings that a study gives beside an accuracy are kept", "[studies][accuracy][fidelity-choice]") {
-  const StudyResults results = run_study(small_study("accuracy = \"20 %\"\ngap = \"plane_of_action\"\nquadrature = { rule = \"gauss2\", intervals = 7 }",
-                                                     "[cycle]\npositions = 18\n"));
+  const StudyResults results = run_study(
+      small_study("accuracy = \"20 %\"\ngap = \"plane_of_action\"\nquadrature = { rule = \"gauss2\", intervals = 7 }", "[cycle]\npositions = 18\n"));
   REQUIRE(results.fidelity_choice);
   CHECK(results.study.fidelity.quadrature.rule == QuadratureRule::Gauss2);
   CHECK(results.study.fidelity.quadrature.intervals == 7);
@@ -98,7 +99,8 @@ TEST_CASE("Settings that a study gives beside an accuracy are kept", "[studies][
 }
 
 TEST_CASE("An accuracy that no resolution keeps is a requirement not met", "[studies][accuracy][fidelity-choice]") {
-  const StudyResults results = run_study(small_study("accuracy = \"0.001 %\"\ngap = \"plane_of_action\"\nquadrature = { rule = \"graded\", intervals = 4 }", "[cycle]\npeaks = \"sampled\"\n"));
+  const StudyResults results = run_study(small_study(
+      "accuracy = \"0.001 %\"\ngap = \"plane_of_action\"\nquadrature = { rule = \"graded\", intervals = 4 }", "[cycle]\npeaks = \"sampled\"\n"));
   REQUIRE(results.fidelity_choice);
   CHECK_FALSE(results.fidelity_choice->kept);
   REQUIRE(results.requirements.size() == 1);
@@ -107,6 +109,7 @@ TEST_CASE("An accuracy that no resolution keeps is a requirement not met", "[stu
 
 TEST_CASE("Without load there is nothing to choose by", "[studies][accuracy][fidelity-choice]") {
   CHECK_FALSE(run_study(parse_study("[pair]\nnormal_module = 4\n[pinion]\nteeth = 20\nface_width = 20\n[wheel]\nteeth = 40\nface_width = 20\n"
-                                    "[fidelity]\naccuracy = \"1 %\"\n", "unloaded.toml"))
+                                    "[fidelity]\naccuracy = \"1 %\"\n",
+                                    "unloaded.toml"))
                   .fidelity_choice.has_value());
 }

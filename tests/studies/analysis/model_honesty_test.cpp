@@ -25,8 +25,8 @@ std::string random_pair(unsigned seed) {
 }
 
 CycleFigures figures(const std::string& pair, const std::string& compliance) {
-  const StudyResults results = run_study(parse_study(pair + "positions = 32\n[fidelity]\nquadrature = { rule = \"graded\", intervals = 12 }\ncompliance = \"" +
-                                                     compliance + "\"\n", "pair.toml"));
+  const StudyResults results = run_study(parse_study(
+      pair + "positions = 32\n[fidelity]\nquadrature = { rule = \"graded\", intervals = 12 }\ncompliance = \"" + compliance + "\"\n", "pair.toml"));
   return SampledCycle(results.models.front(), results.loaded.front().cycle).figures();
 }
 

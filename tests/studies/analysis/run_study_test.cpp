@@ -18,8 +18,7 @@ using json = Json;
 using study_texts::results_of;
 
 /// Every path that leads to something, entries of lists as "[]": "loaded[].cycle[].phase".
-void collect_paths(const json& node, const std::string& path, std::set<std::string>& paths,
-                   std::set<std::string>& nulls) {
+void collect_paths(const json& node, const std::string& path, std::set<std::string>& paths, std::set<std::string>& nulls) {
   paths.insert(path);
   if (node.is_null()) nulls.insert(path);
   if (node.is_array()) {
@@ -44,15 +43,22 @@ void check_keys(const json& results, const std::string& prefix, const std::strin
 
 /// Nulls that are meant: not computed in this version, not asked for, or not told apart.
 void check_nulls(const json& results) {
-  const std::set<std::string> meant{"loaded[].summary.peak_root_stress_MPa_error", "loaded[].summary.peak_root_stress_MPa",   "loaded[].summary.pinion_root_stress_MPa",
-                                    "loaded[].summary.wheel_root_stress_MPa",  "loaded[].summary.pinion_root_stress",
-                                    "loaded[].summary.wheel_root_stress",      "effects[].seconds", "effects[].estimate", "effects[].exact",
-                                    "used.fidelity.accuracy", "optimise.finished_by", "optimise.starts[].finished_by"};
+  const std::set<std::string> meant{"loaded[].summary.peak_root_stress_MPa_error",
+                                    "loaded[].summary.peak_root_stress_MPa",
+                                    "loaded[].summary.pinion_root_stress_MPa",
+                                    "loaded[].summary.wheel_root_stress_MPa",
+                                    "loaded[].summary.pinion_root_stress",
+                                    "loaded[].summary.wheel_root_stress",
+                                    "effects[].seconds",
+                                    "effects[].estimate",
+                                    "effects[].exact",
+                                    "used.fidelity.accuracy",
+                                    "optimise.finished_by",
+                                    "optimise.starts[].finished_by"};
   const std::set<std::string> meant_sampled{"loaded[].summary.peaks", "loaded[].summary.load_factors"};
   // Edges have no ellipse, lines one without end; not every point of a flank meets the mate.
   const std::set<std::string> meant_unloaded{"pairs[].positions[].ellipse", "pairs[].positions[].ellipse.semi_major_mm",
-                                             "bearing_pattern.pinion.separation_um[][]",
-                                             "bearing_pattern.wheel.separation_um[][]"};
+                                             "bearing_pattern.pinion.separation_um[][]", "bearing_pattern.wheel.separation_um[][]"};
   std::set<std::string> paths, nulls;
   collect_paths(results, "", paths, nulls);
   for (const std::string& path : nulls) {
@@ -113,8 +119,7 @@ TEST_CASE("results.json of an analysis has every key that it promises", "[studie
   check_nulls(results);
   CHECK(results["loaded"].size() == 2);
   CHECK(results["unloaded_scenes"].size() == 2);
-  const std::set<std::string> kinds{"line",        "surface",    "pinion_tip", "wheel_tip",
-                                    "pinion_root", "wheel_root", "face_end",   "corner"};
+  const std::set<std::string> kinds{"line", "surface", "pinion_tip", "wheel_tip", "pinion_root", "wheel_root", "face_end", "corner"};
   for (const json& pair : results["unloaded"]["pairs"]) {
     for (const json& position : pair["positions"]) CHECK(kinds.count(position["contact"]) == 1);
   }
@@ -151,8 +156,7 @@ TEST_CASE("results.json of an optimisation has every key that it promises", "[st
   // What is said of the optimum and the loaded contact shown with it are one analysis.
   double worst = 0.0;
   for (const json& loaded : results["loaded"]) {
-    if (loaded["design"] == "after")
-      worst = std::max(worst, loaded["summary"]["peak_contact_stress_MPa"].get<double>());
+    if (loaded["design"] == "after") worst = std::max(worst, loaded["summary"]["peak_contact_stress_MPa"].get<double>());
   }
   CHECK(worst == optimise["after"]["objective"].get<double>());
 }
@@ -165,8 +169,7 @@ TEST_CASE("Loaded results keep the identities of equilibrium, compatibility and 
                    solver = 1e-9;  // solver: the load distribution's own residual, 1e-12, conditioned
   for (const json& loaded : results["loaded"]) {
     const double force = loaded["normal_force_N"];
-    CHECK(force * base_radius * std::cos(base_helix) ==
-          Approx(1e3 * loaded["torque_Nm"].get<double>()).epsilon(round_off));
+    CHECK(force * base_radius * std::cos(base_helix) == Approx(1e3 * loaded["torque_Nm"].get<double>()).epsilon(round_off));
     double least_te = INFINITY, most_te = -INFINITY, peak_load = 0.0, peak_stress = 0.0, mean_te = 0.0;
     for (const json& position : loaded["cycle"]) {
       const double te = position["te_um"];
@@ -181,8 +184,8 @@ TEST_CASE("Loaded results keep the identities of equilibrium, compatibility and 
           total += load * point["length_mm"].get<double>();
           peak_load = std::max(peak_load, load);
           peak_stress = std::max(peak_stress, point["contact_stress_MPa"].get<double>());
-          const double reach = point["contact_deflection_um"].get<double>() +
-                               point["structural_deflection_um"].get<double>() + point["gap_um"].get<double>();
+          const double reach =
+              point["contact_deflection_um"].get<double>() + point["structural_deflection_um"].get<double>() + point["gap_um"].get<double>();
           if (load > 0.0) {
             CHECK(reach == Approx(te).epsilon(solver));
           } else {
@@ -219,8 +222,7 @@ TEST_CASE("Unloaded results keep the identities of transmission error and units"
     for (const json& pair : unloaded["pairs"]) {
       for (const json& position : pair["positions"]) {
         // delta phi2 = phi2 - N1/N2 phi1; round-off of angles of some degrees, seen in arcsec.
-        const double te =
-            (position["phi2_deg"].get<double>() - 18.0 / 54.0 * position["phi1_deg"].get<double>()) * 3600.0;
+        const double te = (position["phi2_deg"].get<double>() - 18.0 / 54.0 * position["phi1_deg"].get<double>()) * 3600.0;
         CHECK(position["te_arcsec"].get<double>() == Approx(te).margin(1e-9));
       }
     }
@@ -253,8 +255,7 @@ TEST_CASE("A rigid study ignores its torques, with a note", "[studies][run]") {
 }
 
 TEST_CASE("A bound that cannot be met is a requirement that was not met", "[studies][run]") {
-  const std::vector<Override> impossible{{"optimise.constraints.te_peak_to_peak.max", "0.0001"},
-                                         {"optimise.max_evaluations", "30"}};
+  const std::vector<Override> impossible{{"optimise.constraints.te_peak_to_peak.max", "0.0001"}, {"optimise.max_evaluations", "30"}};
   const StudyResults results = run_study(parse_study(small::optimisation(), "small.toml", impossible));
   REQUIRE(!results.requirements.empty());
   CHECK_THAT(results.requirements.back(), Catch::Contains("te_peak_to_peak") && Catch::Contains("violated"));

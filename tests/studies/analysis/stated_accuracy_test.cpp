@@ -38,7 +38,8 @@ std::string random_scene(unsigned seed) {
   const auto uniform = [&](double low, double high) { return low + (high - low) * std::generate_canonical<double, 53>(random); };
   const double module = uniform(1.0, 6.0), helix = uniform(0.0, 1.0) < 0.25 ? 0.0 : uniform(5.0, 30.0), face = module * uniform(4.0, 10.0);
   const int pinion = static_cast<int>(uniform(17.0, 45.0)), wheel = static_cast<int>(pinion * uniform(1.0, 3.0));
-  const double shift = uniform(-0.2, 0.3), height = module * uniform(0.25, 0.5), load = uniform(5.0, 25.0);  // load: N/mm^2, force over face and module
+  const double shift = uniform(-0.2, 0.3), height = module * uniform(0.25, 0.5),
+               load = uniform(5.0, 25.0);  // load: N/mm^2, force over face and module
   const double lead = uniform(0.0, 12.0), relief = uniform(0.0, 25.0), profile = uniform(0.0, 10.0), tilt = uniform(-20.0, 20.0);
   std::string text = "[pair]\n" + key("normal_module", module) + key("helix_angle", helix);
   text += "[pinion]\nteeth = " + std::to_string(pinion) + "\n" + key("face_width", face) + key("profile_shift", shift);
@@ -63,16 +64,18 @@ struct Honesty {
 Honesty honesty(const std::string& scene, const std::string& compliance, const std::string& finest) {
   const std::string sizes = "[fidelity]\neffect_sizes = \"off\"\n";
   const StudyResults chosen = run_study(parse_study(scene + sizes + "accuracy = \"1 %\"\n" + compliance, "chosen.toml"));
-  const StudyResults fine = run_study(parse_study(scene + sizes + finest + "gap = \"whole_surface\"\nquadrature = { rule = \"graded\", intervals = 48 }\n" +
-                                                      "[cycle]\npositions = 128\n", "fine.toml"));
+  const StudyResults fine = run_study(parse_study(
+      scene + sizes + finest + "gap = \"whole_surface\"\nquadrature = { rule = \"graded\", intervals = 48 }\n" + "[cycle]\npositions = 128\n",
+      "fine.toml"));
   REQUIRE(chosen.fidelity_choice);
   const Honesty found{chosen.fidelity_choice->error(), figure_differences(shown(chosen), shown(fine)), chosen.fidelity_choice->kept};
   const FidelityChoice& choice = *chosen.fidelity_choice;
   for (std::size_t i = 0; i <= static_cast<std::size_t>(Figure::PeakContactStress); ++i) {
     UNSCOPED_INFO(name_of(static_cast<Figure>(i)) << ": stated " << 100 * found.stated[i] << " %, found " << 100 * found.found[i] << " %");
   }
-  UNSCOPED_INFO(to_string(choice.fidelity.compliance) << ", " << to_string(choice.fidelity.gap) << ", " << choice.fidelity.quadrature.intervals << " x " << choice.positions
-                << ", " << choice.left_out.names.size() << " effects left out, " << (choice.kept ? "kept" : "not kept"));
+  UNSCOPED_INFO(to_string(choice.fidelity.compliance)
+                << ", " << to_string(choice.fidelity.gap) << ", " << choice.fidelity.quadrature.intervals << " x " << choice.positions << ", "
+                << choice.left_out.names.size() << " effects left out, " << (choice.kept ? "kept" : "not kept"));
   return found;
 }
 
@@ -109,7 +112,8 @@ void check_random_scenes(unsigned first, unsigned drawn, const std::string& comp
     worst_holds += headline(of.found) <= headline(of.stated) ? 1 : 0;
     if (of.kept) CHECK(headline(of.found) <= 0.01);
   }
-  INFO("each figure within what was stated of it: " << figures << " of " << judged * drawn << ", the worst of a scene: " << worst_holds << " of " << drawn);
+  INFO("each figure within what was stated of it: " << figures << " of " << judged * drawn << ", the worst of a scene: " << worst_holds << " of "
+                                                    << drawn);
   CHECK(figures >= 0.95 * judged * drawn);
   CHECK(worst_holds >= 0.95 * drawn);
 }

@@ -60,10 +60,8 @@ TEST_CASE("A text with a unit gives the same quantity as its definition", "[stud
 }
 
 TEST_CASE("A bare number and the same number with its default unit are one value", "[studies][units]") {
-  const Quantity quantity =
-      GENERATE(Quantity::Length, Quantity::Deviation, Quantity::Angle, Quantity::SmallAngle, Quantity::Torque,
-               Quantity::Stress, Quantity::LineLoad, Quantity::DiametralPitch, Quantity::Curvature,
-               Quantity::ParabolicTe, Quantity::Time);
+  const Quantity quantity = GENERATE(Quantity::Length, Quantity::Deviation, Quantity::Angle, Quantity::SmallAngle, Quantity::Torque, Quantity::Stress,
+                                     Quantity::LineLoad, Quantity::DiametralPitch, Quantity::Curvature, Quantity::ParabolicTe, Quantity::Time);
   const std::string text = "7.25 " + std::string(default_unit(quantity));
   CAPTURE(text);
   CHECK(internal_value(7.25, quantity) == parse_value_with_unit(text, quantity));

@@ -39,7 +39,8 @@ TEST_CASE("Every command has examples, and completions and manual are complete",
   const ScratchFolder folder;
   const std::vector<std::string> commands = listed(run(folder, {"--help"}).out, "Subcommands:", "");
   REQUIRE(commands.size() >= 9);
-  const std::string bash = run(folder, {"completion", "bash"}).out, zsh = run(folder, {"completion", "zsh"}).out, man = run(folder, {"completion", "man"}).out;
+  const std::string bash = run(folder, {"completion", "bash"}).out, zsh = run(folder, {"completion", "zsh"}).out,
+                    man = run(folder, {"completion", "man"}).out;
   for (const std::string& command : commands) {
     CAPTURE(command);
     const std::string help = run(folder, {command, "--help"}).out;
@@ -62,7 +63,8 @@ TEST_CASE("The completion completes in bash", "[studies][cli]") {
   const ScratchFolder folder;
   folder.file("flankwright.bash", run(folder, {"completion", "bash"}).out);
   const auto completed = [&](const std::string& words, int index) {
-    const std::string script = "source flankwright.bash; COMP_WORDS=(" + words + "); COMP_CWORD=" + std::to_string(index) + "; _flankwright; echo ${COMPREPLY[@]} > said";
+    const std::string script =
+        "source flankwright.bash; COMP_WORDS=(" + words + "); COMP_CWORD=" + std::to_string(index) + "; _flankwright; echo ${COMPREPLY[@]} > said";
     REQUIRE(std::system(("cd '" + folder.path().string() + "' && bash -c '" + script + "'").c_str()) == 0);
     return text_of(folder.path() / "said");
   };

@@ -23,9 +23,9 @@ TEST_CASE("A run leaves its files in the folder it was given, a table on stdout 
   CAPTURE(ending.err);
   CHECK(ending.exit_code == 0);
   CHECK(folder.names() == Names{"here", "small.toml"});
-  CHECK(folder.names("here/and there") ==
-        Names{"bearing_pattern.csv", "cycle.csv", "effects.csv", "gears.csv", "given.csv", "harmonics.csv", "load_factors.csv", "load_sharing.csv", "points.csv",
-              "report.html", "results.json", "steps.csv", "summary.csv", "transfers.csv", "unloaded.csv", "used.csv"});
+  CHECK(folder.names("here/and there") == Names{"bearing_pattern.csv", "cycle.csv", "effects.csv", "gears.csv", "given.csv", "harmonics.csv",
+                                                "load_factors.csv", "load_sharing.csv", "points.csv", "report.html", "results.json", "steps.csv",
+                                                "summary.csv", "transfers.csv", "unloaded.csv", "used.csv"});
   CHECK_THAT(ending.out, Contains("aligned") && Contains("bent") && Contains("report: here/and there/report.html"));
   CHECK(ending.out.find("analysing") == std::string::npos);
   CHECK_THAT(ending.err, Contains("small analysis"));
@@ -37,17 +37,16 @@ TEST_CASE("An optimisation also leaves its store; the default folder carries the
   const Ending ending = run(folder, {"run", "small.toml", "--threads", "1"});
   CAPTURE(ending.err);
   CHECK(ending.exit_code == 0);
-  CHECK(folder.names("results/small") ==
-        Names{"comparison.csv", "cycle.csv", "design.csv", "effects.csv", "gears.csv", "given.csv", "harmonics.csv", "history.csv", "load_factors.csv", "load_sharing.csv", "points.csv",
-              "report.html", "results.json", "results.sqlite", "scenes.csv", "sensitivity.csv", "steps.csv", "summary.csv", "used.csv"});
+  CHECK(folder.names("results/small") == Names{"comparison.csv", "cycle.csv", "design.csv", "effects.csv", "gears.csv", "given.csv", "harmonics.csv",
+                                               "history.csv", "load_factors.csv", "load_sharing.csv", "points.csv", "report.html", "results.json",
+                                               "results.sqlite", "scenes.csv", "sensitivity.csv", "steps.csv", "summary.csv", "used.csv"});
 }
 
 TEST_CASE("Settings of the command line replace those of the file", "[studies][cli][slow]") {
   const ScratchFolder folder;
   folder.file("small.toml", small::analysis());
-  const Ending ending =
-      run(folder, {"run", "small.toml", "--out", "r", "--set", "cycle.positions=4", "--set", "load.torque=500", "--set",
-                   "scenes.1.misalignment.crossing=2 arcmin", "--set", "title=two words"});
+  const Ending ending = run(folder, {"run", "small.toml", "--out", "r", "--set", "cycle.positions=4", "--set", "load.torque=500", "--set",
+                                     "scenes.1.misalignment.crossing=2 arcmin", "--set", "title=two words"});
   CAPTURE(ending.err);
   REQUIRE(ending.exit_code == 0);
   const Json results = Json::parse(text_of(folder.path() / "r" / "results.json"));
@@ -80,8 +79,7 @@ TEST_CASE("Everything that is wrong with a study is said at once, with line and 
     CHECK(ending.out.empty());
     for (const char* said :
          {"bad.toml:2:1: pair.normal_module = -10: allowed is ", "bad.toml:3:1: pair.helix_angel = 30: unknown key",
-          "bad.toml:5:1: pinion.teeth = 2: allowed is ",
-          "bad.toml:6:1: pinion.face_width = ", "bad.toml:11:1: cycle.positions = 0: allowed is "}) {
+          "bad.toml:5:1: pinion.teeth = 2: allowed is ", "bad.toml:6:1: pinion.face_width = ", "bad.toml:11:1: cycle.positions = 0: allowed is "}) {
       CHECK_THAT(ending.err, Contains(said));
     }
     CHECK(std::count(ending.err.begin(), ending.err.end(), '\n') == 5);
@@ -113,22 +111,21 @@ TEST_CASE("Any other bad input has exit code 2 and a message with the allowed va
     std::vector<std::string> arguments;
     const char* said;
   };
-  const std::vector<Case> cases{
-      {{}, "subcommand"},
-      {{"chekc", "small.toml"}, "command = chekc: allowed is one of run, merge, check"},
-      {{"chekc"}, "did you mean check?"},
-      {{"run"}, "study is required"},
-      {{"run", "missing.toml"}, "missing.toml: the file cannot be read"},
-      {{"run", "broken.toml"}, "broken.toml:1:"},
-      {{"run", "small.toml", "--set", "nothing"}, "key.path=value"},
-      {{"run", "small.toml", "--set", "pinion.teeth=2"}, "--set: pinion.teeth = 2: allowed is an integer 5 .. 1000"},
-      {{"run", "small.toml", "--threads", "0"}, "threads"},
-      {{"run", "small.toml", "--out", "small.toml/below"}, "output folder"},
-      {{"check", "small.toml", "--set", "pair.helix_angle=80"}, "pair.helix_angle"},
-      {{"new", "nonsense"}, "analyse"},
-      {{"report", "missing"}, "folder = missing: allowed is a folder with results.json"},
-      {{"export", "missing", "--rexs"}, "folder = missing: allowed is a folder with results.json"},
-      {{"test", "missing.toml"}, ""}};
+  const std::vector<Case> cases{{{}, "subcommand"},
+                                {{"chekc", "small.toml"}, "command = chekc: allowed is one of run, merge, check"},
+                                {{"chekc"}, "did you mean check?"},
+                                {{"run"}, "study is required"},
+                                {{"run", "missing.toml"}, "missing.toml: the file cannot be read"},
+                                {{"run", "broken.toml"}, "broken.toml:1:"},
+                                {{"run", "small.toml", "--set", "nothing"}, "key.path=value"},
+                                {{"run", "small.toml", "--set", "pinion.teeth=2"}, "--set: pinion.teeth = 2: allowed is an integer 5 .. 1000"},
+                                {{"run", "small.toml", "--threads", "0"}, "threads"},
+                                {{"run", "small.toml", "--out", "small.toml/below"}, "output folder"},
+                                {{"check", "small.toml", "--set", "pair.helix_angle=80"}, "pair.helix_angle"},
+                                {{"new", "nonsense"}, "analyse"},
+                                {{"report", "missing"}, "folder = missing: allowed is a folder with results.json"},
+                                {{"export", "missing", "--rexs"}, "folder = missing: allowed is a folder with results.json"},
+                                {{"test", "missing.toml"}, ""}};
   for (const Case& c : cases) {
     const Ending ending = run(folder, c.arguments);
     CAPTURE(c.arguments, ending.out, ending.err);
@@ -148,12 +145,11 @@ TEST_CASE("Help and version are answers, not errors", "[studies][cli]") {
   CHECK_THAT(version.out, StartsWith("flankwright "));
 }
 
-TEST_CASE("A requirement that is not met is exit code 1, with its results written and the reason in one line",
-          "[studies][cli][slow]") {
+TEST_CASE("A requirement that is not met is exit code 1, with its results written and the reason in one line", "[studies][cli][slow]") {
   const ScratchFolder folder;
   folder.file("bound.toml", small::optimisation());
-  const Ending bound = run(folder, {"run", "bound.toml", "--set", "optimise.constraints.te_peak_to_peak.max=0.0001",
-                                    "--set", "optimise.max_evaluations=30"});
+  const Ending bound =
+      run(folder, {"run", "bound.toml", "--set", "optimise.constraints.te_peak_to_peak.max=0.0001", "--set", "optimise.max_evaluations=30"});
   CHECK(bound.exit_code == 1);
   CHECK_THAT(bound.err, Contains("te_peak_to_peak <= 0.0001 is violated"));
   CHECK(std::filesystem::exists(folder.path() / "results" / "bound" / "results.json"));

@@ -98,13 +98,17 @@ TEST_CASE("A study by finite elements: equal gears are solved once, kept, and ba
   const json kept_results = json::parse(results_json(kept));
   CHECK(kept_results["compliance"]["wheel"]["source"] == "cache");
   CHECK(kept_results["loaded"] == results["loaded"]);
-  const StudyResults doubled = run_twins(twins, {{"pair.normal_module", "8"}, {"pinion.face_width", "8"}, {"wheel.face_width", "8"},
-                                           {"load.torque", "160"}, {"material.youngs_modulus", "206000"}});
+  const StudyResults doubled = run_twins(twins, {{"pair.normal_module", "8"},
+                                                 {"pinion.face_width", "8"},
+                                                 {"wheel.face_width", "8"},
+                                                 {"load.torque", "160"},
+                                                 {"material.youngs_modulus", "206000"}});
   CHECK(doubled.structures.finite_elements->gears[0].from_cache);
   CHECK(doubled.loaded[0].summary.te_mean == Approx(2 * kept.loaded[0].summary.te_mean).epsilon(1e-9));  // same stress
 
   // Teeth that do not know of each other yield less: their loads push on their neighbours' flanks.
-  const StudyResults alone = run_twins(twins, {{"fidelity.effects", R"(["bending", "gear_body_compliance", "hertzian_contact", "tip_corner", "extended_contact_region"])"}});
+  const StudyResults alone =
+      run_twins(twins, {{"fidelity.effects", R"(["bending", "gear_body_compliance", "hertzian_contact", "tip_corner", "extended_contact_region"])"}});
   CHECK(alone.loaded[0].summary.te_mean < kept.loaded[0].summary.te_mean);
   CHECK(alone.structures.finite_elements->gears[0].from_cache);  // a run that tells more will do
   CHECK(std::isnan(alone.loaded[0].summary.peak_root_stress));
@@ -135,7 +139,8 @@ TEST_CASE("A study on rigid gear bodies: stiffer, by a run of its own, and sized
   CHECK(compliance["rigid_body"]["unknowns"] < compliance["unknowns"]);
   CHECK(compliance["rigid_body"]["projection"] < 1e-12);  // round-off
 
-  const StudyResults rigid = run_twins(twins, {{"fidelity.effects", R"(["bending", "adjacent_teeth", "free_ends", "hertzian_contact", "tip_corner", "extended_contact_region"])"}});
+  const StudyResults rigid = run_twins(
+      twins, {{"fidelity.effects", R"(["bending", "adjacent_teeth", "free_ends", "hertzian_contact", "tip_corner", "extended_contact_region"])"}});
   CHECK(rigid.structures.finite_elements->rigid_body[1]->from_cache);
   const double less = elastic.loaded[0].summary.te_mean - rigid.loaded[0].summary.te_mean;
   CHECK(less > 0.02 * elastic.loaded[0].summary.te_mean);
@@ -172,8 +177,8 @@ TEST_CASE("A study's root stress: by finite elements, whatever the compliance", 
   CHECK(summary.peak_root_stress < at_tip);
   CHECK(summary.peak_root_stress > 0.5 * at_tip);
 
-  const StudyResults doubled = run_twins(twins, {{"pair.normal_module", "8"}, {"pinion.face_width", "8"}, {"wheel.face_width", "8"},
-                                           {"load.torque", "160"}});
+  const StudyResults doubled =
+      run_twins(twins, {{"pair.normal_module", "8"}, {"pinion.face_width", "8"}, {"wheel.face_width", "8"}, {"load.torque", "160"}});
   CHECK(doubled.loaded[0].summary.peak_root_stress == Approx(summary.peak_root_stress).epsilon(1e-9));  // same stress
 
   // Asked for by an expectation, with slices for the loads.
@@ -194,7 +199,8 @@ mesh_misalignment = 15
 objective = "peak_root_stress"
 variables = { "pinion.modification.lead_slope" = [-30, 30] }
 constraints = { "peak_contact_stress" = { max = 5000 } }
-)", {{"fidelity.compliance", "\"thin_slice\""}});
+)",
+                                          {{"fidelity.compliance", "\"thin_slice\""}});
   REQUIRE(designed.design);
   CHECK(designed.structures.finite_elements->gears[1].from_cache);
   CHECK(designed.design->after.objective < designed.design->before.objective);
@@ -214,8 +220,7 @@ TEST_CASE("A gear that finite elements refuse is refused when the study is read,
   CHECK(twins_refusal({}).empty());
   CHECK(twins_refusal({{"pinion.body.shaft_diameter", "30"}, {"wheel.body.bore_diameter", "5"}}).empty());
   CHECK_THAT(twins_refusal({{"pinion.body.shaft_diameter", "40"}}), Catch::Contains("pinion.body.shaft_diameter"));
-  CHECK_THAT(twins_refusal({{"wheel.body.shaft_diameter", "20"}, {"wheel.body.bore_diameter", "19"}}),
-             Catch::Contains("wheel.body.bore_diameter"));
+  CHECK_THAT(twins_refusal({{"wheel.body.shaft_diameter", "20"}, {"wheel.body.bore_diameter", "19"}}), Catch::Contains("wheel.body.bore_diameter"));
   CHECK_THAT(twins_refusal({{"wheel.body.shaft_overhang", "-1"}}), Catch::Contains("wheel.body.shaft_overhang"));
   CHECK_THAT(twins_refusal({{"pair.helix_angle", "40"}, {"pinion.face_width", "120"}, {"wheel.face_width", "120"}}),
              Catch::Contains("pitches apart touch at once"));
@@ -251,7 +256,7 @@ TEST_CASE("A study by fitted compliance: a coarse mesh of its gears and the libr
 
   const StudyResults fe = run_twins(twins, wider);
   CHECK(json::parse(results_json(fe))["compliance"]["pinion"]["unknowns"] > 1.5 * compliance["pinion"]["unknowns"].get<double>());
-  CHECK(cache.files().size() == 2);  // coarse and fine runs are not taken for each other
+  CHECK(cache.files().size() == 2);                                                              // coarse and fine runs are not taken for each other
   CHECK(ours.loaded[0].summary.te_mean == Approx(fe.loaded[0].summary.te_mean).epsilon(0.005));  // model, as asked of the fits
   // Discretisation: fewer elements across the tooth and along the face.
   CHECK(ours.loaded[0].summary.peak_root_stress == Approx(fe.loaded[0].summary.peak_root_stress).epsilon(0.06));
@@ -271,7 +276,8 @@ TEST_CASE("A gear outside the library of fits has its own fit, to the run that f
   CHECK_THAT(results["notes"].dump(),
              Catch::Contains("the pinion is outside the library of fits (pressure angle 17 deg") && Catch::Contains("two finite-element models"));
   bool told = false;
-  for (const json& effect : results["steps"]) told = told || (effect["name"] == "fit_of_pinion" && effect["why"] == "own fit: pressure angle 17 deg, in the library 17.5 .. 22.5 deg");
+  for (const json& effect : results["steps"])
+    told = told || (effect["name"] == "fit_of_pinion" && effect["why"] == "own fit: pressure angle 17 deg, in the library 17.5 .. 22.5 deg");
   CHECK(told);
   // Model, as asked of a gear's own fit; own tooth first, then its neighbours by the coarse mesh.
   const json& unseen = fit["residual_percent"]["unseen"];
@@ -295,7 +301,7 @@ TEST_CASE("A gear outside the library of fits has its own fit, to the run that f
 
   const StudyResults fe = run_twins(twins, {{"pair.pressure_angle", "17"}});
   CHECK(fe.structures.finite_elements->gears[0].from_cache);
-  CHECK(ours.loaded[0].summary.te_mean == Approx(fe.loaded[0].summary.te_mean).epsilon(0.005));             // model
+  CHECK(ours.loaded[0].summary.te_mean == Approx(fe.loaded[0].summary.te_mean).epsilon(0.005));                    // model
   CHECK(ours.loaded[0].summary.peak_root_stress == Approx(fe.loaded[0].summary.peak_root_stress).epsilon(0.005));  // by its loads
 }
 

@@ -14,7 +14,6 @@
 namespace flankwright::studies {
 namespace {
 
-
 std::size_t count(const std::string& text, const std::string& part) {
   std::size_t n = 0;
   for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) ++n;
@@ -51,12 +50,11 @@ TEST_CASE("The report of an unloaded analysis has the sections of unloaded conta
   CHECK(section_ids(render_report(sample::unloaded_results())) == expected);
 }
 
-TEST_CASE("The page of an unloaded analysis has its pictures' data in every scene and the scripts that draw them",
-          "[studies][report]") {
+TEST_CASE("The page of an unloaded analysis has its pictures' data in every scene and the scripts that draw them", "[studies][report]") {
   const Json results = sample::unloaded_results();
   const std::string page = render_report(results);
-  for (const char* script : {"function draw_contact_paths(", "function draw_unloaded_te(", "function draw_pattern(",
-                             "function draw_words(", "function scene_table("}) {
+  for (const char* script :
+       {"function draw_contact_paths(", "function draw_unloaded_te(", "function draw_pattern(", "function draw_words(", "function scene_table("}) {
     CAPTURE(script);
     CHECK(count(page, script) == 1);
   }
@@ -74,8 +72,7 @@ TEST_CASE("The page of an unloaded analysis has its pictures' data in every scen
 
 TEST_CASE("The report of a loaded analysis shows pictures before tables", "[studies][report]") {
   const std::vector<std::string> expected{
-      "flank-load", "transmission-error", "stiffness", "modifications", "load-cases",
-      "gear-pair",  "effects",            "notes",     "inputs"};
+      "flank-load", "transmission-error", "stiffness", "modifications", "load-cases", "gear-pair", "effects", "notes", "inputs"};
   CHECK(section_ids(render_report(sample::loaded_results(2))) == expected);
 }
 
@@ -89,14 +86,15 @@ TEST_CASE("The report of an optimisation begins with the modifications to grind 
     CAPTURE(id);
     CHECK(count(page, "href=\"#" + id + "\"") == 1);
     // The script has a builder for it, under a quoted or a plain key.
-    CHECK((page.find("\"" + id + "\": build_") != std::string::npos ||
-           page.find("  " + id + ": build_") != std::string::npos));
+    CHECK((page.find("\"" + id + "\": build_") != std::string::npos || page.find("  " + id + ": build_") != std::string::npos));
   }
 }
 
 TEST_CASE("The page is given the names that a person writes", "[studies][report]") {
   const Json names = report_view(sample::optimise_results(1, 2)).at("names");
-  const auto place_of = [&](const char* key) { return std::ranges::find_if(names, [&](const Json& row) { return row.at(0) == key; }) - names.begin(); };
+  const auto place_of = [&](const char* key) {
+    return std::ranges::find_if(names, [&](const Json& row) { return row.at(0) == key; }) - names.begin();
+  };
   const auto crowning = place_of("pinion.modification.lead_crowning"), relief = place_of("pinion.modification.tip_relief.amount");
   const auto wheel = place_of("wheel.modification.end_relief.amount");
   REQUIRE(wheel < static_cast<std::ptrdiff_t>(names.size()));
@@ -108,7 +106,8 @@ TEST_CASE("The page is given the names that a person writes", "[studies][report]
 
 TEST_CASE("The first screen comes before the links to the sections", "[studies][report]") {
   const std::string page = render_report(sample::optimise_results(1, 2));
-  const std::size_t headline = page.find("id=\"headline\""), first = page.find("id=\"first\""), links = page.find("<nav"), sections = page.find("<section id=\"modifications\">");
+  const std::size_t headline = page.find("id=\"headline\""), first = page.find("id=\"first\""), links = page.find("<nav"),
+                    sections = page.find("<section id=\"modifications\">");
   CHECK((headline < first && first < links && links < sections && sections != std::string::npos));
 }
 
@@ -182,8 +181,7 @@ TEST_CASE("A report survives sections that are missing, empty or of another shap
     Json less = full;
     less.erase(item.key());
     CHECK_NOTHROW(render_report(less));
-    for (const Json& odd : {Json(), Json::array(), Json::object(), Json(3.5), Json("text"), Json({1, "a", nullptr}),
-                            Json({{"cycle", 1}})}) {
+    for (const Json& odd : {Json(), Json::array(), Json::object(), Json(3.5), Json("text"), Json({1, "a", nullptr}), Json({{"cycle", 1}})}) {
       less[item.key()] = odd;
       CHECK_NOTHROW(render_report(less));
     }
@@ -227,8 +225,8 @@ TEST_CASE("The page has derivatives where some were asked for, those of the summ
   const auto sections_of = [&] { return section_ids(render_report(results)); };
   const auto has_gradients = [](const auto& ids) { return std::ranges::find(ids, "gradients") != ids.end(); };
   CHECK_FALSE(has_gradients(sections_of()));
-  results["loaded"][0]["gradients"] = {{"parameters", {"load.torque"}}, {"units", {"N·m"}}, {"summary", {{"te_mean_um", {0.125}}}},
-                                       {"cycle", {1, 2, 3}}, {"shafts", {4}}};
+  results["loaded"][0]["gradients"] = {
+      {"parameters", {"load.torque"}}, {"units", {"N·m"}}, {"summary", {{"te_mean_um", {0.125}}}}, {"cycle", {1, 2, 3}}, {"shafts", {4}}};
   CHECK(has_gradients(sections_of()));
   const Json seen = report_view(results)["loaded"][0]["gradients"];
   CHECK(seen["summary"]["te_mean_um"] == Json::array({0.125}));

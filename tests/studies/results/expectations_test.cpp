@@ -67,8 +67,8 @@ TEST_CASE("Without an index every entry of a list must meet it, with one that en
 }
 
 TEST_CASE("A value that is missing, null or no number does not meet an expectation", "[studies][expect]") {
-  const std::string key = GENERATE("a.c", "nowhere", "a.nothing", "a.text", "a", "loaded.7.summary.te", "empty.x",
-                                   "a.b.c", "a.list.99999999999999999999", "");
+  const std::string key =
+      GENERATE("a.c", "nowhere", "a.nothing", "a.text", "a", "loaded.7.summary.te", "empty.x", "a.b.c", "a.list.99999999999999999999", "");
   CAPTURE(key);
   const std::vector<Comparison> comparisons = compare({range(key, -INFINITY, INFINITY)}, expected_results);
   CHECK_FALSE(comparisons.empty());
@@ -92,8 +92,7 @@ TEST_CASE("A text or a truth value is met by itself only", "[studies][expect]") 
 }
 
 TEST_CASE("The table of differences names key, wanted and found, and only what differs", "[studies][expect]") {
-  const std::string table =
-      differences(compare({value("a.b", 2.0), value("a.b", 3.0, 0.02), range("a.c", 1.0, 2.0)}, expected_results));
+  const std::string table = differences(compare({value("a.b", 2.0), value("a.b", 3.0, 0.02), range("a.c", 1.0, 2.0)}, expected_results));
   CHECK(table == "  a.b: expected 3 within 2 %, found 2\n  a.c: expected at least 1, at most 2, found nothing\n");
   CHECK(differences({}).empty());
 }

@@ -34,11 +34,30 @@ quadrature = { rule = "gauss2", intervals = 4 }
 
 /// Numbers that no parameter moves by a derivative: places and counts, what a solver says of itself, what geometry and errors alone decide.
 bool has_no_derivative(const std::string& key) {
-  static const std::set<std::string> keys{
-      "torque_Nm", "phase", "tooth", "z_mm", "pinion_radius_mm", "wheel_radius_mm", "length_mm", "along_fillet",             // where
-      "kkt_residual", "condition", "iterations", "worst_kkt_residual", "worst_condition", "positions", "phase_tolerance",    // how well
-      "harmonic_change_um", "peak_to_peak_change_um", "line_share", "end_distance_mm",                                       // how finely
-      "c_prime", "c_gamma", "K_Halpha_limit", "f_pe_um", "y_alpha_um"};                                                      // ISO's own
+  static const std::set<std::string> keys{"torque_Nm",
+                                          "phase",
+                                          "tooth",
+                                          "z_mm",
+                                          "pinion_radius_mm",
+                                          "wheel_radius_mm",
+                                          "length_mm",
+                                          "along_fillet",  // where
+                                          "kkt_residual",
+                                          "condition",
+                                          "iterations",
+                                          "worst_kkt_residual",
+                                          "worst_condition",
+                                          "positions",
+                                          "phase_tolerance",  // how well
+                                          "harmonic_change_um",
+                                          "peak_to_peak_change_um",
+                                          "line_share",
+                                          "end_distance_mm",  // how finely
+                                          "c_prime",
+                                          "c_gamma",
+                                          "K_Halpha_limit",
+                                          "f_pe_um",
+                                          "y_alpha_um"};                      // ISO's own
   return keys.contains(key) || key.ends_with("_error") || key == "extremes";  // what the calculation says of itself; where extremes lie
 }
 
@@ -172,15 +191,18 @@ torque_position = 0
   };
   const std::vector<std::tuple<std::string, double, double>> keys{
       {"misalignment.mesh_misalignment", 4, 0.01}, {"misalignment.axial_offset", 0.05, 0.0005}, {"load.torque", 300, 0.05}};
-  const json here = run_at("load.torque", 300, {{"analyse.gradients", R"(["misalignment.mesh_misalignment", "misalignment.axial_offset", "load.torque"])"}});
+  const json here =
+      run_at("load.torque", 300, {{"analyse.gradients", R"(["misalignment.mesh_misalignment", "misalignment.axial_offset", "load.torque"])"}});
   for (std::size_t p = 0; p < keys.size(); ++p) {
     const auto& [key, value, step] = keys[p];
     const json up = run_at(key, value + step), down = run_at(key, value - step);
-    for (const char* place : {"/shafts/3/pinion/displacement_um", "/shafts/3/pinion/misalignment_um", "/shafts/3/mesh_misalignment_um", "/summary/shaft_misalignment_um"}) {
+    for (const char* place : {"/shafts/3/pinion/displacement_um", "/shafts/3/pinion/misalignment_um", "/shafts/3/mesh_misalignment_um",
+                              "/summary/shaft_misalignment_um"}) {
       CAPTURE(key, place);
       const json::json_pointer at(place);
       const double difference = (up.at(at).get<double>() - down.at(at).get<double>()) / (2 * step);
-      CHECK(std::abs(here.at("gradients").at(at).at(p).get<double>() - difference) <= kDifference * (std::abs(difference) + 0.1 * std::abs(here.at(at).get<double>()) / value));
+      CHECK(std::abs(here.at("gradients").at(at).at(p).get<double>() - difference) <=
+            kDifference * (std::abs(difference) + 0.1 * std::abs(here.at(at).get<double>()) / value));
     }
     CHECK(here.at("gradients").at("shafts").at(3).at("wheel").is_null());
   }
@@ -201,7 +223,8 @@ TEST_CASE("Located peaks and load factors have their derivatives", "[studies][gr
   };
   const json here = at(0), up = at(1), down = at(-1);
   std::vector<Differentiated> outputs;
-  for (const char* of : {"peaks", "load_factors"}) pair_up(here.at("summary").at(of), here.at("gradients").at("summary").at(of), std::string("/summary/") + of, outputs);
+  for (const char* of : {"peaks", "load_factors"})
+    pair_up(here.at("summary").at(of), here.at("gradients").at("summary").at(of), std::string("/summary/") + of, outputs);
   CHECK(outputs.size() == 16);
   for (const Differentiated& output : outputs) {
     const auto read = [&](const json& result) { return result.at(json::json_pointer(output.place)).get<double>(); };

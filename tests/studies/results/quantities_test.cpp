@@ -74,7 +74,8 @@ TEST_CASE("Every quantity can be expected, is drawn in the report and has a name
   CHECK(find_cycle_entry("te_harmonic_11").quantity == nullptr);
 }
 
-TEST_CASE("A sweep has every entry that its nominal sample has a number for, and the table of a run every heading", "[studies][results][quantities]") {
+TEST_CASE("A sweep has every entry that its nominal sample has a number for, and the table of a run every heading",
+          "[studies][results][quantities]") {
   const StudyResults nominal = run_study(parse_study(small::sweep("samples = 24"), "sweep.toml"));
   const SampleAnalysis analysis(nominal);
   const auto has = [&](const std::string& name) {
@@ -89,7 +90,8 @@ TEST_CASE("A sweep has every entry that its nominal sample has a number for, and
   }
 }
 
-TEST_CASE("Every output that can be minimised is a word of the study file, and where it is a quantity has its name and unit", "[studies][results][quantities]") {
+TEST_CASE("Every output that can be minimised is a word of the study file, and where it is a quantity has its name and unit",
+          "[studies][results][quantities]") {
   for (const std::string& name : term_names()) {
     INFO(name);
     const auto found = find_output(name);

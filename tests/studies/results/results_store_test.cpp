@@ -60,15 +60,13 @@ TEST_CASE("The store of an optimisation agrees with the results", "[studies][res
   CHECK(query(file, "SELECT value FROM run WHERE key IN ('task', 'file', 'solver', 'status', 'over') ORDER BY key") ==
         std::vector<Row>{{"small.toml"}, {"worst"}, {"nlopt:slsqp"}, {to_string(design.status)}, {"optimise"}});
   CHECK(number(file, "SELECT value FROM run WHERE key = 'evaluations'") == design.evaluations);
-  CHECK(number(file, "SELECT value FROM run WHERE key = 'objective_after'") ==
-        Approx(design.after.objective).epsilon(1e-14));
+  CHECK(number(file, "SELECT value FROM run WHERE key = 'objective_after'") == Approx(design.after.objective).epsilon(1e-14));
 
   // Units of the report: um for amounts, mm for extents, N·m for torques. Tolerances are SQLite's 15 digits.
   constexpr double round_off = 1e-14;
   CHECK(query(file, "SELECT unit, lower, upper FROM variables WHERE path = 'pinion.modification.lead_slope'") ==
         std::vector<Row>{{"um", "-20.0", "20.0"}});
-  CHECK(query(file, "SELECT unit, lower, upper FROM variables WHERE path LIKE '%length'") ==
-        std::vector<Row>{{"mm", "5.0", "30.0"}});
+  CHECK(query(file, "SELECT unit, lower, upper FROM variables WHERE path LIKE '%length'") == std::vector<Row>{{"mm", "5.0", "30.0"}});
   for (const DesignVariable& v : results.design_task->variables) {
     const auto i = static_cast<std::size_t>(&v - results.design_task->variables.data());
     const std::string where = " FROM variables WHERE path = '" + v.path + "'";
@@ -76,15 +74,13 @@ TEST_CASE("The store of an optimisation agrees with the results", "[studies][res
     CHECK(number(file, "SELECT before" + where) == Approx(factor * design.before.variables[i]).epsilon(round_off));
     CHECK(number(file, "SELECT after" + where) == Approx(factor * design.after.variables[i]).epsilon(round_off));
   }
-  CHECK(
-      query(file, "SELECT name, torque_Nm, weight FROM scenes") ==
-      std::vector<Row>{{"aligned", "1014.868", "1.0"}, {"bent", "1014.868", "2.0"}, {"bent back", "1014.868", "1.0"}});
+  CHECK(query(file, "SELECT name, torque_Nm, weight FROM scenes") ==
+        std::vector<Row>{{"aligned", "1014.868", "1.0"}, {"bent", "1014.868", "2.0"}, {"bent back", "1014.868", "1.0"}});
   CHECK(number(file, "SELECT max(after) FROM scenes") == Approx(design.after.objective).epsilon(round_off));
   CHECK(number(file, "SELECT count(*) FROM history") == static_cast<double>(design.history.size()));
   // The search's own view, by half the intervals and then at the positions: discretisation.
   CHECK(number(file, "SELECT min(objective) FROM history WHERE constraint_violation <= 1e-6") == Approx(design.after.objective).epsilon(0.05));
-  CHECK(query(file, "SELECT name, unit, minimum, maximum FROM constraints") ==
-        std::vector<Row>{{"te_peak_to_peak", "um", "NULL", "5.0"}});
+  CHECK(query(file, "SELECT name, unit, minimum, maximum FROM constraints") == std::vector<Row>{{"te_peak_to_peak", "um", "NULL", "5.0"}});
 }
 
 TEST_CASE("Least values and sums of modifications are among the constraints", "[studies][results][store]") {
@@ -93,15 +89,17 @@ TEST_CASE("Least values and sums of modifications are among the constraints", "[
   const StudyResults results = run_study(parse_study(small::optimisation() + R"(
 effective_contact_ratio = { min = 1.5 }
 "pinion.modification.lead_crowning + pinion.modification.end_relief.amount" = { min = 1, max = 30 }
-)", "small.toml"));
+)",
+                                                     "small.toml"));
   write_results_store(file, results);
   CHECK(query(file, "SELECT name, unit, minimum, maximum FROM constraints ORDER BY rowid") ==
         std::vector<Row>{{"effective_contact_ratio", "1", "1.5", "NULL"},
                          {"te_peak_to_peak", "um", "NULL", "5.0"},
                          {"pinion.modification.lead_crowning + pinion.modification.end_relief.amount", "um", "1.0", "30.0"}});
   constexpr double round_off = 1e-12;
-  CHECK(number(file, "SELECT after FROM constraints WHERE maximum = 30") ==
-        Approx(number(file, "SELECT sum(after) FROM variables WHERE path LIKE '%lead_crowning' OR path LIKE '%end_relief.amount'")).epsilon(round_off));
+  CHECK(
+      number(file, "SELECT after FROM constraints WHERE maximum = 30") ==
+      Approx(number(file, "SELECT sum(after) FROM variables WHERE path LIKE '%lead_crowning' OR path LIKE '%end_relief.amount'")).epsilon(round_off));
 }
 
 TEST_CASE("Texts with quotes and numbers that were not computed survive the store", "[studies][results][store]") {

@@ -76,8 +76,7 @@ TEST_CASE("CSV tables read back whole, whatever a scene is called", "[studies][t
   // One line for each position of both scenes, and for each contact point of them.
   CHECK(tables.at("cycle.csv").size() == 1 + 2 * 6);
   std::size_t points = 0;
-  for (const LoadedPosition& position : results.loaded[0].cycle.positions)
-    points += static_cast<std::size_t>(position.contact_stress.size());
+  for (const LoadedPosition& position : results.loaded[0].cycle.positions) points += static_cast<std::size_t>(position.contact_stress.size());
   CHECK(tables.at("points.csv").size() == 1 + 2 * points);
   // Load distribution factors three ways.
   CHECK(tables.at("load_factors.csv").size() == 1 + 2 * 3);
@@ -95,8 +94,7 @@ TEST_CASE("CSV numbers carry every digit", "[studies][tables]") {
   const StudyResults results = run_study(parse_study(small::analysis(), "small.toml"));
   const auto tables = tables_of(results);
   const Row& header = tables.at("points.csv").front();
-  const auto column =
-      static_cast<std::size_t>(std::find(header.begin(), header.end(), "contact_stress_MPa") - header.begin());
+  const auto column = static_cast<std::size_t>(std::find(header.begin(), header.end(), "contact_stress_MPa") - header.begin());
   REQUIRE(column < header.size());
   double peak = 0.0;
   for (std::size_t i = 1; i < tables.at("points.csv").size(); ++i) {
@@ -115,8 +113,7 @@ TEST_CASE("An optimisation adds the tables of its scenes and its history", "[stu
   CHECK(tables.at("history.csv").size() == 1 + results.design->history.size());
   CHECK(std::stod(tables.at("scenes.csv")[2][4]) == results.design->after.scene_measures[1]);
   const std::string summary = summary_table(results);
-  for (const char* said : {"pinion lead crowning", "bent back", "over the scenes",
-                           "peak-to-peak TE <= 5 um", "nlopt:slsqp: converged", "known to"}) {
+  for (const char* said : {"pinion lead crowning", "bent back", "over the scenes", "peak-to-peak TE <= 5 um", "nlopt:slsqp: converged", "known to"}) {
     CHECK_THAT(summary, Catch::Contains(said));
   }
 }

@@ -88,8 +88,7 @@ TEST_CASE("The pairs that carry are the mesh's curve, at every position some pai
   }
 }
 
-TEST_CASE("At a transfer point the pair that enters is the faster one, and the slopes are those of the curves",
-          "[studies][results][physics]") {
+TEST_CASE("At a transfer point the pair that enters is the faster one, and the slopes are those of the curves", "[studies][results][physics]") {
   const json results = results_of(parabola_study);
   for (const json& unloaded : results["unloaded_scenes"]) {
     for (const json& transfer : unloaded["mesh"]["transfers"]) {
@@ -159,8 +158,7 @@ TEST_CASE("A sequence names each kind once for every time it is met", "[studies]
   CHECK(results["unloaded_scenes"][0]["carrying_sequence"] == "surface");
 }
 
-TEST_CASE("A designed parabola is judged in every scene; where it does not hold is a note, not a requirement",
-          "[studies][results][physics]") {
+TEST_CASE("A designed parabola is judged in every scene; where it does not hold is a note, not a requirement", "[studies][results][physics]") {
   const StudyResults results = run_study(parse_study(parabola_study, "parabola.toml"));
   CHECK(results.requirements.empty());
   const json found = json::parse(results_json(results));
@@ -174,8 +172,7 @@ TEST_CASE("A designed parabola is judged in every scene; where it does not hold 
   CHECK(check(1)["found_arcsec_per_deg2"].get<double>() == Approx(0.1).epsilon(0.01));  // model: second order in the misalignment
   CHECK(check(2)["holds"] == false);
   REQUIRE(found["notes"].size() == 1);
-  CHECK_THAT(found["notes"][0].get<std::string>(),
-             Catch::Contains("\"beyond\"") && Catch::Contains(check(2)["why"].get<std::string>()));
+  CHECK_THAT(found["notes"][0].get<std::string>(), Catch::Contains("\"beyond\"") && Catch::Contains(check(2)["why"].get<std::string>()));
   const std::string summary = summary_table(results);
   CHECK_THAT(summary, Catch::Contains("parabola holds") && Catch::Contains("parabola does not hold: "));
 
@@ -214,16 +211,14 @@ TEST_CASE("A thicker marking compound marks more of both flanks", "[studies][res
   }
 }
 
-TEST_CASE("A flank that is too thin everywhere shifts the transmission error and changes nothing else",
-          "[studies][results][physics][grid][slow]") {
+TEST_CASE("A flank that is too thin everywhere shifts the transmission error and changes nothing else", "[studies][results][physics][grid][slow]") {
   const json nominal = results_of(small::analysis()), thin = run_with_thin_pinion(small::analysis());
   const double base_helix = nominal["geometry"]["base_helix_angle_deg"].get<double>() * units::deg;
   // Unloaded: the involute turned by 10 um/(r_b1 cos(beta_b)); a grid of equal numbers is that exactly.
   constexpr double round_off = 1e-6;  // um, angles of some degrees on 160 mm
   const json& te = nominal["unloaded"]["mesh"]["te_um"];
   for (std::size_t i = 0; i < te.size(); ++i) {
-    CHECK(thin["unloaded"]["mesh"]["te_um"][i].get<double>() ==
-          Approx(te[i].get<double>() - 10.0 / std::cos(base_helix)).margin(round_off));
+    CHECK(thin["unloaded"]["mesh"]["te_um"][i].get<double>() == Approx(te[i].get<double>() - 10.0 / std::cos(base_helix)).margin(round_off));
   }
   // Under load the wheel lags by 10 um more along the normal, with the same loads.
   REQUIRE(thin["loaded"].size() == nominal["loaded"].size());
@@ -258,16 +253,16 @@ TEST_CASE("A flank that is too thin everywhere shifts the transmission error and
 TEST_CASE("A crowned generation concentrates the load", "[studies][results][physics][slow]") {
   double last = 0.0;
   for (const char* coefficient : {"0", "0.0002", "0.0005"}) {
-    const json results = results_of(small::analysis(), {{"pinion.generation.kind", "parabolic_rack"},
-                                                 {"pinion.generation.coefficient", coefficient}});
+    const json results =
+        results_of(small::analysis(), {{"pinion.generation.kind", "parabolic_rack"}, {"pinion.generation.coefficient", coefficient}});
     const double stress = results["loaded"][0]["summary"]["peak_contact_stress_MPa"];
     CHECK(stress > last);
     last = stress;
   }
   // What the tool removes belongs to the map of the flank, as modifications do.
   const json map = results_of(parabola_study, {{"pinion.modification.lead_crowning", "0"},
-                                        {"pinion.modification.parabolic_te", "0"},
-                                        {"pinion.generation", "{ kind = \"parabolic_rack\", coefficient = 0.001 }"}});
+                                               {"pinion.modification.parabolic_te", "0"},
+                                               {"pinion.generation", "{ kind = \"parabolic_rack\", coefficient = 0.001 }"}});
   REQUIRE(map["modifications"].size() == 1);
   CHECK(map["modifications"][0]["removal_um"].back().back() > 1.0);
 }

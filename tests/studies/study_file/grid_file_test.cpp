@@ -37,8 +37,7 @@ void check_small(const MeasuredGrid& grid) {
   REQUIRE(grid.deviation.cols() == 3);
   constexpr double round_off = 1e-18;  // um to mm
   const std::array<double, 6> um{-1.0, 0.0, 2.0, 3.5, 4.0, -50.0};
-  for (int i = 0; i < 6; ++i)
-    CHECK(std::abs(grid.deviation(i / 3, i % 3) - 1e-3 * um[static_cast<std::size_t>(i)]) <= round_off);
+  for (int i = 0; i < 6; ++i) CHECK(std::abs(grid.deviation(i / 3, i % 3) - 1e-3 * um[static_cast<std::size_t>(i)]) <= round_off);
 }
 
 const std::vector<std::string> small_rows{"50,-10,-1", "50,0,0", "50,10,2", "52.5,-10,3.5", "52.5,0,4", "52.5,10,-50"};
@@ -64,13 +63,16 @@ TEST_CASE("A grid file is read whatever its order, separator, comments and line 
 }
 
 TEST_CASE("Tables of measuring programs and spreadsheets are read as they are", "[studies][grid-file]") {
-  const std::string rows = "50,0;-10,0;-1,0\n50;0;0\n50;10;2\n52,5;-10;3,5\n52,5;0;4\n52,5;10;\xe2\x88\x92" "50\n";
+  const std::string rows =
+      "50,0;-10,0;-1,0\n50;0;0\n50;10;2\n52,5;-10;3,5\n52,5;0;4\n52,5;10;\xe2\x88\x92"
+      "50\n";
   // Decimal comma with semicolons; names and units however they are written.
   check_small(parse_grid("Radius [mm];Z (mm);Abweichung/\xc2\xb5m\n" + rows, "a"));
   check_small(parse_grid("sep=;\r\nr;z;dev\r\nmm;mm;\xc2\xb5m\r\n" + rows, "b"));
   check_small(parse_grid("% exported\n// twice\nr;z;dev\n" + rows, "c"));
   // Quoted cells with commas inside.
-  check_small(parse_grid("\"radius_mm\",\"z_mm\",\"deviation_um\"\n\"50,0\",-10,-1\n50,0,0\n50,10,2\n\"52,5\",-10,\"3,5\"\n52.5,0,4\n52.5,10,-50\n", "d"));
+  check_small(
+      parse_grid("\"radius_mm\",\"z_mm\",\"deviation_um\"\n\"50,0\",-10,-1\n50,0,0\n50,10,2\n\"52,5\",-10,\"3,5\"\n52.5,0,4\n52.5,10,-50\n", "d"));
   // Diameters, other units, removal instead of metal added, lines of an old Macintosh.
   check_small(parse_grid("d;z;removal_mm\r100;-10;0,001\r100;0;0\r100;10;-0,002\r105;-10;-0,0035\r105;0;-0,004\r105;10;0,05", "e"));
   const double inch = 25.4;
@@ -97,8 +99,7 @@ TEST_CASE("The order of the rows changes no bit", "[studies][grid-file][determin
 TEST_CASE("A mistake in a grid file is reported in one line with its position", "[studies][grid-file][errors]") {
   const std::string names = "allowed is once each, radius_mm (or diameter_mm), z_mm, deviation_um (or removal_um)";
   const std::string number = "allowed is a number -1000 .. 1000";
-  CHECK(refusal("") ==
-        "flank.csv: file = without content: allowed is a line of column names, then a line for each point");
+  CHECK(refusal("") == "flank.csv: file = without content: allowed is a line of column names, then a line for each point");
   CHECK(refusal("# only this\n") == refusal(""));
   CHECK(refusal("radius_mm,y,deviation_um\n") == "flank.csv:1:11: column = y: " + names);
   CHECK(refusal("radius_mm,z_kg,deviation_um\n") == "flank.csv:1:11: column = z_kg: " + names);
@@ -118,27 +119,23 @@ TEST_CASE("A mistake in a grid file is reported in one line with its position", 
         "flank.csv:2:1: line = 50,5,-10,1,5: allowed is 3 numbers with the separator of the first line (a comma, so no decimal commas)");
   CHECK(refusal("\xff\xfer\0") == "flank.csv:1:1: file = in UTF-16: allowed is a text in UTF-8");
   CHECK(refusal(header + "mm,mm,um\n") == "flank.csv:2:1: unit = mm: allowed is one unit: the header has it already");
-  CHECK(refusal(header + "5e4,-10,1\n") ==
-        "flank.csv:2:1: radius = 5e4: allowed is a number -10000 .. 10000");
+  CHECK(refusal(header + "5e4,-10,1\n") == "flank.csv:2:1: radius = 5e4: allowed is a number -10000 .. 10000");
   CHECK(refusal("deviation_um,z_mm,diameter_mm\n1,0,5e4\n") == "flank.csv:2:5: radius = 5e4: allowed is a number -20000 .. 20000");
   CHECK(refusal("deviation_um,z_mm,radius_mm\n2e3,0,50\n") == "flank.csv:2:1: deviation = 2e3: " + number);
   CHECK(refusal(header + joined(small_rows) + "50,0,0\n") ==
         "flank.csv:8:1: point = radius_mm 50, z_mm 0: allowed is each point once; line 3 has this one");
   CHECK(refusal(header) == "flank.csv: grid = 0 radii with 0 axial positions: allowed is at least 2 x 2");
-  CHECK(refusal(header + "50,0,0\n50,1,0\n") ==
-        "flank.csv: grid = 1 radii with 2 axial positions: allowed is at least 2 x 2");
+  CHECK(refusal(header + "50,0,0\n50,1,0\n") == "flank.csv: grid = 1 radii with 2 axial positions: allowed is at least 2 x 2");
   CHECK(refusal(header + std::string(500, 'x') + "\n").size() < 200);
 }
 
 TEST_CASE("A point that is missing is named, wherever it is", "[studies][grid-file][errors]") {
-  const std::array<std::string, 6> missing{"radius_mm 50, z_mm -10", "radius_mm 50, z_mm 0",
-                                           "radius_mm 50, z_mm 10",  "radius_mm 52.5, z_mm -10",
-                                           "radius_mm 52.5, z_mm 0", "radius_mm 52.5, z_mm 10"};
+  const std::array<std::string, 6> missing{"radius_mm 50, z_mm -10",   "radius_mm 50, z_mm 0",   "radius_mm 50, z_mm 10",
+                                           "radius_mm 52.5, z_mm -10", "radius_mm 52.5, z_mm 0", "radius_mm 52.5, z_mm 10"};
   for (std::size_t i = 0; i < missing.size(); ++i) {
     std::vector<std::string> rows = small_rows;
     rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(i));
-    CHECK_THAT(refusal(header + joined(rows)),
-               Catch::Contains(": point = none at " + missing[i] + ": allowed is every radius"));
+    CHECK_THAT(refusal(header + joined(rows)), Catch::Contains(": point = none at " + missing[i] + ": allowed is every radius"));
   }
   // A radius that is not written alike is one more radius.
   std::vector<std::string> rows = small_rows;
@@ -148,15 +145,13 @@ TEST_CASE("A point that is missing is named, wherever it is", "[studies][grid-fi
 
 TEST_CASE("A grid file that cannot be read is one clear line", "[studies][grid-file][errors]") {
   CHECK_THROWS_WITH(read_grid("no/such/grid.csv"), "no/such/grid.csv: the file cannot be read");
-  CHECK_THROWS_WITH(read_grid(std::filesystem::temp_directory_path().string()),
-                    Catch::EndsWith(": the file cannot be read"));
+  CHECK_THROWS_WITH(read_grid(std::filesystem::temp_directory_path().string()), Catch::EndsWith(": the file cannot be read"));
 }
 
 TEST_CASE("No damage to a grid file makes the reader fail otherwise than with errors", "[studies][grid-file][fuzz]") {
   std::mt19937 random(20261121);
   const auto below = [&random](std::size_t n) { return static_cast<std::size_t>(random() % n); };
-  const std::vector<std::string> pieces{",",     ";",   "\t", "\n",           "\r",   "#",   "-",
-                                        "1e308", "nan", "0",  "\xef\xbb\xbf", "\xc3", "z_mm"};
+  const std::vector<std::string> pieces{",", ";", "\t", "\n", "\r", "#", "-", "1e308", "nan", "0", "\xef\xbb\xbf", "\xc3", "z_mm"};
   int valid = 0;
   for (int run = 0; run < 3000; ++run) {
     std::string text = header + joined(small_rows);
@@ -178,9 +173,7 @@ TEST_CASE("No damage to a grid file makes the reader fail otherwise than with er
 TEST_CASE("The example grids agree with their formulas", "[studies][grid-file][examples]") {
   const auto beyond = [](double x, double start) { return std::pow(std::max(0.0, x / start - 1.0), 2); };
   const auto longitudinal = [&](double, double z) { return -50.0 * beyond(std::abs(z), 23.0); };
-  const auto three_dimensional = [&](double r, double z) {
-    return -25.0 * (beyond(std::abs(z), 23.0) + beyond(std::abs(r - 57.20165), 2.406775));
-  };
+  const auto three_dimensional = [&](double r, double z) { return -25.0 * (beyond(std::abs(z), 23.0) + beyond(std::abs(r - 57.20165), 2.406775)); };
   const auto one_sided = [](double, double z) { return -50.0 * std::pow((z + 23.0) / 69.0, 2); };
   const auto check = [](const std::string& name, const auto& formula) {
     const MeasuredGrid grid = read_grid(FLANKWRIGHT_SOURCE_DIR "/studies/examples/grids/17-44-" + name + ".csv");

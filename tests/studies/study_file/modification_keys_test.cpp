@@ -62,7 +62,8 @@ TEST_CASE("Every modification parameter may be a design variable, in the unit of
     }
     const std::string path = "pinion.modification." + std::string(d.key);
     const Study study = parse_study("task = \"optimise\"\n" + small_study + "[load]\ntorque = 100\n[pinion.modification]\n" + beside +
-                             "[optimise.variables]\n\"" + path + "\" = [0.25, 0.7]\n", "small.toml");
+                                        "[optimise.variables]\n\"" + path + "\" = [0.25, 0.7]\n",
+                                    "small.toml");
     REQUIRE(study.optimise.variables.size() == 1);
     const DesignVariable& v = study.optimise.variables.front();
     CHECK(v.path == path);

@@ -24,8 +24,7 @@ constexpr double file_round_off = 1e-14;  // relative: one or two rounded factor
 
 }  // namespace
 
-TEST_CASE("Bare numbers have the documented units and everything inside is mm, N mm, rad, MPa",
-          "[studies][study-file]") {
+TEST_CASE("Bare numbers have the documented units and everything inside is mm, N mm, rad, MPa", "[studies][study-file]") {
   const Study study = read(R"([pinion.modification]
 lead_crowning = 8
 tip_relief = { amount = 10, height = 2.5, shape = "parabolic" }
@@ -78,8 +77,7 @@ TEST_CASE("A study without a key has the defaults of the data types", "[studies]
 TEST_CASE("A diametral pitch P is the module 25.4 mm / P", "[studies][study-file]") {
   const std::string text = replaced(small_study, "normal_module = 4", "normal_diametral_pitch = 5");
   CHECK(parse_study(text, "inch.toml").pair.normal_module == Approx(5.08).epsilon(file_round_off));
-  const auto both =
-      problems_of(replaced(small_study, "normal_module = 4", "normal_module = 5.08\nnormal_diametral_pitch = 5"));
+  const auto both = problems_of(replaced(small_study, "normal_module = 4", "normal_module = 5.08\nnormal_diametral_pitch = 5"));
   REQUIRE(both.size() == 1);
   CHECK(both.front().key == "pair.normal_diametral_pitch");
   CHECK(both.front().line == 4);
@@ -99,8 +97,7 @@ TEST_CASE("Profile crowning sets both halves, and giving a half as well is refus
   CHECK(study.modification.wheel.addendum_crowning == Approx(0.006).epsilon(file_round_off));
   CHECK(study.modification.wheel.dedendum_crowning == Approx(0.006).epsilon(file_round_off));
   CHECK(read("[wheel.modification]\naddendum_crowning = 5\n").modification.wheel.dedendum_crowning == 0.0);
-  CHECK(problem_of("[wheel.modification]\nprofile_crowning = 6\ndedendum_crowning = 2\n").key ==
-        "wheel.modification.dedendum_crowning");
+  CHECK(problem_of("[wheel.modification]\nprofile_crowning = 6\ndedendum_crowning = 2\n").key == "wheel.modification.dedendum_crowning");
 }
 
 TEST_CASE("A pitch error is a step for every tooth, or a list with one entry a tooth", "[studies][study-file]") {
@@ -213,15 +210,13 @@ unloaded.mesh.peak_to_peak_arcsec = { max = 5 }
   CHECK(study.expect[2].maximum == 5.0);
 
   const std::string entry =
-      GENERATE("{}", "{ value = 1 }", "{ within = 1 }", "{ value = 1, max = 2 }", "{ min = 2, max = 1 }",
-               "{ value = 1, within = \"2\" }", "{ value = 0, within = \"2 %\" }", "{ value = 1, within = -1 }",
-               "{ maximum = 1 }", "3", "{ max = nan }");
+      GENERATE("{}", "{ value = 1 }", "{ within = 1 }", "{ value = 1, max = 2 }", "{ min = 2, max = 1 }", "{ value = 1, within = \"2\" }",
+               "{ value = 0, within = \"2 %\" }", "{ value = 1, within = -1 }", "{ maximum = 1 }", "3", "{ max = nan }");
   CHECK_THAT(problem_of("[expect]\n\"a.b\" = " + entry + "\n").key, Catch::StartsWith("expect.a.b"));
 }
 
 TEST_CASE("The bounds of a range belong to it in every unit", "[studies][study-file]") {
-  for (const std::string angle :
-       {"45", "\"45 deg\"", "\"2700 arcmin\"", "\"162000 arcsec\"", "\"0.78539816339744830962 rad\""}) {
+  for (const std::string angle : {"45", "\"45 deg\"", "\"2700 arcmin\"", "\"162000 arcsec\"", "\"0.78539816339744830962 rad\""}) {
     CAPTURE(angle);
     CHECK(read("", {{"pair.helix_angle", angle}}).pair.helix_angle == 45 * units::deg);
   }

@@ -66,16 +66,13 @@ const std::string grid_table = "[pinion.modification]\ngrid = \"flank.csv\"\n";
 
 }  // namespace
 
-TEST_CASE("The predesigned parabola is read in arcsec per square degree or 1/rad, for either gear, and may be a variable",
-          "[studies][study-file]") {
+TEST_CASE("The predesigned parabola is read in arcsec per square degree or 1/rad, for either gear, and may be a variable", "[studies][study-file]") {
   // 1 arcsec/deg^2 = (pi/648000) / (pi/180)^2 rad^-1 = 1/(20 pi) rad^-1.
   const double one = 1.0 / (20.0 * std::acos(-1.0));
-  CHECK(read("[pinion.modification]\nparabolic_te = 0.3\n").modification.pinion.parabolic_te ==
-        Approx(0.3 * one).epsilon(flanks_round_off));
+  CHECK(read("[pinion.modification]\nparabolic_te = 0.3\n").modification.pinion.parabolic_te == Approx(0.3 * one).epsilon(flanks_round_off));
   CHECK(read("[wheel.modification]\nparabolic_te = \"0.3 arcsec/deg²\"\n").modification.wheel.parabolic_te ==
         Approx(0.3 * one).epsilon(flanks_round_off));
-  CHECK(read("", {{"pinion.modification.parabolic_te", "0.01 1/rad"}}).modification.pinion.parabolic_te ==
-        Approx(0.01).epsilon(flanks_round_off));
+  CHECK(read("", {{"pinion.modification.parabolic_te", "0.01 1/rad"}}).modification.pinion.parabolic_te == Approx(0.01).epsilon(flanks_round_off));
   CHECK(read().modification.pinion.parabolic_te == 0.0);
   CHECK_THAT(problem_of("[pinion.modification]\nparabolic_te = \"3 um\"\n").allowed, Catch::Contains("arcsec/deg^2, 1/rad"));
 
@@ -137,15 +134,14 @@ TEST_CASE("An invalid generation is refused at its position, with the allowed ki
       Row{"generation = { kind = \"parabolic_rack\", coefficient = 0.001, half_apex = 80 }", "pinion.generation.half_apex",
           "allowed are kind, coefficient"},
       Row{"generation = { kind = \"rack\", coefficient = 0.001 }", "pinion.generation.coefficient", "allowed are kind"},
-      Row{"generation = { kind = \"parabolic_rack\", coeficient = 0.001, coefficient = 0.001 }",
-          "pinion.generation.coeficient", "did you mean coefficient?"},
+      Row{"generation = { kind = \"parabolic_rack\", coeficient = 0.001, coefficient = 0.001 }", "pinion.generation.coeficient",
+          "did you mean coefficient?"},
       Row{"generation = { kind = \"parabolic_rack\", coefficient = -0.001 }", "pinion.generation.coefficient", "0 .. 1000 1/mm"},
       Row{"generation = { kind = \"parabolic_rack\", coefficient = \"0.001 mm\" }", "pinion.generation.coefficient", "1/mm"},
       Row{"generation = { kind = \"parabolic_rack\", coefficient = 0.5 }", "pinion.generation.coefficient", "allowed is"},
       Row{"generation = { kind = \"revolution\", distance = 4 }", "pinion.generation.half_apex", "required"},
       Row{"generation = { kind = \"revolution\", half_apex = 90, distance = 4 }", "pinion.generation.half_apex", "below 90 deg"},
-      Row{"generation = { kind = \"revolution\", half_apex = 80, distance = 4, arc_radius = 0 }",
-          "pinion.generation.arc_radius", "above 0"},
+      Row{"generation = { kind = \"revolution\", half_apex = 80, distance = 4, arc_radius = 0 }", "pinion.generation.arc_radius", "above 0"},
       // The small study is helical.
       Row{"generation = { kind = \"revolution\", half_apex = 80, distance = 4 }", "pinion.generation.kind", "spur"},
   }));
@@ -215,8 +211,7 @@ TEST_CASE("A grid may be smoothed, and its distance from the points is reported"
   std::string rough = crowned_grid();
   rough.replace(rough.find("43,0,"), rough.find('\n', rough.find("43,0,")) - rough.find("43,0,"), "43,0,3");
   const GridCase grid(rough);
-  const Study study =
-      read_study(grid.study_path(grid_table + "grid_smoothing = { profile_pieces = 1, face_pieces = 2 }\n"));
+  const Study study = read_study(grid.study_path(grid_table + "grid_smoothing = { profile_pieces = 1, face_pieces = 2 }\n"));
   CHECK(study.grid.pinion.profile_pieces == 1);
   CHECK(study.grid.pinion.face_pieces == 2);
   CHECK(study.grid.pinion.largest > 1e-3);  // of the 3 um that stick out
@@ -227,8 +222,7 @@ TEST_CASE("A grid may be smoothed, and its distance from the points is reported"
   REQUIRE(problems.size() == 1);
   CHECK(problems.front().key == "pinion.modification.grid_smoothing.face_pieces");
   CHECK(problems.front().line == 15);
-  CHECK(problem_of("[pinion.modification]\ngrid_smoothing.face_pieces = 4\n").key ==
-        "pinion.modification.grid_smoothing.face_pieces");
+  CHECK(problem_of("[pinion.modification]\ngrid_smoothing.face_pieces = 4\n").key == "pinion.modification.grid_smoothing.face_pieces");
 }
 
 TEST_CASE("A mistake in a grid file is reported with the line of that file", "[studies][study-file][grid]") {
@@ -242,11 +236,9 @@ TEST_CASE("A mistake in a grid file is reported with the line of that file", "[s
   CHECK_THAT(to_string(problems.front()), Catch::StartsWith(grid.grid_path() + ":3:"));
 }
 
-TEST_CASE("A grid that cannot be read or is no flank of this gear is refused where the study names it",
-          "[studies][study-file][grid]") {
+TEST_CASE("A grid that cannot be read or is no flank of this gear is refused where the study names it", "[studies][study-file][grid]") {
   const StudyProblem missing = problem_of("[pinion.modification]\ngrid = \"nowhere.csv\"\n");
-  CHECK(to_string(missing) ==
-        "small.toml:14:1: pinion.modification.grid = \"nowhere.csv\": nowhere.csv: the file cannot be read");
+  CHECK(to_string(missing) == "small.toml:14:1: pinion.modification.grid = \"nowhere.csv\": nowhere.csv: the file cannot be read");
   CHECK(problem_of("[wheel.modification]\ngrid = 3\n").key == "wheel.modification.grid");
   CHECK(problem_of("[wheel.modification]\ngrid = \"\"\n").key == "wheel.modification.grid");
 

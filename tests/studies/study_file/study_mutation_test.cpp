@@ -93,11 +93,9 @@ TEST_CASE("No damage to a study file makes the reader fail otherwise than with e
 TEST_CASE("No value from the command line makes the reader fail otherwise than with errors", "[studies][fuzz]") {
   const std::string text = study_template("optimise");
   const std::string key =
-      GENERATE("", ".", "a..b", "pair", "pair.normal_module", "scenes", "scenes.0", "scenes.0.name.x", "scenes.99.name",
-               "optimise.variables", "optimise.objective.te_harmonic_1", "title.x", "\"", "a = 1\nb", "expect", "[x]",
-               "a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q.r.s");
-  const std::string value =
-      GENERATE("", "1", "-1", "nan", "{}", "[]", "[[[", "{ a = { b = 1 } }", "1\nb = 2", "\"", "'x'", "[0, 1]", "\xff");
+      GENERATE("", ".", "a..b", "pair", "pair.normal_module", "scenes", "scenes.0", "scenes.0.name.x", "scenes.99.name", "optimise.variables",
+               "optimise.objective.te_harmonic_1", "title.x", "\"", "a = 1\nb", "expect", "[x]", "a.b.c.d.e.f.g.h.i.j.k.l.m.n.o.p.q.r.s");
+  const std::string value = GENERATE("", "1", "-1", "nan", "{}", "[]", "[[[", "{ a = { b = 1 } }", "1\nb = 2", "\"", "'x'", "[0, 1]", "\xff");
   CAPTURE(key, value);
   read_anything(text, {{key, value}});
 }
@@ -121,8 +119,7 @@ TEST_CASE("Many dots in texts, comments and lists of numbers are no deep key", "
   std::string phases = "[0.5";
   for (int i = 0; i < 50; ++i) phases += ", 0.5";
   const Study study = parse_study("# " + dots + "\ntitle = \"" + dots + "\"\n[cycle]\nphases = " + phases + "]\n" +
-                                      "[pair]\nnormal_module = 4\n[pinion]\nteeth = 20\nface_width = 10\n" +
-                                      "[wheel]\nteeth = 30\nface_width = 10\n",
+                                      "[pair]\nnormal_module = 4\n[pinion]\nteeth = 20\nface_width = 10\n" + "[wheel]\nteeth = 30\nface_width = 10\n",
                                   "dots.toml");
   CHECK(study.title == dots);
   CHECK(study.cycle.phases.size() == 51);

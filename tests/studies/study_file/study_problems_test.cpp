@@ -37,25 +37,24 @@ TEST_CASE("An optimisation that cannot be run is refused with what to do", "[stu
       Row{"objective = \"peak_root_stres\"\n", "optimise.objective", "did you mean peak_root_stress"},
       Row{"objective = \"te_harmonic_11\"\n", "optimise.objective", "te_harmonic_1"},
       Row{"[optimise.variables]\n", "optimise.variables", "at least one variable"},
-      Row{"[optimise.variables]\npinion.modification.lead_crownin = [0, 1]\n",
-          "optimise.variables.pinion.modification.lead_crownin", "lead_crowning"},
-      Row{"[optimise.variables]\npinion.modification.lead_crowning = [3, 3]\n",
-          "optimise.variables.pinion.modification.lead_crowning", "low below high"},
+      Row{"[optimise.variables]\npinion.modification.lead_crownin = [0, 1]\n", "optimise.variables.pinion.modification.lead_crownin",
+          "lead_crowning"},
+      Row{"[optimise.variables]\npinion.modification.lead_crowning = [3, 3]\n", "optimise.variables.pinion.modification.lead_crowning",
+          "low below high"},
       Row{"[optimise.variables]\npinion.teeth = [5, 10]\n", "optimise.variables.pinion.teeth", "modification"},
       Row{"[optimise.variables]\npinion.modification.profile_crowning = [0, 3]\n"
           "pinion.modification.addendum_crowning = [0, 3]\n",
           "optimise.variables.pinion.modification.addendum_crowning", "overlaps"},
-      Row{"[optimise.variables]\npinion.modification.tip_relief.amount = [0, 3]\n",
-          "pinion.modification.tip_relief.height", "set pinion.modification.tip_relief.height"},
-      Row{"[optimise.variables]\nwheel.modification.end_relief.amount = [0, 3]\n",
-          "wheel.modification.end_relief.length", "set wheel.modification.end_relief.length"},
-      Row{"[optimise.variables]\npinion.modification.tip_relief.height = [1, 3]\n",
-          "optimise.variables.pinion.modification.tip_relief.height", "no effect"},
+      Row{"[optimise.variables]\npinion.modification.tip_relief.amount = [0, 3]\n", "pinion.modification.tip_relief.height",
+          "set pinion.modification.tip_relief.height"},
+      Row{"[optimise.variables]\nwheel.modification.end_relief.amount = [0, 3]\n", "wheel.modification.end_relief.length",
+          "set wheel.modification.end_relief.length"},
+      Row{"[optimise.variables]\npinion.modification.tip_relief.height = [1, 3]\n", "optimise.variables.pinion.modification.tip_relief.height",
+          "no effect"},
   }));
   // These are judged when the task is to optimise.
   const bool is_about_task = key == "optimise.variables" || advice == "no constraints" || advice == "gradients and constraints only";
-  const StudyProblem problem = problem_of(
-      optimise + more, is_about_task ? std::vector<Override>{{"task", "optimise"}} : std::vector<Override>{});
+  const StudyProblem problem = problem_of(optimise + more, is_about_task ? std::vector<Override>{{"task", "optimise"}} : std::vector<Override>{});
   CHECK(problem.key == key);
   CHECK_THAT(problem.allowed, Catch::Contains(advice));
 }
@@ -116,8 +115,7 @@ teeth = "many"
   CHECK(problems.back().key == "load.torque");
   CHECK(std::ranges::count_if(problems, [](const auto& p) { return p.key.ends_with("face_width"); }) == 2);
   CHECK(to_string(problems[4]) == "small.toml:6:3: pinion.teeth = 2: allowed is an integer 5 .. 1000");
-  CHECK_THROWS_WITH(parse_study(text, "small.toml"),
-                    Catch::Contains("small.toml:8:1: wheel.teeth = \"many\": allowed"));
+  CHECK_THROWS_WITH(parse_study(text, "small.toml"), Catch::Contains("small.toml:8:1: wheel.teeth = \"many\": allowed"));
 }
 
 TEST_CASE("A misspelt key names the key that was meant", "[studies][study-file]") {
@@ -135,8 +133,7 @@ TEST_CASE("A misspelt key names the key that was meant", "[studies][study-file]"
 }
 
 TEST_CASE("Geometry that cannot be built is reported at its key", "[studies][study-file]") {
-  const std::vector<StudyProblem> problems =
-      problems_of(replaced(small_study, "helix_angle = 20", "helix_angle = 20\ncentre_distance = 50"));
+  const std::vector<StudyProblem> problems = problems_of(replaced(small_study, "helix_angle = 20", "helix_angle = 20\ncentre_distance = 50"));
   REQUIRE(problems.size() == 1);
   CHECK(problems.front().key == "pair.centre_distance");
   CHECK(problems.front().line == 5);

@@ -124,8 +124,8 @@ TEST_CASE("The effect shafts is on where a shaft is described and loaded, with i
   CHECK(with.at("used").at("pair").at("pinion").at("shaft").at("bearings")[0].at("axial_stiffness_N_per_um") == "rigid");
   CHECK(with.at("used").at("pair").at("wheel").at("shaft") == false);
   // Shafts yield beside the teeth: the wheel lags further by what they move, and only where they are on.
-  const double lag = with.at("loaded")[0].at("summary").at("te_mean_um").get<double>() -
-                     rigid.at("loaded")[0].at("summary").at("te_mean_um").get<double>();
+  const double lag =
+      with.at("loaded")[0].at("summary").at("te_mean_um").get<double>() - rigid.at("loaded")[0].at("summary").at("te_mean_um").get<double>();
   CHECK(lag > 0.0);
   const json& motion = with.at("loaded")[0].at("shafts");
   REQUIRE(motion.size() == 4);
@@ -136,7 +136,9 @@ TEST_CASE("The effect shafts is on where a shaft is described and loaded, with i
     CHECK(position.at("mesh_misalignment_um") == position.at("pinion").at("misalignment_um"));
   }
   CHECK(lag == Approx(moved).epsilon(0.1));  // model: the motion of one place stands for all, along the normal
-  const json off = run_shafts(pair_text + shaft_text, {{"fidelity.effects", "[\"bending\", \"hertzian_contact\", \"free_ends\", \"tip_corner\", \"extended_contact_region\"]"}});
+  const json off =
+      run_shafts(pair_text + shaft_text,
+                 {{"fidelity.effects", "[\"bending\", \"hertzian_contact\", \"free_ends\", \"tip_corner\", \"extended_contact_region\"]"}});
   CHECK(effect(off, "shafts").at("on") == false);
   CHECK(off.at("loaded")[0].at("summary").at("te_mean_um") == rigid.at("loaded")[0].at("summary").at("te_mean_um"));
   const std::vector<StudyProblem> problems = shaft_problems(pair_text, {{"fidelity.effects", "[\"bending\", \"shafts\"]"}});
@@ -147,11 +149,16 @@ TEST_CASE("The effect shafts is on where a shaft is described and loaded, with i
 TEST_CASE("The best lead slope takes back what the shafts do", "[studies][shaft][physics]") {
   // Thin enough to open the mesh by some 20 um; one gear is corrected for both.
   const json results = run_shafts("task = \"optimise\"\n" + pair_text + shaft_text +
-                               "[optimise.variables]\n\"pinion.modification.lead_slope\" = [-60, 60]\n"
-                               "\"pinion.modification.lead_crowning\" = [0, 40]\n",
-                           {{"pinion.face_width", "60"}, {"wheel.face_width", "60"}, {"load.torque", "700"}, {"cycle.positions", "8"},
-                            {"pinion.shaft.sections.0.outer_diameter", "45"}, {"pinion.shaft.sections.1.outer_diameter", "50"},
-                            {"pinion.shaft.gear_stiffens", "no"}, {"fidelity.quadrature.intervals", "10"}});
+                                      "[optimise.variables]\n\"pinion.modification.lead_slope\" = [-60, 60]\n"
+                                      "\"pinion.modification.lead_crowning\" = [0, 40]\n",
+                                  {{"pinion.face_width", "60"},
+                                   {"wheel.face_width", "60"},
+                                   {"load.torque", "700"},
+                                   {"cycle.positions", "8"},
+                                   {"pinion.shaft.sections.0.outer_diameter", "45"},
+                                   {"pinion.shaft.sections.1.outer_diameter", "50"},
+                                   {"pinion.shaft.gear_stiffens", "no"},
+                                   {"fidelity.quadrature.intervals", "10"}});
   const json& optimise = results.at("optimise");
   const double slope = optimise.at("after").at("variables").at("pinion.modification.lead_slope").get<double>();
   const json& after = results.at("loaded").back();

@@ -14,12 +14,14 @@ TEST_CASE("A decimal comma and a unit without quotes are reported as such", "[st
 }
 
 TEST_CASE("Other lines that are no TOML have no hint", "[studies][syntax]") {
-  for (const char* line : {"", "=", "teeth", "teeth =", "teeth = 25,", "teeth = 3..5", "teeth = ,5", "range = [0,5 30]", "name = \"3 mm", "x = 1,2,3", "x = -", "x = .5"}) {
+  for (const char* line : {"", "=", "teeth", "teeth =", "teeth = 25,", "teeth = 3..5", "teeth = ,5", "range = [0,5 30]", "name = \"3 mm", "x = 1,2,3",
+                           "x = -", "x = .5"}) {
     CAPTURE(line);
     CHECK(syntax_hint(line).empty());
   }
 }
 
 TEST_CASE("The hint follows the parser's words", "[studies][syntax]") {
-  CHECK_THROWS_WITH(parse_study("[pair]\nnormal_module = 3,5\n", "pump.toml"), Contains("pump.toml:2:") && Contains("decimals stand behind a point: 3.5"));
+  CHECK_THROWS_WITH(parse_study("[pair]\nnormal_module = 3,5\n", "pump.toml"),
+                    Contains("pump.toml:2:") && Contains("decimals stand behind a point: 3.5"));
 }

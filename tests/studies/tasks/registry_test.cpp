@@ -16,8 +16,11 @@ namespace {
 
 const Task counting_task{.name = "counting",
                          .run = [](StudyRun& run) { run.results().notes.push_back("counted"); },
-                         .add_json = [](const StudyResults& results, Json& json) { json["teeth_of_both"] = results.pair.pinion.data.teeth + results.pair.wheel.data.teeth; },
-                         .tables = [](const StudyResults&) -> std::vector<NamedText> { return {{"counting.csv", "teeth\n"}}; },
+                         .add_json = [](const StudyResults& results,
+                                        Json& json) { json["teeth_of_both"] = results.pair.pinion.data.teeth + results.pair.wheel.data.teeth; },
+                         .tables = [](const StudyResults&) -> std::vector<NamedText> {
+                           return {{"counting.csv", "teeth\n"}};
+                         },
                          .summary = [](const StudyResults&) { return std::string("counted\n"); }};
 
 }  // namespace
@@ -54,7 +57,8 @@ TEST_CASE("The task geometry analyses nothing and prints the sizes of results.js
   CHECK(results.requirements.empty());
   // d = z m_n / cos(beta) with z = 20, m_n = 4 mm, beta = 15 deg.
   const double reference_diameter = 20 * 4 / std::cos(15 * units::deg);
-  CHECK(results_document(results).at("geometry").at("pinion").at("reference_diameter_mm").get<double>() == Approx(reference_diameter).epsilon(1e-14));  // round-off
+  CHECK(results_document(results).at("geometry").at("pinion").at("reference_diameter_mm").get<double>() ==
+        Approx(reference_diameter).epsilon(1e-14));  // round-off
   CHECK_THAT(summary_table(results), Catch::Contains("reference diameter") && Catch::Contains("82.8221") && Catch::Contains("eps_alpha"));
 }
 

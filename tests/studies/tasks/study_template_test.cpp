@@ -65,9 +65,7 @@ TEST_CASE("Every line that a template offers in a comment can be switched on", "
   CHECK(switched_on >= (kind == "fit" ? 5 : 10));
 }
 
-TEST_CASE("Unknown templates are refused by name", "[studies][template]") {
-  CHECK_THROWS_AS(study_template("anything"), InvalidInput);
-}
+TEST_CASE("Unknown templates are refused by name", "[studies][template]") { CHECK_THROWS_AS(study_template("anything"), InvalidInput); }
 
 TEST_CASE("Every default of the schema is a value that its key accepts", "[studies][schema]") {
   for (const SchemaKey& key : study_schema()) {

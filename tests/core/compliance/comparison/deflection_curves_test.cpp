@@ -9,11 +9,9 @@
 using namespace flankwright;
 using flankwright::testing::DistanceCompliance;
 
-TEST_CASE("Deflection curves are the models' own values, over the teeth that each of them couples",
-          "[core][compliance][comparison]") {
+TEST_CASE("Deflection curves are the models' own values, over the teeth that each of them couples", "[core][compliance][comparison]") {
   const DistanceCompliance compliance;
-  const std::vector<NamedModel> models{named_model("all teeth", 2, compliance),
-                                       named_model("one tooth", 0, compliance)};
+  const std::vector<NamedModel> models{named_model("all teeth", 2, compliance), named_model("one tooth", 0, compliance)};
   const std::vector<double> zetas{0, 1.5, 3, 6};
   const std::vector<DeflectionCurve> curves = deflection_curves(models, {-1, 0.5}, {0, 6}, zetas, 1);
   // Two heights, two places, three teeth by the first model and one by the second.
@@ -34,9 +32,8 @@ TEST_CASE("Deflection curves are the models' own values, over the teeth that eac
   CHECK(curves.back().load == FlankStation{0, 0.5, 6});
 }
 
-TEST_CASE(
-    "A gear's curves have loads at tip, middle and root of both ends and mid face, each among the places looked at",
-    "[core][compliance][comparison]") {
+TEST_CASE("A gear's curves have loads at tip, middle and root of both ends and mid face, each among the places looked at",
+          "[core][compliance][comparison]") {
   const DistanceCompliance compliance;
   const std::vector<NamedModel> models{named_model("one tooth", 0, compliance)};
   const double face = GENERATE(2.0, 7.3, 12.0, 30.0);

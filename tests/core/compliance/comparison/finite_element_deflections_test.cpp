@@ -8,8 +8,7 @@
 
 using namespace flankwright;
 
-TEST_CASE("Deflections under few loads are the gear's influence values, whatever its size and modulus",
-          "[core][compliance][comparison]") {
+TEST_CASE("Deflections under few loads are the gear's influence values, whatever its size and modulus", "[core][compliance][comparison]") {
   const InfluenceModel model(test::gear_of(20, 25, 3), {1, 0.3}, test::coarse());
   const InfluenceModel larger(test::gear_of(20, 25, 3, 0, 4), {206000, 0.3}, test::coarse());
   const std::vector<FlankStation> stations{{-1, 0, 1}, {0, -1, 0}, {0, 0.2, 1.3}, {0, 1, 3}, {1, 0.5, 2}};
@@ -26,8 +25,7 @@ TEST_CASE("Deflections under few loads are the gear's influence values, whatever
   CHECK_THROWS_AS(finite_element_deflections(model, {&off, 1}, loads, removed), InvalidInput);
 }
 
-TEST_CASE("Samples of several teeth hold the loaded tooth once and both neighbours' mean",
-          "[core][compliance][comparison]") {
+TEST_CASE("Samples of several teeth hold the loaded tooth once and both neighbours' mean", "[core][compliance][comparison]") {
   const InfluenceModel model(test::gear_of(20, 25, 3), {1, 0.3}, test::coarse());
   const GearProportions facts{20, 25 * units::deg, 3, 0};
   const std::vector<double> us{-0.5, 0.8}, zetas{0.2, 1.5, 2.9};

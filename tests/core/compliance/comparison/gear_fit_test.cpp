@@ -24,16 +24,15 @@ GearFitTask small_task() {
 }
 
 const FormResiduals& residuals_of(const GearFitResult& result, const std::string& form) {
-  const auto found = std::find_if(result.residuals.begin(), result.residuals.end(),
-                                  [&](const FormResiduals& residuals) { return residuals.form == form; });
+  const auto found =
+      std::find_if(result.residuals.begin(), result.residuals.end(), [&](const FormResiduals& residuals) { return residuals.form == form; });
   REQUIRE(found != result.residuals.end());
   return *found;
 }
 
 }  // namespace
 
-TEST_CASE("A gear's fit is compared with finite elements at unseen stations and drawn beside the other models",
-          "[core][compliance][comparison]") {
+TEST_CASE("A gear's fit is compared with finite elements at unseen stations and drawn beside the other models", "[core][compliance][comparison]") {
   int last = -1;
   std::vector<std::string> labels;
   const GearFitResult result = fit_gear(small_task(), [&](const std::string& label, int done, int total) {
@@ -69,8 +68,7 @@ TEST_CASE("A gear's fit is compared with finite elements at unseen stations and 
   }
 }
 
-TEST_CASE("Several teeth are fitted at once, and the block matrix over five of them is semi-definite",
-          "[core][compliance][comparison]") {
+TEST_CASE("Several teeth are fitted at once, and the block matrix over five of them is semi-definite", "[core][compliance][comparison]") {
   GearFitTask task = small_task();
   task.form = KernelForm::several_teeth();
   task.test_grid = false;
@@ -85,8 +83,8 @@ TEST_CASE("Several teeth are fitted at once, and the block matrix over five of t
   CHECK(ours.unseen.empty());
   // A load moves the neighbours, in the finite elements and in the fit; not in a plate or in slices.
   for (const char* model : {"finite elements", "fitted", "plate"}) {
-    const bool has_neighbours = std::any_of(result.curves.begin(), result.curves.end(),
-                                            [&](const DeflectionCurve& c) { return c.model == model && c.tooth == 1; });
+    const bool has_neighbours =
+        std::any_of(result.curves.begin(), result.curves.end(), [&](const DeflectionCurve& c) { return c.model == model && c.tooth == 1; });
     CHECK(has_neighbours == (std::string(model) != "plate"));
   }
 }

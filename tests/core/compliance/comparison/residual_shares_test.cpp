@@ -53,8 +53,7 @@ TEST_CASE("Fractions of residuals are those of the known pairs, separate for eac
   CHECK(shares[1].worst_of_own < 0.3 * shares[1].worst());
 }
 
-TEST_CASE("A pair without a model value has an infinite residual, and the other pairs keep theirs",
-          "[core][compliance][comparison]") {
+TEST_CASE("A pair without a model value has an infinite residual, and the other pairs keep theirs", "[core][compliance][comparison]") {
   struct Partial final : FlankCompliance {
     Eigen::MatrixXd evaluate(std::span<const FlankStation> points) const override {
       Eigen::MatrixXd K = DistanceCompliance().evaluate(points);

@@ -23,8 +23,7 @@ std::vector<FlankPoint> points(const GearMesh& mesh, const std::vector<double>& 
   std::vector<FlankPoint> result;
   for (const double u : {0.0, 0.5, 1.0}) {
     for (const double distance : distances) {
-      result.push_back({0, mesh.form.form_radius() + u * (mesh.form.tip_radius() - mesh.form.form_radius()),
-                        -mesh.face_width / 2 + distance});
+      result.push_back({0, mesh.form.form_radius() + u * (mesh.form.tip_radius() - mesh.form.form_radius()), -mesh.face_width / 2 + distance});
     }
   }
   return result;

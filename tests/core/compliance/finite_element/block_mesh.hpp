@@ -16,9 +16,8 @@ using Map3 = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;
 /// cube each node was.
 inline SolidMesh block_mesh(int nx, int ny, int nz, const Map3& map, Eigen::Matrix3Xd* cube = nullptr) {
   // Half steps (i, j, k) of a brick's nodes in the order of BrickNodes.
-  constexpr int kSteps[20][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2},
-                                 {0, 2, 2}, {1, 0, 0}, {2, 1, 0}, {1, 2, 0}, {0, 1, 0}, {1, 0, 2}, {2, 1, 2},
-                                 {1, 2, 2}, {0, 1, 2}, {0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {0, 2, 1}};
+  constexpr int kSteps[20][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2}, {2, 0, 2}, {2, 2, 2}, {0, 2, 2}, {1, 0, 0}, {2, 1, 0},
+                                 {1, 2, 0}, {0, 1, 0}, {1, 0, 2}, {2, 1, 2}, {1, 2, 2}, {0, 1, 2}, {0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {0, 2, 1}};
   std::map<std::array<int, 3>, int> numbers;
   std::vector<Eigen::Vector3d> stations;
   SolidMesh mesh;
@@ -46,8 +45,7 @@ inline SolidMesh block_mesh(int nx, int ny, int nz, const Map3& map, Eigen::Matr
 }
 
 /// Supports that hold every node for which `held` says so, in all directions.
-inline std::vector<NodeSupport> hold(const Eigen::Matrix3Xd& stations,
-                                     const std::function<bool(const Eigen::Vector3d&)>& held) {
+inline std::vector<NodeSupport> hold(const Eigen::Matrix3Xd& stations, const std::function<bool(const Eigen::Vector3d&)>& held) {
   std::vector<NodeSupport> supports;
   for (int n = 0; n < stations.cols(); ++n) {
     if (held(stations.col(n))) supports.push_back({n});
@@ -66,8 +64,7 @@ void integrate(const SolidMesh& mesh, Use&& use) {
       const Eigen::Matrix3d jacobian = nodes * shape.derivatives;
       const Eigen::Vector3d position = nodes * shape.values;
       const Eigen::Matrix<double, 20, 3> gradient = shape.derivatives * jacobian.inverse();
-      use(e, shape, position, gradient,
-          gauss3_weights[a] * gauss3_weights[b] * gauss3_weights[c] * jacobian.determinant());
+      use(e, shape, position, gradient, gauss3_weights[a] * gauss3_weights[b] * gauss3_weights[c] * jacobian.determinant());
     }
   }
 }

@@ -15,8 +15,7 @@ using namespace flankwright::test;
 namespace {
 
 /// An input deck with one static step; nodes and elements are numbered from 1.
-void write_deck(std::ostream& out, const SolidMesh& mesh, const Material& material, const std::vector<int>& clamped,
-                const Eigen::VectorXd& load) {
+void write_deck(std::ostream& out, const SolidMesh& mesh, const Material& material, const std::vector<int>& clamped, const Eigen::VectorXd& load) {
   // A field may have 20 characters.
   out << std::scientific << std::setprecision(12) << "*NODE, NSET=NALL\n";
   for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) {

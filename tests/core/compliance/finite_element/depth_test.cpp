@@ -59,8 +59,8 @@ Eigen::VectorXd hertzian_load(const GearMesh& mesh, const LoadFrame& frame) {
       const double off = (nodes * shape.values - frame.position).head<2>().norm() / kHalfWidth;
       if (off >= 1) continue;
       const Eigen::Matrix<double, 3, 2> tangents = nodes * shape.derivatives;
-      const double force = std::sqrt(1 - off * off) * gauss3_weights[row % 3] * gauss3_weights[column % 3] *
-                           tangents.col(0).cross(tangents.col(1)).norm();
+      const double force =
+          std::sqrt(1 - off * off) * gauss3_weights[row % 3] * gauss3_weights[column % 3] * tangents.col(0).cross(tangents.col(1)).norm();
       total += force;
       for (int k = 0; k < 8; ++k) load.segment<3>(3 * face[k]) -= force * shape.values[k] * frame.normal;
     }
@@ -105,18 +105,15 @@ double contact_part(double depth, double tip_distance, const std::array<double, 
 
 }  // namespace
 
-TEST_CASE("Structure and contact add up to the flank's deflection whatever depth parts them",
-          "[core][compliance][fe]") {
+TEST_CASE("Structure and contact add up to the flank's deflection whatever depth parts them", "[core][compliance][fe]") {
   const GearMesh mesh = gear_mesh(gear_of(GENERATE(18, 40), 0, 1), fine_section());
   const SolidModel solid(mesh.solid, kUnit, shaft_and(mesh, [](double) { return true; }));  // plane strain
-  for (const double u : {0.1, 0.5, 0.8}) {  // of the flank, from its root
+  for (const double u : {0.1, 0.5, 0.8}) {                                                  // of the flank, from its root
     const double radius = mesh.form.form_radius() + u * (mesh.form.tip_radius() - mesh.form.form_radius());
     const LoadFrame frame = load_frame(mesh, {0, radius, 0});
     const Eigen::VectorXd moved = solid.solve(Eigen::MatrixXd(hertzian_load(mesh, frame)).sparseView());
     const double tip_distance = (mesh.form.tip_radius() - radius) * radius / mesh.form.base_radius();
-    const auto deflection = [&](double depth) {
-      return -frame.normal.dot(displacement(mesh, moved, frame.position - depth * frame.normal));
-    };
+    const auto deflection = [&](double depth) { return -frame.normal.dot(displacement(mesh, moved, frame.position - depth * frame.normal)); };
     const auto sum = [&](double part) {  // of the flank's own deflection
       const double depth = part * frame.depth;
       return (deflection(depth) + contact_part(depth, tip_distance)) / deflection(0);

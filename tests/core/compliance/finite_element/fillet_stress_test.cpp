@@ -47,7 +47,8 @@ SurfaceCheck check_surface(int half_thickness_elements) {
   options.half_thickness_elements = half_thickness_elements;
   const GearMesh mesh = gear_mesh(gear_of(18, 0, 2.5), options);
   const SolidModel solid(mesh.solid, kSteel, mesh.supports);
-  const Eigen::SparseMatrix<double> force = net_functionals(mesh, {{0, mesh.form.tip_radius(), 0}}, RemovedRigidMotion::TranslationTorsionAndTilt).whole();
+  const Eigen::SparseMatrix<double> force =
+      net_functionals(mesh, {{0, mesh.form.tip_radius(), 0}}, RemovedRigidMotion::TranslationTorsionAndTilt).whole();
   const Eigen::VectorXd u = solid.solve(force);
   const FilletStress fillet(mesh, kSteel);
 
@@ -105,13 +106,11 @@ TEST_CASE("A rigid motion leaves no stress in a fillet", "[core][compliance][fe]
   CHECK(stress.cwiseAbs().maxCoeff() < 1e-11 * kSteel.youngs_modulus);  // round-off x module over element size
 }
 
-TEST_CASE("Even stretch gives the same tension in all directions of a fillet's surface",
-          "[core][compliance][fe][root-stress]") {
+TEST_CASE("Even stretch gives the same tension in all directions of a fillet's surface", "[core][compliance][fe][root-stress]") {
   const GearMesh mesh = gear_mesh(gear_of(18, GENERATE(0, 30), 4, 0, GENERATE(1, 5)), coarse());
   const auto where = stations(mesh);
   const double strain = 1e-3, tension = kSteel.youngs_modulus / (1 - kSteel.poissons_ratio) * strain;
-  const Eigen::VectorXd stress =
-      FilletStress(mesh, kSteel).functionals(where).transpose() * field(mesh, strain * Eigen::Matrix3d::Identity());
+  const Eigen::VectorXd stress = FilletStress(mesh, kSteel).functionals(where).transpose() * field(mesh, strain * Eigen::Matrix3d::Identity());
   for (std::size_t i = 0; i < where.size(); ++i) {
     const Eigen::Vector3d s = stress.segment<3>(3 * static_cast<Eigen::Index>(i));
     CHECK((s - Eigen::Vector3d(tension, tension, 0)).norm() < 1e-10 * tension);  // round-off: the patch test
@@ -160,8 +159,7 @@ TEST_CASE("Places along a fillet: arc length of the exact profile", "[core][comp
   }
 }
 
-TEST_CASE("The surface is free of traction: stress of the solid elements there is the fillet's",
-          "[core][compliance][fe][root-stress]") {
+TEST_CASE("The surface is free of traction: stress of the solid elements there is the fillet's", "[core][compliance][fe][root-stress]") {
   const SurfaceCheck coarse = check_surface(2), fine = check_surface(4);
   CAPTURE(coarse.difference, coarse.traction, fine.difference, fine.traction);
   // Discretisation: the solid's stress, which changes fast below the surface, is not best at the middle of a face.
@@ -171,8 +169,8 @@ TEST_CASE("The surface is free of traction: stress of the solid elements there i
 }
 
 TEST_CASE("The largest principal stress and how it follows its components", "[core][compliance][root-stress]") {
-  for (const Eigen::Vector3d& s : {Eigen::Vector3d(3, 1, 0), Eigen::Vector3d(1, 3, 0), Eigen::Vector3d(-2, 0.5, 1.7),
-                                   Eigen::Vector3d(0.1, 0.2, -4), Eigen::Vector3d(-5, -1, 0.3)}) {
+  for (const Eigen::Vector3d& s : {Eigen::Vector3d(3, 1, 0), Eigen::Vector3d(1, 3, 0), Eigen::Vector3d(-2, 0.5, 1.7), Eigen::Vector3d(0.1, 0.2, -4),
+                                   Eigen::Vector3d(-5, -1, 0.3)}) {
     const PrincipalStress p = largest_principal(s);
     Eigen::Matrix2d tensor;
     tensor << s[0], s[2], s[2], s[1];

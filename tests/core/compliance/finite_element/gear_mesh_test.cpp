@@ -46,9 +46,7 @@ TEST_CASE("Every node of flank and fillet lies on the exact profile", "[core][co
 TEST_CASE("The mesh fills the gear: its volume is that of teeth, ring and shaft", "[core][compliance][fe]") {
   const GearMesh mesh = gear_mesh(gear_of(18, 30));
   double volume = 0;
-  integrate(mesh.solid, [&](Eigen::Index, const BrickShape&, const Eigen::Vector3d&, const auto&, double weight) {
-    volume += weight;
-  });
+  integrate(mesh.solid, [&](Eigen::Index, const BrickShape&, const Eigen::Vector3d&, const auto&, double weight) { volume += weight; });
   const ToothForm& form = mesh.form;
   // Section of a tooth above the root circle: polar area of its profile, by the midpoint rule in angle over radius.
   double tooth = 0;
@@ -69,31 +67,18 @@ TEST_CASE("Gears of all shapes can be meshed without a folded element", "[core][
   const double shift = GENERATE(-0.3, 0.0, 0.6);
   CAPTURE(teeth, helix, shift);
   GearToMesh gear = gear_of(teeth, helix, 3, shift);
-  if (teeth == 10 && shift > 0)
-    gear.gear.tip_diameter = 2 * ToothForm(gear.gear, 1, gear.pressure_angle, gear.helix_angle).tip_radius() - 0.5;
+  if (teeth == 10 && shift > 0) gear.gear.tip_diameter = 2 * ToothForm(gear.gear, 1, gear.pressure_angle, gear.helix_angle).tip_radius() - 0.5;
   CHECK(gear_mesh(gear, coarse()).solid.quality() > 0.02);
 }
 
 TEST_CASE("Racks, faces and bodies of all kinds can be meshed", "[core][compliance][fe]") {
   GearToMesh gear = gear_of(25, 15, GENERATE(2, 30));
-  SECTION("full tip rounding") {
-    gear.gear.rack.root_radius = full_tip_rounding(gear.gear.rack.dedendum, gear.pressure_angle);
-  }
-  SECTION("sharp tool") {
-    gear.gear.rack.root_radius = 0;
-  }
-  SECTION("high teeth") {
-    gear.gear.rack = {1.3, 1.55, 0.2};
-  }
-  SECTION("wide bore") {
-    gear.body.bore_diameter = 0.8 * 20;
-  }
-  SECTION("thin shaft") {
-    gear.body.shaft_diameter = 5;
-  }
-  SECTION("15 deg") {
-    gear.pressure_angle = 15 * units::deg;
-  }
+  SECTION("full tip rounding") { gear.gear.rack.root_radius = full_tip_rounding(gear.gear.rack.dedendum, gear.pressure_angle); }
+  SECTION("sharp tool") { gear.gear.rack.root_radius = 0; }
+  SECTION("high teeth") { gear.gear.rack = {1.3, 1.55, 0.2}; }
+  SECTION("wide bore") { gear.body.bore_diameter = 0.8 * 20; }
+  SECTION("thin shaft") { gear.body.shaft_diameter = 5; }
+  SECTION("15 deg") { gear.pressure_angle = 15 * units::deg; }
   SECTION("25 deg") {
     gear.pressure_angle = 25 * units::deg;
     gear.gear.rack.root_radius = 0.3;

@@ -10,9 +10,7 @@ using namespace flankwright;
 
 namespace {
 
-StationGrid small_grid() {
-  return {{-1, -0.3, 0.4, 1}, {0, 0.5, 1.5, 2.5, 3}};
-}
+StationGrid small_grid() { return {{-1, -0.3, 0.4, 1}, {0, 0.5, 1.5, 2.5, 3}}; }
 
 /// A stationary kernel of places and teeth, positive definite in all of them (Bochner): tables that need no repair.
 double kernel(const FlankStation& p, const FlankStation& q) {
@@ -40,13 +38,12 @@ double lowest_over_highest(const Eigen::MatrixXd& k) {
   return values[0] / values[values.size() - 1];
 }
 
-const std::vector<FlankStation> kScattered{{4, -0.9, 0.1}, {3, 0.2, 2.9}, {4, 1, 3},    {3, -1, 1.1}, {5, 0.7, 0},
-                                         {5, 0.1, 1.7},  {4, 0, 1.4},   {3, 0.5, 0.2}, {5, -0.5, 2}, {4, 0, 1.45}};
+const std::vector<FlankStation> kScattered{{4, -0.9, 0.1}, {3, 0.2, 2.9}, {4, 1, 3},     {3, -1, 1.1}, {5, 0.7, 0},
+                                           {5, 0.1, 1.7},  {4, 0, 1.4},   {3, 0.5, 0.2}, {5, -0.5, 2}, {4, 0, 1.45}};
 
 }  // namespace
 
-TEST_CASE("At stations of its grid an influence table gives its tables, on any tooth and in both directions",
-          "[core][compliance][fe]") {
+TEST_CASE("At stations of its grid an influence table gives its tables, on any tooth and in both directions", "[core][compliance][fe]") {
   const StationGrid grid = small_grid();
   const std::vector<Eigen::MatrixXd> tables = kernel_tables(grid, 2);
   const InfluenceTable table(grid, tables);
@@ -76,8 +73,7 @@ TEST_CASE("Interpolated influence is symmetric to the last bit and positive semi
   CHECK((table.evaluate(reversed).reverse() - k).cwiseAbs().maxCoeff() < 1e-14 * k.maxCoeff());
 }
 
-TEST_CASE("A table that is not positive semi-definite is lifted by the least amount, and reports it",
-          "[core][compliance][fe]") {
+TEST_CASE("A table that is not positive semi-definite is lifted by the least amount, and reports it", "[core][compliance][fe]") {
   const StationGrid grid = small_grid();
   std::vector<Eigen::MatrixXd> tables = kernel_tables(grid, 2);
   tables[1] *= 1.6;  // more than a tooth's own influence can be shared with its neighbour

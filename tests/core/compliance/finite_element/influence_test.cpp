@@ -17,8 +17,7 @@ std::vector<FlankPoint> points(const GearMesh& mesh, int teeth = 1) {
   for (int tooth = -teeth; tooth <= teeth; ++tooth) {
     for (const double u : {0.0, 0.5, 1.0}) {
       for (const double v : {-1.0, -0.6, 0.0, 0.6, 1.0}) {
-        result.push_back({tooth, mesh.form.form_radius() + u * (mesh.form.tip_radius() - mesh.form.form_radius()),
-                          v * mesh.face_width / 2});
+        result.push_back({tooth, mesh.form.form_radius() + u * (mesh.form.tip_radius() - mesh.form.form_radius()), v * mesh.face_width / 2});
       }
     }
   }
@@ -29,9 +28,8 @@ std::vector<FlankPoint> points(const GearMesh& mesh, int teeth = 1) {
 
 TEST_CASE("Influence values are symmetric and positive semi-definite over all teeth", "[core][compliance][fe]") {
   const InfluenceModel model(gear_of(18, 30), kUnit, coarse());
-  const auto removed =
-      GENERATE(RemovedRigidMotion::None, RemovedRigidMotion::TranslationAndTorsion, RemovedRigidMotion::TranslationTorsionAndTilt,
-               RemovedRigidMotion::WholeTranslationTorsionAndTilt);
+  const auto removed = GENERATE(RemovedRigidMotion::None, RemovedRigidMotion::TranslationAndTorsion, RemovedRigidMotion::TranslationTorsionAndTilt,
+                                RemovedRigidMotion::WholeTranslationTorsionAndTilt);
   const InfluenceMatrix result = model.influence(points(model.mesh()), removed);
   REQUIRE(result.status == FactorStatus::Factorised);
   CHECK(result.compliance == result.compliance.transpose());
@@ -59,9 +57,7 @@ TEST_CASE("With translation, torsion and tilt taken out the supports carry nothi
     const Eigen::Vector3d normal = (x.col(third) - x.col(first)).cross(axis).normalized();
     Eigen::Matrix3d frame;
     frame << axis, normal, axis.cross(normal);
-    return SolidModel(
-               mesh.solid, kUnit,
-               {{first}, {second, {false, true, true}, frame}, {static_cast<int>(third), {false, true, false}, frame}})
+    return SolidModel(mesh.solid, kUnit, {{first}, {second, {false, true, true}, frame}, {static_cast<int>(third), {false, true, false}, frame}})
         .influence(loads);
   };
   const auto last = static_cast<int>(mesh.solid.nodes.cols()) - 1;
@@ -106,8 +102,7 @@ TEST_CASE("The same gear gives the same bits again", "[core][compliance][fe]") {
   CHECK(run() == run());
 }
 
-TEST_CASE("A helical tooth yields most at the tip of its acute end, and moves its neighbours",
-          "[core][compliance][fe]") {
+TEST_CASE("A helical tooth yields most at the tip of its acute end, and moves its neighbours", "[core][compliance][fe]") {
   const InfluenceModel model(gear_of(18, 30, 8), kUnit, coarse());
   const std::vector<FlankPoint> where = points(model.mesh());
   const Eigen::MatrixXd k = model.influence(where).compliance;
@@ -132,8 +127,7 @@ TEST_CASE("A helical tooth yields most at the tip of its acute end, and moves it
   }
 }
 
-TEST_CASE("On a rigid body teeth yield less, the material below them does not matter, and they hardly move each other",
-          "[core][compliance][fe]") {
+TEST_CASE("On a rigid body teeth yield less, the material below them does not matter, and they hardly move each other", "[core][compliance][fe]") {
   const GearToMesh gear = gear_of(40, 15, 4);
   const InfluenceModel elastic(gear, kUnit, coarse());
   const std::vector<FlankPoint> where = points(elastic.mesh());
@@ -181,9 +175,7 @@ TEST_CASE("The default mesh is converged to two percent", "[core][compliance][fe
     std::vector<FlankPoint> grid;
     for (int i = 0; i < 6; ++i) {
       for (int j = 0; j < 20; ++j) {
-        grid.push_back({0,
-                        model.mesh().form.form_radius() +
-                            i / 5.0 * (model.mesh().form.tip_radius() - model.mesh().form.form_radius()),
+        grid.push_back({0, model.mesh().form.form_radius() + i / 5.0 * (model.mesh().form.tip_radius() - model.mesh().form.form_radius()),
                         (j / 19.0 - 0.5) * model.mesh().face_width});
       }
     }

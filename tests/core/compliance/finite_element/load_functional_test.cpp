@@ -19,8 +19,7 @@ std::vector<FlankPoint> flank_points(const GearMesh& mesh) {
   for (const int tooth : {-1, 0, 1}) {
     for (const double u : {0.0, 0.4, 1.0}) {
       for (const double v : {-1.0, -0.9, 0.1, 1.0}) {
-        result.push_back({tooth, mesh.form.form_radius() + u * (mesh.form.tip_radius() - mesh.form.form_radius()),
-                          v * mesh.face_width / 2});
+        result.push_back({tooth, mesh.form.form_radius() + u * (mesh.form.tip_radius() - mesh.form.form_radius()), v * mesh.face_width / 2});
       }
     }
   }
@@ -77,8 +76,7 @@ TEST_CASE("A load on the flank keeps its force and its moments exactly", "[core]
   }
 }
 
-TEST_CASE("The functional is continuous where the line of action begins to leave through the end face",
-          "[core][compliance][fe]") {
+TEST_CASE("The functional is continuous where the line of action begins to leave through the end face", "[core][compliance][fe]") {
   const GearMesh mesh = gear_mesh(gear_of(18, 30), coarse());
   for (const double radius : {mesh.form.form_radius(), mesh.form.reference_radius(), mesh.form.tip_radius()}) {
     const LoadFrame frame = load_frame(mesh, {0, radius, 0});

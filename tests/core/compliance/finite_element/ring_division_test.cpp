@@ -21,7 +21,8 @@ double length(const RingDivision& ring, int element) { return ring.angle(2 * ele
 
 }  // namespace
 
-TEST_CASE("A ring's joined elements fill the turn, are as long as they may be and have the corner between for their mid-side", "[core][compliance][fe]") {
+TEST_CASE("A ring's joined elements fill the turn, are as long as they may be and have the corner between for their mid-side",
+          "[core][compliance][fe]") {
   const int n = GENERATE(12, 13, 40);
   const RingDivision outer = even(n, -0.7);
   const JoinedRing joined = join_neighbours(outer, 4 * pi / n, {});

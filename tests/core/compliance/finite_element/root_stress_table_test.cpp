@@ -51,8 +51,7 @@ struct Gear {
 
   FlankPoint point(const FlankStation& station) const {
     const double root = mesh.form.form_radius(), tip = mesh.form.tip_radius();
-    return {station.tooth, root + (station.u + 1) / 2 * (tip - root),
-            station.zeta * mesh.normal_module - mesh.face_width / 2};
+    return {station.tooth, root + (station.u + 1) / 2 * (tip - root), station.zeta * mesh.normal_module - mesh.face_width / 2};
   }
   /// Stress of the fillet's places under forces, by a solution per force.
   Eigen::MatrixXd solved(const std::vector<FlankStation>& forces, RemovedRigidMotion removed) const {
@@ -60,8 +59,7 @@ struct Gear {
     for (const FlankStation& force : forces) points.push_back(point(force));
     std::vector<FilletPoint> stations;
     for (const double along : table.fillet.along) {
-      for (const double zeta : table.fillet.zetas)
-        stations.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
+      for (const double zeta : table.fillet.zetas) stations.push_back({along, zeta * mesh.normal_module - mesh.face_width / 2});
     }
     return std::pow(mesh.normal_module, 2) * FilletStress(mesh, kUnit).functionals(stations).transpose() *
            solid.solve(net_functionals(mesh, points, removed).whole());
@@ -79,9 +77,7 @@ std::pair<double, double> under_line_load(const RootStressTable& table, double u
   for (int i = 0; i < kForces; ++i) forces.push_back({0, u, width * (i + 0.5) / kForces});
   const Eigen::VectorXd stress = width * stress_under(table, 0, forces).rowwise().mean();
   const std::size_t n = table.fillet.zetas.size();
-  const auto at = [&](std::size_t along) {
-    return largest_principal(stress.segment<3>(3 * static_cast<Eigen::Index>(along * n + n / 2))).value;
-  };
+  const auto at = [&](std::size_t along) { return largest_principal(stress.segment<3>(3 * static_cast<Eigen::Index>(along * n + n / 2))).value; };
   double largest = 0;
   for (std::size_t i = 0; i < table.fillet.along.size(); ++i) largest = std::max(largest, at(i));
   return {at(table.fillet.tangent), largest};
@@ -100,8 +96,7 @@ double under_oblique_line(const RootStressTable& table, double u) {
   }
   const Eigen::VectorXd stress = width / kForces * stress_under(table, 0, forces).rowwise().sum();
   double largest = 0;
-  for (Eigen::Index i = 0; i < table.fillet.size(); ++i)
-    largest = std::max(largest, largest_principal(stress.segment<3>(3 * i)).value);
+  for (Eigen::Index i = 0; i < table.fillet.size(); ++i) largest = std::max(largest, largest_principal(stress.segment<3>(3 * i)).value);
   return largest;
 }
 
@@ -127,8 +122,7 @@ TEST_CASE("A root stress table holds what a solution per force gives", "[core][c
   CHECK((held - solved).cwiseAbs().maxCoeff() < 0.02 * solved.cwiseAbs().maxCoeff());
 }
 
-TEST_CASE("Teeth are alike to a root stress table, and far ones do not matter to it",
-          "[core][compliance][fe][root-stress]") {
+TEST_CASE("Teeth are alike to a root stress table, and far ones do not matter to it", "[core][compliance][fe][root-stress]") {
   const Gear gear(gear_of(18, 0, 3), coarse());
   const std::vector<FlankStation> near{{0, 0.5, 1}, {1, 0.2, 2}}, turned{{7, 0.5, 1}, {8, 0.2, 2}};
   CHECK(stress_under(gear.table, 0, near) == stress_under(gear.table, 7, turned));
@@ -175,19 +169,16 @@ TEST_CASE("A root is stressed most below the force, more by a higher one, and li
   CHECK(peak({-1, 0, 3}).first < 0.3 * peak({0, 0, 3}).first);
 }
 
-TEST_CASE("Method B of ISO 6336-3 as written here: its critical section is the profile's",
-          "[core][compliance][root-stress]") {
+TEST_CASE("Method B of ISO 6336-3 as written here: its critical section is the profile's", "[core][compliance][root-stress]") {
   for (const int teeth : {18, 40, 100}) {
     const GearToMesh gear = gear_of(teeth, 0);
     const ToothForm form(gear.gear, 1, gear.pressure_angle, 0);
     const Iso6336Root root = iso_6336_root(gear.gear, gear.pressure_angle);
-    CHECK(root.chord ==
-          Approx(2 * form.root_tangent_point(30 * units::deg).x).epsilon(1e-6));  // round-off of iterations
+    CHECK(root.chord == Approx(2 * form.root_tangent_point(30 * units::deg).x).epsilon(1e-6));  // round-off of iterations
   }
 }
 
-TEST_CASE("Root stress of spur gears under a load line at the tip is near ISO 6336-3, method B",
-          "[core][compliance][fe][root-stress][.soak]") {
+TEST_CASE("Root stress of spur gears under a load line at the tip is near ISO 6336-3, method B", "[core][compliance][fe][root-stress][.soak]") {
   GearMeshOptions options;
   options.teeth_each_side = 1;
   options.fillet_elements = 9;

@@ -24,18 +24,15 @@ Eigen::Vector3d bulge(const Eigen::Vector3d& p) {
   return p + 0.08 * s * Eigen::Vector3d(1, -0.7, 0.4);
 }
 
-Eigen::SparseMatrix<double> sparse(const Eigen::MatrixXd& dense) {
-  return dense.sparseView();
-}
+Eigen::SparseMatrix<double> sparse(const Eigen::MatrixXd& dense) { return dense.sparseView(); }
 
 /// Nodal loads of the traction that the uniform stress S puts on the surface of a body whose bricks fill it: what the
 /// stress does to the shape functions.
 Eigen::MatrixXd loads_of_uniform_stress(const SolidMesh& mesh, const Eigen::Matrix3d& stress) {
   Eigen::MatrixXd load = Eigen::MatrixXd::Zero(mesh.nodes.size(), 1);
   // The surface of the unit cube: faces of bricks whose four corners lie on it, flat and with mid-sides half way.
-  constexpr int kFaces[6][8] = {{0, 3, 2, 1, 11, 10, 9, 8},   {4, 5, 6, 7, 12, 13, 14, 15},
-                                {0, 1, 5, 4, 8, 17, 12, 16},  {1, 2, 6, 5, 9, 18, 13, 17},
-                                {2, 3, 7, 6, 10, 19, 14, 18}, {3, 0, 4, 7, 11, 16, 15, 19}};
+  constexpr int kFaces[6][8] = {{0, 3, 2, 1, 11, 10, 9, 8},  {4, 5, 6, 7, 12, 13, 14, 15}, {0, 1, 5, 4, 8, 17, 12, 16},
+                                {1, 2, 6, 5, 9, 18, 13, 17}, {2, 3, 7, 6, 10, 19, 14, 18}, {3, 0, 4, 7, 11, 16, 15, 19}};
   for (Eigen::Index e = 0; e < mesh.bricks.cols(); ++e) {
     for (const auto& face : kFaces) {
       FaceNodes nodes;
@@ -77,8 +74,7 @@ TEST_CASE("Curved bricks under uniform stress deform linearly (patch test)", "[c
   const Eigen::VectorXd u = model.solve(sparse(loads_of_uniform_stress(mesh, stress)));
 
   // Hooke's law, and the rotation that the supports ask for: u_y = u_z = 0 along x, u_z = 0 along y.
-  const Eigen::Matrix3d strain =
-      (1.3 * stress - 0.3 * stress.trace() * Eigen::Matrix3d::Identity()) / kSteel.youngs_modulus;
+  const Eigen::Matrix3d strain = (1.3 * stress - 0.3 * stress.trace() * Eigen::Matrix3d::Identity()) / kSteel.youngs_modulus;
   Eigen::Matrix3d gradient = strain;
   gradient(1, 0) = gradient(2, 0) = gradient(2, 1) = 0;
   gradient(0, 1) = 2 * strain(0, 1);
@@ -122,9 +118,7 @@ TEST_CASE("A cantilever of bricks converges to the beam with shear", "[core][com
   const auto tip = [&](int n) {
     Eigen::Matrix3Xd cube;
     const SolidMesh mesh = block_mesh(
-        n, 2, 1,
-        [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(length * p.x(), height * p.y(), width * p.z()); },
-        &cube);
+        n, 2, 1, [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(length * p.x(), height * p.y(), width * p.z()); }, &cube);
     const SolidModel model(mesh, straight, hold(cube, [](const Eigen::Vector3d& p) { return p.x() == 0; }));
     // Shear spread over the end's area; the same functional is the end's mean deflection.
     Eigen::MatrixXd load = Eigen::MatrixXd::Zero(mesh.nodes.size(), 1);
@@ -134,8 +128,7 @@ TEST_CASE("A cantilever of bricks converges to the beam with shear", "[core][com
       for (int i = 0; i < 9; ++i) {
         const FaceShape shape = face_shape(gauss3_abscissae[i % 3], gauss3_abscissae[i / 3]);
         for (int k = 0; k < 8; ++k) {
-          load(3 * mesh.bricks(face[k], e) + 1) +=
-              shape.values[k] * gauss3_weights[i % 3] * gauss3_weights[i / 3] / 4 / 2;
+          load(3 * mesh.bricks(face[k], e) + 1) += shape.values[k] * gauss3_weights[i % 3] * gauss3_weights[i / 3] / 4 / 2;
         }
       }
     }
@@ -143,16 +136,15 @@ TEST_CASE("A cantilever of bricks converges to the beam with shear", "[core][com
     return force * model.influence(sparse(load))(0, 0);
   };
   const double area = height * width, inertia = width * std::pow(height, 3) / 12;
-  const double beam = force * std::pow(length, 3) / (3 * straight.youngs_modulus * inertia) +
-                      force * length / (5.0 / 6 * straight.youngs_modulus / 2 * area);
+  const double beam =
+      force * std::pow(length, 3) / (3 * straight.youngs_modulus * inertia) + force * length / (5.0 / 6 * straight.youngs_modulus / 2 * area);
   const double coarse = std::abs(tip(3) / beam - 1), fine = std::abs(tip(12) / beam - 1);
   CHECK(coarse < 0.05);  // discretisation
   CHECK(fine < 5e-4);    // discretisation, and the corners' singularity at the clamped end
   CHECK(fine < coarse / 30);
 }
 
-TEST_CASE("Displacements converge with the third power of the size, stresses with the second",
-          "[core][compliance][fe][convergence]") {
+TEST_CASE("Displacements converge with the third power of the size, stresses with the second", "[core][compliance][fe][convergence]") {
   // u = (1, -2, 0.5) s, s = product of sin(pi x_i), zero on the surface; the body force that belongs to it.
   const Eigen::Vector3d direction(1, -2, 0.5);
   const double lambda = kSteel.youngs_modulus * 0.3 / (1.3 * 0.4), mu = kSteel.youngs_modulus / 2.6;
@@ -160,18 +152,14 @@ TEST_CASE("Displacements converge with the third power of the size, stresses wit
     double product = 1;
     for (int i = 0; i < 3; ++i) {
       const int order = (a == i) + (b == i);
-      product *= order == 0   ? std::sin(pi * p[i])
-                 : order == 1 ? pi * std::cos(pi * p[i])
-                              : -pi * pi * std::sin(pi * p[i]);
+      product *= order == 0 ? std::sin(pi * p[i]) : order == 1 ? pi * std::cos(pi * p[i]) : -pi * pi * std::sin(pi * p[i]);
     }
     return product;
   };
   const auto errors = [&](int n) {
     Eigen::Matrix3Xd cube;
     const SolidMesh mesh = block_mesh(n, n, n, bulge, &cube);
-    const SolidModel model(mesh, kSteel, hold(cube, [](const Eigen::Vector3d& p) {
-                             return (p.array() == 0).any() || (p.array() == 1).any();
-                           }));
+    const SolidModel model(mesh, kSteel, hold(cube, [](const Eigen::Vector3d& p) { return (p.array() == 0).any() || (p.array() == 1).any(); }));
     Eigen::MatrixXd load = Eigen::MatrixXd::Zero(mesh.nodes.size(), 1);
     integrate(mesh, [&](Eigen::Index e, const BrickShape& shape, const Eigen::Vector3d& p, const auto&, double weight) {
       Eigen::Vector3d force = 3 * pi * pi * mu * derivative(p, -1, -1) * direction;
@@ -182,8 +170,7 @@ TEST_CASE("Displacements converge with the third power of the size, stresses wit
     });
     const Eigen::VectorXd u = model.solve(sparse(load));
     double displacement = 0, energy = 0;
-    integrate(mesh, [&](Eigen::Index e, const BrickShape& shape, const Eigen::Vector3d& p, const auto& gradient,
-                        double weight) {
+    integrate(mesh, [&](Eigen::Index e, const BrickShape& shape, const Eigen::Vector3d& p, const auto& gradient, double weight) {
       BrickNodes moved;
       for (int i = 0; i < 20; ++i) moved.col(i) = u.segment<3>(3 * mesh.bricks(i, e));
       displacement += weight * (moved * shape.values - derivative(p, -1, -1) * direction).squaredNorm();
@@ -237,10 +224,8 @@ TEST_CASE("A turned body on turned supports deforms as the straight one", "[core
     load.middleRows<3>(3 * n) = force;
     turned_load.middleRows<3>(3 * n) = turn * force;
   }
-  const Eigen::Matrix3Xd u =
-      SolidModel(straight, kSteel, rollers).solve(sparse(load)).reshaped(3, straight.nodes.cols());
-  const Eigen::Matrix3Xd v =
-      SolidModel(turned, kSteel, turned_rollers).solve(sparse(turned_load)).reshaped(3, straight.nodes.cols());
+  const Eigen::Matrix3Xd u = SolidModel(straight, kSteel, rollers).solve(sparse(load)).reshaped(3, straight.nodes.cols());
+  const Eigen::Matrix3Xd v = SolidModel(turned, kSteel, turned_rollers).solve(sparse(turned_load)).reshaped(3, straight.nodes.cols());
   CHECK((turn * u - v).norm() < 1e-11 * u.norm());  // round-off times condition
 }
 

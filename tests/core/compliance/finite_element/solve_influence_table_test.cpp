@@ -22,15 +22,12 @@ InfluenceTableTask task_of(const GearToMesh& gear, StationGrid grid, const GearM
   return {.gear = gear, .teeth_apart = 2, .mesh = options, .grid = std::move(grid)};
 }
 
-StationGrid coarse_grid(double width) {
-  return {{-1, -0.3, 0.4, 1}, {0, 0.2 * width, 0.5 * width, 0.8 * width, width}};
-}
+StationGrid coarse_grid(double width) { return {{-1, -0.3, 0.4, 1}, {0, 0.2 * width, 0.5 * width, 0.8 * width, width}}; }
 
 std::vector<FlankPoint> flank_points(const GearMesh& mesh, const std::vector<FlankStation>& stations) {
   std::vector<FlankPoint> points;
   for (const FlankStation& p : stations) {
-    const double radius =
-        mesh.form.form_radius() + (p.u + 1) / 2 * (mesh.form.tip_radius() - mesh.form.form_radius());
+    const double radius = mesh.form.form_radius() + (p.u + 1) / 2 * (mesh.form.tip_radius() - mesh.form.form_radius());
     points.push_back({p.tooth, radius, p.zeta * mesh.normal_module - mesh.face_width / 2});
   }
   return points;
@@ -110,8 +107,7 @@ TEST_CASE("Gears that differ in size only have the same task in modules", "[core
   CHECK(small.body.shaft_overhang == 5);
 }
 
-TEST_CASE("A run that does not fit into memory says so before it starts, and a grid must fit the face",
-          "[core][compliance][fe]") {
+TEST_CASE("A run that does not fit into memory says so before it starts, and a grid must fit the face", "[core][compliance][fe]") {
   const InfluenceTableTask task = task_of(gear_of(14, 20, 3), coarse_grid(3));
   const InfluenceTableRun run = solve_influence_table(task, 1e6);
   CHECK(run.status == FactorStatus::OutOfMemory);
@@ -128,8 +124,7 @@ TEST_CASE("No two contact points of a mesh position lie further apart than said"
   int most = 0;
   for (int i = 0; i < 200; ++i) {
     const auto points = contact_points(pair, path, {QuadratureRule::Gauss3, 40}, i / 200.0, true, -width / 2, width / 2);
-    const auto [first, last] =
-        std::ranges::minmax(points, {}, [](const ContactPoint& point) { return point.tooth; });
+    const auto [first, last] = std::ranges::minmax(points, {}, [](const ContactPoint& point) { return point.tooth; });
     most = std::max(most, last.tooth - first.tooth);
   }
   CAPTURE(helix, width);

@@ -43,10 +43,9 @@ TEST_CASE("The Gram matrix of half solutions is what full solutions give", "[cor
   const SparseCholesky factor(lattice.lower, lattice.node_of);
   REQUIRE(factor.status() == FactorStatus::Factorised);
   // Single entries in corners, one of which comes twice, neighbours, a column without entries, and one on everything.
-  std::vector<Eigen::Triplet<double>> entries{{lattice.row(0, 0, 0, 0), 0, 1.0},  {lattice.row(8, 8, 8, 2), 1, -2.0},
-                                              {lattice.row(8, 8, 8, 2), 2, -2.0}, {lattice.row(4, 4, 4, 1), 3, 1.0},
-                                              {lattice.row(5, 4, 4, 1), 3, -1.0}, {lattice.row(0, 8, 3, 0), 4, 0.5},
-                                              {lattice.row(8, 0, 3, 0), 4, 0.5}};
+  std::vector<Eigen::Triplet<double>> entries{
+      {lattice.row(0, 0, 0, 0), 0, 1.0},  {lattice.row(8, 8, 8, 2), 1, -2.0}, {lattice.row(8, 8, 8, 2), 2, -2.0}, {lattice.row(4, 4, 4, 1), 3, 1.0},
+      {lattice.row(5, 4, 4, 1), 3, -1.0}, {lattice.row(0, 8, 3, 0), 4, 0.5},  {lattice.row(8, 0, 3, 0), 4, 0.5}};
   for (int row = 0; row < lattice.lower.rows(); ++row) entries.emplace_back(row, 6, 0.01 * (row % 17));
   Eigen::SparseMatrix<double> loads(lattice.lower.rows(), 7);
   loads.setFromTriplets(entries.begin(), entries.end());

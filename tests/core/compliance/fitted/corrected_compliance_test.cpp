@@ -41,8 +41,7 @@ TEST_CASE("A refined compliance needs a coarse one and coefficients of its form"
   std::vector<double> coefficients = CorrectionLibrary::shipped().coefficients(gear);
   CHECK_THROWS_AS(CorrectedCompliance(nullptr, gear, coefficients), InvalidInput);
   const KernelForm form = KernelForm::one_tooth();
-  const auto coarse = std::make_shared<FittedCompliance>(
-      form, gear, std::vector<double>(static_cast<std::size_t>(form.count()), 0.0), FitRecord{});
+  const auto coarse = std::make_shared<FittedCompliance>(form, gear, std::vector<double>(static_cast<std::size_t>(form.count()), 0.0), FitRecord{});
   CHECK_THROWS_AS(CorrectedCompliance(coarse, gear, {1, 2}), InvalidInput);
   coefficients[3] = NAN;
   CHECK_THROWS_AS(CorrectedCompliance(coarse, gear, coefficients), InvalidInput);

@@ -26,7 +26,7 @@ std::shared_ptr<const CorrectedCompliance> refined(const GearProportions& gear, 
   REQUIRE(run.table);
   CHECK(run.table->projection().added < 1e-4);  // discretisation: unlike meshes of neighbouring teeth
   return std::make_shared<const CorrectedCompliance>(std::make_shared<const InfluenceTable>(*run.table), gear,
-                                                   CorrectionLibrary::shipped().coefficients(gear, profile));
+                                                     CorrectionLibrary::shipped().coefficients(gear, profile));
 }
 
 /// The places of tooth 0, the only one that the fine mesh has finely: what it says of a neighbour's own values is no truth.
@@ -167,12 +167,11 @@ TEST_CASE("Fitted gears that the library has not seen come close to finite eleme
   errors[0] = residual_statistics(*model, {&own, 1}, kScaleFloor).front();
   coarse[0] = residual_statistics(model->coarse(), {&own, 1}, kScaleFloor).front();
   for (std::size_t m = 0; m < errors.size(); ++m) {
-    WARN("Z " << gear.teeth << " beta " << gear.helix_angle / deg << " x " << gear.profile_shift << " b " << gear.relative_face
-              << " rack " << profile.rack.addendum << " / " << profile.rack.dedendum << " / " << profile.rack.root_radius << " at "
+    WARN("Z " << gear.teeth << " beta " << gear.helix_angle / deg << " x " << gear.profile_shift << " b " << gear.relative_face << " rack "
+              << profile.rack.addendum << " / " << profile.rack.dedendum << " / " << profile.rack.root_radius << " at "
               << profile.pressure_angle / deg << " deg"
-              << ", " << m << " apart: " << 100 * errors[m].median << " / " << 100 * errors[m].share_95 << " / "
-              << 100 * errors[m].worst << " %, coarse alone " << 100 * coarse[m].median << " / " << 100 * coarse[m].share_95
-              << " / " << 100 * coarse[m].worst);
+              << ", " << m << " apart: " << 100 * errors[m].median << " / " << 100 * errors[m].share_95 << " / " << 100 * errors[m].worst
+              << " %, coarse alone " << 100 * coarse[m].median << " / " << 100 * coarse[m].share_95 << " / " << 100 * coarse[m].worst);
   }
   REQUIRE(errors.size() == 3);
   // Model, as asked of gears between the library's.

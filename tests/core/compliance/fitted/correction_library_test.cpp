@@ -16,8 +16,7 @@ using units::deg;
 
 namespace {
 
-Eigen::MatrixXd kernels_between(const GearProportions& gear, const std::vector<double>& coefficients,
-                                const std::vector<FlankStation>& stations) {
+Eigen::MatrixXd kernels_between(const GearProportions& gear, const std::vector<double>& coefficients, const std::vector<FlankStation>& stations) {
   KernelSum sum(KernelForm::correction(), gear, stations);
   sum.set_coefficients(coefficients);
   return sum.tooth_matrix();
@@ -48,8 +47,7 @@ TEST_CASE("The library gives its own entries back, spur gears alike at both ends
     if (entry.gear.helix_angle != 0) {
       for (std::size_t i = 0; i < found.size(); ++i) CHECK(found[i] == Approx(entry.coefficients[i]).margin(1e-12));
     }
-    const Eigen::MatrixXd here = kernels_between(entry.gear, found, stations),
-                          fitted = kernels_between(entry.gear, entry.coefficients, stations);
+    const Eigen::MatrixXd here = kernels_between(entry.gear, found, stations), fitted = kernels_between(entry.gear, entry.coefficients, stations);
     // Model: a spur gear's torque leaves at one of its ends.
     CHECK((here - fitted).norm() < 0.03 * fitted.norm());
     if (entry.gear.helix_angle == 0) {
@@ -101,7 +99,7 @@ TEST_CASE("Between its entries the library neither overshoots nor does negative 
   std::uniform_real_distribution<double> share(0, 1);
   for (int i = 0; i < 40; ++i) {
     const GearProportions gear{static_cast<int>(1 / (1.0 / 12 + (1.0 / 150 - 1.0 / 12) * share(random))), 35 * deg * share(random),
-                         2 + 28 * share(random), -0.4 + share(random)};
+                               2 + 28 * share(random), -0.4 + share(random)};
     CAPTURE(gear.teeth, gear.helix_angle / deg, gear.relative_face, gear.profile_shift);
     // A smooth quantity stays near the range of its nodes.
     CHECK(middle_of(gear) > 0.5 * least);

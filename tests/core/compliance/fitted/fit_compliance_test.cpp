@@ -59,8 +59,7 @@ TEST_CASE("A compliance of the form itself is found again from its values", "[co
   CHECK(errors[0].worst < 1e-2);  // discretisation: how far the solver has come
 }
 
-TEST_CASE("Kernels come closer to unseen values of plates on an elastic base than the thesis' form",
-          "[core][compliance][fitted]") {
+TEST_CASE("Kernels come closer to unseen values of plates on an elastic base than the thesis' form", "[core][compliance][fitted]") {
   const SyntheticGear gear(helical_gear());
   const InfluenceSample fitted = gear.sample(gear.grid(5, 12)), unseen = gear.sample(gear.grid(4, 9));
   const FitResult kernels = fit_compliance({&fitted, 1}, KernelForm::one_tooth(), steps(120));
@@ -147,8 +146,7 @@ TEST_CASE("The covariance shrinks as the number of values grows", "[core][compli
   CHECK(once.fit->record().standard_errors[7] == Approx(std::sqrt(once.covariance(7, 7))).epsilon(1e-14));
 }
 
-TEST_CASE("A fit that fails, or may not go on, is a status; a sample that cannot be fitted is refused",
-          "[core][compliance][fitted]") {
+TEST_CASE("A fit that fails, or may not go on, is a status; a sample that cannot be fitted is refused", "[core][compliance][fitted]") {
   const SyntheticGear gear(helical_gear());
   const InfluenceSample sample = gear.sample(gear.grid(3, 6));
   const KernelForm form = small_form();

@@ -22,8 +22,7 @@ InfluenceSample influence_at(const InfluenceModel& model, const GearProportions&
   for (const double u : us) {
     for (const double zeta : zetas) {
       sample.points.push_back({0, u, zeta});
-      points.push_back(
-          {0, form.form_radius() + (u + 1) / 2 * (form.tip_radius() - form.form_radius()), zeta - kFace / 2});
+      points.push_back({0, form.form_radius() + (u + 1) / 2 * (form.tip_radius() - form.form_radius()), zeta - kFace / 2});
     }
   }
   sample.compliance = model.influence(points).compliance;
@@ -43,12 +42,11 @@ TEST_CASE("Fitted kernels come close to finite-element values that they have not
   gear.helix_angle = 30 * deg;
   const GearProportions facts{teeth, 30 * deg, kFace, 0};
   const InfluenceModel model(gear, {1.0, 0.3});
-  const InfluenceSample fitted = influence_at(
-      model, facts, {-1, -0.6, -0.2, 0.2, 0.6, 1},
-      {0, 0.15, 0.35, 0.65, 1.05, 1.6, 2.3, 3.2, 4.3, 5.4, 6.6, 7.7, 8.8, 9.7, 10.4, 10.95, 11.35, 11.65, 11.85, 12});
-  const InfluenceSample unseen =
-      influence_at(model, facts, {-0.9, -0.55, -0.3, 0, 0.35, 0.7, 0.95},
-                   {0.08, 0.25, 0.5, 0.85, 1.35, 2, 2.8, 3.8, 5, 6.2, 7.9, 9.6, 10.8, 11.45, 11.85});
+  const InfluenceSample fitted =
+      influence_at(model, facts, {-1, -0.6, -0.2, 0.2, 0.6, 1},
+                   {0, 0.15, 0.35, 0.65, 1.05, 1.6, 2.3, 3.2, 4.3, 5.4, 6.6, 7.7, 8.8, 9.7, 10.4, 10.95, 11.35, 11.65, 11.85, 12});
+  const InfluenceSample unseen = influence_at(model, facts, {-0.9, -0.55, -0.3, 0, 0.35, 0.7, 0.95},
+                                              {0.08, 0.25, 0.5, 0.85, 1.35, 2, 2.8, 3.8, 5, 6.2, 7.9, 9.6, 10.8, 11.45, 11.85});
 
   const FitResult kernels = fit_compliance({&fitted, 1}, KernelForm::one_tooth_accurate());
   REQUIRE(kernels.fit);

@@ -51,8 +51,7 @@ TEST_CASE("A fit goes into a table of names and numbers and comes back the same"
   CHECK(FittedCompliance::from_table(turned) == fit);
 }
 
-TEST_CASE("A table with an entry missing, unknown, double or impossible is refused by the entry's name",
-          "[core][compliance][fitted]") {
+TEST_CASE("A table with an entry missing, unknown, double or impossible is refused by the entry's name", "[core][compliance][fitted]") {
   std::mt19937 random(4);
   const FitTable table = any_fit(random).to_table();
   const auto field_of = [](const FitTable& changed) -> std::string {
@@ -86,12 +85,11 @@ TEST_CASE("A table with an entry missing, unknown, double or impossible is refus
   CHECK(field_of(changed) == "fit table");
 }
 
-TEST_CASE("A fit refuses points outside its domain, and reports those beyond its sample",
-          "[core][compliance][fitted]") {
+TEST_CASE("A fit refuses points outside its domain, and reports those beyond its sample", "[core][compliance][fitted]") {
   std::mt19937 random(5);
   const FittedCompliance fit = any_fit(random);
-  const std::vector<FlankStation> inside{{0, 0, 6}, {4, 0.9, 0.25}}, edge{{0, 1, 6}}, off{{0, 0, 12.01}},
-      above{{0, 1.1, 6}}, apart{{0, 0, 6}, {5, 0, 6}};
+  const std::vector<FlankStation> inside{{0, 0, 6}, {4, 0.9, 0.25}}, edge{{0, 1, 6}}, off{{0, 0, 12.01}}, above{{0, 1.1, 6}},
+      apart{{0, 0, 6}, {5, 0, 6}};
   CHECK(fit.covers(inside));
   CHECK_FALSE(fit.covers(edge));
   CHECK_FALSE(fit.covers(apart));
@@ -103,8 +101,7 @@ TEST_CASE("A fit refuses points outside its domain, and reports those beyond its
 }
 
 TEST_CASE("Coefficients of a form have names of their own, as many as there are", "[core][compliance][fitted]") {
-  for (const KernelForm& form :
-       {KernelForm::one_tooth(), KernelForm::one_tooth_accurate(), KernelForm::several_teeth()}) {
+  for (const KernelForm& form : {KernelForm::one_tooth(), KernelForm::one_tooth_accurate(), KernelForm::several_teeth()}) {
     const std::vector<std::string> names = form.coefficient_names();
     CHECK(static_cast<int>(names.size()) == form.count());
     CHECK(std::set<std::string>(names.begin(), names.end()).size() == names.size());
@@ -113,9 +110,7 @@ TEST_CASE("Coefficients of a form have names of their own, as many as there are"
   // A form that says nothing of two teeth may not claim to.
   std::mt19937 random(6);
   const KernelForm form = KernelForm::one_tooth();
-  CHECK_THROWS_AS(
-      FittedCompliance(form, helical_gear(), random_coefficients(form, random), {{-1, 1, 0, 12, 1}, {}, {}}),
-      InvalidInput);
+  CHECK_THROWS_AS(FittedCompliance(form, helical_gear(), random_coefficients(form, random), {{-1, 1, 0, 12, 1}, {}, {}}), InvalidInput);
 }
 
 TEST_CASE("Blends of two gears' coefficients stay positive semi-definite", "[core][compliance][fitted]") {

@@ -38,8 +38,7 @@ TEST_CASE("The matrix over any points of five teeth is symmetric and positive se
   }
 }
 
-TEST_CASE("Pair by pair and as a matrix the kernels are the same, and their derivatives are those of differences",
-          "[core][compliance][fitted]") {
+TEST_CASE("Pair by pair and as a matrix the kernels are the same, and their derivatives are those of differences", "[core][compliance][fitted]") {
   std::mt19937 random(7);
   const KernelForm form = everything();
   const GearProportions gear = helical_gear();

@@ -27,16 +27,13 @@ class Misra final : public ResidualFunction {
   }
 
  private:
-  static constexpr std::array<double, 14> kY{10.07, 14.73, 17.94, 23.93, 29.61, 35.18, 40.02,
-                                             44.82, 50.76, 55.05, 61.01, 66.40, 75.47, 81.78};
-  static constexpr std::array<double, 14> kX{77.6,  114.9, 141.1, 190.8, 239.9, 289.0, 332.8,
-                                             378.4, 434.8, 477.3, 536.8, 593.1, 689.1, 760.0};
+  static constexpr std::array<double, 14> kY{10.07, 14.73, 17.94, 23.93, 29.61, 35.18, 40.02, 44.82, 50.76, 55.05, 61.01, 66.40, 75.47, 81.78};
+  static constexpr std::array<double, 14> kX{77.6, 114.9, 141.1, 190.8, 239.9, 289.0, 332.8, 378.4, 434.8, 477.3, 536.8, 593.1, 689.1, 760.0};
 };
 
 }  // namespace
 
-TEST_CASE("Least squares meet NIST's certified values from both of its starts",
-          "[core][compliance][fitted][reference]") {
+TEST_CASE("Least squares meet NIST's certified values from both of its starts", "[core][compliance][fitted][reference]") {
   const auto start = GENERATE(std::array<double, 2>{500, 0.0001}, std::array<double, 2>{250, 0.0005});
   const LeastSquaresResult result = solve_least_squares(Misra{}, start, {200, 1e-14});
   CHECK(result.status == FitStatus::Converged);

@@ -8,9 +8,7 @@
 
 namespace flankwright::testing {
 
-inline GearProportions helical_gear(double face = 12) {
-  return {40, 0.5, face, 0};
-}
+inline GearProportions helical_gear(double face = 12) { return {40, 0.5, face, 0}; }
 
 /// Coefficients of any size that a fit may come by; uniform in +-size.
 inline std::vector<double> random_coefficients(const KernelForm& form, std::mt19937& random, double size = 0.5) {

@@ -110,8 +110,8 @@ InfluenceSample SyntheticGear::sample(const std::vector<FlankStation>& points) c
       const double d2 = axial * axial + units::pi * units::pi * m * m;
       const double tilt = (2 * a.zeta / B - 1) * (2 * b.zeta / B - 1);
       if (m != 0) sample.compliance(p, q) = 0;
-      sample.compliance(p, q) += 1.2 * (1 + 0.3 * a.u) * (1 + 0.3 * b.u) / std::sqrt(1 + d2) + 0.3 +
-                                 0.1 * tilt * std::cos(2 * units::pi * m / facts_.teeth);
+      sample.compliance(p, q) +=
+          1.2 * (1 + 0.3 * a.u) * (1 + 0.3 * b.u) / std::sqrt(1 + d2) + 0.3 + 0.1 * tilt * std::cos(2 * units::pi * m / facts_.teeth);
     }
   }
   sample.compliance = (0.5 * (sample.compliance + sample.compliance.transpose())).eval();
@@ -124,8 +124,7 @@ std::vector<FlankStation> SyntheticGear::grid(int radial, int axial, int first, 
     for (int i = 0; i < radial; ++i) {
       for (int j = 0; j < axial; ++j) {
         const double x = -std::cos(units::pi * (j + 0.5) / axial);
-        points.push_back(
-            {m, radial == 1 ? 0.0 : -0.95 + 1.9 * i / (radial - 1), facts_.relative_face * 0.5 * (1 + x)});
+        points.push_back({m, radial == 1 ? 0.0 : -0.95 + 1.9 * i / (radial - 1), facts_.relative_face * 0.5 * (1 + x)});
       }
     }
   }

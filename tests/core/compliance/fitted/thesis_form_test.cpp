@@ -15,9 +15,8 @@ namespace {
 
 /// C_f1 .. C_f6, C_g2 .. C_g5 of a plausible gear with some dependence on u, then one adjacent tooth.
 std::vector<double> plausible() {
-  return {1.2,  0.5,  0.1, std::log(0.4), 0.1,  0.0, 0.3, 0.05, 0.0,           0.2,  0.03,         0.01,
-          0.01, 0,    0,   0.05,          0.01, 0,   0.8, 0.1,  0.05,          0.1,  0.02,         0,
-          0.5,  0.05, 0,   -0.2,          0.0,  0.0, 0.2, 0.1,  std::log(0.3), 0.05, std::log(0.5)};
+  return {1.2,  0.5, 0.1, std::log(0.4), 0.1, 0.0,  0.3, 0.05, 0.0, 0.2, 0.03,          0.01, 0.01,         0, 0, 0.05, 0.01, 0, 0.8, 0.1, 0.05, 0.1,
+          0.02, 0,   0.5, 0.05,          0,   -0.2, 0.0, 0.0,  0.2, 0.1, std::log(0.3), 0.05, std::log(0.5)};
 }
 
 }  // namespace
@@ -27,9 +26,7 @@ TEST_CASE("At one radius the thesis' form is its printed equations", "[core][com
   const double B = 12, z = 3, zF = 4.5;
   const std::vector<FlankStation> stations{{0, 0, z}, {0, 0, zF}, {1, 0.4, 2}};
   const Eigen::MatrixXd K = ThesisCompliance(body, helical_gear(B), plausible()).evaluate(stations);
-  const auto G = [&](double at) {
-    return 1 + 0.8 * std::exp(-std::exp(0.1) * at) + 0.5 * std::exp(-std::exp(-0.2) * (B - at));
-  };
+  const auto G = [&](double at) { return 1 + 0.8 * std::exp(-std::exp(0.1) * at) + 0.5 * std::exp(-std::exp(-0.2) * (B - at)); };
   const auto one_way = [&](double zbar) {
     const double tooth = 1.2 * (std::exp(-0.4 * std::abs(zbar) - 0.05 * zbar) - 0.3 * std::exp(-25 * std::abs(zbar)));
     const double gear = 0.2 + 0.01 * zbar, root = std::sqrt(G(z) * G(zF));
@@ -37,8 +34,7 @@ TEST_CASE("At one radius the thesis' form is its printed equations", "[core][com
   };
   constexpr double kRoundOff = 1e-14;
   CHECK(K(0, 1) == Approx(0.5 * (one_way(z - zF) + one_way(zF - z))).epsilon(kRoundOff));
-  CHECK(K(0, 2) ==
-        Approx(0.2 + 0.1 * std::exp(-0.3 * (z + 2)) + 0.05 * std::exp(-0.5 * (2 * B - z - 2))).epsilon(kRoundOff));
+  CHECK(K(0, 2) == Approx(0.2 + 0.1 * std::exp(-0.3 * (z + 2)) + 0.05 * std::exp(-0.5 * (2 * B - z - 2))).epsilon(kRoundOff));
   CHECK(K == K.transpose());
 }
 

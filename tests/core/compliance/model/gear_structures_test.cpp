@@ -83,5 +83,6 @@ TEST_CASE("Data that no compliance can be built from are refused under the names
   task.body.wheel.shaft_diameter = 60;  // more than the root circle
   CHECK_THAT(refused(task), Catch::Contains("wheel.") && Catch::Contains("shaft_diameter"));
   const std::string memory = refused(twins(ComplianceModel::Fe), {.memory_limit = 1e6});
-  CHECK_THAT(memory, Catch::Contains("fidelity.compliance: another compliance: the pinion's finite elements cannot be solved") && Catch::Contains("unknowns"));
+  CHECK_THAT(memory, Catch::Contains("fidelity.compliance: another compliance: the pinion's finite elements cannot be solved") &&
+                         Catch::Contains("unknowns"));
 }

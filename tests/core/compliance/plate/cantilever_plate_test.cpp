@@ -23,8 +23,7 @@ ToothForm form_of(int teeth, double beta_deg, double module = 1, double shift = 
 
 }  // namespace
 
-TEST_CASE("Under a line load along the trace the plate yields as thin slices do without compression",
-          "[core][compliance][plate][physics][slow]") {
+TEST_CASE("Under a line load along the trace the plate yields as thin slices do without compression", "[core][compliance][plate][physics][slow]") {
   const int teeth = GENERATE(18, 60);
   const double beta = GENERATE(0.0, 30.0), face = 20, length = face / std::cos(beta * deg);
   const ToothForm form = form_of(teeth, beta);
@@ -49,8 +48,7 @@ TEST_CASE("Under a line load along the trace the plate yields as thin slices do 
   CHECK(middle * (1 - sin2) > across - 0.15);
 }
 
-TEST_CASE("A plate's influence is reciprocal, semi-definite, alike from both ends, and none between teeth",
-          "[core][compliance][plate][physics]") {
+TEST_CASE("A plate's influence is reciprocal, semi-definite, alike from both ends, and none between teeth", "[core][compliance][plate][physics]") {
   const double face = 8;
   const CantileverPlate plate(form_of(25, 20, 3, 0.2), 3, 3 * face, 0.3);
   std::vector<FlankStation> points;
@@ -72,8 +70,7 @@ TEST_CASE("A plate's influence is reciprocal, semi-definite, alike from both end
   CHECK(two_teeth.bottomRightCorner(n - 1, n - 1) == K.bottomRightCorner(n - 1, n - 1));
 }
 
-TEST_CASE("The tip yields more than the root, an end more than the middle, and size does not matter",
-          "[core][compliance][plate][physics]") {
+TEST_CASE("The tip yields more than the root, an end more than the middle, and size does not matter", "[core][compliance][plate][physics]") {
   const CantileverPlate plate(form_of(18, 30, 10), 10, 120, 0.3);
   const std::vector<FlankStation> points{{0, 1, 0}, {0, 1, 6}, {0, -0.5, 0}, {0, -0.5, 6}};
   const Eigen::MatrixXd K = plate.evaluate(points);

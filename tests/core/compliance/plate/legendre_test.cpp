@@ -5,8 +5,7 @@
 
 using namespace flankwright;
 
-TEST_CASE("A Gauss rule of n points is exact to the degree 2n - 1 and not beyond",
-          "[core][compliance][plate][closed-form]") {
+TEST_CASE("A Gauss rule of n points is exact to the degree 2n - 1 and not beyond", "[core][compliance][plate][closed-form]") {
   const int n = GENERATE(1, 4, 17);
   const GaussRule rule(n);
   const auto integral = [&](int degree) { return rule.weights.dot(rule.nodes.array().pow(degree).matrix()); };

@@ -17,8 +17,8 @@ constexpr double l1 = 70, b = 120, l4 = 50, l = l1 + b + l4;
 constexpr double d1 = 90, d2 = 160;
 constexpr double kRoundOff = 1e-11;
 
-double I(double d) { return units::pi * std::pow(d, 4) / 64; }    // 2C.27, 2C.28
-double J(double d) { return units::pi * std::pow(d, 4) / 32; }    // 2C.4, 2C.5
+double I(double d) { return units::pi * std::pow(d, 4) / 64; }       // 2C.27, 2C.28
+double J(double d) { return units::pi * std::pow(d, 4) / 32; }       // 2C.4, 2C.5
 double slope(double d) { return 16 / (3 * units::pi * G * d * d); }  // 2C.8b, per unit of shear force
 
 BeamPiece piece(double length, double d) { return {length, 1 / (E * I(d)), slope(d), 1 / (G * J(d)), 0.0}; }
@@ -56,8 +56,8 @@ double bending(double z, double z_f, double M_f) {
   const auto [F1, F2] = reactions(z_f, M_f);
   const double l2 = z_f, l3 = b - z_f, I1 = I(d1), I2 = I(d2);
   const double theta = -(F2 * std::pow(l4, 3) / 3 + F1 * l1 * l1 / 6 * (3 * l - 2 * l1)) / (l * E * I1) -
-                       (F1 * l2 / 2 * (2 * l1 + l2) * (l3 + l4) + F1 * l2 * l2 / 6 * (3 * l1 + l2) +
-                        F2 * l3 * l4 / 2 * (2 * l4 + l3) + F2 * l3 * l3 / 6 * (3 * l4 + 2 * l3)) /
+                       (F1 * l2 / 2 * (2 * l1 + l2) * (l3 + l4) + F1 * l2 * l2 / 6 * (3 * l1 + l2) + F2 * l3 * l4 / 2 * (2 * l4 + l3) +
+                        F2 * l3 * l3 / 6 * (3 * l4 + 2 * l3)) /
                            (l * E * I2);
   double d = F1 * l1 * l1 / (6 * E * I1) * (3 * z + l1) + theta * (z + l1);
   if (z <= z_f) return d + F1 / (6 * E * I2) * z * z * (z + 3 * l1);
@@ -72,7 +72,6 @@ double shear(double z, double z_f, double M_f) {
   const double at_right = g1 * l1 + g2 * z_f + g3 * (b - z_f) + g4 * l4, theta = -at_right / l;
   return z <= z_f ? g1 * l1 + g2 * z + theta * (z + l1) : g1 * l1 + g2 * z_f + g3 * (z - z_f) + theta * (z + l1);
 }
-
 
 TEST_CASE("Shaft bending and shear are those of Haddad's appendix 2C", "[core][compliance][shaft][reference]") {
   const ShaftBeam bends = on_two_supports(false), shears = on_two_supports(true);

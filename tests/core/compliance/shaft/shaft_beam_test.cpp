@@ -20,8 +20,8 @@ constexpr double EI = 2.6e10, kGA = 9e7, GJ = 2e10, EA = 2.6e8, L = 300;
 BeamPiece uniform_piece(double length, double shear = 1 / kGA) { return {length, 1 / EI, shear, 1 / GJ, 1 / EA}; }
 BeamPiece slender(double length) { return uniform_piece(length, 0.0); }
 
-void hold(std::vector<BeamSupport>& supports, double at, std::initializer_list<Vector3d> forces,
-          std::initializer_list<Vector3d> moments = {}, double compliance = 0.0) {
+void hold(std::vector<BeamSupport>& supports, double at, std::initializer_list<Vector3d> forces, std::initializer_list<Vector3d> moments = {},
+          double compliance = 0.0) {
   for (const Vector3d& f : forces) supports.push_back({{at, f, none}, compliance});
   for (const Vector3d& m : moments) supports.push_back({{at, none, m}, compliance});
 }
@@ -45,7 +45,6 @@ double between(const ShaftBeam& beam, const BeamLoad& one, const BeamLoad& other
 }
 
 Approx near(double value) { return Approx(value).epsilon(kBeamRoundOff).margin(1e-20); }
-
 
 TEST_CASE("A clamped shaft bends, shears, twists and stretches as textbooks say", "[core][compliance][shaft][closed-form]") {
   const ShaftBeam beam({uniform_piece(L)}, clamp(GENERATE(0.0, L)));
@@ -118,8 +117,7 @@ TEST_CASE("Loads that act together are the sum of their parts", "[core][complian
   }
 }
 
-TEST_CASE("Any shaft's flexibility is symmetric, does no negative work and does not depend on where it is cut",
-          "[core][compliance][shaft]") {
+TEST_CASE("Any shaft's flexibility is symmetric, does no negative work and does not depend on where it is cut", "[core][compliance][shaft]") {
   std::mt19937 random(7);
   const auto between_ = [&](double a, double b) { return std::uniform_real_distribution(a, b)(random); };
   for (int trial = 0; trial < 50; ++trial) {
@@ -149,8 +147,8 @@ TEST_CASE("Any shaft's flexibility is symmetric, does no negative work and does 
     CHECK(K == K.transpose());
     const Eigen::MatrixXd raw = beam.flexibility(loads, loads);
     const Eigen::VectorXd values = symmetric_eigenvalues(K);
-    CHECK((raw - raw.transpose()).norm() < 1e-11 * K.norm());  // round-off
-    CHECK(values.minCoeff() > -1e-11 * values.maxCoeff());     // round-off
+    CHECK((raw - raw.transpose()).norm() < 1e-11 * K.norm());        // round-off
+    CHECK(values.minCoeff() > -1e-11 * values.maxCoeff());           // round-off
     CHECK((same.flexibility(loads) - K).norm() < 1e-11 * K.norm());  // round-off
   }
 }

@@ -36,19 +36,16 @@ TEST_CASE("An impossible shaft is refused by the name of its field", "[core][com
     void (*spoil)(ShaftData&);
   };
   const Case wrong = GENERATE(
-      Case{"sections", [](ShaftData& s) { s.sections.clear(); }},
-      Case{"sections.1.length", [](ShaftData& s) { s.sections[1].length = 0; }},
+      Case{"sections", [](ShaftData& s) { s.sections.clear(); }}, Case{"sections.1.length", [](ShaftData& s) { s.sections[1].length = 0; }},
       Case{"sections.0.outer_diameter", [](ShaftData& s) { s.sections[0].outer_diameter = not_given; }},
       Case{"sections.1.inner_diameter", [](ShaftData& s) { s.sections[1].inner_diameter = 50; }},
-      Case{"bearings", [](ShaftData& s) { s.bearings.pop_back(); }},
-      Case{"bearings", [](ShaftData& s) { s.bearings[0].axial_stiffness = 0; }},
+      Case{"bearings", [](ShaftData& s) { s.bearings.pop_back(); }}, Case{"bearings", [](ShaftData& s) { s.bearings[0].axial_stiffness = 0; }},
       Case{"bearings.1.position", [](ShaftData& s) { s.bearings[1].position = 161; }},
       Case{"bearings.1.position", [](ShaftData& s) { s.bearings[1].position = 10; }},
       Case{"bearings.0.radial_stiffness", [](ShaftData& s) { s.bearings[0].radial_stiffness = 0; }},
       Case{"bearings.0.tilting_stiffness", [](ShaftData& s) { s.bearings[0].tilting_stiffness = -1; }},
       Case{"gear_position", [](ShaftData& s) { s.gear_position = 19, s.torque_position = 160; }},
-      Case{"gear_position", [](ShaftData& s) { s.gear_position = 141; }},
-      Case{"torque_position", [](ShaftData& s) { s.torque_position = 90; }},
+      Case{"gear_position", [](ShaftData& s) { s.gear_position = 141; }}, Case{"torque_position", [](ShaftData& s) { s.torque_position = 90; }},
       Case{"torque_position", [](ShaftData& s) { s.torque_position = 161; }},
       Case{"torque_position", [](ShaftData& s) { s.torque_position = not_given; }},
       Case{"material.youngs_modulus", [](ShaftData& s) { s.material.youngs_modulus = 0; }});

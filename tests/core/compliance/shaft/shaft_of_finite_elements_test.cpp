@@ -33,7 +33,7 @@ SolidModel clamped_at(const GearMesh& mesh, int end) {
   const auto z = mesh.solid.nodes.row(2);
   std::vector<NodeSupport> supports;
   for (Eigen::Index i = 0; i < z.size(); ++i) {
-    const bool lower = z[i] < z.minCoeff() + 1e-9, upper = z[i] > z.maxCoeff() - 1e-9;
+    const bool lower = z[i]<z.minCoeff() + 1e-9, upper = z[i]> z.maxCoeff() - 1e-9;
     if (!lower && !upper) continue;
     NodeSupport support{static_cast<int>(i)};
     if (lower != (end < 0)) {  // radially only
@@ -65,8 +65,7 @@ ShaftBeam beam_clamped_at(const GearMesh& mesh, int end) {
 
 }  // namespace
 
-TEST_CASE("The deflections kept by finite elements and those of the beam add up to the whole gear on its shaft",
-          "[core][compliance][shaft][fe]") {
+TEST_CASE("The deflections kept by finite elements and those of the beam add up to the whole gear on its shaft", "[core][compliance][shaft][fe]") {
   const int end = GENERATE(-1, 1);  // where the shaft is clamped and the torque leaves
   GearToMesh gear = gear_on_long_shaft();
   gear.body.torque_end = end < 0 ? FaceEnd::Acute : FaceEnd::Obtuse;

@@ -60,8 +60,7 @@ ContactPoint pitch_point(const GearPair& pair, double z = 0) {
 
 }  // namespace
 
-TEST_CASE("One force at the pitch point bends, shears, twists and shifts a plain shaft as in closed form",
-          "[core][compliance][shaft][closed-form]") {
+TEST_CASE("One force at the pitch point bends, shears, twists and shifts a plain shaft as in closed form", "[core][compliance][shaft][closed-form]") {
   const GearPair pair = pair_of(20);
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const ShaftData shaft = plain();

@@ -14,7 +14,9 @@ namespace {
 
 const FlankFrame frame = sample_flank_frame();
 
-bool is_half_of(const ModificationDescriptor& half, const ModificationDescriptor& both) { return half.key == both.half || half.key == both.other_half; }
+bool is_half_of(const ModificationDescriptor& half, const ModificationDescriptor& both) {
+  return half.key == both.half || half.key == both.other_half;
+}
 
 /// A modification of this test: C t with t = (z/b + y/h_active - (1 - l))/l where that is positive, from one corner of the flank inwards.
 struct CornerRelief {
@@ -23,14 +25,15 @@ struct CornerRelief {
 
   static constexpr ModificationClass flank_class = ModificationClass::Topography;
   static constexpr auto parameters() {
-    return std::array{row<CornerRelief, &CornerRelief::amount>(
-                          {.key = "corner_relief.amount", .name = "corner relief", .meaning = "removed at the corner", .extent = "corner_relief.share"}),
-                      row<CornerRelief, &CornerRelief::share>(
-                          {.key = "corner_relief.share", .name = "corner relief share", .meaning = "where it starts", .kind = ParameterKind::Extent},
-                          [](const CornerRelief& m, const FlankFrame& f, double r, double z) {
-                            const double beyond = Term(m, f).beyond(r, z);
-                            return beyond > 0.0 ? m.amount * (m.share - beyond) / (m.share * m.share) : 0.0;
-                          })};
+    return std::array{
+        row<CornerRelief, &CornerRelief::amount>(
+            {.key = "corner_relief.amount", .name = "corner relief", .meaning = "removed at the corner", .extent = "corner_relief.share"}),
+        row<CornerRelief, &CornerRelief::share>(
+            {.key = "corner_relief.share", .name = "corner relief share", .meaning = "where it starts", .kind = ParameterKind::Extent},
+            [](const CornerRelief& m, const FlankFrame& f, double r, double z) {
+              const double beyond = Term(m, f).beyond(r, z);
+              return beyond > 0.0 ? m.amount * (m.share - beyond) / (m.share * m.share) : 0.0;
+            })};
   }
 
   struct Term {
@@ -50,8 +53,7 @@ struct CornerRelief {
 };
 
 /// What registers it: one line.
-using WithCornerRelief = ModificationList<modifications::LeadCrowning, modifications::ProfileCrowning, modifications::TipRelief,
-                                          CornerRelief>;
+using WithCornerRelief = ModificationList<modifications::LeadCrowning, modifications::ProfileCrowning, modifications::TipRelief, CornerRelief>;
 constexpr auto with_corner_relief = descriptors_of(std::type_identity<WithCornerRelief>());
 static_assert(are_complete(with_corner_relief));
 
@@ -169,7 +171,8 @@ TEST_CASE("A modification is one description and one line", "[core][flank][modif
 
 TEST_CASE("Lead, profile and topography together are the whole modification", "[core][flank][modification]") {
   const auto all = all_set<Modifications>(modification_parameters);
-  const auto lead = only(all, ModificationClass::Lead), profile = only(all, ModificationClass::Profile), rest = only(all, ModificationClass::Topography);
+  const auto lead = only(all, ModificationClass::Lead), profile = only(all, ModificationClass::Profile),
+             rest = only(all, ModificationClass::Topography);
   for (const ModificationDescriptor& d : modification_parameters) {
     CAPTURE(std::string(d.key));
     CHECK(d.get(lead) + d.get(profile) + d.get(rest) == d.get(all));

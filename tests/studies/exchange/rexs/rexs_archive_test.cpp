@@ -55,7 +55,8 @@ TEST_CASE("A packed REXS file is the same study as the file in it", "[studies][r
 TEST_CASE("An archive that is damaged, ambiguous or too large is refused in one line", "[studies][rexs][errors][slow]") {
   const std::string packed = archive_of({{"gears.rexs", std::string(5000, 'a')}});
   CHECK(archive_refusal(packed).empty());
-  for (const std::size_t left : {4U, 20U, 60U, 100U}) CHECK_THAT(archive_refusal(packed.substr(0, left)), Contains("gears.rexsz: file = a damaged ZIP archive"));
+  for (const std::size_t left : {4U, 20U, 60U, 100U})
+    CHECK_THAT(archive_refusal(packed.substr(0, left)), Contains("gears.rexsz: file = a damaged ZIP archive"));
   std::string bent = packed;
   bent[45] = static_cast<char>(bent[45] ^ 0x55);  // within the packed bytes
   CHECK_THAT(archive_refusal(bent), Contains("gears.rexsz: file = a damaged or encrypted ZIP archive"));

@@ -24,16 +24,21 @@ std::string random_study(unsigned seed) {
   const auto number = [&](double low, double high) {
     return std::to_string(std::round(100.0 * std::uniform_real_distribution(low, high)(random)) / 100.0);
   };
-  const auto relief = [&](double height) { return "{ amount = " + number(1, 30) + ", height = " + number(0.3, height) + (random() % 2 == 0U ? ", shape = \"parabolic\" }" : " }"); };
+  const auto relief = [&](double height) {
+    return "{ amount = " + number(1, 30) + ", height = " + number(0.3, height) + (random() % 2 == 0U ? ", shape = \"parabolic\" }" : " }");
+  };
   std::string text = "[pair]\nnormal_module = 5\nhelix_angle = " + number(0, 30) + "\npressure_angle = " + number(18, 25) +
-                     "\nworking_flank = " + (random() % 2 == 0U ? "\"right\"" : "\"left\"") + "\ndriver = " + (random() % 2 == 0U ? "\"pinion\"" : "\"wheel\"") +
-                     "\n[load]\ntorque = [" + number(10, 500) + ", " + number(501, 900) + "]\n";
+                     "\nworking_flank = " + (random() % 2 == 0U ? "\"right\"" : "\"left\"") +
+                     "\ndriver = " + (random() % 2 == 0U ? "\"pinion\"" : "\"wheel\"") + "\n[load]\ntorque = [" + number(10, 500) + ", " +
+                     number(501, 900) + "]\n";
   for (const std::string gear : {"pinion", "wheel"}) {
-    text += "[" + gear + "]\nteeth = " + (gear == "pinion" ? "20" : "43") + "\nface_width = " + number(30, 60) + "\nprofile_shift = " + number(-0.1, 0.3) +
-            (gear == "pinion" ? std::string("\nhand = ") + (random() % 2 == 0U ? "\"right\"" : "\"left\"") : "") + "\nrack = { dedendum = " + number(1.2, 1.3) +
-            ", root_radius = " + number(0.1, 0.2) + " }\n[" + gear + ".material]\nyoungs_modulus = " + number(1e5, 2e5) + "\n[" + gear +
-            ".modification]\nlead_crowning = " + number(-10, 20) + "\nlead_slope = " + number(-20, 20) + "\naddendum_crowning = " + number(0, 9) +
-            "\ndedendum_crowning = " + number(0, 9) + "\nprofile_slope = " + number(-9, 9) + "\ntip_relief = " + relief(2.0) + "\nroot_relief = " + relief(1.0) +
+    text += "[" + gear + "]\nteeth = " + (gear == "pinion" ? "20" : "43") + "\nface_width = " + number(30, 60) +
+            "\nprofile_shift = " + number(-0.1, 0.3) +
+            (gear == "pinion" ? std::string("\nhand = ") + (random() % 2 == 0U ? "\"right\"" : "\"left\"") : "") +
+            "\nrack = { dedendum = " + number(1.2, 1.3) + ", root_radius = " + number(0.1, 0.2) + " }\n[" + gear +
+            ".material]\nyoungs_modulus = " + number(1e5, 2e5) + "\n[" + gear + ".modification]\nlead_crowning = " + number(-10, 20) +
+            "\nlead_slope = " + number(-20, 20) + "\naddendum_crowning = " + number(0, 9) + "\ndedendum_crowning = " + number(0, 9) +
+            "\nprofile_slope = " + number(-9, 9) + "\ntip_relief = " + relief(2.0) + "\nroot_relief = " + relief(1.0) +
             "\nend_relief = { amount = " + number(1, 9) + ", length = " + number(2, 9) + " }\ntwist = " + number(-9, 9) + "\n";
   }
   return text;
@@ -103,8 +108,10 @@ TEST_CASE("A study survives the way to REXS and back to its last digit", "[studi
 }
 
 TEST_CASE("A generated flank comes back as the grid of its points", "[studies][rexs][export]") {
-  const Study study = parse_study("[pair]\nnormal_module = 5\nhelix_angle = 20\n[pinion]\nteeth = 20\nface_width = 40\n"
-                                  "generation = { kind = \"parabolic_rack\", coefficient = 0.0008 }\n[wheel]\nteeth = 43\nface_width = 40\n", "a.toml");
+  const Study study = parse_study(
+      "[pair]\nnormal_module = 5\nhelix_angle = 20\n[pinion]\nteeth = 20\nface_width = 40\n"
+      "generation = { kind = \"parabolic_rack\", coefficient = 0.0008 }\n[wheel]\nteeth = 43\nface_width = 40\n",
+      "a.toml");
   const rexs::ExportedStage stage = rexs::export_stage(study, {});
   CHECK_THAT(stage.notes.front(), Contains("pinion: what no component of the format says is exported as 625 points"));
   const rexs::ImportedStudy imported = rexs::import_stage(rexs::model_text(stage.model, rexs::Form::Xml), "a.rexs", {.grid_stem = "a"});
@@ -127,7 +134,8 @@ TEST_CASE("A generated flank comes back as the grid of its points", "[studies][r
 }
 
 TEST_CASE("Every modification parameter survives the way to REXS and back, as a component or as points", "[studies][rexs][export][modification]") {
-  const std::string pair_text = "[pair]\nnormal_module = 5\nhelix_angle = 20\n[pinion]\nteeth = 20\nface_width = 40\n[wheel]\nteeth = 43\nface_width = 40\n";
+  const std::string pair_text =
+      "[pair]\nnormal_module = 5\nhelix_angle = 20\n[pinion]\nteeth = 20\nface_width = 40\n[wheel]\nteeth = 43\nface_width = 40\n";
   for (const ModificationDescriptor& d : modification_parameters) {
     if (d.kind == ParameterKind::Extent) continue;  // comes with its amount
     CAPTURE(std::string(d.key));
@@ -142,11 +150,13 @@ TEST_CASE("Every modification parameter survives the way to REXS and back, as a 
     for (const auto& grid : imported.grids) {
       back.modification.pinion.topography = make_grid_field(parse_grid(grid.text, grid.name), pair.pinion.base_radius, pair.base_helix_angle).field;
     }
-    const Flank there = make_flank(pair, Member::Pinion, study.modification.pinion, {}), here = make_flank(pair, Member::Pinion, back.modification.pinion, {});
+    const Flank there = make_flank(pair, Member::Pinion, study.modification.pinion, {}),
+                here = make_flank(pair, Member::Pinion, back.modification.pinion, {});
     double largest = 0.0, departure = 0.0;
     for (int i = 0; i <= 10; ++i) {
       for (int j = 0; j <= 10; ++j) {
-        const double rho = there.roll_at(std::lerp(pair.pinion.active_root_radius, pair.pinion.tip_radius, 0.05 + 0.09 * i)), z = 39.0 * (0.1 * j - 0.5);
+        const double rho = there.roll_at(std::lerp(pair.pinion.active_root_radius, pair.pinion.tip_radius, 0.05 + 0.09 * i)),
+                     z = 39.0 * (0.1 * j - 0.5);
         largest = std::max(largest, std::abs(there.deviation(rho, z, 0)));
         departure = std::max(departure, std::abs(there.deviation(rho, z, 0) - here.deviation(rho, z, 0)));
       }

@@ -46,8 +46,9 @@ std::string attribute(const std::string& id, const std::string& value, const std
 /// A spur pair in XML; `more` stands among the components, at the pinion's right flank (id 6) where `at_flank` refers to it.
 std::string small_file(const std::string& more = "", const std::string& relations = "") {
   const auto gear = [](const std::string& id, const std::string& teeth) {
-    return "<component id=\"" + id + "\" type=\"cylindrical_gear\">\n" + attribute("number_of_teeth", teeth, "none") + attribute("normal_module", "4") +
-           attribute("face_width", "40") + attribute("helix_angle_reference_diameter", "0", "deg") + "</component>\n";
+    return "<component id=\"" + id + "\" type=\"cylindrical_gear\">\n" + attribute("number_of_teeth", teeth, "none") +
+           attribute("normal_module", "4") + attribute("face_width", "40") + attribute("helix_angle_reference_diameter", "0", "deg") +
+           "</component>\n";
   };
   return "<model version=\"1.6\">\n<relations>\n<relation id=\"1\" type=\"stage\">"
          "<ref id=\"1\" role=\"stage\"/><ref id=\"2\" role=\"gear_1\"/><ref id=\"3\" role=\"gear_2\"/></relation>\n"
@@ -63,7 +64,8 @@ std::string modified(const std::vector<std::string>& components) {
   for (std::size_t i = 0; i < components.size(); ++i) {
     const std::string id = std::to_string(20 + i);
     more += "<component id=\"" + id + "\" " + components[i] + "</component>\n";
-    relations += "<relation id=\"" + id + "\" type=\"reference\"><ref id=\"6\" role=\"origin\"/><ref id=\"" + id + "\" role=\"referenced\"/></relation>\n";
+    relations +=
+        "<relation id=\"" + id + "\" type=\"reference\"><ref id=\"6\" role=\"origin\"/><ref id=\"" + id + "\" role=\"referenced\"/></relation>\n";
   }
   return small_file(more, relations);
 }
@@ -115,7 +117,8 @@ TEST_CASE("A planetary gear unit gives sun and planet, and reports missing data"
   CHECK(study.modification.pinion.lead_crowning == Approx(0.004).epsilon(round_off));
   CHECK(study.modification.pinion.lead_slope == Approx(-0.007).epsilon(round_off));
   CHECK(study.modification.wheel == Modification{});
-  CHECK(study_of(import_text(text, {.stage = 1, .slope_end = rexs::SlopeEnd::DatumFace})).modification.pinion.lead_slope == -study.modification.pinion.lead_slope);
+  CHECK(study_of(import_text(text, {.stage = 1, .slope_end = rexs::SlopeEnd::DatumFace})).modification.pinion.lead_slope ==
+        -study.modification.pinion.lead_slope);
   // The sun's torque is shared by three planets, how the file does not say.
   CHECK(study.torques == std::vector{0.0});
   CHECK_THAT(imported.text, Contains("not give the torque"));
@@ -162,7 +165,8 @@ TEST_CASE("Ends and flanks follow the datum face", "[studies][rexs][import]") {
 TEST_CASE("Amounts of another range are carried on to the borders of the flank", "[studies][rexs][import]") {
   const auto flank = [](const std::string& component) { return study_of(import_text(modified({component}))).modification.pinion; };
   // Crowning 8 um at 10 mm off centre is 32 um at the ends of a 40 mm face: a parabola.
-  CHECK(flank("type=\"helix_crowning\">" + attribute("helix_crowning_amount_datum_face", "0.008") + attribute("helix_crowning_amount_non_datum_face", "0.008") +
+  CHECK(flank("type=\"helix_crowning\">" + attribute("helix_crowning_amount_datum_face", "0.008") +
+              attribute("helix_crowning_amount_non_datum_face", "0.008") +
               attribute("coordinate_where_helix_crowning_is_specified_datum_face", "-10") +
               attribute("coordinate_where_helix_crowning_is_specified_non_datum_face", "10"))
             .lead_crowning == Approx(0.032));
@@ -171,10 +175,12 @@ TEST_CASE("Amounts of another range are carried on to the borders of the flank",
                                         attribute("helix_crowning_amount_non_datum_face", "0.0256") + attribute("helix_highest_point", "4"));
   CHECK(off_centre.lead_crowning == Approx(1e-4 * 400.0));
   CHECK(off_centre.lead_slope == Approx(-2e-4 * 4.0 * 40.0));
-  CHECK(flank("type=\"helix_slope\">" + attribute("helix_slope", "0.010") + attribute("helix_evaluation_start", "-16") + attribute("helix_evaluation_end", "16"))
+  CHECK(flank("type=\"helix_slope\">" + attribute("helix_slope", "0.010") + attribute("helix_evaluation_start", "-16") +
+              attribute("helix_evaluation_end", "16"))
             .lead_slope == Approx(0.0125));
   // Linear relief from d = 84 to 88 mm, 10 um at d = 86.
-  CHECK(flank("type=\"tip_relief\">" + attribute("tip_relief_depth", "0.010") + attribute("tip_relief_datum_diameter", "84") + attribute("tip_relief_evaluation_reference", "86"))
+  CHECK(flank("type=\"tip_relief\">" + attribute("tip_relief_depth", "0.010") + attribute("tip_relief_datum_diameter", "84") +
+              attribute("tip_relief_evaluation_reference", "86"))
             .tip_relief.amount == Approx(0.020));
   // By roll length from the tip: the radius where the involute is that much shorter.
   const double rb = 40.0 * std::cos(20 * units::deg), roll = std::sqrt(44.0 * 44.0 - rb * rb) - 5.0;
@@ -183,13 +189,15 @@ TEST_CASE("Amounts of another range are carried on to the borders of the flank",
 }
 
 TEST_CASE("Data without a key of a study are named", "[studies][rexs][import]") {
-  const std::string component = GENERATE(
-      "type=\"triangular_tip_relief\">" + attribute("triangular_tip_relief_depth", "0.01"),
-      "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01") + attribute("tip_relief_datum_diameter", "85") + attribute("shape_of_relief", "logarithmic", "none"),
-      "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01") + attribute("tip_relief_datum_diameter", "99"),
-      "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01"),
-      "type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") + attribute("end_relief_length_datum_face", "5") + attribute("shape_of_relief", "exponential", "none"),
-      "type=\"topographical_modification\">" + attribute("coordinates_of_topographical_modification", "<array><c>1</c></array>"));
+  const std::string component =
+      GENERATE("type=\"triangular_tip_relief\">" + attribute("triangular_tip_relief_depth", "0.01"),
+               "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01") + attribute("tip_relief_datum_diameter", "85") +
+                   attribute("shape_of_relief", "logarithmic", "none"),
+               "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01") + attribute("tip_relief_datum_diameter", "99"),
+               "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01"),
+               "type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") + attribute("end_relief_length_datum_face", "5") +
+                   attribute("shape_of_relief", "exponential", "none"),
+               "type=\"topographical_modification\">" + attribute("coordinates_of_topographical_modification", "<array><c>1</c></array>"));
   CAPTURE(component);
   const rexs::ImportedStudy imported = import_text(modified({component}));
   CHECK(study_of(imported).modification.pinion == Modification{});
@@ -199,13 +207,16 @@ TEST_CASE("Data without a key of a study are named", "[studies][rexs][import]") 
 }
 
 TEST_CASE("Equal end reliefs are one, modifications of one kind add up", "[studies][rexs][import]") {
-  const Modification m = study_of(import_text(modified({
-                                      "type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") + attribute("end_relief_length_datum_face", "5"),
-                                      "type=\"end_relief_non_datum_face\">" + attribute("end_relief_depth_non_datum_face", "0.01") + attribute("end_relief_length_non_datum_face", "5"),
-                                      "type=\"helix_slope\">" + attribute("helix_slope", "0.004"),
-                                      "type=\"helix_slope\">" + attribute("helix_slope", "0.003"),
-                                  })))
-                             .modification.pinion;
+  const Modification m =
+      study_of(
+          import_text(modified({
+              "type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") + attribute("end_relief_length_datum_face", "5"),
+              "type=\"end_relief_non_datum_face\">" + attribute("end_relief_depth_non_datum_face", "0.01") +
+                  attribute("end_relief_length_non_datum_face", "5"),
+              "type=\"helix_slope\">" + attribute("helix_slope", "0.004"),
+              "type=\"helix_slope\">" + attribute("helix_slope", "0.003"),
+          })))
+          .modification.pinion;
   CHECK(m.end_relief.amount == Approx(0.010));
   CHECK(m.end_relief.length == 5.0);
   CHECK(m.lead_slope == Approx(0.007));
@@ -236,36 +247,45 @@ TEST_CASE("Modifications without a key become a grid, and its departure is repor
   constexpr double beside_a_kink = 1e-4;  // [mm] discretisation: slope 2 um/mm jumps between lines half a millimetre apart
   const auto relief = [](double amount, double share) { return share > 0.0 ? amount * share : 0.0; };
   {
-    const auto imported = import_text(modified({"type=\"helix_crowning\">" + attribute("helix_crowning_amount_datum_face", "0.01") + attribute("helix_crowning_amount_non_datum_face", "0.02")}));
+    const auto imported = import_text(modified({"type=\"helix_crowning\">" + attribute("helix_crowning_amount_datum_face", "0.01") +
+                                                attribute("helix_crowning_amount_non_datum_face", "0.02")}));
     // The curvature jumps at mid face, a line of the grid.
     CHECK(worst_departure(imported, [](double, double z) { return (z < 0.0 ? 0.01 : 0.02) * z * z / 400.0; }) < 1e-6);
-    CHECK_THAT(imported.warnings.front(), Contains("helix_crowning 20: taken as a grid of 3 radii and 81 axial positions") && Contains("departs from it by at most "));
+    CHECK_THAT(imported.warnings.front(),
+               Contains("helix_crowning 20: taken as a grid of 3 radii and 81 axial positions") && Contains("departs from it by at most "));
   }
-  const auto one_end = import_text(modified({"type=\"end_relief_non_datum_face\">" + attribute("end_relief_depth_non_datum_face", "0.01") + attribute("end_relief_length_non_datum_face", "5")}));
+  const auto one_end = import_text(modified({"type=\"end_relief_non_datum_face\">" + attribute("end_relief_depth_non_datum_face", "0.01") +
+                                             attribute("end_relief_length_non_datum_face", "5")}));
   CHECK(worst_departure(one_end, [&](double, double z) { return relief(0.01, (z - 15.0) / 5.0); }) < beside_a_kink);
   CHECK(worst_departure(one_end, [&](double, double z) { return relief(0.01, (-z - 15.0) / 5.0); }) > 0.008);  // at that end, not at the other
 
   // Parabolic ends, 5 mm and 8 mm, a slope that a study has a key for, and a topography on top of them.
   const std::string array = "<array><c>-20</c><c>20</c><c>-20</c><c>20</c></array>";
-  const auto sum = import_text(modified(
-      {"type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") + attribute("end_relief_length_datum_face", "5") + attribute("shape_of_relief", "parabolic", "none"),
-       "type=\"end_relief_non_datum_face\">" + attribute("end_relief_depth_non_datum_face", "0.02") + attribute("end_relief_length_non_datum_face", "8") + attribute("shape_of_relief", "parabolic", "none"),
-       "type=\"helix_slope\">" + attribute("helix_slope", "0.004"),
-       "type=\"topographical_modification\">" + attribute("coordinates_of_topographical_modification", array) +
-           attribute("diameters_of_topographical_modification", "<array><c>76</c><c>76</c><c>88</c><c>88</c></array>") +
-           attribute("topographical_modification_amounts", "<array><c>0.001</c><c>0.003</c><c>0.001</c><c>0.003</c></array>")}));
+  const auto sum =
+      import_text(modified({"type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") +
+                                attribute("end_relief_length_datum_face", "5") + attribute("shape_of_relief", "parabolic", "none"),
+                            "type=\"end_relief_non_datum_face\">" + attribute("end_relief_depth_non_datum_face", "0.02") +
+                                attribute("end_relief_length_non_datum_face", "8") + attribute("shape_of_relief", "parabolic", "none"),
+                            "type=\"helix_slope\">" + attribute("helix_slope", "0.004"),
+                            "type=\"topographical_modification\">" + attribute("coordinates_of_topographical_modification", array) +
+                                attribute("diameters_of_topographical_modification", "<array><c>76</c><c>76</c><c>88</c><c>88</c></array>") +
+                                attribute("topographical_modification_amounts", "<array><c>0.001</c><c>0.003</c><c>0.001</c><c>0.003</c></array>")}));
   CHECK_THAT(sum.text, Contains("lead_slope = 4"));
   const auto squared = [](double amount, double share) { return share > 0.0 ? amount * share * share : 0.0; };
-  CHECK(worst_departure(sum, [&](double, double z) { return squared(0.01, (-z - 15.0) / 5.0) + squared(0.02, (z - 12.0) / 8.0) + 0.002 + 0.001 * z / 20.0; }) < 3e-5);
+  CHECK(worst_departure(sum, [&](double, double z) {
+          return squared(0.01, (-z - 15.0) / 5.0) + squared(0.02, (z - 12.0) / 8.0) + 0.002 + 0.001 * z / 20.0;
+        }) < 3e-5);
 
   // A second tip relief of another height; the first stays a key.
-  const auto two = import_text(modified({"type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01") + attribute("tip_relief_datum_diameter", "84"),
-                                         "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.006") + attribute("tip_relief_datum_diameter", "86") + attribute("shape_of_relief", "parabolic", "none")}));
+  const auto two =
+      import_text(modified({"type=\"tip_relief\">" + attribute("tip_relief_depth", "0.01") + attribute("tip_relief_datum_diameter", "84"),
+                            "type=\"tip_relief\">" + attribute("tip_relief_depth", "0.006") + attribute("tip_relief_datum_diameter", "86") +
+                                attribute("shape_of_relief", "parabolic", "none")}));
   CHECK_THAT(two.text, Contains("tip_relief = { amount = 10, height = 2"));
   CHECK(worst_departure(two, [&](double r, double) { return squared(0.006, r - 43.0); }) < 3e-5);
   // Smooth all over: nothing is lost but decimals.
-  CHECK(worst_departure(import_text(modified({"type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") + attribute("end_relief_length_datum_face", "40") +
-                                              attribute("shape_of_relief", "parabolic", "none")})),
+  CHECK(worst_departure(import_text(modified({"type=\"end_relief_datum_face\">" + attribute("end_relief_depth_datum_face", "0.01") +
+                                              attribute("end_relief_length_datum_face", "40") + attribute("shape_of_relief", "parabolic", "none")})),
                         [&](double, double z) { return squared(0.01, (20.0 - z) / 40.0); }) < smooth);
 }
 
@@ -274,20 +294,27 @@ TEST_CASE("A stage that no study can describe is refused with component and attr
   REQUIRE(refusal(good).empty());
   CHECK_THAT(refusal(replaced(good, attribute("number_of_teeth", "20", "none"), attribute("number_of_teeth", "20.5", "none"))),
              Contains("gears.rexs:9:1: cylindrical_gear 2 number_of_teeth = 20.5"));
-  CHECK_THAT(refusal(replaced(good, attribute("number_of_teeth", "40", "none"), attribute("number_of_teeth", "-40", "none"))), Contains("internal gears are not modelled"));
+  CHECK_THAT(refusal(replaced(good, attribute("number_of_teeth", "40", "none"), attribute("number_of_teeth", "-40", "none"))),
+             Contains("internal gears are not modelled"));
   CHECK_THAT(refusal(replaced(good, attribute("face_width", "40"), "")), Contains("cylindrical_gear 2 face_width = not given"));
-  CHECK_THAT(refusal(replaced(good, attribute("face_width", "40"), attribute("face_width", "wide"))), Contains("face_width = wide: allowed is a finite number"));
-  CHECK_THAT(refusal(replaced(good, attribute("face_width", "40"), attribute("face_width", "40", "kg"))), Contains("face_width = a value in kg: allowed is a unit of mm, m, cm"));
-  CHECK_THAT(refusal(replaced(good, attribute("normal_module", "4"), attribute("normal_module", "5"))), Contains("cylindrical_gear 3 normal_module = 4: allowed is that of the mate, 5"));
-  CHECK_THAT(refusal(replaced(good, attribute("helix_angle_reference_diameter", "0", "deg"), attribute("helix_angle_reference_diameter", "12", "deg"))),
-             Contains("cylindrical_gear 3 helix_angle_reference_diameter = 0: allowed is -12 deg, opposite"));
+  CHECK_THAT(refusal(replaced(good, attribute("face_width", "40"), attribute("face_width", "wide"))),
+             Contains("face_width = wide: allowed is a finite number"));
+  CHECK_THAT(refusal(replaced(good, attribute("face_width", "40"), attribute("face_width", "40", "kg"))),
+             Contains("face_width = a value in kg: allowed is a unit of mm, m, cm"));
+  CHECK_THAT(refusal(replaced(good, attribute("normal_module", "4"), attribute("normal_module", "5"))),
+             Contains("cylindrical_gear 3 normal_module = 4: allowed is that of the mate, 5"));
+  CHECK_THAT(
+      refusal(replaced(good, attribute("helix_angle_reference_diameter", "0", "deg"), attribute("helix_angle_reference_diameter", "12", "deg"))),
+      Contains("cylindrical_gear 3 helix_angle_reference_diameter = 0: allowed is -12 deg, opposite"));
   CHECK_THAT(refusal(replaced(good, "type=\"stage\"", "type=\"side\"")), Contains("no relation \"stage\""));
   CHECK_THAT(refusal(replaced(good, "<ref id=\"3\" role=\"gear_2\"/>", "<ref id=\"33\" role=\"gear_2\"/>")), Contains("relation 1 role gear_2 = 33"));
   CHECK_THAT(refusal(replaced(good, "<ref id=\"3\" role=\"gear_2\"/>", "")), Contains("without gear_2"));
   // Well-formed JSON, but its number is no double.
-  const std::string overflow = R"({"model":{"components":[{"id":2,"type":"cylindrical_gear","attributes":[{"id":"face_width","floating_point":4e400}]}]}})";
+  const std::string overflow =
+      R"({"model":{"components":[{"id":2,"type":"cylindrical_gear","attributes":[{"id":"face_width","floating_point":4e400}]}]}})";
   CHECK_THAT(refusal(overflow), Contains("JSON = number overflow parsing '4e400'"));
   // A pair that cannot run: the reason, and what of the file it came from.
-  CHECK_THAT(refusal(replaced(good, "type=\"cylindrical_stage\"/>", "type=\"cylindrical_stage\">" + attribute("center_distance", "500") + "</component>")),
-             Contains("cylindrical_stage 1: pair.centre_distance (cylindrical_stage 1 center_distance) = 500"));
+  CHECK_THAT(
+      refusal(replaced(good, "type=\"cylindrical_stage\"/>", "type=\"cylindrical_stage\">" + attribute("center_distance", "500") + "</component>")),
+      Contains("cylindrical_stage 1: pair.centre_distance (cylindrical_stage 1 center_distance) = 500"));
 }

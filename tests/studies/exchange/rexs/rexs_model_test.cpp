@@ -68,8 +68,10 @@ TEST_CASE("A REXS model survives both of its forms", "[studies][rexs]") {
 }
 
 TEST_CASE("Elements of XML have their line", "[studies][rexs]") {
-  const Model model = parse_model("<model version='1.6'>\n<components>\n<component id='7' type='a'>\n\n<attribute id='b' unit='mm'> 3 </attribute></component>\n"
-                                  "</components></model>", "a");
+  const Model model = parse_model(
+      "<model version='1.6'>\n<components>\n<component id='7' type='a'>\n\n<attribute id='b' unit='mm'> 3 </attribute></component>\n"
+      "</components></model>",
+      "a");
   CHECK(model.components.front().line == 3);
   CHECK(model.components.front().find("b")->line == 5);
   CHECK(model.components.front().find("b")->text == "3");
@@ -89,8 +91,10 @@ TEST_CASE("A damaged REXS file is refused in one line with its position", "[stud
   CHECK_THAT(model_refusal("{\"gear\": {}}"), Contains("an object with \"model\""));
   CHECK_THAT(model_refusal("{\"model\": {\"components\": 3}}"), Contains("components = 3: allowed is a list"));
   const std::string component = "<component id='1' type='a'/>";
-  CHECK_THAT(model_refusal("<model><components>" + component + "\n" + component + "</components></model>"), Contains("gears.rexs:2:1: component id = 1: allowed is each id once"));
-  CHECK_THAT(model_refusal("<model><components>\n<component id='x1'/></components></model>"), Contains("gears.rexs:2:1: component id = x1: allowed is a whole number"));
+  CHECK_THAT(model_refusal("<model><components>" + component + "\n" + component + "</components></model>"),
+             Contains("gears.rexs:2:1: component id = 1: allowed is each id once"));
+  CHECK_THAT(model_refusal("<model><components>\n<component id='x1'/></components></model>"),
+             Contains("gears.rexs:2:1: component id = x1: allowed is a whole number"));
   CHECK_THAT(model_refusal("<model><relations><relation id='1' type='a'><ref id='-3'/></relation></relations></model>"), Contains("ref id = -3"));
   // Neither nesting nor entities exhaust anything.
   std::string deep_json = "{\"model\": ", deep_xml = "<model>";

@@ -76,7 +76,8 @@ Piece read_piece(const std::string& xml, const char* cells) {
 TEST_CASE("A VTK series is valid, complete and lies on the plane of action and the flanks", "[studies][vtk]") {
   const std::string hand = GENERATE("right", "left"), flank = GENERATE("right", "left");
   CAPTURE(hand, flank);
-  const StudyResults results = run_study(parse_study(small::analysis(), "a", {{"pinion.hand", hand}, {"pair.working_flank", flank}, {"cycle.positions", "3"}, {"cycle.peaks", "sampled"}}));
+  const StudyResults results = run_study(parse_study(
+      small::analysis(), "a", {{"pinion.hand", hand}, {"pair.working_flank", flank}, {"cycle.positions", "3"}, {"cycle.peaks", "sampled"}}));
   const std::string text = results_json(results);
   const Json json = Json::parse(text);
   std::map<std::string, std::string> files;
@@ -106,7 +107,8 @@ TEST_CASE("A VTK series is valid, complete and lies on the plane of action and t
       CHECK(std::hypot(x, y) == Approx(point["pinion_radius_mm"].get<double>()).epsilon(vtk_round_off));
       CHECK(std::hypot(a - x, y) == Approx(point["wheel_radius_mm"].get<double>()).epsilon(vtk_round_off));
       const double distance = std::abs((x - results.pair.pinion.working_pitch_radius) * std::cos(angle) - y * std::sin(angle));
-      const double rolls = results.pair.pinion.roll_length_at(point["pinion_radius_mm"]) + results.pair.wheel.roll_length_at(point["wheel_radius_mm"]);
+      const double rolls =
+          results.pair.pinion.roll_length_at(point["pinion_radius_mm"]) + results.pair.wheel.roll_length_at(point["wheel_radius_mm"]);
       if (std::abs(rolls - results.pair.path_length) < 1e-6) CHECK(distance < 1e-6);
       on_line += distance < 1e-6 ? 1 : 0;
       CHECK(lines.points[3 * at + 2] == Approx(point["z_mm"].get<double>()));
@@ -122,7 +124,8 @@ TEST_CASE("A VTK series is valid, complete and lies on the plane of action and t
     CHECK(surface.teeth.size() >= 128);
     const double centre = gear == "pinion" ? 0.0 : results.pair.centre_distance;
     for (std::size_t i = 0; i < surface.points.size() / 3; ++i) {
-      CHECK(std::hypot(surface.points[3 * i] - centre, surface.points[3 * i + 1]) == Approx(surface.fields.at("radius_mm")[i]).epsilon(vtk_round_off));
+      CHECK(std::hypot(surface.points[3 * i] - centre, surface.points[3 * i + 1]) ==
+            Approx(surface.fields.at("radius_mm")[i]).epsilon(vtk_round_off));
     }
     const double largest = *std::max_element(surface.fields.at("removal_um").begin(), surface.fields.at("removal_um").end());
     CHECK((largest > 1.0) == (gear == "pinion"));
@@ -131,7 +134,8 @@ TEST_CASE("A VTK series is valid, complete and lies on the plane of action and t
 
 TEST_CASE("The drawn flanks are the involutes through their contact lines", "[studies][vtk]") {
   const std::string flank = GENERATE("right", "left");
-  const StudyResults results = run_study(parse_study(small::analysis(), "a", {{"pair.working_flank", flank}, {"cycle.positions", "2"}, {"cycle.peaks", "sampled"}}));
+  const StudyResults results =
+      run_study(parse_study(small::analysis(), "a", {{"pair.working_flank", flank}, {"cycle.positions", "2"}, {"cycle.peaks", "sampled"}}));
   const GearPair& pair = results.pair;
   std::map<std::string, std::string> files;
   for (const ExportedFile& file : vtk_series(results_json(results), "a")) files[file.name] = file.text;

@@ -18,7 +18,8 @@ TEST_CASE("An accuracy is a percentage above 0 and at most half", "[studies][acc
 }
 
 TEST_CASE("The study gives the finest level", "[studies][accuracy]") {
-  const Study study = parse_study(study_template("accuracy"), "accuracy.toml", {{"accuracy.finest.compliance", "fe"}, {"accuracy.finest.positions", "256"}});
+  const Study study =
+      parse_study(study_template("accuracy"), "accuracy.toml", {{"accuracy.finest.compliance", "fe"}, {"accuracy.finest.positions", "256"}});
   CHECK(study.task == &find_task("accuracy"));
   CHECK(study.accuracy.compliance == ComplianceModel::Fe);
   CHECK(study.accuracy.gap == GapModel::WholeSurface);

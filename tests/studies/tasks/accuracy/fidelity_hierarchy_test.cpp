@@ -58,7 +58,8 @@ double error(const HierarchyStep& step, Figure figure) { return step.error[stati
 
 }  // namespace
 
-TEST_CASE("The finest level has no error, every other one has its own, and these fall with intervals and positions", "[studies][accuracy][levels][slow]") {
+TEST_CASE("The finest level has no error, every other one has its own, and these fall with intervals and positions",
+          "[studies][accuracy][levels][slow]") {
   const FidelityHierarchy hierarchy = hierarchy_of(20.0, "lead_crowning = 6\n");
   CHECK(largest(hierarchy.reference.error) == 0.0);
   CHECK(hierarchy.reference.best);
@@ -84,7 +85,8 @@ TEST_CASE("The finest level has no error, every other one has its own, and these
   CHECK(error(step(hierarchy, "gauss2 5"), Figure::TePeakToPeak) > error(step(hierarchy, "graded 4"), Figure::TePeakToPeak));
 }
 
-TEST_CASE("Without modification, misalignment and free ends spur lines carry evenly: quadrature has no error", "[studies][accuracy][levels][closed-form]") {
+TEST_CASE("Without modification, misalignment and free ends spur lines carry evenly: quadrature has no error",
+          "[studies][accuracy][levels][closed-form]") {
   const FidelityHierarchy hierarchy = hierarchy_of(0.0, "", R"(effects = ["bending", "hertzian_contact", "tip_corner", "extended_contact_region"])");
   constexpr double kRoundOff = 1e-9;
   for (const HierarchyStep& s : hierarchy.steps) {
@@ -94,7 +96,8 @@ TEST_CASE("Without modification, misalignment and free ends spur lines carry eve
     if (quadrature_only) CHECK(largest(s.error) < kRoundOff);
   }
   // The finest's peak line load is the force over the face width of one tooth pair.
-  const GearPair pair = make_gear_pair(parse_study("[pair]\nnormal_module = 4\n[pinion]\nteeth = 20\nface_width = 30\n[wheel]\nteeth = 40\nface_width = 30\n", "spur.toml").pair);
+  const GearPair pair = make_gear_pair(
+      parse_study("[pair]\nnormal_module = 4\n[pinion]\nteeth = 20\nface_width = 30\n[wheel]\nteeth = 40\nface_width = 30\n", "spur.toml").pair);
   const double force = 200e3 / pair.pinion.base_radius;
   CHECK(hierarchy.reference.result.scenes[0][Figure::PeakLineLoad] == Approx(force / 30.0).epsilon(kRoundOff));
 }

@@ -11,9 +11,7 @@ using Catch::Contains;
 
 namespace {
 
-Study fit_study(const std::vector<Override>& overrides = {}) {
-  return parse_study(study_template("fit"), "fit.toml", overrides);
-}
+Study fit_study(const std::vector<Override>& overrides = {}) { return parse_study(study_template("fit"), "fit.toml", overrides); }
 
 }  // namespace
 
@@ -22,25 +20,20 @@ TEST_CASE("By default the task fit takes both gears, one tooth and a test grid",
   CHECK((usual.gears.pinion && usual.gears.wheel && !usual.several_teeth && usual.test_grid));
   CHECK(usual.max_iterations == 300);
   const FitChoice other =
-      fit_study(
-          {{"fit.gear", "wheel"}, {"fit.form", "several_teeth"}, {"fit.test_grid", "off"}, {"fit.max_iterations", "7"}})
-          .fit;
+      fit_study({{"fit.gear", "wheel"}, {"fit.form", "several_teeth"}, {"fit.test_grid", "off"}, {"fit.max_iterations", "7"}}).fit;
   CHECK((!other.gears.pinion && other.gears.wheel && other.several_teeth && !other.test_grid));
   CHECK(other.max_iterations == 7);
 }
 
 TEST_CASE("A fit's keys refuse what they do not know", "[studies][fit]") {
-  for (const auto& [key, value] : {std::pair{"fit.gear", "rack"},
-                                   {"fit.form", "thesis"},
-                                   {"fit.test_grid", "perhaps"},
-                                   {"fit.max_iterations", "0"}}) {
+  for (const auto& [key, value] :
+       {std::pair{"fit.gear", "rack"}, {"fit.form", "thesis"}, {"fit.test_grid", "perhaps"}, {"fit.max_iterations", "0"}}) {
     CAPTURE(key);
     const std::vector<StudyProblem> problems = study_texts::problems_of(study_template("fit"), {{key, value}});
     REQUIRE(problems.size() == 1);
     CHECK(problems.front().key == key);
   }
-  const std::vector<StudyProblem> body =
-      study_texts::problems_of(study_template("fit"), {{"pinion.body.shaft_diameter", "79"}});
+  const std::vector<StudyProblem> body = study_texts::problems_of(study_template("fit"), {{"pinion.body.shaft_diameter", "79"}});
   REQUIRE(body.size() == 1);  // the root circle has 74.4 mm
   CHECK(body.front().key == "pinion.body.shaft_diameter");
 }

@@ -21,8 +21,8 @@ using json = Json;
 /// A study whose pinion has been fitted with a coarse mesh, a narrow face and hardly any steps.
 StudyResults fitted_results() {
   StudyResults results;
-  results.study = parse_study(study_template("fit"), "fit.toml",
-                              {{"pinion.face_width", "12"}, {"wheel.face_width", "12"}, {"fit.form", "several_teeth"}});
+  results.study =
+      parse_study(study_template("fit"), "fit.toml", {{"pinion.face_width", "12"}, {"wheel.face_width", "12"}, {"fit.form", "several_teeth"}});
   results.pair = make_gear_pair(results.study.pair);
   GearFitTask task = gear_fit_task(results.study, results.pair, Member::Pinion);
   task.mesh = test::coarse();
@@ -82,9 +82,8 @@ TEST_CASE("A fit is stored whole: results, tables, summary and report", "[studie
     CHECK(gear["curves"].size() == fit.curves.size());
     CHECK(gear["curves"][0]["zeta"].size() == gear["curves"][0]["value"].size());
     // What a study may expect of a fit.
-    const Study expecting = parse_study(
-        study_template("fit") + "\n[expect]\n\"fit.residuals.kernels.unseen.0.median_percent\" = { max = 0 }\n",
-        "fit.toml");
+    const Study expecting =
+        parse_study(study_template("fit") + "\n[expect]\n\"fit.residuals.kernels.unseen.0.median_percent\" = { max = 0 }\n", "fit.toml");
     CHECK_THAT(differences(compare(expecting.expect, Json::parse(text))), Contains("median_percent"));
   }
 
@@ -111,19 +110,17 @@ TEST_CASE("A fit is stored whole: results, tables, summary and report", "[studie
   }
 
   SECTION("summary and report") {
-    CHECK_THAT(fit_summary(results.fits), Contains("pinion: iteration limit") && Contains("kernels") &&
-                                              Contains("thesis_separate") && Contains("over 5 teeth"));
+    CHECK_THAT(fit_summary(results.fits),
+               Contains("pinion: iteration limit") && Contains("kernels") && Contains("thesis_separate") && Contains("over 5 teeth"));
     const std::string page = render_report(results_document(results));
-    for (const char* part :
-         {"<section id=\"deflections\">", "<section id=\"residuals\">", "function draw_deflections("}) {
+    for (const char* part : {"<section id=\"deflections\">", "<section id=\"residuals\">", "function draw_deflections("}) {
       CAPTURE(part);
       CHECK_THAT(page, Contains(part));
     }
   }
 }
 
-TEST_CASE("An analysis with the compliance of single gears stores and shows their deflection curves",
-          "[studies][results]") {
+TEST_CASE("An analysis with the compliance of single gears stores and shows their deflection curves", "[studies][results]") {
   StudyResults results;
   results.study = parse_study(study_template("analyse"), "analyse.toml", {{"fidelity.compliance", "fe"}});
   results.pair = make_gear_pair(results.study.pair);

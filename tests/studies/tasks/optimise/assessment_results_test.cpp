@@ -119,7 +119,8 @@ TEST_CASE("Drawn scenes are added to the listed ones, and errors that only they 
 samples = 3
 [optimise.tolerances]
 "pinion.error.helix_slope" = { uniform = [-10, 10] }
-)", "small.toml"));
+)",
+                                                     "small.toml"));
   REQUIRE(results.design_task->scenes.size() == 6);
   CHECK(results.design_task->scenes[5].name == "drawn 3");
   CHECK(results.design_task->scenes[5].condition.error.pinion.helix_slope != 0.0);

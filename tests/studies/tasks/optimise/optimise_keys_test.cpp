@@ -42,9 +42,9 @@ const std::string wheel_link = R"([optimise.ties]
 }  // namespace
 
 TEST_CASE("Steps, ties and bounds on sums are read in their own units", "[studies][optimise-keys]") {
-  const OptimiseTable table = read_optimisation(wheel_link, {{"optimise.step", "0.5"},
-                                               {"optimise.variables.wheel.modification.twist", "{ range = [-10, 10], step = 2 }"}})
-                                  .optimise;
+  const OptimiseTable table =
+      read_optimisation(wheel_link, {{"optimise.step", "0.5"}, {"optimise.variables.wheel.modification.twist", "{ range = [-10, 10], step = 2 }"}})
+          .optimise;
   REQUIRE(table.variables.size() == 5);
   for (const DesignVariable& v : table.variables) {
     CAPTURE(v.path);
@@ -81,22 +81,38 @@ TEST_CASE("Impossible values of [optimise] are refused at their position", "[stu
     std::string key, allowed;
   };
   const std::string link = "optimise.ties.wheel.modification.lead_crowning";
-  const Row row = GENERATE_COPY(
-      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"wheel.modification.twist\" }\n", {}, link + ".as", "one of optimise.variables"},
-      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"pinion.modification.end_relief.length\" }\n", {}, link + ".as", "another unit"},
-      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { like = \"x\" }\n", {}, link, "as ="},
-      Row{"[optimise.ties]\n\"pinion.modification.lead_slope\" = { as = \"pinion.modification.lead_crowning\" }\n", {},
-          "optimise.ties.pinion.modification.lead_slope", "a variable as well"},
-      Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"pinion.modification.lead_crowning\", factor = 100 }\n", {}, link, "leaves its range"},
-      Row{"\"pinion.modification.lead_crowning + pinion.modification.end_relief.length\" = { max = 3 }\n", {},
-          "optimise.constraints.pinion.modification.lead_crowning + pinion.modification.end_relief.length", "one unit"},
-      Row{"\"wheel.modification.twist\" = { max = 3 }\n", {}, "optimise.constraints.wheel.modification.twist", "holds no variable"},
-      Row{"\"edge_load\" = { min = 3, max = 2 }\n", {}, "optimise.constraints.edge_load", "min at most max"},
-      Row{"\"edge_load\" = { about = 3 }\n", {}, "optimise.constraints.edge_load.about", "unknown key"},
-      Row{"", {{"optimise.sigmas", "3"}}, "optimise.sigmas", "mean+sigmas"},
-      Row{"", {{"optimise.variables.wheel.modification.twist", "{ range = [0, 1], step = 3 }"}}, "optimise.variables.wheel.modification.twist", "step"},
-      Row{"", {{"optimise.objective", "[]"}}, "optimise.objective", "a list"},
-      Row{"", {{"optimise.pareto.objectives", "[\"edge_load\"]"}}, "optimise.pareto.objectives", "two or three"});
+  const Row row =
+      GENERATE_COPY(Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"wheel.modification.twist\" }\n",
+                        {},
+                        link + ".as",
+                        "one of optimise.variables"},
+                    Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"pinion.modification.end_relief.length\" }\n",
+                        {},
+                        link + ".as",
+                        "another unit"},
+                    Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { like = \"x\" }\n", {}, link, "as ="},
+                    Row{"[optimise.ties]\n\"pinion.modification.lead_slope\" = { as = \"pinion.modification.lead_crowning\" }\n",
+                        {},
+                        "optimise.ties.pinion.modification.lead_slope",
+                        "a variable as well"},
+                    Row{"[optimise.ties]\n\"wheel.modification.lead_crowning\" = { as = \"pinion.modification.lead_crowning\", factor = 100 }\n",
+                        {},
+                        link,
+                        "leaves its range"},
+                    Row{"\"pinion.modification.lead_crowning + pinion.modification.end_relief.length\" = { max = 3 }\n",
+                        {},
+                        "optimise.constraints.pinion.modification.lead_crowning + pinion.modification.end_relief.length",
+                        "one unit"},
+                    Row{"\"wheel.modification.twist\" = { max = 3 }\n", {}, "optimise.constraints.wheel.modification.twist", "holds no variable"},
+                    Row{"\"edge_load\" = { min = 3, max = 2 }\n", {}, "optimise.constraints.edge_load", "min at most max"},
+                    Row{"\"edge_load\" = { about = 3 }\n", {}, "optimise.constraints.edge_load.about", "unknown key"},
+                    Row{"", {{"optimise.sigmas", "3"}}, "optimise.sigmas", "mean+sigmas"},
+                    Row{"",
+                        {{"optimise.variables.wheel.modification.twist", "{ range = [0, 1], step = 3 }"}},
+                        "optimise.variables.wheel.modification.twist",
+                        "step"},
+                    Row{"", {{"optimise.objective", "[]"}}, "optimise.objective", "a list"},
+                    Row{"", {{"optimise.pareto.objectives", "[\"edge_load\"]"}}, "optimise.pareto.objectives", "two or three"});
   CAPTURE(row.tables);
   const StudyProblem problem = optimisation_problem(row.tables, row.overrides);
   CHECK(problem.key == row.key);
@@ -113,9 +129,9 @@ TEST_CASE("Any k of sigma and any level of the tail are read", "[studies][optimi
 }
 
 TEST_CASE("Results have the rounded design, the exact optimum and its optimality", "[studies][optimise-keys]") {
-  const json optimise = run_optimisation(wheel_link, {{"optimise.step", "1"},
-                                        {"optimise.starts", "2"},
-                                        {"optimise.objective", "[\"peak_contact_stress\", \"te_peak_to_peak\"]"}})["optimise"];
+  const json optimise = run_optimisation(
+      wheel_link,
+      {{"optimise.step", "1"}, {"optimise.starts", "2"}, {"optimise.objective", "[\"peak_contact_stress\", \"te_peak_to_peak\"]"}})["optimise"];
   for (const char* name : {"pinion.modification.lead_crowning", "pinion.modification.lead_slope"}) {
     const double ground = optimise["after"]["variables"][name], exact = optimise["exact"]["variables"][name];
     CHECK(std::abs(ground - std::round(ground)) < 1e-9);
@@ -135,8 +151,8 @@ TEST_CASE("Results have the rounded design, the exact optimum and its optimality
 
 TEST_CASE("A front is in the results and has its own table", "[studies][optimise-keys]") {
   const Study study = read_optimisation("", {{"optimise.pareto.objectives", "[\"peak_contact_stress\", \"te_peak_to_peak\"]"},
-                                {"optimise.pareto.points", "3"},
-                                {"optimise.max_evaluations", "400"}});
+                                             {"optimise.pareto.points", "3"},
+                                             {"optimise.max_evaluations", "400"}});
   const StudyResults results = run_study(study);
   const json front = json::parse(results_json(results))["optimise"]["pareto"];
   const std::size_t found = front["points"].size();

@@ -123,7 +123,9 @@ TEST_CASE("Mean peak stress of a sweep is between what its parameters' ends give
   StudyResults nominal = run_study(study);
   run_sweep(nominal, {}, {});
   const auto stress_at = [&](double torque) {
-    return run_study(parse_study(sample_study(study, "t", {torque}), "t.toml", {{"cycle.peaks", "sampled"}})).loaded.at(0).summary.peak_contact_stress;
+    return run_study(parse_study(sample_study(study, "t", {torque}), "t.toml", {{"cycle.peaks", "sampled"}}))
+        .loaded.at(0)
+        .summary.peak_contact_stress;
   };
   for (const OutputStatistics& of : nominal.sweep->outputs) {
     if (of.output.name != "peak_contact_stress_MPa") continue;

@@ -72,9 +72,9 @@ TEST_CASE("Lost, repeated, unfinished and foreign shards are all named, and noth
   write_shard(shards / "3-of-4.sqlite", {2, 4}, 12);
   write_shard(shards / "a copy.sqlite", {0, 4});
   write_shard(shards / "other.sqlite", {1, 5});
-  CHECK_THROWS_WITH(merge_shards(folder.path(), study(), shard_outputs),
-                    Contains("lost of 4: 2, 4") && Contains("unfinished of 4: 3") && Contains("shard 1 is repeated, in 1-of-4.sqlite and a copy.sqlite") &&
-                        Contains("other.sqlite is a shard of 5, others are of 4"));
+  CHECK_THROWS_WITH(merge_shards(folder.path(), study(), shard_outputs), Contains("lost of 4: 2, 4") && Contains("unfinished of 4: 3") &&
+                                                                             Contains("shard 1 is repeated, in 1-of-4.sqlite and a copy.sqlite") &&
+                                                                             Contains("other.sqlite is a shard of 5, others are of 4"));
   CHECK(!fs::exists(folder.path() / "results.sqlite"));
 }
 

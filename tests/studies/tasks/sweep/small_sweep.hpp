@@ -28,7 +28,8 @@ positions = 4
 compliance = "thin_slice"
 quadrature = { rule = "gauss2", intervals = 3 }
 [sweep]
-)" + settings + R"(
+)" + settings +
+         R"(
 [sweep.parameters]
 "misalignment.mesh_misalignment" = { normal = [0, 6] }
 "load.torque" = { uniform = [800, 1200] }

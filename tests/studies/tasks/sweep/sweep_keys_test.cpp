@@ -44,7 +44,8 @@ TEST_CASE("Distributions of a sweep are read in the unit of their key, or with t
 }
 
 TEST_CASE("A tolerance class is that gear's tolerance, and of an error all three that it covers", "[studies][sweep]") {
-  const Study study = sweep_keys("samples = 100", "\"pinion.error\" = { iso_1328_class = 6 }\n\"wheel.error.helix_slope\" = { iso_1328_class = 8 }\n");
+  const Study study =
+      sweep_keys("samples = 100", "\"pinion.error\" = { iso_1328_class = 6 }\n\"wheel.error.helix_slope\" = { iso_1328_class = 8 }\n");
   CHECK(study.sweep.parameters.size() == 7);
   const GearPair pair = make_gear_pair(study.pair);
   const FlankTolerances pinion = flank_tolerances(ToleranceData::of(pair, Member::Pinion), 6);
@@ -65,8 +66,10 @@ TEST_CASE("In the nominal sample a parameter has its value, or its median where 
 
 TEST_CASE("A grid has as many samples as its levels make", "[studies][sweep]") {
   const std::string text = small::sweep("sampler = \"grid\"");
-  const Study study = parse_study(text, "sweep.toml", {{"sweep.parameters", "{ load.torque = { values = [500, 1000] }, "
-                                                       "misalignment.mesh_misalignment = { grid = [-6, 6, 3] } }"}});
+  const Study study = parse_study(text, "sweep.toml",
+                                  {{"sweep.parameters",
+                                    "{ load.torque = { values = [500, 1000] }, "
+                                    "misalignment.mesh_misalignment = { grid = [-6, 6, 3] } }"}});
   CHECK(study.sweep.samples == 6);
   const SweepDesign design(study.sweep);
   CHECK(design.block_size() == 0);

@@ -60,7 +60,7 @@ TEST_CASE("A linear output gives each parameter its share of the variance, and a
     CHECK(of.indices[j].first == Approx(share[j]).margin(0.02));
     CHECK(of.indices[j].total == Approx(share[j]).margin(0.02));
   }
-  CHECK(of.indices[1].total == 0.0);  // exactly: it does not enter
+  CHECK(of.indices[1].total == 0.0);                          // exactly: it does not enter
   CHECK(std::isnan(statistics.outputs[1].indices[0].first));  // does not vary
   const ResponseMap* map = nullptr;
   for (const ResponseMap& m : statistics.maps) {

@@ -161,7 +161,8 @@ TEST_CASE("A folder that cannot be written is refused in one line", "[studies][s
   folder.file("plain", "no folder");
   CHECK_THROWS_WITH(SweepStore(folder.path() / "plain" / "results.sqlite", study_with(), stored_outputs), Contains("a place that can be written"));
   CHECK_THROWS_WITH(SweepStore(folder.path() / "missing" / "results.sqlite", study_with(), stored_outputs), Contains("a place that can be written"));
-  CHECK_THROWS_WITH(SweepStore("/proc/results.sqlite", study_with(), stored_outputs), Contains("a place that can be written"));  // read-only, even to root
+  CHECK_THROWS_WITH(SweepStore("/proc/results.sqlite", study_with(), stored_outputs),
+                    Contains("a place that can be written"));  // read-only, even to root
 }
 
 }  // namespace
