@@ -21,7 +21,7 @@ class HertzianContactEffect final : public Effect {
       const EndDistances& ends = builder.end_distances[i];
       builder.laws.emplace_back(ContactSide::of(parts.material.pinion, point.pinion_depth, tips.pinion, ends.pinion, ends.pinion_lean),
                                 ContactSide::of(parts.material.wheel, point.wheel_depth, tips.wheel, ends.wheel, ends.wheel_lean),
-                                point.relative_radius, modulus);
+                                point.relative_radius, modulus, builder.tip_edges[i]);
     }
   }
 };

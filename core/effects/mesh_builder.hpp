@@ -50,6 +50,7 @@ class MeshBuilder {
     influence = Eigen::MatrixXd::Zero(std::ssize(points), std::ssize(points));
     tip_distances.resize(points.size());
     end_distances.resize(points.size());
+    tip_edges.resize(points.size());
   }
 
   /// K of the structure between the points, teeth coupled as far as it couples them; computed when first asked for.
@@ -63,10 +64,11 @@ class MeshBuilder {
   bool with_extended_region{false};  ///< points before A and after E as well
   bool with_gear_bodies{false};      ///< these are compliant as well
   std::vector<ContactPoint> points;
-  Eigen::MatrixXd influence;                ///< K, symmetric, positive semi-definite [mm/N]
-  std::vector<TipDistances> tip_distances;  ///< one a point
-  std::vector<EndDistances> end_distances;  ///< one a point
-  std::vector<ContactLaw> laws;             ///< one a point, or none
+  Eigen::MatrixXd influence;                          ///< K, symmetric, positive semi-definite [mm/N]
+  std::vector<TipDistances> tip_distances;            ///< one a point
+  std::vector<EndDistances> end_distances;            ///< one a point
+  std::vector<std::optional<RoundedEdge>> tip_edges;  ///< one a point; nothing: contact does not see an edge
+  std::vector<ContactLaw> laws;                       ///< one a point, or none
   RootStressInfluence root_stress;
 
  private:

@@ -5,6 +5,7 @@
 
 #include "core/effects/adjacent_teeth.hpp"
 #include "core/effects/bending.hpp"
+#include "core/effects/edge_contact.hpp"
 #include "core/effects/extended_contact_region.hpp"
 #include "core/effects/free_ends.hpp"
 #include "core/effects/gear_body_compliance.hpp"
@@ -21,9 +22,9 @@
 namespace flankwright {
 
 const EffectList& registered_effects() {
-  static const std::tuple<AdjacentTeethEffect, BendingEffect, ExtendedContactRegionEffect, FreeEndsEffect, GearBodyComplianceEffect,
-                          HertzianContactEffect, ManufacturingErrorsEffect, MisalignmentEffect, ModificationsEffect, RootStressEffect, ShaftsEffect,
-                          TipCornerEffect, UnloadedContactEffect, WholeSurfaceGapEffect>
+  static const std::tuple<AdjacentTeethEffect, BendingEffect, EdgeContactEffect, ExtendedContactRegionEffect, FreeEndsEffect,
+                          GearBodyComplianceEffect, HertzianContactEffect, ManufacturingErrorsEffect, MisalignmentEffect, ModificationsEffect,
+                          RootStressEffect, ShaftsEffect, TipCornerEffect, UnloadedContactEffect, WholeSurfaceGapEffect>
       effects;
   static const EffectList list = std::apply([](const auto&... effect) { return in_order_of_flow({&effect...}); }, effects);
   return list;

@@ -8,6 +8,7 @@
 #include "core/compliance/local/hertz_line.hpp"
 #include "core/contact/gap/condition_gap.hpp"
 #include "core/load/solve/load_solver.hpp"
+#include "core/load/cycle/contact_stress.hpp"
 #include "core/load/cycle/mesh_model.hpp"
 #include "core/load/solve/sensitivity.hpp"
 
@@ -49,7 +50,7 @@ class Cases {
 
   CycleOutputs outputs(const EffectDecisions& decisions, const std::string& left_out = {}) const {
     const Case made = with(decisions, left_out);
-    return cycle_outputs(*made.model, analyse_cycle(*made.model, made.condition, scene_.pinion_torque));
+    return cycle_outputs(analyse_cycle(*made.model, made.condition, scene_.pinion_torque));
   }
 
  private:
@@ -62,22 +63,17 @@ class Cases {
 /// Outputs as positions come in.
 class OutputSum {
  public:
-  explicit OutputSum(const MeshModel& model) : model_(model) {}
-
-  void add(const MeshPosition& at, const Eigen::VectorXd& line_load, double transmission_error, double least_gap) {
+  void add(double highest_stress, double transmission_error, double least_gap) {
     least_ = std::fmin(least_, transmission_error);
     most_ = std::fmax(most_, transmission_error);
     sum_ += transmission_error;
     approach_ += transmission_error - least_gap;
     te_.push_back(transmission_error);
-    for (Eigen::Index i = 0; i < line_load.size(); ++i) {
-      const double radius = at.points[static_cast<std::size_t>(i)].relative_radius;
-      square_ = std::max(square_, line_load[i] * model_.contact_modulus / (units::pi * radius));
-    }
+    stress_ = std::max(stress_, highest_stress);
     ++count_;
   }
 
-  CycleOutputs outputs() const { return {sum_ / count_, most_ - least_, std::sqrt(square_), approach_ / count_, harmonics()}; }
+  CycleOutputs outputs() const { return {sum_ / count_, most_ - least_, stress_, approach_ / count_, harmonics()}; }
 
  private:
   /// Over evenly spaced positions; orders below half their number.
@@ -92,9 +88,8 @@ class OutputSum {
     return found;
   }
 
-  const MeshModel& model_;
   std::vector<double> te_;
-  double least_{not_given}, most_{not_given}, sum_{0.0}, approach_{0.0}, square_{0.0};
+  double least_{not_given}, most_{not_given}, sum_{0.0}, approach_{0.0}, stress_{0.0};
   int count_{0};
 };
 
@@ -154,12 +149,13 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
   if (!mesh_effects(rest).make_compliant() || !cases.knows(rest)) return result;
   const Case other = cases.with(rest, name);
   const ConditionGap gaps(other.model->pair, other.model->placement.gap, other.condition);
-  OutputSum outputs(*other.model);
+  OutputSum outputs;
   for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
     const MeshPosition& at = other.model->positions[i];
     const LoadDistribution& solved = cycle.positions[i].load;
     const Eigen::VectorXd gap = gaps.at(at.points, at.phase).total;
-    const LoadProblem problem{at.influence, at.weight, gap, at.laws, cycle.force};
+    const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(*other.model, at, other.condition);
+    const LoadProblem problem{at.influence, at.weight, gap, moved_edges.empty() ? at.laws : moved_edges, cycle.force};
     const Eigen::VectorXd loads = carried(all.model->positions[i], solved.line_load, at);
     std::optional<Solution> found = at.points.empty() ? std::nullopt : first_order(problem, loads, solved.transmission_error, trust);
     ++result.positions;
@@ -169,7 +165,12 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
       if (!again.usable()) return result;
       found = Solution{again.line_load, again.transmission_error};
     }
-    outputs.add(at, found->line_load, found->transmission_error, gap.minCoeff());
+    double highest = 0.0;
+    for (std::size_t k = 0; k < at.points.size(); ++k) {
+      const ContactLaw* law = problem.laws.empty() ? nullptr : &problem.laws[k];
+      highest = std::max(highest, contact_stress(*other.model, at.points[k], law, found->line_load[static_cast<Eigen::Index>(k)]).highest.pressure);
+    }
+    outputs.add(highest, found->transmission_error, gap.minCoeff());
   }
   result.size.influence = EffectInfluence::between(with, outputs.outputs());
   result.size.seconds = clock.seconds();
@@ -178,12 +179,12 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
 
 }  // namespace
 
-CycleOutputs cycle_outputs(const MeshModel& model, const LoadedCycle& cycle) {
+CycleOutputs cycle_outputs(const LoadedCycle& cycle) {
   if (!cycle.usable() || cycle.positions.empty()) return {};
-  OutputSum outputs(model);
-  for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
-    const LoadedPosition& position = cycle.positions[i];
-    outputs.add(model.positions[i], position.load.line_load, position.load.transmission_error, position.gap.total.minCoeff());
+  OutputSum outputs;
+  for (const LoadedPosition& position : cycle.positions) {
+    outputs.add(position.contact_stress.size() > 0 ? position.contact_stress.maxCoeff() : 0.0, position.load.transmission_error,
+                position.gap.total.minCoeff());
   }
   return outputs.outputs();
 }
@@ -222,7 +223,7 @@ std::vector<EstimatedSize> estimate_effect_sizes(const EffectScene& scene, const
   const Cases cases(scene, meshes);
   const Case all = cases.with(decisions);
   const LoadedCycle cycle = analyse_cycle(*all.model, all.condition, scene.pinion_torque);
-  const CycleOutputs with = cycle_outputs(*all.model, cycle);
+  const CycleOutputs with = cycle_outputs(cycle);
   std::vector<EstimatedSize> sizes;
   for (const EffectDecision& decision : decisions) {
     if (!decision.on || !changes_mesh(decision.name)) continue;

@@ -42,7 +42,7 @@ class EffectMeshes {
 };
 
 /// The outputs of a cycle by which effects are measured; NaN where a position failed.
-CycleOutputs cycle_outputs(const MeshModel& model, const LoadedCycle& cycle);
+CycleOutputs cycle_outputs(const LoadedCycle& cycle);
 
 /// Outputs with the effects that are on.
 /// @throws InvalidInput  as make_mesh_model()

@@ -14,6 +14,7 @@ void include(const MeshModel& model, const LoadedCycle& cycle, const LoadedCycle
   for (const LoadedPosition& position : extremes.positions) {
     summary.peak_line_load = std::max(summary.peak_line_load, position.load.line_load.maxCoeff());
     summary.peak_contact_stress = std::max(summary.peak_contact_stress, position.contact_stress.maxCoeff());
+    if (position.edge_stress.size() > 0) summary.edge_stress = std::fmax(summary.edge_stress, position.edge_stress.maxCoeff());
     summary.worst_kkt_residual = std::max(summary.worst_kkt_residual, position.load.kkt_residual);
   }
   summary.load_factor = summary.peak_line_load / model.mean_line_load(cycle.force);
@@ -72,6 +73,10 @@ CycleGradient resolved_gradient(const MeshModel& model, const LoadedCycle& cycle
   gradient.load_factor = (gradient.peak_line_load - loaded.load.line_load[point] * mean_change) / model.mean_line_load(cycle.force);
   const LoadedPosition& stressed = position_of_largest(cycle, extremes, [](const LoadedPosition& p) { return p.contact_stress.maxCoeff(); });
   gradient.peak_contact_stress = stressed.contact_stress_derivative.row(largest_entry(stressed.contact_stress));
+  if (gradient.edge_stress.size() > 0 && stressed.edge_stress.size() > 0) {
+    const LoadedPosition& edged = position_of_largest(cycle, extremes, [](const LoadedPosition& p) { return p.edge_stress.maxCoeff(); });
+    gradient.edge_stress = edged.edge_stress_derivative.row(largest_entry(edged.edge_stress));
+  }
   return gradient;
 }
 

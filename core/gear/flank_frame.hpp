@@ -8,7 +8,7 @@ namespace flankwright {
 struct FlankFrame {
   double pitch_radius{not_given};        ///< working pitch radius r_w [mm]: origin of crowning and profile slope
   double reference_radius{not_given};    ///< reference radius r [mm]: origin of error profile slope
-  double tip_radius{not_given};          ///< r_a [mm]
+  double tip_radius{not_given};          ///< of the tip form circle r_Fa, where the flank ends [mm]
   double active_root_radius{not_given};  ///< radius at the start of active profile [mm]
   double face_width{not_given};          ///< b [mm]
   double base_radius{not_given};         ///< r_b [mm]

@@ -47,7 +47,8 @@ struct GearData {
   double profile_shift{0.0};       ///< x, coefficient of the normal module [-]
   double tip_diameter{not_given};  ///< d_a [mm]; not given: from rack and profile shift
   RackProfile rack;
-  Generation generation;  ///< what cuts the flanks
+  double tip_rounding{0.0};  ///< radius of the edge between flank and tip cylinder, section across the edge [mm], >= 0; 0: sharp
+  Generation generation;     ///< what cuts the flanks
 };
 
 /// The data of an external parallel-axis involute pair [ISO 21771].

@@ -42,6 +42,30 @@ void check_rack(const GearData& gear, const std::string& name, const PairData& p
   }
 }
 
+/// Where the tip rounding begins, and its curvature across a contact line.
+///
+/// Across the edge both tangent planes, of flank and tip cylinder, meet at the sharp tip, their normals at gamma, and the arc touches each at
+/// rho tan(gamma/2) from there; what flank and cylinder bend over that length is left out. On the flank's tangent plane the edge runs at
+/// delta from the contact line [flank's normal n = cos(beta_b) t - sin(beta_b) z, contact line g = sin(beta_b) t + cos(beta_b) z, with the
+/// radial direction t' = sin(alpha_at)]:
+///
+///     cos gamma = cos(beta_b) sin(alpha_at),   tan delta = sin(beta_b) tan(alpha_at).
+///
+/// Along the profile, which is across the contact line, the arc begins at rho tan(gamma/2)/cos(delta) from the tip, and by Euler's theorem its
+/// radius there is rho/cos^2(delta). An involute's arc length is rho_y^2/(2 r_b).
+void set_tip_edge(Gear& gear) {
+  gear.tip_form_radius = gear.tip_radius;
+  gear.tip_edge_radius = 0.0;
+  const double rho = gear.data.tip_rounding;
+  if (!(rho > 0.0) || !(gear.tip_radius > gear.base_radius)) return;
+  const double base_helix = std::atan(gear.helix_rate * gear.base_radius), pressure_angle = gear.pressure_angle_at(gear.tip_radius);
+  const double gamma = std::acos(std::cos(base_helix) * std::sin(pressure_angle)), delta = std::atan(std::sin(base_helix) * std::tan(pressure_angle));
+  const double arc = rho * std::tan(0.5 * gamma) / std::cos(delta), roll = gear.roll_length_at(gear.tip_radius);
+  const double square = roll * roll - 2.0 * gear.base_radius * arc;
+  gear.tip_form_radius = std::sqrt(gear.base_radius * gear.base_radius + std::max(0.0, square));
+  gear.tip_edge_radius = rho / (std::cos(delta) * std::cos(delta));
+}
+
 /// Geometry of one gear that needs no mate.
 Gear single_gear(Member m, const PairData& pair) {
   Gear gear;
@@ -60,6 +84,7 @@ Gear single_gear(Member m, const PairData& pair) {
   gear.helix_rate = tan_base_helix / gear.base_radius;
   // ISO 6336-1: z_n = z / (cos^2(beta_b) cos(beta)).
   gear.virtual_teeth = gear.data.teeth * (1.0 + tan_base_helix * tan_base_helix) / cos_beta;
+  set_tip_edge(gear);
   gear.tooth_thickness = pair.normal_module * (0.5 * units::pi + 2.0 * gear.data.profile_shift * std::tan(pair.pressure_angle)) / cos_beta;
   return gear;
 }
@@ -81,6 +106,10 @@ void check_gear(Member m, const PairData& pair, Findings& findings) {
   const double form = std::max(generated.form_radius, gear.base_radius);
   findings.require(gear.tip_radius > form, tip_field, tip_value, "a tip circle above the form circle, diameter " + in_words(2.0 * form) + " mm");
   if (gear.tip_radius > form) {
+    const double rounding = gear.data.tip_rounding;
+    findings.require(rounding == 0.0 || (rounding > 0.0 && gear.tip_form_radius > form && 2.0 * rounding < gear.tooth_thickness_at(gear.tip_radius)),
+                     name + ".edges.tip_rounding", rounding,
+                     "a radius of 0 mm or more that leaves a flank and less than the tooth's thickness at the tip");
     findings.require(gear.tooth_thickness_at(gear.tip_radius) > 0.0, tip_field, tip_value,
                      "a tooth that is not pointed: its thickness at the tip is " + in_words(gear.tooth_thickness_at(gear.tip_radius)) +
                          " mm, and must be above 0");
@@ -127,8 +156,8 @@ void mesh(GearPair& pair) {
 
   pair.path_length = pair.centre_distance * std::sin(alpha_wt);
   pair.pitch_point = g1.base_radius * std::tan(alpha_wt);
-  const double at_wheel_tip = pair.path_length - g2.roll_length_at(g2.tip_radius);
-  const double at_pinion_tip = g1.roll_length_at(g1.tip_radius);
+  const double at_wheel_tip = pair.path_length - g2.roll_length_at(g2.tip_form_radius);
+  const double at_pinion_tip = g1.roll_length_at(g1.tip_form_radius);
   const double at_pinion_form = g1.roll_length_at(std::max(g1.form_radius, g1.base_radius));
   const double at_wheel_form = pair.path_length - g2.roll_length_at(std::max(g2.form_radius, g2.base_radius));
   // A mate's tip that reaches below the form circle by round-off only is no interference.

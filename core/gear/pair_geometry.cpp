@@ -28,7 +28,7 @@ FlankFrame GearPair::flank_frame(Member m) const {
   FlankFrame frame;
   frame.pitch_radius = gear.working_pitch_radius;
   frame.reference_radius = gear.reference_radius;
-  frame.tip_radius = gear.tip_radius;
+  frame.tip_radius = gear.tip_form_radius;
   frame.active_root_radius = gear.active_root_radius;
   frame.face_width = gear.data.face_width;
   frame.base_radius = gear.base_radius;

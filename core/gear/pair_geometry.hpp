@@ -13,10 +13,12 @@ struct Gear {
   double reference_radius{not_given};      ///< r
   double base_radius{not_given};           ///< r_b
   double tip_radius{not_given};            ///< r_a
+  double tip_form_radius{not_given};       ///< r_Fa: where the flank ends and the tip rounding begins; r_a without one
+  double tip_edge_radius{not_given};       ///< of the rounding, in the section across a contact line; 0 without one
   double root_radius{not_given};           ///< r_f
   double working_pitch_radius{not_given};  ///< r_w
   double form_radius{not_given};           ///< r_Ff: where the involute meets the root fillet (undercut considered)
-  double active_root_radius{not_given};    ///< start of active profile r_Nf: lowest radius the mate's tip reaches, >= r_Ff
+  double active_root_radius{not_given};    ///< start of active profile r_Nf: lowest radius the mate's flank reaches, >= r_Ff
   double tooth_thickness{not_given};       ///< s_t, transverse arc at the reference circle
   double tip_thickness{not_given};         ///< s_at, transverse arc at the tip, > 0
   double virtual_teeth{not_given};         ///< z_n of the equivalent spur gear [ISO 6336-1]
@@ -35,7 +37,7 @@ struct Gear {
 /// An external involute pair on parallel axes: everything that follows from PairData [ISO 21771].
 ///
 /// The path of contact is measured along the line of action from the pinion's base tangent point T1 (roll length of the
-/// pinion): active from path_start (A, wheel tip) to path_end (E, pinion tip).
+/// pinion): active from path_start (A, wheel tip form circle) to path_end (E, pinion tip form circle).
 struct GearPair {
   PairData data;
   Gear pinion, wheel;

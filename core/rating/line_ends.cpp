@@ -5,6 +5,7 @@
 #include "core/base/natural_spline.hpp"
 #include "core/base/root.hpp"
 #include "core/contact/gap/condition_gap.hpp"
+#include "core/load/cycle/contact_stress.hpp"
 #include "core/rating/line_region.hpp"
 
 namespace flankwright {
@@ -55,8 +56,9 @@ std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, c
     LineEnd& end = ends[i];
     end.approach = loaded.load.transmission_error - gap[static_cast<Eigen::Index>(i)] - end.structural_deflection;
     end.contact_deflection = std::max(0.0, end.approach);
-    end.line_load = line_load_for(*model.contact_law(points[i]), end.approach);
-    end.contact_stress = std::sqrt(end.line_load * model.contact_modulus / (units::pi * points[i].relative_radius));
+    const ContactLaw law = *contact_law_in(model, points[i], condition);
+    end.line_load = line_load_for(law, end.approach);
+    end.contact_stress = contact_stress(model, points[i], &law, end.line_load).highest.pressure;
     end.point = points[i];
   }
   return ends;

@@ -4,6 +4,7 @@
 
 #include "core/base/natural_spline.hpp"
 #include "core/contact/gap/condition_gap.hpp"
+#include "core/load/cycle/contact_stress.hpp"
 #include "core/load/cycle/perturbed_position.hpp"
 
 namespace flankwright {
@@ -27,26 +28,31 @@ Eigen::RowVectorXd extrapolated(const MeshPosition& at, const LineEnd& end, cons
   return there;
 }
 
-/// Slopes of the gap at the ends of lines, one row per end.
-Eigen::MatrixXd end_gaps(const MeshModel& model, const FlankCondition& condition, double phase, const std::vector<LineEnd>& ends,
-                         const std::vector<MeshParameter>& parameters) {
+/// Slopes of gap and tip edge at the ends of lines, one row per end.
+ParameterSlopes end_slopes(const MeshModel& model, const FlankCondition& condition, double phase, const std::vector<LineEnd>& ends,
+                           const std::vector<MeshParameter>& parameters) {
   MeshPosition at;
   at.phase = phase;
   for (const LineEnd& end : ends) at.points.push_back(end.point);
   const ConditionGap gaps(model.pair, model.placement.gap, condition);
-  return parameter_slopes(model, at, gaps, gaps.at(at.points, phase), parameters).gap;
+  return parameter_slopes(model, at, gaps, gaps.at(at.points, phase), parameters);
 }
 
 void add_line_ends(const MeshModel& model, const FlankCondition& condition, const MeshPosition& at, const LoadedPosition& loaded,
                    const std::vector<LineEnd>& ends, const std::vector<MeshParameter>& parameters, PositionGradient& gradient) {
-  const Eigen::MatrixXd gap = end_gaps(model, condition, loaded.phase, ends, parameters);
+  const ParameterSlopes slopes = end_slopes(model, condition, loaded.phase, ends, parameters);
+  const Eigen::MatrixXd& gap = slopes.gap;
   gradient.line_end_load = gradient.line_end_stress = Eigen::MatrixXd::Zero(gap.rows(), gap.cols());
   for (Eigen::Index i = 0; i < gap.rows(); ++i) {
     const LineEnd& end = ends[static_cast<std::size_t>(i)];
     if (!(end.line_load > 0.0)) continue;
-    const Eigen::RowVectorXd deflection = loaded.transmission_error_derivative - gap.row(i) - extrapolated(at, end, gradient.structural_deflection);
-    gradient.line_end_load.row(i) = deflection / model.contact_law(end.point)->slope(end.line_load);
-    gradient.line_end_stress.row(i) = end.contact_stress / (2.0 * end.line_load) * gradient.line_end_load.row(i);
+    const ContactLaw law = *contact_law_in(model, end.point, condition);
+    Eigen::RowVectorXd deflection = loaded.transmission_error_derivative - gap.row(i) - extrapolated(at, end, gradient.structural_deflection);
+    if (slopes.edge.size() > 0) deflection -= law.edge_slope(end.line_load) * slopes.edge.row(i);
+    const StripContact::Peak peak = contact_stress(model, end.point, &law, end.line_load).highest;
+    gradient.line_end_load.row(i) = deflection / law.slope(end.line_load);
+    gradient.line_end_stress.row(i) = peak.slope * gradient.line_end_load.row(i);
+    if (slopes.edge.size() > 0) gradient.line_end_stress.row(i) += peak.by_edge * slopes.edge.row(i);
   }
 }
 
@@ -69,7 +75,7 @@ Eigen::VectorXd clearances(const MeshPosition& at) {
   return all;
 }
 
-/// Approach, contact deflection under the ends' loads and relative radius of the ends of lines [mm], all of one kind
+/// Approach [mm], contact deflection [mm] and contact stress [MPa] under the ends' held loads, of the ends of lines, all of one kind
 /// after the other; empty where the number of ends differs.
 Eigen::VectorXd end_readings(const PerturbedPosition::Stage& stage, const std::vector<LineEnd>& held) {
   const std::vector<LineEnd> ends = line_ends(stage.model, stage.at, stage.loaded, stage.condition);
@@ -79,24 +85,27 @@ Eigen::VectorXd end_readings(const PerturbedPosition::Stage& stage, const std::v
   for (Eigen::Index i = 0; i < n; ++i) {
     const LineEnd& end = ends[static_cast<std::size_t>(i)];
     readings[i] = end.approach;
-    readings[n + i] = stage.model.contact_law(end.point)->deflection(held[static_cast<std::size_t>(i)].line_load);
-    readings[2 * n + i] = end.point.relative_radius;
+    const ContactLaw law = *contact_law_in(stage.model, end.point, stage.condition);
+    const double load = held[static_cast<std::size_t>(i)].line_load;
+    readings[n + i] = law.deflection(load);
+    readings[2 * n + i] = contact_stress(stage.model, end.point, &law, load).highest.pressure;
   }
   return readings;
 }
 
 /// Where the mesh moves, and with it an end's position and contact law: dw = (d(f_t - g - S) - dc at w held)/c', and
-/// the stress follows the curvature.
-void move_line_ends(const MeshModel& model, const PerturbedPosition& way, const std::vector<LineEnd>& ends, Eigen::Index column,
-                    PositionGradient& gradient) {
+/// the stress follows load, curvature and edge.
+void move_line_ends(const MeshModel& model, const FlankCondition& condition, const PerturbedPosition& way, const std::vector<LineEnd>& ends,
+                    Eigen::Index column, PositionGradient& gradient) {
   const Eigen::VectorXd slopes = way.slope([&](const PerturbedPosition::Stage& s) { return end_readings(s, ends); });
   const Eigen::Index n = std::ssize(ends);
   for (Eigen::Index i = 0; i < n; ++i) {
     const LineEnd& end = ends[static_cast<std::size_t>(i)];
     if (!(end.line_load > 0.0)) continue;
-    const double load = (slopes[i] - slopes[n + i]) / model.contact_law(end.point)->slope(end.line_load);
+    const ContactLaw law = *contact_law_in(model, end.point, condition);
+    const double load = (slopes[i] - slopes[n + i]) / law.slope(end.line_load);
     gradient.line_end_load(i, column) = load;
-    gradient.line_end_stress(i, column) = 0.5 * end.contact_stress * (load / end.line_load - slopes[2 * n + i] / end.point.relative_radius);
+    gradient.line_end_stress(i, column) = contact_stress(model, end.point, &law, end.line_load).highest.slope * load + slopes[2 * n + i];
   }
 }
 
@@ -119,7 +128,7 @@ PositionGradient position_gradient(const MeshModel& model, const FlankCondition&
         way.point_slope([](const PerturbedPosition::Stage& s) { return Eigen::VectorXd(s.at.weight.cwiseProduct(s.loaded.load.line_load)); });
     gradient.structural_deflection.col(p) = way.point_slope([](const PerturbedPosition::Stage& s) { return s.loaded.load.structural_deflection; });
     gradient.error.col(p) += way.point_slope([](const PerturbedPosition::Stage& s) { return clearances(s.at); });
-    move_line_ends(model, way, ends, p, gradient);
+    move_line_ends(model, condition, way, ends, p, gradient);
   }
   gradient.contact_deflection = -gradient.gap - gradient.structural_deflection;
   for (Eigen::Index i = 0; i < gradient.contact_deflection.rows(); ++i) {

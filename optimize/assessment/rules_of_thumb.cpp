@@ -39,7 +39,8 @@ std::vector<Rule> profile_rules(const GearPair& pair, const RuleBasis& basis) {
     rules.push_back(tip_relief("short tip relief", "Munro, Haddad 1991 eq. 4.13; mean deflection", basis.deflection, pinion, wheel));
   }
   rules.push_back(tip_relief("long tip relief", "Munro, Haddad 1991 section 4.3.3: from the pitch point; mean deflection", basis.deflection,
-                             pair.pinion.tip_radius - pair.pinion.working_pitch_radius, pair.wheel.tip_radius - pair.wheel.working_pitch_radius));
+                             pair.pinion.tip_form_radius - pair.pinion.working_pitch_radius,
+                             pair.wheel.tip_form_radius - pair.wheel.working_pitch_radius));
   if (one_or_two_pairs) {
     const auto [pinion, wheel] = over(overlap);
     rules.push_back(tip_relief("tip relief to single contact", "as sizing programs propose; deflection of a single pair, ISO 6336-1",
@@ -97,8 +98,8 @@ RuleBasis rule_basis(const DesignProblem& problem) {
 }
 
 double relief_height(const Gear& gear, double length) {
-  const double start = gear.roll_length_at(gear.tip_radius) - length;
-  return gear.tip_radius - std::hypot(gear.base_radius, start);
+  const double start = gear.roll_length_at(gear.tip_form_radius) - length;
+  return gear.tip_form_radius - std::hypot(gear.base_radius, start);
 }
 
 std::vector<NamedDesign> rules_of_thumb(const DesignTask& task, const RuleBasis& basis) {

@@ -52,7 +52,7 @@ SmoothValue effective_contact_ratio(const ObjectiveTerm&, const MeshModel& model
 bool is_near_edge(const MeshModel& model, const ContactPoint& point, double margin) {
   const auto near_tip = [&](Member member, double radius) {
     const Gear& gear = model.pair[member];
-    return radius > gear.tip_radius - margin * (gear.tip_radius - gear.active_root_radius);
+    return radius > gear.tip_form_radius - margin * (gear.tip_form_radius - gear.active_root_radius);
   };
   const double inset = margin * model.face_width;
   return point.z < model.face_start() + inset || point.z > model.face_end() - inset || near_tip(Member::Pinion, point.pinion_radius) ||
@@ -65,6 +65,17 @@ Eigen::VectorXd contact_stresses(const ObjectiveTerm&, const MeshModel&, const L
 
 Eigen::RowVectorXd contact_stress_slope(const ObjectiveTerm&, const PeakCandidate& candidate, const MeshModel&, const LoadedCycle& cycle) {
   return at(cycle, candidate.position).contact_stress_derivative.row(candidate.other);
+}
+
+Eigen::VectorXd edge_stresses(const ObjectiveTerm&, const MeshModel&, const LoadedCycle& cycle, int position) {
+  const LoadedPosition& there = at(cycle, position);
+  return there.edge_stress.size() > 0 ? there.edge_stress : Eigen::VectorXd::Zero(there.load.line_load.size());
+}
+
+Eigen::RowVectorXd edge_stress_slope(const ObjectiveTerm&, const PeakCandidate& candidate, const MeshModel&, const LoadedCycle& cycle) {
+  const LoadedPosition& there = at(cycle, candidate.position);
+  if (there.edge_stress.size() == 0) return Eigen::RowVectorXd::Zero(there.line_load_derivative.cols());
+  return there.edge_stress_derivative.row(candidate.other);
 }
 
 Eigen::VectorXd line_loads(const ObjectiveTerm&, const MeshModel&, const LoadedCycle& cycle, int position) {
@@ -129,6 +140,8 @@ constexpr std::array rows{
                  .at_points = fillet_stresses,
                  .point_derivative = fillet_stress_slope},
     DesignOutput{.output = Output::EffectiveContactRatio, .name = "effective_contact_ratio", .unit = "1", .smooth = effective_contact_ratio},
+    DesignOutput{
+        .output = Output::EdgeStress, .name = "edge_stress", .unit = "MPa", .at_points = edge_stresses, .point_derivative = edge_stress_slope},
     DesignOutput{.output = Output::EdgeLoad, .name = "edge_load", .unit = "N/mm", .at_points = edge_loads, .point_derivative = edge_load_slope},
 };
 

@@ -45,7 +45,7 @@ EffectScene scene_of(const StudyResults& results, const FlankCondition& conditio
 }
 
 void add_exact(const StudyResults& results, const LoadedResult& loaded, std::vector<SizeInStudy>& sizes) {
-  const CycleOutputs with = cycle_outputs(results.models[loaded.model], loaded.cycle);
+  const CycleOutputs with = cycle_outputs(loaded.cycle);
   const EffectScene scene = scene_of(results, loaded.condition, loaded.torque, {results.study.fidelity.quadrature, results.phases});
   for (const EffectDecision& decision : results.effects) {
     if (!decision.on || !changes_mesh(decision.name)) continue;

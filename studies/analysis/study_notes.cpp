@@ -14,7 +14,7 @@ namespace {
 /// Crowning counts over the active part of the profile: a note where that is empty, or little of the dedendum.
 void note_crowning(const Modification& given, const Gear& gear, std::vector<std::string>& notes) {
   const char* name = name_of(gear.member);
-  const double addendum = gear.tip_radius - gear.working_pitch_radius, dedendum = gear.working_pitch_radius - gear.active_root_radius;
+  const double addendum = gear.tip_form_radius - gear.working_pitch_radius, dedendum = gear.working_pitch_radius - gear.active_root_radius;
   const bool no_addendum = addendum <= 0.0, no_dedendum = dedendum <= 0.0;
   if ((no_addendum && given.addendum_crowning != 0.0) || (no_dedendum && given.dedendum_crowning != 0.0)) {
     notes.push_back(fmt::format("the {}'s {} touches nothing, the path of contact lies on one side of the pitch point: it is not crowned", name,

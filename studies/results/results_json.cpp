@@ -34,6 +34,7 @@ Json gear_json(const GearPair& pair, Member member) {
             {"reference_diameter_mm", 2.0 * gear.reference_radius},
             {"base_diameter_mm", 2.0 * gear.base_radius},
             {"tip_diameter_mm", 2.0 * gear.tip_radius},
+            {"tip_form_diameter_mm", 2.0 * gear.tip_form_radius},
             {"root_diameter_mm", 2.0 * gear.root_radius},
             {"form_diameter_mm", 2.0 * gear.form_radius},
             {"active_root_diameter_mm", 2.0 * gear.active_root_radius},
@@ -221,7 +222,7 @@ void add_topography(const GearPair& pair, Member member, const Modification& mod
     z.push_back((static_cast<double>(i) / (topography_sections - 1) - 0.5) * gear.data.face_width);
   }
   for (int j = 0; j < topography_sections; ++j) {
-    const double r = gear.active_root_radius + (gear.tip_radius - gear.active_root_radius) * j / (topography_sections - 1);
+    const double r = gear.active_root_radius + (gear.tip_form_radius - gear.active_root_radius) * j / (topography_sections - 1);
     radius.push_back(r);
     Json row = Json::array();
     for (const auto& position : z) {

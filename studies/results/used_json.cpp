@@ -46,6 +46,7 @@ Json macro_json(const StudyResults& results, Member member) {
           {"face_width_mm", gear.data.face_width},
           {"profile_shift", gear.data.profile_shift},
           {"tip_diameter_mm", 2.0 * gear.tip_radius},
+          {"tip_rounding_mm", gear.data.tip_rounding},
           {"rack", {{"addendum", gear.data.rack.addendum}, {"dedendum", gear.data.rack.dedendum}, {"root_radius", gear.data.rack.root_radius}}},
           {"generation", generation_json(gear.data.generation)},
           {"grid", grid_json(results.study.grid[member])},

@@ -27,6 +27,7 @@ std::vector<Section> sections_in_order() {
       {"pair", "`[pair]`", "Data common to both gears."},
       {"pinion", "`[pinion]` and `[wheel]`", "Data of a single gear."},
       {"pinion.rack", "`[pinion.rack]`", "The basic rack profile of the tool."},
+      {"pinion.edges", "`[pinion.edges]`", "The edges that bound a flank."},
       {"pinion.generation", "`[pinion.generation]`",
        "A tool that cuts another profile than an involute: [generated and measured flanks](README.md#generated-and-measured-flanks)."},
       {"pinion.modification", "`[pinion.modification]`",

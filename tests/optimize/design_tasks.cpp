@@ -60,11 +60,9 @@ DesignTask spur(const std::vector<double>& misalignments_um) {
 }
 
 ObjectiveTerm term(Output output, int harmonic, double weight) {
-  const char* names[] = {"peak_contact_stress", "te_peak_to_peak",         "te_harmonic_", "load_factor", "peak_line_load",
-                         "peak_root_stress",    "effective_contact_ratio", "edge_load"};
-  std::string name = names[static_cast<int>(output)];
-  if (output == Output::TeHarmonic) name += std::to_string(harmonic);
-  return {output, harmonic, weight, name};
+  ObjectiveTerm term{.output = output, .harmonic = harmonic, .weight = weight, .name = {}};
+  term.name = term.own_name();
+  return term;
 }
 
 std::vector<ObjectiveTerm> all_outputs() {

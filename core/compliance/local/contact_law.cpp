@@ -65,8 +65,14 @@ ContactSide ContactSide::of(const Material& material, double depth, double tip_d
   return {2 * (1 - nu * nu) / (units::pi * material.youngs_modulus), nu / (1 - nu), depth, tip_distance, end_distances, end_lean};
 }
 
-ContactLaw::ContactLaw(const ContactSide& pinion, const ContactSide& wheel, double relative_radius, double contact_modulus)
-    : half_width_at_unit_load_(hertz_line(1.0, relative_radius, contact_modulus).half_width) {
+ContactLaw::ContactLaw(const ContactSide& pinion, const ContactSide& wheel, double relative_radius, double contact_modulus,
+                       const std::optional<RoundedEdge>& edge)
+    : half_width_at_unit_load_(hertz_line(1.0, relative_radius, contact_modulus).half_width),
+      relative_radius_(relative_radius),
+      contact_modulus_(contact_modulus),
+      edge_(edge) {
+  if (edge && !(edge->radius > 0.0)) throw InvalidInput("edge.radius", std::to_string(edge->radius), "more than 0 mm");
+  if (edge && !std::isfinite(edge->distance)) throw InvalidInput("edge.distance", std::to_string(edge->distance), "a distance in mm");
   const auto distance = [](const char* field, double given) {
     if (std::isnan(given)) throw InvalidInput(field, "nan", "a distance in mm or infinity");
     return std::max(0.0, given);
@@ -82,28 +88,70 @@ ContactLaw::ContactLaw(const ContactSide& pinion, const ContactSide& wheel, doub
   }
 }
 
+ContactLaw ContactLaw::with_edge_moved(double further) const {
+  ContactLaw moved = *this;
+  if (moved.edge_) moved.edge_->distance += further;
+  return moved;
+}
+
 double ContactLaw::half_width(double line_load) const { return half_width_at_unit_load_ * std::sqrt(line_load); }
+
+/// The strip, where it reaches the edge.
+std::optional<StripContact> ContactLaw::strip(double line_load) const {
+  if (!edge_ || line_load <= 0 || edge_->distance >= half_width(line_load)) return std::nullopt;
+  return StripContact(*edge_, relative_radius_, contact_modulus_, line_load);
+}
 
 ContactLaw::Response ContactLaw::evaluate(double line_load) const {
   assert(line_load >= 0);
   if (line_load == 0) return {0, std::numeric_limits<double>::infinity()};
-  const double l = half_width(line_load);
+  const double flank_width = half_width(line_load);
+  const std::optional<StripContact> on_edge = strip(line_load);
+  const double l = on_edge ? on_edge->half_width() : flank_width, growth = on_edge ? on_edge->growth() : 0.5;
   Response response{0, 0};
   for (const auto& [side, free_end, end_coefficient] : sides_) {
-    // L grows as sqrt(w), so w d/dw of h' and of y are -h'/2 and -y/2.
+    // L grows as sqrt(w), so w d/dw of h' and of y are -h'/2 and -y/2; on an edge that of h' is -growth h'.
     const double h = side.depth / l;
     const DepthFunction g = depth_function(h, side.lateral_ratio);
-    const double y = side.tip_distance / l;
+    const double y = side.tip_distance / flank_width;
     const TipFactor m = tip_factor(y);
     const double lengthening = m.slope == 0 ? 0 : m.slope * y * g.value;  // y may be infinite where the slope is zero
     response.deflection += side.coefficient * line_load * m.value * g.value;
-    response.slope += side.coefficient * (m.value * (g.value - 0.5 * h * g.slope) - 0.5 * lengthening);
+    response.slope += side.coefficient * (m.value * (g.value - growth * h * g.slope) - 0.5 * lengthening);
     if (end_coefficient == 0) continue;
     const FreeEnd::Softening f = free_end.at(side.end_distances, side.depth, l);
     response.deflection += end_coefficient * line_load * f.value;
-    response.slope += end_coefficient * (f.value + 0.5 * f.widening);
+    response.slope += end_coefficient * (f.value + growth * f.widening);
+  }
+  if (on_edge) {  // d(rise)/dw = (2/(pi E')) growth, by Betti's theorem
+    const double hertz = 1.0 / (units::pi * contact_modulus_);
+    response.deflection += on_edge->rise() - hertz * line_load;
+    response.slope += hertz * (2.0 * growth - 1.0);
   }
   return response;
+}
+
+double ContactLaw::edge_slope(double line_load) const {
+  const std::optional<StripContact> on_edge = strip(line_load);
+  if (!on_edge) return 0.0;
+  const double l = on_edge->half_width(), widening = on_edge->half_width_by_edge() / l, flank_width = half_width(line_load);
+  double slope = on_edge->rise_by_edge();
+  for (const auto& [side, free_end, end_coefficient] : sides_) {
+    const double h = side.depth / l;
+    const double m = tip_factor(side.tip_distance / flank_width).value;
+    slope -= side.coefficient * line_load * m * depth_function(h, side.lateral_ratio).slope * h * widening;
+    if (end_coefficient == 0) continue;
+    slope += end_coefficient * line_load * free_end.at(side.end_distances, side.depth, l).widening * widening;
+  }
+  return slope;
+}
+
+StripContact::Peaks ContactLaw::peak_pressure(double line_load) const {
+  assert(line_load >= 0);
+  if (line_load == 0) return {};
+  if (const std::optional<StripContact> on_edge = strip(line_load)) return on_edge->peaks();
+  const double pressure = std::sqrt(line_load * contact_modulus_ / (units::pi * relative_radius_));
+  return {{pressure, 0.5 * pressure / line_load, 0.0}, {}};
 }
 
 }  // namespace flankwright

@@ -2,8 +2,10 @@
 
 #include <array>
 #include <limits>
+#include <optional>
 
 #include "core/compliance/local/free_end.hpp"
+#include "core/compliance/local/strip_contact.hpp"
 #include "core/gear/gear_data.hpp"
 
 namespace flankwright {
@@ -54,13 +56,22 @@ struct ContactSide {
 /// much larger than L and turns back beyond that; this law increases at every load, c(0) = 0, and c ~ sqrt(w) where L
 /// exceeds h. The first slope is infinite, as -log(w). y is held fixed at 0 at the tip itself.
 ///
+/// Where the strip reaches a rounded edge, L in h' is the strip's half width l, w follows StripContact, and the approach is counted from first
+/// touch on the flank or its rounding:
+///
+///     c(w) = [the same sum with l] - w/(pi E') + rise,
+///
+/// as the sum is w u + w/(pi E') for Hertz's strip, u the approach of a flat punch. y keeps the L of the flank: the tip factor is about the tooth.
+///
 /// A small value, cheap to copy: an evaluation is two asinh, a square root and, with ends, two logarithms, with leaning ones six.
 class ContactLaw {
  public:
   /// @param relative_radius  R in the normal section [mm], > 0
   /// @param contact_modulus  E' [MPa], > 0, see contact_modulus()
+  /// @param edge             the rounded edge that is nearest; nothing: none
   /// @throws InvalidInput    naming the argument outside its range
-  ContactLaw(const ContactSide& pinion, const ContactSide& wheel, double relative_radius, double contact_modulus);
+  ContactLaw(const ContactSide& pinion, const ContactSide& wheel, double relative_radius, double contact_modulus,
+             const std::optional<RoundedEdge>& edge = {});
 
   struct Response {
     double deflection;  ///< c(w) [mm]
@@ -71,7 +82,16 @@ class ContactLaw {
   double deflection(double line_load) const { return evaluate(line_load).deflection; }  ///< c(w) [mm]
   double slope(double line_load) const { return evaluate(line_load).slope; }            ///< dc/dw [mm^2/N]
 
-  /// Hertzian half width L [mm].
+  /// dc/de, by the distance of the edge, at held load [-]; 0 without an edge or load.
+  double edge_slope(double line_load) const;
+  /// The largest contact pressure, and that on the edge. All 0 without load.
+  StripContact::Peaks peak_pressure(double line_load) const;
+
+  const std::optional<RoundedEdge>& edge() const { return edge_; }
+  /// The same law with the edge further off [mm]; without an edge unchanged.
+  ContactLaw with_edge_moved(double further) const;
+
+  /// Hertzian half width L of the flank [mm].
   double half_width(double line_load) const;
 
  private:
@@ -80,8 +100,12 @@ class ContactLaw {
     FreeEnd end;
     double end_coefficient;  ///< A / (1 - nu^2) [mm^2/N]; 0 where no end is near
   };
+  std::optional<StripContact> strip(double line_load) const;
+
   std::array<Side, 2> sides_;
   double half_width_at_unit_load_;  ///< L / sqrt(w)
+  double relative_radius_, contact_modulus_;
+  std::optional<RoundedEdge> edge_;
 };
 
 }  // namespace flankwright

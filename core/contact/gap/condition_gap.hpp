@@ -15,6 +15,7 @@ class ConditionGap {
   /// @throws InvalidInput  as SurfaceGap
   ConditionGap(const GearPair& pair, GapModel model, const FlankCondition& condition);
 
+  const FlankCondition& condition() const { return condition_; }
   GapModel model() const { return surfaces_ ? GapModel::WholeSurface : GapModel::PlaneOfAction; }
 
   /// @param line_phase  of tooth pair 0, as the points were made for

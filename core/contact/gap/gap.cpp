@@ -35,6 +35,13 @@ double pinion_lead(const Flank& changed, const Flank& nominal, const ContactPoin
   return polar(changed) - polar(nominal);
 }
 
+/// R cos(beta_b) times the sign of a flank's slope along its own radius in the gap's slope towards the edge, and what turns the one by the roll
+/// length into one along the flank.
+double weight_of_slope(const GearPair& pair, const ContactPoint& point, Member m) {
+  return (m == point.tip_edge.gear ? 1.0 : -1.0) * point.relative_radius * std::cos(pair.base_helix_angle) * pair[m].base_radius /
+         radius_of(point, m);
+}
+
 }  // namespace
 
 const char* to_string(GapModel model) { return model == GapModel::PlaneOfAction ? "plane_of_action" : "whole_surface"; }
@@ -71,6 +78,37 @@ Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPo
   for (Eigen::Index i = 0; i < derivative.size(); ++i) {
     const ContactPoint& point = points[static_cast<std::size_t>(i)];
     derivative[i] = cos_base_helix * removed.at(radius_of(point, member), own_z(point, member, condition.misalignment));
+  }
+  return derivative;
+}
+
+Eigen::VectorXd tip_edge_shift(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition) {
+  const PerGear<Flank> flanks{flank_in_plane_of_action(pair, Member::Pinion, condition), flank_in_plane_of_action(pair, Member::Wheel, condition)};
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(std::ssize(points));
+  for (Eigen::Index i = 0; i < shift.size(); ++i) {
+    const ContactPoint& point = points[static_cast<std::size_t>(i)];
+    if (point.tip_edge.radius == 0.0) continue;
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      const double radius = radius_of(point, m), roll = flanks[m].roll_at(radius);
+      if (roll == 0.0) continue;  // at the base circle the slope along the flank has no limit
+      const Dual<1> deviation = flanks[m].deviation(Dual<1>::variable(roll, 0), Dual<1>(own_z(point, m, condition.misalignment)), point.tooth);
+      shift[i] += weight_of_slope(pair, point, m) * deviation.gradient[0] * radius / roll;
+    }
+  }
+  return shift;
+}
+
+Eigen::VectorXd tip_edge_shift_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition,
+                                          Member member, ModificationParameter parameter) {
+  const RemovalDerivative removed(condition.modification[member], pair.flank_frame(member), parameter);
+  const double step = 1e-3 * pair.data.normal_module;
+  Eigen::VectorXd derivative = Eigen::VectorXd::Zero(std::ssize(points));
+  for (Eigen::Index i = 0; i < derivative.size(); ++i) {
+    const ContactPoint& point = points[static_cast<std::size_t>(i)];
+    if (point.tip_edge.radius == 0.0) continue;
+    const double radius = radius_of(point, member), z = own_z(point, member, condition.misalignment);
+    const double slope = (removed.at(radius + step, z) - removed.at(radius - step, z)) / (2.0 * step);
+    derivative[i] = weight_of_slope(pair, point, member) * slope;
   }
   return derivative;
 }

@@ -51,4 +51,14 @@ Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& p
 Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition, Member member,
                                ModificationParameter parameter);
 
+/// How far deviations move each point's tip edge away from the contact [mm]: with a slope h' of the gap along the flank, towards the edge, parabola
+/// and slope together touch at s = -R h', so that the edge is R h' further off. Relief that rises to the tip keeps contact from its edge.
+/// Between kinks of a deviation, to first order; 0 where a point has no edge.
+Eigen::VectorXd tip_edge_shift(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition);
+
+/// Its derivative for one modification parameter of one gear [mm/mm; parabolic_te mm rad]: the slope of the removal's derivative over the radius by a
+/// central difference, which is exact for removals up to its second power.
+Eigen::VectorXd tip_edge_shift_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition,
+                                          Member member, ModificationParameter parameter);
+
 }  // namespace flankwright

@@ -66,7 +66,7 @@ Gap SurfaceGap::at(const std::vector<ContactPoint>& points, double line_phase) c
   gap.nearest.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Index k = static_cast<Eigen::Index>(i);
-    gap.total[k] = scale * (assembly_.speed_ratio() * phi1 - found[i].phi2);
+    gap.total[k] = scale * (assembly_.speed_ratio() * phi1 - found[i].phi2) - points[i].tip_edge.rounded_off;
     gap.error[k] = points[i].clearance - gap.total[k];
     gap.nearest.push_back(nearest_point(found[i], points[i].tooth));
   }
@@ -105,7 +105,9 @@ std::vector<ContactPoint> SurfaceGap::place(const std::vector<ContactPoint>& poi
     const NearestPoint nearest = nearest_point(found[i], points[i].tooth);
     ContactPoint point = points[i];
     if (point.clearance > 0.0) point.clearance = aligned.total[static_cast<Eigen::Index>(i)];
+    const TipEdge passed = point.tip_edge;
     set_rolls(pair_, pair_.pinion.roll_length_at(nearest.pinion_radius), pair_.wheel.roll_length_at(nearest.wheel_radius), point);
+    if (passed.distance < 0.0) point.tip_edge = passed;
     placed.push_back(point);
   }
   return placed;

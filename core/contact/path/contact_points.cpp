@@ -108,9 +108,9 @@ double lower_end(const Gear& gear) { return std::max(gear.base_radius, gear.form
 
 /// The tip edge of `gear` against its mate's flank, `gear` where the undisturbed flanks would touch at its roll length `on_line`.
 std::optional<EdgeContact> tip_contact(const GearPair& pair, const Gear& gear, const Gear& mate, double on_line) {
-  const double rho = gear.roll_length_at(gear.tip_radius);
+  const double rho = gear.roll_length_at(gear.tip_form_radius);
   const Polar polar = about_mate(pair, gear, on_line, rho);
-  if (polar.radius <= lower_end(mate) || polar.radius > mate.tip_radius) return std::nullopt;
+  if (polar.radius <= lower_end(mate) || polar.radius > mate.tip_form_radius) return std::nullopt;
   return meet(pair, mate, on_line, rho, polar);
 }
 
@@ -119,13 +119,13 @@ std::optional<EdgeContact> tip_contact(const GearPair& pair, const Gear& gear, c
 /// @param on_line  pinion roll length of the undisturbed contact
 std::optional<EdgeContact> interfering_contact(const GearPair& pair, bool before, double on_line) {
   const Gear &pinion = pair.pinion, &wheel = pair.wheel;
-  const double lower = pinion.roll_length_at(lower_end(pinion)), upper = pinion.roll_length_at(pinion.tip_radius);
+  const double lower = pinion.roll_length_at(lower_end(pinion)), upper = pinion.roll_length_at(pinion.tip_form_radius);
   const double edge = before ? lower : upper, other = before ? upper : lower;
   const Polar polar = about_mate(pair, pinion, on_line, edge);
-  const bool inside = polar.radius >= lower_end(wheel) && polar.radius <= wheel.tip_radius;
+  const bool inside = polar.radius >= lower_end(wheel) && polar.radius <= wheel.tip_form_radius;
   if (inside) return meet(pair, wheel, on_line, edge, polar);
   // Outwards along the pinion's flank the wheel's radius falls.
-  const double circle = before ? wheel.tip_radius : lower_end(wheel);
+  const double circle = before ? wheel.tip_form_radius : lower_end(wheel);
   const auto excess = [&](double rho) { return about_mate(pair, pinion, on_line, rho).radius - circle; };
   const double at_edge = excess(edge), at_other = excess(other);
   if ((at_edge > 0.0) != before || (at_other > 0.0) == before) return std::nullopt;
@@ -146,6 +146,28 @@ std::optional<EdgeContact> edge_contact(const GearPair& pair, bool before, doubl
   return contact;
 }
 
+/// Arc of the involute from a roll length to the start of the tip rounding [mm].
+double to_tip_form(const Gear& gear, double roll) {
+  const double end = gear.roll_length_at(gear.tip_form_radius);
+  return (end - roll) * (end + roll) / (2.0 * gear.base_radius);
+}
+
+/// The nearest edge between A and E.
+TipEdge nearest_tip_edge(const GearPair& pair, double pinion_roll, double wheel_roll) {
+  const TipEdge of_pinion{Member::Pinion, pair.pinion.tip_edge_radius, to_tip_form(pair.pinion, pinion_roll)};
+  const TipEdge of_wheel{Member::Wheel, pair.wheel.tip_edge_radius, to_tip_form(pair.wheel, wheel_roll)};
+  if (of_wheel.radius == 0.0) return of_pinion;
+  return of_pinion.radius == 0.0 || of_wheel.distance < of_pinion.distance ? of_wheel : of_pinion;
+}
+
+/// Outside A .. E an edge lies where two parabolas have the clearance of the sharp form circle, c = e^2/(2 R).
+void set_passed_edge(const GearPair& pair, Member gear, ContactPoint& point) {
+  const double rho = pair[gear].tip_edge_radius, radius = point.relative_radius;
+  if (rho == 0.0 || !(radius > 0.0)) return;
+  point.tip_edge = {gear, rho, -std::sqrt(2.0 * radius * std::max(0.0, point.clearance)), point.clearance * rho / (radius + rho)};
+  point.clearance -= point.tip_edge.rounded_off;
+}
+
 /// Geometry at a phase; false where no contact can be.
 bool locate(const GearPair& pair, const PathOfContact& path, bool with_extended_region, ContactPoint& point) {
   const double rho1 = path.roll_at(point.phase);
@@ -158,6 +180,9 @@ bool locate(const GearPair& pair, const PathOfContact& path, bool with_extended_
   if (!contact) return false;
   set_rolls(pair, contact->roll, contact->mate_roll, point);
   point.clearance = contact->clearance * std::cos(pair.base_helix_angle);
+  const bool before = rho1 < pair.path_start;
+  // An interfering flank meets the mate with its lower end, no tip edge.
+  if (!(before ? pair.pinion : pair.wheel).fillet_interference) set_passed_edge(pair, before ? Member::Wheel : Member::Pinion, point);
   return point.relative_radius > 0.0;
 }
 
@@ -174,6 +199,7 @@ void set_rolls(const GearPair& pair, double pinion_roll, double wheel_roll, Cont
   side(pair.pinion, pinion_roll, point.pinion_radius, point.pinion_depth, point.pinion_tip_distance);
   side(pair.wheel, wheel_roll, point.wheel_radius, point.wheel_depth, point.wheel_tip_distance);
   point.relative_radius = pinion_roll * wheel_roll / (pinion_roll + wheel_roll) / cos_base_helix;
+  point.tip_edge = nearest_tip_edge(pair, pinion_roll, wheel_roll);
 }
 
 std::vector<LineInterval> line_intervals(const PathOfContact& path, const Quadrature& quadrature, double line_phase, double face_start,

@@ -42,6 +42,14 @@ struct LineInterval {
 std::vector<LineInterval> line_intervals(const PathOfContact& path, const Quadrature& quadrature, double line_phase, double face_start,
                                          double face_end);
 
+/// The nearest rounded tip edge of a point, in the section across its contact line.
+struct TipEdge {
+  Member gear{Member::Pinion};
+  double radius{0.0};          ///< of the rounding [mm]; 0: no edge
+  double distance{not_given};  ///< along the flank to the start of the rounding, < 0 where contact is beyond it [mm]
+  double rounded_off{0.0};     ///< part of the sharp form circle's clearance that the rounding fills [mm]
+};
+
 /// One quadrature point of a contact line in the plane of action, with the unmodified geometry around it. Lengths in mm.
 struct ContactPoint {
   int tooth{0};        ///< tooth pair, k pitches ahead of the reference pair 0
@@ -54,6 +62,7 @@ struct ContactPoint {
   double pinion_tip_distance{not_given}, wheel_tip_distance{not_given};  ///< (r_a - r_y) / cos(alpha_yt)
   int interval{-1};       ///< of its line, where two Gauss points of the rule Graded share one; -1: none
   double clearance{0.0};  ///< c_n of the unmodified pair, normal to the flank; 0 on the theoretical path of contact
+  TipEdge tip_edge{};
 };
 
 /// Fills radii, curvature, depths and tip distances of a point from its roll lengths on both gears [mm], both > 0.
@@ -69,7 +78,8 @@ std::optional<ContactPoint> contact_point(const GearPair& pair, const PathOfCont
 /// and A the wheel's tip edge meets the pinion flank off that plane, between E and B0 the pinion's tip edge the wheel
 /// flank; clearance and contact radii there are solved exactly in the transverse section [Haddad 1991, app. 2A,
 /// 2A.2-2A.17; solved here in closed form: the tip's position is known, and the mate's flank angle at that radius is
-/// explicit]. Departure: where the path ends at a form circle, because the mate's tip reaches below it
+/// explicit]. With a tip rounding the edge that meets the mate is its form circle's, and the rounding fills the part rho/(R + rho) of the
+/// clearance: that of two parabolas, see RoundedEdge. Departure: where the path ends at a form circle, because the mate's tip reaches below it
 /// (Gear::fillet_interference), the lower end of the flank is an edge that runs along the mate's flank, from where it
 /// enters the mate's tip circle (EdgeReach); further out the mate's tip edge meets the flank. Clearances there are the
 /// turn that the wheel lacks.

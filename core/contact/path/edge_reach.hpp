@@ -25,7 +25,7 @@ struct EdgeReach {
 /// from there to the line of action. It is 0 where the mate's tip crosses the line of action first, at A, and grows from there without a step.
 inline EdgeReach edge_reach(const GearPair& pair) {
   const auto reach_of = [&](const Gear& gear, const Gear& mate) {
-    const double form = std::max(gear.form_radius, gear.base_radius), a = pair.centre_distance, tip = mate.tip_radius;
+    const double form = std::max(gear.form_radius, gear.base_radius), a = pair.centre_distance, tip = mate.tip_form_radius;
     // Clamped where the form circle stays outside the mate's tip circle: psi = 0 then, and no reach below the pitch circle.
     const double cosine = std::clamp((form * form + (a - tip) * (a + tip)) / (2.0 * a * form), -1.0, 1.0);
     const double turn = std::acos(cosine) + gear.pressure_angle_at(form) - pair.working_transverse_pressure_angle;

@@ -123,6 +123,12 @@ CycleGradient summary_gradient(const MeshModel& model, const LoadedCycle& cycle,
   const PeakLocation stress = location_of_peak(
       cycle, [](const LoadedPosition& p) -> const auto& { return p.contact_stress; });
   gradient.peak_contact_stress = at(cycle, stress).contact_stress_derivative.row(stress.index);
+  gradient.edge_stress = Eigen::RowVectorXd::Zero(m);
+  if (summary.edge_stress > 0.0) {
+    const PeakLocation edge = location_of_peak(
+        cycle, [](const LoadedPosition& p) -> const auto& { return p.edge_stress; });
+    gradient.edge_stress = at(cycle, edge).edge_stress_derivative.row(edge.index);
+  }
   gradient.pinion_root_stress = root_gradient(model, cycle, Member::Pinion);
   gradient.wheel_root_stress = root_gradient(model, cycle, Member::Wheel);
   const bool wheel_governs = std::isgreater(summary.wheel_root_stress.stress, summary.pinion_root_stress.stress);

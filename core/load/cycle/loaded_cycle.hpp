@@ -13,7 +13,8 @@ struct LoadedPosition {
   double phase{not_given};
   LoadDistribution load;
   Gap gap;                         ///< before load
-  Eigen::VectorXd contact_stress;  ///< sigma_H per point [MPa]
+  Eigen::VectorXd contact_stress;  ///< sigma_H per point, on edges included [MPa]
+  Eigen::VectorXd edge_stress;     ///< the largest pressure on a tip edge's rounding, 0 where contact does not reach it [MPa]; empty: not computed
   /// Largest principal stress at every point of MeshPosition::root_stress [MPa]; empty without, or where it was left
   /// for later.
   Eigen::VectorXd root_stress;
@@ -22,6 +23,7 @@ struct LoadedPosition {
   Eigen::MatrixXd gap_derivative;                    ///< d(gap.total)/dp, n x m
   Eigen::MatrixXd line_load_derivative;              ///< dw/dp, n x m
   Eigen::MatrixXd contact_stress_derivative;         ///< dsigma_H/dp, n x m
+  Eigen::MatrixXd edge_stress_derivative;            ///< of edge_stress, n x m
   Eigen::RowVectorXd transmission_error_derivative;  ///< df_t/dp, 1 x m
   Eigen::RowVectorXd approach_derivative;            ///< of f_t - min(g), one point's where several are nearest, 1 x m
   Eigen::MatrixXd

@@ -9,6 +9,7 @@
 #include "core/contact/gap/condition_gap.hpp"
 #include "core/contact/unloaded/transmission_error.hpp"
 #include "core/load/solve/load_solver.hpp"
+#include "core/load/cycle/contact_stress.hpp"
 #include "core/load/cycle/load_start.hpp"
 #include "core/load/cycle/mesh_motion.hpp"
 
@@ -18,16 +19,35 @@ namespace {
 
 constexpr double micrometre = units::um;
 
-/// sigma_H = sqrt(w E' / (pi R)) and, from d(sigma)/dw = sigma / (2 w), its derivatives.
-void fill_stress(const MeshModel& model, const MeshPosition& at, LoadedPosition& position) {
+/// The contact laws of a position, and how parameters move their edges; no rows: they have none.
+struct Local {
+  const std::vector<ContactLaw>& laws;
+  const Eigen::MatrixXd& edge;
+
+  const ContactLaw* law(Eigen::Index i) const { return laws.empty() ? nullptr : &laws[static_cast<std::size_t>(i)]; }
+};
+
+/// Stresses and, by load and edge, their derivatives.
+void fill_stress(const MeshModel& model, const MeshPosition& at, const Local& local, LoadedPosition& position) {
   const Eigen::VectorXd& w = position.load.line_load;
+  const Eigen::MatrixXd& by_load = position.line_load_derivative;
+  const bool edges = std::ranges::any_of(local.laws, [](const ContactLaw& law) { return law.edge().has_value(); });
   position.contact_stress = Eigen::VectorXd::Zero(w.size());
-  position.contact_stress_derivative = Eigen::MatrixXd::Zero(w.size(), position.line_load_derivative.cols());
+  position.contact_stress_derivative = Eigen::MatrixXd::Zero(w.size(), by_load.cols());
+  if (edges) position.edge_stress = position.contact_stress;
+  if (edges) position.edge_stress_derivative = position.contact_stress_derivative;
+  const auto slope = [&](const StripContact::Peak& peak, Eigen::Index i) -> Eigen::RowVectorXd {
+    if (local.edge.size() == 0) return peak.slope * by_load.row(i);
+    return peak.slope * by_load.row(i) + peak.by_edge * local.edge.row(i);
+  };
   for (Eigen::Index i = 0; i < w.size(); ++i) {
     if (w[i] <= 0.0) continue;
-    const double radius = at.points[static_cast<std::size_t>(i)].relative_radius;
-    position.contact_stress[i] = std::sqrt(w[i] * model.contact_modulus / (units::pi * radius));
-    position.contact_stress_derivative.row(i) = position.contact_stress[i] / (2.0 * w[i]) * position.line_load_derivative.row(i);
+    const StripContact::Peaks peaks = contact_stress(model, at.points[static_cast<std::size_t>(i)], local.law(i), w[i]);
+    position.contact_stress[i] = peaks.highest.pressure;
+    position.contact_stress_derivative.row(i) = slope(peaks.highest, i);
+    if (!edges || peaks.on_edge.pressure == 0.0) continue;
+    position.edge_stress[i] = peaks.on_edge.pressure;
+    position.edge_stress_derivative.row(i) = slope(peaks.on_edge, i);
   }
 }
 
@@ -56,6 +76,10 @@ void fill_derivatives(const LoadProblemView& problem, const LoadSolver& solver, 
   position.transmission_error_derivative = nearest_slope;
   position.gap_derivative = slopes.gap;
   if (m == 0 || problem.force == 0.0) return;
+  // At held loads a law yields more or less as its edge moves, as if the gap did.
+  for (Eigen::Index i = 0; i < slopes.edge.rows(); ++i) {
+    slopes.gap.row(i) += problem.laws[static_cast<std::size_t>(i)].edge_slope(position.load.line_load[i]) * slopes.edge.row(i);
+  }
   for (const auto& [p, slope] : moved) {
     slopes.gap.col(p) += slope.deflection;
     slopes.force[p] -= slope.carried_force;
@@ -66,14 +90,12 @@ void fill_derivatives(const LoadProblemView& problem, const LoadSolver& solver, 
   position.approach_derivative = position.transmission_error_derivative - nearest_slope;
 }
 
-/// The remainder at held loads: stress follows the curvature, root stress the motion of the points.
-void add_moved_places(const MeshPosition& at, const std::vector<MovedMesh>& moved, LoadedPosition& position) {
+/// The remainder at held loads: contact stress follows curvature and edges, root stress the motion of the points.
+void add_moved_places(const std::vector<MovedMesh>& moved, LoadedPosition& position) {
   position.root_influence_derivative = Eigen::MatrixXd::Zero(moved.front().slope.root_components.size(), position.line_load_derivative.cols());
   for (const auto& [p, slope] : moved) {
-    for (Eigen::Index i = 0; i < position.contact_stress.size(); ++i) {
-      const double radius = at.points[static_cast<std::size_t>(i)].relative_radius;
-      position.contact_stress_derivative(i, p) -= position.contact_stress[i] / (2.0 * radius) * slope.relative_radius[i];
-    }
+    position.contact_stress_derivative.col(p) += slope.contact_stress;
+    if (position.edge_stress.size() > 0) position.edge_stress_derivative.col(p) += slope.edge_stress;
     position.root_influence_derivative.col(p) = slope.root_components;
   }
 }
@@ -101,7 +123,9 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     LoadedPosition& position = cycle.positions[i];
     position.phase = at.phase;
     position.gap = gaps.at(at.points, at.phase);
-    const LoadProblemView problem{at.influence, at.weight, position.gap.total, at.laws, cycle.force};
+    const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(model, at, condition);
+    const std::vector<ContactLaw>& laws = moved_edges.empty() ? at.laws : moved_edges;
+    const LoadProblemView problem{at.influence, at.weight, position.gap.total, laws, cycle.force};
     position.load = solver.solve(problem, options, starting_loads(model, cycle, i, earlier));
     if (!position.load.usable()) {
       ++cycle.failures;
@@ -111,9 +135,10 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     cycle.force_derivative = slopes.force;
     std::vector<MovedMesh> moved;
     for (std::size_t k = 0; k < moving.size(); ++k) moved.push_back({moving[k], slopes_of[k].at(i, position.load, position.gap)});
+    const Eigen::MatrixXd edge = slopes.edge;
     fill_derivatives(problem, solver, moved, std::move(slopes), position);
-    fill_stress(model, at, position);
-    if (!moved.empty()) add_moved_places(at, moved, position);
+    fill_stress(model, at, {laws, edge}, position);
+    if (!moved.empty()) add_moved_places(moved, position);
     const double approach = position.load.transmission_error - position.gap.total.minCoeff();
     position.stiffness = cycle.force / model.face_width * cos_base_helix * cos_base_helix / (approach / micrometre);
   }
@@ -195,6 +220,7 @@ CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
     const LoadedPosition& position = cycle.positions[i];
     summary.peak_line_load = std::max(summary.peak_line_load, position.load.line_load.maxCoeff());
     summary.peak_contact_stress = std::max(summary.peak_contact_stress, position.contact_stress.maxCoeff());
+    if (position.edge_stress.size() > 0) summary.edge_stress = std::fmax(summary.edge_stress, position.edge_stress.maxCoeff());
     summary.worst_kkt_residual = std::max(summary.worst_kkt_residual, position.load.kkt_residual);
     summary.worst_condition = std::fmax(summary.worst_condition, position.load.condition);
     raise(summary.pinion_root_stress, root_stress_peak(model.positions[i], position, Member::Pinion));

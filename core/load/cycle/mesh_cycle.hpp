@@ -65,7 +65,8 @@ struct CycleSummary {
   std::vector<double> te_harmonics;       ///< amplitudes of orders 1 .. 10 of the base pitch [mm]; empty for explicit phases
   double te_mean{not_given};              ///< [mm]
   double peak_line_load{not_given};       ///< [N/mm]
-  double peak_contact_stress{not_given};  ///< [MPa]
+  double peak_contact_stress{not_given};  ///< on edges included [MPa]
+  double edge_stress{not_given};          ///< on tip edges alone, 0 where contact does not reach one [MPa]; NaN without the effect edge_contact
   double mean_stiffness{not_given};       ///< Haddad eq. 2.17b [N/(mm um)]
   double least_stiffness{not_given}, largest_stiffness{not_given};                                       ///< eq. 2.16b over the positions [N/(mm um)]
   double stiffness_variation() const { return (largest_stiffness - least_stiffness) / mean_stiffness; }  ///< [-]

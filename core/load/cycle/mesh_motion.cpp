@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/load/cycle/contact_stress.hpp"
 
 namespace flankwright {
 
@@ -13,19 +14,24 @@ namespace {
 
 /// The values whose slope is MeshSlope, for the points of a position in a perturbed mesh.
 struct HeldLoads {
-  Eigen::VectorXd gap, deflection, relative_radius, root_components;
+  Eigen::VectorXd gap, deflection, contact_stress, edge_stress, root_components;
   double force;
 };
 
 /// @param load  of all points
-HeldLoads held_loads(const MeshPosition& at, const Gap& gap, const Eigen::VectorXd& load) {
+HeldLoads held_loads(const MeshModel& model, const MeshPosition& at, const FlankCondition& condition, const Gap& gap, const Eigen::VectorXd& load) {
   const Eigen::VectorXd forces = at.weight.cwiseProduct(load);
-  HeldLoads held{gap.total, at.influence * forces, Eigen::VectorXd(load.size()), {}, forces.sum()};
+  HeldLoads held{gap.total, at.influence * forces, Eigen::VectorXd(load.size()), Eigen::VectorXd(load.size()), {}, forces.sum()};
   if (!at.root_stress.stations.empty()) held.root_components = at.root_stress.components(forces);
+  const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(model, at, condition);
+  const std::vector<ContactLaw>& laws = moved_edges.empty() ? at.laws : moved_edges;
   for (Eigen::Index i = 0; i < load.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    if (!at.laws.empty()) held.deflection[i] += at.laws[k].deflection(load[i]);
-    held.relative_radius[i] = at.points[k].relative_radius;
+    const ContactLaw* law = laws.empty() ? nullptr : &laws[k];
+    if (law != nullptr) held.deflection[i] += law->deflection(load[i]);
+    const StripContact::Peaks peaks = contact_stress(model, at.points[k], law, load[i]);
+    held.contact_stress[i] = peaks.highest.pressure;
+    held.edge_stress[i] = peaks.on_edge.pressure;
   }
   return held;
 }
@@ -111,6 +117,7 @@ MeshSlopes::Perturbed::Perturbed(const MeshModel& mesh, MisalignmentParameter pa
 
 MeshSlopes::MeshSlopes(const MeshModel& model, const FlankCondition& condition, MisalignmentParameter parameter)
     : model_(model),
+      condition_(condition),
       perturbed_(perturbed_meshes(model, parameter)),
       one_(perturbed_.meshes[0], parameter, condition),
       two_(perturbed_.meshes[1], parameter, condition) {}
@@ -130,11 +137,12 @@ MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load, con
   const Eigen::VectorXd loads = load.line_load.cwiseProduct(same_as.known);
   const auto perturbed = [&](const Perturbed& mesh, const std::vector<Eigen::Index>& same) {
     const MeshPosition& there = mesh.model.positions[position];
-    HeldLoads held = held_loads(there, mesh.gaps.at(there.points, there.phase), as_perturbed(same, loads, there.weight.size()));
-    for (Eigen::VectorXd* values : {&held.gap, &held.deflection, &held.relative_radius}) *values = as_at(same, *values);
+    HeldLoads held =
+        held_loads(mesh.model, there, mesh.condition, mesh.gaps.at(there.points, there.phase), as_perturbed(same, loads, there.weight.size()));
+    for (Eigen::VectorXd* values : {&held.gap, &held.deflection, &held.contact_stress, &held.edge_stress}) *values = as_at(same, *values);
     return held;
   };
-  const HeldLoads here = held_loads(model_.positions[position], gap, loads);
+  const HeldLoads here = held_loads(model_, model_.positions[position], condition_, gap, loads);
   const HeldLoads one = perturbed(one_, same_as.one), two = perturbed(two_, same_as.two);
   const auto slope = [&](Eigen::VectorXd HeldLoads::*what) -> Eigen::VectorXd {
     return forward_difference(here.*what, one.*what, two.*what, perturbed_.step).cwiseProduct(same_as.known);
@@ -142,7 +150,8 @@ MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load, con
   MeshSlope by{slope(&HeldLoads::gap),
                slope(&HeldLoads::deflection),
                forward_difference(here.force, one.force, two.force, perturbed_.step),
-               slope(&HeldLoads::relative_radius),
+               slope(&HeldLoads::contact_stress),
+               slope(&HeldLoads::edge_stress),
                {}};
   by.root_components = Eigen::VectorXd::Zero(here.root_components.size());
   if (here.root_components.size() == one.root_components.size() && here.root_components.size() == two.root_components.size()) {

@@ -41,7 +41,8 @@ struct MeshSlope {
   Eigen::VectorXd gap;              ///< g [mm per unit]
   Eigen::VectorXd deflection;       ///< K a w + c(w) [mm per unit]
   double carried_force{0.0};        ///< a'w [N per unit]
-  Eigen::VectorXd relative_radius;  ///< R [mm per unit]
+  Eigen::VectorXd contact_stress;   ///< sigma_H [MPa per unit]
+  Eigen::VectorXd edge_stress;      ///< on tip edges [MPa per unit]
   Eigen::VectorXd root_components;  ///< RootStressInfluence::components a w [MPa per unit]; empty without
 };
 
@@ -84,6 +85,7 @@ class MeshSlopes {
   Same same(std::size_t position) const;
 
   const MeshModel& model_;
+  const FlankCondition& condition_;
   const PerturbedMeshes& perturbed_;
   Perturbed one_, two_;
 };

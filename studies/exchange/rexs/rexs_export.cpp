@@ -90,6 +90,7 @@ class Export {
     angle("helix_angle_reference_diameter", gear.hand == Hand::Right ? study_.pair.helix_angle : -study_.pair.helix_angle);
     length("face_width", gear.data.face_width);
     length("tip_diameter", 2.0 * gear.tip_radius);
+    if (gear.data.tip_rounding > 0.0) length("tip_form_diameter", 2.0 * gear.tip_form_radius);
     length("root_diameter", 2.0 * gear.root_radius);
     length("root_form_diameter", 2.0 * gear.form_radius);
     word("datum_face_orientation", "negative");
@@ -102,7 +103,7 @@ class Export {
     flag("is_driving_gear", study_.pair.driver == m);
     word("loaded_tooth_flank", study_.pair.working_flank == WorkingFlank::Right ? "right" : "left");
     length("active_root_diameter", 2.0 * pair_[m].active_root_radius);
-    length("active_tip_diameter", 2.0 * pair_[m].tip_radius);
+    length("active_tip_diameter", 2.0 * pair_[m].tip_form_radius);
     const double ratio = m == Member::Pinion ? 1.0 : pair_.gear_ratio();
     if (study_.torques.front() > 0.0) torque("torque", ratio * study_.torques.front());
     relate("stage_gear_data", {{stage, "stage", "cylindrical_stage"}, {gear, "gear", "cylindrical_gear"}, {id, "stage_gear_data", type}});
@@ -273,7 +274,7 @@ class Export {
     const Gear& gear = pair_[m];
     for (int i = 0; i < topography_points; ++i) {
       const double share = static_cast<double>(i) / (topography_points - 1);
-      points.radii.push_back(std::lerp(gear.active_root_radius, gear.tip_radius, share));
+      points.radii.push_back(std::lerp(gear.active_root_radius, gear.tip_form_radius, share));
       points.z.push_back((share - 0.5) * gear.data.face_width);
     }
     points.deviation = Eigen::MatrixXd::Zero(topography_points, topography_points);

@@ -55,7 +55,7 @@ function grinding_rows(results) {
 /** Start of a relief as on drawings: "from d_Ca 219.8 mm". */
 function relief_start(results, row) {
   const gear = record(record(results.geometry)[row.gear]), height = Number(ground(row.after, row.step ?? 1e-3));
-  if (/tip_relief\.height$/.test(row.key) && is_number(gear.tip_diameter_mm)) return `from d_Ca ${fixed(gear.tip_diameter_mm - 2 * height, 2)} mm`;
+  if (/tip_relief\.height$/.test(row.key) && is_number(gear.tip_form_diameter_mm)) return `from d_Ca ${fixed(gear.tip_form_diameter_mm - 2 * height, 2)} mm`;
   if (/root_relief\.height$/.test(row.key) && is_number(gear.active_root_diameter_mm)) return `up to d_Cf ${fixed(gear.active_root_diameter_mm + 2 * height, 2)} mm`;
   return null;
 }

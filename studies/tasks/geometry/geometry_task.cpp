@@ -22,6 +22,7 @@ constexpr GearSize gear_sizes[] = {
     {"reference diameter", "d", "mm", [](const Gear& g) { return 2.0 * g.reference_radius; }},
     {"base diameter", "d_b", "mm", [](const Gear& g) { return 2.0 * g.base_radius; }},
     {"tip diameter", "d_a", "mm", [](const Gear& g) { return 2.0 * g.tip_radius; }},
+    {"tip form diameter", "d_Fa", "mm", [](const Gear& g) { return 2.0 * g.tip_form_radius; }},
     {"root diameter", "d_f", "mm", [](const Gear& g) { return 2.0 * g.root_radius; }},
     {"root form diameter", "d_Ff", "mm", [](const Gear& g) { return 2.0 * g.form_radius; }},
     {"start of active profile", "d_Nf", "mm", [](const Gear& g) { return 2.0 * g.active_root_radius; }},

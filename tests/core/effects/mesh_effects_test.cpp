@@ -55,6 +55,7 @@ struct Scene {
     data.pinion.teeth = 20;
     data.wheel.teeth = 31;
     data.pinion.face_width = data.wheel.face_width = 40;
+    data.pinion.tip_rounding = data.wheel.tip_rounding = 0.25;
     return data;
   }
   static FlankCondition all_kinds() {
@@ -65,7 +66,13 @@ struct Scene {
     return condition;
   }
   EffectFacts facts() const {
-    return {.loaded = true, .conditions = {condition}, .coupled_teeth = true, .gear_bodies = true, .shafts = true, .whole_surface = true};
+    return {.loaded = true,
+            .conditions = {condition},
+            .coupled_teeth = true,
+            .gear_bodies = true,
+            .rounded_tips = true,
+            .shafts = true,
+            .whole_surface = true};
   }
 
   LoadedCycle run(const EffectDecisions& decisions, const MeshEffects& effects) const {
@@ -164,12 +171,14 @@ TEST_CASE("An effect that is off costs no instruction", "[.][core][effects][inst
   };
   const double everything = instructions(mesh_effects(all));
   constexpr double allocator = 2e-4;  // what the memory allocator does is not the same twice; effects here cost 1e-4 (tips) to 3e-3
-  for (const std::string name : {"shafts", "free_ends", "tip_corner", "adjacent_teeth", "gear_body_compliance", "extended_contact_region"}) {
+  for (const std::string name :
+       {"shafts", "free_ends", "tip_corner", "edge_contact", "adjacent_teeth", "gear_body_compliance", "extended_contact_region"}) {
     CAPTURE(name);
     const double off = instructions(mesh_effects(without(all, name, "left out")));
     const double never = instructions(mesh_effects(all, registered_without(name)));
     CHECK(off == Approx(never).epsilon(allocator));
-    if (name != "gear_body_compliance") CHECK(off < everything);  // of that one either way is a look at another table
+    // Of the gear body either way is a look at another table; a tip costs about what the allocator varies by.
+    if (name != "gear_body_compliance") CHECK(off < (1.0 + allocator) * everything);
   }
 }
 

@@ -1,0 +1,155 @@
+#include "core/compliance/local/strip_contact.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "core/base/root.hpp"
+#include "core/base/units.hpp"
+
+namespace flankwright {
+namespace {
+
+using units::pi;
+
+constexpr double stationary = 1e-14;  ///< width of a root's bracket for psi [rad]: f hardly changes there
+
+double lambda(double psi, double phi) { return std::log(std::abs(std::sin(0.5 * (psi + phi)) / std::sin(0.5 * (psi - phi)))); }
+
+/// The strip of one angle in units of its half width: k, N = e/l, S = (L/l)^2 and B, by which d(e/L)/d(cos phi) = B/sqrt(S).
+struct Strip {
+  double cosine, sine, phi, k;
+
+  Strip(double u, double ratio) : cosine(u), sine(std::sqrt((1.0 - u) * (1.0 + u))), phi(std::atan2(sine, u)), k(ratio) {}
+
+  double moment() const { return sine - phi * cosine; }
+  double middle() const { return -k * moment(); }
+  double edge() const { return cosine + middle(); }
+  double square() const { return 1.0 + k * (phi - sine * cosine); }
+  double steepness() const { return 1.0 + k * phi + edge() * k * sine / square(); }
+};
+
+/// cos(phi) at which e/L is x, -sqrt(1 + k pi) < x < 1: Newton's steps inside a bracket. As a function of cos(phi) e/L rises with a slope
+/// that has neither zero nor pole.
+double cosine_of_kink(double x, double k) {
+  double low = -1.0, high = 1.0;
+  double u = std::clamp(x, -1.0, 1.0) * 0.5;
+  // Each step at least halves the bracket or is Newton's; double precision needs no more.
+  for (int step = 0; step < 100; ++step) {
+    const Strip strip(u, k);
+    const double root = std::sqrt(strip.square()), excess = strip.edge() / root - x;
+    (excess > 0.0 ? high : low) = u;
+    double next = u - excess * root / strip.steepness();
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (std::abs(next - u) <= 2.0 * std::numeric_limits<double>::epsilon()) return next;
+    u = next;
+  }
+  return u;
+}
+
+}  // namespace
+
+StripContact::StripContact(const RoundedEdge& edge, double relative_radius, double contact_modulus, double line_load)
+    : edge_(edge), radius_(relative_radius), modulus_(contact_modulus), load_(line_load) {
+  const double rho = edge.radius, e = edge.distance, R = relative_radius;
+  assert(rho > 0.0 && R > 0.0 && contact_modulus > 0.0 && line_load > 0.0 && std::isfinite(e));
+  const double k = R / (pi * rho), flank_width = std::sqrt(4.0 * line_load * R / (pi * contact_modulus));
+  const double x = e / flank_width;
+  if (x >= 1.0 || x <= -std::sqrt(1.0 + k * pi)) {
+    const bool inside = x >= 1.0;
+    const double relative = inside ? R : R * rho / (R + rho);
+    phi_ = inside ? 0.0 : pi;
+    half_width_ = std::sqrt(4.0 * line_load * relative / (pi * contact_modulus));
+    middle_ = inside ? 0.0 : e * R / (R + rho);
+    growth_ = 0.5;
+    rise_ = line_load / (pi * contact_modulus);
+    half_width_by_edge_ = rise_by_edge_ = 0.0;
+    return;
+  }
+  const Strip strip(cosine_of_kink(x, k), k);
+  const double S = strip.square(), N = strip.edge(), B = strip.steepness(), M = strip.middle();
+  phi_ = strip.phi;
+  steepness_ = B;
+  offset_ = N;
+  const double l = half_width_ = flank_width / std::sqrt(S);
+  middle_ = l * M;
+  growth_ = 0.5 * (1.0 - k * strip.sine * N / (B * S));
+  half_width_by_edge_ = k * strip.sine / (B * S);
+  const double c = strip.cosine, bend = phi_ * (0.5 + c * c) - 1.5 * strip.sine * c;
+  const double least = N >= 0.0 ? 0.0 : N * N / (2.0 * (R + rho));
+  rise_ = l * l * ((M * M + 0.5) / (2.0 * R) + bend / (2.0 * pi * rho) - least);
+  // dh/de weighted likewise, and what the strip's own change adds: w u does not change with l, but for u's logarithm.
+  rise_by_edge_ =
+      -l * strip.moment() / (pi * rho) + 2.0 * line_load / (pi * contact_modulus * l) * half_width_by_edge_ + (e >= 0.0 ? 0.0 : -e / (R + rho));
+}
+
+/// p = E' l/2 f(psi) at s = m + l cos(psi), f in 1/mm [Johnson, 1985, eq. 2.41]:
+///
+///     f = sin psi/R + (phi sin psi + (cos psi - cos phi) Lambda)/(pi rho),   Lambda = log |sin((psi + phi)/2)/sin((psi - phi)/2)|.
+double StripContact::shape(double psi) const {
+  const double hertz = std::sin(psi) / radius_;
+  if (phi_ == 0.0) return hertz;
+  if (phi_ == pi) return hertz + std::sin(psi) / edge_.radius;
+  const double rise = 2.0 * std::sin(0.5 * (phi_ + psi)) * std::sin(0.5 * (phi_ - psi));  // cos psi - cos phi
+  const double bend = rise == 0.0 ? 0.0 : rise * lambda(psi, phi_);
+  return hertz + (phi_ * std::sin(psi) + bend) / (pi * edge_.radius);
+}
+
+double StripContact::shape_slope(double psi) const {
+  return std::cos(psi) / radius_ + (phi_ * std::cos(psi) + std::sin(phi_) - std::sin(psi) * lambda(psi, phi_)) / (pi * edge_.radius);
+}
+
+/// At phi f falls infinitely steeply, so that one maximum lies on the rounding, psi < phi.
+double StripContact::highest_on_edge() const {
+  const auto slope = [this](double psi) { return shape_slope(psi); };
+  return bracketed_root(slope, 0.0, slope(0.0), phi_, -std::numeric_limits<double>::infinity(), stationary).x;
+}
+
+/// Another one lies on the flank, phi < psi <= pi/2, where f' rises above 0 there. Its own maximum is where
+///
+///     pi rho f'' = -sin psi (pi rho/R + phi) - cos psi Lambda + sin psi sin phi/(cos phi - cos psi)
+///
+/// falls through 0.
+std::optional<double> StripContact::highest_on_flank() const {
+  const double end = 0.5 * pi;
+  if (phi_ >= end) return std::nullopt;
+  const auto slope = [this](double psi) { return shape_slope(psi); };
+  const auto curvature = [this](double psi) {
+    return -std::sin(psi) * (pi * edge_.radius / radius_ + phi_) - std::cos(psi) * lambda(psi, phi_) +
+           std::sin(psi) * std::sin(phi_) / (std::cos(phi_) - std::cos(psi));
+  };
+  const double at_end = curvature(end);
+  if (at_end >= 0.0) return std::nullopt;
+  const double steepest = bracketed_root(curvature, phi_, std::numeric_limits<double>::infinity(), end, at_end, stationary).x;
+  const double most = slope(steepest), least = slope(end);
+  if (most <= 0.0 || least > 0.0) return std::nullopt;
+  return bracketed_root(slope, steepest, most, end, least, stationary).x;
+}
+
+/// At a maximum over psi the derivatives are those at held psi: df/dphi = sin(phi) Lambda/(pi rho), and sin(phi) cancels against that of N.
+StripContact::Peak StripContact::maximum(double psi) const {
+  const double l = half_width_, f = shape(psi), by_phi = lambda(psi, phi_) / (pi * edge_.radius * steepness_);
+  return {0.5 * modulus_ * l * f, 0.5 * modulus_ * l / load_ * (f * growth_ + 0.5 * offset_ * by_phi),
+          0.5 * modulus_ * (f * half_width_by_edge_ - by_phi)};
+}
+
+StripContact::Peaks StripContact::peaks() const {
+  if (phi_ == 0.0 || phi_ == pi) {
+    const double pressure = 2.0 * load_ / (pi * half_width_);
+    const Peak hertz{pressure, 0.5 * pressure / load_, 0.0};
+    return {hertz, phi_ == pi ? hertz : Peak{}};
+  }
+  const Peak on_edge = maximum(highest_on_edge());
+  const std::optional<double> on_flank = highest_on_flank();
+  const Peak highest = on_flank && shape(*on_flank) * 0.5 * modulus_ * half_width_ > on_edge.pressure ? maximum(*on_flank) : on_edge;
+  return {highest, on_edge};
+}
+
+double StripContact::pressure(double s) const {
+  const double cosine = (s - middle_) / half_width_;
+  if (std::abs(cosine) >= 1.0) return 0.0;
+  return 0.5 * modulus_ * half_width_ * shape(std::acos(cosine));
+}
+
+}  // namespace flankwright

@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/load/cycle/contact_stress.hpp"
+#include "core/load/cycle/cycle_gradient.hpp"
+#include "core/load/cycle/mesh_cycle.hpp"
+#include "tests/core/load/mesh_cases.hpp"
+
+using namespace flankwright;
+
+namespace {
+
+/// A pair with both tips rounded, by parts of the module; 0 is sharp.
+GearPair rounded_pair(double helix_angle, double rounding) {
+  PairData data = mesh_cases::pair_data(25, 50, helix_angle, 3, 20);
+  data.pinion.tip_rounding = data.wheel.tip_rounding = rounding * data.normal_module;
+  return make_gear_pair(data);
+}
+
+FlankCondition relieved(double amount) {
+  FlankCondition condition;
+  condition.modification.pinion.tip_relief = condition.modification.wheel.tip_relief = {amount, 0.9, ReliefShape::Linear};
+  return condition;
+}
+
+constexpr double torque = 150e3;
+
+}  // namespace
+
+TEST_CASE("A tip rounding ends the flank where its arc touches it", "[core][gear][edge]") {
+  const double rounding = GENERATE(0.05, 0.1, 0.2);
+  const GearPair pair = rounded_pair(0, rounding), sharp = rounded_pair(0, 0);
+  const Gear& gear = pair.pinion;
+  // The circle that touches the tip circle and the involute from inside: its centre on the involute's normal, a tangent of the base circle.
+  const double rho = gear.data.tip_rounding, centre = gear.tip_radius - rho;
+  const double roll = rho + std::sqrt((centre - gear.base_radius) * (centre + gear.base_radius));
+  const double expected = std::hypot(gear.base_radius, roll);
+  const double curvature = rho * rho / gear.base_radius;  // of flank and tip circle over the arc, left out
+  CHECK(gear.tip_form_radius == Approx(expected).margin(curvature));
+  CHECK(gear.tip_edge_radius == rho);
+  CHECK(pair.path_end < sharp.path_end);
+  CHECK(pair.path_start > sharp.path_start);
+  CHECK(sharp.pinion.tip_form_radius == sharp.pinion.tip_radius);
+}
+
+TEST_CASE("Between flank and rounding clearance and edge distance run on", "[core][contact][edge]") {
+  const GearPair pair = rounded_pair(GENERATE(0.0, 15.0), 0.1);
+  const PathOfContact path(pair);
+  constexpr double step = 1e-5;  // base pitches
+  for (const double end : {path.before, path.path_end()}) {
+    const double line_phase = end + std::abs(path.slope) * path.half_face;
+    const auto at = [&](double by) { return *contact_point(pair, path, line_phase + by, 0, 0.0, true); };
+    const ContactPoint before = at(-step), after = at(step);
+    const double travel = 2.0 * step * pair.transverse_base_pitch;
+    CHECK(std::abs(before.tip_edge.distance - after.tip_edge.distance) < 2.0 * travel);
+    CHECK(before.tip_edge.gear == after.tip_edge.gear);
+    CHECK(before.tip_edge.distance * after.tip_edge.distance < 0.0);
+    CHECK(std::max(before.clearance, after.clearance) < travel * travel);
+  }
+}
+
+TEST_CASE("Loads, transmission error and stresses on edges have the slopes of differences", "[core][load][edge][gradient]") {
+  const double helix_angle = GENERATE(0.0, 15.0);
+  const GearPair gears = rounded_pair(helix_angle, 0.1);
+  // Before A, at both ends of the path and in between.
+  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 6}, equally_spaced_phases(16)});
+  const std::vector<GearParameter> parameters{{Member::Pinion, parameter_of("tip_relief.amount")},
+                                              {Member::Wheel, parameter_of("tip_relief.height")},
+                                              {Member::Pinion, parameter_of("profile_crowning")},
+                                              {Member::Wheel, parameter_of("profile_slope")},
+                                              {Member::Pinion, parameter_of("lead_crowning")}};
+  FlankCondition condition = relieved(4 * units::um);
+  condition.modification.pinion.lead_crowning = 3 * units::um;
+  set(condition.modification.pinion, parameter_of("profile_crowning"), 2 * units::um);
+  const LoadedCycle cycle = analyse_cycle(model, condition, torque, {parameters.begin(), parameters.end()});
+  REQUIRE(summarise(model, cycle).edge_stress > 0.0);
+  for (std::size_t p = 0; p < parameters.size(); ++p) {
+    const double step = parameters[p].parameter == parameter_of("tip_relief.height") ? 2e-5 : 2e-7;  // mm
+    const auto moved = [&](double by) {
+      FlankCondition other = condition;
+      Modification& m = other.modification[parameters[p].member];
+      set(m, parameters[p].parameter, get(m, parameters[p].parameter) + by);
+      return analyse_cycle(model, other, torque);
+    };
+    const LoadedCycle up = moved(step), down = moved(-step);
+    for (std::size_t k = 0; k < cycle.positions.size(); ++k) {
+      const LoadedPosition& at = cycle.positions[k];
+      const auto column = static_cast<Eigen::Index>(p);
+      // Points that gain or lose contact within a step have no two-sided slope.
+      const auto loaded = [](const LoadedPosition& position) { return (position.load.line_load.array() > 0.0).eval(); };
+      if ((loaded(up.positions[k]) != loaded(down.positions[k])).any()) continue;
+      const auto check = [&](const Eigen::VectorXd& exact, const Eigen::VectorXd& above, const Eigen::VectorXd& below) {
+        const Eigen::VectorXd difference = (above - below) / (2 * step);
+        // Discretisation of the central difference, and round-off of the values over its step.
+        constexpr double epsilon = 2.2e-16;
+        const double tolerance = 2e-6 * difference.cwiseAbs().maxCoeff() + 64 * epsilon * above.cwiseAbs().maxCoeff() / step;
+        CHECK((exact - difference).cwiseAbs().maxCoeff() <= tolerance);
+      };
+      CAPTURE(p, k);
+      check(at.line_load_derivative.col(column), up.positions[k].load.line_load, down.positions[k].load.line_load);
+      check(at.contact_stress_derivative.col(column), up.positions[k].contact_stress, down.positions[k].contact_stress);
+      check(at.edge_stress_derivative.col(column), up.positions[k].edge_stress, down.positions[k].edge_stress);
+      CHECK(at.transmission_error_derivative[column] ==
+            Approx((up.positions[k].load.transmission_error - down.positions[k].load.transmission_error) / (2 * step)).epsilon(1e-6).margin(1e-8));
+    }
+  }
+}
+
+TEST_CASE("With enough relief edges carry nothing and change nothing", "[core][load][edge]") {
+  const GearPair gears = rounded_pair(0, 0.1);
+  const MeshResolution resolution{{QuadratureRule::Graded, 4}, equally_spaced_phases(24)};
+  const FlankCondition condition = relieved(60 * units::um);
+  const MeshModel with = mesh_cases::model(gears, resolution), without = mesh_cases::model(gears, resolution, MeshEffects::all_but({"edge_contact"}));
+  const LoadedCycle on = analyse_cycle(with, condition, torque), off = analyse_cycle(without, condition, torque);
+  CHECK(summarise(with, on).edge_stress == 0.0);
+  CHECK(std::isnan(summarise(without, off).edge_stress));
+  for (std::size_t k = 0; k < on.positions.size(); ++k) CHECK(on.positions[k].load.line_load == off.positions[k].load.line_load);
+}
+
+TEST_CASE("Without relief edges carry the highest stress of a spur pair, and some relief lowers it", "[core][load][edge]") {
+  const GearPair gears = rounded_pair(0, 0.05);
+  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 4}, equally_spaced_phases(64)});
+  const auto summary = [&](double relief) { return summarise(model, analyse_cycle(model, relieved(relief), torque)); };
+  const CycleSummary none = summary(0.0), some = summary(20 * units::um);
+  CHECK(none.edge_stress == none.peak_contact_stress);
+  CHECK(some.peak_contact_stress < none.peak_contact_stress);
+  CHECK(some.edge_stress < none.edge_stress);
+}
+
+TEST_CASE("Transmission error runs on as contact wanders over an edge", "[core][load][edge]") {
+  const GearPair gears = rounded_pair(0, 0.1);
+  const PathOfContact path(gears);
+  const auto error = [&](double phase) {
+    const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 4}, {phase}});
+    return analyse_cycle(model, relieved(3 * units::um), torque).positions[0].load.transmission_error;
+  };
+  const double end = path.path_end() - std::floor(path.path_end());
+  // A jump would not shrink with the step.
+  const auto change = [&](double step) { return std::abs(error(end + step) - error(end - step)); };
+  CHECK(change(1e-4) < 0.2 * change(1e-3));
+  CHECK(change(1e-5) < 0.2 * change(1e-4));
+}
