@@ -7,6 +7,7 @@
 #include "core/effects/decision.hpp"
 #include "core/fidelity/cycle_resolution.hpp"
 #include "core/fidelity/resolved_cycle.hpp"
+#include "core/rating/edge_contact_start.hpp"
 #include "core/rating/iso_load_factors.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
 #include "optimize/design/design_optimiser.hpp"
@@ -40,7 +41,8 @@ struct LoadedResult {
   std::size_t model{0};      ///< index into StudyResults::models
   FlankCondition condition;  ///< that it was solved for
   IsoLoadFactors iso;
-  std::optional<LoadRating> rating{};  ///< none where peaks are sampled, or phases were given
+  std::optional<EdgeContactStart> edge_contact{};  ///< none where contact reaches no tip edge
+  std::optional<LoadRating> rating{};              ///< none where peaks are sampled, or phases were given
 };
 
 /// A step of the run that is no effect of the mesh, and its time.

@@ -1,8 +1,10 @@
 #include "studies/analysis/study_run.hpp"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/stopwatch.hpp"
 #include "core/load/cycle/mesh_motion.hpp"
@@ -31,6 +33,7 @@ StudyRun::StudyRun(const Study& study, const ProgressReport& progress, const Per
 StudyResults StudyRun::finish() {
   const Stopwatch clock;
   results_.study.task->run(*this);
+  find_edge_contact();
   size_effects();
   add_seconds(results_.effects, results_.mesh_effects, unloaded_seconds_);
   add_unmet_by_load_cases(results_);
@@ -201,6 +204,27 @@ void StudyRun::rate() {
   for (LoadedResult& loaded : results_.loaded) {
     if (loaded.cycle.usable()) loaded.rating = rater_.rate(mesh, loaded.condition, loaded.torque, gradient_parameters());
   }
+}
+
+void StudyRun::find_edge_contact() {
+  const Stopwatch clock;
+  tbb::parallel_for(std::size_t{0}, results_.loaded.size(), [&](std::size_t i) {
+    LoadedResult& loaded = results_.loaded[i];
+    // Quiet where the effect is off and the stress is NaN.
+    if (std::isgreater(loaded.summary.edge_stress, 0.0))
+      loaded.edge_contact = edge_contact_start(results_.models[loaded.model], loaded.condition, loaded.torque);
+  });
+  // The load case of the design to be ground whose edges touch at the least part of its torque.
+  const LoadedResult* first = nullptr;
+  const auto share = [](const LoadedResult& loaded) { return loaded.edge_contact->torque / loaded.torque; };
+  for (const LoadedResult& loaded : results_.loaded) {
+    if (loaded.edge_contact && loaded.design != "before" && (first == nullptr || share(loaded) < share(*first))) first = &loaded;
+  }
+  if (first == nullptr) return;
+  results_.steps.push_back({"edge_contact", "the torques at which tip edges touch", clock.seconds()});
+  results_.notes.push_back(fmt::format(
+      "contact reaches the tip edge of the {} at {:.0f} % of {:.4g} N·m (scene \"{}\"), with {:.4g} MPa there at all of it",
+      name_of(first->edge_contact->gear), 100.0 * share(*first), first->torque / units::newton_metre, first->scene, first->summary.edge_stress));
 }
 
 void StudyRun::size_effects() {

@@ -71,6 +71,7 @@ class StudyRun {
   void add_unloaded(const Scene& scene);
   void analyse_loaded(const std::vector<DesignScene>& scenes);
   void forget_loaded();
+  void find_edge_contact();
   void size_effects();
 
   const ProgressReport& progress_;

@@ -169,6 +169,14 @@ Json quantities_json(const LoadedResult& loaded, bool full_cycle) {
   return json;
 }
 
+Json edge_contact_json(const LoadedResult& loaded) {
+  const EdgeContactStart& start = *loaded.edge_contact;
+  return {{"gear", name_of(start.gear)},
+          {"begins_at_torque_Nm", in_Nm(start.torque)},
+          {"share_of_torque", start.torque / loaded.torque},
+          {"phase", start.phase}};
+}
+
 Json summary_json(const LoadedResult& loaded, const MeshModel& model, bool full_cycle) {
   const CycleSummary& summary = loaded.summary;
   Json json = quantities_json(loaded, full_cycle);
@@ -179,6 +187,7 @@ Json summary_json(const LoadedResult& loaded, const MeshModel& model, bool full_
                {"worst_condition", summary.worst_condition},
                {"peaks", loaded.rating ? peaks_json(*loaded.rating, model) : Json()},
                {"load_factors", loaded.rating ? load_factors_json(*loaded.rating) : Json()},
+               {"edge_contact", loaded.edge_contact ? edge_contact_json(loaded) : Json()},
                {"iso6336", iso_json(model.iso, loaded.iso)}});
   return json;
 }

@@ -8,6 +8,7 @@
 
 #include "core/contact/path/path_of_contact.hpp"
 #include "core/contact/unloaded/transmission_error.hpp"
+#include "core/load/cycle/contact_stress.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
 #include "core/load/cycle/mesh_motion.hpp"
 #include "studies/base/results_folder.hpp"
@@ -93,11 +94,11 @@ int pairs_that_meet(const GearPair& pair, const FlankCondition& c, double phase)
   return meeting;
 }
 
-void check_position(const MeshPosition& at, const LoadedPosition& position, double force, const GearPair& pair, const FlankCondition& condition,
+void check_position(const MeshModel& model, const MeshPosition& at, const LoadedPosition& position, double force, const FlankCondition& condition,
                     Findings& findings) {
   const LoadDistribution& load = position.load;
   if (load.status == LoadStatus::NoContactPoints) {
-    const int meeting = pairs_that_meet(pair, condition, at.phase);
+    const int meeting = pairs_that_meet(model.pair, condition, at.phase);
     findings.require(meeting == 0, "without contact points no pair meets, meeting", meeting);
     return;
   }
@@ -107,12 +108,15 @@ void check_position(const MeshPosition& at, const LoadedPosition& position, doub
   findings.require(load.line_load.allFinite() && load.line_load.minCoeff() >= 0.0, "loads are numbers and none pulls [N/mm]",
                    load.line_load.minCoeff());
   findings.require(position.contact_stress.allFinite(), "contact stress is a number [MPa]", position.contact_stress.sum());
+  findings.require(position.edge_stress.size() == 0 || (position.edge_stress.array() <= position.contact_stress.array()).all(),
+                   "stress on edges is part of the contact stress [MPa]", position.edge_stress.sum());
   findings.require(std::abs(at.weight.dot(load.line_load) / force - 1.0) <= 1e-9, "forces balance the torque", at.weight.dot(load.line_load) / force);
   findings.require(std::isfinite(position.stiffness) && position.stiffness > 0.0, "mesh stiffness [N/(mm um)]", position.stiffness);
   findings.require(position.line_load_derivative.allFinite() && position.transmission_error_derivative.allFinite(), "derivatives are numbers", 0.0);
   Eigen::Index nearest = 0;
   const double touch = position.gap.total.minCoeff(&nearest);
-  const double alone = at.influence(nearest, nearest) * force + at.laws[static_cast<std::size_t>(nearest)].deflection(force / at.weight[nearest]);
+  const ContactLaw law = *contact_law_in(model, at.points[static_cast<std::size_t>(nearest)], condition);
+  const double alone = at.influence(nearest, nearest) * force + law.deflection(force / at.weight[nearest]);
   const double approach = load.transmission_error - touch, round_off = 1e-9 * (alone + std::abs(touch));
   findings.require(approach >= -round_off, "f_t beyond first touch [mm]", approach);
   findings.require(approach <= alone + round_off, "f_t within what one point alone yields [mm]", approach - alone);
@@ -128,7 +132,7 @@ void check_loaded(const Study& study, const GearPair& pair, const FlankCondition
   for (const double torque : study.scenes.front().torques) {
     const LoadedCycle cycle = analyse_cycle(model, condition, torque, parameters);
     for (std::size_t i = 0; i < cycle.positions.size(); ++i)
-      check_position(model.positions[i], cycle.positions[i], cycle.force, pair, condition, findings);
+      check_position(model, model.positions[i], cycle.positions[i], cycle.force, condition, findings);
     if (!cycle.usable()) continue;
     const CycleSummary summary = summarise(model, cycle);
     findings.require(std::isfinite(summary.peak_contact_stress) && std::isfinite(summary.te_mean), "summary is of numbers", summary.te_mean);

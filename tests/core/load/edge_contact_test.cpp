@@ -5,6 +5,7 @@
 #include "core/load/cycle/contact_stress.hpp"
 #include "core/load/cycle/cycle_gradient.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
+#include "core/rating/edge_contact_start.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;
@@ -126,6 +127,22 @@ TEST_CASE("Without relief edges carry the highest stress of a spur pair, and som
   CHECK(none.edge_stress == none.peak_contact_stress);
   CHECK(some.peak_contact_stress < none.peak_contact_stress);
   CHECK(some.edge_stress < none.edge_stress);
+}
+
+TEST_CASE("The torque at which edge contact begins parts torques with and without", "[core][rating][edge]") {
+  const GearPair gears = rounded_pair(0, 0.1);
+  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 4}, equally_spaced_phases(32)});
+  const FlankCondition condition = relieved(8 * units::um);
+  const auto start = edge_contact_start(model, condition, torque);
+  REQUIRE(start);
+  CHECK(start->torque > 0.0);
+  CHECK(start->torque < torque);
+  const auto edge_stress = [&](double at) { return summarise(model, analyse_cycle(model, condition, at)).edge_stress; };
+  CHECK(edge_stress(start->torque) > 0.0);
+  CHECK(edge_stress(start->torque - 1.1e-3 * torque) == 0.0);  // sought to a thousandth of the torque
+  CHECK_FALSE(edge_contact_start(model, relieved(60 * units::um), torque));
+  // Without relief the next pair touches on an edge at any load, at the phase of its entry; the nearest position is a little off.
+  CHECK(edge_contact_start(model, relieved(0.0), torque)->torque < 0.01 * torque);
 }
 
 TEST_CASE("Transmission error runs on as contact wanders over an edge", "[core][load][edge]") {

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "core/load/cycle/mesh_cycle.hpp"
+
+namespace flankwright {
+
+/// The least torque at which contact reaches a rounded tip edge.
+struct EdgeContactStart {
+  double torque{not_given};     ///< on the pinion [N mm]; 0: without load already
+  Member gear{Member::Pinion};  ///< whose edge it is
+  double phase{not_given};      ///< of the mesh position [base pitches]
+};
+
+/// Sought by halving between no torque and the given one, at the positions of the model, to a thousandth of that torque. Contact that leaves an edge
+/// again as the torque grows is not looked for.
+/// @param pinion_torque  [N mm], > 0
+/// @returns nothing where contact reaches no edge at the given torque, or its loads were not found
+std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const FlankCondition& condition, double pinion_torque);
+
+}  // namespace flankwright
