@@ -42,10 +42,16 @@ void check_rack(const GearData& gear, const std::string& name, const PairData& p
   }
 }
 
-/// Where the tip rounding begins, and its curvature across a contact line.
+/// Angle between the normals of flank and cylinder at a radius: that of the edge where the flank is cut off there [rad].
+double corner_angle(const Gear& gear, double radius) {
+  const double base_helix = std::atan(gear.helix_rate * gear.base_radius);
+  return std::acos(std::cos(base_helix) * std::sin(gear.pressure_angle_at(radius)));
+}
+
+/// Where the flank ends, and the curvature of its rounded edge across a contact line.
 ///
 /// Across the edge both tangent planes, of flank and tip cylinder, meet at the sharp tip, their normals at gamma, and the arc touches each at
-/// rho tan(gamma/2) from there; what flank and cylinder bend over that length is left out. On the flank's tangent plane the edge runs at
+/// rho tan(gamma/2) from there. With a chamfer the planes of flank and flat meet at h_K below the tip, at gamma less the flat's angle; what flank and cylinder bend over that length is left out. On the flank's tangent plane the edge runs at
 /// delta from the contact line [flank's normal n = cos(beta_b) t - sin(beta_b) z, contact line g = sin(beta_b) t + cos(beta_b) z, with the
 /// radial direction t' = sin(alpha_at)]:
 ///
@@ -54,13 +60,15 @@ void check_rack(const GearData& gear, const std::string& name, const PairData& p
 /// Along the profile, which is across the contact line, the arc begins at rho tan(gamma/2)/cos(delta) from the tip, and by Euler's theorem its
 /// radius there is rho/cos^2(delta). An involute's arc length is rho_y^2/(2 r_b).
 void set_tip_edge(Gear& gear) {
-  gear.tip_form_radius = gear.tip_radius;
+  const TipChamfer& chamfer = gear.data.tip_chamfer;
+  const double corner = gear.tip_radius - chamfer.amount, rho = gear.data.edge_radius();
+  gear.tip_form_radius = corner;
   gear.tip_edge_radius = 0.0;
-  const double rho = gear.data.tip_rounding;
-  if (!(rho > 0.0) || !(gear.tip_radius > gear.base_radius)) return;
-  const double base_helix = std::atan(gear.helix_rate * gear.base_radius), pressure_angle = gear.pressure_angle_at(gear.tip_radius);
-  const double gamma = std::acos(std::cos(base_helix) * std::sin(pressure_angle)), delta = std::atan(std::sin(base_helix) * std::tan(pressure_angle));
-  const double arc = rho * std::tan(0.5 * gamma) / std::cos(delta), roll = gear.roll_length_at(gear.tip_radius);
+  if (!(rho > 0.0) || !(corner > gear.base_radius)) return;
+  const double base_helix = std::atan(gear.helix_rate * gear.base_radius), pressure_angle = gear.pressure_angle_at(corner);
+  const double gamma = corner_angle(gear, corner) - (chamfer.amount > 0.0 ? chamfer.angle : 0.0);
+  const double delta = std::atan(std::sin(base_helix) * std::tan(pressure_angle));
+  const double arc = rho * std::tan(0.5 * gamma) / std::cos(delta), roll = gear.roll_length_at(corner);
   const double square = roll * roll - 2.0 * gear.base_radius * arc;
   gear.tip_form_radius = std::sqrt(gear.base_radius * gear.base_radius + std::max(0.0, square));
   gear.tip_edge_radius = rho / (std::cos(delta) * std::cos(delta));
@@ -89,6 +97,30 @@ Gear single_gear(Member m, const PairData& pair) {
   return gear;
 }
 
+/// Thickness that a chamfer leaves of the tooth at the tip, transverse section [mm].
+double chamfered_tip(const Gear& gear) {
+  const TipChamfer& chamfer = gear.data.tip_chamfer;
+  const double corner = gear.tip_radius - chamfer.amount, cos_helix = std::cos(std::atan(gear.helix_rate * corner));
+  return gear.tooth_thickness_at(corner) - 2.0 * chamfer.amount / (std::tan(chamfer.angle) * cos_helix);
+}
+
+void check_tip_chamfer(const Gear& gear, double form_radius, const std::string& name, Findings& findings) {
+  const TipChamfer& chamfer = gear.data.tip_chamfer;
+  findings.require(chamfer.radius >= 0.0, name + ".radius", chamfer.radius, "0 mm (sharp) or more");
+  findings.require(chamfer.amount >= 0.0, name + ".amount", chamfer.amount, "0 mm (none) or more");
+  if (!(chamfer.amount > 0.0)) return;
+  const double corner = gear.tip_radius - chamfer.amount;
+  findings.require(gear.data.tip_rounding == 0.0, name + ".amount", chamfer.amount,
+                   "0 beside a tip_rounding: the chamfer's edge has a radius of its own");
+  findings.require(corner > form_radius && gear.tip_form_radius > form_radius, name + ".amount", chamfer.amount,
+                   "an amount that leaves a flank above the form circle, diameter " + in_words(2.0 * form_radius) + " mm");
+  if (!(corner > form_radius)) return;
+  const double steepest = corner_angle(gear, corner);
+  findings.require(chamfer.angle > 0.0 && chamfer.angle < steepest, name + ".angle", chamfer.angle / units::deg,
+                   "above 0 and below " + in_words(steepest / units::deg) + " deg, where the flat would go on from the flank");
+  findings.require(chamfered_tip(gear) > 0.0, name + ".amount", chamfer.amount, "an amount whose flats leave some of the tip between them");
+}
+
 void check_gear(Member m, const PairData& pair, Findings& findings) {
   const std::string name = name_of(m);
   const Gear gear = single_gear(m, pair);
@@ -110,6 +142,7 @@ void check_gear(Member m, const PairData& pair, Findings& findings) {
     findings.require(rounding == 0.0 || (rounding > 0.0 && gear.tip_form_radius > form && 2.0 * rounding < gear.tooth_thickness_at(gear.tip_radius)),
                      name + ".edges.tip_rounding", rounding,
                      "a radius of 0 mm or more that leaves a flank and less than the tooth's thickness at the tip");
+    check_tip_chamfer(gear, form, name + ".edges.tip_chamfer", findings);
     findings.require(gear.tooth_thickness_at(gear.tip_radius) > 0.0, tip_field, tip_value,
                      "a tooth that is not pointed: its thickness at the tip is " + in_words(gear.tooth_thickness_at(gear.tip_radius)) +
                          " mm, and must be above 0");
@@ -201,6 +234,13 @@ void check_mesh(const PairData& data, Findings& findings) {
 }
 
 }  // namespace
+
+bool has_room_for_tip_chamfer(Member m, const PairData& pair) {
+  const Gear gear = single_gear(m, pair);
+  const TipChamfer& chamfer = gear.data.tip_chamfer;
+  const double corner = gear.tip_radius - chamfer.amount;
+  return gear.tip_form_radius > gear.base_radius && chamfer.angle < corner_angle(gear, corner) && chamfered_tip(gear) > 0.0;
+}
 
 std::vector<InvalidInput> find_problems(const PairData& data) {
   Findings findings;

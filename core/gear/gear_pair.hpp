@@ -11,6 +11,9 @@ namespace flankwright {
 /// names of the study file ("pinion.teeth", "pair.centre_distance").
 std::vector<InvalidInput> find_problems(const PairData& data);
 
+/// Whether a chamfer leaves part of the tip, and turns from the flank towards it; one condition of find_problems(), for data that are not whole yet.
+bool has_room_for_tip_chamfer(Member m, const PairData& pair);
+
 /// Builds the pair. Throws the first of find_problems().
 GearPair make_gear_pair(const PairData& data);
 

@@ -42,16 +42,20 @@ Json grid_json(const GivenGrid& grid) {
 Json macro_json(const StudyResults& results, Member member) {
   const Gear& gear = results.pair[member];
   const Material& material = results.study.material[member];
-  return {{"teeth", gear.data.teeth},
-          {"face_width_mm", gear.data.face_width},
-          {"profile_shift", gear.data.profile_shift},
-          {"tip_diameter_mm", 2.0 * gear.tip_radius},
-          {"tip_rounding_mm", gear.data.tip_rounding},
-          {"rack", {{"addendum", gear.data.rack.addendum}, {"dedendum", gear.data.rack.dedendum}, {"root_radius", gear.data.rack.root_radius}}},
-          {"generation", generation_json(gear.data.generation)},
-          {"grid", grid_json(results.study.grid[member])},
-          {"youngs_modulus_MPa", material.youngs_modulus},
-          {"poissons_ratio", material.poissons_ratio}};
+  Json macro{{"teeth", gear.data.teeth},
+             {"face_width_mm", gear.data.face_width},
+             {"profile_shift", gear.data.profile_shift},
+             {"tip_diameter_mm", 2.0 * gear.tip_radius},
+             {"tip_rounding_mm", gear.data.tip_rounding},
+             {"rack", {{"addendum", gear.data.rack.addendum}, {"dedendum", gear.data.rack.dedendum}, {"root_radius", gear.data.rack.root_radius}}},
+             {"generation", generation_json(gear.data.generation)},
+             {"grid", grid_json(results.study.grid[member])},
+             {"youngs_modulus_MPa", material.youngs_modulus},
+             {"poissons_ratio", material.poissons_ratio}};
+  if (const TipChamfer& chamfer = gear.data.tip_chamfer; chamfer.amount > 0.0) {
+    macro["tip_chamfer"] = {{"amount_mm", chamfer.amount}, {"angle_deg", chamfer.angle / units::deg}, {"radius_mm", chamfer.radius}};
+  }
+  return macro;
 }
 
 Json used_gear_json(const StudyResults& results, Member member) {

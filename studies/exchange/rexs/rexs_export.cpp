@@ -90,7 +90,7 @@ class Export {
     angle("helix_angle_reference_diameter", gear.hand == Hand::Right ? study_.pair.helix_angle : -study_.pair.helix_angle);
     length("face_width", gear.data.face_width);
     length("tip_diameter", 2.0 * gear.tip_radius);
-    if (gear.data.tip_rounding > 0.0) length("tip_form_diameter", 2.0 * gear.tip_form_radius);
+    if (gear.tip_form_radius < gear.tip_radius) length("tip_form_diameter", 2.0 * gear.tip_form_radius);
     length("root_diameter", 2.0 * gear.root_radius);
     length("root_form_diameter", 2.0 * gear.form_radius);
     word("datum_face_orientation", "negative");
@@ -115,6 +115,7 @@ class Export {
     angle("normal_pressure_angle", study_.pair.pressure_angle);
     number("addendum_modification_coefficient", pair_[m].data.profile_shift);
     number("addendum_coefficient_basic_profile", pair_[m].data.rack.addendum);
+    if (const double amount = pair_[m].data.tip_chamfer.amount; amount > 0.0) length("tooth_tip_chamfer", amount);
     return id;
   }
 

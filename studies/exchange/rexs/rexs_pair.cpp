@@ -6,11 +6,15 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/gear/gear_pair.hpp"
+
 namespace flankwright::studies::rexs {
 
 namespace {
 
 constexpr double same = 1e-9;  ///< two gears of a stage agree where |a - b| <= same * (1 + |a|)
+
+constexpr double deburred_edge = 0.05;  ///< radius of a chamfer's edge that the format does not have, in normal modules
 
 bool agree(double a, double b) { return std::abs(a - b) <= same * (1.0 + std::abs(a)); }
 
@@ -117,6 +121,7 @@ class PairReading {
     read_profile_shift(m);
     read_tip_diameter(m);
     read_rack(m);
+    read_tip_chamfer(m);
   }
 
   void read_profile_shift(Member m) {
@@ -148,6 +153,20 @@ class PairReading {
       reading_.warn(fmt::format("{} = {} mm cannot be that of a gear with reference diameter {} mm: not taken, it follows from the rack", tip->source,
                                 number_text(tip->value), difference_text(reference)));
     }
+  }
+
+  /// The format has the amount alone: its angle is the usual one, its edge that of a deburred one.
+  void read_tip_chamfer(Member m) {
+    const auto amount = number(parts_[m].flank, "tooth_tip_chamfer", Dimension::Length);
+    if (!amount || !(amount->value > 0.0)) return;
+    PairData with = pair_.data;
+    with[m].tip_chamfer = {.amount = amount->value, .radius = deburred_edge * with.normal_module};
+    if (!has_room_for_tip_chamfer(m, with)) {
+      reading_.warn(fmt::format("{} = {} mm leaves no tip at 45 deg: not taken", amount->source, number_text(amount->value)));
+      return;
+    }
+    data(m).tip_chamfer = with[m].tip_chamfer;
+    remark(prefix(m) + "edges.tip_chamfer", amount->source + "; angle and edge radius are not in the file: 45 deg, 0.05 modules");
   }
 
   /// A coefficient, or a length in modules; moved to `value` with its remark.
@@ -230,6 +249,12 @@ void write_gear(const ImportedPair& pair, Member m, StudyText& text) {
   if (m == Member::Pinion) text.key("hand", pair.data.pinion_hand == Hand::Right ? "\"right\"" : "\"left\"", remark("hand"));
   text.key("profile_shift", number_text(gear.profile_shift), remark("profile_shift"));
   if (!std::isnan(gear.tip_diameter)) text.key("tip_diameter", number_text(gear.tip_diameter), remark("tip_diameter"));
+  if (const TipChamfer& chamfer = gear.tip_chamfer; chamfer.amount > 0.0) {
+    text.key("edges.tip_chamfer",
+             fmt::format("{{ amount = {}, angle = {}, radius = {} }}", number_text(chamfer.amount), number_text(chamfer.angle / units::deg),
+                         number_text(chamfer.radius)),
+             remark("edges.tip_chamfer"));
+  }
   text.key("rack.addendum", number_text(gear.rack.addendum), remark("rack.addendum"));
   text.key("rack.dedendum", number_text(gear.rack.dedendum), remark("rack.dedendum"));
   text.key("rack.root_radius", number_text(gear.rack.root_radius), remark("rack.root_radius"));

@@ -11,6 +11,10 @@ fi
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 export FLANKWRIGHT_INSTRUCTIONS=$folder/instructions OPENBLAS_NUM_THREADS=1
+# Counting pauses inside the memory allocator: what it does depends on what was freed before. The last of these two options counts:
+# a toggle alone starts with counting off.
+pauses=()
+for entry in malloc free calloc realloc posix_memalign aligned_alloc; do pauses+=("--toggle-collect=$entry"); done
 # -s lists what was compared, so that the figures stand in the log.
-valgrind --quiet --tool=callgrind --instr-atstart=no --callgrind-out-file="$FLANKWRIGHT_INSTRUCTIONS" \
+valgrind --quiet --tool=callgrind --instr-atstart=no "${pauses[@]}" --collect-atstart=yes --callgrind-out-file="$FLANKWRIGHT_INSTRUCTIONS" \
   "$1" "An effect that is off costs no instruction" -s

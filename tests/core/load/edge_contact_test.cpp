@@ -45,6 +45,59 @@ TEST_CASE("A tip rounding ends the flank where its arc touches it", "[core][gear
   CHECK(sharp.pinion.tip_form_radius == sharp.pinion.tip_radius);
 }
 
+TEST_CASE("A chamfer ends the flank where the arc of its edge touches it", "[core][gear][edge]") {
+  PairData data = rounded_pair(0, 0).data;
+  TipChamfer& chamfer = data.pinion.tip_chamfer;
+  chamfer = {.amount = 0.1 * data.normal_module, .angle = GENERATE(20.0, 45.0) * units::deg};
+  const GearPair sharp = make_gear_pair(data);
+  chamfer.radius = 0.1 * data.normal_module;
+  const Gear gear = make_gear_pair(data).pinion;
+  CHECK(sharp.pinion.tip_form_radius == sharp.pinion.tip_radius - chamfer.amount);
+  CHECK(sharp.pinion.tip_edge_radius == 0.0);
+  // The spur tooth's involute P = r_b (cos t, sin t) + q n with n = (sin t, -cos t), q = r_b t, and the flat through the point where it has the
+  // corner's radius. The arc's centre is rho inside of P along n; q is sought where it is rho inside of the flat as well.
+  const double rb = gear.base_radius, rho = chamfer.radius;
+  const auto inside = [&](double q, double by) {
+    const double t = q / rb;
+    return Eigen::Vector2d(rb * std::cos(t) + (q - by) * std::sin(t), rb * std::sin(t) - (q - by) * std::cos(t));
+  };
+  const double corner_roll = gear.roll_length_at(sharp.pinion.tip_form_radius);
+  const Eigen::Vector2d corner = inside(corner_roll, 0.0), outwards = corner.normalized(), off_flank(outwards.y(), -outwards.x());
+  const Eigen::Vector2d normal = std::cos(chamfer.angle) * outwards + std::sin(chamfer.angle) * off_flank;
+  double low = 0.0, high = corner_roll;
+  for (int i = 0; i < 60; ++i) {
+    const double q = 0.5 * (low + high);
+    (normal.dot(inside(q, rho) - corner) < -rho ? low : high) = q;
+  }
+  CHECK(gear.tip_form_radius == Approx(std::hypot(rb, low)).margin(rho * rho / rb));  // the flank's bend over the arc, left out
+  CHECK(gear.tip_form_radius < sharp.pinion.tip_form_radius);
+}
+
+TEST_CASE("A chamfered tip touches as a shorter tooth does", "[core][gear][edge]") {
+  PairData data = rounded_pair(GENERATE(0.0, 15.0), 0).data, shorter = data;
+  data.pinion.tip_chamfer.amount = 0.2;
+  shorter.pinion.tip_diameter = 2.0 * make_gear_pair(shorter).pinion.tip_radius - 0.4;
+  const GearPair a = make_gear_pair(data), b = make_gear_pair(shorter);
+  CHECK(a.path_end == Approx(b.path_end).epsilon(1e-14));
+  CHECK(a.path_start == Approx(b.path_start).epsilon(1e-14));
+}
+
+TEST_CASE("A chamfer that cannot be is named with what it may be", "[core][gear][edge]") {
+  const auto field_of = [](const TipChamfer& chamfer, double rounding = 0.0) {
+    PairData data = rounded_pair(0, 0).data;
+    data.wheel.tip_chamfer = chamfer;
+    data.wheel.tip_rounding = rounding;
+    const auto problems = find_problems(data);
+    return problems.empty() ? std::string() : problems.front().field();
+  };
+  CHECK(field_of({.amount = 0.2}).empty());
+  CHECK(field_of({.amount = 0.2, .angle = 85 * units::deg}) == "wheel.edges.tip_chamfer.angle");
+  CHECK(field_of({.amount = 0.2, .angle = 5 * units::deg}) == "wheel.edges.tip_chamfer.amount");
+  CHECK(field_of({.amount = 20.0}) == "wheel.edges.tip_chamfer.amount");
+  CHECK(field_of({.amount = 0.2}, 0.1) == "wheel.edges.tip_chamfer.amount");
+  CHECK(field_of({.radius = -1.0}) == "wheel.edges.tip_chamfer.radius");
+}
+
 TEST_CASE("Between flank and rounding clearance and edge distance run on", "[core][contact][edge]") {
   const GearPair pair = rounded_pair(GENERATE(0.0, 15.0), 0.1);
   const PathOfContact path(pair);

@@ -107,6 +107,18 @@ TEST_CASE("A study survives the way to REXS and back to its last digit", "[studi
   check_same(study.torques[1], back.scenes[1].torques.front());
 }
 
+TEST_CASE("A tip chamfer comes back with its amount; angle and edge are said to be taken", "[studies][rexs][export][edge]") {
+  std::string text = random_study(7);
+  text.insert(text.find("\nrack"), "\nedges = { tip_chamfer = { amount = 0.35, angle = 30, radius = 0.1 } }");
+  const rexs::Model model = rexs::export_stage(parse_study(text, "there.toml"), {"2.0", "2026-01-01T00:00:00+00:00"}).model;
+  const rexs::ImportedStudy imported = rexs::import_stage(rexs::model_text(model, rexs::Form::Xml), "there.rexs", {});
+  const TipChamfer chamfer = parse_study(imported.text, "back.toml").pair.pinion.tip_chamfer;
+  CHECK(chamfer.amount == 0.35);
+  CHECK(chamfer.angle == Approx(45 * units::deg));
+  CHECK(chamfer.radius == Approx(0.05 * 5));
+  CHECK_THAT(imported.text, Contains("tooth_tip_chamfer") && Contains("not in the file: 45 deg, 0.05 modules"));
+}
+
 TEST_CASE("A generated flank comes back as the grid of its points", "[studies][rexs][export]") {
   const Study study = parse_study(
       "[pair]\nnormal_module = 5\nhelix_angle = 20\n[pinion]\nteeth = 20\nface_width = 40\n"
