@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "core/gear/gear_pair.hpp"
+#include "core/gear/tooth_form.hpp"
 
 namespace flankwright::studies::rexs {
 
@@ -17,11 +17,6 @@ constexpr double same = 1e-9;  ///< two gears of a stage agree where |a - b| <= 
 constexpr double deburred_edge = 0.05;  ///< radius of a chamfer's edge that the format does not have, in normal modules
 
 bool agree(double a, double b) { return std::abs(a - b) <= same * (1.0 + std::abs(a)); }
-
-/// Largest root radius that a rack's space has room for, in modules: the full rounding of the tool's tip.
-double full_rounding(double dedendum, double pressure_angle) {
-  return (std::numbers::pi / 4.0 - dedendum * std::tan(pressure_angle)) * std::cos(pressure_angle) / (1.0 - std::sin(pressure_angle));
-}
 
 class PairReading {
  public:
@@ -200,7 +195,7 @@ class PairReading {
                           rack.root_radius, key + "root_radius")) {
       remark(key + "root_radius", "not in the file");
     }
-    const double most = full_rounding(rack.dedendum, pair_.data.pressure_angle);
+    const double most = full_tip_rounding(rack.dedendum, pair_.data.pressure_angle);
     if (rack.root_radius > most && most > 0.0) {
       const bool given = pair_.remarks[key + "root_radius"] != "not in the file";
       // Rounded down: digits must not carry it over the limit.
