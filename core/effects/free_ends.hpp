@@ -24,7 +24,7 @@ class FreeEndsEffect final : public Effect {
       const double half = 0.5 * gear.data.face_width;
       return std::array{(half + z) / cos_base_helix, (half - z) / cos_base_helix};
     };
-    const auto lean = [&](Member member) { return -acute_end(pair, member) * std::abs(pair.base_helix_angle); };
+    const auto lean = [&](Member member) { return -pair.acute_end(member) * std::abs(pair.base_helix_angle); };
     for (std::size_t i = 0; i < builder.points.size(); ++i) {
       const double z = builder.points[i].z;
       builder.end_distances[i] = {distances(pair.pinion, z), distances(pair.wheel, z - builder.parts.axial_offset()), lean(Member::Pinion),

@@ -30,7 +30,7 @@ Flank make_flank(const GearPair& pair, Member member, const Modification& modifi
   flank.origin = involute(pair.working_transverse_pressure_angle);
   flank.form_radius = std::max(gear.form_radius, gear.base_radius * lowest_start);
   flank.tip_radius = gear.tip_form_radius;
-  flank.half_face = 0.5 * gear.data.face_width;
+  flank.face = gear.face;
   flank.frame = pair.flank_frame(member);
   flank.helix_rate = flank.frame.helix_rate;
   flank.modification = modification;

@@ -28,14 +28,14 @@ inline constexpr double lowest_start = 1.0 + 5e-5;
 ///
 /// with s = +1 for a right-hand helix seen in this frame, -1 for left. D = 0 is the involute helicoid, e.g. TM-107451,
 /// eq. A.1.1, with theta the negative of its theta_1 + mu_1. The parameter rectangle is lowest_roll() .. highest_roll() by
-/// -half_face .. half_face.
+/// face.begin .. face.end.
 struct Flank {
   double base_radius{not_given};  ///< r_b [mm]
   double helix_rate{0.0};         ///< s/p, signed [rad/mm]
   double origin{not_given};       ///< theta of the involute's start in the section z = 0 at rotation 0 [rad]
   double form_radius{not_given};  ///< lower end of the flank [mm], >= r_b * lowest_start
   double tip_radius{not_given};   ///< upper end [mm]
-  double half_face{not_given};    ///< b/2 [mm]
+  FaceRange face;                 ///< z of both ends of the flank
   FlankFrame frame;
   Modification modification;  ///< without what became a field
   ManufacturingError error;

@@ -40,10 +40,10 @@ struct RackProfile {
   bool operator==(const RackProfile&) const = default;
 };
 
-/// A flat between flank and tip cylinder. The edge that touches the mate is the one between flank and flat.
-struct TipChamfer {
-  double amount{0.0};             ///< h_K, radial: how far below the tip circle the flat begins [mm], >= 0; 0: none
-  double angle{45 * units::deg};  ///< between flat and tip cylinder, section across the edge [rad], > 0
+/// A flat that breaks the edge of flank and tip cylinder or of flank and end face. The edge that touches the mate is the one between flank and flat.
+struct EdgeChamfer {
+  double amount{0.0};             ///< h_K: how far below the tip circle the flat begins, radially, or from the end face, axially [mm], >= 0; 0: none
+  double angle{45 * units::deg};  ///< between flat and tip cylinder or end face, section across the edge [rad], > 0
   double radius{0.0};             ///< of the edge between flank and flat, section across the edge [mm], >= 0; 0: sharp
 };
 
@@ -55,11 +55,15 @@ struct GearData {
   double tip_diameter{not_given};  ///< d_a [mm]; not given: from rack and profile shift
   RackProfile rack;
   double tip_rounding{0.0};  ///< radius of the edge between flank and tip cylinder, section across the edge [mm], >= 0; 0: sharp
-  TipChamfer tip_chamfer;    ///< instead of a rounding
+  EdgeChamfer tip_chamfer;   ///< instead of a tip rounding
+  double end_rounding{0.0};  ///< radius of the edges between flank and end faces, section across the edge [mm], >= 0; 0: sharp
+  EdgeChamfer end_chamfer;   ///< instead of an end rounding
   Generation generation;     ///< what cuts the flanks
 
-  /// Radius of the edge where the flank ends, section across it [mm]; 0: sharp.
-  double edge_radius() const { return tip_chamfer.amount > 0.0 ? tip_chamfer.radius : tip_rounding; }
+  /// Radius of the edge where the flank ends towards the tip, section across it [mm]; 0: sharp.
+  double tip_edge_radius() const { return tip_chamfer.amount > 0.0 ? tip_chamfer.radius : tip_rounding; }
+  /// The same towards both end faces.
+  double end_edge_radius() const { return end_chamfer.amount > 0.0 ? end_chamfer.radius : end_rounding; }
 };
 
 /// The data of an external parallel-axis involute pair [ISO 21771].

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/gear/edges.hpp"
 #include "core/gear/generation_check.hpp"
 #include "core/gear/involute.hpp"
 #include "core/gear/tooth_form.hpp"
@@ -42,38 +43,6 @@ void check_rack(const GearData& gear, const std::string& name, const PairData& p
   }
 }
 
-/// Angle between the normals of flank and cylinder at a radius: that of the edge where the flank is cut off there [rad].
-double corner_angle(const Gear& gear, double radius) {
-  const double base_helix = std::atan(gear.helix_rate * gear.base_radius);
-  return std::acos(std::cos(base_helix) * std::sin(gear.pressure_angle_at(radius)));
-}
-
-/// Where the flank ends, and the curvature of its rounded edge across a contact line.
-///
-/// Across the edge both tangent planes, of flank and tip cylinder, meet at the sharp tip, their normals at gamma, and the arc touches each at
-/// rho tan(gamma/2) from there. With a chamfer the planes of flank and flat meet at h_K below the tip, at gamma less the flat's angle; what flank and cylinder bend over that length is left out. On the flank's tangent plane the edge runs at
-/// delta from the contact line [flank's normal n = cos(beta_b) t - sin(beta_b) z, contact line g = sin(beta_b) t + cos(beta_b) z, with the
-/// radial direction t' = sin(alpha_at)]:
-///
-///     cos gamma = cos(beta_b) sin(alpha_at),   tan delta = sin(beta_b) tan(alpha_at).
-///
-/// Along the profile, which is across the contact line, the arc begins at rho tan(gamma/2)/cos(delta) from the tip, and by Euler's theorem its
-/// radius there is rho/cos^2(delta). An involute's arc length is rho_y^2/(2 r_b).
-void set_tip_edge(Gear& gear) {
-  const TipChamfer& chamfer = gear.data.tip_chamfer;
-  const double corner = gear.tip_radius - chamfer.amount, rho = gear.data.edge_radius();
-  gear.tip_form_radius = corner;
-  gear.tip_edge_radius = 0.0;
-  if (!(rho > 0.0) || !(corner > gear.base_radius)) return;
-  const double base_helix = std::atan(gear.helix_rate * gear.base_radius), pressure_angle = gear.pressure_angle_at(corner);
-  const double gamma = corner_angle(gear, corner) - (chamfer.amount > 0.0 ? chamfer.angle : 0.0);
-  const double delta = std::atan(std::sin(base_helix) * std::tan(pressure_angle));
-  const double arc = rho * std::tan(0.5 * gamma) / std::cos(delta), roll = gear.roll_length_at(corner);
-  const double square = roll * roll - 2.0 * gear.base_radius * arc;
-  gear.tip_form_radius = std::sqrt(gear.base_radius * gear.base_radius + std::max(0.0, square));
-  gear.tip_edge_radius = rho / (std::cos(delta) * std::cos(delta));
-}
-
 /// Geometry of one gear that needs no mate.
 Gear single_gear(Member m, const PairData& pair) {
   Gear gear;
@@ -97,30 +66,6 @@ Gear single_gear(Member m, const PairData& pair) {
   return gear;
 }
 
-/// Thickness that a chamfer leaves of the tooth at the tip, transverse section [mm].
-double chamfered_tip(const Gear& gear) {
-  const TipChamfer& chamfer = gear.data.tip_chamfer;
-  const double corner = gear.tip_radius - chamfer.amount, cos_helix = std::cos(std::atan(gear.helix_rate * corner));
-  return gear.tooth_thickness_at(corner) - 2.0 * chamfer.amount / (std::tan(chamfer.angle) * cos_helix);
-}
-
-void check_tip_chamfer(const Gear& gear, double form_radius, const std::string& name, Findings& findings) {
-  const TipChamfer& chamfer = gear.data.tip_chamfer;
-  findings.require(chamfer.radius >= 0.0, name + ".radius", chamfer.radius, "0 mm (sharp) or more");
-  findings.require(chamfer.amount >= 0.0, name + ".amount", chamfer.amount, "0 mm (none) or more");
-  if (!(chamfer.amount > 0.0)) return;
-  const double corner = gear.tip_radius - chamfer.amount;
-  findings.require(gear.data.tip_rounding == 0.0, name + ".amount", chamfer.amount,
-                   "0 beside a tip_rounding: the chamfer's edge has a radius of its own");
-  findings.require(corner > form_radius && gear.tip_form_radius > form_radius, name + ".amount", chamfer.amount,
-                   "an amount that leaves a flank above the form circle, diameter " + in_words(2.0 * form_radius) + " mm");
-  if (!(corner > form_radius)) return;
-  const double steepest = corner_angle(gear, corner);
-  findings.require(chamfer.angle > 0.0 && chamfer.angle < steepest, name + ".angle", chamfer.angle / units::deg,
-                   "above 0 and below " + in_words(steepest / units::deg) + " deg, where the flat would go on from the flank");
-  findings.require(chamfered_tip(gear) > 0.0, name + ".amount", chamfer.amount, "an amount whose flats leave some of the tip between them");
-}
-
 void check_gear(Member m, const PairData& pair, Findings& findings) {
   const std::string name = name_of(m);
   const Gear gear = single_gear(m, pair);
@@ -138,11 +83,7 @@ void check_gear(Member m, const PairData& pair, Findings& findings) {
   const double form = std::max(generated.form_radius, gear.base_radius);
   findings.require(gear.tip_radius > form, tip_field, tip_value, "a tip circle above the form circle, diameter " + in_words(2.0 * form) + " mm");
   if (gear.tip_radius > form) {
-    const double rounding = gear.data.tip_rounding;
-    findings.require(rounding == 0.0 || (rounding > 0.0 && gear.tip_form_radius > form && 2.0 * rounding < gear.tooth_thickness_at(gear.tip_radius)),
-                     name + ".edges.tip_rounding", rounding,
-                     "a radius of 0 mm or more that leaves a flank and less than the tooth's thickness at the tip");
-    check_tip_chamfer(gear, form, name + ".edges.tip_chamfer", findings);
+    findings.add(find_edge_problems(gear, form, name));
     findings.require(gear.tooth_thickness_at(gear.tip_radius) > 0.0, tip_field, tip_value,
                      "a tooth that is not pointed: its thickness at the tip is " + in_words(gear.tooth_thickness_at(gear.tip_radius)) +
                          " mm, and must be above 0");
@@ -202,6 +143,7 @@ void mesh(GearPair& pair) {
   g1.active_root_radius = std::hypot(g1.base_radius, pair.path_start);
   g2.active_root_radius = std::hypot(g2.base_radius, pair.path_length - pair.path_end);
   pair.transverse_contact_ratio = (pair.path_end - pair.path_start) / pair.transverse_base_pitch;
+  for (const Member m : {Member::Pinion, Member::Wheel}) (m == Member::Pinion ? g1 : g2).face = flank_range(pair[m], pair.acute_end(m));
   pair.overlap_ratio = pair.face_width * std::tan(pair.base_helix_angle) / pair.transverse_base_pitch;
 }
 
@@ -235,11 +177,11 @@ void check_mesh(const PairData& data, Findings& findings) {
 
 }  // namespace
 
-bool has_room_for_tip_chamfer(Member m, const PairData& pair) {
-  const Gear gear = single_gear(m, pair);
-  const TipChamfer& chamfer = gear.data.tip_chamfer;
-  const double corner = gear.tip_radius - chamfer.amount;
-  return gear.tip_form_radius > gear.base_radius && chamfer.angle < corner_angle(gear, corner) && chamfered_tip(gear) > 0.0;
+bool has_room_for_tip_chamfer(Member m, const PairData& pair) { return leaves_room_for_tip_chamfer(single_gear(m, pair)); }
+
+double usual_edge_radius(Member m, const PairData& pair) {
+  const bool whole = pair[m].teeth > 0 && pair.normal_module > 0.0 && pair.pressure_angle > 0.0;
+  return whole ? usual_edge_radius(single_gear(m, pair), pair.normal_module) : 0.0;
 }
 
 std::vector<InvalidInput> find_problems(const PairData& data) {

@@ -14,6 +14,9 @@ std::vector<InvalidInput> find_problems(const PairData& data);
 /// Whether a chamfer leaves part of the tip, and turns from the flank towards it; one condition of find_problems(), for data that are not whole yet.
 bool has_room_for_tip_chamfer(Member m, const PairData& pair);
 
+/// Radius of the edges of a gear of which nothing is known, see edges.hpp; 0 for data that are not whole yet.
+double usual_edge_radius(Member m, const PairData& pair);
+
 /// Builds the pair. Throws the first of find_problems().
 GearPair make_gear_pair(const PairData& data);
 

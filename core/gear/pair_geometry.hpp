@@ -1,7 +1,8 @@
 #pragma once
 
-#include "core/gear/gear_data.hpp"
+#include "core/gear/face_range.hpp"
 #include "core/gear/flank_frame.hpp"
+#include "core/gear/gear_data.hpp"
 
 namespace flankwright {
 
@@ -23,6 +24,7 @@ struct Gear {
   double tip_thickness{not_given};         ///< s_at, transverse arc at the tip, > 0
   double virtual_teeth{not_given};         ///< z_n of the equivalent spur gear [ISO 6336-1]
   double helix_rate{not_given};            ///< 1/p = tan(beta_b) / r_b: turn of the transverse section per mm of z [rad/mm], >= 0
+  FaceRange face;                          ///< where the flank ends before the edges of both end faces begin, usable face width b_F
   bool undercut{false};                    ///< the fillet cuts into the involute
   bool fillet_interference{false};         ///< the mate's tip reaches below the form circle; the path of contact ends there
 
@@ -64,6 +66,9 @@ struct GearPair {
   /// +1 where the contact of the working flanks moves towards the tip of the pinion with growing z (right-hand pinion on
   /// its right flank, left-hand pinion on its left flank), -1 for the opposite, 0 for spur gears.
   int contact_line_sense() const;
+
+  /// The end face at which the flank of a gear makes an acute angle with it: +1 for z > 0, -1 for z < 0; of a spur gear as if its sense were +1.
+  int acute_end(Member m) const { return (m == Member::Pinion ? 1 : -1) * (contact_line_sense() >= 0 ? 1 : -1); }
 
   /// The radii that modifications and errors of one gear are measured against.
   FlankFrame flank_frame(Member m) const;

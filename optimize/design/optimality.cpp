@@ -73,7 +73,7 @@ void add_neighbours(EpigraphProgram& program, const Eigen::VectorXd& y, int desi
 }
 
 /// The multipliers that balance best; rows of several gradients count once in `active`.
-Optimality balance(const std::vector<Near>& near, const Eigen::VectorXd& objective_gradient) {
+Optimality balance(const std::vector<Near>& near, const Eigen::VectorXd& objective_gradient, int design_variables) {
   const Eigen::Index n = objective_gradient.size();
   const auto m = static_cast<Eigen::Index>(near.size());
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + m, m), free = A;  // free: without the bounds of the variables
@@ -90,12 +90,14 @@ Optimality balance(const std::vector<Near>& near, const Eigen::VectorXd& objecti
   Optimality result;
   result.residual = left.head(n).maxCoeff();
   result.complementarity = m == 0 ? 0.0 : left.tail(m).maxCoeff();
+  result.steepest = Eigen::VectorXd::Zero(design_variables);
   std::map<int, std::size_t> place;  // of a programme's row in `active`
   for (Eigen::Index j = 0; j < m; ++j) {
     if (lambda[j] <= Optimality::felt) continue;
     const Near& row = near[static_cast<std::size_t>(j)];
     const auto [at, is_new] = place.try_emplace(row.row < 0 ? -1 - static_cast<int>(j) : row.row, result.active.size());
     if (is_new) result.active.push_back(row.bound);
+    result.steepest = result.steepest.cwiseMax(row.gradient.head(design_variables).cwiseAbs());
     ActiveBound& bound = result.active[at->second];
     bound.multiplier += lambda[j];
     bound.is_kink = bound.is_kink || row.bends;
@@ -115,10 +117,10 @@ Optimality first_order_optimality(DesignProblem& problem, const Eigen::VectorXd&
   const Eigen::VectorXd y = program.start();
   const ProgramValues values = program.evaluate(y, true);
   std::vector<Near> near = near_rows(program, values, y, problem.variables());
-  Optimality result = balance(near, values.objective_gradient);
+  Optimality result = balance(near, values.objective_gradient, problem.variables());
   if (!result.satisfied()) {
     add_neighbours(program, y, problem.variables(), near);
-    if (Optimality on_kink = balance(near, values.objective_gradient); on_kink.satisfied()) result = std::move(on_kink);
+    if (Optimality on_kink = balance(near, values.objective_gradient, problem.variables()); on_kink.satisfied()) result = std::move(on_kink);
   }
   result.objective_scale = program.objective_scale();
   return result;

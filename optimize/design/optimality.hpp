@@ -37,6 +37,7 @@ struct Optimality {
   double residual{not_given};         ///< largest entry of grad f + J' lambda [-]
   double complementarity{not_given};  ///< largest |c lambda| [-]
   std::vector<ActiveBound> active;    ///< multipliers above `felt`, largest first
+  Eigen::VectorXd steepest;           ///< of each design variable: largest entry of the gradients of active rows [-]
   double objective_scale{not_given};  ///< the objective of the start that f is counted in, outside units
   static constexpr double reach = 0.02;
   static constexpr double felt = 1e-6;

@@ -8,11 +8,15 @@ namespace flankwright {
 
 namespace {
 
-/// Least squares over the columns that are in; zero elsewhere.
+/// Least squares over the columns that are in; zero elsewhere. Rows in which these columns are all zero have no part in it: of a matrix with a
+/// diagonal below some rows few are left.
 Eigen::VectorXd solve_over(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const std::vector<Eigen::Index>& in) {
-  Eigen::MatrixXd of_in(A.rows(), static_cast<Eigen::Index>(in.size()));
-  for (std::size_t k = 0; k < in.size(); ++k) of_in.col(static_cast<Eigen::Index>(k)) = A.col(in[k]);
-  const Eigen::VectorXd found = of_in.completeOrthogonalDecomposition().solve(b);
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < A.rows(); ++i) {
+    if (std::ranges::any_of(in, [&](Eigen::Index j) { return A(i, j) != 0.0; })) rows.push_back(i);
+  }
+  const Eigen::MatrixXd of_in = A(rows, in);
+  const Eigen::VectorXd found = of_in.completeOrthogonalDecomposition().solve(b(rows));
   Eigen::VectorXd y = Eigen::VectorXd::Zero(A.cols());
   for (std::size_t k = 0; k < in.size(); ++k) y[in[k]] = found[static_cast<Eigen::Index>(k)];
   return y;

@@ -16,7 +16,7 @@ EffectFacts effect_facts(const Study& study) {
   EffectFacts facts;
   facts.coupled_teeth = facts.gear_bodies = couples_teeth(study.fidelity.compliance);
   facts.root_stress = wants_root_stress(study);
-  facts.rounded_tips = study.pair.pinion.edge_radius() > 0.0 || study.pair.wheel.edge_radius() > 0.0;
+  facts.rounded_tips = study.pair.pinion.tip_edge_radius() > 0.0 || study.pair.wheel.tip_edge_radius() > 0.0;
   facts.shafts = study.shaft.pinion || study.shaft.wheel;
   facts.whole_surface = study.fidelity.gap == GapModel::WholeSurface;
   for (const Scene& scene : study.scenes) {

@@ -27,12 +27,14 @@ Json mesh_key(const GearMeshOptions& options) {
 
 Json gear_key(const GearToMesh& gear) {
   const auto& [data, module, pressure_angle, helix_angle, body] = gear;
-  const auto& [teeth, face_width, profile_shift, tip_diameter, rack, tip_rounding, tip_chamfer, generation] = data;
+  const auto& [teeth, face_width, profile_shift, tip_diameter, rack, tip_rounding, tip_chamfer, end_rounding, end_chamfer, generation] = data;
   const auto& [addendum, dedendum, root_radius] = rack;
   const auto& [shaft_diameter, bore_diameter, shaft_overhang, torque_end, rigid] = body;
   static_cast<void>(module);        // 1
-  static_cast<void>(tip_rounding);  // the mesh has sharp tips
+  static_cast<void>(tip_rounding);  // the mesh has sharp edges
   static_cast<void>(tip_chamfer);
+  static_cast<void>(end_rounding);
+  static_cast<void>(end_chamfer);
   static_cast<void>(generation);  // amounts of micrometres, which the mesh does not know
   Json key{{"teeth", teeth},
            {"face_width", face_width},

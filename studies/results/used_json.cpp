@@ -46,14 +46,17 @@ Json macro_json(const StudyResults& results, Member member) {
              {"face_width_mm", gear.data.face_width},
              {"profile_shift", gear.data.profile_shift},
              {"tip_diameter_mm", 2.0 * gear.tip_radius},
+             {"usable_face_width_mm", gear.face.width()},
+             {"tip_form_diameter_mm", 2.0 * gear.tip_form_radius},
              {"tip_rounding_mm", gear.data.tip_rounding},
+             {"end_rounding_mm", gear.data.end_rounding},
              {"rack", {{"addendum", gear.data.rack.addendum}, {"dedendum", gear.data.rack.dedendum}, {"root_radius", gear.data.rack.root_radius}}},
              {"generation", generation_json(gear.data.generation)},
              {"grid", grid_json(results.study.grid[member])},
              {"youngs_modulus_MPa", material.youngs_modulus},
              {"poissons_ratio", material.poissons_ratio}};
-  if (const TipChamfer& chamfer = gear.data.tip_chamfer; chamfer.amount > 0.0) {
-    macro["tip_chamfer"] = {{"amount_mm", chamfer.amount}, {"angle_deg", chamfer.angle / units::deg}, {"radius_mm", chamfer.radius}};
+  for (const auto& [key, chamfer] : {std::pair{"tip_chamfer", gear.data.tip_chamfer}, std::pair{"end_chamfer", gear.data.end_chamfer}}) {
+    if (chamfer.amount > 0.0) macro[key] = {{"amount_mm", chamfer.amount}, {"angle_deg", chamfer.angle / units::deg}, {"radius_mm", chamfer.radius}};
   }
   return macro;
 }

@@ -7,6 +7,8 @@ namespace {
 GearData& gear(StudyBuilder& builder, Member m) { return builder.study.pair[m]; }
 GenerationKeys& generation(StudyBuilder& builder, Member m) { return builder.generation[m]; }
 
+constexpr const char* usual_edge = "(0.05 m_n, at most a quarter of the tooth thickness at the tip)";
+
 std::vector<std::string> task_names() {
   std::vector<std::string> names;
   for (const Task* task : registered_tasks()) names.emplace_back(task->name);
@@ -71,7 +73,7 @@ std::vector<SchemaKey> geometry_rows() {
       {.path = "gear.tip_diameter", .quantity = Quantity::Length, .range = any_length,
        .fallback = "(from rack and profile shift)", .meaning = "d_a",
        .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).tip_diameter = v.number; }},
-      {.path = "gear.edges.tip_rounding", .quantity = Quantity::Length, .range = from_zero(100.0), .fallback = "0",
+      {.path = "gear.edges.tip_rounding", .quantity = Quantity::Length, .range = from_zero(100.0), .fallback = usual_edge,
        .meaning = "radius of the edge between flank and tip, across the edge; 0 is sharp, and contact on it has no known stress",
        .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).tip_rounding = v.number; }},
       {.path = "gear.edges.tip_chamfer.amount", .quantity = Quantity::Length, .range = from_zero(100.0), .fallback = "0",
@@ -80,9 +82,21 @@ std::vector<SchemaKey> geometry_rows() {
       {.path = "gear.edges.tip_chamfer.angle", .quantity = Quantity::Angle, .range = {.low = 1.0, .high = 89.0}, .fallback = "45",
        .meaning = "between chamfer and tip cylinder, across the edge",
        .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).tip_chamfer.angle = v.number; }},
-      {.path = "gear.edges.tip_chamfer.radius", .quantity = Quantity::Length, .range = from_zero(100.0), .fallback = "0",
+      {.path = "gear.edges.tip_chamfer.radius", .quantity = Quantity::Length, .range = from_zero(100.0), .fallback = usual_edge,
        .meaning = "of the edge between flank and chamfer, as tip_rounding",
        .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).tip_chamfer.radius = v.number; }},
+      {.path = "gear.edges.end_rounding", .quantity = Quantity::Length, .range = from_zero(100.0), .fallback = usual_edge,
+       .meaning = "radius of the edges between flank and end faces, across the edge; what it takes off the face width carries nothing",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).end_rounding = v.number; }},
+      {.path = "gear.edges.end_chamfer.amount", .quantity = Quantity::Length, .range = from_zero(1000.0), .fallback = "0",
+       .meaning = "how far from the end face the chamfer begins, along the axis; instead of end_rounding",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).end_chamfer.amount = v.number; }},
+      {.path = "gear.edges.end_chamfer.angle", .quantity = Quantity::Angle, .range = {.low = 1.0, .high = 89.0}, .fallback = "45",
+       .meaning = "between chamfer and end face, across the edge",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).end_chamfer.angle = v.number; }},
+      {.path = "gear.edges.end_chamfer.radius", .quantity = Quantity::Length, .range = from_zero(100.0), .fallback = usual_edge,
+       .meaning = "of the edge between flank and chamfer, as end_rounding",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).end_chamfer.radius = v.number; }},
       {.path = "gear.rack.addendum", .range = above_zero(2.0), .fallback = "1", .meaning = "h_aP, in normal modules",
        .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).rack.addendum = v.number; }},
       {.path = "gear.rack.dedendum", .range = above_zero(2.5), .fallback = "1.25", .meaning = "h_fP, in normal modules",

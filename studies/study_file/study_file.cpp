@@ -40,6 +40,23 @@ void settle_base(StudyBuilder& builder) {
   builder.study.error = builder.base.error;
 }
 
+/// Gives the edges of which the file says nothing the usual radius: a sharp edge is what no gear has.
+void settle_edges(StudyReading& reading) {
+  PairData& pair = reading.builder.study.pair;
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    GearData& gear = pair[m];
+    const std::string edges = std::string(name_of(m)) + ".edges.";
+    const double usual = usual_edge_radius(m, pair);
+    const auto settle = [&](const std::string& edge, double& rounding, EdgeChamfer& chamfer) {
+      const bool chamfered = chamfer.amount > 0.0;
+      double& radius = chamfered ? chamfer.radius : rounding;
+      if (reading.find(edges + edge + (chamfered ? "_chamfer.radius" : "_rounding")) == nullptr) radius = usual;
+    };
+    settle("tip", gear.tip_rounding, gear.tip_chamfer);
+    settle("end", gear.end_rounding, gear.end_chamfer);
+  }
+}
+
 }  // namespace
 
 Study parse_study(std::string_view text, const std::string& name, const std::vector<Override>& overrides) {
@@ -50,6 +67,7 @@ Study parse_study(std::string_view text, const std::string& name, const std::vec
   read_keys(reading);
   settle_base(reading.builder);
   check_presence(reading);
+  settle_edges(reading);
   read_generation(reading);
   read_scenes(reading);
   for (const Task* task : registered_tasks()) {

@@ -20,7 +20,7 @@ face_width = 40                      # mm
 # hand = "left"                      # of the helix: right, unless said; the wheel has the other
 profile_shift = 0.2                  # in normal modules, + outwards
 # tip_diameter = 92                  # mm; by default from rack and profile shift
-# edges = { tip_rounding = 0.2 }     # mm, between flank and tip; by default sharp
+# edges = { tip_rounding = 0.2, end_rounding = 0.2 }   # mm; by default 0.05 normal modules
 # generation = { kind = "parabolic_rack", coefficient = 0.0005 }     # 1/mm; by default "rack", the straight one: an involute
 # For a spur pair also: { kind = "revolution", half_apex = 80, distance = 4.5, arc_radius = 12700 }   (deg, mm, mm)
 rack = { addendum = 1, dedendum = 1.25, root_radius = 0.39 }         # in normal modules

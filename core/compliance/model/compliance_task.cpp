@@ -30,7 +30,7 @@ InfluenceTableTask influence_table_task(const ComplianceTask& task, Member membe
     // The gear's torsion starts where the torque leaves it, and the shaft's own bearings hold it axially.
     if (const std::optional<ShaftData>& shaft = pinion ? task.shaft.pinion : task.shaft.wheel) {
       run.removed = RemovedRigidMotion::WholeTranslationTorsionAndTilt;
-      run.gear.body.torque_end = shaft->torque_side() == acute_end(pair, member) ? FaceEnd::Acute : FaceEnd::Obtuse;
+      run.gear.body.torque_end = shaft->torque_side() == pair.acute_end(member) ? FaceEnd::Acute : FaceEnd::Obtuse;
     }
     GearMeshOptions options = run.mesh;
     options.teeth_each_side = run.teeth_apart;

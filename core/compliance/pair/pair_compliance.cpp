@@ -17,12 +17,10 @@ Eigen::MatrixXd ThinSlicePair::influence(const std::vector<ContactPoint>& points
   return diagonal.asDiagonal();
 }
 
-int acute_end(const GearPair& pair, Member member) { return (member == Member::Pinion ? 1 : -1) * (pair.contact_line_sense() >= 0 ? 1 : -1); }
-
 int gear_tooth(Member member, int tooth_pair) { return member == Member::Pinion ? -tooth_pair : tooth_pair; }
 
 double axial_position(const GearPair& pair, Member member, double zeta, double axial_offset) {
-  const double z = acute_end(pair, member) * (0.5 * pair[member].data.face_width - zeta * pair.data.normal_module);
+  const double z = pair.acute_end(member) * (0.5 * pair[member].data.face_width - zeta * pair.data.normal_module);
   return member == Member::Pinion ? z : z + axial_offset;
 }
 
@@ -33,7 +31,7 @@ FlankStation flank_station(const GearPair& pair, Member member, const ContactPoi
   const double u = 2.0 * (radius - gear.form_radius) / (gear.tip_radius - gear.form_radius) - 1.0;
   const double z = pinion ? point.z : point.z - axial_offset;
   return {gear_tooth(member, point.tooth), std::clamp(u, -1.0, 1.0),
-          (0.5 * gear.data.face_width - acute_end(pair, member) * z) / pair.data.normal_module};
+          (0.5 * gear.data.face_width - pair.acute_end(member) * z) / pair.data.normal_module};
 }
 
 Eigen::MatrixXd StructuralPair::influence(const std::vector<ContactPoint>& points, double axial_offset) const {

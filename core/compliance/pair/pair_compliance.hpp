@@ -85,9 +85,6 @@ class StructuralPair final : public PairCompliance {
 /// u is clamped to the flank: a tip edge that touches beyond it, by round-off, counts as on it.
 FlankStation flank_station(const GearPair& pair, Member member, const ContactPoint& point, double axial_offset);
 
-/// The acute end of the face: +1 for z = +b/2, -1 for the other; of a spur gear as if its sense were +1.
-int acute_end(const GearPair& pair, Member member);
-
 /// The tooth of that station alone: the gear's tooth of pair k, counted as in the mesh.
 int gear_tooth(Member member, int tooth_pair);
 

@@ -65,7 +65,7 @@ class Passage {
   /// Smallest separation over the pitch analysed, whichever tooth brings it [mm].
   double smallest_separation(double rho, double z) const {
     const double offset = (on_pinion_ ? -1.0 : 1.0) * assembly_.wheel_centre.z();
-    if (std::abs(z + offset) > mate_.half_face) return infinity;
+    if (!mate_.face.holds(z + offset)) return infinity;
     const double pitch = 2.0 * units::pi / assembly_.pinion_teeth;
     const double undisturbed = self_.frame.pinion_turn * ((rho - self_.frame.pitch_roll) / self_.base_radius - self_.helix_rate * z);
     const int nearest = static_cast<int>(std::lround(undisturbed / pitch));
@@ -203,7 +203,7 @@ BearingPattern bearing_pattern(const FlankAssembly& assembly, const UnloadedMesh
   const Flank& flank = assembly[member];
   BearingPattern pattern;
   pattern.radius = equally_spaced(flank.form_radius, flank.tip_radius, rows);
-  pattern.z = equally_spaced(-flank.half_face, flank.half_face, columns);
+  pattern.z = equally_spaced(flank.face.begin, flank.face.end, columns);
   pattern.separation.setConstant(rows, columns, infinity);
   if (mesh.missing > 0) return pattern;
   const Passage passage(assembly, mesh, member);

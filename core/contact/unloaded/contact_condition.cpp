@@ -63,7 +63,7 @@ void ContactCondition::locate_point(FlankContact& m) const {
 }
 
 void ContactCondition::move_onto_wheel_face(FlankContact& m) const {
-  const double end = std::copysign(assembly_.wheel.half_face, m.wheel_z);
+  const double end = assembly_.wheel.face.end_near(m.wheel_z);
   m.on_wheel_end = true;
   // Newton on the all but linear wheel_z(z); the second step is round-off already.
   for (int i = 0; i < 3 && m.wheel_z != end; ++i) {
@@ -79,7 +79,7 @@ FlankContact ContactCondition::at(double rho, double z, const FlankContact* near
   m.rho = rho;
   m.z = z;
   locate_point(m);
-  if (std::abs(m.wheel_z) > wheel.half_face) move_onto_wheel_face(m);
+  if (!wheel.face.holds(m.wheel_z)) move_onto_wheel_face(m);
 
   const double x = m.point.x(), y = m.point.y();
   m.wheel_radius = std::sqrt(x * x + y * y);

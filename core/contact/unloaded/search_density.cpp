@@ -77,7 +77,7 @@ SearchDensity search_density(const FlankAssembly& assembly) {
     hollow = hollow || c.profile < -absorbed * (1.0 / rho1 + 1.0 / rho2);
     return c;
   };
-  const auto z_at = [&](int j) { return pinion.half_face * (2.0 * j / (columns - 1) - 1.0); };
+  const auto z_at = [&](int j) { return pinion.face.middle() + pinion.face.half() * (2.0 * j / (columns - 1) - 1.0); };
   for (int j = 0; j < columns; ++j) {
     Stretches stretches;
     for (int i = 0; i < rows; ++i) {

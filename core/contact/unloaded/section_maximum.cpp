@@ -154,7 +154,7 @@ SectionMaximum SectionSearch::settle(double z, const Range& range, const Toleran
 SectionMaximum SectionSearch::finish(double z, const FlankContact& m, SectionBound bound) const {
   SectionMaximum best = missing(z);
   // Where the faces do not overlap the wheel's end lies beyond the pinion's.
-  best.exists = std::abs(m.z) <= condition_.assembly().pinion.half_face * (1.0 + end_round_off);
+  best.exists = condition_.assembly().pinion.face.holds(m.z, end_round_off);
   if (!best.exists) return best;
   best.at = m;
   best.bound = bound;

@@ -35,11 +35,14 @@ class FaceSearch {
   SectionMaximum ascend(const SectionMaximum& from, const SectionMaximum& next) const;
   SectionMaximum off_the_edge(const SectionMaximum& edge) const;
   bool is_flat_around(const SectionMaximum& best) const;
-  double flat_step() const { return 2.0 * flat_fraction * assembly_.pinion.half_face; }
+  double flat_step() const { return flat_fraction * assembly_.pinion.face.width(); }
   /// The angle still rises beyond a face end; a flat valley that merely reaches the end is no edge contact.
   bool is_held_by_face_end(const SectionMaximum& s) const {
-    const bool on_pinion_end = assembly_.pinion.half_face - std::abs(s.at.z) <= end_round_off * assembly_.pinion.half_face;
-    return s.held_by_wheel_end || (on_pinion_end && s.slope_z * s.z > 0.0);
+    const auto rises_beyond = [&](const FaceRange& face, double z) {
+      const double end = face.end_near(z);
+      return std::abs(end - z) <= end_round_off * face.half() && s.slope_z * (end - face.middle()) > 0.0;
+    };
+    return s.held_by_wheel_end || rises_beyond(assembly_.pinion.face, s.at.z) || rises_beyond(assembly_.wheel.face, s.at.wheel_z);
   }
 
   static constexpr double end_round_off = 1e-9;  // half face widths within which a point is on the end
@@ -55,9 +58,9 @@ class FaceSearch {
 std::vector<double> FaceSearch::section_heights() const {
   // A tilted wheel reaches a little beyond its width.
   const double tilt = assembly_.wheel_axes.col(2).head<2>().norm();
-  const double reach = assembly_.pinion.half_face, centre = assembly_.wheel_centre.z();
-  const double wheel_reach = assembly_.wheel.half_face + tilt * (assembly_.wheel_centre.head<2>().norm() + assembly_.pinion.tip_radius);
-  double lo = std::max(-reach, centre - wheel_reach), hi = std::min(reach, centre + wheel_reach);
+  const double beyond = tilt * (assembly_.wheel_centre.head<2>().norm() + assembly_.pinion.tip_radius), centre = assembly_.wheel_centre.z();
+  const FaceRange &pinion = assembly_.pinion.face, &wheel = assembly_.wheel.face;
+  double lo = std::max(pinion.begin, centre + wheel.begin - beyond), hi = std::min(pinion.end, centre + wheel.end + beyond);
   const double rate = condition_.roll_rate();
   // Teeth that wind around their gear meet the mate again a turn later, as another pair: half a turn to either side is this one's.
   const double half_turn = units::pi * std::min(assembly_.pinion.base_radius, assembly_.wheel.base_radius);
@@ -130,7 +133,7 @@ SectionMaximum FaceSearch::solve() const {
 SectionMaximum FaceSearch::off_the_edge(const SectionMaximum& edge) const {
   for (const double side : {-1.0, 1.0}) {
     const double z = edge.at.z + side * flat_step();
-    if (std::abs(z) > assembly_.pinion.half_face) continue;
+    if (!assembly_.pinion.face.holds(z)) continue;
     SectionMaximum inside = search_.at(z, edge, SectionAccuracy::Coarse);
     if (!inside.exists || inside.phi2 < edge.phi2 - coarse_error) continue;
     inside = search_.at(z, inside, SectionAccuracy::Full);
@@ -145,7 +148,7 @@ SectionMaximum FaceSearch::off_the_edge(const SectionMaximum& edge) const {
 ///
 ///     f(a) + f'(a) x + c x^2/2     and     f(b) - f'(b)(h - x) + c (h - x)^2/2,      x from a to b = a + h
 void FaceSearch::reveal_hidden_maxima(std::vector<SectionMaximum>& sections, double highest) const {
-  const double longest = 2.0 * assembly_.pinion.half_face / (density_.sections - 1);
+  const double longest = assembly_.pinion.face.width() / (density_.sections - 1);
   const double c = density_.hollow_curvature / assembly_.wheel.base_radius;
   for (std::size_t i = 0; i + 1 < sections.size(); ++i) {
     while (true) {
@@ -206,7 +209,7 @@ SectionMaximum FaceSearch::ascend(const SectionMaximum& from, const SectionMaxim
 bool FaceSearch::is_flat_around(const SectionMaximum& best) const {
   for (const double side : {-1.0, 1.0}) {
     const double z = best.at.z + side * flat_step();
-    if (std::abs(z) > assembly_.pinion.half_face) continue;
+    if (!assembly_.pinion.face.holds(z)) continue;
     const SectionMaximum neighbour = search_.at(z, best, SectionAccuracy::Coarse);
     if (neighbour.at.on_wheel_end) continue;  // beyond the wheel's face it is the end's point again
     if (neighbour.exists && neighbour.bound == best.bound && (best.phi2 - neighbour.phi2) * assembly_.wheel.base_radius <= flat_tolerance) {

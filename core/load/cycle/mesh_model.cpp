@@ -86,8 +86,8 @@ MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, c
   }
   const GearPair& pair = model.pair;
   const double axial_offset = placement.misalignment.axial_offset;
-  const double face_start = std::max(-0.5 * pair.pinion.data.face_width, axial_offset - 0.5 * pair.wheel.data.face_width);
-  const double face_end = std::min(0.5 * pair.pinion.data.face_width, axial_offset + 0.5 * pair.wheel.data.face_width);
+  const double face_start = std::max(pair.pinion.face.begin, axial_offset + pair.wheel.face.begin);
+  const double face_end = std::min(pair.pinion.face.end, axial_offset + pair.wheel.face.end);
   if (!(face_start < face_end)) {
     throw InvalidInput("misalignment.axial_offset", std::to_string(axial_offset), "one that leaves a common face width");
   }

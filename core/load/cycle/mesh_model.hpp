@@ -71,7 +71,7 @@ struct MeshModel {
   /// The local contact law at a point; nothing where that is left out.
   std::optional<ContactLaw> contact_law(const ContactPoint& point) const;
   /// The common face, z [mm].
-  double face_start() const { return std::max(-0.5 * pair.pinion.data.face_width, axial_offset - 0.5 * pair.wheel.data.face_width); }
+  double face_start() const { return std::max(pair.pinion.face.begin, axial_offset + pair.wheel.face.begin); }
   double face_end() const { return face_start() + face_width; }
 };
 

@@ -117,6 +117,9 @@ class PairReading {
     read_tip_diameter(m);
     read_rack(m);
     read_tip_chamfer(m);
+    // As the study that is written will have them.
+    if (!(data(m).tip_chamfer.amount > 0.0)) data(m).tip_rounding = usual_edge_radius(m, pair_.data);
+    data(m).end_rounding = usual_edge_radius(m, pair_.data);
   }
 
   void read_profile_shift(Member m) {
@@ -244,7 +247,7 @@ void write_gear(const ImportedPair& pair, Member m, StudyText& text) {
   if (m == Member::Pinion) text.key("hand", pair.data.pinion_hand == Hand::Right ? "\"right\"" : "\"left\"", remark("hand"));
   text.key("profile_shift", number_text(gear.profile_shift), remark("profile_shift"));
   if (!std::isnan(gear.tip_diameter)) text.key("tip_diameter", number_text(gear.tip_diameter), remark("tip_diameter"));
-  if (const TipChamfer& chamfer = gear.tip_chamfer; chamfer.amount > 0.0) {
+  if (const EdgeChamfer& chamfer = gear.tip_chamfer; chamfer.amount > 0.0) {
     text.key("edges.tip_chamfer",
              fmt::format("{{ amount = {}, angle = {}, radius = {} }}", number_text(chamfer.amount), number_text(chamfer.angle / units::deg),
                          number_text(chamfer.radius)),

@@ -28,6 +28,7 @@ constexpr GearSize gear_sizes[] = {
     {"start of active profile", "d_Nf", "mm", [](const Gear& g) { return 2.0 * g.active_root_radius; }},
     {"working pitch diameter", "d_w", "mm", [](const Gear& g) { return 2.0 * g.working_pitch_radius; }},
     {"face width", "b", "mm", [](const Gear& g) { return g.data.face_width; }},
+    {"usable face width", "b_F", "mm", [](const Gear& g) { return g.face.width(); }},
     {"transverse tooth thickness", "s_t", "mm", [](const Gear& g) { return g.tooth_thickness; }},
     {"tooth thickness at the tip", "s_at", "mm", [](const Gear& g) { return g.tip_thickness; }},
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "core/base/stopwatch.hpp"
+#include "optimize/design/between_positions.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/analysis/requirements.hpp"
 #include "studies/compliance/study_compliance.hpp"
@@ -34,6 +35,9 @@ class OptimiseRun {
     const DesignOptions choice{options, study.optimise.starts};
     TwoLevelDesign found = optimise_by_two_levels(problem, choice);
     keep_constraints_between_positions(problem, choice, found);
+    if (seeks_extremes(study))
+      search_between_positions(
+          problem, [&](const DesignAnalysis& of) { return resolved_cycles(problem, of, false); }, found);
     results_.design = found.design;
     results_.search_work = {found.search, found.fine, found.objective_seen_by_search, found.design.after.objective};
     if (!study.optimise.pareto_objectives.empty()) {
@@ -46,7 +50,7 @@ class OptimiseRun {
     results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", results_.assessment->seconds});
     results_.before_errors = show(problem, "before", results_.design->before);
     results_.after_errors = show(problem, "after", results_.design->after);
-    if (results_.design->exact) resolve_report(problem, resolved_cycles(problem, *results_.design->exact, false), *results_.design->exact);
+    if (results_.design->exact) resolve_report(problem, resolved_cycles(problem, results_.design->exact->analysis, false), *results_.design->exact);
     run_.rate();
     add_unmet_by_design(problem, results_);
   }
@@ -98,7 +102,7 @@ class OptimiseRun {
     for (int turn = 0; turn < most_turns && seeks_extremes(results_.study) && !problem.task().constraints.empty(); ++turn) {
       const Stopwatch clock;
       DesignReport shown = found.design.after;
-      resolve_report(problem, resolved_cycles(problem, shown, false), shown);
+      resolve_report(problem, resolved_cycles(problem, shown.analysis, false), shown);
       DesignTask tighter = problem.task();
       bool violated = false;
       for (std::size_t c = 0; c < tighter.constraints.size(); ++c) {
@@ -120,17 +124,17 @@ class OptimiseRun {
   /// Of what is asked for to spare, so that one more turn is seldom needed.
   static constexpr double spare = 0.1;
 
-  /// The scenes of a design's report.
-  DesignScene scene_of(const DesignReport& report, int s) const {
+  /// A scene with the modifications of a design.
+  DesignScene scene_of(const DesignAnalysis& analysis, int s) const {
     DesignScene scene = results_.design_task->scenes[static_cast<std::size_t>(s)];
-    scene.condition.modification = report.analysis.modification;
+    scene.condition.modification = analysis.modification;
     return scene;
   }
 
-  std::vector<ResolvedCycle> resolved_cycles(const DesignProblem& problem, const DesignReport& report, bool with_errors) {
+  std::vector<ResolvedCycle> resolved_cycles(const DesignProblem& problem, const DesignAnalysis& analysis, bool with_errors) {
     std::vector<StudyRun::SolvedCase> cases;
     for (int s = 0; s < problem.scenes(); ++s) {
-      cases.push_back({scene_of(report, s), &problem.model(s), &report.analysis.cycles[static_cast<std::size_t>(s)]});
+      cases.push_back({scene_of(analysis, s), &problem.model(s), &analysis.cycles[static_cast<std::size_t>(s)]});
     }
     return run_.resolved(cases, with_errors);
   }
@@ -138,7 +142,7 @@ class OptimiseRun {
   /// Adds a design's load cases, and puts what they show into its report.
   DesignErrors show(const DesignProblem& problem, const std::string& name, DesignReport& report) {
     std::vector<DesignScene> scenes;
-    for (int s = 0; s < problem.scenes(); ++s) scenes.push_back(scene_of(report, s));
+    for (int s = 0; s < problem.scenes(); ++s) scenes.push_back(scene_of(report.analysis, s));
     const std::size_t first = results_.loaded.size();
     run_.add_loaded(scenes, name, report.analysis.cycles);
     std::vector<ResolvedCycle> cycles;

@@ -37,7 +37,7 @@ inline double wheel_angle(const FlankAssembly& scene, int tooth, double phi1, do
   const Point3<double> p = flank_point(scene.pinion, rho, z, tooth, phi1 + tooth * 2.0 * units::pi / scene.pinion_teeth);
   const Eigen::Vector3d q = scene.wheel_axes.transpose() * (Eigen::Vector3d(p.x, p.y, p.z) - scene.wheel_centre);
   const double radius = q.head<2>().norm();
-  if (radius > scene.wheel.tip_radius || radius < scene.wheel.form_radius || std::abs(q.z()) > scene.wheel.half_face) {
+  if (radius > scene.wheel.tip_radius || radius < scene.wheel.form_radius || std::abs(q.z()) > scene.wheel.face.half()) {
     return -std::numeric_limits<double>::infinity();
   }
   const FlankThroughPoint<double> through = rotation_through(scene.wheel, Point3<double>{q.x(), q.y(), q.z()}, tooth);
@@ -51,7 +51,7 @@ inline double highest_on_grid(const FlankAssembly& scene, double phi1, int inter
   const double lo = scene.pinion.lowest_roll(), hi = scene.pinion.highest_roll();
   for (int i = 0; i <= intervals; ++i) {
     for (int j = 0; j <= intervals; ++j) {
-      const double z = scene.pinion.half_face * (2.0 * j / intervals - 1.0);
+      const double z = scene.pinion.face.half() * (2.0 * j / intervals - 1.0);
       highest = std::max(highest, wheel_angle(scene, 0, phi1, lo + (hi - lo) * i / intervals, z));
     }
   }

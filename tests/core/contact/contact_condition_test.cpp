@@ -24,7 +24,7 @@ TEST_CASE("The wheel angle through a point is the flank's own inverse, and its g
     const double phi1 = random(-0.1, 0.1), h = 1e-4;
     const ContactCondition here(scene, 1, phi1);
     const double rho = 0.5 * (scene.pinion.lowest_roll() + scene.pinion.highest_roll());
-    const double z = random(-0.3, 0.3) * std::min(scene.pinion.half_face, scene.wheel.half_face);
+    const double z = random(-0.3, 0.3) * std::min(scene.pinion.face.half(), scene.wheel.face.half());
     const double angle = wheel_angle(scene, 1, phi1, rho, z);
     if (std::isinf(angle)) continue;
     const FlankContact contact = here.at(rho, z);

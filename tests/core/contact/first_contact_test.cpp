@@ -39,10 +39,10 @@ TEST_CASE("No point of the pinion's flank lies inside the wheel's at first conta
     // The first contact is on both flanks, and the wheel's flank does pass through it.
     CHECK(contact.pinion_radius <= scene.pinion.tip_radius * (1 + 1e-12));
     CHECK(contact.wheel_radius <= scene.wheel.tip_radius * (1 + 1e-12));
-    CHECK(std::abs(contact.pinion_z) <= scene.pinion.half_face);
-    CHECK(std::abs(contact.wheel_z) <= scene.wheel.half_face * (1 + 1e-12));
+    CHECK(std::abs(contact.pinion_z) <= scene.pinion.face.half());
+    CHECK(std::abs(contact.wheel_z) <= scene.wheel.face.half() * (1 + 1e-12));
     // discretisation: the grid comes within half a step of it, on a slope of at most 1 in 20 (edges and corners)
-    const double step = std::max(scene.pinion.highest_roll() - scene.pinion.lowest_roll(), 2 * scene.pinion.half_face) / kGrid;
+    const double step = std::max(scene.pinion.highest_roll() - scene.pinion.lowest_roll(), 2 * scene.pinion.face.half()) / kGrid;
     CHECK(highest >= contact.phi2 - 0.5 * step / 20.0 / scene.wheel.base_radius);
   }
 }

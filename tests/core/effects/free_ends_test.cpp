@@ -18,7 +18,7 @@ TEST_CASE("A contact softens by each gear's own ends, wherever the mate ends", "
   for (std::size_t i = 0; i < model.positions[0].points.size(); ++i) {
     const ContactPoint& p = model.positions[0].points[i];
     // The acute end of a gear is the obtuse end of its mate.
-    const double cosine = std::cos(gears.base_helix_angle), lean = -acute_end(gears, Member::Pinion) * gears.base_helix_angle;
+    const double cosine = std::cos(gears.base_helix_angle), lean = -gears.acute_end(Member::Pinion) * gears.base_helix_angle;
     const ContactLaw expected(ContactSide::of(pinion, p.pinion_depth, p.pinion_tip_distance, {(15 + p.z) / cosine, (15 - p.z) / cosine}, lean),
                               ContactSide::of(wheel, p.wheel_depth, p.wheel_tip_distance, {(22 + p.z - 4) / cosine, (22 - p.z + 4) / cosine}, -lean),
                               p.relative_radius, contact_modulus(pinion, wheel));

@@ -142,7 +142,7 @@ TEST_CASE("The rotation through a point undoes the flank's own parametrisation",
   const auto uniform = [&generator](double from, double to) { return from + (to - from) * static_cast<double>(generator()) / 4294967296.0; };
   for (int i = 0; i < 2000; ++i) {
     const double rho = uniform(flank.lowest_roll() + 0.1, flank.highest_roll());
-    const double z = uniform(-flank.half_face, flank.half_face), rotation = uniform(-0.5, 0.5);
+    const double z = uniform(-flank.face.half(), flank.face.half()), rotation = uniform(-0.5, 0.5);
     const int tooth = static_cast<int>(uniform(-3.0, 4.0));
     const Point3<double> p = flank_point(flank, rho, z, tooth, rotation);
     const FlankThroughPoint<double> found = rotation_through(flank, p, tooth);

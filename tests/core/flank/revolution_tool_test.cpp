@@ -196,7 +196,7 @@ TEST_CASE("The flank of a tool of revolution is symmetric about mid face, finite
   const auto made = revolve(paper_tool());
   const DeviationField& field = *made.flank.fields.front();
   for (double share = 0.0; share <= 1.0; share += 0.05) {
-    for (double z = 0.1; z <= 1.2 * made.flank.half_face; z += 0.4) {
+    for (double z = 0.1; z <= 1.2 * made.flank.face.half(); z += 0.4) {
       const Jet front = field.at(roll_at_share(made.flank, share), z), back = field.at(roll_at_share(made.flank, share), -z);
       REQUIRE(std::isfinite(front.value));
       REQUIRE(front.value > 0.0);

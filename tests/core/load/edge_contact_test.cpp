@@ -47,7 +47,7 @@ TEST_CASE("A tip rounding ends the flank where its arc touches it", "[core][gear
 
 TEST_CASE("A chamfer ends the flank where the arc of its edge touches it", "[core][gear][edge]") {
   PairData data = rounded_pair(0, 0).data;
-  TipChamfer& chamfer = data.pinion.tip_chamfer;
+  EdgeChamfer& chamfer = data.pinion.tip_chamfer;
   chamfer = {.amount = 0.1 * data.normal_module, .angle = GENERATE(20.0, 45.0) * units::deg};
   const GearPair sharp = make_gear_pair(data);
   chamfer.radius = 0.1 * data.normal_module;
@@ -83,7 +83,7 @@ TEST_CASE("A chamfered tip touches as a shorter tooth does", "[core][gear][edge]
 }
 
 TEST_CASE("A chamfer that cannot be is named with what it may be", "[core][gear][edge]") {
-  const auto field_of = [](const TipChamfer& chamfer, double rounding = 0.0) {
+  const auto field_of = [](const EdgeChamfer& chamfer, double rounding = 0.0) {
     PairData data = rounded_pair(0, 0).data;
     data.wheel.tip_chamfer = chamfer;
     data.wheel.tip_rounding = rounding;

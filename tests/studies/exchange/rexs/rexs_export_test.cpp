@@ -112,7 +112,7 @@ TEST_CASE("A tip chamfer comes back with its amount; angle and edge are said to 
   text.insert(text.find("\nrack"), "\nedges = { tip_chamfer = { amount = 0.35, angle = 30, radius = 0.1 } }");
   const rexs::Model model = rexs::export_stage(parse_study(text, "there.toml"), {"2.0", "2026-01-01T00:00:00+00:00"}).model;
   const rexs::ImportedStudy imported = rexs::import_stage(rexs::model_text(model, rexs::Form::Xml), "there.rexs", {});
-  const TipChamfer chamfer = parse_study(imported.text, "back.toml").pair.pinion.tip_chamfer;
+  const EdgeChamfer chamfer = parse_study(imported.text, "back.toml").pair.pinion.tip_chamfer;
   CHECK(chamfer.amount == 0.35);
   CHECK(chamfer.angle == Approx(45 * units::deg));
   CHECK(chamfer.radius == Approx(0.05 * 5));

@@ -1,0 +1,123 @@
+#include "optimize/design/between_positions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/base/stopwatch.hpp"
+#include "optimize/design/design_log.hpp"
+#include "optimize/design/rounding.hpp"
+#include "optimize/solvers/solver.hpp"
+
+namespace flankwright {
+
+namespace {
+
+constexpr double probe = 0.02;                  ///< step that shows whether a variable matters, of its range
+constexpr double least_gain = 1e-4;             ///< a probe or a search that lowers the objective by less, relative, is no gain
+constexpr double step_tolerance = 1e-3;         ///< the search ends where its steps are shorter, of a variable's range
+constexpr int most_analyses_per_variable = 25;  ///< COBYLA takes some 15 a variable to that tolerance
+
+/// The task over some of its variables, the others held, with figures that have extremes between the positions.
+class ProgramBetweenPositions : public NonlinearProgram {
+ public:
+  ProgramBetweenPositions(DesignProblem& problem, const DesignResolver& resolve, Eigen::VectorXd x, std::vector<int> free)
+      : problem_(problem), resolve_(resolve), x_(std::move(x)), free_(std::move(free)) {}
+
+  int variables() const override { return static_cast<int>(free_.size()); }
+  int constraints() const override { return 1; }
+  Eigen::VectorXd lower() const override { return Eigen::VectorXd::Zero(variables()); }
+  Eigen::VectorXd upper() const override { return Eigen::VectorXd::Ones(variables()); }
+  Eigen::VectorXd start() const override { return x_(free_); }
+
+  Eigen::VectorXd design(const Eigen::VectorXd& y) const {
+    Eigen::VectorXd x = x_;
+    x(free_) = y;
+    return x;
+  }
+
+  ProgramValues evaluate(const Eigen::VectorXd& y, bool) override {
+    const DesignTask& task = problem_.task();
+    DesignReport report;
+    report.analysis = problem_.analyse(design(y), false);
+    report.constraint_values.resize(task.constraints.size());
+    double violation = problem_.violation(report.analysis);
+    resolve_report(problem_, resolve_(report.analysis), report);
+    for (std::size_t c = 0; c < task.constraints.size(); ++c)
+      violation = std::max(violation, task.constraints[c].excess(report.constraint_values[c]));
+    ProgramValues values;
+    values.objective = report.objective;
+    values.constraints = Eigen::VectorXd::Constant(1, violation - DesignLog::tolerance);
+    return values;
+  }
+
+ private:
+  DesignProblem& problem_;
+  const DesignResolver& resolve_;
+  Eigen::VectorXd x_;
+  std::vector<int> free_;
+};
+
+/// Those of the variables of which a probe either way keeps the constraints and lowers the objective.
+std::vector<int> that_matter(DesignProblem& problem, const DesignResolver& resolve, const Eigen::VectorXd& x, const std::vector<int>& variables,
+                             double objective) {
+  std::vector<int> matter;
+  for (const int i : variables) {
+    ProgramBetweenPositions program(problem, resolve, x, {i});
+    const auto gains = [&](double step) {
+      const double moved = std::clamp(x[i] + step, 0.0, 1.0);
+      const ProgramValues values = program.evaluate(Eigen::VectorXd::Constant(1, moved), false);
+      return values.constraints[0] <= 0.0 && values.objective < objective * (1.0 - least_gain);
+    };
+    if (gains(-probe) || gains(probe)) matter.push_back(i);
+  }
+  return matter;
+}
+
+}  // namespace
+
+std::vector<int> unfelt_variables(const Optimality& optimality, const Eigen::VectorXd& x) {
+  std::vector<int> unfelt;
+  for (Eigen::Index i = 0; i < optimality.steepest.size(); ++i) {
+    if (optimality.steepest[i] <= Optimality::holds && x[i] > 0.0 && x[i] < 1.0) unfelt.push_back(static_cast<int>(i));
+  }
+  return unfelt;
+}
+
+void search_between_positions(DesignProblem& problem, const DesignResolver& resolve, TwoLevelDesign& found) {
+  const DesignTask& task = problem.task();
+  if (!task.scalarisation.empty() || !task.later_objectives.empty()) return;
+  const Stopwatch clock;
+  const int analyses_before = problem.analyses();
+  DesignResult& design = found.design;
+  const DesignReport& best = design.exact ? *design.exact : design.after;
+  const Eigen::VectorXd x = problem.scaled_design(best.variables).cwiseMax(0.0).cwiseMin(1.0);
+  const std::vector<int> unfelt = unfelt_variables(design.optimality, x);
+  if (unfelt.empty()) return;
+  const double objective = ProgramBetweenPositions(problem, resolve, x, unfelt).evaluate(x(unfelt), false).objective;
+  const std::vector<int> free = that_matter(problem, resolve, x, unfelt, objective);
+  if (!free.empty()) {
+    ProgramBetweenPositions program(problem, resolve, x, free);
+    SolverOptions options;
+    options.name = "nlopt:cobyla";
+    options.tolerance = step_tolerance;
+    options.max_evaluations = most_analyses_per_variable * static_cast<int>(free.size());
+    const SolverResult solved = solve(program, options);
+    if (solved.x.size() > 0 && solved.constraint_violation <= 0.0 && solved.objective < objective * (1.0 - least_gain)) {
+      const Eigen::VectorXd better = program.design(solved.x);
+      design.after = report_design(problem, problem.analyse(better, false));
+      if (design.exact) {
+        design.exact = design.after;
+        design.after = report_design(problem, problem.analyse(round_design(problem, better, options.max_evaluations).x, false));
+      }
+      design.message += "; then between the positions along " + std::to_string(free.size()) + (free.size() == 1 ? " variable" : " variables") +
+                        " that no peak at a position felt";
+    }
+  }
+  const int analyses = problem.analyses() - analyses_before;
+  design.evaluations += analyses;
+  found.fine.analyses += analyses;
+  found.fine.seconds += clock.seconds();
+  design.seconds += clock.seconds();
+}
+
+}  // namespace flankwright

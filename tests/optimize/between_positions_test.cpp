@@ -1,0 +1,83 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/fidelity/resolved_cycle.hpp"
+#include "optimize/design/between_positions.hpp"
+#include "tests/optimize/design_tasks.hpp"
+
+using namespace flankwright;
+
+namespace {
+
+/// A spur pair with rounded tips that are not relieved yet; the tip relief of both gears is sought.
+DesignTask relieved_spur() {
+  DesignTask task = design_tasks::spur({0.0});
+  PairData data = task.pair.data;
+  data.pinion.tip_rounding = data.wheel.tip_rounding = 0.2;
+  task.pair = make_gear_pair(data);
+  task.resolution = {{QuadratureRule::Graded, 8}, equally_spaced_phases(16)};
+  task.variables.clear();
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    task.modification[m].tip_relief = {0.0, 2.0, ReliefShape::Linear};
+    task.variables.push_back(
+        {std::string(name_of(m)) + ".modification.tip_relief.amount", m, parameter_of("tip_relief.amount"), 0.0, 60 * units::um});
+  }
+  return task;
+}
+
+DesignResolver resolver(const DesignProblem& problem) {
+  return [&problem](const DesignAnalysis& analysis) {
+    const DesignTask& task = problem.task();
+    std::vector<ResolvedCycle> cycles;
+    for (int s = 0; s < problem.scenes(); ++s) {
+      const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) {
+        return make_mesh_model(task.pair, task.material, {task.resolution.quadrature, phases}, task.effects);
+      };
+      FlankCondition condition = task.scenes[static_cast<std::size_t>(s)].condition;
+      condition.modification = analysis.modification;
+      cycles.push_back(resolve_cycle(problem.model(s), analysis.cycles[static_cast<std::size_t>(s)], at, condition,
+                                     task.scenes[static_cast<std::size_t>(s)].torque, {}));
+    }
+    return cycles;
+  };
+}
+
+double resolved_objective(DesignProblem& problem, const Eigen::VectorXd& x) {
+  DesignReport report;
+  report.analysis = problem.analyse(x, false);
+  resolve_report(problem, resolver(problem)(report.analysis), report);
+  return report.objective;
+}
+
+}  // namespace
+
+TEST_CASE("Relief that no peak at a position feels is sought between the positions", "[optimize][design][between]") {
+  DesignProblem problem(relieved_spur());
+  TwoLevelDesign found = optimise_by_two_levels(problem, {});
+  const Eigen::VectorXd on_tread = problem.scaled_design(found.design.after.variables);
+  REQUIRE(unfelt_variables(found.design.optimality, on_tread).size() == 2);
+  const double before = resolved_objective(problem, on_tread);
+  search_between_positions(problem, resolver(problem), found);
+  const Eigen::VectorXd x = problem.scaled_design(found.design.after.variables);
+  const double after = resolved_objective(problem, x);
+  CHECK(after < 0.99 * before);
+  // No neighbour is better by more than the tolerance to which extremes are located, 2e-3, twice.
+  for (const double a : {-0.03, 0.0, 0.03}) {
+    for (const double b : {-0.03, 0.0, 0.03}) {
+      const Eigen::VectorXd beside = (x + Eigen::Vector2d(a, b)).cwiseMax(0.0).cwiseMin(1.0);
+      CAPTURE(a, b);
+      CHECK(resolved_objective(problem, beside) > after * (1.0 - 4e-3));
+    }
+  }
+}
+
+TEST_CASE("A design whose peaks feel every variable is left as it is", "[optimize][design][between]") {
+  DesignProblem problem(design_tasks::helical());
+  TwoLevelDesign found = optimise_by_two_levels(problem, {});
+  const std::vector<double> variables = found.design.after.variables;
+  const int analyses = problem.analyses();
+  const DesignResolver never = [](const DesignAnalysis&) -> std::vector<ResolvedCycle> { throw std::logic_error("resolved"); };
+  search_between_positions(problem, never, found);
+  CHECK(problem.analyses() == analyses);
+  CHECK(found.design.after.variables == variables);
+}
