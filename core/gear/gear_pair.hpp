@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -13,6 +14,10 @@ std::vector<InvalidInput> find_problems(const PairData& data);
 
 /// Whether a chamfer leaves part of the tip, and turns from the flank towards it; one condition of find_problems(), for data that are not whole yet.
 bool has_room_for_tip_chamfer(Member m, const PairData& pair);
+
+/// Radius of the edge, of the tip rounding or below the chamfer that the gear has, with which its flank ends at a circle [mm], > 0; for data that are not
+/// whole yet. Nothing where the circle is not between the base circle and the sharp end of the flank, or a rounding would leave no tip.
+std::optional<double> edge_radius_for(Member m, const PairData& pair, double tip_form_radius);
 
 /// Builds the pair. Throws the first of find_problems().
 GearPair make_gear_pair(const PairData& data);
