@@ -129,7 +129,8 @@ TEST_CASE("A strip's pressure carries its load, on the rounding its part of it, 
   }
   const double discretisation = 1e-5;  // midpoint rule with a root at either end
   CHECK(carried == Approx(load).epsilon(discretisation));
-  CHECK(strip.peaks().edge_load.load == Approx(on_edge).margin(discretisation * load));
+  // The rounding begins within a step of the rule.
+  CHECK(strip.peaks().edge_load.load == Approx(on_edge).margin(discretisation * load + highest * width / n));
   CHECK(strip.peaks().highest.pressure == Approx(highest).epsilon(discretisation));
 }
 
