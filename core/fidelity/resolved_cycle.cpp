@@ -15,6 +15,7 @@ void include(const MeshModel& model, const LoadedCycle& cycle, const LoadedCycle
     summary.peak_line_load = std::max(summary.peak_line_load, position.load.line_load.maxCoeff());
     summary.peak_contact_stress = std::max(summary.peak_contact_stress, position.contact_stress.maxCoeff());
     if (position.edge_stress.size() > 0) summary.edge_stress = std::fmax(summary.edge_stress, position.edge_stress.maxCoeff());
+    summary.tip_edge_share = std::fmax(summary.tip_edge_share, position.tip_edge_share);
     summary.worst_kkt_residual = std::max(summary.worst_kkt_residual, position.load.kkt_residual);
   }
   summary.load_factor = summary.peak_line_load / model.mean_line_load(cycle.force);
@@ -76,6 +77,8 @@ CycleGradient resolved_gradient(const MeshModel& model, const LoadedCycle& cycle
   if (gradient.edge_stress.size() > 0 && stressed.edge_stress.size() > 0) {
     const LoadedPosition& edged = position_of_largest(cycle, extremes, [](const LoadedPosition& p) { return p.edge_stress.maxCoeff(); });
     gradient.edge_stress = edged.edge_stress_derivative.row(largest_entry(edged.edge_stress));
+    gradient.tip_edge_share =
+        position_of_largest(cycle, extremes, [](const LoadedPosition& p) { return p.tip_edge_share; }).tip_edge_share_derivative;
   }
   return gradient;
 }

@@ -184,6 +184,24 @@ double usual_edge_radius(Member m, const PairData& pair) {
   return whole ? usual_edge_radius(single_gear(m, pair), pair.normal_module) : 0.0;
 }
 
+std::optional<double> edge_radius_for(Member m, const PairData& pair, double tip_form_radius) {
+  const bool is_chamfered = pair[m].tip_chamfer.amount > 0.0;
+  const auto with_edge = [&](double radius) {
+    PairData with = pair;
+    (is_chamfered ? with[m].tip_chamfer.radius : with[m].tip_rounding) = radius;
+    return single_gear(m, with);
+  };
+  // The square of the roll length at the flank's end falls in proportion to the radius, see set_tip_edge().
+  const double probe = 0.01 * pair.normal_module;
+  const Gear sharp = with_edge(0.0), rounded = with_edge(probe);
+  if (!(tip_form_radius > sharp.base_radius && tip_form_radius < sharp.tip_form_radius)) return std::nullopt;
+  const double roll = sharp.roll_length_at(sharp.tip_form_radius);
+  const auto fall = [&](double end) { return (roll - sharp.roll_length_at(end)) * (roll + sharp.roll_length_at(end)); };
+  const double radius = probe * fall(tip_form_radius) / fall(rounded.tip_form_radius);
+  if (!is_chamfered && 2.0 * radius >= sharp.tooth_thickness_at(sharp.tip_radius)) return std::nullopt;
+  return radius;
+}
+
 std::vector<InvalidInput> find_problems(const PairData& data) {
   Findings findings;
   findings.require(data.normal_module > 0.0 && std::isfinite(data.normal_module), "pair.normal_module", data.normal_module, "above 0 mm");

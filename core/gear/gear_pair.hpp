@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -16,6 +17,10 @@ bool has_room_for_tip_chamfer(Member m, const PairData& pair);
 
 /// Radius of the edges of a gear of which nothing is known, see edges.hpp; 0 for data that are not whole yet.
 double usual_edge_radius(Member m, const PairData& pair);
+
+/// Radius of the edge, of the tip rounding or below the chamfer that the gear has, with which its flank ends at a circle [mm], > 0; for data that are not
+/// whole yet. Nothing where the circle is not between the base circle and the sharp end of the flank, or a rounding would leave no tip.
+std::optional<double> edge_radius_for(Member m, const PairData& pair, double tip_form_radius);
 
 /// Builds the pair. Throws the first of find_problems().
 GearPair make_gear_pair(const PairData& data);

@@ -78,6 +78,18 @@ Eigen::RowVectorXd edge_stress_slope(const ObjectiveTerm&, const PeakCandidate& 
   return there.edge_stress_derivative.row(candidate.other);
 }
 
+/// One value a position.
+Eigen::VectorXd tip_edge_shares(const ObjectiveTerm&, const MeshModel&, const LoadedCycle& cycle, int position) {
+  const double share = at(cycle, position).tip_edge_share;
+  return Eigen::VectorXd::Constant(1, std::isnan(share) ? 0.0 : share);
+}
+
+Eigen::RowVectorXd tip_edge_share_slope(const ObjectiveTerm&, const PeakCandidate& candidate, const MeshModel&, const LoadedCycle& cycle) {
+  const LoadedPosition& there = at(cycle, candidate.position);
+  if (std::isnan(there.tip_edge_share)) return Eigen::RowVectorXd::Zero(there.line_load_derivative.cols());
+  return there.tip_edge_share_derivative;
+}
+
 Eigen::VectorXd line_loads(const ObjectiveTerm&, const MeshModel&, const LoadedCycle& cycle, int position) {
   return at(cycle, position).load.line_load;
 }
@@ -142,6 +154,11 @@ constexpr std::array rows{
     DesignOutput{.output = Output::EffectiveContactRatio, .name = "effective_contact_ratio", .unit = "1", .smooth = effective_contact_ratio},
     DesignOutput{
         .output = Output::EdgeStress, .name = "edge_stress", .unit = "MPa", .at_points = edge_stresses, .point_derivative = edge_stress_slope},
+    DesignOutput{.output = Output::TipEdgeShare,
+                 .name = "tip_edge_share",
+                 .unit = "1",
+                 .at_points = tip_edge_shares,
+                 .point_derivative = tip_edge_share_slope},
     DesignOutput{.output = Output::EdgeLoad, .name = "edge_load", .unit = "N/mm", .at_points = edge_loads, .point_derivative = edge_load_slope},
 };
 

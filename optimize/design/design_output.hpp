@@ -22,8 +22,9 @@ enum class Output {
   /// Number of tooth pairs that share the load, mean over the positions of 1 / sum of squared fractions: their count
   /// where they carry alike, less where one carries most; smooth, unlike the count [-]
   EffectiveContactRatio,
-  EdgeStress,  ///< contact stress on tip edges, see LoadedPosition::edge_stress [MPa]
-  EdgeLoad     ///< peak line load within ObjectiveTerm::edge_margin of a tip edge or a face end [N/mm]
+  EdgeStress,    ///< contact stress on tip edges, see LoadedPosition::edge_stress [MPa]
+  TipEdgeShare,  ///< part of the force that tip roundings carry, see LoadedPosition::tip_edge_share [-]
+  EdgeLoad       ///< peak line load within ObjectiveTerm::edge_margin of a tip edge or a face end [N/mm]
 };
 
 /// One output with its weight in an objective.

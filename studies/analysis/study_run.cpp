@@ -206,6 +206,29 @@ void StudyRun::rate() {
   }
 }
 
+namespace {
+
+double share_of_torque(const LoadedResult& loaded) { return loaded.edge_contact->torque / loaded.torque; }
+
+/// The load case whose edges touch at the least part of its torque, before an optimisation or else; null where none does.
+const LoadedResult* first_edge_contact(const std::vector<LoadedResult>& all, bool before) {
+  const LoadedResult* first = nullptr;
+  for (const LoadedResult& loaded : all) {
+    if (!loaded.edge_contact || (loaded.design == "before") != before) continue;
+    if (first == nullptr || share_of_torque(loaded) < share_of_torque(*first)) first = &loaded;
+  }
+  return first;
+}
+
+std::string edge_contact_note(const LoadedResult& first) {
+  return fmt::format(
+      "contact reaches the tip edge of the {} at {:.0f} % of {:.4g} N·m (scene \"{}\"); at all of it tip edges have up to {:.4g} MPa and {:.2g} % of the force",
+      name_of(first.edge_contact->gear), 100.0 * share_of_torque(first), first.torque / units::newton_metre, first.scene, first.summary.edge_stress,
+      100.0 * first.summary.tip_edge_share);
+}
+
+}  // namespace
+
 void StudyRun::find_edge_contact() {
   const Stopwatch clock;
   tbb::parallel_for(std::size_t{0}, results_.loaded.size(), [&](std::size_t i) {
@@ -214,17 +237,13 @@ void StudyRun::find_edge_contact() {
     if (std::isgreater(loaded.summary.edge_stress, 0.0))
       loaded.edge_contact = edge_contact_start(results_.models[loaded.model], loaded.condition, loaded.torque);
   });
-  // The load case of the design to be ground whose edges touch at the least part of its torque.
-  const LoadedResult* first = nullptr;
-  const auto share = [](const LoadedResult& loaded) { return loaded.edge_contact->torque / loaded.torque; };
-  for (const LoadedResult& loaded : results_.loaded) {
-    if (loaded.edge_contact && loaded.design != "before" && (first == nullptr || share(loaded) < share(*first))) first = &loaded;
-  }
-  if (first == nullptr) return;
+  if (std::ranges::none_of(results_.loaded, [](const LoadedResult& loaded) { return loaded.edge_contact.has_value(); })) return;
   results_.steps.push_back({"edge_contact", "the torques at which tip edges touch", clock.seconds()});
-  results_.notes.push_back(fmt::format(
-      "contact reaches the tip edge of the {} at {:.0f} % of {:.4g} N·m (scene \"{}\"), with {:.4g} MPa there at all of it",
-      name_of(first->edge_contact->gear), 100.0 * share(*first), first->torque / units::newton_metre, first->scene, first->summary.edge_stress));
+  const LoadedResult* const before = first_edge_contact(results_.loaded, true);
+  const LoadedResult* const after = first_edge_contact(results_.loaded, false);
+  const auto words = [](const LoadedResult* first) { return first == nullptr ? "contact reaches no tip edge" : edge_contact_note(*first); };
+  const bool is_optimised = std::ranges::any_of(results_.loaded, [](const LoadedResult& loaded) { return loaded.design == "before"; });
+  results_.notes.push_back(is_optimised ? "before the optimisation " + words(before) + "; after it " + words(after) : words(after));
 }
 
 void StudyRun::size_effects() {

@@ -1,8 +1,10 @@
 #include "studies/report/report_view.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <vector>
 
 #include "core/fidelity/cycle_quantities.hpp"
 #include "studies/base/plain_names.hpp"
@@ -53,11 +55,14 @@ Json drawn_list(const Json& list, const Draw& draw_entry) {
   return copy;
 }
 
-/// List of points -> object of columns.
+/// List of points -> object of columns; those of tip edges only where a point of the list has them.
 Json columns_of(const Json& points) {
   if (!points.is_array()) return drawn(points);
+  const auto has_any = [&](const char* key) { return std::ranges::any_of(points, [&](const Json& point) { return point.contains(key); }); };
+  std::vector<const char*> keys{"z_mm", "pinion_radius_mm", "load_N_per_mm", "contact_stress_MPa", "gap_um"};
+  if (has_any("tip_edge")) keys.insert(keys.end(), {"edge_stress_MPa", "tip_edge"});
   Json columns = Json::object();
-  for (const char* key : {"z_mm", "pinion_radius_mm", "load_N_per_mm", "contact_stress_MPa", "gap_um"}) {
+  for (const char* key : keys) {
     Json& column = columns[key] = Json::array();
     for (const Json& point : points) {
       const bool has = point.is_object() && point.contains(key);

@@ -95,6 +95,8 @@ Json point_json(const ContactPoint& point, const LoadedPosition& position, Eigen
                       {"structural_deflection_um", in_um(position.load.structural_deflection[i])},
                       {"gap_um", in_um(position.gap.total[i])},
                       {"error_um", in_um(position.gap.error[i])}});
+  if (position.edge_stress.size() > 0) json["edge_stress_MPa"] = position.edge_stress[i];
+  if (position.edge_stress.size() > 0 && position.edge_stress[i] > 0.0) json["tip_edge"] = name_of(point.tip_edge.gear);
   if (!position.gap.nearest.empty()) {
     const NearestPoint& nearest = position.gap.nearest[static_cast<std::size_t>(i)];
     json["nearest"] = record({{"pinion_radius_mm", nearest.pinion_radius}, {"wheel_radius_mm", nearest.wheel_radius}});

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "core/contact/unloaded/transmission_error.hpp"
+#include "core/gear/gear_pair.hpp"
 #include "optimize/design/scene_outputs.hpp"
 #include "tests/optimize/design_tasks.hpp"
 
@@ -223,6 +224,37 @@ TEST_CASE("Where one pair carries all the load the effective contact ratio is on
     mean_teeth += static_cast<double>(teeth.size()) / static_cast<double>(model.positions.size());
   }
   CHECK(output_value(task.objective.front(), model, cycle) == Approx(mean_teeth).epsilon(round_off));
+}
+
+TEST_CASE("Stress and force on tip edges are outputs with the gradients of differences, 0 where tips are sharp",
+          "[optimize][design][outputs][gradient]") {
+  DesignTask task = spur({6.0});
+  DesignProblem sharp(task);
+  PairData data = task.pair.data;
+  data.pinion.tip_rounding = data.wheel.tip_rounding = 0.05 * data.normal_module;
+  task.pair = make_gear_pair(data);
+  DesignProblem rounded(task);
+  const Eigen::VectorXd x = Eigen::Vector2d(0.2, 0.6);
+  // As in the gradients of every output.
+  constexpr double step = 2e-5, discretisation = 1e-6;
+  for (const Output output : {Output::EdgeStress, Output::TipEdgeShare}) {
+    const ObjectiveTerm edge = term(output);
+    CAPTURE(edge.name);
+    CHECK(output_value(edge, sharp.model(0), cycle_of(sharp.analyse(x, true), 0)) == 0.0);
+    const DesignAnalysis at = rounded.analyse(x, true);
+    const MeshModel& model = rounded.model(0);
+    const CycleSummary summary = summarise(model, cycle_of(at, 0));
+    CHECK(output_value(edge, model, cycle_of(at, 0)) == (output == Output::EdgeStress ? summary.edge_stress : summary.tip_edge_share));
+    const PeakCandidate peak = leading_candidates(edge, model, cycle_of(at, 0), 0.0, 1).front();
+    const auto value = [&](const DesignAnalysis& a) { return candidate_value(edge, peak, model, cycle_of(a, 0)); };
+    REQUIRE(value(at).value > 0.0);
+    const Eigen::VectorXd exact = rounded.scaled(value(at).gradient);
+    for (int i = 0; i < rounded.variables(); ++i) {
+      const Eigen::VectorXd shift = step * Eigen::VectorXd::Unit(rounded.variables(), i);
+      const double up = value(rounded.analyse(x + shift, false)).value, down = value(rounded.analyse(x - shift, false)).value;
+      CHECK(std::abs(exact[i] - (up - down) / (2.0 * step)) <= discretisation * exact.cwiseAbs().maxCoeff());
+    }
+  }
 }
 
 TEST_CASE("The edge load is the peak line load where the margin covers the whole flank, and never more", "[optimize][design][outputs]") {

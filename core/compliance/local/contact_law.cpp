@@ -151,7 +151,7 @@ StripContact::Peaks ContactLaw::peak_pressure(double line_load) const {
   if (line_load == 0) return {};
   if (const std::optional<StripContact> on_edge = strip(line_load)) return on_edge->peaks();
   const double pressure = std::sqrt(line_load * contact_modulus_ / (units::pi * relative_radius_));
-  return {{pressure, 0.5 * pressure / line_load, 0.0}, {}};
+  return {{pressure, 0.5 * pressure / line_load, 0.0}, {}, {}};
 }
 
 }  // namespace flankwright

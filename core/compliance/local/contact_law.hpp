@@ -84,7 +84,7 @@ class ContactLaw {
 
   /// dc/de, by the distance of the edge, at held load [-]; 0 without an edge or load.
   double edge_slope(double line_load) const;
-  /// The largest contact pressure, and that on the edge. All 0 without load.
+  /// The largest contact pressure, that on the edge and the load there. All 0 without load.
   StripContact::Peaks peak_pressure(double line_load) const;
 
   const std::optional<RoundedEdge>& edge() const { return edge_; }

@@ -134,16 +134,30 @@ StripContact::Peak StripContact::maximum(double psi) const {
           0.5 * modulus_ * (f * half_width_by_edge_ - by_phi)};
 }
 
+/// The integral of p over s from the edge on, in parts of w, with M = sin phi - phi cos phi,
+///
+///     q = [(phi - sin phi cos phi) (1 + k phi) + k sin phi M]/(pi S),     dq/dphi = 2 sin^2 phi (1 + k (2 phi - pi q))/(pi S).
+///
+/// It is a function of e/L alone, which falls as sqrt(w) grows.
+StripContact::EdgeLoad StripContact::edge_load() const {
+  const double k = radius_ / (pi * edge_.radius), s = std::sin(phi_), c = std::cos(phi_);
+  const double S = 1.0 + k * (phi_ - s * c);
+  const double q = ((phi_ - s * c) * (1.0 + k * phi_) + k * s * (s - phi_ * c)) / (pi * S);
+  const double by_edge = -2.0 * s * (1.0 + k * (2.0 * phi_ - pi * q)) / (pi * S * steepness_ * half_width_);
+  return {load_ * q, q - 0.5 * edge_.distance * by_edge, load_ * by_edge};
+}
+
 StripContact::Peaks StripContact::peaks() const {
   if (phi_ == 0.0 || phi_ == pi) {
     const double pressure = 2.0 * load_ / (pi * half_width_);
     const Peak hertz{pressure, 0.5 * pressure / load_, 0.0};
-    return {hertz, phi_ == pi ? hertz : Peak{}};
+    if (phi_ == 0.0) return {hertz, {}, {}};
+    return {hertz, hertz, {load_, 1.0, 0.0}};
   }
   const Peak on_edge = maximum(highest_on_edge());
   const std::optional<double> on_flank = highest_on_flank();
   const Peak highest = on_flank && shape(*on_flank) * 0.5 * modulus_ * half_width_ > on_edge.pressure ? maximum(*on_flank) : on_edge;
-  return {highest, on_edge};
+  return {highest, on_edge, edge_load()};
 }
 
 double StripContact::pressure(double s) const {

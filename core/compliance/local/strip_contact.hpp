@@ -57,9 +57,17 @@ class StripContact {
     double slope{0.0};     ///< dp/dw [1/mm]
     double by_edge{0.0};   ///< dp/de [MPa/mm]
   };
-  /// The largest pressure of the strip, and the largest on the rounding: 0 where the strip does not reach it, from there without a step.
+  /// The part of the line load that the rounding carries.
+  struct EdgeLoad {
+    double load{0.0};     ///< w_e, the integral of the pressure over the rounding [N/mm], 0 .. w
+    double slope{0.0};    ///< dw_e/dw [-]
+    double by_edge{0.0};  ///< dw_e/de [MPa], <= 0
+  };
+  /// The largest pressure of the strip, the largest on the rounding and the load there: both 0 where the strip does not reach it, from there without a
+  /// step.
   struct Peaks {
     Peak highest, on_edge;
+    EdgeLoad edge_load;
   };
   Peaks peaks() const;
 
@@ -72,6 +80,7 @@ class StripContact {
   double highest_on_edge() const;
   std::optional<double> highest_on_flank() const;
   Peak maximum(double psi) const;
+  EdgeLoad edge_load() const;
 
   RoundedEdge edge_;
   double radius_, modulus_, load_;

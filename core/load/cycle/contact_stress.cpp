@@ -24,7 +24,7 @@ StripContact::Peaks contact_stress(const MeshModel& model, const ContactPoint& p
   if (law != nullptr && law->edge()) return law->peak_pressure(line_load);
   if (line_load <= 0.0) return {};
   const double stress = std::sqrt(line_load * model.contact_modulus / (units::pi * point.relative_radius));
-  return {{stress, stress / (2.0 * line_load), 0.0}, {}};
+  return {{stress, stress / (2.0 * line_load), 0.0}, {}, {}};
 }
 
 }  // namespace flankwright

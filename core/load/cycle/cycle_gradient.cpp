@@ -129,6 +129,8 @@ CycleGradient summary_gradient(const MeshModel& model, const LoadedCycle& cycle,
         cycle, [](const LoadedPosition& p) -> const auto& { return p.edge_stress; });
     gradient.edge_stress = at(cycle, edge).edge_stress_derivative.row(edge.index);
   }
+  const auto most_on_edges = std::ranges::max_element(cycle.positions, {}, &LoadedPosition::tip_edge_share);
+  gradient.tip_edge_share = summary.tip_edge_share > 0.0 ? most_on_edges->tip_edge_share_derivative : Eigen::RowVectorXd::Zero(m);
   gradient.pinion_root_stress = root_gradient(model, cycle, Member::Pinion);
   gradient.wheel_root_stress = root_gradient(model, cycle, Member::Wheel);
   const bool wheel_governs = std::isgreater(summary.wheel_root_stress.stress, summary.pinion_root_stress.stress);

@@ -26,7 +26,7 @@ Eigen::RowVectorXd load_factor_derivative(const MeshModel& model, const LoadedCy
 struct CycleGradient {
   Eigen::RowVectorXd te_peak_to_peak, te_mean;
   Eigen::MatrixXd te_harmonics;  ///< row per order of CycleSummary::te_harmonics
-  Eigen::RowVectorXd peak_line_load, peak_contact_stress, edge_stress, load_factor;
+  Eigen::RowVectorXd peak_line_load, peak_contact_stress, edge_stress, tip_edge_share, load_factor;
   Eigen::RowVectorXd mean_stiffness, least_stiffness, largest_stiffness, stiffness_variation;
   /// Of RootStressPeak; empty where the model has no root stress.
   struct Root {

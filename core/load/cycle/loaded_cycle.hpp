@@ -15,6 +15,8 @@ struct LoadedPosition {
   Gap gap;                         ///< before load
   Eigen::VectorXd contact_stress;  ///< sigma_H per point, on edges included [MPa]
   Eigen::VectorXd edge_stress;     ///< the largest pressure on a tip edge's rounding, 0 where contact does not reach it [MPa]; empty: not computed
+  /// Part of the force that tip roundings carry, the integral of the pressure over them [-], 0 .. 1; NaN: not computed, as edge_stress.
+  double tip_edge_share{not_given};
   /// Largest principal stress at every point of MeshPosition::root_stress [MPa]; empty without, or where it was left
   /// for later.
   Eigen::VectorXd root_stress;
@@ -24,6 +26,7 @@ struct LoadedPosition {
   Eigen::MatrixXd line_load_derivative;              ///< dw/dp, n x m
   Eigen::MatrixXd contact_stress_derivative;         ///< dsigma_H/dp, n x m
   Eigen::MatrixXd edge_stress_derivative;            ///< of edge_stress, n x m
+  Eigen::RowVectorXd tip_edge_share_derivative;      ///< of tip_edge_share, 1 x m; empty: not computed
   Eigen::RowVectorXd transmission_error_derivative;  ///< df_t/dp, 1 x m
   Eigen::RowVectorXd approach_derivative;            ///< of f_t - min(g), one point's where several are nearest, 1 x m
   Eigen::MatrixXd

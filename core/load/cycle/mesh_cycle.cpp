@@ -28,7 +28,8 @@ struct Local {
 };
 
 /// Stresses and, by load and edge, their derivatives.
-void fill_stress(const MeshModel& model, const MeshPosition& at, const Local& local, LoadedPosition& position) {
+void fill_stress(const MeshModel& model, const MeshPosition& at, const Local& local, double force, const Eigen::RowVectorXd& force_derivative,
+                 LoadedPosition& position) {
   const Eigen::VectorXd& w = position.load.line_load;
   const Eigen::MatrixXd& by_load = position.line_load_derivative;
   const bool edges = std::ranges::any_of(local.laws, [](const ContactLaw& law) { return law.edge().has_value(); });
@@ -36,10 +37,12 @@ void fill_stress(const MeshModel& model, const MeshPosition& at, const Local& lo
   position.contact_stress_derivative = Eigen::MatrixXd::Zero(w.size(), by_load.cols());
   if (edges) position.edge_stress = position.contact_stress;
   if (edges) position.edge_stress_derivative = position.contact_stress_derivative;
-  const auto slope = [&](const StripContact::Peak& peak, Eigen::Index i) -> Eigen::RowVectorXd {
+  const auto slope = [&](const auto& peak, Eigen::Index i) -> Eigen::RowVectorXd {
     if (local.edge.size() == 0) return peak.slope * by_load.row(i);
     return peak.slope * by_load.row(i) + peak.by_edge * local.edge.row(i);
   };
+  double on_edges = 0.0;
+  Eigen::RowVectorXd on_edges_derivative = Eigen::RowVectorXd::Zero(by_load.cols());
   for (Eigen::Index i = 0; i < w.size(); ++i) {
     if (w[i] <= 0.0) continue;
     const StripContact::Peaks peaks = contact_stress(model, at.points[static_cast<std::size_t>(i)], local.law(i), w[i]);
@@ -48,7 +51,13 @@ void fill_stress(const MeshModel& model, const MeshPosition& at, const Local& lo
     if (!edges || peaks.on_edge.pressure == 0.0) continue;
     position.edge_stress[i] = peaks.on_edge.pressure;
     position.edge_stress_derivative.row(i) = slope(peaks.on_edge, i);
+    on_edges += at.weight[i] * peaks.edge_load.load;
+    on_edges_derivative += at.weight[i] * slope(peaks.edge_load, i);
   }
+  if (!edges) return;
+  position.tip_edge_share = force > 0.0 ? on_edges / force : 0.0;
+  position.tip_edge_share_derivative = on_edges_derivative;
+  if (force > 0.0) position.tip_edge_share_derivative = (on_edges_derivative - position.tip_edge_share * force_derivative) / force;
 }
 
 void raise(RootStressPeak& peak, const RootStressPeak& other) {
@@ -91,11 +100,14 @@ void fill_derivatives(const LoadProblemView& problem, const LoadSolver& solver, 
 }
 
 /// The remainder at held loads: contact stress follows curvature and edges, root stress the motion of the points.
-void add_moved_places(const std::vector<MovedMesh>& moved, LoadedPosition& position) {
+void add_moved_places(const std::vector<MovedMesh>& moved, double force, LoadedPosition& position) {
   position.root_influence_derivative = Eigen::MatrixXd::Zero(moved.front().slope.root_components.size(), position.line_load_derivative.cols());
   for (const auto& [p, slope] : moved) {
     position.contact_stress_derivative.col(p) += slope.contact_stress;
-    if (position.edge_stress.size() > 0) position.edge_stress_derivative.col(p) += slope.edge_stress;
+    if (position.edge_stress.size() > 0) {
+      position.edge_stress_derivative.col(p) += slope.edge_stress;
+      if (force > 0.0) position.tip_edge_share_derivative[p] += slope.edge_force / force;
+    }
     position.root_influence_derivative.col(p) = slope.root_components;
   }
 }
@@ -137,8 +149,8 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     for (std::size_t k = 0; k < moving.size(); ++k) moved.push_back({moving[k], slopes_of[k].at(i, position.load, position.gap)});
     const Eigen::MatrixXd edge = slopes.edge;
     fill_derivatives(problem, solver, moved, std::move(slopes), position);
-    fill_stress(model, at, {laws, edge}, position);
-    if (!moved.empty()) add_moved_places(moved, position);
+    fill_stress(model, at, {laws, edge}, cycle.force, cycle.force_derivative, position);
+    if (!moved.empty()) add_moved_places(moved, cycle.force, position);
     const double approach = position.load.transmission_error - position.gap.total.minCoeff();
     position.stiffness = cycle.force / model.face_width * cos_base_helix * cos_base_helix / (approach / micrometre);
   }
@@ -221,6 +233,7 @@ CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
     summary.peak_line_load = std::max(summary.peak_line_load, position.load.line_load.maxCoeff());
     summary.peak_contact_stress = std::max(summary.peak_contact_stress, position.contact_stress.maxCoeff());
     if (position.edge_stress.size() > 0) summary.edge_stress = std::fmax(summary.edge_stress, position.edge_stress.maxCoeff());
+    summary.tip_edge_share = std::fmax(summary.tip_edge_share, position.tip_edge_share);
     summary.worst_kkt_residual = std::max(summary.worst_kkt_residual, position.load.kkt_residual);
     summary.worst_condition = std::fmax(summary.worst_condition, position.load.condition);
     raise(summary.pinion_root_stress, root_stress_peak(model.positions[i], position, Member::Pinion));

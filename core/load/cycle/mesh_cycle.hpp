@@ -67,6 +67,7 @@ struct CycleSummary {
   double peak_line_load{not_given};       ///< [N/mm]
   double peak_contact_stress{not_given};  ///< on edges included [MPa]
   double edge_stress{not_given};          ///< on tip edges alone, 0 where contact does not reach one [MPa]; NaN without the effect edge_contact
+  double tip_edge_share{not_given};       ///< largest part of the force that tip roundings carry at a position [-], 0 .. 1; NaN as edge_stress
   double mean_stiffness{not_given};       ///< Haddad eq. 2.17b [N/(mm um)]
   double least_stiffness{not_given}, largest_stiffness{not_given};                                       ///< eq. 2.16b over the positions [N/(mm um)]
   double stiffness_variation() const { return (largest_stiffness - least_stiffness) / mean_stiffness; }  ///< [-]

@@ -15,7 +15,7 @@ namespace {
 /// The values whose slope is MeshSlope, for the points of a position in a perturbed mesh.
 struct HeldLoads {
   Eigen::VectorXd gap, deflection, contact_stress, edge_stress, root_components;
-  double force;
+  double force, edge_force{0.0};
 };
 
 /// @param load  of all points
@@ -32,6 +32,7 @@ HeldLoads held_loads(const MeshModel& model, const MeshPosition& at, const Flank
     const StripContact::Peaks peaks = contact_stress(model, at.points[k], law, load[i]);
     held.contact_stress[i] = peaks.highest.pressure;
     held.edge_stress[i] = peaks.on_edge.pressure;
+    held.edge_force += at.weight[i] * peaks.edge_load.load;
   }
   return held;
 }
@@ -152,6 +153,7 @@ MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load, con
                forward_difference(here.force, one.force, two.force, perturbed_.step),
                slope(&HeldLoads::contact_stress),
                slope(&HeldLoads::edge_stress),
+               forward_difference(here.edge_force, one.edge_force, two.edge_force, perturbed_.step),
                {}};
   by.root_components = Eigen::VectorXd::Zero(here.root_components.size());
   if (here.root_components.size() == one.root_components.size() && here.root_components.size() == two.root_components.size()) {

@@ -43,6 +43,7 @@ struct MeshSlope {
   double carried_force{0.0};        ///< a'w [N per unit]
   Eigen::VectorXd contact_stress;   ///< sigma_H [MPa per unit]
   Eigen::VectorXd edge_stress;      ///< on tip edges [MPa per unit]
+  double edge_force{0.0};           ///< that tip roundings carry [N per unit]
   Eigen::VectorXd root_components;  ///< RootStressInfluence::components a w [MPa per unit]; empty without
 };
 

@@ -90,7 +90,7 @@ class Export {
     angle("helix_angle_reference_diameter", gear.hand == Hand::Right ? study_.pair.helix_angle : -study_.pair.helix_angle);
     length("face_width", gear.data.face_width);
     length("tip_diameter", 2.0 * gear.tip_radius);
-    if (gear.tip_form_radius < gear.tip_radius) length("tip_form_diameter", 2.0 * gear.tip_form_radius);
+    length("tip_form_diameter", 2.0 * gear.tip_form_radius);
     length("root_diameter", 2.0 * gear.root_radius);
     length("root_form_diameter", 2.0 * gear.form_radius);
     word("datum_face_orientation", "negative");
@@ -170,7 +170,7 @@ class Export {
   }
 
   double half_face(Member m) const { return 0.5 * pair_[m].data.face_width; }
-  double tip(Member m) const { return 2.0 * pair_[m].tip_radius; }
+  double tip(Member m) const { return 2.0 * pair_[m].tip_form_radius; }
   double root(Member m) const { return 2.0 * pair_[m].active_root_radius; }
 
   void write(Member m, const modifications::LeadCrowning& part) {

@@ -117,9 +117,10 @@ class PairReading {
     read_tip_diameter(m);
     read_rack(m);
     read_tip_chamfer(m);
-    // As the study that is written will have them.
+    // As a study that says nothing of its edges has them.
     if (!(data(m).tip_chamfer.amount > 0.0)) data(m).tip_rounding = usual_edge_radius(m, pair_.data);
     data(m).end_rounding = usual_edge_radius(m, pair_.data);
+    read_tip_form_diameter(m);
   }
 
   void read_profile_shift(Member m) {
@@ -164,7 +165,38 @@ class PairReading {
       return;
     }
     data(m).tip_chamfer = with[m].tip_chamfer;
+    remark(prefix(m) + "edges.tip_chamfer.amount", amount->source);
     remark(prefix(m) + "edges.tip_chamfer", amount->source + "; angle and edge radius are not in the file: 45 deg, 0.05 modules");
+  }
+
+  /// Where the flank ends below the tip or below the chamfer an edge begins, whose radius follows.
+  void read_tip_form_diameter(Member m) {
+    const auto form = number(&gear(m), "tip_form_diameter", Dimension::Length);
+    if (!form) return;
+    GearData& data = this->data(m);
+    const bool is_chamfered = data.tip_chamfer.amount > 0.0;
+    const double module = pair_.data.normal_module, reference = data.teeth * module / std::cos(pair_.data.helix_angle);
+    const double tip = std::isnan(data.tip_diameter) ? reference + 2.0 * (data.rack.addendum + data.profile_shift) * module : data.tip_diameter;
+    const double end = tip - 2.0 * data.tip_chamfer.amount;
+    if (form->value >= end || agree(form->value, end)) {  // the flank's sharp end
+      (is_chamfered ? data.tip_chamfer.radius : data.tip_rounding) = 0.0;
+      remark(prefix(m) + (is_chamfered ? "edges.tip_chamfer" : "edges.tip_rounding"), "sharp, as " + form->source + " says");
+      return;
+    }
+    const auto radius = form->value > reference ? edge_radius_for(m, pair_.data, 0.5 * form->value) : std::nullopt;
+    if (!radius) {
+      reading_.warn(fmt::format("{} = {} mm is no end of a flank whose tip has a diameter of {} mm: not taken", form->source,
+                                number_text(form->value), number_text(tip)));
+      return;
+    }
+    if (is_chamfered) {
+      data.tip_chamfer.radius = *radius;
+      remark(prefix(m) + "edges.tip_chamfer",
+             pair_.remarks[prefix(m) + "edges.tip_chamfer.amount"] + "; the angle is not in the file: 45 deg; edge radius: from " + form->source);
+    } else {
+      data.tip_rounding = *radius;
+      remark(prefix(m) + "edges.tip_rounding", "the rounding with which the flank ends at " + form->source);
+    }
   }
 
   /// A coefficient, or a length in modules; moved to `value` with its remark.
@@ -247,6 +279,7 @@ void write_gear(const ImportedPair& pair, Member m, StudyText& text) {
   if (m == Member::Pinion) text.key("hand", pair.data.pinion_hand == Hand::Right ? "\"right\"" : "\"left\"", remark("hand"));
   text.key("profile_shift", number_text(gear.profile_shift), remark("profile_shift"));
   if (!std::isnan(gear.tip_diameter)) text.key("tip_diameter", number_text(gear.tip_diameter), remark("tip_diameter"));
+  if (!remark("edges.tip_rounding").empty()) text.key("edges.tip_rounding", number_text(gear.tip_rounding), remark("edges.tip_rounding"));
   if (const EdgeChamfer& chamfer = gear.tip_chamfer; chamfer.amount > 0.0) {
     text.key("edges.tip_chamfer",
              fmt::format("{{ amount = {}, angle = {}, radius = {} }}", number_text(chamfer.amount), number_text(chamfer.angle / units::deg),

@@ -67,8 +67,10 @@ function draw_pattern(plot, results, scene, gear) {
   const scale = { low: 0, high: PATTERN_REACH * thickness };
   const raster = grid_raster(grid, area);
   raster.values = raster.values.map((value) => (is_number(value) && value <= scale.high ? value : null));
-  const carrying = pair_run(scene, record(record(results.geometry).pinion).teeth).filter((station) => station.carries);
-  const marked = spread(carrying, 5);
+  const run = pair_run(scene, record(record(results.geometry).pinion).teeth), carrying = run.filter((station) => station.carries);
+  const marked = spread(carrying.filter((station) => !TIP_KINDS.has(station.contact)), 5);
+  const edges = run.filter((station) => TIP_KINDS.has(station.contact))
+    .map((station) => ({ ...point_on(station, gear), kind: station.contact, filled: station.carries })).filter((mark) => is_number(mark.z));
   flank_maps(plot, {
     maps: [{
       name: gear,
@@ -82,7 +84,10 @@ function draw_pattern(plot, results, scene, gear) {
         draw_contours(pen, grid, [thickness], to_x, to_y);
         draw_ellipses(pen, marked, gear, area.z[1] - area.z[0], to_x, to_y);
       },
+      marks: (pen, to_x, to_y) => draw_edge_marks(pen, edges, to_x, to_y),
     }],
     area, scale, unit: "µm", r_title: `${gear} radius [mm]`,
   });
+  const kinds = [...TIP_KINDS].filter((kind) => edges.some((mark) => mark.kind === kind));
+  if (kinds.length > 0) mark_legend(plot, kinds.map((kind) => [mark_sample(kind), `${kind_words(kind)}, filled where the pair leads`]));
 }

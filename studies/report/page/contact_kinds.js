@@ -52,7 +52,7 @@ function flank_bounds(results, gear) {
   const geometry = record(record(results.geometry)[gear]), used = record(record(record(results.used).pair)[gear]);
   const half = (used.face_width_mm ?? used.face_width) / 2;
   const radius = (key) => (is_number(geometry[key]) ? geometry[key] / 2 : null);
-  const bounds = { half_face: half, tip: radius("tip_diameter_mm"), form: radius("form_diameter_mm"),
+  const bounds = { half_face: half, tip: radius("tip_diameter_mm"), tip_form: radius("tip_form_diameter_mm"), form: radius("form_diameter_mm"),
     active_root: radius("active_root_diameter_mm") };
   return is_number(half) && is_number(bounds.tip) && is_number(bounds.form) ? bounds : null;
 }

@@ -70,39 +70,47 @@ function draw_flank(pen, bounds, frame, to_x, to_y) {
   pen.textBaseline = "middle";
   const beside = frame.left + frame.width + 6;
   pen.fillText("tip", beside, to_y(bounds.tip));
+  const circle = (radius, name, name_y) => {
+    const y = to_y(radius);
+    pen.setLineDash([5, 4]);
+    pen.beginPath();
+    pen.moveTo(left, y);
+    pen.lineTo(right, y);
+    pen.stroke();
+    pen.setLineDash([]);
+    pen.fillText(name, beside, name_y(y));
+  };
+  if (bounds.tip_form < bounds.tip) circle(bounds.tip_form, "edge begins", (y) => Math.max(y, to_y(bounds.tip) + 13));
   pen.fillText("form circle", beside, to_y(bounds.form));
-  if (!is_number(bounds.active_root)) return;
-  const y = to_y(bounds.active_root);
-  pen.setLineDash([5, 4]);
-  pen.beginPath();
-  pen.moveTo(left, y);
-  pen.lineTo(right, y);
-  pen.stroke();
-  pen.setLineDash([]);
-  pen.fillText("active root", beside, Math.min(y, to_y(bounds.form) - 13));
+  if (is_number(bounds.active_root)) circle(bounds.active_root, "active root", (y) => Math.min(y, to_y(bounds.form) - 13));
 }
 
-function path_legend(plot, kinds) {
-  const size = 14;
+const LEGEND_SIZE = 14;  // px
+const mark_sample = (kind) => (pen) => draw_mark(pen, kind, LEGEND_SIZE / 2, LEGEND_SIZE / 2, 4.5, true);
+
+/** Samples with words. @param entries  [[draw(pen), text]] */
+function mark_legend(plot, entries) {
   const sample = (draw) => {
-    const { canvas, pen } = sharp_canvas(size, size, "");
+    const { canvas, pen } = sharp_canvas(LEGEND_SIZE, LEGEND_SIZE, "");
     canvas.removeAttribute("role");
     canvas.setAttribute("aria-hidden", "true");
     draw(pen);
     return canvas;
   };
+  plot.append(el("p", { class: "mark-legend" }, ...entries.map(([draw, text]) => el("span", {}, sample(draw), ` ${text}`))));
+}
+
+function path_legend(plot, kinds) {
   const line = (width, opacity) => (pen) => {
     pen.strokeStyle = faded(css_colour("ink"), opacity);
     pen.lineWidth = width;
     pen.beginPath();
-    pen.moveTo(0, size / 2);
-    pen.lineTo(size, size / 2);
+    pen.moveTo(0, LEGEND_SIZE / 2);
+    pen.lineTo(LEGEND_SIZE, LEGEND_SIZE / 2);
     pen.stroke();
   };
-  const entry = (draw, text) => el("span", {}, sample(draw), ` ${text}`);
-  plot.append(el("p", { class: "mark-legend" },
-    ...kinds.map((kind) => entry((pen) => draw_mark(pen, kind, size / 2, size / 2, 4.5, true), kind_words(kind))),
-    entry(line(4, 1), "the pair leads (filled)"), entry(line(1.2, 0.6), "another pair leads (hollow)")));
+  mark_legend(plot, [...kinds.map((kind) => [mark_sample(kind), kind_words(kind)]),
+    [line(4, 1), "the pair leads (filled)"], [line(1.2, 0.6), "another pair leads (hollow)"]]);
 }
 
 function draw_flank_path(plot, run, bounds, gear) {

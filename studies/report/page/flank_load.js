@@ -3,7 +3,7 @@
 const FLANK_QUANTITIES = [
   { unit: "MPa", title: "Contact stress on the pinion flank",
     values_of: (_, columns) => list(columns.contact_stress_MPa),
-    caption: "Hertzian pressure. Over the whole cycle each cell shows the largest value at its point; a cell is a quadrature point of a "
+    caption: "Contact pressure, on rounded tip edges that of the strip on flank and rounding. Over the whole cycle each cell shows the largest value at its point; a cell is a quadrature point of a "
       + "contact line. Grey areas are never loaded." },
   { unit: "N/mm", title: "Line load on the pinion flank",
     values_of: (_, columns) => list(columns.load_N_per_mm),
@@ -105,14 +105,19 @@ function draw_flank_load(plot, load_case, quantity, wanted, height = MAP_HEIGHT)
       const point = raster.owner[row * raster.columns + column];
       if (!point) return "no point near";
       const where = `phase ${fmt(point.phase)}, tooth ${fmt(point.tooth)}`;
-      return rank.is_bare(point.value) ? `bare (${where})` : `${fmt(point.value)} ${quantity.unit} (${where})`;
+      const edge = point.tip_edge ? `, tip edge of the ${point.tip_edge} at ${fmt(point.edge_stress, 3)} MPa` : "";
+      return rank.is_bare(point.value) ? `bare (${where})` : `${fmt(point.value)} ${quantity.unit} (${where}${edge})`;
     };
     const told = summary(here);
     return { name: DESIGN_LABEL[design].toLowerCase(), raster, read, opacity: phase === null ? 1 : 0.22,
       title: `${DESIGN_LABEL[design]}${phase === null ? "" : `, phase ${fmt(phase, 3)}`}${told ? `, ${told} ${quantity.unit}` : ""}`,
-      overlay: phase === null ? null : (pen, to_x, to_y) => draw_contact_lines(pen, here, clouds, to_x, to_y) };
+      edges: on_tip_edges(here),
+      overlay: phase === null ? null : (pen, to_x, to_y) => draw_contact_lines(pen, here, clouds, to_x, to_y),
+      marks: (pen, to_x, to_y) => draw_edge_marks(pen, on_tip_edges(here), to_x, to_y) };
   });
   flank_maps(plot, { maps, area, scale, unit: quantity.unit, r_title: "pinion radius [mm]", height });
+  const kinds = [...TIP_KINDS].filter((kind) => maps.some((map) => map.edges.some((mark) => mark.kind === kind)));
+  if (kinds.length > 0) mark_legend(plot, kinds.map((kind) => [mark_sample(kind), `contact reaches the ${kind_words(kind)}`]));
 }
 
 /** A slider over the mesh positions of the longest cycle; its first stop is the whole cycle. Calls back with the phase or null. */

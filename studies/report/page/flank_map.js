@@ -60,7 +60,8 @@ function paint_raster(pen, frame, raster, scale, opacity = 1) {
 
 /**
  * Maps of one quantity side by side on one colour scale, with a hover read-out that follows in all of them.
- * @param maps  [{name, title, raster, opacity?, read(z, r) -> text, overlay?(pen, to_x, to_y)}]
+ * @param maps  [{name, title, raster, opacity?, read(z, r) -> text, overlay?(pen, to_x, to_y), marks?(pen, to_x, to_y)}]; marks may lie on the
+ *              map's rim and are not cut off
  * @param area  {z: [low, high], r: [low, high]} in mm, common to the maps
  */
 function flank_maps(plot, { maps, area, scale, unit, r_title, height = MAP_HEIGHT }) {
@@ -101,6 +102,7 @@ function flank_maps(plot, { maps, area, scale, unit, r_title, height = MAP_HEIGH
       pen.restore();
     }
     draw_axes(pen, frame, { z: area.z, r: area.r, title: map.title, r_title });
+    if (map.marks) map.marks(pen, to_x, to_y);
     canvas.addEventListener("pointermove", show);
     canvas.addEventListener("pointerleave", () => (read_out.textContent = "\u00a0"));
     row.append(canvas);

@@ -1,7 +1,7 @@
 // Contact points of a mesh cycle on the pinion flank, and the raster in which each cell has the value of the point nearest to it.
 
 /**
- * All contact points of a mesh cycle: [{z, r, value, phase, tooth}].
+ * All contact points of a mesh cycle: [{z, r, value, phase, tooth, tip_edge, edge_stress}]; tip_edge is the gear whose tip edge contact reaches, or null.
  * @param values_of  (position, columns of one tooth's points) -> values of a quantity; points without a number are left out
  */
 function contact_points(entry, values_of) {
@@ -12,7 +12,8 @@ function contact_points(entry, values_of) {
       values_of(position, columns).forEach((value, i) => {
         const z = list(columns.z_mm)[i], r = list(columns.pinion_radius_mm)[i];
         if (is_number(value) && is_number(z) && is_number(r)) {
-          points.push({ z, r, value, phase: position.phase, tooth: tooth.tooth });
+          points.push({ z, r, value, phase: position.phase, tooth: tooth.tooth, tip_edge: list(columns.tip_edge)[i] ?? null,
+            edge_stress: list(columns.edge_stress_MPa)[i] ?? null });
         }
       });
     }

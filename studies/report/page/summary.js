@@ -69,8 +69,9 @@ function constraint_rows(optimise) {
   });
 }
 
-function draw_verdict(results) {
-  const verdict = document.getElementById("verdict");
+function draw_verdict(results, cases) {
+  const verdict = document.getElementById("verdict"), edges = edge_contact_sentence(cases);
+  if (edges) verdict.append(el("p", { class: "banner", id: "tip-edges" }, edges));
   if (results.fit) fit_verdict(results, verdict);
   if (results.sweep) sweep_verdict(record(results.sweep), verdict);
   if (!results.optimise) return;
@@ -146,7 +147,7 @@ function draw_summary(results, cases) {
   document.getElementById("headline").textContent = text;
     const version = results.version ? `Flankwright ${results.version}` : null;
   document.getElementById("origin").textContent = [results.task, `${results.file ?? ""}`.split("/").pop(), version].filter(Boolean).join("  ·  ");
-  draw_verdict(results);
+  draw_verdict(results, cases);
   document.getElementById("tiles").append(
     ...(results.sweep ? sweep_tiles(record(results.sweep)) : cases.length ? loaded_tiles(cases) : []),
     ...fit_tiles(list(results.fit).map(record)),

@@ -164,7 +164,7 @@ function build_unloaded(results, body) {
       case_figure(grid, selection, {
         title: `Bearing pattern of the ${gear}`,
         caption: "Smallest separation of the flanks on a run through the mesh. The contour line is the edge of the pattern that the marking "
-          + "compound shows. Outlines are contact ellipses for the same thickness, dots are edge contact. Blank areas are "
+          + "compound shows. Outlines are contact ellipses for the same thickness, dots are contact at other edges than the tips', which have marks of their own. Blank areas are "
           + "further apart than three times the thickness.",
       }, (plot, { data }) => draw_pattern(plot, results, data, gear));
     }

@@ -36,7 +36,7 @@ misalignment.mesh_misalignment = -8
 load.torque = 120
 
 [optimise]
-objective = "peak_contact_stress"    # or te_peak_to_peak, te_harmonic_1 .. te_harmonic_10, load_factor, peak_line_load, peak_root_stress, edge_load
+objective = "peak_contact_stress"    # or te_peak_to_peak, te_harmonic_1 .. te_harmonic_10, load_factor, peak_line_load, peak_root_stress, edge_stress, tip_edge_share, edge_load
 over = "worst"                       # nominal | worst | mean | mean+2sigma of the scenes
 # solver = "ipopt"                   # left out: "nlopt:slsqp"; also nlopt:mma, nlopt:cobyla ...
 # max_evaluations = 500

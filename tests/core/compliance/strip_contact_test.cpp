@@ -110,22 +110,27 @@ TEST_CASE("Far from the edge on either side a strip is Hertz's", "[core][complia
   CHECK(outside.half_width() == Approx(on_rounding.half_width).epsilon(round_off));
   CHECK(outside.peaks().on_edge.pressure == outside.peaks().highest.pressure);
   CHECK(inside.peaks().on_edge.pressure == 0.0);
+  CHECK(inside.peaks().edge_load.load == 0.0);
+  CHECK(outside.peaks().edge_load.load == load);
 }
 
-TEST_CASE("A strip's pressure carries its load and has its peak", "[core][compliance][edge]") {
+TEST_CASE("A strip's pressure carries its load, on the rounding its part of it, and has its peak", "[core][compliance][edge]") {
   const double x = GENERATE(0.98, 0.5, -0.5, -4.0);
   const double load = 60.0, L = hertz_width(load);
   const StripContact strip({0.15, x * L}, flank_radius, modulus, load);
   constexpr int n = 200'000;
   const double from = -2.0 * L + std::min(0.0, x * L), width = 4.0 * L + std::abs(x * L);
-  double carried = 0.0, highest = 0.0;
+  double carried = 0.0, on_edge = 0.0, highest = 0.0;
   for (int i = 0; i < n; ++i) {
-    const double p = strip.pressure(from + width * (i + 0.5) / n);
+    const double s = from + width * (i + 0.5) / n, p = strip.pressure(s);
     carried += p * width / n;
+    if (s > x * L) on_edge += p * width / n;
     highest = std::max(highest, p);
   }
   const double discretisation = 1e-5;  // midpoint rule with a root at either end
   CHECK(carried == Approx(load).epsilon(discretisation));
+  // The rounding begins within a step of the rule.
+  CHECK(strip.peaks().edge_load.load == Approx(on_edge).margin(discretisation * load + highest * width / n));
   CHECK(strip.peaks().highest.pressure == Approx(highest).epsilon(discretisation));
 }
 
@@ -143,6 +148,9 @@ TEST_CASE("Slopes of a strip by load and edge are those of differences", "[core]
         Approx(central(dw, at(load + dw, e).peaks().highest.pressure, at(load - dw, e).peaks().highest.pressure)).epsilon(differences));
   CHECK(strip.peaks().highest.by_edge ==
         Approx(central(de, at(load, e + de).peaks().highest.pressure, at(load, e - de).peaks().highest.pressure)).epsilon(differences));
+  const auto edge_load = [&](double w, double distance) { return at(w, distance).peaks().edge_load.load; };
+  CHECK(strip.peaks().edge_load.slope == Approx(central(dw, edge_load(load + dw, e), edge_load(load - dw, e))).epsilon(differences));
+  CHECK(strip.peaks().edge_load.by_edge == Approx(central(de, edge_load(load, e + de), edge_load(load, e - de))).epsilon(differences));
   CHECK(strip.half_width_by_edge() == Approx(central(de, at(load, e + de).half_width(), at(load, e - de).half_width())).epsilon(differences));
   // At e = 0 the clearance has a kink in its second derivative.
   const double kink = x == 0.0 ? 2e-5 : differences;

@@ -38,7 +38,7 @@ class InstructionCount {
   }
 
  private:
-  int dumps_{0};
+  static inline int dumps_{0};  ///< Callgrind numbers them through the whole run
 };
 
 }  // namespace flankwright

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What an effect that is off costs, in instructions: runs that test under Callgrind. Skipped (77) where there is no Valgrind.
+# What effects cost, in instructions: runs the tests that count them under Callgrind. Skipped (77) where there is no Valgrind.
 #
 #   instruction_count_test.sh FLANKWRIGHT_TESTS
 set -euo pipefail
@@ -17,4 +17,4 @@ pauses=()
 for entry in malloc free calloc realloc posix_memalign aligned_alloc; do pauses+=("--toggle-collect=$entry"); done
 # -s lists what was compared, so that the figures stand in the log.
 valgrind --quiet --tool=callgrind --instr-atstart=no "${pauses[@]}" --collect-atstart=yes --callgrind-out-file="$FLANKWRIGHT_INSTRUCTIONS" \
-  "$1" "An effect that is off costs no instruction" -s
+  "$1" "[instructions]" -s

@@ -155,10 +155,48 @@ TEST_CASE("Loads, transmission error and stresses on edges have the slopes of di
       check(at.line_load_derivative.col(column), up.positions[k].load.line_load, down.positions[k].load.line_load);
       check(at.contact_stress_derivative.col(column), up.positions[k].contact_stress, down.positions[k].contact_stress);
       check(at.edge_stress_derivative.col(column), up.positions[k].edge_stress, down.positions[k].edge_stress);
+      CHECK(at.tip_edge_share_derivative[column] ==
+            Approx((up.positions[k].tip_edge_share - down.positions[k].tip_edge_share) / (2 * step)).epsilon(1e-6).margin(64 * 2.2e-16 / step));
       CHECK(at.transmission_error_derivative[column] ==
             Approx((up.positions[k].load.transmission_error - down.positions[k].load.transmission_error) / (2 * step)).epsilon(1e-6).margin(1e-8));
     }
   }
+}
+
+TEST_CASE("The part of the force on tip edges follows torque and axial offset as differences do", "[core][load][edge][gradient]") {
+  const GearPair gears = rounded_pair(15, 0.1);
+  const MeshResolution resolution{{QuadratureRule::Graded, 4}, equally_spaced_phases(8)};
+  const MeshPlaced placed = [&](const MeshPlacement& placement) {
+    return make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, resolution, {}, placement);
+  };
+  FlankCondition condition = relieved(4 * units::um);
+  condition.modification.pinion.lead_slope = 6 * units::um;
+  const std::vector<MeshParameter> parameters{PinionTorque{}, &Misalignment::axial_offset};
+  const auto solved = [&](double further_torque, double offset, const std::vector<MeshParameter>& by) {
+    condition.misalignment.axial_offset = offset;
+    const MeshPlacement placement = MeshPlacement::of(GapModel::PlaneOfAction, condition.misalignment);
+    const MeshModel model = with_perturbed_meshes(placed(placement), placed, by);
+    return analyse_cycle(model, condition, torque + further_torque, by);
+  };
+  constexpr double offset = 0.7;
+  const LoadedCycle cycle = solved(0.0, offset, parameters);
+  int compared = 0;
+  for (const Eigen::Index p : {Eigen::Index{0}, Eigen::Index{1}}) {
+    const double step = p == 0 ? 1e-5 * torque : 1e-4;
+    const auto moved = [&](double by) { return p == 0 ? solved(by, offset, {}) : solved(0.0, offset + by, {}); };
+    const LoadedCycle up = moved(step), down = moved(-step);
+    for (std::size_t k = 0; k < cycle.positions.size(); ++k) {
+      const double exact = cycle.positions[k].tip_edge_share_derivative[p], share = cycle.positions[k].tip_edge_share;
+      if (share == 0.0) continue;
+      ++compared;
+      CAPTURE(p, k, share);
+      // By torque the step of the difference; by the offset that of the perturbed meshes, in parts of the share over a change that matters, 10 mm.
+      CHECK(exact == Approx((up.positions[k].tip_edge_share - down.positions[k].tip_edge_share) / (2 * step))
+                         .epsilon(1e-6)
+                         .margin(p == 0 ? 1e-6 * share / torque : 1e-5 * share / 10));
+    }
+  }
+  CHECK(compared >= 8);
 }
 
 TEST_CASE("With enough relief edges carry nothing and change nothing", "[core][load][edge]") {
@@ -168,7 +206,9 @@ TEST_CASE("With enough relief edges carry nothing and change nothing", "[core][l
   const MeshModel with = mesh_cases::model(gears, resolution), without = mesh_cases::model(gears, resolution, MeshEffects::all_but({"edge_contact"}));
   const LoadedCycle on = analyse_cycle(with, condition, torque), off = analyse_cycle(without, condition, torque);
   CHECK(summarise(with, on).edge_stress == 0.0);
+  CHECK(summarise(with, on).tip_edge_share == 0.0);
   CHECK(std::isnan(summarise(without, off).edge_stress));
+  CHECK(std::isnan(summarise(without, off).tip_edge_share));
   for (std::size_t k = 0; k < on.positions.size(); ++k) CHECK(on.positions[k].load.line_load == off.positions[k].load.line_load);
 }
 

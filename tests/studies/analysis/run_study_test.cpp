@@ -46,6 +46,7 @@ void check_nulls(const json& results) {
   const std::set<std::string> meant{"loaded[].summary.peak_root_stress_MPa_error",
                                     "loaded[].summary.peak_root_stress_MPa",
                                     "loaded[].summary.edge_stress_MPa",
+                                    "loaded[].summary.tip_edge_share",
                                     "loaded[].summary.edge_contact",
                                     "loaded[].summary.pinion_root_stress_MPa",
                                     "loaded[].summary.wheel_root_stress_MPa",

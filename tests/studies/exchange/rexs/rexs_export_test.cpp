@@ -107,7 +107,31 @@ TEST_CASE("A study survives the way to REXS and back to its last digit", "[studi
   check_same(study.torques[1], back.scenes[1].torques.front());
 }
 
-TEST_CASE("A tip chamfer comes back with its amount; angle and edge are said to be taken", "[studies][rexs][export][edge]") {
+TEST_CASE("A tip rounding comes back by the circle at which the flank ends", "[studies][rexs][export][edge]") {
+  std::string text = random_study(7);
+  text.insert(text.find("\nrack"), "\nedges = { tip_rounding = 0.3 }");
+  const Study there = parse_study(text, "there.toml");
+  const rexs::Model model = rexs::export_stage(there, {"2.0", "2026-01-01T00:00:00+00:00"}).model;
+  const rexs::ImportedStudy imported = rexs::import_stage(rexs::model_text(model, rexs::Form::Xml), "there.rexs", {});
+  const Study back = parse_study(imported.text, "back.toml");
+  CHECK(back.pair.pinion.tip_rounding == Approx(0.3).epsilon(1e-9));  // round-off of the difference of two diameters
+  check_same(make_gear_pair(there.pair).pinion.tip_form_radius, make_gear_pair(back.pair).pinion.tip_form_radius);
+  CHECK_THAT(imported.text, Contains("tip_form_diameter"));
+}
+
+TEST_CASE("A tip form diameter that is no end of the flank is not taken, with the reason", "[studies][rexs][import][edge]") {
+  const Study there = parse_study(random_study(7), "there.toml");
+  rexs::Model model = rexs::export_stage(there, {"2.0", "2026-01-01T00:00:00+00:00"}).model;
+  const auto gear = std::ranges::find(model.components, std::string("cylindrical_gear"), &rexs::Component::type);
+  const double wrong = 2.0 * make_gear_pair(there.pair).pinion.reference_radius - 1.0;
+  std::erase_if(gear->attributes, [](const rexs::Attribute& attribute) { return attribute.id == "tip_form_diameter"; });
+  gear->attributes.push_back({.id = "tip_form_diameter", .unit = "mm", .type = rexs::ValueType::Number, .text = std::to_string(wrong)});
+  const rexs::ImportedStudy imported = rexs::import_stage(rexs::model_text(model, rexs::Form::Xml), "there.rexs", {});
+  CHECK(parse_study(imported.text, "back.toml").pair.pinion.tip_rounding == there.pair.pinion.tip_rounding);
+  CHECK_THAT(imported.text, Contains("is no end of a flank"));
+}
+
+TEST_CASE("A tip chamfer comes back with its amount and the flank's end; its angle is said to be taken", "[studies][rexs][export][edge]") {
   std::string text = random_study(7);
   text.insert(text.find("\nrack"), "\nedges = { tip_chamfer = { amount = 0.35, angle = 30, radius = 0.1 } }");
   const rexs::Model model = rexs::export_stage(parse_study(text, "there.toml"), {"2.0", "2026-01-01T00:00:00+00:00"}).model;
@@ -115,8 +139,9 @@ TEST_CASE("A tip chamfer comes back with its amount; angle and edge are said to 
   const EdgeChamfer chamfer = parse_study(imported.text, "back.toml").pair.pinion.tip_chamfer;
   CHECK(chamfer.amount == 0.35);
   CHECK(chamfer.angle == Approx(45 * units::deg));
-  CHECK(chamfer.radius == Approx(0.05 * 5));
-  CHECK_THAT(imported.text, Contains("tooth_tip_chamfer") && Contains("not in the file: 45 deg, 0.05 modules"));
+  const Study back = parse_study(imported.text, "back.toml");
+  check_same(make_gear_pair(parse_study(text, "there.toml").pair).pinion.tip_form_radius, make_gear_pair(back.pair).pinion.tip_form_radius);
+  CHECK_THAT(imported.text, Contains("tooth_tip_chamfer") && Contains("the angle is not in the file: 45 deg") && Contains("tip_form_diameter"));
 }
 
 TEST_CASE("A generated flank comes back as the grid of its points", "[studies][rexs][export]") {
