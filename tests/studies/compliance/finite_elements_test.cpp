@@ -31,7 +31,7 @@ class ScratchCache {
   command_line::ScratchFolder folder_;
 };
 
-/// Two equal narrow spur gears: one small finite-element run.
+/// Two equal narrow spur gears with sharp edges: one small finite-element run.
 const std::string twins = R"(
 [pair]
 normal_module = 4
@@ -39,10 +39,12 @@ normal_module = 4
 teeth = 12
 profile_shift = 0.3
 face_width = 4
+edges = { tip_rounding = 0, end_rounding = 0 }
 [wheel]
 teeth = 12
 profile_shift = 0.3
 face_width = 4
+edges = { tip_rounding = 0, end_rounding = 0 }
 [load]
 torque = 20
 [cycle]

@@ -13,7 +13,14 @@ namespace {
 using json = Json;
 using study_texts::problem_of;
 
+/// With sharp edges: derivatives on rounded ones have tests of their own, and a peak that runs over an edge bends within the steps taken here.
 const std::string loaded_study = study_texts::small_study + R"(
+[pinion.edges]
+tip_rounding = 0
+end_rounding = 0
+[wheel.edges]
+tip_rounding = 0
+end_rounding = 0
 [pinion.modification]
 lead_crowning = 6
 tip_relief = { amount = 5, height = 2 }

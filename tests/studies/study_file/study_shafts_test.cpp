@@ -136,9 +136,9 @@ TEST_CASE("The effect shafts is on where a shaft is described and loaded, with i
     CHECK(position.at("mesh_misalignment_um") == position.at("pinion").at("misalignment_um"));
   }
   CHECK(lag == Approx(moved).epsilon(0.1));  // model: the motion of one place stands for all, along the normal
-  const json off =
-      run_shafts(pair_text + shaft_text,
-                 {{"fidelity.effects", "[\"bending\", \"hertzian_contact\", \"free_ends\", \"tip_corner\", \"extended_contact_region\"]"}});
+  const json off = run_shafts(
+      pair_text + shaft_text,
+      {{"fidelity.effects", "[\"bending\", \"hertzian_contact\", \"free_ends\", \"tip_corner\", \"extended_contact_region\", \"edge_contact\"]"}});
   CHECK(effect(off, "shafts").at("on") == false);
   CHECK(off.at("loaded")[0].at("summary").at("te_mean_um") == rigid.at("loaded")[0].at("summary").at("te_mean_um"));
   const std::vector<StudyProblem> problems = shaft_problems(pair_text, {{"fidelity.effects", "[\"bending\", \"shafts\"]"}});
