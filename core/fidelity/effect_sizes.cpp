@@ -154,7 +154,8 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
     const MeshPosition& at = other.model->positions[i];
     const LoadDistribution& solved = cycle.positions[i].load;
     const Eigen::VectorXd gap = gaps.at(at.points, at.phase).total;
-    const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(*other.model, at, other.condition);
+    const Eigen::VectorXd most = cycle.force * at.weight.cwiseInverse();
+    const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(*other.model, at, other.condition, most);
     const LoadProblem problem{at.influence, at.weight, gap, moved_edges.empty() ? at.laws : moved_edges, cycle.force};
     const Eigen::VectorXd loads = carried(all.model->positions[i], solved.line_load, at);
     std::optional<Solution> found = at.points.empty() ? std::nullopt : first_order(problem, loads, solved.transmission_error, trust);

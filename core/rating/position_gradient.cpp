@@ -33,9 +33,13 @@ ParameterSlopes end_slopes(const MeshModel& model, const FlankCondition& conditi
                            const std::vector<MeshParameter>& parameters) {
   MeshPosition at;
   at.phase = phase;
-  for (const LineEnd& end : ends) at.points.push_back(end.point);
+  std::vector<Eigen::Index> edged;
+  for (const LineEnd& end : ends) {
+    if (model.effects.has("edge_contact") && end.point.tip_edge.radius > 0.0) edged.push_back(std::ssize(at.points));
+    at.points.push_back(end.point);
+  }
   const ConditionGap gaps(model.pair, model.placement.gap, condition);
-  return parameter_slopes(model, at, gaps, gaps.at(at.points, phase), parameters);
+  return parameter_slopes(model, at, gaps, gaps.at(at.points, phase), parameters, edged);
 }
 
 void add_line_ends(const MeshModel& model, const FlankCondition& condition, const MeshPosition& at, const LoadedPosition& loaded,

@@ -98,7 +98,7 @@ double ContactLaw::half_width(double line_load) const { return half_width_at_uni
 
 /// The strip, where it reaches the edge.
 std::optional<StripContact> ContactLaw::strip(double line_load) const {
-  if (!edge_ || line_load <= 0 || edge_->distance >= half_width(line_load)) return std::nullopt;
+  if (!reaches_edge(line_load)) return std::nullopt;
   return StripContact(*edge_, relative_radius_, contact_modulus_, line_load);
 }
 

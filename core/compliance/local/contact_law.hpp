@@ -88,6 +88,8 @@ class ContactLaw {
   StripContact::Peaks peak_pressure(double line_load) const;
 
   const std::optional<RoundedEdge>& edge() const { return edge_; }
+  /// Whether the strip under this load reaches the edge.
+  bool reaches_edge(double line_load) const { return edge_ && line_load > 0.0 && edge_->distance < half_width(line_load); }
   /// The same law with the edge further off [mm]; without an edge unchanged.
   ContactLaw with_edge_moved(double further) const;
 

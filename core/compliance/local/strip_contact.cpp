@@ -31,10 +31,11 @@ struct Strip {
 };
 
 /// cos(phi) at which e/L is x, -sqrt(1 + k pi) < x < 1: Newton's steps inside a bracket. As a function of cos(phi) e/L rises with a slope
-/// that has neither zero nor pole.
+/// that has neither zero nor pole, and a curvature of about (1 + k)/sin(phi). The start is on the lines through the values at phi = 0, pi/2 and pi.
 double cosine_of_kink(double x, double k) {
   double low = -1.0, high = 1.0;
-  double u = std::clamp(x, -1.0, 1.0) * 0.5;
+  const double middle = -k / std::sqrt(1.0 + 0.5 * pi * k), last = -std::sqrt(1.0 + pi * k);
+  double u = 0.99 * (x > middle ? (x - middle) / (1.0 - middle) : (x - middle) / (middle - last));
   // Each step at least halves the bracket or is Newton's; double precision needs no more.
   for (int step = 0; step < 100; ++step) {
     const Strip strip(u, k);
@@ -42,7 +43,8 @@ double cosine_of_kink(double x, double k) {
     (excess > 0.0 ? high : low) = u;
     double next = u - excess * root / strip.steepness();
     if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (std::abs(next - u) <= 2.0 * std::numeric_limits<double>::epsilon()) return next;
+    // What the step leaves is its square times the curvature.
+    if ((next - u) * (next - u) * (1.0 + k) <= std::numeric_limits<double>::epsilon() * strip.sine || next == u) return next;
     u = next;
   }
   return u;

@@ -82,18 +82,20 @@ Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPo
   return derivative;
 }
 
-Eigen::VectorXd tip_edge_shift(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition) {
-  const PerGear<Flank> flanks{flank_in_plane_of_action(pair, Member::Pinion, condition), flank_in_plane_of_action(pair, Member::Wheel, condition)};
-  Eigen::VectorXd shift = Eigen::VectorXd::Zero(std::ssize(points));
-  for (Eigen::Index i = 0; i < shift.size(); ++i) {
-    const ContactPoint& point = points[static_cast<std::size_t>(i)];
-    if (point.tip_edge.radius == 0.0) continue;
-    for (const Member m : {Member::Pinion, Member::Wheel}) {
-      const double radius = radius_of(point, m), roll = flanks[m].roll_at(radius);
-      if (roll == 0.0) continue;  // at the base circle the slope along the flank has no limit
-      const Dual<1> deviation = flanks[m].deviation(Dual<1>::variable(roll, 0), Dual<1>(own_z(point, m, condition.misalignment)), point.tooth);
-      shift[i] += weight_of_slope(pair, point, m) * deviation.gradient[0] * radius / roll;
-    }
+TipEdgeShift::TipEdgeShift(const GearPair& pair, const FlankCondition& condition)
+    : pair_(pair),
+      misalignment_(condition.misalignment),
+      flanks_{flank_in_plane_of_action(pair, Member::Pinion, condition), flank_in_plane_of_action(pair, Member::Wheel, condition)} {}
+
+double TipEdgeShift::at(const ContactPoint& point) const {
+  double shift = 0.0;
+  if (point.tip_edge.radius == 0.0) return shift;
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    const Flank& flank = flanks_[m];
+    const double radius = radius_of(point, m), roll = flank.roll_at(radius);
+    if (roll == 0.0) continue;  // at the base circle the slope along the flank has no limit
+    const Dual<1> deviation = flank.deviation(Dual<1>::variable(roll, 0), Dual<1>(own_z(point, m, misalignment_)), point.tooth);
+    shift += weight_of_slope(pair_, point, m) * deviation.gradient[0] * radius / roll;
   }
   return shift;
 }

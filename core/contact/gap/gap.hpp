@@ -6,6 +6,7 @@
 
 #include "core/contact/path/contact_points.hpp"
 #include "core/contact/assembly/flank_condition.hpp"
+#include "core/flank/flank.hpp"
 
 namespace flankwright {
 
@@ -51,10 +52,24 @@ Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& p
 Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition, Member member,
                                ModificationParameter parameter);
 
-/// How far deviations move each point's tip edge away from the contact [mm]: with a slope h' of the gap along the flank, towards the edge, parabola
-/// and slope together touch at s = -R h', so that the edge is R h' further off. Relief that rises to the tip keeps contact from its edge.
-/// Between kinks of a deviation, to first order; 0 where a point has no edge.
-Eigen::VectorXd tip_edge_shift(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition);
+/// How far the deviations of a condition move a point's tip edge away from the contact: with a slope h' of the gap along the flank, towards the edge,
+/// parabola and slope together touch at s = -R h', so that the edge is R h' further off. Relief that rises to the tip keeps contact from its edge.
+/// Between kinks of a deviation, to first order.
+class TipEdgeShift {
+ public:
+  /// -h' of the steepest flank that is expected to close towards its edge [-]: 100 um in a mm.
+  static constexpr double steepest = 0.1;
+
+  /// @param pair  must outlive this
+  TipEdgeShift(const GearPair& pair, const FlankCondition& condition);
+  /// [mm]; 0 where the point has no edge
+  double at(const ContactPoint& point) const;
+
+ private:
+  const GearPair& pair_;
+  Misalignment misalignment_;
+  PerGear<Flank> flanks_;
+};
 
 /// Its derivative for one modification parameter of one gear [mm/mm; parabolic_te mm rad]: the slope of the removal's derivative over the radius by a
 /// central difference, which is exact for removals up to its second power.

@@ -1,23 +1,32 @@
 #include "core/load/cycle/contact_stress.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace flankwright {
 
-std::vector<ContactLaw> laws_with_moved_edges(const MeshModel& model, const MeshPosition& at, const FlankCondition& condition) {
-  if (std::ranges::none_of(at.laws, [](const ContactLaw& law) { return law.edge().has_value(); })) return {};
-  const Eigen::VectorXd shift = tip_edge_shift(model.pair, at.points, condition);
+std::vector<ContactLaw> laws_with_moved_edges(const MeshPosition& at, const TipEdgeShift& shift, const Eigen::VectorXd& most) {
   std::vector<ContactLaw> laws;
-  laws.reserve(at.laws.size());
-  for (std::size_t i = 0; i < at.laws.size(); ++i) laws.push_back(at.laws[i].with_edge_moved(shift[static_cast<Eigen::Index>(i)]));
+  for (std::size_t i = 0; i < at.laws.size(); ++i) {
+    const ContactLaw& law = at.laws[i];
+    const ContactPoint& point = at.points[i];
+    if (!law.edge()) continue;
+    const double reach = law.half_width(most[static_cast<Eigen::Index>(i)]) + TipEdgeShift::steepest * point.relative_radius;
+    if (law.edge()->distance >= reach) continue;
+    if (laws.empty()) laws = at.laws;
+    laws[i] = law.with_edge_moved(shift.at(point));
+  }
   return laws;
+}
+
+std::vector<ContactLaw> laws_with_moved_edges(const MeshModel& model, const MeshPosition& at, const FlankCondition& condition,
+                                              const Eigen::VectorXd& most) {
+  return has_rounded_tips(model.pair) ? laws_with_moved_edges(at, TipEdgeShift(model.pair, condition), most) : std::vector<ContactLaw>();
 }
 
 std::optional<ContactLaw> contact_law_in(const MeshModel& model, const ContactPoint& point, const FlankCondition& condition) {
   const std::optional<ContactLaw> law = model.contact_law(point);
   if (!law || !law->edge()) return law;
-  return law->with_edge_moved(tip_edge_shift(model.pair, {point}, condition)[0]);
+  return law->with_edge_moved(TipEdgeShift(model.pair, condition).at(point));
 }
 
 StripContact::Peaks contact_stress(const MeshModel& model, const ContactPoint& point, const ContactLaw* law, double line_load) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <optional>
 
 #include "core/contact/gap/condition_gap.hpp"
 #include "core/contact/unloaded/transmission_error.hpp"
@@ -19,7 +20,7 @@ namespace {
 
 constexpr double micrometre = units::um;
 
-/// The contact laws of a position, and how parameters move their edges; no rows: they have none.
+/// The contact laws of a position, and how parameters move the edges that strips reach; no rows: they reach none.
 struct Local {
   const std::vector<ContactLaw>& laws;
   const Eigen::MatrixXd& edge;
@@ -60,6 +61,14 @@ void fill_stress(const MeshModel& model, const MeshPosition& at, const Local& lo
   if (force > 0.0) position.tip_edge_share_derivative = (on_edges_derivative - position.tip_edge_share * force_derivative) / force;
 }
 
+std::vector<Eigen::Index> reaching_edges(const std::vector<ContactLaw>& laws, const Eigen::VectorXd& line_load) {
+  std::vector<Eigen::Index> found;
+  for (Eigen::Index i = 0; i < std::ssize(laws); ++i) {
+    if (laws[static_cast<std::size_t>(i)].reaches_edge(line_load[i])) found.push_back(i);
+  }
+  return found;
+}
+
 void raise(RootStressPeak& peak, const RootStressPeak& other) {
   const double tangent = std::fmax(peak.tangent_stress, other.tangent_stress);
   if (std::isgreater(other.stress, peak.stress) || std::isnan(peak.stress)) peak = other;  // quiet where stresses are not computed
@@ -73,8 +82,8 @@ struct MovedMesh {
 };
 
 /// Without force flanks touch at the nearest point, and move with it.
-void fill_derivatives(const LoadProblemView& problem, const LoadSolver& solver, const std::vector<MovedMesh>& moved, ParameterSlopes slopes,
-                      LoadedPosition& position) {
+void fill_derivatives(const LoadProblemView& problem, const LoadSolver& solver, const std::vector<MovedMesh>& moved,
+                      const std::vector<Eigen::Index>& on_edges, ParameterSlopes slopes, LoadedPosition& position) {
   const Eigen::Index n = problem.gap.size(), m = slopes.gap.cols();
   for (const auto& [p, slope] : moved) slopes.gap.col(p) = slope.gap;
   position.line_load_derivative = Eigen::MatrixXd::Zero(n, m);
@@ -86,7 +95,7 @@ void fill_derivatives(const LoadProblemView& problem, const LoadSolver& solver, 
   position.gap_derivative = slopes.gap;
   if (m == 0 || problem.force == 0.0) return;
   // At held loads a law yields more or less as its edge moves, as if the gap did.
-  for (Eigen::Index i = 0; i < slopes.edge.rows(); ++i) {
+  for (const Eigen::Index i : on_edges) {
     slopes.gap.row(i) += problem.laws[static_cast<std::size_t>(i)].edge_slope(position.load.line_load[i]) * slopes.edge.row(i);
   }
   for (const auto& [p, slope] : moved) {
@@ -121,6 +130,8 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
   cycle.positions.resize(model.positions.size());
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
   const ConditionGap gaps(model.pair, model.placement.gap, condition);
+  std::optional<TipEdgeShift> edge_shift;
+  if (has_rounded_tips(model.pair)) edge_shift.emplace(model.pair, condition);
   const std::vector<Eigen::Index> moving = moving_among(model.placement.gap, parameters);
   std::deque<MeshSlopes> slopes_of;  // of each of them
   cycle.face_width_change = cycle.line_length_change = Eigen::RowVectorXd::Zero(std::ssize(parameters));
@@ -135,7 +146,8 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     LoadedPosition& position = cycle.positions[i];
     position.phase = at.phase;
     position.gap = gaps.at(at.points, at.phase);
-    const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(model, at, condition);
+    std::vector<ContactLaw> moved_edges;  // empty: those of the position hold
+    if (edge_shift) moved_edges = laws_with_moved_edges(at, *edge_shift, cycle.force * at.weight.cwiseInverse());
     const std::vector<ContactLaw>& laws = moved_edges.empty() ? at.laws : moved_edges;
     const LoadProblemView problem{at.influence, at.weight, position.gap.total, laws, cycle.force};
     position.load = solver.solve(problem, options, starting_loads(model, cycle, i, earlier));
@@ -143,12 +155,13 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
       ++cycle.failures;
       continue;
     }
-    ParameterSlopes slopes = parameter_slopes(model, at, gaps, position.gap, parameters);
+    const std::vector<Eigen::Index> on_edges = reaching_edges(laws, position.load.line_load);
+    ParameterSlopes slopes = parameter_slopes(model, at, gaps, position.gap, parameters, on_edges);
     cycle.force_derivative = slopes.force;
     std::vector<MovedMesh> moved;
     for (std::size_t k = 0; k < moving.size(); ++k) moved.push_back({moving[k], slopes_of[k].at(i, position.load, position.gap)});
     const Eigen::MatrixXd edge = slopes.edge;
-    fill_derivatives(problem, solver, moved, std::move(slopes), position);
+    fill_derivatives(problem, solver, moved, on_edges, std::move(slopes), position);
     fill_stress(model, at, {laws, edge}, cycle.force, cycle.force_derivative, position);
     if (!moved.empty()) add_moved_places(moved, cycle.force, position);
     const double approach = position.load.transmission_error - position.gap.total.minCoeff();

@@ -23,7 +23,7 @@ HeldLoads held_loads(const MeshModel& model, const MeshPosition& at, const Flank
   const Eigen::VectorXd forces = at.weight.cwiseProduct(load);
   HeldLoads held{gap.total, at.influence * forces, Eigen::VectorXd(load.size()), Eigen::VectorXd(load.size()), {}, forces.sum()};
   if (!at.root_stress.stations.empty()) held.root_components = at.root_stress.components(forces);
-  const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(model, at, condition);
+  const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(model, at, condition, load);
   const std::vector<ContactLaw>& laws = moved_edges.empty() ? at.laws : moved_edges;
   for (Eigen::Index i = 0; i < load.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);

@@ -24,12 +24,13 @@ using MeshParameter = std::variant<GearParameter, MisalignmentParameter, PinionT
 /// How parameters enter the load problem of one mesh position.
 struct ParameterSlopes {
   Eigen::MatrixXd gap;       ///< dg/dp, points x parameters; 0 for what moves the mesh, see MeshSlope
-  Eigen::MatrixXd edge;      ///< d(distance of the tip edge)/dp likewise, see tip_edge_shift(); empty where no point has one
+  Eigen::MatrixXd edge;      ///< d(distance of the tip edge)/dp likewise, see TipEdgeShift; of the points asked for, else 0; empty: of none
   Eigen::RowVectorXd force;  ///< dF/dp
 };
 /// @param gap  as gaps has it at this position
+/// @param on_edges  the points whose edge matters
 ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at, const ConditionGap& gaps, const Gap& gap,
-                                 const std::vector<MeshParameter>& parameters);
+                                 const std::vector<MeshParameter>& parameters, const std::vector<Eigen::Index>& on_edges = {});
 
 /// Whether a parameter changes more than gap and force: it moves the mesh, see MeshPlacement.
 bool moves_mesh(GapModel gap, const MeshParameter& parameter);

@@ -5,6 +5,7 @@
 #include "core/load/cycle/contact_stress.hpp"
 #include "core/load/cycle/cycle_gradient.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
+#include "core/load/cycle/mesh_motion.hpp"
 #include "core/rating/edge_contact_start.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 

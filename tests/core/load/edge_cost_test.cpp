@@ -35,8 +35,7 @@ FlankCondition main_condition(double relief) {
 }  // namespace
 
 // By core/effects/instruction_count_test.sh: [.] keeps it from running where nothing counts.
-TEST_CASE("Rounded tips cost a cycle with its gradients little where they carry, and next to nothing where they do not",
-          "[.][core][load][edge][instructions]") {
+TEST_CASE("Rounded tips cost a cycle with its gradients little where they carry, and next to nothing where they do not", "[.][instructions]") {
   InstructionCount counter;
   REQUIRE(counter.possible());
   const std::vector<MeshParameter> parameters{
