@@ -1,6 +1,7 @@
 #include "optimize/design/optimality.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 
@@ -24,9 +25,12 @@ struct Near {
 
 std::vector<Near> near_rows(const EpigraphProgram& program, const ProgramValues& values, const Eigen::VectorXd& y, int design_variables) {
   std::vector<Near> near;
+  // Peaks are counted in those of the start, which may be many times as high: near is what is near to the objective as it is now.
+  const double below_peak = Optimality::reach * std::min(1.0, std::abs(values.objective));
   for (int r = 0; r < program.constraints(); ++r) {
-    if (values.constraints[r] < -Optimality::reach) continue;
     ActiveBound bound{program.rows()[static_cast<std::size_t>(r)]};
+    const bool is_peak = bound.row.kind == EpigraphRow::Kind::Floor || bound.row.kind == EpigraphRow::Kind::Ceiling;
+    if (values.constraints[r] < -(is_peak ? below_peak : Optimality::reach)) continue;
     bound.by_output = program.by_output(bound.row);
     near.push_back({bound, r, values.constraints[r], values.constraint_jacobian.row(r)});
   }

@@ -24,7 +24,7 @@ struct ActiveBound {
 ///
 ///     minimise over lambda >= 0   |grad f + J' lambda|^2 + |c lambda|^2
 ///
-/// over all rows and bounds within `reach` of being active; variables' bounds only where more than 1e-4 remains without
+/// over all rows and bounds within `reach` of being active, peaks within that of the objective as it is; variables' bounds only where more than 1e-4 remains without
 /// them, so that a bound has no multiplier where multipliers are not unique. f is the objective in units of its start,
 /// variables are scaled to their ranges.
 ///

@@ -41,11 +41,10 @@ double cosine_of_kink(double x, double k) {
     const Strip strip(u, k);
     const double root = std::sqrt(strip.square()), excess = strip.edge() / root - x;
     (excess > 0.0 ? high : low) = u;
-    double next = u - excess * root / strip.steepness();
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    // What the step leaves is its square times the curvature.
-    if ((next - u) * (next - u) * (1.0 + k) <= std::numeric_limits<double>::epsilon() * strip.sine || next == u) return next;
-    u = next;
+    const double next = u - excess * root / strip.steepness();
+    // What Newton's step leaves is its square times the curvature. A step that halves the bracket leaves more.
+    if ((next - u) * (next - u) * (1.0 + k) <= std::numeric_limits<double>::epsilon() * strip.sine || next == u) return std::clamp(next, low, high);
+    u = next > low && next < high ? next : 0.5 * (low + high);
   }
   return u;
 }
