@@ -39,12 +39,14 @@ double cosine_of_kink(double x, double k) {
   // Each step at least halves the bracket or is Newton's; double precision needs no more.
   for (int step = 0; step < 100; ++step) {
     const Strip strip(u, k);
-    const double root = std::sqrt(strip.square()), excess = strip.edge() / root - x;
+    const double root = std::sqrt(strip.square()), excess = strip.edge() / root - x, back = excess * root / strip.steepness();
+    // What the step leaves is its square times the curvature.
+    if (back * back * (1.0 + k) <= std::numeric_limits<double>::epsilon() * strip.sine) return std::clamp(u - back, -1.0, 1.0);
     (excess > 0.0 ? high : low) = u;
-    const double next = u - excess * root / strip.steepness();
-    // What Newton's step leaves is its square times the curvature. A step that halves the bracket leaves more.
-    if ((next - u) * (next - u) * (1.0 + k) <= std::numeric_limits<double>::epsilon() * strip.sine || next == u) return std::clamp(next, low, high);
-    u = next > low && next < high ? next : 0.5 * (low + high);
+    double next = u - back;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    if (next == u) return u;
+    u = next;
   }
   return u;
 }

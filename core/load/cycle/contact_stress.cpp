@@ -9,8 +9,9 @@ std::vector<ContactLaw> laws_with_moved_edges(const MeshPosition& at, const TipE
   for (std::size_t i = 0; i < at.laws.size(); ++i) {
     const ContactLaw& law = at.laws[i];
     const ContactPoint& point = at.points[i];
-    if (!law.edge()) continue;
-    const double reach = law.half_width(most[static_cast<Eigen::Index>(i)]) + TipEdgeShift::steepest * point.relative_radius;
+    const double load = most[static_cast<Eigen::Index>(i)];
+    if (!law.edge() || !(load > 0.0)) continue;
+    const double reach = law.half_width(load) + TipEdgeShift::steepest * point.relative_radius;
     if (law.edge()->distance >= reach) continue;
     if (laws.empty()) laws = at.laws;
     laws[i] = law.with_edge_moved(shift.at(point));

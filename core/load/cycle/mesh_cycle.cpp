@@ -18,7 +18,7 @@ namespace flankwright {
 
 namespace {
 
-constexpr double micrometre = units::um;
+constexpr double micrometre = units::um, unlimited = std::numeric_limits<double>::infinity();
 
 /// The contact laws of a position, and how parameters move the edges that strips reach; no rows: they reach none.
 struct Local {
@@ -67,6 +67,21 @@ std::vector<Eigen::Index> reaching_edges(const std::vector<ContactLaw>& laws, co
     if (laws[static_cast<std::size_t>(i)].reaches_edge(line_load[i])) found.push_back(i);
   }
   return found;
+}
+
+/// The line load of a point that carries the whole force [N/mm]; 0 of points whose gap exceeds the least one by more than an approach.
+Eigen::VectorXd load_bounds(const MeshPosition& at, const Gap& gap, double force, double approach) {
+  Eigen::VectorXd most = force * at.weight.cwiseInverse();
+  const double limit = gap.total.minCoeff() + approach;
+  for (Eigen::Index i = 0; i < most.size(); ++i) {
+    if (gap.total[i] > limit) most[i] = 0.0;
+  }
+  return most;
+}
+
+bool carries_beyond(const LoadedPosition& position, double approach) {
+  const double limit = position.gap.total.minCoeff() + approach;
+  return ((position.gap.total.array() > limit) && (position.load.line_load.array() > 0.0)).any();
 }
 
 void raise(RootStressPeak& peak, const RootStressPeak& other) {
@@ -140,17 +155,27 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     cycle.face_width_change[p] = by.face_width() / model.face_width;
     cycle.line_length_change[p] = by.relative_line_length();
   }
+  // Twice the approach of the position before: points further apart are taken to carry nothing until they are found to.
+  double likely_approach = unlimited;
   LoadSolver solver;
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const MeshPosition& at = model.positions[i];
     LoadedPosition& position = cycle.positions[i];
     position.phase = at.phase;
     position.gap = gaps.at(at.points, at.phase);
+    const Eigen::VectorXd start = starting_loads(model, cycle, i, earlier);
     std::vector<ContactLaw> moved_edges;  // empty: those of the position hold
-    if (edge_shift) moved_edges = laws_with_moved_edges(at, *edge_shift, cycle.force * at.weight.cwiseInverse());
-    const std::vector<ContactLaw>& laws = moved_edges.empty() ? at.laws : moved_edges;
-    const LoadProblemView problem{at.influence, at.weight, position.gap.total, laws, cycle.force};
-    position.load = solver.solve(problem, options, starting_loads(model, cycle, i, earlier));
+    const auto problem_of = [&]() -> LoadProblemView {
+      return {at.influence, at.weight, position.gap.total, moved_edges.empty() ? at.laws : moved_edges, cycle.force};
+    };
+    if (edge_shift) moved_edges = laws_with_moved_edges(at, *edge_shift, load_bounds(at, position.gap, cycle.force, likely_approach));
+    position.load = solver.solve(problem_of(), options, start);
+    if (edge_shift && carries_beyond(position, likely_approach)) {
+      moved_edges = laws_with_moved_edges(at, *edge_shift, load_bounds(at, position.gap, cycle.force, unlimited));
+      position.load = solver.solve(problem_of(), options, start);
+    }
+    const LoadProblemView problem = problem_of();
+    const std::vector<ContactLaw>& laws = problem.laws;
     if (!position.load.usable()) {
       ++cycle.failures;
       continue;
@@ -165,6 +190,7 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     fill_stress(model, at, {laws, edge}, cycle.force, cycle.force_derivative, position);
     if (!moved.empty()) add_moved_places(moved, cycle.force, position);
     const double approach = position.load.transmission_error - position.gap.total.minCoeff();
+    likely_approach = 2.0 * approach;
     position.stiffness = cycle.force / model.face_width * cos_base_helix * cos_base_helix / (approach / micrometre);
   }
   if (root_stresses == RootStresses::WithLoads) add_root_stress(model, cycle);

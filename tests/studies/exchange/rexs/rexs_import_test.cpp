@@ -43,12 +43,12 @@ std::string attribute(const std::string& id, const std::string& value, const std
   return "<attribute id=\"" + id + "\" unit=\"" + unit + "\">" + value + "</attribute>\n";
 }
 
-/// A spur pair in XML; `more` stands among the components, at the pinion's right flank (id 6) where `at_flank` refers to it.
+/// A spur pair in XML whose tips are sharp; `more` stands among the components, at the pinion's right flank (id 6) where `at_flank` refers to it.
 std::string small_file(const std::string& more = "", const std::string& relations = "") {
   const auto gear = [](const std::string& id, const std::string& teeth) {
     return "<component id=\"" + id + "\" type=\"cylindrical_gear\">\n" + attribute("number_of_teeth", teeth, "none") +
-           attribute("normal_module", "4") + attribute("face_width", "40") + attribute("helix_angle_reference_diameter", "0", "deg") +
-           "</component>\n";
+           attribute("normal_module", "4") + attribute("tip_form_diameter", std::to_string(4 * (std::stoi(teeth) + 2))) +
+           attribute("face_width", "40") + attribute("helix_angle_reference_diameter", "0", "deg") + "</component>\n";
   };
   return "<model version=\"1.6\">\n<relations>\n<relation id=\"1\" type=\"stage\">"
          "<ref id=\"1\" role=\"stage\"/><ref id=\"2\" role=\"gear_1\"/><ref id=\"3\" role=\"gear_2\"/></relation>\n"
