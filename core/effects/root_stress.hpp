@@ -11,7 +11,7 @@ class RootStressEffect final : public Effect {
   EffectStage stage() const override { return EffectStage::Roots; }
   EffectCall called_for(const EffectFacts& facts) const override {
     const bool on = facts.loaded && facts.root_stress;
-    return {on, on ? "finite elements tell the stress of the roots" : "no load, or no finite elements and nothing asks for peak_root_stress"};
+    return {on, on ? "root stress by finite elements" : "no load, or no finite elements and nothing asks for peak_root_stress"};
   }
   void act(MeshBuilder& builder) const override {
     if (builder.parts.root_stress) builder.root_stress = builder.parts.root_stress->influence(builder.points, builder.parts.axial_offset());

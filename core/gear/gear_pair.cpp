@@ -163,9 +163,18 @@ void check_mesh(const PairData& data, Findings& findings) {
     const Gear& mate = pair[m == Member::Pinion ? Member::Wheel : Member::Pinion];
     const double largest_tip = pair.centre_distance - mate.root_radius;
     const bool given = !std::isnan(gear.data.tip_diameter);
-    findings.require(gear.tip_radius < largest_tip, name_of(m) + std::string(given ? ".tip_diameter" : ".profile_shift"),
-                     given ? gear.data.tip_diameter : gear.data.profile_shift,
-                     "a tip diameter below " + in_words(2.0 * largest_tip) + " mm, where it meets the mate's root circle");
+    // A centre distance that leaves no room although teeth without backlash would have it is to blame itself.
+    const bool too_close = !std::isnan(data.centre_distance) && gear.tip_radius < pair.backlash_free_centre_distance - mate.root_radius;
+    if (too_close) {
+      const double least = gear.tip_radius + mate.root_radius;
+      findings.require(data.centre_distance > least, "pair.centre_distance", data.centre_distance,
+                       "above " + in_words(least) + " mm, where the " + name_of(m) + "'s tip meets the mate's root circle; at " +
+                           in_words(pair.backlash_free_centre_distance) + " mm the teeth have no backlash");
+    } else {
+      findings.require(gear.tip_radius < largest_tip, name_of(m) + std::string(given ? ".tip_diameter" : ".profile_shift"),
+                       given ? gear.data.tip_diameter : gear.data.profile_shift,
+                       "a tip diameter below " + in_words(2.0 * largest_tip) + " mm, where it meets the mate's root circle");
+    }
     findings.add(find_generation_problems(gear, data));
   }
   findings.require(pair.transverse_contact_ratio > 0.0, "pair.centre_distance", pair.centre_distance,

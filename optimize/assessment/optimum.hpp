@@ -55,7 +55,7 @@ struct Optimum {
   std::vector<Sum> sums;                ///< largest gain first
   std::vector<Objective> objectives;    ///< largest gain first
   double residual{not_given};           ///< Optimality::residual: a share of the start's objective [-]; 0 is first-order optimal
-  /// Accuracy of the optimum's objective [outside units]: a smaller gain counts as none. The residual, or `asked` where
+  /// Accuracy of the optimum's objective [outside units]: a smaller gain is treated as zero. The residual, or `asked` where
   /// it is smaller, of the start's objective.
   double resolution{not_given};
   std::vector<Sensitivity> sensitivities;  ///< in the order of the parameters

@@ -43,7 +43,7 @@ std::vector<Rule> profile_rules(const GearPair& pair, const RuleBasis& basis) {
                              pair.wheel.tip_form_radius - pair.wheel.working_pitch_radius));
   if (one_or_two_pairs) {
     const auto [pinion, wheel] = over(overlap);
-    rules.push_back(tip_relief("tip relief to single contact", "as sizing programs propose; deflection of a single pair, ISO 6336-1",
+    rules.push_back(tip_relief("tip relief to single contact", "as commercial gear software proposes; deflection of a single pair, ISO 6336-1",
                                basis.single_pair_deflection, pinion, wheel));
   }
   rules.push_back(

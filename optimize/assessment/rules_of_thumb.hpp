@@ -31,7 +31,7 @@ double relief_height(const Gear& gear, double length);
 /// - Short tip relief, Munro [47 in Haddad 1991; eq. 4.13]: over (eps_alpha - 1)/2 p_bt of the path, by the mean deflection.
 /// - Long tip relief, Munro [ibid., section 4.3.3]: from the pitch point on, by the mean deflection.
 /// - Tip relief to single contact: from the highest point of single tooth contact, over (eps_alpha - 1) p_bt, by the
-///   deflection of a single pair after ISO 6336-1, that is, of a pair that carries alone. It is what sizing programs
+///   deflection of a single pair after ISO 6336-1, that is, of a pair that carries alone. It is what commercial gear software
 ///   propose for 1 < eps_alpha < 2.
 /// - Profile crowning by the mean deflection, on the pinion [preferred to relief in Haddad 1991, section 4.3.3].
 ///

@@ -24,7 +24,7 @@ std::vector<int> levels_for(int variables, std::int64_t budget);
 /// Scaled value 0 .. 1 of level k of n.
 double level_value(LevelPlacement placement, int k, int n);
 
-/// Outcome of a full-factorial search: every combination of the levels analysed over the scenes, as sizing programs do.
+/// Outcome of a full-factorial search: every combination of the levels analysed over the scenes, as commercial gear software does.
 struct VariantSearch {
   LevelPlacement placement{LevelPlacement::BoundToBound};
   std::vector<int> levels;   ///< per variable

@@ -17,7 +17,9 @@ constexpr std::size_t scenes_tried_first = 4;
 /// already reaches the best so far: the scenes that governed last are tried first, and most designs go no further.
 class StepSearch {
  public:
-  StepSearch(DesignProblem& problem, const Eigen::VectorXd& x, int most_analyses) : problem_(problem), most_(most_analyses), x_(x) {
+  StepSearch(DesignProblem& problem, const Eigen::VectorXd& x, int most_analyses) : problem_(problem), most_(most_analyses), exact_(x), x_(x) {
+    const DesignAnalysis& exact = problem_.analyse(x, false);
+    if (is_usable(exact)) exact_objective_ = problem_.objective(exact);
     for (int i = 0; i < problem.variables(); ++i) {
       const DesignVariable& v = variable(i);
       if (v.step == 0.0) continue;
@@ -31,7 +33,11 @@ class StepSearch {
   }
 
   RoundedDesign run() {
-    while (improve_singly() || improve_in_pairs()) {
+    while (improve_singly(1) || improve_in_pairs(1)) {
+    }
+    if (!is_dear()) return best_;
+    try_corners();
+    while (improve_singly(1) || improve_in_pairs(1) || improve_singly(2) || improve_in_pairs(2)) {
     }
     return best_;
   }
@@ -57,11 +63,15 @@ class StepSearch {
     ++analyses_;
     RoundedDesign design{x};
     const DesignAnalysis& analysis = problem_.analyse(x, false);
-    const bool usable = std::all_of(analysis.cycles.begin(), analysis.cycles.end(), [](const LoadedCycle& c) { return c.usable(); });
+    const bool usable = is_usable(analysis);
     design.objective = usable ? problem_.objective(analysis) : INFINITY;
     design.constraint_violation = usable ? problem_.violation(analysis) : INFINITY;
     design.analyses = analyses_;
     return design;
+  }
+
+  static bool is_usable(const DesignAnalysis& analysis) {
+    return std::ranges::all_of(analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
   }
 
   bool is_feasible(const RoundedDesign& design) const { return design.constraint_violation <= DesignLog::tolerance; }
@@ -105,19 +115,37 @@ class StepSearch {
     return better;
   }
 
-  bool improve_singly() {
+  bool is_dear() const { return !is_feasible(best_) || best_.objective > (1.0 + dear_rounding) * exact_objective_; }
+
+  /// The values on either side of the exact ones, in all combinations of the variables that lie farthest from a step.
+  void try_corners() {
+    constexpr std::size_t most_variables = 6;  // 64 corners
+    const auto steps = [&](int i) { return problem_.unscaled(exact_, i) / variable(i).step; };
+    std::vector<int> between = stepped_;
+    std::ranges::stable_sort(between, std::ranges::greater{}, [&](int i) { return std::abs(steps(i) - std::round(steps(i))); });
+    between.resize(std::min(between.size(), most_variables));
+    for (unsigned corner = 0; corner < 1U << between.size(); ++corner) {
+      Eigen::VectorXd x = x_;
+      for (std::size_t k = 0; k < between.size(); ++k) place(x, between[k], std::floor(steps(between[k])) + (corner >> k & 1U));
+      try_design(x);
+    }
+  }
+
+  bool improve_singly(int reach) {
     bool improved = false;
     for (int i : stepped_) {
-      for (int by : {-1, 1}) improved = try_design(moved(best_.x, i, by)) || improved;
+      for (int by : {-reach, reach}) improved = try_design(moved(best_.x, i, by)) || improved;
     }
     return improved;
   }
 
-  bool improve_in_pairs() {
+  /// Two variables at once, one of them by as many steps as the reach.
+  bool improve_in_pairs(int reach) {
     for (std::size_t a = 0; a < stepped_.size(); ++a) {
       for (std::size_t b = a + 1; b < stepped_.size(); ++b) {
-        for (int by : {-1, 1}) {
-          for (int with : {-1, 1}) {
+        for (int by = -reach; by <= reach; ++by) {
+          for (int with = -reach; with <= reach; ++with) {
+            if (by == 0 || with == 0 || std::max(std::abs(by), std::abs(with)) < reach) continue;
             if (try_design(moved(moved(best_.x, stepped_[a], by), stepped_[b], with))) return true;
           }
         }
@@ -128,7 +156,9 @@ class StepSearch {
 
   DesignProblem& problem_;
   const int most_;
-  Eigen::VectorXd x_;
+  const Eigen::VectorXd exact_;
+  double exact_objective_{not_given};
+  Eigen::VectorXd x_;                 ///< the nearest steps
   std::vector<int> stepped_, first_;  ///< variables with a step; scenes in the order they are tried
   int analyses_{0};
   RoundedDesign best_;

@@ -15,10 +15,15 @@ struct RoundedDesign {
 };
 
 /// Best neighbour of a design on the steps of its variables: from the nearest values, single variables and then pairs of them move by
-/// one step as long as that helps (feasible first, then the objective). No global search: the best of all
-/// combinations may be missed, not by much near a flat optimum.
+/// one step as long as that helps (feasible first, then the objective). Where the rounded design is then infeasible or worse than
+/// the design itself by more than dear_rounding, the corners of the cell of steps around the design are tried, of the six variables that
+/// lie farthest from a step, and single variables and pairs move by up to two steps. No global search: the best of
+/// all combinations may be missed, not by much near a flat optimum.
 /// @param most_analyses  >= 1; the search ends in order with the best so far
 RoundedDesign round_design(DesignProblem& problem, const Eigen::VectorXd& x, int most_analyses);
+
+/// Relative rise of the objective by rounding beyond which more of the grid is searched [-].
+inline constexpr double dear_rounding = 0.01;
 
 /// True where some variable has a step.
 bool has_steps(const DesignTask& task);

@@ -43,6 +43,30 @@ TEST_CASE("The rounded design lies on the steps, loses little, and no neighbour 
   }
 }
 
+TEST_CASE("Where rounding is dear no design within two steps of the rounded one is better", "[optimize][design][rounding]") {
+  int dear = 0;
+  for (const double step_um : {8.0, 9.0, 11.0, 13.0}) {
+    CAPTURE(step_um);
+    DesignTask task = in_steps(step_um);
+    task.variables[1].lower = -40.0 * units::um;
+    task.variables[1].upper = 40.0 * units::um;
+    task.scenes[1].condition.misalignment.mesh_misalignment = 33.0 * units::um;
+    DesignProblem problem(task);
+    const DesignResult result = optimise_design(problem, SolverOptions{});
+    if (result.rounding_loss() <= dear_rounding) continue;
+    ++dear;
+    const double step = step_um * units::um;
+    for (int a = -2; a <= 2; ++a) {
+      for (int b = -2; b <= 2; ++b) {
+        const Eigen::VectorXd x = problem.scaled_design({result.after.variables[0] + a * step, result.after.variables[1] + b * step});
+        if (x.minCoeff() < 0.0 || x.maxCoeff() > 1.0) continue;
+        CHECK(problem.objective(problem.analyse(x, false)) >= result.after.objective * (1.0 - 1e-12));  // round-off
+      }
+    }
+  }
+  CHECK(dear > 0);
+}
+
 TEST_CASE("Rounding keeps the constraints where it can", "[optimize][design][rounding]") {
   DesignTask task = in_steps(2.0);
   DesignProblem free(task);

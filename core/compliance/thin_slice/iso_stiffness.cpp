@@ -35,7 +35,10 @@ IsoStiffness iso_stiffness(const GearPair& pair, const Material& pinion, const M
   IsoStiffness iso;
   iso.virtual_teeth_pinion = data.pinion.teeth / (cos_base * cos_base * cos_beta);
   iso.virtual_teeth_wheel = data.wheel.teeth / (cos_base * cos_base * cos_beta);
-  iso.q_prime = iso_flexibility(iso.virtual_teeth_pinion, iso.virtual_teeth_wheel, x1, x2);
+  // The standard's pinion is the smaller gear, whichever of the two a study calls so; of equal ones that with the larger shift.
+  const bool is_smaller = data.pinion.teeth != data.wheel.teeth ? data.pinion.teeth < data.wheel.teeth : x1 >= x2;
+  iso.q_prime = is_smaller ? iso_flexibility(iso.virtual_teeth_pinion, iso.virtual_teeth_wheel, x1, x2)
+                           : iso_flexibility(iso.virtual_teeth_wheel, iso.virtual_teeth_pinion, x2, x1);
   iso.c_theoretical = 1 / iso.q_prime;
   iso.correction_factor = 0.8;
   iso.blank_factor = 1;
@@ -45,7 +48,7 @@ IsoStiffness iso_stiffness(const GearPair& pair, const Material& pinion, const M
   iso.normal_section = iso.c_theoretical * iso.correction_factor * iso.blank_factor * iso.rack_factor * iso.material_factor;
   iso.c_prime = iso.normal_section * cos_beta;
   iso.c_gamma = iso.c_prime * (0.75 * pair.transverse_contact_ratio + 0.25);
-  iso.within_range = x1 >= x2 && x1 + x2 >= -0.5 && x1 + x2 <= 2 && data.helix_angle <= 45 * units::deg;
+  iso.within_range = (is_smaller ? x1 >= x2 : x2 >= x1) && x1 + x2 >= -0.5 && x1 + x2 <= 2 && data.helix_angle <= 45 * units::deg;
   iso.mean_within_range = iso.within_range && pair.transverse_contact_ratio >= 1.2;
   return iso;
 }

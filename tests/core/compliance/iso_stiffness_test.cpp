@@ -67,6 +67,20 @@ TEST_CASE("ISO's factors for rack, helix and material multiply as stated", "[cor
   CHECK(helical.virtual_teeth_pinion == Approx(30 / std::pow(std::cos(beta), 3)).epsilon(0.05));
 }
 
+TEST_CASE("Whichever gear is called the pinion, ISO's stiffness is the same", "[core][compliance][iso]") {
+  const auto same = [](int z1, int z2, double x1, double x2) {
+    const IsoStiffness one = iso_stiffness(pair_of(z1, z2, 10 * deg, x1, x2), {}, {}),
+                       other = iso_stiffness(pair_of(z2, z1, 10 * deg, x2, x1), {}, {});
+    constexpr double kRoundOff = 1e-13;
+    CHECK(one.c_prime == Approx(other.c_prime).epsilon(kRoundOff));
+    CHECK(one.c_gamma == Approx(other.c_gamma).epsilon(kRoundOff));
+    CHECK(one.within_range == other.within_range);
+  };
+  same(20, 200, 0.3, -0.3);
+  same(20, 200, -0.3, 0.3);
+  same(33, 33, 0.2, -0.1);
+}
+
 TEST_CASE("Outside its range ISO's stiffness says so", "[core][compliance][iso]") {
   CHECK(iso_stiffness(pair_of(30, 90, 0, 0.3, -0.3), {}, {}).within_range);
   CHECK_FALSE(iso_stiffness(pair_of(30, 90, 0, -0.2, 0.3), {}, {}).within_range);

@@ -105,6 +105,25 @@ TEST_CASE("Profile-shifted flanks fill the working pitch circle without backlash
   if (shifts.first + shifts.second == 0.0) CHECK(near(pair.centre_distance, 0.5 * 64 * 3.0 / std::cos(beta)));
 }
 
+TEST_CASE("A centre distance that leaves the tips no room is named itself, not the profile shifts", "[core][gear][errors]") {
+  PairData data;
+  data.normal_module = 3.0;
+  data.pinion.teeth = 20;
+  data.wheel.teeth = 40;
+  data.pinion.face_width = data.wheel.face_width = 20.0;
+  data.pinion.profile_shift = 0.2;
+  const GearPair tight = make_gear_pair(data);
+  // The tips reach the roots when the axes are closer by the tip clearance.
+  const double clearance = tight.centre_distance - tight.wheel.tip_radius - tight.pinion.root_radius;
+  data.centre_distance = tight.centre_distance - 1.01 * clearance;
+  const std::vector<InvalidInput> problems = find_problems(data);
+  REQUIRE(!problems.empty());
+  for (const InvalidInput& problem : problems) CHECK(problem.field() == "pair.centre_distance");
+  CHECK(problems.front().allowed().find("the teeth have no backlash") != std::string::npos);
+  data.centre_distance = tight.centre_distance - 0.99 * clearance;
+  CHECK(find_problems(data).empty());  // they jam, and are analysed all the same
+}
+
 TEST_CASE("A wider centre distance opens the backlash by twice its involute difference", "[core][gear][closed-form]") {
   PairData data = pair_of(19, 45, 3.0, 17 * deg, 0.2, 0.1);
   const GearPair tight = make_gear_pair(data);

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "optimize/design/design_optimiser.hpp"
+
+namespace flankwright {
+
+/// Limits of the flanks that are ground as a rule, for the parameters that a task varies or links:
+///
+/// - no crowning and no relief is negative: nothing is left standing at a border of the flank;
+/// - each border lies behind the middle: half a slope is at most the crowning and relief at the border that it raises.
+///
+/// A slope is free, a correction of the helix or the pressure angle, where the task varies neither crowning nor relief at the border
+/// that it raises.
+std::vector<ModificationConstraint> usual_sign_limits(const DesignTask& task);
+
+/// An optimum that exceeds these limits, and the best design within them.
+struct UsualSigns {
+  /// Less than this is not said to be unusual: no drawing states it [mm].
+  static constexpr double noticed = 5e-4;
+  std::vector<std::string> unusual;    ///< what the optimum has that is seldom ground: "a negative pinion lead crowning"
+  std::optional<DesignReport> design;  ///< optimum of the same task under the limits as well; none where it was not found
+  double price{not_given};             ///< its objective over that of the optimum, less 1 [-]
+};
+
+/// @param problem  of a single objective: last_stage()
+/// @param best     the optimum before rounding
+/// @return  none where the optimum keeps the limits
+std::optional<UsualSigns> find_usual_signs(const DesignProblem& problem, const DesignReport& best);
+
+}  // namespace flankwright
