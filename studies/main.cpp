@@ -7,15 +7,18 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <iostream>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "studies/base/printable.hpp"
 #include "studies/base/version.hpp"
 #include "studies/command_line/command_docs.hpp"
 #include "studies/command_line/commands.hpp"
 #include "studies/command_line/exchange_commands.hpp"
 #include "studies/command_line/library_command.hpp"
+#include "studies/command_line/standard_output.hpp"
 #include "studies/study_file/key_page.hpp"
 #include "studies/study_file/study_schema.hpp"
 
@@ -175,13 +178,13 @@ int dispatch(int argc, char** argv) {
   if (check->parsed()) return check_command(study, overrides_of(settings));
   if (make->parsed()) return new_command(kind);
   if (keys->parsed()) {
-    std::fputs(key_page().c_str(), stdout);
+    print(key_page());
     return 0;
   }
   if (report->parsed()) return report_command(folder);
   if (library->parsed()) return library_command(study);
   if (completion->parsed()) {
-    std::fputs((docs == "bash" ? bash_completion(app) : docs == "zsh" ? zsh_completion(app) : man_page(app, version())).c_str(), stdout);
+    print(docs == "bash" ? bash_completion(app) : docs == "zsh" ? zsh_completion(app) : man_page(app, version()));
     return 0;
   }
   if (import->parsed()) return import_command(from);
@@ -195,9 +198,13 @@ int main(int argc, char** argv) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("flankwright"));
   spdlog::set_pattern("%^%l%$: %v");
   try {
-    return dispatch(argc, argv);
+    const int exit_code = dispatch(argc, argv);
+    std::cout.flush();
+    check_standard_output(std::cout.good());
+    flush_standard_output();
+    return exit_code;
   } catch (const InvalidInput& problem) {
-    std::fprintf(stderr, "%s\n", problem.what());
+    std::fprintf(stderr, "%s\n", printable(problem.what(), "\n").c_str());
     return bad_input;
   } catch (const std::exception& error) {
     spdlog::critical("internal error: {}", error.what());

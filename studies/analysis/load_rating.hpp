@@ -7,7 +7,7 @@
 
 namespace flankwright::studies {
 
-/// Located peaks of one load case, and what load distribution factors compare them with.
+/// Refined peaks of one load case, and what load distribution factors compare them with.
 struct LoadRating {
   SpikeRule spikes;
   ContactPeaks perfect, lead, profile, combined;  ///< of the parts of the condition, see load_factors.hpp

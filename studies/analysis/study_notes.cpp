@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/base/units.hpp"
 #include "studies/compliance/study_compliance.hpp"
@@ -30,6 +31,17 @@ void note_crowning(const Modification& given, const Gear& gear, std::vector<std:
 }
 
 }  // namespace
+
+double normal_backlash(const GearPair& pair) {
+  return pair.backlash * std::cos(pair.working_transverse_pressure_angle) * std::cos(pair.base_helix_angle);
+}
+
+std::string backlash_in_words(const GearPair& pair) {
+  if (std::isnan(pair.data.centre_distance)) return {};
+  return fmt::format(
+      "backlash {:.4g} um on the working pitch circle, {:.4g} um normal to the flanks, at the centre distance of {:.6g} mm (none at {:.6g} mm)",
+      pair.backlash / units::um, normal_backlash(pair) / units::um, pair.centre_distance, pair.backlash_free_centre_distance);
+}
 
 std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
   std::vector<std::string> notes;
@@ -59,8 +71,9 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
   }
   if (pair.backlash < -units::um) {
     notes.push_back(
-        fmt::format("the teeth have a backlash of {:.4g} um at this centre distance: they would jam; only the working flanks are analysed",
-                    pair.backlash / units::um));
+        fmt::format("the teeth overlap by {:.4g} um at the centre distance of {:.6g} mm and would jam, from {:.6g} mm on they would not; only the "
+                    "working flanks are analysed",
+                    -pair.backlash / units::um, pair.centre_distance, pair.backlash_free_centre_distance));
   }
   return notes;
 }

@@ -54,7 +54,7 @@ class StudyRun {
   /// @param design  "given", "before" or "after"
   void add_loaded(const std::vector<DesignScene>& scenes, const std::string& design, std::vector<LoadedCycle> cycles);
 
-  /// Adds located peaks with and without spikes, and the load factors that follow, to the load cases of the results.
+  /// Adds refined peaks with and without spikes, and the load factors that follow, to the load cases of the results.
   void rate();
 
  private:

@@ -37,7 +37,11 @@ void write_whole(const std::filesystem::path& file, const std::string& text) {
     written += static_cast<std::size_t>(step);
   }
   if (::fsync(handle) != 0) give_up(errno);
-  ::close(handle);
+  if (::close(handle) != 0) {
+    const int reason = errno;
+    ::unlink(temporary.c_str());
+    refuse(file, std::strerror(reason));
+  }
   std::error_code error;
   std::filesystem::rename(temporary, file, error);
   if (error) {
@@ -49,14 +53,15 @@ void write_whole(const std::filesystem::path& file, const std::string& text) {
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) refuse(folder, error ? error.message() : "not a folder");
+  if (error || !std::filesystem::is_directory(folder, error)) refuse(folder, error ? error.message() : "not a folder");
 }
 
 std::string read_whole(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream text;
   if (in) text << in.rdbuf();
-  if (!in || std::filesystem::is_directory(file)) throw InvalidInput("file", file.string(), "a file that can be read");
+  std::error_code no_status;
+  if (!in || std::filesystem::is_directory(file, no_status)) throw InvalidInput("file", file.string(), "a file that can be read");
   return text.str();
 }
 

@@ -6,12 +6,12 @@
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <mutex>
 #include <optional>
 #include <utility>
 
+#include "studies/command_line/standard_output.hpp"
 #include "studies/results/expectations.hpp"
 #include "studies/base/progress.hpp"
 #include "studies/report/report.hpp"
@@ -37,14 +37,16 @@ namespace {
 std::vector<fs::path> collect_studies(const std::vector<std::string>& paths) {
   std::vector<fs::path> studies;
   for (const std::string& path : paths) {
-    if (!fs::is_directory(path)) {
+    std::error_code error;
+    if (!fs::is_directory(path, error)) {
       studies.emplace_back(path);
       continue;
     }
     std::vector<fs::path> inside;
-    for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
       if (entry.path().extension() == ".toml") inside.push_back(entry.path());
     }
+    if (error) throw InvalidInput("folder", path, "a folder that can be read (" + error.message() + ")");
     std::sort(inside.begin(), inside.end());
     studies.insert(studies.end(), inside.begin(), inside.end());
   }
@@ -98,10 +100,10 @@ int write_results(const Study& study, const StudyResults& results, const fs::pat
                        [&] { write_tables(report_tables(json)); }, [&] { different = differences(compare(study.expect, json)); });
 
   for (const std::string& note : results.notes) spdlog::warn("{}", note);
-  std::fputs(summary_table(results).c_str(), stdout);
-  if (!different.empty()) fmt::print("\nnot as [expect] says:\n{}", different);
-  fmt::print("\nreport: {}\n", (folder / "report.html").string());
-  std::fflush(stdout);
+  print(summary_table(results));
+  if (!different.empty()) print(fmt::format("\nnot as [expect] says:\n{}", different));
+  print(fmt::format("\nreport: {}\n", (folder / "report.html").string()));
+  flush_standard_output();
   for (const std::string& requirement : results.requirements) spdlog::error("{}", requirement);
   return results.requirements.empty() && different.empty() ? 0 : 1;
 }
@@ -110,7 +112,7 @@ int run_shard(const StudyResults& nominal, const fs::path& folder, Shard shard, 
   const fs::path file = folder / shard_file(shard);
   make_folder(file.parent_path());
   run_sweep_shard(nominal, file, shard, report);
-  fmt::print("shard: {}\n", file.string());
+  print(fmt::format("shard: {}\n", file.string()));
   return 0;
 }
 
@@ -142,21 +144,23 @@ int merge_command(const RunOptions& options) {
 
 int check_command(const std::string& path, const std::vector<Override>& overrides) {
   const Study study = read_study(path, overrides);
-  fmt::print("{}: valid, task {}, {} scene{}\n", path, study.task->name, study.scenes.size(), study.scenes.size() == 1 ? "" : "s");
-  std::fflush(stdout);
-  for (const std::string& note : study_notes(study, make_gear_pair(study.pair))) spdlog::warn("{}", note);
+  print(fmt::format("{}: valid, task {}, {} scene{}\n", path, study.task->name, study.scenes.size(), study.scenes.size() == 1 ? "" : "s"));
+  const GearPair pair = make_gear_pair(study.pair);
+  if (const std::string backlash = backlash_in_words(pair); !backlash.empty()) print(backlash + "\n");
+  flush_standard_output();
+  for (const std::string& note : study_notes(study, pair)) spdlog::warn("{}", note);
   return 0;
 }
 
 int new_command(const std::string& kind) {
-  std::fputs(study_template(kind).c_str(), stdout);
+  print(study_template(kind));
   return 0;
 }
 
 int report_command(const std::string& folder) {
   const fs::path page = fs::path(folder) / "report.html";
   write_whole(page, render_stored_report(read_results(folder)));
-  fmt::print("report: {}\n", page.string());
+  print(fmt::format("report: {}\n", page.string()));
   return 0;
 }
 
@@ -175,7 +179,7 @@ int test_command(const std::vector<std::string>& paths) {
   progress.finish();
   bool met = true, bad_input = false;
   for (const TestLine& line : lines) {
-    std::fputs(line.text.c_str(), stdout);
+    print(line.text);
     met = met && line.met;
     bad_input = bad_input || line.bad_input;
   }

@@ -5,9 +5,10 @@
 #include <spdlog/spdlog.h>
 
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 
+#include "studies/base/printable.hpp"
+#include "studies/command_line/standard_output.hpp"
 #include "studies/exchange/grid/grid_table.hpp"
 #include "studies/exchange/vtk/vtk_series.hpp"
 #include "studies/base/results_folder.hpp"
@@ -29,7 +30,7 @@ std::string date_of(const fs::path& file) {
 
 void write_export(const fs::path& file, const std::string& text) {
   write_whole(file, text);
-  fmt::print("{}\n", file.string());
+  print(file.string() + "\n");
 }
 
 /// Writes every file of the series. The collections, which name the others, are written last and reported.
@@ -38,7 +39,7 @@ void export_vtk(const std::string& json, const fs::path& results, const fs::path
     const fs::path path = folder / file.name;
     make_folder(path.parent_path());
     write_whole(path, file.text);
-    if (path.extension() == ".pvd") fmt::print("{}\n", path.string());
+    if (path.extension() == ".pvd") print(path.string() + "\n");
   }
 }
 
@@ -53,15 +54,15 @@ int import_command(const ImportCommand& options) {
                           .grid_stem = (options.study.empty() ? fs::path(options.file) : study).stem().string()});
   if (options.study.empty()) {
     if (!imported.grids.empty()) throw InvalidInput("--out", "not given", "a study file: the stage has flank grids that are stored beside it");
-    std::fputs(imported.text.c_str(), stdout);
+    print(imported.text);
   } else {
     if (study.has_parent_path()) make_folder(study.parent_path());
     for (const rexs::ImportedGrid& grid : imported.grids) write_whole(study.parent_path() / grid.name, grid.text);
     write_whole(study, imported.text);
-    fmt::print("study: {}\n", study.string());
+    print(fmt::format("study: {}\n", study.string()));
   }
-  std::fflush(stdout);
-  for (const std::string& warning : imported.warnings) spdlog::warn("{}", warning);
+  flush_standard_output();
+  for (const std::string& warning : imported.warnings) spdlog::warn("{}", printable(warning));
   return 0;
 }
 
@@ -90,7 +91,7 @@ int export_command(const ExportCommand& options) {
     }
   }
   if (options.vtk) export_vtk(json, results, folder / "vtk");
-  std::fflush(stdout);
+  flush_standard_output();
   for (const std::string& note : notes) spdlog::info("{}", note);
   return 0;
 }

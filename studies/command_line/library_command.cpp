@@ -22,6 +22,7 @@
 #include "core/compliance/fitted/correction_fit.hpp"
 #include "studies/base/progress.hpp"
 #include "studies/base/results_folder.hpp"
+#include "studies/command_line/standard_output.hpp"
 #include "studies/compliance/disk_store.hpp"
 
 namespace flankwright::studies {
@@ -99,7 +100,8 @@ std::string settings_text() {
 }
 
 std::vector<CorrectionEntry> entries_so_far(const std::filesystem::path& path, const std::vector<Step>& list) {
-  if (!std::filesystem::exists(path)) return {};
+  std::error_code no_status;
+  if (!std::filesystem::exists(path, no_status)) return {};
   const std::string text = read_whole(path);
   std::vector<CorrectionEntry> entries = entries_in(text);
   const bool same = std::ranges::equal(entries, list | std::views::take(std::ssize(entries)), [](const CorrectionEntry& entry, const Step& step) {
@@ -172,7 +174,7 @@ int library_command(const std::string& path) {
     show();
   }
   const auto missed = std::ranges::count_if(entries, [](const CorrectionEntry& entry) { return entry.status != FitStatus::Converged; });
-  fmt::print("{}: {} gears, {} fits that did not converge\n", path, entries.size(), missed);
+  print(fmt::format("{}: {} gears, {} fits that did not converge\n", path, entries.size(), missed));
   return missed == 0 ? 0 : 1;
 }
 

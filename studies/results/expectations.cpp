@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "studies/base/json_format.hpp"
+#include "studies/study_file/study_schema.hpp"
 
 namespace flankwright::studies {
 
@@ -32,20 +35,73 @@ bool is_met(const Expectation& e, double found) {
   return std::abs(found - e.value) <= allowed;
 }
 
+/// "te_harmonics_um.1" for "te_harmonic_2_um" where the object has such a list: tables of columns name each entry, results list them.
+std::string entry_of_list(const Json& object, const std::string& name) {
+  const std::size_t from = name.find_first_of("0123456789");
+  if (from == std::string::npos || from == 0 || name[from - 1] != '_') return {};
+  const std::size_t to = std::min(name.find_first_not_of("0123456789", from), name.size());
+  const std::string list = name.substr(0, from - 1) + "s" + name.substr(to);
+  const auto found = object.find(list);
+  if (found == object.end() || !found->is_array() || to - from > 4) return {};
+  const std::size_t number = std::stoul(name.substr(from, to - from));
+  return number >= 1 && number <= found->size() ? fmt::format("{}.{}", list, number - 1) : std::string();
+}
+
+/// Paths to a name anywhere below a node, without the indices of lists.
+void find_name(const Json& node, const std::string& above, const std::string& name, std::set<std::string>& found) {
+  if (node.is_array()) {
+    for (const Json& entry : node) find_name(entry, above, name, found);
+  }
+  if (!node.is_object()) return;
+  for (const auto& [key, value] : node.items()) {
+    const std::string path = above.empty() ? key : above + "." + key;
+    if (key == name) found.insert(path);
+    if (value.is_structured()) find_name(value, path, name, found);
+  }
+}
+
+/// A path as [expect] has it, for every entry of a list: "loaded.summary" for "loaded[0].summary".
+std::string for_every_entry(const std::string& path) {
+  std::string without;
+  bool inside = false;
+  for (const char c : path) {
+    if (c == '[') inside = true;
+    if (!inside) without += c;
+    if (c == ']') inside = false;
+  }
+  return without;
+}
+
+/// What was meant by a name that the object at `path` does not have; `rest` followed it.
+std::string hint_at(const Json& results, const Json& object, const std::string& path, const std::string& step, const std::string& rest) {
+  const std::string above = path.empty() ? "" : for_every_entry(path) + ".", behind = rest.empty() ? "" : "." + rest;
+  if (const std::string entry = entry_of_list(object, step); !entry.empty()) return above + entry + behind;
+  std::vector<std::string> siblings;
+  for (const auto& [key, value] : object.items()) siblings.push_back(key);
+  if (const std::string near = nearest_word(step, siblings); !near.empty()) return above + near + behind;
+  const std::string name = rest.empty() ? step : rest.substr(rest.rfind('.') + 1);
+  std::set<std::string> elsewhere;
+  find_name(results, "", name, elsewhere);
+  const auto depth = [](const std::string& p) { return std::ranges::count(p, '.'); };
+  const auto least = std::ranges::min_element(elsewhere, {}, depth);
+  return least == elsewhere.end() ? std::string() : *least;
+}
+
 /// Follows the rest of a dotted path from a node; adds a comparison for every leaf it reaches.
-void follow(const Json* node, const std::string& path, const std::string& rest, const Expectation& e, std::vector<Comparison>& found) {
+void follow(const Json& results, const Json* node, const std::string& path, const std::string& rest, const Expectation& e,
+            std::vector<Comparison>& found) {
   if (node && rest.empty() && (node->is_string() || node->is_boolean())) {
     const std::string text = node->is_string() ? node->get<std::string>() : node->dump();
-    found.push_back({path, in_words(e), not_given, text, !e.is.empty() && text == e.is});
+    found.push_back({path, in_words(e), not_given, text, !e.is.empty() && text == e.is, {}});
     return;
   }
   if (!node || (rest.empty() && !node->is_number())) {
-    found.push_back({path + (rest.empty() ? "" : "." + rest), in_words(e), not_given, {}, false});
+    found.push_back({path + (rest.empty() ? "" : "." + rest), in_words(e), not_given, {}, false, {}});
     return;
   }
   if (rest.empty()) {
     const double value = node->get<double>();
-    found.push_back({path, in_words(e), value, {}, e.is.empty() && is_met(e, value)});
+    found.push_back({path, in_words(e), value, {}, e.is.empty() && is_met(e, value), {}});
     return;
   }
   const std::size_t dot = rest.find('.');
@@ -55,21 +111,22 @@ void follow(const Json* node, const std::string& path, const std::string& rest, 
     const bool is_index = !step.empty() && step.find_first_not_of("0123456789") == std::string::npos && step.size() < 9;
     if (is_index) {
       const std::size_t index = std::stoul(step);
-      return follow(index < node->size() ? &(*node)[index] : nullptr, path + "[" + step + "]", after, e, found);
+      return follow(results, index < node->size() ? &(*node)[index] : nullptr, path + "[" + step + "]", after, e, found);
     }
-    if (node->empty()) return follow(nullptr, path, rest, e, found);
-    for (std::size_t i = 0; i < node->size(); ++i) follow(&(*node)[i], path + "[" + std::to_string(i) + "]", rest, e, found);
+    if (node->empty()) return follow(results, nullptr, path, rest, e, found);
+    for (std::size_t i = 0; i < node->size(); ++i) follow(results, &(*node)[i], path + "[" + std::to_string(i) + "]", rest, e, found);
     return;
   }
   const bool known = node->is_object() && node->contains(step);
-  follow(known ? &(*node)[step] : nullptr, name, after, e, found);
+  follow(results, known ? &(*node)[step] : nullptr, name, after, e, found);
+  if (!known && node->is_object()) found.back().hint = hint_at(results, *node, path, step, after);
 }
 
 }  // namespace
 
 std::vector<Comparison> compare(const std::vector<Expectation>& expectations, const Json& results) {
   std::vector<Comparison> comparisons;
-  for (const Expectation& e : expectations) follow(&results, "", e.key, e, comparisons);
+  for (const Expectation& e : expectations) follow(results, &results, "", e.key, e, comparisons);
   return comparisons;
 }
 
@@ -78,7 +135,8 @@ std::string differences(const std::vector<Comparison>& comparisons) {
   for (const Comparison& c : comparisons) {
     if (c.met) continue;
     const std::string number = std::isnan(c.found) ? std::string("nothing") : fmt::format("{:.6g}", c.found);
-    table += fmt::format("  {}: expected {}, found {}\n", c.key, c.expected, c.found_text.empty() ? number : c.found_text);
+    const std::string hint = c.hint.empty() ? "" : fmt::format("; did you mean {}?", c.hint);
+    table += fmt::format("  {}: expected {}, found {}{}\n", c.key, c.expected, c.found_text.empty() ? number : c.found_text, hint);
   }
   return table;
 }

@@ -15,11 +15,14 @@ struct Comparison {
   double found{not_given};
   std::string found_text;  ///< where a text or a truth value was found
   bool met{false};
+  std::string hint;  ///< where the key leads nowhere: one that does and looks like what was meant; empty: none does
 };
 
 /// Compares results.json with the study's [expect] table. A key is a dotted path; where it passes through an array without naming
 /// an index ("loaded.summary.te_mean_um"), every entry must meet it. A key that is not there, or is null, or of another
 /// type is not met.
+/// A key that leads nowhere gets the name of a neighbour that is spelt almost alike, the entry of a list that another table has under a
+/// name of its own (te_harmonic_2_um: te_harmonics_um.1), or the place where the name is found elsewhere.
 std::vector<Comparison> compare(const std::vector<Expectation>& expectations, const Json& results);
 
 /// A table of those that are not met; empty where all are.

@@ -68,12 +68,14 @@ std::string load_sharing_csv(const StudyResults& results) {
 
 std::string load_factors_table(const StudyResults& results, std::size_t width) {
   if (std::ranges::none_of(results.loaded, [](const LoadedResult& l) { return l.rating.has_value(); })) return {};
-  std::string out =
-      fmt::format("\n{:<{}}  {:<14}  {:>8}  {:>8}  {:>8}  {:>15}\n", "load factors", width, "by", "K_Hbeta", "K_Halpha", "K_H", "K_Hbeta*K_Halpha");
+  std::string out = fmt::format("\n{:<{}}  {:>10}  {:<14}  {:>8}  {:>8}  {:>8}  {:>15}\n", "load factors", width, "torque", "by", "K_Hbeta",
+                                "K_Halpha", "K_H", "K_Hbeta*K_Halpha") +
+                    fmt::format("{:<{}}  {:>10}\n", "", width, "N·m");
   for (const LoadedResult& loaded : results.loaded) {
     for (const Definition& definition : definitions) {
       const auto k = definition.values(loaded);
-      out += fmt::format("{:<{}}  {:<14}  {:>8.3f}  {:>8.3f}  {:>8.3f}  {:>15.3f}\n", loaded.scene, width, definition.label, k[0], k[1], k[2], k[3]);
+      out += fmt::format("{:<{}}  {:>10.6g}  {:<14}  {:>8.3f}  {:>8.3f}  {:>8.3f}  {:>15.3f}\n", loaded.scene, width, in_Nm(loaded.torque),
+                         definition.label, k[0], k[1], k[2], k[3]);
     }
   }
   return out;

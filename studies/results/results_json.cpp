@@ -8,6 +8,7 @@
 #include "core/compliance/thin_slice/thin_slice.hpp"
 #include "core/fidelity/cycle_quantities.hpp"
 #include "core/gear/tooth_form.hpp"
+#include "studies/analysis/study_notes.hpp"
 #include "studies/results/fidelity_choice_json.hpp"
 #include "studies/results/compliance_json.hpp"
 #include "studies/results/effects_json.hpp"
@@ -62,6 +63,7 @@ Json geometry_json(const GearPair& pair) {
   return {{"centre_distance_mm", pair.centre_distance},
           {"backlash_free_centre_distance_mm", pair.backlash_free_centre_distance},
           {"backlash_um", in_um(pair.backlash)},
+          {"normal_backlash_um", in_um(normal_backlash(pair))},
           {"transverse_pressure_angle_deg", in_deg(pair.transverse_pressure_angle)},
           {"working_transverse_pressure_angle_deg", in_deg(pair.working_transverse_pressure_angle)},
           {"base_helix_angle_deg", in_deg(pair.base_helix_angle)},

@@ -72,7 +72,7 @@ Json cycle_json(const StudyResults& results) {
   const Cycle& cycle = results.study.cycle;
   return {{"positions", cycle.positions},
           {"phases", cycle.phases},
-          {"peaks", locates_peaks(results.study) ? "located" : "sampled"},
+          {"peaks", locates_peaks(results.study) ? "refined" : "sampled"},
           {"automatic", cycle.automatic_positions && cycle.phases.empty()}};
 }
 

@@ -1,19 +1,22 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "optimize/sampling/distribution.hpp"
+#include "optimize/sampling/drawn_pitch.hpp"
 
 /// The assessment of an optimum that a study asks for: [optimise.comparison], [optimise.validation], [optimise.tolerances].
 namespace flankwright::studies {
 
 /// A key of the scenes that scatters.
 struct SceneTolerance {
-  std::string path;           ///< as the study names it: "misalignment.mesh_misalignment"
-  std::string in_words;       ///< "normal, mean 0, deviation 6"
-  Distribution distribution;  ///< of the value in the unit of a bare number
-  bool added{false};          ///< to what the nominal scene has, else in its place
+  std::string path;                       ///< as the study names it: "misalignment.mesh_misalignment"
+  std::string in_words;                   ///< "normal, mean 0, deviation 6"
+  Distribution distribution;              ///< of the value in the unit of a bare number
+  bool added{false};                      ///< to what the nominal scene has, else in its place
+  std::optional<PitchTolerance> pitch{};  ///< as SweepParameter::pitch
 };
 
 /// Scenes drawn from the tolerances.

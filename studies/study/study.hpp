@@ -99,7 +99,7 @@ struct FitChoice {
   int max_iterations{300};    ///< trust-region steps
 };
 
-/// [accuracy]: the finest fidelity level, which all others are compared with; graded quadrature, located peaks.
+/// [accuracy]: the finest fidelity level, which all others are compared with; graded quadrature, refined peaks.
 struct AccuracyTable {
   ComplianceModel compliance{ComplianceModel::Fitted};
   GapModel gap{GapModel::WholeSurface};

@@ -3,14 +3,16 @@
 #include <sstream>
 #include <utility>
 
+#include "studies/base/printable.hpp"
+
 namespace flankwright::studies {
 
 std::string to_string(const StudyProblem& problem) {
   std::ostringstream line;
-  line << problem.file;
+  line << printable(problem.file);
   if (problem.line > 0) line << ':' << problem.line << ':' << problem.column;
-  if (!problem.key.empty()) line << ": " << problem.key << " = " << problem.value;
-  line << ": " << problem.allowed;
+  if (!problem.key.empty()) line << ": " << printable(problem.key) << " = " << printable(problem.value);
+  line << ": " << printable(problem.allowed);
   return line.str();
 }
 

@@ -44,11 +44,13 @@ void check_ends(const SchemaKey& key, const std::vector<double>& ends) {
   }
 }
 
-/// The tolerance that a class sets for a key [mm].
-double tolerance_of(const SchemaKey& key, const FlankTolerances& tolerances) {
-  if (key.path.ends_with(".error.helix_slope")) return tolerances.helix_slope;
-  if (key.path.ends_with(".error.profile_slope")) return tolerances.profile_slope;
-  return tolerances.single_pitch;
+/// Numbers of draws, as whole as a double can hold many of.
+NamedDistribution drawn_gears(const PitchTolerance& tolerance, int tolerance_class) {
+  constexpr double draws = 0x1p32;
+  return {Distribution::uniform(0.0, draws),
+          fmt::format("ISO 1328-1 class {}: number of a gear drawn tooth by tooth, single pitch within \u00b1{:.4g} um, cumulative within {:.4g} um",
+                      tolerance_class, tolerance.single / units::um, tolerance.cumulative / units::um),
+          tolerance};
 }
 
 std::optional<NamedDistribution> read_class(const SchemaKey& key, const toml::node& node, const GearPair* pair) {
@@ -60,10 +62,16 @@ std::optional<NamedDistribution> read_class(const SchemaKey& key, const toml::no
   if (pair == nullptr) return std::nullopt;
   const int tolerance_class = static_cast<int>(number->get());
   try {
-    const double tolerance = tolerance_of(key, flank_tolerances(ToleranceData::of(*pair, key.member), tolerance_class)) / units::um;
+    const ToleranceData data = ToleranceData::of(*pair, key.member);
+    const FlankTolerances tolerances = flank_tolerances(data, tolerance_class);
+    if (key.path.ends_with(".error.pitch")) {
+      return drawn_gears({data.teeth, tolerances.single_pitch, tolerances.cumulative_pitch}, tolerance_class);
+    }
+    const double tolerance = (key.path.ends_with(".error.helix_slope") ? tolerances.helix_slope : tolerances.profile_slope) / units::um;
     return NamedDistribution{
         Distribution::within_tolerance(tolerance),
-        fmt::format("ISO 1328-1 class {}: normal, mean 0, deviation {:.4g}, cut off at \u00b1{:.4g}", tolerance_class, tolerance / 3.0, tolerance)};
+        fmt::format("ISO 1328-1 class {}: normal, mean 0, deviation {:.4g}, cut off at \u00b1{:.4g}", tolerance_class, tolerance / 3.0, tolerance),
+        {}};
   } catch (const InvalidInput& problem) {
     refuse("a gear that ISO 1328-1 covers: " + problem.field() + " is " + problem.value() + ", covered is " + problem.allowed());
   }
@@ -73,18 +81,19 @@ NamedDistribution read_named(const SchemaKey& key, const std::string& name, cons
   if (name == "normal") {
     const std::vector<double> n = bare_numbers(key, node, 2, 2);
     check_ends(key, {n[0]});
-    return {Distribution::normal(n[0], n[1]), fmt::format("normal, mean {:g}, deviation {:g}", n[0], n[1])};
+    return {Distribution::normal(n[0], n[1]), fmt::format("normal, mean {:g}, deviation {:g}", n[0], n[1]), {}};
   }
   if (name == "truncated_normal") {
     const std::vector<double> n = bare_numbers(key, node, 4, 4);
     check_ends(key, {n[2], n[3]});
     return {Distribution::truncated_normal(n[0], n[1], n[2], n[3]),
-            fmt::format("normal, mean {:g}, deviation {:g}, cut off at {:g} and {:g}", n[0], n[1], n[2], n[3])};
+            fmt::format("normal, mean {:g}, deviation {:g}, cut off at {:g} and {:g}", n[0], n[1], n[2], n[3]),
+            {}};
   }
   if (name == "uniform") {
     const std::vector<double> n = bare_numbers(key, node, 2, 2);
     check_ends(key, n);
-    return {Distribution::uniform(n[0], n[1]), fmt::format("uniform, {:g} .. {:g}", n[0], n[1])};
+    return {Distribution::uniform(n[0], n[1]), fmt::format("uniform, {:g} .. {:g}", n[0], n[1]), {}};
   }
   if (name == "grid") {
     const toml::array* list = node.as_array();
@@ -94,11 +103,12 @@ NamedDistribution read_named(const SchemaKey& key, const std::string& name, cons
     const long long levels = list->get(2)->as_integer()->get();
     if (levels < 2 || levels > most_levels) refuse("2 .. 100000 levels");
     check_ends(key, {low, high});
-    return {Distribution::grid(low, high, static_cast<int>(levels)), fmt::format("{} values, {:g} .. {:g}", levels, low, high)};
+    return {Distribution::grid(low, high, static_cast<int>(levels)), fmt::format("{} values, {:g} .. {:g}", levels, low, high), {}};
   }
   const std::vector<double> values = bare_numbers(key, node, 1, 100'000);
   check_ends(key, values);
-  return {Distribution::values(values), values.size() <= 8 ? fmt::format("{:g}", fmt::join(values, ", ")) : fmt::format("{} values", values.size())};
+  return {
+      Distribution::values(values), values.size() <= 8 ? fmt::format("{:g}", fmt::join(values, ", ")) : fmt::format("{} values", values.size()), {}};
 }
 
 }  // namespace

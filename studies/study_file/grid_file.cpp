@@ -6,7 +6,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <system_error>
 #include <tuple>
 #include <vector>
@@ -21,6 +20,11 @@ namespace {
 
 /// Largest magnitude of a quantity [mm], in the order of GridQuantity and of Row::values.
 constexpr std::array<double, 3> largest{largest_grid_length, largest_grid_length, largest_grid_deviation};
+
+constexpr std::size_t most_points = std::size_t{most_grid_lines} * most_grid_lines;
+
+/// A point takes some 30 bytes of a file; with long comments, 250.
+constexpr std::size_t largest_file = 250 * most_points;
 
 /// A point of the grid [mm].
 struct Row {
@@ -98,7 +102,13 @@ class GridText {
     std::vector<Row> rows;
     bool more = next_line();
     if (more && read_units()) more = next_line();
-    for (; more; more = next_line()) rows.push_back(read_row());
+    for (; more; more = next_line()) {
+      rows.push_back(read_row());
+      if (rows.size() > most_points) {
+        refuse(file_, number_, 1, "grid", "more than " + std::to_string(most_points) + " points",
+               "at most " + std::to_string(most_grid_lines) + " radii with " + std::to_string(most_grid_lines) + " axial positions");
+      }
+    }
     return rows;
   }
 
@@ -108,7 +118,8 @@ class GridText {
     while (!rest_.empty()) {
       const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
       const bool two = rest_.substr(end).starts_with("\r\n");
-      line_ = rest_.substr(0, std::min(rest_.find('#'), end));
+      line_ = rest_.substr(0, end);
+      line_ = line_.substr(0, line_.find('#'));
       rest_.remove_prefix(std::min(end + (two ? 2 : 1), rest_.size()));
       ++number_;
       const std::size_t first = line_.find_first_not_of(" \t");
@@ -206,9 +217,11 @@ MeasuredGrid parse_grid(std::string_view text, const std::string& name) {
 
   MeasuredGrid grid{distinct(rows, &Row::radius), distinct(rows, &Row::z), {}};
   const std::size_t m = grid.radii.size(), n = grid.z.size();
-  if (m < 2 || n < 2) {
-    refuse(name, 0, 0, "grid", std::to_string(m) + " radii with " + std::to_string(n) + " axial positions", "at least 2 x 2");
-  }
+  const auto refuse_size = [&](const std::string& allowed) {
+    refuse(name, 0, 0, "grid", std::to_string(m) + " radii with " + std::to_string(n) + " axial positions", allowed);
+  };
+  if (m < 2 || n < 2) refuse_size("at least 2 x 2");
+  if (std::max(m, n) > most_grid_lines) refuse_size("at most " + std::to_string(most_grid_lines) + " of each");
   // With no point twice, a point is missing where the sorted rows first differ from the full grid.
   for (std::size_t k = 0; k < m * n; ++k) {
     const double radius = grid.radii[k / n], z = grid.z[k % n];
@@ -226,13 +239,20 @@ MeasuredGrid parse_grid(std::string_view text, const std::string& name) {
 
 MeasuredGrid read_grid(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
   std::error_code no_status;
   if (!file || std::filesystem::is_directory(path, no_status)) {
     throw StudyErrors({{path, 0, 0, "", "", "the file cannot be read"}});
   }
-  return parse_grid(text.str(), path);
+  std::string text;
+  constexpr std::streamsize part = 1 << 16;
+  while (file && text.size() <= largest_file) {
+    const std::size_t before = text.size();
+    text.resize(before + static_cast<std::size_t>(part));
+    file.read(text.data() + before, part);
+    text.resize(before + static_cast<std::size_t>(file.gcount()));
+  }
+  if (text.size() > largest_file) refuse(path, 0, 0, "file", "larger", "a file of at most " + std::to_string(largest_file) + " bytes");
+  return parse_grid(text, path);
 }
 
 }  // namespace flankwright::studies

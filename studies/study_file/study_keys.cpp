@@ -85,9 +85,9 @@ std::vector<SchemaKey> working_condition_rows() {
          d.study.cycle.automatic_positions = v.text == "auto";
          if (v.text != "auto") d.study.cycle.positions = static_cast<int>(v.integer);
        }},
-      {.path = "cycle.peaks", .kind = Word, .words = {"located", "sampled"}, .fallback = "(located; sampled where the task is to optimise)",
-       .meaning = "located: peaks with and without spikes, sought between the positions, and the load distribution factors K_H that follow; sampled: those of the positions only",
-       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.cycle.locate_peaks = v.text == "located"; }},
+      {.path = "cycle.peaks", .kind = Word, .words = {"refined", "sampled"}, .fallback = "(refined; sampled where the task is to optimise)",
+       .meaning = "refined: peaks with and without spikes, sought between the positions, and the load distribution factors K_H that follow; sampled: those of the positions only",
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.cycle.locate_peaks = v.text == "refined"; }},
       {.path = "cycle.phases", .kind = NumberList, .range = within(100.0), .fallback = "(evenly spaced positions)",
        .meaning = "explicit phases of the reference tooth pair, in base pitches; 0 where its contact line enters",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.cycle.phases = v.numbers; }},

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "studies/base/printable.hpp"
+
 namespace flankwright::studies {
 
 namespace {
@@ -57,13 +59,20 @@ std::size_t read_word(const SchemaKey& key, const toml::node& node) {
   return static_cast<std::size_t>(found - key.words.begin());
 }
 
+/// Names reach terminals, tables and files of other programs: they are one line of characters that can be seen.
+std::string read_text(const SchemaKey& key, const toml::node& node) {
+  const auto* text = node.as_string();
+  if (text == nullptr) refuse_value(allowed_values(key));
+  if (has_control_character(text->get())) refuse_value(allowed_values(key) + " without control characters or line ends");
+  return text->get();
+}
+
 Value read_text_list(const SchemaKey& key, const toml::node& node) {
   const toml::array* list = node.as_array();
   if (list == nullptr || list->empty()) refuse_value(allowed_values(key) + ", at least one");
   Value value{.is_list = true};
   for (const toml::node& element : *list) {
-    if (!element.is_string()) refuse_value(allowed_values(key));
-    value.words.push_back(element.as_string()->get());
+    value.words.push_back(read_text(key, element));
   }
   return value;
 }
@@ -170,9 +179,11 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
     case ValueKind::IntegerOrAuto:
       if (node.is_string() && node.as_string()->get() == "auto") return {.text = "auto"};
       return read_integer(key, node);
+    case ValueKind::NumberOrNone:
+      if (node.is_string() && node.as_string()->get() == "none") return {.number = 0.0};
+      return {.number = read_number(key, node)};
     case ValueKind::Text:
-      if (!node.is_string()) refuse_value(allowed_values(key));
-      return {.text = node.as_string()->get()};
+      return {.text = read_text(key, node)};
     case ValueKind::TextList:
       return read_text_list(key, node);
     case ValueKind::WordOrTable:

@@ -164,6 +164,8 @@ std::string allowed_values(const SchemaKey& key) {
       return "a percentage" + range + ", such as \"1 %\"";
     case ValueKind::IntegerOrAuto:
       return "an integer" + range + ", or \"auto\"";
+    case ValueKind::NumberOrNone:
+      return "a number" + range + ", or \"none\"";
     case ValueKind::Text:
       return "a text";
     case ValueKind::TextList:

@@ -30,6 +30,7 @@ enum class ValueKind {
   Integer,
   Percentage,     ///< text such as "1 %"; the range is in per cent, the number a share
   IntegerOrAuto,  ///< an integer, or "auto"
+  NumberOrNone,   ///< a number, or "none", which is stored as 0
   Text,           ///< any text
   TextList,       ///< a list of at least one text
   Word,           ///< one of `words`

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstdint>
 
 namespace flankwright::studies {
 
@@ -33,9 +34,9 @@ std::vector<SweptCondition> extreme_conditions(const Study& study) {
     const SchemaKey& key = *study_keys().at(p.path);
     for (const double u : {outer_share, 1.0 - outer_share}) {
       const double value = p.distribution.quantile(u);
-      if (!is_in_range(key, value)) continue;
+      if (!p.pitch && !is_in_range(key, value)) continue;
       conditions.push_back(SweptCondition::of(study));
-      set_swept(conditions.back(), key, value);
+      set_swept(conditions.back(), p, value);
     }
   }
   return conditions;
@@ -52,6 +53,24 @@ void set_swept(SweptCondition& condition, const SchemaKey& key, double value) {
   } else {
     set(condition.modification[key.member], std::get<ModificationParameter>(key.store), inside);
   }
+}
+
+std::vector<double> pitch_of_draw(const PitchTolerance& tolerance, double value) {
+  std::vector<double> deviations = drawn_pitch(tolerance, static_cast<std::uint64_t>(value));
+  for (double& deviation : deviations) deviation = outside_value(deviation, Quantity::Deviation);
+  return deviations;
+}
+
+void set_drawn_pitch(ManufacturingError& error, const PitchTolerance& tolerance, double value) {
+  error.pitch_step = 0.0;
+  error.cumulative_pitch.clear();
+  for (const double um : pitch_of_draw(tolerance, value)) error.cumulative_pitch.push_back(internal_value(um, Quantity::Deviation));
+}
+
+void set_swept(SweptCondition& condition, const SweepParameter& parameter, double value) {
+  const SchemaKey& key = *study_keys().at(parameter.path);
+  if (!parameter.pitch) return set_swept(condition, key, value);
+  set_drawn_pitch(condition.scene.error[key.member], *parameter.pitch, value);
 }
 
 }  // namespace flankwright::studies

@@ -33,4 +33,11 @@ std::vector<SweptCondition> extreme_conditions(const Study& study);
 /// @throws InvalidInput where it is out of the key's range
 void set_swept(SweptCondition& condition, const SchemaKey& key, double value);
 
+/// The same of a sweep's parameter; of a pitch by tolerance class the deviations of every tooth, drawn by the whole part of the value.
+void set_swept(SweptCondition& condition, const SweepParameter& parameter, double value);
+
+/// The pitch deviations that a value stands for, drawn_pitch(), as a study file writes them [um]; and put in the place of a gear's.
+std::vector<double> pitch_of_draw(const PitchTolerance& tolerance, double value);
+void set_drawn_pitch(ManufacturingError& error, const PitchTolerance& tolerance, double value);
+
 }  // namespace flankwright::studies

@@ -59,15 +59,15 @@ std::string program() {
   return given != nullptr ? given : FLANKWRIGHT_EXECUTABLE;
 }
 
-Ending run(const ScratchFolder& folder, const std::vector<std::string>& arguments) {
+Ending run(const ScratchFolder& folder, const std::vector<std::string>& arguments, const fs::path& elsewhere) {
   const ScratchFolder caught;
-  const fs::path out = caught.path() / "out", err = caught.path() / "err";
+  const fs::path out = elsewhere.empty() ? caught.path() / "out" : elsewhere, err = caught.path() / "err";
   std::ostringstream command;
   command << "cd " << quoted(folder.path().string()) << " && " << quoted(program());
   for (const std::string& argument : arguments) command << ' ' << quoted(argument);
   command << " >" << quoted(out.string()) << " 2>" << quoted(err.string());
   const int status = std::system(command.str().c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, text_of(out), text_of(err)};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, elsewhere.empty() ? text_of(out) : "", text_of(err)};
 }
 
 std::string text_of(const fs::path& file) {

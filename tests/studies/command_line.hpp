@@ -35,7 +35,8 @@ struct Ending {
 };
 
 /// Runs flankwright with the arguments, the scratch folder as its working folder.
-Ending run(const ScratchFolder& folder, const std::vector<std::string>& arguments);
+/// @param out  where stdout goes instead of Ending::out
+Ending run(const ScratchFolder& folder, const std::vector<std::string>& arguments, const std::filesystem::path& out = {});
 
 std::string text_of(const std::filesystem::path& file);
 

@@ -56,7 +56,9 @@ TEST_CASE("Every example is valid, meets its expectations and runs without a com
     // Some gears are said to need finite elements of their own.
     const auto outside =
         occurrences(ending.err, "warning: the pinion is outside the library") + occurrences(ending.err, "warning: the wheel is outside the library");
-    CHECK(occurrences(ending.err, "warning") - outside == (is_parabola ? 1 : 0));
+    // Of 110 samples Sobol indices are uncertain.
+    const auto uncertain = occurrences(ending.err, "warning: The Sobol indices come from");
+    CHECK(occurrences(ending.err, "warning") - outside - uncertain == (is_parabola ? 1 : 0));
     CHECK(occurrences(ending.err, "\"beyond its limit\": the designed parabola") == (is_parabola ? 1 : 0));
   }
 }

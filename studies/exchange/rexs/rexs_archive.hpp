@@ -17,6 +17,6 @@ bool is_archive(std::string_view bytes);
 std::string unpack(std::string_view bytes, const std::string& name);
 
 /// A file of a gear unit has megabytes; an archive of a few bytes can hold gigabytes of zeros.
-inline constexpr std::size_t largest_unpacked = std::size_t{1} << 28U;
+inline constexpr std::size_t largest_unpacked = std::size_t{1} << 26U;
 
 }  // namespace flankwright::studies::rexs

@@ -36,6 +36,17 @@ std::size_t first_foreign_byte(std::string_view text) {
   return std::string_view::npos;
 }
 
+/// Elements, attributes, entries and texts that a file could have at most: a gear unit has some ten thousand. The trees of XML and JSON
+/// take up to a hundred bytes for each, whatever it says.
+constexpr std::size_t most_parts = 2'000'000;
+
+void check_parts(std::string_view text, const std::string& name) {
+  std::size_t parts = 0;
+  for (const char c : text) parts += c == '<' || c == '{' || c == '[' || c == ',' || c == '=' || c == ':';
+  if (parts > most_parts)
+    refuse(name, 0, "file", fmt::format("a text of {} parts", parts), fmt::format("at most {} elements and values", most_parts));
+}
+
 void check_ids(const Model& model, const std::string& name) {
   std::set<int> seen;
   for (const Component& component : model.components) {
@@ -112,6 +123,7 @@ Model parse_model(std::string_view text, const std::string& name) {
   if (text[first] != '<' && text[first] != '{') {
     refuse(name, 0, "file", std::string(text.substr(first, 20)), "a REXS model: XML starts with <, JSON with {");
   }
+  check_parts(text, name);
   const Model model = text[first] == '<' ? parse_xml(text, name) : parse_json(text, name);
   check_ids(model, name);
   return model;

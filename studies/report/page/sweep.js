@@ -104,7 +104,7 @@ function draw_tornado(plot, indices, most = Infinity) {
   const width = Math.max(320, plot.clientWidth || 900), row_height = 28, top = 6, bottom = 42;
   const left = Math.min(0.42 * width, 24 + 7 * Math.max(...rows.map((row) => words(row.path).length))), right = 64;
   const height = top + bottom + row_height * rows.length;
-  const high = Math.max(1, maximum(rows.map((row) => row.total + row.total_error)));
+  const high = Math.max(1, maximum(rows.map((row) => row.total + (row.total_within_95_percent ?? row.total_error))));
   const to_x = (share) => left + ((width - left - right) * Math.max(0, share)) / high;
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img", "aria-label": "Sobol indices of every parameter" });
   for (const tick of round_ticks(0, high, 5)) {
@@ -121,12 +121,12 @@ function draw_tornado(plot, indices, most = Infinity) {
         svg("title", {}, `${words(row.path)}: total ${per_cent(row.total)} ± ${per_cent(row.total_error)} %`)),
       svg("rect", { x: left, y: y - 10, width: to_x(row.first) - left, height: 20, fill: css_colour("after") },
         svg("title", {}, `${words(row.path)}: alone ${per_cent(row.first)} ± ${per_cent(row.first_error)} %`)),
-      whisker(row.first, row.first_error, y - 4), whisker(row.total, row.total_error, y + 4),
-      svg("text", { x: to_x(Math.max(row.total + row.total_error, row.first + row.first_error)) + 8, y: y + 4, class: "muted" },
+      whisker(row.first, row.first_within_95_percent ?? row.first_error, y - 4), whisker(row.total, row.total_within_95_percent ?? row.total_error, y + 4),
+      svg("text", { x: to_x(Math.max(row.total + (row.total_within_95_percent ?? row.total_error), row.first + (row.first_within_95_percent ?? row.first_error))) + 8, y: y + 4, class: "muted" },
         `${fmt(100 * row.total, 2)} %`));
   });
   plot.append(el("p", { class: "key" }, el("span", { class: "dot", style: `background:${css_colour("after")}` }), " alone   ",
-    el("span", { class: "dot", style: `background:${faded(css_colour("after"), 0.35)}` }), " with its interactions   — standard error"), picture);
+    el("span", { class: "dot", style: `background:${faded(css_colour("after"), 0.35)}` }), " with its interactions   — 95 % confidence"), picture);
 }
 
 function build_indices(results, body) {
@@ -148,14 +148,19 @@ function build_indices(results, body) {
     plot.append(choices, area);
     draw();
   });
+  if (sweep.index_warning) body.prepend(el("p", { class: "banner" }, sweep.index_warning));
   const parameters = list(sweep.parameters).map(record);
   const shown_total = (total) => (is_number(total) ? (total < 1e-6 ? 0 : 100 * total) : null);
+  const with_confidence = (index) => {
+    const value = shown_total(index.total), half = 100 * index.total_within_95_percent;
+    return is_number(value) && is_number(half) ? { value, text: half < 0.05 ? fmt(value, 2) : `${fmt(value, 2)} ± ${fmt(half, 2)}` } : value;
+  };
   table(body, {
     title: "Total Sobol indices",
-    note: "Fraction of the variance with all interactions; values below a ten-thousandth of a per cent are shown as 0.",
+    note: "Fraction of the variance with all interactions, and the half-width of its 95 % confidence interval; values below a ten-thousandth of a per cent are shown as 0.",
     columns: [{ label: "Output" }, ...parameters.map((p) => ({ label: words(p.path), unit: "%", digits: 2 }))],
     rows: outputs.map(([name, of]) => [output_cell(name),
-      ...parameters.map((p) => shown_total(record(record(of.indices)[p.path]).total))]),
+      ...parameters.map((p) => with_confidence(record(record(of.indices)[p.path])))]),
   });
 }
 
@@ -208,7 +213,9 @@ function draw_response(plot, sweep, state) {
 }
 
 function build_response_maps(results, body) {
-  const sweep = record(results.sweep), outputs = sweep_outputs(sweep), paths = list(sweep.parameters).map((p) => record(p).path);
+  const sweep = record(results.sweep), outputs = sweep_outputs(sweep);
+  const mapped = new Set(list(sweep.response_maps).flatMap((map) => [record(map).x, record(map).y]));
+  const paths = list(sweep.parameters).map((p) => record(p).path).filter((path) => mapped.has(path));
   const output = leading_output(outputs);
   const weight = (path) => record(record(record(record(sweep.statistics)[output]).indices)[path]).total ?? 0;
   const [first, second] = [...paths].sort((a, b) => weight(b) - weight(a));

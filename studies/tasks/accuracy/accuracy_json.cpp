@@ -14,7 +14,7 @@ Json settings_json(const FidelityLevel& level) {
           {"gap", to_string(level.gap)},
           {"quadrature", quadrature_json(level.quadrature)},
           {"positions", level.positions},
-          {"peaks", level.located_peaks ? "located" : "sampled"},
+          {"peaks", level.located_peaks ? "refined" : "sampled"},
           {"left_out", level.left_out}};
 }
 

@@ -20,7 +20,7 @@ std::vector<SchemaKey> accuracy_keys() {
        .meaning = "of the finest level, graded; halved down to 2 for the others",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.accuracy.intervals = static_cast<int>(v.integer); }},
       {.path = "accuracy.finest.positions", .kind = Integer, .range = {.low = 16, .high = 1024}, .fallback = "64",
-       .meaning = "of the finest level; halved down to 12 for the others, the peaks located between them all the same",
+       .meaning = "of the finest level; halved down to 12 for the others, the peaks refined between them all the same",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.accuracy.positions = static_cast<int>(v.integer); }},
   };
 }

@@ -28,7 +28,7 @@ std::string levels_csv(const FidelityHierarchy& hierarchy) {
     const Json quadrature = quadrature_json(r.quadrature);
     csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}", csv_field(r.name), r.axis, to_string(r.kind), to_string(r.compliance),
                        to_string(r.gap), quadrature.at("rule").get<std::string>(), r.quadrature.intervals, r.positions,
-                       r.located_peaks ? "located" : "sampled", fmt::join(r.left_out, " "), step->result.seconds, step->first_seconds, step->best);
+                       r.located_peaks ? "refined" : "sampled", fmt::join(r.left_out, " "), step->result.seconds, step->first_seconds, step->best);
     for (double share : step->error) csv += fmt::format(",{}", percent * share);
     csv += fmt::format(",{}\n", percent * largest(step->error));
   }

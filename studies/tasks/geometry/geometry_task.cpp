@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/units.hpp"
+#include "studies/analysis/study_notes.hpp"
 #include "studies/analysis/study_run.hpp"
 #include "studies/study_file/template_text.hpp"
 
@@ -41,7 +42,8 @@ struct MeshSize {
 
 constexpr MeshSize mesh_sizes[] = {
     {"centre distance", "a_w", "mm", [](const GearPair& p) { return p.centre_distance; }},
-    {"backlash", "j_bt", "um", [](const GearPair& p) { return p.backlash / units::um; }},
+    {"circumferential backlash", "j_wt", "um", [](const GearPair& p) { return p.backlash / units::um; }},
+    {"normal backlash", "j_bn", "um", [](const GearPair& p) { return normal_backlash(p) / units::um; }},
     {"working pressure angle", "alpha_wt", "deg", [](const GearPair& p) { return p.working_transverse_pressure_angle / units::deg; }},
     {"base helix angle", "beta_b", "deg", [](const GearPair& p) { return p.base_helix_angle / units::deg; }},
     {"transverse base pitch", "p_et", "mm", [](const GearPair& p) { return p.transverse_base_pitch; }},

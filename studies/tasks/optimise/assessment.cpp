@@ -36,18 +36,16 @@ Validation validate(const Study& study, const DesignProblem& problem, const Desi
   return validation;
 }
 
-/// "+1.2 MPa".
-std::string change(double value, const DesignTask& task) { return fmt::format("{:+.3g} {}", value, task.objective_unit()); }
-
 std::string scene_in_words(const Optimum::Scene& scene, const DesignTask& task, bool several_torques) {
   const DesignScene& of_task = task.scenes[static_cast<std::size_t>(scene.scene)];
   const std::string torque = several_torques ? fmt::format(", {:.5g} N·m,", of_task.torque / units::newton_metre) : "";
   return fmt::format("The scene \"{}\"{} governs with weight {:.2f}.", of_task.name, torque, scene.weight);
 }
 
-/// What moving a limit would give, where that is more than the optimum is known to.
+/// By how much moving a limit would reduce the objective, where that is more than the optimum is known to.
 std::string gain_in_words(double gain, const std::string& move, const Optimum& optimum, const DesignTask& task) {
-  return std::abs(gain) > optimum.resolution ? fmt::format("{} would give {}.", move, change(gain, task)) : move + " would give nothing.";
+  if (!(std::abs(gain) > optimum.resolution)) return move + " would not reduce the objective.";
+  return fmt::format("{} would reduce the objective by {:.2g} {}.", move, -gain, task.objective_unit());
 }
 
 std::string bound_in_words(const Optimum::Bound& bound, const Optimum& optimum, const DesignTask& task) {
@@ -56,7 +54,7 @@ std::string bound_in_words(const Optimum::Bound& bound, const Optimum& optimum, 
   const double step = assessment_step(v.unit());
   const std::string stands =
       fmt::format("The {} is at its {} bound, {:.4g} {}", plain_name(v.path), bound.upper ? "upper" : "lower", limit, v.unit());
-  return gain_in_words(bound.gain, fmt::format("{}: {:.2g} {} {}", stands, step, v.unit(), bound.upper ? "more" : "less"), optimum, task);
+  return gain_in_words(bound.gain, fmt::format("{}: a further {:.2g} {}", stands, step, v.unit()), optimum, task);
 }
 
 std::string constraint_in_words(const Optimum::Constraint& constraint, const Optimum& optimum, const DesignTask& task) {
@@ -69,9 +67,9 @@ std::string constraint_in_words(const Optimum::Constraint& constraint, const Opt
 
 std::string sum_in_words(const Optimum::Sum& sum, const Optimum& optimum, const DesignTask& task) {
   const ModificationConstraint& c = task.modification_constraints[static_cast<std::size_t>(sum.constraint)];
-  const std::string move = fmt::format("The sum {} is at its {} limit, {:.4g} {}: {:.2g} {} {}", plain_name(c.name), sum.upper ? "upper" : "lower",
-                                       (sum.upper ? c.maximum : c.minimum) * c.outside_factor(), c.unit(), assessment_step(c.unit()), c.unit(),
-                                       sum.upper ? "more" : "less");
+  const std::string move =
+      fmt::format("The sum {} is at its {} limit, {:.4g} {}: a further {:.2g} {}", plain_name(c.name), sum.upper ? "upper" : "lower",
+                  (sum.upper ? c.maximum : c.minimum) * c.outside_factor(), c.unit(), assessment_step(c.unit()), c.unit());
   return gain_in_words(sum.gain, move, optimum, task);
 }
 
@@ -109,9 +107,33 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
     const LocalModel model(last, best.analysis.modification, parameters, design.optimality.active);
     assessment.optimum = find_optimum(last, design.optimality, model, parameters, best.variables);
     assessment.judged = last.task();
+    if (progress) progress("looking for the usual signs", 0, 1, "");
+    assessment.usual = find_usual_signs(last, best);
   }
   assessment.seconds = clock.seconds();
   return assessment;
+}
+
+std::string usual_signs_in_words(const UsualSigns& usual, const DesignTask& task) {
+  std::string words = fmt::format("The optimum has what is seldom ground: {}. ", fmt::join(usual.unusual, ", "));
+  if (!usual.design) return words + "No design without it was found that keeps the constraints.";
+  std::vector<std::string> amounts;
+  for (std::size_t i = 0; i < task.variables.size(); ++i) {
+    const DesignVariable& v = task.variables[i];
+    amounts.push_back(fmt::format("{} {:.3g} {}", plain_name(v.path), usual.design->variables[i] * v.outside_factor(), v.unit()));
+  }
+  return words + fmt::format("The best design without it reaches {:.5g} {} ({:+.1f} %): {}.", usual.design->objective, task.objective_unit(),
+                             100.0 * usual.price, fmt::join(amounts, ", "));
+}
+
+std::string no_rule_in_words(const std::vector<ComparedDesign>& rules) {
+  const ComparedDesign* nearest = nullptr;
+  for (const ComparedDesign& rule : rules) {
+    if (rule.failure.empty() && (nearest == nullptr || rule.constraint_violation < nearest->constraint_violation)) nearest = &rule;
+  }
+  if (nearest == nullptr) return fmt::format("None of {} designs by rules of thumb can be analysed.", rules.size());
+  return fmt::format("None of {} designs by rules of thumb keeps the constraints. The nearest, {}, exceeds one of them by {:.2g} %.", rules.size(),
+                     nearest->design.name, 100.0 * nearest->constraint_violation);
 }
 
 std::string validation_in_words(const Validation& validation, const DesignTask& task) {
@@ -144,6 +166,12 @@ std::vector<std::string> optimum_in_words(const Optimum& optimum, const DesignTa
   for (const Optimum::Constraint& constraint : optimum.constraints) words.push_back(constraint_in_words(constraint, optimum, task));
   for (const Optimum::Objective& objective : optimum.objectives) words.push_back(objective_in_words(objective, optimum, task));
   for (const Optimum::Sum& sum : optimum.sums) words.push_back(sum_in_words(sum, optimum, task));
+  std::set<int> at_bounds;
+  for (const Optimum::Bound& bound : optimum.bounds) at_bounds.insert(bound.variable);
+  if (at_bounds.size() >= 2 && 2 * at_bounds.size() >= task.variables.size()) {
+    words.push_back(fmt::format("{} of {} variables are at a bound: the ranges that were given decide as much as the objective does.",
+                                at_bounds.size(), task.variables.size()));
+  }
   return words;
 }
 

@@ -6,6 +6,7 @@
 #include "optimize/design/design_optimiser.hpp"
 #include "optimize/assessment/optimum.hpp"
 #include "optimize/assessment/rules_of_thumb.hpp"
+#include "optimize/assessment/usual_signs.hpp"
 #include "optimize/assessment/validation.hpp"
 #include "optimize/assessment/variant_search.hpp"
 #include "core/compliance/model/gear_structures.hpp"
@@ -30,6 +31,7 @@ struct Assessment {
   std::optional<Optimum> optimum;        ///< of the design before rounding; none where it cannot be analysed
   std::optional<DesignTask>
       judged;  ///< the problem of the optimum: the task, or for a list of objectives the last one under limits on those before it
+  std::optional<UsualSigns> usual;  ///< where the optimum asks for what is seldom ground; none where it does not
   double seconds{not_given};
 };
 
@@ -38,12 +40,19 @@ struct Assessment {
 Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignResult& design, const std::vector<DesignScene>& drawn,
                           const ProgressReport& progress);
 
+/// What an optimum has that is seldom ground, and the best design without it with its price.
+std::string usual_signs_in_words(const UsualSigns& usual, const DesignTask& judged);
+
+/// Of rules of which none is feasible: how many, and which exceeds the constraints by least.
+std::string no_rule_in_words(const std::vector<ComparedDesign>& rules);
+
 /// "Over 500 scenes drawn afresh (seed 1) the design is better in 98.2 %, ..."
 std::string validation_in_words(const Validation& validation, const DesignTask& task);
 
 /// The active conditions at the optimum, a sentence each: scenes with their weights, variables at a bound, constraints and earlier
-/// objectives at their limit with the gain of a step beyond; a gain below the optimum's resolution counts as nothing.
+/// objectives at their limit with the gain of a step beyond; a gain below the optimum's resolution is treated as zero.
 /// @param judged  Assessment::judged
+/// A last sentence says where at least half of the variables, and two or more, lie at a bound.
 std::vector<std::string> optimum_in_words(const Optimum& optimum, const DesignTask& judged);
 
 }  // namespace flankwright::studies

@@ -61,7 +61,10 @@ Json comparison_json(const Assessment& assessment, const DesignTask& task) {
                      {"mean_deflection_um", in_um(assessment.basis->deflection)},
                      {"single_pair_deflection_um", in_um(assessment.basis->single_pair_deflection)}};
   }
-  if (const ComparedDesign* best = best_of(assessment.rules)) json["best_rule"] = {{"name", best->design.name}, {"objective", best->objective}};
+  if (const ComparedDesign* best = best_of(assessment.rules))
+    json["best_rule"] = {{"name", best->design.name}, {"objective", best->objective}};
+  else if (!assessment.rules.empty())
+    json["no_rule"] = no_rule_in_words(assessment.rules);
   return json;
 }
 
@@ -103,6 +106,17 @@ Json governing_json(const Optimum& optimum, const DesignTask& task) {
                      {"unit", bound.unit()},
                      {"gain", s.gain}};
            })}};
+}
+
+Json usual_signs_json(const UsualSigns& usual, const DesignTask& task) {
+  Json json{{"words", usual_signs_in_words(usual, task)}, {"unusual", usual.unusual}, {"design", Json()}};
+  if (!usual.design) return json;
+  Json variables = Json::object();
+  for (std::size_t i = 0; i < task.variables.size(); ++i) {
+    variables[task.variables[i].path] = usual.design->variables[i] * task.variables[i].outside_factor();
+  }
+  json["design"] = {{"variables", variables}, {"objective", usual.design->objective}, {"price_percent", 100.0 * usual.price}};
+  return json;
 }
 
 Json sensitivity_json(const Sensitivity& s) {
@@ -157,6 +171,7 @@ void add_assessment(const Assessment& assessment, const DesignTask& task, const 
   if (assessment.validation) optimise["validation"] = validation_json(*assessment.validation, task, asked);
   if (!assessment.optimum) return;
   optimise["governing"] = governing_json(*assessment.optimum, *assessment.judged);
+  if (assessment.usual) optimise["usual_signs"] = usual_signs_json(*assessment.usual, *assessment.judged);
   optimise["sensitivity"] = list(assessment.optimum->sensitivities, sensitivity_json);
 }
 

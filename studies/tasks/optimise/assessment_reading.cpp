@@ -45,7 +45,7 @@ void read_tolerance(StudyReading& reading, const Item& item, const GearPair* pai
     if (twice) return reading.refuse(item.position, shown, item.node, key->path + " is given twice");
     try {
       const auto named = read_distribution(*key, *item.node, pair);
-      if (named) tolerances_of(reading).push_back({key->path, named->in_words, named->distribution});
+      if (named) tolerances_of(reading).push_back({key->path, named->in_words, named->distribution, false, named->pitch});
     } catch (const InvalidInput& problem) {
       return reading.refuse(item.position, shown, item.node, "allowed is " + problem.allowed());
     }
@@ -65,7 +65,9 @@ void read_clearance(StudyReading& reading, const Item& item) {
       tolerances_of(reading).push_back(
           {axis,
            fmt::format("clearance of the {} bearings: uniform, {:.3g} arcmin either way, added", item.name.substr(0, item.name.find('.')), tilt),
-           Distribution::uniform(-tilt, tilt), true});
+           Distribution::uniform(-tilt, tilt),
+           true,
+           {}});
     }
   } catch (const InvalidInput& problem) {
     reading.refuse(item.position, shown, item.node, "allowed is { clearance = um, span = mm }: " + problem.allowed());

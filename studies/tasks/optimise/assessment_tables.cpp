@@ -57,7 +57,11 @@ std::string assessment_summary(const Assessment& assessment, const DesignTask& t
     out += fmt::format("{}: {:.5g} {} ({})\n", what, value, task.objective_unit(),
                        times < 10.0 ? fmt::format("{:+.1f} %", 100.0 * (times - 1.0)) : fmt::format("{:.3g} times the optimum", times));
   };
-  if (const ComparedDesign* best = best_of(assessment.rules)) beside("best rule of thumb, " + best->design.name, best->objective);
+  if (const ComparedDesign* best = best_of(assessment.rules)) {
+    beside("best rule of thumb, " + best->design.name, best->objective);
+  } else if (!assessment.rules.empty()) {
+    out += no_rule_in_words(assessment.rules) + "\n";
+  }
   for (const VariantSearch& search : assessment.variants) {
     const std::string name = fmt::format("best of {} variants, {}", search.tried, to_string(search.placement));
     if (search.x.size() > 0) beside(name, search.best.objective);
@@ -65,6 +69,7 @@ std::string assessment_summary(const Assessment& assessment, const DesignTask& t
   if (assessment.validation) out += validation_in_words(*assessment.validation, task) + "\n";
   if (!assessment.optimum) return out;
   for (const std::string& sentence : optimum_in_words(*assessment.optimum, *assessment.judged)) out += sentence + "\n";
+  if (assessment.usual) out += usual_signs_in_words(*assessment.usual, *assessment.judged) + "\n";
   return out;
 }
 

@@ -1,7 +1,7 @@
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 
 #include "optimize/sampling/sample_design.hpp"
-#include "studies/study_file/study_schema.hpp"
+#include "studies/study_file/sweep_value.hpp"
 
 namespace flankwright::studies {
 
@@ -17,6 +17,7 @@ double present(const Scene& scene, const std::string& path) {
 
 void put(Scene& scene, const SceneTolerance& tolerance, double value) {
   const SchemaKey& key = *study_keys().at(tolerance.path);
+  if (tolerance.pitch) return set_drawn_pitch(scene.error[key.member], *tolerance.pitch, value);
   double inside = internal_value(value, key.quantity);
   if (tolerance.added) inside += present(scene, tolerance.path);
   std::get<StoreInScene>(key.store)(scene, key.member, Value{.number = inside, .numbers = {inside}});

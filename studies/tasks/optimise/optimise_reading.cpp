@@ -119,7 +119,8 @@ void read_variable(StudyReading& reading, const Item& item) {
   if (key->quantity == Quantity::Deviation) variable.step = reading.builder.study.optimise.step;
   if (const toml::node* step = table == nullptr ? nullptr : table->get("step")) {
     const SchemaKey rule{.quantity = key->quantity, .range = {.low = 0.0, .low_open = true}};
-    variable.step = number_of(reading, item.position, shown + ".step", *step, rule);
+    const auto* word = step->as_string();
+    variable.step = word != nullptr && word->get() == "none" ? 0.0 : number_of(reading, item.position, shown + ".step", *step, rule);
   }
   if (variable.step > variable.upper - variable.lower) {
     return reading.refuse(item.position, shown, item.node, "the step leaves nothing to choose: allowed is one within the range");

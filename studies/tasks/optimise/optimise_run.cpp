@@ -1,6 +1,7 @@
 #include "studies/tasks/optimise/optimise_run.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 
@@ -33,6 +34,7 @@ class OptimiseRun {
     options.progress = [&](int analyses, double best) { run_.report("optimising", analyses, 0, fmt::format("best so far {:.5g} {}", best, unit)); };
     DesignProblem problem(*results_.design_task);
     const DesignOptions choice{options, study.optimise.starts};
+    announce_violations_of_start(problem);
     TwoLevelDesign found = optimise_by_two_levels(problem, choice);
     keep_constraints_between_positions(problem, choice, found);
     if (seeks_extremes(study))
@@ -56,6 +58,17 @@ class OptimiseRun {
   }
 
  private:
+  /// Said before the search, which may take long and find that the constraints cannot be kept.
+  void announce_violations_of_start(const DesignProblem& problem) const {
+    const OptimiseTable& asked = results_.study.optimise;
+    if (asked.constraints.empty() && asked.modification_constraints.empty()) return;
+    const DesignAnalysis start = problem.analyse_given();
+    if (!std::ranges::all_of(start.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); })) return;
+    for (const std::string& violated : violated_constraints(problem, asked, report_design(problem, start))) {
+      spdlog::info("the search starts outside the constraints: {}", violated);
+    }
+  }
+
   /// The listed ones and those drawn from tolerances.
   std::vector<DesignScene> all_scenes() const {
     std::vector<DesignScene> scenes = run_.loaded_scenes();

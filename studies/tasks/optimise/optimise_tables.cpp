@@ -102,6 +102,10 @@ std::string optimise_summary(const StudyResults& results) {
   }
   out += fmt::format("\n{}: {} after {} analyses of {} scenes in {:.1f} s\n", design.solver, to_string(design.status), design.evaluations,
                      task.scenes.size(), design.seconds);
+  if (design.exact) {
+    out += fmt::format("rounding to the steps changes the objective by {:+.1f} %, from {:.5g} to {:.5g} {}\n", 100.0 * design.rounding_loss(),
+                       design.exact->objective, design.after.objective, task.objective_unit());
+  }
   if (results.search_work) {
     const SearchWork& work = *results.search_work;
     const auto level = [&](const LevelWork& w) {

@@ -105,6 +105,7 @@ void run_sweep(StudyResults& nominal, const std::filesystem::path& folder, const
   if (statistics->failed == statistics->samples) {
     nominal.requirements.push_back("every sample of the sweep failed: " + statistics->failures.front().reason);
   }
+  if (const std::string warning = index_warning(*statistics); !warning.empty()) nominal.notes.push_back(warning);
   nominal.sweep = statistics;
   if (!folder.empty()) write_sweep_files(nominal, folder, store);
   nominal.seconds += clock.seconds();

@@ -31,7 +31,6 @@ constexpr std::array iso_outputs{IsoOutput{"iso6336_K_Hbeta", [](const IsoLoadFa
 }  // namespace
 
 SampleAnalysis::SampleAnalysis(const StudyResults& nominal) : nominal_(nominal) {
-  for (const SweepParameter& p : nominal.study.sweep.parameters) keys_.push_back(study_keys().at(p.path));
   if (!is_loaded()) {
     outputs_ = {{"peak_to_peak_arcsec", "arcsec"}, {"peak_to_peak_um", "um"}};
     for (std::size_t k = 1; k <= nominal.unloaded.front().mesh.harmonics.size(); ++k) {
@@ -51,7 +50,7 @@ SampleResult SampleAnalysis::analyse(const std::vector<double>& values) const {
   const Study& study = nominal_.study;
   try {
     SweptCondition swept = SweptCondition::of(study);
-    for (std::size_t j = 0; j < keys_.size(); ++j) set_swept(swept, *keys_[j], values[j]);
+    for (std::size_t j = 0; j < values.size(); ++j) set_swept(swept, study.sweep.parameters[j], values[j]);
     const FlankCondition condition = apply_effects(nominal_.effects, swept.flanks());
     return {"", is_loaded() ? loaded_outputs(condition, swept.scene.torques.front()) : unloaded_outputs(condition)};
   } catch (const InvalidInput& problem) {

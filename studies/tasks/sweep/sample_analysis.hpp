@@ -41,8 +41,7 @@ class SampleAnalysis {
   bool is_loaded() const { return !nominal_.loaded.empty(); }
 
   const StudyResults& nominal_;
-  std::vector<const SchemaKey*> keys_;  ///< of the parameters
-  std::vector<CycleEntry> entries_;     ///< those of the outputs under load that are entries of cycle_quantities()
+  std::vector<CycleEntry> entries_;  ///< those of the outputs under load that are entries of cycle_quantities()
   std::vector<SweepOutput> outputs_;
 };
 

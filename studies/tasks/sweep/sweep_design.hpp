@@ -16,6 +16,8 @@ class SweepDesign {
   std::size_t parameters() const { return parameters_.size(); }
   /// Levels of a parameter; 0: continuous.
   std::size_t levels(std::size_t parameter) const { return static_cast<std::size_t>(parameters_[parameter].distribution.levels()); }
+  /// Whether a parameter's values are numbers of draws, without an order that means anything.
+  bool is_draw(std::size_t parameter) const { return parameters_[parameter].pitch.has_value(); }
   /// Consecutive samples that belong together for Sobol indices; 0: the design gives none.
   int block_size() const;
   /// Values of the parameters, in the units of bare numbers. @param i  0 .. samples() - 1

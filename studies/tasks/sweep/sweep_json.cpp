@@ -10,7 +10,8 @@ namespace flankwright::studies {
 namespace {
 
 Json index_json(const SobolIndex& index) {
-  return {{"first", index.first}, {"first_error", index.first_error}, {"total", index.total}, {"total_error", index.total_error}};
+  return {{"first", index.first}, {"first_error", index.first_error}, {"first_within_95_percent", index_confidence(index.first_error)},
+          {"total", index.total}, {"total_error", index.total_error}, {"total_within_95_percent", index_confidence(index.total_error)}};
 }
 
 Json worst_json(const StudyResults& results, const OutputStatistics& of, const StoredSample& sample) {
@@ -88,6 +89,7 @@ Json sweep_json(const StudyResults& results) {
           {"sampler", to_string(sweep.sampler)},
           {"seed", sweep.seed},
           {"index_blocks", statistics.blocks},
+          {"index_warning", index_warning(statistics)},
           {"parameters", parameters},
           {"outputs", list(statistics.outputs, [](const OutputStatistics& of) { return of.output.name; })},
           {"statistics", outputs},

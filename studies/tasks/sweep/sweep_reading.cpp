@@ -51,7 +51,8 @@ void read_parameter(StudyReading& reading, const Item& item, const GearPair* pai
       if (std::ranges::any_of(parameters, [&](const SweepParameter& p) { return p.path == key->path; })) {
         return reading.refuse(item.position, shown, item.node, key->path + " is given twice");
       }
-      parameters.push_back({key->path, std::string(default_unit(key->quantity)), named->distribution, named->in_words});
+      parameters.push_back({key->path, std::string(default_unit(key->quantity)), named->distribution, named->in_words, named->pitch});
+      if (named->pitch) parameters.back().unit = "-";
     } catch (const InvalidInput& problem) {
       return reading.refuse(item.position, shown, item.node, "allowed is " + problem.allowed());
     }
@@ -111,7 +112,8 @@ void set_nominal(StudyReading& reading) {
   Study& study = reading.builder.study;
   SweptCondition nominal = SweptCondition::of(study);
   for (const SweepParameter& p : study.sweep.parameters) {
-    if (reading.find(p.path) == nullptr) set_swept(nominal, *study_keys().at(p.path), p.distribution.median());
+    const bool has_value = reading.find(p.path) != nullptr || p.pitch;  // no gear of a class is its median: the nominal one has equal pitches
+    if (!has_value) set_swept(nominal, p, p.distribution.median());
   }
   check_reliefs(reading, nominal);
   study.scenes = {nominal.scene};

@@ -1,5 +1,7 @@
 #include "studies/tasks/sweep/sweep_statistics.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -68,7 +70,7 @@ void read_moments(SweepStore& store, long long end, SweepStatistics& statistics)
 }
 
 /// Second reading: histograms and response maps, which need the ranges.
-void read_maps(SweepStore& store, long long end, SweepStatistics& statistics) {
+void read_maps(SweepStore& store, const SweepDesign& design, SweepStatistics& statistics) {
   const std::size_t count = statistics.parameters.size();
   for (OutputStatistics& of : statistics.outputs) {
     of.histogram = {of.smallest, of.largest, std::vector<long long>(histogram_parts, 0)};
@@ -76,13 +78,14 @@ void read_maps(SweepStore& store, long long end, SweepStatistics& statistics) {
   for (std::size_t k = 0; k < statistics.outputs.size(); ++k) {
     for (std::size_t x = 0; x < count; ++x) {
       for (std::size_t y = x + 1; y < count; ++y) {
+        if (design.is_draw(x) || design.is_draw(y)) continue;
         const std::size_t columns = statistics.parameters[x].counts.size(), places = columns * statistics.parameters[y].counts.size();
         statistics.maps.push_back({k, x, y, columns, std::vector<double>(places, 0.0), std::vector<long long>(places, 0)});
       }
     }
   }
   std::vector<std::size_t> part(count);
-  store.for_each(end, [&](const StoredSample& sample) {
+  store.for_each(design.samples(), [&](const StoredSample& sample) {
     for (std::size_t j = 0; j < count; ++j) {
       part[j] = statistics.parameters[j].part(sample.values[j]);
       ++statistics.parameters[j].counts[part[j]];
@@ -158,6 +161,25 @@ double ResponseMap::mean(std::size_t ix, std::size_t iy) const {
   return counts[place] == 0 ? not_given : sums[place] / static_cast<double>(counts[place]);
 }
 
+std::string index_warning(const SweepStatistics& statistics) {
+  constexpr double wide = 0.1;
+  double widest = 0.0;
+  bool has_indices = false;
+  for (const OutputStatistics& of : statistics.outputs) {
+    for (const SobolIndex& index : of.indices) {
+      has_indices = true;
+      for (const double error : {index.first_error, index.total_error}) widest = std::fmax(widest, index_confidence(error));
+    }
+  }
+  if (!has_indices) return {};
+  if (statistics.blocks < 2) return "The Sobol indices need two blocks of samples at least: set sweep.samples higher, or sweep.indices = \"off\".";
+  if (widest <= wide && statistics.blocks >= fewest_index_blocks) return {};
+  const double needed = std::max(static_cast<double>(statistics.blocks) * (widest / wide) * (widest / wide), 1.0 * fewest_index_blocks);
+  return fmt::format(
+      "The Sobol indices come from {} blocks and are uncertain by up to {:.2g} either way (95 % confidence); about {:.2g} blocks would make it {}.",
+      statistics.blocks, widest, needed, wide);
+}
+
 SweepStatistics sweep_statistics(SweepStore& store, const SweepDesign& design, const std::vector<SweepOutput>& outputs) {
   SweepStatistics statistics;
   for (const SweepOutput& output : outputs) statistics.outputs.push_back({.output = output, .histogram = {}, .indices = {}});
@@ -169,7 +191,7 @@ SweepStatistics sweep_statistics(SweepStore& store, const SweepDesign& design, c
     const std::size_t levels = design.levels(j);
     statistics.parameters[j].counts.assign(levels >= 1 && levels <= most_levels_shown ? levels : parts, 0);
   }
-  read_maps(store, design.samples(), statistics);
+  read_maps(store, design, statistics);
   read_indices(store, design, statistics);
   for (const OutputStatistics& of : statistics.outputs) statistics.worst.push_back(store.find(of.worst).value_or(StoredSample{-1, {}, {}}));
   for (std::size_t k = 0; k < outputs.size(); ++k) read_quantiles(store, design.samples(), k, statistics.outputs[k]);

@@ -57,9 +57,17 @@ struct SweepStatistics {
   std::vector<OutputStatistics> outputs;
   /// How the samples lie over each parameter's range; the parts are those of the maps, and where there are few levels the levels.
   std::vector<Histogram> parameters;
-  std::vector<ResponseMap> maps;       ///< of every output over every two parameters
+  std::vector<ResponseMap> maps;       ///< of every output over every two parameters that are not draws
   std::vector<FailureCount> failures;  ///< most frequent first, at most 20
 };
+
+/// A sentence where the Sobol indices of some output are uncertain by more than 0.1 either way (95 % confidence), or are from fewer than
+/// fewest_index_blocks blocks, whose standard errors are themselves uncertain; empty: neither.
+std::string index_warning(const SweepStatistics& statistics);
+inline constexpr long long fewest_index_blocks = 30;
+
+/// Half of the interval that holds an index with 95 % confidence, by its standard error [-].
+inline double index_confidence(double error) { return 1.96 * error; }
 
 /// Reads the samples below design.samples() three times in their order and once sorted for each output; memory does not grow with
 /// their number.

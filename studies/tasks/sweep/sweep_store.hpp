@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -31,7 +32,8 @@ struct StoredSample {
 /// The samples of a sweep in an SQLite file, written while it runs. Tables: README.md of this folder.
 ///
 /// While it is open no other process can use the file. What is added is committed at least every commit_interval: whatever ends the process
-/// loses the samples since then, never older ones, and the next run goes on from there.
+/// loses the samples since then, never older ones, and the next run goes on from there. What is committed together has a checksum, which is
+/// compared when the file is opened again: a bit that changed on the disk is noticed.
 class SweepStore {
  public:
   static constexpr std::chrono::milliseconds commit_interval{250};
@@ -69,13 +71,25 @@ class SweepStore {
  private:
   void create(const Study& study, Shard shard);
   void check_same(const Study& study, Shard shard);
+  void check_samples();
   StoredSample sample_at(const Statement& row) const;
 
   Database database_;
   std::vector<std::string> parameter_columns_, output_columns_;
   std::optional<Statement> insert_;
-  bool in_batch_{false};
-  std::chrono::steady_clock::time_point batch_start_;
+
+  /// Samples committed together. Their fingerprints are added up, so that the order in which they were done does not matter.
+  struct Batch {
+    long long samples{0};
+    std::uint64_t sum{0};
+    void add(std::uint64_t fingerprint) {
+      ++samples;
+      sum += fingerprint;
+    }
+    long long checksum(long long id, double seconds) const;
+  };
+  std::optional<Batch> batch_;  ///< that is being written
+  long long batch_id_{0};
 };
 
 /// The settings that decide what the samples of a study are: its keys but for titles, [expect] and what may be extended, the contents of

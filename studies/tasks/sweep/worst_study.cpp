@@ -1,12 +1,14 @@
 #include "studies/tasks/sweep/worst_study.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cassert>
 #include <filesystem>
 #include <sstream>
 
 #include "studies/study_file/study_document.hpp"
+#include "studies/study_file/sweep_value.hpp"
 
 namespace flankwright::studies {
 
@@ -38,7 +40,13 @@ void add_grids(const Study& study, const std::string& gear, const GivenGrid& gri
 std::string sample_study(const Study& study, const std::string& title, const std::vector<double>& values) {
   std::vector<Override> overrides{{"task", "\"analyse\""}, {"title", quoted(title)}};
   for (std::size_t j = 0; j < values.size(); ++j) {
-    overrides.push_back({study.sweep.parameters[j].path, fmt::format("{}", values[j])});  // shortest text of the same number
+    const SweepParameter& parameter = study.sweep.parameters[j];
+    // Texts are the shortest of the same numbers.
+    if (parameter.pitch) {
+      overrides.push_back({parameter.path, fmt::format("[{}]", fmt::join(pitch_of_draw(*parameter.pitch, values[j]), ", "))});
+    } else {
+      overrides.push_back({parameter.path, fmt::format("{}", values[j])});
+    }
   }
   if (study.fidelity.automatic_intervals) {
     overrides.push_back({"fidelity.quadrature.rule", "\"graded\""});

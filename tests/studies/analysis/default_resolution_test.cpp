@@ -44,7 +44,7 @@ class IndustrialPairs {
       }
     }
     text += fmt::format("[misalignment]\nmesh_misalignment = {}\n[load]\ntorque = {}\n", uniform(-8.0, 8.0) * size, torque);
-    return text + fmt::format("[cycle]\npeaks = \"located\"\n[fidelity]\ncompliance = \"{}\"\neffect_sizes = \"off\"\n", compliance);
+    return text + fmt::format("[cycle]\npeaks = \"refined\"\n[fidelity]\ncompliance = \"{}\"\neffect_sizes = \"off\"\n", compliance);
   }
 
  private:

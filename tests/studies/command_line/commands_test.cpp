@@ -56,6 +56,72 @@ TEST_CASE("Settings of the command line replace those of the file", "[studies][c
   CHECK_FALSE(results.contains("unloaded"));
 }
 
+TEST_CASE("A start outside the constraints is said before the search", "[studies][cli]") {
+  const ScratchFolder folder;
+  folder.file("small.toml", small::optimisation() + "\"pinion.modification.lead_crowning + wheel.modification.lead_crowning\" = { min = 25 }\n");
+  const Ending ending = run(folder, {"run", "small.toml", "--set", "optimise.comparison.rules=off"});
+  CHECK(ending.exit_code == 0);
+  const std::size_t said = ending.err.find("the search starts outside the constraints: the constraint on pinion.modification.lead_crowning");
+  CHECK(said < ending.err.find("optimising"));
+}
+
+TEST_CASE("A check says the backlash that a given centre distance leaves", "[studies][cli]") {
+  const ScratchFolder folder;
+  folder.file("small.toml", small::analysis());
+  CHECK_THAT(run(folder, {"check", "small.toml"}).out, !Contains("backlash"));
+  // Of a spur pair: j_wt = 2 tan(alpha_wt) (a - a_0) to first order, j_bn = j_wt cos(alpha_wt) cos(beta_b).
+  const Ending ending = run(folder, {"check", "small.toml", "--set", "pair.helix_angle=0", "--set", "pair.centre_distance=360.1"});
+  CHECK(ending.exit_code == 0);
+  CHECK_THAT(ending.out, Contains("backlash 72.") && Contains("at the centre distance of 360.1 mm (none at 360 mm)"));
+  const Ending jam = run(folder, {"check", "small.toml", "--set", "pair.helix_angle=0", "--set", "pair.centre_distance=359.9"});
+  CHECK(jam.exit_code == 0);
+  CHECK_THAT(jam.err, Contains("the teeth overlap by 72."));
+}
+
+TEST_CASE("What cannot be printed ends in one line, with the exit code of bad input", "[studies][cli]") {
+  const ScratchFolder folder;
+  folder.file("small.toml", small::analysis());
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"new", "analyse"}, {"keys"}, {"--help"}, {"check", "small.toml"}, {"run", "small.toml", "--out", "r", "--set", "cycle.positions=4"}}) {
+    const Ending ending = run(folder, command, "/dev/full");
+    CAPTURE(command.front());
+    CHECK(ending.exit_code == 2);
+    CHECK_THAT(ending.err, EndsWith("standard output = not written: allowed is a place that can be written (No space left on device)\n"));
+  }
+}
+
+TEST_CASE("A loop of symbolic links is a file that cannot be read", "[studies][cli]") {
+  const ScratchFolder folder;
+  std::filesystem::create_symlink("loop", folder.path() / "loop");
+  CHECK_THAT(run(folder, {"test", "loop"}).out, Contains("loop: the file cannot be read"));
+  for (const std::vector<std::string>& command : std::vector<std::vector<std::string>>{
+           {"test", "loop"}, {"check", "loop"}, {"run", "loop"}, {"report", "loop"}, {"import", "loop"}, {"export", "loop", "--rexs"}}) {
+    const Ending ending = run(folder, command);
+    CAPTURE(command.front(), ending.err);
+    CHECK(ending.exit_code == 2);
+    CHECK(ending.err.find("internal") == std::string::npos);
+  }
+  folder.file("small.toml", small::analysis());
+  const Ending ending = run(folder, {"run", "small.toml", "--out", "loop"});
+  CHECK(ending.exit_code == 2);
+  CHECK_THAT(ending.err, Contains("a place that can be written"));
+}
+
+TEST_CASE("No control character of a file reaches the terminal", "[studies][cli]") {
+  const ScratchFolder folder;
+  const std::string escape = "\\u001B[2J";
+  folder.file("key.toml", "\"" + escape + "\" = 1\n" + small::analysis());
+  folder.file("title.toml", small::analysis() + "[[scenes]]\nname = \"" + escape + "\"\n");
+  folder.file("grid.csv", "radius_mm,z_mm,deviation_um\n50,0,\x1b[2J\n");
+  for (const std::vector<std::string>& command :
+       std::vector<std::vector<std::string>>{{"check", "key.toml"}, {"check", "title.toml"}, {"import", "grid.csv"}}) {
+    const Ending ending = run(folder, command);
+    CAPTURE(command.back(), ending.err);
+    CHECK(ending.exit_code == 2);
+    CHECK(ending.err.find('\x1b') == std::string::npos);
+  }
+}
+
 TEST_CASE("The results do not depend on the number of threads", "[studies][cli][determinism]") {
   const ScratchFolder folder;
   folder.file("small.toml", small::optimisation());

@@ -46,6 +46,22 @@ TEST_CASE("A value is met within its tolerance, ends included", "[studies][expec
   CHECK(met(value("a.b", -2.0, not_given, 4.0)));
 }
 
+TEST_CASE("A key that leads nowhere gets the name of one that does", "[studies][expect]") {
+  const Json results = Json::parse(R"({
+    "loaded": [{"summary": {"te_harmonics_um": [0.5, 0.2, 0.1], "te_mean_um": 1}}],
+    "sweep": {"statistics": {"te_harmonic_1_um": {"mean": 0.5}}}})");
+  const auto hint = [&](const std::string& key) { return compare({range(key, 0.0, 1.0)}, results).front().hint; };
+  CHECK(hint("loaded.summary.te_harmonic_2_um") == "loaded.summary.te_harmonics_um.1");
+  CHECK(hint("loaded.summary.te_harmonic_9_um") == "loaded.summary.te_harmonics_um");  // there are three: spelt almost alike
+  CHECK(hint("loaded.sumary.te_mean_um") == "loaded.summary.te_mean_um");
+  CHECK(hint("statistics.te_harmonic_1_um") == "sweep.statistics.te_harmonic_1_um");
+  CHECK(hint("loaded.te_mean_um") == "loaded.summary.te_mean_um");
+  CHECK(hint("loaded.summary.te_mean_um").empty());
+  CHECK(hint("loaded.summary.quite_another").empty());
+  CHECK_THAT(differences(compare({range("loaded.summary.te_harmonic_2_um", 0.0, 1.0)}, results)),
+             Catch::Contains("found nothing; did you mean loaded.summary.te_harmonics_um.1?"));
+}
+
 TEST_CASE("A range is met on its ends", "[studies][expect]") {
   CHECK(met(range("a.b", 2.0, 2.0)));
   CHECK(met(range("a.b", -INFINITY, 3.0)));

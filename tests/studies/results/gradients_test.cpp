@@ -145,7 +145,7 @@ TEST_CASE("Every number of a loaded result has its derivatives at the same path 
     CHECK(worst <= kDifference);
   }
   CHECK(gradients.at("summary").at("peak_root_stress_MPa").is_null());  // thin slices have none
-  CHECK(gradients.at("summary").at("peaks").is_null());                 // nor were peaks located
+  CHECK(gradients.at("summary").at("peaks").is_null());                 // nor were peaks refined
   CHECK_FALSE(loaded({}).contains("gradients"));                        // nobody asked
 }
 
@@ -215,7 +215,7 @@ torque_position = 0
   }
 }
 
-TEST_CASE("Located peaks and load factors have their derivatives", "[studies][gradient]") {
+TEST_CASE("Refined peaks and load factors have their derivatives", "[studies][gradient]") {
   // Both peaks of a difference are located to 2e-4 base pitches; step^2 times curvature. All parameters move at once, by a step each.
   constexpr double kLocated = 5e-4, kDifference = 0.02;
   const std::vector<std::tuple<std::string, double, double>> keys{
@@ -223,7 +223,7 @@ TEST_CASE("Located peaks and load factors have their derivatives", "[studies][gr
   std::string asked;
   for (const auto& [key, value, step] : keys) asked += (asked.empty() ? "[\"" : ", \"") + key + "\"";
   const auto at = [&](double steps) {
-    std::vector<Override> overrides{{"cycle.peaks", "\"located\""}};
+    std::vector<Override> overrides{{"cycle.peaks", "\"refined\""}};
     for (const auto& [key, value, step] : keys) overrides.push_back({key, std::to_string(value + steps * step)});
     if (steps == 0.0) overrides.push_back({"analyse.gradients", asked + "]"});
     return loaded(overrides);

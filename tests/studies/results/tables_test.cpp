@@ -5,6 +5,7 @@
 #include <map>
 #include <sstream>
 
+#include "studies/base/csv.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/small_studies.hpp"
 #include "studies/analysis/run_study.hpp"
@@ -88,6 +89,27 @@ TEST_CASE("CSV tables read back whole, whatever a scene is called", "[studies][t
   }
   CHECK(sums.size() == 2 * 6);
   for (const auto& [position, sum] : sums) CHECK(sum == Approx(1).epsilon(1e-11));
+}
+
+TEST_CASE("A name that a spreadsheet would take for a formula stays a text, a number stays a number", "[studies][tables]") {
+  for (const char* name : {"=1+1", "+16 um", "-16 um", "@sum"}) CHECK(csv_field(name) == "'" + std::string(name));
+  CHECK(csv_field("=a,b") == "\"'=a,b\"");
+  for (const char* name : {"", "aligned", "-16", "-1.5e-3", "a=b", "16 um"}) CHECK(csv_field(name) == name);
+  StudyResults results = run_study(parse_study(small::analysis(), "small.toml"));
+  for (LoadedResult& loaded : results.loaded) loaded.scene = "=2*3";
+  CHECK(tables_of(results).at("cycle.csv")[1].front() == "'=2*3");
+}
+
+TEST_CASE("Load factors of several torques have the torque beside them", "[studies][tables]") {
+  const std::string table = summary_table(run_study(parse_study(small::analysis(), "small.toml", {{"load.torque", "[500, 1000]"}})));
+  std::istringstream lines(table.substr(table.find("load factors")));
+  std::map<std::string, int> torques;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string scene, torque;
+    if (line.find("without spikes") != std::string::npos && words >> scene >> torque) ++torques[torque];
+  }
+  CHECK(torques == std::map<std::string, int>{{"500", 2}, {"1000", 2}});
 }
 
 TEST_CASE("CSV numbers carry every digit", "[studies][tables]") {

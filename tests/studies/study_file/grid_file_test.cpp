@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/thread_stopwatch.hpp"
 #include "core/base/units.hpp"
 #include "core/flank/measured_grid.hpp"
 #include "studies/study_file/study_file.hpp"
@@ -127,6 +128,40 @@ TEST_CASE("A mistake in a grid file is reported in one line with its position", 
   CHECK(refusal(header) == "flank.csv: grid = 0 radii with 0 axial positions: allowed is at least 2 x 2");
   CHECK(refusal(header + "50,0,0\n50,1,0\n") == "flank.csv: grid = 1 radii with 2 axial positions: allowed is at least 2 x 2");
   CHECK(refusal(header + std::string(500, 'x') + "\n").size() < 200);
+}
+
+TEST_CASE("A control character in a grid file is shown by its number", "[studies][grid-file][errors]") {
+  const std::string nul("50,0,1\0002", 8);
+  CHECK(refusal(header + nul + "\n") == "flank.csv:2:6: deviation = 1\\x002: allowed is a number -1000 .. 1000");
+  CHECK(refusal(header + "50,0,\x1b[31m\n") == "flank.csv:2:6: deviation = \\x1b[31m: allowed is a number -1000 .. 1000");
+}
+
+TEST_CASE("A grid beyond the limits is refused when they are passed, and time grows with the lines alone", "[studies][grid-file][errors]") {
+  const auto square = [](int lines) {
+    std::string text = header;
+    for (int i = 0; i < lines; ++i) {
+      for (int j = 0; j < lines; ++j) text += std::to_string(50.0 + 0.01 * i) + "," + std::to_string(0.1 * j) + ",1\n";
+    }
+    return text;
+  };
+  CHECK_THAT(refusal(square(501)),
+             Catch::Contains(":250002:1: grid = more than 250000 points: allowed is at most 500 radii with 500 axial positions"));
+  std::string wide = header;
+  for (int j = 0; j <= 500; ++j) {
+    for (const char* radius : {"50", "51"}) wide += std::string(radius) + "," + std::to_string(j) + ",1\n";
+  }
+  CHECK(refusal(wide) == "flank.csv: grid = 2 radii with 501 axial positions: allowed is at most 500 of each");
+  const auto seconds = [](const std::string& text) {
+    double least = 1e9;
+    for (int run = 0; run < 3; ++run) {
+      const ThreadStopwatch clock;
+      parse_grid(text, "flank.csv");
+      least = std::min(least, clock.seconds());
+    }
+    return least;
+  };
+  // Sixteen times the lines: sixteen times the work and a little for sorting; the square of it would be 256.
+  CHECK(seconds(square(400)) < 64.0 * seconds(square(100)));
 }
 
 TEST_CASE("A point that is missing is named, wherever it is", "[studies][grid-file][errors]") {

@@ -23,6 +23,16 @@ torque = 100
 
 }  // namespace
 
+TEST_CASE("A title, a name of a scene or a path is one line without control characters", "[studies][study-file]") {
+  const std::string allowed = "a text without control characters or line ends";
+  for (const char* text : {"\\u001B[31m", "a\\u0000b", "two\\nlines", "\\u007F", "\\u009B2J"}) {
+    CAPTURE(text);
+    CHECK_THAT(problem_of("", {{"title", "\"" + std::string(text) + "\""}}).allowed, Catch::Contains(allowed));
+    CHECK_THAT(problem_of("[[scenes]]\nname = \"" + std::string(text) + "\"\n").allowed, Catch::Contains(allowed));
+  }
+  CHECK(read("", {{"title", "\"Getriebe \u00e4\u00b5\""}}).title == "Getriebe \u00e4\u00b5");
+}
+
 TEST_CASE("An optimisation that cannot be run is refused with what to do", "[studies][study-file]") {
   using Row = std::tuple<std::string, std::string, std::string>;
   const auto [more, key, advice] = GENERATE(table<std::string, std::string, std::string>({

@@ -63,6 +63,14 @@ TEST_CASE("An archive that is damaged, ambiguous or too large is refused in one 
   CHECK_THAT(archive_refusal(archive_of({{"a.rexs", "a"}, {"b.xml", "b"}})), Contains("an archive with 2 models"));
   CHECK_THAT(archive_refusal(archive_of({{"a.txt", "a"}, {"b.txt", "b"}})), Contains("an archive with 0 models"));
   CHECK(archive_refusal(archive_of({{"model", "a"}})).empty());  // the only one there is
-  // A quarter of a megabyte that becomes more than is unpacked.
-  CHECK_THAT(archive_refusal(archive_of({{"a.rexs", std::string(rexs::largest_unpacked + 1, '0')}})), Contains("268435456 bytes unpacked"));
+  // A few kilobytes that become a tree of gigabytes.
+  for (const char* part : {"<a/>", "{},", "0,"}) {
+    std::string many = part[0] == '<' ? "<model>" : "{\"model\":[";
+    for (int k = 0; k < 2'000'001; ++k) many += part;
+    const std::string archive = archive_of({{"a.rexs", many}});
+    CHECK(archive.size() < 100'000);
+    CHECK_THROWS_WITH(rexs::import_stage(archive, "gears.rexsz", {}), Contains("allowed is at most 2000000 elements and values"));
+  }
+  // Less than a tenth of a megabyte that becomes more than is unpacked.
+  CHECK_THAT(archive_refusal(archive_of({{"a.rexs", std::string(rexs::largest_unpacked + 1, '0')}})), Contains("67108864 bytes unpacked"));
 }

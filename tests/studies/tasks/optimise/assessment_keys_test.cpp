@@ -45,7 +45,7 @@ TEST_CASE("Tolerances are read in the unit of their key, classes as that gear's 
   const FlankTolerances pinion = flank_tolerances(ToleranceData::of(make_gear_pair(study.pair), Member::Pinion), 6);
   CHECK(tolerance(study, "pinion.error.helix_slope").distribution == Distribution::within_tolerance(pinion.helix_slope / units::um));
   CHECK(tolerance(study, "pinion.error.profile_slope").distribution == Distribution::within_tolerance(pinion.profile_slope / units::um));
-  CHECK(tolerance(study, "pinion.error.pitch").distribution == Distribution::within_tolerance(pinion.single_pitch / units::um));
+  CHECK(tolerance(study, "pinion.error.pitch").pitch == PitchTolerance{study.pair.pinion.teeth, pinion.single_pitch, pinion.cumulative_pitch});
   CHECK(study.optimise.assessment.tolerances.size() == 5);
 }
 

@@ -105,6 +105,17 @@ TEST_CASE("The same study gives the same assessment", "[studies][assessment][det
   CHECK(a == b);
 }
 
+TEST_CASE("Where no rule of thumb keeps the constraints the summary says so", "[studies][assessment]") {
+  const StudyResults results = run_study(
+      parse_study(small::optimisation() + "\"pinion.modification.lead_crowning + wheel.modification.lead_crowning\" = { min = 25 }\n", "small.toml"));
+  CHECK(results.design->after.variables[0] >= 0.025 - 1e-6);
+  const std::string said = "None of 20 designs by rules of thumb keeps the constraints. The nearest, ";
+  CHECK_THAT(summary_table(results), Catch::Contains(said));
+  const json comparison = json::parse(results_json(results))["optimise"]["comparison"];
+  CHECK_FALSE(comparison.contains("best_rule"));
+  CHECK_THAT(comparison["no_rule"].get<std::string>(), Catch::StartsWith(said));
+}
+
 TEST_CASE("Without rules there is nothing to compare with and no section for it", "[studies][assessment]") {
   const StudyResults results = run_study(parse_study(small::optimisation(), "small.toml", {{"optimise.comparison.rules", "off"}}));
   const json optimise = json::parse(results_json(results))["optimise"];

@@ -53,6 +53,9 @@ TEST_CASE("Steps, ties and bounds on sums are read in their own units", "[studie
                                                                             : 0.0005;
     CHECK(v.step == Approx(step).epsilon(optimisation_round_off));
   }
+  const OptimiseTable unstepped = read_optimisation("", {{"optimise.step", "none"}}).optimise;
+  for (const DesignVariable& v : unstepped.variables) CHECK(v.step == 0.0);
+  CHECK_THAT(optimisation_problem("", {{"optimise.step", "0"}}).allowed, Catch::Contains("above 0 and at most 100 um, or \"none\""));
   REQUIRE(table.links.size() == 1);
   CHECK(table.links[0].linked.member == Member::Wheel);
   CHECK(table.variables[table.links[0].as].path == "pinion.modification.lead_crowning");

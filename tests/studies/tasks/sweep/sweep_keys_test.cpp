@@ -52,7 +52,16 @@ TEST_CASE("A tolerance class is that gear's tolerance, and of an error all three
   const FlankTolerances wheel = flank_tolerances(ToleranceData::of(pair, Member::Wheel), 8);
   CHECK(parameter(study, "pinion.error.helix_slope").distribution == Distribution::within_tolerance(pinion.helix_slope / units::um));
   CHECK(parameter(study, "pinion.error.profile_slope").distribution == Distribution::within_tolerance(pinion.profile_slope / units::um));
-  CHECK(parameter(study, "pinion.error.pitch").distribution == Distribution::within_tolerance(pinion.single_pitch / units::um));
+  const SweepParameter& pitch = parameter(study, "pinion.error.pitch");
+  CHECK(pitch.pitch == PitchTolerance{study.pair.pinion.teeth, pinion.single_pitch, pinion.cumulative_pitch});
+  CHECK(study.error.pinion.cumulative_pitch.empty());  // the nominal gear has equal pitches
+  SweptCondition drawn = SweptCondition::of(study);
+  set_swept(drawn, pitch, 12345.6);
+  CHECK(drawn.scene.error.pinion.cumulative_pitch.size() == static_cast<std::size_t>(study.pair.pinion.teeth));
+  CHECK(drawn.scene.error.wheel.cumulative_pitch.empty());
+  SweptCondition same = SweptCondition::of(study);
+  set_swept(same, pitch, 12345.0);
+  CHECK(drawn.scene.error == same.scene.error);
   CHECK(parameter(study, "wheel.error.helix_slope").distribution == Distribution::within_tolerance(wheel.helix_slope / units::um));
 }
 

@@ -60,6 +60,7 @@ TEST_CASE("A linear output gives each parameter its share of the variance, and a
     CHECK(of.indices[j].first == Approx(share[j]).margin(0.02));
     CHECK(of.indices[j].total == Approx(share[j]).margin(0.02));
   }
+  CHECK(index_warning(statistics).empty());
   CHECK(of.indices[1].total == 0.0);                          // exactly: it does not enter
   CHECK(std::isnan(statistics.outputs[1].indices[0].first));  // does not vary
   const ResponseMap* map = nullptr;
@@ -92,6 +93,22 @@ TEST_CASE("Failed samples are counted with their reasons and kept out of the sta
   CHECK(std::isnan(statistics.outputs[1].mean));
   CHECK(statistics.outputs[1].worst == -1);
   CHECK(statistics.blocks == 8);
+}
+
+TEST_CASE("Sobol indices of few blocks come with their confidence and a warning", "[studies][sweep]") {
+  const auto of_blocks = [](int blocks) {
+    const Study study = parse_study(small::sweep("samples = " + std::to_string(5 * blocks)), "s.toml");
+    return statistics_of(study, [](long long, const auto& v) { return SampleResult{"", {v[0] / 100.0 + v[2], 1.0}}; });
+  };
+  const SweepStatistics few = of_blocks(10), many = of_blocks(4096);
+  CHECK_THAT(index_warning(few), Catch::Contains("The Sobol indices come from 10 blocks and are uncertain by up to"));
+  CHECK(index_warning(many).empty());
+  // Independent blocks: the standard error falls with the root of their number; Sobol's points lie somewhat more evenly.
+  const double ratio = few.outputs[0].indices[0].total_error / many.outputs[0].indices[0].total_error;
+  CHECK(ratio == Approx(std::sqrt(409.6)).epsilon(0.5));  // statistical: the error of ten blocks is uncertain itself
+  CHECK(index_confidence(0.1) == Approx(0.196));
+  const Study plain = parse_study(small::sweep("samples = 40\nindices = \"off\""), "s.toml");
+  CHECK(index_warning(statistics_of(plain, [](long long, const auto& v) { return SampleResult{"", {v[0], 1.0}}; })).empty());
 }
 
 }  // namespace
