@@ -69,7 +69,7 @@ std::string harmonics_csv(const Json& cases) {
 
 std::string design_csv(const Json& optimise) {
   const Json &before = optimise.at("before"), &after = optimise.at("after");
-  std::string csv = "kind,name,unit,before,after,max\n";
+  std::string csv = "kind,name,unit,before,after,limit\n";
   for (const auto& [name, value] : before.at("variables").items()) {
     csv += "variable," + name + "," + field(before.at("variable_units").at(name)) + "," + field(value) + "," + field(after.at("variables").at(name)) +
            ",\n";
@@ -78,7 +78,7 @@ std::string design_csv(const Json& optimise) {
          "," + field(after.at("objective")) + ",\n";
   for (const auto& [name, bound] : before.at("constraints").items()) {
     csv += "constraint," + name + "," + field(bound.at("unit")) + "," + field(bound.at("value")) + "," +
-           field(after.at("constraints").at(name).at("value")) + "," + field(bound.at("max")) + "\n";
+           field(after.at("constraints").at(name).at("value")) + "," + field(bound.at(bound.contains("max") ? "max" : "min")) + "\n";
   }
   return csv;
 }

@@ -168,9 +168,10 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     const auto problem_of = [&]() -> LoadProblemView {
       return {at.influence, at.weight, position.gap.total, moved_edges.empty() ? at.laws : moved_edges, cycle.force};
     };
-    if (edge_shift) moved_edges = laws_with_moved_edges(at, *edge_shift, load_bounds(at, position.gap, cycle.force, likely_approach));
+    const bool has_edges = edge_shift && !at.points.empty();
+    if (has_edges) moved_edges = laws_with_moved_edges(at, *edge_shift, load_bounds(at, position.gap, cycle.force, likely_approach));
     position.load = solver.solve(problem_of(), options, start);
-    if (edge_shift && carries_beyond(position, likely_approach)) {
+    if (has_edges && position.load.usable() && carries_beyond(position, likely_approach)) {
       moved_edges = laws_with_moved_edges(at, *edge_shift, load_bounds(at, position.gap, cycle.force, unlimited));
       position.load = solver.solve(problem_of(), options, start);
     }

@@ -81,7 +81,7 @@ TEST_CASE("A sweep leaves its statistics, its samples and its worst samples, rea
 
   const Ending other = run(folder, {"run", "sweep.toml", "--out", "out", "--set", "sweep.seed=2"});
   CHECK(other.exit_code == 2);
-  CHECK_THAT(other.err, Contains("sweep.seed is not given, not 2"));
+  CHECK_THAT(other.err, Contains("sweep.seed is not given in the study of the store and 2 here"));
   // The same sweep with more samples goes on.
   REQUIRE(run(folder, {"run", "sweep.toml", "--out", "out", "--set", "sweep.samples=60"}).exit_code == 0);
   const std::string longer = text_of(folder.path() / "out/samples.csv");
