@@ -150,10 +150,11 @@ TEST_CASE("Without load too either gear may be called the pinion", "[studies][la
     const auto swing = [](const StudyResults& r) { return r.unloaded.at(0).mesh.peak_to_peak * r.pair.wheel.base_radius; };
     const std::string sharp = "[pinion.edges]\ntip_rounding = 0\nend_rounding = 0\n[wheel.edges]\ntip_rounding = 0\nend_rounding = 0\n";
     const double as_given = swing(results_of_law(pair, "analyse", sharp));
-    constexpr double round_off = 1e-10;  // 1e-12 rad at a base radius of 100 mm [mm]
+    constexpr double discretisation = 1e-2;  // between transfer points extremes are those of positions, which lie elsewhere for the swapped pair
+    constexpr double round_off = 1e-10;      // 1e-12 rad at a base radius of 100 mm [mm]
     CHECK(std::abs(swing(results_of_law(mirrored(pair), "analyse", sharp)) - as_given) < round_off);
     // The error of the pitch counts once in a pitch, at the same transfer points. Angles of the swapped pair are those of the other gear.
-    CHECK(std::abs(swing(results_of_law(swapped(pair), "analyse", sharp)) - as_given) < 1e-6 * as_given + round_off);
+    CHECK(std::abs(swing(results_of_law(swapped(pair), "analyse", sharp)) - as_given) < discretisation * as_given + round_off);
   }
 }
 
