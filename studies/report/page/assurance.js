@@ -56,6 +56,8 @@ function starts_fact(optimise) {
 
 function rule_fact(optimise) {
   const best = record(record(optimise.comparison).best_rule), after = record(optimise.after).objective;
+  const none = record(optimise.comparison).no_rule;
+  if (typeof none === "string") return ["Best rule of thumb", el("span", { title: none }, "none keeps the constraints"), null];
   if (!is_number(best.objective) || !is_number(after)) return null;
   const times = best.objective / after, percent = 100 * (times - 1);
   const beside = times > 3 ? `${fmt(times, 2)} times as much` : `${fmt(Math.abs(percent), 2)} % ${percent < 0 ? "less" : "more"}`;

@@ -38,9 +38,7 @@ const same_scene = (scene, load_case) =>
 
 /** The scenes of an optimisation, the governing one first: by weight at the optimum, then by objective. */
 function scenes_by_rank(optimise) {
-  const governing = record(optimise.governing);
-  // With several objectives in lexicographic order the multipliers belong to the last one.
-  const weights = (governing.objective_name ?? optimise.objective_name) === optimise.objective_name ? list(governing.scenes).map(record) : [];
+  const weights = list(record(optimise.governing).scenes).map(record);
   const scenes = list(optimise.scenes).map(record).map((scene) => {
     const found = weights.find((w) => w.name === scene.name && (!is_number(w.torque_Nm) || w.torque_Nm === scene.torque_Nm));
     return { ...scene, governs: found && is_number(found.weight) && Math.abs(found.weight) >= 0.005 ? found.weight : 0 };
@@ -55,6 +53,12 @@ function asks_for_te(results) {
   if (objective) return /^te_/.test(objective);
   const expected = list(results.given).map((given) => `${record(given).key ?? ""}`).filter((key) => /^expect\..*(te_|stress|load)/.test(key));
   return expected.length > 0 && expected.every((key) => /te_/.test(key));
+}
+
+/** What the case that is shown first is called. The largest weight governs, as the sentences about the optimum say. */
+function first_case_remark(results) {
+  if (!results.optimise) return asks_for_te(results) ? " (largest TE)" : " (largest stress)";
+  return scenes_by_rank(record(results.optimise)).some((scene) => scene.governs !== 0) ? " (governs)" : " (largest objective)";
 }
 
 /** The governing load case: by its weight or objective at the optimum; else the one with the largest stress, or TE where the study asks for it. */

@@ -1,5 +1,14 @@
 // The optimum compared with designs found without an optimiser: rules of thumb and a full-factorial search.
 
+/** Round numbers from low to high, at most `most`, so few that their labels do not touch on an axis of so many pixels. */
+function fitting_ticks(low, high, most, pixels) {
+  for (let count = most; count > 1; --count) {
+    const ticks = round_ticks(low, high, count), widest = 7.2 * Math.max(...ticks.map((tick) => fmt(tick).length)) + 12;
+    if (ticks.length < 2 || widest <= (pixels * (ticks[1] - ticks[0])) / (high - low)) return ticks;
+  }
+  return low < 0 && high > 0 ? [0] : [low];
+}
+
 /**
  * Horizontal bars from zero.
  * @param rows  [{label, value, colour, hollow?, note?}], or several bars in a row: [{label, values, bars: [{value, colour, what}]}];
@@ -17,7 +26,7 @@ function draw_bars(plot, { rows, unit, label, limit = Infinity }) {
   const low = Math.min(0, minimum(values)), high = Math.max(0, maximum(values)) || 1;
   const to_x = (value) => left + ((width - left - right) * (value - low)) / (high - low || 1);
   const picture = svg("svg", { viewBox: `0 0 ${width} ${height}`, width: "100%", role: "img", "aria-label": label });
-  for (const tick of round_ticks(low, high, width < 560 ? 4 : 6)) {
+  for (const tick of fitting_ticks(low, high, width < 560 ? 4 : 6, width - left - right)) {
     picture.append(svg("line", { x1: to_x(tick), x2: to_x(tick), y1: top, y2: height - bottom, class: "grid-line" }),
       svg("text", { x: to_x(tick), y: height - bottom + 15, "text-anchor": "middle", class: "muted" }, fmt(tick)));
   }

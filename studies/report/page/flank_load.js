@@ -3,8 +3,8 @@
 const FLANK_QUANTITIES = [
   { unit: "MPa", title: "Contact stress on the pinion flank",
     values_of: (_, columns) => list(columns.contact_stress_MPa),
-    caption: "Hertzian pressure. Over the whole cycle each cell shows the largest value at its point; a cell is a quadrature point of a "
-      + "contact line. Grey areas are never loaded." },
+    caption: "Hertzian pressure. Over the whole cycle each cell shows the largest value at its place, linear between neighbouring "
+      + "contact lines. Grey areas are never loaded." },
   { unit: "N/mm", title: "Line load on the pinion flank",
     values_of: (_, columns) => list(columns.load_N_per_mm),
     caption: "Load per unit length of contact line over the whole field of contact. A ridge towards one face end shows "
@@ -42,7 +42,7 @@ function flank_clouds(load_case, quantity) {
   const rank = quantity.is_gap ? { is_bare: (gap) => gap > scale.high, outranks: (a, b) => a < b }
     : { is_bare: (value) => value <= 0, outranks: (a, b) => a > b };
   const clouds = { area, scale, rank,
-    designs: designs.map((own) => ({ ...own, raster: area ? nearest_points(own.points, area, rank) : null })) };
+    designs: designs.map((own) => ({ ...own, raster: area ? flank_raster(own.points, area, rank) : null })) };
   load_case.clouds.set(quantity, clouds);
   return clouds;
 }

@@ -86,8 +86,8 @@ function grinding_table(plot, results) {
   plot.append(el("table", { class: "grinding" },
     el("tbody", {}, ...body)));
   const rounded = record(record(results.optimise).rounded), stepped = results.optimise.rounded !== undefined && is_number(rounded.loss_percent);
-  plot.append(el("p", { class: "fine" }, stepped ? `In the grinder's steps, at a cost of ${fmt(Math.max(0, rounded.loss_percent), 2)} %. Amounts are material removed.`
-    : "Rounded to 0.1 µm and 0.1 mm. Amounts are material removed."));
+  plot.append(el("p", { class: "fine" }, stepped ? `In the grinder's steps, at a cost of ${fmt(Math.max(0, rounded.loss_percent), 2)} %. ${amounts_count(results)}`
+    : `Rounded to 0.1 µm and 0.1 mm. ${amounts_count(results)}`));
 }
 
 /** The flanks to grind, each as a small map with contour lines, on one scale. */

@@ -32,8 +32,7 @@ function main() {
   learn_names(results.names);
   learn_quantities(results.quantities);
   const cases = load_cases(results);
-  const selection = case_selection(cases, governing_case(cases, results),
-    results.optimise ? " (governs)" : asks_for_te(results) ? " (largest TE)" : " (largest stress)");
+  const selection = case_selection(cases, governing_case(cases, results), first_case_remark(results));
   draw_summary(results, cases);
   draw_first_screen(results, selection);
   for (const [id, build] of Object.entries(BUILDERS)) {

@@ -53,20 +53,33 @@ function draw_topography(plot, gear, entries) {
 /** An amount as it is shown: values below a nanometre, or a millionth of any other unit, are solver tolerance and become 0. */
 const settled = (value, unit) => (Math.abs(value) < (unit === "um" ? 1e-3 : 1e-6) ? 0 : value ?? null);
 
-function variable_table(body, optimise) {
+/** cos(beta_b): normal to the flank an amount is so much of what it is in the transverse plane; null where both are the same. */
+function normal_share(results) {
+  const angle = record(results.geometry).base_helix_angle_deg;
+  return is_number(angle) && angle !== 0 ? Math.cos((angle * Math.PI) / 180) : null;
+}
+
+/** How amounts count, for the note of a table. */
+const amounts_count = (results) => (normal_share(results) === null ? "Amounts are material removed, positive into the tooth."
+  : "Amounts are material removed, positive into the tooth, along the base tangent in the transverse plane; normal to the flank, as the measurement grid of "
+    + `flankwright export has them, they are cos β_b = ${fixed(normal_share(results), 4)} of that.`);
+
+function variable_table(body, results) {
+  const optimise = record(results.optimise);
   const before = record(optimise.before), after = record(optimise.after);
   const varied = unique([...Object.keys(record(before.variables)), ...Object.keys(record(after.variables))]);
   const names = [...[...NAMES.keys()].filter((name) => varied.includes(name)), ...varied.filter((name) => !NAMES.has(name))];
   if (names.length === 0) return;
-  const units = { ...record(before.variable_units), ...record(after.variable_units) };
+  const units = { ...record(before.variable_units), ...record(after.variable_units) }, share = normal_share(results);
   table(body, {
     title: "Design variables",
-    note: "Amounts are material removed, positive into the tooth.",
-    columns: [{ label: "Variable" }, { label: "Before" }, { label: "After" }, { label: "Change" }, { label: "Unit" }],
+    note: amounts_count(results),
+    columns: [{ label: "Variable" }, { label: "Before" }, { label: "After" }, { label: "Change" }, ...(share === null ? [] : [{ label: "After, normal" }]), { label: "Unit" }],
     rows: names.map((name) => {
-      const from = record(before.variables)[name], to = record(after.variables)[name];
-      return [words(name), settled(from, units[name]), settled(to, units[name]), is_number(from) && is_number(to) ? settled(to - from, units[name]) : null,
-        pretty_unit(units[name])];
+      const from = record(before.variables)[name], to = record(after.variables)[name], unit = units[name];
+      const cell = (value) => ({ value: settled(value, unit), text: ground(value, grinding_step(results, name, unit)) });
+      const normal = share === null ? [] : [unit === "um" ? { value: settled(share * to, unit), text: ground(share * to, 0.1) } : null];
+      return [words(name), cell(from), cell(to), is_number(from) && is_number(to) ? cell(to - from) : null, ...normal, pretty_unit(unit)];
     }),
   });
 }
@@ -100,5 +113,5 @@ function build_modifications(results, body) {
       caption: "The surface lies below the unmodified flank (dashed frame) by the removed material; heights are magnified.",
     }, (plot) => draw_surfaces(plot, modified.map((entry) => ({ title: design_title(entry), grid: entry.grid })), removal_scale(own), gear, state));
   }
-  if (results.optimise) variable_table(body, record(results.optimise));
+  if (results.optimise) variable_table(body, results);
 }

@@ -1,4 +1,4 @@
-// Contact points of a mesh cycle on the pinion flank, and the raster in which each cell has the value of the point nearest to it.
+// Contact points of a mesh cycle on the pinion flank, and the raster of their values between the contact lines.
 
 /**
  * All contact points of a mesh cycle: [{z, r, value, phase, tooth}].
@@ -70,6 +70,81 @@ function nearest_points(points, area, { is_bare, outranks }, columns = 240, rows
     }
   }
   return { columns, rows, owner, values: owner.map((point) => (point ? point.value : null)), is_bare };
+}
+
+/** The contact lines that sweep one flank, in their order: each the points of a tooth at a phase, by face width; {place, points}. */
+function swept_lines(points) {
+  const lines = new Map();
+  for (const point of points) {
+    const key = `${point.phase} ${point.tooth}`;
+    if (!lines.has(key)) lines.set(key, { place: point.phase + point.tooth, points: [] });
+    lines.get(key).points.push(point);
+  }
+  for (const line of lines.values()) line.points.sort((a, b) => a.z - b.z);
+  return [...lines.values()].sort((a, b) => a.place - b.place);
+}
+
+/** A point at a share of the face width that a line covers, between its two neighbours there. */
+function along_line({ points }, share) {
+  if (points.length === 1) return { ...points[0], owner: points[0] };
+  const z = points[0].z + share * (points[points.length - 1].z - points[0].z);
+  let i = 0;
+  while (i + 2 < points.length && points[i + 1].z < z) ++i;
+  const [a, b] = [points[i], points[i + 1]], t = b.z > a.z ? Math.min(1, Math.max(0, (z - a.z) / (b.z - a.z))) : 0, mix = (key) => a[key] + t * (b[key] - a[key]);
+  return { z: mix("z"), r: mix("r"), value: mix("value"), owner: t < 0.5 ? a : b };
+}
+
+/**
+ * Values between contact lines that follow each other, linear in between. Places that several lines sweep have the highest-ranking value; unloaded
+ * ones do not hide loaded ones: tip edges over a flank outside the path of contact. Where no lines follow each other closely enough, cells have the
+ * value of the nearest point.
+ * @param is_bare   value -> whether its point is unloaded
+ * @param outranks  (a, b) -> whether value a ranks above b
+ */
+function flank_raster(points, area, { is_bare, outranks }, columns = 240, rows = 120) {
+  const furthest = 0.26, lines = swept_lines(points);  // base pitches: four positions over a mesh cycle
+  const strips = lines.slice(1).map((line, i) => [lines[i], line]).filter(([a, b]) => b.place > a.place && b.place - a.place < furthest);
+  if (strips.length < 2) return nearest_points(points, area, { is_bare, outranks }, columns, rows);
+  const owner = new Array(columns * rows).fill(null), values = new Array(columns * rows).fill(null);
+  const to_column = (z) => (columns * (z - area.z[0])) / (area.z[1] - area.z[0]) - 0.5;
+  const to_row = (r) => (rows * (r - area.r[0])) / (area.r[1] - area.r[0]) - 0.5;
+  const put = (cell, value, point) => {
+    const known = values[cell];
+    const better = known === null || (is_bare(known) !== is_bare(value) ? is_bare(known) : outranks(value, known));
+    if (!better) return;
+    values[cell] = value;
+    owner[cell] = point;
+  };
+  const fill = (corners) => {
+    const [a, b, c] = corners.map((corner) => ({ ...corner, x: to_column(corner.z), y: to_row(corner.r) }));
+    const twice = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+    if (Math.abs(twice) < 1e-9) return;
+    const rim = 0.75;  // of a cell: neighbouring triangles leave none between them, and borders lose none
+    const from = (key) => Math.max(0, Math.ceil(Math.min(a[key], b[key], c[key]) - rim));
+    const to = (key, count) => Math.min(count - 1, Math.floor(Math.max(a[key], b[key], c[key]) + rim));
+    const longest = Math.max(Math.hypot(b.x - a.x, b.y - a.y), Math.hypot(c.x - b.x, c.y - b.y), Math.hypot(a.x - c.x, a.y - c.y));
+    const slack = (rim * longest) / Math.abs(twice);
+    for (let y = from("y"); y <= to("y", rows); ++y) {
+      for (let x = from("x"); x <= to("x", columns); ++x) {
+        const of_b = ((x - a.x) * (c.y - a.y) - (c.x - a.x) * (y - a.y)) / twice, of_c = ((b.x - a.x) * (y - a.y) - (x - a.x) * (b.y - a.y)) / twice;
+        const shares = [1 - of_b - of_c, of_b, of_c];
+        if (shares.some((share) => share < -slack)) continue;
+        const kept = shares.map((share) => Math.max(0, share)), sum = kept[0] + kept[1] + kept[2];
+        const value = (kept[0] * a.value + kept[1] * b.value + kept[2] * c.value) / sum;
+        put(y * columns + x, value, [a, b, c][kept.indexOf(Math.max(...kept))].owner);
+      }
+    }
+  };
+  for (const [a, b] of strips) {
+    const steps = Math.max(2, a.points.length, b.points.length);
+    for (let k = 0; k + 1 < steps; ++k) {
+      const [from, to] = [k / (steps - 1), (k + 1) / (steps - 1)];
+      const [p, q, u, v] = [along_line(a, from), along_line(a, to), along_line(b, from), along_line(b, to)];
+      fill([p, q, u]);
+      fill([q, v, u]);
+    }
+  }
+  return { columns, rows, owner, values, is_bare };
 }
 
 /** Rectangle of the flank that the points span; a single line gets half a millimetre on both sides. */

@@ -3,11 +3,13 @@
 function build_governing(results, body) {
   const optimise = record(results.optimise), governing = record(optimise.governing);
   body.append(el("ul", { class: "statements" }, ...list(governing.words).map((sentence) => el("li", {}, pretty_unit(sentence)))));
+  const usual = record(optimise.usual_signs);
+  if (typeof usual.words === "string") body.append(el("p", { class: "banner" }, pretty_unit(usual.words)));
   const residual = governing.residual;
   if (!is_number(residual)) return;
   body.append(el("p", { class: "remark" }, "Weights and gains are the multipliers that balance the exact derivatives of all "
     + `conditions active at this design. The remainder is ${residual < 1e-6 ? "less than 0.0001" : fmt(100 * residual, 2)} % of the start's objective over the range of a `
-    + `variable. Gains below ${fmt(governing.resolution, 2)} ${pretty_unit(governing.objective_unit)} are insignificant.${residual > 1e-3 ? " The remainder is large: the design lies at a kink of another kind, or the search has not converged." : ""}`));
+    + `variable. Gains below ${fmt(governing.resolution, 2)} ${pretty_unit(governing.objective_unit)} are treated as zero.${residual > 1e-3 ? " The remainder is large: the design lies at a kink of another kind, or the search has not converged." : ""}`));
 }
 
 /** Rows of a tornado, the widest first: a bar for a step down and one for a step up. */

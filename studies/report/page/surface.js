@@ -1,23 +1,30 @@
 // A grid of the flank as a surface in space, seen from above in parallel projection and turned by a slider.
 
-const SURFACE_HEIGHT = 330;
+const SURFACE_MARGIN = { top: 42, bottom: 26 };  // for the title and a label above the surface, and a label below it
 const SURFACE_TILT = (32 * Math.PI) / 180;  // of the view below the horizontal
 
 /**
  * Projection of the flank with its middle at the origin: face width along u, radius along v, both in half face widths of the
- * drawing, removed material downwards.
+ * drawing, removed material downwards. `height` is that of the picture in which all of the surface is seen, from its highest place (no
+ * removal) to its lowest (the largest of the scale), with room for labels.
  */
 function surface_view(grid, scale, turn, width) {
   const [z0, z1] = [grid.z[0], grid.z[grid.z.length - 1]], [r0, r1] = [grid.r[0], grid.r[grid.r.length - 1]];
   const half_face = Math.min(0.36 * width, 200), half_depth = 0.55 * half_face, drop = 105;
   const [c, s] = [Math.cos(turn), Math.sin(turn)];
-  const place = (z, r, removal) => {
+  const raised = (z, r, removal) => {
     const u = half_face * ((2 * (z - z0)) / (z1 - z0) - 1), v = half_depth * ((2 * (r - r0)) / (r1 - r0) - 1);
     const across = u * c - v * s, away = u * s + v * c;
     return { x: width / 2 + across, away,
-      y: 0.38 * SURFACE_HEIGHT - away * Math.sin(SURFACE_TILT) + drop * Math.cos(SURFACE_TILT) * ((removal - scale.low) / (scale.high - scale.low)) };
+      y: drop * Math.cos(SURFACE_TILT) * ((removal - scale.low) / (scale.high - scale.low)) - away * Math.sin(SURFACE_TILT) };
   };
-  return { place, z: [z0, z1], r: [r0, r1] };
+  const heights = [z0, z1].flatMap((z) => [r0, r1].flatMap((r) => [Math.min(0, scale.low), scale.high].map((removal) => raised(z, r, removal).y)));
+  const rise = SURFACE_MARGIN.top - minimum(heights);
+  const place = (z, r, removal) => {
+    const at = raised(z, r, removal);
+    return { ...at, y: at.y + rise };
+  };
+  return { place, z: [z0, z1], r: [r0, r1], height: maximum(heights) + rise + SURFACE_MARGIN.bottom };
 }
 
 /** Quadrangles of the surface, the furthest first. */
@@ -38,8 +45,8 @@ function surface_cells(grid, view) {
 
 /** Draws the surface in the colours of `scale`, the unmodified flank as a dashed frame above it, and writes its ends beside it. */
 function draw_surface(plot, grid, scale, turn, { title, gear, width }) {
-  const { canvas, pen } = sharp_canvas(width, SURFACE_HEIGHT, `${title}: topography of the ${gear} flank as a surface`);
   const view = surface_view(grid, scale, turn, width);
+  const { canvas, pen } = sharp_canvas(width, view.height, `${title}: topography of the ${gear} flank as a surface`);
   const trace = (places) => {
     pen.beginPath();
     places.forEach((p, i) => (i ? pen.lineTo(p.x, p.y) : pen.moveTo(p.x, p.y)));
@@ -78,15 +85,21 @@ function draw_surface(plot, grid, scale, turn, { title, gear, width }) {
   pen.fillText(title, 6, 11);
   pen.font = `12px ${Chart.defaults.font.family}`;
   const centre = view.place((z0 + z1) / 2, (r0 + r1) / 2, 0);
+  const taken = [];  // by labels: [left, right, y]
   const write = (z, r, text) => {
-    const lowest = Math.max(0, grid_value(grid, z, r) ?? 0);
-    const p = view.place(z, r, view.place(z, r, 0).y > centre.y ? lowest : 0);
+    // Beside the frame or the surface, whichever stands out further there.
+    const removal = grid_value(grid, z, r) ?? 0, is_near = view.place(z, r, 0).y > centre.y;
+    const p = view.place(z, r, is_near ? Math.max(0, removal) : Math.min(0, removal));
     const side = p.x < centre.x - 12 ? -1 : p.x > centre.x + 12 ? 1 : 0;
     pen.textAlign = side < 0 ? "right" : side > 0 ? "left" : "center";
-    const x = p.x + 7 * side, y = p.y + (p.y > centre.y ? 12 : -12), wide = pen.measureText(text).width;
+    const x = p.x + 7 * side, down = p.y > centre.y ? 1 : -1, wide = pen.measureText(text).width;
+    let y = p.y + 12 * down;
     const left = side < 0 ? x - wide : side > 0 ? x : x - wide / 2;
     pen.textAlign = "left";
     const inside = Math.min(Math.max(4, left), width - wide - 4);
+    while (taken.some(([from, to, at]) => inside < to + 6 && inside + wide > from - 6 && Math.abs(at - y) < 15)) y += 15 * down;
+    y = Math.min(Math.max(26, y), view.height - 8);
+    taken.push([inside, inside + wide, y]);
     pen.strokeStyle = css_colour("surface");
     pen.lineWidth = 4;
     pen.strokeText(text, inside, y);
@@ -109,7 +122,7 @@ function draw_surfaces(plot, entries, scale, gear, state) {
   const draw = () => {
     row.replaceChildren();
     for (const { title, grid } of entries) draw_surface(row, grid, scale, (state.degrees * Math.PI) / 180, { title, gear, width });
-    row.append(colour_bar(scale, "µm", SURFACE_HEIGHT));
+    row.append(colour_bar(scale, "µm", 330));
   };
   input.addEventListener("input", () => {
     state.degrees = Number(input.value);
