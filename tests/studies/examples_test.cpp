@@ -58,7 +58,9 @@ TEST_CASE("Every example is valid, meets its expectations and runs without a com
         occurrences(ending.err, "warning: the pinion is outside the library") + occurrences(ending.err, "warning: the wheel is outside the library");
     // Of 110 samples Sobol indices are uncertain.
     const auto uncertain = occurrences(ending.err, "warning: The Sobol indices come from");
-    CHECK(occurrences(ending.err, "warning") - outside - uncertain == (is_parabola ? 1 : 0));
+    // Contact on tip edges is said, once a study.
+    const auto on_edges = ending.err.find("the tip edge of the") != std::string::npos ? 1 : 0;
+    CHECK(occurrences(ending.err, "warning") - outside - uncertain - on_edges == (is_parabola ? 1 : 0));
     CHECK(occurrences(ending.err, "\"beyond its limit\": the designed parabola") == (is_parabola ? 1 : 0));
   }
 }
