@@ -1,30 +1,59 @@
 #include "core/compliance/finite_element/influence.hpp"
 
 #include <chrono>
+#include <initializer_list>
 #include <utility>
 
 namespace flankwright {
 namespace {
 
+using Functionals = Eigen::SparseMatrix<double>;
+
+Functionals side_by_side(std::initializer_list<const Functionals*> parts, Eigen::Index rows) {
+  Eigen::Index columns = 0, entries = 0;
+  for (const Functionals* part : parts) {
+    columns += part->cols();
+    entries += part->nonZeros();
+  }
+  Functionals result(rows, columns);
+  result.reserve(entries);
+  Eigen::Index at = 0;
+  for (const Functionals* part : parts) {
+    for (Eigen::Index column = 0; column < part->cols(); ++column, ++at) {
+      result.startVec(at);
+      for (Functionals::InnerIterator entry(*part, column); entry; ++entry) result.insertBack(entry.row(), at) = entry.value();
+    }
+  }
+  result.finalize();
+  return result;
+}
+
 double clock_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 }  // namespace
 
+FlankFunctionals::FlankFunctionals(const GearMesh& mesh, const std::vector<FlankPoint>& flank, RemovedRigidMotion removed,
+                                   const Eigen::SparseMatrix<double>& more) {
+  NetFunctionals net = net_functionals(mesh, flank, removed);
+  taken_off.swap(net.taken_off);
+  points = net.centre.cols();
+  motions = net.motions.cols();
+  readings = more.cols();
+  all = side_by_side({&net.centre, &net.motions, &more}, net.centre.rows());
+}
+
+FlankInfluence FlankFunctionals::influence(const Eigen::MatrixXd& gram, double hold) const {
+  const Eigen::Index n = points, m = motions, r = readings;
+  const Eigen::MatrixXd by_motions = gram.middleRows(n, m).leftCols(n) - gram.block(n, n, m, m) * taken_off;
+  Eigen::MatrixXd compliance = gram.topLeftCorner(n, n) - gram.block(0, n, n, m) * taken_off - taken_off.transpose() * by_motions;
+  compliance = (0.5 * (compliance + compliance.transpose())).eval();
+  return {compliance.array() + hold, gram.bottomLeftCorner(r, n) - gram.block(n + m, n, r, m) * taken_off};
+}
+
 FlankInfluence solve_flank_influence(const GearMesh& mesh, const SolidModel& solid, const Material& material, const std::vector<FlankPoint>& points,
                                      RemovedRigidMotion removed, const Eigen::SparseMatrix<double>& readings) {
-  NetFunctionals net = net_functionals(mesh, points, removed);
-  const Eigen::SparseMatrix<double> T = std::move(net.taken_off);
-  const Eigen::Index n = net.centre.cols(), m = net.motions.cols(), r = readings.cols();
-  Eigen::SparseMatrix<double> parts = std::move(net.centre);
-  parts.conservativeResize(parts.rows(), n + m + r);
-  if (m > 0) parts.middleCols(n, m) = net.motions;
-  if (r > 0) parts.rightCols(r) = readings;
-  const Eigen::MatrixXd G = solid.influence(std::move(parts));  // of centre, motions and readings
-
-  const Eigen::MatrixXd motions = G.middleRows(n, m).leftCols(n) - G.block(n, n, m, m) * T;
-  Eigen::MatrixXd compliance = G.topLeftCorner(n, n) - G.block(0, n, n, m) * T - T.transpose() * motions;
-  compliance = (0.5 * (compliance + compliance.transpose())).eval();
-  return {compliance.array() + axial_hold_compliance(mesh, material, removed), G.bottomLeftCorner(r, n) - G.block(n + m, n, r, m) * T};
+  FlankFunctionals functionals(mesh, points, removed, readings);
+  return functionals.influence(solid.influence(functionals.all), axial_hold_compliance(mesh, material, removed));
 }
 
 InfluenceModel::InfluenceModel(const GearToMesh& gear, const Material& material, const GearMeshOptions& options)

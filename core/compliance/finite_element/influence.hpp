@@ -13,9 +13,9 @@ struct RunStatistics {
   Eigen::Index bricks{-1};
   Eigen::Index unknowns{-1};
   double factor_entries{not_given};
-  double peak_bytes{not_given};     ///< held by the factorisation at most
-  double model_seconds{not_given};  ///< wall time of mesh, assembly and factorisation
-  double solve_seconds{not_given};  ///< wall time of all loads
+  double peak_bytes{not_given};     ///< held by the factorisation at most; of an InfluenceTableRun by matrix, loads and elimination
+  double model_seconds{not_given};  ///< wall time of mesh, assembly and factorisation; of an InfluenceTableRun up to the ordering
+  double solve_seconds{not_given};  ///< wall time of all loads; of an InfluenceTableRun of elimination and loads, which are one
 };
 
 /// Influence values between flank points of one gear.
@@ -37,8 +37,23 @@ struct FlankInfluence {
   Eigen::MatrixXd readings;
 };
 
+/// The linear functionals from which a FlankInfluence is made: l_p of n points, m motions of the shaft and r readings.
+struct FlankFunctionals {
+  Eigen::SparseMatrix<double> all;        ///< n + m + r columns
+  Eigen::SparseMatrix<double> taken_off;  ///< as NetFunctionals, m x n
+  Eigen::Index points{0}, motions{0}, readings{0};
+
+  /// @param readings  functionals of the nodes' displacements; may have no columns
+  /// @throws InvalidInput  a point outside the ranges of FlankPoint
+  FlankFunctionals(const GearMesh& mesh, const std::vector<FlankPoint>& flank, RemovedRigidMotion removed,
+                   const Eigen::SparseMatrix<double>& readings);
+  /// @param gram  all' A^-1 all
+  /// @param hold  axial_hold_compliance() [mm/N]
+  FlankInfluence influence(const Eigen::MatrixXd& gram, double hold) const;
+};
+
 /// @param solid     of the mesh, Factorised
-/// @param readings  3n x r, functionals of the nodes' displacements; may have no columns
+/// @param readings  as FlankFunctionals
 /// @throws InvalidInput  a point outside the ranges of FlankPoint
 FlankInfluence solve_flank_influence(const GearMesh& mesh, const SolidModel& solid, const Material& material, const std::vector<FlankPoint>& points,
                                      RemovedRigidMotion removed, const Eigen::SparseMatrix<double>& readings = {});

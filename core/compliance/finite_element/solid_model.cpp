@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/error.hpp"
+#include "core/base/taken.hpp"
 
 namespace flankwright {
 namespace {
@@ -125,27 +126,13 @@ void check(const SolidMesh& mesh, const Material& material, const std::vector<No
   }
 }
 
-}  // namespace
-
-BrickNodes SolidMesh::brick_nodes(Eigen::Index brick) const {
-  BrickNodes result;
-  for (int i = 0; i < 20; ++i) result.col(i) = nodes.col(bricks(i, brick));
-  return result;
-}
-
-double SolidMesh::quality() const {
-  double worst = 1;
-  for (Eigen::Index e = 0; e < bricks.cols(); ++e) worst = std::min(worst, brick_quality(brick_nodes(e)));
-  return worst;
-}
-
-struct SolidModel::Assembled {
-  Eigen::SparseMatrix<double> lower;
-  Eigen::SparseMatrix<double> motion;
-  Eigen::VectorXi node_of;
-
-  Assembled(const SolidMesh& mesh, const Material& material, const std::vector<NodeSupport>& supports) {
-    check(mesh, material, supports);
+/// Fills a stiffness.
+class Assembly {
+ public:
+  Assembly(SolidStiffness& stiffness, const SolidMesh& mesh, const Material& material, const std::vector<NodeSupport>& supports)
+      : lower_(stiffness.lower) {
+    Eigen::SparseMatrix<double>& motion = stiffness.motion;
+    Eigen::VectorXi& node_of = stiffness.node_of;
     const Eigen::Index n = mesh.nodes.cols();
     const std::vector<int> ties = indices_of_ties(mesh);
     std::vector<char> fixed(static_cast<std::size_t>(3 * n), 0);
@@ -188,17 +175,18 @@ struct SolidModel::Assembled {
     motion.resize(3 * n, count);
     motion.setFromTriplets(moves.begin(), moves.end());
 
-    lower.resize(count, count);
+    lower_.resize(count, count);
     lay_out(node_graph(mesh, ties), number, n);
     fill(mesh, material, ties, number, turn);
   }
 
  private:
+  Eigen::SparseMatrix<double>& lower_;
   std::vector<NodeSupport> turned_;  ///< supports whose frame is not the axes
 
   /// Pattern of `lower`, values 0.
   void lay_out(const NodeGraph& graph, const std::vector<int>& number, Eigen::Index n) {
-    Eigen::VectorXi counts(lower.cols());
+    Eigen::VectorXi counts(lower_.cols());
     std::vector<int> rows;
     const auto below = [&](int node) {
       rows.clear();
@@ -216,8 +204,8 @@ struct SolidModel::Assembled {
         counts[number[3 * node + a]] = static_cast<int>(rows.size()) - column++;
       }
     }
-    lower.resizeNonZeros(counts.sum());
-    int* outer = lower.outerIndexPtr();
+    lower_.resizeNonZeros(counts.sum());
+    int* outer = lower_.outerIndexPtr();
     outer[0] = 0;
     for (Eigen::Index i = 0; i < counts.size(); ++i) outer[i + 1] = outer[i] + counts[i];
     for (int node = 0; node < n; ++node) {
@@ -225,16 +213,16 @@ struct SolidModel::Assembled {
       for (int a = 0, column = 0; a < 3; ++a) {
         const int c = number[3 * node + a];
         if (c < 0) continue;
-        std::copy(rows.begin() + column++, rows.end(), lower.innerIndexPtr() + outer[c]);
+        std::copy(rows.begin() + column++, rows.end(), lower_.innerIndexPtr() + outer[c]);
       }
     }
-    std::fill_n(lower.valuePtr(), lower.nonZeros(), 0.0);
+    std::fill_n(lower_.valuePtr(), lower_.nonZeros(), 0.0);
   }
 
   void fill(const SolidMesh& mesh, const Material& material, const std::vector<int>& ties, const std::vector<int>& number,
             const std::vector<int>& turn) {
-    const int* outer = lower.outerIndexPtr();
-    const int* inner = lower.innerIndexPtr();
+    const int* outer = lower_.outerIndexPtr();
+    const int* inner = lower_.innerIndexPtr();
     for (Eigen::Index e = 0; e < mesh.bricks.cols(); ++e) {
       const BrickMotion brick(mesh, ties, e);
       const std::vector<int>& nodes = brick.nodes;
@@ -252,28 +240,52 @@ struct SolidModel::Assembled {
           const int row = number[3 * nodes[i / 3] + i % 3];
           if (row < column) continue;
           const int* entry = std::lower_bound(inner + outer[column], inner + outer[column + 1], row);
-          lower.valuePtr()[entry - inner] += stiffness(i, j);
+          lower_.valuePtr()[entry - inner] += stiffness(i, j);
         }
       }
     }
   }
 };
 
-SolidModel::SolidModel(const SolidMesh& mesh, const Material& material, const std::vector<NodeSupport>& supports)
-    : SolidModel(Assembled(mesh, material, supports)) {}
+}  // namespace
 
-SolidModel::SolidModel(Assembled&& assembled) : motion_(std::move(assembled.motion)), factor_(assembled.lower, assembled.node_of) {}
+BrickNodes SolidMesh::brick_nodes(Eigen::Index brick) const {
+  BrickNodes result;
+  for (int i = 0; i < 20; ++i) result.col(i) = nodes.col(bricks(i, brick));
+  return result;
+}
+
+double SolidMesh::quality() const {
+  double worst = 1;
+  for (Eigen::Index e = 0; e < bricks.cols(); ++e) worst = std::min(worst, brick_quality(brick_nodes(e)));
+  return worst;
+}
+
+SolidStiffness::SolidStiffness(const SolidMesh& mesh, const Material& material, const std::vector<NodeSupport>& supports) {
+  check(mesh, material, supports);
+  Assembly(*this, mesh, material, supports);
+}
+
+SolidModel::SolidModel(const SolidMesh& mesh, const Material& material, const std::vector<NodeSupport>& supports)
+    : SolidModel(SolidStiffness(mesh, material, supports)) {}
+
+SolidModel::SolidModel(SolidStiffness&& stiffness) : motion_(taken(stiffness.motion)), factor_(stiffness.lower, stiffness.node_of) {}
 
 Eigen::MatrixXd SolidModel::solve(const Eigen::SparseMatrix<double>& loads) const {
   assert(loads.rows() == motion_.rows());
   return motion_ * factor_.solve(motion_.transpose() * loads);
 }
 
-Eigen::MatrixXd SolidModel::influence(Eigen::SparseMatrix<double> loads) const {
+Eigen::MatrixXd SolidModel::influence(const Eigen::SparseMatrix<double>& loads) const {
   assert(loads.rows() == motion_.rows());
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> by_unknowns = motion_.transpose() * loads;
-  loads = {};
-  return factor_.gram(by_unknowns);
+  return factor_.gram(motion_.transpose() * loads);
+}
+
+MultifrontalGram influence_at_once(SolidStiffness&& stiffness, Eigen::SparseMatrix<double>&& loads, double memory_limit,
+                                   const EliminationProgress& progress) {
+  assert(loads.rows() == stiffness.motion.rows());
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> by_unknowns = taken(stiffness.motion).transpose() * taken(loads);
+  return multifrontal_gram(taken(stiffness.lower), stiffness.node_of, by_unknowns, memory_limit, progress);
 }
 
 }  // namespace flankwright

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/compliance/finite_element/brick.hpp"
+#include "core/compliance/finite_element/multifrontal_gram.hpp"
 #include "core/compliance/finite_element/sparse_cholesky.hpp"
 
 namespace flankwright {
@@ -36,9 +37,21 @@ struct NodeSupport {
   Eigen::Matrix3d frame{Eigen::Matrix3d::Identity()};  ///< orthonormal
 };
 
+/// Stiffness of a linear elastic body,
+///
+///     A = assembled brick_stiffness(),   u = 0 along the supports, tied nodes as what they follow.
+struct SolidStiffness {
+  Eigen::SparseMatrix<double> lower;   ///< of A, n x n, lower triangle only, compressed
+  Eigen::SparseMatrix<double> motion;  ///< displacements of the nodes by the unknowns, which are along the supports' frames, 3 nodes x n
+  Eigen::VectorXi node_of;             ///< of every unknown, ascending, size n
+
+  /// @throws InvalidInput  as SolidModel
+  SolidStiffness(const SolidMesh& mesh, const Material& material, const std::vector<NodeSupport>& supports);
+};
+
 /// Linear elastic body, factorised once for many loads:
 ///
-///     A u = f,   A = assembled brick_stiffness(),   u = 0 along the supports, tied nodes as what they follow.
+///     A u = f,   A: SolidStiffness.
 ///
 /// Displacements and loads are vectors of size 3 n, node by node (x, y, z) [mm], [N].
 class SolidModel {
@@ -57,15 +70,19 @@ class SolidModel {
   Eigen::MatrixXd solve(const Eigen::SparseMatrix<double>& loads) const;
   /// F' A^-1 F, k x k: exactly symmetric, and positive semi-definite to round-off. Its cost grows with the loaded part
   /// of the body, and is a small fraction of that of solve().
-  /// @param loads  moved: two copies of many wide ones beside the factor would matter
-  Eigen::MatrixXd influence(Eigen::SparseMatrix<double> loads) const;
+  Eigen::MatrixXd influence(const Eigen::SparseMatrix<double>& loads) const;
 
  private:
-  struct Assembled;
-  explicit SolidModel(Assembled&& assembled);
+  explicit SolidModel(SolidStiffness&& stiffness);
 
-  Eigen::SparseMatrix<double> motion_;  ///< displacements of the nodes by the unknowns, which are along the supports' frames, 3n x unknowns
+  Eigen::SparseMatrix<double> motion_;  ///< as SolidStiffness::motion
   SparseCholesky factor_;
 };
+
+/// SolidModel::influence() of one set of loads without a factor that is kept, for a fraction of its memory.
+/// @param stiffness, loads  taken(), and freed as soon as they were read
+/// @param memory_limit      as multifrontal_gram()
+MultifrontalGram influence_at_once(SolidStiffness&& stiffness, Eigen::SparseMatrix<double>&& loads, double memory_limit,
+                                   const EliminationProgress& progress = {});
 
 }  // namespace flankwright

@@ -8,6 +8,7 @@
 
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
+#include "core/base/taken.hpp"
 #include "core/contact/path/path_of_contact.hpp"
 
 namespace flankwright {
@@ -50,11 +51,6 @@ bool alike_but_for_size(const InfluenceTableTask& one, const InfluenceTableTask&
 
 int teeth_apart_in_contact(const GearPair& pair) { return static_cast<int>(std::floor(PathOfContact(pair).last_line_phase())); }
 
-double expected_bytes(Eigen::Index unknowns) {
-  const auto n = static_cast<double>(unknowns);
-  return 46 * std::pow(n, 1.469) + 2500 * n;
-}
-
 namespace {
 
 /// Solves into a run, which holds what was done before an allocation fails.
@@ -70,27 +66,26 @@ class TableSolver {
     const GearMesh mesh = gear_mesh(in_modules(task_).gear, options);
     RunStatistics& statistics = run_.statistics;
     statistics.bricks = mesh.solid.bricks.cols();
-    statistics.unknowns = mesh.solid.nodes.size() - 3 * (std::ssize(mesh.solid.tied) + std::ssize(mesh.supports));  // guided nodes slide: a few more
-    if (expected_bytes(statistics.unknowns) > memory_limit) {
-      run_.status = FactorStatus::OutOfMemory;
-      return;
-    }
     const Material material{1, task_.poissons_ratio};
-    const SolidModel solid(mesh.solid, material, mesh.supports);
-    run_.status = solid.status();
-    statistics.unknowns = solid.unknowns();
-    statistics.factor_entries = static_cast<double>(solid.factor().factor_entries());
-    statistics.peak_bytes = static_cast<double>(solid.factor().peak_bytes());
-    statistics.model_seconds = clock.seconds();
+    SolidStiffness stiffness(mesh.solid, material, mesh.supports);
+    statistics.unknowns = stiffness.lower.rows();
+    RootStressReadings readings = task_.root_stress ? root_stress_readings(mesh, material) : RootStressReadings{};
+    FlankFunctionals functionals(mesh, flank_points(mesh, task_.grid), task_.removed, taken(readings.functionals));
+    const double model = clock.seconds();
+    int last = 0;
+    const MultifrontalGram solved = influence_at_once(std::move(stiffness), std::move(functionals.all), memory_limit, [&](double done) {
+      const int step = kModelSteps + static_cast<int>(std::floor(done * (kTableSteps - kModelSteps - 1)));
+      if (step > last) report(last = step);
+    });
+    run_.status = solved.status;
+    statistics.factor_entries = solved.factor_entries;
+    statistics.peak_bytes = solved.peak_bytes;
+    statistics.model_seconds = model + solved.analysis_seconds;
     if (run_.status != FactorStatus::Factorised) return;
-    report(kModelSteps);
-    const Stopwatch loads;
-    const RootStressReadings readings = task_.root_stress ? root_stress_readings(mesh, material) : RootStressReadings{};
-    const FlankInfluence influence =
-        solve_flank_influence(mesh, solid, material, flank_points(mesh, task_.grid), task_.removed, readings.functionals);
+    const FlankInfluence influence = functionals.influence(solved.gram, axial_hold_compliance(mesh, material, task_.removed));
     run_.table.emplace(task_.grid, tables(influence.compliance.middleCols(task_.teeth_apart * task_.grid.size(), task_.grid.size())));
     if (task_.root_stress) run_.root_stress = root_stress_table(mesh, task_.grid, readings.fillet, influence.readings);
-    statistics.solve_seconds = loads.seconds();
+    statistics.solve_seconds = clock.seconds() - statistics.model_seconds;
     report(kTableSteps);
   }
 

@@ -37,13 +37,8 @@ struct InfluenceTableRun {
   RunStatistics statistics;
 };
 
-/// Memory that a run with n unknowns takes at most [bytes], 46 n^1.469 + 2500 n: the factorisation, and the matrix or
-/// the loads beside it. Measured with the stations of a table on five teeth and root stress, 18 to 100 teeth, faces of
-/// 12 and 30 modules (107,000 to 288,000 unknowns): 0.79 to 0.94 of it.
-double expected_bytes(Eigen::Index unknowns);
-
-/// Progress of a run in steps of about the same time: kModelSteps for the model, the rest for the loads.
-inline constexpr int kModelSteps = 6, kTableSteps = 10;
+/// Progress of a run in steps of about the same time: kModelSteps until the matrix is ordered, the rest for the elimination.
+inline constexpr int kModelSteps = 2, kTableSteps = 10;
 using TableProgress = std::function<void(int done, int total)>;
 
 /// Solves a gear's finite elements for a load at every station of the grid on tooth 0, which is meshed finely, and
@@ -51,7 +46,7 @@ using TableProgress = std::function<void(int done, int total)>;
 /// transposed, on tooth m. They differ only by the neighbours' coarser mesh.
 ///
 /// Runs on one thread, E = m_n = 1: same input, same bits.
-/// @param memory_limit  OutOfMemory where expected_bytes() > memory_limit, before anything large is allocated, and where an
+/// @param memory_limit  OutOfMemory where statistics.peak_bytes > memory_limit, once the matrix is ordered, and where an
 ///                      allocation fails after all
 /// @throws InvalidInput  as gear_mesh(), and "grid" where it is not as wide as the face
 InfluenceTableRun solve_influence_table(const InfluenceTableTask& task, double memory_limit, const TableProgress& progress = {});

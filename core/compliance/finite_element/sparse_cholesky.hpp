@@ -10,9 +10,13 @@ namespace flankwright {
 /// Outcome of a factorisation.
 enum class FactorStatus {
   Factorised,
-  NotPositiveDefinite,  ///< smallest over largest pivot at most 1e-13: supports leave a motion free
+  NotPositiveDefinite,  ///< smallest over largest pivot at most smallest_pivot: supports leave a motion free
   OutOfMemory,
 };
+
+/// Smallest over largest pivot [-]. Pivots left by the elimination of a rigid motion are round-off, 1e-16 of the largest one
+/// times a few powers of ten; those of a gear that is held stay above 1e-9.
+inline constexpr double smallest_pivot = 1e-13;
 
 /// Supernodal Cholesky factor P A P' = L L' of a sparse matrix of 3 x 3 node blocks (SuiteSparse CHOLMOD), ordered by
 /// METIS on the graph of the nodes. Factorised once, used for any number of right-hand sides.
@@ -36,7 +40,7 @@ class SparseCholesky {
 
   /// A^-1 B, n x k. Needs status() Factorised.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& right_sides) const;
-  /// B' A^-1 B, k x k, exactly symmetric, see supernodal_gram(). Needs status() Factorised.
+  /// B' A^-1 B, k x k, exactly symmetric, see SupernodalGram. Needs status() Factorised.
   Eigen::MatrixXd gram(const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides) const;
 
  private:

@@ -7,7 +7,7 @@ extern "C" {  // which some vendors' header leaves to us
 #include <algorithm>
 #include <cassert>
 #include <iterator>
-#include <vector>
+#include <utility>
 
 namespace flankwright {
 namespace {
@@ -17,46 +17,11 @@ constexpr int kRowsAtOnce = 512;
 
 using RowSparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// Columns of L that share a pattern below their diagonal block, as CHOLMOD stores them: a dense matrix by columns.
-class Supernodes {
- public:
-  explicit Supernodes(const cholmod_factor& factor)
-      : first_(static_cast<const int*>(factor.super)),
-        pattern_(static_cast<const int*>(factor.pi)),
-        values_(static_cast<const int*>(factor.px)),
-        rows_(static_cast<const int*>(factor.s)),
-        entries_(static_cast<const double*>(factor.x)),
-        count_(static_cast<int>(factor.nsuper)),
-        of_row_(factor.n) {
-    assert(factor.is_super && factor.is_ll && factor.itype == CHOLMOD_INT);
-    for (int s = 0; s < count_; ++s) std::fill(of_row_.begin() + first_[s], of_row_.begin() + first_[s + 1], s);
-  }
-
-  int count() const { return count_; }
-  int of_row(int row) const { return of_row_[static_cast<std::size_t>(row)]; }
-  int first_row(int s) const { return first_[s]; }
-  int size(int s) const { return first_[s + 1] - first_[s]; }
-  /// Rows of the dense matrix: those of the supernode itself, then those below, ascending.
-  int height(int s) const { return pattern_[s + 1] - pattern_[s]; }
-  int row(int s, int i) const { return rows_[pattern_[s] + i]; }
-  /// height x size, from L_ss on.
-  const double* block(int s) const { return entries_ + values_[s]; }
-  /// The next one up the elimination tree, -1 of a root.
-  int parent(int s) const { return height(s) == size(s) ? -1 : of_row(row(s, size(s))); }
-
- private:
-  const int *first_, *pattern_, *values_, *rows_;
-  const double* entries_;
-  int count_;
-  std::vector<int> of_row_;
-};
-
 /// For every supernode the columns of B that reach it, ascending.
-/// @param position  of a row of A in L
-std::vector<std::vector<int>> reach(const Supernodes& supernodes, const RowSparse& right_sides, const std::vector<int>& position) {
+std::vector<std::vector<int>> reach(const Supernodes& supernodes, const RowSparse& right_sides) {
   std::vector<std::vector<int>> columns(static_cast<std::size_t>(supernodes.count()));
   for (int row = 0; row < right_sides.rows(); ++row) {
-    std::vector<int>& here = columns[supernodes.of_row(position[row])];
+    std::vector<int>& here = columns[supernodes.of_row(supernodes.positions()[row])];
     for (RowSparse::InnerIterator entry(right_sides, row); entry; ++entry) here.push_back(static_cast<int>(entry.col()));
     std::ranges::sort(here);
     here.erase(std::unique(here.begin(), here.end()), here.end());
@@ -85,65 +50,99 @@ std::vector<int> places_in(const std::vector<int>& list, const std::vector<int>&
 
 }  // namespace
 
-Eigen::MatrixXd supernodal_gram(const cholmod_factor& factor, const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides) {
-  const Supernodes supernodes(factor);
-  const auto n = static_cast<Eigen::Index>(factor.n), k = right_sides.cols();
-  assert(right_sides.rows() == n);
-  const auto* order = static_cast<const int*>(factor.Perm);  // of a row of L in A
-  std::vector<int> position(static_cast<std::size_t>(n));
-  for (Eigen::Index i = 0; i < n; ++i) position[order[i]] = static_cast<int>(i);
-  const std::vector<std::vector<int>> columns = reach(supernodes, right_sides, position);
+SupernodalGram::SupernodalGram(const Supernodes& supernodes, const RowSparse& right_sides)
+    : supernodes_(supernodes),
+      right_sides_(right_sides),
+      columns_(reach(supernodes, right_sides)),
+      waiting_(columns_.size()),
+      gram_(Eigen::MatrixXd::Zero(right_sides.cols(), right_sides.cols())) {
+  assert(right_sides.rows() == supernodes.rows());
+}
 
-  std::vector<Eigen::MatrixXd> waiting(columns.size());  // what those below leave of W_s, by the columns that reach it
-  const auto waiting_at = [&](int s) -> Eigen::MatrixXd& {
-    if (waiting[s].size() == 0) waiting[s].setZero(supernodes.size(s), std::ssize(columns[s]));
-    return waiting[s];
+double SupernodalGram::bytes() const {
+  double held = 0, most = 0, product = 0, lists = 0;
+  std::vector<char> waits(columns_.size(), 0);
+  const auto wait = [&](int s) {
+    const double entries = static_cast<double>(supernodes_.size(s)) * static_cast<double>(columns_[s].size());
+    if (!std::exchange(waits[s], 1)) held += entries;
+    return entries;
   };
-
-  Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(k, k), product;
-  for (int s = 0; s < supernodes.count(); ++s) {
-    if (columns[s].empty()) continue;
-    Eigen::MatrixXd y = std::move(waiting_at(s));
-    for (int i = 0; i < supernodes.size(s); ++i) {
-      for (RowSparse::InnerIterator entry(right_sides, order[supernodes.first_row(s) + i]); entry; ++entry) {
-        y(i, std::ranges::lower_bound(columns[s], entry.col()) - columns[s].begin()) += entry.value();
-      }
+  for (int s = 0; s < supernodes_.count(); ++s) {
+    if (columns_[s].empty()) continue;
+    const double own = wait(s);
+    lists += static_cast<double>(columns_[s].size());
+    const auto count = static_cast<double>(columns_[s].size());
+    product =
+        std::max({product, count == static_cast<double>(gram_.cols()) ? 0.0 : count * count, count * std::min(kRowsAtOnce, supernodes_.below(s))});
+    for (int i = supernodes_.size(s), above = -1; i < supernodes_.height(s); ++i) {
+      if (const int next = supernodes_.of_row(supernodes_.row(s, i)); next != above) wait(above = next);
     }
-    const int size = supernodes.size(s), height = supernodes.height(s), below = height - size, count = static_cast<int>(y.cols());
-    const double* l = supernodes.block(s);
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, size, count, 1.0, l, height, y.data(), size);
+    most = std::max(most, held);
+    held -= own;
+  }
+  return sizeof(double) * (static_cast<double>(gram_.size()) + product + most) + sizeof(int) * lists;
+}
 
-    if (count == k) {  // all columns, in their order
-      cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, count, size, 1.0, y.data(), size, 1.0, gram.data(), count);
-    } else {
-      product.resize(count, count);
-      cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, count, size, 1.0, y.data(), size, 0.0, product.data(), count);
-      for (int j = 0; j < count; ++j) {
-        for (int i = j; i < count; ++i) gram(columns[s][i], columns[s][j]) += product(i, j);
-      }
-    }
+Eigen::MatrixXd& SupernodalGram::waiting_at(int s) {
+  if (waiting_[s].size() == 0) waiting_[s].setZero(supernodes_.size(s), std::ssize(columns_[s]));
+  return waiting_[s];
+}
 
-    for (int begin = 0; begin < below; begin += kRowsAtOnce) {
-      const int rows = std::min(kRowsAtOnce, below - begin);
-      product.resize(rows, count);
-      cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, count, size, 1.0, l + size + begin, height, y.data(), size, 0.0, product.data(),
-                  rows);
-      for (int i = 0; i < rows;) {
-        const auto row = [&](int r) { return supernodes.row(s, size + begin + r); };
-        const int above = supernodes.of_row(row(i));
-        const std::vector<int> there = places_in(columns[above], columns[s]);
-        Eigen::MatrixXd& w = waiting_at(above);
-        int end = i;
-        while (end < rows && supernodes.of_row(row(end)) == above) ++end;
-        for (int j = 0; j < count; ++j) {
-          for (int r = i; r < end; ++r) w(row(r) - supernodes.first_row(above), there[j]) -= product(r, j);
-        }
-        i = end;
-      }
+void SupernodalGram::take(int s, const double* block) {
+  const std::vector<int>& columns = columns_[s];
+  if (columns.empty()) return;
+  Eigen::MatrixXd y = std::move(waiting_at(s));
+  const int size = supernodes_.size(s);
+  for (int i = 0; i < size; ++i) {
+    for (RowSparse::InnerIterator entry(right_sides_, supernodes_.original(supernodes_.first_row(s) + i)); entry; ++entry) {
+      y(i, std::ranges::lower_bound(columns, entry.col()) - columns.begin()) += entry.value();
     }
   }
-  gram.triangularView<Eigen::StrictlyUpper>() = gram.transpose();
-  return gram;
+  cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, size, static_cast<int>(y.cols()), 1.0, block, supernodes_.height(s),
+              y.data(), size);
+  add_products(s, y);
+  pass_upwards(s, block, y);
+}
+
+void SupernodalGram::add_products(int s, const Eigen::MatrixXd& y) {
+  const std::vector<int>& columns = columns_[s];
+  const auto size = static_cast<int>(y.rows()), count = static_cast<int>(y.cols());
+  if (count == gram_.cols()) {  // all columns, in their order
+    cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, count, size, 1.0, y.data(), size, 1.0, gram_.data(), count);
+    return;
+  }
+  product_.resize(count, count);
+  cblas_dsyrk(CblasColMajor, CblasLower, CblasTrans, count, size, 1.0, y.data(), size, 0.0, product_.data(), count);
+  for (int j = 0; j < count; ++j) {
+    for (int i = j; i < count; ++i) gram_(columns[i], columns[j]) += product_(i, j);
+  }
+}
+
+void SupernodalGram::pass_upwards(int s, const double* block, const Eigen::MatrixXd& y) {
+  const int size = supernodes_.size(s), height = supernodes_.height(s), below = height - size, count = static_cast<int>(y.cols());
+  for (int begin = 0; begin < below; begin += kRowsAtOnce) {
+    const int rows = std::min(kRowsAtOnce, below - begin);
+    product_.resize(rows, count);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, rows, count, size, 1.0, block + size + begin, height, y.data(), size, 0.0, product_.data(),
+                rows);
+    for (int i = 0; i < rows;) {
+      const auto row = [&](int r) { return supernodes_.row(s, size + begin + r); };
+      const int above = supernodes_.of_row(row(i));
+      const std::vector<int> there = places_in(columns_[above], columns_[s]);
+      Eigen::MatrixXd& w = waiting_at(above);
+      int end = i;
+      while (end < rows && supernodes_.of_row(row(end)) == above) ++end;
+      for (int j = 0; j < count; ++j) {
+        for (int r = i; r < end; ++r) w(row(r) - supernodes_.first_row(above), there[j]) -= product_(r, j);
+      }
+      i = end;
+    }
+  }
+}
+
+Eigen::MatrixXd SupernodalGram::result() && {
+  gram_.triangularView<Eigen::StrictlyUpper>() = gram_.transpose();
+  return std::move(gram_);
 }
 
 }  // namespace flankwright

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <cholmod.h>
-
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <vector>
+
+#include "core/compliance/finite_element/supernodes.hpp"
 
 namespace flankwright {
 
@@ -16,8 +17,31 @@ namespace flankwright {
 ///
 ///     Y_s = L_ss^-1 W_s,    G += Y_s' Y_s,    W_t -= L_ts Y_s  for the supernodes t above.
 ///
-/// Only what waits above the supernode at work, W_t, is held: at most k times the rows of the largest separators.
-/// @throws std::bad_alloc
-Eigen::MatrixXd supernodal_gram(const cholmod_factor& factor, const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides);
+/// Only what waits above the supernode at work, W_t, is held: at most k times the rows of the largest separators. A block
+/// of L is needed once, so that it may go when it was taken.
+class SupernodalGram {
+ public:
+  /// @param supernodes, right_sides  must live as long as this; B by rows of A
+  SupernodalGram(const Supernodes& supernodes, const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides);
+
+  /// The most that take() and result() hold at one time [bytes].
+  double bytes() const;
+  /// Takes the supernodes 0, 1, 2 ..., each once.
+  /// @param block  its height x size numbers of L, by columns
+  void take(int s, const double* block);
+  /// After the last of them.
+  Eigen::MatrixXd result() &&;
+
+ private:
+  Eigen::MatrixXd& waiting_at(int s);
+  void add_products(int s, const Eigen::MatrixXd& y);
+  void pass_upwards(int s, const double* block, const Eigen::MatrixXd& y);
+
+  const Supernodes& supernodes_;
+  const Eigen::SparseMatrix<double, Eigen::RowMajor>& right_sides_;
+  std::vector<std::vector<int>> columns_;  ///< for every supernode the columns of B that reach it, ascending
+  std::vector<Eigen::MatrixXd> waiting_;   ///< what those below leave of W_s, by the columns that reach it
+  Eigen::MatrixXd gram_, product_;
+};
 
 }  // namespace flankwright

@@ -102,7 +102,7 @@ class JointProgress {
       all_done += d;
       all += t > 0 ? t : longest;
     }
-    report_(label_, all_done, all, done == 0 ? "mesh and factor" : "loads");
+    report_(label_, all_done, all, done == 0 ? "mesh" : "elimination");
   }
 
  private:
@@ -149,7 +149,7 @@ void refuse_unsolved(const Job& job, ComplianceModel model, double memory_limit)
   const auto unknowns = job.run.statistics.unknowns;
   std::string why = "its stiffness matrix is singular to round-off";
   if (job.run.status == FactorStatus::OutOfMemory) {
-    why = std::to_string(unknowns) + " unknowns need about " + gigabytes(expected_bytes(unknowns)) +
+    why = std::to_string(unknowns) + " unknowns need about " + gigabytes(job.run.statistics.peak_bytes) +
           (std::isfinite(memory_limit) ? ", of which " + gigabytes(memory_limit) + " may be taken" : ", which there are not");
   }
   throw InvalidInput("fidelity.compliance", to_string(model),
