@@ -1,11 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "tests/benchmarks/contact_truth/contact_run.hpp"
+#include "core/compliance/local/hertz_line.hpp"
 #include "core/gear/gear_pair.hpp"
 
 /// The pairs and positions at which CalculiX is asked.
@@ -37,31 +40,87 @@ inline ContactTask contact_task(const PairData& data, double phase, double appro
   return task;
 }
 
+/// A spur pair 27/43, m_n = 2 mm, with rounded tips, b = 1 mm in plane strain, where contact reaches the rounded edge of one gear: the wheel's around the
+/// start A of the path, the pinion's around its end E.
+/// @param rounding  of both gears' tips [m_n]
+/// @param outside   how far the pair is before A, or beyond E [base pitches]; < 0 inside
+inline ContactTask edge_task(double rounding, Member edge, double outside, double approach_um) {
+  PairData data;
+  data.normal_module = 2;
+  data.pinion.teeth = 27;
+  data.wheel.teeth = 43;
+  data.pinion.face_width = data.wheel.face_width = 1;
+  data.pinion.tip_rounding = data.wheel.tip_rounding = rounding * data.normal_module;
+  const PathOfContact path(make_gear_pair(data));
+  ContactTask task = contact_task(data, edge == Member::Wheel ? path.before - outside : path.path_end() + outside, approach_um);
+  task.plane_strain = true;
+  return task;
+}
+
+/// The spur pair with a face of one module, aligned, and a wheel that is wider.
+inline ContactTask uneven_task(double wheel_face_width) {
+  PairData data = pair_data(0, 10);
+  data.wheel.face_width = wheel_face_width;
+  return contact_task(data, 1.15, 45);
+}
+
 struct ContactCase {
   std::string name;
   ContactTask task;
 };
 
+/// Edges of 0.05, 0.1 and 0.2 m_n that have entered, or not yet left, and at the flank's end, at two approaches.
+inline std::vector<ContactCase> edge_cases() {
+  std::vector<ContactCase> cases;
+  for (const double approach : {3.0, 5.0}) {
+    for (const double rounding : {0.1, 0.05, 0.2}) {
+      for (const Member edge : {Member::Wheel, Member::Pinion}) {
+        for (const double outside : {0.035, -0.005}) {
+          std::ostringstream name;
+          name << "edge of the " << name_of(edge) << ", " << rounding << " m_n, " << outside << " outside, " << approach << " um";
+          cases.push_back({name.str(), edge_task(rounding, edge, outside, approach)});
+        }
+      }
+    }
+  }
+  return cases;
+}
+
 /// Of spur pairs one tooth pair carries all at phases 1 .. 1.35, two share the rest; helical ones (total contact
 /// ratio 1.99) have two pairs in mesh nearly always.
 inline std::vector<ContactCase> contact_cases() {
   const PairData spur = pair_data(0, 40), helical = pair_data(30, 40);
-  return {{"spur, after A", contact_task(spur, 0.45, 45)},
-          {"spur, two pairs", contact_task(spur, 0.65, 45)},
-          {"spur, before E", contact_task(spur, 0.90, 45)},
-          {"spur, one pair", contact_task(spur, 1.15, 45)},
-          {"spur, one pair, 20 um of lead crowning", contact_task(spur, 1.15, 60, 20)},
-          {"helical, 0.50", contact_task(helical, 0.50, 45)},
-          {"helical, 0.75", contact_task(helical, 0.75, 45)},
-          {"helical, 1.00", contact_task(helical, 1.00, 45)},
-          {"helical, 1.25", contact_task(helical, 1.25, 45)},
-          {"helical, 1.00, crossed by 500 urad", contact_task(helical, 1.00, 55, 0, 500)},
-          {"wide spur, one pair", contact_task(pair_data(0, 120, 72), 1.15, 45)},
-          {"narrow spur, one pair", contact_task(pair_data(0, 10), 1.15, 45)}};
+  std::vector<ContactCase> cases{{"spur, after A", contact_task(spur, 0.45, 45)},
+                                 {"spur, two pairs", contact_task(spur, 0.65, 45)},
+                                 {"spur, before E", contact_task(spur, 0.90, 45)},
+                                 {"spur, one pair", contact_task(spur, 1.15, 45)},
+                                 {"spur, one pair, 20 um of lead crowning", contact_task(spur, 1.15, 60, 20)},
+                                 {"helical, 0.50", contact_task(helical, 0.50, 45)},
+                                 {"helical, 0.75", contact_task(helical, 0.75, 45)},
+                                 {"helical, 1.00", contact_task(helical, 1.00, 45)},
+                                 {"helical, 1.25", contact_task(helical, 1.25, 45)},
+                                 {"helical, 1.00, crossed by 500 urad", contact_task(helical, 1.00, 55, 0, 500)},
+                                 {"wide spur, one pair", contact_task(pair_data(0, 120, 72), 1.15, 45)},
+                                 {"narrow spur, one pair", contact_task(pair_data(0, 10), 1.15, 45)},
+                                 {"faces of 10 and 10.5 mm", uneven_task(10.5)}};
+  for (ContactCase& c : edge_cases()) cases.push_back(std::move(c));
+  return cases;
+}
+
+/// A mesh for edge_task(): elements around the edge of a third of the half width that 20 N/mm press into the rounding, times the growth of a few elements.
+/// @param flank, across  elements, ContactMeshOptions
+inline ContactSettings edge_settings(const ContactTask& task, int flank = 24, int across = 8) {
+  const Material& m = task.material;
+  ContactSettings settings;
+  settings.mesh = {.flank = flank, .across = across, .finest = 0.04, .into_depth = 2.2, .end_layer = 10, .largest_layer = 10};
+  settings.mesh.edge_finest = 0.3 * hertz_line(20, task.pair.pinion.tip_rounding, contact_modulus(m, m)).half_width;
+  settings.mesh.edge_reach = settings.mesh.finest;
+  settings.penalty = 1e9;  // 1500 MPa sink in by 2 nm, where a rounding is flattened by 50 to 200
+  return settings;
 }
 
 /// Meshes by name: coarse, medium (the default), fine; "ends" has thin layers at the face ends, "pressure" elements
-/// narrow enough for the stress at the contact.
+/// narrow enough for the stress at the contact, "layers" thinner ones still at the ends, for unequal faces.
 inline ContactMeshOptions contact_mesh_options(std::string_view name) {
   if (name == "coarse") {
     return {.flank = 10, .fillet = 2, .across = 3, .into_depth = 2.6, .end_layer = 2, .layer_growth = 1.8, .largest_layer = 8};
@@ -75,6 +134,9 @@ inline ContactMeshOptions contact_mesh_options(std::string_view name) {
   }
   if (name == "fine") {
     return {.flank = 16, .across = 5, .finest = 0.3, .into_depth = 2, .end_layer = 1, .layer_growth = 1.5, .largest_layer = 4, .body_rings = 3};
+  }
+  if (name == "layers") {
+    return {.flank = 10, .across = 3, .finest = 0.4, .end_layer = 0.2, .layer_growth = 1.8, .largest_layer = 3};
   }
   if (name == "pressure") return {.flank = 24, .across = 5, .finest = 0.15};  // for the narrow pair
   return {};

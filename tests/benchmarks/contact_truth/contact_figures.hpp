@@ -71,4 +71,21 @@ struct StressFigure {
 };
 inline StressFigure stress_figure() { return {contact_task(pair_data(0, 10), 1.15, 45), {0, -3.0769, 0, 690.5817 * 3.0769, 1071.85}}; }
 
+/// A position where contact reaches a rounded tip edge, in plane strain.
+struct EdgeFigure {
+  ContactTask task;
+  double torque;  ///< on the pinion [N mm]
+  int edge_pair;  ///< the tooth pair that touches with the edge
+  double share;   ///< of that pair [-]
+  double stress;  ///< largest compression next to the flank or the rounding, in that pair [MPa]
+};
+
+/// Meshes as edge_settings() makes them; the second and the last of 28 x 9 and 36 x 10 elements.
+inline std::vector<EdgeFigure> edge_figures() {
+  return {{edge_task(0.1, Member::Wheel, 0.035, 3), 1575.356, 0, 0.23435, 1640.6},
+          {edge_task(0.1, Member::Wheel, -0.005, 3), 1972.312, 0, 0.41110, 1092.7},
+          {edge_task(0.1, Member::Pinion, 0.035, 3), 1618.2547, 0, 0.26885, 1691.7},
+          {edge_task(0.1, Member::Wheel, 0.04, 4.5), 2472.700, 0, 0.25625, 2174.9}};
+}
+
 }  // namespace flankwright::contact_truth

@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "core/compliance/thin_slice/thin_slice.hpp"
+#include "core/contact/path/contact_points.hpp"
+#include "tests/benchmarks/contact_truth/rounded_tip.hpp"
 
 namespace flankwright::contact_truth {
 namespace {
@@ -62,6 +65,22 @@ std::vector<double> layer_ends(double length, const ContactMeshOptions& options,
   return ends;
 }
 
+/// z of the layers' ends of a gear: those of the common face, and beyond it layers that grow outwards.
+std::vector<double> layer_planes(double own_width, double common_width, const ContactMeshOptions& options, bool half) {
+  std::vector<double> planes;
+  for (const double end : layer_ends(half ? common_width / 2 : common_width, options, half)) planes.push_back(end - common_width / 2);
+  const double overhang = (own_width - common_width) / 2;
+  if (overhang <= 0) return planes;
+  std::vector<double> whole;
+  const std::vector<double> beyond = layer_ends(overhang, options, true);
+  for (std::size_t i = beyond.size() - 1; i > 0; --i) whole.push_back(planes.front() - beyond[i]);
+  whole.insert(whole.end(), planes.begin(), planes.end());
+  if (!half) {
+    for (std::size_t i = 1; i < beyond.size(); ++i) whole.push_back(planes.back() + beyond[i]);
+  }
+  return whole;
+}
+
 /// The section at any z: which nodes and quads there are does not depend on z, where they lie does.
 class Section {
  public:
@@ -72,7 +91,9 @@ class Section {
         pitch_(2 * pi / (*gear.pair)[gear.member].data.teeth),
         rim_(std::max(form_.root_radius() - 1.1 * gear.pair->data.normal_module, 0.5 * (form_.root_radius() + gear.bore_radius))),
         path_(*gear.pair),
-        root_(form_, pitch_ / 2) {
+        root_(form_, pitch_ / 2),
+        rounding_((*gear.pair)[gear.member].data.tip_rounding) {
+    if (rounding_ > 0) tip_.emplace((*gear.pair)[gear.member], gear.flank->helix_rate);
     // Teeth counter-clockwise: pair k is tooth k of the pinion and -k of the wheel.
     first_ = (pinion() ? gear.first : -gear.last) - 1;
     last_ = (pinion() ? gear.last : -gear.first) + 1;
@@ -95,7 +116,7 @@ class Section {
   }
 
  private:
-  enum Kind { Tooth, Centre, Gap, Plain, Ring };
+  enum Kind { Tooth, Centre, Gap, Plain, Ring, Cap };
   /// A node at half steps: i along the profile (around the ring), j from the inside to the surface (down to the bore).
   struct Place {
     Kind kind;
@@ -115,17 +136,53 @@ class Section {
     return rotation - form_.half_angle((*gear_.pair)[gear_.member].working_pitch_radius);
   }
 
-  /// The involute's arc length from the base circle to half step i of the flank, rho^2 / (2 r_b) [mm].
+  /// A loaded tooth with a rounding ends in a cap of its own, between its loaded side, its other flank and the tip land.
+  bool capped(int tooth) const { return loaded(tooth) && tip_.has_value(); }
+  /// Where the centre line, and the unloaded flank, of a tooth begin.
+  double top(int tooth) const {
+    return capped(tooth) ? form_.tip_radius() - cap_height * form_.tip_radius() * form_.tip_half_angle() : form_.tip_radius();
+  }
+
+  double involute_arc(double rho) const { return rho * rho / (2 * form_.base_radius()); }
+
+  /// Where contact is expected on a loaded flank, by arc length, and how fine elements are there [mm].
+  struct Finest {
+    double at, size;
+  };
+  Finest finest(int tooth, double z) const {
+    const Gear& g = (*gear_.pair)[gear_.member];
+    const double pinion_roll = path_.roll_at(path_.phase_at(gear_.line_phase + pair_of(tooth), z));
+    const double roll = std::max(0.0, pinion() ? pinion_roll : gear_.pair->path_length - pinion_roll);
+    const auto contact = contact_point(*gear_.pair, path_, gear_.line_phase, pair_of(tooth), z, true);
+    if (options_.edge_finest == 0 || !contact || contact->tip_edge.radius == 0 || contact->tip_edge.distance > options_.edge_reach) {
+      return {involute_arc(roll), options_.finest};
+    }
+    if (contact->tip_edge.gear == gear_.member) return {involute_arc(tip_->flank_end()), options_.edge_finest};
+    return {involute_arc(g.roll_length_at(pinion() ? contact->pinion_radius : contact->wheel_radius)), options_.edge_finest};
+  }
+
+  /// The surface's length from the involute's start on the base circle to half step i of the flank, rho^2 / (2 r_b) on the involute; a rounding counts
+  /// its radius times the angle of its normal [mm].
   double arc(int tooth, int side, int i, double z) const {
     if (i % 2 != 0) return (arc(tooth, side, i - 1, z) + arc(tooth, side, i + 1, z)) / 2;
-    const auto at = [&](double rho) { return rho * rho / (2 * form_.base_radius()); };
     const Gear& g = (*gear_.pair)[gear_.member];
-    const double tip = at(g.roll_length_at(form_.tip_radius())), start = at(g.roll_length_at(form_.form_radius()));
+    double tip = involute_arc(g.roll_length_at(side < 0 ? top(tooth) : form_.tip_radius()));
+    const double start = involute_arc(g.roll_length_at(form_.form_radius()));
     const double t = i / (2.0 * flank_elements(tooth));
     if (side < 0 || !loaded(tooth)) return tip + t * (start - tip);
-    const double pinion_roll = path_.roll_at(path_.phase_at(gear_.line_phase + pair_of(tooth), z));
-    const double roll = pinion() ? pinion_roll : gear_.pair->path_length - pinion_roll;
-    const double contact = std::clamp(at(std::max(roll, 0.0)), start, tip), delta = options_.finest;
+    if (tip_) {
+      tip = involute_arc(tip_->flank_end()) + rounding_ * tip_->angle() + land_share * form_.tip_radius() * form_.tip_half_angle();
+      const auto steps_above = [&](double at_z) {
+        const auto [at, size] = finest(tooth, at_z);
+        const double a = std::asinh((tip - at) / size), b = std::asinh((at - start) / size);
+        return std::clamp(static_cast<int>(std::lround(a / (a + b) * options_.flank)), 2, options_.flank - 2);
+      };
+      const auto [at, size] = finest(tooth, z);
+      const int above = steps_above(0), below = options_.flank - above, step = i / 2 - above;
+      const double end = step < 0 ? tip - at : at - start;
+      return at - size * std::sinh(std::asinh(end / size) * step / (step < 0 ? above : below));
+    }
+    const double contact = std::clamp(finest(tooth, z).at, start, tip), delta = options_.finest;
     const double above = std::asinh((tip - contact) / delta), below = std::asinh((contact - start) / delta);
     return contact + delta * std::sinh(above - t * (above + below));
   }
@@ -134,13 +191,25 @@ class Section {
   Polar profile(int tooth, int side, int i, double z) const {
     const int end = 2 * flank_elements(tooth);
     if (i > end) return root_.at((i - end) / (2.0 * options_.fillet));
-    const double rho = std::sqrt(2 * form_.base_radius() * arc(tooth, side, i, z));
-    const double radius = std::hypot(rho, form_.base_radius());
+    const double s = arc(tooth, side, i, z);
+    if (side > 0 && capped(tooth) && s > involute_arc(tip_->flank_end())) return beyond_flank(s - involute_arc(tip_->flank_end()));
+    const double rho = std::sqrt(2 * form_.base_radius() * s), radius = std::hypot(rho, form_.base_radius());
     if (side < 0 || !loaded(tooth)) return {radius, form_.half_angle(std::clamp(radius, form_.form_radius(), form_.tip_radius()))};
     const auto p = flank_point(*gear_.flank, rho, z, pair_of(tooth), 0.0);
     const double centre = gear_.flank->helix_rate * z - form_.half_angle((*gear_.pair)[gear_.member].working_pitch_radius);
     return {std::hypot(p.x, p.y), std::remainder(std::atan2(p.y, p.x) - centre, 2 * pi)};
   }
+
+  /// On the rounding or the tip land, at a length from the end of the flank.
+  Polar beyond_flank(double length) const {
+    const double end = form_.half_angle(std::hypot(form_.base_radius(), tip_->flank_end()));
+    const double on_land = length - rounding_ * tip_->angle();
+    const auto [radius, angle] = tip_->at(std::max(0.0, tip_->angle() - length / rounding_));
+    return {radius, end + angle - std::max(0.0, on_land) / form_.tip_radius()};
+  }
+
+  static constexpr double cap_height = 0.6;  ///< of half the tip's thickness
+  static constexpr double land_share = 0.2;  ///< part of half the tip land that belongs to the loaded side's grid
 
   /// Where the start of the fillet is joined to the centre line: share of the height from the rim to there.
   static constexpr double below_flank = 0.6;
@@ -151,7 +220,7 @@ class Section {
     if (i > turn) return {rim_, pitch_ / 2 * (i - turn) / (last - turn)};
     const double foot = rim_ + below_flank * (form_.form_radius() - rim_);
     if (i > flank) return {foot + (rim_ - foot) * (i - flank) / (turn - flank), 0};
-    return {form_.tip_radius() + (foot - form_.tip_radius()) * i / flank, 0};
+    return {top(tooth) + (foot - top(tooth)) * i / flank, 0};
   }
 
   /// Share of the way from the inside to the surface at half level j: fine below the loaded flank, even in the gap's
@@ -166,17 +235,40 @@ class Section {
     return i <= end ? fine : fine + (even - fine) * (i - end) / (2.0 * options_.fillet);
   }
 
+  Polar tooth_polar(int tooth, int side, int i, int j, double z) const {
+    const Polar at = blend(inner(tooth, i), profile(tooth, side, i, z), level(tooth, side, i, j));
+    return {at.radius, tooth * pitch_ + side * at.angle};
+  }
+
+  /// Coons' patch between the loaded side's first column (growing i), the other side's (growing j), the tip land and the other flank's tip.
+  Polar cap(int tooth, int i, int j, double z) const {
+    const double u = level(tooth, 1, 0, i), v = level(tooth, -1, 0, j), middle = tooth * pitch_;
+    const auto at = [](const Polar& p) { return Eigen::Vector2d(p.radius * std::cos(p.angle), p.radius * std::sin(p.angle)); };
+    const Polar land = profile(tooth, 1, 0, z);
+    const double tip = form_.tip_radius(), tip_angle = form_.tip_half_angle();
+    const auto on_land = [&](double t) { return at({tip, middle + land.angle + t * (-tip_angle - land.angle)}); };
+    const auto on_flank = [&](double t) {
+      const double radius = top(tooth) + t * (tip - top(tooth));
+      return at({radius, middle - form_.half_angle(radius)});
+    };
+    const Eigen::Vector2d first = at(tooth_polar(tooth, 1, 0, i, z)), other = at(tooth_polar(tooth, -1, 0, j, z));
+    const Eigen::Vector2d centre = at({top(tooth), middle}), corner = at({tip, middle - tip_angle});
+    const Eigen::Vector2d p = (1 - v) * first + v * on_flank(u) + (1 - u) * other + u * on_land(v) -
+                              ((1 - u) * (1 - v) * centre + u * (1 - v) * on_land(0) + (1 - u) * v * on_flank(0) + u * v * corner);
+    return {p.norm(), std::atan2(p.y(), p.x())};
+  }
+
   Polar polar(const Place& p, double z) const {
     const double middle = p.tooth * pitch_;
     switch (p.kind) {
+      case Cap:
+        return cap(p.tooth, p.i, p.j, z);
       case Centre: {
         const Polar at = inner(p.tooth, p.i);
         return {at.radius, middle};
       }
-      case Tooth: {
-        const Polar at = blend(inner(p.tooth, p.i), profile(p.tooth, p.side, p.i, z), level(p.tooth, p.side, p.i, p.j));
-        return {at.radius, middle + p.side * at.angle};
-      }
+      case Tooth:
+        return tooth_polar(p.tooth, p.side, p.i, p.j, z);
       case Gap:
         return {rim_ + (form_.root_radius() - rim_) * p.j / (2.0 * options_.across), middle + pitch_ / 2};
       case Plain: {
@@ -199,6 +291,8 @@ class Section {
   }
 
   int node(Place p) {
+    if (p.kind == Cap && p.j == 0) p = {Tooth, p.tooth, 1, 0, p.i};
+    if (p.kind == Cap && p.i == 0) p = {Tooth, p.tooth, -1, 0, p.j};
     if (p.kind == Tooth && p.i == 2 * steps(p.tooth))
       p = {Gap, p.side > 0 ? p.tooth : p.tooth - 1, 0, 0, p.j};
     else if (p.kind == Tooth && p.j == 0 && p.i <= 2 * corner(p.tooth))
@@ -236,6 +330,7 @@ class Section {
           return node({Tooth, m, side, i, j});
         });
       }
+      if (capped(m)) grid(options_.across, options_.across, true, m, 0, [&](int i, int j) { return node({Cap, m, 0, i, j}); });
       for (int i = 2 * steps(m); i > 2 * corner(m); --i) around_.push_back(node({Tooth, m, -1, i, 0}));
       for (int i = 2 * corner(m); i < 2 * steps(m); ++i) around_.push_back(node({Tooth, m, 1, i, 0}));
     }
@@ -253,6 +348,8 @@ class Section {
   double pitch_, rim_;
   PathOfContact path_;
   RootCurve root_;
+  double rounding_;  ///< [mm]
+  std::optional<RoundedTip> tip_;
   int first_, last_, plain_{0};
   std::vector<Place> places_;
   std::map<Place, int> numbers_;
@@ -264,11 +361,8 @@ class Section {
 
 ContactMesh contact_mesh(const ContactGear& gear, const ContactMeshOptions& options) {
   const Section section(gear, options);
-  const double width = (*gear.pair)[gear.member].data.face_width;
   ContactMesh mesh;
-  for (const double end : layer_ends(gear.half_face ? width / 2 : width, options, gear.half_face)) {
-    mesh.planes.push_back(end - width / 2);
-  }
+  mesh.planes = layer_planes((*gear.pair)[gear.member].data.face_width, gear.pair->face_width, options, gear.half_face);
   mesh.flanks.resize(static_cast<std::size_t>(gear.last - gear.first + 1));
 
   std::map<std::pair<int, int>, int> numbers;  // of (level, node of the section)

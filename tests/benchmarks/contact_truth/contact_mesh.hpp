@@ -17,10 +17,12 @@ struct ContactMeshOptions {
   int across{4};              ///< centre surface to flank
   double finest{0.4};         ///< delta of the spacing along the flank: s = s_c + delta sinh(...)
   double into_depth{2.2};     ///< size ratio of neighbouring elements below the loaded flank
-  double end_layer{1.5};      ///< axial size at the face ends
+  double end_layer{1.5};      ///< axial size at the ends of the common face, also beyond them on a wider gear
   double layer_growth{1.6};   ///< of neighbouring layers
   double largest_layer{6.0};  ///< axial size at mid face
   int body_rings{2};          ///< from below the teeth to the bore
+  double edge_finest{0};      ///< delta where contact reaches a rounded tip edge; 0: the same as elsewhere
+  double edge_reach{0};       ///< distance of the contact from the edge below which it is taken to reach it
 };
 
 /// One gear of the scene at one mesh position.
@@ -45,14 +47,15 @@ struct ContactMesh {
   SolidMesh solid;
   std::vector<int> bore;                         ///< nodes
   std::vector<int> mid_face;                     ///< nodes at z = 0 where only half of the face is meshed
-  std::vector<std::vector<ElementFace>> flanks;  ///< of pairs first .. last
+  std::vector<std::vector<ElementFace>> flanks;  ///< of pairs first .. last, with their roundings
   std::vector<double> planes;                    ///< z of the layers' ends [mm]
 };
 
 /// Loaded teeth follow the true flank surface; other flanks and fillets are those of ToothForm, and where nothing
 /// meshes the gear is a plain ring at root height. Elements are narrow around the contact line wherever it crosses the
 /// flank: the spacing along the profile is s_c(z) + delta sinh(linear in the index), s the arc length and s_c the
-/// undisturbed contact.
+/// undisturbed contact. A tip rounding is meshed on its true arc, and the spacing goes on over it onto the tip land; where contact reaches the
+/// edge s_c is its end on the flank, and there is a node at s_c. The mate's s_c is where that edge meets it.
 ContactMesh contact_mesh(const ContactGear& gear, const ContactMeshOptions& options);
 
 }  // namespace flankwright::contact_truth

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <iomanip>
 #include <map>
+#include <set>
 #include <sstream>
 
 namespace flankwright::contact_truth {
@@ -65,9 +66,25 @@ std::string numbered(std::string name, std::size_t number) { return name += std:
 std::string slave(int tooth, std::size_t layer) { return numbered(numbered("P", static_cast<std::size_t>(tooth + 10)) += "L", layer); }
 std::string master(int tooth) { return numbered("W", static_cast<std::size_t>(tooth + 10)); }
 
+/// All nodes of a line along the axis move as its first one does, but those of the bores, whose motion is given.
+void write_plane_strain(std::ostream& out, const ContactModel& model) {
+  out << "*EQUATION\n";
+  for (std::size_t g : {0U, 1U}) {
+    const ContactMesh& mesh = model.meshes[g];
+    const std::set<int> held(mesh.bore.begin(), mesh.bore.end());
+    std::map<std::pair<double, double>, Eigen::Index> first;  // spur gears: places of a line are alike to the bit
+    for (Eigen::Index i = 0; i < mesh.solid.nodes.cols(); ++i) {
+      const auto [found, made] = first.try_emplace({mesh.solid.nodes(0, i), mesh.solid.nodes(1, i)}, i);
+      if (made || held.contains(static_cast<int>(i))) continue;
+      const Eigen::Index other = model.first_node[g] + found->second + 1, own = model.first_node[g] + i + 1;
+      for (const int direction : {1, 2}) out << "2\n" << own << ", " << direction << ", 1., " << other << ", " << direction << ", -1.\n";
+    }
+  }
+}
+
 /// The pinion's flanks are the slaves, a surface per layer so that each one's force is printed.
 void write_deck(std::ostream& out, const ContactModel& model, const ContactTask& task, const ContactSettings& settings) {
-  out << std::scientific << std::setprecision(12) << "*NODE\n";
+  out << std::scientific << std::setprecision(12) << "*NODE, NSET=ALL\n";
   for (std::size_t g : {0U, 1U}) {
     for (Eigen::Index i = 0; i < model.meshes[g].solid.nodes.cols(); ++i) {
       const Eigen::Vector3d p = model.place(g, i);
@@ -115,6 +132,10 @@ void write_deck(std::ostream& out, const ContactModel& model, const ContactTask&
   }
   out << "*BOUNDARY\nBORE1, 1, 3\nBORE0, 3, 3\n";
   if (task.half_face) out << "MIDDLE0, 3, 3\nMIDDLE1, 3, 3\n";
+  if (task.plane_strain) {
+    out << "ALL, 3, 3\n";
+    write_plane_strain(out, model);
+  }
   out << "*STEP, INC=50\n*STATIC\n1., 1.\n*BOUNDARY\n";
   const double turn = task.approach / (model.pair.pinion.base_radius * std::cos(model.pair.base_helix_angle));
   for (const int n : model.meshes[0].bore) {
@@ -153,9 +174,14 @@ void read_answer(std::istream& in, const ContactModel& model, bool half_face, Co
   double moments[2] = {0, 0};
   bool complete = false;
   for (std::string line; std::getline(in, line);) {
-    if (line.find("set BORE0") != line.npos)
+    if (line.find("set BORE0") != line.npos) {
+      // Every increment begins here; what counts is the last one.
+      answer.layers.clear();
+      compression.clear();
+      moments[0] = moments[1] = 0;
+      complete = false;
       block = Bore0;
-    else if (line.find("set BORE1") != line.npos)
+    } else if (line.find("set BORE1") != line.npos)
       block = Bore1;
     else if (line.find("stresses (elem") != line.npos)
       block = Stress;
@@ -215,6 +241,12 @@ double ContactAnswer::share(int tooth) const {
 double ContactAnswer::peak_compression() const {
   double peak = 0;
   for (const LayerLoad& l : layers) peak = std::max(peak, l.peak_compression);
+  return peak;
+}
+
+double ContactAnswer::peak_compression(int tooth) const {
+  double peak = 0;
+  for (const LayerLoad& l : layers) peak = l.tooth == tooth ? std::max(peak, l.peak_compression) : peak;
   return peak;
 }
 

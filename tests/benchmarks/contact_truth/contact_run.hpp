@@ -18,6 +18,7 @@ struct ContactTask {
   double approach{not_given};           ///< turn of the pinion from where undisturbed flanks touch, times r_b1 cos(beta_b) [mm]
   std::array<double, 2> bore_radius{};  ///< pinion, wheel [mm]
   bool half_face{false};                ///< see ContactGear
+  bool plane_strain{false};             ///< no node moves along the axis (spur gears)
   Material material{};                  ///< of both gears
 };
 
@@ -46,13 +47,14 @@ struct ContactAnswer {
   double force() const;             ///< of all layers [N]
   double share(int tooth) const;    ///< of the force [-]
   double peak_compression() const;  ///< [MPa]
+  double peak_compression(int tooth) const;
 };
 
 /// Whether CalculiX (ccx, Debian package calculix-ccx) can be called.
 bool calculix_is_installed();
 
 /// Writes the deck into a folder that is made, runs CalculiX on one thread, reads what it prints. Frictionless contact
-/// of surfaces by penalty, small displacements, one increment. Forces are CalculiX' sums over each layer. Stress is that
+/// of surfaces by penalty, small displacements, one increment unless CalculiX halves it. Forces are CalculiX' sums over each layer. Stress is that
 /// in the integration points next to the flank: the pressures that CalculiX prints for its contact points do not add up
 /// to the force.
 ContactAnswer run_calculix(const ContactTask& task, const ContactSettings& settings, const std::filesystem::path& folder);

@@ -17,7 +17,7 @@
 //
 //     flankwright_contact_truth FOLDER [MESH] [PART_OF_A_CASE'S_NAME]
 //
-// MESH is coarse, medium, fine, ends or pressure. FOLDER receives decks and CalculiX' output. Times are processor
+// MESH is coarse, medium, fine, ends, layers or pressure; cases of edges have their own, and take "fine" for a finer one. FOLDER receives decks and CalculiX' output. Times are processor
 // seconds, of the program's own models wall seconds.
 
 using namespace flankwright;
@@ -84,6 +84,25 @@ void compare(const ContactCase& c, const ContactSettings& settings, const std::s
   }
 }
 
+/// A position where contact reaches a rounded tip edge, by tooth pairs.
+void compare_edges(const ContactCase& c, const ContactSettings& settings, const std::string& folder) {
+  const ContactAnswer outside = run_calculix(c.task, settings, folder);
+  if (!outside.converged) {
+    std::printf("%s: CalculiX did not converge, see %s/ccx.log\n", c.name.c_str(), folder.c_str());
+    return;
+  }
+  const OwnAnswer own = own_answer(c.task, outside.pinion_torque, held_structure(c.task).get());
+  std::printf("\n%s: %.1f N mm; CalculiX %ld unknowns, %.1f s; approach %.4f um, ours over CalculiX' %.4f\n", c.name.c_str(), outside.pinion_torque,
+              static_cast<long>(outside.unknowns), outside.processor_seconds, c.task.approach / units::um,
+              own.loaded.load.transmission_error / c.task.approach);
+  std::printf("| pair | share: CalculiX, ours | peak MPa: CalculiX, ours |\n|---|---|---|\n");
+  for (const LayerLoad& l : outside.layers) {
+    std::printf("| %d | %.4f, %.4f | %.0f, %.0f |\n", l.tooth, outside.share(l.tooth), own.share(l.tooth), l.peak_compression,
+                own.peak_stress(l.tooth));
+  }
+  std::fflush(stdout);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -101,6 +120,11 @@ int main(int argc, char** argv) {
   for (const ContactCase& c : contact_cases()) {
     ++number;
     if (argc > 3 && c.name.find(argv[3]) == c.name.npos) continue;
+    const bool fine = argc > 2 && std::strcmp(argv[2], "fine") == 0;
+    if (c.task.pair.pinion.tip_rounding > 0) {
+      compare_edges(c, fine ? edge_settings(c.task, 36, 10) : edge_settings(c.task), std::string(argv[1]) + "/" + std::to_string(number));
+      continue;
+    }
     compare(c, settings, std::string(argv[1]) + "/" + std::to_string(number));
   }
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <set>
 
 #include "core/compliance/finite_element/influence.hpp"
 #include "core/compliance/finite_element/solve_influence_table.hpp"
@@ -10,7 +11,8 @@
 
 namespace flankwright::contact_truth {
 
-InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_radius, double poissons_ratio, const GearMeshOptions& mesh) {
+InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_radius, double poissons_ratio, const GearMeshOptions& mesh,
+                            bool plane_strain) {
   const Gear& gear = pair[member];
   const double module = pair.data.normal_module, half = gear.data.face_width / 2;
   GearToMesh to_mesh{gear.data, module, pair.data.pressure_angle, pair.data.helix_angle, {}};
@@ -18,15 +20,20 @@ InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_rad
   // The mesh wants a shaft somewhat larger than its bore, and an overhang; both bores are held all along.
   to_mesh.body.bore_diameter = 2 * bore_radius;
   to_mesh.body.shaft_diameter = 2 * std::min(bore_radius / 0.8, gear.root_radius - 0.5 * module);
-  to_mesh.body.shaft_overhang = 0.05 * module;
+  to_mesh.body.shaft_overhang = 0.001 * module;
   GearMeshOptions options = mesh;
   const int apart = std::max(2, teeth_apart_in_contact(pair));
   options.teeth_each_side = apart;
   options.layer_share = 0;  // any node of the bore is held
   GearMesh model = gear_mesh(to_mesh, options);
   model.supports.clear();
+  std::set<int> tied;
+  for (const TiedNode& t : model.solid.tied) tied.insert(t.node);
   for (int i = 0; i < model.solid.nodes.cols(); ++i) {
-    if (model.solid.nodes.col(i).head<2>().norm() < bore_radius * (1 + 1e-9)) model.supports.push_back({i});
+    if (model.solid.nodes.col(i).head<2>().norm() < bore_radius * (1 + 1e-9))
+      model.supports.push_back({i});
+    else if (plane_strain && !tied.contains(i))  // tied nodes follow others, which do not move along the axis
+      model.supports.push_back({i, {false, false, true}});
   }
   const SolidModel solid(model.solid, {1, poissons_ratio}, model.supports);
 
@@ -52,7 +59,7 @@ InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_rad
 std::shared_ptr<const PairCompliance> held_structure(const ContactTask& task, const GearMeshOptions& mesh) {
   const GearPair pair = make_gear_pair(task.pair);
   const auto gear = [&](Member m, double bore) {
-    return GearStructure{std::make_shared<const InfluenceTable>(held_at_bore(pair, m, bore, task.material.poissons_ratio, mesh)),
+    return GearStructure{std::make_shared<const InfluenceTable>(held_at_bore(pair, m, bore, task.material.poissons_ratio, mesh, task.plane_strain)),
                          task.material.youngs_modulus};
   };
   return std::make_shared<const StructuralPair>(pair, gear(Member::Pinion, task.bore_radius[0]), gear(Member::Wheel, task.bore_radius[1]));

@@ -11,8 +11,10 @@ namespace flankwright::contact_truth {
 
 /// Influence values of one gear held at its bore as the outside model holds it, no motion of a shaft taken off: what is
 /// compared is the same body. The program's own mesh and functionals. Values E m_n K with E = 1 in the mesh.
-/// @param bore_radius  [mm]
-InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_radius, double poissons_ratio, const GearMeshOptions& mesh = {});
+/// @param bore_radius   [mm]
+/// @param plane_strain  no node moves along the axis
+InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_radius, double poissons_ratio, const GearMeshOptions& mesh = {},
+                            bool plane_strain = false);
 
 /// Both gears of a task.
 std::shared_ptr<const PairCompliance> held_structure(const ContactTask& task, const GearMeshOptions& mesh = {});

@@ -42,9 +42,19 @@ double OwnAnswer::mean_face_load(int tooth, double begin, double end) const {
 
 double OwnAnswer::peak_stress() const { return loaded.contact_stress.maxCoeff(); }
 
+double OwnAnswer::peak_stress(int tooth) const {
+  const auto& points = model.positions.front().points;
+  double peak = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].tooth == tooth) peak = std::max(peak, loaded.contact_stress[static_cast<Eigen::Index>(i)]);
+  }
+  return peak;
+}
+
 OwnAnswer own_answer(const ContactTask& task, double torque, const PairCompliance* structure) {
   constexpr int intervals = 12;  // of a line; another eight move the transmission error by less than 0.1 %
-  OwnAnswer answer{make_mesh_model(make_gear_pair(task.pair), {task.material, task.material}, {{QuadratureRule::Graded, intervals}, {task.phase}}, {},
+  OwnAnswer answer{make_mesh_model(make_gear_pair(task.pair), {task.material, task.material}, {{QuadratureRule::Graded, intervals}, {task.phase}},
+                                   task.plane_strain ? MeshEffects::all_but({"free_ends"}) : MeshEffects{},
                                    MeshPlacement::of(GapModel::PlaneOfAction, task.condition.misalignment), structure),
                    {}};
   answer.loaded = analyse_cycle(answer.model, task.condition, torque).positions.front();

@@ -15,7 +15,8 @@ struct OwnAnswer {
   /// [N/mm]; 0 where the pair has none.
   double face_load(int tooth, double z) const;
   double mean_face_load(int tooth, double begin, double end) const;  ///< its mean over a layer [N/mm]
-  double peak_stress() const;                                        ///< Hertzian [MPa]
+  double peak_stress() const;                                        ///< on flanks and edges [MPa]
+  double peak_stress(int tooth) const;                               ///< of a tooth pair [MPa]
 };
 
 /// @param torque     on the pinion [N mm]
