@@ -8,7 +8,7 @@ namespace flankwright {
 
 /// Near a gear's own end face nothing holds the flank along the axis, and contact is softer, see FreeEnd; on helical
 /// teeth much more so at the acute end, less at the obtuse one. Where one gear is wider than its mate, the mate's end
-/// is nearer to contact, and only its own side is softer there.
+/// is nearer to contact, and only its own side is softer there; the wider one's flank holds up the load's end, see load_end_support().
 class FreeEndsEffect final : public Effect {
  public:
   std::string_view name() const override { return "free_ends"; }

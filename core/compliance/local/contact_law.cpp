@@ -8,6 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/units.hpp"
 #include "core/compliance/local/hertz_line.hpp"
+#include "core/compliance/local/load_end.hpp"
 
 namespace flankwright {
 namespace {
@@ -32,6 +33,23 @@ DepthFunction depth_function(double depth, double k) {
   // asinh from the root at hand, where that costs no digits.
   const double inverse_sine = depth > 0.5 ? std::log(s + depth) : std::asinh(depth);
   return {inverse_sine - k * depth * gap, (1 - k * gap * gap) / s};
+}
+
+/// What both ends of one side add, of which those that its mate does not reach are held up by the flank beyond, see load_end_support().
+FreeEnd::Softening at_ends(const FreeEnd& free_end, const ContactSide& side, const ContactSide& mate, double half_width) {
+  std::array<double, 2> distances = side.end_distances;
+  FreeEnd::Softening support{0, 0};
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const double own = side.end_distances[i], mates = mate.end_distances[i];
+    if (std::isinf(own) || !(own > mates)) continue;
+    const double nu = side.lateral_ratio / (1 + side.lateral_ratio);
+    const FreeEnd::Softening held = load_end_support(nu, mates, own - mates, side.depth, half_width);
+    support.value += held.value;
+    support.widening += held.widening;
+    distances[i] += own - mates;
+  }
+  const FreeEnd::Softening free = free_end.at(distances, side.depth, half_width);
+  return {free.value + support.value, free.widening + support.widening};
 }
 
 }  // namespace
@@ -109,7 +127,8 @@ ContactLaw::Response ContactLaw::evaluate(double line_load) const {
   const std::optional<StripContact> on_edge = strip(line_load);
   const double l = on_edge ? on_edge->half_width() : flank_width, growth = on_edge ? on_edge->growth() : 0.5;
   Response response{0, 0};
-  for (const auto& [side, free_end, end_coefficient] : sides_) {
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    const auto& [side, free_end, end_coefficient] = sides_[i];
     // L grows as sqrt(w), so w d/dw of h' and of y are -h'/2 and -y/2; on an edge that of h' is -growth h'.
     const double h = side.depth / l;
     const DepthFunction g = depth_function(h, side.lateral_ratio);
@@ -119,7 +138,7 @@ ContactLaw::Response ContactLaw::evaluate(double line_load) const {
     response.deflection += side.coefficient * line_load * m.value * g.value;
     response.slope += side.coefficient * (m.value * (g.value - growth * h * g.slope) - 0.5 * lengthening);
     if (end_coefficient == 0) continue;
-    const FreeEnd::Softening f = free_end.at(side.end_distances, side.depth, l);
+    const FreeEnd::Softening f = at_ends(free_end, side, sides_[1 - i].data, l);
     response.deflection += end_coefficient * line_load * f.value;
     response.slope += end_coefficient * (f.value + growth * f.widening);
   }
@@ -136,12 +155,13 @@ double ContactLaw::edge_slope(double line_load) const {
   if (!on_edge) return 0.0;
   const double l = on_edge->half_width(), widening = on_edge->half_width_by_edge() / l, flank_width = half_width(line_load);
   double slope = on_edge->rise_by_edge();
-  for (const auto& [side, free_end, end_coefficient] : sides_) {
+  for (std::size_t i = 0; i < sides_.size(); ++i) {
+    const auto& [side, free_end, end_coefficient] = sides_[i];
     const double h = side.depth / l;
     const double m = tip_factor(side.tip_distance / flank_width).value;
     slope -= side.coefficient * line_load * m * depth_function(h, side.lateral_ratio).slope * h * widening;
     if (end_coefficient == 0) continue;
-    slope += end_coefficient * line_load * free_end.at(side.end_distances, side.depth, l).widening * widening;
+    slope += end_coefficient * line_load * at_ends(free_end, side, sides_[1 - i].data, l).widening * widening;
   }
   return slope;
 }

@@ -48,8 +48,8 @@ struct ContactSide {
 ///     c(w) = sum over both gears of  M(y) A w [asinh(h') - nu/(1 - nu) h' (sqrt(1 + h'^2) - h')],
 ///     h' = h/L,  y = tip distance/L,  L = sqrt(4 w R / (pi E')),
 ///
-/// and what each end face at a finite distance adds, (2/pi)(w/E) f(s, h, L), see FreeEnd. Tip and ends do not know of
-/// each other: in a corner both are added.
+/// and what each end face at a finite distance adds, (2/pi)(w/E) f(s, h, L), see FreeEnd; where the mate's end comes first, see load_end_support(). Tip and
+/// ends do not know of each other: in a corner both are added.
 ///
 /// It is the exact integral of the strain under the middle of the Hertzian pressure in plane strain. (Eq. 1.30 as
 /// printed lacks the square of the h' before the root, which 1.32 has.) The logarithm of eq. 1.34 is its limit for h

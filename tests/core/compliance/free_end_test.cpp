@@ -1,5 +1,6 @@
 #include "core/compliance/local/free_end.hpp"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "core/base/units.hpp"
 #include "core/compliance/local/contact_law.hpp"
 #include "core/compliance/local/hertz_line.hpp"
+#include "core/compliance/local/load_end.hpp"
 #include "tests/core/compliance/finite_element/block_mesh.hpp"
 
 using namespace flankwright;
@@ -17,17 +19,18 @@ namespace {
 
 /// A block under Hertz's pressure of half width 1 and 1 N per mm, along z up to its end face z = 0: the quarter space y >= 0, z >= 0
 /// as far as elements reach, of which symmetry keeps x >= 0. Its far sides are held. Lengths in half widths, E = 1. The end face may lean: it is
-/// z = y tan(lean).
+/// z = y tan(lean). The load may begin at an overhang from it, a number of the grid.
 class LoadedBlock {
  public:
-  explicit LoadedBlock(double poissons_ratio, double lean = 0) : slope_(std::tan(lean)) {
+  explicit LoadedBlock(double poissons_ratio, double lean = 0, std::size_t begin = 0)
+      : along_(begin == 0 ? depth_ : around(depth_[begin])), slope_(std::tan(lean)), begin_(begin == 0 ? 0 : depth_[begin]) {
     mesh_ = block_mesh(
         cells(x_), cells(depth_), cells(along_),
         [&](const Eigen::Vector3d& p) { return Eigen::Vector3d(at(x_, p.x()), at(depth_, p.y()), at(along_, p.z()) + slope_ * at(depth_, p.y())); },
         &cube_);
     const Eigen::SparseMatrix<double> load = hertzian_load().sparseView();
     for (const bool free_end : {false, true}) {
-      if (!free_end && lean != 0) continue;  // held along z alone is no plane strain there
+      if (!free_end && (lean != 0 || begin != 0)) continue;  // held along z alone is no plane strain there
       const SolidModel solid(mesh_, {1, poissons_ratio}, supports(free_end));
       moved_[free_end ? 1 : 0] = solid.solve(load);
     }
@@ -66,7 +69,7 @@ class LoadedBlock {
     for (Eigen::Index e = 0; e < mesh_.bricks.cols(); ++e) {
       FaceNodes nodes;
       for (int i = 0; i < 8; ++i) nodes.col(i) = mesh_.nodes.col(mesh_.bricks(face[i], e));
-      if (nodes.row(1).maxCoeff() > 0 || nodes.row(0).minCoeff() > 1 - 1e-9) continue;
+      if (nodes.row(1).maxCoeff() > 0 || nodes.row(0).minCoeff() > 1 - 1e-9 || nodes.row(2).minCoeff() < begin_ - 1e-9) continue;
       for (int i = 0; i < 9 * parts * parts; ++i) {
         const auto local = [](int k) { return -1 + (2 * (k / 3) + 1 + gauss3_abscissae[k % 3]) / parts; };
         const int row = i / (3 * parts), column = i % (3 * parts);
@@ -91,8 +94,15 @@ class LoadedBlock {
   }
 
   const std::vector<double> x_{0, 0.25, 0.5, 0.75, 1, 1.5, 2.5, 4.5, 8.5, 16.5, 32.5, 64.5, 128.5};
-  const std::vector<double> depth_{0, 0.3, 0.9, 2.1, 4.5, 9.3, 19, 38, 76, 128}, along_ = depth_;
-  double slope_;
+  /// Fine where the load begins.
+  static std::vector<double> around(double begin) {
+    std::vector<double> grid;
+    for (const double part : {0.0, 0.4, 0.7, 0.9}) grid.push_back(part * begin);
+    for (const double beyond : {0.0, 0.1, 0.25, 0.5, 0.9, 1.5, 2.4, 3.9, 6.9, 12.0, 24.0, 48.0, 128.0}) grid.push_back(begin + beyond);
+    return grid;
+  }
+  const std::vector<double> depth_{0, 0.3, 0.9, 2.1, 4.5, 9.3, 19, 38, 76, 128}, along_;
+  double slope_, begin_;
   SolidMesh mesh_;
   Eigen::Matrix3Xd cube_;
   Eigen::VectorXd moved_[2];  ///< without and with a free end
@@ -140,6 +150,46 @@ TEST_CASE("The acute edge of an oblique end yields by the free-end law, and the 
   }
 }
 
+TEST_CASE("Where the mate ends first the flank beyond it holds up the load's end as the free-end law has it", "[core][compliance][fe]") {
+  const double nu = 0.3;
+  const std::size_t begin = GENERATE(std::size_t{1}, std::size_t{2}, std::size_t{3});  // 0.3 .. 2.1 half widths from the end face
+  const LoadedBlock block(nu, 0, begin);
+  const FreeEnd end(nu);
+  const double overhang = block.depths()[begin];
+  for (std::size_t j = 4; j <= 6; ++j) {  // 4.5 .. 19 half widths deep
+    const double depth = block.depths()[j], k = nu / (1 - nu);
+    const double strain = (1 - nu * nu) * (std::asinh(depth) - k * depth * (std::sqrt(1 + depth * depth) - depth));
+    for (std::size_t i = 6; i < block.distances().size() && block.distances()[i] < overhang + 13; ++i) {
+      const double distance = block.distances()[i], found = block.deflection(true, j, i) - strain;
+      CAPTURE(overhang, depth, distance - overhang, found);
+      // Model: no fit, and the spread across the contact is that of its far field: 0.06. Discretisation: 0.04. The law changes by up to 1.1 here.
+      const double law =
+          end.at({distance + overhang, INFINITY}, depth, 1).value + load_end_support(nu, distance - overhang, overhang, depth, 1).value;
+      CHECK(law == Approx(found).margin(0.1));
+    }
+  }
+}
+
+TEST_CASE("An overhanging flank stiffens the load's end, up to half of plane strain's own part", "[core][compliance]") {
+  const Material steel{};
+  const auto deflection = [&](double from_load_end, double overhang) {
+    const ContactSide wide = ContactSide::of(steel, 7, INFINITY, {from_load_end + overhang, INFINITY});
+    const ContactSide narrow = ContactSide::of({1e9, 0}, 7, INFINITY, {from_load_end, INFINITY});  // hardly yields
+    return ContactLaw(wide, narrow, 9, contact_modulus(steel, steel)).deflection(300);
+  };
+  const double whole = ContactLaw(ContactSide::of(steel, 7), ContactSide::of({1e9, 0}, 7), 9, contact_modulus(steel, steel)).deflection(300);
+  double last = deflection(0, 0);
+  for (const double overhang : {1e-6, 1e-3, 0.01, 0.1, 1.0, 10.0, 100.0, 1e4}) {
+    const double here = deflection(0, overhang);
+    CHECK(here < last);
+    if (overhang == 1e-6) CHECK(here == Approx(last).epsilon(1e-4));  // no step where the ends become flush
+    last = here;
+  }
+  // By symmetry a load that ends in an endless body sinks half as much there as one that goes on; the spread is that of the far field, good to (L/h)^2.
+  CHECK(last == Approx(0.5 * whole).epsilon(1e-3));
+  CHECK(deflection(1e6, 1e4) == Approx(whole).epsilon(1e-4));
+}
+
 TEST_CASE("Contact softens towards a free end, and an end far away is none", "[core][compliance]") {
   const Material steel{};
   const auto law = [&](double distance) {
@@ -183,13 +233,15 @@ TEST_CASE("Near an end too the law grows at every load and its slope is its deri
   const Material steel{};
   const double distance = GENERATE(-1.0, 0.0, 1e-3, 0.05, 0.7, 30.0), lean = GENERATE(-0.7, -0.2, 0.0, 0.5);
   // Alike sides, so that none makes up for the other's.
+  const double overhang = GENERATE(0.0, 0.02, 5.0);
   const ContactSide side = ContactSide::of({110000, 0.45}, 5, INFINITY, {distance, INFINITY}, lean);
+  const ContactSide wide = ContactSide::of({110000, 0.45}, 5, INFINITY, {std::max(0.0, distance) + overhang, INFINITY}, lean);
   const ContactLaw law =
-      GENERATE_REF(ContactLaw(ContactSide::of(steel, 4, 0.8, {distance, 6}, lean), side, 9, contact_modulus(steel, {110000, 0.45})),
-                   ContactLaw(side, side, 9, contact_modulus({110000, 0.45}, {110000, 0.45})));
+      GENERATE_REF(ContactLaw(ContactSide::of(steel, 4, 0.8, {distance, 6}, lean), wide, 9, contact_modulus(steel, {110000, 0.45})),
+                   ContactLaw(wide, side, 9, contact_modulus({110000, 0.45}, {110000, 0.45})));
   double last = 0;
   for (double w = 1e-9; w < 1e6; w *= 3.7) {
-    CAPTURE(distance, lean, w);
+    CAPTURE(distance, lean, overhang, w);
     const auto [deflection, slope] = law.evaluate(w);
     CHECK(deflection > last);
     const double step = 1e-4 * w;
