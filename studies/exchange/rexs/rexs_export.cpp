@@ -93,6 +93,7 @@ class Export {
     length("tip_form_diameter", 2.0 * gear.tip_form_radius);
     length("root_diameter", 2.0 * gear.root_radius);
     length("root_form_diameter", 2.0 * gear.form_radius);
+    if (const double amount = gear.data.end_chamfer.amount; amount > 0.0) length("chamfer_at_tooth_end", amount);
     word("datum_face_orientation", "negative");
     return id;
   }

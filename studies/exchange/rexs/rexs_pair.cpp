@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/gear/gear_pair.hpp"
 #include "core/gear/tooth_form.hpp"
@@ -119,7 +120,7 @@ class PairReading {
     read_tip_chamfer(m);
     // As a study that says nothing of its edges has them.
     if (!(data(m).tip_chamfer.amount > 0.0)) data(m).tip_rounding = usual_edge_radius(m, pair_.data);
-    data(m).end_rounding = usual_edge_radius(m, pair_.data);
+    read_end_chamfer(m);
     read_tip_form_diameter(m);
   }
 
@@ -167,6 +168,22 @@ class PairReading {
     data(m).tip_chamfer = with[m].tip_chamfer;
     remark(prefix(m) + "edges.tip_chamfer.amount", amount->source);
     remark(prefix(m) + "edges.tip_chamfer", amount->source + "; angle and edge radius are not in the file: 45 deg, 0.05 modules");
+  }
+
+  /// As the tip's, the format has the amount alone. Without one the ends are those of a study that says nothing.
+  void read_end_chamfer(Member m) {
+    data(m).end_rounding = usual_edge_radius(m, pair_.data);
+    const auto amount = number(&gear(m), "chamfer_at_tooth_end", Dimension::Length);
+    if (!amount || !(amount->value > 0.0)) return;
+    // The arc of the chamfer's edge takes less than its radius: there the flank turns by less than 90 deg.
+    if (!(2.0 * (amount->value + data(m).end_rounding) < data(m).face_width)) {
+      reading_.warn(fmt::format("{} = {} mm at both ends leaves nothing of a face width of {} mm: not taken", amount->source,
+                                number_text(amount->value), number_text(data(m).face_width)));
+      return;
+    }
+    data(m).end_chamfer = {.amount = amount->value, .radius = data(m).end_rounding};
+    data(m).end_rounding = 0.0;
+    remark(prefix(m) + "edges.end_chamfer", amount->source + "; angle and edge radius are not in the file: 45 deg and the usual one");
   }
 
   /// Where the flank ends below the tip or below the chamfer an edge begins, whose radius follows.
@@ -280,11 +297,12 @@ void write_gear(const ImportedPair& pair, Member m, StudyText& text) {
   text.key("profile_shift", number_text(gear.profile_shift), remark("profile_shift"));
   if (!std::isnan(gear.tip_diameter)) text.key("tip_diameter", number_text(gear.tip_diameter), remark("tip_diameter"));
   if (!remark("edges.tip_rounding").empty()) text.key("edges.tip_rounding", number_text(gear.tip_rounding), remark("edges.tip_rounding"));
-  if (const EdgeChamfer& chamfer = gear.tip_chamfer; chamfer.amount > 0.0) {
-    text.key("edges.tip_chamfer",
+  for (const auto& [key, chamfer] : {std::pair{"edges.tip_chamfer", gear.tip_chamfer}, std::pair{"edges.end_chamfer", gear.end_chamfer}}) {
+    if (!(chamfer.amount > 0.0)) continue;
+    text.key(key,
              fmt::format("{{ amount = {}, angle = {}, radius = {} }}", number_text(chamfer.amount), number_text(chamfer.angle / units::deg),
                          number_text(chamfer.radius)),
-             remark("edges.tip_chamfer"));
+             remark(key));
   }
   text.key("rack.addendum", number_text(gear.rack.addendum), remark("rack.addendum"));
   text.key("rack.dedendum", number_text(gear.rack.dedendum), remark("rack.dedendum"));

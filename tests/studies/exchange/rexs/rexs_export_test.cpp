@@ -144,6 +144,26 @@ TEST_CASE("A tip chamfer comes back with its amount and the flank's end; its ang
   CHECK_THAT(imported.text, Contains("tooth_tip_chamfer") && Contains("the angle is not in the file: 45 deg") && Contains("tip_form_diameter"));
 }
 
+TEST_CASE("A chamfer of the tooth's ends comes back with the usable face width", "[studies][rexs][export][edge]") {
+  std::string text = random_study(7);
+  text.insert(text.find("\nrack"), "\nedges = { end_chamfer = { amount = 0.4 } }");
+  const Study there = parse_study(text, "there.toml");
+  rexs::Model model = rexs::export_stage(there, {"2.0", "2026-01-01T00:00:00+00:00"}).model;
+  const auto imported = [&] { return rexs::import_stage(rexs::model_text(model, rexs::Form::Xml), "there.rexs", {}).text; };
+  const GearPair back = make_gear_pair(parse_study(imported(), "back.toml").pair);
+  CHECK(back.pinion.data.end_chamfer.amount == 0.4);
+  check_same(back.pinion.face.width(), make_gear_pair(there.pair).pinion.face.width());
+  CHECK(back.wheel.data.end_chamfer.amount == 0.0);
+  CHECK_THAT(imported(), Contains("chamfer_at_tooth_end") && Contains("angle and edge radius are not in the file: 45 deg"));
+
+  // One that takes the whole flank is left out, and said to be.
+  const auto gear = std::ranges::find(model.components, std::string("cylindrical_gear"), &rexs::Component::type);
+  std::ranges::find(gear->attributes, std::string("chamfer_at_tooth_end"), &rexs::Attribute::id)->text =
+      std::to_string(0.5 * there.pair.pinion.face_width);
+  CHECK(parse_study(imported(), "back.toml").pair.pinion.end_chamfer.amount == 0.0);
+  CHECK_THAT(imported(), Contains("leaves nothing of a face width"));
+}
+
 TEST_CASE("A generated flank comes back as the grid of its points", "[studies][rexs][export]") {
   const Study study = parse_study(
       "[pair]\nnormal_module = 5\nhelix_angle = 20\n[pinion]\nteeth = 20\nface_width = 40\n"
