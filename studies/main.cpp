@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <malloc.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <tbb/global_control.h>
@@ -192,9 +193,21 @@ int dispatch(int argc, char** argv) {
   return test_command(paths);
 }
 
+/// Lets the allocator keep what is freed. What goes back to the system is asked for again page by page, which was a tenth of a run's time.
+/// Blocks of 32 MiB and more, the fronts and factors of finite elements among them, still go back at once.
+void keep_freed_memory() {
+#ifdef __GLIBC__
+  constexpr int mebibyte = 1 << 20;
+  mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
+  mallopt(M_TRIM_THRESHOLD, 1024 * mebibyte);
+  mallopt(M_TOP_PAD, 32 * mebibyte);
+#endif
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  keep_freed_memory();
   spdlog::set_default_logger(spdlog::stderr_color_mt("flankwright"));
   spdlog::set_pattern("%^%l%$: %v");
   try {

@@ -6,7 +6,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 #include <system_error>
 
 #include "core/base/error.hpp"
@@ -58,11 +58,19 @@ void make_folder(const std::filesystem::path& folder) {
 
 std::string read_whole(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
   std::error_code no_status;
   if (!in || std::filesystem::is_directory(file, no_status)) throw InvalidInput("file", file.string(), "a file that can be read");
-  return text.str();
+  std::string text;
+  // What has a size is read at once; a pipe has none.
+  const auto size = std::filesystem::file_size(file, no_status);
+  if (!no_status && size > 0) {
+    text.resize(size);
+    in.read(text.data(), static_cast<std::streamsize>(size));
+    text.resize(static_cast<std::size_t>(in.gcount()));
+  }
+  text.append(std::istreambuf_iterator<char>(in), {});
+  if (in.bad()) throw InvalidInput("file", file.string(), "a file that can be read");
+  return text;
 }
 
 std::string read_results(const std::filesystem::path& folder) {

@@ -92,8 +92,8 @@ int write_results(const Study& study, const StudyResults& results, const fs::pat
     for (const NamedText& table : tables) write_whole(folder / table.name, table.text);
   };
   tbb::parallel_invoke([&] { write_whole(folder / "report.html", render_report(json)); },
+                       [&] { write_whole(folder / "results.json", json_text(json)); },
                        [&] {
-                         write_whole(folder / "results.json", json_text(json));
                          write_tables(csv_tables(results));
                          if (results.design) write_results_store(folder / "results.sqlite", results);
                        },

@@ -1,5 +1,6 @@
 #include "studies/results/results_json.hpp"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <cmath>
@@ -76,6 +77,13 @@ Json geometry_json(const GearPair& pair) {
           {"wheel", gear_json(pair, Member::Wheel)}};
 }
 
+/// Numbers that were not computed are null, in the document as in its text.
+void put_null_for_nan(Json& node) {
+  if (node.is_number_float() && !std::isfinite(node.get<double>())) node = nullptr;
+  if (!node.is_structured()) return;
+  for (Json& child : node) put_null_for_nan(child);
+}
+
 /// Members in their order: what points have, without the copies that an initialiser list of Json makes.
 Json record(std::initializer_list<std::pair<const char*, double>> members) {
   Json json = Json::object();
@@ -134,13 +142,14 @@ Json position_json(const MeshModel& model, const MeshPosition& at, const LoadedP
   std::map<int, Json> ends = line_ends_json(line_ends(model, at, position, condition));
   json["teeth"] = Json::array();
   for (auto& [tooth, points] : teeth) {
-    Json entry{{"tooth", tooth}, {"points", std::move(points)}, {"line_ends", Json::array()}};
+    Json entry{{"tooth", tooth}, {"points", nullptr}, {"line_ends", Json::array()}};
     if (ends.contains(tooth)) entry["line_ends"] = std::move(ends.at(tooth));
     entry["share"] = shares.contains(tooth) ? Json(shares.at(tooth)) : Json();
     if (position.root_stress.size() > 0) {
       entry["pinion_root_stress_MPa"] = root_stress_of_tooth(at, position, Member::Pinion, tooth);
       entry["wheel_root_stress_MPa"] = root_stress_of_tooth(at, position, Member::Wheel, tooth);
     }
+    entry["points"] = std::move(points);
     json["teeth"].push_back(std::move(entry));
   }
   return json;
@@ -217,11 +226,13 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
             {"normal_force_N", loaded.cycle.force},
             {"design", loaded.design},
             {"summary", summary_json(loaded, model, results.study.cycle.phases.empty())},
-            {"cycle", std::move(cycle)},
+            {"cycle", nullptr},
             {"extremes", extremes_json(loaded)}};
   if (results.shafts) add_shaft_motion(loaded, results, json);
   const bool asked = results.study.task->one_design && !results.study.gradients.empty();
   if (asked && loaded.cycle.usable()) json["gradients"] = gradients_json(loaded, results);
+  json["cycle"] = std::move(cycle);
+  put_null_for_nan(json);
   return json;
 }
 
@@ -279,15 +290,9 @@ Json units_json() {
           {"stiffness", "N/(mm um), transverse"}};
 }
 
-/// Numbers that were not computed are null, in the document as in its text.
-void put_null_for_nan(Json& node) {
-  if (node.is_number_float() && !std::isfinite(node.get<double>())) node = nullptr;
-  if (!node.is_structured()) return;
-  for (Json& child : node) put_null_for_nan(child);
-}
-
 }  // namespace
 
+/// An object that gets another member copies those that it has, as their names are const: what is large is moved into its place in the end.
 Json results_document(const StudyResults& results) {
   const Study& study = results.study;
   Json json{{"title", study.title},
@@ -305,10 +310,7 @@ Json results_document(const StudyResults& results) {
       json["unloaded_scenes"] = list(results.unloaded, [&](const UnloadedResult& u) { return unloaded_json(u, results.pair); });
     }
   }
-  std::vector<Json> loaded(results.loaded.size());
-  tbb::parallel_for(std::size_t{0}, loaded.size(), [&](std::size_t i) { loaded[i] = loaded_json(results.loaded[i], results); });
-  json["loaded"] = Json::array();
-  for (Json& entry : loaded) json["loaded"].push_back(std::move(entry));
+  json["loaded"] = nullptr;  // the place of what comes last
   if (results.structures.finite_elements) json["compliance"] = compliance_json(results.structures, study);
   json["modifications"] = modifications_json(results);
   json["effects"] = effects_json(results);
@@ -319,6 +321,9 @@ Json results_document(const StudyResults& results) {
   json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}, {"unit", unit_of_given(g)}}; });
   json["used"] = used_json(results);
   put_null_for_nan(json);
+  json["loaded"] = Json(Json::array_t(results.loaded.size()));
+  auto& loaded = json["loaded"].get_ref<Json::array_t&>();
+  tbb::parallel_for(std::size_t{0}, loaded.size(), [&](std::size_t i) { loaded[i] = loaded_json(results.loaded[i], results); });
   return json;
 }
 
@@ -327,29 +332,26 @@ std::string json_text(const Json& document) {
   const auto text_of = [](const Json& node) { return node.dump(-1, ' ', false, Json::error_handler_t::replace); };
   if (!document.is_object()) return text_of(document) + "\n";
   // Load cases are nearly all of it, and are written side by side.
-  std::string text;
+  std::vector<std::string> parts;
   for (const auto& [key, section] : document.items()) {
-    text += text.empty() ? '{' : ',';
-    text += text_of(key);
-    text += ':';
-    if (!section.is_array()) {
-      text += text_of(section);
+    parts.push_back(fmt::format("{}{}:", parts.empty() ? '{' : ',', text_of(key)));
+    if (!section.is_array() || section.empty()) {
+      parts.push_back(text_of(section));
       continue;
     }
-    std::vector<std::string> entries(section.size());
-    tbb::parallel_for(std::size_t{0}, entries.size(), [&](std::size_t i) { entries[i] = text_of(section[i]); });
-    std::size_t length = text.size() + 2;
-    for (const std::string& entry : entries) length += entry.size() + 1;
-    text.reserve(length);
-    char before = '[';
-    for (const std::string& entry : entries) {
-      text += before;
-      text += entry;
-      before = ',';
-    }
-    text += entries.empty() ? "[]" : "]";
+    const std::size_t first = parts.size();
+    parts.resize(first + section.size());
+    tbb::parallel_for(std::size_t{0}, section.size(),
+                      [&](std::size_t i) { parts[first + i] = text_of(section[i]).insert(0, 1, i == 0 ? '[' : ','); });
+    parts.push_back("]");
   }
-  return (text.empty() ? "{" : text) + "}\n";
+  parts.push_back(parts.empty() ? "{}\n" : "}\n");
+  std::size_t length = 0;
+  for (const std::string& part : parts) length += part.size();
+  std::string text;
+  text.reserve(length);
+  for (const std::string& part : parts) text += part;
+  return text;
 }
 
 std::string results_json(const StudyResults& results) { return json_text(results_document(results)); }
