@@ -1,41 +1,81 @@
 #include "core/rating/edge_contact_start.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <vector>
+
 namespace flankwright {
 
 namespace {
 
-/// The point that is stressed most on an edge; nothing where none is.
-std::optional<EdgeContactStart> on_edge(const MeshModel& model, const FlankCondition& condition, double torque) {
-  const LoadedCycle cycle = analyse_cycle(model, condition, torque, {}, {}, RootStresses::Later);
-  if (!cycle.usable()) return std::nullopt;
-  std::optional<EdgeContactStart> found;
-  double highest = 0.0;
-  for (std::size_t p = 0; p < cycle.positions.size(); ++p) {
-    const Eigen::VectorXd& stress = cycle.positions[p].edge_stress;
-    Eigen::Index point = 0;
-    if (stress.size() == 0 || !(stress.maxCoeff(&point) > highest)) continue;
-    highest = stress[point];
-    found = {torque, model.positions[p].points[static_cast<std::size_t>(point)].tip_edge.gear, model.positions[p].phase};
-  }
-  return found;
+/// The model at one of its positions, without what contact does not need.
+MeshModel at_position(const MeshModel& model, std::size_t position) {
+  const MeshPosition& at = model.positions[position];
+  return {.pair = model.pair,
+          .material = model.material,
+          .effects = model.effects,
+          .placement = model.placement,
+          .axial_offset = model.axial_offset,
+          .face_width = model.face_width,
+          .contact_modulus = model.contact_modulus,
+          .calibration = model.calibration,
+          .iso = model.iso,
+          .positions = {{.phase = at.phase, .points = at.points, .weight = at.weight, .influence = at.influence, .laws = at.laws}}};
+}
+
+/// A position at which an edge is touched.
+struct Touched {
+  std::size_t position;
+  double stress;  ///< the largest on an edge [MPa]
+  Member gear;    ///< whose edge it is
+};
+
+/// Nothing where no edge is touched.
+std::optional<Touched> touched(const MeshPosition& at, const LoadedPosition& loaded, std::size_t position) {
+  Eigen::Index point = 0;
+  if (loaded.edge_stress.size() == 0 || !(loaded.edge_stress.maxCoeff(&point) > 0.0)) return std::nullopt;
+  return Touched{position, loaded.edge_stress[point], at.points[static_cast<std::size_t>(point)].tip_edge.gear};
 }
 
 }  // namespace
 
 std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const FlankCondition& condition, double pinion_torque) {
-  std::optional<EdgeContactStart> start = on_edge(model, condition, pinion_torque);
-  if (!start) return std::nullopt;
-  const double close = 1e-3 * pinion_torque;
-  double without = 0.0;
-  while (start->torque - without > close) {
-    const double between = 0.5 * (without + start->torque);
-    if (const auto earlier = on_edge(model, condition, between)) {
-      start = earlier;
-    } else {
-      without = between;
+  const LoadedCycle cycle = analyse_cycle(model, condition, pinion_torque, {}, {}, RootStresses::Later);
+  std::vector<Touched> candidates;
+  if (cycle.usable()) {
+    for (std::size_t p = 0; p < cycle.positions.size(); ++p) {
+      if (const auto found = touched(model.positions[p], cycle.positions[p], p)) candidates.push_back(*found);
     }
   }
-  if (without == 0.0) start->torque = 0.0;
+  if (candidates.empty()) return std::nullopt;
+  std::ranges::stable_sort(candidates, std::greater(), &Touched::stress);
+
+  // Positions that no edge touches at some torque are out of the question below it.
+  const double close = 1e-3 * pinion_torque;
+  EdgeContactStart start{pinion_torque, candidates.front().gear, model.positions[candidates.front().position].phase};
+  for (const Touched& candidate : candidates) {
+    const MeshModel one = at_position(model, candidate.position);
+    const auto touches = [&](double torque) -> std::optional<Touched> {
+      const LoadedCycle there = analyse_cycle(one, condition, torque, {}, {}, RootStresses::Later);
+      return there.usable() ? touched(one.positions[0], there.positions[0], candidate.position) : std::nullopt;
+    };
+    double without = 0.0, torque = start.torque;
+    // The first is known to touch at the whole torque, the others have to do so earlier than those before them.
+    if (&candidate != &candidates.front()) torque -= close;
+    if (!(torque > 0.0)) break;
+    std::optional<Touched> found = &candidate == &candidates.front() ? candidate : touches(torque);
+    if (!found) continue;
+    while (torque - without > close) {
+      const double between = 0.5 * (without + torque);
+      if (const auto earlier = touches(between)) {
+        found = earlier;
+        torque = between;
+      } else {
+        without = between;
+      }
+    }
+    start = {without == 0.0 ? 0.0 : torque, found->gear, one.positions[0].phase};
+  }
   return start;
 }
 

@@ -13,8 +13,8 @@ struct EdgeContactStart {
   double phase{not_given};      ///< of the mesh position [base pitches]
 };
 
-/// Sought by halving between no torque and the given one, at the positions of the model, to a thousandth of that torque. Contact that leaves an edge
-/// again as the torque grows is not looked for.
+/// Sought by halving between no torque and the given one, at one position of the model after the other, to two thousandths of that torque. Contact that
+/// leaves an edge again as the torque grows is not looked for.
 /// @param pinion_torque  [N mm], > 0
 /// @returns nothing where contact reaches no edge at the given torque, or its loads were not found
 std::optional<EdgeContactStart> edge_contact_start(const MeshModel& model, const FlankCondition& condition, double pinion_torque);

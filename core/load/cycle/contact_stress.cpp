@@ -37,4 +37,49 @@ StripContact::Peaks contact_stress(const MeshModel& model, const ContactPoint& p
   return {{stress, stress / (2.0 * line_load), 0.0}, {}, {}};
 }
 
+namespace {
+
+/// Raises the stress of point i to that between it and a neighbour on its line.
+void climb(const MeshModel& model, const MeshPosition& at, const RoundedEdge& edge, const Eigen::VectorXd& line_load, Eigen::Index i,
+           Eigen::Index neighbour, PointStress& stress) {
+  const ContactPoint &here = at.points[static_cast<std::size_t>(i)], &there = at.points[static_cast<std::size_t>(neighbour)];
+  if (there.tooth != here.tooth || there.tip_edge.gear != here.tip_edge.gear || !(there.tip_edge.radius > 0.0)) return;
+  const double further = there.tip_edge.distance - here.tip_edge.distance;
+  for (const double share : {0.25, 0.5}) {
+    const double load = (1.0 - share) * line_load[i] + share * line_load[neighbour];
+    const double radius = (1.0 - share) * here.relative_radius + share * there.relative_radius;
+    const StripContact strip({edge.radius, edge.distance + share * further}, radius, model.contact_modulus, load);
+    const StripContact::Peaks peaks = strip.peaks();
+    if (peaks.on_edge.pressure > stress.on_edge.peak.pressure) stress.on_edge = {peaks.on_edge, neighbour, share};
+    if (peaks.highest.pressure > stress.highest.peak.pressure) stress.highest = {peaks.highest, neighbour, share};
+  }
+}
+
+}  // namespace
+
+std::vector<PointStress> contact_stresses(const MeshModel& model, const MeshPosition& at, const std::vector<ContactLaw>& laws,
+                                          const Eigen::VectorXd& line_load) {
+  const std::size_t n = at.points.size();
+  std::vector<PointStress> stresses(n);
+  std::vector<std::size_t> reached;
+  for (std::size_t i = 0; i < n; ++i) {
+    const StripContact::Peaks peaks = contact_stress(model, at.points[i], laws.empty() ? nullptr : &laws[i], line_load[static_cast<Eigen::Index>(i)]);
+    stresses[i] = {{peaks.highest}, {peaks.on_edge}, peaks.edge_load};
+    if (peaks.on_edge.pressure > 0.0) reached.push_back(i);
+  }
+  const std::vector<PointStress> of_points = reached.empty() ? std::vector<PointStress>() : stresses;
+  const auto own = [&](std::size_t i) { return of_points[i].on_edge.peak.pressure; };
+  for (const std::size_t i : reached) {
+    const auto less = [&](std::size_t neighbour) {
+      return neighbour >= n || at.points[neighbour].tooth != at.points[i].tooth || own(neighbour) <= own(i);
+    };
+    if (!less(i - 1) || !less(i + 1)) continue;
+    for (const std::size_t neighbour : {i - 1, i + 1}) {
+      if (neighbour >= n) continue;
+      climb(model, at, *laws[i].edge(), line_load, static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(neighbour), stresses[i]);
+    }
+  }
+  return stresses;
+}
+
 }  // namespace flankwright

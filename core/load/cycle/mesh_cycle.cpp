@@ -24,8 +24,6 @@ constexpr double micrometre = units::um, unlimited = std::numeric_limits<double>
 struct Local {
   const std::vector<ContactLaw>& laws;
   const Eigen::MatrixXd& edge;
-
-  const ContactLaw* law(Eigen::Index i) const { return laws.empty() ? nullptr : &laws[static_cast<std::size_t>(i)]; }
 };
 
 /// Stresses and, by load and edge, their derivatives.
@@ -38,22 +36,24 @@ void fill_stress(const MeshModel& model, const MeshPosition& at, const Local& lo
   position.contact_stress_derivative = Eigen::MatrixXd::Zero(w.size(), by_load.cols());
   if (edges) position.edge_stress = position.contact_stress;
   if (edges) position.edge_stress_derivative = position.contact_stress_derivative;
-  const auto slope = [&](const auto& peak, Eigen::Index i) -> Eigen::RowVectorXd {
-    if (local.edge.size() == 0) return peak.slope * by_load.row(i);
-    return peak.slope * by_load.row(i) + peak.by_edge * local.edge.row(i);
+  const auto slope = [&](const auto& value, Eigen::RowVectorXd load_derivative, Eigen::Index i) -> Eigen::RowVectorXd {
+    load_derivative *= value.slope;
+    if (local.edge.size() > 0) load_derivative += value.by_edge * local.edge.row(i);
+    return load_derivative;
   };
+  const std::vector<PointStress> stresses = contact_stresses(model, at, local.laws, w);
   double on_edges = 0.0;
   Eigen::RowVectorXd on_edges_derivative = Eigen::RowVectorXd::Zero(by_load.cols());
   for (Eigen::Index i = 0; i < w.size(); ++i) {
     if (w[i] <= 0.0) continue;
-    const StripContact::Peaks peaks = contact_stress(model, at.points[static_cast<std::size_t>(i)], local.law(i), w[i]);
-    position.contact_stress[i] = peaks.highest.pressure;
-    position.contact_stress_derivative.row(i) = slope(peaks.highest, i);
-    if (!edges || peaks.on_edge.pressure == 0.0) continue;
-    position.edge_stress[i] = peaks.on_edge.pressure;
-    position.edge_stress_derivative.row(i) = slope(peaks.on_edge, i);
-    on_edges += at.weight[i] * peaks.edge_load.load;
-    on_edges_derivative += at.weight[i] * slope(peaks.edge_load, i);
+    const auto& [highest, on_edge, edge_load] = stresses[static_cast<std::size_t>(i)];
+    position.contact_stress[i] = highest.peak.pressure;
+    position.contact_stress_derivative.row(i) = slope(highest.peak, highest.interpolated(by_load, i), i);
+    if (!edges || on_edge.peak.pressure == 0.0) continue;
+    position.edge_stress[i] = on_edge.peak.pressure;
+    position.edge_stress_derivative.row(i) = slope(on_edge.peak, on_edge.interpolated(by_load, i), i);
+    on_edges += at.weight[i] * edge_load.load;
+    on_edges_derivative += at.weight[i] * slope(edge_load, by_load.row(i), i);
   }
   if (!edges) return;
   position.tip_edge_share = force > 0.0 ? on_edges / force : 0.0;

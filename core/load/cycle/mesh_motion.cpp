@@ -25,14 +25,13 @@ HeldLoads held_loads(const MeshModel& model, const MeshPosition& at, const Flank
   if (!at.root_stress.stations.empty()) held.root_components = at.root_stress.components(forces);
   const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(model, at, condition, load);
   const std::vector<ContactLaw>& laws = moved_edges.empty() ? at.laws : moved_edges;
+  const std::vector<PointStress> stresses = contact_stresses(model, at, laws, load);
   for (Eigen::Index i = 0; i < load.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const ContactLaw* law = laws.empty() ? nullptr : &laws[k];
-    if (law != nullptr) held.deflection[i] += law->deflection(load[i]);
-    const StripContact::Peaks peaks = contact_stress(model, at.points[k], law, load[i]);
-    held.contact_stress[i] = peaks.highest.pressure;
-    held.edge_stress[i] = peaks.on_edge.pressure;
-    held.edge_force += at.weight[i] * peaks.edge_load.load;
+    if (!laws.empty()) held.deflection[i] += laws[k].deflection(load[i]);
+    held.contact_stress[i] = stresses[k].highest.peak.pressure;
+    held.edge_stress[i] = stresses[k].on_edge.peak.pressure;
+    held.edge_force += at.weight[i] * stresses[k].edge_load.load;
   }
   return held;
 }
