@@ -167,9 +167,8 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
       found = Solution{again.line_load, again.transmission_error};
     }
     double highest = 0.0;
-    for (std::size_t k = 0; k < at.points.size(); ++k) {
-      const ContactLaw* law = problem.laws.empty() ? nullptr : &problem.laws[k];
-      highest = std::max(highest, contact_stress(*other.model, at.points[k], law, found->line_load[static_cast<Eigen::Index>(k)]).highest.pressure);
+    for (const PointStress& stress : contact_stresses(*other.model, at, problem.laws, found->line_load)) {
+      highest = std::max(highest, stress.highest.peak.pressure);
     }
     outputs.add(highest, found->transmission_error, gap.minCoeff());
   }

@@ -20,6 +20,7 @@ youngs_modulus = 209000
 positions = 6
 [fidelity]
 compliance = "thin_slice"
+quadrature.intervals = 6
 )";
 
 }  // namespace

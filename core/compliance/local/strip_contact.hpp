@@ -70,6 +70,7 @@ class StripContact {
     EdgeLoad edge_load;
   };
   Peaks peaks() const;
+  Peak crest() const;  ///< Peaks::on_edge alone
 
   /// Pressure at a point of the section [MPa]; 0 outside the strip.
   double pressure(double s) const;

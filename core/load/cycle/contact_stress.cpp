@@ -49,9 +49,10 @@ void climb(const MeshModel& model, const MeshPosition& at, const RoundedEdge& ed
     const double load = (1.0 - share) * line_load[i] + share * line_load[neighbour];
     const double radius = (1.0 - share) * here.relative_radius + share * there.relative_radius;
     const StripContact strip({edge.radius, edge.distance + share * further}, radius, model.contact_modulus, load);
-    const StripContact::Peaks peaks = strip.peaks();
-    if (peaks.on_edge.pressure > stress.on_edge.peak.pressure) stress.on_edge = {peaks.on_edge, neighbour, share};
-    if (peaks.highest.pressure > stress.highest.peak.pressure) stress.highest = {peaks.highest, neighbour, share};
+    const StripContact::Peak crest = strip.crest();
+    if (!(crest.pressure > stress.on_edge.peak.pressure)) return;  // it falls that way
+    stress.on_edge = {crest, neighbour, share};
+    if (crest.pressure > stress.highest.peak.pressure) stress.highest = stress.on_edge;
   }
 }
 

@@ -116,7 +116,7 @@ TEST_CASE("A VTK series is valid, complete and lies on the plane of action and t
     }
   }
   CHECK(at == lines.points.size() / 3);
-  CHECK(on_line > at / 2);
+  CHECK(on_line > at / 3);
 
   for (const std::string gear : {"pinion", "wheel"}) {
     const Piece surface = read_piece(files.at("contact-2/" + gear + "-0001.vtp"), "Polys");
