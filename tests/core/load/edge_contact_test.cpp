@@ -200,6 +200,22 @@ TEST_CASE("The part of the force on tip edges follows torque and axial offset as
   CHECK(compared >= 8);
 }
 
+TEST_CASE("The crest of pressure on a tip edge is found between the points of a wide face", "[core][load][edge]") {
+  PairData data = mesh_cases::pair_data(23, 94, 12, 8, 230);
+  data.pinion.tip_rounding = data.wheel.tip_rounding = 0.05 * data.normal_module;
+  const GearPair gears = make_gear_pair(data);
+  FlankCondition condition;
+  condition.modification.pinion.tip_relief = condition.modification.wheel.tip_relief = {GENERATE(30.0, 55.0) * units::um, 4.0, ReliefShape::Linear};
+  condition.misalignment.mesh_misalignment = 20 * units::um;
+  const auto stress = [&](int intervals) {
+    const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, intervals}, equally_spaced_phases(16)});
+    return summarise(model, analyse_cycle(model, condition, 18e6)).edge_stress;
+  };
+  const double fine = stress(48);
+  REQUIRE(fine > 0.0);
+  CHECK(stress(12) == Approx(fine).epsilon(0.02));  // discretisation
+}
+
 TEST_CASE("With enough relief edges carry nothing and change nothing", "[core][load][edge]") {
   const GearPair gears = rounded_pair(0, 0.1);
   const MeshResolution resolution{{QuadratureRule::Graded, 4}, equally_spaced_phases(24)};
