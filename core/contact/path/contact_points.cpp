@@ -64,7 +64,7 @@ std::vector<LineInterval> graded_intervals(const PathOfContact& path, int n, dou
   if (path.before == PathOfContact::extension) cuts[1] = cuts[0];
   if (path.beyond == PathOfContact::extension) cuts[4] = cuts[5];
   std::sort(cuts.begin(), cuts.end());  // either sense of the lines
-  const int extended = n / 2 + 3;
+  const int extended = std::max(6, n / 2 + 3);
   const auto from_its_end = [](double t) { return t * (2.0 - t); };
   const auto from_its_start = [](double t) { return t * t; };
   divide(cuts[0], cuts[1], extended, from_its_end, intervals);

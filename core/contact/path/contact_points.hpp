@@ -36,7 +36,7 @@ struct LineInterval {
 ///     z_j = z_A + (z_E - z_A) (1 - cos(pi j/n))/2,   j = 0 .. n,
 ///
 /// narrow at the ends, where the load rises or falls within a few tenths of a module; on either extended part, where
-/// load falls to 0 a little way beyond A or E, n/2 + 3 intervals that grow as the square of the distance from there, and as many where edges
+/// load falls to 0 a little way beyond A or E, max(6, n/2 + 3) intervals that grow as the square of the distance from there, and as many where edges
 /// reach further out.
 /// @param line_phase  of the line's leading end [base pitches]
 std::vector<LineInterval> line_intervals(const PathOfContact& path, const Quadrature& quadrature, double line_phase, double face_start,
