@@ -17,6 +17,18 @@ constexpr double stationary = 1e-14;  ///< width of a root's bracket for psi [ra
 
 double lambda(double psi, double phi) { return std::log(std::abs(std::sin(0.5 * (psi + phi)) / std::sin(0.5 * (psi - phi)))); }
 
+/// Slope of the pressure over psi and its own slope, pi rho f' and pi rho f'', with q = pi rho/R + phi:
+///
+///     pi rho f' = q cos psi + sin phi - sin psi Lambda,     pi rho f'' = -q sin psi - cos psi Lambda + sin psi sin phi/(cos phi - cos psi).
+struct Fall {
+  double slope, curvature;
+};
+
+Fall fall_at(double psi, double phi, double q) {
+  const double s = std::sin(psi), c = std::cos(psi), steep = lambda(psi, phi);
+  return {q * c + std::sin(phi) - s * steep, -q * s - c * steep + s * std::sin(phi) / (std::cos(phi) - c)};
+}
+
 /// The strip of one angle in units of its half width: k, N = e/l, S = (L/l)^2 and B, by which d(e/L)/d(cos phi) = B/sqrt(S).
 struct Strip {
   double cosine, sine, phi, k;
@@ -106,13 +118,12 @@ double StripContact::shape_slope(double psi) const {
 /// At phi f falls infinitely steeply, so that one maximum lies on the rounding, psi < phi. By log(phi - psi) the slope is nearly straight there:
 /// Newton's steps inside a bracket. The start is where the maximum lies for small roundings.
 double StripContact::highest_on_edge() const {
-  const double flat = pi * edge_.radius / radius_ + phi_, sine = std::sin(phi_), cosine = std::cos(phi_), relative = phi_ / pi;
+  const double q = pi * edge_.radius / radius_ + phi_, relative = phi_ / pi;
   constexpr double last = 1.0 - 4.0 * std::numeric_limits<double>::epsilon();  // psi/phi: beyond it psi has no digits left
   double low = 0.0, high = phi_, psi = phi_ * (0.84 - 0.34 * relative * relative);
   for (int step = 0; step < 100; ++step) {
-    const double s = std::sin(psi), c = std::cos(psi), steep = lambda(psi, phi_), rest = phi_ - psi;
-    const double slope = flat * c + sine - s * steep;
-    const double curvature = -flat * s - c * steep + s * sine / (cosine - c);
+    const auto [slope, curvature] = fall_at(psi, phi_, q);
+    const double rest = phi_ - psi;
     (slope > 0.0 ? low : high) = psi;
     double next = phi_ - rest * std::exp(slope / (curvature * rest));
     if (next >= last * phi_ && slope > 0.0) return last * phi_;
@@ -124,19 +135,12 @@ double StripContact::highest_on_edge() const {
   return psi;
 }
 
-/// Another one lies on the flank, phi < psi <= pi/2, where f' rises above 0 there. Its own maximum is where
-///
-///     pi rho f'' = -sin psi (pi rho/R + phi) - cos psi Lambda + sin psi sin phi/(cos phi - cos psi)
-///
-/// falls through 0.
+/// Another one lies on the flank, phi < psi <= pi/2, where f' rises above 0 there. Its own maximum is where f'' falls through 0.
 std::optional<double> StripContact::highest_on_flank() const {
   const double end = 0.5 * pi;
   if (phi_ >= end) return std::nullopt;
   const auto slope = [this](double psi) { return shape_slope(psi); };
-  const auto curvature = [this](double psi) {
-    return -std::sin(psi) * (pi * edge_.radius / radius_ + phi_) - std::cos(psi) * lambda(psi, phi_) +
-           std::sin(psi) * std::sin(phi_) / (std::cos(phi_) - std::cos(psi));
-  };
+  const auto curvature = [this](double psi) { return fall_at(psi, phi_, pi * edge_.radius / radius_ + phi_).curvature; };
   const double at_end = curvature(end);
   if (at_end >= 0.0) return std::nullopt;
   const double steepest = bracketed_root(curvature, phi_, std::numeric_limits<double>::infinity(), end, at_end, stationary).x;

@@ -49,8 +49,8 @@ struct PointStress {
 
 /// Contact stress of every point of a position.
 ///
-/// Where a line runs onto a tip edge its pressure has a crest that is shorter than the distance of the points. Around the point that has the most
-/// of its line the strip is therefore solved at a quarter and half of the way to both neighbours as well, with load, relative radius and the edge's distance in
+/// Where a line runs onto a tip edge its pressure has a crest that is shorter than the distance of the points. Around a point that has more than
+/// its neighbours the strip is therefore solved at a quarter and half of the way to both neighbours as well, with load, relative radius and the edge's distance in
 /// between linear; the edge is moved as at the point.
 /// @param laws  of the points, moved by a condition; empty: Hertzian contact is left out
 std::vector<PointStress> contact_stresses(const MeshModel& model, const MeshPosition& at, const std::vector<ContactLaw>& laws,
