@@ -25,8 +25,9 @@ struct Promise {
 
 /// Intervals shorter than this are not divided [base pitches]: a rise within is a jump.
 constexpr double shortest = 1e-4;
-/// A probe keeps this distance from both ends, as a share of the interval: secants of a short and a long interval are not alike.
-constexpr double inset = 0.1;
+/// A probe lies at one of the divisions of its interval into so many parts: not near either end, because secants of a short and a long interval are
+/// not alike, and where searches of other conditions have probed as well, which have kinks at the same phases: their meshes can be used again.
+constexpr int parts = 8;
 
 class Search {
  public:
@@ -110,7 +111,7 @@ class Search {
         height = yb + from_right * length;
       }
       if (!(height > highest.height)) continue;
-      double phase = xa + std::clamp(t, inset, 1.0 - inset) * length;
+      double phase = xa + std::clamp(std::round(parts * t), 1.0, parts - 1.0) / parts * length;
       if (phase >= 1.0) phase -= 1.0;
       highest = {height, phase};
     }

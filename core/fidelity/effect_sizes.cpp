@@ -168,7 +168,7 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
     }
     double highest = 0.0;
     for (const PointStress& stress : contact_stresses(*other.model, at, problem.laws, found->line_load)) {
-      highest = std::max(highest, stress.highest.peak.pressure);
+      highest = std::max(highest, stress.highest.pressure);
     }
     outputs.add(highest, found->transmission_error, gap.minCoeff());
   }

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "core/base/natural_spline.hpp"
-#include "core/base/root.hpp"
 #include "core/contact/gap/condition_gap.hpp"
 #include "core/load/cycle/contact_stress.hpp"
 #include "core/rating/line_region.hpp"
@@ -23,15 +22,6 @@ NaturalSpline structural_deflection(const MeshPosition& at, const LoadedPosition
 }
 
 }  // namespace
-
-double line_load_for(const ContactLaw& law, double deflection) {
-  if (!(deflection > 0.0)) return 0.0;
-  const auto excess = [&](double load) { return law.deflection(load) - deflection; };
-  double high = 1.0;
-  while (excess(high) < 0.0) high *= 2.0;
-  while (excess(0.5 * high) > 0.0) high *= 0.5;
-  return bracketed_root(excess, 0.0, -deflection, high, excess(high), 1e-12 * high).x;
-}
 
 std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, const LoadedPosition& loaded, const FlankCondition& condition) {
   std::vector<LineEnd> ends;
@@ -57,7 +47,7 @@ std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, c
     end.approach = loaded.load.transmission_error - gap[static_cast<Eigen::Index>(i)] - end.structural_deflection;
     end.contact_deflection = std::max(0.0, end.approach);
     const ContactLaw law = *contact_law_in(model, points[i], condition);
-    end.line_load = line_load_for(law, end.approach);
+    end.line_load = law.line_load(end.approach);
     end.contact_stress = contact_stress(model, points[i], &law, end.line_load).highest.pressure;
     end.point = points[i];
   }

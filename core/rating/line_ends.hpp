@@ -29,7 +29,4 @@ struct LineEnd {
 /// @param condition  of the solved position
 std::vector<LineEnd> line_ends(const MeshModel& model, const MeshPosition& at, const LoadedPosition& loaded, const FlankCondition& condition);
 
-/// The line load that deflects a contact by c(w) = deflection [N/mm], to 1e-12 relative; 0 for a deflection of 0 or less.
-double line_load_for(const ContactLaw& law, double deflection);
-
 }  // namespace flankwright

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
+#include <sstream>
 
 #include "core/base/stopwatch.hpp"
 
@@ -11,6 +13,12 @@ namespace {
 
 /// Steps of one unit and of pairs around an optimum end before this many analyses where there are up to ten variables.
 constexpr int most_rounding_analyses = 1000;
+
+std::string in_percent(double share) {
+  std::ostringstream text;
+  text << std::setprecision(3) << 100.0 * share << " %";
+  return text.str();
+}
 
 void append(std::vector<SolverStep>& history, const std::vector<SolverStep>& more) {
   const int offset = history.empty() ? 0 : history.back().evaluation;
@@ -31,6 +39,7 @@ class DesignRun {
     result_.before = report_design(problem_, problem_.analyse_given());
     result_.evaluations = result_.failures = 0;
     first_objective();
+    restore();
     DesignProblem last = later_objectives();
     result_.optimality = first_order_optimality(last, x_);
     judge_stall();
@@ -47,6 +56,12 @@ class DesignRun {
     options.max_evaluations = std::max(1, options.max_evaluations - result_.evaluations);
     options.max_seconds = std::max(1e-3, options.max_seconds - clock_.seconds());
     return options;
+  }
+
+  SolverOptions search_options() const {
+    SolverOptions search = left();
+    search.max_evaluations = std::min(search.max_evaluations, options_.most_search_analyses);
+    return search;
   }
 
   bool is_spent() const { return result_.evaluations >= options_.solver.max_evaluations || clock_.seconds() >= options_.solver.max_seconds; }
@@ -67,9 +82,7 @@ class DesignRun {
   }
 
   void first_objective() {
-    SolverOptions search = options_.solver;
-    search.max_evaluations = std::min(search.max_evaluations, options_.most_search_analyses);
-    result_.runs = run_from_starts(problem_, search, options_.starts);
+    result_.runs = run_from_starts(problem_, search_options(), options_.starts);
     result_.optima = distinct_optima(result_.runs, DesignResult::same_objective);
     for (const LocalRun& run : result_.runs) {
       result_.evaluations += run.evaluations;
@@ -79,6 +92,44 @@ class DesignRun {
     result_.formulation = best.epigraph ? "epigraph" : "direct";
     result_.rounds = best.rounds;
     take(best);
+  }
+
+  /// Where no design that keeps the constraints was met: seeks the one that exceeds them by least, and goes on from there where that keeps them.
+  void restore() {
+    double excess = problem_.violation(problem_.analyse(x_, false));
+    if (!(excess > DesignLog::tolerance) || !problem_.has_upper_bounds() || is_spent()) return;
+    const auto count = [&](const LocalRun& run) {
+      result_.evaluations += run.evaluations;
+      result_.failures += run.failures;
+    };
+    DesignProblem by_excess = problem_.judged_by_excess();
+    by_excess.set_start(x_);
+    SolverOptions options = search_options();
+    if (options_.solver.progress) {
+      options.progress = [&, objective = problem_.objective(problem_.analyse(x_, false)), before = result_.evaluations](int analyses, double) {
+        options_.solver.progress(before + analyses, objective);
+      };
+    }
+    const LocalRun nearest = run_local(by_excess, options);
+    count(nearest);
+    const DesignAnalysis& analysis = problem_.analyse(nearest.x, false);
+    const double least = problem_.violation(analysis);
+    if (least < excess) {
+      x_ = nearest.x;
+      excess = least;
+      append(result_.history, {{nearest.evaluations, problem_.objective(analysis), least}});
+    }
+    if (!(excess > DesignLog::tolerance) && !is_spent()) {
+      DesignProblem again = problem_;
+      again.set_start(x_);
+      const LocalRun run = run_local(again, search_options());
+      count(run);
+      take(run);
+      return;
+    }
+    if (nearest.status != SolverStatus::Converged && nearest.status != SolverStatus::Stalled) return;
+    result_.status = SolverStatus::Infeasible;
+    result_.message = "no design that keeps the constraints was found; this one exceeds them by least, " + in_percent(excess);
   }
 
   /// The problem of the last objective, at x_.

@@ -67,7 +67,8 @@ struct DesignOptions {
   int most_search_analyses{std::numeric_limits<int>::max()};
 };
 
-/// Chooses the modifications of a task: from all starts (run_from_starts()), then the later objectives of a list from the best
+/// Chooses the modifications of a task: from all starts (run_from_starts()), or, where none meets a design that keeps the constraints, the one that
+/// exceeds them by least (DesignProblem::judged_by_excess()); then the later objectives of a list from the best
 /// design on, each under limits on those before it, then rounding.
 /// @throws InvalidInput for an unknown solver or one that cannot take the task's constraints
 DesignResult optimise_design(DesignProblem& problem, const DesignOptions& options);

@@ -109,6 +109,25 @@ DesignProblem DesignProblem::judged_by(const Objective& objective, std::vector<O
   return other;
 }
 
+DesignProblem DesignProblem::judged_by_excess() const {
+  std::vector<ScalarisedObjective> excesses;
+  std::vector<OutputConstraint> lower_bounds;
+  for (const OutputConstraint& bound : task_.constraints) {
+    if (bound.is_least()) {
+      lower_bounds.push_back(bound);
+      continue;
+    }
+    const double limit = bound.maximum * bound.output.outside_factor();
+    ObjectiveTerm output = bound.output;
+    output.weight = 1.0;
+    excesses.push_back({{{output}, Aggregate::Worst}, limit, std::abs(limit)});
+  }
+  for (const ObjectiveBound& bound : task_.objective_bounds) excesses.push_back({bound.objective, bound.limit, bound.limit});
+  DesignProblem other = judged_by(task_.combined_objective(), {}, std::move(excesses));
+  other.task_.constraints = std::move(lower_bounds);
+  return other;
+}
+
 Eigen::VectorXd DesignProblem::start() const {
   if (start_.size() > 0) return start_;
   Eigen::VectorXd x(variables());

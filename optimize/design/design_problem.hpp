@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -33,6 +34,13 @@ class DesignProblem {
 
   /// The same scenes and variables judged by other objectives, models shared; nothing analysed yet.
   DesignProblem judged_by(const Objective& objective, std::vector<ObjectiveBound> bounds, std::vector<ScalarisedObjective> scalarisation = {}) const;
+
+  /// Whether a bound can be exceeded by more or less: an upper bound on an output or an objective.
+  bool has_upper_bounds() const { return !task_.objective_bounds.empty() || !std::ranges::all_of(task_.constraints, &OutputConstraint::is_least); }
+  /// The same scenes and variables judged by how far a design is beyond its upper bounds: the largest excess of an output or an objective, relative
+  /// to its bound, is minimised [-], below 0 where all are kept. Lower bounds on outputs and bounds on modifications remain constraints. Only where
+  /// has_upper_bounds().
+  DesignProblem judged_by_excess() const;
 
   /// Start of a search: set_start(), or the scaled design of the task's own modifications, moved into the bounds where
   /// it lies outside.

@@ -40,7 +40,9 @@ void join(const DesignResult& coarse, DesignResult& fine) {
   fine.rounds = coarse.rounds;
   fine.formulation = coarse.formulation;
   if (fine.finished_by.empty()) fine.finished_by = coarse.finished_by;
-  const bool search_ended = coarse.status == SolverStatus::Converged || coarse.status == SolverStatus::Stalled;
+  // Whether the constraints can be kept is judged by the fine level.
+  const bool search_ended =
+      coarse.status == SolverStatus::Converged || coarse.status == SolverStatus::Stalled || coarse.status == SolverStatus::Infeasible;
   if (!search_ended) {
     fine.status = coarse.status;
     fine.message = coarse.message;

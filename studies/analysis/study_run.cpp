@@ -8,7 +8,6 @@
 
 #include "core/base/stopwatch.hpp"
 #include "core/load/cycle/mesh_motion.hpp"
-#include "studies/analysis/position_memory.hpp"
 #include "studies/analysis/refine_resolution.hpp"
 #include "studies/analysis/requirements.hpp"
 #include "studies/analysis/study_effect_sizes.hpp"
@@ -61,6 +60,11 @@ MeshAt StudyRun::mesh_at(const Misalignment& misalignment, const std::vector<Mes
   return [this, placement = placement_of(misalignment), parameters](const std::vector<double>& phases) {
     return mesh(placement, {results_.study.fidelity.quadrature, phases}, nullptr, parameters);
   };
+}
+
+MeshAt StudyRun::remembered_mesh_at(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters) {
+  MeshAt made = mesh_at(misalignment, parameters);
+  return parameters.empty() ? memories_.at(placement_of(misalignment)).remembering(std::move(made)) : made;
 }
 
 std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) const {
@@ -122,11 +126,12 @@ std::vector<ResolvedCycle> StudyRun::resolved(const std::vector<SolvedCase>& cas
   std::vector<Misalignment> misalignments;
   for (const SolvedCase& of : cases) misalignments.push_back(of.scene.condition.misalignment);
   const std::vector<const MeshModel*> coarse = with_errors ? coarse_meshes_for(misalignments) : std::vector<const MeshModel*>(cases.size(), nullptr);
+  for (const Misalignment& misalignment : misalignments) memories_.try_emplace(placement_of(misalignment));
   std::vector<ResolvedCycle> all(cases.size());
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
     const auto& [scene, model, cycle] = cases[i];
     const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>& parameters) {
-      return mesh_at(scene.condition.misalignment, parameters)(phases);
+      return remembered_mesh_at(scene.condition.misalignment, parameters)(phases);
     };
     std::optional<LoadedCycle> coarse_cycle;
     if (coarse[i] != nullptr) coarse_cycle = analyse_cycle(*coarse[i], scene.condition, scene.torque);
@@ -197,10 +202,8 @@ void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::str
 
 void StudyRun::rate() {
   if (!locates_peaks(results_.study)) return;
-  std::map<MeshPlacement, PositionMemory> memories;  // the parts of a condition are looked at in the same phases to begin with
-  const auto mesh = [&](const Misalignment& m, const std::vector<MeshParameter>& by) {
-    return by.empty() ? memories[placement_of(m)].remembering(mesh_at(m)) : mesh_at(m, by);
-  };
+  for (const LoadedResult& loaded : results_.loaded) memories_.try_emplace(placement_of(loaded.condition.misalignment));
+  const auto mesh = [&](const Misalignment& m, const std::vector<MeshParameter>& by) { return remembered_mesh_at(m, by); };
   for (LoadedResult& loaded : results_.loaded) {
     if (loaded.cycle.usable()) loaded.rating = rater_.rate(mesh, loaded.condition, loaded.torque, gradient_parameters());
   }
@@ -301,6 +304,7 @@ void StudyRun::forget_loaded() {
   results_.models.clear();
   model_index_.clear();
   coarse_models_.clear();
+  memories_.clear();
   set_phases();
 }
 

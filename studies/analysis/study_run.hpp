@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "studies/analysis/fidelity_level.hpp"
+#include "studies/analysis/position_memory.hpp"
 #include "studies/analysis/study_results.hpp"
 #include "studies/base/progress.hpp"
 
@@ -63,6 +64,8 @@ class StudyRun {
   std::vector<MeshModel> meshes(const std::vector<MeshPlacement>& placements, const MeshResolution& resolution,
                                 const std::vector<MeshParameter>& parameters);
   MeshAt mesh_at(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters = {});
+  /// The same from the positions known already, where there are no parameters; the placement's memory must be there.
+  MeshAt remembered_mesh_at(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters);
   MeshPlacement placement_of(const Misalignment& misalignment) const;
   std::vector<std::size_t> models_for(const std::vector<DesignScene>& scenes);
   std::vector<const MeshModel*> coarse_meshes_for(const std::vector<Misalignment>& misalignments);
@@ -79,6 +82,7 @@ class StudyRun {
   StudyResults results_;
   std::map<MeshPlacement, std::size_t> model_index_;
   std::map<MeshPlacement, MeshModel> coarse_models_;  ///< half the intervals, every second position
+  std::map<MeshPlacement, PositionMemory> memories_;  ///< scenes are looked at in the same phases to begin with
   double unloaded_seconds_{0.0};
   LoadRater rater_;
   bool has_structure_{false};

@@ -101,6 +101,20 @@ TEST_CASE("The optimum respects a bound on the transmission error, and pays for 
   }
 }
 
+TEST_CASE("Where no design keeps the constraints the one that exceeds them by least is shown", "[optimize][design]") {
+  DesignTask task = spur({10.0, -10.0});
+  const DesignResult lowest_stress = optimise(task);
+  OutputConstraint bound{term(Output::PeakContactStress)};
+  bound.maximum = 0.8 * lowest_stress.after.objective;
+  task.constraints = {bound};
+  task.objective = {term(Output::TePeakToPeak)};
+  const DesignResult shown = optimise(task, GENERATE("ipopt", "nlopt:slsqp"));
+  CAPTURE(shown.message);
+  CHECK(shown.status == SolverStatus::Infeasible);
+  CHECK_THAT(shown.message, Catch::Contains("exceeds them by least, 25 %"));
+  CHECK(shown.after.constraint_values[0] == Approx(lowest_stress.after.objective).epsilon(1e-4));  // the optimiser's tolerance
+}
+
 TEST_CASE("Every way of combining the scenes finds a design that is better in its own sense", "[optimize][design][slow]") {
   const Aggregate over = GENERATE(Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean, Aggregate::MeanPlusSigmas, Aggregate::Cvar);
   CAPTURE(to_string(over));

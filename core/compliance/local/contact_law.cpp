@@ -150,6 +150,21 @@ ContactLaw::Response ContactLaw::evaluate(double line_load) const {
   return response;
 }
 
+double ContactLaw::line_load(double deflection) const {
+  if (!(deflection > 0)) return 0;
+  // Newton's steps on log c by log w, a curve that rises by 1/2 to 1 all the way.
+  constexpr double round_off = 1e-13;
+  constexpr int most_steps = 50;
+  double load = 1;
+  for (int step = 0; step < most_steps; ++step) {
+    const Response here = evaluate(load);
+    const double change = std::log(deflection / here.deflection) * here.deflection / (load * here.slope);
+    load *= std::exp(change);
+    if (std::abs(change) < round_off) break;
+  }
+  return load;
+}
+
 double ContactLaw::edge_slope(double line_load) const {
   const std::optional<StripContact> on_edge = strip(line_load);
   if (!on_edge) return 0.0;

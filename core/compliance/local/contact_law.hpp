@@ -81,6 +81,8 @@ class ContactLaw {
   Response evaluate(double line_load) const;
   double deflection(double line_load) const { return evaluate(line_load).deflection; }  ///< c(w) [mm]
   double slope(double line_load) const { return evaluate(line_load).slope; }            ///< dc/dw [mm^2/N]
+  /// The line load that deflects the contact by c(w) = deflection [N/mm], to round-off; 0 for a deflection of 0 or less.
+  double line_load(double deflection) const;
 
   /// dc/de, by the distance of the edge, at held load [-]; 0 without an edge or load.
   double edge_slope(double line_load) const;

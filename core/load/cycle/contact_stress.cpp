@@ -37,6 +37,15 @@ StripContact::Peaks contact_stress(const MeshModel& model, const ContactPoint& p
   return {{stress, stress / (2.0 * line_load), 0.0}, {}, {}};
 }
 
+Eigen::RowVectorXd StressPlace::derivative(const Eigen::MatrixXd& load, const Eigen::MatrixXd& edge) const {
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(load.cols());
+  for (std::size_t k = 0; k < count; ++k) {
+    sum += points[k].by_load * load.row(points[k].index);
+    if (edge.size() > 0) sum += points[k].by_edge * edge.row(points[k].index);
+  }
+  return sum;
+}
+
 namespace {
 
 /// Raises the stress of point i to that between it and a neighbour on its line.
@@ -49,11 +58,65 @@ void climb(const MeshModel& model, const MeshPosition& at, const RoundedEdge& ed
     const double load = (1.0 - share) * line_load[i] + share * line_load[neighbour];
     const double radius = (1.0 - share) * here.relative_radius + share * there.relative_radius;
     const StripContact strip({edge.radius, edge.distance + share * further}, radius, model.contact_modulus, load);
-    const StripContact::Peak crest = strip.crest();
-    if (!(crest.pressure > stress.on_edge.peak.pressure)) return;  // it falls that way
-    stress.on_edge = {crest, neighbour, share};
-    if (crest.pressure > stress.highest.peak.pressure) stress.highest = stress.on_edge;
+    StripContact::Peak crest = strip.crest();
+    if (!(crest.pressure > stress.on_edge.pressure)) return;  // it falls that way
+    const double slope = crest.slope;
+    crest.slope = (1.0 - share) * slope;
+    stress.on_edge = {crest, i};
+    stress.on_edge.add({neighbour, share * slope, 0.0});
+    if (crest.pressure > stress.highest.pressure) stress.highest = stress.on_edge;
   }
+}
+
+/// Weights that continue values at `count` places z to another place: by the parabola through three, the straight line through two.
+std::array<double, 3> continued(const std::array<double, 3>& z, std::size_t count, double there) {
+  std::array<double, 3> weights{};
+  for (std::size_t k = 0; k < count; ++k) {
+    weights[k] = 1.0;
+    for (std::size_t m = 0; m < count; ++m) {
+      if (m != k) weights[k] *= (there - z[m]) / (z[k] - z[m]);
+    }
+  }
+  return weights;
+}
+
+/// Raises the stress of the last point of a line to that at its end on a face.
+void rise_to_face_end(const MeshModel& model, const MeshPosition& at, const FaceEndOfLine& end, const std::vector<ContactLaw>& laws,
+                      const Eigen::VectorXd& line_load, PointStress& stress) {
+  const Eigen::Index last = end.point;
+  if (!(line_load[last] > line_load[last + end.inwards] && line_load[last + end.inwards] > 0.0)) return;
+  std::array<double, 3> z{};
+  std::size_t count = 0;
+  for (Eigen::Index i = last; count < z.size(); i += end.inwards) {
+    const bool on_line = i >= 0 && i < line_load.size() && at.points[static_cast<std::size_t>(i)].tooth == end.place.tooth;
+    if (!on_line || !(line_load[i] > 0.0)) break;
+    z[count++] = at.points[static_cast<std::size_t>(i)].z;
+  }
+  const std::array<double, 3> weights = continued(z, count, end.place.z);
+  double deflection = 0.0;
+  StressPlace place;
+  for (std::size_t k = 0; k < count; ++k) {
+    const Eigen::Index i = last + static_cast<Eigen::Index>(k) * end.inwards;
+    const ContactLaw& law = laws[static_cast<std::size_t>(i)];
+    const ContactLaw::Response response = law.evaluate(line_load[i]);
+    deflection += weights[k] * response.deflection;
+    place.add({i, weights[k] * response.slope, weights[k] * law.edge_slope(line_load[i])});
+  }
+  const auto k = static_cast<std::size_t>(last);
+  const double moved = laws[k].edge() && at.laws[k].edge() ? laws[k].edge()->distance - at.laws[k].edge()->distance : 0.0;
+  const ContactLaw law = end.law.with_edge_moved(moved);
+  const double load = law.line_load(deflection);
+  const StripContact::Peak peak = contact_stress(model, end.place, &law, load).highest;
+  if (!(peak.pressure > stress.highest.pressure)) return;
+  // dw = (du - dc at w held)/c', u the deflection that is continued
+  const double by_deflection = peak.slope / law.slope(load);
+  place.pressure = peak.pressure;
+  for (std::size_t j = 0; j < count; ++j) {
+    place.points[j].by_load *= by_deflection;
+    place.points[j].by_edge *= by_deflection;
+  }
+  place.points[0].by_edge += peak.by_edge - by_deflection * law.edge_slope(load);
+  stress.highest = place;
 }
 
 }  // namespace
@@ -64,12 +127,13 @@ std::vector<PointStress> contact_stresses(const MeshModel& model, const MeshPosi
   std::vector<PointStress> stresses(n);
   std::vector<std::size_t> reached;
   for (std::size_t i = 0; i < n; ++i) {
-    const StripContact::Peaks peaks = contact_stress(model, at.points[i], laws.empty() ? nullptr : &laws[i], line_load[static_cast<Eigen::Index>(i)]);
-    stresses[i] = {{peaks.highest}, {peaks.on_edge}, peaks.edge_load};
+    const auto row = static_cast<Eigen::Index>(i);
+    const StripContact::Peaks peaks = contact_stress(model, at.points[i], laws.empty() ? nullptr : &laws[i], line_load[row]);
+    stresses[i] = {{peaks.highest, row}, {peaks.on_edge, row}, peaks.edge_load};
     if (peaks.on_edge.pressure > 0.0) reached.push_back(i);
   }
   const std::vector<PointStress> of_points = reached.empty() ? std::vector<PointStress>() : stresses;
-  const auto own = [&](std::size_t i) { return of_points[i].on_edge.peak.pressure; };
+  const auto own = [&](std::size_t i) { return of_points[i].on_edge.pressure; };
   for (const std::size_t i : reached) {
     const auto less = [&](std::size_t neighbour) {
       return neighbour >= n || at.points[neighbour].tooth != at.points[i].tooth || own(neighbour) <= own(i);
@@ -80,6 +144,8 @@ std::vector<PointStress> contact_stresses(const MeshModel& model, const MeshPosi
       climb(model, at, *laws[i].edge(), line_load, static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(neighbour), stresses[i]);
     }
   }
+  if (laws.empty()) return stresses;
+  for (const FaceEndOfLine& end : at.face_ends) rise_to_face_end(model, at, end, laws, line_load, stresses[static_cast<std::size_t>(end.point)]);
   return stresses;
 }
 

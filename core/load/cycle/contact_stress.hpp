@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -27,18 +28,25 @@ std::optional<ContactLaw> contact_law_in(const MeshModel& model, const ContactPo
 /// @param law  null: Hertzian contact is left out, and with it any edge
 StripContact::Peaks contact_stress(const MeshModel& model, const ContactPoint& point, const ContactLaw* law, double line_load);
 
-/// A largest pressure on the part of a line that belongs to a point: at the point, or a share of the way to the next one.
+/// A largest pressure on the part of a line that belongs to a point, and the points that it follows from.
 struct StressPlace {
-  StripContact::Peak peak{};
-  Eigen::Index neighbour{-1};  ///< the next point; -1: at the point itself
-  double share{0.0};           ///< of the way there, 0 .. 1/2
+  struct Point {
+    Eigen::Index index{-1};
+    double by_load{0.0};  ///< derivative of the pressure by its line load [1/mm]
+    double by_edge{0.0};  ///< and by the distance of its edge [MPa/mm]
+  };
+  double pressure{0.0};  ///< [MPa]
+  std::array<Point, 3> points{};
+  std::size_t count{0};  ///< of these
 
-  /// Of values per point, one row each.
-  template <typename Rows>
-  Eigen::RowVectorXd interpolated(const Rows& values, Eigen::Index point) const {
-    if (neighbour < 0) return values.row(point);
-    return (1.0 - share) * values.row(point) + share * values.row(neighbour);
-  }
+  StressPlace() = default;
+  /// At a point itself.
+  StressPlace(const StripContact::Peak& peak, Eigen::Index point)
+      : pressure(peak.pressure), points{Point{point, peak.slope, peak.by_edge}}, count(1) {}
+  void add(const Point& point) { points[count++] = point; }
+  /// @param load  derivatives of the points' line loads, a row each
+  /// @param edge  of the distances of their edges; no rows: no edge is reached
+  Eigen::RowVectorXd derivative(const Eigen::MatrixXd& load, const Eigen::MatrixXd& edge) const;
 };
 
 /// Contact stress of one point.
@@ -52,6 +60,10 @@ struct PointStress {
 /// Where a line runs onto a tip edge its pressure has a crest that is shorter than the distance of the points. Around a point that has more than
 /// its neighbours the strip is therefore solved at a quarter and half of the way to both neighbours as well, with load, relative radius and the edge's distance in
 /// between linear; the edge is moved as at the point.
+///
+/// Where the line load rises towards a face end it goes on rising beyond the last point, most where the mate's flank overhangs and holds up the
+/// load's end. The contact deflection, what gap and structure leave of the approach, is smooth: it is continued to the end by a parabola through
+/// the last three points in contact (a straight line through two), and the contact law at the end gives the load there.
 /// @param laws  of the points, moved by a condition; empty: Hertzian contact is left out
 std::vector<PointStress> contact_stresses(const MeshModel& model, const MeshPosition& at, const std::vector<ContactLaw>& laws,
                                           const Eigen::VectorXd& line_load);

@@ -36,24 +36,20 @@ void fill_stress(const MeshModel& model, const MeshPosition& at, const Local& lo
   position.contact_stress_derivative = Eigen::MatrixXd::Zero(w.size(), by_load.cols());
   if (edges) position.edge_stress = position.contact_stress;
   if (edges) position.edge_stress_derivative = position.contact_stress_derivative;
-  const auto slope = [&](const auto& value, Eigen::RowVectorXd load_derivative, Eigen::Index i) -> Eigen::RowVectorXd {
-    load_derivative *= value.slope;
-    if (local.edge.size() > 0) load_derivative += value.by_edge * local.edge.row(i);
-    return load_derivative;
-  };
   const std::vector<PointStress> stresses = contact_stresses(model, at, local.laws, w);
   double on_edges = 0.0;
   Eigen::RowVectorXd on_edges_derivative = Eigen::RowVectorXd::Zero(by_load.cols());
   for (Eigen::Index i = 0; i < w.size(); ++i) {
     if (w[i] <= 0.0) continue;
     const auto& [highest, on_edge, edge_load] = stresses[static_cast<std::size_t>(i)];
-    position.contact_stress[i] = highest.peak.pressure;
-    position.contact_stress_derivative.row(i) = slope(highest.peak, highest.interpolated(by_load, i), i);
-    if (!edges || on_edge.peak.pressure == 0.0) continue;
-    position.edge_stress[i] = on_edge.peak.pressure;
-    position.edge_stress_derivative.row(i) = slope(on_edge.peak, on_edge.interpolated(by_load, i), i);
+    position.contact_stress[i] = highest.pressure;
+    position.contact_stress_derivative.row(i) = highest.derivative(by_load, local.edge);
+    if (!edges || on_edge.pressure == 0.0) continue;
+    position.edge_stress[i] = on_edge.pressure;
+    position.edge_stress_derivative.row(i) = on_edge.derivative(by_load, local.edge);
     on_edges += at.weight[i] * edge_load.load;
-    on_edges_derivative += at.weight[i] * slope(edge_load, by_load.row(i), i);
+    on_edges_derivative += at.weight[i] * edge_load.slope * by_load.row(i);
+    if (local.edge.size() > 0) on_edges_derivative += at.weight[i] * edge_load.by_edge * local.edge.row(i);
   }
   if (!edges) return;
   position.tip_edge_share = force > 0.0 ? on_edges / force : 0.0;

@@ -13,6 +13,27 @@ namespace {
 
 constexpr std::initializer_list<EffectStage> local_stages{EffectStage::ContactSite, EffectStage::ContactLaw};
 
+/// The face ends that lines reach: no further from a line's last point than that is from the one before.
+std::vector<FaceEndOfLine> face_ends(const MeshModel& model, const PathOfContact& path, const MeshPosition& at, const LineInterval& face) {
+  std::vector<FaceEndOfLine> ends;
+  if (at.laws.empty()) return ends;
+  const std::vector<ContactPoint>& points = at.points;
+  for (std::size_t begin = 0, end = 0; begin < points.size(); begin = end) {
+    while (end < points.size() && points[end].tooth == points[begin].tooth) ++end;
+    if (end - begin < 2) continue;
+    const auto add = [&](std::size_t last, std::size_t before, double z) {
+      if (std::abs(z - points[last].z) > std::abs(points[last].z - points[before].z)) return;
+      const auto place = model.place(path, at.phase, points[last].tooth, z);
+      if (!place) return;
+      const auto law = model.contact_law(*place);
+      if (law) ends.push_back({static_cast<Eigen::Index>(last), before > last ? 1 : -1, *place, *law});
+    };
+    add(begin, begin + 1, face.begin);
+    add(end - 1, end - 2, face.end);
+  }
+  return ends;
+}
+
 MeshPosition make_position(const MeshModel& model, const MeshParts& parts, const PathOfContact& path, const Quadrature& quadrature, double phase,
                            const LineInterval& face) {
   MeshBuilder builder(parts, phase);
@@ -24,6 +45,7 @@ MeshPosition make_position(const MeshModel& model, const MeshParts& parts, const
   MeshPosition position{phase, std::move(builder.points), {}, std::move(builder.influence), std::move(builder.laws), std::move(builder.root_stress)};
   position.weight.resize(std::ssize(position.points));
   for (Eigen::Index i = 0; i < position.weight.size(); ++i) position.weight[i] = position.points[static_cast<std::size_t>(i)].weight;
+  position.face_ends = face_ends(model, path, position, face);
   return position;
 }
 

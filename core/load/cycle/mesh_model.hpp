@@ -22,6 +22,15 @@ struct MeshResolution {
 /// n phases of the reference pair over one base pitch, from 0 (its leading end enters at A0): 0, 1/n, ...
 std::vector<double> equally_spaced_phases(int n);
 
+/// Where a contact line ends at a face end of the common width. There the line load may rise up to the very end, beyond the last point of the
+/// quadrature.
+struct FaceEndOfLine {
+  Eigen::Index point{-1};   ///< of the line, the nearest
+  Eigen::Index inwards{0};  ///< from a point to the next one away from the end, 1 or -1
+  ContactPoint place{};     ///< the end as a point, without a weight
+  ContactLaw law;
+};
+
 /// What does not change while modifications, torque and, with GapModel::PlaneOfAction, misalignment vary: points, influence and
 /// contact laws per position.
 ///
@@ -37,7 +46,8 @@ struct MeshPosition {
   Eigen::VectorXd weight;
   Eigen::MatrixXd influence;
   std::vector<ContactLaw> laws;
-  RootStressInfluence root_stress{};  ///< no points: not asked for
+  RootStressInfluence root_stress{};       ///< no points: not asked for
+  std::vector<FaceEndOfLine> face_ends{};  ///< none without Hertzian contact
 };
 
 struct MeshModel;

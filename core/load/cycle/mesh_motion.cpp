@@ -29,8 +29,8 @@ HeldLoads held_loads(const MeshModel& model, const MeshPosition& at, const Flank
   for (Eigen::Index i = 0; i < load.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!laws.empty()) held.deflection[i] += laws[k].deflection(load[i]);
-    held.contact_stress[i] = stresses[k].highest.peak.pressure;
-    held.edge_stress[i] = stresses[k].on_edge.peak.pressure;
+    held.contact_stress[i] = stresses[k].highest.pressure;
+    held.edge_stress[i] = stresses[k].on_edge.pressure;
     held.edge_force += at.weight[i] * stresses[k].edge_load.load;
   }
   return held;

@@ -101,7 +101,8 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
   // Rounding to the grinder's steps leaves the optimum.
   const DesignReport& best = design.exact ? *design.exact : design.after;
   const bool usable = std::ranges::all_of(best.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
-  if (usable && !best.analysis.cycles.empty()) {
+  // Where no design keeps the constraints the one shown is no optimum of the objective.
+  if (usable && !best.analysis.cycles.empty() && design.status != SolverStatus::Infeasible) {
     const DesignProblem last = last_stage(problem, design.stages);
     const std::vector<AssessedParameter> parameters = assessed_parameters(last.task());
     const LocalModel model(last, best.analysis.modification, parameters, design.optimality.active);

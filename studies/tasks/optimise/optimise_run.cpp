@@ -109,10 +109,11 @@ class OptimiseRun {
   }
 
   /// Extremes between the positions may exceed a constraint that is kept at the positions. It is then asked for at the positions with as much
-  /// to spare, and the search goes on from there; `problem` has these limits afterwards.
+  /// to spare, and the search goes on from there; `problem` has these limits afterwards. Nothing to do where no design keeps the constraints at all.
   void keep_constraints_between_positions(DesignProblem& problem, const DesignOptions& options, TwoLevelDesign& found) {
     constexpr int most_turns = 3;
-    for (int turn = 0; turn < most_turns && seeks_extremes(results_.study) && !problem.task().constraints.empty(); ++turn) {
+    const auto infeasible = [&] { return found.design.status == SolverStatus::Infeasible; };
+    for (int turn = 0; turn < most_turns && seeks_extremes(results_.study) && !problem.task().constraints.empty() && !infeasible(); ++turn) {
       const Stopwatch clock;
       DesignReport shown = found.design.after;
       resolve_report(problem, resolved_cycles(problem, shown.analysis, false), shown);

@@ -75,10 +75,12 @@ std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& conditi
   if (!cycle.usable()) {
     throw SampleFailure{"the load distribution did not converge at " + std::to_string(cycle.failures) + " mesh positions"};
   }
-  const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) {
+  const MeshAt made_at = [&](const std::vector<double>& phases) {
     return make_mesh_model(nominal_.pair, study.material, {study.fidelity.quadrature, phases}, nominal_.mesh_effects, placement,
                            nominal_.structures.pair.get(), nullptr, nominal_.shafts.get());
   };
+  const MeshAt mesh_at = own ? made_at : memory_.remembering(made_at);
+  const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>&) { return mesh_at(phases); };
   const CycleSummary summary = resolve_cycle(*model, cycle, at, condition, torque, {.seek_extremes = seeks_extremes(study)}).summary;
   const IsoLoadFactors iso = iso_load_factors(model->pair, model->iso, iso_deviations(model->pair, condition), torque, model->face_width);
   std::vector<double> values;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/fidelity/cycle_quantities.hpp"
+#include "studies/analysis/position_memory.hpp"
 #include "studies/analysis/study_results.hpp"
 #include "studies/study_file/study_schema.hpp"
 #include "studies/study_file/sweep_value.hpp"
@@ -41,6 +42,7 @@ class SampleAnalysis {
   bool is_loaded() const { return !nominal_.loaded.empty(); }
 
   const StudyResults& nominal_;
+  mutable PositionMemory memory_;    ///< of the nominal placement between its positions
   std::vector<CycleEntry> entries_;  ///< those of the outputs under load that are entries of cycle_quantities()
   std::vector<SweepOutput> outputs_;
 };

@@ -40,9 +40,9 @@ TEST_CASE("Structural deflections at line ends are the thesis' by a natural cubi
 TEST_CASE("The contact law is inverted to the load that gives the deflection", "[core][load][line-ends]") {
   const ContactLaw law = load_cases::steel_law(12.0, 8.0, 9.0, GENERATE(0.0, 0.3, 1e9));
   const double load = GENERATE(1e-6, 0.5, 120.0, 2e4);
-  CHECK(line_load_for(law, law.deflection(load)) == Approx(load).epsilon(1e-9));  // round-off over the flattest part of the law
-  CHECK(line_load_for(law, 0.0) == 0.0);
-  CHECK(line_load_for(law, -1e-3) == 0.0);
+  CHECK(law.line_load(law.deflection(load)) == Approx(load).epsilon(1e-9));  // round-off over the flattest part of the law
+  CHECK(law.line_load(0.0) == 0.0);
+  CHECK(law.line_load(-1e-3) == 0.0);
 }
 
 TEST_CASE("On a spur pair in one contact every end carries what the line does", "[core][load][line-ends]") {
