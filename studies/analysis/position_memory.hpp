@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -12,8 +13,8 @@ namespace flankwright::studies {
 /// Positions of one mesh by their phase, each made once. May be used by several threads at a time.
 class PositionMemory {
  public:
-  /// Positions that are kept; later ones are made each time. Some hundred megabytes on a wide gear.
-  static constexpr std::size_t most = 4096;
+  /// Influence values that all kept positions may have [bytes]; positions beyond that are made each time.
+  static constexpr std::size_t most_bytes = std::size_t{256} << 20U;
 
   /// The mesh as `make` makes it, without what is known already made anew. This must outlive it.
   MeshAt remembering(MeshAt make) {
@@ -32,7 +33,7 @@ class PositionMemory {
         mesh.positions.clear();
         const std::lock_guard lock(mutex_);
         if (!mesh_) mesh_ = std::move(mesh);
-        if (positions_.size() < most) positions_.insert(made.begin(), made.end());
+        for (const auto& [phase, position] : made) keep(phase, position);
       }
       const std::lock_guard lock(mutex_);
       MeshModel mesh = *mesh_;
@@ -45,9 +46,16 @@ class PositionMemory {
   }
 
  private:
+  void keep(double phase, const MeshPosition& position) {
+    const std::size_t bytes = sizeof(double) * static_cast<std::size_t>(position.influence.size());
+    if (bytes_ + bytes > most_bytes || !positions_.emplace(phase, position).second) return;
+    bytes_ += bytes;
+  }
+
   std::mutex mutex_;
   std::optional<MeshModel> mesh_;  ///< without positions
   std::map<double, MeshPosition> positions_;
+  std::size_t bytes_{0};
 };
 
 }  // namespace flankwright::studies

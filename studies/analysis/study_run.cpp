@@ -64,7 +64,9 @@ MeshAt StudyRun::mesh_at(const Misalignment& misalignment, const std::vector<Mes
 
 MeshAt StudyRun::remembered_mesh_at(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters) {
   MeshAt made = mesh_at(misalignment, parameters);
-  return parameters.empty() ? memories_.at(placement_of(misalignment)).remembering(std::move(made)) : made;
+  if (!parameters.empty()) return made;
+  const std::lock_guard lock(memories_mutex_);
+  return memories_[placement_of(misalignment)].remembering(std::move(made));
 }
 
 std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) const {
@@ -126,7 +128,6 @@ std::vector<ResolvedCycle> StudyRun::resolved(const std::vector<SolvedCase>& cas
   std::vector<Misalignment> misalignments;
   for (const SolvedCase& of : cases) misalignments.push_back(of.scene.condition.misalignment);
   const std::vector<const MeshModel*> coarse = with_errors ? coarse_meshes_for(misalignments) : std::vector<const MeshModel*>(cases.size(), nullptr);
-  for (const Misalignment& misalignment : misalignments) memories_.try_emplace(placement_of(misalignment));
   std::vector<ResolvedCycle> all(cases.size());
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
     const auto& [scene, model, cycle] = cases[i];
@@ -202,7 +203,6 @@ void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::str
 
 void StudyRun::rate() {
   if (!locates_peaks(results_.study)) return;
-  for (const LoadedResult& loaded : results_.loaded) memories_.try_emplace(placement_of(loaded.condition.misalignment));
   const auto mesh = [&](const Misalignment& m, const std::vector<MeshParameter>& by) { return remembered_mesh_at(m, by); };
   for (LoadedResult& loaded : results_.loaded) {
     if (loaded.cycle.usable()) loaded.rating = rater_.rate(mesh, loaded.condition, loaded.torque, gradient_parameters());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,7 +65,7 @@ class StudyRun {
   std::vector<MeshModel> meshes(const std::vector<MeshPlacement>& placements, const MeshResolution& resolution,
                                 const std::vector<MeshParameter>& parameters);
   MeshAt mesh_at(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters = {});
-  /// The same from the positions known already, where there are no parameters; the placement's memory must be there.
+  /// The same, positions that are known already not made again where there are no parameters. May be called by several threads at a time.
   MeshAt remembered_mesh_at(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters);
   MeshPlacement placement_of(const Misalignment& misalignment) const;
   std::vector<std::size_t> models_for(const std::vector<DesignScene>& scenes);
@@ -82,7 +83,8 @@ class StudyRun {
   StudyResults results_;
   std::map<MeshPlacement, std::size_t> model_index_;
   std::map<MeshPlacement, MeshModel> coarse_models_;  ///< half the intervals, every second position
-  std::map<MeshPlacement, PositionMemory> memories_;  ///< scenes are looked at in the same phases to begin with
+  std::map<MeshPlacement, PositionMemory> memories_;  ///< scenes and the parts of a condition are looked at in the same phases to begin with
+  std::mutex memories_mutex_;
   double unloaded_seconds_{0.0};
   LoadRater rater_;
   bool has_structure_{false};

@@ -58,12 +58,10 @@ void climb(const MeshModel& model, const MeshPosition& at, const RoundedEdge& ed
     const double load = (1.0 - share) * line_load[i] + share * line_load[neighbour];
     const double radius = (1.0 - share) * here.relative_radius + share * there.relative_radius;
     const StripContact strip({edge.radius, edge.distance + share * further}, radius, model.contact_modulus, load);
-    StripContact::Peak crest = strip.crest();
+    const StripContact::Peak crest = strip.crest();
     if (!(crest.pressure > stress.on_edge.pressure)) return;  // it falls that way
-    const double slope = crest.slope;
-    crest.slope = (1.0 - share) * slope;
-    stress.on_edge = {crest, i};
-    stress.on_edge.add({neighbour, share * slope, 0.0});
+    stress.on_edge = {{crest.pressure, (1.0 - share) * crest.slope, crest.by_edge}, i};
+    stress.on_edge.add({neighbour, share * crest.slope, 0.0});
     if (crest.pressure > stress.highest.pressure) stress.highest = stress.on_edge;
   }
 }

@@ -132,13 +132,8 @@ TEST_CASE("Loads, transmission error and stresses on edges have the slopes of di
   REQUIRE(summarise(model, cycle).edge_stress > 0.0);
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     const double step = parameters[p].parameter == parameter_of("tip_relief.height") ? 5e-6 : 5e-8;  // mm
-    const auto moved = [&](double by) {
-      FlankCondition other = condition;
-      Modification& m = other.modification[parameters[p].member];
-      set(m, parameters[p].parameter, get(m, parameters[p].parameter) + by);
-      return analyse_cycle(model, other, torque);
-    };
-    const LoadedCycle up = moved(step), down = moved(-step);
+    const LoadedCycle up = analyse_cycle(model, mesh_cases::moved(condition, parameters[p], step), torque);
+    const LoadedCycle down = analyse_cycle(model, mesh_cases::moved(condition, parameters[p], -step), torque);
     for (std::size_t k = 0; k < cycle.positions.size(); ++k) {
       const LoadedPosition& at = cycle.positions[k];
       const auto column = static_cast<Eigen::Index>(p);

@@ -58,6 +58,13 @@ inline FlankCondition worked_condition() {
   return condition;
 }
 
+/// The condition with one parameter of its modifications moved.
+inline FlankCondition moved(FlankCondition condition, const GearParameter& parameter, double by) {
+  Modification& modification = condition.modification[parameter.member];
+  set(modification, parameter.parameter, get(modification, parameter.parameter) + by);
+  return condition;
+}
+
 /// Line loads of a position by tooth pair and axial position in whole micrometres, so that positions can be compared
 /// point by point; z is mirrored and teeth counted backwards where asked.
 using Loads = std::map<std::pair<int, long>, double>;

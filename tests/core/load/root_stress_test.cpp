@@ -83,13 +83,8 @@ TEST_CASE("Derivatives of root stress are what central differences say", "[core]
   const LoadedCycle at = analyse_cycle(model, condition, torque, {parameters.begin(), parameters.end()});
   constexpr double step = 1e-6;  // mm
   for (std::size_t p = 0; p < parameters.size(); ++p) {
-    const auto shifted = [&](double by) {
-      FlankCondition moved = condition;
-      Modification& modification = moved.modification[parameters[p].member];
-      set(modification, parameters[p].parameter, get(modification, parameters[p].parameter) + by);
-      return analyse_cycle(model, moved, torque);
-    };
-    const LoadedCycle up = shifted(step), down = shifted(-step);
+    const LoadedCycle up = analyse_cycle(model, mesh_cases::moved(condition, parameters[p], step), torque);
+    const LoadedCycle down = analyse_cycle(model, mesh_cases::moved(condition, parameters[p], -step), torque);
     for (std::size_t k = 0; k < at.positions.size(); ++k) {
       const Eigen::VectorXd difference = (up.positions[k].root_stress - down.positions[k].root_stress) / (2 * step);
       Eigen::VectorXd exact(difference.size());

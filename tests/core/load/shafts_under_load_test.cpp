@@ -95,13 +95,8 @@ TEST_CASE("Derivatives with shafts are those of central differences", "[core][lo
   const LoadedCycle cycle = analyse_cycle(model, condition, torque, {parameters.begin(), parameters.end()});
   const double step = 0.002 * units::um;
   for (std::size_t p = 0; p < parameters.size(); ++p) {
-    const auto moved = [&](double by) {
-      FlankCondition c = condition;
-      Modification& m = c.modification[parameters[p].member];
-      set(m, parameters[p].parameter, get(m, parameters[p].parameter) + by);
-      return analyse_cycle(model, c, torque);
-    };
-    const LoadedCycle up = moved(step), down = moved(-step);
+    const LoadedCycle up = analyse_cycle(model, mesh_cases::moved(condition, parameters[p], step), torque);
+    const LoadedCycle down = analyse_cycle(model, mesh_cases::moved(condition, parameters[p], -step), torque);
     for (std::size_t i = 0; i < 2; ++i) {
       const Eigen::VectorXd difference = (up.positions[i].load.line_load - down.positions[i].load.line_load) / (2 * step);
       const Eigen::VectorXd found = cycle.positions[i].line_load_derivative.col(static_cast<Eigen::Index>(p));

@@ -250,6 +250,17 @@ TEST_CASE("Given repeats the study's keys, and used has all settings", "[studies
   CHECK(results["loaded"][0]["cycle"].size() == 5);
 }
 
+TEST_CASE("Misaligned over the whole surface, a pair without errors has load factors of its face alone", "[studies][run]") {
+  const json results = results_of(
+      "task = \"analyse\"\n[pair]\nnormal_module = 4\nhelix_angle = 15\n[pinion]\nteeth = 24\nface_width = 30\n[wheel]\nteeth = 36\n"
+      "face_width = 30\n[pinion.modification]\nlead_crowning = 6\n[misalignment]\ncrossing = \"1 arcmin\"\naxial_offset = 0.5\n[load]\n"
+      "torque = 300\n[cycle]\npositions = 8\n[fidelity]\ngap = \"whole_surface\"\ncompliance = \"thin_slice\"\nquadrature = { intervals = 4 }\n");
+  const json& factors = results["loaded"][0]["summary"]["load_factors"]["without_spikes"];
+  CHECK(factors["K_Hbeta"].get<double>() > 1.05);
+  CHECK(factors["K_Halpha"].get<double>() == Approx(1.0));
+  CHECK(factors["K_H"].get<double>() == Approx(factors["K_Hbeta"].get<double>()));
+}
+
 TEST_CASE("A rigid study ignores its torques, with a note", "[studies][run]") {
   const json results = results_of(small::analysis(), {{"fidelity.compliance", "rigid"}});
   CHECK(results["loaded"].empty());
