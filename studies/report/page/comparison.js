@@ -90,19 +90,21 @@ function build_comparison(results, body) {
   const unit = pretty_unit(optimise.objective_unit), name = words(optimise.objective_name);
   const designs = compared_designs(optimise);
   const note = (value) => percent_change(after.objective, value);
+  // Without a design that keeps the constraints the one shown is no optimum.
+  const infeasible = optimise.status === "infeasible", shown = infeasible ? "design shown" : "optimum";
   figure(figure_grid(body), {
-    title: `${capital(name)} of the optimum and other designs`,
+    title: `${capital(name)} of the ${shown} and other designs`,
     wide: true,
     caption: `All designs are analysed over the same scenes. A rule may use modifications that the study does not vary. ${comparison_caption(record(optimise.comparison))} Hollow bars violate a constraint.`,
   }, (plot) => draw_bars(plot, {
     label: "Objective of every design compared", unit,
-    rows: [{ label: "optimum", value: after.objective, colour: design_colour("after"), note: `${fmt(after.objective)} ${unit}` },
+    rows: [{ label: shown, value: after.objective, colour: design_colour("after"), hollow: infeasible, note: `${fmt(after.objective)} ${unit}` },
       ...designs.map((design) => ({ label: design.name, value: design.objective, hollow: design.feasible === false,
         colour: design.kind === "rule" ? design_colour("before") : sequence_colour(2), note: note(design.objective) }))],
   }));
   table(body, {
     title: "Designs compared",
-    columns: [{ label: "Design" }, { label: capital(name), unit }, { label: "Compared with the optimum" }, { label: "Constraints met" },
+    columns: [{ label: "Design" }, { label: capital(name), unit }, { label: `Compared with the ${shown}` }, { label: "Constraints met" },
       { label: "Modifications" }, { label: "Basis" }],
     rows: designs.map((design) => [design.name, design.objective ?? null, note(design.objective),
       design.failure ? design.failure : design.feasible ? "yes" : "no", modifications_in_words(design), in_symbols(design.basis || "–")]),

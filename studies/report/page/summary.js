@@ -84,7 +84,7 @@ function draw_verdict(results, cases) {
   }
   if (optimise.status && !/converged|success|optimal/i.test(optimise.status)) {
     verdict.append(el("p", { class: "banner" }, `The solver ended with “${words(optimise.status)}”`
-      + `${optimise.message ? `: ${optimise.message}` : ""}. The best design found is shown.`));
+      + `${optimise.message ? `: ${optimise.message}` : ""}.${optimise.status === "infeasible" ? "" : " The best design found is shown."}`));
   }
 }
 
