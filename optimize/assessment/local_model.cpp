@@ -25,11 +25,13 @@ double step_in(const DesignScene& scene, const AssessedParameter& p) {
   return std::holds_alternative<PinionTorque>(p.parameter) ? p.inside * scene.torque : p.inside;
 }
 
-/// The output that a row with a candidate is about: of the objective, of a bounded objective, or of a bounded output.
+/// The output that a row with a candidate is about: of what is minimised, of a bounded objective, or of a bounded output.
 const ObjectiveTerm& term_of(const EpigraphRow& row, const DesignTask& task) {
   const auto index = static_cast<std::size_t>(row.index);
   if (row.kind == EpigraphRow::Kind::OutputBound) return task.constraints[index].output;
-  return row.objective == 0 ? task.objective[index] : task.objective_bounds[static_cast<std::size_t>(row.objective - 1)].objective.terms[index];
+  const std::size_t minimised = std::max<std::size_t>(1, task.scalarisation.size()), block = static_cast<std::size_t>(row.objective);
+  if (block >= minimised) return task.objective_bounds[block - minimised].objective.terms[index];
+  return task.scalarisation.empty() ? task.objective[index] : task.scalarisation[block].objective.terms[index];
 }
 
 }  // namespace

@@ -86,6 +86,10 @@ function draw_verdict(results, cases) {
     verdict.append(el("p", { class: "banner" }, `The solver ended with “${words(optimise.status)}”`
       + `${optimise.message ? `: ${optimise.message}` : ""}.${optimise.status === "infeasible" ? "" : " The best design found is shown."}`));
   }
+  const relaxation = list(record(optimise.relaxation).words);
+  if (relaxation.length > 0) {
+    verdict.append(el("div", { class: "banner", id: "relaxation" }, el("ul", { class: "statements" }, ...relaxation.map((sentence) => el("li", {}, pretty_unit(sentence))))));
+  }
 }
 
 /** A tile: label, value with unit, and a small second line. before → value where before is given. */

@@ -80,6 +80,29 @@ std::string objective_in_words(const Optimum::Objective& objective, const Optimu
   return gain_in_words(objective.gain, move, optimum, task);
 }
 
+/// "peak contact stress <= 1500 MPa"
+std::string limit_in_words(const Relaxation::Limit& limit, const DesignTask& task) {
+  if (limit.constraint >= 0) {
+    const OutputConstraint& c = task.constraints[static_cast<std::size_t>(limit.constraint)];
+    return fmt::format("{} <= {:.4g} {}", plain_name(c.output.name), c.limit() * c.output.outside_factor(), c.output.unit());
+  }
+  const ObjectiveBound& bound = task.objective_bounds[static_cast<std::size_t>(limit.objective_bound)];
+  return fmt::format("{} <= {:.4g} {}", plain_name(bound.objective.name()), bound.limit, bound.objective.unit());
+}
+
+std::string move_in_words(const Relaxation::Move& move, const DesignTask& task) {
+  const AssessedParameter& of = move.parameter;
+  const std::string gain = fmt::format("would reduce the excess by {:.2g} % of the limit", -100.0 * move.gain);
+  if (move.moves_bound()) {
+    const DesignVariable& v = task.variables[static_cast<std::size_t>(of.variable)];
+    const bool upper = move.steps > 0.0;
+    return fmt::format("The {} is at its {} bound, {:.4g} {}: a further {:.2g} {} {}.", plain_name(v.path), upper ? "upper" : "lower",
+                       (upper ? v.upper : v.lower) * v.outside_factor(), v.unit(), of.step, of.unit, gain);
+  }
+  const std::string extent = std::isnan(move.extent) ? "" : fmt::format(" over {:.3g} mm", move.extent);
+  return fmt::format("The {} is not a variable: {:+.2g} {}{} {}.", plain_name(of.name), move.steps * of.step, of.unit, extent, gain);
+}
+
 }  // namespace
 
 Assessment assess_optimum(const Study& study, const DesignProblem& problem, const DesignResult& design, const std::vector<DesignScene>& drawn,
@@ -101,8 +124,11 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
   // Rounding to the grinder's steps leaves the optimum.
   const DesignReport& best = design.exact ? *design.exact : design.after;
   const bool usable = std::ranges::all_of(best.analysis.cycles, [](const LoadedCycle& cycle) { return cycle.usable(); });
-  // Where no design keeps the constraints the one shown is no optimum of the objective.
-  if (usable && !best.analysis.cycles.empty() && design.status != SolverStatus::Infeasible) {
+  const bool is_infeasible = design.status == SolverStatus::Infeasible;  // then the design shown is no optimum of the objective
+  if (usable && !best.analysis.cycles.empty() && is_infeasible) {
+    assessment.relaxation = find_relaxation(problem, best.analysis.modification, best.variables);
+  }
+  if (usable && !best.analysis.cycles.empty() && !is_infeasible) {
     const DesignProblem last = last_stage(problem, design.stages);
     const std::vector<AssessedParameter> parameters = assessed_parameters(last.task());
     const LocalModel model(last, best.analysis.modification, parameters, design.optimality.active);
@@ -125,6 +151,23 @@ std::string usual_signs_in_words(const UsualSigns& usual, const DesignTask& task
   }
   return words + fmt::format("The best design without it reaches {:.5g} {} ({:+.1f} %): {}.", usual.design->objective, task.objective_unit(),
                              100.0 * usual.price, fmt::join(amounts, ", "));
+}
+
+std::vector<std::string> relaxation_in_words(const Relaxation& relaxation, const DesignTask& task) {
+  std::vector<std::string> words{fmt::format(
+      "No design within the bounds keeps the limits: the nearest one found exceeds them by {:.3g} %. With limits that much higher it would be feasible.",
+      100.0 * relaxation.excess)};
+  constexpr double said = 0.005;  // less would be a weight of 0.00
+  for (const Relaxation::Limit& limit : relaxation.limits) {
+    if (!(limit.weight >= said)) continue;
+    const DesignScene& scene = task.scenes[static_cast<std::size_t>(limit.scene)];
+    words.push_back(fmt::format("{} is exceeded in the scene \"{}\", {:.5g} N·m, with weight {:.2f}.", limit_in_words(limit, task), scene.name,
+                                scene.torque / units::newton_metre, limit.weight));
+  }
+  constexpr std::size_t most_said = 6;
+  for (std::size_t i = 0; i < std::min(most_said, relaxation.moves.size()); ++i) words.push_back(move_in_words(relaxation.moves[i], task));
+  if (relaxation.moves.empty()) words.push_back("To first order no wider bound and no modification that is left out would reduce the excess.");
+  return words;
 }
 
 std::string no_rule_in_words(const std::vector<ComparedDesign>& rules) {

@@ -5,6 +5,7 @@
 
 #include "optimize/design/design_optimiser.hpp"
 #include "optimize/assessment/optimum.hpp"
+#include "optimize/assessment/relaxation.hpp"
 #include "optimize/assessment/rules_of_thumb.hpp"
 #include "optimize/assessment/usual_signs.hpp"
 #include "optimize/assessment/validation.hpp"
@@ -31,7 +32,8 @@ struct Assessment {
   std::optional<Optimum> optimum;        ///< of the design before rounding; none where it cannot be analysed
   std::optional<DesignTask>
       judged;  ///< the problem of the optimum: the task, or for a list of objectives the last one under limits on those before it
-  std::optional<UsualSigns> usual;  ///< where the optimum asks for what is seldom ground; none where it does not
+  std::optional<UsualSigns> usual;       ///< where the optimum asks for what is seldom ground; none where it does not
+  std::optional<Relaxation> relaxation;  ///< where no design keeps the constraints; then there is no optimum
   double seconds{not_given};
 };
 
@@ -42,6 +44,10 @@ Assessment assess_optimum(const Study& study, const DesignProblem& problem, cons
 
 /// What an optimum has that is seldom ground, and the best design without it with its price.
 std::string usual_signs_in_words(const UsualSigns& usual, const DesignTask& judged);
+
+/// What keeps a task from having a feasible design and what would help most, a sentence each: the least excess, the limits that are exceeded with
+/// their scenes, and the six moves of the largest gain.
+std::vector<std::string> relaxation_in_words(const Relaxation& relaxation, const DesignTask& task);
 
 /// Of rules of which none is feasible: how many, and which exceeds the constraints by least.
 std::string no_rule_in_words(const std::vector<ComparedDesign>& rules);

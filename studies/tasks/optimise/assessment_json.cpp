@@ -119,6 +119,29 @@ Json usual_signs_json(const UsualSigns& usual, const DesignTask& task) {
   return json;
 }
 
+Json relaxation_json(const Relaxation& relaxation, const DesignTask& task) {
+  const auto name_of_limit = [&](const Relaxation::Limit& limit) {
+    return limit.constraint >= 0 ? task.constraints[static_cast<std::size_t>(limit.constraint)].output.name
+                                 : task.objective_bounds[static_cast<std::size_t>(limit.objective_bound)].objective.name();
+  };
+  return {
+      {"words", relaxation_in_words(relaxation, task)},
+      {"excess_percent", 100.0 * relaxation.excess},
+      {"limits", list(relaxation.limits,
+                      [&](const Relaxation::Limit& limit) -> Json {
+                        const DesignScene& scene = task.scenes[static_cast<std::size_t>(limit.scene)];
+                        return {{"name", name_of_limit(limit)}, {"scene", scene.name}, {"torque_Nm", in_Nm(scene.torque)}, {"weight", limit.weight}};
+                      })},
+      {"moves", list(relaxation.moves, [](const Relaxation::Move& move) -> Json {
+         return {{"name", move.parameter.name},
+                 {"kind", move.moves_bound() ? "bound" : "not varied"},
+                 {"step", move.steps * move.parameter.step},
+                 {"unit", move.parameter.unit},
+                 {"extent_mm", move.extent},
+                 {"gain_percent", 100.0 * move.gain}};
+       })}};
+}
+
 Json sensitivity_json(const Sensitivity& s) {
   Json json{{"name", s.parameter.name}, {"kind", s.parameter.variable >= 0 ? "variable" : "tolerance"},
             {"step", s.parameter.step}, {"unit", s.parameter.unit},
@@ -169,6 +192,7 @@ void add_assessment(const Assessment& assessment, const DesignTask& task, const 
   optimise["comparison"] = comparison_json(assessment, task);
   optimise["proof_seconds"] = assessment.seconds;
   if (assessment.validation) optimise["validation"] = validation_json(*assessment.validation, task, asked);
+  if (assessment.relaxation) optimise["relaxation"] = relaxation_json(*assessment.relaxation, task);
   if (!assessment.optimum) return;
   optimise["governing"] = governing_json(*assessment.optimum, *assessment.judged);
   if (assessment.usual) optimise["usual_signs"] = usual_signs_json(*assessment.usual, *assessment.judged);

@@ -67,6 +67,9 @@ std::string assessment_summary(const Assessment& assessment, const DesignTask& t
     if (search.x.size() > 0) beside(name, search.best.objective);
   }
   if (assessment.validation) out += validation_in_words(*assessment.validation, task) + "\n";
+  if (assessment.relaxation) {
+    for (const std::string& sentence : relaxation_in_words(*assessment.relaxation, task)) out += sentence + "\n";
+  }
   if (!assessment.optimum) return out;
   for (const std::string& sentence : optimum_in_words(*assessment.optimum, *assessment.judged)) out += sentence + "\n";
   if (assessment.usual) out += usual_signs_in_words(*assessment.usual, *assessment.judged) + "\n";
