@@ -19,9 +19,11 @@ class HertzianContactEffect final : public Effect {
       const ContactPoint& point = builder.points[i];
       const TipDistances& tips = builder.tip_distances[i];
       const EndDistances& ends = builder.end_distances[i];
-      builder.laws.emplace_back(ContactSide::of(parts.material.pinion, point.pinion_depth, tips.pinion, ends.pinion, ends.pinion_lean),
-                                ContactSide::of(parts.material.wheel, point.wheel_depth, tips.wheel, ends.wheel, ends.wheel_lean),
-                                point.relative_radius, modulus, builder.tip_edges[i]);
+      ContactSide pinion = ContactSide::of(parts.material.pinion, point.pinion_depth, tips.pinion, ends.pinion, ends.pinion_lean);
+      ContactSide wheel = ContactSide::of(parts.material.wheel, point.wheel_depth, tips.wheel, ends.wheel, ends.wheel_lean);
+      pinion.correction = builder.corrections[i].pinion;
+      wheel.correction = builder.corrections[i].wheel;
+      builder.laws.emplace_back(pinion, wheel, point.relative_radius, modulus, builder.tip_edges[i]);
     }
   }
 };

@@ -22,6 +22,7 @@ struct MeshParts {
   const PairCompliance* structure{nullptr};    ///< teeth and gear bodies; null: rigid
   const PairCompliance* shafts{nullptr};       ///< null: rigid
   const PairRootStress* root_stress{nullptr};  ///< null: not wanted
+  HalfSpaceCorrections half_space{};           ///< of the structure
 
   double axial_offset() const { return placement.misalignment.axial_offset; }
 };
@@ -38,6 +39,11 @@ struct EndDistances {
   double pinion_lean{0}, wheel_lean{0};                                             ///< ContactSide::end_lean [rad]
 };
 
+/// What the teeth yield at a point beyond their half spaces, ContactSide::correction [mm^2/N].
+struct Corrections {
+  double pinion{0}, wheel{0};
+};
+
 /// One mesh position while effects build it, each adding its part. Without any it is rigid.
 class MeshBuilder {
  public:
@@ -51,6 +57,7 @@ class MeshBuilder {
     tip_distances.resize(points.size());
     end_distances.resize(points.size());
     tip_edges.resize(points.size());
+    corrections.resize(points.size());
   }
 
   /// K of the structure between the points, teeth coupled as far as it couples them; computed when first asked for.
@@ -68,6 +75,7 @@ class MeshBuilder {
   std::vector<TipDistances> tip_distances;            ///< one a point
   std::vector<EndDistances> end_distances;            ///< one a point
   std::vector<std::optional<RoundedEdge>> tip_edges;  ///< one a point; nothing: contact does not see an edge
+  std::vector<Corrections> corrections;               ///< one a point
   std::vector<ContactLaw> laws;                       ///< one a point, or none
   RootStressInfluence root_stress;
 

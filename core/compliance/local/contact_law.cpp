@@ -102,6 +102,7 @@ ContactLaw::ContactLaw(const ContactSide& pinion, const ContactSide& wheel, doub
     for (double& end : side.end_distances) end = distance("end_distances", end);
     const double nu = side.lateral_ratio / (1 + side.lateral_ratio);
     const bool endless = side.end_distances == ContactSide::no_ends;
+    correction_ += side.correction;
     sides_[i] = {side, FreeEnd(nu, side.end_lean), endless ? 0 : side.coefficient / (1 - nu * nu)};
   }
 }
@@ -126,7 +127,7 @@ ContactLaw::Response ContactLaw::evaluate(double line_load) const {
   const double flank_width = half_width(line_load);
   const std::optional<StripContact> on_edge = strip(line_load);
   const double l = on_edge ? on_edge->half_width() : flank_width, growth = on_edge ? on_edge->growth() : 0.5;
-  Response response{0, 0};
+  Response response{correction_ * line_load, correction_};
   for (std::size_t i = 0; i < sides_.size(); ++i) {
     const auto& [side, free_end, end_coefficient] = sides_[i];
     // L grows as sqrt(w), so w d/dw of h' and of y are -h'/2 and -y/2; on an edge that of h' is -growth h'.

@@ -33,6 +33,9 @@ struct ContactSide {
   /// Distances of the contact from the gear's own end faces, along the contact line [mm]; as tip_distance below 0 and at infinity.
   std::array<double, 2> end_distances{no_ends};
   double end_lean{0};  ///< of the first end face, > 0 where it is the acute one; the second leans the other way, see FreeEnd [rad]
+  /// What the tooth yields beyond its half space, in proportion to the line load, see HalfSpaceCorrection [mm^2/N]; the sum of both gears stays small
+  /// beside the rest.
+  double correction{0};
 
   static constexpr std::array<double, 2> no_ends{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
@@ -48,7 +51,7 @@ struct ContactSide {
 ///     c(w) = sum over both gears of  M(y) A w [asinh(h') - nu/(1 - nu) h' (sqrt(1 + h'^2) - h')],
 ///     h' = h/L,  y = tip distance/L,  L = sqrt(4 w R / (pi E')),
 ///
-/// and what each end face at a finite distance adds, (2/pi)(w/E) f(s, h, L), see FreeEnd; where the mate's end comes first, see load_end_support(). Tip and
+/// a correction in proportion to w, and what each end face at a finite distance adds, (2/pi)(w/E) f(s, h, L), see FreeEnd; where the mate's end comes first, see load_end_support(). Tip and
 /// ends do not know of each other: in a corner both are added.
 ///
 /// It is the exact integral of the strain under the middle of the Hertzian pressure in plane strain. (Eq. 1.30 as
@@ -108,6 +111,7 @@ class ContactLaw {
 
   std::array<Side, 2> sides_;
   double half_width_at_unit_load_;  ///< L / sqrt(w)
+  double correction_{0};            ///< of both sides [mm^2/N]
   double relative_radius_, contact_modulus_;
   std::optional<RoundedEdge> edge_;
 };

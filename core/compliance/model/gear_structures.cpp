@@ -1,6 +1,27 @@
 #include "core/compliance/model/gear_structures.hpp"
 
+#include "core/compliance/finite_element/solve_half_space_correction.hpp"
+
 namespace flankwright {
+
+namespace {
+
+HalfSpaceCorrections half_space_corrections(const ComplianceTask& task, const ComplianceBuild& build) {
+  HalfSpaceCorrections corrections;
+  const auto solve = [&](Member member) {
+    corrections[member] =
+        std::make_shared<const HalfSpaceCorrection>(solve_half_space_correction(task.pair[member], task.pair, task.material[member].poissons_ratio));
+  };
+  const auto solve_gear = [&](std::size_t i) { solve(i == 0 ? Member::Pinion : Member::Wheel); };
+  if (build.for_each) {
+    build.for_each(2, solve_gear);
+  } else {
+    for (std::size_t i = 0; i < 2; ++i) solve_gear(i);
+  }
+  return corrections;
+}
+
+}  // namespace
 
 GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuild& build) {
   GearStructures structures;
@@ -10,8 +31,9 @@ GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuil
   structures.notes = library_notes(task);
   const FiniteElementRuns& runs = *structures.finite_elements;
   if (is_structural) {
+    const HalfSpaceCorrections half_space = half_space_corrections(task, build);
     const auto structure = [&](Member member, const Material& material) {
-      GearStructure result{runs[member].table, material.youngs_modulus};
+      GearStructure result{.compliance = runs[member].table, .youngs_modulus = material.youngs_modulus, .half_space = half_space[member]};
       if (const auto& rigid = runs.rigid_body_run(member)) result.on_rigid_body = rigid->table;
       if (task.model == ComplianceModel::Fitted) {
         auto& correction = structures.refinements[member == Member::Pinion ? 0 : 1];

@@ -5,10 +5,14 @@
 #include <vector>
 
 #include "core/compliance/tooth/flank_compliance.hpp"
+#include "core/compliance/tooth/half_space_correction.hpp"
 #include "core/compliance/thin_slice/thin_slice.hpp"
 #include "core/contact/path/contact_points.hpp"
 
 namespace flankwright {
+
+/// Of either gear; null: the model's contact has none.
+using HalfSpaceCorrections = PerGear<std::shared_ptr<const HalfSpaceCorrection>>;
 
 /// Structural compliance of a pair of gears by any model: the interface of the load distribution.
 class PairCompliance {
@@ -30,6 +34,9 @@ class PairCompliance {
     return influence(points, axial_offset);
   }
 
+  /// What contact yields beside such a structure beyond a half space; none: the structure is calibrated to be right as a whole.
+  virtual HalfSpaceCorrections half_space_corrections() const { return {}; }
+
  protected:
   PairCompliance() = default;
   PairCompliance(const PairCompliance&) = default;
@@ -50,8 +57,9 @@ class ThinSlicePair final : public PairCompliance {
 /// One gear's structure with its material's modulus.
 struct GearStructure {
   std::shared_ptr<const FlankCompliance> compliance;
-  double youngs_modulus{not_given};                        ///< E [MPa], > 0
-  std::shared_ptr<const FlankCompliance> on_rigid_body{};  ///< GearBody::rigid; null: not known
+  double youngs_modulus{not_given};                         ///< E [MPa], > 0
+  std::shared_ptr<const FlankCompliance> on_rigid_body{};   ///< GearBody::rigid; null: not known
+  std::shared_ptr<const HalfSpaceCorrection> half_space{};  ///< null: none
 };
 
 /// Both gears' structures side by side, K = K_1 + K_2, points on different teeth coupled; between intervals of contact lines where points
@@ -63,6 +71,8 @@ class StructuralPair final : public PairCompliance {
   Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
   bool knows_rigid_bodies() const override { return pinion_.on_rigid_body && wheel_.on_rigid_body; }
   Eigen::MatrixXd influence_on_rigid_bodies(const std::vector<ContactPoint>& points, double axial_offset) const override;
+
+  HalfSpaceCorrections half_space_corrections() const override { return {pinion_.half_space, wheel_.half_space}; }
 
   const GearStructure& operator[](Member m) const { return m == Member::Pinion ? pinion_ : wheel_; }
 

@@ -58,7 +58,7 @@ std::vector<double> equally_spaced_phases(int n) {
 }
 
 std::optional<ContactPoint> MeshModel::place(const PathOfContact& path, double phase, int tooth, double z) const {
-  const MeshParts parts{pair, material, placement};
+  const MeshParts parts{.pair = pair, .material = material, .placement = placement};
   MeshBuilder builder(parts, phase);
   effects.act(EffectStage::Region, builder);
   const auto point = contact_point(pair, path, phase, tooth, z, builder.with_extended_region);
@@ -69,7 +69,7 @@ std::optional<ContactPoint> MeshModel::place(const PathOfContact& path, double p
 }
 
 std::optional<ContactLaw> MeshModel::contact_law(const ContactPoint& point) const {
-  const MeshParts parts{pair, material, placement};
+  const MeshParts parts{.pair = pair, .material = material, .placement = placement, .half_space = half_space};
   MeshBuilder builder(parts, point.phase);
   builder.set_points({point});
   effects.act(local_stages, builder);
@@ -117,7 +117,8 @@ MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, c
   model.placement = placement;
   model.axial_offset = axial_offset;
   model.face_width = face_end - face_start;
-  const MeshParts parts{pair, model.material, placement, &structure, shafts, root_stress};
+  model.half_space = structure.half_space_corrections();
+  const MeshParts parts{pair, model.material, placement, &structure, shafts, root_stress, model.half_space};
   const PathOfContact path(pair);
   model.positions.clear();
   model.positions.reserve(resolution.phases.size());

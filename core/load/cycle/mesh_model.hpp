@@ -69,6 +69,7 @@ struct MeshModel {
   double contact_modulus{not_given};  ///< E' [MPa]
   double calibration{not_given};      ///< kappa of the thin slice
   IsoStiffness iso;
+  HalfSpaceCorrections half_space{};  ///< of the structure
   std::vector<MeshPosition> positions;
   std::vector<PerturbedMeshes> perturbed{};  ///< for each parameter of the derivatives that moves the mesh
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "core/compliance/finite_element/influence.hpp"
+#include "core/compliance/finite_element/solve_half_space_correction.hpp"
 #include "core/compliance/finite_element/solve_influence_table.hpp"
 #include "core/gear/gear_pair.hpp"
 
@@ -59,8 +60,10 @@ InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_rad
 std::shared_ptr<const PairCompliance> held_structure(const ContactTask& task, const GearMeshOptions& mesh) {
   const GearPair pair = make_gear_pair(task.pair);
   const auto gear = [&](Member m, double bore) {
-    return GearStructure{std::make_shared<const InfluenceTable>(held_at_bore(pair, m, bore, task.material.poissons_ratio, mesh, task.plane_strain)),
-                         task.material.youngs_modulus};
+    return GearStructure{
+        .compliance = std::make_shared<const InfluenceTable>(held_at_bore(pair, m, bore, task.material.poissons_ratio, mesh, task.plane_strain)),
+        .youngs_modulus = task.material.youngs_modulus,
+        .half_space = std::make_shared<const HalfSpaceCorrection>(solve_half_space_correction(pair[m], pair, task.material.poissons_ratio))};
   };
   return std::make_shared<const StructuralPair>(pair, gear(Member::Pinion, task.bore_radius[0]), gear(Member::Wheel, task.bore_radius[1]));
 }
