@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/base/units.hpp"
-#include "core/flank/flank.hpp"
 #include "core/flank/form_grinding.hpp"
 
 namespace flankwright {
@@ -28,7 +27,8 @@ std::optional<ContactShift> ContactShift::of(const GearPair& pair, Member member
   const Gear& gear = pair[member];
   const double helix_rate = pair.flank_frame(member).helix_rate;
   if (!process.twists() || helix_rate == 0.0) return std::nullopt;
-  const auto roll_at = [&](double radius) { return gear.roll_length_at(std::max(radius, gear.base_radius * lowest_start)); };
+  constexpr double least = 0.01;  // of r_b: where contact takes a flank to start at least, see lowest_start
+  const auto roll_at = [&](double radius) { return std::max(gear.roll_length_at(std::max(radius, gear.base_radius)), least * gear.base_radius); };
   ContactShift shift(gear, roll_at(gear.form_radius), roll_at(gear.tip_form_radius));
   if (process.kind == GrindingKind::GeneratingGrinding) {
     shift.chebyshev_[1] = -helix_rate * gear.base_radius * shift.half_;

@@ -1,8 +1,6 @@
 #include "core/flank/natural_twist.hpp"
 
-#include <algorithm>
-
-#include "core/flank/flank.hpp"
+#include "core/flank/removal.hpp"
 
 namespace flankwright {
 
@@ -34,9 +32,7 @@ class NaturalTwistField final : public DeviationField {
 struct ActiveRolls {
   double start, tip;
 
-  explicit ActiveRolls(const Gear& gear)
-      : start(gear.roll_length_at(std::max(gear.active_root_radius, gear.base_radius * lowest_start))),
-        tip(gear.roll_length_at(gear.tip_form_radius)) {}
+  explicit ActiveRolls(const Gear& gear) : start(gear.roll_length_at(gear.active_root_radius)), tip(gear.roll_length_at(gear.tip_form_radius)) {}
 };
 
 }  // namespace

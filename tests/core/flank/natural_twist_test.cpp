@@ -6,6 +6,7 @@
 #include "core/flank/flank.hpp"
 #include "core/flank/form_grinding.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "tests/core/effects/instruction_count.hpp"
 #include "tests/core/flank/grinding_simulation.hpp"
 
 using namespace flankwright;
@@ -285,4 +286,30 @@ TEST_CASE("A form wheel that does not fit is refused by its key", "[core][flank]
   } catch (const InvalidInput& problem) {
     CHECK(problem.field() == "grinding_wheel_diameter");
   }
+}
+
+// By core/effects/instruction_count_test.sh: [.] keeps it from running where nothing counts.
+TEST_CASE("A process that twists nothing costs no instruction of a flank and its derivative", "[.][core][flank][grinding][instructions]") {
+  const GearPair pair = pair_of(Hand::Right);
+  InstructionCount counter;
+  REQUIRE(counter.possible());
+  const auto instructions = [&](const Modification& m) {
+    const Flank flank = make_flank(pair, Member::Pinion, m, {});
+    const RemovalDerivative derivative = ground_derivative(pair, Member::Pinion, m, parameter_of("lead_crowning"));
+    double sum = 0.0;
+    const auto evaluate_all = [&] {
+      for (int i = 0; i < 1000; ++i) sum += flank.deviation(40.0, 0.05 * i, 0) + derivative.at(100.0, 0.05 * i);
+    };
+    evaluate_all();  // warms up
+    counter.start();
+    evaluate_all();
+    const std::int64_t counted = counter.stop();
+    REQUIRE(counted > 0);
+    REQUIRE(sum > 0.0);
+    return counted;
+  };
+  const std::int64_t drawn = instructions(crowned());
+  CHECK(instructions(with_process(crowned(), GrindingKind::Topological)) == drawn);
+  CHECK(instructions(with_process(crowned(), GrindingKind::FormGrinding, 1.0)) == drawn);
+  CHECK(instructions(with_process(crowned(), GrindingKind::GeneratingGrinding)) > drawn);
 }
