@@ -16,6 +16,7 @@ struct EffectFacts {
   std::vector<FlankCondition> conditions{};  ///< of all scenes
   bool coupled_teeth{false};                 ///< the compliance model couples teeth
   bool gear_bodies{false};                   ///< and how the gears' bodies yield
+  bool helical{false};                       ///< the helix angle is above zero
   bool rounded_tips{false};                  ///< a gear has a tip rounding
   bool shafts{false};                        ///< a gear's shaft is described
   bool root_stress{false};                   ///< finite elements are made anyway, or something asks for peak_root_stress

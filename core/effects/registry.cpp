@@ -13,6 +13,7 @@
 #include "core/effects/manufacturing_errors.hpp"
 #include "core/effects/misalignment.hpp"
 #include "core/effects/modifications.hpp"
+#include "core/effects/natural_twist.hpp"
 #include "core/effects/root_stress.hpp"
 #include "core/effects/shafts.hpp"
 #include "core/effects/tip_corner.hpp"
@@ -24,7 +25,7 @@ namespace flankwright {
 const EffectList& registered_effects() {
   static const std::tuple<AdjacentTeethEffect, BendingEffect, EdgeContactEffect, ExtendedContactRegionEffect, FreeEndsEffect,
                           GearBodyComplianceEffect, HertzianContactEffect, ManufacturingErrorsEffect, MisalignmentEffect, ModificationsEffect,
-                          RootStressEffect, ShaftsEffect, TipCornerEffect, UnloadedContactEffect, WholeSurfaceGapEffect>
+                          NaturalTwistEffect, RootStressEffect, ShaftsEffect, TipCornerEffect, UnloadedContactEffect, WholeSurfaceGapEffect>
       effects;
   static const EffectList list = std::apply([](const auto&... effect) { return in_order_of_flow({&effect...}); }, effects);
   return list;

@@ -4,6 +4,7 @@
 
 #include "core/flank/conjugate_field.hpp"
 #include "core/flank/generated_field.hpp"
+#include "core/flank/natural_twist.hpp"
 #include "core/gear/involute.hpp"
 
 namespace flankwright {
@@ -37,10 +38,16 @@ Flank make_flank(const GearPair& pair, Member member, const Modification& modifi
   flank.error = error;
   flank.modification.parabolic_te = 0.0;
   flank.modification.topography = nullptr;
+  flank.modification.process = {};
   if (auto generated = make_generated_field(pair, member)) flank.fields.push_back(std::move(generated));
   if (modification.parabolic_te != 0.0) flank.fields.push_back(make_conjugate_field(pair, member, modification.parabolic_te));
   if (modification.topography) flank.fields.push_back(modification.topography);
+  if (auto twist = make_natural_twist_field(pair, member, modification)) flank.fields.push_back(std::move(twist));
   return flank;
+}
+
+RemovalDerivative ground_derivative(const GearPair& pair, Member member, const Modification& modification, ModificationParameter parameter) {
+  return {modification, pair.flank_frame(member), parameter, ContactShift::of(pair, member, modification.process)};
 }
 
 }  // namespace flankwright

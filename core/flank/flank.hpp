@@ -24,7 +24,7 @@ inline constexpr double lowest_start = 1.0 + 5e-5;
 /// roll length rho (transverse radius of curvature), e the radial and t the tangential unit vector at angle theta:
 ///
 ///     theta = origin + s z/p - rho/r_b,      point = r_b e(theta) + (rho - D) t(theta),
-///     D = generation + removal + parabola + topography - added metal - pitch at r = sqrt(r_b^2 + rho^2), z      [mm, + into the tooth]
+///     D = generation + removal + natural twist + parabola + topography - added metal - pitch at r = sqrt(r_b^2 + rho^2), z      [mm, + into the tooth]
 ///
 /// with s = +1 for a right-hand helix seen in this frame, -1 for left. D = 0 is the involute helicoid, e.g. TM-107451,
 /// eq. A.1.1, with theta the negative of its theta_1 + mu_1. The parameter rectangle is lowest_roll() .. highest_roll() by
@@ -39,7 +39,7 @@ struct Flank {
   FlankFrame frame;
   Modification modification;  ///< without what became a field
   ManufacturingError error;
-  /// The sum of deviations without a closed form: generated flank, predesigned parabola, measured grid.
+  /// The sum of the other deviations: generated flank, predesigned parabola, measured grid, natural twist.
   std::vector<std::shared_ptr<const DeviationField>> fields;
 
   double lowest_roll() const { return roll_at(form_radius); }
@@ -121,8 +121,12 @@ FlankThroughPoint<Scalar> rotation_through(const Flank& flank, const Point3<Scal
 }
 
 /// Flank of one gear of the pair in the canonical sense (pinion driving in +y); a left working flank is mirrored into it.
-/// The predesigned parabola becomes the flank that has it exactly (make_conjugate_field).
-/// @throws InvalidInput "parabolic_te" where no flank has that parabola
+/// The predesigned parabola becomes the flank that has it exactly (make_conjugate_field); what the process does to the lead modifications is added to it
+/// (make_natural_twist_field).
+/// @throws InvalidInput "parabolic_te" where no flank has that parabola; "grinding_wheel_diameter" for a form wheel that does not fit
 Flank make_flank(const GearPair& pair, Member member, const Modification& modification, const ManufacturingError& error);
+
+/// Derivative of the deviation of a flank of make_flank() by one modification parameter, with what its process makes of it.
+RemovalDerivative ground_derivative(const GearPair& pair, Member member, const Modification& modification, ModificationParameter parameter);
 
 }  // namespace flankwright

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 #include <tuple>
 
 #include "core/base/dual.hpp"
 #include "core/base/jet.hpp"
+#include "core/flank/contact_shift.hpp"
 #include "core/flank/manufacturing_error.hpp"
 #include "core/flank/modifications/modification.hpp"
 
@@ -87,7 +89,7 @@ class DeviationFormulaOf<ModificationList<M...>> {
 
 using DeviationFormula = DeviationFormulaOf<Modifications>;
 
-/// Material removed by a modification at r, z [mm]: DeviationFormula without errors. Scalar is double, Dual<N> or Jet.
+/// Material that a modification asks to remove at r, z [mm], whatever its process makes of it: DeviationFormula without errors. Scalar is double, Dual<N> or Jet.
 template <class Scalar>
 Scalar removal(const Modifications& m, const FlankFrame& frame, const Scalar& r, const Scalar& z) {
   return chain(DeviationFormula(m, {}, frame).at(value_of(r), value_of(z)), r, z);
@@ -106,26 +108,39 @@ List unit_amount(const List& m, const DescriptorOf<List>& parameter) {
 }
 
 /// Derivative of removal() with respect to one modification parameter [mm/mm; parabolic_te mm rad], exact; one-sided at
-/// a relief's start. The part that does not depend on the point is computed once.
+/// a relief's start. The part that does not depend on the point is computed once. With the shift of a process it is the derivative of what is ground: that
+/// of a lead modification where the process takes it from.
 template <class List>
 class RemovalDerivativeOf {
  public:
-  RemovalDerivativeOf(const List& m, const FlankFrame& frame, const DescriptorOf<List>& parameter)
-      : m_(m), frame_(frame), slope_(parameter.slope), unit_(unit_amount(m, parameter), {}, frame) {}
+  RemovalDerivativeOf(const List& m, const FlankFrame& frame, const DescriptorOf<List>& parameter, const std::optional<ContactShift>& shift = {})
+      : m_(m), frame_(frame), slope_(parameter.slope), unit_(unit_amount(m, parameter), {}, frame) {
+    if (parameter.flank_class == ModificationClass::Lead) shift_ = shift;
+    as_drawn_ = slope_ == nullptr && !shift_;
+  }
 
-  double at(double r, double z) const { return slope_ == nullptr ? unit_.at(r, z).value : slope_(m_, frame_, r, z); }
+  double at(double r, double z) const { return as_drawn_ ? unit_.at(r, z).value : shifted(r, z); }
+  /// Whether a process moves it: it then depends on the roll length at r.
+  bool is_shifted() const { return shift_.has_value(); }
 
  private:
+  double shifted(double r, double z) const {
+    const double from = shift_ ? z - shift_->at_radius(r) : z;
+    return slope_ == nullptr ? unit_.at(r, from).value : slope_(m_, frame_, r, from);
+  }
+
   List m_;
   FlankFrame frame_;
   double (*slope_)(const List&, const FlankFrame&, double, double);
   DeviationFormulaOf<List> unit_;  ///< amounts enter linearly: the removal of a unit amount
+  std::optional<ContactShift> shift_;
+  bool as_drawn_;  ///< an amount that no process moves
 };
 
 class RemovalDerivative : public RemovalDerivativeOf<Modifications> {
  public:
-  RemovalDerivative(const Modifications& m, const FlankFrame& frame, ModificationParameter parameter)
-      : RemovalDerivativeOf(m, frame, describe(parameter)) {}
+  RemovalDerivative(const Modifications& m, const FlankFrame& frame, ModificationParameter parameter, const std::optional<ContactShift>& shift = {})
+      : RemovalDerivativeOf(m, frame, describe(parameter), shift) {}
 };
 /// The same at one point.
 inline double removal_derivative(const Modifications& m, const FlankFrame& frame, ModificationParameter parameter, double r, double z) {

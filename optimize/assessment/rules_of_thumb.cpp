@@ -108,8 +108,10 @@ std::vector<NamedDesign> rules_of_thumb(const DesignTask& task, const RuleBasis&
     for (const Rule& lead : lead_rules(task.pair, basis)) {
       NamedDesign design{joined(profile.name, lead.name, " and "), joined(profile.basis, lead.basis, "; "), {}};
       if (design.name.empty()) design.name = "unmodified";
-      design.modification.pinion.topography = task.modification.pinion.topography;
-      design.modification.wheel.topography = task.modification.wheel.topography;
+      for (const Member m : {Member::Pinion, Member::Wheel}) {
+        design.modification[m].topography = task.modification[m].topography;
+        design.modification[m].process = task.modification[m].process;
+      }
       profile.apply(design.modification);
       lead.apply(design.modification);
       designs.push_back(std::move(design));

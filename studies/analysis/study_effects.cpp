@@ -12,10 +12,18 @@ std::vector<FlankCondition> conditions_of(const Study& study) {
   return conditions;
 }
 
+PerGear<Modification> analysed_modification(const Study& study, const EffectDecisions& effects) {
+  PerGear<Modification> modification = study.modification;
+  const FlankCondition analysed = apply_effects(effects, {study.modification, {}, {}});
+  for (const Member m : {Member::Pinion, Member::Wheel}) modification[m].process = analysed.modification[m].process;
+  return modification;
+}
+
 EffectFacts effect_facts(const Study& study) {
   EffectFacts facts;
   facts.coupled_teeth = facts.gear_bodies = couples_teeth(study.fidelity.compliance);
   facts.root_stress = wants_root_stress(study);
+  facts.helical = study.pair.helix_angle != 0.0;
   facts.rounded_tips = study.pair.pinion.tip_edge_radius() > 0.0 || study.pair.wheel.tip_edge_radius() > 0.0;
   facts.shafts = study.shaft.pinion || study.shaft.wheel;
   facts.whole_surface = study.fidelity.gap == GapModel::WholeSurface;

@@ -11,6 +11,9 @@ FlankCondition condition_of(const Study& study, const Scene& scene);
 /// The flanks of all the study's scenes.
 std::vector<FlankCondition> conditions_of(const Study& study);
 
+/// The modifications of a study with their processes as they are analysed: without one where the effect of it is off.
+PerGear<Modification> analysed_modification(const Study& study, const EffectDecisions& effects);
+
 /// The part of a study that its effects depend on: its scenes, and the needs of its task.
 EffectFacts effect_facts(const Study& study);
 

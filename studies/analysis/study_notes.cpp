@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/base/units.hpp"
+#include "core/flank/natural_twist.hpp"
 #include "studies/compliance/study_compliance.hpp"
 
 namespace flankwright::studies {
@@ -28,6 +29,46 @@ void note_crowning(const Modification& given, const Gear& gear, std::vector<std:
         "the {}'s dedendum touches over a height of {:.3g} mm only, where it is crowned by {:.4g} um: at the form circle that is {:.4g} um", name,
         dedendum, amount, amount * extents * extents));
   }
+}
+
+/// A lead modification of a helical gear without a process: what twist grinding would bring. One that only an optimisation varies is taken as 1 um of
+/// crowning.
+void note_natural_twist(const Study& study, const GearPair& pair, Member m, std::vector<std::string>& notes) {
+  Modification ground = study.modification[m];
+  if (ground.process.kind != GrindingKind::None || pair.data.helix_angle == 0.0) return;
+  const bool given = has_lead_modification(ground);
+  const bool varied = std::ranges::any_of(study.optimise.variables, [&](const DesignVariable& v) {
+    return v.member == m && describe(v.parameter).flank_class == ModificationClass::Lead;
+  });
+  if (!given && !varied) return;
+  if (!given) ground.lead_crowning = units::um;
+  const auto twist = [&](GrindingKind kind) {
+    ground.process.kind = kind;
+    return natural_twist(pair, m, ground) / units::um;
+  };
+  try {
+    notes.push_back(
+        fmt::format("the {}'s process is \"none\", its lead modification is taken as drawn: generating grinding would twist {} by {:.3g} um, form "
+                    "grinding with a wheel of {:.4g} mm by {:.3g} um (+ removes at the tip at z = +b/2)",
+                    name_of(m), given ? "it" : "1 um of lead crowning", twist(GrindingKind::GeneratingGrinding), ground.process.wheel_diameter,
+                    twist(GrindingKind::FormGrinding)));
+  } catch (const InvalidInput&) {  // a form wheel of that diameter does not fit
+    notes.push_back(
+        fmt::format("the {}'s process is \"none\", its lead modification is taken as drawn: generating grinding would twist {} by {:.3g} um",
+                    name_of(m), given ? "it" : "1 um of lead crowning", twist(GrindingKind::GeneratingGrinding)));
+  }
+}
+
+/// Data of a process that it does not use.
+void note_unused_process_data(const Study& study, Member m, std::vector<std::string>& notes) {
+  const GrindingKind kind = study.modification[m].process.kind;
+  const std::string name = name_of(m);
+  const auto note = [&](const std::string& key, bool used) {
+    if (used || std::ranges::none_of(study.given, [&](const GivenValue& g) { return g.key == name + "." + key; })) return;
+    notes.push_back(fmt::format("{}.{} is not used: the process is \"{}\"", name, key, to_string(kind)));
+  };
+  note("twist_compensation", kind == GrindingKind::GeneratingGrinding || kind == GrindingKind::FormGrinding);
+  note("grinding_wheel_diameter", kind == GrindingKind::FormGrinding);
 }
 
 }  // namespace
@@ -64,6 +105,10 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
   }
   note_crowning(study.modification.pinion, pair.pinion, notes);
   note_crowning(study.modification.wheel, pair.wheel, notes);
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    if (!study.task->single_gears) note_natural_twist(study, pair, m, notes);
+    note_unused_process_data(study, m, notes);
+  }
   if (pair.transverse_contact_ratio < 1.0) {
     notes.push_back(fmt::format(
         "the transverse contact ratio is {:.3g}: in each section no teeth touch for a while, the overlap ratio of {:.3g} alone carries the mesh on",

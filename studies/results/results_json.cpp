@@ -8,7 +8,9 @@
 
 #include "core/compliance/thin_slice/thin_slice.hpp"
 #include "core/fidelity/cycle_quantities.hpp"
+#include "core/flank/natural_twist.hpp"
 #include "core/gear/tooth_form.hpp"
+#include "studies/analysis/study_effects.hpp"
 #include "studies/analysis/study_notes.hpp"
 #include "studies/results/fidelity_choice_json.hpp"
 #include "studies/results/compliance_json.hpp"
@@ -259,6 +261,9 @@ void add_topography(const GearPair& pair, Member member, const Modification& mod
   if (!modified) return;
   maps.push_back({{"gear", name_of(member)},
                   {"design", design},
+                  {"process", to_string(modification.process.kind)},
+                  {"natural_twist_um", in_um(natural_twist(pair, member, modification))},
+                  {"contact_shift_mm", contact_shift_over_profile(pair, member, modification.process)},
                   {"z_mm", std::move(z)},
                   {"radius_mm", std::move(radius)},
                   {"removal_um", std::move(removal_um)}});
@@ -274,7 +279,7 @@ Json modifications_json(const StudyResults& results) {
       add_both(report->analysis.modification, name);
     }
   } else {
-    add_both(results.study.modification, "given");
+    add_both(analysed_modification(results.study, results.effects), "given");
   }
   return maps;
 }

@@ -39,6 +39,15 @@ Json grid_json(const GivenGrid& grid) {
           {"residual_largest_um", in_um(grid.largest)}};
 }
 
+/// What finishes the flanks; what a kind does not use is not in it.
+Json process_json(const GrindingProcess& process) {
+  Json json{{"kind", to_string(process.kind)}};
+  const bool form = process.kind == GrindingKind::FormGrinding;
+  if (form || process.kind == GrindingKind::GeneratingGrinding) json["twist_compensation"] = process.twist_compensation;
+  if (form) json["grinding_wheel_diameter_mm"] = process.wheel_diameter;
+  return json;
+}
+
 Json macro_json(const StudyResults& results, Member member) {
   const Gear& gear = results.pair[member];
   const Material& material = results.study.material[member];
@@ -52,6 +61,7 @@ Json macro_json(const StudyResults& results, Member member) {
              {"end_rounding_mm", gear.data.end_rounding},
              {"rack", {{"addendum", gear.data.rack.addendum}, {"dedendum", gear.data.rack.dedendum}, {"root_radius", gear.data.rack.root_radius}}},
              {"generation", generation_json(gear.data.generation)},
+             {"process", process_json(results.study.modification[member].process)},
              {"grid", grid_json(results.study.grid[member])},
              {"youngs_modulus_MPa", material.youngs_modulus},
              {"poissons_ratio", material.poissons_ratio}};

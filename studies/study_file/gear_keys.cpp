@@ -6,6 +6,7 @@ namespace {
 
 GearData& gear(StudyBuilder& builder, Member m) { return builder.study.pair[m]; }
 GenerationKeys& generation(StudyBuilder& builder, Member m) { return builder.generation[m]; }
+GrindingProcess& process(StudyBuilder& builder, Member m) { return builder.study.modification[m].process; }
 
 constexpr const char* usual_edge = "(0.05 m_n, at most a quarter of the tooth thickness at the tip)";
 
@@ -104,6 +105,16 @@ std::vector<SchemaKey> geometry_rows() {
       {.path = "gear.rack.root_radius", .range = from_zero(2.0), .fallback = "0.39",
        .meaning = "rho_fP, in normal modules; at most the full rounding of the tool's tip",
        .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).rack.root_radius = v.number; }},
+      {.path = "gear.process", .kind = Word, .words = {grinding_kind_names.begin(), grinding_kind_names.end()}, .fallback = "\"none\"",
+       .meaning = "what finishes the flank: generating_grinding and form_grinding twist a lead modification of helical teeth; topological grinds every "
+                  "point as asked; none is computed as topological, and the notes say what twist it leaves out",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { process(d, m).kind = static_cast<GrindingKind>(v.integer); }},
+      {.path = "gear.twist_compensation", .range = from_zero(1.0), .fallback = "0",
+       .meaning = "part of the natural twist that the machine takes out, by diagonal feed or a modified worm; 1 leaves none",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { process(d, m).twist_compensation = v.number; }},
+      {.path = "gear.grinding_wheel_diameter", .quantity = Quantity::Length, .range = {.low = 1.0, .high = 2000.0}, .fallback = "300",
+       .meaning = "of the wheel of form_grinding; a larger one twists more",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { process(d, m).wheel_diameter = v.number; }},
       {.path = "gear.generation", .kind = WordOrTable, .words = {"rack"}, .fallback = "\"rack\"",
        .meaning = "tool that generates the flank; \"rack\" is the straight one: the involute",
        .store = [](StudyBuilder& d, Member m, const Value& v) { generation(d, m).kind = v.text; }},

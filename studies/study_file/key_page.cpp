@@ -25,7 +25,7 @@ std::vector<Section> sections_in_order() {
   std::vector<Section> sections{
       {"", "The study", "These keys are written above the first table of the file."},
       {"pair", "`[pair]`", "Data common to both gears."},
-      {"pinion", "`[pinion]` and `[wheel]`", "Data of a single gear."},
+      {"pinion", "`[pinion]` and `[wheel]`", "Data of a single gear. What `process` does: [grinding process](README.md#grinding-process)."},
       {"pinion.rack", "`[pinion.rack]`", "The basic rack profile of the tool."},
       {"pinion.edges", "`[pinion.edges]`", "The edges that bound a flank."},
       {"pinion.generation", "`[pinion.generation]`",

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/flank/conjugate_field.hpp"
+#include "core/flank/contact_shift.hpp"
 #include "core/gear/gear_pair.hpp"
 #include "studies/compliance/study_compliance.hpp"
 
@@ -111,6 +112,17 @@ void check_parabola(StudyReading& reading, Member m) {
   }
 }
 
+/// A form wheel must touch the flank in one line.
+void check_process(StudyReading& reading, Member m) {
+  const Study& study = reading.builder.study;
+  if (!reading.problems.empty()) return;  // the pair may not exist
+  try {
+    ContactShift::of(make_gear_pair(study.pair), m, study.modification[m].process);
+  } catch (const InvalidInput& problem) {
+    reading.refuse_key(std::string(name_of(m)) + "." + problem.field(), "allowed is " + problem.allowed());
+  }
+}
+
 /// What the finite elements of a gear refuse, before anything is solved.
 void check_finite_elements(StudyReading& reading, Member m) {
   const Study& study = reading.builder.study;
@@ -160,6 +172,7 @@ void check_flanks(StudyReading& reading) {
       if (!amount.extent.empty()) check_relief(reading, m, amount, *find_parameter(amount.extent));
     }
     check_parabola(reading, m);
+    check_process(reading, m);
     check_finite_elements(reading, m);
   }
 }

@@ -21,6 +21,9 @@ face_width = 40                      # mm
 profile_shift = 0.2                  # in normal modules, + outwards
 # tip_diameter = 92                  # mm; by default from rack and profile shift
 # edges = { tip_rounding = 0.2, end_rounding = 0.2 }   # mm; by default 0.05 normal modules
+# process = "generating_grinding"    # or "form_grinding": either twists the lead modification of helical teeth; "topological" does not
+# twist_compensation = 0.5           # part of that twist that the machine takes out, 0 .. 1
+# grinding_wheel_diameter = 300      # mm, of form grinding
 # generation = { kind = "parabolic_rack", coefficient = 0.0005 }     # 1/mm; by default "rack", the straight one: an involute
 # For a spur pair also: { kind = "revolution", half_apex = 80, distance = 4.5, arc_radius = 12700 }   (deg, mm, mm)
 rack = { addendum = 1, dedendum = 1.25, root_radius = 0.39 }         # in normal modules

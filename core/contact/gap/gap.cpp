@@ -73,7 +73,7 @@ Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& p
 Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition, Member member,
                                ModificationParameter parameter) {
   const double cos_base_helix = std::cos(pair.base_helix_angle);
-  const RemovalDerivative removed(condition.modification[member], pair.flank_frame(member), parameter);
+  const RemovalDerivative removed = ground_derivative(pair, member, condition.modification[member], parameter);
   Eigen::VectorXd derivative(points.size());
   for (Eigen::Index i = 0; i < derivative.size(); ++i) {
     const ContactPoint& point = points[static_cast<std::size_t>(i)];
@@ -102,7 +102,7 @@ double TipEdgeShift::at(const ContactPoint& point) const {
 
 Eigen::VectorXd tip_edge_shift_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition,
                                           Member member, ModificationParameter parameter) {
-  const RemovalDerivative removed(condition.modification[member], pair.flank_frame(member), parameter);
+  const RemovalDerivative removed = ground_derivative(pair, member, condition.modification[member], parameter);
   const double step = 1e-3 * pair.data.normal_module;
   Eigen::VectorXd derivative = Eigen::VectorXd::Zero(std::ssize(points));
   for (Eigen::Index i = 0; i < derivative.size(); ++i) {

@@ -77,11 +77,12 @@ Eigen::VectorXd SurfaceGap::derivative(const Gap& gap, Member member, Modificati
   const Flank& flank = assembly_[member];
   const bool of_parabola = parameter == parameter_of("parabolic_te");  // a field of the roll length, see Flank
   const auto& parabola = parabola_[static_cast<std::size_t>(member)];
-  const RemovalDerivative removed(condition_.modification[member], flank.frame, parameter);
+  const RemovalDerivative removed = ground_derivative(pair_, member, condition_.modification[member], parameter);
+  const bool of_roll = of_parabola || removed.is_shifted();
   const auto by_parameter = [&](double radius, double z) {
     const double roll = flank.roll_at(radius);
     if (of_parabola && parabola) return parabola->coefficient_slope(roll, z);
-    return removed.at(of_parabola ? std::hypot(flank.frame.base_radius, roll) : radius, z);
+    return removed.at(of_roll ? std::hypot(flank.frame.base_radius, roll) : radius, z);
   };
   Eigen::VectorXd derivative = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gap.nearest.size()));
   for (std::size_t i = 0; i < gap.nearest.size(); ++i) {

@@ -11,7 +11,7 @@ namespace flankwright {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double no_limit = std::numeric_limits<double>::infinity();
 constexpr double margin = 0.25;                                // pitches beyond the extended path, see MeshEnvelope
 constexpr double transfer_tolerance = 1e-13;                   // rad of the pinion
 constexpr PeakTolerance extreme_tolerance{1e-9, 1e-16, 1e-7};  // rad of the pinion, rad of the wheel, rad of the pinion
@@ -56,7 +56,7 @@ MeshState MeshEnvelope::at(double phi1, int preferred) const {
     const ToothContact found = contact(tooth, phi1);
     if (found.exists()) state.contacts.push_back(found);
   }
-  double highest = -infinity;
+  double highest = -no_limit;
   for (const ToothContact& c : state.contacts) highest = std::max(highest, c.transmission_error);
   for (int i = 0; i < static_cast<int>(state.contacts.size()); ++i) {
     const ToothContact& c = state.contacts[i];
@@ -113,8 +113,8 @@ void MeshEnvelope::follow(const MeshState& from, const MeshState& to, std::vecto
 double MeshEnvelope::transfer_point(const MeshState& from, const MeshState& to) const {
   const int before = from.leading().tooth, after = to.leading().tooth;
   const auto ahead = [&](const ToothContact* entering, const ToothContact* leaving) {
-    if (!leaving || !leaving->exists()) return infinity;
-    if (!entering || !entering->exists()) return -infinity;
+    if (!leaving || !leaving->exists()) return no_limit;
+    if (!entering || !entering->exists()) return -no_limit;
     return entering->transmission_error - leaving->transmission_error - leading_tolerance;
   };
   const auto at_angle = [&](double phi1) {

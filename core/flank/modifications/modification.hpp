@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
+#include "core/flank/grinding_process.hpp"
 #include "core/flank/modifications/end_relief.hpp"
 #include "core/flank/modifications/lead_crowning.hpp"
 #include "core/flank/modifications/lead_slope.hpp"
@@ -27,6 +29,7 @@ using Modifications = ModificationList<modifications::LeadCrowning, modification
 struct Modification : Modifications {
   /// Measured or topological grid on top of the rest; none where null.
   std::shared_ptr<const DeviationField> topography{};
+  GrindingProcess process{};                             ///< which may move the lead modifications over the flank, see ContactShift
   bool operator==(const Modification&) const = default;  ///< of grids: the same object
 };
 
@@ -72,9 +75,16 @@ inline double get(const Modifications& m, ModificationParameter parameter) { ret
 /// Sets one parameter [mm; parabolic_te 1/rad]. profile_crowning sets both halves.
 inline void set(Modifications& m, ModificationParameter parameter, double value) { describe(parameter).set(m, value); }
 
-/// The lead or profile modifications alone, without grid.
+/// Whether something is removed that depends on z alone.
+inline bool has_lead_modification(const Modifications& m) {
+  return std::ranges::any_of(modification_parameters, [&](const ModificationDescriptor& d) {
+    return d.flank_class == ModificationClass::Lead && d.kind != ParameterKind::Extent && d.get(m) != 0.0;
+  });
+}
+
+/// The lead or profile modifications alone, without grid and as drawn, whatever the process makes of them.
 inline Modification only(const Modification& modification, ModificationClass flank_class) {
-  return {only(static_cast<const Modifications&>(modification), flank_class), nullptr};
+  return {only(static_cast<const Modifications&>(modification), flank_class), nullptr, {}};
 }
 
 }  // namespace flankwright

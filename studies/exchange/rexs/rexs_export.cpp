@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "core/flank/flank.hpp"
+#include "core/flank/natural_twist.hpp"
 #include "studies/study_file/grid_file.hpp"
 #include "studies/exchange/rexs/study_text.hpp"
 
@@ -238,7 +239,8 @@ class Export {
   /// Everything of a flank that no component of the format says.
   /// @param rest  modifications without a component
   void add_topography(Member m, const Modification& rest) {
-    const Flank flank = make_flank(pair_, m, rest, {});
+    Flank flank = make_flank(pair_, m, rest, {});
+    if (auto twist = make_natural_twist_field(pair_, m, modification(m))) flank.fields.push_back(std::move(twist));
     const bool other = !flank.fields.empty() || flank.modification != Modification{};
     MeasuredGrid points;
     if (!grid(m).file.empty()) {

@@ -86,8 +86,20 @@ function variable_table(body, results) {
 
 /** Every stored topography: [{gear, design, grid}]. */
 const topographies = (results) => list(results.modifications).map(record)
-  .map((entry) => ({ gear: entry.gear, design: DESIGN_LABEL[entry.design] ? entry.design : "given", grid: topography_grid(entry) }))
+  .map((entry) => ({
+    gear: entry.gear, design: DESIGN_LABEL[entry.design] ? entry.design : "given", grid: topography_grid(entry),
+    process: String(entry.process ?? "none"), natural_twist_um: entry.natural_twist_um, contact_shift_mm: entry.contact_shift_mm,
+  }))
   .filter((entry) => entry.grid !== null);
+
+/** What the grinding adds to the lead modification, for a caption; empty where it adds nothing. */
+function natural_twist_in_words(entries) {
+  const twisted = entries.filter((entry) => is_number(entry.natural_twist_um) && entry.natural_twist_um !== 0);
+  if (twisted.length === 0) return "";
+  const each = twisted.map((entry) => `${fixed(entry.natural_twist_um, 1)} µm${entries.length > 1 ? ` (${DESIGN_LABEL[entry.design].toLowerCase()})` : ""}`);
+  return ` It includes the natural twist of ${twisted[0].process.replace("_", " ")}: ${each.join(", ")} over profile and face; contact with the tool shifts by `
+    + `${fixed(twisted[0].contact_shift_mm, 1)} mm along the face from root to tip.`;
+}
 
 function build_modifications(results, body) {
   const grid = figure_grid(body);
@@ -103,7 +115,7 @@ function build_modifications(results, body) {
       title: `Topography of the ${gear} flank`,
       wide: own.length > 1,
       caption: `Material removed from the involute ${gear} flank, along the base tangent, with its contour lines; `
-        + "face width to the right, tip at the top.",
+        + `face width to the right, tip at the top.${natural_twist_in_words(own)}`,
     }, (plot) => draw_topography(plot, gear, own));
     const modified = own.filter((entry) => entry.grid.rows.flat().some((value) => value !== 0));
     const state = { degrees: -30 };

@@ -9,6 +9,7 @@
 #include "optimize/design/between_positions.hpp"
 #include "studies/tasks/optimise/drawn_scenes.hpp"
 #include "studies/analysis/requirements.hpp"
+#include "studies/analysis/study_effects.hpp"
 #include "studies/compliance/study_compliance.hpp"
 #include "studies/tasks/optimise/assessment.hpp"
 
@@ -87,7 +88,7 @@ class OptimiseRun {
     task.structure = run_.structures().pair;
     if (study.fidelity.accuracy && study.fidelity.compliance == ComplianceModel::Fe) task.search_structure = structure_to_search_by();
     task.shafts = results_.shafts;
-    task.modification = study.modification;
+    task.modification = analysed_modification(study, results_.effects);
     task.variables = study.optimise.variables;
     task.objective = study.optimise.objective;
     task.over = study.optimise.over;

@@ -181,6 +181,7 @@ TEST_CASE("Errors of single teeth make the same unloaded contact as gap, to firs
 
 TEST_CASE("The gap's derivative for every parameter agrees with central differences", "[core][contact]") {
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
+  const GrindingKind process = GENERATE(GrindingKind::None, GrindingKind::GeneratingGrinding, GrindingKind::FormGrinding);
   const GearPair pair = make_gear_pair(pair_data(23, 46, 15 * deg, 0.2));
   const PathOfContact path(pair);
   const std::vector<ContactPoint> points = contact_points(pair, path, {QuadratureRule::Gauss2, 7}, 1.37, true, -path.half_face, path.half_face);
@@ -195,6 +196,7 @@ TEST_CASE("The gap's derivative for every parameter agrees with central differen
     m->root_relief = {15 * um, 1.13, ReliefShape::Linear};
     m->end_relief = {10 * um, 5.1};
     m->twist = 7 * um;
+    m->process.kind = process;
   }
   condition.misalignment.axial_offset = 0.4;
   condition.misalignment.crossing = 1 * arcmin;

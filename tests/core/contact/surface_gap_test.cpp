@@ -201,6 +201,8 @@ TEST_CASE("The gap's derivative over the whole flanks agrees with central differ
       to.tip_relief = {15 * um, 0.31 * height, random.coin() ? ReliefShape::Linear : ReliefShape::Parabolic};
       to.root_relief = {10 * um, 0.23 * height, ReliefShape::Parabolic};
       to.end_relief = {8 * um, 0.17 * pair[m].data.face_width};
+      if (i == 2) to.process.kind = GrindingKind::GeneratingGrinding;
+      if (i == 3) to.process.kind = GrindingKind::FormGrinding;
     }
     const double phase = random(0.0, 1.0);
     const std::vector<ContactPoint> points = points_of(pair, phase, 3);

@@ -88,6 +88,30 @@ TEST_CASE("Every modification, error and misalignment is noticed", "[core][effec
   }
 }
 
+TEST_CASE("Grinding is an effect where it twists the lead of a helical gear", "[core][effects][grinding]") {
+  const auto call = [](bool helical, GrindingKind kind, double compensation, const FlankCondition& of) {
+    FlankCondition condition = of;
+    condition.modification.wheel.process = {kind, compensation};
+    return is_on(decide_effects({.loaded = true, .conditions = {FlankCondition{}, condition}, .helical = helical}), "natural_twist");
+  };
+  for (const GrindingKind kind : {GrindingKind::GeneratingGrinding, GrindingKind::FormGrinding}) {
+    CHECK(call(true, kind, 0.0, modified()));
+    CHECK(call(true, kind, 0.9, modified()));
+    CHECK_FALSE(call(true, kind, 1.0, modified()));
+    CHECK_FALSE(call(false, kind, 0.0, modified()));
+    CHECK_FALSE(call(true, kind, 0.0, misaligned()));
+  }
+  CHECK_FALSE(call(true, GrindingKind::None, 0.0, modified()));
+  CHECK_FALSE(call(true, GrindingKind::Topological, 0.0, modified()));
+  // Off, the modification stays as drawn.
+  FlankCondition ground = modified();
+  ground.modification.wheel.process.kind = GrindingKind::FormGrinding;
+  const EffectFacts facts{.loaded = true, .conditions = {ground}, .helical = true};
+  CHECK(apply_effects(decide_effects(facts), ground) == ground);
+  CHECK(apply_effects(without(decide_effects(facts), "natural_twist", "left out"), ground) == modified());
+  CHECK(apply_effects(without(decide_effects(facts), "modifications", "left out"), ground) == FlankCondition{});
+}
+
 TEST_CASE("Effects chosen by hand are exactly those named", "[core][effects]") {
   const EffectFacts facts{true, false, {misaligned()}};
   const auto effects = chosen_effects(facts, {"bending", "modifications"});

@@ -62,6 +62,7 @@ struct Scene {
     FlankCondition condition;
     condition.misalignment.mesh_misalignment = 10 * units::um;
     condition.modification.wheel.lead_crowning = 5 * units::um;
+    condition.modification.wheel.process.kind = GrindingKind::GeneratingGrinding;
     condition.error.pinion.cumulative_pitch = {0.0, 3 * units::um};
     return condition;
   }
@@ -70,6 +71,7 @@ struct Scene {
             .conditions = {condition},
             .coupled_teeth = true,
             .gear_bodies = true,
+            .helical = true,
             .rounded_tips = true,
             .shafts = true,
             .whole_surface = true};

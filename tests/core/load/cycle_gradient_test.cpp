@@ -165,7 +165,9 @@ TEST_CASE("Every output's derivative by modification, misalignment and torque is
   double worst = 0.0;
   std::string worst_output;
   for (int trial = 0; trial < 3; ++trial) {
-    const Scene scene = random_scene(gears, random);
+    Scene scene = random_scene(gears, random);
+    if (trial == 1) scene.condition.modification.pinion.process.kind = GrindingKind::GeneratingGrinding;
+    if (trial == 2) scene.condition.modification.pinion.process.kind = GrindingKind::FormGrinding;
     const ConditionGap gaps(model.pair, model.placement.gap, scene.condition);
     const Outputs here = outputs(model, scene, parameters);
     for (std::size_t p = 0; p < parameters.size(); ++p) {

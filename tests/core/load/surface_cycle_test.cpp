@@ -157,6 +157,7 @@ TEST_CASE("Gradients over the whole surface agree with central differences", "[c
   const GearPair gears = mesh_cases::pair(23, 41, 20, 4, 30);
   FlankCondition condition = surface_condition();
   condition.modification.pinion.parabolic_te = 2e-4;
+  condition.modification.pinion.process.kind = GENERATE(GrindingKind::None, GrindingKind::GeneratingGrinding, GrindingKind::FormGrinding);
   const MeshPlaced placed = [&](const MeshPlacement& at) {
     return surface_model(gears, {{QuadratureRule::Gauss2, 5}, {0.15, 0.48, 0.83}}, at.misalignment);
   };

@@ -156,9 +156,10 @@ TEST_CASE("Everything that is wrong with a study is said at once, with line and 
 TEST_CASE("Check warns of what a run would warn of first", "[studies][cli]") {
   const ScratchFolder folder;
   folder.file("small.toml", small::analysis());
-  const Ending sound = run(folder, {"check", "small.toml"});
+  const Ending sound = run(folder, {"check", "small.toml", "--set", "pinion.process=topological"});
   CHECK(sound.exit_code == 0);
   CHECK(sound.err.empty());
+  CHECK_THAT(run(folder, {"check", "small.toml"}).err, Contains("warning: the pinion's process is \"none\""));
   const Ending undercut = run(folder, {"check", "small.toml", "--set", "pinion.teeth=9", "--set", "pinion.profile_shift=-0.3"});
   CAPTURE(undercut.err);
   CHECK(undercut.exit_code == 0);

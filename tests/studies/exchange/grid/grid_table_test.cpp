@@ -6,6 +6,7 @@
 #include "core/base/units.hpp"
 #include "core/flank/flank.hpp"
 #include "core/flank/measured_grid.hpp"
+#include "core/flank/natural_twist.hpp"
 #include "studies/study_file/grid_file.hpp"
 #include "tests/studies/study_texts.hpp"
 #include "core/gear/gear_pair.hpp"
@@ -51,6 +52,20 @@ TEST_CASE("A grid for the grinder, read as a measured grid, is the modification"
       // Half of the last digit written, 1e-4 um, along the transverse base tangent, and radii to 1e-6 mm times the relief's slope.
       CHECK(std::abs(designed.deviation(rho, grid.z[j], 0) - read.deviation(rho, grid.z[j], 0)) < 1.1e-7);
     }
+  }
+}
+
+TEST_CASE("A grid for the grinder has the natural twist of its process", "[studies][grid-table][grinding]") {
+  const GearPair pair = make_gear_pair(pair_data());
+  Modification m;
+  m.lead_crowning = 0.012;
+  for (const GrindingKind kind : {GrindingKind::GeneratingGrinding, GrindingKind::FormGrinding}) {
+    m.process.kind = kind;
+    const MeasuredGrid grid = parse_grid(grid_table(pair, Member::Wheel, m, {9, 15, 0.0}, "ground"), "grid.csv");
+    const auto slope = [&](Eigen::Index column) { return grid.deviation(0, column) - grid.deviation(8, column); };  // removed is negative
+    // Normal to the flank; four times half of the last digit written.
+    CHECK(slope(14) - slope(0) == Approx(std::cos(pair.base_helix_angle) * natural_twist(pair, Member::Wheel, m)).margin(2e-7));
+    CHECK(std::abs(slope(14) - slope(0)) > 0.003);
   }
 }
 

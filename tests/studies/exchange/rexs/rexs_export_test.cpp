@@ -190,6 +190,30 @@ TEST_CASE("A generated flank comes back as the grid of its points", "[studies][r
   CHECK(largest > 1e-3);
 }
 
+TEST_CASE("A ground flank comes back as its crowning and the grid of its natural twist", "[studies][rexs][export][grinding]") {
+  const Study study = parse_study(
+      "[pair]\nnormal_module = 5\nhelix_angle = 20\n[pinion]\nteeth = 20\nface_width = 40\nprocess = \"generating_grinding\"\n"
+      "[wheel]\nteeth = 43\nface_width = 40\n[pinion.modification]\nlead_crowning = 8\n",
+      "a.toml");
+  const rexs::ExportedStage stage = rexs::export_stage(study, {});
+  const rexs::ImportedStudy imported = rexs::import_stage(rexs::model_text(stage.model, rexs::Form::Xml), "a.rexs", {.grid_stem = "a"});
+  CHECK_THAT(imported.text, Contains("lead_crowning = 8"));
+  REQUIRE(imported.grids.size() == 1);
+  const GearPair pair = make_gear_pair(study.pair);
+  const MeasuredGrid grid = parse_grid(imported.grids.front().text, "a-pinion.csv");
+  const Flank ground = make_flank(pair, Member::Pinion, study.modification.pinion, {});
+  Modification back;
+  back.lead_crowning = study.modification.pinion.lead_crowning;
+  back.topography = make_grid_field(grid, pair.pinion.base_radius, pair.base_helix_angle).field;
+  const Flank read = make_flank(pair, Member::Pinion, back, {});
+  for (const double radius : grid.radii) {
+    for (const double z : grid.z) {
+      constexpr double written = 1e-7;  // half of the grid's last digit, normal to the flank
+      CHECK(std::abs(ground.deviation(ground.roll_at(radius), z, 0) - read.deviation(read.roll_at(radius), z, 0)) <= written);
+    }
+  }
+}
+
 TEST_CASE("Every modification parameter survives the way to REXS and back, as a component or as points", "[studies][rexs][export][modification]") {
   const std::string pair_text =
       "[pair]\nnormal_module = 5\nhelix_angle = 20\n[pinion]\nteeth = 20\nface_width = 40\n[wheel]\nteeth = 43\nface_width = 40\n";
