@@ -1,5 +1,7 @@
 #include "studies/results/bodies_json.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -50,6 +52,19 @@ Json over_positions(const std::vector<RimMotion>& motions) {
   return json;
 }
 
+/// One gear's rim at the positions of a load case; fewer than there are where one has no load distribution.
+std::vector<RimMotion> rim_motions(const LoadedResult& loaded, const StudyResults& results, Member member) {
+  const PairRimMotion& rims = *results.structures.rim_motion;
+  const MeshModel& model = results.models[loaded.model];
+  std::vector<RimMotion> motions;
+  for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
+    const MeshPosition& at = model.positions[i];
+    const LoadDistribution& load = loaded.cycle.positions[i].load;
+    if (load.usable()) motions.push_back(rims.motion(member, at.points, at.weight.cwiseProduct(load.line_load), model.axial_offset));
+  }
+  return motions;
+}
+
 }  // namespace
 
 Json body_json(const GearBody& body) {
@@ -66,35 +81,47 @@ Json body_json(const GearBody& body) {
   return json;
 }
 
+std::string rim_table(const StudyResults& results, std::size_t width) {
+  if (!results.structures.rim_motion || results.loaded.empty()) return {};
+  std::string out =
+      fmt::format("{:<{}}  {:>10}  {:>8}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}\n", "rims on webs", width, "torque", "gear", "radial", "axial",
+                  "tilt", "opens at +z", "at teeth") +
+      fmt::format("{:<{}}  {:>10}  {:>8}  {:>10}  {:>10}  {:>10}  {:>10}  {:>10}\n", "", width, "N·m", "", "um", "um", "mrad", "um", "um");
+  for (const LoadedResult& loaded : results.loaded) {
+    for (const Member member : {Member::Pinion, Member::Wheel}) {
+      if (!results.structures.rim_motion->has_rim(member)) continue;
+      const Json means = over_positions(rim_motions(loaded, results, member));
+      out += fmt::format("{:<{}}  {:>10}  {:>8}", loaded.scene, width, fmt::format("{:.6g}", in_Nm(loaded.torque)), name_of(member));
+      for (const auto& [name, value] : named({})) out += fmt::format("  {:>10.4g}", means.at(name).at("mean").get<double>());
+      out += "\n";
+    }
+  }
+  return out;
+}
+
 void add_rim_motion(const LoadedResult& loaded, const StudyResults& results, Json& json) {
   const PairRimMotion& rims = *results.structures.rim_motion;
   const MeshModel& model = results.models[loaded.model];
-  PerGear<std::vector<RimMotion>> of_positions;
-  bool all_usable = true;
+  const auto is_usable = [](const LoadedPosition& position) { return position.load.usable(); };
   json["rims"] = Json::array();
   for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
-    const MeshPosition& at = model.positions[i];
-    const LoadDistribution& load = loaded.cycle.positions[i].load;
-    if (!load.usable()) {
-      json["rims"].push_back(nullptr);
-      all_usable = false;
-      continue;
-    }
-    const Eigen::VectorXd forces = at.weight.cwiseProduct(load.line_load);
-    Json entry{{"phase", at.phase}};
-    for (const Member member : {Member::Pinion, Member::Wheel}) {
-      Json& of_gear = entry[name_of(member)] = nullptr;
-      if (!rims.has_rim(member)) continue;
-      const RimMotion motion = rims.motion(member, at.points, forces, model.axial_offset);
-      of_gear = Json::object();
-      for (const auto& [name, value] : named(motion)) of_gear[name] = value;
-      of_positions[member].push_back(motion);
-    }
-    json["rims"].push_back(std::move(entry));
+    json["rims"].push_back(is_usable(loaded.cycle.positions[i]) ? Json{{"phase", model.positions[i].phase}} : Json());
   }
   for (const Member member : {Member::Pinion, Member::Wheel}) {
-    Json& of_gear = json["summary"]["rims"][name_of(member)] = nullptr;
-    if (rims.has_rim(member) && all_usable) of_gear = over_positions(of_positions[member]);
+    const char* gear = name_of(member);
+    std::vector<RimMotion> motions;
+    if (rims.has_rim(member)) motions = rim_motions(loaded, results, member);
+    auto motion = motions.begin();
+    for (Json& entry : json["rims"]) {
+      if (entry.is_null()) continue;
+      Json& of_gear = entry[gear] = nullptr;
+      if (motion == motions.end()) continue;
+      of_gear = Json::object();
+      for (const auto& [name, value] : named(*motion)) of_gear[name] = value;
+      ++motion;
+    }
+    const bool is_whole = !motions.empty() && motions.size() == loaded.cycle.positions.size();
+    json["summary"]["rims"][gear] = is_whole ? over_positions(motions) : Json();
   }
 }
 
