@@ -35,7 +35,7 @@ GearMeshOptions body_options() {
   return options;
 }
 
-std::vector<FlankPoint> flank_points(const GearMesh& mesh, int teeth = 1) {
+std::vector<FlankPoint> body_points(const GearMesh& mesh, int teeth = 1) {
   std::vector<FlankPoint> result;
   for (int tooth = -teeth; tooth <= teeth; ++tooth) {
     for (const double u : {0.1, 0.9}) {
@@ -50,7 +50,7 @@ std::vector<FlankPoint> flank_points(const GearMesh& mesh, int teeth = 1) {
 Eigen::MatrixXd compliance(const GearToMesh& gear, const GearMeshOptions& options = body_options(),
                            RemovedRigidMotion removed = RemovedRigidMotion::None) {
   const InfluenceModel model(gear, kUnit, options);
-  const InfluenceMatrix result = model.influence(flank_points(model.mesh()), removed);
+  const InfluenceMatrix result = model.influence(body_points(model.mesh()), removed);
   REQUIRE(result.status == FactorStatus::Factorised);
   return result.compliance;
 }
