@@ -47,12 +47,11 @@ const std::string web_text = "rim_thickness = 12\nweb_thickness = 3\nweb_offset 
 
 Study read_bodies(const std::string& text, const std::vector<Override>& overrides = {}) { return parse_study(text, "body.toml", overrides); }
 
-/// The problem of a study that must have just one; empty fields where it has none.
+/// The first problem of a study; empty fields where it has none.
 StudyProblem body_problem(const std::string& text, const std::vector<Override>& overrides = {}) {
   try {
     read_bodies(text, overrides);
   } catch (const StudyErrors& errors) {
-    REQUIRE(errors.problems().size() == 1);
     return errors.problems().front();
   }
   return {};
@@ -106,7 +105,7 @@ TEST_CASE("Bodies that cannot be are refused by their key, whatever the complian
     const char *key, *value;
   };
   for (const auto& [key, value] :
-       {Case{"rim_thickness", "50"}, Case{"rim_thickness", "1.9"}, Case{"web_thickness", "10.5"}, Case{"web_offset", "3.6"},
+       {Case{"rim_thickness", "52"}, Case{"rim_thickness", "1.9"}, Case{"web_thickness", "10.5"}, Case{"web_offset", "3.6"},
         Case{"web_offset", "-3.6"}, Case{"hub_diameter", "41"}, Case{"hub_diameter", "130"}, Case{"bore_diameter", "200"}, Case{"hub_width", "6"}}) {
     const std::string path = std::string("wheel.body.") + key;
     const StudyProblem found = problem(web_text, {{path, value}});
@@ -150,14 +149,14 @@ TEST_CASE("A web's tilt acts in the loaded contact and is in the results, its ru
   CHECK(offset.at("loaded")[0].at("rims").size() == 4);
   CHECK(offset.at("used").at("pair").at("wheel").at("body").at("web").at("web_offset_mm") == 2.5);
   CHECK(rim(offset, "misalignment_um") < -0.5);                                                      // carried at +z, pushed away from the mate at -z
-  CHECK(rim(mirrored, "misalignment_um") == Approx(-rim(offset, "misalignment_um")).epsilon(1e-6));  // round-off times the solver's tolerance
-  CHECK(std::abs(rim(centred, "misalignment_um")) < 1e-6 * std::abs(rim(offset, "misalignment_um")));
+  CHECK(rim(mirrored, "misalignment_um") == Approx(-rim(offset, "misalignment_um")).epsilon(0.01));  // the pinion is twisted from one end
+  CHECK(std::abs(rim(centred, "misalignment_um")) < 0.01 * std::abs(rim(offset, "misalignment_um")));  // likewise
   CHECK(rim(centred, "radial_um") > 0);
   // The load follows the end that is carried.
   const auto leans = [](const json& results) {
     double sum = 0;
-    for (const json& point : results.at("loaded")[0].at("cycle")[0].at("points")) {
-      sum += point.at("z_mm").get<double>() * point.at("load_N_per_mm").get<double>();
+    for (const json& tooth : results.at("loaded")[0].at("cycle")[0].at("teeth")) {
+      for (const json& point : tooth.at("points")) sum += point.at("z_mm").get<double>() * point.at("load_N_per_mm").get<double>();
     }
     return sum;
   };
