@@ -121,7 +121,7 @@ TEST_CASE("Bodies that cannot be are refused by their key, whatever the complian
   CHECK(problem(web_text + "hole_count = 5\nhole_diameter = 50\n").key == "wheel.body.hole_diameter");
   CHECK(problem("shaft_diameter = 30\n").key == "wheel.body.shaft_diameter");
   CHECK(problem("shaft_overhang = 30\n").key == "wheel.body.shaft_overhang");
-  CHECK(problem("hold = \"glue\"\n", {}).key == "wheel.body.hold");
+  CHECK(problem(web_text, {{"wheel.body.hold", "glue"}}).key == "wheel.body.hold");
 }
 
 TEST_CASE("Thin slices say that they do not know of a body", "[studies][body]") {
