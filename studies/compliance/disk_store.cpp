@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "core/base/error.hpp"
 #include "studies/compliance/run_cache.hpp"
 
@@ -13,6 +15,8 @@ namespace {
 constexpr int model_version = 9;
 /// To be raised whenever the same influence values give another fit: form, stations, residuals.
 constexpr int fit_version = 3;
+/// To be raised whenever the same web comes to mean other numbers.
+constexpr int web_model_version = 1;
 
 // clang-format off
 /// A field that is added to these structs must be added to the key: the bindings then no longer compile.
@@ -25,11 +29,19 @@ Json mesh_key(const GearMeshOptions& options) {
 }
 // clang-format on
 
+Json web_key(const WebbedBody& body) {
+  const auto& [rim_thickness, web_thickness, web_offset, hub_diameter, hub_width, holes] = body;
+  const auto& [count, diameter, circle_diameter] = holes;
+  Json key{web_model_version, rim_thickness, web_thickness, web_offset, hub_diameter, hub_width};
+  if (count > 0) key.push_back({count, diameter, circle_diameter});
+  return key;
+}
+
 Json gear_key(const GearToMesh& gear) {
   const auto& [data, module, pressure_angle, helix_angle, body] = gear;
   const auto& [teeth, face_width, profile_shift, tip_diameter, rack, tip_rounding, tip_chamfer, end_rounding, end_chamfer, generation] = data;
   const auto& [addendum, dedendum, root_radius] = rack;
-  const auto& [shaft_diameter, bore_diameter, shaft_overhang, torque_end, rigid] = body;
+  const auto& [shaft_diameter, bore_diameter, shaft_overhang, torque_end, rigid, hold, web] = body;
   static_cast<void>(module);        // 1
   static_cast<void>(tip_rounding);  // the mesh has sharp edges
   static_cast<void>(tip_chamfer);
@@ -45,10 +57,14 @@ Json gear_key(const GearToMesh& gear) {
            {"helix_angle", helix_angle},
            {"body", {shaft_diameter, bore_diameter, shaft_overhang, torque_end == FaceEnd::Obtuse ? "blunt" : "sharp"}}};
   if (rigid) key["rigid_body"] = true;
+  if (hold != BodyHold::Shaft) key["hold"] = to_string(hold);
+  if (web) key["web"] = web_key(*web);
   return key;
 }
 
 std::string table_name(int teeth_apart) { return fmt::format("influence {} apart", teeth_apart); }
+const std::string whole_rim_name = "motion of the rim";
+std::string rim_below_name(int tooth) { return fmt::format("motion of the rim below tooth 0 by tooth {}", tooth); }
 std::string root_stress_name(int tooth) { return fmt::format("root stress by tooth {}", tooth); }
 
 const Eigen::MatrixXd& stored_matrix(const StoredRun& stored, const std::string& name) {
@@ -68,6 +84,14 @@ RootStressTable root_stress_from_store(const InfluenceTableTask& task, const Sto
     }
   }
   return root;
+}
+
+RimMotionTable rim_motion_from_store(const InfluenceTableTask& task, const StoredRun& stored) {
+  RimMotionTable rim{task.grid, stored_matrix(stored, whole_rim_name), {}};
+  for (int m = -task.teeth_apart; m <= task.teeth_apart; ++m) rim.below.push_back(stored_matrix(stored, rim_below_name(m)));
+  const auto fits = [&](const Eigen::MatrixXd& motion) { return motion.rows() == 6 && motion.cols() == task.grid.size(); };
+  if (!fits(rim.whole) || !std::ranges::all_of(rim.below, fits)) throw InvalidInput("run", whole_rim_name, "as large as its grid");
+  return rim;
 }
 
 /// Everything that defines the outcome of a task, in modules, as the key of its stored run.
@@ -107,13 +131,20 @@ StoredRun to_store(const InfluenceTableRun& run) {
       stored.matrices.emplace_back(root_stress_name(m), root.stress[static_cast<std::size_t>(m + root.teeth_each_side())]);
     }
   }
+  if (run.rim_motion) {
+    const RimMotionTable& rim = *run.rim_motion;
+    stored.matrices.emplace_back(whole_rim_name, rim.whole);
+    for (int m = -rim.teeth_each_side(); m <= rim.teeth_each_side(); ++m) {
+      stored.matrices.emplace_back(rim_below_name(m), rim.below[static_cast<std::size_t>(m + rim.teeth_each_side())]);
+    }
+  }
   return stored;
 }
 
 /// A run as to_store() writes it.
 /// @throws Json::exception, InvalidInput where something is missing
 InfluenceTableRun from_store(const InfluenceTableTask& task, const StoredRun& stored) {
-  InfluenceTableRun run{FactorStatus::Factorised, std::nullopt, std::nullopt, {}};
+  InfluenceTableRun run{FactorStatus::Factorised, std::nullopt, std::nullopt, {}, std::nullopt};
   const Json& facts = stored.facts;
   run.statistics = {facts.at("bricks"),     facts.at("unknowns"),      facts.at("factor_entries"),
                     facts.at("peak_bytes"), facts.at("model_seconds"), facts.at("solve_seconds")};
@@ -121,6 +152,7 @@ InfluenceTableRun from_store(const InfluenceTableTask& task, const StoredRun& st
   for (int m = 0; m <= task.teeth_apart; ++m) tables.push_back(stored_matrix(stored, table_name(m)));
   run.table.emplace(task.grid, std::move(tables), TableProjection{facts.at("lowest_eigenvalue"), facts.at("added")});
   if (task.root_stress) run.root_stress = root_stress_from_store(task, stored);
+  if (reads_rim_motion(task.gear.body)) run.rim_motion = rim_motion_from_store(task, stored);
   return run;
 }
 

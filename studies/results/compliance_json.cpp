@@ -4,6 +4,7 @@
 
 #include "core/base/units.hpp"
 #include "core/compliance/fitted/correction_library.hpp"
+#include "studies/results/bodies_json.hpp"
 
 namespace flankwright::studies {
 
@@ -122,13 +123,6 @@ Json covariance_json(const KernelForm& form, const std::vector<double>& coeffici
     rows.push_back(std::move(row));
   }
   return {{"coefficient", form.coefficient_names()}, {"value", coefficients}, {"lower_triangle", std::move(rows)}};
-}
-
-Json body_json(const GearBody& body) {
-  return {{"shaft_diameter_mm", body.shaft_diameter},
-          {"bore_diameter_mm", body.bore_diameter},
-          {"shaft_overhang_mm", body.shaft_overhang},
-          {"torque_end", body.torque_end == FaceEnd::Obtuse ? "blunt" : "sharp"}};
 }
 
 Json curve_json(const DeflectionCurve& curve) {

@@ -17,9 +17,6 @@ const char* name_of(RemovedRigidMotion removed);
 /// Coefficients of a fit by name, and the lower triangle of their covariance, row by row.
 Json covariance_json(const KernelForm& form, const std::vector<double>& coefficients, const Eigen::MatrixXd& covariance);
 
-/// A gear's body as used, of `used` in results.json.
-Json body_json(const GearBody& body);
-
 /// One curve of deflections[] or fit[].
 Json curve_json(const DeflectionCurve& curve);
 

@@ -12,6 +12,7 @@
 #include "core/gear/tooth_form.hpp"
 #include "studies/analysis/study_effects.hpp"
 #include "studies/analysis/study_notes.hpp"
+#include "studies/results/bodies_json.hpp"
 #include "studies/results/fidelity_choice_json.hpp"
 #include "studies/results/compliance_json.hpp"
 #include "studies/results/effects_json.hpp"
@@ -231,6 +232,7 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
             {"cycle", nullptr},
             {"extremes", extremes_json(loaded)}};
   if (results.shafts) add_shaft_motion(loaded, results, json);
+  if (results.structures.rim_motion) add_rim_motion(loaded, results, json);
   const bool asked = results.study.task->one_design && !results.study.gradients.empty();
   if (asked && loaded.cycle.usable()) json["gradients"] = gradients_json(loaded, results);
   json["cycle"] = std::move(cycle);

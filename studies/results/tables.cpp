@@ -9,6 +9,7 @@
 #include "core/fidelity/cycle_quantities.hpp"
 #include "studies/results/fidelity_choice_json.hpp"
 #include "studies/base/json_format.hpp"
+#include "studies/results/bodies_json.hpp"
 #include "studies/results/load_rating_tables.hpp"
 #include "studies/results/unloaded_tables.hpp"
 
@@ -99,7 +100,7 @@ std::string analysis_table(const StudyResults& results) {
   for (const UnloadedResult& u : results.unloaded) names.push_back(u.scene);
   const std::size_t width = widest(names, 12);
   if (!results.loaded.empty()) out += loaded_table(results.loaded, width);
-  return out + load_factors_table(results, width) + unloaded_summary(results, width);
+  return out + load_factors_table(results, width) + rim_table(results, width) + unloaded_summary(results, width);
 }
 
 std::vector<NamedText> csv_tables(const StudyResults& results) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "studies/results/bodies_json.hpp"
 #include "studies/results/compliance_json.hpp"
 #include "studies/results/shafts_json.hpp"
 

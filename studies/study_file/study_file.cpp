@@ -7,6 +7,7 @@
 #include <system_error>
 #include <tuple>
 
+#include "studies/study_file/study_bodies.hpp"
 #include "studies/study_file/study_checks.hpp"
 #include "studies/study_file/study_document.hpp"
 #include "studies/study_file/study_flanks.hpp"
@@ -77,6 +78,7 @@ Study parse_study(std::string_view text, const std::string& name, const std::vec
   check_pair(reading);
   if (const Task& task = *reading.builder.study.task; task.check != nullptr) task.check(reading);
   read_shafts(reading);
+  check_bodies(reading);
   check_flanks(reading);
   read_grids(reading);
   if (!problems.empty()) {

@@ -8,7 +8,6 @@ namespace flankwright::studies {
 
 namespace {
 
-GearBody& body(StudyBuilder& builder, Member m) { return builder.study.body[m]; }
 Material& material(StudyBuilder& builder, Member m) { return builder.study.material[m]; }
 
 constexpr Range misalignment_angle = within(60.0);  // arcmin: a degree, far beyond any housing
@@ -60,17 +59,6 @@ std::vector<SchemaKey> working_condition_rows() {
       {.path = "gear.material.poissons_ratio", .range = {.low = 0.0, .high = 0.5, .high_open = true},
        .fallback = "(as [material])", .meaning = "nu of this gear",
        .store = [](StudyBuilder& d, Member m, const Value& v) { material(d, m).poissons_ratio = v.number; }},
-
-      {.path = "gear.body.shaft_diameter", .quantity = Quantity::Length, .range = any_length,
-       .fallback = "(0.8 d, at most 25 m_n/cos(beta) and d_f - 1.2 m_n)",
-       .meaning = "of the shaft that the gear, a solid disc, is one with; at most d_f - m_n; compliances \"fitted\" and \"fe\" and task \"fit\"",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { body(d, m).shaft_diameter = v.number; }},
-      {.path = "gear.body.bore_diameter", .quantity = Quantity::Length, .range = any_length,
-       .fallback = "(0.05 of the shaft)", .meaning = "of the shaft; below 0.9 of it; compliances \"fitted\" and \"fe\" and task \"fit\"",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { body(d, m).bore_diameter = v.number; }},
-      {.path = "gear.body.shaft_overhang", .quantity = Quantity::Length, .range = any_length,
-       .fallback = "(0.5 of the shaft)", .meaning = "length of the shaft beyond each face end; compliances \"fitted\" and \"fe\" and task \"fit\"",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { body(d, m).shaft_overhang = v.number; }},
 
       {.path = "load.torque", .kind = NumberOrList, .quantity = Quantity::Torque, .range = from_zero(1e9),
        .fallback = "0", .meaning = "on the pinion; a list runs each, 0 is unloaded",
@@ -167,7 +155,7 @@ void append(std::vector<SchemaKey>& schema, const std::vector<SchemaKey>& rows) 
 
 std::vector<SchemaKey> make_schema() {
   std::vector<SchemaKey> schema;
-  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), shaft_rows(), scene_rows()}) append(schema, rows);
+  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), body_rows(), shaft_rows(), scene_rows()}) append(schema, rows);
   for (const Task* task : registered_tasks()) {
     if (task->keys != nullptr) append(schema, task->keys());
   }

@@ -47,8 +47,12 @@ void read_shafts(StudyReading& reading) {
 
 std::shared_ptr<const ShaftPair> make_shafts(const Study& study, const GearPair& pair) {
   if (!study.shaft.pinion && !study.shaft.wheel) return nullptr;
+  const auto body_in = [&](Member member) {
+    if (!couples_teeth(study.fidelity.compliance)) return GearBodyIn::Shaft;
+    return study.body[member].hold == BodyHold::RigidBore ? GearBodyIn::RigidBore : GearBodyIn::Structure;
+  };
   return std::make_shared<const ShaftPair>(pair, study.shaft.pinion, study.shaft.wheel,
-                                           couples_teeth(study.fidelity.compliance) ? GearBodyIn::Structure : GearBodyIn::Shaft);
+                                           PerGear<GearBodyIn>{body_in(Member::Pinion), body_in(Member::Wheel)});
 }
 
 }  // namespace flankwright::studies

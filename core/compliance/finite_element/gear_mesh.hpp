@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/compliance/finite_element/section_mesh.hpp"
@@ -22,9 +23,6 @@ struct GearToMesh {
   GearBody body;
 };
 
-/// The body, with defaults for what is not given.
-GearBody complete_body(const GearBody& body, const ToothForm& form, double normal_module);
-
 /// Surfaces of one detailed tooth, without the shaft's overhangs.
 struct ToothSurfaces {
   std::vector<MeshFace> centre;  ///< centre surface, from the tip to the bore
@@ -32,29 +30,37 @@ struct ToothSurfaces {
   std::vector<MeshFace> fillet;  ///< fillet below it, to its lowest point
 };
 
-/// The section swept along z (SectionSweep), and the shaft's overhangs, held at their far ends: that beyond the torque
-/// end whole, the other one radially. The compliance of the axial support is axial_hold_compliance(). A rigid body is
-/// held everywhere.
+/// A brick of the rim, and the detailed tooth that it lies below within half a pitch, -n .. n.
+struct RimBrick {
+  int brick{-1};
+  std::optional<int> tooth{};
+};
+
+/// The section swept along z (SectionSweep), each part over its own width, and the shaft's overhangs, held at their far ends: that beyond the
+/// torque end whole, the other one radially. The compliance of the axial support is axial_hold_compliance(). A bore that is held is so all
+/// over, a rigid body everywhere.
 struct GearMesh {
   ToothForm form;
   int teeth{0};
   double normal_module{not_given}, face_width{not_given};
   int teeth_each_side{0};
-  double shaft_diameter{not_given};  ///< [mm]
+  double shaft_diameter{not_given};  ///< [mm]; NaN without a shaft
   bool rigid_body{false};            ///< GearBody::rigid
+  bool rigid_bore{false};            ///< BodyHold::RigidBore: nothing below has a shaft
   double torque_end{not_given};      ///< z of the face end where torque and axial force leave, -b/2 or b/2 [mm]
   SolidMesh solid{};
   std::vector<NodeSupport> supports{};
   std::vector<double> planes{};                  ///< z of the layers' ends on the face width, ascending [mm]
   std::vector<std::vector<int>> shaft_bricks{};  ///< that reach through every layer between them; local z runs along the axis
   std::vector<ToothSurfaces> tooth_surfaces{};   ///< of teeth -n .. n
+  /// Bricks between root circle and underside of a rim on a web, with the pitch that they lie in, right below a detailed tooth; empty: a solid disc.
+  std::vector<RimBrick> rim{};
 
   const ToothSurfaces& surfaces(int tooth) const { return tooth_surfaces.at(tooth + teeth_each_side); }
   FaceNodes face_nodes(const MeshFace& face) const;
 };
 
-/// @throws InvalidInput  as ToothForm and section_mesh(), "face_width", "body.shaft_overhang", and "options" where an
-///                       element comes out folded
+/// @throws InvalidInput  as ToothForm and section_mesh(), "face_width", and "options" where an element comes out folded
 GearMesh gear_mesh(const GearToMesh& gear, const GearMeshOptions& options = {});
 
 }  // namespace flankwright

@@ -214,7 +214,7 @@ NetFunctionals net_functionals(const GearMesh& mesh, const std::vector<FlankPoin
 }
 
 double axial_hold_compliance(const GearMesh& mesh, const Material& material, RemovedRigidMotion removed) {
-  if (removed == RemovedRigidMotion::WholeTranslationTorsionAndTilt || mesh.rigid_body) return 0;
+  if (removed == RemovedRigidMotion::WholeTranslationTorsionAndTilt || mesh.rigid_body || mesh.rigid_bore) return 0;
   const auto [E, nu] = material;
   const double a = axial_hold_share * mesh.shaft_diameter / 2;
   const double tan_beta_b = std::tan(mesh.form.helix_angle()) * mesh.form.base_radius() / mesh.form.reference_radius();

@@ -127,7 +127,7 @@ inline constexpr double axial_hold_share = 0.2;
 ///     sin^2(beta_b) 16 (1 - nu^2) / (3 pi^2 E a),    a = axial_hold_share d_s / 2,
 ///
 /// the mean displacement of a disc under an even pressure on a half space [Timoshenko and Goodier, Theory of
-/// Elasticity, art. 139]; 0 where the axial motion is removed or the body is rigid. It changes only the mean
+/// Elasticity, art. 139]; 0 where the axial motion is removed, the bore held or the body rigid. It changes only the mean
 /// transmission error.
 ///
 /// Haddad holds the central node of one end [1991, 2.5], so that his deflections contain the local deflection at that

@@ -278,16 +278,8 @@ void GearMeshOptions::validate() const {
   }
 }
 
-double default_shaft_diameter(const ToothForm& form, double normal_module) {
-  return std::min({1.6 * form.reference_radius(), 25 * normal_module / std::cos(form.helix_angle()), 2 * form.root_radius() - 1.2 * normal_module});
-}
-
-double rim_radius(const ToothForm& form, double shaft_diameter, double normal_module) {
-  const double root = form.root_radius(), shaft = shaft_diameter / 2;
-  return root - shaft < 1.8 * normal_module ? shaft : root - 1.25 * normal_module;
-}
-
-SectionRadii section_radii(const ToothForm& form, int teeth, double normal_module, const GearBody& body, const GearMeshOptions& options) {
+BodyRadii section_radii(const ToothForm& form, int teeth, double normal_module, double face_width, const GearBody& body,
+                        const GearMeshOptions& options) {
   options.validate();
   if (!(form.tip_half_angle() > 0)) {
     throw InvalidInput("tip_diameter", std::to_string(2 * form.tip_radius()), "a tooth that is not pointed");
@@ -295,28 +287,17 @@ SectionRadii section_radii(const ToothForm& form, int teeth, double normal_modul
   if (2 * options.teeth_each_side + 1 > teeth) {
     throw InvalidInput("options.teeth_each_side", std::to_string(options.teeth_each_side), "at most half the number of teeth");
   }
-  const double root = form.root_radius();
-  const double shaft = (std::isnan(body.shaft_diameter) ? default_shaft_diameter(form, normal_module) : body.shaft_diameter) / 2;
-  const double bore = std::isnan(body.bore_diameter) ? default_bore_share * shaft : body.bore_diameter / 2;
-  // The blocks of the teeth need at least half a module of rim.
-  if (!(shaft > 0 && shaft <= root - 0.5 * normal_module)) {
-    throw InvalidInput("body.shaft_diameter", std::to_string(2 * shaft),
-                       "more than 0 and at most " + std::to_string(2 * root - normal_module) + " mm");
-  }
-  if (!(bore > 0 && bore < 0.9 * shaft)) {
-    throw InvalidInput("body.bore_diameter", std::to_string(2 * bore), "more than 0 and less than 0.9 of the shaft");
-  }
-  return {shaft, bore};
+  return body_radii(body, form, normal_module, face_width);
 }
 
-SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module, const GearBody& body, const GearMeshOptions& options) {
-  const SectionRadii radii = section_radii(form, teeth, normal_module, body, options);
-  const double root = form.root_radius(), shaft = radii.shaft, bore = radii.bore;
-
-  const double rim = rim_radius(form, 2 * shaft, normal_module);  // where the teeth's blocks end
+SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module, double face_width, const GearBody& body,
+                         const GearMeshOptions& options) {
+  const BodyRadii radii = section_radii(form, teeth, normal_module, face_width, body, options);
+  const double root = form.root_radius(), rim = radii.teeth;
   const int across = options.half_thickness_elements;
   const std::vector<double> below_fillet = half_thickness_fractions(across, 1);
-  Builder builder(1e-7 * normal_module);
+  const double same_point = 1e-7 * normal_module;
+  Builder builder(same_point);
   std::vector<SectionTooth> lines;
   std::vector<double> angles;  // of the rim's nodes at half steps, counter-clockwise
   const double pitch = 2 * pi / teeth;
@@ -377,8 +358,8 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
       for (const int joint : joined.joints) {
         const auto node = [&](int index) { return builder.node(Polar{from, around.angle(index)}.point()); };
         const SectionEdge edge{node(joint - 2), node(joint), node(joint + 2)};
-        ties.push_back({node(joint - 1), edge, -0.5});
-        ties.push_back({node(joint + 1), edge, 0.5});
+        ties.push_back({node(joint - 1), edge, -0.5, part});
+        ties.push_back({node(joint + 1), edge, 0.5, part});
       }
       around = std::move(joined.division);
       const std::array<double, 3> at{from, 0.5 * (from + to), to};
@@ -389,11 +370,28 @@ SectionMesh section_mesh(const ToothForm& form, int teeth, double normal_module,
       }
     }
   };
-  if (rim > shaft) {
-    const double in_shaft = (shaft - bore) * shaft_fractions(options.shaft_elements)[1];
-    rings(rim, shaft, ring_fractions(rim, shaft, normal_module, in_shaft, options.body_growth), SectionPart::Body);
+  const bool has_shaft = body.hold == BodyHold::Shaft;
+  const double at_carrier = has_shaft ? (radii.carrier - radii.bore) * shaft_fractions(options.shaft_elements)[1] : normal_module;
+  const auto graded_rings = [&](double outer, double inner, double first_outside, double first_inside, SectionPart part) {
+    if (outer - inner > same_point) rings(outer, inner, ring_fractions(outer, inner, first_outside, first_inside, options.body_growth), part);
+  };
+  if (!body.web) {
+    graded_rings(rim, radii.carrier, normal_module, at_carrier, SectionPart::Body);
+  } else {
+    const WebbedBody& web = *body.web;
+    const double at_corner = std::min(normal_module, web.web_thickness / 2);  // where rim or hub meet the web
+    graded_rings(rim, radii.underside, normal_module, at_corner, SectionPart::Body);
+    if (web.holes.count == 0) {
+      graded_rings(radii.underside, radii.hub, at_corner, at_corner, SectionPart::Web);
+    } else {
+      const double circle = complete_body(body, form, normal_module, face_width).web->holes.circle_diameter / 2, half = web.holes.diameter / 2;
+      graded_rings(radii.underside, circle + half, at_corner, web.web_thickness / 2, SectionPart::Web);
+      graded_rings(circle + half, circle - half, web.web_thickness / 2, web.web_thickness / 2, SectionPart::HoledWeb);
+      graded_rings(circle - half, radii.hub, web.web_thickness / 2, at_corner, SectionPart::Web);
+    }
+    graded_rings(radii.hub, radii.carrier, at_corner, at_carrier, SectionPart::Hub);
   }
-  rings(shaft, bore, shaft_fractions(options.shaft_elements), SectionPart::Shaft);
+  if (has_shaft) rings(radii.carrier, radii.bore, shaft_fractions(options.shaft_elements), SectionPart::Shaft);
 
   SectionMesh mesh = builder.take(std::move(lines));
   mesh.root_radius = root;

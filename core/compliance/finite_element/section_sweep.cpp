@@ -16,7 +16,8 @@ std::vector<int> joined_ends(const SweepPlanes& planes, int level) {
   for (int plane = 0; plane < static_cast<int>(planes.z.size()); ++plane) {
     const int from_end = std::min(plane - planes.first, planes.last - plane);  // less than 0 beyond the face width
     const bool near_end = from_end < step && (from_end < 0 || std::has_single_bit(static_cast<unsigned>(from_end)));
-    if (near_end || from_end % step == 0 || from_end == half) ends.push_back(plane);
+    const bool kept = std::ranges::binary_search(planes.kept, plane);
+    if (near_end || from_end % step == 0 || from_end == half || kept) ends.push_back(plane);
   }
   return ends;
 }
@@ -59,16 +60,52 @@ void SectionSweep::set_levels(double layer_share) {
     quad_levels_.push_back(level);
   }
   shorten_at_ties();
-  node_levels_.assign(static_cast<std::size_t>(section_.nodes.cols()), 0);
+  if (planes_.kept.empty()) {
+    set_node_levels(planes_.first);
+    return;
+  }
   for (Eigen::Index quad = 0; quad < section_.quads.cols(); ++quad) {
+    for (int i = 4; i < 8; ++i) sides_[section_.quads(i, quad)].push_back(section_.parts[static_cast<std::size_t>(quad)]);
+  }
+  const auto parts_in = [&](int layer) {
+    std::array<bool, section_parts> there{};
+    for (int part = 0; part < section_parts; ++part) there[static_cast<std::size_t>(part)] = planes_.has(static_cast<SectionPart>(part), layer);
+    return there;
+  };
+  std::map<std::array<bool, section_parts>, std::size_t> zones;
+  for (int layer = 0; layer < static_cast<int>(planes_.z.size()); ++layer) {
+    const auto [zone, is_new] = zones.try_emplace(parts_in(layer), zones.size());
+    zone_of_.push_back(zone->second);
+    if (is_new) set_node_levels(layer);
+  }
+}
+
+/// Adds the levels of a zone.
+/// @param layer  any of the zone
+void SectionSweep::set_node_levels(int layer) {
+  const bool all = planes_.kept.empty();
+  std::vector<int>& levels = node_levels_.emplace_back(static_cast<std::size_t>(section_.nodes.cols()), 0);
+  for (Eigen::Index quad = 0; quad < section_.quads.cols(); ++quad) {
+    if (!all && !has_quad(quad, layer)) continue;
     for (int i = 0; i < 8; ++i) {
-      int& of_node = node_levels_[static_cast<std::size_t>(section_.quads(i, quad))];
+      int& of_node = levels[static_cast<std::size_t>(section_.quads(i, quad))];
       of_node = std::max(of_node, quad_levels_[static_cast<std::size_t>(quad)]);
     }
   }
   for (const SectionTie& tie : section_.ties) {
-    node_levels_[static_cast<std::size_t>(tie.node)] = node_levels_[static_cast<std::size_t>(tie.edge[1])];
+    if (all || planes_.has(tie.part, layer)) levels[static_cast<std::size_t>(tie.node)] = levels[static_cast<std::size_t>(tie.edge[1])];
   }
+}
+
+bool SectionSweep::has_edge(const SectionEdge& edge, int layer) const {
+  if (planes_.kept.empty()) return true;
+  return std::ranges::any_of(sides_.at(edge[1]), [&](SectionPart part) { return planes_.has(part, layer); });
+}
+
+/// Whether the long element of a tie is there for a node between, or on, two planes.
+bool SectionSweep::tie_acts(const SectionTie& tie, LayerSpan span) const {
+  if (planes_.kept.empty()) return true;
+  return planes_.has(tie.part, span.lower) || (span.lower == span.upper && planes_.has(tie.part, span.lower - 1));
 }
 
 /// An element tied to another must not be longer along the axis. Ties run inwards, so that those of the inner ring come
@@ -130,11 +167,15 @@ std::vector<int> SectionSweep::on_plane(int plane) const {
   return nodes;
 }
 
-void SectionSweep::tie(int section_node, const SectionEdge* edge, double along) {
-  const int level = node_levels_[static_cast<std::size_t>(section_node)];
+/// @param side   the edge that the node is the middle of; null: none
+/// @param joint  the tie of a mid-side that two elements side by side have beside one long element; null: another node
+void SectionSweep::tie(int section_node, const SectionEdge* side, const SectionTie* joint) {
+  const double along = joint ? joint->along : 0;
   const std::map<LayerSpan, int> made = numbers_[static_cast<std::size_t>(section_node)];
   for (const auto& [span, number] : made) {
-    const LayerSpan around = this->span(level, span.lower);
+    if (joint && !tie_acts(*joint, span)) continue;
+    const SectionEdge* edge = joint ? &joint->edge : side && has_edge(*side, span.lower) ? side : nullptr;
+    const LayerSpan around = this->span(node_level(section_node, span.lower), span.lower);
     const bool on_end = span.lower == span.upper && around.lower == span.lower;
     const bool free = edge ? on_end && along == 0 : on_end || span == around;
     if (free) continue;
@@ -188,14 +229,14 @@ SolidMesh SectionSweep::take() {
   const int count = static_cast<int>(numbers_.size());
   for (const SectionTie& tied : section_.ties) sides.erase(tied.node);
   for (int i = 0; i < count; ++i) {
-    if (is_corner[static_cast<std::size_t>(i)] && !sides.contains(i)) tie(i, nullptr, 0);
+    if (is_corner[static_cast<std::size_t>(i)] && !sides.contains(i)) tie(i, nullptr, nullptr);
   }
   for (const bool corners : {true, false}) {
     for (const auto& [middle, edge] : sides) {
-      if ((is_corner[static_cast<std::size_t>(middle)] != 0) == corners) tie(middle, &edge, 0);
+      if ((is_corner[static_cast<std::size_t>(middle)] != 0) == corners) tie(middle, &edge, nullptr);
     }
   }
-  for (const SectionTie& tied : section_.ties) tie(tied.node, &tied.edge, tied.along);
+  for (const SectionTie& tied : section_.ties) tie(tied.node, &tied.edge, &tied);
 
   SolidMesh mesh;
   mesh.nodes.resize(3, static_cast<Eigen::Index>(points_.size()));

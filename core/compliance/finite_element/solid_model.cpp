@@ -110,6 +110,10 @@ void check(const SolidMesh& mesh, const Material& material, const std::vector<No
   if (alone != used.end()) {
     throw InvalidInput("mesh.nodes", "number " + std::to_string(alone - used.begin()) + " is in no brick", "nodes that belong to a brick");
   }
+  const auto is_too_soft = [](double factor) { return !(factor > 0); };
+  if (!mesh.stiffness.empty() && (std::ssize(mesh.stiffness) != mesh.bricks.cols() || std::ranges::any_of(mesh.stiffness, is_too_soft))) {
+    throw InvalidInput("mesh.stiffness", std::to_string(mesh.stiffness.size()) + " factors", "none, or one above 0 for every brick");
+  }
   std::vector<char> tied(static_cast<std::size_t>(n), 0);
   for (const TiedNode& tie : mesh.tied) {
     if (tie.node < 0 || tie.node >= n) throw InvalidInput("mesh.tied", std::to_string(tie.node), "node numbers below " + std::to_string(n));
@@ -227,6 +231,7 @@ class Assembly {
       const BrickMotion brick(mesh, ties, e);
       const std::vector<int>& nodes = brick.nodes;
       Eigen::MatrixXd stiffness = brick.reduce(brick_stiffness(mesh.brick_nodes(e), material));
+      if (!mesh.stiffness.empty()) stiffness *= mesh.stiffness[static_cast<std::size_t>(e)];
       for (int i = 0; i < std::ssize(nodes); ++i) {
         const int t = turn[nodes[i]];
         if (t < 0) continue;

@@ -24,6 +24,8 @@ struct SolidMesh {
   Eigen::Matrix3Xd nodes;                         ///< [mm], 3 x n
   Eigen::Matrix<int, 20, Eigen::Dynamic> bricks;  ///< node numbers, 20 x m, in the order of BrickNodes
   std::vector<TiedNode> tied{};
+  /// Young's modulus of every brick over that of the material, > 0; empty: 1.
+  std::vector<double> stiffness{};
 
   BrickNodes brick_nodes(Eigen::Index brick) const;
   /// Smallest brick_quality() of the mesh.

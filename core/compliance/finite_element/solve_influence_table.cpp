@@ -31,10 +31,8 @@ std::vector<FlankPoint> flank_points(const GearMesh& mesh, const StationGrid& gr
 InfluenceTableTask in_modules(InfluenceTableTask task) {
   GearToMesh& gear = task.gear;
   const double module = gear.normal_module;
-  for (double* length : {&gear.gear.face_width, &gear.gear.tip_diameter, &gear.body.shaft_diameter, &gear.body.bore_diameter,
-                         &gear.body.shaft_overhang, &gear.normal_module}) {
-    *length /= module;
-  }
+  for (double* length : {&gear.gear.face_width, &gear.gear.tip_diameter, &gear.normal_module}) *length /= module;
+  gear.body = in_units(gear.body, module);
   return task;
 }
 
@@ -49,9 +47,28 @@ bool alike_but_for_size(const InfluenceTableTask& one, const InfluenceTableTask&
   return fields(a) == fields(b);
 }
 
+bool reads_rim_motion(const GearBody& body) { return body.web && !body.rigid; }
+
 int teeth_apart_in_contact(const GearPair& pair) { return static_cast<int>(std::floor(PathOfContact(pair).last_line_phase())); }
 
 namespace {
+
+/// Adds columns on the right; a matrix without any takes the other's rows.
+void append_columns(Eigen::SparseMatrix<double>& left, const Eigen::SparseMatrix<double>& right) {
+  Eigen::SparseMatrix<double> both(right.rows(), left.cols() + right.cols());
+  both.reserve(left.nonZeros() + right.nonZeros());
+  for (const Eigen::SparseMatrix<double>* part : {static_cast<const Eigen::SparseMatrix<double>*>(&left), &right}) {
+    const Eigen::Index first = part == &right ? left.cols() : 0;
+    for (Eigen::Index column = 0; column < part->cols(); ++column) {
+      both.startVec(first + column);
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(*part, column); entry; ++entry) {
+        both.insertBack(entry.row(), first + column) = entry.value();
+      }
+    }
+  }
+  both.finalize();
+  left.swap(both);
+}
 
 /// Solves into a run, which holds what was done before an allocation fails.
 class TableSolver {
@@ -70,6 +87,9 @@ class TableSolver {
     SolidStiffness stiffness(mesh.solid, material, mesh.supports);
     statistics.unknowns = stiffness.lower.rows();
     RootStressReadings readings = task_.root_stress ? root_stress_readings(mesh, material) : RootStressReadings{};
+    const Eigen::Index of_stress = readings.functionals.cols();
+    const bool has_rim = reads_rim_motion(task_.gear.body);
+    if (has_rim) append_columns(readings.functionals, rim_functionals(mesh));
     FlankFunctionals functionals(mesh, flank_points(mesh, task_.grid), task_.removed, taken(readings.functionals));
     const double model = clock.seconds();
     int last = 0;
@@ -84,7 +104,12 @@ class TableSolver {
     if (run_.status != FactorStatus::Factorised) return;
     const FlankInfluence influence = functionals.influence(solved.gram, axial_hold_compliance(mesh, material, task_.removed));
     run_.table.emplace(task_.grid, tables(influence.compliance.middleCols(task_.teeth_apart * task_.grid.size(), task_.grid.size())));
-    if (task_.root_stress) run_.root_stress = root_stress_table(mesh, task_.grid, readings.fillet, influence.readings);
+    if (has_rim) run_.rim_motion = rim_motion_table(mesh, task_.grid, influence.readings.bottomRows(influence.readings.rows() - of_stress));
+    if (task_.root_stress && has_rim) {
+      run_.root_stress = root_stress_table(mesh, task_.grid, readings.fillet, influence.readings.topRows(of_stress));
+    } else if (task_.root_stress) {
+      run_.root_stress = root_stress_table(mesh, task_.grid, readings.fillet, influence.readings);
+    }
     statistics.solve_seconds = clock.seconds() - statistics.model_seconds;
     report(kTableSteps);
   }
@@ -122,6 +147,7 @@ InfluenceTableRun solve_influence_table(const InfluenceTableTask& task, double m
     run.status = FactorStatus::OutOfMemory;
     run.table.reset();
     run.root_stress.reset();
+    run.rim_motion.reset();
   }
   return run;
 }

@@ -5,6 +5,7 @@
 
 #include "core/compliance/finite_element/influence.hpp"
 #include "core/compliance/finite_element/influence_table.hpp"
+#include "core/compliance/finite_element/rim_motion.hpp"
 #include "core/compliance/finite_element/root_stress_table.hpp"
 #include "core/gear/gear_pair.hpp"
 
@@ -26,6 +27,9 @@ InfluenceTableTask in_modules(InfluenceTableTask task);
 /// Whether two tasks have the same result: equal in modules, however the flanks are cut.
 bool alike_but_for_size(const InfluenceTableTask& one, const InfluenceTableTask& other);
 
+/// Whether the run of a gear also reads the motion of its rim.
+bool reads_rim_motion(const GearBody& body);
+
 /// Most teeth apart that two points of a pair in contact at once can be, the extended region included.
 int teeth_apart_in_contact(const GearPair& pair);
 
@@ -35,6 +39,7 @@ struct InfluenceTableRun {
   std::optional<InfluenceTable> table;         ///< empty unless status is Factorised
   std::optional<RootStressTable> root_stress;  ///< empty unless asked for and status is Factorised
   RunStatistics statistics;
+  std::optional<RimMotionTable> rim_motion{};  ///< empty unless the gear has a web, does not count as rigid, and status is Factorised
 };
 
 /// Progress of a run in steps of about the same time: kModelSteps until the matrix is ordered, the rest for the elimination.

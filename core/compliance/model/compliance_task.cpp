@@ -26,15 +26,20 @@ InfluenceTableTask influence_table_task(const ComplianceTask& task, Member membe
   if (task.model == ComplianceModel::Fitted) run.mesh = coarse_mesh();
   with_gear_names(task.model, member, [&] {
     const ToothForm form(run.gear.gear, run.gear.normal_module, run.gear.pressure_angle, run.gear.helix_angle);
-    run.gear.body = complete_body(pinion ? task.body.pinion : task.body.wheel, form, run.gear.normal_module);
+    run.gear.body = complete_body(pinion ? task.body.pinion : task.body.wheel, form, run.gear.normal_module, gear.data.face_width);
+    if (run.gear.body.web) run.gear.body.web->web_offset = 0.0 - pair.acute_end(member) * run.gear.body.web->web_offset;  // GearToMesh's frame
     // The gear's torsion starts where the torque leaves it, and the shaft's own bearings hold it axially.
     if (const std::optional<ShaftData>& shaft = pinion ? task.shaft.pinion : task.shaft.wheel) {
       run.removed = RemovedRigidMotion::WholeTranslationTorsionAndTilt;
       run.gear.body.torque_end = shaft->torque_side() == pair.acute_end(member) ? FaceEnd::Acute : FaceEnd::Obtuse;
     }
+    if (run.gear.body.hold == BodyHold::RigidBore) {
+      run.removed = RemovedRigidMotion::None;
+      run.gear.body.torque_end = FaceEnd::Obtuse;  // the bore carries all
+    }
     GearMeshOptions options = run.mesh;
     options.teeth_each_side = run.teeth_apart;
-    section_radii(form, gear.data.teeth, run.gear.normal_module, run.gear.body, options);  // only for what it refuses
+    section_radii(form, gear.data.teeth, run.gear.normal_module, gear.data.face_width, run.gear.body, options);  // only for what it refuses
   });
   return run;
 }
@@ -50,14 +55,22 @@ std::vector<std::string> library_notes(const ComplianceTask& task) {
     const InfluenceTableTask gear = influence_table_task(task, member);
     const std::string unknown = unknown_to_library(task, gear);
     if (unknown.empty()) continue;
-    const bool narrower = task_of_fit(gear).grid.face_width() < gear.grid.face_width();
+    const bool own_run = !alike_but_for_size(task_of_fit(gear), gear);
     notes.push_back(std::string("the ") + name_of(member) + " is outside the library of fits (" + unknown + "): its first run takes " +
-                    (narrower ? "three" : "two") + " finite-element models instead of one, and a fit of its own");
+                    (own_run ? "three" : "two") + " finite-element models instead of one, and a fit of its own");
   }
   return notes;
 }
 
 InfluenceTableTask task_of_fit(InfluenceTableTask coarse) {
+  const bool is_own_body = !coarse.gear.body.web && coarse.gear.body.hold == BodyHold::Shaft;
+  if (!is_own_body) {  // the kernels are the tooth's, whatever is below it
+    const GearToMesh& gear = coarse.gear;
+    coarse.gear.body =
+        complete_body({}, ToothForm(gear.gear, gear.normal_module, gear.pressure_angle, gear.helix_angle), gear.normal_module, gear.gear.face_width);
+    coarse.removed = RemovedRigidMotion::TranslationTorsionAndTilt;
+    coarse.root_stress = false;
+  }
   if (coarse.grid.face_width() <= widest_own_fit) return coarse;
   coarse.gear.gear.face_width = widest_own_fit * coarse.gear.normal_module;
   coarse.grid = station_grid(widest_own_fit);

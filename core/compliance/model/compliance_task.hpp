@@ -36,7 +36,8 @@ std::string unknown_to_library(const ComplianceTask& task, const InfluenceTableT
 /// @throws InvalidInput  as influence_table_task()
 std::vector<std::string> library_notes(const ComplianceTask& task);
 
-/// The task of a gear's own fit: the coarse task, with a face of at most widest_own_fit.
+/// The task of a gear's own fit: the coarse task, with a face of at most widest_own_fit and, of a gear on a web or with a bore that is held, a
+/// solid body on its shaft.
 InfluenceTableTask task_of_fit(InfluenceTableTask coarse);
 
 /// Runs `work` on one gear; errors name the gear's own keys.

@@ -15,7 +15,7 @@ enum class Purpose {
   Gear,       ///< its influence values
   Fine,       ///< what its own fit shall meet
   RigidBody,  ///< the same with a rigid body below its teeth
-  FitCoarse,  ///< the coarse run of that fit, where the gear's own run has a wider face
+  FitCoarse,  ///< the coarse run of that fit, where the gear's own run has a wider face or another body
 };
 
 /// The purpose of a run.
@@ -37,6 +37,14 @@ GearRun& place_of(FiniteElementRuns& runs, const Use& use) {
       return runs.narrow[i].emplace();
   }
   __builtin_unreachable();
+}
+
+/// The body of a run, in the frame of the pair [mm].
+GearBody body_used(const ComplianceTask& task, const Use& use) {
+  const InfluenceTableTask own = influence_table_task(task, use.member);
+  GearBody body = use.purpose == Purpose::Fine || use.purpose == Purpose::FitCoarse ? task_of_fit(own).gear.body : own.gear.body;
+  if (body.web) body.web->web_offset = 0.0 - task.pair.acute_end(use.member) * body.web->web_offset;
+  return body;
 }
 
 /// One mesh of one or both gears of a pair, alike but for their size.
@@ -66,9 +74,9 @@ std::vector<Job> jobs_of(const ComplianceTask& pair) {
     if (!unknown_to_library(pair, task).empty()) {
       InfluenceTableTask fit = task_of_fit(task), fine = fit;
       fine.mesh = {};
-      const bool narrower = fit.grid.face_width() < task.grid.face_width();
-      if (narrower) add({member, Purpose::FitCoarse}, std::move(fit));
-      if (!narrower) task.root_stress = false;  // the finest mesh of the whole face tells it
+      const bool own_run = !alike_but_for_size(fit, task);
+      if (own_run) add({member, Purpose::FitCoarse}, std::move(fit));
+      if (!own_run) task.root_stress = false;  // the finest mesh of the whole face tells it
       add({member, Purpose::Fine}, std::move(fine));
     }
     if (pair.rigid_bodies && couples_teeth(pair.model)) {
@@ -177,9 +185,11 @@ FiniteElementRuns solve_finite_elements(const ComplianceTask& task, const Compli
     const auto table = std::make_shared<const InfluenceTable>(std::move(*job.run.table));
     std::shared_ptr<const RootStressTable> root_stress;
     if (job.run.root_stress) root_stress = std::make_shared<const RootStressTable>(std::move(*job.run.root_stress));
+    std::shared_ptr<const RimMotionTable> rim_motion;
+    if (job.run.rim_motion) rim_motion = std::make_shared<const RimMotionTable>(std::move(*job.run.rim_motion));
     for (const Use& use : job.uses) {
-      place_of(runs, use) = {table,          root_stress, job.run.statistics, influence_table_task(task, use.member).gear.body, job.task.removed,
-                             job.from_cache, job.file,    job.seconds};
+      place_of(runs, use) = {table,    root_stress, job.run.statistics, body_used(task, use), job.task.removed, job.from_cache,
+                             job.file, job.seconds, rim_motion};
     }
   }
   runs.seconds = clock.seconds();

@@ -27,18 +27,19 @@ struct GearRun {
   std::shared_ptr<const InfluenceTable> table;
   std::shared_ptr<const RootStressTable> root_stress;  ///< null where the task does not want it
   RunStatistics statistics;                            ///< of the run, whenever it was made
-  GearBody body;                                       ///< used [mm]
+  GearBody body;                                       ///< used [mm]; the web's offset along the pair's z
   RemovedRigidMotion removed{RemovedRigidMotion::TranslationTorsionAndTilt};
   bool from_cache{false};
-  std::string file;           ///< where it is kept; empty: nowhere
-  double seconds{not_given};  ///< wall time in this build
+  std::string file;                                    ///< where it is kept; empty: nowhere
+  double seconds{not_given};                           ///< wall time in this build
+  std::shared_ptr<const RimMotionTable> rim_motion{};  ///< null: a solid disc
 };
 
 struct FiniteElementRuns {
   std::array<GearRun, 2> gears;  ///< pinion, wheel; by coarse_mesh() where the compliance is "fitted"
   /// By the default mesh, for an own fit, in addition to `gears`: gears outside the library of fits.
   std::array<std::optional<GearRun>, 2> fine;
-  /// By coarse_mesh(), with the face of the fine run, where that is narrower than the gear's own.
+  /// By coarse_mesh(), with face and body of the fine run, where that face is narrower than the gear's own or the gear's body is not solid.
   std::array<std::optional<GearRun>, 2> narrow;
   /// As `gears` with rigid bodies; where ComplianceTask::rigid_bodies.
   std::array<std::optional<GearRun>, 2> rigid_body;

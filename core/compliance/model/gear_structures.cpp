@@ -50,6 +50,11 @@ GearStructures build_compliance(const ComplianceTask& task, const ComplianceBuil
     const GearStructure pinion = structure(Member::Pinion, task.material.pinion);
     const GearStructure wheel = structure(Member::Wheel, task.material.wheel);
     structures.pair = std::make_shared<const StructuralPair>(task.pair, pinion, wheel);
+    if (runs[Member::Pinion].rim_motion || runs[Member::Wheel].rim_motion) {
+      structures.rim_motion = std::make_shared<const PairRimMotion>(
+          task.pair, PerGear<PairRimMotion::Rim>{{runs[Member::Pinion].rim_motion, task.material.pinion.youngs_modulus},
+                                                 {runs[Member::Wheel].rim_motion, task.material.wheel.youngs_modulus}});
+    }
   }
   if (const auto& pinion = runs.root_stress(Member::Pinion)) {
     structures.root_stress = std::make_shared<const TabulatedRootStress>(task.pair, pinion, runs.root_stress(Member::Wheel));

@@ -6,6 +6,7 @@
 
 #include "core/compliance/model/gear_correction.hpp"
 #include "core/compliance/pair/pair_compliance.hpp"
+#include "core/compliance/pair/pair_rim_motion.hpp"
 #include "core/compliance/pair/pair_root_stress.hpp"
 
 namespace flankwright {
@@ -14,6 +15,7 @@ namespace flankwright {
 struct GearStructures {
   std::shared_ptr<const PairCompliance> pair;         ///< null for "rigid" and "thin_slice", which need none
   std::shared_ptr<const PairRootStress> root_stress;  ///< null where the task does not want it
+  std::shared_ptr<const PairRimMotion> rim_motion;    ///< null unless `pair` has a gear on a web
   std::optional<FiniteElementRuns> finite_elements;
   std::array<std::optional<GearCorrection>, 2> refinements;  ///< pinion, wheel; of "fitted" only
   std::vector<std::string> notes;                            ///< library_notes(), and fits that did not converge

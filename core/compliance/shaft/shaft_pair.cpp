@@ -66,7 +66,7 @@ std::vector<BeamPiece> shaft_pieces(const ShaftData& shaft, const Gear& gear) {
 
 ShaftBeam make_shaft_beam(const ShaftData& shaft, const Gear& gear) { return {shaft_pieces(shaft, gear), supports(shaft)}; }
 
-ShaftPair::ShaftPair(const GearPair& pair, std::optional<ShaftData> pinion, std::optional<ShaftData> wheel, GearBodyIn body)
+ShaftPair::ShaftPair(const GearPair& pair, std::optional<ShaftData> pinion, std::optional<ShaftData> wheel, PerGear<GearBodyIn> body)
     : pair_(pair), path_(pair), body_(body) {
   const auto seat = [&](Member member, std::optional<ShaftData>& data, std::optional<Side>& side) {
     if (!data) return;
@@ -81,7 +81,7 @@ ShaftPair::ShaftPair(const GearPair& pair, std::optional<ShaftData> pinion, std:
   seat(Member::Wheel, wheel, wheel_);
 }
 
-std::vector<BeamLoad> ShaftPair::loads(Member member, const std::vector<ContactPoint>& points, double axial_offset, GearBodyIn body) const {
+std::vector<BeamLoad> ShaftPair::loads(Member member, const std::vector<ContactPoint>& points, double axial_offset) const {
   using Eigen::Vector3d;
   const bool is_pinion = member == Member::Pinion;
   const ShaftData& shaft = side(member)->data;
@@ -90,15 +90,20 @@ std::vector<BeamLoad> ShaftPair::loads(Member member, const std::vector<ContactP
   const Vector3d normal(std::cos(beta) * std::sin(alpha), std::cos(beta) * std::cos(alpha), -pair_.contact_line_sense() * std::sin(beta));
   const Vector3d force = is_pinion ? Vector3d(-normal) : normal;
   std::vector<BeamLoad> result;
-  result.reserve(points.size() * static_cast<std::size_t>(parts(body)));
+  result.reserve(points.size() * static_cast<std::size_t>(parts(member)));
   for (const ContactPoint& point : points) {
     const double s = path_.roll_at(point.phase) - pair_.pitch_point;  // from the pitch point along the line of action
     const double to_axis = is_pinion ? pair_.pinion.working_pitch_radius : -pair_.wheel.working_pitch_radius;
     const Vector3d arm(to_axis + s * std::sin(alpha), s * std::cos(alpha), 0.0);
     const Vector3d moment = arm.cross(force);
     const double z = shaft.gear_position + point.z - (is_pinion ? 0.0 : axial_offset);
-    if (body == GearBodyIn::Shaft) {
+    if (body_[member] == GearBodyIn::Shaft) {
       result.push_back({z, force, moment});
+      continue;
+    }
+    if (body_[member] == GearBodyIn::RigidBore) {
+      const Vector3d from_mid_face(0.0, 0.0, z - shaft.gear_position);
+      result.push_back({shaft.gear_position, force, moment + from_mid_face.cross(force)});
       continue;
     }
     const double end = shaft.gear_position + 0.5 * shaft.torque_side() * pair_[member].data.face_width;
@@ -113,7 +118,7 @@ Eigen::MatrixXd ShaftPair::influence(const std::vector<ContactPoint>& points, do
   const auto n = static_cast<Eigen::Index>(points.size());
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n, n);
   for (Member member : {Member::Pinion, Member::Wheel}) {
-    if (has_shaft(member)) sum += side(member)->beam.flexibility(loads(member, points, axial_offset, body_), parts(body_));
+    if (has_shaft(member)) sum += side(member)->beam.flexibility(loads(member, points, axial_offset), parts(member));
   }
   return sum;
 }
@@ -130,8 +135,8 @@ ShaftMotion ShaftPair::motion(Member member, const std::vector<ContactPoint>& po
     stations[i].phase = (pair_.pitch_point - path_.roll_at_start) / path_.base_pitch;
   }
   const Eigen::VectorXd moved =
-      side(member)->beam.flexibility(loads(member, stations, axial_offset, body_), loads(member, points, axial_offset, body_), parts(body_)) *
-      forces / std::cos(pair_.base_helix_angle);
+      side(member)->beam.flexibility(loads(member, stations, axial_offset), loads(member, points, axial_offset), parts(member)) * forces /
+      std::cos(pair_.base_helix_angle);
   result.displacement = moved[1];
   result.misalignment = moved[2] - moved[0];
   return result;

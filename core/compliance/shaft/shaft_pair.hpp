@@ -16,6 +16,9 @@ enum class GearBodyIn {
   /// tilt at mid face and the rotation at the face end where the torque leaves [NetFunctionals]. Just these act on the
   /// shaft, there: the gear's torsion and the tilt of its sections against mid face remain the model's.
   Structure,
+  /// The model has the gear down to a bore that is held: forces and moments act on the shaft at mid face, on which the bore turns and tilts as a
+  /// rigid sleeve.
+  RigidBore,
 };
 
 /// The shaft with the gear on it as a beam, z from the shaft's first end.
@@ -55,7 +58,10 @@ struct ShaftMotion {
 class ShaftPair final : public PairCompliance {
  public:
   /// @throws InvalidInput  "pinion.shaft." or "wheel.shaft." and the field of find_problems()
-  ShaftPair(const GearPair& pair, std::optional<ShaftData> pinion, std::optional<ShaftData> wheel, GearBodyIn body);
+  ShaftPair(const GearPair& pair, std::optional<ShaftData> pinion, std::optional<ShaftData> wheel, PerGear<GearBodyIn> body);
+  /// Both gears alike.
+  ShaftPair(const GearPair& pair, std::optional<ShaftData> pinion, std::optional<ShaftData> wheel, GearBodyIn body)
+      : ShaftPair(pair, std::move(pinion), std::move(wheel), PerGear<GearBodyIn>{body, body}) {}
 
   /// K of both shafts together [mm/N].
   Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
@@ -72,13 +78,13 @@ class ShaftPair final : public PairCompliance {
     ShaftBeam beam;
   };
   const std::optional<Side>& side(Member m) const { return m == Member::Pinion ? pinion_ : wheel_; }
-  int parts(GearBodyIn body) const { return body == GearBodyIn::Structure ? 3 : 1; }
+  int parts(Member m) const { return body_[m] == GearBodyIn::Structure ? 3 : 1; }
   /// Wrenches of unit normal forces, parts() a point.
-  std::vector<BeamLoad> loads(Member member, const std::vector<ContactPoint>& points, double axial_offset, GearBodyIn body) const;
+  std::vector<BeamLoad> loads(Member member, const std::vector<ContactPoint>& points, double axial_offset) const;
 
   GearPair pair_;
   PathOfContact path_;
-  GearBodyIn body_;
+  PerGear<GearBodyIn> body_;
   std::optional<Side> pinion_, wheel_;
 };
 

@@ -231,6 +231,13 @@ function build_load_cases(results, body, { cases }) {
       "Peaks are the largest values over the positions and all teeth in contact; ± is the estimated discretisation error where it is available.",
       QUANTITIES.filter((of) => of.topic === topic).map(known_to));
   }
+  const rim = (gear, quantity) => (entry) => record(record(record(summary_of(entry).rims)[gear])[quantity]).mean;
+  numbers_table("Rims on webs",
+    "Means over the mesh cycle, relative to shaft or held bore: motion of the rim's centre away from the mate and towards +z, angle of its axis, and what the tilt opens "
+      + "the mesh by at +z over the common face: of the whole rim, and of the rim below the loaded teeth.",
+    ["pinion", "wheel"].flatMap((gear) => [["radial", "radial_um", "µm"], ["axial", "axial_um", "µm"], ["tilt", "tilt_mrad", "mrad"],
+      ["misalignment", "misalignment_um", "µm"], ["at teeth", "misalignment_at_teeth_um", "µm"]]
+      .map(([label, quantity, unit]) => [{ label: `${capital(gear)}, ${label}`, unit }, rim(gear, quantity)])));
   numbers_table("Numerical quality, and stiffness by ISO 6336",
     symbols("c′ and c_γ are those of ISO 6336; f_sh is the mean misalignment by the shafts. The change of harmonics is that by the last "
       + "doubling of positions. The KKT residual is the largest error of the contact conditions."), [

@@ -106,6 +106,7 @@ function build_gear_pair(results, body) {
         + "circles (dotted) and the line of action.",
     }, (plot) => draw_teeth(plot, geometry));
   }
+  build_bodies(results, body);
   const pair = el("div", { class: "tables" });
   body.append(pair);
   table(pair, {

@@ -23,7 +23,9 @@ constexpr double cost_tolerance = 1e-5;
 GearFitTask gear_fit_task(const Study& study, const GearPair& pair, Member member) {
   const FitChoice& choice = study.fit;
   GearFitTask task;
-  task.gear = influence_table_task(compliance_task(study, pair), member).gear;
+  const InfluenceTableTask table = influence_table_task(compliance_task(study, pair), member);
+  task.gear = table.gear;
+  task.removed = table.removed;
   task.material = study.material[member];
   task.form = choice.several_teeth ? KernelForm::several_teeth() : KernelForm::one_tooth_accurate();
   if (choice.several_teeth) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "studies/results/bodies_json.hpp"
 #include "studies/results/compliance_json.hpp"
 #include "studies/base/json_format.hpp"
 

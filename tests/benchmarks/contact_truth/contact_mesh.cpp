@@ -81,6 +81,20 @@ std::vector<double> layer_planes(double own_width, double common_width, const Co
   return whole;
 }
 
+/// Layers also end at z: the nearest plane moves there, or another is added.
+void end_layer_at(double z, std::vector<double>& planes) {
+  const auto above = std::upper_bound(planes.begin(), planes.end(), z);
+  if (above == planes.begin() || above == planes.end()) return;
+  double &lower = *(above - 1), &upper = *above;
+  const double near = 0.25 * (upper - lower);
+  if (z - lower < near && above - 1 != planes.begin())
+    lower = z;
+  else if (upper - z < near && above + 1 != planes.end())
+    upper = z;
+  else if (z > lower)
+    planes.insert(above, z);
+}
+
 /// The section at any z: which nodes and quads there are does not depend on z, where they lie does.
 class Section {
  public:
@@ -89,25 +103,30 @@ class Section {
         options_(options),
         form_(tooth_form(*gear.pair, gear.member)),
         pitch_(2 * pi / (*gear.pair)[gear.member].data.teeth),
-        rim_(std::max(form_.root_radius() - 1.1 * gear.pair->data.normal_module, 0.5 * (form_.root_radius() + gear.bore_radius))),
+        rim_(std::max(form_.root_radius() - 1.1 * gear.pair->data.normal_module, 0.5 * (form_.root_radius() + inside_teeth(gear, form_)))),
         path_(*gear.pair),
         root_(form_, pitch_ / 2),
         rounding_((*gear.pair)[gear.member].data.tip_rounding) {
     if (rounding_ > 0) tip_.emplace((*gear.pair)[gear.member], gear.flank->helix_rate);
     // Teeth counter-clockwise: pair k is tooth k of the pinion and -k of the wheel.
-    first_ = (pinion() ? gear.first : -gear.last) - 1;
-    last_ = (pinion() ? gear.last : -gear.first) + 1;
+    loaded_first_ = pinion() ? gear.first : -gear.last;
+    loaded_last_ = pinion() ? gear.last : -gear.first;
+    first_ = loaded_first_ - options.form_teeth;
+    last_ = loaded_last_ + options.form_teeth;
+    divide_body();
     build();
   }
 
   struct Quad {
     std::array<int, 8> nodes;
-    int pair;  ///< whose loaded flank it touches
-    int face;  ///< CalculiX' number of that face; 0: it does not touch one
+    int pair;                   ///< whose loaded flank it touches
+    int face;                   ///< CalculiX' number of that face; 0: it does not touch one
+    double half_width, middle;  ///< along z, of the part that it belongs to [mm]
+    bool in_rim;                ///< below the root circle, above the underside of a rim on a web
   };
   const std::vector<Quad>& quads() const { return quads_; }
   std::size_t size() const { return places_.size(); }
-  bool at_bore(std::size_t node) const { return places_[node].kind == Ring && places_[node].j == 2 * options_.body_rings; }
+  bool at_bore(std::size_t node) const { return places_[node].kind == Ring && places_[node].j == 2 * rings(); }
 
   Eigen::Vector2d position(std::size_t node, double z) const {
     const Polar p = polar(places_[node], z);
@@ -125,7 +144,29 @@ class Section {
   };
 
   bool pinion() const { return gear_.member == Member::Pinion; }
-  bool loaded(int tooth) const { return tooth > first_ && tooth < last_; }
+  bool loaded(int tooth) const { return tooth >= loaded_first_ && tooth <= loaded_last_; }
+  int rings() const { return static_cast<int>(ring_ends_.size()) - 1; }
+
+  static double inside_teeth(const ContactGear& gear, const ToothForm& form) {
+    return gear.web ? form.root_radius() - gear.web->rim_thickness : gear.bore_radius;
+  }
+
+  /// Rings from below the teeth to the bore; in a web, which bends, narrow next to rim and hub.
+  void divide_body() {
+    ring_ends_.push_back(rim_);
+    const auto even = [&](double to, int n) {
+      const double from = ring_ends_.back();
+      for (int i = 1; i <= n; ++i) ring_ends_.push_back(from + (to - from) * i / n);
+    };
+    if (gear_.web == nullptr) return even(gear_.bore_radius, options_.body_rings);
+    const double underside = inside_teeth(gear_, form_), hub = gear_.web->hub_diameter / 2;
+    even(underside, options_.body_rings);
+    web_begin_ = rings();
+    const int n = 4 * options_.body_rings;
+    for (int i = 1; i <= n; ++i) ring_ends_.push_back(underside + (hub - underside) * 0.5 * (1 - std::cos(pi * i / n)));
+    web_end_ = rings();
+    even(gear_.bore_radius, options_.body_rings);
+  }
   int pair_of(int tooth) const { return pinion() ? tooth : -tooth; }
   int flank_elements(int tooth) const { return loaded(tooth) ? options_.flank : options_.far_flank; }
   int steps(int tooth) const { return flank_elements(tooth) + options_.fillet; }
@@ -277,7 +318,8 @@ class Section {
       }
       case Ring: {
         Polar at = polar(places_[static_cast<std::size_t>(around_[static_cast<std::size_t>(p.i)])], z);
-        at.radius += (gear_.bore_radius - at.radius) * p.j / (2.0 * options_.body_rings);
+        const auto ring = static_cast<std::size_t>(p.j / 2);
+        at.radius = p.j % 2 == 0 ? ring_ends_[ring] : (ring_ends_[ring] + ring_ends_[ring + 1]) / 2;
         return at;
       }
     }
@@ -315,12 +357,19 @@ class Section {
                                    at(i + 1, j), at(i + 2, j + 1), at(i + 1, j + 2), at(i, j + 1)};
         const bool surface = i < 2 * surface_columns && j == 2 * rows - 2;
         const int face = !surface ? 0 : flipped ? 4 : 5;
+        const double half = (*gear_.pair)[gear_.member].data.face_width / 2;
         if (flipped)
-          quads_.push_back({{n[0], n[3], n[2], n[1], n[7], n[6], n[5], n[4]}, pair_of(tooth), face});
+          quads_.push_back({{n[0], n[3], n[2], n[1], n[7], n[6], n[5], n[4]}, pair_of(tooth), face, half, 0, is_below_root(n)});
         else
-          quads_.push_back({n, pair_of(tooth), face});
+          quads_.push_back({n, pair_of(tooth), face, half, 0, is_below_root(n)});
       }
     }
+  }
+
+  bool is_below_root(const std::array<int, 8>& nodes) const {
+    Eigen::Vector2d centre(0, 0);
+    for (std::size_t i = 0; i < 4; ++i) centre += position(static_cast<std::size_t>(nodes[i]), 0) / 4;
+    return gear_.web != nullptr && centre.norm() < form_.root_radius();
   }
 
   void build() {
@@ -335,11 +384,22 @@ class Section {
       for (int i = 2 * corner(m); i < 2 * steps(m); ++i) around_.push_back(node({Tooth, m, 1, i, 0}));
     }
     // A full turn has to close on the teeth; elements of at most 24 deg.
-    plain_ = std::max(6, static_cast<int>(std::ceil((2 * pi - (last_ - first_ + 1) * pitch_) / (20 * units::deg))));
+    plain_ = std::max(6, static_cast<int>(std::ceil((2 * pi - (last_ - first_ + 1) * pitch_) / (options_.plain_element * units::deg))));
     grid(plain_, options_.across, true, 0, 0, [&](int i, int j) { return node({Plain, 0, 0, i, j}); });
     for (int i = 0; i < 2 * plain_; ++i) around_.push_back(node({Plain, 0, 0, i, 0}));
     const auto n = static_cast<int>(around_.size());
-    grid(n / 2, options_.body_rings, false, 0, 0, [&](int i, int j) { return node({Ring, 0, 0, i % n, j}); });
+    const std::size_t above_rings = quads_.size();
+    grid(n / 2, rings(), false, 0, 0, [&](int i, int j) { return node({Ring, 0, 0, i % n, j}); });
+    if (gear_.web == nullptr) return;
+    for (std::size_t k = above_rings; k < quads_.size(); ++k) {
+      const int ring = static_cast<int>(k - above_rings) % rings();
+      quads_[k].in_rim = ring < web_begin_;
+      if (ring >= web_end_) quads_[k].half_width = gear_.web->hub_width / 2;
+      if (ring >= web_begin_ && ring < web_end_) {
+        quads_[k].half_width = gear_.web->web_thickness / 2;
+        quads_[k].middle = gear_.web->web_offset;
+      }
+    }
   }
 
   const ContactGear& gear_;
@@ -350,7 +410,9 @@ class Section {
   RootCurve root_;
   double rounding_;  ///< [mm]
   std::optional<RoundedTip> tip_;
-  int first_, last_, plain_{0};
+  int first_, last_, plain_{0}, loaded_first_, loaded_last_;
+  std::vector<double> ring_ends_;  ///< radii, inwards [mm]
+  int web_begin_{0}, web_end_{0};  ///< numbers of rings
   std::vector<Place> places_;
   std::map<Place, int> numbers_;
   std::vector<int> around_;
@@ -363,6 +425,13 @@ ContactMesh contact_mesh(const ContactGear& gear, const ContactMeshOptions& opti
   const Section section(gear, options);
   ContactMesh mesh;
   mesh.planes = layer_planes((*gear.pair)[gear.member].data.face_width, gear.pair->face_width, options, gear.half_face);
+  if (gear.web) {
+    const WebbedBody& web = *gear.web;
+    for (const double z :
+         {web.web_offset - web.web_thickness / 2, web.web_offset + web.web_thickness / 2, web.web_offset, -web.hub_width / 2, web.hub_width / 2}) {
+      end_layer_at(z, mesh.planes);
+    }
+  }
   mesh.flanks.resize(static_cast<std::size_t>(gear.last - gear.first + 1));
 
   std::map<std::pair<int, int>, int> numbers;  // of (level, node of the section)
@@ -381,7 +450,10 @@ ContactMesh contact_mesh(const ContactGear& gear, const ContactMeshOptions& opti
   };
   std::vector<std::array<int, 20>> bricks;
   for (int layer = 0; layer + 1 < static_cast<int>(mesh.planes.size()); ++layer) {
+    const double middle = (mesh.planes[static_cast<std::size_t>(layer)] + mesh.planes[static_cast<std::size_t>(layer) + 1]) / 2;
     for (const Section::Quad& quad : section.quads()) {
+      if (std::abs(middle - quad.middle) > quad.half_width) continue;
+      if (quad.in_rim) mesh.rim.push_back(static_cast<int>(bricks.size()));
       std::array<int, 20> brick;
       for (std::size_t i = 0; i < 4; ++i) {
         brick[i] = node(2 * layer, quad.nodes[i]);

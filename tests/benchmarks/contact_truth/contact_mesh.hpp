@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/compliance/finite_element/gear_body.hpp"
 #include "core/compliance/finite_element/solid_model.hpp"
 #include "core/contact/assembly/flank_assembly.hpp"
 #include "core/contact/path/path_of_contact.hpp"
@@ -20,7 +21,9 @@ struct ContactMeshOptions {
   double end_layer{1.5};      ///< axial size at the ends of the common face, also beyond them on a wider gear
   double layer_growth{1.6};   ///< of neighbouring layers
   double largest_layer{6.0};  ///< axial size at mid face
-  int body_rings{2};          ///< from below the teeth to the bore
+  int body_rings{2};          ///< from below the teeth to the bore; of a gear on a web in rim and hub, four times as many in the web
+  int form_teeth{1};          ///< teeth with their form on either side of those that are loaded
+  double plain_element{20};   ///< widest element around the axis where nothing meshes [deg]
   double edge_finest{0};      ///< delta where contact reaches a rounded tip edge; 0: the same as elsewhere
   double edge_reach{0};       ///< distance of the contact from the edge below which it is taken to reach it
 };
@@ -30,10 +33,11 @@ struct ContactGear {
   const GearPair* pair{nullptr};
   const Flank* flank{nullptr};  ///< the loaded one, with its modifications
   Member member{Member::Pinion};
-  double line_phase{0};   ///< of tooth pair 0
-  double bore_radius{0};  ///< where the gear is held [mm]
-  int first{0}, last{0};  ///< tooth pairs that are meshed for contact; one more tooth on either side has its form
-  bool half_face{false};  ///< z <= 0 only, mirrored at mid face (spur gears, symmetric flanks)
+  double line_phase{0};            ///< of tooth pair 0
+  double bore_radius{0};           ///< where the gear is held [mm]
+  int first{0}, last{0};           ///< tooth pairs that are meshed for contact; one more tooth on either side has its form
+  bool half_face{false};           ///< z <= 0 only, mirrored at mid face (spur gears, symmetric flanks)
+  const WebbedBody* web{nullptr};  ///< with its hub's diameter and width; null: a solid disc
 };
 
 /// An element's face of a loaded flank, as CalculiX counts them.
@@ -49,12 +53,13 @@ struct ContactMesh {
   std::vector<int> mid_face;                     ///< nodes at z = 0 where only half of the face is meshed
   std::vector<std::vector<ElementFace>> flanks;  ///< of pairs first .. last, with their roundings
   std::vector<double> planes;                    ///< z of the layers' ends [mm]
+  std::vector<int> rim;                          ///< bricks between root circle and underside of a rim on a web
 };
 
 /// Loaded teeth follow the true flank surface; other flanks and fillets are those of ToothForm, and where nothing
 /// meshes the gear is a plain ring at root height. Elements are narrow around the contact line wherever it crosses the
 /// flank: the spacing along the profile is s_c(z) + delta sinh(linear in the index), s the arc length and s_c the
-/// undisturbed contact. A tip rounding is meshed on its true arc, and the spacing goes on over it onto the tip land; where contact reaches the
+/// undisturbed contact. On a web the rim is as wide as the face, web and hub have their own widths, and layers end where these do. A tip rounding is meshed on its true arc, and the spacing goes on over it onto the tip land; where contact reaches the
 /// edge s_c is its end on the flank, and there is a node at s_c. The mate's s_c is where that edge meets it.
 ContactMesh contact_mesh(const ContactGear& gear, const ContactMeshOptions& options);
 

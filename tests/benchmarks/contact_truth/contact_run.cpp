@@ -3,6 +3,7 @@
 
 #include <sys/resource.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -41,7 +42,8 @@ struct ContactModel {
     for (const Member m : {Member::Pinion, Member::Wheel}) {
       const std::size_t g = m == Member::Pinion ? 0 : 1;
       const Flank& flank = g == 0 ? scene.pinion : scene.wheel;
-      meshes[g] = contact_mesh({&pair, &flank, m, task.phase, task.bore_radius[g], first, last, task.half_face}, options);
+      const WebbedBody* web = task.web[m] ? &*task.web[m] : nullptr;
+      meshes[g] = contact_mesh({&pair, &flank, m, task.phase, task.bore_radius[g], first, last, task.half_face, web}, options);
     }
     first_node = {0, meshes[0].solid.nodes.cols()};
     first_brick = {0, meshes[0].solid.bricks.cols()};
@@ -59,6 +61,39 @@ struct ContactModel {
     return {begin, begin + static_cast<std::ptrdiff_t>(n)};
   }
   std::size_t layers() const { return meshes[0].planes.size() - 1; }
+  std::vector<int> rim_nodes(std::size_t gear) const {
+    std::set<int> nodes;
+    for (const int brick : meshes[gear].rim) {
+      for (int i = 0; i < 20; ++i) nodes.insert(meshes[gear].solid.bricks(i, brick));
+    }
+    return {nodes.begin(), nodes.end()};
+  }
+  /// See ContactAnswer::rim.
+  Eigen::Vector<double, 6> rim_motion(std::size_t gear, const std::map<Eigen::Index, Eigen::Vector3d>& displacements) const {
+    const ContactMesh& mesh = meshes[gear];
+    const Eigen::Vector3d centre = gear == 0 ? Eigen::Vector3d(0, 0, 0) : scene.wheel_centre;
+    Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
+    Eigen::Vector<double, 6> right = Eigen::Vector<double, 6>::Zero();
+    for (const int brick : mesh.rim) {
+      BrickNodes nodes, moved;
+      for (int i = 0; i < 20; ++i) {
+        nodes.col(i) = place(gear, mesh.solid.bricks(i, brick)) - centre;
+        moved.col(i) = displacements.at(mesh.solid.bricks(i, brick));
+      }
+      for (int i = 0; i < 27; ++i) {
+        const int a = i % 3, b = i / 3 % 3, c = i / 9;
+        const BrickShape shape = brick_shape({gauss3_abscissae[a], gauss3_abscissae[b], gauss3_abscissae[c]});
+        const Eigen::Matrix3d jacobian = nodes * shape.derivatives;
+        const double volume = gauss3_weights[a] * gauss3_weights[b] * gauss3_weights[c] * std::abs(jacobian.determinant());
+        const Eigen::Vector3d x = nodes * shape.values;
+        Eigen::Matrix<double, 6, 3> rigid;  // u = rigid' (t, omega)
+        rigid << Eigen::Matrix3d::Identity(), Eigen::Matrix3d{{0, -x.z(), x.y()}, {x.z(), 0, -x.x()}, {-x.y(), x.x(), 0}};
+        normal += volume * rigid * rigid.transpose();
+        right += volume * rigid * (moved * shape.values);
+      }
+    }
+    return normal.ldlt().solve(right);
+  }
 };
 
 std::string numbered(std::string name, std::size_t number) { return name += std::to_string(number); }
@@ -116,6 +151,9 @@ void write_deck(std::ostream& out, const ContactModel& model, const ContactTask&
     node_set(numbered("BORE", g), g, model.meshes[g].bore);
     if (task.half_face) node_set(numbered("MIDDLE", g), g, model.meshes[g].mid_face);
   }
+  for (std::size_t g : {0U, 1U}) {
+    if (!model.meshes[g].rim.empty()) node_set(numbered("RIM", g), g, model.rim_nodes(g));
+  }
   out << "*ELSET, ELSET=SKIN\n";
   for (const auto& flank : model.meshes[0].flanks) {
     for (const ElementFace& f : flank) out << f.brick + 1 << ",\n";
@@ -143,6 +181,9 @@ void write_deck(std::ostream& out, const ContactModel& model, const ContactTask&
     out << n + 1 << ", 1, 1, " << -turn * p.y() << '\n' << n + 1 << ", 2, 2, " << turn * p.x() << '\n';
   }
   out << "*NODE PRINT, NSET=BORE0\nRF\n*NODE PRINT, NSET=BORE1\nRF\n";
+  for (std::size_t g : {0U, 1U}) {
+    if (!model.meshes[g].rim.empty()) out << "*NODE PRINT, NSET=" << numbered("RIM", g) << "\nU\n";
+  }
   for (int k = model.first; k <= model.last; ++k) {
     for (std::size_t layer = 0; layer < model.layers(); ++layer) {
       out << "*CONTACT PRINT, SLAVE=" << slave(k, layer) << ", MASTER=" << master(k) << "\nCF\n";
@@ -170,7 +211,8 @@ void read_answer(std::istream& in, const ContactModel& model, bool half_face, Co
       for (const ElementFace& f : model.layer_faces(0, k, layer)) layer_of[f.brick + 1] = {k, layer};
     }
   }
-  enum { Nothing, Bore0, Bore1, Stress } block = Nothing;
+  enum { Nothing, Bore0, Bore1, Stress, Rim0, Rim1 } block = Nothing;
+  std::map<Eigen::Index, Eigen::Vector3d> rims[2];
   double moments[2] = {0, 0};
   bool complete = false;
   for (std::string line; std::getline(in, line);) {
@@ -183,6 +225,10 @@ void read_answer(std::istream& in, const ContactModel& model, bool half_face, Co
       block = Bore0;
     } else if (line.find("set BORE1") != line.npos)
       block = Bore1;
+    else if (line.find("set RIM0") != line.npos)
+      block = Rim0;
+    else if (line.find("set RIM1") != line.npos)
+      block = Rim1;
     else if (line.find("stresses (elem") != line.npos)
       block = Stress;
     else if (line.find("total surface force") != line.npos) {
@@ -205,6 +251,10 @@ void read_answer(std::istream& in, const ContactModel& model, bool half_face, Co
         stress << xx, xy, xz, xy, yy, yz, xz, yz, zz;
         const double lowest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly).eigenvalues()[0];
         compression[layer_of[number]] = std::max(compression[layer_of[number]], -lowest);
+      } else if (block == Rim0 || block == Rim1) {
+        const std::size_t g = block == Rim0 ? 0 : 1;
+        Eigen::Vector3d u;
+        if (words >> u.x() >> u.y() >> u.z()) rims[g][number - 1 - model.first_node[g]] = u;
       } else {
         const std::size_t g = block == Bore0 ? 0 : 1;
         Eigen::Vector3d force;
@@ -217,6 +267,12 @@ void read_answer(std::istream& in, const ContactModel& model, bool half_face, Co
   }
   if (half_face) {
     for (double& m : moments) m *= 2;
+  }
+  if (complete) {
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      const std::size_t g = m == Member::Pinion ? 0 : 1;
+      if (!model.meshes[g].rim.empty()) answer.rim[m] = model.rim_motion(g, rims[g]);
+    }
   }
   // Both bores hold against the drive: the pinion's moment drives, and the wheel's hinders its clockwise turn.
   answer.pinion_torque = moments[0];

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <filesystem>
+#include <optional>
 #include <vector>
 
 #include "core/contact/gap/gap.hpp"
@@ -12,14 +13,15 @@ namespace flankwright::contact_truth {
 /// One position of a pair in three-dimensional contact. Both gears are rigid at their bores; the wheel's is held, the
 /// pinion's turned.
 struct ContactTask {
-  PairData pair;                        ///< the pinion drives its right flanks
-  FlankCondition condition{};           ///< modifications, and misalignment, which places the wheel
-  double phase{not_given};              ///< line phase of tooth pair 0 [base pitches], see PathOfContact
-  double approach{not_given};           ///< turn of the pinion from where undisturbed flanks touch, times r_b1 cos(beta_b) [mm]
-  std::array<double, 2> bore_radius{};  ///< pinion, wheel [mm]
-  bool half_face{false};                ///< see ContactGear
-  bool plane_strain{false};             ///< no node moves along the axis (spur gears)
-  Material material{};                  ///< of both gears
+  PairData pair;                             ///< the pinion drives its right flanks
+  FlankCondition condition{};                ///< modifications, and misalignment, which places the wheel
+  double phase{not_given};                   ///< line phase of tooth pair 0 [base pitches], see PathOfContact
+  double approach{not_given};                ///< turn of the pinion from where undisturbed flanks touch, times r_b1 cos(beta_b) [mm]
+  std::array<double, 2> bore_radius{};       ///< pinion, wheel [mm]
+  bool half_face{false};                     ///< see ContactGear
+  bool plane_strain{false};                  ///< no node moves along the axis (spur gears)
+  Material material{};                       ///< of both gears
+  PerGear<std::optional<WebbedBody>> web{};  ///< with hub diameter and width; empty: solid discs
 };
 
 /// How CalculiX is to solve it.
@@ -43,6 +45,9 @@ struct ContactAnswer {
   double processor_seconds{not_given}, peak_bytes{not_given};
   double pinion_torque{not_given}, wheel_torque{not_given};  ///< reactions of the bores on the whole face [N mm], > 0
   std::vector<LayerLoad> layers;                             ///< by tooth pair and rising z, z <= 0 only of half a face
+  /// Translation and rotation about the gear's own axis at mid face, in the housing's frame, of the rigid motion that fits a rim on a web best over its
+  /// volume [mm, rad]; NaN: a solid disc.
+  PerGear<Eigen::Vector<double, 6>> rim{Eigen::Vector<double, 6>::Constant(not_given), Eigen::Vector<double, 6>::Constant(not_given)};
 
   double force() const;             ///< of all layers [N]
   double share(int tooth) const;    ///< of the force [-]

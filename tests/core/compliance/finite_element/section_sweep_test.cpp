@@ -30,7 +30,7 @@ TEST_CASE("Where short layers meet joined ones an even stress stays even (patch 
   const SolidMesh mesh = gear_mesh(gear, short_layers(0.75)).solid;
   REQUIRE(mesh.tied.size() > 400);
   const ToothForm form(gear.gear, gear.normal_module, gear.pressure_angle, gear.helix_angle);
-  REQUIRE(section_mesh(form, 30, 1, gear.body, short_layers(0.75)).ties.size() > 10);  // elements side by side are joined, too
+  REQUIRE(section_mesh(form, 30, 1, 5, gear.body, short_layers(0.75)).ties.size() > 10);  // elements side by side are joined, too
   const Eigen::Matrix3d stress{{100, 20, -30}, {20, -50, 10}, {-30, 10, 70}};
   const Material steel{206000, 0.3};
 
