@@ -21,6 +21,7 @@ namespace {
 using Edge = Eigen::Matrix<double, 2, 3>;  ///< nodes of an edge: corner, mid-side, corner
 
 constexpr std::array heights{0.05, 0.12, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.78, 0.85, 0.9, 0.94, 0.97};
+constexpr double closest_to_tip = 0.99;     ///< height up to which the last two are extrapolated
 constexpr double half_width_share = 0.027;  ///< L over the length of the flank, so that the pressure lies on it at the last height
 constexpr int flank_elements = 36;          ///< as long as the pressure is wide, or shorter
 
@@ -180,6 +181,7 @@ class FaceFunctional {
 /// The gear's tooth in the section across the contact line, m_n = 1.
 GearData equivalent_spur_gear(const Gear& gear, const GearPair& pair) {
   GearData spur = gear.data;
+  spur.face_width = gear.data.face_width / pair.data.normal_module;
   spur.teeth = static_cast<int>(std::lround(gear.virtual_teeth));
   spur.tip_diameter = spur.teeth + 2 * (gear.tip_radius - gear.reference_radius) / pair.data.normal_module;
   // Rounded, a tooth that is all but pointed may become so: then it is cut off where it is as thick as elements can show.
@@ -209,7 +211,11 @@ HalfSpaceCorrection solve_half_space_correction(const Gear& gear, const GearPair
   options.fillet_elements = 8;
   options.teeth_each_side = 1;
   options.layer_share = 0;
-  const SectionMesh mesh = section_mesh(form, spur.teeth, 1, complete_body({}, form, 1), options);
+  options.shaft_elements = 1;
+  // The body yields alike under both loads: two modules below the root it may as well be rigid.
+  GearBody body;
+  body.shaft_diameter = std::max(default_shaft_diameter(form, 1), 2 * (form.root_radius() - 2));
+  const SectionMesh mesh = section_mesh(form, spur.teeth, 1, spur.face_width, complete_body(body, form, 1, spur.face_width), options);
   std::set<int> held;
   for (Eigen::Index quad = 0; quad < mesh.quads.cols(); ++quad) {
     if (mesh.parts[static_cast<std::size_t>(quad)] == SectionPart::Shaft) held.insert(mesh.quads.col(quad).begin(), mesh.quads.col(quad).end());
@@ -238,7 +244,13 @@ HalfSpaceCorrection solve_half_space_correction(const Gear& gear, const GearPair
     values.push_back(readings.col(2 * i).dot(moved.col(2 * i)) - readings.col(2 * i + 1).dot(moved.col(2 * i + 1)) -
                      half_space_deflection(places[static_cast<std::size_t>(i)].law_depth, half_width, poissons_ratio));
   }
-  return {gear.form_radius, gear.tip_radius, {heights.begin(), heights.end()}, values};
+  // Closer to the tip, where no pressure fits in, the deflection goes on growing with the logarithm of the distance as at the edge of a wedge.
+  std::vector<double> all(heights.begin(), heights.end());
+  const std::size_t last = heights.size() - 1;
+  all.push_back(closest_to_tip);
+  values.push_back(values[last] + (values[last] - values[last - 1]) * std::log((1 - all[last]) / (1 - closest_to_tip)) /
+                                      std::log((1 - all[last - 1]) / (1 - all[last])));
+  return {gear.form_radius, gear.tip_radius, all, values};
 }
 
 }  // namespace flankwright

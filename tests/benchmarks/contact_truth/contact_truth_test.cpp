@@ -27,10 +27,8 @@ void compare_with(const std::vector<ContactFigure>& figures, double load_error) 
     CAPTURE(figure.task.phase, figure.task.condition.modification.pinion.lead_crowning);
     const OwnAnswer own = own_answer(figure.task, figure.torque, structure.get());
     REQUIRE(own.loaded.load.usable());
-    // Model: ours is stiffer by 2 to 4 % (the split into structure and contact,
-    // core/compliance/finite_element/README.md, takes 1 to 4 % off). Discretisation: 1 % of ours, 1 % of CalculiX'.
-    CHECK(own.loaded.load.transmission_error < 1.01 * figure.task.approach);
-    CHECK(own.loaded.load.transmission_error > 0.93 * figure.task.approach);
+    // Model: 1 %. Discretisation: ours takes up to 1.1 % off (coarse elements), CalculiX' coarse mesh of the helical pair 0.5 %.
+    CHECK(own.loaded.load.transmission_error == Approx(figure.task.approach).epsilon(0.015));
     for (const auto& [tooth, share] : figure.shares) CHECK(own.share(tooth) == Approx(share).margin(0.02));  // model
     for (const FaceLoad& load : figure.loads) {
       CAPTURE(load.tooth, load.begin);
@@ -46,8 +44,8 @@ TEST_CASE("A spur pair shares its load and yields as in CalculiX' contact of who
 }
 
 TEST_CASE("A helical pair shares its load and yields as in CalculiX' contact of whole gears", "[reference][contact-truth][slow]") {
-  // Next to where the shorter line ends 9.1 % too much, elsewhere within 4 %.
-  compare_with(helical_figures(), 0.095);
+  // Next to where the shorter line ends 8.3 % too much, elsewhere within 2.5 %.
+  compare_with(helical_figures(), 0.09);
 }
 
 TEST_CASE("Acute and obtuse ends of helical teeth take load off as in CalculiX' contact of whole gears", "[reference][contact-truth][slow]") {
@@ -57,7 +55,8 @@ TEST_CASE("Acute and obtuse ends of helical teeth take load off as in CalculiX' 
   for (const FaceLoad& load : helical_end_loads()) {
     CAPTURE(load.tooth, load.begin, load.end);
     // Model: stress and load vary by half within the outermost fifth of a module; with upright ends these were 37 to 43 % too high.
-    CHECK(own.mean_face_load(load.tooth, load.begin, load.end) == Approx(load.per_face_width).epsilon(load.end - load.begin < 2 ? 0.22 : 0.06));
+    // Where the acute end meets the wheel's tip (z < 0, pair 0) the corner softens more than tip and end by themselves: 24 % too high.
+    CHECK(own.mean_face_load(load.tooth, load.begin, load.end) == Approx(load.per_face_width).epsilon(load.end - load.begin < 2 ? 0.26 : 0.065));
   }
 }
 
@@ -76,9 +75,7 @@ TEST_CASE("A rounded tip edge carries the load and the pressure that CalculiX fi
     CHECK(own.share(figure.edge_pair) == Approx(figure.share).margin(0.01));  // model
     // Model: ours is 1 to 3 % higher at the loads that ours has. Discretisation: CalculiX' rises by 2 % from 24 x 8 to 36 x 10 elements.
     CHECK(own.peak_stress(figure.edge_pair) == Approx(figure.stress).epsilon(0.05));
-    // Model: the split into structure and contact leaves 2 to 3 % out.
-    CHECK(own.loaded.load.transmission_error < figure.task.approach);
-    CHECK(own.loaded.load.transmission_error > 0.965 * figure.task.approach);
+    CHECK(own.loaded.load.transmission_error == Approx(figure.task.approach).epsilon(0.02));  // model: the pinion's edge 1.5 %
   }
 }
 
