@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/base/error.hpp"
+
 namespace flankwright {
 
 namespace {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "core/base/error.hpp"
 #include "core/gear/pair_geometry.hpp"
 
 namespace flankwright {
