@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "core/fidelity/cycle_quantities.hpp"
@@ -19,28 +20,31 @@ struct Ranked {
   PeakCandidate candidate;
 };
 
-std::vector<Ranked> rank(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, double margin) {
+void require_usable(const LoadedCycle& cycle) {
   if (!cycle.usable()) throw std::runtime_error("the load distribution did not converge at every mesh position");
+}
+
+/// Candidates within a relative margin of an output's value, the largest first.
+std::vector<Ranked> rank(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, double margin) {
+  const double value = output_value(term, model, cycle), least = (1.0 - margin) * value;
   const DesignOutput& row = design_output(term.output);
+  if (row.smooth != nullptr) return {{value, whole_output}};
   const int positions = static_cast<int>(cycle.positions.size());
   std::vector<Ranked> ranked;
-  if (row.smooth != nullptr) {
-    ranked.push_back({row.smooth(term, model, cycle, -1).value, whole_output});
-    return ranked;
-  }
+  const auto add = [&](double candidate_value, int position, int other) {
+    if (!(candidate_value < least)) ranked.push_back({candidate_value, {position, other}});
+  };
   if (row.at_points != nullptr) {
     for (int i = 0; i < positions; ++i) {
       const Eigen::VectorXd values = row.at_points(term, model, cycle, i);
-      for (int j = 0; j < values.size(); ++j) ranked.push_back({values[j], {i, j}});
+      for (int j = 0; j < values.size(); ++j) add(values[j], i, j);
     }
   } else {
     // Differences between positions near the top and near the bottom.
     const Eigen::VectorXd te = cycle.transmission_error();
-    const double span = te.maxCoeff() - te.minCoeff();
     for (int i = 0; i < positions; ++i) {
-      if (te[i] < te.maxCoeff() - margin * span) continue;
       for (int j = 0; j < positions; ++j) {
-        if (i != j || positions == 1) ranked.push_back({te[i] - te[j], {i, j}});
+        if (i != j || positions == 1) add(te[i] - te[j], i, j);
       }
     }
   }
@@ -52,7 +56,16 @@ std::vector<Ranked> rank(const ObjectiveTerm& term, const MeshModel& model, cons
 }  // namespace
 
 double output_value(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle) {
-  return rank(term, model, cycle, 0.0).front().value;
+  require_usable(cycle);
+  const DesignOutput& row = design_output(term.output);
+  if (row.smooth != nullptr) return row.smooth(term, model, cycle, -1).value;
+  if (row.at_points == nullptr) {
+    const Eigen::VectorXd te = cycle.transmission_error();
+    return te.maxCoeff() - te.minCoeff();
+  }
+  double value = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < std::ssize(cycle.positions); ++i) value = std::max(value, row.at_points(term, model, cycle, i).maxCoeff());
+  return value;
 }
 
 ResolvedValue resolved_value(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, const ResolvedCycle& resolved) {
@@ -73,16 +86,15 @@ std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const M
     for (int direction = 0; direction < harmonic_directions; ++direction) leading.push_back({-1, direction});
     return leading;
   }
-  const std::vector<Ranked> ranked = rank(term, model, cycle, margin);
-  for (const Ranked& r : ranked) {
-    if (leading.size() == most || r.value < (1.0 - margin) * ranked.front().value) break;
+  for (const Ranked& r : rank(term, model, cycle, margin)) {
+    if (leading.size() == most) break;
     leading.push_back(r.candidate);
   }
   return leading;
 }
 
 SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& candidate, const MeshModel& model, const LoadedCycle& cycle) {
-  if (!cycle.usable()) throw std::runtime_error("the load distribution did not converge at every mesh position");
+  require_usable(cycle);
   const DesignOutput& row = design_output(term.output);
   if (row.smooth != nullptr) return row.smooth(term, model, cycle, candidate.other);
   const LoadedPosition& position = at(cycle, candidate.position);
