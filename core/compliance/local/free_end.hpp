@@ -41,6 +41,8 @@ namespace flankwright {
 /// The body is assumed to extend far beyond h. A tooth does not, and the contribution of an upright end is smaller by
 /// 0.05 to 0.1 from s = 0 to h. The sum with the structural deflection matters, and it is as good at the end as at mid
 /// face (finite_element/README.md).
+/// Beside finite elements of the structure the bracket is counted from its value at mid face, because their structural deflection at mid face already has what
+/// the ends soften there (effects/tip_corner.hpp).
 ///
 /// Within about the half width next to the end the pressure itself is wider and lower than Hertz's of the same load, by
 /// the root of 1 + kappa/(1 - nu^2) at the very end: 11 % for nu = 0.3, 4 % half a half width away and 2 % a whole one.

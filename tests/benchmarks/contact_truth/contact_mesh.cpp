@@ -8,92 +8,14 @@
 
 #include "core/compliance/thin_slice/thin_slice.hpp"
 #include "core/contact/path/contact_points.hpp"
+#include "tests/benchmarks/contact_truth/mesh_layers.hpp"
+#include "tests/benchmarks/contact_truth/root_curve.hpp"
 #include "tests/benchmarks/contact_truth/rounded_tip.hpp"
 
 namespace flankwright::contact_truth {
 namespace {
 
 using units::pi;
-
-struct Polar {
-  double radius, angle;
-};
-Polar blend(const Polar& a, const Polar& b, double t) { return {a.radius + t * (b.radius - a.radius), a.angle + t * (b.angle - a.angle)}; }
-
-/// The fillet and half the root land by arc length, 0 .. 1; angles from the tooth's centre line.
-class RootCurve {
- public:
-  RootCurve(const ToothForm& form, double gap) {
-    constexpr int samples = 200;
-    for (int i = 0; i <= samples; ++i) {
-      const ProfilePoint p = form.fillet_point(form.fillet_start() + (pi / 2 - form.fillet_start()) * i / samples);
-      add({std::hypot(p.x, p.y), std::atan2(p.x, p.y)});
-    }
-    const double start = points_.back().angle;
-    for (int i = 1; i <= 20; ++i) add({form.root_radius(), start + (gap - start) * i / 20});
-  }
-  Polar at(double t) const {
-    const double s = t * length_.back();
-    const auto above = std::upper_bound(length_.begin() + 1, length_.end() - 1, s) - length_.begin();
-    const auto i = static_cast<std::size_t>(above);
-    return blend(points_[i - 1], points_[i], (s - length_[i - 1]) / (length_[i] - length_[i - 1]));
-  }
-
- private:
-  void add(const Polar& p) {
-    const double step = points_.empty() ? 0 : std::hypot(p.radius - points_.back().radius, p.radius * (p.angle - points_.back().angle));
-    length_.push_back(length_.empty() ? 0 : length_.back() + step);
-    points_.push_back(p);
-  }
-  std::vector<Polar> points_;
-  std::vector<double> length_;
-};
-
-/// Sizes growing from both ends of `length` (or from the first only), as positions from 0.
-std::vector<double> layer_ends(double length, const ContactMeshOptions& options, bool half) {
-  const double reach = half ? length : length / 2;
-  std::vector<double> ends{0};
-  for (double size = options.end_layer; ends.back() < reach; size = std::min(size * options.layer_growth, options.largest_layer)) {
-    ends.push_back(ends.back() + size);
-  }
-  if (ends.size() > 2 && ends.back() - reach > reach - ends[ends.size() - 2]) ends.pop_back();
-  const double scale = reach / ends.back();
-  for (double& end : ends) end *= scale;
-  if (!half) {
-    for (std::size_t i = ends.size() - 1; i-- > 0;) ends.push_back(length - ends[i]);
-  }
-  return ends;
-}
-
-/// z of the layers' ends of a gear: those of the common face, and beyond it layers that grow outwards.
-std::vector<double> layer_planes(double own_width, double common_width, const ContactMeshOptions& options, bool half) {
-  std::vector<double> planes;
-  for (const double end : layer_ends(half ? common_width / 2 : common_width, options, half)) planes.push_back(end - common_width / 2);
-  const double overhang = (own_width - common_width) / 2;
-  if (overhang <= 0) return planes;
-  std::vector<double> whole;
-  const std::vector<double> beyond = layer_ends(overhang, options, true);
-  for (std::size_t i = beyond.size() - 1; i > 0; --i) whole.push_back(planes.front() - beyond[i]);
-  whole.insert(whole.end(), planes.begin(), planes.end());
-  if (!half) {
-    for (std::size_t i = 1; i < beyond.size(); ++i) whole.push_back(planes.back() + beyond[i]);
-  }
-  return whole;
-}
-
-/// Layers also end at z: the nearest plane moves there, or another is added.
-void end_layer_at(double z, std::vector<double>& planes) {
-  const auto above = std::upper_bound(planes.begin(), planes.end(), z);
-  if (above == planes.begin() || above == planes.end()) return;
-  double &lower = *(above - 1), &upper = *above;
-  const double near = 0.25 * (upper - lower);
-  if (z - lower < near && above - 1 != planes.begin())
-    lower = z;
-  else if (upper - z < near && above + 1 != planes.end())
-    upper = z;
-  else if (z > lower)
-    planes.insert(above, z);
-}
 
 /// The section at any z: which nodes and quads there are does not depend on z, where they lie does.
 class Section {
@@ -424,14 +346,7 @@ class Section {
 ContactMesh contact_mesh(const ContactGear& gear, const ContactMeshOptions& options) {
   const Section section(gear, options);
   ContactMesh mesh;
-  mesh.planes = layer_planes((*gear.pair)[gear.member].data.face_width, gear.pair->face_width, options, gear.half_face);
-  if (gear.web) {
-    const WebbedBody& web = *gear.web;
-    for (const double z :
-         {web.web_offset - web.web_thickness / 2, web.web_offset + web.web_thickness / 2, web.web_offset, -web.hub_width / 2, web.hub_width / 2}) {
-      end_layer_at(z, mesh.planes);
-    }
-  }
+  mesh.planes = layer_planes(gear, options);
   mesh.flanks.resize(static_cast<std::size_t>(gear.last - gear.first + 1));
 
   std::map<std::pair<int, int>, int> numbers;  // of (level, node of the section)

@@ -1,16 +1,16 @@
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <sstream>
 #include <string>
 
 #include "core/base/stopwatch.hpp"
+#include "core/gear/gear_pair.hpp"
 #include "studies/compliance/study_compliance.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "tests/benchmarks/contact_truth/benchmark_cases.hpp"
 #include "tests/benchmarks/contact_truth/contact_cases.hpp"
 #include "tests/benchmarks/contact_truth/held_structure.hpp"
 #include "tests/benchmarks/contact_truth/own_answer.hpp"
-#include "core/gear/gear_pair.hpp"
 
 // A gear pair in full three-dimensional contact by CalculiX, beside the program's own models at the torque that came
 // out:
@@ -106,25 +106,13 @@ void compare_edges(const ContactCase& c, const ContactSettings& settings, const 
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    std::fprintf(stderr, "usage: %s FOLDER [MESH] [PART_OF_A_CASE'S_NAME]\n", argv[0]);
-    return 2;
-  }
-  if (!calculix_is_installed()) {
-    std::fprintf(stderr, "CalculiX (ccx, Debian package calculix-ccx) is not installed\n");
-    return 1;
-  }
+  const std::string mesh = argc > 2 ? argv[2] : "medium";
   ContactSettings settings;
-  settings.mesh = contact_mesh_options(argc > 2 ? argv[2] : "medium");
-  int number = 0;
-  for (const ContactCase& c : contact_cases()) {
-    ++number;
-    if (argc > 3 && c.name.find(argv[3]) == c.name.npos) continue;
-    const bool fine = argc > 2 && std::strcmp(argv[2], "fine") == 0;
-    if (c.task.pair.pinion.tip_rounding > 0) {
-      compare_edges(c, fine ? edge_settings(c.task, 36, 10) : edge_settings(c.task), std::string(argv[1]) + "/" + std::to_string(number));
-      continue;
-    }
-    compare(c, settings, std::string(argv[1]) + "/" + std::to_string(number));
-  }
+  settings.mesh = contact_mesh_options(mesh);
+  return run_cases(argc, argv, "", contact_cases(), [&](const ContactCase& c, const std::string& folder) {
+    if (c.task.pair.pinion.tip_rounding > 0)
+      compare_edges(c, mesh == "fine" ? edge_settings(c.task, 36, 10) : edge_settings(c.task), folder);
+    else
+      compare(c, settings, folder);
+  });
 }

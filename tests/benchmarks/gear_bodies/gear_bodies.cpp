@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <string>
 
+#include "tests/benchmarks/contact_truth/benchmark_cases.hpp"
 #include "tests/benchmarks/contact_truth/own_answer.hpp"
 #include "tests/benchmarks/gear_bodies/body_cases.hpp"
 
@@ -47,22 +48,9 @@ void compare(const BodyCase& c, const ContactSettings& settings, const std::stri
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 2) {
-    std::fprintf(stderr, "usage: %s FOLDER [MESH] [PART_OF_A_CASE'S_NAME] [FORM_TEETH]\n", argv[0]);
-    return 2;
-  }
-  if (!calculix_is_installed()) {
-    std::fprintf(stderr, "CalculiX (ccx, Debian package calculix-ccx) is not installed\n");
-    return 1;
-  }
   ContactSettings settings;
   settings.mesh = contact_mesh_options(argc > 2 ? argv[2] : "medium");
   settings.mesh.plain_element = 10;
   if (argc > 4) settings.mesh.form_teeth = std::stoi(argv[4]);
-  int number = 0;
-  for (const BodyCase& c : body_cases()) {
-    ++number;
-    if (argc > 3 && c.name.find(argv[3]) == c.name.npos) continue;
-    compare(c, settings, std::string(argv[1]) + "/" + std::to_string(number));
-  }
+  return run_cases(argc, argv, " [FORM_TEETH]", body_cases(), [&](const BodyCase& c, const std::string& folder) { compare(c, settings, folder); });
 }
