@@ -76,6 +76,7 @@ class MeshBuilder {
   std::vector<EndDistances> end_distances;            ///< one a point
   std::vector<std::optional<RoundedEdge>> tip_edges;  ///< one a point; nothing: contact does not see an edge
   std::vector<Corrections> corrections;               ///< one a point
+  OutsideMotion outside;                              ///< of the shafts by other forces than the mesh's
   std::vector<ContactLaw> laws;                       ///< one a point, or none
   RootStressInfluence root_stress;
 

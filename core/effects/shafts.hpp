@@ -4,7 +4,7 @@
 
 namespace flankwright {
 
-/// Shafts bend, shear and twist on their bearings, which moves all points together, see ShaftPair.
+/// Shafts bend, shear and twist on their bearings, which moves all points together, see ShaftPair; what other meshes and loads do to them opens the gap.
 class ShaftsEffect final : public Effect {
  public:
   std::string_view name() const override { return "shafts"; }
@@ -14,7 +14,9 @@ class ShaftsEffect final : public Effect {
     return {on, on ? "a gear's shaft is described" : "no load, or no shaft is described: they are rigid"};
   }
   void act(MeshBuilder& builder) const override {
-    if (builder.parts.shafts) builder.influence += builder.parts.shafts->influence(builder.points, builder.parts.axial_offset());
+    if (builder.parts.shafts == nullptr) return;
+    builder.influence += builder.parts.shafts->influence(builder.points, builder.parts.axial_offset());
+    builder.outside = builder.parts.shafts->outside_motion(builder.points, builder.parts.axial_offset());
   }
 };
 

@@ -35,7 +35,7 @@ class Cases {
   /// @param left_out  name of what the decisions leave out; empty: nothing
   Case with(const EffectDecisions& decisions, const std::string& left_out = {}) const {
     FlankCondition condition = apply_effects(decisions, scene_.condition);
-    const MeshPlacement placement = MeshPlacement::of(gap_model(decisions), condition.misalignment);
+    const MeshPlacement placement = placement_of(gap_model(decisions), condition.misalignment, scene_.shafts, scene_.pinion_torque);
     const PairCompliance& structure = scene_.structure != nullptr ? *scene_.structure : slices_;
     const auto make = [&] {
       return mesh_with_effects(gears_, scene_.resolution, mesh_effects(decisions), placement, structure, nullptr, scene_.shafts);
@@ -153,7 +153,7 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
   for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
     const MeshPosition& at = other.model->positions[i];
     const LoadDistribution& solved = cycle.positions[i].load;
-    const Eigen::VectorXd gap = gaps.at(at.points, at.phase).total;
+    const Eigen::VectorXd gap = gap_under(at, gaps, cycle.force).total;
     const Eigen::VectorXd most = cycle.force * at.weight.cwiseInverse();
     const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(*other.model, at, other.condition, most);
     const LoadProblem problem{at.influence, at.weight, gap, moved_edges.empty() ? at.laws : moved_edges, cycle.force};

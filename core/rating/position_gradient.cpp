@@ -44,8 +44,14 @@ ParameterSlopes end_slopes(const MeshModel& model, const FlankCondition& conditi
 
 void add_line_ends(const MeshModel& model, const FlankCondition& condition, const MeshPosition& at, const LoadedPosition& loaded,
                    const std::vector<LineEnd>& ends, const std::vector<MeshParameter>& parameters, PositionGradient& gradient) {
-  const ParameterSlopes slopes = end_slopes(model, condition, loaded.phase, ends, parameters);
-  const Eigen::MatrixXd& gap = slopes.gap;
+  ParameterSlopes slopes = end_slopes(model, condition, loaded.phase, ends, parameters);
+  Eigen::MatrixXd& gap = slopes.gap;
+  for (std::size_t p = 0; p < parameters.size() && at.outside.by_force.size() > 0; ++p) {
+    if (!std::holds_alternative<PinionTorque>(parameters[p])) continue;
+    for (Eigen::Index i = 0; i < gap.rows(); ++i) {
+      gap(i, static_cast<Eigen::Index>(p)) += model.normal_force(1.0) * extrapolated(at, ends[static_cast<std::size_t>(i)], at.outside.by_force)[0];
+    }
+  }
   gradient.line_end_load = gradient.line_end_stress = Eigen::MatrixXd::Zero(gap.rows(), gap.cols());
   for (Eigen::Index i = 0; i < gap.rows(); ++i) {
     const LineEnd& end = ends[static_cast<std::size_t>(i)];

@@ -79,11 +79,13 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_str
   std::map<MeshPlacement, std::shared_ptr<const MeshModel>> models;
   for (const DesignScene& scene : task_.scenes) {
     if (!(scene.torque > 0.0)) throw InvalidInput("load.torque", std::to_string(scene.torque), "above 0 to optimise");
-    models.try_emplace(MeshPlacement::of(task_.gap, scene.condition.misalignment));
+    models.try_emplace(placement_of(task_.gap, scene.condition.misalignment, task_.shafts.get(), scene.torque));
   }
   tbb::this_task_arena::isolate(
       [&] { tbb::parallel_for_each(models, [this](auto& known) { known.second = std::make_shared<const MeshModel>(mesh(known.first)); }); });
-  for (const DesignScene& scene : task_.scenes) models_.push_back(models.at(MeshPlacement::of(task_.gap, scene.condition.misalignment)));
+  for (const DesignScene& scene : task_.scenes) {
+    models_.push_back(models.at(placement_of(task_.gap, scene.condition.misalignment, task_.shafts.get(), scene.torque)));
+  }
   for (const ModificationConstraint& c : task_.modification_constraints) {
     if (modification_scale(c) == 0.0) throw InvalidInput("optimise.constraints." + c.name, "no variable in it", "a sum that a variable changes");
   }

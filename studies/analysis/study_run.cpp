@@ -54,19 +54,21 @@ MeshModel StudyRun::mesh(const MeshPlacement& placement, const MeshResolution& r
   return with_perturbed_meshes(placed(placement), placed, parameters);
 }
 
-MeshPlacement StudyRun::placement_of(const Misalignment& misalignment) const { return MeshPlacement::of(gap_model(results_.effects), misalignment); }
+MeshPlacement StudyRun::placement_of(const Misalignment& misalignment, double torque) const {
+  return flankwright::placement_of(gap_model(results_.effects), misalignment, results_.shafts.get(), torque);
+}
 
-MeshAt StudyRun::mesh_at(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters) {
-  return [this, placement = placement_of(misalignment), parameters](const std::vector<double>& phases) {
+MeshAt StudyRun::mesh_at(const Misalignment& misalignment, double torque, const std::vector<MeshParameter>& parameters) {
+  return [this, placement = placement_of(misalignment, torque), parameters](const std::vector<double>& phases) {
     return mesh(placement, {results_.study.fidelity.quadrature, phases}, nullptr, parameters);
   };
 }
 
-MeshAt StudyRun::remembered_mesh_at(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters) {
-  MeshAt made = mesh_at(misalignment, parameters);
+MeshAt StudyRun::remembered_mesh_at(const Misalignment& misalignment, double torque, const std::vector<MeshParameter>& parameters) {
+  MeshAt made = mesh_at(misalignment, torque, parameters);
   if (!parameters.empty()) return made;
   const std::lock_guard lock(memories_mutex_);
-  return memories_[placement_of(misalignment)].remembering(std::move(made));
+  return memories_[placement_of(misalignment, torque)].remembering(std::move(made));
 }
 
 std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) const {
@@ -89,7 +91,7 @@ std::vector<std::size_t> StudyRun::models_for(const std::vector<DesignScene>& sc
   std::vector<std::size_t> models;
   std::vector<MeshPlacement> unknown;
   for (const DesignScene& scene : scenes) {
-    const MeshPlacement placement = placement_of(scene.condition.misalignment);
+    const MeshPlacement placement = placement_of(scene.condition.misalignment, scene.torque);
     const auto [it, is_new] = model_index_.try_emplace(placement, results_.models.size() + unknown.size());
     if (is_new) unknown.push_back(placement);
     models.push_back(it->second);
@@ -109,30 +111,30 @@ std::vector<MeshModel> StudyRun::meshes(const std::vector<MeshPlacement>& placem
   return made;
 }
 
-std::vector<const MeshModel*> StudyRun::coarse_meshes_for(const std::vector<Misalignment>& misalignments) {
+std::vector<const MeshModel*> StudyRun::coarse_meshes_for(const std::vector<MeshPlacement>& placements) {
   Quadrature quadrature = results_.study.fidelity.quadrature;
-  std::vector<const MeshModel*> coarse(misalignments.size(), nullptr);
+  std::vector<const MeshModel*> coarse(placements.size(), nullptr);
   if (!results_.study.cycle.phases.empty() || results_.phases.size() < 4 || quadrature.intervals < 2) return coarse;
   quadrature.intervals /= 2;
   std::vector<MeshPlacement> unknown;
-  for (const Misalignment& misalignment : misalignments) {
-    if (coarse_models_.try_emplace(placement_of(misalignment)).second) unknown.push_back(placement_of(misalignment));
+  for (const MeshPlacement& placement : placements) {
+    if (coarse_models_.try_emplace(placement).second) unknown.push_back(placement);
   }
   std::vector<MeshModel> made = meshes(unknown, {quadrature, coarse_phases(results_.phases)}, {});
   for (std::size_t i = 0; i < unknown.size(); ++i) coarse_models_[unknown[i]] = std::move(made[i]);
-  for (std::size_t i = 0; i < coarse.size(); ++i) coarse[i] = &coarse_models_.at(placement_of(misalignments[i]));
+  for (std::size_t i = 0; i < coarse.size(); ++i) coarse[i] = &coarse_models_.at(placements[i]);
   return coarse;
 }
 
 std::vector<ResolvedCycle> StudyRun::resolved(const std::vector<SolvedCase>& cases, bool with_errors) {
-  std::vector<Misalignment> misalignments;
-  for (const SolvedCase& of : cases) misalignments.push_back(of.scene.condition.misalignment);
-  const std::vector<const MeshModel*> coarse = with_errors ? coarse_meshes_for(misalignments) : std::vector<const MeshModel*>(cases.size(), nullptr);
+  std::vector<MeshPlacement> placements;
+  for (const SolvedCase& of : cases) placements.push_back(placement_of(of.scene.condition.misalignment, of.scene.torque));
+  const std::vector<const MeshModel*> coarse = with_errors ? coarse_meshes_for(placements) : std::vector<const MeshModel*>(cases.size(), nullptr);
   std::vector<ResolvedCycle> all(cases.size());
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
     const auto& [scene, model, cycle] = cases[i];
     const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>& parameters) {
-      return remembered_mesh_at(scene.condition.misalignment, parameters)(phases);
+      return remembered_mesh_at(scene.condition.misalignment, scene.torque, parameters)(phases);
     };
     std::optional<LoadedCycle> coarse_cycle;
     if (coarse[i] != nullptr) coarse_cycle = analyse_cycle(*coarse[i], scene.condition, scene.torque);
@@ -203,8 +205,8 @@ void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::str
 
 void StudyRun::rate() {
   if (!locates_peaks(results_.study)) return;
-  const auto mesh = [&](const Misalignment& m, const std::vector<MeshParameter>& by) { return remembered_mesh_at(m, by); };
   for (LoadedResult& loaded : results_.loaded) {
+    const auto mesh = [&](const Misalignment& m, const std::vector<MeshParameter>& by) { return remembered_mesh_at(m, loaded.torque, by); };
     if (loaded.cycle.usable()) loaded.rating = rater_.rate(mesh, loaded.condition, loaded.torque, gradient_parameters());
   }
 }

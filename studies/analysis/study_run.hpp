@@ -64,12 +64,12 @@ class StudyRun {
                  const std::vector<MeshParameter>& parameters);
   std::vector<MeshModel> meshes(const std::vector<MeshPlacement>& placements, const MeshResolution& resolution,
                                 const std::vector<MeshParameter>& parameters);
-  MeshAt mesh_at(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters = {});
+  MeshAt mesh_at(const Misalignment& misalignment, double torque, const std::vector<MeshParameter>& parameters = {});
   /// The same, positions that are known already not made again where there are no parameters. May be called by several threads at a time.
-  MeshAt remembered_mesh_at(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters);
-  MeshPlacement placement_of(const Misalignment& misalignment) const;
+  MeshAt remembered_mesh_at(const Misalignment& misalignment, double torque, const std::vector<MeshParameter>& parameters);
+  MeshPlacement placement_of(const Misalignment& misalignment, double torque) const;
   std::vector<std::size_t> models_for(const std::vector<DesignScene>& scenes);
-  std::vector<const MeshModel*> coarse_meshes_for(const std::vector<Misalignment>& misalignments);
+  std::vector<const MeshModel*> coarse_meshes_for(const std::vector<MeshPlacement>& placements);
   std::vector<MeshParameter> gradient_parameters() const;
   void note_fits();
   void add_unloaded(const Scene& scene);

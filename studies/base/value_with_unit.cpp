@@ -15,7 +15,7 @@ namespace flankwright::studies {
 
 namespace {
 
-enum class Dimension { None, Length, Angle, Torque, Stress, LineLoad, InverseLength, InverseAngle, Time };
+enum class Dimension { None, Length, Angle, Torque, Force, Stress, LineLoad, InverseLength, InverseAngle, Time };
 
 constexpr double pound_force = 4.4482216152605;  // N, exact by definition
 constexpr double foot = 12.0 * units::inch;      // mm
@@ -49,6 +49,9 @@ constexpr std::array known_units{
     Unit{"inlbf", Dimension::Torque, pound_force* units::inch},
     Unit{"lbfft", Dimension::Torque, pound_force* foot},
     Unit{"ftlbf", Dimension::Torque, pound_force* foot},
+    Unit{"N", Dimension::Force, 1.0},
+    Unit{"kN", Dimension::Force, 1e3},
+    Unit{"lbf", Dimension::Force, pound_force},
     Unit{"MPa", Dimension::Stress, 1.0},
     Unit{"GPa", Dimension::Stress, 1e3},
     Unit{"Pa", Dimension::Stress, 1e-6},
@@ -97,6 +100,8 @@ constexpr Convention convention(Quantity quantity) {
       return {Dimension::Angle, "arcmin", "arcmin", "arcmin, arcsec, deg, rad, mrad, urad"};
     case Quantity::Torque:
       return {Dimension::Torque, "Nm", "N·m", "N·m, kN·m, N·mm, lbf in, lbf ft"};
+    case Quantity::Force:
+      return {Dimension::Force, "N", "N", "N, kN, lbf"};
     case Quantity::Stress:
       return {Dimension::Stress, "MPa", "MPa", "MPa, GPa, Pa, N/mm2, psi, ksi"};
     case Quantity::LineLoad:

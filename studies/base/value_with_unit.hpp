@@ -14,6 +14,7 @@ enum class Quantity {
   Angle,           ///< bare: deg; inside rad
   SmallAngle,      ///< misalignment; bare: arcmin; inside rad
   Torque,          ///< bare: N·m; inside N mm
+  Force,           ///< bare: N; inside N
   Stress,          ///< bare: MPa; inside MPa
   LineLoad,        ///< bare: N/mm; inside N/mm
   Stiffness,       ///< of a bearing; bare: N/um; inside N/mm

@@ -46,23 +46,35 @@ void export_vtk(const std::string& json, const fs::path& results, const fs::path
 }  // namespace
 
 int import_command(const ImportCommand& options) {
-  const fs::path study = options.study;
-  const rexs::ImportedStudy imported =
-      rexs::import_stage(read_whole(options.file), options.file,
-                         {.stage = options.stage,
-                          .slope_end = options.slope_end == "datum" ? rexs::SlopeEnd::DatumFace : rexs::SlopeEnd::NonDatumFace,
-                          .grid_stem = (options.study.empty() ? fs::path(options.file) : study).stem().string()});
-  if (options.study.empty()) {
-    if (!imported.grids.empty()) throw InvalidInput("--out", "not given", "a study file: the stage has flank grids that are stored beside it");
-    print(imported.text);
-  } else {
-    if (study.has_parent_path()) make_folder(study.parent_path());
-    for (const rexs::ImportedGrid& grid : imported.grids) write_whole(study.parent_path() / grid.name, grid.text);
-    write_whole(study, imported.text);
-    print(fmt::format("study: {}\n", study.string()));
+  const fs::path out = options.study;
+  const fs::path stem = (out.empty() ? fs::path(options.file) : out).stem();
+  const rexs::UnitImport imported =
+      rexs::import_unit(read_whole(options.file), options.file,
+                        {.stage = options.stage,
+                         .slope_end = options.slope_end == "datum" ? rexs::SlopeEnd::DatumFace : rexs::SlopeEnd::NonDatumFace,
+                         .grid_stem = stem.string()});
+  const bool one = options.stage || imported.stages.size() + imported.left_out.size() == 1;
+  std::vector<std::string> warnings;
+  if (out.has_parent_path()) make_folder(out.parent_path());
+  for (const auto& [number, stage] : imported.stages) {
+    if (one && out.empty()) {
+      if (!stage.grids.empty()) throw InvalidInput("--out", "not given", "a study file: the stage has flank grids that are stored beside it");
+      print(stage.text);
+    } else {
+      const std::string stage_stem = one ? stem.string() : rexs::stem_of_stage(stem.string(), number);
+      const fs::path study = one ? out : out.parent_path() / (stage_stem + ".toml");
+      for (const rexs::ImportedGrid& grid : stage.grids) write_whole(study.parent_path() / grid.name, grid.text);
+      write_whole(study.parent_path() / rexs::not_taken_name(stage_stem), stage.not_taken);
+      write_whole(study, stage.text);
+      print(fmt::format("study: {}\n", study.string()));
+    }
+    for (const std::string& warning : stage.warnings) {
+      warnings.push_back(one ? warning : fmt::format("stage {}: {}", number, warning));
+    }
   }
   flush_standard_output();
-  for (const std::string& warning : imported.warnings) spdlog::warn("{}", printable(warning));
+  for (const std::string& left_out : imported.left_out) spdlog::warn("left out: {}", printable(left_out));
+  for (const std::string& warning : warnings) spdlog::warn("{}", printable(warning));
   return 0;
 }
 

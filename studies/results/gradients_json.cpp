@@ -135,7 +135,7 @@ ShaftGradient shaft_gradient(const ShaftPair& shafts, Member member, const Loade
   const Eigen::Index m = position.point_force.cols();
   ShaftGradient gradient{Eigen::RowVectorXd(m), Eigen::RowVectorXd(m)};
   for (Eigen::Index p = 0; p < m; ++p) {
-    const ShaftMotion motion = shafts.motion(member, model.positions[i].points, position.point_force.col(p), model.axial_offset);
+    const ShaftMotion motion = shafts.motion_by(member, model.positions[i].points, position.point_force.col(p), model.axial_offset);
     gradient.displacement[p] = motion.displacement;
     gradient.misalignment[p] = motion.misalignment;
   }
@@ -179,6 +179,7 @@ Json gradients_json(const LoadedResult& loaded, const StudyResults& results) {
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
   Json summary = summary_gradient_json(loaded, model, outside, study.cycle.phases.empty()), cycle = Json::array(), shafts = Json::array();
   Eigen::RowVectorXd shaft_misalignment = Eigen::RowVectorXd::Zero(loaded.cycle.force_derivative.size());
+  const std::optional<ShaftPair> at_load = results.shafts ? std::optional(results.shafts->at_torque(loaded.torque)) : std::nullopt;
   for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
     const LoadedPosition& position = loaded.cycle.positions[i];
     const std::vector<LineEnd> ends = line_ends(model, model.positions[i], position, loaded.condition);
@@ -188,7 +189,7 @@ Json gradients_json(const LoadedResult& loaded, const StudyResults& results) {
                      {"te_base_tangent_um", outside.row(position.transmission_error_derivative, units::um * cos_base_helix)},
                      {"stiffness_N_per_mm_um", outside.row(stiffness_derivative(loaded.cycle, position))},
                      {"teeth", teeth_json(model.positions[i], position, gradient, ends, outside)}});
-    if (results.shafts) shafts.push_back(shafts_gradient_json(*results.shafts, loaded, model, i, gradient, outside, shaft_misalignment));
+    if (at_load) shafts.push_back(shafts_gradient_json(*at_load, loaded, model, i, gradient, outside, shaft_misalignment));
   }
   Json json{{"parameters", list(study.gradients, [](const GradientParameter& p) { return p.path; })},
             {"units", list(study.gradients, [](const GradientParameter& p) { return p.unit; })},

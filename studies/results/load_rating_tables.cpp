@@ -1,3 +1,4 @@
+#include "studies/base/json_format.hpp"
 #include "studies/base/csv.hpp"
 #include "studies/results/load_rating_tables.hpp"
 

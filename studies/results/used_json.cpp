@@ -6,6 +6,7 @@
 #include "studies/results/bodies_json.hpp"
 #include "studies/results/compliance_json.hpp"
 #include "studies/results/shafts_json.hpp"
+#include "studies/results/unit_json.hpp"
 
 namespace flankwright::studies {
 
@@ -114,6 +115,7 @@ Json used_json(const StudyResults& results) {
               {"quadrature", quadrature_json(study.fidelity.quadrature)},
               {"accuracy", study.fidelity.accuracy ? Json(*study.fidelity.accuracy) : Json()},
               {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
+  if (!study.unit.empty()) used["unit"] = unit_json(study.unit);
   if (study.misalignment.pinion_lead_angle != 0.0) {
     used["misalignment"] = {
         {"pinion_lead_angle", "lead angle changed, normal pressure angle kept: pitch radius, base radius and screw parameter follow"}};

@@ -8,7 +8,7 @@
 
 #include "core/compliance/finite_element/section_mesh.hpp"
 #include "core/compliance/model/compliance_model.hpp"
-#include "core/compliance/shaft/shaft_data.hpp"
+#include "core/compliance/shaft/unit_data.hpp"
 #include "core/contact/path/contact_points.hpp"
 #include "core/contact/assembly/misalignment.hpp"
 #include "core/gear/gear_data.hpp"
@@ -137,6 +137,7 @@ struct Study {
   PerGear<Material> material;
   PerGear<GearBody> body;                   ///< bodies below the teeth in finite elements
   PerGear<std::optional<ShaftData>> shaft;  ///< empty: rigid
+  UnitData unit;                            ///< around the pair's shafts
   std::vector<double> torques;              ///< base [load] torque list [N mm]; {0} where [load] is absent
   double marking_thickness{6.35e-3};        ///< of the compound that shows the bearing pattern [mm], > 0
   Cycle cycle;

@@ -36,6 +36,7 @@ std::vector<Section> sections_in_order() {
        "Manufacturing errors. Here metal added is positive. Lists give one value a tooth: [errors of single teeth](README.md#errors-of-single-teeth)."},
       {"pinion.body", "`[pinion.body]`", "The gear below its teeth."},
       {"pinion.shaft", "`[pinion.shaft]`", "The shaft and its bearings: [shafts](README.md#shafts)."},
+      {"unit", "`[unit]`", "The gear unit around the pair: [gear units](README.md#gear-units)."},
       {"material", "`[material]`", "For both gears."},
       {"pinion.material", "`[pinion.material]`", "For one gear, instead of `[material]`."},
       {"misalignment", "`[misalignment]`", "Deviation of the gears from their nominal position in the housing."},

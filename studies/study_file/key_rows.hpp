@@ -12,6 +12,7 @@ std::vector<SchemaKey> flank_rows();              ///< modifications and manufac
 std::vector<SchemaKey> working_condition_rows();  ///< misalignment, material, load and how it is analysed
 std::vector<SchemaKey> body_rows();               ///< gears below their teeth
 std::vector<SchemaKey> shaft_rows();              ///< shafts and their bearings
+std::vector<SchemaKey> unit_rows();               ///< the gear unit around the pair
 std::vector<SchemaKey> scene_rows();              ///< scenes and expectations
 
 constexpr Range above_zero(double high) { return {.low = 0.0, .high = high, .low_open = true}; }

@@ -155,7 +155,8 @@ void append(std::vector<SchemaKey>& schema, const std::vector<SchemaKey>& rows) 
 
 std::vector<SchemaKey> make_schema() {
   std::vector<SchemaKey> schema;
-  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), body_rows(), shaft_rows(), scene_rows()}) append(schema, rows);
+  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), body_rows(), shaft_rows(), unit_rows(), scene_rows()})
+    append(schema, rows);
   for (const Task* task : registered_tasks()) {
     if (task->keys != nullptr) append(schema, task->keys());
   }

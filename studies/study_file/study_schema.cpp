@@ -80,7 +80,8 @@ KeyIndex element_keys(const std::string& list) {
   const std::string prefix = list + "[].";
   KeyIndex keys;
   for (const SchemaKey& key : study_schema()) {
-    if (key.path.starts_with(prefix)) keys.emplace(key.path.substr(prefix.size()), &key);
+    const bool in_list_below = key.path.find("[].", prefix.size()) != std::string::npos;  // a key of a table of a list in these tables
+    if (key.path.starts_with(prefix) && !in_list_below) keys.emplace(key.path.substr(prefix.size()), &key);
   }
   return keys;
 }

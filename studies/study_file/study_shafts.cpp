@@ -3,17 +3,26 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/compliance/shaft/unit_statics.hpp"
+
 namespace flankwright::studies {
 
 namespace {
 
-void complete(ShaftData& shaft, const Material& of_gear) {
+bool is_axial(const ShaftBearing& bearing) { return bearing.axial_stiffness > 0.0; }
+
+/// @param joined  a bearing between shafts holds it axially
+void complete(ShaftData& shaft, const Material& of_gear, bool joined) {
   if (std::isnan(shaft.material.youngs_modulus)) shaft.material.youngs_modulus = of_gear.youngs_modulus;
   if (std::isnan(shaft.material.poissons_ratio)) shaft.material.poissons_ratio = of_gear.poissons_ratio;
-  const auto is_axial = [](const ShaftBearing& bearing) { return bearing.axial_stiffness > 0.0; };
-  if (!shaft.bearings.empty() && std::ranges::none_of(shaft.bearings, is_axial)) {
+  if (!shaft.bearings.empty() && !joined && std::ranges::none_of(shaft.bearings, is_axial)) {
     shaft.bearings.front().axial_stiffness = std::numeric_limits<double>::infinity();
   }
+}
+
+void refuse(StudyReading& reading, const std::string& key, const InvalidInput& problem) {
+  const Position at = reading.where(key);
+  reading.problems.push_back({at.file, at.line, at.column, key, problem.value(), "allowed is " + problem.allowed()});
 }
 
 void read_shaft(StudyReading& reading, Member member) {
@@ -21,23 +30,48 @@ void read_shaft(StudyReading& reading, Member member) {
   const bool pinion = member == Member::Pinion;
   std::optional<ShaftData>& shaft = pinion ? study.shaft.pinion : study.shaft.wheel;
   if (!shaft) return;
-  complete(*shaft, pinion ? study.material.pinion : study.material.wheel);
   const std::string table = pinion ? "pinion.shaft" : "wheel.shaft";
   const bool has_problem = std::ranges::any_of(reading.problems, [&](const StudyProblem& problem) { return problem.key.starts_with(table); });
   if (has_problem) return;  // what could not be read is missing below
-  for (const InvalidInput& problem : find_problems(*shaft, study.pair[member].face_width)) {
-    const std::string key = table + "." + problem.field();
-    const Position at = reading.where(key);
-    reading.problems.push_back({at.file, at.line, at.column, key, problem.value(), "allowed is " + problem.allowed()});
+  for (const InvalidInput& problem : find_problems(*shaft, study.pair[member].face_width)) refuse(reading, table + "." + problem.field(), problem);
+}
+
+/// The keys of [unit] and what they say together with both shafts; where all else could be read.
+void read_unit(StudyReading& reading) {
+  Study& study = reading.builder.study;
+  UnitData& unit = study.unit;
+  if (std::isnan(unit.reference_torque) && study.torques.front() > 0.0) unit.reference_torque = study.torques.front();
+  if (!reading.problems.empty() || !find_problems(study.pair).empty()) return;
+  if (!study.shaft.pinion && !study.shaft.wheel) {
+    return reading.refuse(reading.where("unit"), "unit", nullptr,
+                          "a unit needs a shaft of the pair: allowed is [pinion.shaft] or [wheel.shaft] as well");
   }
+  ShaftsOfPair all{study.shaft, unit};
+  const std::vector<InvalidInput> problems = find_problems(all, make_gear_pair(study.pair));
+  for (const InvalidInput& problem : problems) refuse(reading, problem.field(), problem);
+  if (!problems.empty()) return;
+  settle_turning_holds(all);
+  study.shaft = all.shaft;
 }
 
 }  // namespace
 
 void read_shafts(StudyReading& reading) {
-  read_shaft(reading, Member::Pinion);
-  read_shaft(reading, Member::Wheel);
-  const Study& study = reading.builder.study;
+  Study& study = reading.builder.study;
+  const auto joined = [&](const std::string& name) {
+    return std::ranges::any_of(
+        study.unit.joints, [&](const ShaftJoint& joint) { return (joint.shaft == name || joint.outer_shaft == name) && is_axial(joint.bearing); });
+  };
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    if (study.shaft[m]) complete(*study.shaft[m], study.material[m], joined(name_of(m)));
+  }
+  for (ShaftData& shaft : study.unit.shafts) complete(shaft, study.material.pinion, joined(shaft.name));
+  if (study.unit.empty() && reading.find("unit.housing.stiffness") == nullptr) {
+    read_shaft(reading, Member::Pinion);
+    read_shaft(reading, Member::Wheel);
+  } else {
+    read_unit(reading);
+  }
   const bool listed = std::ranges::find(study.fidelity.effects, "shafts") != study.fidelity.effects.end();
   if (!listed || study.shaft.pinion || study.shaft.wheel) return;
   const Match* match = reading.find("fidelity.effects");
@@ -51,7 +85,7 @@ std::shared_ptr<const ShaftPair> make_shafts(const Study& study, const GearPair&
     if (!couples_teeth(study.fidelity.compliance)) return GearBodyIn::Shaft;
     return study.body[member].hold == BodyHold::RigidBore ? GearBodyIn::RigidBore : GearBodyIn::Structure;
   };
-  return std::make_shared<const ShaftPair>(pair, study.shaft.pinion, study.shaft.wheel,
+  return std::make_shared<const ShaftPair>(pair, ShaftsOfPair{study.shaft, study.unit},
                                            PerGear<GearBodyIn>{body_in(Member::Pinion), body_in(Member::Wheel)});
 }
 

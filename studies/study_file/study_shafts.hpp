@@ -7,8 +7,8 @@
 
 namespace flankwright::studies {
 
-/// Reads what [pinion.shaft] and [wheel.shaft] leave to the rest of the study: the gear's material where the shaft has none
-/// of its own, the first bearing as the one that holds axially where none does. Refuses shafts that cannot be.
+/// Reads what [pinion.shaft], [wheel.shaft] and [unit] leave to the rest of the study: the gear's material where the shaft has none
+/// of its own, the first bearing as the one that holds axially where none does. Refuses shafts and units that cannot be.
 void read_shafts(StudyReading& reading);
 
 /// The shafts of a study as part of the influence matrix; null where it describes none.

@@ -14,6 +14,19 @@ namespace flankwright {
 /// Of either gear; null: the model's contact has none.
 using HalfSpaceCorrections = PerGear<std::shared_ptr<const HalfSpaceCorrection>>;
 
+/// How far forces beside those of the mesh move the flanks of both gears apart at contact points, normal to the flank, + opens the gap.
+struct OutsideMotion {
+  Eigen::VectorXd fixed;     ///< whatever the load, as far as it does not take shafts to the other side of a clearance [mm]; empty: nothing
+  Eigen::VectorXd by_force;  ///< per normal force of the mesh, which outside forces are in proportion to [mm/N]; empty: nothing
+
+  bool empty() const { return fixed.size() == 0 && by_force.size() == 0; }
+  /// @param gap  the motion under a normal force of the mesh [N] is added to it
+  void add_to(Eigen::VectorXd& gap, double force) const {
+    if (fixed.size() > 0) gap += fixed;
+    if (by_force.size() > 0) gap += force * by_force;
+  }
+};
+
 /// Structural compliance of a pair of gears by any model: the interface of the load distribution.
 class PairCompliance {
  public:
@@ -33,6 +46,15 @@ class PairCompliance {
   virtual Eigen::MatrixXd influence_on_rigid_bodies(const std::vector<ContactPoint>& points, double axial_offset) const {
     return influence(points, axial_offset);
   }
+
+  /// What other forces than those of the mesh do, as those of a gear unit's other meshes; nothing by default.
+  virtual OutsideMotion outside_motion(const std::vector<ContactPoint>&, double /*axial_offset*/) const { return {}; }
+
+  /// Whether it is another one at each load, as with clearances: a mesh then takes what linearised_at() makes of it.
+  virtual bool depends_on_load() const { return false; }
+  /// The same linearised where the mesh's mean force and all others are in equilibrium; null where it does not depend on the load.
+  /// @param pinion_torque  > 0 [N mm]
+  virtual std::shared_ptr<const PairCompliance> linearised_at(double /*pinion_torque*/) const { return nullptr; }
 
   /// What contact yields beside such a structure beyond a half space; none: the structure is calibrated to be right as a whole.
   virtual HalfSpaceCorrections half_space_corrections() const { return {}; }

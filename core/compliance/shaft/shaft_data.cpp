@@ -37,7 +37,7 @@ void check_sections(const ShaftData& shaft, Findings& findings) {
   }
 }
 
-void check_bearings(const ShaftData& shaft, Findings& findings) {
+void check_bearings(const ShaftData& shaft, bool alone, Findings& findings) {
   bool holds_axially = false, holds_tilt = false;
   std::vector<double> positions;
   for (std::size_t i = 0; i < shaft.bearings.size(); ++i) {
@@ -49,10 +49,13 @@ void check_bearings(const ShaftData& shaft, Findings& findings) {
     findings.require(bearing.radial_stiffness > 0.0, name + "radial_stiffness", bearing.radial_stiffness, "above 0");
     findings.require(bearing.axial_stiffness >= 0.0, name + "axial_stiffness", bearing.axial_stiffness, "0 or more");
     findings.require(bearing.tilting_stiffness >= 0.0, name + "tilting_stiffness", bearing.tilting_stiffness, "0 or more");
+    findings.require(bearing.radial_clearance >= 0.0 && std::isfinite(bearing.radial_clearance), name + "radial_clearance", bearing.radial_clearance,
+                     "0 mm or more");
     positions.push_back(bearing.position);
     holds_axially = holds_axially || bearing.axial_stiffness > 0.0;
     holds_tilt = holds_tilt || bearing.tilting_stiffness > 0.0;
   }
+  if (!alone) return;
   findings.require(positions.size() >= 2 || (positions.size() == 1 && holds_tilt), "bearings", std::to_string(positions.size()),
                    "at least two, or one that holds against tilting");
   findings.require(holds_axially, "bearings", "no axial_stiffness", "at least one that holds the shaft axially");
@@ -66,22 +69,34 @@ double ShaftData::length() const {
   return sum;
 }
 
-std::vector<InvalidInput> find_problems(const ShaftData& shaft, double face_width) {
+namespace {
+
+/// @param alone  the shaft must be held by its own bearings, and its torque leave at one place
+std::vector<InvalidInput> find_shaft_problems(const ShaftData& shaft, double face_width, bool alone) {
   Findings findings;
   findings.require(shaft.material.youngs_modulus > 0.0, "material.youngs_modulus", shaft.material.youngs_modulus, "above 0 MPa");
   findings.require(shaft.material.poissons_ratio >= 0.0 && shaft.material.poissons_ratio < 0.5, "material.poissons_ratio",
                    shaft.material.poissons_ratio, "0 .. below 0.5");
   check_sections(shaft, findings);
   if (!findings.empty()) return findings.take();
-  check_bearings(shaft, findings);
+  check_bearings(shaft, alone, findings);
   const double length = shaft.length(), half = 0.5 * face_width;
   const double round_off = 1e-9 * length;  // ends are sums of lengths: a position within it of an end is on the shaft
-  findings.require(shaft.gear_position >= half - round_off && shaft.gear_position <= length - half + round_off, "gear_position", shaft.gear_position,
+  const bool has_gear = alone || face_width > 0.0;
+  findings.require(!has_gear || (shaft.gear_position >= half - round_off && shaft.gear_position <= length - half + round_off), "gear_position",
+                   shaft.gear_position,
                    "one that has the whole face on the shaft, " + std::to_string(half) + " .. " + std::to_string(length - half) + " mm");
-  findings.require(shaft.torque_position >= 0.0 && shaft.torque_position <= length + round_off &&
-                       !(std::abs(shaft.torque_position - shaft.gear_position) < half - round_off),
-                   "torque_position", shaft.torque_position, "on the shaft and not within the gear's face");
+  const bool has_coupling = alone || !std::isnan(shaft.torque_position);
+  const bool in_face = has_gear && std::abs(shaft.torque_position - shaft.gear_position) < half - round_off;
+  findings.require(!has_coupling || (shaft.torque_position >= 0.0 && shaft.torque_position <= length + round_off && !in_face), "torque_position",
+                   shaft.torque_position, has_gear ? "on the shaft and not within the gear's face" : "on the shaft");
   return findings.take();
 }
+
+}  // namespace
+
+std::vector<InvalidInput> find_problems(const ShaftData& shaft, double face_width) { return find_shaft_problems(shaft, face_width, true); }
+
+std::vector<InvalidInput> find_problems_in_unit(const ShaftData& shaft, double face_width) { return find_shaft_problems(shaft, face_width, false); }
 
 }  // namespace flankwright

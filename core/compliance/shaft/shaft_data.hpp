@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "core/base/error.hpp"
@@ -21,27 +23,39 @@ struct ShaftBearing {
   double radial_stiffness{std::numeric_limits<double>::infinity()};  ///< in every direction across the axis [N/mm], > 0
   double axial_stiffness{0.0};                                       ///< [N/mm], >= 0; 0: slides
   double tilting_stiffness{0.0};                                     ///< [N mm/rad], >= 0; 0: swivels
+  double radial_clearance{0.0};  ///< of the diameters: how far the shaft can be moved across, all the way [mm], >= 0
+  std::string name{};            ///< for results; empty: its shaft and number
 };
 
-/// The shaft that carries one gear. Positions run along the pair's z from the shaft's first end, the one of lowest z.
+/// A shaft, one that carries a gear of the pair or another one of its gear unit. Positions run along the pair's z from the
+/// shaft's first end, the one of lowest z.
 struct ShaftData {
   std::vector<ShaftSection> sections{};  ///< from the first end on
   std::vector<ShaftBearing> bearings{};
-  double gear_position{not_given};    ///< of the gear's mid face [mm]
-  double torque_position{not_given};  ///< where the torque enters or leaves, outside the gear's face [mm]
+  double gear_position{not_given};  ///< of the mid face of the pair's gear [mm]; of a shaft that carries none of them not given
+  /// Where a coupling is, and the torque enters or leaves that gears and other loads leave over, outside the gear's face [mm]; not given: there is
+  /// no coupling, which only a shaft of a gear unit can do without.
+  double torque_position{not_given};
   /// The gear is one with its shaft: over its face the section is that of the gear, see gear_seat(); false: it is the
   /// shaft's own.
   bool gear_stiffens{true};
   Material material{};
+  std::string name{};  ///< of a unit's further shaft
+  /// Where a shaft without a coupling is held against turning, see settle_turning_holds() [mm].
+  double held_position{not_given};
 
   double length() const;
   /// -1 where the torque enters at the side of lower z than the gear, +1 at the other.
-  int torque_side() const { return torque_position < gear_position ? -1 : 1; }
+  int torque_side() const { return (std::isnan(torque_position) ? held_position : torque_position) < gear_position ? -1 : 1; }
 };
 
 /// Everything in the data that cannot be: no section, a gear that is not all on the shaft, a torque that enters within its
 /// face, supports that leave the shaft loose ... Fields are members' names ("sections.0.length", "bearings").
 /// @param face_width  of the gear [mm]
 std::vector<InvalidInput> find_problems(const ShaftData& shaft, double face_width);
+
+/// The same of one shaft of several in a unit: whether these are held, and where their torques go, is asked of all together.
+/// @param face_width  of the pair's gear [mm]; 0: the shaft carries none
+std::vector<InvalidInput> find_problems_in_unit(const ShaftData& shaft, double face_width);
 
 }  // namespace flankwright

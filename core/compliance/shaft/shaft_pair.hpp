@@ -1,10 +1,17 @@
 #pragma once
 
+#include <cmath>
+#include <memory>
 #include <optional>
 
 #include "core/compliance/pair/pair_compliance.hpp"
-#include "core/compliance/shaft/shaft_beam.hpp"
+#include "core/compliance/shaft/beam_system.hpp"
+#include "core/compliance/shaft/bearing_clearance.hpp"
 #include "core/compliance/shaft/shaft_data.hpp"
+#include "core/compliance/shaft/unit_data.hpp"
+#include "core/compliance/shaft/unit_state.hpp"
+#include "core/compliance/shaft/unit_statics.hpp"
+#include "core/compliance/shaft/unit_supports.hpp"
 
 namespace flankwright {
 
@@ -21,7 +28,13 @@ enum class GearBodyIn {
   RigidBore,
 };
 
-/// The shaft with the gear on it as a beam, z from the shaft's first end.
+/// A gear that is one with its shaft over its face.
+struct GearSeat {
+  double from{not_given}, to{not_given};                 ///< [mm]
+  double root_radius{not_given}, tip_radius{not_given};  ///< [mm]
+};
+
+/// A shaft with gears on it as a beam, z from the shaft's first end.
 ///
 /// Sections are cylinders, E and nu the shaft's: I = pi (d^4 - d_i^4)/64, I_p = 2 I, kappa G A with Cowper's kappa for a
 /// hollow circle,
@@ -31,11 +44,7 @@ enum class GearBodyIn {
 /// (0.89 for a solid shaft of steel; Haddad 1991, eq. 2C.8 has 3/4, the largest stress over the mean). Over the face of a gear that is
 /// one with the shaft the outer diameter is the root circle's for torsion and shear [eqs 2C.5, 2C.13] and the mean of tip and root for
 /// bending [eq. 2C.30], unless the shaft's own is larger.
-/// @throws InvalidInput  as find_problems()
-std::vector<BeamPiece> shaft_pieces(const ShaftData& shaft, const Gear& gear);
-
-/// The beam on its bearings, held against turning where the torque enters.
-ShaftBeam make_shaft_beam(const ShaftData& shaft, const Gear& gear);
+std::vector<BeamPiece> shaft_pieces(const ShaftData& shaft, const std::vector<GearSeat>& seats);
 
 /// Motion of one gear's shaft along the common normal, transverse base tangent.
 struct ShaftMotion {
@@ -44,48 +53,94 @@ struct ShaftMotion {
   double misalignment{not_given};
 };
 
-/// Shafts of a pair in the influence matrix [Haddad 1991, 7.3, suggestion 5; app. 2C with a force at every contact point]:
+/// Shafts of a pair and of the unit around it [Haddad 1991, 7.3, suggestion 5; app. 2C with a force at every contact point]. In the influence matrix
 ///
-///     K(p, q) = t_p' S^-1 t_q   for each gear that has a shaft,
+///     K(p, q) = t_p' S^-1 t_q,
 ///
-/// with t_p the wrench on the shaft of a unit normal force at p, taken in the base tangent plane: force n and moment
+/// with t_p the wrenches on both gears' shafts of a unit normal force at p, taken in the base tangent plane: force n and moment
 /// about the axis, axial force and its moment included; also where a tip edge touches outside that plane, as the load
-/// distribution takes the force there. Symmetric and positive semi-definite by construction. The shafts are coupled
-/// only through the mesh.
+/// distribution takes the force there. S^-1 is the flexibility of all shafts on their bearings, see BeamSystem: shafts that neither housing nor bearings
+/// couple add up. Symmetric and positive semi-definite by construction.
+///
+/// Other meshes and outside loads act with their mean forces f T, in proportion to the torque, and move the flanks apart by
+///
+///     g(p) = t_p' S^-1 f T - s_p'v         [outside_motion()],
+///
+/// where v are the shifts of shafts across the clearances of their bearings and s_p the supports' forces under t_p. With clearances S is that at the
+/// equilibrium under mean forces, the pair's by one normal force at the pitch point at mid face: a bearing whose shaft is pressed against the
+/// border, shifted by c in the direction e of its force F, yields by (c/|F|) (1 - e e') beyond its spring, and one that carries nothing is not there.
+/// linearised_at() makes these shafts; they are exact at that load and tangent to the truth around it.
 ///
 /// Departures from app. 2C, which has the whole load at mid face, the translation of the axis alone (the section's
 /// rotation about axes across its own is left out there) and a moment of the axial force that lies in the plane of action.
 class ShaftPair final : public PairCompliance {
  public:
-  /// @throws InvalidInput  "pinion.shaft." or "wheel.shaft." and the field of find_problems()
-  ShaftPair(const GearPair& pair, std::optional<ShaftData> pinion, std::optional<ShaftData> wheel, PerGear<GearBodyIn> body);
+  /// @throws InvalidInput  the first of find_problems()
+  ShaftPair(const GearPair& pair, ShaftsOfPair shafts, PerGear<GearBodyIn> body);
+  /// The pair's two shafts by themselves.
+  ShaftPair(const GearPair& pair, std::optional<ShaftData> pinion, std::optional<ShaftData> wheel, PerGear<GearBodyIn> body)
+      : ShaftPair(pair, ShaftsOfPair{{std::move(pinion), std::move(wheel)}, {}}, body) {}
   /// Both gears alike.
   ShaftPair(const GearPair& pair, std::optional<ShaftData> pinion, std::optional<ShaftData> wheel, GearBodyIn body)
       : ShaftPair(pair, std::move(pinion), std::move(wheel), PerGear<GearBodyIn>{body, body}) {}
 
-  /// K of both shafts together [mm/N].
+  /// K of all shafts together [mm/N].
   Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
+  OutsideMotion outside_motion(const std::vector<ContactPoint>& points, double axial_offset) const override;
+  bool depends_on_load() const override { return !clearances_.empty(); }
+  /// @throws InvalidInput  where the clearances' equilibrium is not found, or leaves a shaft loose
+  std::shared_ptr<const PairCompliance> linearised_at(double pinion_torque) const override;
+  /// The same as what it is; this one where nothing depends on the load.
+  ShaftPair at_torque(double pinion_torque) const;
 
-  /// Motion of one gear's shaft under normal forces at the points; NaN where the gear has none.
+  /// Motion of one gear's shaft under normal forces at the points and what they bring with them outside; NaN where the gear has none.
   /// @param forces  [N], one a point
   ShaftMotion motion(Member member, const std::vector<ContactPoint>& points, const Eigen::VectorXd& forces, double axial_offset) const;
+  /// The same of a change of the forces: without what is there whatever the load.
+  ShaftMotion motion_by(Member member, const std::vector<ContactPoint>& points, const Eigen::VectorXd& forces, double axial_offset) const;
 
-  bool has_shaft(Member member) const { return side(member).has_value(); }
+  /// Everything in the unit under mean forces, in the axes of the pair as it is given. Of linearised shafts the state that they are made for, whatever the
+  /// torque.
+  UnitState state(double pinion_torque, double axial_offset = 0.0) const;
+
+  bool has_shaft(Member member) const { return index_[member] >= 0; }
+  bool has_unit() const { return !shafts_.unit.empty(); }
 
  private:
-  struct Side {
-    ShaftData data;
-    ShaftBeam beam;
-  };
-  const std::optional<Side>& side(Member m) const { return m == Member::Pinion ? pinion_ : wheel_; }
-  int parts(Member m) const { return body_[m] == GearBodyIn::Structure ? 3 : 1; }
-  /// Wrenches of unit normal forces, parts() a point.
+  int parts(Member m) const { return !has_shaft(m) ? 0 : body_[m] == GearBodyIn::Structure ? 3 : 1; }
+  int parts() const { return parts(Member::Pinion) + parts(Member::Wheel); }
+  /// Wrenches of a unit normal force on one gear, parts() of them.
+  void add_loads(Member member, const ContactPoint& point, double axial_offset, std::vector<BeamLoad>& loads) const;
+  /// Of unit normal forces, parts() a point.
+  std::vector<BeamLoad> loads(const std::vector<ContactPoint>& points, double axial_offset) const;
   std::vector<BeamLoad> loads(Member member, const std::vector<ContactPoint>& points, double axial_offset) const;
+  ContactPoint pitch_point(double axial_offset) const;
+  double common_face_middle(double axial_offset) const;
+  /// Normal force of the mesh per torque on the pinion [1/mm].
+  double force_per_torque() const { return 1.0 / (pair_.pinion.base_radius * std::cos(pair_.base_helix_angle)); }
+  /// All mean forces per torque on the pinion.
+  std::vector<BeamLoad> mean_loads(double axial_offset) const;
+  ShaftMotion moved(Member member, const std::vector<ContactPoint>& points, const Eigen::VectorXd& forces, double axial_offset, double fixed) const;
+  /// Forces of the supports under mean forces [N or N mm].
+  Eigen::VectorXd mean_reactions(double pinion_torque, double axial_offset) const;
+  ClearanceState clearance_state(double pinion_torque) const;
+  void find_drivers(UnitState& state) const;
+  void add_bearings(double pinion_torque, double axial_offset, UnitState& state) const;
+  void add_shafts(double pinion_torque, double axial_offset, UnitState& state) const;
 
   GearPair pair_;
   PathOfContact path_;
   PerGear<GearBodyIn> body_;
-  std::optional<Side> pinion_, wheel_;
+  ShaftsOfPair shafts_;  ///< as the pair is analysed
+  PerGear<int> index_{-1, -1};
+  UnitSupports supports_;
+  std::vector<std::vector<BeamPiece>> pieces_;
+  std::optional<BeamSystem> system_;  ///< nothing: all are rigid
+  UnitTorques torques_;
+  std::vector<BeamLoad> outside_;   ///< per torque on the pinion
+  std::vector<int> clearances_;     ///< indices of bearings that have one, of shafts that are not linearised
+  Eigen::VectorXd prestrain_;       ///< of linearised shafts: shifts forced on the supports of system_ [mm]; empty: none
+  std::optional<UnitState> state_;  ///< that linearised shafts are made for
 };
 
 }  // namespace flankwright

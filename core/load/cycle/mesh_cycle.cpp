@@ -158,7 +158,7 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     const MeshPosition& at = model.positions[i];
     LoadedPosition& position = cycle.positions[i];
     position.phase = at.phase;
-    position.gap = gaps.at(at.points, at.phase);
+    position.gap = gap_under(at, gaps, cycle.force);
     const Eigen::VectorXd start = starting_loads(model, cycle, i, earlier);
     std::vector<ContactLaw> moved_edges;  // empty: those of the position hold
     const auto problem_of = [&]() -> LoadProblemView {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <string>
 
 #include "core/base/error.hpp"
@@ -46,6 +47,7 @@ MeshPosition make_position(const MeshModel& model, const MeshParts& parts, const
   position.weight.resize(std::ssize(position.points));
   for (Eigen::Index i = 0; i < position.weight.size(); ++i) position.weight[i] = position.points[static_cast<std::size_t>(i)].weight;
   position.face_ends = face_ends(model, path, position, face);
+  position.outside = std::move(builder.outside);
   return position;
 }
 
@@ -86,6 +88,16 @@ double MeshModel::mean_line_load(double force) const {
   return length > 0.0 ? force * static_cast<double>(positions.size()) / length : not_given;
 }
 
+MeshPlacement placement_of(GapModel gap, const Misalignment& misalignment, const PairCompliance* shafts, double pinion_torque) {
+  return MeshPlacement::of(gap, misalignment, shafts != nullptr && shafts->depends_on_load() ? pinion_torque : 0.0);
+}
+
+Gap gap_under(const MeshPosition& at, const ConditionGap& gaps, double force) {
+  Gap gap = gaps.at(at.points, at.phase);
+  at.outside.add_to(gap.total, force);
+  return gap;
+}
+
 MeshModel make_mesh_model(const GearPair& pair, const PerGear<Material>& material, const MeshResolution& resolution, const MeshEffects& effects,
                           const MeshPlacement& placement, const PairCompliance* structure, const PairRootStress* root_stress,
                           const PairCompliance* shafts) {
@@ -118,7 +130,9 @@ MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, c
   model.axial_offset = axial_offset;
   model.face_width = face_end - face_start;
   model.half_space = structure.half_space_corrections();
-  const MeshParts parts{pair, model.material, placement, &structure, shafts, root_stress, model.half_space};
+  const std::shared_ptr<const PairCompliance> linearised =
+      shafts != nullptr && shafts->depends_on_load() ? shafts->linearised_at(placement.torque) : nullptr;
+  const MeshParts parts{pair, model.material, placement, &structure, linearised ? linearised.get() : shafts, root_stress, model.half_space};
   const PathOfContact path(pair);
   model.positions.clear();
   model.positions.reserve(resolution.phases.size());

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/contact/gap/condition_gap.hpp"
 #include "core/contact/gap/misalignment_gap.hpp"
 #include "core/contact/path/path_of_contact.hpp"
 #include "core/effects/mesh_effects.hpp"
@@ -48,6 +49,7 @@ struct MeshPosition {
   std::vector<ContactLaw> laws;
   RootStressInfluence root_stress{};       ///< no points: not asked for
   std::vector<FaceEndOfLine> face_ends{};  ///< none without Hertzian contact
+  OutsideMotion outside{};                 ///< what other forces than the mesh's own open between the points
 };
 
 struct MeshModel;
@@ -86,12 +88,21 @@ struct MeshModel {
   double face_end() const { return face_start() + face_width; }
 };
 
+/// The placement of a load case's mesh. The torque is part of it where the shafts depend on the load.
+/// @param shafts         null: rigid
+/// @param pinion_torque  [N mm]
+MeshPlacement placement_of(GapModel gap, const Misalignment& misalignment, const PairCompliance* shafts, double pinion_torque);
+
+/// The gap of a position's points in a condition, with what other forces than the mesh's own open, in proportion to the force.
+/// @param force  normal force of the mesh [N]
+Gap gap_under(const MeshPosition& at, const ConditionGap& gaps, double force);
+
 /// Builds points, influence matrix and contact laws at every phase: asks the effects, stage by stage.
 /// @param effects      the effects that are on
 /// @param placement    as MeshPlacement::of() makes it
 /// @param structure    structural compliance; null: thin slices
 /// @param root_stress  null: none
-/// @param shafts       added to it, coupling all points; null: rigid shafts
+/// @param shafts       added to it, coupling all points; null: rigid shafts; linearised at the placement's torque where they depend on the load
 /// @throws InvalidInput where no effect makes the points compliant, no phase is given, or the gears do not overlap
 ///                       axially
 MeshModel make_mesh_model(const GearPair& pair, const PerGear<Material>& material, const MeshResolution& resolution, const MeshEffects& effects = {},

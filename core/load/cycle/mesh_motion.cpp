@@ -135,10 +135,11 @@ MeshSlopes::Same MeshSlopes::same(std::size_t position) const {
 MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load, const Gap& gap) const {
   const Same same_as = same(position);
   const Eigen::VectorXd loads = load.line_load.cwiseProduct(same_as.known);
+  const double force = model_.positions[position].weight.dot(load.line_load);
   const auto perturbed = [&](const Perturbed& mesh, const std::vector<Eigen::Index>& same) {
     const MeshPosition& there = mesh.model.positions[position];
     HeldLoads held =
-        held_loads(mesh.model, there, mesh.condition, mesh.gaps.at(there.points, there.phase), as_perturbed(same, loads, there.weight.size()));
+        held_loads(mesh.model, there, mesh.condition, gap_under(there, mesh.gaps, force), as_perturbed(same, loads, there.weight.size()));
     for (Eigen::VectorXd* values : {&held.gap, &held.deflection, &held.contact_stress, &held.edge_stress}) *values = as_at(same, *values);
     return held;
   };

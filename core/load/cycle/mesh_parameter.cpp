@@ -18,6 +18,7 @@ ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at,
       if (!moves_mesh(gaps.model(), which)) slopes.gap.col(p) = gaps.derivative(at.points, *misalignment);
     } else {
       slopes.force[p] = model.normal_force(1.0);
+      if (at.outside.by_force.size() > 0) slopes.gap.col(p) = slopes.force[p] * at.outside.by_force;
     }
   }
   return slopes;

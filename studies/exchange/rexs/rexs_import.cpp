@@ -10,6 +10,7 @@
 #include "core/base/units.hpp"
 #include "studies/exchange/rexs/rexs_load.hpp"
 #include "studies/exchange/rexs/rexs_shaft.hpp"
+#include "studies/exchange/rexs/rexs_unit.hpp"
 #include "studies/study_file/study_file.hpp"
 
 namespace flankwright::studies::rexs {
@@ -48,12 +49,17 @@ class Import {
       add_modification(read_modification(reading_, parts_[m], geometry, m, options_.slope_end), m, body);
     }
     write_materials(body);
-    for (const Member m : {Member::Pinion, Member::Wheel}) {
-      if (const auto shaft = read_shaft(reading_, parts_[m], geometry[m].data.face_width)) write_shaft(*shaft, m, body);
+    const std::vector<ImportedTorque> torques = read_torques(reading_, parts_);
+    if (const auto unit = read_unit(reading_, parts_, geometry, torques)) {
+      write_unit(*unit, body);
+    } else {
+      for (const Member m : {Member::Pinion, Member::Wheel}) {
+        if (const auto shaft = read_shaft(reading_, parts_[m], geometry[m].data.face_width)) write_shaft(*shaft, m, body);
+      }
     }
-    write_torques(read_torques(reading_, parts_), body);
-    write_rest(body);
-    return {head() + body.text(), std::move(grids_), reading_.warnings()};
+    write_torques(torques, body);
+    std::string not_taken = write_rest(body);
+    return {head() + body.text(), std::move(grids_), reading_.warnings(), std::move(not_taken)};
   }
 
  private:
@@ -125,20 +131,32 @@ class Import {
     }
   }
 
-  /// Attributes that were not read of components that belong to the stage or were looked at, and how many there are of the others.
-  void write_rest(StudyText& text) {
-    std::map<std::string, int> others;
-    text.blank();
-    text.comment("Not taken, as a study has no key for it or it follows from what was taken:");
+  /// Attributes that were not read of components that belong to the stage or were looked at, and how many there are of the others: in numbers in the
+  /// study, in full in a list.
+  std::string write_rest(StudyText& text) {
+    std::map<std::string, int> others, attributes;
+    std::string all = "Not taken, as a study has no key for it or it follows from what was taken:\n";
     for (const Component& component : reading_.model().components) {
       const std::vector<std::string> unread = reading_.unread(component);
       if (unread.size() == component.attributes.size() && !belongs_to_stage(parts_, component)) {
         ++others[component.type];
       } else if (!unread.empty()) {
-        text.comment(fmt::format("  {}: {}", Reading::name_of(component), fmt::join(unread, ", ")));
+        attributes[component.type] += static_cast<int>(unread.size());
+        all += fmt::format("  {}: {}\n", Reading::name_of(component), fmt::join(unread, ", "));
       }
     }
-    for (const auto& [type, count] : others) text.comment(fmt::format("  {} x {}", count, type));
+    std::vector<std::string> words;
+    for (const auto& [type, count] : attributes) words.push_back(fmt::format("{} of {}", count, type));
+    text.blank();
+    text.comment("Not taken, as a study has no key for it or it follows from what was taken (in full: " + not_taken_name(options_.grid_stem) + "):");
+    if (!words.empty()) text.comment(fmt::format("  attributes: {}", fmt::join(words, ", ")));
+    words.clear();
+    for (const auto& [type, count] : others) {
+      words.push_back(fmt::format("{} x {}", count, type));
+      all += fmt::format("  {} x {}\n", count, type);
+    }
+    if (!words.empty()) text.comment(fmt::format("  components: {}", fmt::join(words, ", ")));
+    return all;
   }
 
   Reading& reading_;
@@ -170,6 +188,54 @@ ImportedStudy import_stage(const std::string& text, const std::string& name, con
     throw StudyErrors(std::move(problems));
   }
   return study;
+}
+
+std::string not_taken_name(const std::string& grid_stem) { return grid_stem + "-not-taken.txt"; }
+
+std::string stem_of_stage(const std::string& stem, int number) { return fmt::format("{}-stage-{}", stem, number); }
+
+UnitImport import_unit(const std::string& text, const std::string& name, const RexsImportOptions& options) {
+  const Model model = parse_model(text, name);
+  const Reading reading(model, name);
+  UnitImport all;
+  const std::vector<const Relation*> stages = stages_of(reading);
+  if (options.stage || stages.size() < 2) {
+    all.stages.push_back({options.stage.value_or(1), import_stage(text, name, options)});
+    return all;
+  }
+  for (const Relation& relation : model.relations) {
+    const auto id = relation.type == "stage" ? relation.role("stage") : std::nullopt;
+    const Component* stage = id ? model.find(*id) : nullptr;
+    if (stage != nullptr && stage->type != "cylindrical_stage")
+      all.left_out.push_back(Reading::name_of(*stage) + ": only cylindrical stages are modelled");
+  }
+  const auto meshes_of = [&](int gear) {
+    return std::ranges::count_if(stages, [&](const Relation* stage) { return stage->role("gear_1") == gear || stage->role("gear_2") == gear; });
+  };
+  for (std::size_t i = 0; i < stages.size(); ++i) {
+    const int number = static_cast<int>(i) + 1;
+    const std::string stage = Reading::name_of(reading.in_role(*stages[i], "stage"));
+    std::string shared;
+    for (const char* role : {"gear_1", "gear_2"}) {
+      const auto gear = stages[i]->role(role);
+      if (gear && meshes_of(*gear) > 1 && model.find(*gear) != nullptr) shared = Reading::name_of(*model.find(*gear));
+    }
+    if (!shared.empty()) {
+      all.left_out.push_back(
+          fmt::format("{}: {} has several meshes, as in a planetary stage; --stage {} imports it by itself", stage, shared, number));
+      continue;
+    }
+    RexsImportOptions of_stage = options;
+    of_stage.stage = number;
+    of_stage.grid_stem = stem_of_stage(options.grid_stem, number);
+    try {
+      all.stages.push_back({number, import_stage(text, name, of_stage)});
+    } catch (const StudyErrors& errors) {
+      all.left_out.push_back(stage + ": " + errors.what());
+    }
+  }
+  if (all.stages.empty()) import_stage(text, name, options);  // says what the stages are
+  return all;
 }
 
 }  // namespace flankwright::studies::rexs

@@ -15,14 +15,25 @@ namespace {
 constexpr double same_place = 1e-6;        ///< sections join where the gap between them is at most this [mm]
 constexpr double stiffest_bearing = 1e12;  ///< radial and axial stiffnesses from here on are rigid [N/mm]
 
-/// Why a shaft is not taken.
-struct LeftOut {
-  std::string why;
-};
-
 class ShaftReading {
  public:
-  ShaftReading(Reading& reading, const GearParts& parts) : reading_(reading), parts_(parts), shaft_(*parts.shaft) {}
+  ShaftReading(Reading& reading, const GearParts& parts) : reading_(reading), parts_(&parts), shaft_(*parts.shaft) {}
+  /// For bare().
+  ShaftReading(Reading& reading, const Component& shaft) : reading_(reading), parts_(nullptr), shaft_(shaft) {}
+
+  BareShaft bare(bool against_z, std::vector<std::string>& notes) {
+    if (reading_.related(shaft_, {"shaft_section"}).empty()) throw LeftOut{Reading::name_of(shaft_) + " has no shaft_section"};
+    read_sections();
+    read_bearings();
+    read_material();
+    if (against_z) {
+      turn_round();
+      for (BareJoint& joint : joints_) joint.held.position = end_ - start_ - joint.held.position;
+    }
+    std::ranges::sort(result_.data.bearings, {}, &ShaftBearing::position);
+    notes.insert(notes.end(), notes_.begin(), notes_.end());
+    return {std::move(result_.data), std::move(result_.remarks), std::move(joints_), start_, end_, against_z};
+  }
 
   ImportedShaft read(double face_width) {
     check_gears();
@@ -30,7 +41,7 @@ class ShaftReading {
     read_bearings();
     read_positions();
     read_material();
-    if (parts_.shaft_against_z) turn_round();
+    if (parts_->shaft_against_z) turn_round();
     std::ranges::sort(result_.data.bearings, {}, &ShaftBearing::position);
     // What a shaft lacks of its material is the gear's, and its first bearing holds axially where none is said to.
     ShaftData whole = result_.data;
@@ -102,11 +113,14 @@ class ShaftReading {
       const Component* bearing = assembly ? reading_.model().find(*assembly) : nullptr;
       if (bearing == nullptr || bearing->type.find("bearing") == std::string::npos || (!is_inner && outer != shaft_.id)) continue;
       const Component* mate = is_inner ? (outer ? reading_.model().find(*outer) : nullptr) : inner ? reading_.model().find(*inner) : nullptr;
-      if (mate != nullptr && mate->type == "shaft")
-        throw LeftOut{fmt::format("its {} sits on {}", Reading::name_of(*bearing), Reading::name_of(*mate))};
+      const bool joins = mate != nullptr && mate->type == "shaft";
+      if (joins && parts_ != nullptr) throw LeftOut{fmt::format("its {} sits on {}", Reading::name_of(*bearing), Reading::name_of(*mate))};
       read_bearing(*bearing, is_inner ? "u_coordinate_on_shaft_inner_side" : "u_coordinate_on_shaft_outer_side");
+      if (!joins) continue;
+      joints_.push_back({bearing, mate, is_inner, result_.data.bearings.back()});
+      result_.data.bearings.pop_back();
     }
-    if (result_.data.bearings.empty()) throw LeftOut{"it has no bearings"};
+    if (result_.data.bearings.empty() && joints_.empty()) throw LeftOut{"it has no bearings"};
   }
 
   void read_bearing(const Component& bearing, std::string_view side) {
@@ -126,8 +140,8 @@ class ShaftReading {
   }
 
   void read_positions() {
-    result_.data.gear_position = required(*parts_.gear, {"u_coordinate_on_shaft"}) - start_;
-    remark("gear_position", *parts_.gear);
+    result_.data.gear_position = required(*parts_->gear, {"u_coordinate_on_shaft"}) - start_;
+    remark("gear_position", *parts_->gear);
     result_.remarks["gear_position"] += " u_coordinate_on_shaft, taken as mid face";
     std::vector<const Component*> carrying;
     for (const Component* load : reading_.related(shaft_, {"external_load"})) {
@@ -164,14 +178,19 @@ class ShaftReading {
   }
 
   Reading& reading_;
-  const GearParts& parts_;
+  const GearParts* parts_;  ///< null: of a unit
   const Component& shaft_;
+  std::vector<BareJoint> joints_;
   double start_{0.0}, end_{0.0};  ///< u coordinates of its ends [mm]
   std::vector<std::string> notes_;
   ImportedShaft result_;
 };
 
 }  // namespace
+
+BareShaft read_bare_shaft(Reading& reading, const Component& shaft, bool against_z, std::vector<std::string>& notes) {
+  return ShaftReading(reading, shaft).bare(against_z, notes);
+}
 
 std::optional<ImportedShaft> read_shaft(Reading& reading, const GearParts& parts, double face_width) {
   if (parts.shaft == nullptr || reading.related(*parts.shaft, {"shaft_section"}).empty()) return std::nullopt;
@@ -183,29 +202,42 @@ std::optional<ImportedShaft> read_shaft(Reading& reading, const GearParts& parts
   }
 }
 
-void write_shaft(const ImportedShaft& shaft, Member member, StudyText& text) {
-  const ShaftData& data = shaft.data;
-  const auto remark = [&](const std::string& key) { return shaft.remarks.contains(key) ? shaft.remarks.at(key) : std::string(); };
-  std::vector<std::string> sections, bearings;
-  for (const ShaftSection& section : data.sections) {
+std::string sections_text(const ShaftData& shaft) {
+  std::vector<std::string> sections;
+  for (const ShaftSection& section : shaft.sections) {
     const std::string bore = section.inner_diameter > 0.0 ? ", inner_diameter = " + difference_text(section.inner_diameter) : "";
     sections.push_back(
         fmt::format("{{ length = {}, outer_diameter = {}{} }}", difference_text(section.length), difference_text(section.outer_diameter), bore));
   }
-  for (const ShaftBearing& bearing : data.bearings) {
-    std::string line = "{ position = " + difference_text(bearing.position);
-    constexpr double newton_per_um = 1e3;  // [N/mm]
-    if (std::isfinite(bearing.radial_stiffness)) line += ", radial_stiffness = " + number_text(bearing.radial_stiffness / newton_per_um);
-    if (bearing.axial_stiffness > 0.0)
-      line += ", axial_stiffness = " + number_text(std::min(bearing.axial_stiffness, stiffest_bearing) / newton_per_um);
-    if (bearing.tilting_stiffness > 0.0) line += ", tilting_stiffness = " + number_text(bearing.tilting_stiffness / units::newton_metre);
-    bearings.push_back(line + " }");
+  return fmt::format("[{}]", fmt::join(sections, ", "));
+}
+
+std::string stiffness_text(const ShaftBearing& bearing) {
+  std::string line;
+  constexpr double newton_per_um = 1e3;  // [N/mm]
+  if (std::isfinite(bearing.radial_stiffness)) line += ", radial_stiffness = " + number_text(bearing.radial_stiffness / newton_per_um);
+  if (bearing.axial_stiffness > 0.0)
+    line += ", axial_stiffness = " + number_text(std::min(bearing.axial_stiffness, stiffest_bearing) / newton_per_um);
+  if (bearing.tilting_stiffness > 0.0) line += ", tilting_stiffness = " + number_text(bearing.tilting_stiffness / units::newton_metre);
+  return line;
+}
+
+std::string bearings_text(const ShaftData& shaft) {
+  std::vector<std::string> bearings;
+  for (const ShaftBearing& bearing : shaft.bearings) {
+    bearings.push_back("{ position = " + difference_text(bearing.position) + stiffness_text(bearing) + " }");
   }
+  return fmt::format("[{}]", fmt::join(bearings, ", "));
+}
+
+void write_shaft(const ImportedShaft& shaft, Member member, StudyText& text) {
+  const ShaftData& data = shaft.data;
+  const auto remark = [&](const std::string& key) { return shaft.remarks.contains(key) ? shaft.remarks.at(key) : std::string(); };
   text.table(std::string(name_of(member)) + ".shaft");
-  text.key("sections", fmt::format("[{}]", fmt::join(sections, ", ")), remark("sections"));
-  text.key("bearings", fmt::format("[{}]", fmt::join(bearings, ", ")), remark("bearings"));
+  text.key("sections", sections_text(data), remark("sections"));
+  if (!data.bearings.empty()) text.key("bearings", bearings_text(data), remark("bearings"));
   text.key("gear_position", difference_text(data.gear_position), remark("gear_position"));
-  text.key("torque_position", difference_text(data.torque_position), remark("torque_position"));
+  if (!std::isnan(data.torque_position)) text.key("torque_position", difference_text(data.torque_position), remark("torque_position"));
   if (!std::isnan(data.material.youngs_modulus)) text.key("material.youngs_modulus", number_text(data.material.youngs_modulus), remark("material"));
   if (!std::isnan(data.material.poissons_ratio)) text.key("material.poissons_ratio", number_text(data.material.poissons_ratio), remark("material"));
 }

@@ -4,14 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "studies/exchange/rexs/rexs_errors.hpp"
 
 namespace flankwright::studies::rexs {
 
-namespace {
-
-/// Relations "stage" of external cylindrical stages; of rings and planet carriers by themselves there is nothing to import.
 std::vector<const Relation*> stages_of(const Reading& reading) {
   std::vector<const Relation*> stages;
   for (const Relation& relation : reading.model().relations) {
@@ -21,6 +19,14 @@ std::vector<const Relation*> stages_of(const Reading& reading) {
   }
   return stages;
 }
+
+std::array<double, 3> u_axis(Reading& reading, const Component& component) {
+  const auto vector = reading.numbers(&component, "u_axis_vector", Dimension::Length);
+  if (!vector || vector->size() != 3) return {1.0, 0.0, 0.0};
+  return {(*vector)[0], (*vector)[1], (*vector)[2]};
+}
+
+namespace {
 
 std::string teeth_in_words(const Reading& reading, const Relation& stage, std::string_view role) {
   const Component& gear = reading.in_role(stage, role);
@@ -75,13 +81,6 @@ const Component* gear_data(const Reading& reading, const Component& stage, const
   return nullptr;
 }
 
-/// Direction of the component's u axis, (1, 0, 0) where it is not said.
-std::array<double, 3> u_axis(Reading& reading, const Component& component) {
-  const auto vector = reading.numbers(&component, "u_axis_vector", Dimension::Length);
-  if (!vector || vector->size() != 3) return {1.0, 0.0, 0.0};
-  return {(*vector)[0], (*vector)[1], (*vector)[2]};
-}
-
 bool against_z(const std::array<double, 3>& z, const std::array<double, 3>& u) { return z[0] * u[0] + z[1] * u[1] + z[2] * u[2] < 0.0; }
 
 void find_flanks(const Reading& reading, GearParts& parts, bool left) {
@@ -110,7 +109,52 @@ void find_rest(Reading& reading, GearParts& parts) {
   }
 }
 
+/// The first load case's torque of a load about its shaft's u axis, else the model's; 0: none.
+double first_torque(Reading& reading, const Component& load) {
+  for (const LoadCase& load_case : reading.model().load_cases) {
+    for (const Component& varied : load_case.components) {
+      if (varied.id != load.id) continue;
+      if (const auto torque = reading.number(&varied, "torque_around_u_axis", Dimension::Torque); torque && torque->value != 0.0)
+        return torque->value;
+    }
+  }
+  const auto torque = reading.number(&load, "torque_around_u_axis", Dimension::Torque);
+  return torque ? torque->value : 0.0;
+}
+
 }  // namespace
+
+int torque_sign(Reading& reading, const Component& gear) {
+  // On a shaft with a load from outside its gears get the torque as it is; on one that gets it from a gear the other gears give it on, the other way
+  // round. Both gears of a mesh get torques of the same sign.
+  const std::array<double, 3> z = u_axis(reading, gear);
+  std::map<int, int> signs;  // by gear
+  const auto gears_on = [&](const Component& shaft) { return reading.related(shaft, {"cylindrical_gear"}); };
+  for (const Component& shaft : reading.model().components) {
+    if (shaft.type != "shaft") continue;
+    for (const Component* load : reading.related(shaft, {"external_load"})) {
+      const double torque = first_torque(reading, *load) * (against_z(z, u_axis(reading, shaft)) ? -1.0 : 1.0);
+      if (torque == 0.0) continue;
+      for (const Component* on : gears_on(shaft)) signs.try_emplace(on->id, torque > 0.0 ? 1 : -1);
+    }
+  }
+  for (std::size_t known = 0; known != signs.size() && !signs.contains(gear.id);) {
+    known = signs.size();
+    for (const Relation* stage : stages_of(reading)) {
+      const auto one = stage->role("gear_1"), two = stage->role("gear_2");
+      if (!one || !two) continue;
+      for (const auto& [from, to] : {std::pair{*one, *two}, std::pair{*two, *one}}) {
+        if (!signs.contains(from) || !signs.try_emplace(to, signs.at(from)).second) continue;
+        const Component* mate = reading.model().find(to);
+        if (mate == nullptr) continue;
+        for (const Component* shaft : reading.related(*mate, {"shaft"})) {
+          for (const Component* on : gears_on(*shaft)) signs.try_emplace(on->id, -signs.at(to));
+        }
+      }
+    }
+  }
+  return signs.contains(gear.id) ? signs.at(gear.id) : 0;
+}
 
 StageParts find_stage(Reading& reading, std::optional<int> number) {
   const Relation& relation = choose(reading, number);
@@ -134,6 +178,12 @@ StageParts find_stage(Reading& reading, std::optional<int> number) {
   if (loaded == "left" || loaded == "right") {
     parts.flank_is_given = true;
     parts.working_flank = (loaded == "right") == parts.gears[0].datum_at_low_z ? WorkingFlank::Right : WorkingFlank::Left;
+  }
+  // In a unit of several stages the torques say which flanks work where the file does not.
+  if (!parts.flank_is_given && stages_of(reading).size() > 1) {
+    const int sign = torque_sign(reading, *parts.gears[0].gear);
+    if (sign != 0) parts.working_flank = sign > 0 ? WorkingFlank::Right : WorkingFlank::Left;
+    parts.flank_by_torque = sign != 0;
   }
   reading.word(parts.gears[1].data, "loaded_tooth_flank");
   for (GearParts& gear : parts.gears) {

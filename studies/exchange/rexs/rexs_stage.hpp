@@ -30,10 +30,21 @@ struct StageParts {
   std::array<int, 2> teeth{};
   WorkingFlank working_flank{WorkingFlank::Right};  ///< of the pinion, as a study names it: seen from the end of lowest z
   bool flank_is_given{false};
+  bool flank_by_torque{false};  ///< it follows from the torques of the unit's external loads
 
   GearParts& operator[](Member m) { return gears[m == Member::Pinion ? 0 : 1]; }
   const GearParts& operator[](Member m) const { return gears[m == Member::Pinion ? 0 : 1]; }
 };
+
+/// Direction of a component's u axis, (1, 0, 0) where it is not said.
+std::array<double, 3> u_axis(Reading& reading, const Component& component);
+
+/// The relations of external cylindrical stages, in the order of --stage; of rings and planet carriers by themselves there is nothing to import.
+std::vector<const Relation*> stages_of(const Reading& reading);
+
+/// The number of a gear's flanks in the sense of the pair: the sign of the torque on a gear by its shaft about the gear's u axis, from the external loads
+/// through shafts and meshes; 0 where these do not say.
+int torque_sign(Reading& reading, const Component& gear);
 
 /// Finds the stage with everything that hangs on it.
 ///

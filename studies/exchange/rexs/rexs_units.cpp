@@ -15,7 +15,9 @@ struct Unit {
 };
 
 using enum Dimension;
-constexpr std::array<Unit, 45> known_units{{{None, "none", 1.0},
+constexpr std::array<Unit, 47> known_units{{{None, "none", 1.0},
+                                            {Force, "N", 1.0},
+                                            {Force, "kN", 1e3},
                                             {None, "", 1.0},
                                             {None, "-", 1.0},
                                             {None, "%", 0.01},

@@ -8,15 +8,16 @@ namespace flankwright::studies::rexs {
 
 /// What an attribute measures; says which units it may carry and what a number becomes inside.
 enum class Dimension {
-  None,             ///< "none" or no unit; also "%" as 1/100
-  Length,           ///< mm
-  Angle,            ///< rad
-  Torque,           ///< N mm
-  Stress,           ///< MPa
-  Power,            ///< kW
-  Speed,            ///< 1/min
-  Stiffness,        ///< N/mm
-  TiltingStiffness  ///< N mm/rad
+  None,              ///< "none" or no unit; also "%" as 1/100
+  Length,            ///< mm
+  Angle,             ///< rad
+  Torque,            ///< N mm
+  Stress,            ///< MPa
+  Power,             ///< kW
+  Speed,             ///< 1/min
+  Stiffness,         ///< N/mm
+  TiltingStiffness,  ///< N mm/rad
+  Force              ///< N
 };
 
 /// Size of one such unit inside. Spaces, points and asterisks within it do not count: "N / mm^2" (up to 1.7) and "MPa" (2.0), "°" (up

@@ -22,7 +22,7 @@ std::string printable(std::string text) {
 
 void StudyText::comment(const std::string& text) { text_ += "# " + printable(text) + "\n"; }
 void StudyText::table(const std::string& name) { text_ += "\n[" + name + "]\n"; }
-void StudyText::scene() { text_ += "\n[[scenes]]\n"; }
+void StudyText::list_table(const std::string& name) { text_ += "\n[[" + name + "]]\n"; }
 
 void StudyText::key(const std::string& name, const std::string& value, const std::string& remark) {
   std::string line = name + " = " + value;

@@ -12,7 +12,9 @@ class StudyText {
   /// Opens [name].
   void table(const std::string& name);
   /// Opens [[scenes]].
-  void scene();
+  void scene() { list_table("scenes"); }
+  /// Opens [[name]].
+  void list_table(const std::string& name);
   /// key = value, with a comment behind it where the remark is not empty.
   void key(const std::string& name, const std::string& value, const std::string& remark = {});
 

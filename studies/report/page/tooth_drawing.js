@@ -107,6 +107,7 @@ function build_gear_pair(results, body) {
     }, (plot) => draw_teeth(plot, geometry));
   }
   build_bodies(results, body);
+  build_unit(results, body);
   const pair = el("div", { class: "tables" });
   body.append(pair);
   table(pair, {

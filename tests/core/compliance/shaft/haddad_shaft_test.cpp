@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/base/units.hpp"
-#include "core/compliance/shaft/shaft_beam.hpp"
+#include "core/compliance/shaft/beam_system.hpp"
 
 /// C. D. Haddad, The elastic analysis of load distribution in wide-faced helical gears, Ph.D. thesis, University of Newcastle
 /// upon Tyne, 1991, appendix 2C: a shaft of two diameters on two supports, the gear's face 0 .. b, z counted from it. All
@@ -23,7 +23,7 @@ double slope(double d) { return 16 / (3 * units::pi * G * d * d); }  // 2C.8b, p
 
 BeamPiece piece(double length, double d) { return {length, 1 / (E * I(d)), slope(d), 1 / (G * J(d)), 0.0}; }
 
-ShaftBeam on_two_supports(bool with_shear) {
+BeamSystem on_two_supports(bool with_shear) {
   std::vector<BeamPiece> pieces{piece(l1, d1), piece(b, d2), piece(l4, d1)};
   for (BeamPiece& p : pieces) (with_shear ? p.bending : p.shear) = 0.0;
   std::vector<BeamSupport> supports;
@@ -36,7 +36,7 @@ ShaftBeam on_two_supports(bool with_shear) {
 }
 
 /// Deflection at z under a unit force at z_f and the moment M_f there.
-double beam_deflection(const ShaftBeam& beam, double z, double z_f, double M_f) {
+double beam_deflection(const BeamSystem& beam, double z, double z_f, double M_f) {
   const BeamLoad here{l1 + z, Vector3d::UnitX(), Vector3d::Zero()};
   const BeamLoad load{l1 + z_f, Vector3d::UnitX(), -M_f * Vector3d::UnitY()};  // raises the first end's reaction
   return beam.flexibility(std::vector{here}, std::vector{load})(0, 0);
@@ -74,7 +74,7 @@ double shear(double z, double z_f, double M_f) {
 }
 
 TEST_CASE("Shaft bending and shear are those of Haddad's appendix 2C", "[core][compliance][shaft][reference]") {
-  const ShaftBeam bends = on_two_supports(false), shears = on_two_supports(true);
+  const BeamSystem bends = on_two_supports(false), shears = on_two_supports(true);
   for (const double z_f : {0.0, 37.0, 60.0, 120.0}) {
     for (const double M_f : {0.0, 25.0}) {
       for (const double z : {0.0, 20.0, 60.0, 95.0, 120.0}) {
@@ -89,7 +89,7 @@ TEST_CASE("Shaft bending and shear are those of Haddad's appendix 2C", "[core][c
 }
 
 TEST_CASE("Shaft torsion is that of Haddad's appendix 2C, by one force and by a uniform load", "[core][compliance][shaft][reference]") {
-  const ShaftBeam beam = on_two_supports(false);
+  const BeamSystem beam = on_two_supports(false);
   const auto torque_at = [](double z) { return BeamLoad{l1 + z, Vector3d::Zero(), Vector3d::UnitZ()}; };
   for (const double z : {0.0, 30.0, 60.0, 90.0, 120.0}) {
     const double z_f = 60;

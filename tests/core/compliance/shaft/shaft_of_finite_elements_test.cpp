@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "core/compliance/finite_element/influence.hpp"
-#include "core/compliance/shaft/shaft_beam.hpp"
+#include "core/compliance/shaft/beam_system.hpp"
 #include "tests/core/compliance/finite_element/gears.hpp"
 
 using namespace flankwright;
@@ -47,7 +47,7 @@ SolidModel clamped_at(const GearMesh& mesh, int end) {
 }
 
 /// The same as a beam, sections as shaft_pieces() has them.
-ShaftBeam beam_clamped_at(const GearMesh& mesh, int end) {
+BeamSystem beam_clamped_at(const GearMesh& mesh, int end) {
   const auto piece = [&](double length, double outer, double bending) {
     const auto I = [](double d) { return units::pi / 64 * (std::pow(d, 4) - std::pow(kBore, 4)); };
     const double G = 1 / (2 * (1 + kNu)), A = units::pi / 4 * (outer * outer - kBore * kBore), solid = 6 * (1 + kNu) / (7 + 6 * kNu);

@@ -123,7 +123,8 @@ TEST_CASE("A planetary gear unit gives sun and planet, and reports missing data"
   CHECK(study.torques == std::vector{0.0});
   CHECK_THAT(imported.text, Contains("not give the torque"));
   // Every attribute of the stage that was not taken is named.
-  CHECK_THAT(imported.text, Contains("cylindrical_stage 11:") && Contains("tooth_tip_chamfer") && Contains("10 x coupling"));
+  CHECK_THAT(imported.not_taken, Contains("cylindrical_stage 11:") && Contains("tooth_tip_chamfer") && Contains("10 x coupling"));
+  CHECK_THAT(imported.text, Contains("of cylindrical_stage") && Contains("10 x coupling"));
   CHECK_THAT(refusal(text, {.stage = 4}), Contains("ring_gear 58") && Contains("internal gears are not modelled"));
 }
 

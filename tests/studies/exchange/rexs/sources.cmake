@@ -4,4 +4,5 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/rexs_export_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rexs_import_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/rexs_model_test.cpp
-     ${CMAKE_CURRENT_LIST_DIR}/rexs_shaft_test.cpp)
+     ${CMAKE_CURRENT_LIST_DIR}/rexs_shaft_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/rexs_unit_test.cpp)

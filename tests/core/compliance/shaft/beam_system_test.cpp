@@ -1,4 +1,4 @@
-#include "core/compliance/shaft/shaft_beam.hpp"
+#include "core/compliance/shaft/beam_system.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -40,14 +40,14 @@ std::vector<BeamSupport> two_bearings(double first = 0.0, double second = L) {
   return supports;
 }
 
-double between(const ShaftBeam& beam, const BeamLoad& one, const BeamLoad& other) {
+double between(const BeamSystem& beam, const BeamLoad& one, const BeamLoad& other) {
   return beam.flexibility(std::vector{one}, std::vector{other})(0, 0);
 }
 
 Approx near(double value) { return Approx(value).epsilon(kBeamRoundOff).margin(1e-20); }
 
 TEST_CASE("A clamped shaft bends, shears, twists and stretches as textbooks say", "[core][compliance][shaft][closed-form]") {
-  const ShaftBeam beam({uniform_piece(L)}, clamp(GENERATE(0.0, L)));
+  const BeamSystem beam({uniform_piece(L)}, clamp(GENERATE(0.0, L)));
   const bool from_start = between(beam, {0, x, none}, {0, x, none}) < 1e-15;
   const double free = from_start ? L : 0.0, along = from_start ? 1.0 : -1.0;  // z away from the clamp
   CHECK(between(beam, {free, x, none}, {free, x, none}) == near(L * L * L / (3 * EI) + L / kGA));
@@ -64,7 +64,7 @@ TEST_CASE("A clamped shaft bends, shears, twists and stretches as textbooks say"
 }
 
 TEST_CASE("A shaft on two bearings sags as a simply supported beam, overhangs included", "[core][compliance][shaft][closed-form]") {
-  const ShaftBeam beam({uniform_piece(L)}, two_bearings());
+  const BeamSystem beam({uniform_piece(L)}, two_bearings());
   for (const double a : {20.0, 150.0, 220.0}) {
     const double b = L - a;
     CAPTURE(a);
@@ -76,7 +76,7 @@ TEST_CASE("A shaft on two bearings sags as a simply supported beam, overhangs in
 
   // Overhang c beyond bearings a distance l apart: P c^2 (l + c)/(3 E I).
   const double c = 80, l = L - c;
-  const ShaftBeam overhung({slender(L)}, two_bearings(0, l));
+  const BeamSystem overhung({slender(L)}, two_bearings(0, l));
   CHECK(between(overhung, {L, y, none}, {L, y, none}) == near(c * c * (l + c) / (3 * EI)));
 }
 
@@ -85,13 +85,13 @@ TEST_CASE("Supports in excess share the load by their stiffness", "[core][compli
     std::vector<BeamSupport> three = two_bearings();
     hold(three, L / 2, {x, y});
     const double span = L / 2;
-    const ShaftBeam beam({slender(L)}, three);
+    const BeamSystem beam({slender(L)}, three);
     CHECK(between(beam, {span / 2, x, none}, {span / 2, x, none}) == near(23 * span * span * span / (1536 * EI)));
   }
   SECTION("both ends clamped") {
     std::vector<BeamSupport> both = clamp();
     hold(both, L, {x, y}, {x, y});
-    const ShaftBeam beam({slender(L)}, both);
+    const BeamSystem beam({slender(L)}, both);
     CHECK(between(beam, {L / 2, x, none}, {L / 2, x, none}) == near(L * L * L / (192 * EI)));
   }
   SECTION("a rigid shaft on springs tips over as a lever") {
@@ -100,7 +100,7 @@ TEST_CASE("Supports in excess share the load by their stiffness", "[core][compli
     hold(springs, 50, {x, y}, {}, 1 / k);
     hold(springs, 250, {x, y}, {}, 1 / k);
     hold(springs, 50, {z}, {z});
-    const ShaftBeam beam({{L, 0, 0, 0, 0}}, springs);
+    const BeamSystem beam({{L, 0, 0, 0, 0}}, springs);
     // At 200: reactions 1/4 and 3/4.
     CHECK(between(beam, {200, y, none}, {200, y, none}) == near((1.0 / 16 + 9.0 / 16) / k));
     CHECK(between(beam, {50, y, none}, {200, y, none}) == near(0.25 / k));
@@ -108,7 +108,7 @@ TEST_CASE("Supports in excess share the load by their stiffness", "[core][compli
 }
 
 TEST_CASE("Loads that act together are the sum of their parts", "[core][compliance][shaft]") {
-  const ShaftBeam beam({uniform_piece(100), slender(80), uniform_piece(120)}, two_bearings(30, 280));
+  const BeamSystem beam({uniform_piece(100), slender(80), uniform_piece(120)}, two_bearings(30, 280));
   const std::vector<BeamLoad> parts{{40, {1, -2, 0.3}, none}, {90, none, {20, 5, 0}}, {150, none, {0, 0, 8}},
                                     {200, {0.2, 1, 1}, none}, {90, none, {-7, 2, 0}}, {150, none, {0, 0, -3}}};
   const Eigen::MatrixXd each = beam.flexibility(parts), together = beam.flexibility(parts, 3);
@@ -137,7 +137,7 @@ TEST_CASE("Any shaft's flexibility is symmetric, does no negative work and does 
     hold(supports, between_(0, 0.3 * length), {x, y}, {}, between_(0, 1e-6));
     hold(supports, between_(0.35 * length, 0.6 * length), {x, y, z}, {x, y}, between_(1e-9, 1e-6));
     hold(supports, between_(0.65 * length, length), {x, y}, {z});
-    const ShaftBeam beam(pieces, supports), same(cut, supports);
+    const BeamSystem beam(pieces, supports), same(cut, supports);
     std::vector<BeamLoad> loads;
     for (int i = 0; i < 20; ++i) {
       const auto any = [&](double size) { return Vector3d(between_(-size, size), between_(-size, size), between_(-size, size)); };

@@ -1,0 +1,276 @@
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "core/compliance/shaft/shaft_pair.hpp"
+
+namespace flankwright {
+
+std::vector<BeamLoad> ShaftPair::mean_loads(double axial_offset) const {
+  std::vector<BeamLoad> all = outside_;
+  for (const BeamLoad& load : loads({pitch_point(axial_offset)}, axial_offset)) all.push_back(load.times(force_per_torque()));
+  return all;
+}
+
+Eigen::VectorXd ShaftPair::mean_reactions(double pinion_torque, double axial_offset) const {
+  const std::vector<BeamLoad> loads = mean_loads(axial_offset);
+  Eigen::VectorXd forces = pinion_torque * system_->reactions(loads, static_cast<int>(loads.size())).col(0);
+  if (prestrain_.size() > 0) forces += system_->prestrain_stiffness() * prestrain_;
+  return forces;
+}
+
+ClearanceState ShaftPair::clearance_state(double pinion_torque) const {
+  const Eigen::VectorXd closed = -mean_reactions(pinion_torque, 0.0);
+  const Eigen::MatrixXd stiffness = system_->prestrain_stiffness();
+  std::vector<Eigen::Index> across;
+  Eigen::VectorXd clearance(std::ssize(clearances_));
+  for (std::size_t i = 0; i < clearances_.size(); ++i) {
+    const UnitBearing& bearing = supports_.bearings[static_cast<std::size_t>(clearances_[i])];
+    across.insert(across.end(), {bearing.supports[0], bearing.supports[1]});
+    clearance[static_cast<Eigen::Index>(i)] = 0.5 * bearing.data.radial_clearance;
+  }
+  return solve_clearances(closed(across), stiffness(across, across), clearance);
+}
+
+ShaftPair ShaftPair::at_torque(double pinion_torque) const {
+  if (clearances_.empty()) return *this;
+  assert(pinion_torque > 0.0);
+  const ClearanceState found = clearance_state(pinion_torque);
+  if (!found.converged) {
+    throw InvalidInput("load.torque", in_words(pinion_torque / units::newton_metre),
+                       "one at which the equilibrium of shafts in their clearances is found; its residual is " + in_words(found.residual));
+  }
+  ShaftPair tangent = *this;
+  const auto n = static_cast<Eigen::Index>(supports_.supports.size());
+  Eigen::MatrixXd further = supports_.housing.size() > 0 ? supports_.housing : Eigen::MatrixXd(Eigen::MatrixXd::Zero(n, n));
+  Eigen::VectorXd shift = Eigen::VectorXd::Zero(n);
+  std::vector<bool> kept(supports_.supports.size(), true);
+  for (std::size_t i = 0; i < clearances_.size(); ++i) {
+    const UnitBearing& bearing = supports_.bearings[static_cast<std::size_t>(clearances_[i])];
+    const std::array<int, 2> across{bearing.supports[0], bearing.supports[1]};
+    const auto at = static_cast<Eigen::Index>(2 * i);
+    if (!found.carries[i]) {
+      for (const int support : across) kept[static_cast<std::size_t>(support)] = false;
+      continue;
+    }
+    const Eigen::Vector2d force = found.force.segment<2>(at), outwards = force.normalized();
+    const Eigen::Matrix2d rolling =
+        0.5 * bearing.data.radial_clearance / force.norm() * (Eigen::Matrix2d::Identity() - outwards * outwards.transpose());
+    for (Eigen::Index r = 0; r < 2; ++r) {
+      shift[across[static_cast<std::size_t>(r)]] = found.shift[at + r];
+      for (Eigen::Index c = 0; c < 2; ++c) further(across[static_cast<std::size_t>(r)], across[static_cast<std::size_t>(c)]) += rolling(r, c);
+    }
+  }
+  // What carries nothing is not there.
+  std::vector<Eigen::Index> left;
+  std::vector<int> index(supports_.supports.size(), -1);
+  tangent.supports_.supports.clear();
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    if (!kept[i]) continue;
+    index[i] = static_cast<int>(left.size());
+    left.push_back(static_cast<Eigen::Index>(i));
+    tangent.supports_.supports.push_back(supports_.supports[i]);
+  }
+  for (UnitBearing& bearing : tangent.supports_.bearings) {
+    for (int& support : bearing.supports) support = support < 0 ? -1 : index[static_cast<std::size_t>(support)];
+  }
+  for (int& support : tangent.supports_.turning) support = support < 0 ? -1 : index[static_cast<std::size_t>(support)];
+  tangent.supports_.housing = further(left, left);
+  tangent.prestrain_ = shift(left);
+  tangent.clearances_.clear();
+  std::vector<double> lengths;
+  for (const ShaftData* shaft : shafts_.all()) lengths.push_back(shaft->length());
+  if (const auto loose = find_loose_motion(lengths, tangent.supports_.supports)) {
+    throw InvalidInput("load.torque", in_words(pinion_torque / units::newton_metre),
+                       "a load that presses the shaft \"" + shafts_.names()[static_cast<std::size_t>(loose->beam)] +
+                           "\" against its bearings: it lies loose within their clearances");
+  }
+  tangent.system_.emplace(pieces_, tangent.supports_.supports, tangent.supports_.housing);
+  UnitState state = tangent.state(pinion_torque);
+  state.linear = false;
+  state.converged = found.converged;
+  state.clearance_residual = found.residual;
+  state.iterations = found.iterations;
+  const double mirror = pair_.data.working_flank == WorkingFlank::Left ? -1.0 : 1.0;
+  for (std::size_t i = 0; i < clearances_.size(); ++i) {
+    BearingState& bearing = state.bearings[static_cast<std::size_t>(clearances_[i])];
+    bearing.shift = found.shift.segment<2>(static_cast<Eigen::Index>(2 * i));
+    bearing.shift.y() *= mirror;
+    bearing.carries = found.carries[i];
+  }
+  tangent.state_ = std::move(state);
+  return tangent;
+}
+
+std::shared_ptr<const PairCompliance> ShaftPair::linearised_at(double pinion_torque) const {
+  if (clearances_.empty()) return nullptr;
+  return std::make_shared<const ShaftPair>(at_torque(pinion_torque));
+}
+
+void ShaftPair::add_bearings(double pinion_torque, double axial_offset, UnitState& state) const {
+  const Eigen::VectorXd forces = mean_reactions(pinion_torque, axial_offset);
+  const auto along = [&](int support) { return support < 0 ? 0.0 : forces[support]; };
+  const std::vector<std::string> names = shafts_.names();
+  for (const UnitBearing& bearing : supports_.bearings) {
+    const auto& on = bearing.supports;
+    state.bearings.push_back({bearing.name,
+                              names[static_cast<std::size_t>(bearing.shaft)],
+                              bearing.outer_shaft < 0 ? "" : names[static_cast<std::size_t>(bearing.outer_shaft)],
+                              bearing.data.position,
+                              {along(on[0]), along(on[1]), along(on[2])},
+                              {along(on[3]), along(on[4])},
+                              bearing.data.radial_clearance});
+  }
+}
+
+void ShaftPair::add_shafts(double pinion_torque, double axial_offset, UnitState& state) const {
+  const std::vector<BeamLoad> mean = mean_loads(axial_offset);
+  const Eigen::VectorXd forces = mean_reactions(pinion_torque, axial_offset);
+  const std::vector<Eigen::Vector2d> axes = axes_of(shafts_, pair_);
+  // All that acts, to be summed up shaft by shaft.
+  std::vector<BeamLoad> acting;
+  for (const BeamLoad& load : mean) acting.push_back(load.times(pinion_torque));
+  for (std::size_t i = 0; i < supports_.supports.size(); ++i) {
+    const BeamSupport& support = supports_.supports[i];
+    const double force = forces[static_cast<Eigen::Index>(i)];
+    acting.push_back(support.direction.times(force));
+    if (support.against) acting.push_back(support.against->times(-force));
+  }
+  for (std::size_t i = 0; i < shafts_.all().size(); ++i) {
+    const ShaftData& data = *shafts_.all()[i];
+    const int beam = static_cast<int>(i);
+    ShaftState shaft;
+    shaft.name = shafts_.names()[i];
+    shaft.axis = axes[i];
+    shaft.turning_hold = turning_hold(shafts_, beam);
+    const int holds = supports_.turning[i];
+    if (holds >= 0 && !std::isnan(data.torque_position)) shaft.coupling_torque = forces[holds];
+    constexpr int pieces = 40;  // stations at equal distances, for a drawing
+    double end = 0.0;
+    for (int k = 0; k <= pieces; ++k) shaft.z.push_back(data.length() * k / pieces);
+    for (const ShaftSection& section : data.sections) shaft.z.push_back(end += section.length);
+    for (const UnitBearing& bearing : supports_.bearings) {
+      if (bearing.shaft == beam) shaft.z.push_back(bearing.data.position);
+      if (bearing.outer_shaft == beam) shaft.z.push_back(bearing.outer_position);
+    }
+    for (const BeamLoad& load : mean) {
+      if (load.beam == beam) shaft.z.push_back(load.z);
+    }
+    std::ranges::sort(shaft.z);
+    const double round_off = 1e-9 * data.length();  // stations nearer to each other than this are one
+    const auto repeated = std::ranges::unique(shaft.z, [&](double a, double b) { return b - a <= round_off; });
+    shaft.z.erase(repeated.begin(), repeated.end());
+    std::vector<BeamLoad> units;
+    for (const double z : shaft.z) {
+      for (int k = 0; k < 6; ++k) {
+        BeamLoad unit{z, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), beam};
+        (k < 3 ? unit.force[k] : unit.moment[k - 3]) = 1.0;
+        units.push_back(unit);
+      }
+    }
+    Eigen::VectorXd moved = pinion_torque * system_->flexibility(units, mean, 1, static_cast<int>(mean.size())).col(0);
+    if (prestrain_.size() > 0) moved -= system_->reactions(units).transpose() * prestrain_;
+    for (std::size_t k = 0; k < shaft.z.size(); ++k) {
+      shaft.displacement.emplace_back(moved.segment<3>(static_cast<Eigen::Index>(6 * k)));
+      shaft.turn.emplace_back(moved.segment<3>(static_cast<Eigen::Index>(6 * k + 3)));
+    }
+    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = force;
+    double largest_force = 0.0, largest_moment = 0.0;
+    for (const BeamLoad& load : acting) {
+      if (load.beam != beam) continue;
+      const Eigen::Vector3d about_origin = load.moment + Eigen::Vector3d(0.0, 0.0, load.z).cross(load.force);
+      force += load.force;
+      moment += about_origin;
+      largest_force = std::max(largest_force, load.force.norm());
+      largest_moment = std::max({largest_moment, load.moment.norm(), about_origin.norm()});
+    }
+    shaft.residual = 0.0;
+    if (largest_force > 0.0) shaft.residual = force.norm() / largest_force;
+    if (largest_moment > 0.0) shaft.residual = std::max(shaft.residual, moment.norm() / largest_moment);
+    state.shafts.push_back(std::move(shaft));
+  }
+}
+
+void ShaftPair::find_drivers(UnitState& state) const {
+  // The pinion turns with its torque where it drives; from mesh to mesh turns change sides.
+  const double pinion = pair_.data.driver == Member::Pinion ? 1.0 : -1.0;
+  std::map<std::string, double> turns{{pair_shafts[0], pinion}, {pair_shafts[1], -pinion}};
+  for (std::size_t known = 0; known != turns.size();) {
+    known = turns.size();
+    for (const MeshState& mesh : state.meshes) {
+      for (const auto& [one, two] : {std::pair{0, 1}, std::pair{1, 0}}) {
+        const auto from = turns.find(mesh.shafts[static_cast<std::size_t>(one)]);
+        if (from != turns.end()) turns.try_emplace(mesh.shafts[static_cast<std::size_t>(two)], -from->second);
+      }
+    }
+  }
+  for (MeshState& mesh : state.meshes) {
+    if (const auto first = turns.find(mesh.shafts[0]); first != turns.end()) mesh.driver = mesh.torque[0] * first->second >= 0.0 ? 0 : 1;
+  }
+}
+
+UnitState ShaftPair::state(double pinion_torque, double axial_offset) const {
+  if (state_) return *state_;
+  if (!clearances_.empty()) return at_torque(pinion_torque).state(pinion_torque, axial_offset);
+  UnitState state;
+  state.pinion_torque = pinion_torque;
+  const double alpha = pair_.working_transverse_pressure_angle, beta = pair_.base_helix_angle, own = force_per_torque() * pinion_torque;
+  MeshState& studied = state.meshes.emplace_back();
+  studied.name = "pair";
+  studied.shafts = {pair_shafts[0], pair_shafts[1]};
+  studied.torque = {pinion_torque, pinion_torque * pair_.gear_ratio()};
+  studied.normal_force = own;
+  studied.force =
+      own * Eigen::Vector3d(std::cos(beta) * std::sin(alpha), std::cos(beta) * std::cos(alpha), -pair_.contact_line_sense() * std::sin(beta));
+  for (std::size_t m = 0; m < shafts_.unit.meshes.size(); ++m) {
+    const UnitMesh& mesh = shafts_.unit.meshes[m];
+    const double torque = torques_.mesh[m] * pinion_torque;
+    MeshState& of = state.meshes.emplace_back();
+    of.name = mesh.name.empty() ? "mesh " + std::to_string(m + 1) : mesh.name;
+    of.shafts = {mesh.gears[0].shaft, mesh.gears[1].shaft};
+    of.torque = {torque, torque * mesh.gears[1].teeth / mesh.gears[0].teeth};
+    of.force = mesh_loads(shafts_, mesh, torque)[1].force;
+    of.normal_force = of.force.norm();
+    of.first_flank = torque >= 0.0 ? WorkingFlank::Right : WorkingFlank::Left;
+  }
+  find_drivers(state);
+  if (system_) {
+    add_bearings(pinion_torque, axial_offset, state);
+    add_shafts(pinion_torque, axial_offset, state);
+    state.mesh_misalignment = state.outside_misalignment = 0.0;
+    const std::vector<ContactPoint> at{pitch_point(axial_offset)};
+    const Eigen::VectorXd force = Eigen::VectorXd::Constant(1, own);
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      if (!has_shaft(m)) continue;
+      const double all = motion(m, at, force, axial_offset).misalignment;
+      ShaftPair alone = *this;
+      alone.outside_.clear();
+      alone.prestrain_.resize(0);
+      state.mesh_misalignment += all;
+      state.outside_misalignment += all - alone.motion(m, at, force, axial_offset).misalignment;
+    }
+  }
+  if (pair_.data.working_flank == WorkingFlank::Right) return state;
+  // Back out of the mirror.
+  for (MeshState& mesh : state.meshes) {
+    mesh.force.y() *= -1.0;
+    for (double& torque : mesh.torque) torque *= -1.0;
+    mesh.first_flank = mesh.first_flank == WorkingFlank::Right ? WorkingFlank::Left : WorkingFlank::Right;
+  }
+  for (BearingState& bearing : state.bearings) {
+    bearing.force.y() *= -1.0;
+    bearing.moment.x() *= -1.0;
+    bearing.shift.y() *= -1.0;
+  }
+  for (ShaftState& shaft : state.shafts) {
+    shaft.axis.y() *= -1.0;
+    shaft.coupling_torque *= -1.0;
+    for (Eigen::Vector3d& moved : shaft.displacement) moved.y() *= -1.0;
+    for (Eigen::Vector3d& turned : shaft.turn) turned = {-turned.x(), turned.y(), -turned.z()};
+  }
+  return state;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,111 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/compliance/shaft/shaft_data.hpp"
+#include "core/gear/gear_pair.hpp"
+
+namespace flankwright {
+
+/// Names of the shafts that carry the gears of the pair under study.
+inline constexpr std::array<const char*, 2> pair_shafts{"pinion", "wheel"};
+
+/// One gear of a mesh beside the pair under study.
+struct UnitGear {
+  std::string shaft;           ///< the one that it sits on: "pinion", "wheel", or the name of a further one
+  double position{not_given};  ///< of its mid face on the shaft [mm]
+  int teeth{0};                ///< >= 5
+  double face_width{0.0};      ///< over which the shaft is as thick as the gear's root (bending: mean of tip and root) [mm], >= 0; 0: nowhere
+};
+
+/// A mesh beside the pair under study, which loads its shafts with mean forces. External involute gears on parallel axes.
+struct UnitMesh {
+  std::string name;
+  std::array<UnitGear, 2> gears;
+  double normal_module{not_given};         ///< m_n [mm], > 0
+  double pressure_angle{20 * units::deg};  ///< alpha_n, normal section [rad]
+  double helix_angle{0.0};                 ///< |beta| at the reference cylinder [rad], >= 0
+  Hand hand{Hand::Right};                  ///< of the first gear, the second one's is the opposite
+  double centre_distance{not_given};       ///< a_w [mm]; not given: of the reference circles
+  /// Where the second gear's axis lies, seen from that of the first: turned from x, the direction from pinion to wheel, towards y [rad].
+  double angle{not_given};
+  /// Torque on the first gear by its shaft, about z, at the unit's reference torque [N mm]; not given: what the balance of the shafts leaves.
+  double torque{not_given};
+};
+
+/// What follows from a mesh's data [ISO 21771].
+struct MeshGeometry {
+  std::array<double, 2> reference_radius, base_radius, working_radius;  ///< of both gears [mm]
+  double centre_distance;                                               ///< a_w [mm]
+  double working_pressure_angle, base_helix_angle;                      ///< alpha_wt, |beta_b| [rad]
+};
+/// @pre the mesh has no problem that find_problems() names
+MeshGeometry geometry_of(const UnitMesh& mesh);
+
+/// A force and a moment from outside on a shaft, at the unit's reference torque.
+struct UnitLoad {
+  std::string shaft;
+  double position{not_given};                       ///< [mm]
+  Eigen::Vector3d force{Eigen::Vector3d::Zero()};   ///< [N], axes of the pair
+  Eigen::Vector3d moment{Eigen::Vector3d::Zero()};  ///< [N mm]; z is torque
+};
+
+/// A bearing between two shafts on one axis.
+struct ShaftJoint {
+  std::string outer_shaft, shaft;
+  double outer_position{not_given};  ///< on the outer shaft [mm]
+  ShaftBearing bearing{};            ///< its position is that on `shaft`
+};
+
+/// The housing: how far the seats of bearings move under the forces of all of them.
+struct Housing {
+  std::vector<std::string> seats;  ///< names of bearings; those not named sit in a rigid housing
+  Eigen::MatrixXd stiffness;       ///< between the seats' displacements x, y, z of each [N/mm], symmetric, positive definite; empty: rigid
+};
+
+/// A gear unit around the pair under study: the shafts that do not carry the pair's gears, the meshes, loads and bearings beside those of the
+/// pair's two shafts. Without any of them the pair's two shafts stand by themselves.
+struct UnitData {
+  std::vector<ShaftData> shafts;  ///< further ones, each with its name
+  std::vector<UnitMesh> meshes;
+  std::vector<UnitLoad> loads;
+  std::vector<ShaftJoint> joints;
+  Housing housing;
+  double reference_torque{not_given};  ///< on the pinion, at which loads and given torques are meant [N mm], > 0; all scale with the torque
+
+  bool empty() const { return shafts.empty() && meshes.empty() && loads.empty() && joints.empty() && housing.seats.empty(); }
+};
+
+/// The pair's two shafts, and the unit around them.
+struct ShaftsOfPair {
+  PerGear<std::optional<ShaftData>> shaft{};  ///< of the pair's gears; nothing: rigid
+  UnitData unit{};
+
+  bool any() const { return shaft.pinion || shaft.wheel || !unit.shafts.empty(); }
+  /// All shafts: the pinion's, the wheel's, then the further ones; those that are rigid have no entry.
+  std::vector<const ShaftData*> all() const;
+  /// Their names, in the same order.
+  std::vector<std::string> names() const;
+  /// Index of a shaft in all(); nothing where there is none of that name.
+  std::optional<int> find(const std::string& name) const;
+  std::optional<int> find(Member member) const { return find(name_of(member)); }
+  /// How messages name a shaft's table: "pinion.shaft", "unit.shafts.0".
+  std::string table(int shaft) const;
+  bool depends_on_load() const;
+};
+
+/// Everything in the data that cannot be: what find_problems() says of a shaft; gears, loads and bearings on no shaft or outside it; shafts that can
+/// move as rigid bodies; torques that do not balance; axes that do not meet. Fields are keys of a study, "unit.meshes.0.shaft_1".
+std::vector<InvalidInput> find_problems(const ShaftsOfPair& shafts, const GearPair& pair);
+
+/// Where the shafts' axes are, x and y from that of the pinion [mm], by the meshes and joints between them; NaN of those that nothing joins.
+std::vector<Eigen::Vector2d> axes_of(const ShaftsOfPair& shafts, const GearPair& pair);
+
+/// The same unit seen in a mirror, the plane y = 0: as a pair that works on its left flanks is analysed.
+UnitData mirrored(UnitData unit);
+
+}  // namespace flankwright

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <string>
+#include <vector>
+
+#include "core/gear/gear_data.hpp"
+
+namespace flankwright {
+
+/// Torques and forces of one mesh of a unit under mean forces.
+struct MeshState {
+  std::string name;
+  std::array<std::string, 2> shafts;
+  std::array<double, 2> torque{not_given, not_given};           ///< on each gear by its shaft, about z [N mm]
+  double normal_force{not_given};                               ///< [N], >= 0
+  Eigen::Vector3d force{Eigen::Vector3d::Constant(not_given)};  ///< on the second gear [N]
+  WorkingFlank first_flank{WorkingFlank::Right};                ///< of the first gear that works
+  /// Which of its gears drives, 0 or 1, by the torques and the turns that follow from the pair's; -1: no mesh joins it to the pair.
+  int driver{-1};
+};
+
+/// A bearing under mean forces. What has a direction is in the axes of the pair, x, y, z.
+struct BearingState {
+  std::string name, shaft, outer_shaft;                          ///< outer_shaft empty: on the housing
+  double position{not_given};                                    ///< on the shaft [mm]
+  Eigen::Vector3d force{Eigen::Vector3d::Constant(not_given)};   ///< on the shaft [N]
+  Eigen::Vector2d moment{Eigen::Vector2d::Constant(not_given)};  ///< on the shaft about x and y [N mm]
+  double radial_clearance{0.0};                                  ///< as given [mm]
+  Eigen::Vector2d shift{Eigen::Vector2d::Zero()};                ///< of the shaft within it [mm]
+  bool carries{true};                                            ///< false: the shaft lies within the clearance
+};
+
+/// A shaft under mean forces, at stations along it.
+struct ShaftState {
+  std::string name;
+  Eigen::Vector2d axis{Eigen::Vector2d::Constant(not_given)};  ///< where it lies, from the pinion's [mm]; NaN: nothing says
+  double coupling_torque{0.0};                                 ///< that enters at its torque_position, about z [N mm]
+  double turning_hold{not_given};                              ///< where it does not turn [mm]
+  std::vector<double> z;                                       ///< [mm]
+  std::vector<Eigen::Vector3d> displacement;                   ///< of the axis [mm]
+  std::vector<Eigen::Vector3d> turn;                           ///< of the section about x and y; about z its twist [rad]
+  double residual{not_given};  ///< of its equilibrium, forces over the largest and moments over the largest, the larger [-]
+};
+
+/// A unit under the mean forces of one load case: the mesh under study by one normal force at the pitch point at mid face.
+struct UnitState {
+  double pinion_torque{not_given};  ///< [N mm]
+  std::vector<MeshState> meshes;    ///< the pair under study first
+  std::vector<BearingState> bearings;
+  std::vector<ShaftState> shafts;
+  double mesh_misalignment{not_given};  ///< of the pair under study by all shafts: as ShaftMotion::misalignment of both gears [mm]
+  /// The part of it that the other forces make [mm].
+  double outside_misalignment{not_given};
+  bool linear{true};               ///< no bearing has a clearance
+  bool converged{true};            ///< clearances: whether their equilibrium was found
+  double clearance_residual{0.0};  ///< ClearanceState::residual [-]
+  int iterations{0};
+};
+
+}  // namespace flankwright

@@ -1,0 +1,123 @@
+#include "core/compliance/shaft/unit_statics.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace flankwright {
+
+MeshGeometry geometry_of(const UnitMesh& mesh) {
+  MeshGeometry of;
+  const double transverse = std::atan(std::tan(mesh.pressure_angle) / std::cos(mesh.helix_angle));
+  for (std::size_t i = 0; i < 2; ++i) {
+    of.reference_radius[i] = 0.5 * mesh.normal_module * mesh.gears[i].teeth / std::cos(mesh.helix_angle);
+    of.base_radius[i] = of.reference_radius[i] * std::cos(transverse);
+  }
+  const double reference = of.reference_radius[0] + of.reference_radius[1];
+  of.centre_distance = std::isnan(mesh.centre_distance) ? reference : mesh.centre_distance;
+  of.working_pressure_angle = std::acos(reference * std::cos(transverse) / of.centre_distance);
+  for (std::size_t i = 0; i < 2; ++i) of.working_radius[i] = of.centre_distance * mesh.gears[i].teeth / (mesh.gears[0].teeth + mesh.gears[1].teeth);
+  of.base_helix_angle = std::asin(std::sin(mesh.helix_angle) * std::cos(mesh.pressure_angle));
+  return of;
+}
+
+UnitTorques torque_balance(const ShaftsOfPair& shafts, const GearPair& pair) {
+  const std::vector<const ShaftData*> all = shafts.all();
+  const UnitData& unit = shafts.unit;
+  UnitTorques torques{std::vector<double>(unit.meshes.size(), 0.0), std::vector<double>(all.size(), 0.0), {}};
+  // What is known acts on the right-hand side.
+  Eigen::VectorXd known = Eigen::VectorXd::Zero(std::ssize(all));
+  if (const auto on = shafts.find(Member::Pinion)) known[*on] -= 1.0;
+  if (const auto on = shafts.find(Member::Wheel)) known[*on] -= pair.gear_ratio();
+  for (const UnitLoad& load : unit.loads) known[*shafts.find(load.shaft)] += load.moment.z() / unit.reference_torque;
+  std::vector<Eigen::VectorXd> columns;
+  std::vector<double*> unknowns;
+  for (std::size_t m = 0; m < unit.meshes.size(); ++m) {
+    const UnitMesh& mesh = unit.meshes[m];
+    Eigen::VectorXd column = Eigen::VectorXd::Zero(known.size());
+    column[*shafts.find(mesh.gears[0].shaft)] -= 1.0;
+    column[*shafts.find(mesh.gears[1].shaft)] -= static_cast<double>(mesh.gears[1].teeth) / mesh.gears[0].teeth;
+    if (!std::isnan(mesh.torque)) {
+      torques.mesh[m] = mesh.torque / unit.reference_torque;
+      known += torques.mesh[m] * column;
+      continue;
+    }
+    columns.push_back(std::move(column));
+    unknowns.push_back(&torques.mesh[m]);
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (std::isnan(all[i]->torque_position)) continue;
+    columns.push_back(Eigen::VectorXd::Unit(known.size(), static_cast<Eigen::Index>(i)));
+    unknowns.push_back(&torques.coupling[i]);
+  }
+  Eigen::VectorXd left = known;
+  if (!columns.empty()) {
+    Eigen::MatrixXd matrix(known.size(), std::ssize(columns));
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) matrix.col(j) = columns[static_cast<std::size_t>(j)];
+    Eigen::FullPivLU<Eigen::MatrixXd> factored(matrix);
+    torques.determined = factored.rank() == matrix.cols();
+    const Eigen::VectorXd found = matrix.completeOrthogonalDecomposition().solve(-known);
+    for (std::size_t j = 0; j < unknowns.size(); ++j) *unknowns[j] = found[static_cast<Eigen::Index>(j)];
+    left += matrix * found;
+  }
+  constexpr double balanced = 1e-9;  // |sum of the torques on a shaft| at most this part of the largest known torque
+  Eigen::Index worst = 0;            // least squares leave something over on every shaft that the meshes join
+  for (Eigen::Index i = 0; i < left.size(); ++i) {
+    if (std::abs(left[i]) > std::abs(left[worst])) worst = i;
+  }
+  if (left.size() > 0) {
+    const Eigen::Index i = worst;
+    if (std::abs(left[i]) > balanced * std::max(1.0, known.cwiseAbs().maxCoeff())) torques.unbalanced.emplace_back(static_cast<int>(i), left[i]);
+  }
+  return torques;
+}
+
+std::vector<BeamLoad> mesh_loads(const ShaftsOfPair& shafts, const UnitMesh& mesh, double torque) {
+  using Eigen::Vector3d;
+  const MeshGeometry of = geometry_of(mesh);
+  const double alpha = of.working_pressure_angle, beta = of.base_helix_angle;
+  const double right = torque >= 0.0 ? 1.0 : -1.0, hand = mesh.hand == Hand::Right ? 1.0 : -1.0;
+  const Vector3d across(std::cos(mesh.angle), std::sin(mesh.angle), 0.0), along(-std::sin(mesh.angle), std::cos(mesh.angle), 0.0);
+  // The outward normal of the first gear's working flank: along it the second gear is pushed, as in ShaftPair.
+  const Vector3d normal =
+      std::cos(beta) * (std::sin(alpha) * across + right * std::cos(alpha) * along) - right * hand * std::sin(beta) * Vector3d::UnitZ();
+  const Vector3d force = std::abs(torque) / (of.base_radius[0] * std::cos(beta)) * normal;
+  const Vector3d first_arm = of.working_radius[0] * across, second_arm = -of.working_radius[1] * across;
+  return {{mesh.gears[0].position, -force, first_arm.cross(-force), *shafts.find(mesh.gears[0].shaft)},
+          {mesh.gears[1].position, force, second_arm.cross(force), *shafts.find(mesh.gears[1].shaft)}};
+}
+
+std::vector<BeamLoad> outside_loads(const ShaftsOfPair& shafts, const UnitTorques& torques) {
+  const UnitData& unit = shafts.unit;
+  std::vector<BeamLoad> loads;
+  for (std::size_t m = 0; m < unit.meshes.size(); ++m) {
+    for (const BeamLoad& load : mesh_loads(shafts, unit.meshes[m], torques.mesh[m])) loads.push_back(load);
+  }
+  for (const UnitLoad& load : unit.loads) {
+    loads.push_back(BeamLoad{load.position, load.force, load.moment, *shafts.find(load.shaft)}.times(1.0 / unit.reference_torque));
+  }
+  return loads;
+}
+
+double turning_hold(const ShaftsOfPair& shafts, int shaft) {
+  const ShaftData& data = *shafts.all()[static_cast<std::size_t>(shaft)];
+  if (!std::isnan(data.torque_position)) return data.torque_position;
+  const std::string name = shafts.names()[static_cast<std::size_t>(shaft)];
+  for (const UnitMesh& mesh : shafts.unit.meshes) {
+    for (const UnitGear& gear : mesh.gears) {
+      if (gear.shaft == name) return gear.position;
+    }
+  }
+  for (const UnitLoad& load : shafts.unit.loads) {
+    if (load.shaft == name && load.moment.z() != 0.0) return load.position;
+  }
+  return not_given;
+}
+
+void settle_turning_holds(ShaftsOfPair& shafts) {
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    if (const auto index = shafts.find(m)) shafts.shaft[m]->held_position = turning_hold(shafts, *index);
+  }
+}
+
+}  // namespace flankwright

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <vector>
+
+#include "core/compliance/shaft/beam_system.hpp"
+#include "core/compliance/shaft/unit_data.hpp"
+
+namespace flankwright {
+
+/// Torques of a unit per torque on the pinion, from the balance of torques about the axes of all shafts. About z; the pair as it is analysed, with a
+/// positive torque on the pinion.
+struct UnitTorques {
+  std::vector<double> mesh;      ///< on the first gear of each mesh by its shaft [-]
+  std::vector<double> coupling;  ///< that enters each shaft at its torque_position [-]; 0 where it has none
+  /// The shaft whose torques balance least, and by how much not [-]; empty where all do.
+  std::vector<std::pair<int, double>> unbalanced;
+  bool determined{true};  ///< false: the balance leaves several possibilities
+
+  bool solved() const { return determined && unbalanced.empty(); }
+};
+
+/// Tangential forces f of meshes and torques of couplings balance each shaft: sum of -r_w f, loads and coupling is 0.
+/// @param shafts  as the pair is analysed, see mirrored(); loads and gears on shafts that are there
+UnitTorques torque_balance(const ShaftsOfPair& shafts, const GearPair& pair);
+
+/// Forces of one mesh on the shafts of its gears, per torque on the first gear: a normal force at the pitch point at mid face, on the
+/// flanks that the torque's sign asks for.
+/// @param torque  on the first gear by its shaft [N mm]
+std::vector<BeamLoad> mesh_loads(const ShaftsOfPair& shafts, const UnitMesh& mesh, double torque);
+
+/// All that acts on the shafts beside the pair's own mesh, per torque on the pinion [N and N mm per N mm].
+std::vector<BeamLoad> outside_loads(const ShaftsOfPair& shafts, const UnitTorques& torques);
+
+/// Where a shaft is held against turning: its coupling, else the first gear of another mesh, else the first load with a torque [mm]; NaN: nowhere.
+double turning_hold(const ShaftsOfPair& shafts, int shaft);
+/// Tells the pair's shafts, see ShaftData::held_position.
+void settle_turning_holds(ShaftsOfPair& shafts);
+
+}  // namespace flankwright

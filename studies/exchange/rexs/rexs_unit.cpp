@@ -1,0 +1,351 @@
+#include "studies/exchange/rexs/rexs_unit.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "core/base/units.hpp"
+
+namespace flankwright::studies::rexs {
+
+namespace {
+
+using Eigen::Vector3d;
+
+class UnitReading {
+ public:
+  UnitReading(Reading& reading, const StageParts& parts, const GearPair& pair) : reading_(reading), parts_(parts), pair_(pair) {
+    const std::array<double, 3> u = u_axis(reading, *parts.gears[0].gear);
+    z_ = Vector3d(u[0], u[1], u[2]).normalized();
+  }
+
+  ImportedUnit read(const std::vector<ImportedTorque>& torques) {
+    read_shafts();
+    find_frame();
+    const bool loaded = !torques.empty() && torques.front().torque > 0.0;
+    if (loaded) result_.shafts.unit.reference_torque = torques.front().torque;
+    for (const auto& [id, shaft] : shafts_) read_loads(*reading_.model().find(id), loaded);
+    for (const Relation& relation : reading_.model().relations) {
+      if (relation.type == "stage") read_mesh(relation);
+    }
+    for (const auto& [id, shaft] : shafts_) read_joints(id);
+    settle();
+    const std::vector<InvalidInput> problems = find_problems(completed(), pair_);
+    if (!problems.empty()) {
+      throw LeftOut{fmt::format("{} = {}: allowed is {}", problems.front().field(), problems.front().value(), problems.front().allowed())};
+    }
+    for (const std::string& note : notes_) reading_.warn(note);
+    return std::move(result_);
+  }
+
+ private:
+  std::string name_of_shaft(int id) const {
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      if (parts_[m].shaft->id == id) return flankwright::name_of(m);
+    }
+    return "shaft " + std::to_string(id);
+  }
+
+  Vector3d vector(const Component& of, const char* attribute, const Vector3d& fallback) {
+    const auto found = reading_.numbers(&of, attribute, Dimension::Length);
+    return found && found->size() == 3 ? Vector3d((*found)[0], (*found)[1], (*found)[2]) : fallback;
+  }
+
+  void read_shafts() {
+    for (const Component& component : reading_.model().components) {
+      if (component.type != "shaft") continue;
+      const std::array<double, 3> u = u_axis(reading_, component);
+      const double along = Vector3d(u[0], u[1], u[2]).normalized().dot(z_);
+      constexpr double parallel = 1e-6;  // 1 - |cos| at most: 0.08 deg
+      if (1.0 - std::abs(along) > parallel) throw LeftOut{Reading::name_of(component) + " is not parallel to the stage's"};
+      shafts_.emplace(component.id, read_bare_shaft(reading_, component, along < 0.0, notes_));
+    }
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      const BareShaft& bare = shafts_.at(parts_[m].shaft->id);
+      const auto place = reading_.number(parts_[m].gear, "u_coordinate_on_shaft", Dimension::Length);
+      if (!place) throw LeftOut{Reading::name_of(*parts_[m].gear) + " has no u_coordinate_on_shaft"};
+      result_.shafts.shaft[m] = bare.data;
+      result_.shafts.shaft[m]->gear_position = bare.place(place->value);
+      result_.remarks[m] = bare.remarks;
+      result_.remarks[m]["gear_position"] = place->source + ", taken as mid face";
+    }
+    for (const auto& [id, bare] : shafts_) {
+      if (id == parts_[Member::Pinion].shaft->id || id == parts_[Member::Wheel].shaft->id) continue;
+      ShaftData& further = result_.shafts.unit.shafts.emplace_back(bare.data);
+      further.name = name_of_shaft(id);
+      result_.shaft_remarks.push_back(Reading::name_of(*reading_.model().find(id)));
+    }
+  }
+
+  ShaftData& data_of(int id) {
+    for (const Member m : {Member::Pinion, Member::Wheel}) {
+      if (parts_[m].shaft->id == id) return *result_.shafts.shaft[m];
+    }
+    return *std::ranges::find(result_.shafts.unit.shafts, name_of_shaft(id), &ShaftData::name);
+  }
+
+  /// A point of a shaft's axis.
+  Vector3d axis_of(int id) {
+    const Component& shaft = *reading_.model().find(id);
+    const Vector3d place = vector(shaft, "support_vector", Vector3d::Constant(not_given));
+    if (!place.allFinite()) throw LeftOut{Reading::name_of(shaft) + " has no support_vector"};
+    return place;
+  }
+  Vector3d across(int from, int to) {
+    const Vector3d apart = axis_of(to) - axis_of(from);
+    return apart - apart.dot(z_) * z_;
+  }
+
+  /// x from pinion to wheel.
+  void find_frame() {
+    const Vector3d apart = across(parts_[Member::Pinion].shaft->id, parts_[Member::Wheel].shaft->id);
+    if (!(apart.norm() > 0.0)) throw LeftOut{"both shafts of the stage lie on one axis"};
+    x_ = apart.normalized();
+    y_ = z_.cross(x_);
+  }
+  Vector3d in_frame(const Vector3d& v) const { return {v.dot(x_), v.dot(y_), v.dot(z_)}; }
+
+  /// Of the first load case, else of the model.
+  std::optional<Taken> number(const Component& component, std::string_view id, Dimension dimension) {
+    if (!reading_.model().load_cases.empty()) {
+      for (const Component& varied : reading_.model().load_cases.front().components) {
+        if (varied.id != component.id) continue;
+        if (auto taken = reading_.number(&varied, id, dimension)) return taken;
+      }
+    }
+    return reading_.number(&component, id, dimension);
+  }
+  double value(const Component& component, std::string_view id, Dimension dimension) {
+    const auto taken = number(component, id, dimension);
+    return taken ? taken->value : 0.0;
+  }
+
+  void read_loads(const Component& shaft, bool loaded) {
+    const BareShaft& bare = shafts_.at(shaft.id);
+    const Vector3d u = bare.against_z ? Vector3d(-z_) : z_;
+    const Vector3d w = vector(shaft, "w_axis_vector", Vector3d::UnitZ()).normalized(), v = w.cross(u);
+    for (const Component* load : reading_.related(shaft, {"external_load"})) {
+      const auto place = reading_.number(load, "u_coordinate_on_shaft", Dimension::Length);
+      if (!place) throw LeftOut{Reading::name_of(*load) + " has no u_coordinate_on_shaft"};
+      const double torque = value(*load, "torque_around_u_axis", Dimension::Torque);
+      if (torque != 0.0 || reading_.word(load, "transmits_torque") == "true") {
+        ShaftData& on = data_of(shaft.id);
+        if (!std::isnan(on.torque_position)) throw LeftOut{Reading::name_of(shaft) + ": its torque enters at several places"};
+        on.torque_position = bare.place(place->value);
+        for (const Member m : {Member::Pinion, Member::Wheel}) {
+          if (parts_[m].shaft->id == shaft.id) result_.remarks[m]["torque_position"] = Reading::name_of(*load);
+        }
+      }
+      const Vector3d force = value(*load, "force_u_direction", Dimension::Force) * u + value(*load, "force_v_direction", Dimension::Force) * v +
+                             value(*load, "force_w_direction", Dimension::Force) * w;
+      const Vector3d moment =
+          value(*load, "torque_around_v_axis", Dimension::Torque) * v + value(*load, "torque_around_w_axis", Dimension::Torque) * w;
+      if (force.isZero() && moment.isZero()) continue;
+      if (!loaded) {
+        notes_.push_back(Reading::name_of(*load) + ": its forces are not taken, as the file has no torque that they belong to");
+        continue;
+      }
+      result_.shafts.unit.loads.push_back({name_of_shaft(shaft.id), bare.place(place->value), in_frame(force), in_frame(moment)});
+      result_.load_remarks.push_back(Reading::name_of(*load));
+      if (reading_.model().load_cases.size() > 1) {
+        notes_.push_back(
+            "forces of external loads are those of the first load case; with the torque of the other cases they scale, whatever the file has there");
+      }
+    }
+  }
+
+  void read_mesh(const Relation& relation) {
+    const auto id = relation.role("stage"), one = relation.role("gear_1"), two = relation.role("gear_2");
+    if (!id || *id == parts_.stage->id) return;
+    const Component& stage = reading_.in_role(relation, "stage");
+    const std::string name = Reading::name_of(stage);
+    if (stage.type != "cylindrical_stage" || !one || !two)
+      throw LeftOut{name + " also loads its shafts, and only external cylindrical stages are known"};
+    UnitMesh mesh;
+    mesh.name = name;
+    std::array<int, 2> on{};
+    for (std::size_t g = 0; g < 2; ++g) {
+      const Component& gear = reading_.in_role(relation, g == 0 ? "gear_1" : "gear_2");
+      const auto shafts = reading_.related(gear, {"shaft"});
+      const auto teeth = reading_.number(&gear, "number_of_teeth", Dimension::None),
+                 place = reading_.number(&gear, "u_coordinate_on_shaft", Dimension::Length);
+      if (gear.type != "cylindrical_gear" || shafts.empty() || !teeth || teeth->value < 5.0 || !place || !shafts_.contains(shafts.front()->id)) {
+        throw LeftOut{Reading::name_of(gear) + " is no external gear with teeth and a place on a shaft"};
+      }
+      on[g] = shafts.front()->id;
+      const auto width = reading_.number(&gear, "face_width", Dimension::Length);
+      mesh.gears[g] = {name_of_shaft(on[g]), shafts_.at(on[g]).place(place->value), static_cast<int>(std::lround(teeth->value)),
+                       width ? width->value : 0.0};
+      if (const auto module = reading_.number(&gear, "normal_module", Dimension::Length); module && std::isnan(mesh.normal_module))
+        mesh.normal_module = module->value;
+      const auto helix = reading_.number(&gear, "helix_angle_reference_diameter", Dimension::Angle);
+      if (g == 0 && helix) {
+        mesh.helix_angle = std::abs(helix->value);
+        mesh.hand = helix->value >= 0.0 ? Hand::Right : Hand::Left;
+      }
+      std::vector<const Component*> sources = reading_.related(gear, {"cylindrical_gear_flank"});
+      sources.push_back(&gear);
+      for (const Component* source : sources) {
+        if (const auto angle = reading_.number(source, "normal_pressure_angle", Dimension::Angle)) mesh.pressure_angle = angle->value;
+      }
+    }
+    if (std::isnan(mesh.normal_module)) throw LeftOut{name + ": its gears have no normal_module"};
+    if (const auto distance = reading_.number(&stage, "center_distance", Dimension::Length)) mesh.centre_distance = distance->value;
+    const Vector3d apart = in_frame(across(on[0], on[1]));
+    mesh.angle = std::atan2(apart.y(), apart.x());
+    result_.shafts.unit.meshes.push_back(mesh);
+    result_.mesh_remarks.push_back(name);
+  }
+
+  void read_joints(int id) {
+    for (const BareJoint& inner : shafts_.at(id).joints) {
+      if (!inner.is_inner) continue;
+      if (!shafts_.contains(inner.mate->id)) throw LeftOut{Reading::name_of(*inner.mate) + " is no shaft of the unit"};
+      const std::vector<BareJoint>& there = shafts_.at(inner.mate->id).joints;
+      const auto outer = std::ranges::find(there, inner.bearing, &BareJoint::bearing);
+      if (outer == there.end()) throw LeftOut{Reading::name_of(*inner.bearing) + " has no place on both shafts"};
+      result_.shafts.unit.joints.push_back({name_of_shaft(inner.mate->id), name_of_shaft(id), outer->held.position, inner.held});
+      result_.joint_remarks.push_back(Reading::name_of(*inner.bearing));
+    }
+  }
+
+  /// The axial bearing of each shaft: one with a stiffness, else the one of lowest z.
+  void settle() {
+    const auto is_axial = [](const ShaftBearing& bearing) { return bearing.axial_stiffness > 0.0; };
+    for (const auto& [id, bare] : shafts_) {
+      ShaftData& shaft = data_of(id);
+      const std::string name = name_of_shaft(id);
+      const bool joined = std::ranges::any_of(result_.shafts.unit.joints, [&](const ShaftJoint& joint) {
+        return (joint.shaft == name || joint.outer_shaft == name) && is_axial(joint.bearing);
+      });
+      if (!shaft.bearings.empty() && !joined && std::ranges::none_of(shaft.bearings, is_axial)) {
+        notes_.push_back(Reading::name_of(*reading_.model().find(id)) + ": no bearing has an axial_stiffness, the one of lowest z holds it");
+      }
+    }
+  }
+
+  /// With what a study's reader adds.
+  ShaftsOfPair completed() {
+    ShaftsOfPair all = result_.shafts;
+    const auto complete = [&](ShaftData& shaft) {
+      if (std::isnan(shaft.material.youngs_modulus)) shaft.material.youngs_modulus = Material{}.youngs_modulus;
+      if (std::isnan(shaft.material.poissons_ratio)) shaft.material.poissons_ratio = Material{}.poissons_ratio;
+      const bool held = std::ranges::any_of(shaft.bearings, [](const ShaftBearing& bearing) { return bearing.axial_stiffness > 0.0; });
+      if (!shaft.bearings.empty() && !held) shaft.bearings.front().axial_stiffness = std::numeric_limits<double>::infinity();
+    };
+    for (const Member m : {Member::Pinion, Member::Wheel}) complete(*all.shaft[m]);
+    for (ShaftData& shaft : all.unit.shafts) complete(shaft);
+    return all;
+  }
+
+  Reading& reading_;
+  const StageParts& parts_;
+  const GearPair& pair_;
+  Vector3d x_{Vector3d::Zero()}, y_{Vector3d::Zero()}, z_{Vector3d::Zero()};
+  std::map<int, BareShaft> shafts_;  ///< by id
+  std::vector<std::string> notes_;
+  ImportedUnit result_;
+};
+
+/// Whether the stage's shafts carry other gears or run in other shafts.
+bool is_in_unit(const Reading& reading, const StageParts& parts) {
+  for (const GearParts& gear : parts.gears) {
+    if (gear.shaft == nullptr || reading.related(*gear.shaft, {"shaft_section"}).empty()) return false;
+  }
+  for (const GearParts& gear : parts.gears) {
+    if (reading.related(*gear.shaft, {"cylindrical_gear"}).size() > 1) return true;
+    for (const Relation& relation : reading.model().relations) {
+      if (relation.role("inner_part") != gear.shaft->id && relation.role("outer_part") != gear.shaft->id) continue;
+      for (const char* side : {"inner_part", "outer_part"}) {
+        const auto id = relation.role(side);
+        const Component* other = id ? reading.model().find(*id) : nullptr;
+        if (other != nullptr && other != gear.shaft && other->type == "shaft") return true;
+      }
+    }
+  }
+  return false;
+}
+
+void write_material(const ShaftData& shaft, StudyText& text) {
+  if (!std::isnan(shaft.material.youngs_modulus)) text.key("material.youngs_modulus", number_text(shaft.material.youngs_modulus));
+  if (!std::isnan(shaft.material.poissons_ratio)) text.key("material.poissons_ratio", number_text(shaft.material.poissons_ratio));
+}
+
+}  // namespace
+
+std::optional<ImportedUnit> read_unit(Reading& reading, const StageParts& parts, const GearPair& pair, const std::vector<ImportedTorque>& torques) {
+  if (!is_in_unit(reading, parts) || stages_of(reading).size() < 2) return std::nullopt;
+  try {
+    return UnitReading(reading, parts, pair).read(torques);
+  } catch (const LeftOut& left_out) {
+    reading.warn("the unit around the stage: not taken, " + left_out.why);
+    return std::nullopt;
+  }
+}
+
+void write_unit(const ImportedUnit& imported, StudyText& text) {
+  for (const Member m : {Member::Pinion, Member::Wheel}) write_shaft({*imported.shafts.shaft[m], imported.remarks[m]}, m, text);
+  const UnitData& unit = imported.shafts.unit;
+  if (unit.reference_torque > 0.0) {
+    text.table("unit");
+    text.key("reference_torque", number_text(unit.reference_torque / units::newton_metre), "of the first load case");
+  }
+  for (std::size_t i = 0; i < unit.shafts.size(); ++i) {
+    const ShaftData& shaft = unit.shafts[i];
+    text.list_table("unit.shafts");
+    text.key("name", quoted(shaft.name), imported.shaft_remarks[i]);
+    text.key("sections", sections_text(shaft));
+    if (!shaft.bearings.empty()) text.key("bearings", bearings_text(shaft));
+    if (!std::isnan(shaft.torque_position)) text.key("torque_position", difference_text(shaft.torque_position));
+    write_material(shaft, text);
+  }
+  for (std::size_t i = 0; i < unit.meshes.size(); ++i) {
+    const UnitMesh& mesh = unit.meshes[i];
+    text.list_table("unit.meshes");
+    text.key("name", quoted(mesh.name), imported.mesh_remarks[i]);
+    for (std::size_t g = 0; g < 2; ++g) {
+      const std::string number = g == 0 ? "_1" : "_2";
+      text.key("shaft" + number, quoted(mesh.gears[g].shaft));
+      text.key("position" + number, difference_text(mesh.gears[g].position));
+      text.key("teeth" + number, std::to_string(mesh.gears[g].teeth));
+      if (mesh.gears[g].face_width > 0.0) text.key("face_width" + number, difference_text(mesh.gears[g].face_width));
+    }
+    text.key("normal_module", number_text(mesh.normal_module));
+    text.key("pressure_angle", number_text(mesh.pressure_angle / units::deg));
+    text.key("helix_angle", number_text(mesh.helix_angle / units::deg));
+    text.key("hand_1", mesh.hand == Hand::Right ? "\"right\"" : "\"left\"");
+    if (!std::isnan(mesh.centre_distance)) text.key("centre_distance", number_text(mesh.centre_distance));
+    text.key("angle", number_text(mesh.angle / units::deg), "by the shafts' support_vector");
+  }
+  for (std::size_t i = 0; i < unit.loads.size(); ++i) {
+    const UnitLoad& load = unit.loads[i];
+    text.list_table("unit.loads");
+    text.key("shaft", quoted(load.shaft), imported.load_remarks[i]);
+    text.key("position", difference_text(load.position));
+    const char* const axes[] = {"x", "y", "z"};
+    for (Eigen::Index k = 0; k < 3; ++k) {
+      if (load.force[k] != 0.0) text.key(std::string("force_") + axes[k], number_text(load.force[k]));
+    }
+    for (Eigen::Index k = 0; k < 2; ++k) {
+      if (load.moment[k] != 0.0) text.key(std::string("moment_") + axes[k], number_text(load.moment[k] / units::newton_metre));
+    }
+  }
+  for (std::size_t i = 0; i < unit.joints.size(); ++i) {
+    const ShaftJoint& joint = unit.joints[i];
+    text.list_table("unit.joints");
+    text.key("shaft", quoted(joint.shaft), imported.joint_remarks[i]);
+    text.key("position", difference_text(joint.bearing.position));
+    text.key("outer_shaft", quoted(joint.outer_shaft));
+    text.key("outer_position", difference_text(joint.outer_position));
+    constexpr double newton_per_um = 1e3;  // [N/mm]
+    if (std::isfinite(joint.bearing.radial_stiffness)) text.key("radial_stiffness", number_text(joint.bearing.radial_stiffness / newton_per_um));
+    if (joint.bearing.axial_stiffness > 0.0) text.key("axial_stiffness", number_text(std::min(joint.bearing.axial_stiffness / newton_per_um, 1e9)));
+    if (joint.bearing.tilting_stiffness > 0.0) text.key("tilting_stiffness", number_text(joint.bearing.tilting_stiffness / units::newton_metre));
+  }
+}
+
+}  // namespace flankwright::studies::rexs

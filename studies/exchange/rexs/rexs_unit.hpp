@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/compliance/shaft/unit_data.hpp"
+#include "studies/exchange/rexs/rexs_load.hpp"
+#include "studies/exchange/rexs/rexs_shaft.hpp"
+
+namespace flankwright::studies::rexs {
+
+/// All shafts of a file around one stage, with what joins and loads them.
+struct ImportedUnit {
+  ShaftsOfPair shafts;
+  PerGear<Remarks> remarks;                ///< of the pair's shafts
+  std::vector<std::string> shaft_remarks;  ///< of the further ones, the mesh's, the loads' and the joints' remarks, one each
+  std::vector<std::string> mesh_remarks, load_remarks, joint_remarks;
+};
+
+/// Reads the unit around a stage where its shafts carry other gears or run in each other; nothing, and nothing said, where they do not, or have no
+/// sections. A unit that a study cannot describe is left out with a warning that says why.
+/// @param torques  on the pinion, see read_torques(); forces from outside are those of the first
+std::optional<ImportedUnit> read_unit(Reading& reading, const StageParts& parts, const GearPair& pair, const std::vector<ImportedTorque>& torques);
+
+/// [pinion.shaft], [wheel.shaft] and [unit] of a study.
+void write_unit(const ImportedUnit& unit, StudyText& text);
+
+}  // namespace flankwright::studies::rexs

@@ -1,0 +1,145 @@
+#include "studies/results/unit_json.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/results/shafts_json.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+Json vector_json(const auto& vector, double unit = 1.0) {
+  Json json = Json::array();
+  for (const double part : vector) json.push_back(part / unit);
+  return json;
+}
+
+Json torque_json(double torque) { return std::isnan(torque) ? Json() : Json(torque / units::newton_metre); }
+
+Json further_shaft_json(const ShaftData& shaft) {
+  Json json = shaft_json(shaft);
+  json.erase("gear_position_mm");
+  json.erase("gear_stiffens");
+  json["name"] = shaft.name;
+  if (std::isnan(shaft.torque_position)) json["torque_position_mm"] = nullptr;
+  return json;
+}
+
+Json mesh_json(const UnitMesh& mesh) {
+  const MeshGeometry geometry = geometry_of(mesh);
+  Json json{{"name", mesh.name},
+            {"normal_module_mm", mesh.normal_module},
+            {"pressure_angle_deg", in_deg(mesh.pressure_angle)},
+            {"helix_angle_deg", in_deg(mesh.helix_angle)},
+            {"hand_1", mesh.hand == Hand::Right ? "right" : "left"},
+            {"centre_distance_mm", geometry.centre_distance},
+            {"angle_deg", in_deg(mesh.angle)},
+            {"torque_1_Nm", torque_json(mesh.torque)}};
+  for (std::size_t g = 0; g < 2; ++g) {
+    const std::string number = g == 0 ? "_1" : "_2";
+    json["shaft" + number] = mesh.gears[g].shaft;
+    json["position" + number + "_mm"] = mesh.gears[g].position;
+    json["teeth" + number] = mesh.gears[g].teeth;
+    json["face_width" + number + "_mm"] = mesh.gears[g].face_width;
+    json["working_pitch_diameter" + number + "_mm"] = 2.0 * geometry.working_radius[g];
+  }
+  return json;
+}
+
+Json mesh_state_json(const MeshState& mesh) {
+  return {{"name", mesh.name},
+          {"shaft_1", mesh.shafts[0]},
+          {"shaft_2", mesh.shafts[1]},
+          {"torque_1_Nm", torque_json(mesh.torque[0])},
+          {"torque_2_Nm", torque_json(mesh.torque[1])},
+          {"normal_force_N", mesh.normal_force},
+          {"force_on_2_N", vector_json(mesh.force)},
+          {"flank_1", mesh.first_flank == WorkingFlank::Right ? "right" : "left"},
+          {"driver", mesh.driver < 0 ? Json() : Json(mesh.shafts[static_cast<std::size_t>(mesh.driver)])}};
+}
+
+Json bearing_state_json(const BearingState& bearing) {
+  Json json{{"name", bearing.name},
+            {"shaft", bearing.shaft},
+            {"outer_shaft", bearing.outer_shaft.empty() ? Json() : Json(bearing.outer_shaft)},
+            {"position_mm", bearing.position},
+            {"force_N", vector_json(bearing.force)},
+            {"radial_force_N", bearing.force.head<2>().norm()},
+            {"axial_force_N", bearing.force.z()},
+            {"moment_Nm", vector_json(bearing.moment, units::newton_metre)},
+            {"carries", bearing.carries}};
+  if (bearing.radial_clearance > 0.0) {
+    json["radial_clearance_um"] = in_um(bearing.radial_clearance);
+    json["shift_um"] = vector_json(bearing.shift, units::um);
+  }
+  return json;
+}
+
+Json shaft_state_json(const ShaftState& shaft) {
+  constexpr double microradian = 1e-6;
+  Json x = Json::array(), y = x, z = x, turn_x = x, turn_y = x, twist = x;
+  double largest = 0.0;
+  for (std::size_t i = 0; i < shaft.z.size(); ++i) {
+    const Eigen::Vector3d &moved = shaft.displacement[i], &turned = shaft.turn[i];
+    x.push_back(in_um(moved.x()));
+    y.push_back(in_um(moved.y()));
+    z.push_back(in_um(moved.z()));
+    turn_x.push_back(turned.x() / microradian);
+    turn_y.push_back(turned.y() / microradian);
+    twist.push_back(turned.z() / microradian);
+    largest = std::max(largest, moved.head<2>().norm());
+  }
+  return {{"name", shaft.name},
+          {"axis_mm", vector_json(shaft.axis)},
+          {"coupling_torque_Nm", torque_json(shaft.coupling_torque)},
+          {"held_against_turning_mm", shaft.turning_hold},
+          {"largest_deflection_um", in_um(largest)},
+          {"equilibrium_residual", shaft.residual},
+          {"z_mm", vector_json(shaft.z)},
+          {"x_um", std::move(x)},
+          {"y_um", std::move(y)},
+          {"axial_um", std::move(z)},
+          {"turn_x_urad", std::move(turn_x)},
+          {"turn_y_urad", std::move(turn_y)},
+          {"twist_urad", std::move(twist)}};
+}
+
+}  // namespace
+
+Json unit_json(const UnitData& unit) {
+  return {{"reference_torque_Nm", torque_json(unit.reference_torque)},
+          {"shafts", list(unit.shafts, further_shaft_json)},
+          {"meshes", list(unit.meshes, mesh_json)},
+          {"loads", list(unit.loads,
+                         [](const UnitLoad& load) -> Json {
+                           return {{"shaft", load.shaft},
+                                   {"position_mm", load.position},
+                                   {"force_N", vector_json(load.force)},
+                                   {"moment_Nm", vector_json(load.moment, units::newton_metre)}};
+                         })},
+          {"joints", list(unit.joints,
+                          [](const ShaftJoint& joint) -> Json {
+                            Json json = bearing_json(joint.bearing);
+                            json["shaft"] = joint.shaft;
+                            json["outer_shaft"] = joint.outer_shaft;
+                            json["outer_position_mm"] = joint.outer_position;
+                            return json;
+                          })},
+          {"housing", unit.housing.seats.empty() ? Json("rigid") : Json(unit.housing.seats)}};
+}
+
+Json unit_state_json(const UnitState& state) {
+  Json json{{"bearings_are", state.linear ? "linear" : "linearised at their equilibrium under mean forces"},
+            {"mesh_misalignment_um", in_um(state.mesh_misalignment)},
+            {"misalignment_by_other_forces_um", in_um(state.outside_misalignment)},
+            {"meshes", list(state.meshes, mesh_state_json)},
+            {"bearings", list(state.bearings, bearing_state_json)},
+            {"shafts", list(state.shafts, shaft_state_json)}};
+  if (!state.linear) {
+    json["clearances"] = {{"converged", state.converged}, {"residual", state.clearance_residual}, {"iterations", state.iterations}};
+  }
+  return json;
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,161 @@
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "studies/analysis/run_study.hpp"
+#include "studies/base/json_format.hpp"
+#include "studies/results/results_json.hpp"
+#include "studies/study_file/study_file.hpp"
+
+namespace flankwright::studies {
+namespace {
+
+const std::string unit_pair = R"([pair]
+normal_module = 4
+helix_angle = 15
+working_flank = "left"
+[pinion]
+teeth = 21
+face_width = 40
+hand = "left"
+[wheel]
+teeth = 40
+face_width = 40
+[load]
+torque = 300
+[cycle]
+positions = 4
+[fidelity]
+compliance = "thin_slice"
+[pinion.shaft]
+sections = [{ length = 180, outer_diameter = 50 }]
+bearings = [{ position = 10, radial_stiffness = 800 }, { position = 170, radial_stiffness = 400 }]
+gear_position = 130
+)";
+
+const std::string unit_text = R"([[unit.shafts]]
+name = "input"
+sections = [{ length = 100, outer_diameter = 40 }, { length = 60, outer_diameter = 45 }]
+bearings = [{ position = 20 }, { position = 150 }]
+torque_position = 0
+[[unit.meshes]]
+name = "first"
+shaft_1 = "input"
+position_1 = 60
+teeth_1 = 20
+shaft_2 = "pinion"
+position_2 = 50
+teeth_2 = 50
+normal_module = 3
+helix_angle = 20
+angle = 70
+)";
+
+Study read_unit_study(const std::string& text, const std::vector<Override>& overrides = {}) { return parse_study(text, "unit.toml", overrides); }
+
+Json run_unit(const std::string& text, const std::vector<Override>& overrides = {}) {
+  return Json::parse(results_json(run_study(read_unit_study(text, overrides))));
+}
+
+/// "file:line: key = value: allowed"
+std::string unit_refusal(const std::string& text, const std::vector<Override>& overrides = {}) {
+  try {
+    read_unit_study(text, overrides);
+  } catch (const StudyErrors& errors) {
+    const StudyProblem& first = errors.problems().front();
+    return first.file + ":" + std::to_string(first.line) + ": " + first.key + " = " + first.value + ": " + first.allowed;
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("A study's unit misaligns the pair, and its results say by what", "[studies][shaft][unit]") {
+  const Json with = run_unit(unit_pair + unit_text), loaded = with.at("loaded").at(0), unit = loaded.at("unit");
+  CHECK(unit.at("bearings_are") == "linear");
+  CHECK(unit.at("meshes").at(1).at("torque_2_Nm").get<double>() == Approx(300).epsilon(1e-9));
+  CHECK(unit.at("meshes").at(1).at("torque_1_Nm").get<double>() == Approx(120).epsilon(1e-9));
+  CHECK(unit.at("meshes").at(0).at("torque_1_Nm").get<double>() == Approx(-300).epsilon(1e-9));
+  CHECK(unit.at("meshes").at(1).at("driver") == "input");
+  CHECK(unit.at("bearings").size() == 4);
+  for (const Json& shaft : unit.at("shafts")) CHECK(shaft.at("equilibrium_residual").get<double>() < 1e-9);
+  CHECK(with.at("used").at("unit").at("meshes").at(0).at("shaft_2") == "pinion");
+  // What the loads to be found do to the shaft is near what their mean does: model, their resultant is not quite at mid face.
+  const double mean = unit.at("mesh_misalignment_um"), found = loaded.at("summary").at("shaft_misalignment_um");
+  CHECK(found == Approx(mean).epsilon(0.2));
+  CHECK(std::abs(unit.at("misalignment_by_other_forces_um").get<double>()) > 1.0);
+  CHECK_FALSE(run_unit(unit_pair, {{"pinion.shaft.torque_position", "0"}}).at("loaded").at(0).contains("unit"));
+  // Without the effect nothing of the unit is left.
+  CHECK_FALSE(run_unit(unit_pair + unit_text, {{"fidelity.effects", "[\"bending\", \"hertzian_contact\"]"}}).at("loaded").at(0).contains("unit"));
+}
+
+TEST_CASE("A lead slope that takes the other meshes' misalignment back acts as if they were not there", "[studies][shaft][unit][physics]") {
+  // The same shaft, its torque through a coupling at the other gear: without that gear's forces. What these open is added as mesh_misalignment.
+  const Json with = run_unit(unit_pair + unit_text), without = run_unit(unit_pair, {{"pinion.shaft.torque_position", "50"}});
+  const double opened = with.at("/loaded/0/unit/misalignment_by_other_forces_um"_json_pointer);
+  const Json instead = run_unit(unit_pair, {{"pinion.shaft.torque_position", "50"}, {"misalignment.mesh_misalignment", std::to_string(opened)}});
+  const auto peak = [](const Json& results) { return results.at("/loaded/0/summary/peak_load_N_per_mm"_json_pointer).get<double>(); };
+  CAPTURE(opened, peak(with), peak(without), peak(instead));
+  CHECK(std::abs(peak(with) - peak(without)) > 0.03 * peak(without));
+  CHECK(peak(with) == Approx(peak(instead)).epsilon(0.03));  // model: the shaft bends over the face as well
+}
+
+TEST_CASE("The derivative by torque knows the other meshes", "[studies][gradient][shaft][unit]") {
+  const auto at = [&](double torque, const std::vector<Override>& more = {}) {
+    std::vector<Override> overrides{{"load.torque", std::to_string(torque)}};
+    overrides.insert(overrides.end(), more.begin(), more.end());
+    return run_unit(unit_pair + unit_text, overrides).at("loaded").at(0);
+  };
+  const Json here = at(300, {{"analyse.gradients", R"(["load.torque"])"}}), up = at(300.5), down = at(299.5);
+  constexpr double difference_error = 1e-4;  // step^2 times curvature
+  for (const char* place :
+       {"/summary/te_mean_um", "/cycle/1/te_um", "/cycle/2/te_um", "/shafts/1/mesh_misalignment_um", "/summary/shaft_misalignment_um"}) {
+    CAPTURE(place);
+    const Json::json_pointer where(place);
+    const double difference = up.at(where).get<double>() - down.at(where).get<double>();
+    CHECK(here.at("gradients").at(where).at(0).get<double>() == Approx(difference).epsilon(difference_error));
+  }
+}
+
+TEST_CASE("Clearances make a mesh for each torque, and the results say so", "[studies][shaft][unit]") {
+  const std::vector<Override> loose{{"pinion.shaft.bearings.1.radial_clearance", "40"}};
+  const Json linear = run_unit(unit_pair + unit_text, {{"load.torque", "[150, 300]"}});
+  std::vector<Override> both = loose;
+  both.push_back({"load.torque", "[150, 300]"});
+  const Json with = run_unit(unit_pair + unit_text, both);
+  const auto misalignment = [](const Json& results, int load) {
+    return results.at("loaded").at(load).at("unit").at("mesh_misalignment_um").get<double>();
+  };
+  CHECK(misalignment(linear, 1) == Approx(2 * misalignment(linear, 0)).epsilon(1e-9));
+  // The shift across the clearance is the same at both torques.
+  CHECK(misalignment(with, 0) - misalignment(linear, 0) == Approx(misalignment(with, 1) - misalignment(linear, 1)).epsilon(1e-6));
+  const Json& unit = with.at("loaded").at(1).at("unit");
+  CHECK(unit.at("bearings_are") == "linearised at their equilibrium under mean forces");
+  CHECK(unit.at("clearances").at("converged") == true);
+  CHECK(std::hypot(unit.at("/bearings/1/shift_um/0"_json_pointer).get<double>(), unit.at("/bearings/1/shift_um/1"_json_pointer).get<double>()) ==
+        Approx(20.0).epsilon(1e-9));
+  // By itself the second torque gives the same.
+  std::vector<Override> alone = loose;
+  alone.push_back({"load.torque", "300"});
+  CHECK(run_unit(unit_pair + unit_text, alone).at("/loaded/0/summary/te_mean_um"_json_pointer) ==
+        with.at("/loaded/1/summary/te_mean_um"_json_pointer));
+}
+
+TEST_CASE("Units that cannot be are refused with their position in the file", "[studies][shaft][unit]") {
+  using Catch::Contains;
+  CHECK(unit_refusal(unit_pair + unit_text).empty());
+  CHECK_THAT(unit_refusal(unit_pair + unit_text, {{"unit.meshes.0.shaft_1", "outer"}}),
+             Contains("unit.meshes.0.shaft_1 = outer: allowed is one of pinion, input"));
+  CHECK_THAT(unit_refusal(unit_pair + unit_text + "position_3 = 5\n"), Contains("unit.toml:38: unit.meshes.0.position_3") && Contains("unknown key"));
+  CHECK_THAT(unit_refusal(unit_pair + unit_text, {{"unit.meshes.0.position_2", "181"}}),
+             Contains("unit.meshes.0.position_2 = 181") && Contains("0 .. 180 mm"));
+  CHECK_THAT(unit_refusal(unit_pair + unit_text, {{"unit.shafts.0.bearings.1.position", "20"}}), Contains("a position of its own"));
+  CHECK_THAT(unit_refusal(unit_pair + "[[unit.shafts]]\nname = \"input\"\nsections = [{ length = 100 }]\n"),
+             Contains("unit.shafts.0.sections.0.outer_diameter") && Contains("required"));
+  const std::string two = "{ position = 20 }, { position = 150 }";
+  std::string one_bearing = unit_pair + unit_text;
+  one_bearing.replace(one_bearing.find(two), two.size(), "{ position = 20 }");
+  CHECK_THAT(unit_refusal(one_bearing), Contains("unit.toml:25: unit.shafts.0.bearings") && Contains("held against tilting"));
+  CHECK_THAT(unit_refusal(unit_pair), Contains("pinion.shaft.torque_position"));
+}
+
+}  // namespace flankwright::studies
