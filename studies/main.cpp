@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <malloc.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 #include <tbb/global_control.h>
@@ -8,17 +7,22 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
+#include <system_error>
 #include <utility>
 
+#include "studies/base/keep_freed_memory.hpp"
 #include "studies/base/printable.hpp"
 #include "studies/base/version.hpp"
 #include "studies/command_line/command_docs.hpp"
 #include "studies/command_line/commands.hpp"
+#include "studies/command_line/compare_command.hpp"
 #include "studies/command_line/exchange_commands.hpp"
 #include "studies/command_line/library_command.hpp"
+#include "studies/command_line/many_runs.hpp"
 #include "studies/command_line/standard_output.hpp"
 #include "studies/study_file/key_page.hpp"
 #include "studies/study_file/study_schema.hpp"
@@ -66,9 +70,10 @@ int dispatch(int argc, char** argv) {
       "  flankwright run pump.toml                                   results/pump/report.html\n"
       "  flankwright run pump.toml --out today --threads 2\n"
       "  flankwright run pump.toml --set load.torque=250 --set misalignment.crossing=\"3 arcmin\"\n"
-      "  flankwright run pump.toml --set scenes.1.load.torque=300    the second scene's");
-  run->add_option("study", options.study, "study file (TOML)")->required();
-  run->add_option("-o,--out", options.folder, "folder for the results (default: results/ + the study's name)");
+      "  flankwright run pump.toml --set scenes.1.load.torque=300    the second scene's\n"
+      "  flankwright run gears/                                      every study of the folder, with one table of all");
+  run->add_option("study", options.study, "study file (TOML), or a folder of them")->required();
+  run->add_option("-o,--out", options.folder, "folder for the results (default: results/ + the study's name); of several studies theirs are in it");
   run->add_option("--threads", threads, "threads to use (default: all cores); results do not depend on it")->check(CLI::Range(1, 1024));
   run->add_option("--set", settings, "key.path=value: overrides the study file, may be repeated")->allow_extra_args(false);
   run->add_option("--shard", options.shard, "k/n: of a sweep the k-th of n parts of the samples alone; `merge` puts them together");
@@ -104,6 +109,15 @@ int dispatch(int argc, char** argv) {
       "Example:\n"
       "  flankwright report results/pump");
   report->add_option("folder", folder, "results folder")->required();
+  CompareCommand comparison;
+  CLI::App* comparing = app.add_subcommand("compare", "show the results of several runs side by side: a table, comparison.html and comparison.csv");
+  comparing->footer(
+      "Examples:\n"
+      "  flankwright compare results/pump results/pump-2             comparison/comparison.html\n"
+      "  flankwright compare before after --tolerance 1%             exit 1 where anything differs by more, with a list of it");
+  comparing->add_option("folders", comparison.folders, "results folders, at least two; changes are from the first one")->required()->expected(2, 64);
+  comparing->add_option("-o,--out", comparison.folder, "folder for comparison.html and comparison.csv (default: comparison)");
+  comparing->add_option("--tolerance", comparison.tolerance, "a percentage; of an entry of a list it counts from the largest of the list");
   CLI::App* test = app.add_subcommand("test", "run studies that have an [expect] table; exit 1 where one differs");
   test->footer(
       "Examples:\n"
@@ -170,7 +184,8 @@ int dispatch(int argc, char** argv) {
   if (threads > 0) limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   if (run->parsed()) {
     options.overrides = overrides_of(settings);
-    return run_command(options);
+    std::error_code no_folder;
+    return std::filesystem::is_directory(options.study, no_folder) ? run_folder(options) : run_command(options);
   }
   if (merge->parsed()) {
     options.overrides = overrides_of(settings);
@@ -183,6 +198,7 @@ int dispatch(int argc, char** argv) {
     return 0;
   }
   if (report->parsed()) return report_command(folder);
+  if (comparing->parsed()) return compare_command(comparison);
   if (library->parsed()) return library_command(study);
   if (completion->parsed()) {
     print(docs == "bash" ? bash_completion(app) : docs == "zsh" ? zsh_completion(app) : man_page(app, version()));
@@ -191,17 +207,6 @@ int dispatch(int argc, char** argv) {
   if (import->parsed()) return import_command(from);
   if (exporting->parsed()) return export_command(to);
   return test_command(paths);
-}
-
-/// Lets the allocator keep what is freed. What goes back to the system is asked for again page by page, which was a tenth of a run's time.
-/// Blocks of 32 MiB and more, the fronts and factors of finite elements among them, still go back at once.
-void keep_freed_memory() {
-#ifdef __GLIBC__
-  constexpr int mebibyte = 1 << 20;
-  mallopt(M_MMAP_THRESHOLD, 32 * mebibyte);
-  mallopt(M_TRIM_THRESHOLD, 1024 * mebibyte);
-  mallopt(M_TOP_PAD, 32 * mebibyte);
-#endif
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -11,14 +10,14 @@
 #include <optional>
 #include <utility>
 
+#include "studies/command_line/finished_run.hpp"
+#include "studies/command_line/many_runs.hpp"
 #include "studies/command_line/standard_output.hpp"
 #include "studies/results/expectations.hpp"
 #include "studies/base/progress.hpp"
 #include "studies/report/report.hpp"
-#include "studies/results/report_tables.hpp"
 #include "studies/base/results_folder.hpp"
 #include "studies/results/results_json.hpp"
-#include "studies/results/results_store.hpp"
 #include "studies/analysis/run_study.hpp"
 #include "studies/analysis/study_notes.hpp"
 #include "studies/tasks/study_template.hpp"
@@ -32,26 +31,6 @@ namespace flankwright::studies {
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Studies named directly and all *.toml of named folders, in order of their names.
-std::vector<fs::path> collect_studies(const std::vector<std::string>& paths) {
-  std::vector<fs::path> studies;
-  for (const std::string& path : paths) {
-    std::error_code error;
-    if (!fs::is_directory(path, error)) {
-      studies.emplace_back(path);
-      continue;
-    }
-    std::vector<fs::path> inside;
-    for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
-      if (entry.path().extension() == ".toml") inside.push_back(entry.path());
-    }
-    if (error) throw InvalidInput("folder", path, "a folder that can be read (" + error.message() + ")");
-    std::sort(inside.begin(), inside.end());
-    studies.insert(studies.end(), inside.begin(), inside.end());
-  }
-  return studies;
-}
 
 /// One tested study: its line, and whether everything was met.
 struct TestLine {
@@ -85,30 +64,19 @@ std::pair<Study, fs::path> opened(const RunOptions& options) {
   return {study, folder};
 }
 
-int write_results(const Study& study, const StudyResults& results, const fs::path& folder) {
-  const Json json = results_document(results);
-  std::string different;
-  const auto write_tables = [&](const std::vector<NamedText>& tables) {
-    for (const NamedText& table : tables) write_whole(folder / table.name, table.text);
-  };
-  tbb::parallel_invoke([&] { write_whole(folder / "report.html", render_report(json)); },
-                       [&] { write_whole(folder / "results.json", json_text(json)); },
-                       [&] {
-                         write_tables(csv_tables(results));
-                         if (results.design) write_results_store(folder / "results.sqlite", results);
-                       },
-                       [&] { write_tables(report_tables(json)); }, [&] { different = differences(compare(study.expect, json)); });
-
-  for (const std::string& note : results.notes) spdlog::warn("{}", note);
-  print(summary_table(results));
-  if (!different.empty()) print(fmt::format("\nnot as [expect] says:\n{}", different));
+int write_results(const FinishedRun& run, const fs::path& folder) {
+  write_files(run, folder);
+  for (const std::string& note : run.results.notes) spdlog::warn("{}", note);
+  print(summary_table(run.results));
+  if (!run.different.empty()) print(fmt::format("\nnot as [expect] says:\n{}", run.different));
   print(fmt::format("\nreport: {}\n", (folder / "report.html").string()));
   flush_standard_output();
-  for (const std::string& requirement : results.requirements) spdlog::error("{}", requirement);
-  return results.requirements.empty() && different.empty() ? 0 : 1;
+  for (const std::string& requirement : run.results.requirements) spdlog::error("{}", requirement);
+  return run.met() ? 0 : 1;
 }
 
-int run_shard(const StudyResults& nominal, const fs::path& folder, Shard shard, const ProgressReport& report) {
+int run_shard(const Study& study, const fs::path& folder, Shard shard, const ProgressReport& report) {
+  const StudyResults nominal = run_study(study, report);
   const fs::path file = folder / shard_file(shard);
   make_folder(file.parent_path());
   run_sweep_shard(nominal, file, shard, report);
@@ -126,11 +94,10 @@ int run_command(const RunOptions& options) {
   const ProgressReport report = [&](const std::string& label, int done, int total, const std::string& remark) {
     progress.show(label, done, total, remark);
   };
-  StudyResults results = run_study(study, report);
-  if (shard) return run_shard(results, folder, *shard, report);
-  if (study.task->run_in_folder != nullptr) study.task->run_in_folder(results, folder, report);
+  if (shard) return run_shard(study, folder, *shard, report);
+  const FinishedRun run = finish_study(study, folder, report);
   progress.finish();
-  return write_results(study, results, folder);
+  return write_results(run, folder);
 }
 
 int merge_command(const RunOptions& options) {
@@ -139,7 +106,7 @@ int merge_command(const RunOptions& options) {
   StudyResults results = run_study(study);
   merge_shards(folder, study, SampleAnalysis(results).outputs());
   run_sweep(results, folder, {});
-  return write_results(study, results, folder);
+  return write_results(finished(std::move(results)), folder);
 }
 
 int check_command(const std::string& path, const std::vector<Override>& overrides) {

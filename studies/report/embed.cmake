@@ -20,6 +20,8 @@ file(WRITE "${OUTPUT}.part" "#include \"studies/report/report_assets.hpp\"\n\nna
 embed(page_html "${PAGE}/report.html")
 embed(page_css "${PAGE}/report.css")
 embed(page_script ${SCRIPTS})
+embed(page_main "${PAGE}/main.js")
+embed(comparison_script "${PAGE}/compared_runs.js")
 embed(chart_library "${CHART}")
 embed(notices "${PAGE}/notices.txt")
 file(APPEND "${OUTPUT}.part" "}  // namespace flankwright::studies::assets\n")

@@ -1,11 +1,10 @@
 #include "studies/report/report.hpp"
 
 #include <algorithm>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "studies/report/page_template.hpp"
 #include "studies/report/report_assets.hpp"
 #include "studies/report/report_view.hpp"
 
@@ -80,31 +79,6 @@ constexpr Section sections[] = {
     {"inputs", "Given and used", [](const Json& r) { return has(r, "given") || has(r, "used"); }},
 };
 
-std::string replace_all(std::string_view text, const std::vector<std::pair<std::string_view, std::string_view>>& rules) {
-  std::string out;
-  out.reserve(text.size());
-  for (std::size_t at = 0; at < text.size();) {
-    bool replaced = false;
-    for (const auto& [from, to] : rules) {
-      if (text.substr(at, from.size()) != from) continue;
-      out += to;
-      at += from.size();
-      replaced = true;
-      break;
-    }
-    if (!replaced) out += text[at++];
-  }
-  return out;
-}
-
-std::string escape_html(std::string_view text) {
-  return replace_all(text, {{"&", "&amp;"}, {"<", "&lt;"}, {">", "&gt;"}, {"\"", "&quot;"}, {"'", "&#39;"}});
-}
-
-/// JSON that is valid inside a script element: pure ASCII (which also covers U+2028 and U+2029), and without '<',
-/// so that neither "</script" nor "<!--" can occur. '<' can only be inside a JSON string, where \u003c means the same.
-std::string script_safe(const Json& value) { return replace_all(value.dump(-1, ' ', true, Json::error_handler_t::replace), {{"<", "\\u003c"}}); }
-
 std::string text_or(const Json& results, const char* key, const char* fallback) {
   const auto found = results.find(key);
   return found != results.end() && found->is_string() ? found->get<std::string>() : fallback;
@@ -127,25 +101,12 @@ std::string render_stored_report(const std::string& results_json) { return rende
 std::string render_report(const Json& results) {
   if (!results.is_object()) throw InvalidInput("results.json", results.type_name(), "a JSON object");
 
-  std::string links, bodies;
+  std::vector<PageSection> present;
   for (const Section& section : sections) {
-    if (!section.present(results)) continue;
-    const std::string id = section.id, title = section.title;
-    links += "<a href=\"#" + id + "\">" + title + "</a>\n";
-    bodies += "<section id=\"" + id + "\"><h2>" + title + "</h2><div class=\"body\"></div></section>\n";
+    if (section.present(results)) present.push_back({section.id, section.title});
   }
-  const std::string title = escape_html(text_or(results, "title", "Untitled study"));
-  const std::string data = script_safe(report_view(results));
-
-  // One pass over the template: what is filled in is never searched for placeholders again.
-  return replace_all(assets::page_html, {{"{{title}}", title},
-                                         {"{{style}}", assets::page_css},
-                                         {"{{notices}}", assets::notices},
-                                         {"{{links}}", links},
-                                         {"{{sections}}", bodies},
-                                         {"{{results}}", data},
-                                         {"{{chart_library}}", assets::chart_library},
-                                         {"{{script}}", assets::page_script}});
+  return render_page(text_or(results, "title", "Untitled study"), present, report_view(results),
+                     std::string(assets::page_script) + std::string(assets::page_main));
 }
 
 }  // namespace flankwright::studies
