@@ -150,7 +150,8 @@ int dispatch(int argc, char** argv) {
       "  flankwright export results/pump --rexs                      results/pump/stage.rexs, after an optimisation with what it found\n"
       "  flankwright export results/pump --rexsj --rexs-version 2.0 --out to-supplier\n"
       "  flankwright export results/pump --grid --grid-points 5x9 --grid-margin 0.05\n"
-      "  flankwright export results/pump --vtk                       open results/pump/vtk/contact-1.pvd in ParaView");
+      "  flankwright export results/pump --vtk                       open results/pump/vtk/contact-1.pvd in ParaView\n"
+      "  flankwright export results/pump --dynamics                  transmission error and mesh stiffness for rotor dynamics");
   exporting->add_option("folder", to.results, "results folder")->required();
   exporting->add_option("-o,--out", to.folder, "folder for the files (default: the results folder)");
   exporting->add_flag("--rexs", to.rexs, "stage.rexs: the pair with its flank modifications, REXS in XML");
@@ -160,6 +161,8 @@ int dispatch(int argc, char** argv) {
   exporting->add_option("--grid-points", to.grid_points, "points along the profile x along the face (default: 9x15)");
   exporting->add_option("--grid-margin", to.grid_margin, "share of the active flank left out at each border, 0 .. 0.4 (default: 0)");
   exporting->add_flag("--vtk", to.vtk, "vtk/contact-1.pvd ...: contact under load for ParaView, a collection a load case");
+  exporting->add_flag("--dynamics", to.dynamics,
+                      "dynamics.json, dynamics-*.csv: transmission error and mesh stiffness with their harmonics; analyses once more");
   exporting->add_flag("--given", to.given, "flanks as the study gave them, not as an optimisation left them");
   std::string docs;
   CLI::App* completion = app.add_subcommand("completion", "print what a shell needs to complete commands, or the manual page");

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "studies/command_line/finished_run.hpp"
-#include "studies/command_line/many_runs.hpp"
 #include "studies/command_line/standard_output.hpp"
+#include "studies/command_line/study_paths.hpp"
 #include "studies/results/expectations.hpp"
 #include "studies/base/progress.hpp"
 #include "studies/report/report.hpp"

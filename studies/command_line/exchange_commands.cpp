@@ -9,6 +9,8 @@
 
 #include "studies/base/printable.hpp"
 #include "studies/command_line/standard_output.hpp"
+#include "studies/base/progress.hpp"
+#include "studies/exchange/dynamics/dynamics_tables.hpp"
 #include "studies/exchange/grid/grid_table.hpp"
 #include "studies/exchange/vtk/vtk_series.hpp"
 #include "studies/base/results_folder.hpp"
@@ -41,6 +43,18 @@ void export_vtk(const std::string& json, const fs::path& results, const fs::path
     write_whole(path, file.text);
     if (path.extension() == ".pvd") print(path.string() + "\n");
   }
+}
+
+/// Analyses the study once more: stiffness for small vibrations is a derivative that results have only where it was asked for.
+void export_dynamics(const std::string& json, const fs::path& results, const fs::path& folder, std::vector<std::string>& notes) {
+  Progress progress;
+  const ProgressReport report = [&](const std::string& label, int done, int total, const std::string& remark) {
+    progress.show(label, done, total, remark);
+  };
+  DynamicsRun run = mesh_excitation(json, results.string(), report);
+  progress.finish();
+  for (const NamedText& file : dynamics_files(run)) write_export(folder / file.name, file.text);
+  notes.insert(notes.end(), run.notes.begin(), run.notes.end());
 }
 
 }  // namespace
@@ -79,8 +93,8 @@ int import_command(const ImportCommand& options) {
 }
 
 int export_command(const ExportCommand& options) {
-  if (!options.rexs && !options.rexsj && !options.grid && !options.vtk) {
-    throw InvalidInput("export", "no format", "--rexs, --rexsj, --grid or --vtk, or several of them");
+  if (!options.rexs && !options.rexsj && !options.grid && !options.vtk && !options.dynamics) {
+    throw InvalidInput("export", "no format", "--rexs, --rexsj, --grid, --vtk or --dynamics, or several of them");
   }
   const GridLayout layout = grid_layout(options.grid_points, options.grid_margin);
   const fs::path results = fs::path(options.results) / "results.json";
@@ -103,6 +117,7 @@ int export_command(const ExportCommand& options) {
     }
   }
   if (options.vtk) export_vtk(json, results, folder / "vtk");
+  if (options.dynamics) export_dynamics(json, results, folder, notes);
   flush_standard_output();
   for (const std::string& note : notes) spdlog::info("{}", note);
   return 0;

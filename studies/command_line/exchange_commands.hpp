@@ -19,7 +19,7 @@ int import_command(const ImportCommand& options);
 struct ExportCommand {
   std::string results;  ///< folder with results.json
   std::string folder;   ///< for the files; empty: the same
-  bool rexs{false}, rexsj{false}, grid{false}, vtk{false};
+  bool rexs{false}, rexsj{false}, grid{false}, vtk{false}, dynamics{false};
   std::string rexs_version{"1.7"};
   std::string grid_points{"9x15"};  ///< along the profile x along the face
   double grid_margin{0.0};          ///< share of the active flank that is left out at each border

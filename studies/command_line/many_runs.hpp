@@ -1,16 +1,8 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "studies/command_line/commands.hpp"
 
 namespace flankwright::studies {
-
-/// Studies named directly and all *.toml of named folders, in order of their names.
-/// @throws InvalidInput where a folder cannot be read
-std::vector<std::filesystem::path> collect_studies(const std::vector<std::string>& paths);
 
 /// Runs every study of a folder, one after the other, each with results in a folder of its own below options.folder (default: results). Prints a
 /// table with a line a study, and writes it as studies.csv there. A study that is wrong does not keep the others from running.

@@ -327,6 +327,7 @@ Json results_document(const StudyResults& results) {
   if (!results.deflections.empty()) json["deflections"] = list(results.deflections, deflections_json);
   json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}, {"unit", unit_of_given(g)}}; });
   json["used"] = used_json(results);
+  json["study"] = study.text;
   put_null_for_nan(json);
   json["loaded"] = Json(Json::array_t(results.loaded.size()));
   auto& loaded = json["loaded"].get_ref<Json::array_t&>();
