@@ -37,14 +37,17 @@ TEST_CASE("Changes are relative to the larger value, those of harmonics to the l
   REQUIRE(mean != nullptr);
   CHECK(mean->difference(1) == (12.5 - 10.0) / 12.5);
   CHECK(mean->unit == "um");
-  CHECK(mean->words == "mean TE");
-  CHECK(mean->headline);
+  CHECK_FALSE(mean->headline);  // the table of a run does not show it
+  const ComparedValue* first = find(runs, section, "te_harmonics_um.0");
+  REQUIRE(first != nullptr);
+  CHECK(first->headline);
+  CHECK(first->words == "first harmonic of TE");
   const ComparedValue* small = find(runs, section, "te_harmonics_um.1");
   REQUIRE(small != nullptr);
   CHECK(small->difference(1) == 0.02 - 0.01);  // of the first harmonic, 1 um: the second has doubled, and it matters to 1 %
   CHECK_FALSE(small->differs(1, 0.02));
   CHECK(small->differs(1, 0.005));
-  CHECK_FALSE(find(runs, section, "te_harmonics_um.0")->differs(1, 0.0));
+  CHECK_FALSE(first->differs(1, 0.0));
 }
 
 TEST_CASE("Estimated errors, diagnostics and places are no results to compare", "[studies][compare]") {
