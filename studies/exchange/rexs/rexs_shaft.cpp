@@ -115,10 +115,12 @@ class ShaftReading {
       const Component* mate = is_inner ? (outer ? reading_.model().find(*outer) : nullptr) : inner ? reading_.model().find(*inner) : nullptr;
       const bool joins = mate != nullptr && mate->type == "shaft";
       if (joins && parts_ != nullptr) throw LeftOut{fmt::format("its {} sits on {}", Reading::name_of(*bearing), Reading::name_of(*mate))};
+      const std::string remarked = result_.remarks["bearings"];
       read_bearing(*bearing, is_inner ? "u_coordinate_on_shaft_inner_side" : "u_coordinate_on_shaft_outer_side");
       if (!joins) continue;
       joints_.push_back({bearing, mate, is_inner, result_.data.bearings.back()});
       result_.data.bearings.pop_back();
+      result_.remarks["bearings"] = remarked;
     }
     if (result_.data.bearings.empty() && joints_.empty()) throw LeftOut{"it has no bearings"};
   }

@@ -88,15 +88,15 @@ TEST_CASE("A study's unit misaligns the pair, and its results say by what", "[st
   CHECK_FALSE(run_unit(unit_pair + unit_text, {{"fidelity.effects", "[\"bending\", \"hertzian_contact\"]"}}).at("loaded").at(0).contains("unit"));
 }
 
-TEST_CASE("A lead slope that takes the other meshes' misalignment back acts as if they were not there", "[studies][shaft][unit][physics]") {
+TEST_CASE("Other meshes act as the misalignment that they make", "[studies][shaft][unit][physics]") {
   // The same shaft, its torque through a coupling at the other gear: without that gear's forces. What these open is added as mesh_misalignment.
   const Json with = run_unit(unit_pair + unit_text), without = run_unit(unit_pair, {{"pinion.shaft.torque_position", "50"}});
   const double opened = with.at("/loaded/0/unit/misalignment_by_other_forces_um"_json_pointer);
   const Json instead = run_unit(unit_pair, {{"pinion.shaft.torque_position", "50"}, {"misalignment.mesh_misalignment", std::to_string(opened)}});
   const auto peak = [](const Json& results) { return results.at("/loaded/0/summary/peak_load_N_per_mm"_json_pointer).get<double>(); };
   CAPTURE(opened, peak(with), peak(without), peak(instead));
-  CHECK(std::abs(peak(with) - peak(without)) > 0.03 * peak(without));
-  CHECK(peak(with) == Approx(peak(instead)).epsilon(0.03));  // model: the shaft bends over the face as well
+  CHECK(std::abs(peak(with) - peak(without)) > 0.02 * peak(without));
+  CHECK(peak(with) == Approx(peak(instead)).epsilon(0.003));  // model: the shaft bends over the face as well
 }
 
 TEST_CASE("The derivative by torque knows the other meshes", "[studies][gradient][shaft][unit]") {
