@@ -42,8 +42,8 @@ std::array<double, 3> u_axis(Reading& reading, const Component& component);
 /// The relations of external cylindrical stages, in the order of --stage; of rings and planet carriers by themselves there is nothing to import.
 std::vector<const Relation*> stages_of(const Reading& reading);
 
-/// The number of a gear's flanks in the sense of the pair: the sign of the torque on a gear by its shaft about the gear's u axis, from the external loads
-/// through shafts and meshes; 0 where these do not say.
+/// The sign of the torque on a gear by its shaft, about the gear's u axis: from the external loads of the first load case, through shafts and meshes; 0
+/// where these do not say.
 int torque_sign(Reading& reading, const Component& gear);
 
 /// Finds the stage with everything that hangs on it.
