@@ -19,8 +19,17 @@ struct Ranked {
   PeakCandidate candidate;
 };
 
-std::vector<Ranked> rank(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, double margin) {
-  if (!cycle.usable()) throw std::runtime_error("the load distribution did not converge at every mesh position");
+void check_usable(const ObjectiveTerm& term, const LoadedScene& scene) {
+  const bool all_cases = design_output(term.output).over_spectrum;
+  const bool usable =
+      scene.cycle.usable() && (!all_cases || std::ranges::all_of(scene.spectrum, [](const SpectrumCase& c) { return c.cycle->usable(); }));
+  if (!usable) throw std::runtime_error("the load distribution did not converge at every mesh position");
+}
+
+std::vector<Ranked> rank(const ObjectiveTerm& term, const LoadedScene& scene, double margin) {
+  check_usable(term, scene);
+  const MeshModel& model = scene.model;
+  const LoadedCycle& cycle = scene.cycle;
   const DesignOutput& row = design_output(term.output);
   const int positions = static_cast<int>(cycle.positions.size());
   std::vector<Ranked> ranked;
@@ -28,7 +37,9 @@ std::vector<Ranked> rank(const ObjectiveTerm& term, const MeshModel& model, cons
     ranked.push_back({row.smooth(term, model, cycle, -1).value, whole_output});
     return ranked;
   }
-  if (row.at_points != nullptr) {
+  if (row.candidates != nullptr) {
+    for (const auto& [candidate, value] : row.candidates(term, scene)) ranked.push_back({value, candidate});
+  } else if (row.at_points != nullptr) {
     for (int i = 0; i < positions; ++i) {
       const Eigen::VectorXd values = row.at_points(term, model, cycle, i);
       for (int j = 0; j < values.size(); ++j) ranked.push_back({values[j], {i, j}});
@@ -44,46 +55,49 @@ std::vector<Ranked> rank(const ObjectiveTerm& term, const MeshModel& model, cons
       }
     }
   }
+  const double sign = row.is_least ? -1.0 : 1.0;
   std::sort(ranked.begin(), ranked.end(),
-            [](const Ranked& a, const Ranked& b) { return a.value != b.value ? a.value > b.value : a.candidate < b.candidate; });
+            [sign](const Ranked& a, const Ranked& b) { return a.value != b.value ? sign * a.value > sign * b.value : a.candidate < b.candidate; });
   return ranked;
 }
 
 }  // namespace
 
-double output_value(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle) {
-  return rank(term, model, cycle, 0.0).front().value;
-}
+double output_value(const ObjectiveTerm& term, const LoadedScene& scene) { return rank(term, scene, 0.0).front().value; }
 
-ResolvedValue resolved_value(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, const ResolvedCycle& resolved) {
+ResolvedValue resolved_value(const ObjectiveTerm& term, const LoadedScene& scene, const ResolvedCycle& resolved) {
   const CycleEntry entry = find_cycle_entry(term.own_name());
   ResolvedValue found;
   if (entry.quantity != nullptr) {
     found.value = entry.of(entry.quantity->values(resolved.summary));
     if (entry.quantity->errors != nullptr) found.error = entry.of(entry.quantity->errors(resolved.errors));
   }
-  if (std::isnan(found.value)) found.value = output_value(term, model, cycle);
+  if (std::isnan(found.value)) found.value = output_value(term, scene);
   return found;
 }
 
-std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, double margin,
-                                              std::size_t most) {
+std::vector<PeakCandidate> leading_candidates(const ObjectiveTerm& term, const LoadedScene& scene, double margin, std::size_t most) {
   std::vector<PeakCandidate> leading;
   if (design_output(term.output).has_orders && margin > 0.0) {
     for (int direction = 0; direction < harmonic_directions; ++direction) leading.push_back({-1, direction});
     return leading;
   }
-  const std::vector<Ranked> ranked = rank(term, model, cycle, margin);
+  const std::vector<Ranked> ranked = rank(term, scene, margin);
+  const bool is_least = design_output(term.output).is_least;
   for (const Ranked& r : ranked) {
-    if (leading.size() == most || r.value < (1.0 - margin) * ranked.front().value) break;
+    const bool is_far = is_least ? r.value > (1.0 + margin) * ranked.front().value : r.value < (1.0 - margin) * ranked.front().value;
+    if (leading.size() == most || is_far) break;
     leading.push_back(r.candidate);
   }
   return leading;
 }
 
-SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& candidate, const MeshModel& model, const LoadedCycle& cycle) {
-  if (!cycle.usable()) throw std::runtime_error("the load distribution did not converge at every mesh position");
+SmoothValue candidate_value(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene) {
+  check_usable(term, scene);
+  const MeshModel& model = scene.model;
+  const LoadedCycle& cycle = scene.cycle;
   const DesignOutput& row = design_output(term.output);
+  if (row.candidate != nullptr) return row.candidate(term, candidate, scene);
   if (row.smooth != nullptr) return row.smooth(term, model, cycle, candidate.other);
   const LoadedPosition& position = at(cycle, candidate.position);
   SmoothValue result;
