@@ -15,7 +15,7 @@ ComparedDesign compared(const DesignProblem& problem, const NamedDesign& design)
   result.design = design;
   try {
     const DesignAnalysis analysis = problem.analyse_design(design.modification);
-    for (int s = 0; s < problem.scenes(); ++s) result.scene_measures.push_back(problem.scene_measure(analysis, s));
+    result.scene_measures = problem.scene_measures(problem.task().combined_objective(), analysis);
     result.objective = problem.objective(analysis);
     result.constraint_violation = problem.violation(analysis);
   } catch (const std::runtime_error& failure) {  // of scene_outputs: not every mesh position converged

@@ -25,6 +25,33 @@ double step_in(const DesignScene& scene, const AssessedParameter& p) {
   return std::holds_alternative<PinionTorque>(p.parameter) ? p.inside * scene.torque : p.inside;
 }
 
+/// Whether the task asks for a sum over load spectra, whose parts are one step of a parameter each: a per cent of the torque differs between load cases.
+bool sums_over_spectra(const DesignTask& task) {
+  const auto over_spectrum = [](const OutputConstraint& bound) { return design_output(bound.output.output).over_spectrum; };
+  return task.combined_objective().over_spectrum() || std::ranges::any_of(task.constraints, over_spectrum) ||
+         std::ranges::any_of(task.objective_bounds, [](const ObjectiveBound& bound) { return bound.objective.over_spectrum(); });
+}
+
+/// Multiplies the derivatives of a cycle, a column for each parameter.
+void scale_derivatives(LoadedCycle& cycle, const Eigen::VectorXd& by) {
+  const auto scale = [&](auto& derivative) {
+    if (derivative.cols() == by.size()) derivative = (derivative * by.asDiagonal()).eval();
+  };
+  scale(cycle.force_derivative);
+  for (LoadedPosition& position : cycle.positions) {
+    scale(position.gap_derivative);
+    scale(position.line_load_derivative);
+    scale(position.contact_stress_derivative);
+    scale(position.edge_stress_derivative);
+    scale(position.tip_edge_share_derivative);
+    scale(position.transmission_error_derivative);
+    scale(position.approach_derivative);
+    scale(position.root_influence_derivative);
+  }
+  scale(cycle.face_width_change);
+  scale(cycle.line_length_change);
+}
+
 /// The output that a row with a candidate is about: of what is minimised, of a bounded objective, or of a bounded output.
 const ObjectiveTerm& term_of(const EpigraphRow& row, const DesignTask& task) {
   const auto index = static_cast<std::size_t>(row.index);
@@ -72,9 +99,20 @@ LocalModel::LocalModel(const DesignProblem& problem, const PerGear<Modification>
   std::vector<MeshParameter> of_mesh;
   for (const AssessedParameter& p : parameters) of_mesh.push_back(p.parameter);
   for (const LinkingConstraint& link : task_.links) of_mesh.push_back(GearParameter{link.linked.member, link.linked.parameter});
+  const bool over_spectra = sums_over_spectra(task_);
+  DesignAnalysis analysis{modification, std::vector<LoadedCycle>(over_spectra ? task_.scenes.size() : 0)};
+  if (over_spectra) {
+    tbb::parallel_for(0, problem.scenes(), [&](int s) {
+      const auto at = static_cast<std::size_t>(s);
+      Eigen::VectorXd steps = Eigen::VectorXd::Ones(std::ssize(of_mesh));
+      for (int i = 0; i < parameters_; ++i) steps[i] = step_in(task_.scenes[at], parameters[static_cast<std::size_t>(i)]);
+      analysis.cycles[at] = problem.analyse_scene(s, modification, of_mesh);
+      scale_derivatives(analysis.cycles[at], steps);
+    });
+  }
   tbb::parallel_for(0, problem.scenes(), [&](int s) {
-    const LoadedCycle cycle = problem.analyse_scene(s, modification, of_mesh);
-    const MeshModel& model = problem.model(s);
+    const LoadedCycle alone = over_spectra ? LoadedCycle() : problem.analyse_scene(s, modification, of_mesh);
+    const LoadedScene scene = over_spectra ? problem.scene(analysis, s) : problem.scene_of(alone, s);
     const auto slope_of = [&](const Eigen::VectorXd& gradient) {
       Eigen::VectorXd slope = gradient.head(parameters_);
       for (int i = 0; i < parameters_; ++i) {
@@ -83,14 +121,14 @@ LocalModel::LocalModel(const DesignProblem& problem, const PerGear<Modification>
           const bool follows = p.variable >= 0 && task_.links[t].as == static_cast<std::size_t>(p.variable);
           if (follows) slope[i] += task_.links[t].factor * gradient[parameters_ + static_cast<Eigen::Index>(t)];
         }
-        slope[i] *= step_in(task_.scenes[static_cast<std::size_t>(s)], p);
+        if (!over_spectra) slope[i] *= step_in(task_.scenes[static_cast<std::size_t>(s)], p);
       }
       return slope;
     };
     const auto peak_of = [&](const ObjectiveTerm& term, double factor, double shift) {
       Peak peak;
-      for (const PeakCandidate& candidate : leading_candidates(term, model, cycle, reach, most_candidates)) {
-        const SmoothValue found = candidate_value(term, candidate, model, cycle);
+      for (const PeakCandidate& candidate : leading_candidates(term, scene, reach, most_candidates)) {
+        const SmoothValue found = candidate_value(term, candidate, scene);
         peak.candidates.push_back({factor * found.value + shift, factor * slope_of(found.gradient)});
       }
       return peak;
@@ -103,11 +141,11 @@ LocalModel::LocalModel(const DesignProblem& problem, const PerGear<Modification>
       const double sign = bound.is_least() ? -1.0 : 1.0;
       Peak& peak = constraints_[c][static_cast<std::size_t>(s)];
       peak = peak_of(bound.output, sign / std::abs(bound.limit()), -sign * bound.limit() / std::abs(bound.limit()));
-      if (bound.is_least()) peak.candidates.resize(1);  // the leading one is the output: the others are below it, not above
+      if (bound.one_suffices()) peak.candidates.resize(1);  // the leading one is the output: the others are below it, not above
     }
     for (const ActiveBound& felt : active) {
       if (felt.row.scene != s || felt.by_output == 0.0) continue;
-      const SmoothValue found = candidate_value(term_of(felt.row, task_), felt.row.candidate, model, cycle);
+      const SmoothValue found = candidate_value(term_of(felt.row, task_), felt.row.candidate, scene);
       lagrangian[static_cast<std::size_t>(s)] += felt.multiplier * felt.by_output * slope_of(found.gradient);
     }
   });

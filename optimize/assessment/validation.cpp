@@ -15,6 +15,15 @@ std::vector<ValidatedDesign> validate_designs(const DesignTask& task, const std:
   const DesignProblem problem(std::move(drawn));
   std::vector<ValidatedDesign> validated;
   for (const NamedDesign& design : designs) validated.push_back({design.name, std::vector<double>(scenes.size(), not_given)});
+  if (task.combined_objective().over_spectrum()) {  // all load cases of a spectrum at a time
+    for (std::size_t d = 0; d < designs.size(); ++d) {
+      try {
+        validated[d].measures = problem.scene_measures(task.combined_objective(), problem.analyse_design(designs[d].modification));
+      } catch (const std::runtime_error&) {  // not every mesh position converged: all stay NaN
+      }
+    }
+    return validated;
+  }
   tbb::parallel_for(0, problem.scenes(), [&](int s) {
     for (std::size_t d = 0; d < designs.size(); ++d) {
       try {

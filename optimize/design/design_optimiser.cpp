@@ -192,7 +192,7 @@ DesignReport report_design(const DesignProblem& problem, DesignAnalysis analysis
   DesignReport report;
   for (const DesignVariable& v : task.variables) report.variables.push_back(value_of(v));
   for (const LinkingConstraint& link : task.links) report.linked.push_back(value_of(link.linked));
-  for (int s = 0; s < problem.scenes(); ++s) report.scene_measures.push_back(problem.scene_measure(analysis, s));
+  report.scene_measures = problem.scene_measures(task.combined_objective(), analysis);
   for (const OutputConstraint& c : task.constraints) report.constraint_values.push_back(problem.constraint_value(analysis, c));
   for (const ModificationConstraint& c : task.modification_constraints) {
     report.modification_values.push_back(c.value(analysis.modification));

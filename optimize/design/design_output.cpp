@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/fidelity/cycle_quantities.hpp"
+#include "optimize/design/life_outputs.hpp"
 
 namespace flankwright {
 
@@ -160,6 +161,25 @@ constexpr std::array rows{
                  .at_points = tip_edge_shares,
                  .point_derivative = tip_edge_share_slope},
     DesignOutput{.output = Output::EdgeLoad, .name = "edge_load", .unit = "N/mm", .at_points = edge_loads, .point_derivative = edge_load_slope},
+    DesignOutput{.output = Output::ContactDamage,
+                 .name = "contact_damage",
+                 .unit = "1",
+                 .candidates = contact_damages,
+                 .candidate = contact_damage_of,
+                 .over_spectrum = true},
+    DesignOutput{.output = Output::RootDamage,
+                 .name = "root_damage",
+                 .unit = "1",
+                 .candidates = root_damages,
+                 .candidate = root_damage_of,
+                 .over_spectrum = true},
+    DesignOutput{.output = Output::LossFactor, .name = "loss_factor", .unit = "1", .candidates = loss_factors, .candidate = loss_factor_of},
+    DesignOutput{.output = Output::SpecificFilmThickness,
+                 .name = "specific_film_thickness",
+                 .unit = "1",
+                 .candidates = film_ratios,
+                 .candidate = film_ratio_of,
+                 .is_least = true},
 };
 
 constexpr bool in_order() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/load/cycle/mesh_cycle.hpp"
+#include "core/rating/life_model.hpp"
 
 namespace flankwright {
 
@@ -22,9 +23,13 @@ enum class Output {
   /// Number of tooth pairs that share the load, mean over the positions of 1 / sum of squared fractions: their count
   /// where they carry alike, less where one carries most; smooth, unlike the count [-]
   EffectiveContactRatio,
-  EdgeStress,    ///< contact stress on tip edges, see LoadedPosition::edge_stress [MPa]
-  TipEdgeShare,  ///< part of the force that tip roundings carry, see LoadedPosition::tip_edge_share [-]
-  EdgeLoad       ///< peak line load within ObjectiveTerm::edge_margin of a tip edge or a face end [N/mm]
+  EdgeStress,             ///< contact stress on tip edges, see LoadedPosition::edge_stress [MPa]
+  TipEdgeShare,           ///< part of the force that tip roundings carry, see LoadedPosition::tip_edge_share [-]
+  EdgeLoad,               ///< peak line load within ObjectiveTerm::edge_margin of a tip edge or a face end [N/mm]
+  ContactDamage,          ///< largest contact_damage() of both gears' flanks over the scene's whole load spectrum [-]
+  RootDamage,             ///< largest root_damage() of both gears' fillets over it; needs DesignTask::root_stress [-]
+  LossFactor,             ///< local_loss_factor() H_VL [-]
+  SpecificFilmThickness,  ///< least local_film() ratio lambda_GF of the points under load [-]
 };
 
 /// One output with its weight in an objective.
@@ -64,9 +69,19 @@ struct PeakCandidate {
 inline constexpr int harmonic_directions = 32;  ///< cos(pi / 32) = 0.9952
 inline constexpr PeakCandidate whole_output{-1, -1};
 
+/// One load case of a design, and what outputs may need beside its cycle.
+struct LoadedScene {
+  const MeshModel& model;
+  const LoadedCycle& cycle;
+  const Operation* operation{nullptr};            ///< null: not known
+  const LifeModel* life{nullptr};                 ///< null: not known
+  LoadSpectrum spectrum{};                        ///< every load case of the scene's spectrum, this one included; empty: none
+  const PerGear<FilletPoints>* fillets{nullptr};  ///< of the model, where root damage is asked for
+};
+
 /// One row of the table of outputs that can be minimised or bounded: a new output is a member of Output and a row. A
 /// row defines its output as the largest of smooth functions: at points of positions by `at_points`, as one smooth
-/// function by `smooth`, or by neither as the differences of f_t between positions.
+/// function by `smooth`, by `candidates`, or by none of these as the differences of f_t between positions.
 struct DesignOutput {
   Output output;
   std::string_view name;   ///< "te_peak_to_peak"; of the harmonics without their order, "te_harmonic"
@@ -78,6 +93,13 @@ struct DesignOutput {
   using AtPoints = Eigen::VectorXd (*)(const ObjectiveTerm&, const MeshModel&, const LoadedCycle&, int position);
   using PointDerivative = Eigen::RowVectorXd (*)(const ObjectiveTerm&, const PeakCandidate&, const MeshModel&, const LoadedCycle&);
   using Smooth = SmoothValue (*)(const ObjectiveTerm&, const MeshModel&, const LoadedCycle&, int direction);
+  /// All smooth functions of a load case with their values, and one of them with its gradient: an output that needs more than the cycle.
+  using Candidates = std::vector<std::pair<PeakCandidate, double>> (*)(const ObjectiveTerm&, const LoadedScene&);
+  using Candidate = SmoothValue (*)(const ObjectiveTerm&, const PeakCandidate&, const LoadedScene&);
+  Candidates candidates{nullptr};
+  Candidate candidate{nullptr};
+  bool over_spectrum{false};  ///< a sum over all load cases of the spectrum, the same in each of them
+  bool is_least{false};       ///< the least of the smooth functions instead of the largest; can be bounded, not minimised
   AtPoints at_points{nullptr};
   PointDerivative point_derivative{nullptr};
   Smooth smooth{nullptr};

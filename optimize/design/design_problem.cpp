@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "core/load/cycle/mesh_motion.hpp"
 
@@ -44,7 +45,8 @@ void check_harmonics(const DesignTask& task) {
 
 bool asks_for_root_stress(const DesignTask& task) {
   const std::vector<ObjectiveTerm> terms = terms_of(task);
-  return std::any_of(terms.begin(), terms.end(), [](const ObjectiveTerm& t) { return t.output == Output::PeakRootStress; });
+  return std::any_of(terms.begin(), terms.end(),
+                     [](const ObjectiveTerm& t) { return t.output == Output::PeakRootStress || t.output == Output::RootDamage; });
 }
 
 RootStresses root_stresses_for(const DesignTask& task) { return asks_for_root_stress(task) ? RootStresses::WithLoads : RootStresses::Later; }
@@ -55,9 +57,41 @@ void check_root_stress(const DesignTask& task) {
   }
 }
 
+/// Sums over a load spectrum are not added to what each of its load cases has by itself, and a least value is not minimised.
+void check_objective(const Objective& objective) {
+  const auto over_spectrum = [](const ObjectiveTerm& term) { return design_output(term.output).over_spectrum; };
+  if (objective.over_spectrum() && !std::ranges::all_of(objective.terms, over_spectrum)) {
+    throw InvalidInput("optimise.objective", objective.name(),
+                       "sums over the load spectrum alone, or none of them; a list or a constraint joins both");
+  }
+  for (const ObjectiveTerm& term : objective.terms) {
+    if (design_output(term.output).is_least)
+      throw InvalidInput("optimise.objective", term.name, "an output that is better where it is small; bound this one");
+  }
+}
+
+/// The load cases of a spectrum share the points of one mesh.
+void check_spectra(const DesignTask& task) {
+  const std::vector<ObjectiveTerm> terms = terms_of(task);
+  if (!std::ranges::any_of(terms, [](const ObjectiveTerm& term) { return design_output(term.output).over_spectrum; })) return;
+  std::map<int, MeshPlacement> placements;
+  for (const DesignScene& scene : task.scenes) {
+    if (scene.spectrum < 0) throw InvalidInput("load.spectrum", "none", "one for a sum over it");
+    const MeshPlacement placement = MeshPlacement::of(task.gap, scene.condition.misalignment);
+    if (!(placements.try_emplace(scene.spectrum, placement).first->second <=> placement == 0)) {
+      throw InvalidInput("load.spectrum", "a misalignment of its own in a bin",
+                         "none with the gap \"whole_surface\": its points move with the misalignment");
+    }
+  }
+}
+
 /// Requested outputs must be part of the analysis.
 void check(const DesignTask& task) {
   if (task.objective.empty()) throw InvalidInput("optimise.objective", "none", "at least one output");
+  check_objective(task.combined_objective());
+  for (const ObjectiveBound& bound : task.objective_bounds) check_objective(bound.objective);
+  for (const Objective& objective : task.later_objectives) check_objective(objective);
+  check_spectra(task);
   check_harmonics(task);
   check_root_stress(task);
 }
@@ -86,6 +120,7 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_str
   for (const DesignScene& scene : task_.scenes) {
     models_.push_back(models.at(placement_of(task_.gap, scene.condition.misalignment, task_.shafts.get(), scene.torque)));
   }
+  find_fillets();
   for (const ModificationConstraint& c : task_.modification_constraints) {
     if (modification_scale(c) == 0.0) throw InvalidInput("optimise.constraints." + c.name, "no variable in it", "a sum that a variable changes");
   }
@@ -94,6 +129,49 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_str
 MeshModel DesignProblem::mesh(const MeshPlacement& placement) const {
   return make_mesh_model(task_.pair, task_.material, task_.resolution, task_.effects, placement, task_.structure.get(), task_.root_stress.get(),
                          task_.shafts.get());
+}
+
+void DesignProblem::find_fillets() {
+  fillets_.clear();
+  const std::vector<ObjectiveTerm> terms = terms_of(task_);
+  if (std::ranges::none_of(terms, [](const ObjectiveTerm& term) { return term.output == Output::RootDamage; })) return;
+  std::map<const MeshModel*, std::shared_ptr<const PerGear<FilletPoints>>> known;
+  for (const auto& model : models_) {
+    auto& of_model = known[model.get()];
+    if (!of_model) {
+      of_model = std::make_shared<const PerGear<FilletPoints>>(
+          PerGear<FilletPoints>{fillet_points(*model, Member::Pinion), fillet_points(*model, Member::Wheel)});
+    }
+    fillets_.push_back(of_model);
+  }
+}
+
+LoadedScene DesignProblem::scene_of(const LoadedCycle& cycle, int scene) const {
+  const auto at = static_cast<std::size_t>(scene);
+  LoadedScene found{*models_[at], cycle, &task_.scenes[at].operation, task_.life.get()};
+  if (!fillets_.empty()) found.fillets = fillets_[at].get();
+  return found;
+}
+
+LoadedScene DesignProblem::scene(const DesignAnalysis& analysis, int scene) const {
+  const auto at = static_cast<std::size_t>(scene);
+  LoadedScene found = scene_of(analysis.cycles[at], scene);
+  const int spectrum = task_.scenes[at].spectrum;
+  if (spectrum < 0) return found;
+  for (std::size_t s = 0; s < task_.scenes.size(); ++s) {
+    if (task_.scenes[s].spectrum == spectrum) found.spectrum.push_back({&analysis.cycles[s], task_.scenes[s].operation.revolutions});
+  }
+  return found;
+}
+
+std::vector<int> DesignProblem::judged_scenes(const ObjectiveTerm& term) const {
+  const bool over_spectrum = design_output(term.output).over_spectrum;
+  std::vector<int> judged;
+  std::set<int> spectra;
+  for (int s = 0; s < scenes(); ++s) {
+    if (!over_spectrum || spectra.insert(task_.scenes[static_cast<std::size_t>(s)].spectrum).second) judged.push_back(s);
+  }
+  return judged;
 }
 
 DesignProblem DesignProblem::judged_by(const Objective& objective, std::vector<ObjectiveBound> bounds,
@@ -107,6 +185,7 @@ DesignProblem DesignProblem::judged_by(const Objective& objective, std::vector<O
   check(other.task_);
   other.root_stresses_ = root_stresses_for(other.task_);
   if (other.root_stresses_ != root_stresses_) other.last_x_.resize(0);
+  other.find_fillets();
   other.analyses_ = 0;
   return other;
 }
@@ -115,7 +194,7 @@ DesignProblem DesignProblem::judged_by_excess() const {
   std::vector<ScalarisedObjective> excesses;
   std::vector<OutputConstraint> lower_bounds;
   for (const OutputConstraint& bound : task_.constraints) {
-    if (bound.is_least()) {
+    if (bound.is_least()) {  // of what is the least of several functions likewise: it is kept as a constraint
       lower_bounds.push_back(bound);
       continue;
     }
@@ -210,7 +289,7 @@ DesignAnalysis DesignProblem::analyse_given() const { return run(task_.modificat
 double DesignProblem::scene_measure(const Objective& objective, const LoadedCycle& cycle, int scene) const {
   double sum = 0.0;
   for (const ObjectiveTerm& term : objective.terms) {
-    sum += term.weight * term.outside_factor() * output_value(term, model(scene), cycle);
+    sum += term.weight * term.outside_factor() * output_value(term, scene_of(cycle, scene));
   }
   return sum;
 }
@@ -220,13 +299,29 @@ double DesignProblem::scene_measure(const DesignAnalysis& analysis, int scene) c
 }
 
 double DesignProblem::scene_measure(const Objective& objective, const DesignAnalysis& analysis, int scene) const {
-  return scene_measure(objective, analysis.cycles[static_cast<std::size_t>(scene)], scene);
+  const LoadedScene there = this->scene(analysis, scene);
+  double sum = 0.0;
+  for (const ObjectiveTerm& term : objective.terms) sum += term.weight * term.outside_factor() * output_value(term, there);
+  return sum;
+}
+
+std::vector<double> DesignProblem::scene_measures(const Objective& objective, const DesignAnalysis& analysis) const {
+  std::vector<double> measures;
+  std::map<int, double> of_spectrum;
+  for (int s = 0; s < scenes(); ++s) {
+    if (!objective.over_spectrum()) {
+      measures.push_back(scene_measure(objective, analysis, s));
+      continue;
+    }
+    const auto [known, is_new] = of_spectrum.try_emplace(task_.scenes[static_cast<std::size_t>(s)].spectrum, not_given);
+    if (is_new) known->second = scene_measure(objective, analysis, s);
+    measures.push_back(known->second);
+  }
+  return measures;
 }
 
 double DesignProblem::value(const Objective& objective, const DesignAnalysis& analysis) const {
-  std::vector<double> measures;
-  for (int s = 0; s < scenes(); ++s) measures.push_back(scene_measure(objective, analysis, s));
-  return aggregate(objective.over, measures, scene_weights());
+  return aggregate(objective.over, scene_measures(objective, analysis), scene_weights());
 }
 
 double DesignProblem::objective(const DesignAnalysis& analysis) const {
@@ -240,8 +335,8 @@ double DesignProblem::objective(const DesignAnalysis& analysis) const {
 
 double DesignProblem::constraint_value(const DesignAnalysis& analysis, const OutputConstraint& constraint) const {
   double extreme = not_given;
-  for (int s = 0; s < scenes(); ++s) {
-    const double value = output_value(constraint.output, model(s), analysis.cycles[static_cast<std::size_t>(s)]);
+  for (const int s : judged_scenes(constraint.output)) {
+    const double value = output_value(constraint.output, scene(analysis, s));
     extreme = constraint.is_least() ? std::fmin(extreme, value) : std::fmax(extreme, value);
   }
   return extreme;

@@ -31,6 +31,12 @@ class DesignProblem {
   int variables() const { return static_cast<int>(task_.variables.size()); }
   int scenes() const { return static_cast<int>(task_.scenes.size()); }
   const MeshModel& model(int scene) const { return *models_[static_cast<std::size_t>(scene)]; }
+  /// A load case of an analysis with all that outputs may need.
+  LoadedScene scene(const DesignAnalysis& analysis, int scene) const;
+  /// The same of a cycle by itself, without its spectrum.
+  LoadedScene scene_of(const LoadedCycle& cycle, int scene) const;
+  /// Scenes in which an output has a value of its own: the first of each load spectrum where it is a sum over it, else all.
+  std::vector<int> judged_scenes(const ObjectiveTerm& term) const;
 
   /// The same scenes and variables judged by other objectives, models shared; nothing analysed yet.
   DesignProblem judged_by(const Objective& objective, std::vector<ObjectiveBound> bounds, std::vector<ScalarisedObjective> scalarisation = {}) const;
@@ -77,7 +83,10 @@ class DesignProblem {
   /// Weighted sum of the objective's outputs in one scene, outside units.
   double scene_measure(const DesignAnalysis& analysis, int scene) const;
   double scene_measure(const Objective& objective, const DesignAnalysis& analysis, int scene) const;
+  /// Of a cycle by itself; not for sums over a load spectrum.
   double scene_measure(const Objective& objective, const LoadedCycle& cycle, int scene) const;
+  /// Of all scenes; a sum over a load spectrum is computed once and stands in each of its scenes.
+  std::vector<double> scene_measures(const Objective& objective, const DesignAnalysis& analysis) const;
   /// An objective's measures of all scenes, aggregated, outside unit.
   double value(const Objective& objective, const DesignAnalysis& analysis) const;
   /// What is minimised: the objective aggregated over the scenes, or the scalarisation.
@@ -98,14 +107,16 @@ class DesignProblem {
 
  private:
   MeshModel mesh(const MeshPlacement& placement) const;
+  void find_fillets();
   /// @param earlier  one that loads start from; without cycles: none
   DesignAnalysis run(const PerGear<Modification>& modification, bool with_derivatives, const DesignAnalysis& earlier = {}) const;
 
   DesignTask task_;
-  RootStresses root_stresses_;                            ///< with every analysis where the task asks for them
-  std::vector<std::shared_ptr<const MeshModel>> models_;  ///< per scene; copies of the problem share them
-  std::vector<MeshParameter> parameters_;                 ///< variables, then linked modifications
-  Eigen::VectorXd start_;                                 ///< empty: the task's own
+  RootStresses root_stresses_;                                         ///< with every analysis where the task asks for them
+  std::vector<std::shared_ptr<const MeshModel>> models_;               ///< per scene; copies of the problem share them
+  std::vector<std::shared_ptr<const PerGear<FilletPoints>>> fillets_;  ///< per scene likewise; empty where no root damage is asked for
+  std::vector<MeshParameter> parameters_;                              ///< variables, then linked modifications
+  Eigen::VectorXd start_;                                              ///< empty: the task's own
   Eigen::VectorXd last_x_;
   bool last_has_derivatives_{false};
   DesignAnalysis last_;

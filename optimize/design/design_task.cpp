@@ -1,5 +1,7 @@
 #include "optimize/design/design_task.hpp"
 
+#include <algorithm>
+
 namespace flankwright {
 
 double DesignVariable::outside_factor() const { return flankwright::outside_factor(describe(parameter).kind); }
@@ -15,6 +17,10 @@ double ModificationConstraint::value(const PerGear<Modification>& modification) 
 double ModificationConstraint::outside_factor() const { return DesignVariable{{}, {}, terms.front().parameter}.outside_factor(); }
 
 const char* ModificationConstraint::unit() const { return DesignVariable{{}, {}, terms.front().parameter}.unit(); }
+
+bool Objective::over_spectrum() const {
+  return std::ranges::any_of(terms, [](const ObjectiveTerm& term) { return design_output(term.output).over_spectrum; });
+}
 
 std::string Objective::name() const {
   std::string name;

@@ -45,6 +45,9 @@ struct OutputConstraint {
   double minimum{-std::numeric_limits<double>::infinity()};  ///< inside unit
 
   bool is_least() const { return minimum > -std::numeric_limits<double>::infinity(); }
+  /// Whether the bound is kept where one of the output's smooth functions keeps it: a least value of what is the largest of them, or the
+  /// other way round. Else all must.
+  bool one_suffices() const { return is_least() != design_output(output.output).is_least; }
   double limit() const { return is_least() ? minimum : maximum; }
   /// Relative distance beyond the bound, below 0 where it is kept [-].
   double excess(double value) const { return (is_least() ? limit() - value : value - limit()) / std::abs(limit()); }
@@ -73,6 +76,8 @@ struct Objective {
   std::vector<ObjectiveTerm> terms;
   Aggregation over;
 
+  /// Whether its outputs are sums over a load spectrum; all of them are, or none.
+  bool over_spectrum() const;
   std::string name() const;  ///< "te_harmonic_1 + te_harmonic_2"
   const char* unit() const;  ///< of its values outside; "weighted sum" of several terms
 };
@@ -96,6 +101,9 @@ struct DesignScene {
   double weight{1.0};  ///< > 0, of mean and mean + 2 sigma
   double torque{0.0};  ///< on the pinion [N mm], > 0
   FlankCondition condition;
+  Operation operation{};  ///< under this torque
+  int spectrum{-1};       ///< load cases of the same number make up one load spectrum; -1: of none
+  int bin{-1};            ///< which of the spectrum's, as its list counts them
 };
 
 /// The variables of a design, its objectives and its constraints.
@@ -110,6 +118,7 @@ struct DesignTask {
   std::shared_ptr<const PairRootStress> root_stress;         ///< null: none
   std::shared_ptr<const PairCompliance> shafts;              ///< null: rigid
   PerGear<Modification> modification;                        ///< values of parameters that are not varied, and the start of those that are
+  std::shared_ptr<const LifeModel> life{};                   ///< of the outputs that need it; null: none
   std::vector<DesignScene> scenes;                           ///< the first is the nominal one
   std::vector<DesignVariable> variables;
   std::vector<ObjectiveTerm> objective;

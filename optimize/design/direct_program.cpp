@@ -21,14 +21,13 @@ int DirectProgram::constraints() const {
 }
 
 Eigen::VectorXd DirectProgram::leading_gradient(const ObjectiveTerm& term, const DesignAnalysis& analysis, int scene) const {
-  const LoadedCycle& cycle = analysis.cycles[static_cast<std::size_t>(scene)];
-  const PeakCandidate leader = leading_candidates(term, problem_.model(scene), cycle, 0.0, 1).front();
-  return problem_.scaled(candidate_value(term, leader, problem_.model(scene), cycle).gradient);
+  const LoadedScene there = problem_.scene(analysis, scene);
+  const PeakCandidate leader = leading_candidates(term, there, 0.0, 1).front();
+  return problem_.scaled(candidate_value(term, leader, there).gradient);
 }
 
 Eigen::VectorXd DirectProgram::aggregate_gradient(const Objective& objective, const DesignAnalysis& analysis) const {
-  std::vector<double> measures;
-  for (int s = 0; s < problem_.scenes(); ++s) measures.push_back(problem_.scene_measure(objective, analysis, s));
+  const std::vector<double> measures = problem_.scene_measures(objective, analysis);
   const std::vector<double> slope = aggregate_weights(objective.over, measures, problem_.scene_weights());
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(variables());
   for (int s = 0; s < problem_.scenes(); ++s) {
@@ -71,7 +70,7 @@ ProgramValues DirectProgram::evaluate(const Eigen::VectorXd& x, bool with_gradie
     const double extreme = problem_.constraint_value(analysis, bound);
     add(bound.excess(extreme), [&] {
       int scene = 0;
-      while (output_value(bound.output, problem_.model(scene), analysis.cycles[static_cast<std::size_t>(scene)]) != extreme) ++scene;
+      while (output_value(bound.output, problem_.scene(analysis, scene)) != extreme) ++scene;
       const double sign = bound.is_least() ? -1.0 : 1.0;
       return Eigen::VectorXd(sign / std::abs(bound.limit()) * leading_gradient(bound.output, analysis, scene));
     });

@@ -17,7 +17,19 @@ struct CandidateChoice {
 
 /// Stresses and loads: half the peak, which on the design problems tried is one round of solving instead of three. Differences of
 /// f_t come in pairs of positions, of which the leading ones are enough.
-CandidateChoice choice_for(Output output) { return output == Output::TePeakToPeak ? CandidateChoice{0.15, 60} : CandidateChoice{0.5, 400}; }
+CandidateChoice choice_for(Output output) {
+  switch (output) {
+    case Output::TePeakToPeak:
+      return {0.15, 60};
+    case Output::ContactDamage:
+    case Output::RootDamage:
+      return {0.98, 100};  // that is a quarter of the stress: damage grows as some 10th power of it
+    case Output::SpecificFilmThickness:
+      return {0.3, 200};
+    default:
+      return {0.5, 400};
+  }
+}
 
 constexpr double auxiliary_limit = 100.0;  // u <= 100 of what it is counted in: no active bound at any sensible design
 
@@ -28,8 +40,9 @@ constexpr double away_from_zero = 0.01;
 /// Largest over the scenes that count, or one outside unit where an output is 0 there.
 double largest_peak(const DesignProblem& problem, const DesignAnalysis& analysis, const Objective& objective, const ObjectiveTerm& term) {
   double largest = 0.0;
-  for (int s = 0; s < (objective.over == Aggregate::Nominal ? 1 : problem.scenes()); ++s) {
-    largest = std::max(largest, output_value(term, problem.model(s), analysis.cycles[static_cast<std::size_t>(s)]));
+  for (const int s : problem.judged_scenes(term)) {
+    largest = std::max(largest, output_value(term, problem.scene(analysis, s)));
+    if (objective.over == Aggregate::Nominal) break;
   }
   return largest > 0.0 ? largest : 1.0 / term.outside_factor();
 }
@@ -58,7 +71,11 @@ EpigraphProgram::EpigraphProgram(DesignProblem& problem, DesignLog& log) : probl
   const DesignTask& task = problem.task();
   variables_ = problem.variables();
   const auto add_block = [&](const Objective& objective, double range) {
-    blocks_.emplace_back(objective, problem.scene_weights(), units_of(problem, analysis, objective, range), variables_);
+    const std::vector<int> scenes = problem.judged_scenes(objective.terms.front());
+    const std::vector<double> all = problem.scene_weights();
+    std::vector<double> weights;
+    for (const int s : scenes) weights.push_back(all[static_cast<std::size_t>(s)]);
+    blocks_.emplace_back(objective, weights, units_of(problem, analysis, objective, range), variables_, scenes);
     variables_ += blocks_.back().variables();
   };
   for (const ScalarisedObjective& scalarised : task.scalarisation) add_block(scalarised.objective, scalarised.range);
@@ -96,27 +113,27 @@ int EpigraphProgram::add_candidates(const Eigen::VectorXd& x) {
   const bool first = candidates_.empty();
   const auto add = [&](EpigraphRow row, double reference) {
     const ObjectiveTerm& term = term_of(row);
-    const LoadedCycle& cycle = analysis.cycles[static_cast<std::size_t>(row.scene)];
+    const LoadedScene scene = problem_.scene(analysis, row.scene);
     const CandidateChoice choice = choice_for(term.output);
-    for (const PeakCandidate& candidate : leading_candidates(term, problem_.model(row.scene), cycle, choice.margin, choice.most)) {
+    for (const PeakCandidate& candidate : leading_candidates(term, scene, choice.margin, choice.most)) {
       row.candidate = candidate;
       candidates_.insert(row);
     }
     if (first || term.output != Output::TeHarmonic) return;
-    if (output_value(term, problem_.model(row.scene), cycle) < away_from_zero * reference) return;
+    if (output_value(term, scene) < away_from_zero * reference) return;
     row.candidate = whole_output;
     candidates_.insert(row);
   };
   for (int g = 0; g < static_cast<int>(blocks_.size()); ++g) {
     const ObjectiveBlock& block = blocks_[static_cast<std::size_t>(g)];
     for (int s = 0; s < block.scenes(); ++s) {
-      for (int k = 0; k < static_cast<int>(block.objective().terms.size()); ++k) add({Kind::Floor, s, k, g}, block.peak(k));
+      for (int k = 0; k < static_cast<int>(block.objective().terms.size()); ++k) add({Kind::Floor, block.scene(s), k, g}, block.peak(k));
     }
   }
   for (int c = 0; c < static_cast<int>(problem_.task().constraints.size()); ++c) {
     const OutputConstraint& bound = problem_.task().constraints[static_cast<std::size_t>(c)];
-    if (bound.is_least()) continue;
-    for (int s = 0; s < problem_.scenes(); ++s) add({Kind::OutputBound, s, c}, bound.maximum);
+    if (bound.one_suffices()) continue;
+    for (const int s : problem_.judged_scenes(bound.output)) add({Kind::OutputBound, s, c}, bound.limit());
   }
   return static_cast<int>(candidates_.size() - before);
 }
@@ -128,8 +145,7 @@ void EpigraphProgram::restart_from(const Eigen::VectorXd& x) {
   for (const ObjectiveBlock& block : blocks_) {
     for (int s = 0; s < block.scenes(); ++s) {
       for (int k = 0; k < static_cast<int>(block.objective().terms.size()); ++k) {
-        const double peak =
-            output_value(block.objective().terms[static_cast<std::size_t>(k)], problem_.model(s), analysis.cycles[static_cast<std::size_t>(s)]);
+        const double peak = output_value(block.objective().terms[static_cast<std::size_t>(k)], problem_.scene(analysis, block.scene(s)));
         double& slot = start_[block.bound(s, k)];
         slot = std::max(slot, peak / block.peak(k));
       }
@@ -147,24 +163,26 @@ void EpigraphProgram::choose_rows(const DesignAnalysis& analysis) {
   const DesignTask& task = problem_.task();
   rows_.clear();
   const auto leader = [&](EpigraphRow row) {
-    row.candidate = leading_candidates(term_of(row), problem_.model(row.scene), analysis.cycles[static_cast<std::size_t>(row.scene)], 0.0, 1).front();
+    row.candidate = leading_candidates(term_of(row), problem_.scene(analysis, row.scene), 0.0, 1).front();
     return row;
   };
+  const auto falls_with = [&](const ObjectiveBlock& block, int scene) { return block.falls_with(start_, block.scene_of(scene)); };
   for (const EpigraphRow& row : candidates_) {
-    const bool falls = row.kind == Kind::Floor && blocks_[static_cast<std::size_t>(row.objective)].falls_with(start_, row.scene);
+    const bool falls = row.kind == Kind::Floor && falls_with(blocks_[static_cast<std::size_t>(row.objective)], row.scene);
     if (!falls) rows_.push_back(row);
   }
   for (int g = 0; g < static_cast<int>(blocks_.size()); ++g) {
     const ObjectiveBlock& block = blocks_[static_cast<std::size_t>(g)];
     for (int s = 0; s < block.scenes(); ++s) {
       if (!block.falls_with(start_, s)) continue;
-      for (int k = 0; k < static_cast<int>(block.objective().terms.size()); ++k) rows_.push_back(leader({Kind::Ceiling, s, k, g}));
+      for (int k = 0; k < static_cast<int>(block.objective().terms.size()); ++k) rows_.push_back(leader({Kind::Ceiling, block.scene(s), k, g}));
     }
-    for (int r = 0; r < block.rows(); ++r) rows_.push_back({Kind::ObjectiveHelper, r, -1, g});
+    for (int r = 0; r < block.rows(); ++r) rows_.push_back({Kind::ObjectiveHelper, block.scene(r), -1, g});
   }
   for (int c = 0; c < static_cast<int>(task.constraints.size()); ++c) {
-    if (!task.constraints[static_cast<std::size_t>(c)].is_least()) continue;
-    for (int s = 0; s < problem_.scenes(); ++s) rows_.push_back(leader({Kind::OutputBound, s, c}));
+    if (!task.constraints[static_cast<std::size_t>(c)].one_suffices()) continue;
+    for (const int s : problem_.judged_scenes(task.constraints[static_cast<std::size_t>(c)].output))
+      rows_.push_back(leader({Kind::OutputBound, s, c}));
   }
   for (int i = 0; i < static_cast<int>(task.objective_bounds.size()); ++i) rows_.push_back({Kind::ObjectiveBound, -1, i, objectives_minimised() + i});
   for (int i = 0; i < static_cast<int>(task.scalarisation.size()); ++i) rows_.push_back({Kind::ScalarisedObjective, -1, i, i});
@@ -178,7 +196,7 @@ void EpigraphProgram::choose_rows(const DesignAnalysis& analysis) {
 bool EpigraphProgram::is_majorant() const {
   return std::any_of(rows_.begin(), rows_.end(), [&](const EpigraphRow& row) {
     return row.kind == Kind::Ceiling ||
-           (row.kind == Kind::OutputBound && problem_.task().constraints[static_cast<std::size_t>(row.index)].is_least());
+           (row.kind == Kind::OutputBound && problem_.task().constraints[static_cast<std::size_t>(row.index)].one_suffices());
   });
 }
 
@@ -207,10 +225,9 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
     case Kind::Floor:
     case Kind::Ceiling: {
       const ObjectiveBlock& block = blocks_[static_cast<std::size_t>(row.objective)];
-      const SmoothValue value =
-          candidate_value(term_of(row), row.candidate, problem_.model(row.scene), analysis.cycles[static_cast<std::size_t>(row.scene)]);
+      const SmoothValue value = candidate_value(term_of(row), row.candidate, problem_.scene(analysis, row.scene));
       const double sign = row.kind == Kind::Floor ? 1.0 : -1.0;
-      const int u = block.bound(row.scene, row.index);
+      const int u = block.bound(block.scene_of(row.scene), row.index);
       values.constraints[at] = sign * (value.value / block.peak(row.index) - y[u]);
       jacobian.head(n) = by_output(row) * problem_.scaled(value.gradient);
       jacobian[u] = -sign;
@@ -218,8 +235,7 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
     }
     case Kind::OutputBound: {
       const OutputConstraint& bound = task.constraints[static_cast<std::size_t>(row.index)];
-      const SmoothValue value =
-          candidate_value(bound.output, row.candidate, problem_.model(row.scene), analysis.cycles[static_cast<std::size_t>(row.scene)]);
+      const SmoothValue value = candidate_value(bound.output, row.candidate, problem_.scene(analysis, row.scene));
       values.constraints[at] = bound.excess(value.value);
       jacobian.head(n) = by_output(row) * problem_.scaled(value.gradient);
       return;
@@ -256,7 +272,10 @@ ProgramValues EpigraphProgram::evaluate(const Eigen::VectorXd& y, bool with_grad
   values.constraint_jacobian = Eigen::MatrixXd::Zero(constraints(), variables());
   for (int at = 0; at < constraints(); ++at) {
     const EpigraphRow& row = rows_[static_cast<std::size_t>(at)];
-    if (row.kind == Kind::ObjectiveHelper && row.scene == 0) blocks_[static_cast<std::size_t>(row.objective)].write_rows(y, at, values);
+    if (row.kind == Kind::ObjectiveHelper) {
+      const ObjectiveBlock& block = blocks_[static_cast<std::size_t>(row.objective)];
+      if (row.scene == block.scene(0)) block.write_rows(y, at, values);
+    }
     write_row(row, at, y, analysis, values);
   }
   if (is_scalarised()) {

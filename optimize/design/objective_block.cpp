@@ -20,8 +20,8 @@ Spread spread_of(const Eigen::VectorXd& measures, const Eigen::VectorXd& shares)
 
 }  // namespace
 
-ObjectiveBlock::ObjectiveBlock(Objective objective, const std::vector<double>& weights, std::vector<double> peaks, int first)
-    : objective_(std::move(objective)), peaks_(std::move(peaks)), first_(first) {
+ObjectiveBlock::ObjectiveBlock(Objective objective, const std::vector<double>& weights, std::vector<double> peaks, int first, std::vector<int> scenes)
+    : objective_(std::move(objective)), peaks_(std::move(peaks)), first_(first), numbers_(std::move(scenes)) {
   shares_ = Eigen::Map<const Eigen::VectorXd>(weights.data(), objective_.over == Aggregate::Nominal ? 1 : static_cast<Eigen::Index>(weights.size()));
   shares_ /= shares_.sum();
   for (std::size_t k = 0; k < objective_.terms.size(); ++k) {
@@ -38,6 +38,10 @@ int ObjectiveBlock::variables() const {
 }
 
 int ObjectiveBlock::rows() const { return has_rows() ? scenes() : 0; }
+
+int ObjectiveBlock::scene_of(int number) const {
+  return numbers_.empty() ? number : static_cast<int>(std::ranges::find(numbers_, number) - numbers_.begin());
+}
 
 int ObjectiveBlock::bound(int scene, int term) const {
   return shares_one_bound() ? first_ : first_ + scene * static_cast<int>(objective_.terms.size()) + term;

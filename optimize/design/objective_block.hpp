@@ -25,13 +25,18 @@ class ObjectiveBlock {
   /// @param weights  of the scenes, > 0
   /// @param peaks    per term, what u is counted in [inside unit, > 0]
   /// @param first    index of the block's first variable in the programme's
-  ObjectiveBlock(Objective objective, const std::vector<double>& weights, std::vector<double> peaks, int first);
+  /// @param scenes   numbers of these scenes in the task; empty: 0, 1, ...
+  ObjectiveBlock(Objective objective, const std::vector<double>& weights, std::vector<double> peaks, int first, std::vector<int> scenes = {});
 
   const Objective& objective() const { return objective_; }
   int variables() const;
   int rows() const;
   /// Scenes that count: one for nominal.
   int scenes() const { return static_cast<int>(shares_.size()); }
+  /// The task's number of the block's scene.
+  int scene(int s) const { return numbers_.empty() ? s : numbers_[static_cast<std::size_t>(s)]; }
+  /// The block's scene of the task's number.
+  int scene_of(int number) const;
   /// Index of u_sk.
   int bound(int scene, int term) const;
   double peak(int term) const { return peaks_[static_cast<std::size_t>(term)]; }
@@ -60,6 +65,7 @@ class ObjectiveBlock {
   std::vector<double> term_weights_;  ///< w_k, sum 1
   double scale_{0.0};
   int first_;
+  std::vector<int> numbers_;
 };
 
 }  // namespace flankwright

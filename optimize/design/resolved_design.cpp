@@ -17,11 +17,16 @@ struct Measures {
 ResolvedValue value_in(const ObjectiveTerm& term, const DesignProblem& problem, const DesignReport& report, const std::vector<ResolvedCycle>& cycles,
                        int scene) {
   const auto s = static_cast<std::size_t>(scene);
-  return resolved_value(term, problem.model(scene), report.analysis.cycles[s], cycles[s]);
+  return resolved_value(term, problem.scene(report.analysis, scene), cycles[s]);
 }
 
 Measures measures_of(const Objective& minimised, const DesignProblem& problem, const DesignReport& report, const std::vector<ResolvedCycle>& cycles) {
   Measures measures;
+  if (minimised.over_spectrum()) {  // sums of the positions' own stresses; no error is estimated
+    measures.values = problem.scene_measures(minimised, report.analysis);
+    measures.errors.assign(measures.values.size(), not_given);
+    return measures;
+  }
   for (int s = 0; s < problem.scenes(); ++s) {
     double value = 0.0, error = 0.0;
     for (const ObjectiveTerm& term : minimised.terms) {
@@ -64,7 +69,7 @@ DesignErrors resolve_report(const DesignProblem& problem, const std::vector<Reso
   for (std::size_t c = 0; c < task.constraints.size(); ++c) {
     const OutputConstraint& constraint = task.constraints[c];
     ResolvedValue nearest;
-    for (int s = 0; s < problem.scenes(); ++s) {
+    for (const int s : problem.judged_scenes(constraint.output)) {
       const ResolvedValue here = value_in(constraint.output, problem, report, cycles, s);
       const bool nearer = constraint.is_least() ? here.value < nearest.value : here.value > nearest.value;
       if (nearer || std::isnan(nearest.value)) nearest = here;

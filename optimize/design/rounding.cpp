@@ -78,7 +78,7 @@ class StepSearch {
 
   /// Whether one of the scenes tried first is as bad as the best design's worst; that one is tried first from then on.
   bool fails_early(const Eigen::VectorXd& x) {
-    if (!(problem_.task().over == Aggregate::Worst) || !is_feasible(best_)) return false;
+    if (!(problem_.task().over == Aggregate::Worst) || !is_feasible(best_) || problem_.task().combined_objective().over_spectrum()) return false;
     const PerGear<Modification> modification = problem_.modification(x);
     for (std::size_t k = 0; k < std::min(scenes_tried_first, first_.size()); ++k) {
       const int scene = first_[k];
@@ -92,8 +92,8 @@ class StepSearch {
 
   /// The worst scenes of the best design are tried first. It is the design analysed last.
   void put_worst_first() {
-    const DesignAnalysis& analysis = problem_.analyse(best_.x, false);
-    std::ranges::stable_sort(first_, std::ranges::greater{}, [&](int scene) { return problem_.scene_measure(analysis, scene); });
+    const std::vector<double> measures = problem_.scene_measures(problem_.task().combined_objective(), problem_.analyse(best_.x, false));
+    std::ranges::stable_sort(first_, std::ranges::greater{}, [&](int scene) { return measures[static_cast<std::size_t>(scene)]; });
   }
 
   bool try_design(const Eigen::VectorXd& x) {

@@ -21,6 +21,7 @@
 #include "core/compliance/shaft/shaft_pair.hpp"
 #include "core/compliance/model/gear_structures.hpp"
 #include "studies/analysis/load_rating.hpp"
+#include "studies/analysis/spectrum_life.hpp"
 #include "studies/study/study.hpp"
 #include "studies/analysis/unloaded_result.hpp"
 
@@ -43,6 +44,8 @@ struct LoadedResult {
   IsoLoadFactors iso;
   std::optional<EdgeContactStart> edge_contact{};  ///< none where contact reaches no tip edge
   std::optional<LoadRating> rating{};              ///< none where peaks are sampled, or phases were given
+  Operation operation{};                           ///< under this torque
+  int bin{-1};                                     ///< index into Study::spectrum; -1: none
 };
 
 /// A step of the run that is no effect of the mesh, and its time.
@@ -91,6 +94,8 @@ struct StudyResults {
   std::shared_ptr<const Assessment> assessment;  ///< of the design
   std::vector<GearDeflections> deflections;      ///< of both gears, where the compliance is of single gears
   std::shared_ptr<const SweepStatistics> sweep;  ///< of the task "sweep": the rest of the results is its nominal sample
+  std::shared_ptr<const LifeModel> life_model;   ///< what life, loss and film were computed with; null: none
+  std::optional<StudyLife> life;                 ///< where the study asks for it
   std::vector<GearFit> fits;                     ///< of the task "fit", one a gear
   std::vector<std::string> notes;                ///< for the reader, one sentence each
   std::vector<std::string> requirements;         ///< requirements that were not met (exit code 1), one line each

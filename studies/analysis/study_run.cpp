@@ -14,6 +14,7 @@
 #include "studies/analysis/study_effects.hpp"
 #include "studies/analysis/study_notes.hpp"
 #include "studies/compliance/study_compliance.hpp"
+#include "studies/study_file/study_life.hpp"
 #include "studies/study_file/study_shafts.hpp"
 
 namespace flankwright::studies {
@@ -33,6 +34,8 @@ StudyResults StudyRun::finish() {
   const Stopwatch clock;
   results_.study.task->run(*this);
   find_edge_contact();
+  results_.life_model = life_model(study());
+  results_.life = study_life(results_);
   size_effects();
   add_seconds(results_.effects, results_.mesh_effects, unloaded_seconds_);
   add_unmet_by_load_cases(results_);
@@ -72,11 +75,27 @@ MeshAt StudyRun::remembered_mesh_at(const Misalignment& misalignment, double tor
 }
 
 std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) const {
+  const std::vector<SpectrumBin>& bins = results_.study.spectrum;
+  double revolutions = 0.0;
+  for (const SpectrumBin& bin : bins) revolutions += bin.torque > 0.0 ? bin.cycles : 0.0;
   std::vector<DesignScene> scenes;
-  for (const Scene& scene : of_study) {
-    for (double torque : scene.torques) {
+  for (std::size_t number = 0; number < of_study.size(); ++number) {
+    const Scene& scene = of_study[number];
+    for (std::size_t k = 0; k < scene.torques.size(); ++k) {
+      const double torque = scene.torques[k];
       if (torque == 0.0) continue;
-      scenes.push_back({scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(results_.study, scene))});
+      DesignScene& loaded = scenes.emplace_back(DesignScene{
+          scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(results_.study, scene)), {.speed = scene.speed}});
+      if (bins.empty()) continue;
+      const SpectrumBin& bin = bins[k];
+      loaded.operation = {bin.cycles, bin.speed, bin.hours, bin.temperature};
+      loaded.weight *= bin.cycles / revolutions;
+      loaded.spectrum = static_cast<int>(number);
+      loaded.bin = static_cast<int>(k);
+      if (bin.mesh_misalignment == 0.0) continue;
+      Scene moved = scene;
+      moved.misalignment.mesh_misalignment += bin.mesh_misalignment;
+      loaded.condition = apply_effects(results_.effects, condition_of(results_.study, moved));
     }
   }
   return scenes;
@@ -200,6 +219,8 @@ void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::str
     const CycleSummary summary = shown[i].summary;
     results_.loaded.push_back(
         {scene.name, scene.torque, design, std::move(cycles[i]), std::move(shown[i]), summary, models[i], scene.condition, iso});
+    results_.loaded.back().operation = scene.operation;
+    results_.loaded.back().bin = scene.bin;
   }
 }
 

@@ -39,6 +39,10 @@ constexpr std::array of_pair{
 constexpr std::array outputs{
     Row{"edge_load", "line load near the edges"},
     Row{"effective_contact_ratio", "effective contact ratio"},
+    Row{"contact_damage", "contact damage"},
+    Row{"root_damage", "root damage"},
+    Row{"loss_factor", "gear loss factor", "H_VL"},
+    Row{"specific_film_thickness", "specific film thickness", "λ_GF"},
     Row{"peak_to_peak_arcsec", "unloaded peak-to-peak TE"},
     Row{"peak_to_peak_um", "unloaded peak-to-peak TE"},
     Row{"iso6336_K_Hbeta", "K_Hβ by ISO 6336"},

@@ -15,7 +15,22 @@ namespace flankwright::studies {
 
 namespace {
 
-enum class Dimension { None, Length, Angle, Torque, Force, Stress, LineLoad, InverseLength, InverseAngle, Time };
+enum class Dimension {
+  None,
+  Length,
+  Angle,
+  Torque,
+  Force,
+  Stress,
+  LineLoad,
+  InverseLength,
+  InverseAngle,
+  Time,
+  RotationalSpeed,
+  Temperature,
+  KinematicViscosity,
+  Density
+};
 
 constexpr double pound_force = 4.4482216152605;  // N, exact by definition
 constexpr double foot = 12.0 * units::inch;      // mm
@@ -76,6 +91,15 @@ constexpr std::array known_units{
     Unit{"s", Dimension::Time, 1.0},
     Unit{"min", Dimension::Time, 60.0},
     Unit{"h", Dimension::Time, 3600.0},
+    Unit{"rpm", Dimension::RotationalSpeed, 2.0 * units::pi / 60.0},
+    Unit{"1/min", Dimension::RotationalSpeed, 2.0 * units::pi / 60.0},
+    Unit{"rad/s", Dimension::RotationalSpeed, 1.0},
+    Unit{"degC", Dimension::Temperature, 1.0},
+    Unit{"mm2/s", Dimension::KinematicViscosity, 1.0},
+    Unit{"mm^2/s", Dimension::KinematicViscosity, 1.0},
+    Unit{"cSt", Dimension::KinematicViscosity, 1.0},
+    Unit{"kg/m3", Dimension::Density, 1.0},
+    Unit{"kg/m^3", Dimension::Density, 1.0},
 };
 
 /// Notation of a quantity: the unit of a bare number, and the units an error message proposes.
@@ -116,6 +140,16 @@ constexpr Convention convention(Quantity quantity) {
       return {Dimension::InverseAngle, "arcsec/deg^2", "arcsec/deg^2", "arcsec/deg^2, 1/rad"};
     case Quantity::Time:
       return {Dimension::Time, "s", "s", "s, min, h"};
+    case Quantity::Duration:
+      return {Dimension::Time, "h", "h", "h, min, s"};
+    case Quantity::RotationalSpeed:
+      return {Dimension::RotationalSpeed, "rpm", "rpm", "rpm, rad/s"};
+    case Quantity::Temperature:
+      return {Dimension::Temperature, "degC", "degC", "degC"};
+    case Quantity::KinematicViscosity:
+      return {Dimension::KinematicViscosity, "mm2/s", "mm2/s", "mm2/s, cSt"};
+    case Quantity::Density:
+      return {Dimension::Density, "kg/m3", "kg/m3", "kg/m3"};
   }
   return {Dimension::None, "", "-", "no unit"};
 }
@@ -151,6 +185,7 @@ std::string tidy_unit(std::string_view written) {
   unit = replaced_all(unit, "\u03bc", "u");    // Greek mu
   unit = replaced_all(unit, "\u00b0", "deg");  // degree sign
   unit = replaced_all(unit, "\u00b2", "2");    // superscript two
+  unit = replaced_all(unit, "\u00b3", "3");    // superscript three
   for (const std::string_view sign : {" ", "\t", "\u00a0", "\u00b7", "\u22c5", "*"}) unit = replaced_all(unit, sign, "");
   return unit;
 }

@@ -8,20 +8,25 @@ namespace flankwright::studies {
 
 /// Quantity of a number in a study file. It fixes the unit of a bare number and the units that a text may carry.
 enum class Quantity {
-  Number,          ///< no unit [-]
-  Length,          ///< bare: mm; inside mm
-  Deviation,       ///< modification, error, transmission error; bare: um; inside mm
-  Angle,           ///< bare: deg; inside rad
-  SmallAngle,      ///< misalignment; bare: arcmin; inside rad
-  Torque,          ///< bare: N·m; inside N mm
-  Force,           ///< bare: N; inside N
-  Stress,          ///< bare: MPa; inside MPa
-  LineLoad,        ///< bare: N/mm; inside N/mm
-  Stiffness,       ///< of a bearing; bare: N/um; inside N/mm
-  DiametralPitch,  ///< bare: 1/in; inside 1/mm
-  Curvature,       ///< bare: 1/mm; inside 1/mm
-  ParabolicTe,     ///< a in delta_phi2 = -a phi1^2; bare: arcsec/deg^2; inside 1/rad
-  Time             ///< bare: s; inside s
+  Number,              ///< no unit [-]
+  Length,              ///< bare: mm; inside mm
+  Deviation,           ///< modification, error, transmission error; bare: um; inside mm
+  Angle,               ///< bare: deg; inside rad
+  SmallAngle,          ///< misalignment; bare: arcmin; inside rad
+  Torque,              ///< bare: N·m; inside N mm
+  Force,               ///< bare: N; inside N
+  Stress,              ///< bare: MPa; inside MPa
+  LineLoad,            ///< bare: N/mm; inside N/mm
+  Stiffness,           ///< of a bearing; bare: N/um; inside N/mm
+  DiametralPitch,      ///< bare: 1/in; inside 1/mm
+  Curvature,           ///< bare: 1/mm; inside 1/mm
+  ParabolicTe,         ///< a in delta_phi2 = -a phi1^2; bare: arcsec/deg^2; inside 1/rad
+  Time,                ///< bare: s; inside s
+  Duration,            ///< of a load; bare: h; inside s
+  RotationalSpeed,     ///< bare: rpm; inside rad/s
+  Temperature,         ///< bare: degC; inside degC
+  KinematicViscosity,  ///< bare: mm2/s; inside mm^2/s
+  Density              ///< bare: kg/m3; inside kg/m^3
 };
 
 /// Unit of a bare number, as the documentation writes it: "mm", "um", "N·m"; "-" for Quantity::Number.

@@ -20,6 +20,7 @@
 #include "studies/results/gradients_json.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/base/version.hpp"
+#include "studies/results/life_json.hpp"
 #include "studies/results/load_rating_json.hpp"
 #include "studies/results/shafts_json.hpp"
 #include "studies/results/unloaded_json.hpp"
@@ -231,6 +232,7 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
             {"summary", summary_json(loaded, model, results.study.cycle.phases.empty())},
             {"cycle", nullptr},
             {"extremes", extremes_json(loaded)}};
+  if (loaded.bin >= 0) json["bin"] = loaded.bin;
   if (results.shafts) add_shaft_motion(loaded, results, json);
   if (results.structures.rim_motion) add_rim_motion(loaded, results, json);
   const bool asked = results.study.task->one_design && !results.study.gradients.empty();
@@ -324,6 +326,7 @@ Json results_document(const StudyResults& results) {
   json["steps"] = list(results.steps, [](const RunStep& s) -> Json { return {{"name", s.name}, {"why", s.why}, {"seconds", s.seconds}}; });
   if (results.fidelity_choice) json["accuracy_choice"] = fidelity_choice_json(*results.fidelity_choice);
   if (study.task->add_json != nullptr) study.task->add_json(results, json);
+  if (results.life) json["life"] = life_json(results);
   if (!results.deflections.empty()) json["deflections"] = list(results.deflections, deflections_json);
   json["given"] = list(study.given, [](const GivenValue& g) -> Json { return {{"key", g.key}, {"value", g.value}, {"unit", unit_of_given(g)}}; });
   json["used"] = used_json(results);

@@ -10,6 +10,7 @@
 #include "studies/results/fidelity_choice_json.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/results/bodies_json.hpp"
+#include "studies/results/life_tables.hpp"
 #include "studies/results/load_rating_tables.hpp"
 #include "studies/results/unloaded_tables.hpp"
 
@@ -100,7 +101,7 @@ std::string analysis_table(const StudyResults& results) {
   for (const UnloadedResult& u : results.unloaded) names.push_back(u.scene);
   const std::size_t width = widest(names, 12);
   if (!results.loaded.empty()) out += loaded_table(results.loaded, width);
-  return out + load_factors_table(results, width) + rim_table(results, width) + unloaded_summary(results, width);
+  return out + load_factors_table(results, width) + life_table(results, width) + rim_table(results, width) + unloaded_summary(results, width);
 }
 
 std::vector<NamedText> csv_tables(const StudyResults& results) {
@@ -110,6 +111,7 @@ std::vector<NamedText> csv_tables(const StudyResults& results) {
     tables.push_back({"points.csv", points_csv(results)});
     tables.push_back({"load_factors.csv", load_factors_csv(results)});
     tables.push_back({"load_sharing.csv", load_sharing_csv(results)});
+    if (results.life) tables.push_back({"life.csv", life_csv(results)});
   }
   if (!results.unloaded.empty()) {
     tables.push_back({"unloaded.csv", unloaded_csv(results)});

@@ -16,6 +16,7 @@
 #include "core/load/cycle/mesh_parameter.hpp"
 #include "optimize/design/design_task.hpp"
 #include "studies/study/assessment_table.hpp"
+#include "studies/study/life_table.hpp"
 #include "studies/study/sweep_table.hpp"
 #include "studies/study/task.hpp"
 
@@ -50,6 +51,7 @@ struct Scene {
   Misalignment misalignment;
   std::vector<double> torques;  ///< on the pinion [N mm], >= 0
   PerGear<ManufacturingError> error;
+  double speed{not_given};  ///< of the pinion [rad/s]; NaN: not given, or that of each bin of a spectrum
 };
 
 /// A measured or topological flank: the file that the study names and what was read from it.
@@ -139,7 +141,9 @@ struct Study {
   PerGear<std::optional<ShaftData>> shaft;  ///< empty: rigid
   UnitData unit;                            ///< around the pair's shafts
   std::vector<double> torques;              ///< base [load] torque list [N mm]; {0} where [load] is absent
-  double marking_thickness{6.35e-3};        ///< of the compound that shows the bearing pattern [mm], > 0
+  std::vector<SpectrumBin> spectrum;        ///< empty: none; else every scene's torques are those of its bins, in their order
+  LifeTable life;
+  double marking_thickness{6.35e-3};  ///< of the compound that shows the bearing pattern [mm], > 0
   Cycle cycle;
   Fidelity fidelity;
   std::vector<Scene> scenes;                 ///< never empty: without [[scenes]] the one nominal scene of the base tables

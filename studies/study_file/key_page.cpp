@@ -41,6 +41,7 @@ std::vector<Section> sections_in_order() {
       {"pinion.material", "`[pinion.material]`", "For one gear, instead of `[material]`."},
       {"misalignment", "`[misalignment]`", "Deviation of the gears from their nominal position in the housing."},
       {"load", "`[load]`", ""},
+      {"lubricant", "`[lubricant]`", "The oil: [load spectrum and life](README.md#load-spectrum-and-life)."},
       {"unloaded", "`[unloaded]`", "Contact without load."},
       {"cycle", "`[cycle]`", "The mesh positions at which the contact is solved."},
       {"fidelity", "`[fidelity]`", "Models and resolution. The defaults aim at accuracy: [models and accuracy](README.md#models-and-accuracy)."},

@@ -10,6 +10,7 @@ namespace flankwright::studies {
 std::vector<SchemaKey> geometry_rows();           ///< title, task, pair, gears and how they are generated
 std::vector<SchemaKey> flank_rows();              ///< modifications and manufacturing errors
 std::vector<SchemaKey> working_condition_rows();  ///< misalignment, material, load and how it is analysed
+std::vector<SchemaKey> life_rows();               ///< load spectrum, strength of materials and lubricant
 std::vector<SchemaKey> body_rows();               ///< gears below their teeth
 std::vector<SchemaKey> shaft_rows();              ///< shafts and their bearings
 std::vector<SchemaKey> unit_rows();               ///< the gear unit around the pair

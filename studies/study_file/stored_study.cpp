@@ -26,16 +26,23 @@ std::pair<int, std::string> scene_key(const std::string& key) {
 
 std::string study_text(const Json& given) {
   std::string text;
-  std::map<int, std::string> scenes;
+  std::map<int, std::string> scenes, bins;
   for (const Json& entry : given) {
     const std::string key = entry.at("key"), value = entry.at("value");
     if (!starts_with_one_of(key, kept) || starts_with_one_of(key, left_out)) continue;
-    if (!key.starts_with("scenes.")) {
+    constexpr std::string_view spectrum = "load.spectrum.";
+    if (key.starts_with(spectrum) && key != "load.spectrum.file") {  // "load.spectrum.1.torque"
+      const auto [bin, name] = scene_key(key.substr(spectrum.find('.') + 1));
+      bins[bin] += (bins[bin].empty() ? "" : ", ") + name + " = " + value;
+    } else if (!key.starts_with("scenes.")) {
       text += key + " = " + value + "\n";
     } else if (const auto [scene, name] = scene_key(key); !name.starts_with("pinion.error") && !name.starts_with("wheel.error")) {
       scenes[scene] += name + " = " + value + "\n";
     }
   }
+  if (!bins.empty()) text += "load.spectrum = [";
+  for (const auto& [bin, keys] : bins) text += "{ " + keys + " }, ";
+  if (!bins.empty()) text += "]\n";
   for (const auto& [scene, keys] : scenes) text += "[[scenes]]\n" + keys;
   return text;
 }

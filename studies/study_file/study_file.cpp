@@ -11,6 +11,7 @@
 #include "studies/study_file/study_checks.hpp"
 #include "studies/study_file/study_document.hpp"
 #include "studies/study_file/study_flanks.hpp"
+#include "studies/study_file/study_life.hpp"
 #include "studies/study_file/study_reading.hpp"
 #include "studies/study_file/study_schema.hpp"
 #include "studies/study_file/study_shafts.hpp"
@@ -66,11 +67,13 @@ Study parse_study(std::string_view text, const std::string& name, const std::vec
   StudyReading reading{document, problems};
   store_defaults(reading.builder);
   read_keys(reading);
+  read_spectrum(reading);
   settle_base(reading.builder);
   check_presence(reading);
   settle_edges(reading);
   read_generation(reading);
   read_scenes(reading);
+  check_life(reading);
   for (const Task* task : registered_tasks()) {
     if (task->read != nullptr) task->read(reading);
   }

@@ -120,7 +120,7 @@ std::vector<SchemaKey> working_condition_rows() {
 std::vector<SchemaKey> scene_rows() {
   return {
       {.path = "scenes", .kind = Scenes, .fallback = "(one scene, nominal)",
-       .meaning = "working conditions; each overrides `misalignment.*`, `load.torque` or either gear's `error.*`"},
+       .meaning = "working conditions; each overrides `misalignment.*`, `load.torque`, `load.speed` or either gear's `error.*`"},
       {.path = "scenes[].name", .kind = Text, .fallback = "(scene 1, scene 2 ...)",
        .meaning = "names the scene in results",
        .store = [](Scene& s, Member, const Value& v) { s.name = v.text; }},
@@ -155,7 +155,8 @@ void append(std::vector<SchemaKey>& schema, const std::vector<SchemaKey>& rows) 
 
 std::vector<SchemaKey> make_schema() {
   std::vector<SchemaKey> schema;
-  for (const auto& rows : {geometry_rows(), flank_rows(), working_condition_rows(), body_rows(), shaft_rows(), unit_rows(), scene_rows()})
+  for (const auto& rows :
+       {geometry_rows(), flank_rows(), working_condition_rows(), life_rows(), body_rows(), shaft_rows(), unit_rows(), scene_rows()})
     append(schema, rows);
   for (const Task* task : registered_tasks()) {
     if (task->keys != nullptr) append(schema, task->keys());
@@ -172,7 +173,8 @@ const std::vector<SchemaKey>& study_schema() {
 
 const std::vector<ExclusiveKeys>& exclusive_keys() {
   static const std::vector<ExclusiveKeys> pairs = [] {
-    std::vector<ExclusiveKeys> made{{"pair.normal_module", "pair.normal_diametral_pitch"}, {"cycle.positions", "cycle.phases"}};
+    std::vector<ExclusiveKeys> made{
+        {"pair.normal_module", "pair.normal_diametral_pitch"}, {"cycle.positions", "cycle.phases"}, {"load.torque", "load.spectrum"}};
     for (const std::string gear : {"pinion.modification.", "wheel.modification."}) {
       for (const ModificationDescriptor& d : modification_parameters) {
         for (const std::string_view half : {d.half, d.other_half}) {

@@ -137,7 +137,8 @@ std::map<std::string, Match> match_keys(StudyReading& reading, const toml::table
           reading.refuse(position, prefix + path, &node, "allowed is a table");
         }
       } else if (&keys == &scene_keys() && (study_keys().contains(path) || is_table(study_keys(), path))) {
-        reading.refuse(position, prefix + path, &node, "a scene may override misalignment.*, load.torque, pinion.error.* and wheel.error.*");
+        reading.refuse(position, prefix + path, &node,
+                       "a scene may override misalignment.*, load.torque, load.speed, pinion.error.* and wheel.error.*");
       } else {
         reading.refuse(position, prefix + path, &node, "unknown key" + nearest_key_hint(keys, path));
       }
@@ -196,6 +197,7 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
     case ValueKind::WordList:
       return read_word_list(key, node);
     case ValueKind::TableList:  // its tables' keys have rows of their own
+    case ValueKind::TableListOrFile:
     case ValueKind::Scenes:
     case ValueKind::Objective:
     case ValueKind::Objectives:
@@ -245,7 +247,9 @@ void read_table_list(StudyReading& reading, const Match& match, Scene& scene) {
 }  // namespace
 
 void read_into(StudyReading& reading, const Match& match, Scene& scene) {
-  if (match.key->kind == ValueKind::TableList) return read_table_list(reading, match, scene);
+  const bool is_list = match.key->kind == ValueKind::TableList || match.key->kind == ValueKind::TableListOrFile;
+  if (match.key->kind == ValueKind::TableListOrFile && match.node->is_table()) return;  // its file is read when all keys are
+  if (is_list) return read_table_list(reading, match, scene);
   try {
     store(*match.key, read_value(*match.key, *match.node), reading.builder, scene);
   } catch (const InvalidInput& problem) {

@@ -179,6 +179,8 @@ std::string allowed_values(const SchemaKey& key) {
       return "\"auto\", or a list of " + quoted_list(key.words);
     case ValueKind::TableList:
       return "a list of tables of the keys below it, at least one";
+    case ValueKind::TableListOrFile:
+      return "a list of tables of the keys below it, at least one, or { file = \"x.csv\" }";
     case ValueKind::Scenes:
       return "[[scenes]] tables";
     case ValueKind::Objective:

@@ -28,24 +28,25 @@ enum class ValueKind {
   NumberOrList,  ///< one number, or a list of at least one
   NumberList,    ///< a list of at least one number
   Integer,
-  Percentage,     ///< text such as "1 %"; the range is in per cent, the number a share
-  IntegerOrAuto,  ///< an integer, or "auto"
-  NumberOrNone,   ///< a number, or "none", which is stored as 0
-  Text,           ///< any text
-  TextList,       ///< a list of at least one text
-  Word,           ///< one of `words`
-  WordOrTable,    ///< one of `words`, or a table of the keys below it
-  WordList,       ///< "auto", or a list of `words`
-  TableList,      ///< array of tables, each with the keys of element_keys()
-  Scenes,         ///< array of tables, each with scene_keys()
-  Objective,      ///< an output, a table of outputs and weights, or a list of such
-  Objectives,     ///< a list of outputs or tables of them
-  Variables,      ///< table: modification key = [low, high] or { range = [low, high], step = ... }
-  Ties,           ///< table: modification key = { as = a variable, factor, offset }
-  Distributions,  ///< table: key = distribution
-  Parameters,     ///< list of keys that derivatives are taken by
-  Constraints,    ///< table: output, or a sum of modifications = { max = ... , min = ... }
-  Expectations    ///< table: key of results.json = { value, within, min, max }
+  Percentage,       ///< text such as "1 %"; the range is in per cent, the number a share
+  IntegerOrAuto,    ///< an integer, or "auto"
+  NumberOrNone,     ///< a number, or "none", which is stored as 0
+  Text,             ///< any text
+  TextList,         ///< a list of at least one text
+  Word,             ///< one of `words`
+  WordOrTable,      ///< one of `words`, or a table of the keys below it
+  WordList,         ///< "auto", or a list of `words`
+  TableList,        ///< array of tables, each with the keys of element_keys()
+  TableListOrFile,  ///< the same, or a table that names a file
+  Scenes,           ///< array of tables, each with scene_keys()
+  Objective,        ///< an output, a table of outputs and weights, or a list of such
+  Objectives,       ///< a list of outputs or tables of them
+  Variables,        ///< table: modification key = [low, high] or { range = [low, high], step = ... }
+  Ties,             ///< table: modification key = { as = a variable, factor, offset }
+  Distributions,    ///< table: key = distribution
+  Parameters,       ///< list of keys that derivatives are taken by
+  Constraints,      ///< table: output, or a sum of modifications = { max = ... , min = ... }
+  Expectations      ///< table: key of results.json = { value, within, min, max }
 };
 
 /// The converted value of a key. The kind of the key determines the members that are set.

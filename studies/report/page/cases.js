@@ -20,7 +20,7 @@ function load_cases(results) {
   const label_of = scene_labels(entries.map((entry) => ({ name: entry.scene, torque_Nm: entry.torque_Nm })));
   for (const entry of entries) {
     const scene = typeof entry.scene === "string" && entry.scene !== "" ? entry.scene : "nominal";
-    const key = JSON.stringify([scene, entry.torque_Nm ?? null]);
+    const key = JSON.stringify([scene, entry.torque_Nm ?? null, entry.bin ?? null]);
     if (!cases.has(key)) {
       cases.set(key, { key, scene, torque: entry.torque_Nm, label: label_of({ name: scene, torque_Nm: entry.torque_Nm }), designs: {} });
     }

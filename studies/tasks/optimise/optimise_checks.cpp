@@ -1,14 +1,16 @@
 #include "studies/tasks/optimise/optimise_checks.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "optimize/solvers/solver.hpp"
 #include "studies/compliance/study_compliance.hpp"
+#include "studies/study_file/study_life.hpp"
 
 namespace flankwright::studies {
 
 bool minimises_root_stress(const Study& study) {
-  const auto is_root_stress = [](const ObjectiveTerm& term) { return term.output == Output::PeakRootStress; };
+  const auto is_root_stress = [](const ObjectiveTerm& term) { return term.output == Output::PeakRootStress || term.output == Output::RootDamage; };
   const auto in_objective = [&](const Objective& objective) { return std::ranges::any_of(objective.terms, is_root_stress); };
   const OptimiseTable& optimise = study.optimise;
   return std::ranges::any_of(optimise.objective, is_root_stress) ||
@@ -26,6 +28,63 @@ void check_variables(StudyReading& reading) {
     reading.refuse_key("optimise.variables." + keys.second, "overlaps the variable " + keys.first + "; allowed is one of them");
   }
 }
+
+namespace {
+
+/// All terms of an optimisation, each with the key that names it.
+std::vector<std::pair<std::string, ObjectiveTerm>> all_terms(const OptimiseTable& optimise) {
+  std::vector<std::pair<std::string, ObjectiveTerm>> terms;
+  const auto add = [&](const char* key, const std::vector<ObjectiveTerm>& of) {
+    for (const ObjectiveTerm& term : of) terms.emplace_back(key, term);
+  };
+  add("optimise.objective", optimise.objective);
+  for (const Objective& objective : optimise.later_objectives) add("optimise.objective", objective.terms);
+  for (const Objective& objective : optimise.pareto_objectives) add("optimise.pareto.objectives", objective.terms);
+  for (const OutputConstraint& bound : optimise.constraints) terms.emplace_back("optimise.constraints." + bound.output.name, bound.output);
+  return terms;
+}
+
+/// Sums over the load spectrum are not added to what each load case has by itself.
+void check_sums(StudyReading& reading, const char* key, const std::vector<ObjectiveTerm>& terms) {
+  const auto over_spectrum = [](const ObjectiveTerm& term) { return design_output(term.output).over_spectrum; };
+  if (std::ranges::any_of(terms, over_spectrum) && !std::ranges::all_of(terms, over_spectrum)) {
+    reading.refuse_key(
+        key, "adds damage, a sum over the load spectrum, to an output of each load case: allowed is a list of both, or a constraint on one");
+  }
+}
+
+/// What damage, loss and film need must be given.
+void check_life_outputs(StudyReading& reading) {
+  const Study& study = reading.builder.study;
+  check_sums(reading, "optimise.objective", study.optimise.objective);
+  for (const Objective& objective : study.optimise.later_objectives) check_sums(reading, "optimise.objective", objective.terms);
+  const std::shared_ptr<const LifeModel> life = life_model(study);
+  const auto has_curve = [&](auto FatigueStrength::*kind) { return life && (life->strength.pinion.*kind || life->strength.wheel.*kind); };
+  for (const auto& [key, term] : all_terms(study.optimise)) {
+    const DesignOutput& row = design_output(term.output);
+    if (row.is_least && !key.starts_with("optimise.constraints."))
+      reading.refuse_key(key, term.name + " is better where it is large: allowed is { min = ... } in optimise.constraints");
+    if (row.over_spectrum && study.spectrum.empty()) reading.refuse_key(key, term.name + " needs load.spectrum");
+    if (term.output == Output::ContactDamage && !has_curve(&FatigueStrength::contact)) {
+      reading.refuse_key(key, term.name + " needs material.contact_endurance_limit");
+    }
+    if (term.output == Output::RootDamage && !has_curve(&FatigueStrength::root))
+      reading.refuse_key(key, term.name + " needs material.root_endurance_limit");
+    if (term.output != Output::SpecificFilmThickness) continue;
+    if (!study.life.has_lubricant) reading.refuse_key(key, term.name + " needs a table [lubricant]");
+    const auto no_speed = [](const auto& of) { return std::isnan(of.speed); };
+    if (study.spectrum.empty() ? std::ranges::any_of(study.scenes, no_speed) : std::ranges::any_of(study.spectrum, no_speed)) {
+      reading.refuse_key(key, term.name + " needs load.speed, or a speed in every bin of the spectrum");
+    }
+  }
+  const bool moves = std::ranges::any_of(study.spectrum, [](const SpectrumBin& bin) { return bin.mesh_misalignment != 0.0; });
+  if (moves && study.fidelity.gap == GapModel::WholeSurface) {
+    reading.refuse_key("fidelity.gap",
+                       "a bin of the spectrum has a misalignment of its own: allowed is \"plane_of_action\", whose points do not move with it");
+  }
+}
+
+}  // namespace
 
 void check_optimise(StudyReading& reading) {
   const Study& study = reading.builder.study;
@@ -57,8 +116,9 @@ void check_optimise(StudyReading& reading) {
     reading.refuse_key("optimise.sigmas", "has a meaning with optimise.over = \"mean+sigmas\" only");
   }
   if (minimises_root_stress(study) && !wants_root_stress(study)) {
-    reading.refuse_key("fidelity.effects", "peak_root_stress is asked for: allowed is \"auto\" or a list with \"root_stress\"");
+    reading.refuse_key("fidelity.effects", "root stress is asked for: allowed is \"auto\" or a list with \"root_stress\"");
   }
+  check_life_outputs(reading);
   for (const Scene& scene : study.scenes) {
     if (std::ranges::any_of(scene.torques, [](double torque) { return torque > 0.0; })) continue;
     return reading.refuse_key("load.torque", "task \"optimise\" needs a torque above 0 in every scene: " + scene.name);

@@ -11,6 +11,7 @@
 #include "studies/analysis/requirements.hpp"
 #include "studies/analysis/study_effects.hpp"
 #include "studies/compliance/study_compliance.hpp"
+#include "studies/study_file/study_life.hpp"
 #include "studies/tasks/optimise/assessment.hpp"
 
 namespace flankwright::studies {
@@ -73,7 +74,11 @@ class OptimiseRun {
   /// The listed ones and those drawn from tolerances.
   std::vector<DesignScene> all_scenes() const {
     std::vector<DesignScene> scenes = run_.loaded_scenes();
-    for (DesignScene& scene : run_.loaded(draw_scenes(results_.study, results_.study.optimise.assessment.scenes))) scenes.push_back(std::move(scene));
+    const int spectra = static_cast<int>(results_.study.scenes.size());
+    for (DesignScene& scene : run_.loaded(draw_scenes(results_.study, results_.study.optimise.assessment.scenes))) {
+      if (scene.spectrum >= 0) scene.spectrum += spectra;
+      scenes.push_back(std::move(scene));
+    }
     return scenes;
   }
 
@@ -98,6 +103,7 @@ class OptimiseRun {
     task.later_objectives = study.optimise.later_objectives;
     task.lexicographic_tolerance = study.optimise.lexicographic_tolerance;
     if (asks_for_root_stress(study)) task.root_stress = run_.structures().root_stress;
+    task.life = life_model(study);
     task.scenes = all_scenes();  // an unloaded scene has no stress and no loaded transmission error to choose by
     return task;
   }

@@ -6,6 +6,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/study_bodies_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_file_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_flanks_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/study_life_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_mutation_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_problems_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/study_shafts_test.cpp

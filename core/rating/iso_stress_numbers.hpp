@@ -1,0 +1,34 @@
+#pragma once
+
+#include "core/gear/gear_pair.hpp"
+
+namespace flankwright {
+
+/// Nominal stress numbers of a pair under a torque, and the factors that they consist of. A rating by them multiplies load factors onto them.
+struct IsoStressNumbers {
+  // Contact [ISO 6336-2:2019]
+  double Z_H{not_given}, Z_E{not_given}, Z_eps{not_given}, Z_beta{not_given};  ///< Z_E in sqrt(MPa)
+  PerGear<double> single_pair{1.0, 1.0};                                       ///< Z_B, Z_D [-], >= 1
+  double contact{not_given};                                                   ///< sigma_H0 at the pitch point [MPa]
+  // Root [ISO 6336-3:2006]
+  PerGear<double> Y_F{not_given, not_given}, Y_S{not_given, not_given};
+  double Y_beta{not_given};
+  PerGear<double> root{not_given, not_given};  ///< sigma_F0 [MPa]
+
+  /// sigma_H of a gear with K = K_A K_v K_Hbeta K_Halpha [MPa].
+  double contact_stress(Member member, double K) const;
+  /// sigma_F likewise, with K = K_A K_v K_Fbeta K_Falpha [MPa].
+  double root_stress(Member member, double K) const { return root[member] * K; }
+};
+
+/// sigma_H0 = Z_H Z_E Z_eps Z_beta sqrt(F_t/(d_1 b) (u+1)/u),  Z_beta = 1/sqrt(cos beta)
+/// sigma_F0 = F_t/(b m_n) Y_F Y_S Y_beta, load at the outer point of single pair contact (method B), with the fillet of the basic rack at the 30 deg tangent; rim thickness
+/// factor Y_B and deep tooth factor Y_DT are 1. F_t acts at the reference circle.
+/// @param pinion_torque  [N mm], > 0
+/// @param face_width     common [mm]
+IsoStressNumbers iso_stress_numbers(const GearPair& pair, const PerGear<Material>& material, double pinion_torque, double face_width);
+
+/// K_Fbeta = K_Hbeta^N_F, N_F = 1/(1 + h/b + (h/b)^2) with the tooth depth h and h/b at most 1/3 [ISO 6336-1:2006, 7.8] [-].
+double root_face_load_factor(const GearPair& pair, double face_width, double K_Hbeta);
+
+}  // namespace flankwright

@@ -1,0 +1,209 @@
+#include "studies/analysis/spectrum_life.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/rating/film_thickness.hpp"
+#include "core/rating/sliding_loss.hpp"
+#include "studies/analysis/study_results.hpp"
+#include "studies/study_file/study_life.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+constexpr std::array both_gears{Member::Pinion, Member::Wheel};
+
+/// The oil of a load case, as far as it is known.
+struct Oil {
+  const Lubricant* lubricant;
+  double temperature, roughness;
+};
+
+std::optional<Oil> oil_of(const LifeModel& life, const LoadedResult& loaded) {
+  if (!life.lubricant) return std::nullopt;
+  const double temperature = std::isnan(loaded.operation.temperature) ? life.lubricant->temperature : loaded.operation.temperature;
+  return Oil{&*life.lubricant, temperature, life.roughness};
+}
+
+void add_loss(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, CaseLife& of) {
+  of.loss_factor = local_loss_factor(model, loaded.cycle).value;
+  const double speed = loaded.operation.speed;
+  if (!(speed > 0.0)) return;
+  constexpr double watt = 1e3;  // N mm/s
+  of.power = loaded.torque * speed / watt;
+  const std::optional<Oil> oil = oil_of(life, loaded);
+  if (!oil) return;
+  of.friction = schlenk_friction(model.pair, model.face_width, loaded.cycle.force, speed, *oil->lubricant, oil->temperature, oil->roughness);
+  of.loss_power = of.friction * of.loss_factor * of.power;
+}
+
+void add_film(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, CaseLife& of) {
+  const std::optional<Oil> oil = oil_of(life, loaded);
+  if (!oil || !(loaded.operation.speed > 0.0)) return;
+  FilmCondition condition{
+      .speed = loaded.operation.speed, .oil_temperature = oil->temperature, .bulk_temperature = life.bulk_temperature, .roughness = oil->roughness};
+  condition = film_condition(model.pair, model.face_width, loaded.cycle.force, *oil->lubricant, condition);
+  of.bulk_temperature = condition.bulk_temperature;
+  for (std::size_t i = 0; i < model.positions.size(); ++i) {
+    const Eigen::VectorXd& load = loaded.cycle.positions[i].load.line_load;
+    for (Eigen::Index j = 0; j < load.size(); ++j) {
+      const ContactPoint& point = model.positions[i].points[static_cast<std::size_t>(j)];
+      of.film = std::fmin(of.film, local_film(model.pair, model.contact_modulus, point, load[j], *oil->lubricant, condition).ratio);
+    }
+  }
+  of.micropitting_safety = of.film / life.permissible_film;
+}
+
+/// What a curve allows in a load case over a stress.
+double stress_safety(const std::optional<SnCurve>& curve, double cycles, double stress) {
+  if (!curve) return not_given;
+  return (std::isnan(cycles) ? curve->limit : curve->stress_for(cycles)) / stress;
+}
+
+void add_safety(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, CaseLife& of) {
+  of.iso = iso_stress_numbers(model.pair, model.material, loaded.torque, model.face_width);
+  of.K_from_contact = loaded.rating.has_value() && !std::isnan(loaded.rating->factors.without_spikes.combined);
+  const double K_Hbeta = of.K_from_contact ? loaded.rating->factors.without_spikes.lead : loaded.iso.lead;
+  of.K_H = of.K_from_contact ? loaded.rating->factors.without_spikes.combined : loaded.iso.combined();
+  of.K_F = of.K_H / K_Hbeta * root_face_load_factor(model.pair, model.face_width, K_Hbeta);
+  for (const Member m : both_gears) {
+    const FatigueStrength& strength = life.strength[m];
+    const double cycles = load_cycles(model.pair, m, loaded.operation.revolutions);
+    of.iso_contact[m] = of.iso.contact_stress(m, of.K_H);
+    of.iso_root[m] = of.iso.root_stress(m, of.K_F);
+    of.contact_safety[m] = stress_safety(strength.contact, cycles, loaded.summary.peak_contact_stress);
+    of.iso_contact_safety[m] = stress_safety(strength.contact, cycles, of.iso_contact[m]);
+    const RootStressPeak& root = m == Member::Pinion ? loaded.summary.pinion_root_stress : loaded.summary.wheel_root_stress;
+    of.root_safety[m] = stress_safety(strength.root, cycles, root.stress);
+    of.iso_root_safety[m] = stress_safety(strength.root, cycles, of.iso_root[m]);
+  }
+}
+
+/// One spectrum of the results while its damage is found.
+class SpectrumRating {
+ public:
+  SpectrumRating(const StudyResults& results, const LifeModel& life, std::vector<CaseLife>& cases, SpectrumLife& spectrum)
+      : results_(results), life_(life), cases_(cases), spectrum_(spectrum), model_(results.models[loaded(0).model]) {
+    for (std::size_t k = 0; k < spectrum.cases.size(); ++k) loads_.push_back({&loaded(k).cycle, loaded(k).operation.revolutions});
+  }
+
+  void rate() {
+    for (const Member m : both_gears) {
+      if (life_.strength[m].contact) rate_flank(m, *life_.strength[m].contact);
+      if (life_.strength[m].root && has_root_stress()) rate_root(m, *life_.strength[m].root);
+    }
+  }
+
+ private:
+  const LoadedResult& loaded(std::size_t k) const { return results_.loaded[cases_[spectrum_.cases[k]].loaded]; }
+
+  bool has_root_stress() const {
+    return std::ranges::all_of(loads_, [](const SpectrumCase& c) { return c.cycle->positions.front().root_stress.size() > 0; });
+  }
+
+  void rate_flank(Member m, const SnCurve& curve) {
+    DamagedPoint worst;
+    std::size_t at_position = 0, entry = 0;
+    Eigen::Index at_point = 0;
+    const bool is_new = spectrum_.map.empty();
+    for (std::size_t i = 0; i < model_.positions.size(); ++i) {
+      const Eigen::VectorXd damage = contact_damage(model_, loads_, m, curve, i);
+      for (Eigen::Index j = 0; j < damage.size(); ++j, ++entry) {
+        const ContactPoint& point = model_.positions[i].points[static_cast<std::size_t>(j)];
+        if (is_new) spectrum_.map.push_back({point.z, point.pinion_radius});
+        spectrum_.map[entry].damage[m] = damage[j];
+        if (!(damage[j] > worst.damage)) continue;
+        worst.damage = damage[j];
+        worst.z = point.z;
+        worst.radius = m == Member::Pinion ? point.pinion_radius : point.wheel_radius;
+        at_position = i;
+        at_point = j;
+      }
+    }
+    for (std::size_t k = 0; k < loads_.size(); ++k) {
+      cases_[spectrum_.cases[k]].contact_damage[m] = contact_damage_at(model_, {loads_[k]}, m, curve, at_position, at_point).value;
+      worst.exceeds_static_limit = worst.exceeds_static_limit || loaded(k).summary.peak_contact_stress > curve.static_limit;
+    }
+    spectrum_.contact[m] = worst;
+  }
+
+  void rate_root(Member m, const SnCurve& curve) {
+    const FilletPoints points = fillet_points(model_, m);
+    if (points.count == 0) return;
+    const Eigen::VectorXd damage = root_damage(model_, loads_, m, curve, points);
+    Eigen::Index at = 0;
+    DamagedPoint worst;
+    worst.damage = damage.maxCoeff(&at);
+    const FilletPoints::Pass& pass = points.passes.front();
+    const RootStation& station = model_.positions[pass.position].root_stress.stations[static_cast<std::size_t>(pass.begin + at)];
+    worst.z = station.z;
+    worst.along = station.along;
+    for (std::size_t k = 0; k < loads_.size(); ++k) {
+      cases_[spectrum_.cases[k]].root_damage[m] = root_damage(model_, {loads_[k]}, m, curve, points)[at];
+      const CycleSummary& summary = loaded(k).summary;
+      const RootStressPeak& root = m == Member::Pinion ? summary.pinion_root_stress : summary.wheel_root_stress;
+      worst.exceeds_static_limit = worst.exceeds_static_limit || root.stress > curve.static_limit;
+    }
+    spectrum_.root[m] = worst;
+  }
+
+  const StudyResults& results_;
+  const LifeModel& life_;
+  std::vector<CaseLife>& cases_;
+  SpectrumLife& spectrum_;
+  const MeshModel& model_;
+  LoadSpectrum loads_;
+};
+
+/// Load cases of one scene and design, in their order.
+std::vector<SpectrumLife> spectra_of(const StudyResults& results, const std::vector<CaseLife>& cases) {
+  std::vector<SpectrumLife> spectra;
+  for (std::size_t c = 0; c < cases.size(); ++c) {
+    const LoadedResult& loaded = results.loaded[cases[c].loaded];
+    if (loaded.bin < 0) continue;
+    const auto same = [&](const SpectrumLife& s) { return s.scene == loaded.scene && s.design == loaded.design; };
+    auto found = std::ranges::find_if(spectra, same);
+    if (found == spectra.end()) found = spectra.insert(spectra.end(), {loaded.scene, loaded.design, {}, {}, {}, {}});
+    found->cases.push_back(c);
+  }
+  return spectra;
+}
+
+/// Damage is a sum over one mesh's points: all load cases have it, and all were solved.
+bool can_be_summed(const StudyResults& results, const std::vector<CaseLife>& cases, const SpectrumLife& spectrum) {
+  const auto of = [&](std::size_t c) -> const LoadedResult& { return results.loaded[cases[c].loaded]; };
+  const std::size_t loads =
+      static_cast<std::size_t>(std::ranges::count_if(results.study.spectrum, [](const SpectrumBin& bin) { return bin.torque > 0.0; }));
+  return spectrum.cases.size() == loads &&
+         std::ranges::all_of(spectrum.cases, [&](std::size_t c) { return of(c).model == of(spectrum.cases.front()).model; });
+}
+
+}  // namespace
+
+std::optional<StudyLife> study_life(const StudyResults& results) {
+  const std::shared_ptr<const LifeModel> life = life_model(results.study);
+  if (life == nullptr || results.loaded.empty()) return std::nullopt;
+  StudyLife found;
+  found.ohlendorf = ohlendorf_loss_factor(results.pair);
+  for (std::size_t i = 0; i < results.loaded.size(); ++i) {
+    if (results.loaded[i].cycle.usable()) found.cases.push_back({.loaded = i});
+  }
+  tbb::parallel_for(std::size_t{0}, found.cases.size(), [&](std::size_t c) {
+    CaseLife& of = found.cases[c];
+    const LoadedResult& loaded = results.loaded[of.loaded];
+    const MeshModel& model = results.models[loaded.model];
+    add_loss(model, *life, loaded, of);
+    add_film(model, *life, loaded, of);
+    add_safety(model, *life, loaded, of);
+  });
+  found.spectra = spectra_of(results, found.cases);
+  std::erase_if(found.spectra, [&](const SpectrumLife& spectrum) { return !can_be_summed(results, found.cases, spectrum); });
+  for (SpectrumLife& spectrum : found.spectra) SpectrumRating(results, *life, found.cases, spectrum).rate();
+  return found;
+}
+
+}  // namespace flankwright::studies

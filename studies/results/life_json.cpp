@@ -1,0 +1,102 @@
+#include "studies/results/life_json.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace flankwright::studies {
+
+namespace {
+
+constexpr std::array both_gears{Member::Pinion, Member::Wheel};
+
+Json sn_curve_json(const std::optional<SnCurve>& curve) {
+  if (!curve) return nullptr;
+  return {{"limit_MPa", curve->limit},
+          {"knee_cycles", curve->knee},
+          {"exponent", curve->exponent},
+          {"exponent_beyond", curve->exponent_beyond},
+          {"static_limit_MPa", std::isfinite(curve->static_limit) ? Json(curve->static_limit) : Json()}};
+}
+
+Json gear_case_json(const CaseLife& of, Member m) {
+  return {{"contact_safety", of.contact_safety[m]},
+          {"root_safety", of.root_safety[m]},
+          {"contact_damage", of.contact_damage[m]},
+          {"root_damage", of.root_damage[m]},
+          {"sigma_H_MPa", of.iso_contact[m]},
+          {"sigma_F_MPa", of.iso_root[m]},
+          {"S_H", of.iso_contact_safety[m]},
+          {"S_F", of.iso_root_safety[m]},
+          {"Y_F", of.iso.Y_F[m]},
+          {"Y_S", of.iso.Y_S[m]}};
+}
+
+Json life_case_json(const StudyResults& results, const CaseLife& of) {
+  const LoadedResult& loaded = results.loaded[of.loaded];
+  constexpr double hour = 3600.0;
+  return {{"scene", loaded.scene},
+          {"design", loaded.design},
+          {"bin", loaded.bin < 0 ? Json() : Json(loaded.bin)},
+          {"torque_Nm", in_Nm(loaded.torque)},
+          {"speed_rpm", loaded.operation.speed * 60.0 / (2.0 * units::pi)},
+          {"hours", loaded.operation.duration / hour},
+          {"cycles", loaded.operation.revolutions},
+          {"peak_contact_stress_MPa", loaded.summary.peak_contact_stress},
+          {"peak_root_stress_MPa", loaded.summary.peak_root_stress},
+          {"loss_factor", of.loss_factor},
+          {"friction", of.friction},
+          {"power_W", of.power},
+          {"loss_power_W", of.loss_power},
+          {"bulk_temperature_degC", of.bulk_temperature},
+          {"specific_film_thickness", of.film},
+          {"micropitting_safety", of.micropitting_safety},
+          {"iso6336",
+           {{"K_from", of.K_from_contact ? "loaded contact" : "ISO 6336-1, method C"},
+            {"K_H", of.K_H},
+            {"K_F", of.K_F},
+            {"Z_H", of.iso.Z_H},
+            {"Z_E", of.iso.Z_E},
+            {"Z_eps", of.iso.Z_eps},
+            {"Z_beta", of.iso.Z_beta},
+            {"Y_beta", of.iso.Y_beta},
+            {"sigma_H0_MPa", of.iso.contact}}},
+          {"pinion", gear_case_json(of, Member::Pinion)},
+          {"wheel", gear_case_json(of, Member::Wheel)}};
+}
+
+Json damaged_point_json(const std::optional<DamagedPoint>& point) {
+  if (!point) return nullptr;
+  Json json{{"damage", point->damage}, {"z_mm", point->z}, {"exceeds_static_limit", point->exceeds_static_limit}};
+  if (!std::isnan(point->radius)) json["radius_mm"] = point->radius;
+  if (!std::isnan(point->along)) json["along_fillet"] = point->along;
+  return json;
+}
+
+Json spectrum_json(const SpectrumLife& spectrum) {
+  Json json{{"scene", spectrum.scene}, {"design", spectrum.design}, {"cases", spectrum.cases}};
+  for (const Member m : both_gears)
+    json[name_of(m)] = {{"contact", damaged_point_json(spectrum.contact[m])}, {"root", damaged_point_json(spectrum.root[m])}};
+  if (spectrum.map.empty()) return json;
+  const auto column = [&](const auto& of) { return list(spectrum.map, of); };
+  json["map"] = {{"z_mm", column([](const FlankDamage& p) { return p.z; })},
+                 {"pinion_radius_mm", column([](const FlankDamage& p) { return p.pinion_radius; })},
+                 {"pinion_damage", column([](const FlankDamage& p) { return p.damage.pinion; })},
+                 {"wheel_damage", column([](const FlankDamage& p) { return p.damage.wheel; })}};
+  return json;
+}
+
+}  // namespace
+
+Json life_json(const StudyResults& results) {
+  const StudyLife& life = *results.life;
+  Json json{{"ohlendorf_loss_factor", life.ohlendorf}};
+  for (const Member m : both_gears) {
+    json[name_of(m)] = {{"contact_sn_curve", sn_curve_json(results.life_model->strength[m].contact)},
+                        {"root_sn_curve", sn_curve_json(results.life_model->strength[m].root)}};
+  }
+  json["cases"] = list(life.cases, [&](const CaseLife& of) { return life_case_json(results, of); });
+  json["spectra"] = list(life.spectra, spectrum_json);
+  return json;
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,107 @@
+#include "studies/results/life_tables.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "studies/base/csv.hpp"
+#include "studies/base/json_format.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+constexpr std::array each_gear{Member::Pinion, Member::Wheel};
+
+std::string life_number(double value, const char* form) { return std::isnan(value) ? std::string("-") : fmt::format(fmt::runtime(form), value); }
+
+/// The larger of both gears; NaN where neither has one.
+double worst_damage(const PerGear<double>& of) { return std::fmax(of.pinion, of.wheel); }
+double least_safety(const PerGear<double>& of) { return std::fmin(of.pinion, of.wheel); }
+
+struct LifeColumn {
+  const char *heading, *unit, *form;
+  double (*value)(const CaseLife&, const LoadedResult&);
+};
+
+constexpr std::array<LifeColumn, 9> life_columns{{
+    {"cycles", "pinion", "{:.3g}", [](const CaseLife&, const LoadedResult& l) { return l.operation.revolutions; }},
+    {"contact", "damage", "{:.3g}", [](const CaseLife& c, const LoadedResult&) { return worst_damage(c.contact_damage); }},
+    {"root", "damage", "{:.3g}", [](const CaseLife& c, const LoadedResult&) { return worst_damage(c.root_damage); }},
+    {"contact", "safety", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.contact_safety); }},
+    {"root", "safety", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.root_safety); }},
+    {"S_H", "ISO 6336", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return least_safety(c.iso_contact_safety); }},
+    {"H_VL", "-", "{:.4f}", [](const CaseLife& c, const LoadedResult&) { return c.loss_factor; }},
+    {"loss", "W", "{:.4g}", [](const CaseLife& c, const LoadedResult&) { return c.loss_power; }},
+    {"film", "lambda", "{:.3f}", [](const CaseLife& c, const LoadedResult&) { return c.film; }},
+}};
+
+std::string sum_line(const SpectrumLife& spectrum, std::size_t width) {
+  std::string out;
+  for (const auto& [name, points] : {std::pair{"contact damage", &spectrum.contact}, std::pair{"root damage", &spectrum.root}}) {
+    for (const Member m : each_gear) {
+      const std::optional<DamagedPoint>& point = (*points)[m];
+      if (!point) continue;
+      const std::string where =
+          std::isnan(point->radius) ? fmt::format("z {:.2f} mm", point->z) : fmt::format("z {:.2f} mm, radius {:.3f} mm", point->z, point->radius);
+      out += fmt::format("{:<{}}  {} of the {}: {:.4g} over the spectrum, largest at {}{}\n", spectrum.scene + " " + spectrum.design, width, name,
+                         name_of(m), point->damage, where, point->exceeds_static_limit ? "; a load case exceeds the static limit" : "");
+    }
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string life_table(const StudyResults& results, std::size_t width) {
+  if (!results.life) return {};
+  const StudyLife& life = *results.life;
+  std::vector<const LifeColumn*> shown;
+  for (const LifeColumn& column : life_columns) {
+    const auto known = [&](const CaseLife& c) { return !std::isnan(column.value(c, results.loaded[c.loaded])); };
+    if (std::ranges::any_of(life.cases, known)) shown.push_back(&column);
+  }
+  // A long spectrum in many scenes is read in life.csv.
+  constexpr std::size_t most_cases = 60;
+  std::string out = fmt::format("\n{:<{}}  {:>10}", "life", width, "torque"), units = fmt::format("{:<{}}  {:>10}", "", width, "N·m");
+  for (const LifeColumn* column : shown) {
+    out += fmt::format("  {:>9}", column->heading);
+    units += fmt::format("  {:>9}", column->unit);
+  }
+  out += "\n" + units + "\n";
+  for (std::size_t c = 0; c < std::min(most_cases, life.cases.size()); ++c) {
+    const CaseLife& of = life.cases[c];
+    const LoadedResult& loaded = results.loaded[of.loaded];
+    const std::string design = loaded.design == "given" ? std::string() : fmt::format(" {}", loaded.design);
+    out += fmt::format("{:<{}}  {:>10.6g}", loaded.scene + design, width, in_Nm(loaded.torque));
+    for (const LifeColumn* column : shown) out += fmt::format("  {:>9}", life_number(column->value(of, loaded), column->form));
+    out += "\n";
+  }
+  if (life.cases.size() > most_cases) out += fmt::format("... {} load cases more in life.csv\n", life.cases.size() - most_cases);
+  for (const SpectrumLife& spectrum : life.spectra) out += sum_line(spectrum, width);
+  return out;
+}
+
+std::string life_csv(const StudyResults& results) {
+  std::string csv =
+      "scene,torque_Nm,design,bin,cycles,gear,contact_damage,root_damage,contact_safety,root_safety,sigma_H_MPa,sigma_F_MPa,S_H,S_F,"
+      "loss_factor,loss_power_W,specific_film_thickness,micropitting_safety\n";
+  const auto field = [](double value) { return std::isnan(value) ? std::string() : fmt::format("{}", value); };
+  for (const CaseLife& of : results.life->cases) {
+    const LoadedResult& loaded = results.loaded[of.loaded];
+    for (const Member m : each_gear) {
+      csv += fmt::format("{},{},{},{},{},{}", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design,
+                         loaded.bin < 0 ? std::string() : std::to_string(loaded.bin), field(loaded.operation.revolutions), name_of(m));
+      for (const double value : {of.contact_damage[m], of.root_damage[m], of.contact_safety[m], of.root_safety[m], of.iso_contact[m], of.iso_root[m],
+                                 of.iso_contact_safety[m], of.iso_root_safety[m], of.loss_factor, of.loss_power, of.film, of.micropitting_safety}) {
+        csv += fmt::format(",{}", field(value));
+      }
+      csv += "\n";
+    }
+  }
+  return csv;
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/rating/life_model.hpp"
+
+namespace flankwright::studies {
+
+/// One load of [load] spectrum.
+struct SpectrumBin {
+  double torque{not_given};       ///< on the pinion [N mm], >= 0; 0: no load, no damage
+  double speed{not_given};        ///< of the pinion [rad/s], > 0; NaN: that of the load table
+  double hours{not_given};        ///< [s], > 0
+  double cycles{not_given};       ///< revolutions of the pinion, > 0; NaN: from hours and speed
+  double temperature{not_given};  ///< of the oil [deg C]; NaN: that of the lubricant
+  double mesh_misalignment{0.0};  ///< added to that of the scene [mm]
+};
+
+/// An S-N curve as given: an endurance limit and either life factors of ISO 6336 or numbers of one's own.
+struct GivenSnCurve {
+  double limit{not_given};                         ///< sigma_Hlim or sigma_Flim [MPa]; NaN: none
+  LifeFactors factors{LifeFactors::CaseHardened};  ///< where no exponent is given
+  double exponent{not_given}, knee{not_given}, exponent_beyond{not_given};
+};
+
+/// Materials as far as life goes, and [lubricant].
+struct LifeTable {
+  PerGear<GivenSnCurve> contact, root;
+  bool has_lubricant{false};
+  Lubricant lubricant;
+  double roughness{not_given};         ///< Ra, mean of both flanks [mm]
+  double bulk_temperature{not_given};  ///< [deg C]
+  double permissible_film{not_given};  ///< lambda_GFP [-]
+};
+
+}  // namespace flankwright::studies

@@ -1,0 +1,150 @@
+#include "studies/study_file/key_rows.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+using enum ValueKind;
+
+SpectrumBin& bin(StudyBuilder& builder) { return builder.study.spectrum.back(); }
+
+LifeTable& life(StudyBuilder& builder) { return builder.study.life; }
+
+Lubricant& lubricant(StudyBuilder& builder) {
+  life(builder).has_lubricant = true;
+  return life(builder).lubricant;
+}
+
+constexpr Range strength_range = above_zero(1e5);                 // MPa
+constexpr Range slope_range = {.low = 1.0, .high = 200.0};        // exponents of S-N curves
+constexpr Range cycles_to_knee = {.low = 1e3, .high = 1e12};      // load cycles
+constexpr Range oil_temperature = {.low = -50.0, .high = 250.0};  // deg C
+
+using Curves = PerGear<GivenSnCurve> LifeTable::*;
+
+/// Changes one kind of S-N curve of both gears, or of one.
+template <Curves curves, bool of_both, class Change>
+void change_curves(StudyBuilder& builder, Member m, const Change& change) {
+  for (const Member member : {Member::Pinion, Member::Wheel}) {
+    if (of_both || member == m) change((life(builder).*curves)[member]);
+  }
+}
+
+/// The keys of one kind of S-N curve, of both gears or of one.
+template <Curves curves, bool of_both>
+void append_curve(std::vector<SchemaKey>& rows, const std::string& table, const char* kind, const char* limit_meaning) {
+  const std::string name = table + "material." + kind, none = of_both ? "(none)" : "(as [material])";
+  rows.push_back({.path = name + "_endurance_limit",
+                  .quantity = Quantity::Stress,
+                  .range = strength_range,
+                  .fallback = none,
+                  .meaning = limit_meaning,
+                  .store = [](StudyBuilder& d, Member m, const Value& v) {
+                    change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c.limit = v.number; });
+                  }});
+  rows.push_back({.path = name + "_sn_curve",
+                  .kind = WordOrTable,
+                  .words = {"through_hardened", "case_hardened", "nitrided", "nitrocarburised"},  // as LifeFactors
+
+                  .fallback = of_both ? "(case_hardened)" : "(as [material])",
+                  .meaning = "life factors of ISO 6336 for a heat treatment, or a curve of one's own",
+                  .store = [](StudyBuilder& d, Member m, const Value& v) {
+                    if (!v.text.empty())
+                      change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c = {c.limit, static_cast<LifeFactors>(v.integer)}; });
+                  }});
+  rows.push_back({.path = name + "_sn_curve.exponent",
+                  .range = slope_range,
+                  .fallback = "(that of the life factors)",
+                  .meaning = "p of N ~ stress^-p above the endurance limit; needs knee",
+                  .store = [](StudyBuilder& d, Member m, const Value& v) {
+                    change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c.exponent = v.number; });
+                  }});
+  rows.push_back({.path = name + "_sn_curve.knee",
+                  .range = cycles_to_knee,
+                  .fallback = "(that of the life factors)",
+                  .meaning = "load cycles that the endurance limit is borne for; needs exponent",
+                  .store = [](StudyBuilder& d, Member m, const Value& v) {
+                    change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c.knee = v.number; });
+                  }});
+  rows.push_back({.path = name + "_sn_curve.exponent_beyond",
+                  .range = slope_range,
+                  .fallback = "(exponent: Miner's elementary rule)",
+                  .meaning = "p below the endurance limit, at least exponent",
+                  .store = [](StudyBuilder& d, Member m, const Value& v) {
+                    change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c.exponent_beyond = v.number; });
+                  }});
+}
+
+}  // namespace
+
+// A row is read as a row:
+// clang-format off
+
+std::vector<SchemaKey> life_rows() {
+  std::vector<SchemaKey> rows{
+      {.path = "load.speed", .quantity = Quantity::RotationalSpeed, .range = above_zero(1e6), .fallback = "(none)",
+       .meaning = "of the pinion; loss power and lubricant film need it",
+       .store = [](Scene& s, Member, const Value& v) { s.speed = v.number; }},
+      {.path = "load.spectrum", .kind = TableListOrFile, .fallback = "(none)",
+       .meaning = "loads that follow each other, instead of torque: each is a load case of every scene, and their damage is added up; { file = \"x.csv\" } reads them from columns of these names",
+       .hint = "",
+       .store = [](StudyBuilder& d, Member, const Value&) { d.study.spectrum.emplace_back(); }},
+      {.path = "load.spectrum[].torque", .quantity = Quantity::Torque, .range = from_zero(1e9), .fallback = "(required)",
+       .meaning = "on the pinion; 0 is a time without load",
+       .hint = "a torque the other way round loads the other flank: give it in a study of its own with pair.working_flank = \"left\"",
+       .store = [](StudyBuilder& d, Member, const Value& v) { bin(d).torque = v.number; }},
+      {.path = "load.spectrum[].speed", .quantity = Quantity::RotationalSpeed, .range = above_zero(1e6), .fallback = "(load.speed)",
+       .meaning = "of the pinion; hours need it",
+       .store = [](StudyBuilder& d, Member, const Value& v) { bin(d).speed = v.number; }},
+      {.path = "load.spectrum[].hours", .quantity = Quantity::Duration, .range = above_zero(1e7), .fallback = "(none)",
+       .meaning = "how long this load acts; this or cycles is required",
+       .store = [](StudyBuilder& d, Member, const Value& v) { bin(d).hours = v.number; }},
+      {.path = "load.spectrum[].cycles", .range = above_zero(1e15), .fallback = "(from hours and speed)",
+       .meaning = "revolutions of the pinion under this load",
+       .store = [](StudyBuilder& d, Member, const Value& v) { bin(d).cycles = v.number; }},
+      {.path = "load.spectrum[].temperature", .quantity = Quantity::Temperature, .range = oil_temperature, .fallback = "(lubricant.temperature)",
+       .meaning = "of the oil under this load",
+       .store = [](StudyBuilder& d, Member, const Value& v) { bin(d).temperature = v.number; }},
+      {.path = "load.spectrum[].mesh_misalignment", .quantity = Quantity::Deviation, .range = removal_range, .fallback = "(0)",
+       .meaning = "F_beta_y that this load adds to the scene's; + opens at +z",
+       .store = [](StudyBuilder& d, Member, const Value& v) { bin(d).mesh_misalignment = v.number; }},
+  };
+  constexpr auto contact_meaning = "sigma_Hlim that the flank bears for the cycles at the knee, with the factors of lubricant, speed, roughness, hardness and size in it";
+  constexpr auto root_meaning = "nominal sigma_Flim, with the relative factors of notch, surface and size in it; a fillet's own stress may reach twice that, Y_ST = 2";
+  append_curve<&LifeTable::contact, true>(rows, "", "contact", contact_meaning);
+  append_curve<&LifeTable::root, true>(rows, "", "root", root_meaning);
+  append_curve<&LifeTable::contact, false>(rows, "gear.", "contact", contact_meaning);
+  append_curve<&LifeTable::root, false>(rows, "gear.", "root", root_meaning);
+  const std::vector<SchemaKey> oil{
+      {.path = "lubricant.base", .kind = Word, .words = {"mineral", "polyalphaolefin", "polyglycol"}, .fallback = "(mineral)",
+       .meaning = "base oil, which pressure-viscosity coefficient and friction depend on",
+       .store = [](StudyBuilder& d, Member, const Value& v) { lubricant(d).base = static_cast<BaseOil>(v.integer); }},
+      {.path = "lubricant.viscosity_40", .quantity = Quantity::KinematicViscosity, .range = {.low = 1.0, .high = 10000.0}, .fallback = "(none; a lubricant needs it)",
+       .meaning = "kinematic, at 40 deg C; above viscosity_100",
+       .store = [](StudyBuilder& d, Member, const Value& v) { lubricant(d).viscosity_40 = v.number; }},
+      {.path = "lubricant.viscosity_100", .quantity = Quantity::KinematicViscosity, .range = {.low = 1.0, .high = 1000.0}, .fallback = "(none; a lubricant needs it)",
+       .meaning = "kinematic, at 100 deg C",
+       .store = [](StudyBuilder& d, Member, const Value& v) { lubricant(d).viscosity_100 = v.number; }},
+      {.path = "lubricant.density", .quantity = Quantity::Density, .range = {.low = 500.0, .high = 2000.0}, .fallback = "(890)",
+       .meaning = "at 15 deg C",
+       .store = [](StudyBuilder& d, Member, const Value& v) { lubricant(d).density_15 = v.number; }},
+      {.path = "lubricant.temperature", .quantity = Quantity::Temperature, .range = oil_temperature, .fallback = "(none; a lubricant needs it)",
+       .meaning = "of the oil in the gearbox",
+       .store = [](StudyBuilder& d, Member, const Value& v) { lubricant(d).temperature = v.number; }},
+      {.path = "lubricant.roughness", .quantity = Quantity::Deviation, .range = above_zero(100.0), .fallback = "(none; a lubricant needs it)",
+       .meaning = "Ra, mean of both flanks",
+       .store = [](StudyBuilder& d, Member, const Value& v) { lubricant(d); life(d).roughness = v.number; }},
+      {.path = "lubricant.bulk_temperature", .quantity = Quantity::Temperature, .range = oil_temperature, .fallback = "(ISO/TR 15144-1 without tip relief, injected oil)",
+       .meaning = "of the teeth",
+       .store = [](StudyBuilder& d, Member, const Value& v) { lubricant(d); life(d).bulk_temperature = v.number; }},
+      {.path = "lubricant.permissible_film", .range = above_zero(100.0), .fallback = "(none)",
+       .meaning = "lambda_GFP from a test of this oil: micropitting safety is the least specific film thickness over it",
+       .store = [](StudyBuilder& d, Member, const Value& v) { lubricant(d); life(d).permissible_film = v.number; }},
+  };
+  rows.insert(rows.end(), oil.begin(), oil.end());
+  return rows;
+}
+
+// clang-format on
+
+}  // namespace flankwright::studies

@@ -1,0 +1,191 @@
+#include "studies/study_file/study_life.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "studies/study_file/spectrum_file.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+constexpr std::array both_gears{Member::Pinion, Member::Wheel};
+constexpr double notch_of_test_gear = 2.0;  // Y_ST [ISO 6336-3]: sigma_FE = sigma_Flim Y_ST
+
+/// A cell as a value of a study file: a number where it is nothing else.
+std::unique_ptr<toml::node> node_of(const std::string& text) {
+  double number = 0.0;
+  const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (status == std::errc{} && end == text.data() + text.size()) return std::make_unique<toml::value<double>>(number);
+  return std::make_unique<toml::value<std::string>>(text);
+}
+
+void read_row(StudyReading& reading, const std::string& file, const SpectrumRow& row, int index) {
+  static const KeyIndex keys = element_keys("load.spectrum");
+  const SchemaKey& list = *study_keys().at("load.spectrum");
+  std::get<StoreInStudy>(list.store)(reading.builder, Member::Pinion, {});
+  const std::string path = "load.spectrum." + std::to_string(index) + ".";
+  bool has_torque = false;
+  for (const SpectrumCell& cell : row) {
+    const SchemaKey& key = *keys.at(cell.key);
+    has_torque = has_torque || cell.key == "torque";
+    reading.positions.emplace(path + cell.key, Position{file, cell.line, cell.column});
+    try {
+      std::get<StoreInStudy>(key.store)(reading.builder, Member::Pinion, read_value(key, *node_of(cell.text)));
+    } catch (const InvalidInput& problem) {
+      reading.problems.push_back({file, cell.line, cell.column, path + cell.key, cell.text, "allowed is " + problem.allowed()});
+    }
+  }
+  reading.positions.emplace(path.substr(0, path.size() - 1), Position{file, row.empty() ? 0 : row.front().line, 1});
+  if (!has_torque) {
+    reading.problems.push_back({file, row.empty() ? 0 : row.front().line, 1, path + "torque", "(not given)", "required: allowed is a torque in N·m"});
+  }
+}
+
+/// { file = "x.csv" }.
+void read_file(StudyReading& reading, const Match& match) {
+  const toml::table& table = *match.node->as_table();
+  const auto* name = table.get("file") == nullptr ? nullptr : table.get("file")->as_string();
+  if (name == nullptr || table.size() != 1) {
+    return reading.refuse(match.position, match.path, match.node, "allowed is a list of tables, or { file = \"x.csv\" }");
+  }
+  // Relative to the study; on the command line, too, a study means the same wherever it is run from.
+  const std::string path = (std::filesystem::path(reading.document.name()).parent_path() / name->get()).string();
+  try {
+    int index = 0;
+    for (const SpectrumRow& row : read_spectrum_file(path)) read_row(reading, path, row, index++);
+  } catch (const StudyErrors& errors) {
+    for (const StudyProblem& problem : errors.problems()) {
+      if (problem.line > 0) {
+        reading.problems.push_back(problem);
+      } else {
+        reading.refuse(match.position, match.path, match.node, path + ": " + problem.allowed);
+      }
+    }
+  }
+}
+
+void check_bin(StudyReading& reading, SpectrumBin& bin, int index) {
+  const std::string path = "load.spectrum." + std::to_string(index);
+  const auto refuse = [&](const std::string& key, const std::string& value, const std::string& allowed) {
+    const Position at = reading.where(path + "." + key);
+    reading.problems.push_back({at.file, at.line, at.column, path + "." + key, value, allowed});
+  };
+  if (std::isnan(bin.speed)) bin.speed = reading.builder.base.speed;
+  if (!std::isnan(bin.hours) && !std::isnan(bin.cycles)) return refuse("cycles", in_words(bin.cycles), "allowed is this or hours, not both");
+  if (!std::isnan(bin.cycles)) return;
+  if (std::isnan(bin.hours)) return refuse("hours", "(not given)", "required: allowed is a number above 0 h, or cycles instead");
+  if (!(bin.speed > 0.0))
+    return refuse("speed", "(not given)", "required with hours: allowed is a number above 0 rpm, here or as load.speed, or cycles instead of hours");
+  bin.cycles = bin.hours * bin.speed / (2.0 * units::pi);
+}
+
+std::optional<SnCurve> sn_curve(const GivenSnCurve& given, bool is_root) {
+  if (std::isnan(given.limit)) return std::nullopt;
+  const double limit = is_root ? notch_of_test_gear * given.limit : given.limit;
+  if (std::isnan(given.exponent)) return is_root ? root_sn_curve(given.factors, limit) : contact_sn_curve(given.factors, limit);
+  SnCurve curve;
+  curve.limit = limit;
+  curve.knee = given.knee;
+  curve.exponent = given.exponent;
+  curve.exponent_beyond = std::isnan(given.exponent_beyond) ? given.exponent : given.exponent_beyond;
+  return curve;
+}
+
+void check_curve(StudyReading& reading, const GivenSnCurve& curve, Member member, const std::string& kind) {
+  const auto path_of = [&](const std::string& key) {
+    const std::string own = std::string(name_of(member)) + ".material." + kind + key;
+    return reading.find(own) != nullptr ? own : "material." + kind + key;
+  };
+  const auto given = [&](const std::string& key) { return reading.find(path_of(key)) != nullptr; };
+  if (std::isnan(curve.exponent) != std::isnan(curve.knee)) {
+    const std::string missing = std::isnan(curve.exponent) ? "_sn_curve.exponent" : "_sn_curve.knee";
+    reading.refuse(reading.where(path_of("_sn_curve")), path_of(missing), nullptr, "allowed is a number: a curve of one's own has exponent and knee");
+    return;
+  }
+  if (!std::isnan(curve.exponent_beyond) && !(curve.exponent_beyond >= curve.exponent)) {
+    reading.refuse_key(path_of("_sn_curve.exponent_beyond"), "allowed is a number of at least exponent, with exponent and knee");
+  }
+  if (given("_sn_curve") && !given("_endurance_limit")) {
+    reading.refuse_key(path_of("_sn_curve"), "has a meaning with " + path_of("_endurance_limit") + " only");
+  }
+}
+
+void check_lubricant(StudyReading& reading) {
+  const LifeTable& life = reading.builder.study.life;
+  if (!life.has_lubricant) return;
+  bool complete = true;
+  for (const auto& [key, value] : {std::pair{"viscosity_40", life.lubricant.viscosity_40}, std::pair{"viscosity_100", life.lubricant.viscosity_100},
+                                   std::pair{"temperature", life.lubricant.temperature}, std::pair{"roughness", life.roughness}}) {
+    if (!std::isnan(value)) continue;
+    complete = false;
+    const std::string path = std::string("lubricant.") + key;
+    if (!reading.positions.contains(path)) {  // else it is refused already
+      reading.refuse(reading.where("lubricant"), path, nullptr, "required: allowed is " + allowed_values(*study_keys().at(path)));
+    }
+  }
+  if (complete && !(life.lubricant.viscosity_40 > life.lubricant.viscosity_100)) {
+    reading.refuse_key("lubricant.viscosity_40", "allowed is a number above viscosity_100");
+  }
+}
+
+}  // namespace
+
+void read_spectrum(StudyReading& reading) {
+  const Match* match = reading.find("load.spectrum");
+  if (match == nullptr) return;
+  const std::size_t problems = reading.problems.size();
+  if (match->node->is_table()) read_file(reading, *match);
+  std::vector<SpectrumBin>& bins = reading.builder.study.spectrum;
+  if (reading.problems.size() > problems) return;
+  std::vector<double>& torques = reading.builder.base.torques;
+  torques.clear();
+  for (std::size_t k = 0; k < bins.size(); ++k) {
+    if (std::isnan(bins[k].torque)) continue;  // refused where it is read
+    check_bin(reading, bins[k], static_cast<int>(k));
+    torques.push_back(bins[k].torque);
+  }
+  if (torques.empty()) torques = {0.0};
+}
+
+void check_life(StudyReading& reading) {
+  const Study& study = reading.builder.study;
+  for (const Member m : both_gears) {
+    check_curve(reading, study.life.contact[m], m, "contact");
+    check_curve(reading, study.life.root[m], m, "root");
+  }
+  check_lubricant(reading);
+  if (reading.find("load.spectrum") == nullptr) return;
+  for (std::size_t i = 0; i < study.scenes.size(); ++i) {
+    for (const char* key : {"load.torque", "load.speed"}) {
+      const std::string path = "scenes." + std::to_string(i) + "." + key;
+      if (!reading.positions.contains(path)) continue;
+      const Position at = reading.where(path);
+      reading.problems.push_back(
+          {at.file, at.line, at.column, path, "beside load.spectrum", "allowed is this or load.spectrum, which holds in every scene"});
+    }
+  }
+}
+
+std::shared_ptr<const LifeModel> life_model(const Study& study) {
+  if (!asks_for_life(study)) return nullptr;
+  auto model = std::make_shared<LifeModel>();
+  for (const Member m : both_gears) model->strength[m] = {sn_curve(study.life.contact[m], false), sn_curve(study.life.root[m], true)};
+  if (study.life.has_lubricant) model->lubricant = study.life.lubricant;
+  model->roughness = study.life.roughness / units::um;
+  model->bulk_temperature = study.life.bulk_temperature;
+  model->permissible_film = study.life.permissible_film;
+  return model;
+}
+
+bool asks_for_life(const Study& study) {
+  const auto has_strength = [&](Member m) { return !std::isnan(study.life.contact[m].limit) || !std::isnan(study.life.root[m].limit); };
+  const auto has_speed = [](const Scene& scene) { return !std::isnan(scene.speed); };
+  return !study.spectrum.empty() || study.life.has_lubricant || std::ranges::any_of(both_gears, has_strength) ||
+         std::ranges::any_of(study.scenes, has_speed);
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,190 @@
+#include "optimize/design/life_outputs.hpp"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/base/error.hpp"
+#include "optimize/design/design_optimiser.hpp"
+#include "optimize/design/scene_outputs.hpp"
+#include "tests/optimize/design_tasks.hpp"
+
+using namespace flankwright;
+using namespace flankwright::design_tasks;
+
+namespace {
+
+/// The helical pair under a spectrum of three loads in each of two misalignments, with strength and oil.
+DesignTask task_under_spectrum(double hours = 1.0) {
+  DesignTask task = helical({8.0, -8.0});
+  const std::vector<DesignScene> scenes = std::exchange(task.scenes, {});
+  for (int g = 0; g < 2; ++g) {
+    int bin = 0;
+    for (const auto& [part, cycles] : {std::pair{1.0, 1e6}, std::pair{0.7, 2e7}, std::pair{0.4, 3e8}}) {
+      DesignScene scene = scenes[static_cast<std::size_t>(g)];
+      scene.torque *= part;
+      scene.operation = {hours * cycles, 150.0, hours * 3600.0, not_given};
+      scene.spectrum = g;
+      scene.bin = bin++;
+      task.scenes.push_back(scene);
+    }
+  }
+  LifeModel life;
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    life.strength[m] = {contact_sn_curve(LifeFactors::CaseHardened, 500.0), root_sn_curve(LifeFactors::CaseHardened, 20.0)};
+  }
+  life.lubricant = Lubricant{.viscosity_40 = 220.0, .viscosity_100 = 19.0, .temperature = 80.0};
+  life.roughness = 0.5;
+  task.life = std::make_shared<const LifeModel>(life);
+  task.objective = {term(Output::ContactDamage)};
+  task.constraints = {{.output = term(Output::RootDamage), .maximum = 1e6}, {.output = term(Output::SpecificFilmThickness), .minimum = 1e-3}};
+  return task;
+}
+
+const std::vector<Output> life_terms{Output::ContactDamage, Output::RootDamage, Output::LossFactor, Output::SpecificFilmThickness};
+
+}  // namespace
+
+TEST_CASE("Gradients of damage, loss and film are what central differences say", "[optimize][design][life][gradient]") {
+  DesignProblem problem(task_under_spectrum());
+  std::mt19937 generator(11);
+  for (int trial = 0; trial < 3; ++trial) {
+    const Eigen::VectorXd x = random_design(problem.variables(), generator);
+    const DesignAnalysis at = problem.analyse(x, true);
+    // As the other outputs' gradients: some 0.001 um; the exponent 13 of the S-N curve magnifies curvature.
+    constexpr double step = 1e-5, discretisation = 1e-6;
+    struct Check {
+      ObjectiveTerm term;
+      int scene;
+      PeakCandidate candidate;
+      Eigen::VectorXd exact, difference;
+    };
+    std::vector<Check> checks;
+    for (const Output output : life_terms) {
+      for (const int s : problem.judged_scenes(term(output))) {
+        for (const PeakCandidate& candidate : leading_candidates(term(output), problem.scene(at, s), 0.1, 3)) {
+          const SmoothValue value = candidate_value(term(output), candidate, problem.scene(at, s));
+          checks.push_back({term(output), s, candidate, problem.scaled(value.gradient), Eigen::VectorXd(problem.variables())});
+        }
+      }
+    }
+    CHECK(checks.size() > 20);
+    for (int i = 0; i < problem.variables(); ++i) {
+      const Eigen::VectorXd shift = step * Eigen::VectorXd::Unit(problem.variables(), i);
+      const DesignAnalysis up = problem.analyse(x + shift, false), down = problem.analyse(x - shift, false);
+      for (Check& c : checks) {
+        const auto value = [&](const DesignAnalysis& a) { return candidate_value(c.term, c.candidate, problem.scene(a, c.scene)).value; };
+        c.difference[i] = (value(up) - value(down)) / (2.0 * step);
+      }
+    }
+    for (const Check& c : checks) {
+      CAPTURE(c.term.name, c.scene, trial, c.exact.transpose(), c.difference.transpose());
+      CHECK((c.exact - c.difference).cwiseAbs().maxCoeff() <= discretisation * c.difference.cwiseAbs().maxCoeff());
+    }
+  }
+}
+
+TEST_CASE("Damage is a sum over the load cases of a spectrum, of which the worst point counts", "[optimize][design][life]") {
+  DesignProblem problem(task_under_spectrum());
+  const DesignAnalysis& analysis = problem.analyse(problem.start(), false);
+  CHECK(problem.judged_scenes(term(Output::ContactDamage)) == std::vector<int>{0, 3});
+  CHECK(problem.judged_scenes(term(Output::PeakContactStress)).size() == 6);
+  const SnCurve& curve = *problem.task().life->strength.pinion.contact;
+  double worst = 0.0, sum_of_worst = 0.0;
+  for (int s = 0; s < 3; ++s) {
+    double of_case = 0.0;
+    for (const LoadedPosition& position : analysis.cycles[static_cast<std::size_t>(s)].positions) {
+      of_case = std::max(of_case, curve.damage(position.contact_stress.maxCoeff()).value);
+    }
+    sum_of_worst += problem.task().scenes[static_cast<std::size_t>(s)].operation.revolutions * of_case;
+  }
+  for (std::size_t i = 0; i < problem.model(0).positions.size(); ++i) {
+    for (std::size_t j = 0; j < problem.model(0).positions[i].points.size(); ++j) {
+      double here = 0.0;
+      for (std::size_t s = 0; s < 3; ++s) {
+        here += problem.task().scenes[s].operation.revolutions *
+                curve.damage(analysis.cycles[s].positions[i].contact_stress[static_cast<Eigen::Index>(j)]).value;
+      }
+      worst = std::max(worst, here);
+    }
+  }
+  // The wheel of three times the teeth has a third of the pinion's load cycles and the same curve.
+  const double found = output_value(term(Output::ContactDamage), problem.scene(analysis, 0));
+  CHECK(found == Approx(worst).epsilon(1e-12));  // round-off
+  CHECK(found <= sum_of_worst * (1.0 + 1e-12));
+  for (const int s : {1, 2}) CHECK(output_value(term(Output::ContactDamage), problem.scene(analysis, s)) == found);
+  const std::vector<double> measures = problem.scene_measures(problem.task().combined_objective(), analysis);
+  CHECK(measures == std::vector<double>{found, found, found, measures[3], measures[3], measures[3]});
+  CHECK(problem.objective(analysis) == std::max(found, measures[3]));
+}
+
+TEST_CASE("Twice the hours double the damage of a design", "[optimize][design][life]") {
+  DesignProblem once(task_under_spectrum(1.0)), twice(task_under_spectrum(2.0));
+  const Eigen::VectorXd x = Eigen::VectorXd::Constant(once.variables(), 0.3);
+  const DesignAnalysis &a = once.analyse(x, false), &b = twice.analyse(x, false);
+  for (const Output output : {Output::ContactDamage, Output::RootDamage}) {
+    CHECK(output_value(term(output), twice.scene(b, 0)) == 2.0 * output_value(term(output), once.scene(a, 0)));
+  }
+}
+
+TEST_CASE("A design optimised for damage has less of it than one optimised for the largest torque's stress", "[optimize][design][life]") {
+  DesignOptions options;
+  options.solver.name = "nlopt:slsqp";
+  DesignProblem for_damage(task_under_spectrum());
+  const DesignResult found = optimise_design(for_damage, options);
+  CHECK((found.status == SolverStatus::Converged || found.status == SolverStatus::Stalled));
+  DesignTask stress_task = task_under_spectrum();
+  stress_task.objective = {term(Output::PeakContactStress)};
+  DesignProblem for_stress(stress_task);
+  const DesignResult other = optimise_design(for_stress, options);
+  const double damage_of_other = for_damage.objective(other.after.analysis);
+  CHECK(found.after.objective < found.before.objective);
+  CHECK(found.after.objective <= damage_of_other * (1.0 + 1e-3));
+  CHECK(for_stress.objective(found.after.analysis) >= other.after.objective * (1.0 - 1e-3));
+}
+
+TEST_CASE("A bound on the least film is kept at every point under load", "[optimize][design][life]") {
+  DesignTask task = task_under_spectrum();
+  const ObjectiveTerm film = term(Output::SpecificFilmThickness);
+  DesignProblem start(task);
+  const DesignAnalysis& analysis = start.analyse(start.start(), false);
+  double least = INFINITY;
+  for (int s = 0; s < start.scenes(); ++s) least = std::min(least, output_value(film, start.scene(analysis, s)));
+  CHECK(start.constraint_value(analysis, task.constraints[1]) == least);
+  task.objective = {term(Output::TeHarmonic, 1)};
+  task.constraints = {{.output = film, .minimum = 1.02 * least}};
+  DesignProblem problem(task);
+  CHECK_FALSE(task.constraints[0].one_suffices());
+  CHECK(problem.violation(problem.analyse(problem.start(), false)) > 0.0);
+  const DesignResult found = optimise_design(problem, DesignOptions{});
+  CHECK(found.after.constraint_values[0] >= 1.02 * least * (1.0 - 1e-5));
+}
+
+TEST_CASE("What damage and film need is asked for by name", "[optimize][design][life]") {
+  const auto field_of = [](DesignTask task) {
+    try {
+      DesignProblem problem(std::move(task));
+      problem.objective(problem.analyse(problem.start(), false));
+    } catch (const InvalidInput& problem) {
+      return problem.field();
+    }
+    return std::string();
+  };
+  DesignTask task = task_under_spectrum();
+  task.constraints.clear();
+  CHECK(field_of(task).empty());
+  DesignTask without = task;
+  without.life = nullptr;
+  CHECK(field_of(without) == "contact_damage");
+  without = task;
+  for (DesignScene& scene : without.scenes) scene.spectrum = -1;
+  CHECK(field_of(without) == "load.spectrum");
+  without = task;
+  without.objective.push_back(term(Output::PeakContactStress));
+  CHECK(field_of(without) == "optimise.objective");
+  without.objective = {term(Output::SpecificFilmThickness)};
+  CHECK(field_of(without) == "optimise.objective");
+  without = task;
+  without.root_stress = nullptr;
+  without.objective = {term(Output::RootDamage)};
+  CHECK(field_of(without) == "peak_root_stress");
+}

@@ -1,0 +1,213 @@
+#include "studies/study_file/study_life.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "core/rating/sliding_loss.hpp"
+#include "studies/analysis/run_study.hpp"
+#include "studies/base/json_format.hpp"
+#include "studies/results/results_json.hpp"
+#include "studies/study_file/spectrum_file.hpp"
+#include "studies/study_file/study_file.hpp"
+
+namespace flankwright::studies {
+namespace {
+
+const std::string life_pair = R"(
+[pair]
+normal_module = 4
+[pinion]
+teeth = 20
+face_width = 30
+[wheel]
+teeth = 40
+face_width = 30
+[cycle]
+positions = 8
+peaks = "sampled"
+[fidelity]
+compliance = "thin_slice"
+effect_sizes = "off"
+[fidelity.quadrature]
+intervals = 6
+)";
+
+const std::string life_strength = R"(
+[material]
+contact_endurance_limit = 900
+)";
+
+const std::string two_bins = "[load]\nspectrum = [{ torque = 300, speed = 1000, hours = 10 }, { torque = 150, cycles = 3e8 }]\n";
+
+Study life_study(const std::string& text, const std::vector<Override>& overrides = {}) { return parse_study(text, "life.toml", overrides); }
+
+/// The first problem of a study; empty fields where it has none.
+StudyProblem life_problem(const std::string& text) {
+  try {
+    life_study(text);
+  } catch (const StudyErrors& errors) {
+    return errors.problems().front();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("A spectrum gives every scene its torques and their load cycles", "[studies][life]") {
+  const Study study = life_study(life_pair + two_bins + life_strength + "[[scenes]]\nname = \"a\"\n[[scenes]]\nname = \"b\"\n");
+  REQUIRE(study.spectrum.size() == 2);
+  CHECK(study.spectrum[0].cycles == Approx(10 * 60 * 1000).epsilon(1e-12));
+  CHECK(study.spectrum[1].cycles == 3e8);
+  REQUIRE(study.scenes.size() == 2);
+  for (const Scene& scene : study.scenes) CHECK(scene.torques == std::vector<double>{3e5, 1.5e5});
+  const auto life = life_model(study);
+  REQUIRE(life);
+  CHECK(life->strength.pinion.contact->limit == 900.0);
+  CHECK(life->strength.wheel.contact->knee == 5e7);
+  CHECK_FALSE(life->strength.pinion.root);
+  CHECK(life_model(life_study(life_pair + "[load]\ntorque = 300\n")) == nullptr);
+}
+
+TEST_CASE("Materials and lubricant are read, one gear's own before both gears'", "[studies][life]") {
+  const Study study = life_study(life_pair + two_bins + R"(
+[material]
+contact_endurance_limit = 1500
+contact_sn_curve = { exponent = 12, knee = 2e7 }
+root_endurance_limit = 430
+[wheel.material]
+contact_sn_curve = "nitrided"
+root_endurance_limit = 300
+[lubricant]
+viscosity_40 = 220
+viscosity_100 = 19
+temperature = "80 °C"
+roughness = 0.4
+)");
+  const auto life = life_model(study);
+  CHECK(life->strength.pinion.contact->exponent == 12.0);
+  CHECK(life->strength.pinion.contact->exponent_beyond == 12.0);
+  CHECK(life->strength.pinion.contact->knee == 2e7);
+  CHECK(life->strength.wheel.contact->knee == 2e6);
+  CHECK(life->strength.pinion.root->limit == 860.0);  // Y_ST = 2
+  CHECK(life->strength.wheel.root->limit == 600.0);
+  CHECK(life->roughness == Approx(0.4));
+  CHECK(life->lubricant->temperature == 80.0);
+}
+
+TEST_CASE("What is wrong with a spectrum is told with place, key, value and what is allowed", "[studies][life]") {
+  const auto with = [](const std::string& bins) { return life_problem(life_pair + "[load]\nspectrum = " + bins + "\n"); };
+  CHECK(with("[{ torque = 100, speed = 1000, hours = -3 }]").key == "load.spectrum.0.hours");
+  CHECK(with("[{ torque = 100, speed = 1000, hours = -3 }]").value == "-3");
+  CHECK(with("[{ torque = 100, speed = 1000, hours = -3 }]").line > 0);
+  CHECK(with("[{ torque = 100, speed = 0, hours = 3 }]").key == "load.spectrum.0.speed");
+  CHECK(with("[{ torque = 100, hours = 3 }]").key == "load.spectrum.0.speed");
+  CHECK(with("[{ torque = 100 }]").key == "load.spectrum.0.hours");
+  CHECK(with("[{ torque = 100, speed = 1, hours = 3, cycles = 4 }]").key == "load.spectrum.0.cycles");
+  CHECK(with("[{ hours = 3, speed = 100 }]").key == "load.spectrum.0.torque");
+  CHECK(with("[{ torque = 100, cycles = 3, hour = 1 }]").key == "load.spectrum.0.hour");
+  CHECK(with("[]").key == "load.spectrum");
+  CHECK(with("3").key == "load.spectrum");
+  CHECK(with("{ files = \"x.csv\" }").key == "load.spectrum");
+  const StudyProblem missing = with("{ file = \"no such file.csv\" }");
+  CHECK(missing.key == "load.spectrum");
+  CHECK(missing.allowed.find("cannot be read") != std::string::npos);
+  const StudyProblem negative = with("[{ torque = -100, cycles = 3 }]");
+  CHECK(negative.key == "load.spectrum.0.torque");
+  CHECK(negative.allowed.find("working_flank = \"left\"") != std::string::npos);
+  CHECK(life_problem(life_pair + "[load]\ntorque = 3\nspectrum = [{ torque = 1, cycles = 3 }]\n").key == "load.spectrum");
+  CHECK(life_problem(life_pair + two_bins + "[[scenes]]\nload.torque = 30\n").key == "scenes.0.load.torque");
+  CHECK(with("[{ torque = 100, cycles = 3 }]").key.empty());
+}
+
+TEST_CASE("What is wrong with strength or lubricant is told by its key", "[studies][life]") {
+  const auto with = [](const std::string& rest) { return life_problem(life_pair + two_bins + rest).key; };
+  CHECK(with("[material]\ncontact_endurance_limit = 0\n") == "material.contact_endurance_limit");
+  CHECK(with("[material]\nroot_endurance_limit = 500\nroot_sn_curve = { exponent = 9 }\n") == "material.root_sn_curve.knee");
+  CHECK(with("[material]\nroot_endurance_limit = 500\nroot_sn_curve = { exponent = 9, knee = 3e6, exponent_beyond = 4 }\n") ==
+        "material.root_sn_curve.exponent_beyond");
+  CHECK(with("[material]\nroot_sn_curve = \"nitrided\"\n") == "material.root_sn_curve");
+  CHECK(with("[material]\ncontact_endurance_limit = 500\ncontact_sn_curve = \"hard\"\n") == "material.contact_sn_curve");
+  CHECK(with("[lubricant]\nviscosity_40 = 100\ntemperature = 80\nroughness = 0.5\n") == "lubricant.viscosity_100");
+  CHECK(with("[lubricant]\nviscosity_40 = 10\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\n") == "lubricant.viscosity_40");
+  CHECK(with("[lubricant]\nviscosity_40 = 100\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\n").empty());
+}
+
+TEST_CASE("An optimisation says what damage and film need", "[studies][life]") {
+  const std::string optimise = "task = \"optimise\"\n" + life_pair;
+  const std::string variables = "[optimise.variables]\n\"pinion.modification.lead_crowning\" = [0, 20]\n";
+  const auto with = [&](const std::string& load, const std::string& objective, const std::string& rest = "") {
+    return life_problem(optimise + load + "[optimise]\nobjective = " + objective + "\n" + variables + rest).key;
+  };
+  CHECK(with("[load]\ntorque = 100\n" + life_strength, "\"contact_damage\"") == "optimise.objective");
+  CHECK(with(two_bins, "\"contact_damage\"") == "optimise.objective");
+  CHECK(with(two_bins + life_strength, "{ contact_damage = 1, te_harmonic_1 = 1 }") == "optimise.objective");
+  CHECK(with(two_bins + life_strength, "\"specific_film_thickness\"") == "optimise.objective");
+  CHECK(with(two_bins + life_strength, "\"contact_damage\"", "[optimise.constraints]\nspecific_film_thickness = { min = 0.5 }\n") ==
+        "optimise.constraints.specific_film_thickness");
+  CHECK(with(two_bins + life_strength, "[\"contact_damage\", \"te_harmonic_1\"]").empty());
+}
+
+TEST_CASE("A spectrum is read from columns of any order, each with its unit", "[studies][life]") {
+  const auto rows = parse_spectrum("# fleet\nhours; torque [N·m]; speed_rpm ;temperature\n10;300;1000;\n\n2.5; 150 ;500; 90 # warm\n", "fleet.csv");
+  REQUIRE(rows.size() == 2);
+  REQUIRE(rows[0].size() == 3);
+  CHECK(rows[0][1].key == "torque");
+  CHECK(rows[0][1].text == "300 N·m");
+  CHECK(rows[1][3].text == "90");
+  CHECK(rows[1][3].line == 5);
+  const auto problem_of = [](const std::string& text) {
+    try {
+      parse_spectrum(text, "fleet.csv");
+    } catch (const StudyErrors& errors) {
+      return errors.problems().front();
+    }
+    return StudyProblem{};
+  };
+  CHECK(problem_of("torque,hourz\n1,2\n").column == 8);
+  CHECK(problem_of("torque,hourz\n1,2\n").line == 1);
+  CHECK(problem_of("torque,torque_Nm\n1,2\n").column == 8);
+  CHECK(problem_of("torque,hours\n1\n").line == 2);
+  CHECK(problem_of("torque,hours\n").line == 1);
+  CHECK(problem_of("").allowed.find("at least one line") != std::string::npos);
+}
+
+TEST_CASE("Results have the damage of each load case and its sum, by hand", "[studies][life]") {
+  const std::string lubricant = "[lubricant]\nviscosity_40 = 100\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\n";
+  const std::string bins = "[load]\nspectrum = [{ torque = 300, speed = 1000, hours = 10 }, { torque = 150, speed = 1500, hours = 2000 }]\n";
+  const StudyResults results = run_study(life_study(life_pair + bins + life_strength + lubricant));
+  const Json life = results_document(results).at("life");
+  REQUIRE(life.at("cases").size() == 2);
+  REQUIRE(life.at("spectra").size() == 1);
+  const Json& spectrum = life.at("spectra")[0];
+  constexpr double round_off = 1e-12;
+  for (const char* gear : {"pinion", "wheel"}) {
+    double sum = 0.0;
+    for (const Json& of : life.at("cases")) sum += of.at(gear).at("contact_damage").get<double>();
+    CHECK(spectrum.at(gear).at("contact").at("damage").get<double>() == Approx(sum).epsilon(round_off));
+    CHECK(sum > 0.0);
+    CHECK(spectrum.at(gear).at("root").is_null());
+  }
+  // Aligned gears of thin slices: the point of the largest stress is the same under both loads.
+  const SnCurve curve = contact_sn_curve(LifeFactors::CaseHardened, 900.0);
+  for (const Json& of : life.at("cases")) {
+    const double cycles = of.at("cycles"), stress = of.at("peak_contact_stress_MPa"), loss = of.at("loss_factor");
+    CHECK(of.at("pinion").at("contact_safety").get<double>() == Approx(curve.stress_for(cycles) / stress).epsilon(round_off));
+    CHECK(of.at("loss_power_W").get<double>() ==
+          Approx(loss * of.at("friction").get<double>() * of.at("torque_Nm").get<double>() * of.at("speed_rpm").get<double>() * units::pi / 30.0)
+              .epsilon(round_off));
+    CHECK(loss < 1.5 * life.at("ohlendorf_loss_factor").get<double>());
+    CHECK(of.at("specific_film_thickness").get<double>() > 0.0);
+  }
+  double largest = 0.0;
+  for (const Json& value : spectrum.at("map").at("pinion_damage")) largest = std::max(largest, value.get<double>());
+  CHECK(largest == spectrum.at("pinion").at("contact").at("damage").get<double>());
+}
+
+TEST_CASE("A study without a spectrum, strength, speed or lubricant has no section of life", "[studies][life]") {
+  const StudyResults results = run_study(life_study(life_pair + "[load]\ntorque = 100\n"));
+  CHECK_FALSE(results.life);
+  CHECK_FALSE(results_document(results).contains("life"));
+}
+
+}  // namespace flankwright::studies
