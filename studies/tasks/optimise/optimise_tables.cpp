@@ -9,6 +9,7 @@
 #include "studies/base/csv.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/base/plain_names.hpp"
+#include "studies/results/life_tables.hpp"
 #include "studies/results/tables.hpp"
 #include "studies/tasks/optimise/assessment_tables.hpp"
 
@@ -116,6 +117,7 @@ std::string optimise_summary(const StudyResults& results) {
     const bool two = work.search.resolution.quadrature.intervals != work.fine.resolution.quadrature.intervals;
     out += two ? fmt::format("searched by {}; finished by {}\n", level(work.search), level(work.fine)) : level(work.fine) + "\n";
   }
+  out += life_table(results, width);
   // Other designs are judged at the positions: so is, beside them, the optimum.
   const double compared = results.search_work ? results.search_work->objective_at_positions : design.after.objective;
   return results.assessment ? out + assessment_summary(*results.assessment, task, compared) : out;
