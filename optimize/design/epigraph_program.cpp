@@ -17,7 +17,9 @@ struct CandidateChoice {
 
 /// Stresses and loads: half the peak, which on the design problems tried is one round of solving instead of three. Differences of
 /// f_t come in pairs of positions, of which the leading ones are enough.
-CandidateChoice choice_for(Output output) { return output == Output::TePeakToPeak ? CandidateChoice{0.15, 60} : CandidateChoice{0.5, 400}; }
+CandidateChoice choice_for(Output output, double leading_share) {
+  return output == Output::TePeakToPeak ? CandidateChoice{std::min(0.15, leading_share), 60} : CandidateChoice{std::min(0.5, leading_share), 400};
+}
 
 constexpr double auxiliary_limit = 100.0;  // u <= 100 of what it is counted in: no active bound at any sensible design
 
@@ -97,7 +99,7 @@ int EpigraphProgram::add_candidates(const Eigen::VectorXd& x) {
   const auto add = [&](EpigraphRow row, double reference) {
     const ObjectiveTerm& term = term_of(row);
     const LoadedCycle& cycle = analysis.cycles[static_cast<std::size_t>(row.scene)];
-    const CandidateChoice choice = choice_for(term.output);
+    const CandidateChoice choice = choice_for(term.output, problem_.task().leading_share);
     for (const PeakCandidate& candidate : leading_candidates(term, problem_.model(row.scene), cycle, choice.margin, choice.most)) {
       row.candidate = candidate;
       candidates_.insert(row);
@@ -125,8 +127,14 @@ void EpigraphProgram::restart_from(const Eigen::VectorXd& x) {
   const DesignAnalysis& analysis = problem_.analyse(x, true);
   start_ = Eigen::VectorXd::Zero(variables());
   start_.head(problem_.variables()) = x;
-  for (const ObjectiveBlock& block : blocks_) {
+  for (ObjectiveBlock& block : blocks_) {
+    if (block.objective().over == Aggregate::Quantile) {
+      std::vector<double> measures;
+      for (int s = 0; s < block.scenes(); ++s) measures.push_back(problem_.scene_measure(block.objective(), analysis, s));
+      block.leave_out(measures);
+    }
     for (int s = 0; s < block.scenes(); ++s) {
+      if (block.leaves_out(s)) continue;
       for (int k = 0; k < static_cast<int>(block.objective().terms.size()); ++k) {
         const double peak =
             output_value(block.objective().terms[static_cast<std::size_t>(k)], problem_.model(s), analysis.cycles[static_cast<std::size_t>(s)]);
@@ -151,8 +159,9 @@ void EpigraphProgram::choose_rows(const DesignAnalysis& analysis) {
     return row;
   };
   for (const EpigraphRow& row : candidates_) {
-    const bool falls = row.kind == Kind::Floor && blocks_[static_cast<std::size_t>(row.objective)].falls_with(start_, row.scene);
-    if (!falls) rows_.push_back(row);
+    const ObjectiveBlock* block = row.kind == Kind::Floor ? &blocks_[static_cast<std::size_t>(row.objective)] : nullptr;
+    const bool counts = block == nullptr || !(block->falls_with(start_, row.scene) || block->leaves_out(row.scene));
+    if (counts) rows_.push_back(row);
   }
   for (int g = 0; g < static_cast<int>(blocks_.size()); ++g) {
     const ObjectiveBlock& block = blocks_[static_cast<std::size_t>(g)];
@@ -176,6 +185,7 @@ void EpigraphProgram::choose_rows(const DesignAnalysis& analysis) {
 }
 
 bool EpigraphProgram::is_majorant() const {
+  if (std::ranges::any_of(blocks_, &ObjectiveBlock::leaves_out_any)) return true;
   return std::any_of(rows_.begin(), rows_.end(), [&](const EpigraphRow& row) {
     return row.kind == Kind::Ceiling ||
            (row.kind == Kind::OutputBound && problem_.task().constraints[static_cast<std::size_t>(row.index)].is_least());
