@@ -74,7 +74,7 @@ std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) co
   for (const Scene& scene : of_study) {
     for (double torque : scene.torques) {
       if (torque == 0.0) continue;
-      scenes.push_back({scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(results_.study, scene))});
+      scenes.push_back({scene.name, scene.weight, torque, apply_effects(results_.effects, condition_of(results_.study, scene)), scene.deviations});
     }
   }
   return scenes;

@@ -1,5 +1,6 @@
 #include "studies/base/csv.hpp"
 #include "studies/results/load_rating_tables.hpp"
+#include "studies/base/json_format.hpp"
 
 #include <fmt/format.h>
 

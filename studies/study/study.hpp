@@ -16,6 +16,7 @@
 #include "core/load/cycle/mesh_parameter.hpp"
 #include "optimize/design/design_task.hpp"
 #include "studies/study/assessment_table.hpp"
+#include "studies/study/scatter_table.hpp"
 #include "studies/study/sweep_table.hpp"
 #include "studies/study/task.hpp"
 
@@ -50,6 +51,7 @@ struct Scene {
   Misalignment misalignment;
   std::vector<double> torques;  ///< on the pinion [N mm], >= 0
   PerGear<ManufacturingError> error;
+  std::vector<ModificationDeviation> deviations{};  ///< of drawn gears from their design
 };
 
 /// A measured or topological flank: the file that the study names and what was read from it.
@@ -81,6 +83,9 @@ struct OptimiseTable {
   double max_seconds{std::numeric_limits<double>::infinity()};
   unsigned long seed{1};
   AssessmentTable assessment;
+  ScatterTable scatter;
+  std::optional<double> largest_amount;   ///< that can be ground [mm]
+  std::optional<double> steepest_relief;  ///< that can be ground [um/mm]
 };
 
 /// One parameter of analyse.gradients.
@@ -146,6 +151,7 @@ struct Study {
   OptimiseTable optimise;                    ///< of the task "optimise"
   SweepTable sweep;                          ///< of the task "sweep"
   AccuracyTable accuracy;                    ///< of the task "accuracy"
+  std::optional<int> drawing_class;          ///< of the drawing of the flanks; none: that of optimise.scatter
   FitChoice fit;                             ///< of the task "fit"
   std::vector<Expectation> expect;
   std::vector<GivenValue> given;
