@@ -28,22 +28,48 @@ Moments moments_of(const std::vector<double>& measures, const std::vector<double
   return m;
 }
 
-/// The worst 1 - level of all weight, distributed from the largest measure down (of equals the first scene first).
-std::vector<double> tail_weights(double level, const std::vector<double>& measures, const std::vector<double>& weights) {
-  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+/// Scenes from the largest measure down, of equals the first scene first.
+std::vector<std::size_t> worst_first(const std::vector<double>& measures) {
   std::vector<std::size_t> order(measures.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return measures[a] > measures[b]; });
+  return order;
+}
+
+/// The worst 1 - level of all weight, distributed from the largest measure down (of equals the first scene first).
+std::vector<double> tail_weights(double level, const std::vector<double>& measures, const std::vector<double>& weights) {
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   std::vector<double> result(measures.size(), 0.0);
   double left = 1.0;
-  for (std::size_t s : order) {
+  for (std::size_t s : worst_first(measures)) {
     result[s] = std::min(left, weights[s] / total / (1.0 - level));
     left -= result[s];
   }
   return result;
 }
 
+/// The scene whose measure is the quantile.
+std::size_t at_quantile(double level, const std::vector<double>& measures, const std::vector<double>& weights) {
+  const std::vector<bool> beyond = beyond_quantile(level, measures, weights);
+  const std::vector<std::size_t> order = worst_first(measures);
+  return *std::ranges::find_if(order, [&](std::size_t s) { return !beyond[s]; });
+}
+
 }  // namespace
+
+std::vector<bool> beyond_quantile(double level, const std::vector<double>& measures, const std::vector<double>& weights) {
+  constexpr double round_off = 1e-12;  // weight beyond <= 1 - level + round_off, so that 5 of 100 equal weights are beyond 0.95
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  std::vector<bool> beyond(measures.size(), false);
+  double weight = 0.0;
+  std::size_t count = 0;
+  for (std::size_t s : worst_first(measures)) {
+    weight += weights[s] / total;
+    if (weight > 1.0 - level + round_off || ++count == measures.size()) break;
+    beyond[s] = true;
+  }
+  return beyond;
+}
 
 std::string to_string(const Aggregation& over) {
   std::ostringstream text;
@@ -60,6 +86,9 @@ std::string to_string(const Aggregation& over) {
     case Aggregate::Cvar:
       text << "cvar " << over.level;
       break;
+    case Aggregate::Quantile:
+      text << "quantile " << over.level;
+      break;
   }
   return text.str();
 }
@@ -69,6 +98,10 @@ std::vector<double> aggregate_weights(const Aggregation& over, const std::vector
   std::vector<double> result(measures.size(), 0.0);
   if (over == Aggregate::Nominal) {
     result.front() = 1.0;
+    return result;
+  }
+  if (over == Aggregate::Quantile) {
+    result[at_quantile(over.level, measures, weights)] = 1.0;
     return result;
   }
   if (over == Aggregate::Worst) {
@@ -88,6 +121,7 @@ std::vector<double> aggregate_weights(const Aggregation& over, const std::vector
 double aggregate(const Aggregation& over, const std::vector<double>& measures, const std::vector<double>& weights) {
   if (over == Aggregate::Nominal) return measures.front();
   if (over == Aggregate::Worst) return *std::max_element(measures.begin(), measures.end());
+  if (over == Aggregate::Quantile) return measures[at_quantile(over.level, measures, weights)];
   if (over == Aggregate::Cvar) {
     const std::vector<double> shares = tail_weights(over.level, measures, weights);
     return std::inner_product(measures.begin(), measures.end(), shares.begin(), 0.0);

@@ -190,6 +190,20 @@ DesignProblem DesignProblem::judged_by(const Objective& objective, std::vector<O
   return other;
 }
 
+DesignProblem DesignProblem::over_scenes(const std::vector<int>& scenes) const {
+  DesignProblem other = *this;
+  other.task_.scenes.clear();
+  other.models_.clear();
+  for (const int s : scenes) {
+    other.task_.scenes.push_back(task_.scenes[static_cast<std::size_t>(s)]);
+    other.models_.push_back(models_[static_cast<std::size_t>(s)]);
+  }
+  other.last_x_.resize(0);
+  other.last_ = {};
+  other.analyses_ = 0;
+  return other;
+}
+
 DesignProblem DesignProblem::judged_by_excess() const {
   std::vector<ScalarisedObjective> excesses;
   std::vector<OutputConstraint> lower_bounds;
@@ -248,6 +262,7 @@ LoadedCycle DesignProblem::analyse_scene(int scene, const PerGear<Modification>&
   const DesignScene& of_task = task_.scenes[static_cast<std::size_t>(scene)];
   FlankCondition condition = of_task.condition;
   condition.modification = modification;
+  for (const ModificationDeviation& d : of_task.deviations) d.add_to(condition.modification);
   const auto analyse = [&](const MeshModel& mesh_model) {
     return analyse_cycle(mesh_model, condition, of_task.torque, parameters, {}, root_stresses_, earlier);
   };

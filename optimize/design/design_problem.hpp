@@ -41,6 +41,10 @@ class DesignProblem {
   /// The same scenes and variables judged by other objectives, models shared; nothing analysed yet.
   DesignProblem judged_by(const Objective& objective, std::vector<ObjectiveBound> bounds, std::vector<ScalarisedObjective> scalarisation = {}) const;
 
+  /// The same task over some of its scenes only, models shared; nothing analysed yet.
+  /// @param scenes  indices, at least one
+  DesignProblem over_scenes(const std::vector<int>& scenes) const;
+
   /// Whether a bound can be exceeded by more or less: an upper bound on an output or an objective.
   bool has_upper_bounds() const { return !task_.objective_bounds.empty() || !std::ranges::all_of(task_.constraints, &OutputConstraint::is_least); }
   /// The same scenes and variables judged by how far a design is beyond its upper bounds: the largest excess of an output or an objective, relative

@@ -4,6 +4,16 @@
 
 namespace flankwright {
 
+void ModificationDeviation::add_to(PerGear<Modification>& modification) const {
+  Modification& m = modification[member];
+  const ModificationDescriptor& row = describe(parameter);
+  if (row.half.empty()) return row.set(m, row.get(m) + value);
+  for (const std::string_view key : {row.half, row.other_half}) {
+    const ModificationDescriptor& half = *find_parameter(key);
+    half.set(m, half.get(m) + value);
+  }
+}
+
 double DesignVariable::outside_factor() const { return flankwright::outside_factor(describe(parameter).kind); }
 
 const char* DesignVariable::unit() const { return unit_of(describe(parameter).kind); }

@@ -53,6 +53,9 @@ struct OutputConstraint {
   double excess(double value) const { return (is_least() ? limit() - value : value - limit()) / std::abs(limit()); }
 };
 
+/// What a bound on modifications is for, where a limit of the grinding asks for it.
+enum class GrindingLimit { None, Amount, Slope };
+
 /// A bound on a sum of modifications: minimum <= sum of factor * value <= maximum [mm; all of one unit].
 struct ModificationConstraint {
   struct Term {
@@ -64,6 +67,7 @@ struct ModificationConstraint {
   std::vector<Term> terms;
   double maximum{std::numeric_limits<double>::infinity()};
   double minimum{-std::numeric_limits<double>::infinity()};
+  GrindingLimit grinding{GrindingLimit::None};  ///< Slope: terms are an amount and its extent
 
   double value(const PerGear<Modification>& modification) const;
   /// As DesignVariable has them, of the first term.
@@ -95,7 +99,17 @@ struct ScalarisedObjective {
   double range{1.0};   ///< outside unit, > 0
 };
 
-/// One working condition at one torque. Modifications inside `condition` are replaced by the design's.
+/// By how much a gear as it is made differs from the design in one parameter.
+struct ModificationDeviation {
+  Member member{Member::Pinion};
+  ModificationParameter parameter{};
+  double value{0.0};  ///< added to the design's [mm; parabolic_te 1/rad]
+
+  /// Adds it; a profile crowning is added to both halves, whether or not they are alike.
+  void add_to(PerGear<Modification>& modification) const;
+};
+
+/// One working condition at one torque. Modifications inside `condition` are replaced by the design's, and what the gears differ from it by is added.
 struct DesignScene {
   std::string name;
   double weight{1.0};  ///< > 0, of mean and mean + 2 sigma
@@ -104,6 +118,7 @@ struct DesignScene {
   Operation operation{};  ///< under this torque
   int spectrum{-1};       ///< load cases of the same number make up one load spectrum; -1: of none
   int bin{-1};            ///< which of the spectrum's, as its list counts them
+  std::vector<ModificationDeviation> deviations{};
 };
 
 /// The variables of a design, its objectives and its constraints.
@@ -132,6 +147,8 @@ struct DesignTask {
   /// lexicographic_tolerance of their least values.
   std::vector<Objective> later_objectives;
   double lexicographic_tolerance{0.01};  ///< value <= (1 + tolerance) least [-], > 0
+  /// A search near its optimum needs only candidates within this share below a peak [-], > 0; fewer rows, but more rounds from far away.
+  double leading_share{1.0};
 
   Objective combined_objective() const { return {objective, over}; }
   std::string objective_name() const { return combined_objective().name(); }

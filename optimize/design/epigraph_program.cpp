@@ -17,17 +17,18 @@ struct CandidateChoice {
 
 /// Stresses and loads: half the peak, which on the design problems tried is one round of solving instead of three. Differences of
 /// f_t come in pairs of positions, of which the leading ones are enough.
-CandidateChoice choice_for(Output output) {
+CandidateChoice choice_for(Output output, double leading_share) {
+  const auto within = [&](double margin, std::size_t most) { return CandidateChoice{std::min(margin, leading_share), most}; };
   switch (output) {
     case Output::TePeakToPeak:
-      return {0.15, 60};
+      return within(0.15, 60);
     case Output::ContactDamage:
     case Output::RootDamage:
-      return {0.98, 100};  // that is a quarter of the stress: damage grows as some 10th power of it
+      return within(0.98, 100);  // that is a quarter of the stress: damage grows as some 10th power of it
     case Output::SpecificFilmThickness:
-      return {0.3, 200};
+      return within(0.3, 200);
     default:
-      return {0.5, 400};
+      return within(0.5, 400);
   }
 }
 
@@ -114,7 +115,7 @@ int EpigraphProgram::add_candidates(const Eigen::VectorXd& x) {
   const auto add = [&](EpigraphRow row, double reference) {
     const ObjectiveTerm& term = term_of(row);
     const LoadedScene scene = problem_.scene(analysis, row.scene);
-    const CandidateChoice choice = choice_for(term.output);
+    const CandidateChoice choice = choice_for(term.output, problem_.task().leading_share);
     for (const PeakCandidate& candidate : leading_candidates(term, scene, choice.margin, choice.most)) {
       row.candidate = candidate;
       candidates_.insert(row);
@@ -142,8 +143,14 @@ void EpigraphProgram::restart_from(const Eigen::VectorXd& x) {
   const DesignAnalysis& analysis = problem_.analyse(x, true);
   start_ = Eigen::VectorXd::Zero(variables());
   start_.head(problem_.variables()) = x;
-  for (const ObjectiveBlock& block : blocks_) {
+  for (ObjectiveBlock& block : blocks_) {
+    if (block.objective().over == Aggregate::Quantile) {
+      std::vector<double> measures;
+      for (int s = 0; s < block.scenes(); ++s) measures.push_back(problem_.scene_measure(block.objective(), analysis, block.scene(s)));
+      block.leave_out(measures);
+    }
     for (int s = 0; s < block.scenes(); ++s) {
+      if (block.leaves_out(s)) continue;
       for (int k = 0; k < static_cast<int>(block.objective().terms.size()); ++k) {
         const double peak = output_value(block.objective().terms[static_cast<std::size_t>(k)], problem_.scene(analysis, block.scene(s)));
         double& slot = start_[block.bound(s, k)];
@@ -168,8 +175,9 @@ void EpigraphProgram::choose_rows(const DesignAnalysis& analysis) {
   };
   const auto falls_with = [&](const ObjectiveBlock& block, int scene) { return block.falls_with(start_, block.scene_of(scene)); };
   for (const EpigraphRow& row : candidates_) {
-    const bool falls = row.kind == Kind::Floor && falls_with(blocks_[static_cast<std::size_t>(row.objective)], row.scene);
-    if (!falls) rows_.push_back(row);
+    const ObjectiveBlock* block = row.kind == Kind::Floor ? &blocks_[static_cast<std::size_t>(row.objective)] : nullptr;
+    const bool counts = block == nullptr || !(falls_with(*block, row.scene) || block->leaves_out(block->scene_of(row.scene)));
+    if (counts) rows_.push_back(row);
   }
   for (int g = 0; g < static_cast<int>(blocks_.size()); ++g) {
     const ObjectiveBlock& block = blocks_[static_cast<std::size_t>(g)];
@@ -194,6 +202,7 @@ void EpigraphProgram::choose_rows(const DesignAnalysis& analysis) {
 }
 
 bool EpigraphProgram::is_majorant() const {
+  if (std::ranges::any_of(blocks_, &ObjectiveBlock::leaves_out_any)) return true;
   return std::any_of(rows_.begin(), rows_.end(), [&](const EpigraphRow& row) {
     return row.kind == Kind::Ceiling ||
            (row.kind == Kind::OutputBound && problem_.task().constraints[static_cast<std::size_t>(row.index)].one_suffices());

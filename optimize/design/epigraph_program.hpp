@@ -40,7 +40,8 @@ struct EpigraphRow {
 /// every scalarised objective. Candidates are those near a peak at the designs given to add_candidates();
 /// optimise_design() repeats until no other candidate rises above them. Exact where f grows with every u: all but mean
 /// + k sigma. Where that falls with a scene's u, the scene's leading candidate at the last restart bounds u from above
-/// instead: a majorant, exact at that design, so that rounds descend. A least value of an output is likewise asked of
+/// instead: a majorant, exact at that design, so that rounds descend. So does a quantile, whose block
+/// leaves out the scenes beyond it at the last restart. A least value of an output is likewise asked of
 /// its leading candidate at the last restart, which is sufficient.
 class EpigraphProgram : public NonlinearProgram {
  public:

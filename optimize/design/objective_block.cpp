@@ -94,11 +94,19 @@ bool ObjectiveBlock::falls_with(const Eigen::VectorXd& y, int scene) const {
   return objective_.over == Aggregate::MeanPlusSigmas && value(y).gradient[bound(scene, 0)] < 0.0;
 }
 
+void ObjectiveBlock::leave_out(const std::vector<double>& measures) {
+  if (!(objective_.over == Aggregate::Quantile)) return;
+  left_out_ = beyond_quantile(objective_.over.level, measures, {shares_.begin(), shares_.end()});
+}
+
 void ObjectiveBlock::complete(Eigen::VectorXd& y) const {
   if (!has_rows()) return;
   const Eigen::VectorXd m = measures(y);
-  if (objective_.over == Aggregate::Worst) {
-    y[level()] = m.maxCoeff();
+  if (is_largest()) {
+    y[level()] = -INFINITY;
+    for (int s = 0; s < scenes(); ++s) {
+      if (!leaves_out(s)) y[level()] = std::max(y[level()], m[s]);
+    }
     return;
   }
   // The level of the tail: of the sorted measures the first beyond which no more than 1 - level of the weight lies.
@@ -117,6 +125,10 @@ void ObjectiveBlock::complete(Eigen::VectorXd& y) const {
 void ObjectiveBlock::write_rows(const Eigen::VectorXd& y, int row, ProgramValues& values) const {
   for (int s = 0; s < rows(); ++s, ++row) {
     auto jacobian = values.constraint_jacobian.row(row);
+    if (leaves_out(s)) {
+      values.constraints[row] = -1.0;  // nothing is asked of it
+      continue;
+    }
     for (std::size_t k = 0; k < term_weights_.size(); ++k) jacobian[bound(s, static_cast<int>(k))] = term_weights_[k];
     jacobian[level()] = -1.0;
     if (objective_.over == Aggregate::Cvar) jacobian[level() + 1 + s] = -1.0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <vector>
 
 #include "optimize/solvers/nonlinear_program.hpp"
@@ -17,8 +18,10 @@ namespace flankwright {
 ///     mean             sum p_s m_s
 ///     mean + k sigma   mean + k sqrt(sum p_s (m_s - mean)^2 + epsilon^2),    epsilon = 1e-5
 ///     cvar             t + sum p_s v_s / (1 - level)       subject to  m_s - t <= v_s,  v_s >= 0
+///     quantile         t                                   subject to  m_s <= t  of all scenes but those left out
 ///
-/// Worst of a single output needs one u for all scenes. epsilon, in units of the start's value, smooths the spread
+/// A quantile leaves out the scenes beyond it at some design, see leave_out(). The largest of the others is the quantile there and never below
+/// it elsewhere: a majorant. Worst and quantile of a single output need one u for all scenes. epsilon, in units of the start's value, smooths the spread
 /// where the scenes agree: the value is at most k epsilon too large.
 class ObjectiveBlock {
  public:
@@ -47,14 +50,19 @@ class ObjectiveBlock {
   SmoothValue value(const Eigen::VectorXd& y) const;
   /// Whether the value falls where the measure of a scene rises, as mean + k sigma does in scenes well below the mean.
   bool falls_with(const Eigen::VectorXd& y, int scene) const;
+  /// Of a quantile: leaves out the scenes beyond it by these measures. Nothing else to do.
+  void leave_out(const std::vector<double>& measures);
+  bool leaves_out(int scene) const { return !left_out_.empty() && left_out_[static_cast<std::size_t>(scene)]; }
+  bool leaves_out_any() const { return std::ranges::find(left_out_, true) != left_out_.end(); }
   /// Sets t and v to the least values that the u of y allow.
   void complete(Eigen::VectorXd& y) const;
   /// Writes the rows above from `row` on.
   void write_rows(const Eigen::VectorXd& y, int row, ProgramValues& values) const;
 
  private:
-  bool shares_one_bound() const { return objective_.over == Aggregate::Worst && objective_.terms.size() == 1; }
-  bool has_rows() const { return objective_.over == Aggregate::Cvar || (objective_.over == Aggregate::Worst && !shares_one_bound()); }
+  bool is_largest() const { return objective_.over == Aggregate::Worst || objective_.over == Aggregate::Quantile; }
+  bool shares_one_bound() const { return is_largest() && objective_.terms.size() == 1; }
+  bool has_rows() const { return objective_.over == Aggregate::Cvar || (is_largest() && !shares_one_bound()); }
   int level() const { return first_ + scenes() * static_cast<int>(objective_.terms.size()); }  ///< index of t
   double measure(const Eigen::VectorXd& y, int scene) const;
   Eigen::VectorXd measures(const Eigen::VectorXd& y) const;
@@ -63,6 +71,7 @@ class ObjectiveBlock {
   Eigen::VectorXd shares_;  ///< p_s
   std::vector<double> peaks_;
   std::vector<double> term_weights_;  ///< w_k, sum 1
+  std::vector<bool> left_out_;        ///< per scene, of a quantile; empty: none
   double scale_{0.0};
   int first_;
   std::vector<int> numbers_;

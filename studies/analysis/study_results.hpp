@@ -29,6 +29,7 @@ namespace flankwright::studies {
 
 struct FidelityHierarchy;
 struct Assessment;
+struct ScatterResult;
 struct SweepStatistics;
 
 /// Loaded contact of one scene at one torque, for one design.
@@ -92,6 +93,7 @@ struct StudyResults {
   DesignErrors before_errors, after_errors;  ///< of the design's reports
   std::optional<ParetoFront> front;
   std::shared_ptr<const Assessment> assessment;  ///< of the design
+  std::shared_ptr<const ScatterResult> scatter;  ///< where the design was chosen over draws
   std::vector<GearDeflections> deflections;      ///< of both gears, where the compliance is of single gears
   std::shared_ptr<const SweepStatistics> sweep;  ///< of the task "sweep": the rest of the results is its nominal sample
   std::shared_ptr<const LifeModel> life_model;   ///< what life, loss and film were computed with; null: none

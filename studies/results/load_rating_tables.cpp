@@ -1,6 +1,7 @@
 #include "studies/base/json_format.hpp"
 #include "studies/base/csv.hpp"
 #include "studies/results/load_rating_tables.hpp"
+#include "studies/base/json_format.hpp"
 
 #include <fmt/format.h>
 

@@ -13,6 +13,7 @@
 #include "studies/analysis/study_effects.hpp"
 #include "studies/analysis/study_notes.hpp"
 #include "studies/results/bodies_json.hpp"
+#include "studies/results/drawing.hpp"
 #include "studies/results/fidelity_choice_json.hpp"
 #include "studies/results/compliance_json.hpp"
 #include "studies/results/effects_json.hpp"
@@ -322,6 +323,7 @@ Json results_document(const StudyResults& results) {
   json["loaded"] = nullptr;  // the place of what comes last
   if (results.structures.finite_elements) json["compliance"] = compliance_json(results.structures, study);
   json["modifications"] = modifications_json(results);
+  if (const auto drawings = drawings_of(results); !drawings.empty()) json["drawing"] = list(drawings, drawing_json);
   json["effects"] = effects_json(results);
   json["steps"] = list(results.steps, [](const RunStep& s) -> Json { return {{"name", s.name}, {"why", s.why}, {"seconds", s.seconds}}; });
   if (results.fidelity_choice) json["accuracy_choice"] = fidelity_choice_json(*results.fidelity_choice);

@@ -1,4 +1,5 @@
 #include "studies/base/csv.hpp"
+#include "studies/results/drawing.hpp"
 #include "studies/results/tables.hpp"
 
 #include <fmt/format.h>
@@ -118,6 +119,7 @@ std::vector<NamedText> csv_tables(const StudyResults& results) {
     tables.push_back({"transfers.csv", transfers_csv(results)});
     tables.push_back({"bearing_pattern.csv", bearing_pattern_csv(results)});
   }
+  for (const FlankDrawing& drawing : drawings_of(results)) tables.push_back({"drawing-" + drawing.gear + ".svg", drawing_svg(drawing)});
   if (results.study.task->tables == nullptr) return tables;
   for (NamedText& table : results.study.task->tables(results)) tables.push_back(std::move(table));
   return tables;

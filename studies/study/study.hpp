@@ -17,6 +17,7 @@
 #include "optimize/design/design_task.hpp"
 #include "studies/study/assessment_table.hpp"
 #include "studies/study/life_table.hpp"
+#include "studies/study/scatter_table.hpp"
 #include "studies/study/sweep_table.hpp"
 #include "studies/study/task.hpp"
 
@@ -51,7 +52,8 @@ struct Scene {
   Misalignment misalignment;
   std::vector<double> torques;  ///< on the pinion [N mm], >= 0
   PerGear<ManufacturingError> error;
-  double speed{not_given};  ///< of the pinion [rad/s]; NaN: not given, or that of each bin of a spectrum
+  double speed{not_given};                          ///< of the pinion [rad/s]; NaN: not given, or that of each bin of a spectrum
+  std::vector<ModificationDeviation> deviations{};  ///< of drawn gears from their design
 };
 
 /// A measured or topological flank: the file that the study names and what was read from it.
@@ -83,6 +85,9 @@ struct OptimiseTable {
   double max_seconds{std::numeric_limits<double>::infinity()};
   unsigned long seed{1};
   AssessmentTable assessment;
+  ScatterTable scatter;
+  std::optional<double> largest_amount;   ///< that can be ground [mm]
+  std::optional<double> steepest_relief;  ///< that can be ground [um/mm]
 };
 
 /// One parameter of analyse.gradients.
@@ -151,6 +156,7 @@ struct Study {
   OptimiseTable optimise;                    ///< of the task "optimise"
   SweepTable sweep;                          ///< of the task "sweep"
   AccuracyTable accuracy;                    ///< of the task "accuracy"
+  std::optional<int> drawing_class;          ///< of the drawing of the flanks; none: that of optimise.scatter
   FitChoice fit;                             ///< of the task "fit"
   std::vector<Expectation> expect;
   std::vector<GivenValue> given;

@@ -67,6 +67,9 @@ std::vector<SchemaKey> working_condition_rows() {
       {.path = "unloaded.marking_thickness", .quantity = Quantity::Deviation, .range = above_zero(1000.0),
        .fallback = "6.35", .meaning = "of the compound that shows the bearing pattern; 6.35 um is 0.00025 in",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.marking_thickness = v.number; }},
+      {.path = "drawing.iso_1328_class", .kind = Integer, .range = {.low = 1, .high = 11}, .fallback = "(that of optimise.scatter)",
+       .meaning = "class of the bands about the traces that go on the drawing; without a class there is no drawing",
+       .store = [](StudyBuilder& d, Member, const Value& v) { d.study.drawing_class = static_cast<int>(v.integer); }},
       {.path = "cycle.positions", .kind = IntegerOrAuto, .range = {.low = 1, .high = 4096}, .fallback = "\"auto\"",
        .meaning = "mesh positions over one base pitch; auto is 32, and in an analysis under load up to 128 where the estimated errors ask for more",
        .store = [](StudyBuilder& d, Member, const Value& v) {

@@ -8,7 +8,8 @@ using namespace flankwright;
 
 namespace {
 
-constexpr Aggregate all_aggregates[] = {Aggregate::Nominal, Aggregate::Worst, Aggregate::Mean, Aggregate::MeanPlusSigmas, Aggregate::Cvar};
+constexpr Aggregate all_aggregates[] = {Aggregate::Nominal,        Aggregate::Worst, Aggregate::Mean,
+                                        Aggregate::MeanPlusSigmas, Aggregate::Cvar,  Aggregate::Quantile};
 constexpr double round_off = 1e-14;
 
 std::vector<double> random_numbers(std::size_t n, std::mt19937& generator) {
@@ -79,5 +80,29 @@ TEST_CASE("Scenes that are equal but for round-off have no spread", "[optimize][
   CHECK(aggregate(Aggregate::MeanPlusSigmas, measures, weights) == Approx(0.1).epsilon(round_off));
   for (double w : aggregate_weights(Aggregate::MeanPlusSigmas, measures, weights)) {
     CHECK(w == Approx(1.0 / 3.0).epsilon(round_off));
+  }
+}
+
+TEST_CASE("The quantile of a sample is its order statistic", "[optimize][design][closed-form]") {
+  std::vector<double> measures(100), weights(100, 1.0);
+  for (std::size_t s = 0; s < 100; ++s) measures[s] = static_cast<double>((37 * s) % 100 + 1);  // 1 .. 100 in another order
+  CHECK(aggregate({Aggregate::Quantile, 2.0, 0.95}, measures, weights) == 95.0);
+  CHECK(aggregate({Aggregate::Quantile, 2.0, 0.5}, measures, weights) == 50.0);
+  CHECK(aggregate({Aggregate::Quantile, 2.0, 0.0}, measures, weights) == 1.0);
+  CHECK(aggregate({Aggregate::Quantile, 2.0, 0.951}, measures, weights) == 96.0);
+  // Weights count as copies: 2 of weight 2 is {1, 2, 2, 4}.
+  CHECK(aggregate({Aggregate::Quantile, 2.0, 0.75}, {1.0, 2.0, 4.0}, {1.0, 2.0, 1.0}) == 2.0);
+  CHECK(aggregate({Aggregate::Quantile, 2.0, 0.76}, {1.0, 2.0, 4.0}, {1.0, 2.0, 1.0}) == 4.0);
+  CHECK(to_string(Aggregation{Aggregate::Quantile, 2.0, 0.95}) == "quantile 0.95");
+}
+
+TEST_CASE("The mean beyond a quantile is no less than the quantile", "[optimize][design]") {
+  std::mt19937 generator(5);
+  for (int trial = 0; trial < 20; ++trial) {
+    const std::vector<double> measures = random_numbers(30, generator), weights = random_numbers(30, generator);
+    for (double level : {0.0, 0.5, 0.9, 0.95}) {
+      CAPTURE(trial, level);
+      CHECK(aggregate({Aggregate::Cvar, 2.0, level}, measures, weights) >= aggregate({Aggregate::Quantile, 2.0, level}, measures, weights));
+    }
   }
 }

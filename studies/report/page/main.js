@@ -25,6 +25,8 @@ const BUILDERS = {
   deflections: build_deflections,
   residuals: build_residuals,
   inputs: build_inputs,
+  drawing: build_drawing,
+  tolerances: build_tolerances,
 };
 
 function main() {

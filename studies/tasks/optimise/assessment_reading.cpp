@@ -19,6 +19,12 @@ constexpr const char* table_name = "optimise.tolerances";
 
 std::vector<SceneTolerance>& tolerances_of(StudyReading& reading) { return reading.builder.study.optimise.assessment.tolerances; }
 
+/// An amount of a modification, which scatters about what is designed.
+bool is_amount(const SchemaKey& key) {
+  const auto* parameter = std::get_if<ModificationParameter>(&key.store);
+  return parameter != nullptr && describe(*parameter).kind == ParameterKind::Amount;
+}
+
 /// The keys that an item scatters: one, or the three of an error that a tolerance class covers; none where it is refused.
 std::vector<const SchemaKey*> keys_of(StudyReading& reading, const Item& item) {
   const std::string shown = std::string(table_name) + "." + item.name;
@@ -33,8 +39,10 @@ std::vector<const SchemaKey*> keys_of(StudyReading& reading, const Item& item) {
     return {};
   }
   if (is_sweepable(*known->second) && std::holds_alternative<StoreInScene>(known->second->store)) return {known->second};
+  if (is_amount(*known->second)) return {known->second};
   reading.refuse(item.position, shown, item.node,
-                 "allowed are load.torque, the numbers below misalignment, pinion.error and wheel.error, and bearing_clearance of either gear");
+                 "allowed are load.torque, the numbers below misalignment, pinion.error and wheel.error, the amounts below "
+                 "pinion.modification and wheel.modification, and bearing_clearance of either gear");
   return {};
 }
 
@@ -45,7 +53,7 @@ void read_tolerance(StudyReading& reading, const Item& item, const GearPair* pai
     if (twice) return reading.refuse(item.position, shown, item.node, key->path + " is given twice");
     try {
       const auto named = read_distribution(*key, *item.node, pair);
-      if (named) tolerances_of(reading).push_back({key->path, named->in_words, named->distribution, false, named->pitch});
+      if (named) tolerances_of(reading).push_back({key->path, named->in_words, named->distribution, is_amount(*key), named->pitch});
     } catch (const InvalidInput& problem) {
       return reading.refuse(item.position, shown, item.node, "allowed is " + problem.allowed());
     }

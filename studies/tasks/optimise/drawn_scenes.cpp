@@ -20,13 +20,20 @@ void put(Scene& scene, const SceneTolerance& tolerance, double value) {
   if (tolerance.pitch) return set_drawn_pitch(scene.error[key.member], *tolerance.pitch, value);
   double inside = internal_value(value, key.quantity);
   if (tolerance.added) inside += present(scene, tolerance.path);
+  if (const auto* parameter = std::get_if<ModificationParameter>(&key.store)) {
+    scene.deviations.push_back({key.member, *parameter, inside});
+    return;
+  }
   std::get<StoreInScene>(key.store)(scene, key.member, Value{.number = inside, .numbers = {inside}});
 }
 
 }  // namespace
 
 std::vector<Scene> draw_scenes(const Study& study, const DrawnScenes& drawn) {
-  const std::vector<SceneTolerance>& tolerances = study.optimise.assessment.tolerances;
+  return draw_scenes(study, study.optimise.assessment.tolerances, drawn);
+}
+
+std::vector<Scene> draw_scenes(const Study& study, const std::vector<SceneTolerance>& tolerances, const DrawnScenes& drawn) {
   std::vector<Scene> scenes;
   if (drawn.samples == 0) return scenes;
   const SampleDesign design(Sampler::Sobol, drawn.samples, static_cast<int>(tolerances.size()), drawn.seed);

@@ -28,6 +28,7 @@ Json constraints_json(const DesignReport& report, const DesignTask& task) {
   }
   for (std::size_t c = 0; c < task.modification_constraints.size(); ++c) {
     const ModificationConstraint& bound = task.modification_constraints[c];
+    if (bound.grinding != GrindingLimit::None) continue;  // in grinding_limits
     const double factor = bound.outside_factor();
     Json& entry = constraints[bound.name];
     entry = {{"value", report.modification_values[c] * factor}, {"unit", bound.unit()}};

@@ -13,6 +13,7 @@
 #include "studies/compliance/study_compliance.hpp"
 #include "studies/study_file/study_life.hpp"
 #include "studies/tasks/optimise/assessment.hpp"
+#include "studies/tasks/optimise/scatter.hpp"
 
 namespace flankwright::studies {
 
@@ -52,14 +53,32 @@ class OptimiseRun {
     results_.assessment = std::make_shared<const Assessment>(
         assess_optimum(study, problem, design, run_.loaded(draw_scenes(study, study.optimise.assessment.validation)), run_.progress()));
     results_.steps.push_back({"proof_of_the_optimum", "rules of thumb, variants, sensitivities", results_.assessment->seconds});
+    if (study.optimise.scatter.asked()) choose_over_draws(problem);
     results_.before_errors = show(problem, "before", results_.design->before);
     results_.after_errors = show(problem, "after", results_.design->after);
     if (results_.design->exact) resolve_report(problem, resolved_cycles(problem, results_.design->exact->analysis, false), *results_.design->exact);
     run_.rate();
     add_unmet_by_design(problem, results_);
+    if (results_.scatter) add_unmet_over_draws();
   }
 
  private:
+  /// What is to be ground is the design over the draws; the listed scenes show it.
+  void choose_over_draws(const DesignProblem& problem) {
+    const auto load_cases = [&](const std::vector<Scene>& scenes) { return run_.loaded(scenes); };
+    ScatterResult scatter = run_scatter(results_.study, *results_.design_task, *results_.design, load_cases, run_.progress());
+    results_.steps.push_back({"scatter", "search over drawn gears and assemblies", scatter.design.seconds});
+    results_.design->after = report_design(problem, problem.analyse_design(scatter.design.modification));
+    results_.design->exact.reset();  // of the search over the listed scenes
+    results_.scatter = std::make_shared<const ScatterResult>(std::move(scatter));
+  }
+
+  void add_unmet_over_draws() {
+    const ScatterDesign& design = results_.scatter->design;
+    if (design.status == SolverStatus::Converged || design.status == SolverStatus::Stalled) return;
+    results_.requirements.push_back(fmt::format("the search over the draws ended early ({}): {}", to_string(design.status), design.message));
+  }
+
   /// Said before the search, which may take long and find that the constraints cannot be kept.
   void announce_violations_of_start(const DesignProblem& problem) const {
     const OptimiseTable& asked = results_.study.optimise;

@@ -12,6 +12,7 @@
 #include "studies/results/life_tables.hpp"
 #include "studies/results/tables.hpp"
 #include "studies/tasks/optimise/assessment_tables.hpp"
+#include "studies/tasks/optimise/scatter_json.hpp"
 
 namespace flankwright::studies {
 
@@ -118,6 +119,7 @@ std::string optimise_summary(const StudyResults& results) {
     out += two ? fmt::format("searched by {}; finished by {}\n", level(work.search), level(work.fine)) : level(work.fine) + "\n";
   }
   out += life_table(results, width);
+  if (results.scatter) out += scatter_summary(*results.scatter, task, results.study);
   // Other designs are judged at the positions: so is, beside them, the optimum.
   const double compared = results.search_work ? results.search_work->objective_at_positions : design.after.objective;
   return results.assessment ? out + assessment_summary(*results.assessment, task, compared) : out;
@@ -126,6 +128,9 @@ std::string optimise_summary(const StudyResults& results) {
 std::vector<NamedText> optimise_tables(const StudyResults& results) {
   std::vector<NamedText> tables{{"scenes.csv", scenes_csv(results)}, {"history.csv", history_csv(*results.design)}};
   if (results.front) tables.push_back({"pareto.csv", pareto_csv(*results.front, *results.design_task)});
+  if (results.scatter) {
+    for (NamedText& table : scatter_tables(*results.scatter, *results.design_task)) tables.push_back(std::move(table));
+  }
   if (!results.assessment) return tables;
   for (NamedText& table : assessment_tables(*results.assessment)) tables.push_back(std::move(table));
   return tables;

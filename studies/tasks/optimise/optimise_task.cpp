@@ -12,6 +12,10 @@
 #include "studies/tasks/optimise/assessment_json.hpp"
 #include "studies/tasks/optimise/assessment_keys.hpp"
 #include "studies/tasks/optimise/assessment_reading.hpp"
+#include "studies/tasks/optimise/grinding_limits.hpp"
+#include "studies/tasks/optimise/scatter_json.hpp"
+#include "studies/tasks/optimise/scatter_keys.hpp"
+#include "studies/tasks/optimise/scatter_reading.hpp"
 
 namespace flankwright::studies {
 
@@ -20,13 +24,17 @@ namespace {
 std::vector<SchemaKey> all_optimise_keys() {
   std::vector<SchemaKey> all = optimise_keys();
   for (SchemaKey& key : assessment_keys()) all.push_back(std::move(key));
+  for (SchemaKey& key : grinding_limit_keys()) all.push_back(std::move(key));
+  for (SchemaKey& key : scatter_keys()) all.push_back(std::move(key));
   return all;
 }
 
 void read_optimise_tables(StudyReading& reading) {
   read_optimise(reading);
+  read_grinding_limits(reading);
   check_variables(reading);
   read_assessment(reading);
+  read_scatter(reading);
 }
 
 /// Variables count as modifications from the start, even where their first value is 0. What scatters counts as well: four scenes are enough
@@ -45,6 +53,9 @@ std::vector<FlankCondition> optimise_conditions(const Study& study) {
 
 void add_optimise_json(const StudyResults& results, Json& json) {
   json["optimise"] = optimise_json(results);
+  const bool has_limits = results.study.optimise.largest_amount || results.study.optimise.steepest_relief;
+  if (has_limits) json["optimise"]["grinding_limits"] = grinding_limits_json(*results.design_task, results.design->after);
+  if (results.scatter) json["optimise"]["scatter"] = scatter_json(*results.scatter, *results.design_task, results.study);
   if (results.assessment) add_assessment(*results.assessment, *results.design_task, results.study.optimise.assessment, json["optimise"]);
 }
 

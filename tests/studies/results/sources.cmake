@@ -1,4 +1,5 @@
 list(APPEND FLANKWRIGHT_TEST_SOURCES
+     ${CMAKE_CURRENT_LIST_DIR}/drawing_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/expectations_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/gathered_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/gradients_test.cpp

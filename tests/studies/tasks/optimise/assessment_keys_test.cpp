@@ -68,7 +68,7 @@ TEST_CASE("A bearing clearance tilts by up to clearance over span, after all tha
 TEST_CASE("Tolerances that cannot be drawn are refused at their line", "[studies][assessment]") {
   const auto allowed = [](const std::string& line) { return problem_of("[optimise.tolerances]\n" + line + "\n").allowed; };
   CHECK_THAT(allowed("\"misalignment.crosing\" = { normal = [0, 1] }"), Contains("did you mean"));
-  CHECK_THAT(allowed("\"pinion.modification.lead_crowning\" = { normal = [0, 1] }"), Contains("bearing_clearance"));
+  CHECK_THAT(allowed("\"pinion.modification.tip_relief.height\" = { normal = [0, 1] }"), Contains("bearing_clearance"));
   CHECK_THAT(allowed("\"misalignment.crossing\" = { iso_1328_class = 6 }"), Contains("helix_slope"));
   CHECK_THAT(allowed("\"misalignment.crossing\" = { normal = [0, -1] }"), Contains("deviation"));
   CHECK_THAT(allowed("\"pinion.bearing_clearance\" = { clearance = 30 }"), Contains("span"));

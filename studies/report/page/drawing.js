@@ -1,0 +1,26 @@
+// The sheet of each flank for the drawing: K-charts and amounts.
+
+function build_drawing(results, body) {
+  const limits = list(record(results.optimise).grinding_limits).map(record);
+  if (limits.length > 0) {
+    table(body, {
+      title: "Limits of the grinding",
+      columns: [{ label: "Limit" }, { label: "Value" }, { label: "At most" }, { label: "Unit" }, { label: "State" }],
+      rows: limits.map((limit) => [capital(`${limit.name}`), limit.value, limit.limit, pretty_unit(limit.unit), `${limit.state}`]),
+    });
+  }
+  const grid = figure_grid(body);
+  for (const entry of list(results.drawing).map(record)) {
+    figure(grid, {
+      title: capital(`${entry.gear}`),
+      wide: true,
+      caption: `Design traces with the band of class ${fmt(entry.iso_1328_class, 2)} of ISO 1328-1: the middle trace and half of the total tolerance either way. `
+        + `drawing-${entry.gear}.svg in the results folder is the same sheet.`,
+    }, (plot) => {
+      // The sheet is made by the program from numbers and names of its own; it is parsed as a picture, so that nothing in it runs.
+      const sheet = new DOMParser().parseFromString(`${entry.sheet ?? ""}`, "image/svg+xml").documentElement;
+      sheet.setAttribute("style", "background: white; max-width: 100%; height: auto");
+      plot.append(document.importNode(sheet, true));
+    });
+  }
+}

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "optimize/design/aggregate.hpp"
+
+/// [optimise.scatter]: a design chosen by a statistic over drawn gears and assemblies. Read by scatter_reading.hpp.
+namespace flankwright::studies {
+
+struct ScatterTable {
+  int draws{0};           ///< 0: no scatter in the search
+  unsigned long seed{1};  ///< of the draws; the same for every design
+  Aggregation statistic{Aggregate::Quantile, 2.0, 0.95};
+  std::optional<int> iso_1328_class;  ///< of both gears
+  std::vector<int> classes;           ///< for each of which the right design is sought as well
+  int fresh{0};                       ///< draws that the designs are tried on
+  unsigned long fresh_seed{2};
+
+  bool asked() const { return draws > 0; }
+};
+
+}  // namespace flankwright::studies

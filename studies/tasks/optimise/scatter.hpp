@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "optimize/assessment/validation.hpp"
+#include "optimize/design/design_optimiser.hpp"
+#include "optimize/design/scatter_search.hpp"
+#include "studies/base/progress.hpp"
+#include "studies/study/study.hpp"
+
+namespace flankwright::studies {
+
+/// One design over fresh draws.
+struct FreshDesign {
+  ValidatedDesign design;
+  double statistic{not_given};  ///< over the draws that could be analysed, outside units
+};
+
+/// The right design of one tolerance class, and what the class costs. Statistics are over the draws of that class.
+struct ClassDesign {
+  int tolerance_class{0};
+  ScatterDesign design;
+  double without_scatter{not_given};  ///< statistic of the objective of the design without scatter
+  double contact_stress{not_given};   ///< statistic of the peak contact stress of `design` [MPa]
+  double te{not_given};               ///< of the transmission error, peak to peak [um]
+};
+
+/// [optimise.scatter], run.
+struct ScatterResult {
+  ScatterDesign design;
+  double search_seconds{not_given};  ///< of the search without scatter, over the listed scenes, that came before
+  std::vector<double> without;       ///< variables of the design without scatter [mm; parabolic_te 1/rad]
+  double without_value{not_given};   ///< its statistic over the draws
+  std::vector<DesignScene> draws;
+  std::vector<FreshDesign> fresh;  ///< "before", "without scatter", "after"; empty: not asked for
+  std::vector<ClassDesign> classes;
+  double fresh_seconds{not_given}, classes_seconds{not_given};
+
+  /// Statistic of `after` over the fresh draws beside that of the search, relative [-]; NaN without fresh draws.
+  double prediction_error() const { return fresh.empty() ? not_given : design.value / fresh.back().statistic - 1.0; }
+};
+
+/// Load cases of drawn scenes, as StudyRun::loaded().
+using LoadCases = std::function<std::vector<DesignScene>(const std::vector<Scene>&)>;
+
+/// Searches over draws from the design that the listed scenes gave.
+/// @param task   of the listed scenes
+/// @param found  its result
+ScatterResult run_scatter(const Study& study, const DesignTask& task, const DesignResult& found, const LoadCases& load_cases,
+                          const ProgressReport& progress);
+
+}  // namespace flankwright::studies

@@ -1,0 +1,161 @@
+#include "studies/tasks/optimise/scatter_json.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/base/plain_names.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+Json variables_of(const std::vector<double>& values, const DesignTask& task) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < task.variables.size(); ++i) json[task.variables[i].path] = values[i] * task.variables[i].outside_factor();
+  return json;
+}
+
+std::vector<double> unscaled(const ScatterDesign& design, const DesignTask& task) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i < task.variables.size(); ++i) values.push_back(task.variables[i].unscaled(design.x[static_cast<Eigen::Index>(i)]));
+  return values;
+}
+
+Json search_json(const ScatterDesign& design, const DesignTask& task) {
+  Json json{{"status", to_string(design.status)},
+            {"message", design.message},
+            {"variables", variables_of(unscaled(design, task), task)},
+            {"value", design.value},
+            {"start_value", design.start_value},
+            {"turns", design.turns},
+            {"draws_searched", design.searched},
+            {"cycles", design.cycles},
+            {"seconds", design.seconds}};
+  if (!std::isnan(design.exact_value)) json["exact_value"] = design.exact_value;
+  return json;
+}
+
+Json fresh_json(const FreshDesign& fresh) {
+  const Spread spread = spread_of(fresh.design.measures);
+  return {{"name", fresh.design.name}, {"statistic", fresh.statistic}, {"mean", spread.mean},    {"deviation", spread.deviation},
+          {"least", spread.least},     {"greatest", spread.greatest},  {"failed", spread.failed}};
+}
+
+/// Draws that the statistic hangs on, largest weight first.
+Json deciding_json(const ScatterResult& result) {
+  constexpr std::size_t most_shown = 40;
+  std::vector<std::size_t> order;
+  for (std::size_t s = 0; s < result.design.weights.size(); ++s) {
+    if (result.design.weights[s] != 0.0) order.push_back(s);
+  }
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return result.design.weights[a] > result.design.weights[b]; });
+  if (order.size() > most_shown) order.resize(most_shown);
+  return list(order, [&](std::size_t s) -> Json {
+    return {{"draw", result.draws[s].name},
+            {"torque_Nm", in_Nm(result.draws[s].torque)},
+            {"weight", result.design.weights[s]},
+            {"value", result.design.measures[s]}};
+  });
+}
+
+}  // namespace
+
+std::string statistic_in_words(const Aggregation& statistic) {
+  if (statistic == Aggregate::Quantile) return fmt::format("{:g} % quantile", percent * statistic.level);
+  if (statistic == Aggregate::Cvar) return fmt::format("mean of the worst {:g} %", percent * (1.0 - statistic.level));
+  return fmt::format("mean + {:g} sigma", statistic.sigmas);
+}
+
+Json scatter_json(const ScatterResult& result, const DesignTask& task, const Study& study) {
+  const ScatterTable& asked = study.optimise.scatter;
+  Json json{{"statistic", to_string(asked.statistic)},
+            {"statistic_in_words", statistic_in_words(asked.statistic)},
+            {"objective_name", task.objective_name()},
+            {"unit", task.objective_unit()},
+            {"draws", asked.draws},
+            {"seed", asked.seed},
+            {"tolerances", list(study.optimise.assessment.tolerances, [](const SceneTolerance& t) -> Json {
+               return {{"name", t.path}, {"distribution", t.in_words}, {"added", t.added}};
+             })}};
+  if (asked.iso_1328_class) json["iso_1328_class"] = *asked.iso_1328_class;
+  json.update(search_json(result.design, task));
+  json["without_scatter"] = {{"variables", variables_of(result.without, task)}, {"value", result.without_value}, {"seconds", result.search_seconds}};
+  json["deciding"] = deciding_json(result);
+  json["constraints"] = Json::array();
+  for (std::size_t c = 0; c < result.design.bounds.size(); ++c) {
+    const ObjectiveTerm& output = task.constraints[c].output;
+    json["constraints"].push_back({{"name", output.name},
+                                   {"unit", output.unit()},
+                                   {"value", result.design.bounds[c]},
+                                   {"max", task.constraints[c].maximum * output.outside_factor()}});
+  }
+  if (!result.fresh.empty()) {
+    json["fresh"] = {{"draws", asked.fresh},
+                     {"seed", asked.fresh_seed},
+                     {"prediction_error_percent", percent * result.prediction_error()},
+                     {"seconds", result.fresh_seconds},
+                     {"designs", list(result.fresh, fresh_json)}};
+  }
+  if (!result.classes.empty()) {
+    json["classes"] = list(result.classes, [&](const ClassDesign& c) -> Json {
+      Json row{{"iso_1328_class", c.tolerance_class},
+               {"peak_contact_stress_MPa", c.contact_stress},
+               {"te_peak_to_peak_um", c.te},
+               {"without_scatter_value", c.without_scatter}};
+      row.update(search_json(c.design, task));
+      return row;
+    });
+    json["classes_seconds"] = result.classes_seconds;
+  }
+  return json;
+}
+
+std::vector<NamedText> scatter_tables(const ScatterResult& result, const DesignTask& task) {
+  std::vector<NamedText> tables;
+  if (!result.classes.empty()) {
+    std::string csv = "iso_1328_class,objective,objective_without_scatter,peak_contact_stress_MPa,te_peak_to_peak_um";
+    for (const DesignVariable& v : task.variables) csv += fmt::format(",{} [{}]", v.path, v.unit());
+    csv += "\n";
+    for (const ClassDesign& c : result.classes) {
+      csv += fmt::format("{},{},{},{},{}", c.tolerance_class, c.design.value, c.without_scatter, c.contact_stress, c.te);
+      const std::vector<double> values = unscaled(c.design, task);
+      for (std::size_t i = 0; i < values.size(); ++i) csv += fmt::format(",{}", values[i] * task.variables[i].outside_factor());
+      csv += "\n";
+    }
+    tables.push_back({"classes.csv", csv});
+  }
+  if (!result.fresh.empty()) {
+    std::string csv = "draw";
+    for (const FreshDesign& d : result.fresh) csv += "," + d.design.name;
+    csv += "\n";
+    for (std::size_t s = 0; s < result.fresh.front().design.measures.size(); ++s) {
+      csv += std::to_string(s + 1);
+      for (const FreshDesign& d : result.fresh) csv += fmt::format(",{}", d.design.measures[s]);
+      csv += "\n";
+    }
+    tables.push_back({"scatter.csv", csv});
+  }
+  return tables;
+}
+
+std::string scatter_summary(const ScatterResult& result, const DesignTask& task, const Study& study) {
+  const ScatterTable& asked = study.optimise.scatter;
+  const std::string statistic = statistic_in_words(asked.statistic), unit = task.objective_unit();
+  std::string out = fmt::format("\n{} over {} draws: {:.5g} {} without scatter in the search, {:.5g} {} with it ({:+.1f} %); {} in {:.1f} s\n",
+                                statistic, asked.draws, result.without_value, unit, result.design.value, unit,
+                                percent * (result.design.value / result.without_value - 1.0), to_string(result.design.status), result.design.seconds);
+  if (!result.fresh.empty()) {
+    out += fmt::format("over {} fresh draws: {:.5g} {} before, {:.5g} without scatter, {:.5g} after; predicted within {:.1f} %\n", asked.fresh,
+                       result.fresh[0].statistic, unit, result.fresh[1].statistic, result.fresh[2].statistic,
+                       percent * std::abs(result.prediction_error()));
+  }
+  for (const ClassDesign& c : result.classes) {
+    out += fmt::format("class {:>2}: {:.5g} {}, peak contact stress {:.5g} MPa, transmission error {:.3g} um\n", c.tolerance_class, c.design.value,
+                       unit, c.contact_stress, c.te);
+  }
+  return out;
+}
+
+}  // namespace flankwright::studies

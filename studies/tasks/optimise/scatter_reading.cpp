@@ -1,0 +1,120 @@
+#include "studies/tasks/optimise/scatter_reading.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "core/gear/flank_tolerances.hpp"
+#include "optimize/sampling/sobol_sequence.hpp"
+#include "optimize/solvers/solver.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+constexpr const char* scatter_name = "optimise.scatter";
+
+SceneTolerance within(const std::string& path, double tolerance, int tolerance_class, bool added) {
+  const double um = tolerance / units::um;
+  SceneTolerance made{path,
+                      fmt::format("ISO 1328-1 class {}: normal, mean 0, deviation {:.4g}, cut off at \u00b1{:.4g}", tolerance_class, um / 3.0, um),
+                      Distribution::within_tolerance(um),
+                      added,
+                      {}};
+  made.of_class = true;
+  return made;
+}
+
+void check_statistic(StudyReading& reading) {
+  const std::string names[]{"quantile", "cvar", "mean_plus_sigma"};
+  int given = 0;
+  for (const std::string& name : names) {
+    const std::string path = std::string(scatter_name) + ".statistic." + name;
+    if (reading.find(path) != nullptr && ++given > 1) reading.refuse_key(path, "another statistic is given as well: allowed is one of them");
+  }
+}
+
+void check_task(StudyReading& reading) {
+  const OptimiseTable& optimise = reading.builder.study.optimise;
+  const auto refuse = [&](const std::string& path, const char* allowed) { reading.refuse_key(path, allowed); };
+  if (!optimise.later_objectives.empty()) refuse("optimise.objective", "one objective with optimise.scatter, no list");
+  if (!optimise.pareto_objectives.empty()) refuse("optimise.pareto.objectives", "none with optimise.scatter");
+  if (std::ranges::any_of(optimise.constraints, &OutputConstraint::is_least)) {
+    refuse("optimise.constraints", "with optimise.scatter a constraint on an output bounds the statistic: allowed is { max = ... }");
+  }
+  if (!uses_gradients(optimise.solver) || !accepts_constraints(optimise.solver)) {
+    refuse("optimise.solver",
+           "optimise.scatter needs gradients and constraints: allowed is \"ipopt\", \"nlopt:slsqp\", \"nlopt:mma\" or \"nlopt:ccsaq\"");
+  }
+  if (optimise.scatter.fresh > 0 && optimise.scatter.fresh_seed == optimise.scatter.seed) {
+    refuse("optimise.scatter.fresh_seed", "that of the search makes the same draws: allowed is another than optimise.scatter.seed");
+  }
+}
+
+}  // namespace
+
+std::vector<SceneTolerance> class_tolerances(const GearPair& pair, int tolerance_class) {
+  std::vector<SceneTolerance> all;
+  for (const Member member : {Member::Pinion, Member::Wheel}) {
+    const ToleranceData data = ToleranceData::of(pair, member);
+    const FlankTolerances t = flank_tolerances(data, tolerance_class);
+    const std::string gear(name_of(member));
+    all.push_back(within(gear + ".error.helix_slope", t.helix_slope, tolerance_class, false));
+    all.push_back(within(gear + ".error.profile_slope", t.profile_slope, tolerance_class, false));
+    all.push_back({gear + ".error.pitch",
+                   fmt::format("ISO 1328-1 class {}: a gear drawn tooth by tooth, single pitch within \u00b1{:.4g} um, cumulative within {:.4g} um",
+                               tolerance_class, t.single_pitch / units::um, t.cumulative_pitch / units::um),
+                   Distribution::uniform(0.0, 0x1p32), false, PitchTolerance{data.teeth, t.single_pitch, t.cumulative_pitch}});
+    all.back().of_class = true;
+    all.push_back(within(gear + ".modification.lead_crowning", t.helix_form, tolerance_class, true));
+    all.push_back(within(gear + ".modification.profile_crowning", t.profile_form, tolerance_class, true));
+  }
+  return all;
+}
+
+std::vector<SceneTolerance> with_class(const std::vector<SceneTolerance>& tolerances, const GearPair& pair, int tolerance_class) {
+  std::vector<SceneTolerance> all;
+  std::ranges::copy_if(tolerances, std::back_inserter(all), [](const SceneTolerance& t) { return !t.of_class; });
+  for (SceneTolerance& t : class_tolerances(pair, tolerance_class)) {
+    if (std::ranges::find(all, t.path, &SceneTolerance::path) == all.end()) all.push_back(std::move(t));
+  }
+  std::ranges::stable_partition(all, [](const SceneTolerance& t) { return !t.added; });
+  return all;
+}
+
+void read_scatter(StudyReading& reading) {
+  OptimiseTable& optimise = reading.builder.study.optimise;
+  ScatterTable& scatter = optimise.scatter;
+  check_statistic(reading);
+  if (!scatter.asked()) {
+    for (const char* key : {"iso_1328_class", "classes", "fresh"}) {
+      const std::string path = std::string(scatter_name) + "." + key;
+      if (reading.find(path) != nullptr) reading.refuse_key(path, "has a meaning with optimise.scatter.draws above 0 only");
+    }
+    return;
+  }
+  check_task(reading);
+  const PairData& data = reading.builder.study.pair;
+  if (!reading.problems.empty() || !find_problems(data).empty()) return;
+  const GearPair pair = make_gear_pair(data);
+  std::vector<int> classes = scatter.classes;
+  if (scatter.iso_1328_class) classes.insert(classes.begin(), *scatter.iso_1328_class);
+  try {
+    for (const int c : classes) class_tolerances(pair, c);
+    if (scatter.iso_1328_class) optimise.assessment.tolerances = with_class(optimise.assessment.tolerances, pair, *scatter.iso_1328_class);
+  } catch (const InvalidInput& problem) {
+    return reading.refuse_key("optimise.scatter.iso_1328_class",
+                              "a gear that ISO 1328-1 covers: " + problem.field() + " is " + problem.value() + ", covered is " + problem.allowed());
+  }
+  if (optimise.assessment.tolerances.empty()) {
+    reading.refuse_key("optimise.scatter.draws", "set optimise.tolerances or optimise.scatter.iso_1328_class: the draws are made from them");
+  }
+  constexpr int of_class = 10;  // coordinates that a class adds at most
+  if (static_cast<int>(optimise.assessment.tolerances.size()) + (scatter.classes.empty() ? 0 : of_class) > sobol_dimensions) {
+    reading.refuse_key(scatter_name, "at most " + std::to_string(sobol_dimensions) + " quantities that scatter");
+  }
+}
+
+}  // namespace flankwright::studies

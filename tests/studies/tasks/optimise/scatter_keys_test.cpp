@@ -1,0 +1,89 @@
+#include <catch2/catch.hpp>
+
+#include "core/gear/flank_tolerances.hpp"
+#include "studies/study_file/study_file.hpp"
+#include "studies/tasks/optimise/drawn_scenes.hpp"
+#include "studies/tasks/optimise/scatter_reading.hpp"
+#include "tests/studies/study_texts.hpp"
+
+namespace flankwright::studies {
+namespace {
+
+using Catch::Contains;
+using study_texts::problem_of;
+using study_texts::read;
+
+TEST_CASE("A class of the scatter adds the tolerances that a study does not give itself", "[studies][scatter]") {
+  const Study study = read(R"(
+[optimise.tolerances]
+"pinion.error.helix_slope" = { normal = [0, 2] }
+[optimise.scatter]
+draws = 16
+iso_1328_class = 6
+statistic = { cvar = 0.8 }
+)");
+  CHECK(study.optimise.scatter.statistic == Aggregate::Cvar);
+  CHECK(study.optimise.scatter.statistic.level == 0.8);
+  const auto& tolerances = study.optimise.assessment.tolerances;
+  CHECK(tolerances.size() == 10);  // two slopes, pitch, two forms of each gear
+  CHECK(std::ranges::count(tolerances, std::string("pinion.error.helix_slope"), &SceneTolerance::path) == 1);
+  const GearPair pair = make_gear_pair(study.pair);
+  const auto finer = with_class(tolerances, pair, 4);
+  CHECK(finer.size() == 10);
+  const FlankTolerances wheel = flank_tolerances(ToleranceData::of(pair, Member::Wheel), 4);
+  for (const SceneTolerance& t : finer) {
+    if (t.path == "pinion.error.helix_slope") CHECK(t.distribution == Distribution::normal(0.0, 2.0));
+    if (t.path == "wheel.modification.lead_crowning") CHECK(t.distribution == Distribution::within_tolerance(wheel.helix_form / units::um));
+  }
+}
+
+TEST_CASE("A drawn gear deviates from its design, and the same seed draws the same gear", "[studies][scatter]") {
+  const Study study = read("[optimise.scatter]\ndraws = 4\niso_1328_class = 7\n");
+  const std::vector<Scene> once = draw_scenes(study, {.samples = 4, .seed = 3}), again = draw_scenes(study, {.samples = 4, .seed = 3});
+  const std::vector<Scene> other = draw_scenes(study, {.samples = 4, .seed = 4});
+  REQUIRE(once.size() == 4);
+  for (std::size_t i = 0; i < 4; ++i) {
+    REQUIRE(once[i].deviations.size() == 4);  // two crownings of each gear
+    for (std::size_t d = 0; d < 4; ++d) {
+      CHECK(once[i].deviations[d].value == again[i].deviations[d].value);
+      CHECK(once[i].deviations[d].value != other[i].deviations[d].value);
+    }
+    CHECK(once[i].error == again[i].error);
+  }
+}
+
+TEST_CASE("What scatter has no meaning with is refused", "[studies][scatter]") {
+  CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\n").allowed, Contains("set optimise.tolerances or optimise.scatter.iso_1328_class"));
+  CHECK_THAT(problem_of("[optimise.scatter]\niso_1328_class = 6\n").allowed, Contains("draws above 0"));
+  CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\niso_1328_class = 6\nstatistic = { cvar = 0.9, quantile = 0.9 }\n").allowed,
+             Contains("another statistic"));
+  CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\niso_1328_class = 6\nfresh = 10\nfresh_seed = 1\n").allowed, Contains("same draws"));
+}
+
+TEST_CASE("Limits of the grinding become named constraints", "[studies][grinding]") {
+  const Study study = read(R"(
+[pinion.modification]
+tip_relief = { amount = 0, height = 1 }
+[optimise.grinding]
+largest_amount = 30
+steepest_relief = 12
+[optimise.variables]
+"pinion.modification.lead_slope" = [-40, 40]
+"pinion.modification.tip_relief.amount" = [0, 60]
+)");
+  const auto& limits = study.optimise.modification_constraints;
+  REQUIRE(limits.size() == 3);
+  CHECK(limits[0].maximum == Approx(30.0 * units::um));
+  CHECK(limits[0].minimum == Approx(-30.0 * units::um));  // a slope has either sign
+  CHECK(limits[2].name == "steepest pinion tip relief");
+  // 12 um over 1 mm is at the limit, 13 um beyond it.
+  PerGear<Modification> m = study.modification;
+  set(m.pinion, parameter_of("tip_relief.amount"), 12.0 * units::um);
+  constexpr double round_off = 1e-15;  // mm
+  CHECK(limits[2].value(m) == Approx(limits[2].maximum).margin(round_off));
+  set(m.pinion, parameter_of("tip_relief.amount"), 13.0 * units::um);
+  CHECK(limits[2].value(m) == Approx(units::um).epsilon(1e-12));
+}
+
+}  // namespace
+}  // namespace flankwright::studies
