@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "optimize/design/design_output.hpp"
+#include "optimize/design/output_row.hpp"
 
 namespace flankwright {
 

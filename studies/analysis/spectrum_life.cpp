@@ -8,7 +8,6 @@
 
 #include "core/rating/film_thickness.hpp"
 #include "core/rating/sliding_loss.hpp"
-#include "studies/analysis/study_results.hpp"
 #include "studies/study_file/study_life.hpp"
 
 namespace flankwright::studies {

@@ -1,65 +1,10 @@
 #pragma once
 
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "core/rating/iso_stress_numbers.hpp"
-#include "core/rating/life_model.hpp"
+#include "studies/analysis/study_results.hpp"
 
 namespace flankwright::studies {
-
-struct StudyResults;
-
-/// Loss, film, safety and damage of one load case. NaN: not asked for, or what it needs was not given.
-struct CaseLife {
-  std::size_t loaded{0};                  ///< index into StudyResults::loaded
-  double loss_factor{not_given};          ///< H_VL from the local loads [-]
-  double friction{not_given};             ///< mu_mz by Schlenk [-]
-  double power{not_given};                ///< transmitted [W]
-  double loss_power{not_given};           ///< [W]
-  double bulk_temperature{not_given};     ///< of the teeth, of the film [deg C]
-  double film{not_given};                 ///< least lambda_GF [-]
-  double micropitting_safety{not_given};  ///< film over the permissible one [-]
-  PerGear<double> contact_safety{not_given,
-                                 not_given};  ///< stress that is borne for the case's load cycles, or for ever, over the peak contact stress [-]
-  PerGear<double> root_safety{not_given, not_given};  ///< likewise of the largest root stress [-]
-  IsoStressNumbers iso{};
-  bool K_from_contact{false};  ///< load factors of the loaded contact, without spikes; else those of ISO 6336-1, method C
-  double K_H{not_given}, K_F{not_given};
-  PerGear<double> iso_contact{not_given, not_given}, iso_root{not_given, not_given};                ///< sigma_H, sigma_F [MPa]
-  PerGear<double> iso_contact_safety{not_given, not_given}, iso_root_safety{not_given, not_given};  ///< [-]
-  PerGear<double> contact_damage{not_given, not_given};  ///< of this case at the point where the spectrum damages the flank most [-]
-  PerGear<double> root_damage{not_given, not_given};     ///< likewise of the fillet [-]
-};
-
-/// The point of a gear that a spectrum damages most.
-struct DamagedPoint {
-  double damage{0.0};                      ///< sum over the spectrum [-]
-  double z{not_given}, radius{not_given};  ///< of a flank: on this gear [mm]
-  double along{not_given};                 ///< of a fillet: as RootStation::along [-]
-  bool exceeds_static_limit{false};        ///< a load case exceeds the static limit somewhere on the gear
-};
-
-/// The damage at one point of the flanks.
-struct FlankDamage {
-  double z, pinion_radius;                       ///< [mm]
-  PerGear<double> damage{not_given, not_given};  ///< [-]
-};
-
-/// A load spectrum in one scene, for one design.
-struct SpectrumLife {
-  std::string scene, design;
-  std::vector<std::size_t> cases;  ///< indices into StudyLife::cases
-  PerGear<std::optional<DamagedPoint>> contact, root;
-  std::vector<FlankDamage> map;  ///< of all contact points; empty without a curve of the flanks
-};
-
-struct StudyLife {
-  double ohlendorf{not_given};  ///< H_V [-]
-  std::vector<CaseLife> cases;  ///< one for each of the results' loaded entries that is usable
-  std::vector<SpectrumLife> spectra;
-};
 
 /// Of all load cases of the results; nothing where the study does not ask for it. Stresses are those at the mesh positions.
 std::optional<StudyLife> study_life(const StudyResults& results);

@@ -21,7 +21,7 @@
 #include "core/compliance/shaft/shaft_pair.hpp"
 #include "core/compliance/model/gear_structures.hpp"
 #include "studies/analysis/load_rating.hpp"
-#include "studies/analysis/spectrum_life.hpp"
+#include "studies/analysis/life_result.hpp"
 #include "studies/study/study.hpp"
 #include "studies/analysis/unloaded_result.hpp"
 

@@ -11,6 +11,7 @@
 #include "studies/analysis/refine_resolution.hpp"
 #include "studies/analysis/requirements.hpp"
 #include "studies/analysis/study_effect_sizes.hpp"
+#include "studies/analysis/spectrum_life.hpp"
 #include "studies/analysis/study_effects.hpp"
 #include "studies/analysis/study_notes.hpp"
 #include "studies/compliance/study_compliance.hpp"

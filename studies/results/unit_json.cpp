@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "studies/results/shafts_json.hpp"
+#include "studies/results/shaft_json.hpp"
 
 namespace flankwright::studies {
 

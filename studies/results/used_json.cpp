@@ -5,7 +5,7 @@
 
 #include "studies/results/bodies_json.hpp"
 #include "studies/results/compliance_json.hpp"
-#include "studies/results/shafts_json.hpp"
+#include "studies/results/shaft_json.hpp"
 #include "studies/results/unit_json.hpp"
 
 namespace flankwright::studies {

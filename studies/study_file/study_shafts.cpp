@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/compliance/shaft/unit_checks.hpp"
 #include "core/compliance/shaft/unit_statics.hpp"
 
 namespace flankwright::studies {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/compliance/finite_element/section_mesh.hpp"
+#include "core/compliance/finite_element/section.hpp"
 
 namespace flankwright {
 

@@ -1,4 +1,5 @@
 #include "core/compliance/shaft/shaft_pair.hpp"
+#include "core/compliance/shaft/unit_checks.hpp"
 
 #include <algorithm>
 #include <cassert>

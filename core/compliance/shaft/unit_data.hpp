@@ -98,10 +98,6 @@ struct ShaftsOfPair {
   bool depends_on_load() const;
 };
 
-/// Everything in the data that cannot be: what find_problems() says of a shaft; gears, loads and bearings on no shaft or outside it; shafts that can
-/// move as rigid bodies; torques that do not balance; axes that do not meet. Fields are keys of a study, "unit.meshes.0.shaft_1".
-std::vector<InvalidInput> find_problems(const ShaftsOfPair& shafts, const GearPair& pair);
-
 /// Where the shafts' axes are, x and y from that of the pinion [mm], by the meshes and joints between them; NaN of those that nothing joins.
 std::vector<Eigen::Vector2d> axes_of(const ShaftsOfPair& shafts, const GearPair& pair);
 

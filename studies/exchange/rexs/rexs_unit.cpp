@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "core/compliance/shaft/unit_checks.hpp"
 #include "core/base/units.hpp"
 
 namespace flankwright::studies::rexs {

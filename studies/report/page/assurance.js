@@ -59,9 +59,20 @@ function rule_fact(optimise) {
   const none = record(optimise.comparison).no_rule;
   if (typeof none === "string") return ["Best rule of thumb", el("span", { title: none }, "none keeps the constraints"), null];
   if (!is_number(best.objective) || !is_number(after)) return null;
+  const value = `${fmt(best.objective, 3)} ${pretty_unit(optimise.objective_unit)}`;
+  if (optimise.scatter) return ["Best rule of thumb", el("span", { title: best.name }, `${value} over the listed scenes`)];
   const times = best.objective / after, percent = 100 * (times - 1);
   const beside = times > 3 ? `${fmt(times, 2)} times as much` : `${fmt(Math.abs(percent), 2)} % ${percent < 0 ? "less" : "more"}`;
-  return ["Best rule of thumb", el("span", { title: best.name }, `${fmt(best.objective, 3)} ${pretty_unit(optimise.objective_unit)}, ${beside}`), best.objective < after ? "bad" : null];
+  return ["Best rule of thumb", el("span", { title: best.name }, `${value}, ${beside}`), best.objective < after ? "bad" : null];
+}
+
+/** What drawn gears have of the design that was chosen over them. */
+function scatter_fact(optimise) {
+  const scatter = record(optimise.scatter), fresh = record(scatter.fresh);
+  const after = list(fresh.designs).map(record).find((design) => design.name === "after");
+  if (!is_number(scatter.value)) return null;
+  const said = `${scatter.statistic_in_words} ${fmt(scatter.value, 3)}`, unit = pretty_unit(scatter.unit);
+  return ["Drawn gears", after ? `${said}; fresh ones ${fmt(after.statistic, 3)} ${unit}` : `${said} ${unit}`];
 }
 
 function assurance_panel(plot, results) {
@@ -72,7 +83,7 @@ function assurance_panel(plot, results) {
   plot.append(facts([
     ...error_facts(optimise),
     is_number(seen) ? ["Seen by the search", `${fmt(seen, 4)} ${unit}`] : null,
-    rule_fact(optimise),
+    rule_fact(optimise), scatter_fact(optimise),
     ended ? ["Search", ...ended] : null,
     starts_fact(optimise),
     is_number(share) ? ["Fresh scenes", `better in ${fmt(100 * share, 3)} % of ${fmt(validation.samples, 7)}`, share > 0.95 ? "good" : share < 0.5 ? "bad" : null]

@@ -89,10 +89,13 @@ void read_scatter(StudyReading& reading) {
   ScatterTable& scatter = optimise.scatter;
   check_statistic(reading);
   if (!scatter.asked()) {
-    for (const char* key : {"iso_1328_class", "classes", "fresh"}) {
-      const std::string path = std::string(scatter_name) + "." + key;
-      if (reading.find(path) != nullptr) reading.refuse_key(path, "has a meaning with optimise.scatter.draws above 0 only");
+    const auto refuse_without_draws = [&](const char* key) {
+      reading.refuse_key(std::string(scatter_name) + "." + key, "has a meaning with optimise.scatter.draws above 0 only");
+    };
+    for (const char* key : {"iso_1328_class", "classes"}) {
+      if (reading.find(std::string(scatter_name) + "." + key) != nullptr) refuse_without_draws(key);
     }
+    if (scatter.fresh > 0) refuse_without_draws("fresh");
     return;
   }
   check_task(reading);
