@@ -4,7 +4,6 @@
 #include <array>
 #include <vector>
 
-#include "core/base/taken.hpp"
 #include "core/base/units.hpp"
 
 namespace flankwright {

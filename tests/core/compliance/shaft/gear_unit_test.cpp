@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/compliance/shaft/bearing_clearance.hpp"
+#include "core/compliance/shaft/unit_checks.hpp"
 #include "core/gear/gear_pair.hpp"
 
 using namespace flankwright;
