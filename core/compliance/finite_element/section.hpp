@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "core/base/units.hpp"
+#include "core/gear/gear_data.hpp"
 
 namespace flankwright {
 
