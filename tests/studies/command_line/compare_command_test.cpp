@@ -2,6 +2,7 @@
 
 #include "tests/studies/command_line.hpp"
 #include "tests/studies/small_studies.hpp"
+#include "tests/studies/study_texts.hpp"
 
 namespace flankwright::studies {
 
@@ -13,17 +14,7 @@ using command_line::text_of;
 
 namespace {
 
-constexpr const char* geometry_study = R"(task = "geometry"
-[pair]
-normal_module = 4
-helix_angle = 20
-[pinion]
-teeth = 20
-face_width = 40
-[wheel]
-teeth = 30
-face_width = 40
-)";
+const std::string geometry_study = "task = \"geometry\"\n" + study_texts::small_study;
 
 }  // namespace
 
@@ -56,7 +47,7 @@ TEST_CASE("A folder of studies runs with a line for each; a wrong one does not k
   const ScratchFolder folder;
   std::filesystem::create_directory(folder.path() / "gears");
   folder.file("gears/first.toml", geometry_study);
-  folder.file("gears/second.toml", std::string(geometry_study) + "[expect]\n\"geometry.pinion.teeth\" = { max = 10 }\n");
+  folder.file("gears/second.toml", geometry_study + "[expect]\n\"geometry.pinion.teeth\" = { max = 10 }\n");
   const Ending differing = run(folder, {"run", "gears", "--out", "r"});
   CHECK(differing.exit_code == 1);
   CHECK_THAT(differing.out, Contains("first") && Contains("done") && Contains("second") && Contains("not as expected"));
