@@ -153,10 +153,10 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
   for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
     const MeshPosition& at = other.model->positions[i];
     const LoadDistribution& solved = cycle.positions[i].load;
-    const Eigen::VectorXd gap = gap_under(at, gaps, cycle.force).total;
+    const Gap gap = gap_under(at, gaps, cycle.force);
     const Eigen::VectorXd most = cycle.force * at.weight.cwiseInverse();
-    const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(*other.model, at, other.condition, most);
-    const LoadProblem problem{at.influence, at.weight, gap, moved_edges.empty() ? at.laws : moved_edges, cycle.force};
+    const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(at, gap, most);
+    const LoadProblem problem{at.influence, at.weight, gap.total, moved_edges.empty() ? at.laws : moved_edges, cycle.force};
     const Eigen::VectorXd loads = carried(all.model->positions[i], solved.line_load, at);
     std::optional<Solution> found = at.points.empty() ? std::nullopt : first_order(problem, loads, solved.transmission_error, trust);
     ++result.positions;
@@ -170,7 +170,7 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
     for (const PointStress& stress : contact_stresses(*other.model, at, problem.laws, found->line_load)) {
       highest = std::max(highest, stress.highest.pressure);
     }
-    outputs.add(highest, found->transmission_error, gap.minCoeff());
+    outputs.add(highest, found->transmission_error, gap.total.minCoeff());
   }
   result.size.influence = EffectInfluence::between(with, outputs.outputs());
   result.size.seconds = clock.seconds();

@@ -9,6 +9,25 @@
 
 namespace flankwright {
 
+ToothDeviation::AlongProfile ToothDeviation::at(double radius, double z) const {
+  const double rb = flank_.base_radius;
+  AlongProfile along{-pitch_};
+  // f(u) with u du = r_b ds
+  const auto add = [&](const Jet& f, double u) {
+    along.value += f.value;
+    if (!(u > 0.0)) return;
+    const double by_arc = rb / u;
+    along.slope += f.u * by_arc;
+    along.curvature += (f.uu - f.u / u) * by_arc * by_arc;
+  };
+  add(formula_.at(radius, z), radius);
+  if (flank_.fields.empty() && measured_ == nullptr) return along;
+  const double roll = flank_.roll_at(radius);
+  for (const auto& field : flank_.fields) add(field->at(roll, z), roll);
+  if (measured_ != nullptr) add(measured_->at(roll, z), roll);
+  return along;
+}
+
 SurfacePoint surface_point(const Flank& flank, double rho, double z, int tooth, double rotation) {
   const Point3<Jet> p = flank_point(flank, Jet::variable_u(rho), Jet::variable_v(z), tooth, rotation);
   const auto gather = [&](double Jet::*part) { return Eigen::Vector3d(p.x.*part, p.y.*part, p.z.*part); };

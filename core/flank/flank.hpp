@@ -59,6 +59,30 @@ struct Flank {
   }
 };
 
+/// How the deviation of one tooth's flank runs along its profile; what is constant over the flank is computed once.
+class ToothDeviation {
+ public:
+  /// @param flank  must outlive this
+  ToothDeviation(const Flank& flank, int tooth)
+      : flank_(flank),
+        formula_(flank.modification, tooth_error(flank.error, tooth), flank.frame),
+        measured_(tooth_topography(flank.error, tooth)),
+        pitch_(pitch_deviation(flank.error, tooth)) {}
+
+  /// D with its first and second derivative by the arc length of the involute, towards the tip [mm, -, 1/mm].
+  struct AlongProfile {
+    double value{0.0}, slope{0.0}, curvature{0.0};
+  };
+  /// With s the arc, r dr = rho drho = r_b ds. At the base circle, where fields have no slope, theirs is left out.
+  AlongProfile at(double radius, double z) const;
+
+ private:
+  const Flank& flank_;
+  DeviationFormula formula_;
+  const DeviationField* measured_;
+  double pitch_;
+};
+
 /// A point of a flank or in space, Scalar double, Dual<N> or Jet [mm].
 template <class Scalar>
 struct Point3 {

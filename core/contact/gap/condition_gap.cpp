@@ -16,7 +16,7 @@ Gap ConditionGap::at(const std::vector<ContactPoint>& points, double line_phase)
 
 Eigen::VectorXd ConditionGap::derivative(const std::vector<ContactPoint>& points, const Gap& gap, Member member,
                                          ModificationParameter parameter) const {
-  return surfaces_ ? surfaces_->derivative(gap, member, parameter) : gap_derivative(pair_, points, condition_, member, parameter);
+  return surfaces_ ? surfaces_->derivative(points, gap, member, parameter) : gap_derivative(pair_, points, gap, condition_, member, parameter);
 }
 
 Eigen::VectorXd ConditionGap::derivative(const std::vector<ContactPoint>& points, MisalignmentParameter parameter) const {

@@ -6,7 +6,7 @@
 
 #include "core/contact/path/contact_points.hpp"
 #include "core/contact/assembly/flank_condition.hpp"
-#include "core/flank/flank.hpp"
+#include "core/contact/gap/flank_touch.hpp"
 
 namespace flankwright {
 
@@ -36,44 +36,22 @@ struct NearestPoint {
 struct Gap {
   Eigen::VectorXd total;                ///< g [mm]
   Eigen::VectorXd error;                ///< the part that is not clearance, sign of Haddad's delta_e: metal added is positive [mm]
+  std::vector<FlankTouch> touches{};    ///< of each point, in the plane of action or near the placed point
   std::vector<NearestPoint> nearest{};  ///< of each point; WholeSurface only
 };
 
 /// Gap of unloaded flanks at each contact point, normal to the flank, at the angle at which the undisturbed pair would touch [mm]:
 ///
-///     g = c_n + cos(beta_b) sum over both gears of D (see Flank) + misalignment
+///     g = c_n and cos(beta_b) times the sum over both gears of D, least over the section (see FlankTouchSearch) + misalignment
 ///
-/// Contact stays where the undisturbed flanks would touch (plane of action). Misalignment is the wheel's displacement
-/// along the pinion's outward normal, first order in the angles; a changed pinion helicoid (lead or pressure-angle error) enters by the
-/// exact angle between the changed and the nominal flank. Negative where metal is added or the wheel is pushed into the pinion.
+/// Misalignment is the wheel's displacement along the pinion's outward normal, first order in the angles; a changed pinion helicoid (lead or
+/// pressure-angle error) enters by the exact angle between the changed and the nominal flank. Both are those of the plane of action. Negative where metal
+/// is added or the wheel is pushed into the pinion.
 Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition);
 
 /// dg/dp at each point for one modification parameter of one gear [mm/mm; parabolic_te mm rad], exact.
-Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition, Member member,
-                               ModificationParameter parameter);
-
-/// How far the deviations of a condition move a point's tip edge away from the contact: with a slope h' of the gap along the flank, towards the edge,
-/// parabola and slope together touch at s = -R h', so that the edge is R h' further off. Relief that rises to the tip keeps contact from its edge.
-/// Between kinks of a deviation, to first order.
-class TipEdgeShift {
- public:
-  /// -h' of the steepest flank that is expected to close towards its edge [-]: 100 um in a mm.
-  static constexpr double steepest = 0.1;
-
-  /// @param pair  must outlive this
-  TipEdgeShift(const GearPair& pair, const FlankCondition& condition);
-  /// [mm]; 0 where the point has no edge
-  double at(const ContactPoint& point) const;
-
- private:
-  const GearPair& pair_;
-  Misalignment misalignment_;
-  PerGear<Flank> flanks_;
-};
-
-/// Its derivative for one modification parameter of one gear [mm/mm; parabolic_te mm rad]: the slope of the removal's derivative over the radius by a
-/// central difference, which is exact for removals up to its second power.
-Eigen::VectorXd tip_edge_shift_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition,
-                                          Member member, ModificationParameter parameter);
+/// @param gap  as plane_of_action_gap() gave it
+Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const Gap& gap, const FlankCondition& condition,
+                               Member member, ModificationParameter parameter);
 
 }  // namespace flankwright

@@ -62,18 +62,19 @@ Gap SurfaceGap::at(const std::vector<ContactPoint>& points, double line_phase) c
   const double phi1 = PathOfContact(pair_).pinion_angle_at(line_phase, pair_);
   const double scale = assembly_.wheel.base_radius * std::cos(pair_.base_helix_angle);
   const Eigen::Index n = static_cast<Eigen::Index>(points.size());
-  Gap gap{Eigen::VectorXd(n), Eigen::VectorXd(n)};
+  Gap gap{Eigen::VectorXd(n), Eigen::VectorXd(n), FlankTouchSearch(pair_, condition_).at(points)};
   gap.nearest.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Index k = static_cast<Eigen::Index>(i);
-    gap.total[k] = scale * (assembly_.speed_ratio() * phi1 - found[i].phi2) - points[i].tip_edge.rounded_off;
+    gap.total[k] = scale * (assembly_.speed_ratio() * phi1 - found[i].phi2) - gap.touches[i].rounded_off;
     gap.error[k] = points[i].clearance - gap.total[k];
     gap.nearest.push_back(nearest_point(found[i], points[i].tooth));
   }
   return gap;
 }
 
-Eigen::VectorXd SurfaceGap::derivative(const Gap& gap, Member member, ModificationParameter parameter) const {
+Eigen::VectorXd SurfaceGap::derivative(const std::vector<ContactPoint>& points, const Gap& gap, Member member,
+                                       ModificationParameter parameter) const {
   const Flank& flank = assembly_[member];
   const bool of_parabola = parameter == parameter_of("parabolic_te");  // a field of the roll length, see Flank
   const auto& parabola = parabola_[static_cast<std::size_t>(member)];
@@ -85,7 +86,9 @@ Eigen::VectorXd SurfaceGap::derivative(const Gap& gap, Member member, Modificati
     return removed.at(of_roll ? std::hypot(flank.frame.base_radius, roll) : radius, z);
   };
   Eigen::VectorXd derivative = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(gap.nearest.size()));
+  const TouchDerivative touches(pair_, condition_, member, parameter);
   for (std::size_t i = 0; i < gap.nearest.size(); ++i) {
+    derivative[static_cast<Eigen::Index>(i)] = touches.of_rounding(points[i], gap.touches[i]);
     for (const NearestPoint::Side& side : gap.nearest[i].sides) {
       if (side.share == 0.0) continue;
       derivative[static_cast<Eigen::Index>(i)] +=

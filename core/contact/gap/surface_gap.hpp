@@ -43,7 +43,7 @@ class SurfaceGap {
   /// with the contribution of that bound, on a kink the mean of both sides that holds the maximum. Of two equally near
   /// points it is that of the one found.
   /// @param gap  as at() gave it
-  Eigen::VectorXd derivative(const Gap& gap, Member member, ModificationParameter parameter) const;
+  Eigen::VectorXd derivative(const std::vector<ContactPoint>& points, const Gap& gap, Member member, ModificationParameter parameter) const;
 
   /// The points, each moved along its section to where the flanks are nearest, radii, curvature, depths and tip
   /// distances with it; without those whose section misses the mate. Clearances outside A .. E become those of the

@@ -1,33 +1,28 @@
 #include "core/load/cycle/contact_stress.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flankwright {
 
-std::vector<ContactLaw> laws_with_moved_edges(const MeshPosition& at, const TipEdgeShift& shift, const Eigen::VectorXd& most) {
+std::vector<ContactLaw> laws_with_moved_edges(const MeshPosition& at, const Gap& gap, const Eigen::VectorXd& most) {
   std::vector<ContactLaw> laws;
   for (std::size_t i = 0; i < at.laws.size(); ++i) {
     const ContactLaw& law = at.laws[i];
-    const ContactPoint& point = at.points[i];
     const double load = most[static_cast<Eigen::Index>(i)];
     if (!law.edge() || !(load > 0.0)) continue;
-    const double reach = law.half_width(load) + TipEdgeShift::steepest * point.relative_radius;
-    if (law.edge()->distance >= reach) continue;
+    const double further = edge_moved_by(at.points[i], gap.touches[i]);
+    if (further == 0.0 || law.edge()->distance + std::min(0.0, further) >= law.half_width(load)) continue;
     if (laws.empty()) laws = at.laws;
-    laws[i] = law.with_edge_moved(shift.at(point));
+    laws[i] = law.with_edge_moved(further);
   }
   return laws;
-}
-
-std::vector<ContactLaw> laws_with_moved_edges(const MeshModel& model, const MeshPosition& at, const FlankCondition& condition,
-                                              const Eigen::VectorXd& most) {
-  return has_rounded_tips(model.pair) ? laws_with_moved_edges(at, TipEdgeShift(model.pair, condition), most) : std::vector<ContactLaw>();
 }
 
 std::optional<ContactLaw> contact_law_in(const MeshModel& model, const ContactPoint& point, const FlankCondition& condition) {
   const std::optional<ContactLaw> law = model.contact_law(point);
   if (!law || !law->edge()) return law;
-  return law->with_edge_moved(TipEdgeShift(model.pair, condition).at(point));
+  return law->with_edge_moved(edge_moved_by(point, FlankTouchSearch(model.pair, condition).at(point)));
 }
 
 StripContact::Peaks contact_stress(const MeshModel& model, const ContactPoint& point, const ContactLaw* law, double line_load) {

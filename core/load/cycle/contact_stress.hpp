@@ -10,15 +10,10 @@
 
 namespace flankwright {
 
-inline bool has_rounded_tips(const GearPair& pair) { return pair.pinion.tip_edge_radius > 0.0 || pair.wheel.tip_edge_radius > 0.0; }
-
-/// The contact laws of a position in a condition: deviations move tip edges, see TipEdgeShift. Edges that no load within these bounds reaches stay
-/// where they are; empty where all do: then the laws of the position hold.
+/// The contact laws of a position in a condition: deviations move the contact against tip edges, see edge_moved_by(). Edges that no load within these
+/// bounds reaches stay where they are; empty where all do: then the laws of the position hold.
 /// @param most  bounds of the line loads of all points [N/mm]
-std::vector<ContactLaw> laws_with_moved_edges(const MeshPosition& at, const TipEdgeShift& shift, const Eigen::VectorXd& most);
-/// The same of one position alone.
-std::vector<ContactLaw> laws_with_moved_edges(const MeshModel& model, const MeshPosition& at, const FlankCondition& condition,
-                                              const Eigen::VectorXd& most);
+std::vector<ContactLaw> laws_with_moved_edges(const MeshPosition& at, const Gap& gap, const Eigen::VectorXd& most);
 
 /// MeshModel::contact_law() in a condition.
 std::optional<ContactLaw> contact_law_in(const MeshModel& model, const ContactPoint& point, const FlankCondition& condition);

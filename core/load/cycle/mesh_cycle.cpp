@@ -141,8 +141,6 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
   cycle.positions.resize(model.positions.size());
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
   const ConditionGap gaps(model.pair, model.placement.gap, condition);
-  std::optional<TipEdgeShift> edge_shift;
-  if (has_rounded_tips(model.pair)) edge_shift.emplace(model.pair, condition);
   const std::vector<Eigen::Index> moving = moving_among(model.placement.gap, parameters);
   std::deque<MeshSlopes> slopes_of;  // of each of them
   cycle.face_width_change = cycle.line_length_change = Eigen::RowVectorXd::Zero(std::ssize(parameters));
@@ -164,11 +162,11 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     const auto problem_of = [&]() -> LoadProblemView {
       return {at.influence, at.weight, position.gap.total, moved_edges.empty() ? at.laws : moved_edges, cycle.force};
     };
-    const bool has_edges = edge_shift && !at.points.empty();
-    if (has_edges) moved_edges = laws_with_moved_edges(at, *edge_shift, load_bounds(at, position.gap, cycle.force, likely_approach));
+    const bool has_edges = std::ranges::any_of(at.laws, [](const ContactLaw& law) { return law.edge().has_value(); });
+    if (has_edges) moved_edges = laws_with_moved_edges(at, position.gap, load_bounds(at, position.gap, cycle.force, likely_approach));
     position.load = solver.solve(problem_of(), options, start);
     if (has_edges && position.load.usable() && carries_beyond(position, likely_approach)) {
-      moved_edges = laws_with_moved_edges(at, *edge_shift, load_bounds(at, position.gap, cycle.force, unlimited));
+      moved_edges = laws_with_moved_edges(at, position.gap, load_bounds(at, position.gap, cycle.force, unlimited));
       position.load = solver.solve(problem_of(), options, start);
     }
     const LoadProblemView problem = problem_of();

@@ -19,11 +19,11 @@ struct HeldLoads {
 };
 
 /// @param load  of all points
-HeldLoads held_loads(const MeshModel& model, const MeshPosition& at, const FlankCondition& condition, const Gap& gap, const Eigen::VectorXd& load) {
+HeldLoads held_loads(const MeshModel& model, const MeshPosition& at, const Gap& gap, const Eigen::VectorXd& load) {
   const Eigen::VectorXd forces = at.weight.cwiseProduct(load);
   HeldLoads held{gap.total, at.influence * forces, Eigen::VectorXd(load.size()), Eigen::VectorXd(load.size()), {}, forces.sum()};
   if (!at.root_stress.stations.empty()) held.root_components = at.root_stress.components(forces);
-  const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(model, at, condition, load);
+  const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(at, gap, load);
   const std::vector<ContactLaw>& laws = moved_edges.empty() ? at.laws : moved_edges;
   const std::vector<PointStress> stresses = contact_stresses(model, at, laws, load);
   for (Eigen::Index i = 0; i < load.size(); ++i) {
@@ -117,7 +117,6 @@ MeshSlopes::Perturbed::Perturbed(const MeshModel& mesh, MisalignmentParameter pa
 
 MeshSlopes::MeshSlopes(const MeshModel& model, const FlankCondition& condition, MisalignmentParameter parameter)
     : model_(model),
-      condition_(condition),
       perturbed_(perturbed_meshes(model, parameter)),
       one_(perturbed_.meshes[0], parameter, condition),
       two_(perturbed_.meshes[1], parameter, condition) {}
@@ -138,12 +137,11 @@ MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load, con
   const double force = model_.positions[position].weight.dot(load.line_load);
   const auto perturbed = [&](const Perturbed& mesh, const std::vector<Eigen::Index>& same) {
     const MeshPosition& there = mesh.model.positions[position];
-    HeldLoads held =
-        held_loads(mesh.model, there, mesh.condition, gap_under(there, mesh.gaps, force), as_perturbed(same, loads, there.weight.size()));
+    HeldLoads held = held_loads(mesh.model, there, gap_under(there, mesh.gaps, force), as_perturbed(same, loads, there.weight.size()));
     for (Eigen::VectorXd* values : {&held.gap, &held.deflection, &held.contact_stress, &held.edge_stress}) *values = as_at(same, *values);
     return held;
   };
-  const HeldLoads here = held_loads(model_, model_.positions[position], condition_, gap, loads);
+  const HeldLoads here = held_loads(model_, model_.positions[position], gap, loads);
   const HeldLoads one = perturbed(one_, same_as.one), two = perturbed(two_, same_as.two);
   const auto slope = [&](Eigen::VectorXd HeldLoads::*what) -> Eigen::VectorXd {
     return forward_difference(here.*what, one.*what, two.*what, perturbed_.step).cwiseProduct(same_as.known);

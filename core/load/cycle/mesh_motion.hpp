@@ -57,7 +57,7 @@ struct MeshSlope {
 /// nothing, unless the study leaves that region out.
 class MeshSlopes {
  public:
-  /// @param model, condition  must outlive this; the model made by with_perturbed_meshes()
+  /// @param model      must outlive this; made by with_perturbed_meshes()
   /// @throws InvalidInput  where the model has no perturbed meshes along the parameter
   MeshSlopes(const MeshModel& model, const FlankCondition& condition, MisalignmentParameter parameter);
   MeshSlopes(const MeshSlopes&) = delete;  // its gaps have its condition
@@ -86,7 +86,6 @@ class MeshSlopes {
   Same same(std::size_t position) const;
 
   const MeshModel& model_;
-  const FlankCondition& condition_;
   const PerturbedMeshes& perturbed_;
   Perturbed one_, two_;
 };

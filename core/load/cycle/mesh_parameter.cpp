@@ -6,14 +6,17 @@ ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at,
                                  const std::vector<MeshParameter>& parameters, const std::vector<Eigen::Index>& on_edges) {
   const auto m = static_cast<Eigen::Index>(parameters.size());
   ParameterSlopes slopes{Eigen::MatrixXd::Zero(std::ssize(at.points), m), {}, Eigen::RowVectorXd::Zero(m)};
-  std::vector<ContactPoint> edged;
-  for (const Eigen::Index i : on_edges) edged.push_back(at.points[static_cast<std::size_t>(i)]);
-  if (!edged.empty()) slopes.edge = Eigen::MatrixXd::Zero(std::ssize(at.points), m);
+  if (!on_edges.empty()) slopes.edge = Eigen::MatrixXd::Zero(std::ssize(at.points), m);
   for (Eigen::Index p = 0; p < m; ++p) {
     const MeshParameter& which = parameters[static_cast<std::size_t>(p)];
     if (const auto* gear = std::get_if<GearParameter>(&which)) {
       slopes.gap.col(p) = gaps.derivative(at.points, gap, gear->member, gear->parameter);
-      if (!edged.empty()) slopes.edge(on_edges, p) = tip_edge_shift_derivative(model.pair, edged, gaps.condition(), gear->member, gear->parameter);
+      if (on_edges.empty()) continue;
+      const TouchDerivative touches(model.pair, gaps.condition(), gear->member, gear->parameter);
+      for (const Eigen::Index i : on_edges) {
+        const auto k = static_cast<std::size_t>(i);
+        slopes.edge(i, p) = touches.of_edge(at.points[k], gap.touches[k]);
+      }
     } else if (const auto* misalignment = std::get_if<MisalignmentParameter>(&which)) {
       if (!moves_mesh(gaps.model(), which)) slopes.gap.col(p) = gaps.derivative(at.points, *misalignment);
     } else {

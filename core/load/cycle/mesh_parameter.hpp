@@ -24,7 +24,7 @@ using MeshParameter = std::variant<GearParameter, MisalignmentParameter, PinionT
 /// How parameters enter the load problem of one mesh position.
 struct ParameterSlopes {
   Eigen::MatrixXd gap;       ///< dg/dp, points x parameters; 0 for what moves the mesh, see MeshSlope
-  Eigen::MatrixXd edge;      ///< d(distance of the tip edge)/dp likewise, see TipEdgeShift; of the points asked for, else 0; empty: of none
+  Eigen::MatrixXd edge;      ///< d(distance of the tip edge)/dp likewise, see edge_moved_by(); of the points asked for, else 0; empty: of none
   Eigen::RowVectorXd force;  ///< dF/dp
 };
 /// @param gap  as gaps has it at this position

@@ -12,7 +12,7 @@ using units::pi;
 
 namespace {
 
-constexpr double kRoundOff = 1e-12;  // rad
+constexpr double kAngleRoundOff = 1e-12;  // rad
 
 }  // namespace
 
@@ -27,13 +27,13 @@ TEST_CASE("A lead crown touches at its top, without transmission error, while it
   int at_top = 0, at_tip = 0;
   for (double phi1 = -0.27; phi1 < 0.27; phi1 += 0.01) {
     const ToothContact contact = find_tooth_contact(scene, 0, phi1);
-    CHECK(contact.transmission_error <= kRoundOff);
+    CHECK(contact.transmission_error <= kAngleRoundOff);
     const double roll = pair.pitch_point + pair.pinion.base_radius * phi1;  // at mid face
     CAPTURE(crown, phi1, to_string(contact.kind));
     if (roll > pair.path_start + 0.1 && roll < pair.path_end - 0.1) {
       ++at_top;
       CHECK(contact.kind == ContactKind::Surface);
-      CHECK(std::abs(contact.transmission_error) <= kRoundOff);
+      CHECK(std::abs(contact.transmission_error) <= kAngleRoundOff);
       CHECK(std::abs(contact.pinion_z) <= 1e-3);  // mm: a flat top, placed by its slope
     } else if (contact.kind == ContactKind::PinionTip || contact.kind == ContactKind::WheelTip) {
       ++at_tip;
@@ -56,7 +56,7 @@ TEST_CASE("A lead crown touches at its top, without transmission error, while it
   // With a transverse contact ratio above 1 some pair always touches at its crown.
   CHECK(pair.transverse_contact_ratio > 1.0);
   const UnloadedMesh mesh = analyse_unloaded_mesh(pair, scene, 12);
-  for (const double te : mesh.transmission_error) CHECK(std::abs(te) <= kRoundOff);
+  for (const double te : mesh.transmission_error) CHECK(std::abs(te) <= kAngleRoundOff);
 }
 
 TEST_CASE("A spur pair with tip relief falls behind by the relief at its point of contact", "[core][contact][closed-form]") {
@@ -82,13 +82,13 @@ TEST_CASE("A spur pair with tip relief falls behind by the relief at its point o
     CHECK(contact.kind == ContactKind::Line);
     if (radius < start - 0.05) {
       ++plain;
-      CHECK(std::abs(contact.transmission_error) <= kRoundOff);
+      CHECK(std::abs(contact.transmission_error) <= kAngleRoundOff);
     } else if (radius > start + 0.6) {
       ++relieved;
       CHECK(std::abs(contact.transmission_error - te - gain) <= 0.25 * gain);  // model: third order in the slope
     } else {
-      CHECK(contact.transmission_error <= kRoundOff);
-      CHECK(contact.transmission_error >= te - kRoundOff);
+      CHECK(contact.transmission_error <= kAngleRoundOff);
+      CHECK(contact.transmission_error >= te - kAngleRoundOff);
     }
   }
   CHECK(relieved >= 5);
@@ -102,7 +102,7 @@ TEST_CASE("A lead slope on both gears that cancels leaves line contact", "[core]
   down.lead_slope = -0.012;
   const ToothContact contact = find_tooth_contact(scene_of(pair, {}, up, down), 0, 0.02);
   CHECK(contact.kind == ContactKind::Line);
-  CHECK(std::abs(contact.transmission_error) <= kRoundOff);
+  CHECK(std::abs(contact.transmission_error) <= kAngleRoundOff);
 }
 
 TEST_CASE("Pitch errors move a pair's transmission error by the metal on its own teeth", "[core][contact][closed-form]") {
@@ -114,7 +114,7 @@ TEST_CASE("Pitch errors move a pair's transmission error by the metal on its own
   for (int tooth = -1; tooth <= 1; ++tooth) {
     const ToothContact contact = find_tooth_contact(scene, tooth, -tooth * 2 * pi / 21);
     const double metal = pitch_deviation(pinion, tooth) + pitch_deviation(wheel, tooth);
-    CHECK(std::abs(contact.transmission_error - metal / pair.wheel.base_radius) <= kRoundOff);
+    CHECK(std::abs(contact.transmission_error - metal / pair.wheel.base_radius) <= kAngleRoundOff);
   }
 }
 
@@ -137,8 +137,8 @@ TEST_CASE("Removing material never advances the wheel", "[core][contact]") {
       const ToothContact as_is = find_tooth_contact(scene_of(pair, misalignment, pinion, wheel), 0, phi1);
       if (!as_is.exists()) continue;
       CAPTURE(i, phi1, to_string(as_is.kind));
-      CHECK(find_tooth_contact(scene_of(pair, misalignment, more(pinion), wheel), 0, phi1).phi2 <= as_is.phi2 + kRoundOff);
-      CHECK(find_tooth_contact(scene_of(pair, misalignment, pinion, more(wheel)), 0, phi1).phi2 <= as_is.phi2 + kRoundOff);
+      CHECK(find_tooth_contact(scene_of(pair, misalignment, more(pinion), wheel), 0, phi1).phi2 <= as_is.phi2 + kAngleRoundOff);
+      CHECK(find_tooth_contact(scene_of(pair, misalignment, pinion, more(wheel)), 0, phi1).phi2 <= as_is.phi2 + kAngleRoundOff);
     }
   }
 }

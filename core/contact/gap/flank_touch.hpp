@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "core/contact/assembly/flank_condition.hpp"
+#include "core/contact/path/contact_points.hpp"
+#include "core/contact/path/path_of_contact.hpp"
+#include "core/flank/flank.hpp"
+
+namespace flankwright {
+
+/// Where two flanks that deviate from their involutes touch in the transverse section of a contact point. Lengths in mm; along the flanks they count
+/// from where the involutes touch, towards the wheel's tip.
+struct FlankTouch {
+  /// A place on both flanks with its weight in derivatives: one, or on a kink of a flank one on either side of it.
+  struct Side {
+    PerGear<double> radius;  ///< [mm]
+    double share{0.0};       ///< of the derivative [-]; both sides' add up to 1
+  };
+
+  double gap{0.0};             ///< clearance and deviations there, normal to the flanks
+  double along{0.0};           ///< x: vertex of the parabola of both flanks, beyond an edge where the flanks would go on touching there
+  double along_by_slope{0.0};  ///< dx by the slope dh/dx of the deviations; 0 on a kink, which stays where it is
+  double on_rounding{0.0};     ///< how far beyond an edge its rounding touches, signed as x; 0: the flanks touch
+  double rounded_off{0.0};     ///< part of the sharp edge's clearance that the rounding fills
+  std::array<Side, 2> sides;
+};
+
+/// Finds the touch in the transverse section of a point, with R the relative radius, h(x) the deviations of both flanks, straight on beyond the edge x_e
+/// that ends the flanks, and rho the radius of that edge:
+///
+///     g = x_v^2/(2 R) + h(x_v) + (x_v - x_e)^2/(2 (R + rho)),   x_v where x^2/(2 R) + h is least,
+///
+/// the last term only where x_v lies beyond x_e. Relief makes flanks touch where less of it has been taken off: with a slope h' they touch at x = -R h',
+/// nearer than at x = 0 by R h'^2/2. Outside A .. E the involutes would touch beyond the edge, and h = 0 leaves the clearance of app. 2A of
+/// Haddad 1991. The parabola holds to second order in x/R, R being kept.
+class FlankTouchSearch {
+ public:
+  /// @param pair  must outlive this
+  FlankTouchSearch(const GearPair& pair, const FlankCondition& condition);
+  /// A point without a relative radius is compared as it is.
+  std::vector<FlankTouch> at(const std::vector<ContactPoint>& points) const;
+  FlankTouch at(const ContactPoint& point) const { return at(std::vector{point}).front(); }
+
+ private:
+  const GearPair& pair_;
+  PathOfContact path_;
+  Misalignment misalignment_;
+  PerGear<Flank> flanks_;
+};
+
+/// Derivatives of a touch by one modification parameter of one gear [by mm; parabolic_te mm rad], exact where the removal's derivative is of second power
+/// in the radius, and otherwise where an edge's rounding does not touch.
+class TouchDerivative {
+ public:
+  /// @param pair  must outlive this
+  TouchDerivative(const GearPair& pair, const FlankCondition& condition, Member member, ModificationParameter parameter);
+  /// dg/dp
+  double of_gap(const ContactPoint& point, const FlankTouch& touch) const;
+  /// The part of it that the rounding of an edge makes, -d(rounded_off)/dp.
+  double of_rounding(const ContactPoint& point, const FlankTouch& touch) const;
+  /// d(edge_moved_by())/dp
+  double of_edge(const ContactPoint& point, const FlankTouch& touch) const;
+
+ private:
+  double slope_along(const ContactPoint& point, const FlankTouch& touch) const;
+
+  const GearPair& pair_;
+  Misalignment misalignment_;
+  Member member_;
+  RemovalDerivative removed_;
+};
+
+/// How far a touch takes the parabola away from the tip edge of its point [mm].
+double edge_moved_by(const ContactPoint& point, const FlankTouch& touch);
+
+}  // namespace flankwright
