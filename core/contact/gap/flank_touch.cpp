@@ -12,6 +12,7 @@ namespace {
 
 /// Of x [mm], g [mm] and the distance of a kink's two sides [mm]; a step short of the touch costs its square over 2 R.
 constexpr PeakTolerance touch_tolerance{1e-8, 1e-15, 1e-8};
+constexpr double smooth_step = 1e-6;  // mm: a longer step by the curvature, where the search has ended, shows a kink
 
 double radius_of(const ContactPoint& point, Member m) { return m == Member::Pinion ? point.pinion_radius : point.wheel_radius; }
 
@@ -50,7 +51,7 @@ class Section {
     const End pinion_root{reach(Member::Pinion, lower_end(pair.pinion)), 0.0}, wheel_root{reach(Member::Wheel, lower_end(pair.wheel)), 0.0};
     upper_ = wheel_tip.x <= pinion_root.x ? wheel_tip : pinion_root;
     lower_ = pinion_tip.x >= wheel_root.x ? pinion_tip : wheel_root;
-    const End passed{place_, point.tip_edge.distance < 0.0 ? point.tip_edge.radius : 0.0};
+    const End passed{place_, std::isless(point.tip_edge.distance, 0.0) ? point.tip_edge.radius : 0.0};
     if (place_ < 0.0) upper_ = passed;
     if (place_ > 0.0) lower_ = passed;
     upper_.x = std::max(upper_.x, place_);
@@ -116,17 +117,17 @@ FlankTouch touch_in(const Section& section, double relative_radius, const Deviat
   }
   touch.gap = -(top.value() + peak.gain);
   touch.along = top.x;
-  const bool kink = peak.rising && peak.falling && peak.gain == 0.0 && top.slope() != 0.0;
-  if (!kink) {
-    const double curvature = 1.0 / relative_radius + top.h.curvature;
-    touch.along += top.slope() / curvature;
+  // Near a smooth vertex a step by the curvature leads to it, on a kink far away.
+  const double curvature = 1.0 / relative_radius + top.h.curvature, step = top.slope() / curvature;
+  const auto falling = peak.share_of_falling();
+  if (!falling || std::abs(step) <= smooth_step) {
+    touch.along += step;
     touch.sides[0] = side_at(section, touch.along, 1.0);
     touch.along_by_slope = -1.0 / curvature;
     return touch;
   }
-  const double falling = peak.share_of_falling().value();
-  touch.sides[0] = side_at(section, peak.rising->x, 1.0 - falling);
-  touch.sides[1] = side_at(section, peak.falling->x, falling);
+  touch.sides[0] = side_at(section, peak.rising->x, 1.0 - *falling);
+  touch.sides[1] = side_at(section, peak.falling->x, *falling);
   return touch;
 }
 
@@ -155,7 +156,7 @@ std::vector<FlankTouch> FlankTouchSearch::at(const std::vector<ContactPoint>& po
       return ToothDeviation::AlongProfile{cos_base_helix * (p.value + w.value), cos_base_helix * (w.slope - p.slope),
                                           cos_base_helix * (p.curvature + w.curvature)};
     };
-    if (!(point.relative_radius > 0.0)) {
+    if (!std::isgreater(point.relative_radius, 0.0)) {
       touches.push_back({.gap = point.clearance + both(point.pinion_radius, point.wheel_radius).value,
                          .sides = {FlankTouch::Side{{point.pinion_radius, point.wheel_radius}, 1.0}}});
       continue;
