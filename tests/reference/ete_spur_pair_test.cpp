@@ -4,6 +4,7 @@
 
 #include "core/contact/gap/surface_gap.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "tests/core/contact/contact_cases.hpp"
 
 using namespace flankwright;
 using units::um;
@@ -43,8 +44,8 @@ GearPair spur_pair() {
 }
 
 struct BothGaps {
-  double plane, surface;  ///< [mm]
-  double pinion_radius;   ///< found less that on the line of action [mm]
+  double plane, surface, by_parabola;  ///< where undisturbed flanks would touch, over the whole flanks, by both flanks' parabola [mm]
+  double pinion_radius;                ///< found less that on the line of action [mm]
 };
 
 class ReliefStudy {
@@ -64,9 +65,10 @@ class ReliefStudy {
     for (const ContactPoint& point : contact_points(pair_, path, {QuadratureRule::Midpoint, 1}, line_phase, true, -7.5, 7.5)) {
       if (point.tooth != 0) continue;
       const Gap surface = SurfaceGap(pair_, condition_).at({point}, line_phase);
-      return {plane_of_action_gap(pair_, {point}, condition_).total[0], surface.total[0], surface.nearest[0].pinion_radius - point.pinion_radius};
+      return {contact_cases::undisturbed_gap(pair_, point, condition_), surface.total[0], plane_of_action_gap(pair_, {point}, condition_).total[0],
+              surface.nearest[0].pinion_radius - point.pinion_radius};
     }
-    return {not_given, not_given, not_given};
+    return {not_given, not_given, not_given, not_given};
   }
 
   /// Where the gap of the plane of action of a pair that enters has come down to a value.
@@ -102,6 +104,8 @@ TEST_CASE("ETE paper case 1: contact off the line of action changes the unloaded
   constexpr double kModel = 0.01;     // programs of discrete points on the flanks, ETE 500 over the height
   CHECK(difference == Approx(1.221 * um).epsilon(kPrinted + kModel));
   CHECK(difference / entering.plane == Approx(0.082).epsilon(kPrinted + kModel));
+  // Both flanks' parabola finds most of it.
+  CHECK(std::abs(entering.by_parabola - entering.surface) <= 0.01 * entering.surface);
   // Figure 4: the actual point lies off the line of action; it is nearer to the pitch point, where less is removed.
   CHECK(entering.pinion_radius > 0.05);
 }

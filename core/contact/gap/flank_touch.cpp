@@ -24,11 +24,14 @@ double own_z(const ContactPoint& point, Member m, const Misalignment& misalignme
 /// Towards the wheel's tip is towards the pinion's root.
 double towards_own_tip(Member m) { return m == Member::Wheel ? 1.0 : -1.0; }
 
-/// Flanks with the predesigned parabola as the lag that it gives in the plane of action, see removal().
-Flank flank_in_plane_of_action(const GearPair& pair, Member m, const FlankCondition& condition) {
+Flank without_parabola(const GearPair& pair, Member m, const FlankCondition& condition) {
   Modification modification = condition.modification[m];
   modification.parabolic_te = 0.0;
-  Flank flank = make_flank(pair, m, modification, condition.error[m]);
+  return make_flank(pair, m, modification, condition.error[m]);
+}
+
+Flank parabola_alone(const GearPair& pair, Member m, const FlankCondition& condition) {
+  Flank flank = make_flank(pair, m, {}, {});
   flank.modification.parabolic_te = condition.modification[m].parabolic_te;
   return flank;
 }
@@ -80,10 +83,27 @@ class Section {
   End lower_, upper_;
 };
 
-/// h(x) = h + slope dx + curvature dx^2/2 [mm], and with it the gap of both parabolas as find_peak() asks for it, upside down.
+using AlongProfile = ToothDeviation::AlongProfile;
+
+/// h with its derivatives by x.
+struct Deviation {
+  AlongProfile h;
+  double by_lag{0.0};
+
+  /// What the flank with a lag L deviates by; the third derivative of L is left out of the curvature.
+  void add_lag(const AlongProfile& lag, double relative_radius) {
+    by_lag = relative_radius * lag.slope;
+    h.value += lag.value + 0.5 * by_lag * lag.slope;
+    h.slope += lag.slope + by_lag * lag.curvature;
+    h.curvature += lag.curvature + relative_radius * lag.curvature * lag.curvature;
+  }
+};
+
+/// The gap of both parabolas and the deviations at x as find_peak() asks for it, upside down.
 struct Sample {
   double x, relative_radius;
-  ToothDeviation::AlongProfile h;
+  AlongProfile h;
+  double by_lag;
 
   double position() const { return x; }
   double value() const { return -(0.5 * x * x / relative_radius + h.value); }
@@ -96,14 +116,18 @@ FlankTouch::Side side_at(const Section& section, double x, double share) {
 
 /// Where the parabola's vertex is, and the touch with it.
 /// @param deviation_at  h at x
-template <class Deviation>
-FlankTouch touch_in(const Section& section, double relative_radius, const Deviation& deviation_at) {
-  const auto evaluate = [&](double x, const Sample*) { return Sample{x, relative_radius, deviation_at(x)}; };
+template <class DeviationAt>
+FlankTouch touch_in(const Section& section, double relative_radius, const DeviationAt& deviation_at) {
+  const auto evaluate = [&](double x, const Sample*) {
+    const Deviation d = deviation_at(x);
+    return Sample{x, relative_radius, d.h, d.by_lag};
+  };
   const Peak<Sample> peak =
       find_peak<Sample>(evaluate, section.lower().x, section.upper().x, section.place(), 1.0 / relative_radius, touch_tolerance);
   const Sample& top = peak.top;
   FlankTouch touch;
   touch.sides[0] = side_at(section, top.x, 1.0);
+  touch.by_lag = top.by_lag;
   if (peak.at_end) {
     // Straight on beyond the edge, where the rounding keeps off.
     const Section::End& edge = top.slope() > 0.0 ? section.upper() : section.lower();
@@ -137,33 +161,42 @@ FlankTouchSearch::FlankTouchSearch(const GearPair& pair, const FlankCondition& c
     : pair_(pair),
       path_(pair),
       misalignment_(condition.misalignment),
-      flanks_{flank_in_plane_of_action(pair, Member::Pinion, condition), flank_in_plane_of_action(pair, Member::Wheel, condition)} {}
+      flanks_{without_parabola(pair, Member::Pinion, condition), without_parabola(pair, Member::Wheel, condition)},
+      lags_{parabola_alone(pair, Member::Pinion, condition), parabola_alone(pair, Member::Wheel, condition)},
+      has_lag_(condition.modification.pinion.parabolic_te != 0.0 || condition.modification.wheel.parabolic_te != 0.0) {}
 
 std::vector<FlankTouch> FlankTouchSearch::at(const std::vector<ContactPoint>& points) const {
   const double cos_base_helix = std::cos(pair_.base_helix_angle);
   std::vector<FlankTouch> touches;
   touches.reserve(points.size());
-  std::optional<ToothDeviation> pinion, wheel;
+  struct Teeth {
+    ToothDeviation pinion, wheel;
+  };
+  std::optional<Teeth> deviations, lags;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ContactPoint& point = points[i];
     if (i == 0 || point.tooth != points[i - 1].tooth) {
-      pinion.emplace(flanks_.pinion, point.tooth);
-      wheel.emplace(flanks_.wheel, point.tooth);
+      deviations.emplace(Teeth{{flanks_.pinion, point.tooth}, {flanks_.wheel, point.tooth}});
+      if (has_lag_) lags.emplace(Teeth{{lags_.pinion, point.tooth}, {lags_.wheel, point.tooth}});
     }
     const double pinion_z = own_z(point, Member::Pinion, misalignment_), wheel_z = own_z(point, Member::Wheel, misalignment_);
-    const auto both = [&](double pinion_radius, double wheel_radius) {
-      const auto p = pinion->at(pinion_radius, pinion_z), w = wheel->at(wheel_radius, wheel_z);
-      return ToothDeviation::AlongProfile{cos_base_helix * (p.value + w.value), cos_base_helix * (w.slope - p.slope),
-                                          cos_base_helix * (p.curvature + w.curvature)};
+    const auto along = [&](const Teeth& of, double pinion_radius, double wheel_radius) {
+      const AlongProfile p = of.pinion.at(pinion_radius, pinion_z), w = of.wheel.at(wheel_radius, wheel_z);
+      return AlongProfile{cos_base_helix * (p.value + w.value), cos_base_helix * (w.slope - p.slope), cos_base_helix * (p.curvature + w.curvature)};
     };
     if (!std::isgreater(point.relative_radius, 0.0)) {
-      touches.push_back({.gap = point.clearance + both(point.pinion_radius, point.wheel_radius).value,
-                         .sides = {FlankTouch::Side{{point.pinion_radius, point.wheel_radius}, 1.0}}});
+      double h = along(*deviations, point.pinion_radius, point.wheel_radius).value;
+      if (has_lag_) h += along(*lags, point.pinion_radius, point.wheel_radius).value;
+      touches.push_back({.gap = point.clearance + h, .sides = {FlankTouch::Side{{point.pinion_radius, point.wheel_radius}, 1.0}}});
       continue;
     }
     const Section section(pair_, point, path_.roll_at(point.phase) < pair_.path_start);
-    touches.push_back(touch_in(section, point.relative_radius,
-                               [&](double x) { return both(section.radius(Member::Pinion, x), section.radius(Member::Wheel, x)); }));
+    touches.push_back(touch_in(section, point.relative_radius, [&](double x) {
+      const double pinion_radius = section.radius(Member::Pinion, x), wheel_radius = section.radius(Member::Wheel, x);
+      Deviation d{along(*deviations, pinion_radius, wheel_radius)};
+      if (has_lag_) d.add_lag(along(*lags, pinion_radius, wheel_radius), point.relative_radius);
+      return d;
+    }));
   }
   return touches;
 }
@@ -172,6 +205,7 @@ TouchDerivative::TouchDerivative(const GearPair& pair, const FlankCondition& con
     : pair_(pair),
       misalignment_(condition.misalignment),
       member_(member),
+      of_lag_(parameter == parameter_of("parabolic_te")),
       removed_(ground_derivative(pair, member, condition.modification[member], parameter)) {}
 
 /// d(dh/dx)/dp, by a central difference over the radius.
@@ -191,7 +225,8 @@ double TouchDerivative::of_gap(const ContactPoint& point, const FlankTouch& touc
   for (const FlankTouch::Side& side : touch.sides) {
     if (side.share != 0.0) removed += side.share * removed_.at(side.radius[member_], z);
   }
-  return std::cos(pair_.base_helix_angle) * removed + of_rounding(point, touch);
+  const double by_slope = of_lag_ && touch.by_lag != 0.0 ? touch.by_lag * slope_along(point, touch) : 0.0;
+  return std::cos(pair_.base_helix_angle) * removed + by_slope + of_rounding(point, touch);
 }
 
 double TouchDerivative::of_edge(const ContactPoint& point, const FlankTouch& touch) const {

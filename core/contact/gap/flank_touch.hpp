@@ -24,6 +24,7 @@ struct FlankTouch {
   double along_by_slope{0.0};  ///< dx by the slope dh/dx of the deviations; 0 on a kink, which stays where it is
   double on_rounding{0.0};     ///< how far beyond an edge its rounding touches, signed as x; 0: the flanks touch
   double rounded_off{0.0};     ///< part of the sharp edge's clearance that the rounding fills
+  double by_lag{0.0};          ///< R L', see FlankTouchSearch
   std::array<Side, 2> sides;
 };
 
@@ -35,6 +36,9 @@ struct FlankTouch {
 /// the last term only where x_v lies beyond x_e. Relief makes flanks touch where less of it has been taken off: with a slope h' they touch at x = -R h',
 /// nearer than at x = 0 by R h'^2/2. Outside A .. E the involutes would touch beyond the edge, and h = 0 leaves the clearance of app. 2A of
 /// Haddad 1991. The parabola holds to second order in x/R, R being kept.
+///
+/// A predesigned parabola of transmission error is given as the lag L(x) that it makes where the involutes would touch. The flank that has this lag deviates
+/// by L + R L'^2/2, which is its part of h.
 class FlankTouchSearch {
  public:
   /// @param pair  must outlive this
@@ -47,7 +51,9 @@ class FlankTouchSearch {
   const GearPair& pair_;
   PathOfContact path_;
   Misalignment misalignment_;
-  PerGear<Flank> flanks_;
+  PerGear<Flank> flanks_;  ///< without predesigned parabolas
+  PerGear<Flank> lags_;    ///< nothing but these
+  bool has_lag_;
 };
 
 /// Derivatives of a touch by one modification parameter of one gear [by mm; parabolic_te mm rad], exact where the removal's derivative is of second power
@@ -69,6 +75,7 @@ class TouchDerivative {
   const GearPair& pair_;
   Misalignment misalignment_;
   Member member_;
+  bool of_lag_;
   RemovalDerivative removed_;
 };
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "core/contact/assembly/flank_assembly.hpp"
+#include "core/contact/path/contact_points.hpp"
 #include "core/contact/path/path_of_contact.hpp"
 #include "core/contact/unloaded/tooth_contact.hpp"
 #include "core/contact/unloaded/transmission_error.hpp"
@@ -29,6 +30,17 @@ inline PairData pair_data(int z1, int z2, double beta, double x1 = 0.0, double x
 inline FlankAssembly scene_of(const GearPair& pair, const Misalignment& misalignment = {}, const Modification& pinion = {},
                               const Modification& wheel = {}) {
   return assemble_flanks(pair, {.modification = {pinion, wheel}, .misalignment = misalignment});
+}
+
+/// The gap of both flanks where the undisturbed ones would touch, as classical load distribution takes it: what is removed from either gear at the point
+/// itself, with no search for a place where less is. Without misalignment, predesigned parabolas and pitch errors.
+inline double undisturbed_gap(const GearPair& pair, const ContactPoint& point, const FlankCondition& condition) {
+  const auto deviation = [&](Member m, double radius) {
+    const Flank flank = make_flank(pair, m, condition.modification[m], condition.error[m]);
+    return flank.deviation(flank.roll_at(radius), point.z, point.tooth);
+  };
+  const double removed = deviation(Member::Pinion, point.pinion_radius) + deviation(Member::Wheel, point.wheel_radius);
+  return point.clearance + std::cos(pair.base_helix_angle) * removed;
 }
 
 /// Wheel angle at which the wheel's flank passes through one point of the pinion's flank; -infinity where the point

@@ -37,13 +37,6 @@ std::vector<ContactPoint> along_lines(const GearPair& pair, int intervals) {
   return contact_points(pair, PathOfContact(pair), {QuadratureRule::Midpoint, intervals}, line_phase, true, -b, b);
 }
 
-/// The deviations where the undisturbed flanks would touch, without the search.
-double unmoved(const GearPair& pair, const FlankCondition& condition, const ContactPoint& point) {
-  const double pinion = removal(condition.modification.pinion, pair.flank_frame(Member::Pinion), point.pinion_radius, point.z);
-  const double wheel = removal(condition.modification.wheel, pair.flank_frame(Member::Wheel), point.wheel_radius, point.z);
-  return point.clearance + std::cos(pair.base_helix_angle) * (pinion + wheel);
-}
-
 }  // namespace
 
 TEST_CASE("Touches by both flanks' parabola are those of the whole flanks, on flanks and on tip edges", "[core][contact][independent]") {
@@ -62,7 +55,7 @@ TEST_CASE("Touches by both flanks' parabola are those of the whole flanks, on fl
     double& worst = points[i].clearance > 0.0 ? worst_on_edges : worst_on_flanks;
     worst = std::max(worst, std::abs(plane.total[k] - points[i].clearance - exact));
     largest = std::max(largest, exact);
-    without = std::max(without, std::abs(unmoved(pair, condition, points[i]) - points[i].clearance - exact));
+    without = std::max(without, std::abs(undisturbed_gap(pair, points[i], condition) - points[i].clearance - exact));
     on_edges += points[i].clearance > 0.0;
   }
   CAPTURE(worst_on_flanks / um, worst_on_edges / um, without / um, largest / um);
