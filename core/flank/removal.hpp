@@ -120,6 +120,12 @@ class RemovalDerivativeOf {
   }
 
   double at(double r, double z) const { return as_drawn_ ? unit_.at(r, z).value : shifted(r, z); }
+  /// Its derivative by the radius, exact for amounts that no process moves, else by a central difference.
+  double slope_at(double r, double z) const {
+    if (as_drawn_) return unit_.at(r, z).u;
+    const double step = 1e-5 * frame_.base_radius;
+    return (shifted(r + step, z) - shifted(r - step, z)) / (2.0 * step);
+  }
   /// Whether a process moves it: it then depends on the roll length at r.
   bool is_shifted() const { return shift_.has_value(); }
 

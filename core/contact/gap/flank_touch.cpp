@@ -208,30 +208,34 @@ TouchDerivative::TouchDerivative(const GearPair& pair, const FlankCondition& con
       of_lag_(parameter == parameter_of("parabolic_te")),
       removed_(ground_derivative(pair, member, condition.modification[member], parameter)) {}
 
-/// d(dh/dx)/dp, by a central difference over the radius.
-double TouchDerivative::slope_along(const ContactPoint& point, const FlankTouch& touch) const {
-  const double step = 1e-3 * pair_.data.normal_module, radius = touch.sides[0].radius[member_], z = own_z(point, member_, misalignment_);
-  const double by_radius = (removed_.at(radius + step, z) - removed_.at(radius - step, z)) / (2.0 * step);
+/// dh/dp on one side of a touch, less what a lag adds.
+double TouchDerivative::value(const ContactPoint& point, const FlankTouch::Side& side) const {
+  return std::cos(pair_.base_helix_angle) * removed_.at(side.radius[member_], own_z(point, member_, misalignment_));
+}
+
+/// d(dh/dx)/dp likewise.
+double TouchDerivative::slope(const ContactPoint& point, const FlankTouch::Side& side) const {
+  const double radius = side.radius[member_], by_radius = removed_.slope_at(radius, own_z(point, member_, misalignment_));
   return std::cos(pair_.base_helix_angle) * towards_own_tip(member_) * pair_[member_].base_radius / radius * by_radius;
 }
 
 double TouchDerivative::of_rounding(const ContactPoint& point, const FlankTouch& touch) const {
-  return touch.on_rounding == 0.0 ? 0.0 : touch.on_rounding * slope_along(point, touch);
+  return touch.on_rounding == 0.0 ? 0.0 : touch.on_rounding * slope(point, touch.sides[0]);
 }
 
 double TouchDerivative::of_gap(const ContactPoint& point, const FlankTouch& touch) const {
-  const double z = own_z(point, member_, misalignment_);
-  double removed = 0.0;
+  const double by_slope = touch.on_rounding + (of_lag_ ? touch.by_lag : 0.0);
+  double sum = 0.0;
   for (const FlankTouch::Side& side : touch.sides) {
-    if (side.share != 0.0) removed += side.share * removed_.at(side.radius[member_], z);
+    if (side.share == 0.0) continue;
+    sum += side.share * (value(point, side) + (by_slope == 0.0 ? 0.0 : by_slope * slope(point, side)));
   }
-  const double by_slope = of_lag_ && touch.by_lag != 0.0 ? touch.by_lag * slope_along(point, touch) : 0.0;
-  return std::cos(pair_.base_helix_angle) * removed + by_slope + of_rounding(point, touch);
+  return sum;
 }
 
 double TouchDerivative::of_edge(const ContactPoint& point, const FlankTouch& touch) const {
   const double towards_edge = towards_own_tip(point.tip_edge.gear);
-  return touch.along_by_slope == 0.0 ? 0.0 : -towards_edge * touch.along_by_slope * slope_along(point, touch);
+  return touch.along_by_slope == 0.0 ? 0.0 : -towards_edge * touch.along_by_slope * slope(point, touch.sides[0]);
 }
 
 double edge_moved_by(const ContactPoint& point, const FlankTouch& touch) { return -towards_own_tip(point.tip_edge.gear) * touch.along; }

@@ -56,8 +56,8 @@ class FlankTouchSearch {
   bool has_lag_;
 };
 
-/// Derivatives of a touch by one modification parameter of one gear [by mm; parabolic_te mm rad], exact where the removal's derivative is of second power
-/// in the radius, and otherwise where an edge's rounding does not touch.
+/// Derivatives of a touch by one modification parameter of one gear [by mm; parabolic_te mm rad], exact but for slopes of what a process moves and of
+/// extents, which are central differences.
 class TouchDerivative {
  public:
   /// @param pair  must outlive this
@@ -70,7 +70,8 @@ class TouchDerivative {
   double of_edge(const ContactPoint& point, const FlankTouch& touch) const;
 
  private:
-  double slope_along(const ContactPoint& point, const FlankTouch& touch) const;
+  double value(const ContactPoint& point, const FlankTouch::Side& side) const;
+  double slope(const ContactPoint& point, const FlankTouch::Side& side) const;
 
   const GearPair& pair_;
   Misalignment misalignment_;
