@@ -23,4 +23,13 @@ FlankPolynomial::FlankPolynomial(const PolynomialAmounts& m, const ToothError& e
   zz_ = 4.0 * m.lead_crowning * per_width * per_width;
 }
 
+RemovalDerivative::WithSlope RemovalDerivative::with_slope(double r, double z) const {
+  if (as_drawn_) {
+    const Jet unit = unit_.at(r, z);
+    return {unit.value, unit.u};
+  }
+  const double step = 1e-5 * frame_.base_radius;
+  return {shifted(r, z), (shifted(r + step, z) - shifted(r - step, z)) / (2.0 * step)};
+}
+
 }  // namespace flankwright

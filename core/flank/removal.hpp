@@ -120,16 +120,10 @@ class RemovalDerivativeOf {
   }
 
   double at(double r, double z) const { return as_drawn_ ? unit_.at(r, z).value : shifted(r, z); }
-  /// Its derivative by the radius, exact for amounts that no process moves, else by a central difference.
-  double slope_at(double r, double z) const {
-    if (as_drawn_) return unit_.at(r, z).u;
-    const double step = 1e-5 * frame_.base_radius;
-    return (shifted(r + step, z) - shifted(r - step, z)) / (2.0 * step);
-  }
   /// Whether a process moves it: it then depends on the roll length at r.
   bool is_shifted() const { return shift_.has_value(); }
 
- private:
+ protected:
   double shifted(double r, double z) const {
     const double from = shift_ ? z - shift_->at_radius(r) : z;
     return slope_ == nullptr ? unit_.at(r, from).value : slope_(m_, frame_, r, from);
@@ -147,6 +141,12 @@ class RemovalDerivative : public RemovalDerivativeOf<Modifications> {
  public:
   RemovalDerivative(const Modifications& m, const FlankFrame& frame, ModificationParameter parameter, const std::optional<ContactShift>& shift = {})
       : RemovalDerivativeOf(m, frame, describe(parameter), shift) {}
+
+  struct WithSlope {
+    double value, slope;
+  };
+  /// at() with its derivative by the radius, exact for amounts that no process moves, else by a central difference.
+  WithSlope with_slope(double r, double z) const;
 };
 /// The same at one point.
 inline double removal_derivative(const Modifications& m, const FlankFrame& frame, ModificationParameter parameter, double r, double z) {

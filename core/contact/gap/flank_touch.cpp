@@ -10,9 +10,12 @@ namespace flankwright {
 
 namespace {
 
-/// Of x [mm], g [mm] and the distance of a kink's two sides [mm]; a step short of the touch costs its square over 2 R.
-constexpr PeakTolerance touch_tolerance{1e-8, 1e-15, 1e-8};
-constexpr double smooth_step = 1e-6;  // mm: a longer step by the curvature, where the search has ended, shows a kink
+/// Newton's last step [mm]: it is taken, and leaves a share of it by which the curvature is off.
+constexpr double last_step = 1e-6;
+/// More are needed only where slopes jump.
+constexpr int most_newton_steps = 5;
+/// Of x [mm], g [mm] and the distance of a kink's two sides [mm].
+constexpr PeakTolerance kink_tolerance{1e-8, 1e-15, 1e-8};
 
 double radius_of(const ContactPoint& point, Member m) { return m == Member::Pinion ? point.pinion_radius : point.wheel_radius; }
 
@@ -108,51 +111,73 @@ struct Sample {
   double position() const { return x; }
   double value() const { return -(0.5 * x * x / relative_radius + h.value); }
   double slope() const { return -(x / relative_radius + h.slope); }
+  double curvature() const { return 1.0 / relative_radius + h.curvature; }
 };
 
 FlankTouch::Side side_at(const Section& section, double x, double share) {
   return {{section.radius(Member::Pinion, x), section.radius(Member::Wheel, x)}, share};
 }
 
-/// Where the parabola's vertex is, and the touch with it.
+/// Straight on beyond the edge, where the rounding keeps off.
+FlankTouch touch_beyond(const Section& section, const Sample& top) {
+  const Section::End& edge = top.slope() > 0.0 ? section.upper() : section.lower();
+  const double R = top.relative_radius, vertex = -R * top.h.slope, beyond = vertex - edge.x, both = R + edge.rounding;
+  FlankTouch touch;
+  touch.sides[0] = side_at(section, top.x, 1.0);
+  touch.gap = top.h.value + top.h.slope * beyond + 0.5 * vertex * vertex / R + 0.5 * beyond * beyond / both;
+  touch.along = vertex;
+  touch.along_by_slope = -R;
+  touch.on_rounding = beyond * edge.rounding / both;
+  touch.rounded_off = 0.5 * beyond * touch.on_rounding / R;
+  touch.by_lag = top.by_lag;
+  return touch;
+}
+
+/// A step short of the vertex.
+FlankTouch touch_near(const Section& section, const Sample& top, double step) {
+  FlankTouch touch;
+  touch.along = top.x + step;
+  touch.sides[0] = side_at(section, touch.along, 1.0);
+  touch.gap = -(top.value() + 0.5 * step * top.slope());
+  touch.along_by_slope = -1.0 / top.curvature();
+  touch.by_lag = top.by_lag;
+  return touch;
+}
+
+FlankTouch touch_on_kink(const Section& section, const Peak<Sample>& peak, double share_of_falling) {
+  FlankTouch touch;
+  touch.along = peak.top.x;
+  touch.sides[0] = side_at(section, peak.rising->x, 1.0 - share_of_falling);
+  touch.sides[1] = side_at(section, peak.falling->x, share_of_falling);
+  touch.gap = -peak.top.value();
+  touch.by_lag = peak.top.by_lag;
+  return touch;
+}
+
+/// Where the parabola's vertex is, and the touch with it. Newton's steps find it in two or three evaluations where slopes do not jump.
 /// @param deviation_at  h at x
 template <class DeviationAt>
 FlankTouch touch_in(const Section& section, double relative_radius, const DeviationAt& deviation_at) {
+  const double lower = section.lower().x, upper = section.upper().x;
   const auto evaluate = [&](double x, const Sample*) {
     const Deviation d = deviation_at(x);
     return Sample{x, relative_radius, d.h, d.by_lag};
   };
-  const Peak<Sample> peak =
-      find_peak<Sample>(evaluate, section.lower().x, section.upper().x, section.place(), 1.0 / relative_radius, touch_tolerance);
-  const Sample& top = peak.top;
-  FlankTouch touch;
-  touch.sides[0] = side_at(section, top.x, 1.0);
-  touch.by_lag = top.by_lag;
-  if (peak.at_end) {
-    // Straight on beyond the edge, where the rounding keeps off.
-    const Section::End& edge = top.slope() > 0.0 ? section.upper() : section.lower();
-    const double vertex = -relative_radius * top.h.slope, beyond = vertex - edge.x, both = relative_radius + edge.rounding;
-    touch.gap = top.h.value + top.h.slope * beyond + 0.5 * vertex * vertex / relative_radius + 0.5 * beyond * beyond / both;
-    touch.along = vertex;
-    touch.along_by_slope = -relative_radius;
-    touch.on_rounding = beyond * edge.rounding / both;
-    touch.rounded_off = 0.5 * beyond * touch.on_rounding / relative_radius;
-    return touch;
+  const auto points_beyond = [&](const Sample& s) { return s.slope() > 0.0 ? s.x >= upper : s.slope() < 0.0 && s.x <= lower; };
+  Sample top = evaluate(section.place(), nullptr);
+  for (int steps = 0; top.curvature() > 0.0 && steps < most_newton_steps; ++steps) {
+    if (points_beyond(top)) return touch_beyond(section, top);
+    const double step = top.slope() / top.curvature();
+    if (std::abs(step) <= last_step) return touch_near(section, top, step);
+    top = evaluate(std::clamp(top.x + step, lower, upper), nullptr);
   }
-  touch.gap = -(top.value() + peak.gain);
-  touch.along = top.x;
+  const Peak<Sample> peak = find_peak<Sample>(evaluate, lower, upper, section.place(), 1.0 / relative_radius, kink_tolerance);
+  if (peak.at_end) return touch_beyond(section, peak.top);
   // Near a smooth vertex a step by the curvature leads to it, on a kink far away.
-  const double curvature = 1.0 / relative_radius + top.h.curvature, step = top.slope() / curvature;
-  const auto falling = peak.share_of_falling();
-  if (!falling || std::abs(step) <= smooth_step) {
-    touch.along += step;
-    touch.sides[0] = side_at(section, touch.along, 1.0);
-    touch.along_by_slope = -1.0 / curvature;
-    return touch;
-  }
-  touch.sides[0] = side_at(section, peak.rising->x, 1.0 - *falling);
-  touch.sides[1] = side_at(section, peak.falling->x, *falling);
-  return touch;
+  const double step = peak.top.slope() / peak.top.curvature();
+  const auto share_of_falling = peak.share_of_falling();
+  if (!share_of_falling || std::abs(step) <= last_step) return touch_near(section, peak.top, step);
+  return touch_on_kink(section, peak, *share_of_falling);
 }
 
 }  // namespace
@@ -208,34 +233,35 @@ TouchDerivative::TouchDerivative(const GearPair& pair, const FlankCondition& con
       of_lag_(parameter == parameter_of("parabolic_te")),
       removed_(ground_derivative(pair, member, condition.modification[member], parameter)) {}
 
-/// dh/dp on one side of a touch, less what a lag adds.
-double TouchDerivative::value(const ContactPoint& point, const FlankTouch::Side& side) const {
-  return std::cos(pair_.base_helix_angle) * removed_.at(side.radius[member_], own_z(point, member_, misalignment_));
-}
-
-/// d(dh/dx)/dp likewise.
-double TouchDerivative::slope(const ContactPoint& point, const FlankTouch::Side& side) const {
-  const double radius = side.radius[member_], by_radius = removed_.slope_at(radius, own_z(point, member_, misalignment_));
-  return std::cos(pair_.base_helix_angle) * towards_own_tip(member_) * pair_[member_].base_radius / radius * by_radius;
+/// dh/dp and d(dh/dx)/dp on one side of a touch, less what a lag adds.
+TouchDerivative::Slopes TouchDerivative::slopes(const ContactPoint& point, const FlankTouch::Side& side) const {
+  const double radius = side.radius[member_], cos_base_helix = std::cos(pair_.base_helix_angle);
+  const RemovalDerivative::WithSlope removed = removed_.with_slope(radius, own_z(point, member_, misalignment_));
+  return {cos_base_helix * removed.value, cos_base_helix * towards_own_tip(member_) * pair_[member_].base_radius / radius * removed.slope};
 }
 
 double TouchDerivative::of_rounding(const ContactPoint& point, const FlankTouch& touch) const {
-  return touch.on_rounding == 0.0 ? 0.0 : touch.on_rounding * slope(point, touch.sides[0]);
+  return touch.on_rounding == 0.0 ? 0.0 : touch.on_rounding * slopes(point, touch.sides[0]).slope;
 }
 
 double TouchDerivative::of_gap(const ContactPoint& point, const FlankTouch& touch) const {
-  const double by_slope = touch.on_rounding + (of_lag_ ? touch.by_lag : 0.0);
+  const double by_slope = touch.on_rounding + (of_lag_ ? touch.by_lag : 0.0), z = own_z(point, member_, misalignment_);
   double sum = 0.0;
   for (const FlankTouch::Side& side : touch.sides) {
     if (side.share == 0.0) continue;
-    sum += side.share * (value(point, side) + (by_slope == 0.0 ? 0.0 : by_slope * slope(point, side)));
+    if (by_slope == 0.0) {
+      sum += side.share * std::cos(pair_.base_helix_angle) * removed_.at(side.radius[member_], z);
+    } else {
+      const Slopes h = slopes(point, side);
+      sum += side.share * (h.value + by_slope * h.slope);
+    }
   }
   return sum;
 }
 
 double TouchDerivative::of_edge(const ContactPoint& point, const FlankTouch& touch) const {
   const double towards_edge = towards_own_tip(point.tip_edge.gear);
-  return touch.along_by_slope == 0.0 ? 0.0 : -towards_edge * touch.along_by_slope * slope(point, touch.sides[0]);
+  return touch.along_by_slope == 0.0 ? 0.0 : -towards_edge * touch.along_by_slope * slopes(point, touch.sides[0]).slope;
 }
 
 double edge_moved_by(const ContactPoint& point, const FlankTouch& touch) { return -towards_own_tip(point.tip_edge.gear) * touch.along; }

@@ -70,8 +70,10 @@ class TouchDerivative {
   double of_edge(const ContactPoint& point, const FlankTouch& touch) const;
 
  private:
-  double value(const ContactPoint& point, const FlankTouch::Side& side) const;
-  double slope(const ContactPoint& point, const FlankTouch::Side& side) const;
+  struct Slopes {
+    double value, slope;
+  };
+  Slopes slopes(const ContactPoint& point, const FlankTouch::Side& side) const;
 
   const GearPair& pair_;
   Misalignment misalignment_;
