@@ -90,7 +90,7 @@ std::vector<SchemaKey> working_condition_rows() {
        }},
       {.path = "fidelity.gap", .kind = Word, .words = {"plane_of_action", "whole_surface"},
        .fallback = "\"plane_of_action\"",
-       .meaning = "where contact is sought: on the lines of contact of undisturbed flanks, or over the whole flanks, misaligned and modified",
+       .meaning = "where contact is sought: near the lines of contact of undisturbed flanks, or over the whole flanks, misaligned and modified",
        .store = [](StudyBuilder& d, Member, const Value& v) { d.study.fidelity.gap = static_cast<GapModel>(v.integer); }},
       {.path = "fidelity.quadrature.rule", .kind = Word, .words = {"gauss2", "gauss3", "midpoint", "graded"},
        .fallback = "(graded)", .meaning = "points in each interval of a contact line; graded: two Gauss points on intervals that end where the line does; the others: at fixed points of the face, as in Haddad's thesis",

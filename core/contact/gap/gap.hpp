@@ -12,7 +12,7 @@ namespace flankwright {
 
 /// How the gap between the flanks is found.
 enum class GapModel {
-  PlaneOfAction,  ///< where undisturbed flanks would touch, see plane_of_action_gap()
+  PlaneOfAction,  ///< near where undisturbed flanks would touch, see plane_of_action_gap()
   WholeSurface,   ///< over the whole flanks, see SurfaceGap
 };
 
@@ -42,9 +42,9 @@ struct Gap {
 
 /// Gap of unloaded flanks at each contact point, normal to the flank, at the angle at which the undisturbed pair would touch [mm]:
 ///
-///     g = c_n and cos(beta_b) times the sum over both gears of D, least over the section (see FlankTouchSearch) + misalignment
+///     g = touch + misalignment
 ///
-/// Misalignment is the wheel's displacement along the pinion's outward normal, first order in the angles; a changed pinion helicoid (lead or
+/// The touch is that of both flanks with their clearance and deviations in the section of the point, see FlankTouchSearch. Misalignment is the wheel's displacement along the pinion's outward normal, first order in the angles; a changed pinion helicoid (lead or
 /// pressure-angle error) enters by the exact angle between the changed and the nominal flank. Both are those of the plane of action. Negative where metal
 /// is added or the wheel is pushed into the pinion.
 Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition);

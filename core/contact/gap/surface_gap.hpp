@@ -42,7 +42,7 @@ class SurfaceGap {
   /// at the fixed point at which the flanks are nearest, as that point is a maximum; on the wheel's tip or form circle
   /// with the contribution of that bound, on a kink the mean of both sides that holds the maximum. Of two equally near
   /// points it is that of the one found.
-  /// @param gap  as at() gave it
+  /// @param gap  as at() gave it for these points
   Eigen::VectorXd derivative(const std::vector<ContactPoint>& points, const Gap& gap, Member member, ModificationParameter parameter) const;
 
   /// The points, each moved along its section to where the flanks are nearest, radii, curvature, depths and tip

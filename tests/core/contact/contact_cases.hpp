@@ -33,7 +33,7 @@ inline FlankAssembly scene_of(const GearPair& pair, const Misalignment& misalign
 }
 
 /// The gap of both flanks where the undisturbed ones would touch, as classical load distribution takes it: what is removed from either gear at the point
-/// itself, with no search for a place where less is. Without misalignment, predesigned parabolas and pitch errors.
+/// itself, with no search for a place where less is. Without misalignment and predesigned parabolas.
 inline double undisturbed_gap(const GearPair& pair, const ContactPoint& point, const FlankCondition& condition) {
   const auto deviation = [&](Member m, double radius) {
     const Flank flank = make_flank(pair, m, condition.modification[m], condition.error[m]);
