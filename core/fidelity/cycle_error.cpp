@@ -14,6 +14,8 @@ namespace {
 constexpr double of_mean = 1.0 / 2.0, of_shape = 1.0 / 2.0, of_peaks = 1.0, of_positions = 1.0 / 3.0;
 /// Positions whose peak is within this fraction of the cycle's count for the error of the peak.
 constexpr double near_peak = 0.1;
+/// The neighbourhood of a position reaches this part of the cycle to either side, one position at least.
+constexpr std::size_t neighbourhoods = 16;
 
 double mean_of(const std::vector<double>& samples) {
   double sum = 0.0;
@@ -34,11 +36,19 @@ std::vector<double> curve(const LoadedCycle& cycle, const auto& reading) {
   return values;
 }
 
+/// What a point misses at one position, because a kink of the flanks lies between it and the next, it has at the positions around: the peaks of
+/// neighbourhoods are compared.
 double peak_difference(const std::vector<double>& fine, const std::vector<double>& coarse) {
+  const std::size_t n = fine.size(), reach = std::max<std::size_t>(1, n / neighbourhoods);
+  const auto peak_around = [&](const std::vector<double>& values, std::size_t i) {
+    double peak = values[i];
+    for (std::size_t k = 1; k <= reach; ++k) peak = std::max({peak, values[(i + k) % n], values[(i + n - k % n) % n]});
+    return peak;
+  };
   const double peak = *std::ranges::max_element(fine);
   double largest = std::abs(peak - *std::ranges::max_element(coarse));
-  for (std::size_t i = 0; i < fine.size(); ++i) {
-    if (fine[i] >= (1.0 - near_peak) * peak) largest = std::max(largest, std::abs(fine[i] - coarse[i]));
+  for (std::size_t i = 0; i < n; ++i) {
+    if (fine[i] >= (1.0 - near_peak) * peak) largest = std::max(largest, std::abs(peak_around(fine, i) - peak_around(coarse, i)));
   }
   return largest;
 }

@@ -33,8 +33,8 @@ std::vector<double> coarse_phases(const std::vector<double>& phases);
 ///   peak by (max d - min d)/2 and harmonic k by (|DFT_k d| + rms(d - mean d))/2: a single order may be small by
 ///   chance. Halving the intervals takes at least a third of the coarser one's error, more often a tenth (the integrals
 ///   converge with order two and better). Peaks of stress and load, which lie at the ends of lines more often than not,
-///   converge with order one at least: they are off by the largest difference at any position that comes within a tenth
-///   of the peak.
+///   converge with order one at least: they are off by the largest difference of both peaks around any position that comes within a tenth
+///   of the peak, a sixteenth of the cycle to either side. Position by position they would differ by more: kinks of a linear relief wander between points.
 /// - Positions: amplitudes of a curve with kinks converge with order two: a third of what leaving out every second
 ///   position changes. Extremes are off by CycleExtremes::unseen after a search, else by unseen_rise().
 ///

@@ -29,6 +29,17 @@ constexpr double shortest = 1e-4;
 /// not alike, and where searches of other conditions have probed as well, which have kinks at the same phases: their meshes can be used again.
 constexpr int parts = 8;
 
+using Sample = std::pair<double, double>;  ///< phase and value
+
+/// The top of the parabola through three samples, value and phase; nothing above them where it opens upwards.
+std::pair<double, double> vertex(const Sample& a, const Sample& b, const Sample& c) {
+  const double before = (b.second - a.second) / (b.first - a.first), after = (c.second - b.second) / (c.first - b.first);
+  const double curvature = 2.0 * (after - before) / (c.first - a.first);
+  if (!(curvature < 0.0)) return {-std::numeric_limits<double>::infinity(), b.first};
+  const double slope = before + 0.5 * curvature * (b.first - a.first), step = -slope / curvature;  // at b
+  return {b.second + 0.5 * slope * step, b.first + step};
+}
+
 class Search {
  public:
   Search(const MeshAt& mesh_at, const FlankCondition& condition, double torque, const LoadedCycle& cycle, const ExtremeSearch& settings)
@@ -86,7 +97,7 @@ class Search {
       y.push_back(values[c]);
     }
     const std::size_t n = x.size();
-    const auto at = [&](std::size_t i) { return std::pair(x[i % n] + static_cast<double>(i / n), y[i % n]); };
+    const auto at = [&](std::size_t i) { return Sample(x[i % n] + static_cast<double>(i / n), y[i % n]); };
     Promise highest;
     const auto rise_towards = [&](std::size_t far, std::size_t middle, std::size_t near) {
       const auto [x0, y0] = at(far);
@@ -109,6 +120,11 @@ class Search {
         height = ya + from_left * length;
       } else if (from_right > 0.0 && ya < yb) {
         height = yb + from_right * length;
+      }
+      for (const auto& [top, at_top] : {vertex(at(i + 1), at(i + 2), at(i + 3)), vertex(at(i + 2), at(i + 3), at(i + 4))}) {
+        if (!(top > height && at_top > xa && at_top < xb)) continue;
+        height = top;
+        t = (at_top - xa) / length;
       }
       if (!(height > highest.height)) continue;
       double phase = xa + std::clamp(std::round(parts * t), 1.0, parts - 1.0) / parts * length;

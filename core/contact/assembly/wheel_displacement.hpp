@@ -10,8 +10,8 @@
 namespace flankwright {
 
 /// Displacement of a misaligned wheel away from the pinion along its outward normal n = (cos b_b L, -s sin b_b), L =
-/// (sin a, cos a, 0), first order in the angles: linear in every part of a misalignment except the axial offset, which
-/// shifts the levers too. The errors of the pinion take no part.
+/// (sin a, cos a, 0), and along the profile t = (-cos a, sin a, 0), first order in the angles: linear in every part of a misalignment except the
+/// axial offset, which shifts the levers too. The errors of the pinion take no part.
 class WheelDisplacement {
  public:
   WheelDisplacement(const GearPair& pair, const Misalignment& m) : WheelDisplacement(pair, m, m.axial_offset) {}
@@ -23,20 +23,35 @@ class WheelDisplacement {
     about_y_ = m.intersecting;
   }
 
-  /// At a contact point [mm].
+  /// Away from the pinion at a contact point [mm].
   double along_normal(const ContactPoint& point) const {
     // Contact point relative to the wheel's centre: pitch point plus its distance s along the line of action.
     const double s = path_.roll_at(point.phase) - pair_.pitch_point;
     const double x = -pair_.wheel.working_pitch_radius + s * std::sin(alpha_), y = s * std::cos(alpha_);
-    const double z = point.z - centre_;
-    const double dx = about_y_ * z + misalignment_.centre_distance, dy = -about_x_ * z;
     const double dz = about_x_ * y - about_y_ * x + misalignment_.axial_offset;
     const double beta = pair_.base_helix_angle;
-    const double opened = misalignment_.mesh_misalignment * z / pair_.face_width;
-    return std::cos(beta) * (dx * std::sin(alpha_) + dy * std::cos(alpha_) + opened) - pair_.contact_line_sense() * std::sin(beta) * dz;
+    const double opened = misalignment_.mesh_misalignment * (point.z - centre_) / pair_.face_width;
+    return std::cos(beta) * (along_action(point.z) + opened) - pair_.contact_line_sense() * std::sin(beta) * dz;
+  }
+
+  /// Along the line of action in a transverse section [mm].
+  double along_action(double z) const {
+    const Transverse d = in_section(z);
+    return d.x * std::sin(alpha_) + d.y * std::cos(alpha_);
+  }
+
+  /// Along the flanks in a transverse section, towards the wheel's tip [mm]. This displacement is without first-order influence on the gap.
+  double along_profile(double z) const {
+    const Transverse d = in_section(z);
+    return d.y * std::sin(alpha_) - d.x * std::cos(alpha_);
   }
 
  private:
+  struct Transverse {
+    double x, y;
+  };
+  Transverse in_section(double z) const { return {about_y_ * (z - centre_) + misalignment_.centre_distance, -about_x_ * (z - centre_)}; }
+
   const GearPair& pair_;
   PathOfContact path_;
   Misalignment misalignment_;

@@ -19,12 +19,12 @@ Eigen::VectorXd ConditionGap::derivative(const std::vector<ContactPoint>& points
   return surfaces_ ? surfaces_->derivative(points, gap, member, parameter) : gap_derivative(pair_, points, gap, condition_, member, parameter);
 }
 
-Eigen::VectorXd ConditionGap::derivative(const std::vector<ContactPoint>& points, MisalignmentParameter parameter) const {
+MisalignmentSlopes ConditionGap::slopes(const std::vector<ContactPoint>& points, MisalignmentParameter parameter) const {
   if (surfaces_) {
     throw InvalidInput("misalignment." + std::string(name_of(parameter)), "a derivative",
                        "a parameter that leaves the contact points where they are");
   }
-  return gap_derivative(pair_, points, condition_.misalignment, parameter);
+  return misalignment_slopes(pair_, points, condition_, parameter);
 }
 
 }  // namespace flankwright

@@ -25,9 +25,9 @@ class ConditionGap {
   /// @param gap  as at() gave it for these points
   Eigen::VectorXd derivative(const std::vector<ContactPoint>& points, const Gap& gap, Member member, ModificationParameter parameter) const;
 
-  /// dg/dp at each point for one number of the misalignment that leaves the points where they are [mm/rad or mm/mm], exact.
+  /// By one number of the misalignment that leaves the points where they are.
   /// @throws InvalidInput  where it moves them: in the plane of action the axial offset, over the whole surface any
-  Eigen::VectorXd derivative(const std::vector<ContactPoint>& points, MisalignmentParameter parameter) const;
+  MisalignmentSlopes slopes(const std::vector<ContactPoint>& points, MisalignmentParameter parameter) const;
 
  private:
   const GearPair& pair_;

@@ -10,12 +10,12 @@ namespace flankwright {
 
 namespace {
 
-/// Newton's last step [mm]: it is taken, and leaves a share of it by which the curvature is off.
-constexpr double last_step = 1e-6;
+/// Newton's last step [relative radius]: it is taken, and leaves a share of it by which the curvature is off.
+constexpr double last_step = 3e-8;
 /// More are needed only where slopes jump.
 constexpr int most_newton_steps = 5;
-/// Of x [mm], g [mm] and the distance of a kink's two sides [mm].
-constexpr PeakTolerance kink_tolerance{1e-8, 1e-15, 1e-8};
+/// Of x, of g and of the distance of a kink's two sides [mm].
+PeakTolerance kink_tolerance(double relative_radius) { return {3e-10 * relative_radius, 3e-17 * relative_radius, 3e-10 * relative_radius}; }
 
 double radius_of(const ContactPoint& point, Member m) { return m == Member::Pinion ? point.pinion_radius : point.wheel_radius; }
 
@@ -39,6 +39,19 @@ Flank parabola_alone(const GearPair& pair, Member m, const FlankCondition& condi
   return flank;
 }
 
+/// The part of a misalignment by which the wheel is displaced since the points were made.
+Misalignment less(Misalignment all, const Misalignment& placed) {
+  all.crossing -= placed.crossing;
+  all.intersecting -= placed.intersecting;
+  all.centre_distance -= placed.centre_distance;
+  return all;
+}
+
+double curvature_radius(const ContactPoint& point, Member m, double base_radius) {
+  const double radius = radius_of(point, m);
+  return std::sqrt(std::max(0.0, (radius - base_radius) * (radius + base_radius)));
+}
+
 /// Both flanks in the transverse section of a point.
 class Section {
  public:
@@ -48,41 +61,54 @@ class Section {
     double rounding;  ///< radius of the edge [mm], 0: sharp
   };
 
-  Section(const GearPair& pair, const ContactPoint& point, bool before_path) : pair_(pair), point_(point) {
+  /// The wheel's displacement in the section [mm].
+  struct Displacement {
+    double along_profile, along_action;
+  };
+
+  Section(const GearPair& pair, const ContactPoint& point, bool before_path, const Displacement& displacement) : pair_(pair), point_(point) {
     const double sharp = point.clearance + point.tip_edge.rounded_off;
     // The clearance that two parabolas have at an edge that lies so far from where the involutes would touch.
     if (sharp > 0.0) place_ = (before_path ? -1.0 : 1.0) * std::sqrt(2.0 * point.relative_radius * sharp);
+    if (displacement.along_profile != 0.0 || displacement.along_action != 0.0) {
+      const double rho_1 = curvature_radius(point, Member::Pinion, pair.pinion.base_radius);
+      const double rho_2 = curvature_radius(point, Member::Wheel, pair.wheel.base_radius);
+      const double s = displacement.along_profile, sum = rho_1 + rho_2;
+      slid_ = {s * rho_1 / sum, -s * rho_2 / sum + displacement.along_action * rho_2 / pair.wheel.base_radius};
+      opened_ = 0.5 * std::cos(pair.base_helix_angle) * s * s / sum;
+    }
     const End pinion_tip{reach(Member::Pinion, pair.pinion.tip_form_radius), pair.pinion.tip_edge_radius};
     const End wheel_tip{reach(Member::Wheel, pair.wheel.tip_form_radius), pair.wheel.tip_edge_radius};
     const End pinion_root{reach(Member::Pinion, lower_end(pair.pinion)), 0.0}, wheel_root{reach(Member::Wheel, lower_end(pair.wheel)), 0.0};
     upper_ = wheel_tip.x <= pinion_root.x ? wheel_tip : pinion_root;
     lower_ = pinion_tip.x >= wheel_root.x ? pinion_tip : wheel_root;
-    const End passed{place_, std::isless(point.tip_edge.distance, 0.0) ? point.tip_edge.radius : 0.0};
-    if (place_ < 0.0) upper_ = passed;
-    if (place_ > 0.0) lower_ = passed;
-    upper_.x = std::max(upper_.x, place_);
-    lower_.x = std::min(lower_.x, place_);
+    if (lower_.x > upper_.x) lower_.x = upper_.x = 0.5 * (lower_.x + upper_.x);  // edges that pass each other
   }
 
-  double place() const { return place_; }
+  /// Where the involutes touch, or on the edge that keeps them from it.
+  double start() const { return std::clamp(place_, lower_.x, upper_.x); }
+  const PerGear<double>& slid() const { return slid_; }
+  double opened() const { return opened_; }
   const End& upper() const { return upper_; }
   const End& lower() const { return lower_; }
 
   double radius(Member m, double x) const {
     const double radius = radius_of(point_, m), rb = pair_[m].base_radius;
-    return std::sqrt(std::max(rb * rb, radius * radius + 2.0 * towards_own_tip(m) * rb * (x - place_)));
+    return std::sqrt(std::max(rb * rb, radius * radius + 2.0 * towards_own_tip(m) * rb * (x + slid_[m] - place_)));
   }
 
  private:
   static double lower_end(const Gear& gear) { return std::max(gear.base_radius, gear.form_radius); }
   double reach(Member m, double end) const {
     const double radius = radius_of(point_, m);
-    return place_ + towards_own_tip(m) * (end - radius) * (end + radius) / (2.0 * pair_[m].base_radius);
+    return place_ - slid_[m] + towards_own_tip(m) * (end - radius) * (end + radius) / (2.0 * pair_[m].base_radius);
   }
 
   const GearPair& pair_;
   const ContactPoint& point_;
-  double place_{0.0};  ///< of the point, x [mm]
+  double place_{0.0};               ///< of the point on both flanks [mm]
+  PerGear<double> slid_{0.0, 0.0};  ///< place on either flank less x [mm]
+  double opened_{0.0};              ///< by the displacement along the profile [mm]
   End lower_, upper_;
 };
 
@@ -164,28 +190,29 @@ FlankTouch touch_in(const Section& section, double relative_radius, const Deviat
     return Sample{x, relative_radius, d.h, d.by_lag};
   };
   const auto points_beyond = [&](const Sample& s) { return s.slope() > 0.0 ? s.x >= upper : s.slope() < 0.0 && s.x <= lower; };
-  Sample top = evaluate(section.place(), nullptr);
+  Sample top = evaluate(section.start(), nullptr);
   for (int steps = 0; top.curvature() > 0.0 && steps < most_newton_steps; ++steps) {
     if (points_beyond(top)) return touch_beyond(section, top);
     const double step = top.slope() / top.curvature();
-    if (std::abs(step) <= last_step) return touch_near(section, top, step);
+    if (std::abs(step) <= last_step * relative_radius) return touch_near(section, top, step);
     top = evaluate(std::clamp(top.x + step, lower, upper), nullptr);
   }
-  const Peak<Sample> peak = find_peak<Sample>(evaluate, lower, upper, section.place(), 1.0 / relative_radius, kink_tolerance);
+  const Peak<Sample> peak = find_peak<Sample>(evaluate, lower, upper, section.start(), 1.0 / relative_radius, kink_tolerance(relative_radius));
   if (peak.at_end) return touch_beyond(section, peak.top);
   // Near a smooth vertex a step by the curvature leads to it, on a kink far away.
   const double step = peak.top.slope() / peak.top.curvature();
   const auto share_of_falling = peak.share_of_falling();
-  if (!share_of_falling || std::abs(step) <= last_step) return touch_near(section, peak.top, step);
+  if (!share_of_falling || std::abs(step) <= last_step * relative_radius) return touch_near(section, peak.top, step);
   return touch_on_kink(section, peak, *share_of_falling);
 }
 
 }  // namespace
 
-FlankTouchSearch::FlankTouchSearch(const GearPair& pair, const FlankCondition& condition)
+FlankTouchSearch::FlankTouchSearch(const GearPair& pair, const FlankCondition& condition, const Misalignment& placed)
     : pair_(pair),
       path_(pair),
       misalignment_(condition.misalignment),
+      displaced_(pair, less(condition.misalignment, placed)),
       flanks_{without_parabola(pair, Member::Pinion, condition), without_parabola(pair, Member::Wheel, condition)},
       lags_{parabola_alone(pair, Member::Pinion, condition), parabola_alone(pair, Member::Wheel, condition)},
       has_lag_(condition.modification.pinion.parabolic_te != 0.0 || condition.modification.wheel.parabolic_te != 0.0) {}
@@ -215,13 +242,17 @@ std::vector<FlankTouch> FlankTouchSearch::at(const std::vector<ContactPoint>& po
       touches.push_back({.gap = point.clearance + h, .sides = {FlankTouch::Side{{point.pinion_radius, point.wheel_radius}, 1.0}}});
       continue;
     }
-    const Section section(pair_, point, path_.roll_at(point.phase) < pair_.path_start);
-    touches.push_back(touch_in(section, point.relative_radius, [&](double x) {
+    const Section section(pair_, point, path_.roll_at(point.phase) < pair_.path_start,
+                          {displaced_.along_profile(point.z), displaced_.along_action(point.z)});
+    FlankTouch touch = touch_in(section, point.relative_radius, [&](double x) {
       const double pinion_radius = section.radius(Member::Pinion, x), wheel_radius = section.radius(Member::Wheel, x);
       Deviation d{along(*deviations, pinion_radius, wheel_radius)};
       if (has_lag_) d.add_lag(along(*lags, pinion_radius, wheel_radius), point.relative_radius);
       return d;
-    }));
+    });
+    touch.gap += section.opened();
+    touch.slid = section.slid();
+    touches.push_back(touch);
   }
   return touches;
 }
@@ -264,6 +295,8 @@ double TouchDerivative::of_edge(const ContactPoint& point, const FlankTouch& tou
   return touch.along_by_slope == 0.0 ? 0.0 : -towards_edge * touch.along_by_slope * slopes(point, touch.sides[0]).slope;
 }
 
-double edge_moved_by(const ContactPoint& point, const FlankTouch& touch) { return -towards_own_tip(point.tip_edge.gear) * touch.along; }
+double edge_moved_by(const ContactPoint& point, const FlankTouch& touch) {
+  return -towards_own_tip(point.tip_edge.gear) * (touch.along + touch.slid[point.tip_edge.gear]);
+}
 
 }  // namespace flankwright

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/contact/assembly/flank_condition.hpp"
+#include "core/contact/assembly/wheel_displacement.hpp"
 #include "core/contact/path/contact_points.hpp"
 #include "core/contact/path/path_of_contact.hpp"
 #include "core/flank/flank.hpp"
@@ -19,12 +20,13 @@ struct FlankTouch {
     double share{0.0};       ///< of the derivative [-]; both sides' add up to 1
   };
 
-  double gap{0.0};             ///< clearance and deviations there, normal to the flanks
-  double along{0.0};           ///< x: vertex of the parabola of both flanks, beyond an edge where the flanks would go on touching there
-  double along_by_slope{0.0};  ///< dx by the slope dh/dx of the deviations; 0 on a kink, which stays where it is
-  double on_rounding{0.0};     ///< how far beyond an edge its rounding touches, signed as x; 0: the flanks touch
-  double rounded_off{0.0};     ///< part of the sharp edge's clearance that the rounding fills
-  double by_lag{0.0};          ///< R L', see FlankTouchSearch
+  double gap{0.0};                 ///< clearance and deviations there, normal to the flanks
+  double along{0.0};               ///< x: vertex of the parabola of both flanks, beyond an edge where the flanks would go on touching there
+  double along_by_slope{0.0};      ///< dx by the slope dh/dx of the deviations; 0 on a kink, which stays where it is
+  double on_rounding{0.0};         ///< how far beyond an edge its rounding touches, signed as x; 0: the flanks touch
+  double rounded_off{0.0};         ///< part of the sharp edge's clearance that the rounding fills
+  double by_lag{0.0};              ///< R L', see FlankTouchSearch
+  PerGear<double> slid{0.0, 0.0};  ///< place on either flank less x, by a displacement of the wheel
   std::array<Side, 2> sides;
 };
 
@@ -39,10 +41,19 @@ struct FlankTouch {
 ///
 /// A predesigned parabola of transmission error is given as the lag L(x) that it makes where the involutes would touch. The flank that has this lag deviates
 /// by L + R L'^2/2, which is its part of h.
+///
+/// A wheel that is displaced by s along the profile and by a along the line of action, WheelDisplacement, lets the involutes touch further on on the pinion
+/// and less far on the wheel, each in proportion to its radius of curvature, with the parabolas x_1^2/(2 rho_1) + (x_1 - s)^2/(2 rho_2) of the section. The
+/// wheel's base circle goes along by a, by which its roll length becomes longer:
+///
+///     x_1 = x + s rho_1/(rho_1 + rho_2),   x_2 = x - s rho_2/(rho_1 + rho_2) + a rho_2/r_b2,   g += cos(beta_b) s^2/(2 (rho_1 + rho_2)).
+///
+/// Deviations and edges are those at x_1 and x_2. This is how another centre distance or intersecting axes move the path of contact along the flanks.
 class FlankTouchSearch {
  public:
-  /// @param pair  must outlive this
-  FlankTouchSearch(const GearPair& pair, const FlankCondition& condition);
+  /// @param pair    must outlive this
+  /// @param placed  the misalignment that the points were made for: only what the condition has beyond it displaces the wheel along the profile
+  FlankTouchSearch(const GearPair& pair, const FlankCondition& condition, const Misalignment& placed = {});
   /// A point without a relative radius is compared as it is.
   std::vector<FlankTouch> at(const std::vector<ContactPoint>& points) const;
   FlankTouch at(const ContactPoint& point) const { return at(std::vector{point}).front(); }
@@ -51,8 +62,9 @@ class FlankTouchSearch {
   const GearPair& pair_;
   PathOfContact path_;
   Misalignment misalignment_;
-  PerGear<Flank> flanks_;  ///< without predesigned parabolas
-  PerGear<Flank> lags_;    ///< nothing but these
+  WheelDisplacement displaced_;  ///< beyond what the points were made for
+  PerGear<Flank> flanks_;        ///< without predesigned parabolas
+  PerGear<Flank> lags_;          ///< nothing but these
   bool has_lag_;
 };
 

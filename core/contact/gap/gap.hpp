@@ -44,9 +44,10 @@ struct Gap {
 ///
 ///     g = touch + misalignment
 ///
-/// The touch is that of both flanks with their clearance and deviations in the section of the point, see FlankTouchSearch. Misalignment is the wheel's displacement along the pinion's outward normal, first order in the angles; a changed pinion helicoid (lead or
-/// pressure-angle error) enters by the exact angle between the changed and the nominal flank. Both are those of the plane of action. Negative where metal
-/// is added or the wheel is pushed into the pinion.
+/// The touch is that of both flanks with their clearance and deviations in the section of the point, see FlankTouchSearch; it moves along the profile
+/// with the wheel. Misalignment is the wheel's displacement along the pinion's outward normal, first order in the angles; a changed pinion helicoid (lead
+/// or pressure-angle error) enters by the exact angle between the changed and the nominal flank. Both are those of the plane of action. Negative where
+/// metal is added or the wheel is pushed into the pinion.
 Gap plane_of_action_gap(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition);
 
 /// dg/dp at each point for one modification parameter of one gear [mm/mm; parabolic_te mm rad], exact.

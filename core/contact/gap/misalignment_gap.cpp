@@ -5,10 +5,15 @@
 
 #include "core/base/error.hpp"
 #include "core/contact/assembly/wheel_displacement.hpp"
+#include "core/contact/gap/flank_touch.hpp"
 
 namespace flankwright {
 
 namespace {
+
+/// The step of central differences along the profile [m_n]. Round-off of a gap over it is 1e-10. Where contact comes to an edge the curvature of the gap
+/// jumps: there half the step over a radius of curvature is off.
+constexpr double profile_step = 1e-5;
 
 /// d/dp of the angle by which the erroneous pinion's flank is ahead of the nominal one [1], chain rule over TM-107451,
 /// A.2.1-A.2.8, with beta = helix angle - delta lambda and alpha_n = pressure angle + delta alpha:
@@ -50,8 +55,9 @@ std::string_view name_of(MisalignmentParameter parameter) {
   return std::ranges::find(misalignment_parameters, parameter, &NamedMisalignmentParameter::parameter)->name;
 }
 
-Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const Misalignment& misalignment,
-                               MisalignmentParameter parameter) {
+MisalignmentSlopes misalignment_slopes(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition,
+                                       MisalignmentParameter parameter) {
+  const Misalignment& misalignment = condition.misalignment;
   if (parameter == &Misalignment::axial_offset) {
     throw InvalidInput("misalignment.axial_offset", "a derivative", "a parameter that leaves the contact points where they are");
   }
@@ -61,12 +67,27 @@ Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPo
   const WheelDisplacement displacement(pair, unit, misalignment.axial_offset);
   const PinionLeadSlope lead(pair, misalignment, parameter);
   const double arm = std::cos(pair.base_helix_angle) * pair.pinion.base_radius;
-  Eigen::VectorXd derivative(points.size());
-  for (Eigen::Index i = 0; i < derivative.size(); ++i) {
+  MisalignmentSlopes slopes{Eigen::VectorXd(points.size()), Eigen::VectorXd::Zero(std::ssize(points))};
+  double farthest = 0.0;  // along the profile, by the unit
+  for (Eigen::Index i = 0; i < slopes.gap.size(); ++i) {
     const ContactPoint& point = points[static_cast<std::size_t>(i)];
-    derivative[i] = of_pinion ? -arm * lead.at(point) : displacement.along_normal(point);
+    slopes.gap[i] = of_pinion ? -arm * lead.at(point) : displacement.along_normal(point);
+    farthest = std::max(farthest, std::abs(displacement.along_profile(point.z)));
   }
-  return derivative;
+  if (farthest == 0.0) return slopes;
+  const double step = profile_step * pair.data.normal_module / farthest;
+  const auto touches = [&](double by) {
+    FlankCondition moved = condition;
+    moved.misalignment.*parameter += by;
+    return FlankTouchSearch(pair, moved).at(points);
+  };
+  const std::vector<FlankTouch> more = touches(step), less = touches(-step);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    slopes.gap[k] += (more[i].gap - less[i].gap) / (2.0 * step);
+    slopes.edge[k] = (edge_moved_by(points[i], more[i]) - edge_moved_by(points[i], less[i])) / (2.0 * step);
+  }
+  return slopes;
 }
 
 }  // namespace flankwright

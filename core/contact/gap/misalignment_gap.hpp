@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/contact/path/contact_points.hpp"
-#include "core/contact/assembly/misalignment.hpp"
+#include "core/contact/assembly/flank_condition.hpp"
 
 namespace flankwright {
 
@@ -34,9 +34,15 @@ inline constexpr std::array<NamedMisalignmentParameter, 7> misalignment_paramete
 /// The name of one of them.
 std::string_view name_of(MisalignmentParameter parameter);
 
-/// dg/dp of plane_of_action_gap() at each point [mm/rad or mm/mm], exact, the points held.
+/// Derivatives by one number of a misalignment, the points held, at each of them [mm/rad or mm/mm].
+struct MisalignmentSlopes {
+  Eigen::VectorXd gap;   ///< of plane_of_action_gap(): exact, but for the part by which the wheel moves along the profile
+  Eigen::VectorXd edge;  ///< of edge_moved_by()
+};
+
+/// What moves the wheel along the profile changes the touch to second order: that part of the gap's slope, and the edge's, are central differences.
 /// @throws InvalidInput for the axial offset, by which points move
-Eigen::VectorXd gap_derivative(const GearPair& pair, const std::vector<ContactPoint>& points, const Misalignment& misalignment,
-                               MisalignmentParameter parameter);
+MisalignmentSlopes misalignment_slopes(const GearPair& pair, const std::vector<ContactPoint>& points, const FlankCondition& condition,
+                                       MisalignmentParameter parameter);
 
 }  // namespace flankwright

@@ -62,7 +62,7 @@ Gap SurfaceGap::at(const std::vector<ContactPoint>& points, double line_phase) c
   const double phi1 = PathOfContact(pair_).pinion_angle_at(line_phase, pair_);
   const double scale = assembly_.wheel.base_radius * std::cos(pair_.base_helix_angle);
   const Eigen::Index n = static_cast<Eigen::Index>(points.size());
-  Gap gap{Eigen::VectorXd(n), Eigen::VectorXd(n), FlankTouchSearch(pair_, condition_).at(points)};
+  Gap gap{Eigen::VectorXd(n), Eigen::VectorXd(n), FlankTouchSearch(pair_, condition_, condition_.misalignment).at(points)};
   gap.nearest.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Index k = static_cast<Eigen::Index>(i);
@@ -102,6 +102,13 @@ Eigen::VectorXd SurfaceGap::derivative(const std::vector<ContactPoint>& points, 
 std::vector<ContactPoint> SurfaceGap::place(const std::vector<ContactPoint>& points, double line_phase) const {
   const std::vector<SectionMaximum> found = maxima(points, line_phase);
   const Gap aligned = SurfaceGap(pair_, {}).at(points, line_phase);
+  FlankCondition unmodified;
+  unmodified.misalignment = condition_.misalignment;
+  const std::vector<FlankTouch> displaced = FlankTouchSearch(pair_, unmodified).at(points);
+  const auto parabola = [](const TipEdge& edge, double radius) {
+    const double beyond = std::min(0.0, edge.distance);
+    return 0.5 * beyond * beyond / radius;
+  };
   std::vector<ContactPoint> placed;
   placed.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -109,9 +116,16 @@ std::vector<ContactPoint> SurfaceGap::place(const std::vector<ContactPoint>& poi
     const NearestPoint nearest = nearest_point(found[i], points[i].tooth);
     ContactPoint point = points[i];
     if (point.clearance > 0.0) point.clearance = aligned.total[static_cast<Eigen::Index>(i)];
-    const TipEdge passed = point.tip_edge;
     set_rolls(pair_, pair_.pinion.roll_length_at(nearest.pinion_radius), pair_.wheel.roll_length_at(nearest.wheel_radius), point);
-    if (passed.distance < 0.0) point.tip_edge = passed;
+    point.tip_edge = points[i].tip_edge;
+    if (const double moved = edge_moved_by(points[i], displaced[i]); moved != 0.0 && point.tip_edge.radius > 0.0) {
+      TipEdge& edge = point.tip_edge;
+      const double rho = edge.radius, R = points[i].relative_radius;
+      point.clearance -= parabola(edge, R + rho);
+      edge.distance += moved;
+      edge.rounded_off = parabola(edge, R) * rho / (R + rho);
+      point.clearance = std::max(0.0, point.clearance + parabola(edge, R + rho));
+    }
     placed.push_back(point);
   }
   return placed;

@@ -47,7 +47,8 @@ class SurfaceGap {
 
   /// The points, each moved along its section to where the flanks are nearest, radii, curvature, depths and tip
   /// distances with it; without those whose section misses the mate. Clearances outside A .. E become those of the
-  /// aligned pair, found likewise.
+  /// aligned pair, found likewise. Tip edges, and their clearances, move with the wheel along the profile as in FlankTouchSearch: a nearest point that is
+  /// held by an edge does not say how far beyond it contact would be.
   std::vector<ContactPoint> place(const std::vector<ContactPoint>& points, double line_phase) const;
 
  private:

@@ -22,7 +22,7 @@ std::vector<ContactLaw> laws_with_moved_edges(const MeshPosition& at, const Gap&
 std::optional<ContactLaw> contact_law_in(const MeshModel& model, const ContactPoint& point, const FlankCondition& condition) {
   const std::optional<ContactLaw> law = model.contact_law(point);
   if (!law || !law->edge()) return law;
-  return law->with_edge_moved(edge_moved_by(point, FlankTouchSearch(model.pair, condition).at(point)));
+  return law->with_edge_moved(edge_moved_by(point, FlankTouchSearch(model.pair, condition, model.placement.misalignment).at(point)));
 }
 
 StripContact::Peaks contact_stress(const MeshModel& model, const ContactPoint& point, const ContactLaw* law, double line_load) {

@@ -18,7 +18,10 @@ ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at,
         slopes.edge(i, p) = touches.of_edge(at.points[k], gap.touches[k]);
       }
     } else if (const auto* misalignment = std::get_if<MisalignmentParameter>(&which)) {
-      if (!moves_mesh(gaps.model(), which)) slopes.gap.col(p) = gaps.derivative(at.points, *misalignment);
+      if (moves_mesh(gaps.model(), which)) continue;
+      const MisalignmentSlopes by = gaps.slopes(at.points, *misalignment);
+      slopes.gap.col(p) = by.gap;
+      for (const Eigen::Index i : on_edges) slopes.edge(i, p) = by.edge[i];
     } else {
       slopes.force[p] = model.normal_force(1.0);
       if (at.outside.by_force.size() > 0) slopes.gap.col(p) = slopes.force[p] * at.outside.by_force;

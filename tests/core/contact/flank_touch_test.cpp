@@ -114,3 +114,55 @@ TEST_CASE("Beyond an edge two parabolas touch, or the rounding and a straight fl
   }
   CHECK(beyond > 5);
 }
+
+namespace {
+
+/// The mate's roll length where contact comes to the edge of a gear [mm], by the touches of a pair that is pushed apart.
+PerGear<double> rolls_at_edges(const GearPair& pair, double apart) {
+  FlankCondition condition;
+  condition.misalignment.centre_distance = apart;
+  const PathOfContact path(pair);
+  const double b = 0.5 * pair.face_width;
+  PerGear<double> at_edge{not_given, not_given};
+  for (double phase = 0.05; phase < 1.0; phase += 0.1) {
+    const std::vector<ContactPoint> points = contact_points(pair, path, {QuadratureRule::Midpoint, 1000}, phase, true, -b, b);
+    const std::vector<FlankTouch> touches = FlankTouchSearch(pair, condition).at(points);
+    for (std::size_t i = 1; i < points.size(); ++i) {
+      const Member gear = points[i].tip_edge.gear, mate = gear == Member::Pinion ? Member::Wheel : Member::Pinion;
+      if (points[i].tooth != points[i - 1].tooth || points[i - 1].tip_edge.gear != gear) continue;
+      const auto to_edge = [&](std::size_t k) { return points[k].tip_edge.distance + edge_moved_by(points[k], touches[k]); };
+      const auto roll = [&](std::size_t k) { return pair[mate].roll_length_at(touches[k].sides[0].radius[mate]); };
+      const double here = to_edge(i), before = to_edge(i - 1);
+      if ((here < 0.0) == (before < 0.0)) continue;
+      at_edge[gear] = roll(i) - here / (here - before) * (roll(i) - roll(i - 1));
+    }
+  }
+  return at_edge;
+}
+
+}  // namespace
+
+TEST_CASE("Another centre distance moves the ends of the path of contact as in a pair that is made for it", "[core][contact][independent]") {
+  const double sense = GENERATE(-1.0, 1.0);
+  PairData data = pair_data(25, 50, 15 * deg);
+  data.pinion.tip_rounding = data.wheel.tip_rounding = 0.15;
+  const GearPair pair = make_gear_pair(data);
+  struct End {
+    double moved, off;
+  };
+  const auto ends = [&](double apart) {
+    data.centre_distance = pair.centre_distance + apart;
+    const GearPair made = make_gear_pair(data);
+    const PerGear<double> roll = rolls_at_edges(pair, apart);
+    const double pinion = made.path_start, wheel = made.path_length - made.path_end;
+    return std::vector{End{pinion - pair.path_start, roll.wheel - pinion}, End{wheel - (pair.path_length - pair.path_end), roll.pinion - wheel}};
+  };
+  for (const double apart : {0.05, 0.1}) {
+    for (const End& end : ends(apart * sense)) {
+      CAPTURE(apart, sense, end.moved, end.off);
+      CHECK(std::abs(end.moved) > 2.0 * apart);
+      // model: second order, by the change of a radius of curvature along the way
+      CHECK(std::abs(end.off) <= 2.0 * end.moved * end.moved / pair.path_start);
+    }
+  }
+}

@@ -28,6 +28,8 @@ TEST_CASE("Gaps change with misalignment as central differences say", "[core][co
   // Discretisation, step^2 times a third derivative of the order of the radius, and round-off of gaps below 1 mm over the step;
   // relative to the largest derivative.
   constexpr double kDifference = 1e-8, step = 1e-5;
+  // Of a wheel that moves along the profile both are differences: where contact comes to an edge the curvature jumps within steps of 5e-5 mm.
+  constexpr double kEdge = 1e-5;
   const double helix = GENERATE(0.0, 12.0, 30.0);
   const bool left = GENERATE(false, true);
   load_cases::Random random(71);
@@ -48,8 +50,11 @@ TEST_CASE("Gaps change with misalignment as central differences say", "[core][co
           return plane_of_action_gap(pair, at.points, moved).total;
         };
         const Eigen::VectorXd difference = (gap(step) - gap(-step)) / (2 * step);
-        const Eigen::VectorXd exact = gap_derivative(pair, at.points, condition.misalignment, p.parameter);
-        CHECK((exact - difference).cwiseAbs().maxCoeff() <= kDifference * exact.cwiseAbs().maxCoeff() + kDifference);
+        const Eigen::VectorXd exact = misalignment_slopes(pair, at.points, condition, p.parameter).gap;
+        const bool moves_wheel =
+            p.parameter == &Misalignment::crossing || p.parameter == &Misalignment::intersecting || p.parameter == &Misalignment::centre_distance;
+        const double allowed = moves_wheel ? kEdge : kDifference;
+        CHECK((exact - difference).cwiseAbs().maxCoeff() <= allowed * exact.cwiseAbs().maxCoeff() + kDifference);
         CHECK(exact.cwiseAbs().maxCoeff() > 0.1);  // mm/rad or mm/mm
       }
     }
@@ -59,8 +64,8 @@ TEST_CASE("Gaps change with misalignment as central differences say", "[core][co
 TEST_CASE("There is no derivative at held contact points with respect to what moves them", "[core][contact][gap][input]") {
   const GearPair pair = mesh_cases::pair(20, 40, 0, 4, 30);
   const MeshModel model = mesh_cases::model(pair, {{}, {0.5}});
-  CHECK_THROWS_AS(gap_derivative(pair, model.positions[0].points, {}, &Misalignment::axial_offset), InvalidInput);
+  CHECK_THROWS_AS(misalignment_slopes(pair, model.positions[0].points, {}, &Misalignment::axial_offset), InvalidInput);
   const FlankCondition aligned;
   const ConditionGap surface(pair, GapModel::WholeSurface, aligned);
-  CHECK_THROWS_AS(surface.derivative(model.positions[0].points, &Misalignment::crossing), InvalidInput);
+  CHECK_THROWS_AS(surface.slopes(model.positions[0].points, &Misalignment::crossing), InvalidInput);
 }

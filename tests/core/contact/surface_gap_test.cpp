@@ -127,7 +127,6 @@ TEST_CASE("A misaligned pair's gap leaves that of the plane of action with the s
   using Case = std::pair<std::string, Misalignment>;
   const auto [name, misalignment] = GENERATE(values<Case>({{"crossing", {.crossing = 8 * arcmin}},
                                                            {"intersecting", {.intersecting = 8 * arcmin}},
-                                                           {"centre_distance", {.centre_distance = 0.04}},
                                                            {"pinion_lead_angle", {.pinion_lead_angle = 8 * arcmin}},
                                                            {"pinion_pressure_angle", {.pinion_pressure_angle = 8 * arcmin}}}));
   const GearPair pair = make_gear_pair(pair_data(27, 43, 15 * deg));
@@ -152,11 +151,35 @@ TEST_CASE("A misaligned pair's gap leaves that of the plane of action with the s
   const Eigen::VectorXd whole = difference(1.0), half = difference(0.5), opposite = difference(-0.5);
   CAPTURE(name, whole.cwiseAbs().maxCoeff() / um);
   CHECK(whole.cwiseAbs().maxCoeff() > 0.005 * um);  // there is something to compare, far above round-off
-  CHECK(whole.cwiseAbs().maxCoeff() < 2.0 * um);    // model: (8')^2 on lengths below 100 mm; 0.04^2/(2 r sin(alpha)) of the distance
+  CHECK(whole.cwiseAbs().maxCoeff() < 2.0 * um);    // model: (8')^2 on lengths below 100 mm
   // discretisation: the third order, a share of the size of the misalignment over the gears' own
   const double third_order = 0.06 * whole.cwiseAbs().maxCoeff();
   CHECK((whole - 4.0 * half).cwiseAbs().maxCoeff() <= third_order);
   CHECK((half - opposite).cwiseAbs().maxCoeff() <= third_order);
+}
+
+TEST_CASE("Involutes at another centre distance have the same gap everywhere", "[core][contact][independent]") {
+  const GearPair pair = make_gear_pair(pair_data(27, 43, 15 * deg));
+  const double apart = GENERATE(-0.05, 0.04, 0.5);
+  constexpr double kRoundOff = 1e-10;  // of angles below 1 times radii of 100 mm, through both searches
+  Misalignment m;
+  m.centre_distance = apart;
+  const FlankCondition condition = misaligned_by(m);
+  std::vector<ContactPoint> inner;
+  const PathOfContact path(pair);
+  constexpr double kPhase = 0.37;
+  for (const ContactPoint& point : points_of(pair, kPhase)) {
+    const double rho = path.roll_at(point.phase);
+    if (rho > pair.path_start + 1.0 + 3.0 * std::abs(apart) && rho < pair.path_end - 1.0 - 3.0 * std::abs(apart)) inner.push_back(point);
+  }
+  REQUIRE(inner.size() >= 10);
+  const Eigen::VectorXd plane = plane_of_action_gap(pair, inner, condition).total, whole = SurfaceGap(pair, condition).at(inner, kPhase).total;
+  CAPTURE(apart, plane.transpose() / um, whole.transpose() / um);
+  // model: third order of the displacement over the sum of the radii of curvature, a sin(alpha)
+  const double sum_of_radii = pair.centre_distance * std::sin(pair.working_transverse_pressure_angle);
+  const double third_order = std::abs(apart) * std::pow(apart / sum_of_radii, 2);
+  CHECK((plane - whole).cwiseAbs().maxCoeff() <= third_order + kRoundOff);
+  CHECK(plane.maxCoeff() - plane.minCoeff() <= third_order + kRoundOff);  // they stay conjugate
 }
 
 TEST_CASE("Flanks modified along the profile are nearer than where undisturbed ones would touch, by the parabola of both", "[core][contact]") {

@@ -125,7 +125,7 @@ TEST_CASE("Points of the whole surface follow the misalignment and stay while mo
 }
 
 TEST_CASE("The ends of lines carry what the whole surface leaves there", "[core][load][line-ends]") {
-  // Far apart and skewed both gaps differ by micrometres: only the one that the points have continues their loads to the end,
+  // Far apart and skewed both gaps differ by half a micrometre: only the one that the points have continues their loads to the end,
   // where these do not drop for a free end.
   const GearPair gears = mesh_cases::pair(20, 40, 0, 4, 30);
   FlankCondition condition;
@@ -137,7 +137,7 @@ TEST_CASE("The ends of lines carry what the whole surface leaves there", "[core]
   const LoadedPosition loaded = analyse_cycle(model, condition, torque_for(gears, 300)).positions[0];
   const std::vector<ContactPoint>& points = model.positions[0].points;
   const Eigen::VectorXd &w = loaded.load.line_load, plane = plane_of_action_gap(gears, points, condition).total;
-  CHECK((loaded.gap.total - plane).cwiseAbs().minCoeff() > 2 * um);
+  CHECK((loaded.gap.total - plane).cwiseAbs().minCoeff() > 0.5 * um);
   int compared = 0;
   for (const LineEnd& end : line_ends(model, model.positions[0], loaded, condition)) {
     for (Eigen::Index i = 0; i < w.size(); ++i) {
