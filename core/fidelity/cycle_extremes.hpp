@@ -24,8 +24,8 @@ struct CycleExtremes {
 
 /// Seeks the extremes of a cycle in continuous phase. Curves consist of smooth pieces with kinks where lines begin and
 /// end. In every interval both sides are continued straight until they meet (as unseen_rise() does), by the last secant
-/// or by the slope extrapolated from the last two secants, whichever is steeper: curves grow steeper towards a kink. A
-/// smooth top, as a load has that passes a corner of the face, promises what a parabola through three neighbours does.
+/// or by the slope extrapolated from the last two secants, whichever is steeper: curves grow steeper towards a kink. On
+/// a smooth top, such as that of a load that passes a corner of the face, a parabola through three neighbours is taken.
 /// The most promising phase is solved next. On a kink both meet near the extreme itself, so that two or three positions
 /// a curve are enough.
 /// @param mesh_at  of the cycle; no root stress is needed

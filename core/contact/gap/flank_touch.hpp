@@ -42,9 +42,9 @@ struct FlankTouch {
 /// A predesigned parabola of transmission error is given as the lag L(x) that it makes where the involutes would touch. The flank that has this lag deviates
 /// by L + R L'^2/2, which is its part of h.
 ///
-/// A wheel that is displaced by s along the profile and by a along the line of action, WheelDisplacement, lets the involutes touch further on on the pinion
-/// and less far on the wheel, each in proportion to its radius of curvature, with the parabolas x_1^2/(2 rho_1) + (x_1 - s)^2/(2 rho_2) of the section. The
-/// wheel's base circle goes along by a, by which its roll length becomes longer:
+/// A wheel that is displaced by s along the profile and by a along the line of action, WheelDisplacement, moves the point where the involutes touch:
+/// forward on the pinion, back on the wheel, each in proportion to its radius of curvature. In the section their parabolas are x_1^2/(2 rho_1) and
+/// (x_1 - s)^2/(2 rho_2). The wheel's base circle goes along by a, which makes the wheel's roll length longer:
 ///
 ///     x_1 = x + s rho_1/(rho_1 + rho_2),   x_2 = x - s rho_2/(rho_1 + rho_2) + a rho_2/r_b2,   g += cos(beta_b) s^2/(2 (rho_1 + rho_2)).
 ///
