@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/contact/gap/gap.hpp"
+#include "core/contact/assembly/flank_condition.hpp"
 #include "core/effects/mesh_builder.hpp"
 
 namespace flankwright {

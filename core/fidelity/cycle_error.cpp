@@ -56,7 +56,7 @@ double peak_difference(const std::vector<double>& fine, const std::vector<double
 double approach_of(const LoadedPosition& position) { return position.load.transmission_error - position.gap.total.minCoeff(); }
 double te_of(const LoadedPosition& position) { return position.load.transmission_error; }
 double stress_of(const LoadedPosition& position) { return position.contact_stress.maxCoeff(); }
-double load_of(const LoadedPosition& position) { return position.load.line_load.maxCoeff(); }
+double load_of(const LoadedPosition& position) { return position.peak_load.maxCoeff(); }
 double root_of(const LoadedPosition& position) { return position.root_stress.size() > 0 ? position.root_stress.maxCoeff() : not_given; }
 
 CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, const CycleSummary& summary) {

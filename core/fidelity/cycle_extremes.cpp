@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "core/base/curve_rise.hpp"
+
 namespace flankwright {
 
 namespace {
@@ -15,30 +17,14 @@ using Values = std::array<double, curves>;
 
 Values values_of(const LoadedPosition& position) {
   const double te = position.load.transmission_error;
-  return {te, -te, position.contact_stress.maxCoeff(), position.load.line_load.maxCoeff()};
+  return {te, -te, position.contact_stress.maxCoeff(), position.peak_load.maxCoeff()};
 }
-
-/// The possible rise of a curve within an interval, and its phase [base pitches].
-struct Promise {
-  double height{-std::numeric_limits<double>::infinity()}, phase{not_given};
-};
 
 /// Intervals shorter than this are not divided [base pitches]: a rise within is a jump.
 constexpr double shortest = 1e-4;
 /// A probe lies at one of the divisions of its interval into so many parts: not near either end, because secants of a short and a long interval are
 /// not alike, and where searches of other conditions have probed as well, which have kinks at the same phases: their meshes can be used again.
 constexpr int parts = 8;
-
-using Sample = std::pair<double, double>;  ///< phase and value
-
-/// The top of the parabola through three samples, value and phase; nothing above them where it opens upwards.
-std::pair<double, double> vertex(const Sample& a, const Sample& b, const Sample& c) {
-  const double before = (b.second - a.second) / (b.first - a.first), after = (c.second - b.second) / (c.first - b.first);
-  const double curvature = 2.0 * (after - before) / (c.first - a.first);
-  if (!(curvature < 0.0)) return {-std::numeric_limits<double>::infinity(), b.first};
-  const double slope = before + 0.5 * curvature * (b.first - a.first), step = -slope / curvature;  // at b
-  return {b.second + 0.5 * slope * step, b.first + step};
-}
 
 class Search {
  public:
@@ -59,8 +45,8 @@ class Search {
     while (found.looked_at < settings_.most) {
       std::set<double> probes;
       for (std::size_t c = 0; c < curves; ++c) {
-        const Promise promise = highest_promise(c);
-        if (promise.height > best(c) + slack_[c]) probes.insert(promise.phase);
+        const CurveRise promise = highest_promise(c);
+        if (promise.height > best(c) + slack_[c]) probes.insert(promise.x);
       }
       if (probes.empty()) break;
       const std::vector<double> phases(probes.begin(), probes.end());
@@ -89,47 +75,21 @@ class Search {
     return std::ranges::max_element(known_, {}, [c](const auto& entry) { return entry.second[c]; })->second[c];
   }
 
-  /// Over all intervals, the cycle closed.
-  Promise highest_promise(std::size_t c) const {
-    std::vector<double> x, y;
-    for (const auto& [phase, values] : known_) {
-      x.push_back(phase);
-      y.push_back(values[c]);
-    }
-    const std::size_t n = x.size();
-    const auto at = [&](std::size_t i) { return Sample(x[i % n] + static_cast<double>(i / n), y[i % n]); };
-    Promise highest;
-    const auto rise_towards = [&](std::size_t far, std::size_t middle, std::size_t near) {
-      const auto [x0, y0] = at(far);
-      const auto [x1, y1] = at(middle);
-      const auto [x2, y2] = at(near);
-      const double before = (y1 - y0) / std::abs(x1 - x0), last = (y2 - y1) / std::abs(x2 - x1);
-      return std::max(last, last + (last - before) * (x2 - x1) / (x2 - x0));
-    };
+  /// Over all intervals, the cycle closed; at the division of its interval that is nearest.
+  CurveRise highest_promise(std::size_t c) const {
+    std::vector<CurveSample> once, curve;  // three neighbours beyond either end
+    for (const auto& [phase, values] : known_) once.push_back({phase, values[c]});
+    const std::size_t n = once.size();
+    for (std::size_t i = 0; i < n + 5; ++i) curve.push_back({once[i % n].x + static_cast<double>(i / n), once[i % n].y});
+    CurveRise highest;
     for (std::size_t i = 0; i < n; ++i) {
-      const auto [xa, ya] = at(i + 2);
-      const auto [xb, yb] = at(i + 3);
-      const double length = xb - xa;
+      const double from = curve[i + 2].x, length = curve[i + 3].x - from;
       if (length <= shortest) continue;
-      const double from_left = rise_towards(i, i + 1, i + 2), from_right = rise_towards(i + 5, i + 4, i + 3);  // into the interval where > 0
-      double t = 0.5, height = std::max(ya, yb);
-      if (from_left > 0.0 && from_right > 0.0) {
-        t = std::clamp((yb + from_right * length - ya) / ((from_left + from_right) * length), 0.0, 1.0);
-        height = std::min(ya + from_left * t * length, yb + from_right * (1.0 - t) * length);
-      } else if (from_left > 0.0 && yb < ya) {
-        height = ya + from_left * length;
-      } else if (from_right > 0.0 && ya < yb) {
-        height = yb + from_right * length;
-      }
-      for (const auto& [top, at_top] : {vertex(at(i + 1), at(i + 2), at(i + 3)), vertex(at(i + 2), at(i + 3), at(i + 4))}) {
-        if (!(top > height && at_top > xa && at_top < xb)) continue;
-        height = top;
-        t = (at_top - xa) / length;
-      }
-      if (!(height > highest.height)) continue;
-      double phase = xa + std::clamp(std::round(parts * t), 1.0, parts - 1.0) / parts * length;
-      if (phase >= 1.0) phase -= 1.0;
-      highest = {height, phase};
+      CurveRise rise = rise_between(curve, i + 2);
+      if (!(rise.height > highest.height)) continue;
+      rise.x = from + std::clamp(std::round(parts * (rise.x - from) / length), 1.0, parts - 1.0) / parts * length;
+      if (rise.x >= 1.0) rise.x -= 1.0;
+      highest = rise;
     }
     return highest;
   }

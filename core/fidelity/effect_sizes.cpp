@@ -149,6 +149,7 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
   if (!mesh_effects(rest).make_compliant() || !cases.knows(rest)) return result;
   const Case other = cases.with(rest, name);
   const ConditionGap gaps(other.model->pair, other.model->placement.gap, other.condition);
+  const PairReliefStarts starts = relief_starts(other.model->pair, other.condition);
   OutputSum outputs;
   for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
     const MeshPosition& at = other.model->positions[i];
@@ -167,8 +168,11 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
       found = Solution{again.line_load, again.transmission_error};
     }
     double highest = 0.0;
-    for (const PointStress& stress : contact_stresses(*other.model, at, problem.laws, found->line_load)) {
-      highest = std::max(highest, stress.highest.pressure);
+    const Eigen::VectorXd structural = at.influence * at.weight.cwiseProduct(found->line_load);
+    const std::vector<LineCrest> crests =
+        line_crests({*other.model, at, gaps, starts, gap, cycle.force, problem.laws, found->line_load, structural, found->transmission_error});
+    for (const PointPeaks& peaks : point_peaks(*other.model, at, problem.laws, found->line_load, crests)) {
+      highest = std::max(highest, peaks.stress.value);
     }
     outputs.add(highest, found->transmission_error, gap.total.minCoeff());
   }

@@ -12,7 +12,7 @@ void include(const MeshModel& model, const LoadedCycle& cycle, const LoadedCycle
   const Eigen::VectorXd te = cycle.transmission_error(), further = extremes.transmission_error();
   summary.te_peak_to_peak = std::max(te.maxCoeff(), further.maxCoeff()) - std::min(te.minCoeff(), further.minCoeff());
   for (const LoadedPosition& position : extremes.positions) {
-    summary.peak_line_load = std::max(summary.peak_line_load, position.load.line_load.maxCoeff());
+    summary.peak_line_load = std::max(summary.peak_line_load, position.peak_load.maxCoeff());
     summary.peak_contact_stress = std::max(summary.peak_contact_stress, position.contact_stress.maxCoeff());
     if (position.edge_stress.size() > 0) summary.edge_stress = std::fmax(summary.edge_stress, position.edge_stress.maxCoeff());
     summary.tip_edge_share = std::fmax(summary.tip_edge_share, position.tip_edge_share);
@@ -67,11 +67,11 @@ CycleGradient resolved_gradient(const MeshModel& model, const LoadedCycle& cycle
   const auto te = [](const LoadedPosition& p) { return p.load.transmission_error; };
   gradient.te_peak_to_peak = position_of_largest(cycle, extremes, te).transmission_error_derivative -
                              position_of_largest(cycle, extremes, [&](const LoadedPosition& p) { return -te(p); }).transmission_error_derivative;
-  const LoadedPosition& loaded = position_of_largest(cycle, extremes, [](const LoadedPosition& p) { return p.load.line_load.maxCoeff(); });
-  const Eigen::Index point = largest_entry(loaded.load.line_load);
-  gradient.peak_line_load = loaded.line_load_derivative.row(point);
+  const LoadedPosition& loaded = position_of_largest(cycle, extremes, [](const LoadedPosition& p) { return p.peak_load.maxCoeff(); });
+  const Eigen::Index point = largest_entry(loaded.peak_load);
+  gradient.peak_line_load = loaded.peak_load_derivative.row(point);
   const Eigen::RowVectorXd mean_change = cycle.force_derivative / cycle.force - cycle.line_length_change;
-  gradient.load_factor = (gradient.peak_line_load - loaded.load.line_load[point] * mean_change) / model.mean_line_load(cycle.force);
+  gradient.load_factor = (gradient.peak_line_load - loaded.peak_load[point] * mean_change) / model.mean_line_load(cycle.force);
   const LoadedPosition& stressed = position_of_largest(cycle, extremes, [](const LoadedPosition& p) { return p.contact_stress.maxCoeff(); });
   gradient.peak_contact_stress = stressed.contact_stress_derivative.row(largest_entry(stressed.contact_stress));
   if (gradient.edge_stress.size() > 0 && stressed.edge_stress.size() > 0) {

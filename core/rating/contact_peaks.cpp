@@ -4,9 +4,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
+#include "core/base/curve_rise.hpp"
 #include "core/rating/line_region.hpp"
 
 namespace flankwright {
@@ -43,7 +45,7 @@ class Line {
   }
 
  private:
-  double load(std::size_t i) const { return loaded_.load.line_load[static_cast<Eigen::Index>(i)]; }
+  double load(std::size_t i) const { return loaded_.peak_load[static_cast<Eigen::Index>(i)]; }
   double stress(std::size_t i) const { return loaded_.contact_stress[static_cast<Eigen::Index>(i)]; }
   ContactPeaks::Pair peaks(double z, double load, double stress) const {
     const double phase = loaded_.phase - std::floor(loaded_.phase);
@@ -84,6 +86,8 @@ class Samples {
 
   double value(std::size_t which, double phase) const { return sought[which](by_phase_.at(phase)).value; }
 
+  double best(std::size_t which) const { return sought[which](over_all()).value; }
+
   ContactPeaks over_all() const {
     ContactPeaks all;
     for (const auto& [phase, peaks] : by_phase_) {
@@ -109,41 +113,54 @@ class Samples {
   std::map<double, ContactPeaks> by_phase_;
 };
 
-/// A maximum of one of the four between two phases.
-struct Bracket {
+/// A maximum of one of the four: a sample that is no lower than both its neighbours.
+struct Maximum {
   std::size_t which;
-  double low, top, high;
-
-  double width() const { return high - low; }
-  /// Golden section of the wider side.
-  double probe() const {
-    constexpr double golden = 0.3819660112501051;  // 2 - golden ratio
-    return high - top > top - low ? top + golden * (high - top) : top - golden * (top - low);
-  }
-  void take(const Samples& samples, double x) {
-    const bool higher = samples.value(which, x) > samples.value(which, top);
-    if (higher) {
-      (x > top ? low : high) = top;
-      top = x;
-    } else {
-      (x > top ? high : low) = x;
-    }
-  }
+  double phase;
+  auto operator<=>(const Maximum&) const = default;
 };
 
-/// Brackets around the samples that are no lower than both neighbours and worth the while.
-std::vector<Bracket> brackets(const Samples& samples, double worth) {
+/// Maxima among the samples that are worth the while.
+std::vector<Maximum> maxima(const Samples& samples, double worth) {
   const std::vector<double> phases = samples.phases();
-  std::vector<Bracket> found;
+  std::vector<Maximum> found;
   for (std::size_t which = 0; which < sought.size(); ++which) {
-    const double best = sought[which](samples.over_all()).value;
+    const double best = samples.best(which);
     for (std::size_t i = 1; i + 1 < phases.size(); ++i) {
       const double here = samples.value(which, phases[i]);
       const bool lower = here < samples.value(which, phases[i - 1]) || here < samples.value(which, phases[i + 1]);
-      if (here >= worth * best && !lower) found.push_back({which, phases[i - 1], phases[i], phases[i + 1]});
+      if (here >= worth * best && !lower) found.push_back({which, phases[i]});
     }
   }
   return found;
+}
+
+/// Follows a maximum uphill to where it now is, and gives the phase to look at next: that of the higher promise beside it. Nothing where it cannot be the
+/// highest any more, rises no further, or is enclosed.
+std::optional<double> next_probe(const Samples& samples, Maximum& maximum, const PeakSearch& search) {
+  const std::vector<double> phases = samples.phases();
+  auto top = static_cast<std::size_t>(std::ranges::lower_bound(phases, maximum.phase) - phases.begin());
+  const auto value = [&](std::size_t i) { return samples.value(maximum.which, phases[i]); };
+  while (top > 0 && value(top - 1) > value(top)) --top;
+  while (top + 1 < phases.size() && value(top + 1) > value(top)) ++top;
+  maximum.phase = phases[top];
+  constexpr std::size_t reach = 3;
+  const std::size_t first = top >= reach ? top - reach : 0, last = std::min(phases.size() - 1, top + reach);
+  std::vector<CurveSample> curve;
+  for (std::size_t i = first; i <= last; ++i) curve.push_back({phases[i], value(i)});
+  CurveRise promise;
+  double from = 0.0, length = 0.0;
+  for (std::size_t i = top == 0 ? 0 : top - 1; i <= std::min(top, phases.size() - 2); ++i) {
+    if (phases[i + 1] - phases[i] <= search.phase_tolerance) continue;
+    const CurveRise rise = rise_between(curve, i - first);
+    if (!(rise.height > promise.height)) continue;
+    promise = rise;
+    from = phases[i];
+    length = phases[i + 1] - phases[i];
+  }
+  if (!(promise.height > (1.0 + search.value_tolerance) * value(top)) || promise.height < samples.best(maximum.which)) return std::nullopt;
+  constexpr double margin = 1.0 / 8;  // from the ends of the interval
+  return std::clamp(promise.x, from + margin * length, from + (1.0 - margin) * length);
 }
 
 void check(const PeakSearch& search) {
@@ -152,6 +169,7 @@ void check(const PeakSearch& search) {
   };
   positive("peak search step", search.step);
   positive("peak search tolerance", search.phase_tolerance);
+  if (!(search.value_tolerance >= 0.0)) throw InvalidInput("peak search value tolerance", std::to_string(search.value_tolerance), "at least 0");
   if (!(search.spikes.line_share >= 0.0 && search.spikes.line_share <= 1.0)) {
     throw InvalidInput("spike rule line share", std::to_string(search.spikes.line_share), "0 .. 1");
   }
@@ -230,14 +248,18 @@ ContactPeaks locate_peaks(const MeshAt& mesh_at, const FlankCondition& condition
   phases.insert(phases.begin(), before);
   Samples samples(mesh_at, condition, pinion_torque, search.spikes);
   samples.add(phases);
-  std::vector<Bracket> open = brackets(samples, search.worth);
-  while (true) {
-    std::erase_if(open, [&](const Bracket& b) { return b.width() <= 2.0 * search.phase_tolerance; });
-    if (open.empty()) break;
+  std::vector<Maximum> open = maxima(samples, search.worth);
+  while (!open.empty()) {
     std::set<double> probes;
-    for (const Bracket& b : open) probes.insert(b.probe());
+    std::erase_if(open, [&](Maximum& maximum) {
+      const std::optional<double> probe = next_probe(samples, maximum, search);
+      if (probe) probes.insert(*probe);
+      return !probe;
+    });
+    std::ranges::sort(open);
+    const auto met = std::ranges::unique(open);
+    open.erase(met.begin(), met.end());
     samples.add({probes.begin(), probes.end()});
-    for (Bracket& b : open) b.take(samples, b.probe());
   }
   ContactPeaks peaks = samples.over_all();
   peaks.search_step = search.step;

@@ -92,7 +92,7 @@ Eigen::RowVectorXd misalignment_derivative(const MeshModel& model, const FlankCo
   const ConditionGap gaps(pair, GapModel::PlaneOfAction, lead);
   MeshPosition ends;
   ends.points = face_ends(pair, condition, worst);
-  const Eigen::MatrixXd slopes = parameter_slopes(model, ends, gaps, gaps.at(ends.points, 0.0), parameters).gap;
+  const Eigen::MatrixXd slopes = ConditionSlopes(model, gaps, parameters).at(ends, gaps.at(ends.points, 0.0)).gap;
   Eigen::RowVectorXd derivative = sign * (slopes.row(0) - slopes.row(1)) / std::cos(pair.base_helix_angle);
   for (std::size_t p = 0; p < parameters.size(); ++p) {
     if (!acts(parameters[p], lead_part)) derivative[static_cast<Eigen::Index>(p)] = 0.0;

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "core/compliance/thin_slice/iso_stiffness.hpp"
-#include "core/contact/gap/gap.hpp"
+#include "core/contact/assembly/flank_condition.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
 
 namespace flankwright {

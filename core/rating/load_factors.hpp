@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/contact/gap/gap.hpp"
+#include "core/contact/assembly/flank_condition.hpp"
 #include "core/rating/contact_peaks.hpp"
 #include "core/load/cycle/mesh_parameter.hpp"
 

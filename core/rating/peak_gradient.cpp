@@ -119,8 +119,8 @@ struct Reading {
 Reading read(const PlacedPeak& at, const MeshModel& model, const LoadedCycle& cycle, std::size_t position, const LineStation& station,
              const std::vector<MeshParameter>& parameters) {
   const LoadedPosition& here = cycle.positions[position];
-  const Eigen::VectorXd& values = at.of_stress ? here.contact_stress : here.load.line_load;
-  const Eigen::MatrixXd& slopes = at.of_stress ? here.contact_stress_derivative : here.line_load_derivative;
+  const Eigen::VectorXd& values = at.of_stress ? here.contact_stress : here.peak_load;
+  const Eigen::MatrixXd& slopes = at.of_stress ? here.contact_stress_derivative : here.peak_load_derivative;
   const double first = values[station.point];
   if (station.share == 0.0) return {first, slopes.row(station.point)};
   // Between points w and sigma^2 are linear: sigma^n = (1 - t) sigma_0^n + t sigma_1^n.

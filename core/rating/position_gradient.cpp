@@ -39,7 +39,7 @@ ParameterSlopes end_slopes(const MeshModel& model, const FlankCondition& conditi
     at.points.push_back(end.point);
   }
   const ConditionGap gaps(model.pair, model.placement.gap, condition);
-  return parameter_slopes(model, at, gaps, gaps.at(at.points, phase), parameters, edged);
+  return ConditionSlopes(model, gaps, parameters).at(at, gaps.at(at.points, phase), edged);
 }
 
 void add_line_ends(const MeshModel& model, const FlankCondition& condition, const MeshPosition& at, const LoadedPosition& loaded,

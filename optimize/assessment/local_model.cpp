@@ -42,6 +42,7 @@ void scale_derivatives(LoadedCycle& cycle, const Eigen::VectorXd& by) {
     scale(position.gap_derivative);
     scale(position.line_load_derivative);
     scale(position.contact_stress_derivative);
+    scale(position.peak_load_derivative);
     scale(position.edge_stress_derivative);
     scale(position.tip_edge_share_derivative);
     scale(position.transmission_error_derivative);

@@ -91,16 +91,14 @@ Eigen::RowVectorXd tip_edge_share_slope(const ObjectiveTerm&, const PeakCandidat
   return there.tip_edge_share_derivative;
 }
 
-Eigen::VectorXd line_loads(const ObjectiveTerm&, const MeshModel&, const LoadedCycle& cycle, int position) {
-  return at(cycle, position).load.line_load;
-}
+Eigen::VectorXd line_loads(const ObjectiveTerm&, const MeshModel&, const LoadedCycle& cycle, int position) { return at(cycle, position).peak_load; }
 
 Eigen::RowVectorXd line_load_slope(const ObjectiveTerm&, const PeakCandidate& candidate, const MeshModel&, const LoadedCycle& cycle) {
-  return at(cycle, candidate.position).line_load_derivative.row(candidate.other);
+  return at(cycle, candidate.position).peak_load_derivative.row(candidate.other);
 }
 
 Eigen::VectorXd load_factors(const ObjectiveTerm&, const MeshModel& model, const LoadedCycle& cycle, int position) {
-  return at(cycle, position).load.line_load / model.mean_line_load(cycle.force);
+  return at(cycle, position).peak_load / model.mean_line_load(cycle.force);
 }
 
 Eigen::RowVectorXd load_factor_slope(const ObjectiveTerm&, const PeakCandidate& candidate, const MeshModel& model, const LoadedCycle& cycle) {
@@ -122,7 +120,7 @@ bool is_edge_point(const ObjectiveTerm& term, const MeshModel& model, int positi
 }
 
 Eigen::VectorXd edge_loads(const ObjectiveTerm& term, const MeshModel& model, const LoadedCycle& cycle, int position) {
-  Eigen::VectorXd loads = at(cycle, position).load.line_load;
+  Eigen::VectorXd loads = at(cycle, position).peak_load;
   for (Eigen::Index j = 0; j < loads.size(); ++j) {
     if (!is_edge_point(term, model, position, j)) loads[j] = 0.0;
   }
@@ -130,7 +128,7 @@ Eigen::VectorXd edge_loads(const ObjectiveTerm& term, const MeshModel& model, co
 }
 
 Eigen::RowVectorXd edge_load_slope(const ObjectiveTerm& term, const PeakCandidate& candidate, const MeshModel& model, const LoadedCycle& cycle) {
-  const Eigen::MatrixXd& slopes = at(cycle, candidate.position).line_load_derivative;
+  const Eigen::MatrixXd& slopes = at(cycle, candidate.position).peak_load_derivative;
   if (is_edge_point(term, model, candidate.position, candidate.other)) return slopes.row(candidate.other);
   return Eigen::RowVectorXd::Zero(slopes.cols());
 }

@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/gap/gap.hpp"
+#include "core/contact/assembly/flank_condition.hpp"
+#include "core/contact/gap/gap_model.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
 #include "core/load/cycle/mesh_model.hpp"
 #include "optimize/design/aggregate.hpp"

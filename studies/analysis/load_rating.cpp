@@ -1,5 +1,7 @@
 #include "studies/analysis/load_rating.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <iterator>
 
@@ -10,6 +12,24 @@ const ContactPeaks& LoadRater::peaks_of(const MeshFor& mesh_for, const FlankCond
   if (found != known_.end()) return found->peaks;
   known_.push_back({condition, pinion_torque, locate_peaks(mesh_for(condition.misalignment, {}), condition, pinion_torque)});
   return known_.back().peaks;
+}
+
+void LoadRater::seek(const std::vector<Case>& cases) {
+  std::vector<const Case*> of;  // of each that is to be sought
+  const std::size_t first = known_.size();
+  for (const Case& load_case : cases) {
+    for (const ConditionPart part : {perfect_part, lead_part, profile_part, whole_condition}) {
+      const FlankCondition condition = part(load_case.condition);
+      const auto is_same = [&](const Known& k) { return k.torque == load_case.pinion_torque && k.condition == condition; };
+      if (std::ranges::any_of(known_, is_same)) continue;
+      known_.push_back({condition, load_case.pinion_torque, {}});
+      of.push_back(&load_case);
+    }
+  }
+  tbb::parallel_for(std::size_t{0}, of.size(), [&](std::size_t i) {
+    Known& known = known_[first + i];
+    known.peaks = locate_peaks(of[i]->mesh_for(known.condition.misalignment, {}), known.condition, known.torque);
+  });
 }
 
 LoadRating LoadRater::rate(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque,

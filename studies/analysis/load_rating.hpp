@@ -22,6 +22,15 @@ using MeshFor = std::function<MeshAt(const Misalignment& misalignment, const std
 /// Rates load cases of one pair. Peaks of a condition are sought once: the perfect pair's serve every scene at the same torque.
 class LoadRater {
  public:
+  /// A load case, and how its mesh is made.
+  struct Case {
+    MeshFor mesh_for;
+    FlankCondition condition;
+    double pinion_torque{not_given};  ///< [N mm]
+  };
+  /// Seeks the peaks of all parts of the conditions of load cases, each once, on all threads.
+  void seek(const std::vector<Case>& cases);
+
   /// @param parameters  derivatives are given with respect to these; none by default
   LoadRating rate(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque, const std::vector<MeshParameter>& parameters = {});
 

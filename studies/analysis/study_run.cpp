@@ -228,10 +228,19 @@ void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::str
 
 void StudyRun::rate() {
   if (!locates_peaks(results_.study)) return;
-  for (LoadedResult& loaded : results_.loaded) {
-    const auto mesh = [&](const Misalignment& m, const std::vector<MeshParameter>& by) { return remembered_mesh_at(m, loaded.torque, by); };
-    if (loaded.cycle.usable()) loaded.rating = rater_.rate(mesh, loaded.condition, loaded.torque, gradient_parameters());
+  const Stopwatch clock;
+  const auto mesh_for = [this](double torque) {
+    return [this, torque](const Misalignment& m, const std::vector<MeshParameter>& by) { return remembered_mesh_at(m, torque, by); };
+  };
+  std::vector<LoadRater::Case> cases;
+  for (const LoadedResult& loaded : results_.loaded) {
+    if (loaded.cycle.usable()) cases.push_back({mesh_for(loaded.torque), loaded.condition, loaded.torque});
   }
+  rater_.seek(cases);
+  for (LoadedResult& loaded : results_.loaded) {
+    if (loaded.cycle.usable()) loaded.rating = rater_.rate(mesh_for(loaded.torque), loaded.condition, loaded.torque, gradient_parameters());
+  }
+  results_.steps.push_back({"load_factors", "peaks between the positions, of the perfect pair and of parts of the conditions", clock.seconds()});
 }
 
 namespace {

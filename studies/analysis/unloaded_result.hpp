@@ -6,7 +6,7 @@
 
 #include "core/contact/unloaded/bearing_pattern.hpp"
 #include "core/contact/unloaded/contact_ellipse.hpp"
-#include "core/contact/gap/gap.hpp"
+#include "core/contact/assembly/flank_condition.hpp"
 #include "core/contact/unloaded/parabola_check.hpp"
 #include "core/contact/unloaded/transmission_error.hpp"
 

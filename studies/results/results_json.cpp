@@ -215,7 +215,7 @@ Json extremes_json(const LoadedResult& loaded) {
   return list(loaded.resolved.extreme_cycle.positions, [](const LoadedPosition& position) -> Json {
     return {{"phase", position.phase},
             {"te_um", in_um(position.load.transmission_error)},
-            {"peak_load_N_per_mm", position.load.line_load.maxCoeff()},
+            {"peak_load_N_per_mm", position.peak_load.maxCoeff()},
             {"peak_contact_stress_MPa", position.contact_stress.maxCoeff()}};
   });
 }

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "core/contact/gap/gap.hpp"
+#include "core/contact/assembly/flank_condition.hpp"
 #include "studies/base/progress.hpp"
 
 namespace flankwright::studies {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "core/contact/gap/gap.hpp"
+#include "core/contact/assembly/flank_condition.hpp"
 #include "studies/study/study.hpp"
 #include "studies/study_file/study_schema.hpp"
 

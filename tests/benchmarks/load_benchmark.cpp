@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 #include <vector>
 
+#include "core/contact/gap/plane_of_action_gap.hpp"
 #include "core/load/solve/load_solver.hpp"
 #include "tests/benchmarks/load_scene.hpp"
 #include "tests/benchmarks/reference_solvers.hpp"

@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "core/contact/gap/plane_of_action_gap.hpp"
 #include "tests/benchmarks/load_scene.hpp"
 
 using namespace flankwright;

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <memory>
 
+#include "core/contact/gap/plane_of_action_gap.hpp"
 #include "core/contact/gap/surface_gap.hpp"
 #include "core/gear/gear_pair.hpp"
 #include "tests/core/contact/contact_cases.hpp"

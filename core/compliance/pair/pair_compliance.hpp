@@ -38,6 +38,9 @@ class PairCompliance {
   /// @throws InvalidInput where a point is outside the model
   virtual Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const = 0;
 
+  /// Whether a load at one point moves others: false where each yields for itself.
+  virtual bool couples_points() const { return true; }
+
   /// Whether influence_on_rigid_bodies() may be called: finite elements with rigid bodies need their own run.
   virtual bool knows_rigid_bodies() const { return true; }
 
@@ -70,6 +73,7 @@ class ThinSlicePair final : public PairCompliance {
  public:
   explicit ThinSlicePair(ThinSlice slice) : slice_(std::move(slice)) {}
   Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
+  bool couples_points() const override { return false; }
   const ThinSlice& slice() const { return slice_; }
 
  private:

@@ -17,7 +17,14 @@ class WheelDisplacement {
   WheelDisplacement(const GearPair& pair, const Misalignment& m) : WheelDisplacement(pair, m, m.axial_offset) {}
   /// @param axial_offset  of the wheel's mid face, the centre of its rotations [mm]
   WheelDisplacement(const GearPair& pair, const Misalignment& m, double axial_offset)
-      : pair_(pair), path_(pair), misalignment_(m), centre_(axial_offset), alpha_(pair.working_transverse_pressure_angle) {
+      : pair_(pair),
+        path_(pair),
+        misalignment_(m),
+        centre_(axial_offset),
+        sin_alpha_(std::sin(pair.working_transverse_pressure_angle)),
+        cos_alpha_(std::cos(pair.working_transverse_pressure_angle)),
+        sin_beta_(std::sin(pair.base_helix_angle)),
+        cos_beta_(std::cos(pair.base_helix_angle)) {
     const double mirror = pair.data.working_flank == WorkingFlank::Right ? 1.0 : -1.0;
     about_x_ = mirror * m.crossing;
     about_y_ = m.intersecting;
@@ -27,23 +34,22 @@ class WheelDisplacement {
   double along_normal(const ContactPoint& point) const {
     // Contact point relative to the wheel's centre: pitch point plus its distance s along the line of action.
     const double s = path_.roll_at(point.phase) - pair_.pitch_point;
-    const double x = -pair_.wheel.working_pitch_radius + s * std::sin(alpha_), y = s * std::cos(alpha_);
+    const double x = -pair_.wheel.working_pitch_radius + s * sin_alpha_, y = s * cos_alpha_;
     const double dz = about_x_ * y - about_y_ * x + misalignment_.axial_offset;
-    const double beta = pair_.base_helix_angle;
     const double opened = misalignment_.mesh_misalignment * (point.z - centre_) / pair_.face_width;
-    return std::cos(beta) * (along_action(point.z) + opened) - pair_.contact_line_sense() * std::sin(beta) * dz;
+    return cos_beta_ * (along_action(point.z) + opened) - pair_.contact_line_sense() * sin_beta_ * dz;
   }
 
   /// Along the line of action in a transverse section [mm].
   double along_action(double z) const {
     const Transverse d = in_section(z);
-    return d.x * std::sin(alpha_) + d.y * std::cos(alpha_);
+    return d.x * sin_alpha_ + d.y * cos_alpha_;
   }
 
   /// Along the flanks in a transverse section, towards the wheel's tip [mm]. This displacement is without first-order influence on the gap.
   double along_profile(double z) const {
     const Transverse d = in_section(z);
-    return d.y * std::sin(alpha_) - d.x * std::cos(alpha_);
+    return d.y * sin_alpha_ - d.x * cos_alpha_;
   }
 
  private:
@@ -55,7 +61,7 @@ class WheelDisplacement {
   const GearPair& pair_;
   PathOfContact path_;
   Misalignment misalignment_;
-  double centre_, alpha_, about_x_, about_y_;
+  double centre_, sin_alpha_, cos_alpha_, sin_beta_, cos_beta_, about_x_, about_y_;
 };
 
 }  // namespace flankwright

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <vector>
-
-#include "core/contact/gap/gap.hpp"
+#include "core/contact/assembly/misalignment.hpp"
+#include "core/contact/gap/gap_model.hpp"
 
 namespace flankwright {
 

@@ -5,7 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/contact/assembly/wheel_displacement.hpp"
-#include "core/contact/gap/flank_touch.hpp"
+#include "core/contact/gap/flank_touch_search.hpp"
 
 namespace flankwright {
 

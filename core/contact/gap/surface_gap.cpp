@@ -3,6 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/contact/gap/flank_touch_search.hpp"
+
 namespace flankwright {
 
 SurfaceGap::SurfaceGap(const GearPair& pair, const FlankCondition& condition)

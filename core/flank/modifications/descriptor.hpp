@@ -90,6 +90,12 @@ concept TermModification = requires {
   typename M::Term;
 };
 
+/// A modification whose removal has slopes that jump: m.beyond_starts(frame, r, z) gives distances that change their signs there.
+template <class M>
+concept ModificationWithStarts = requires(const M m, const FlankFrame& frame) {
+  m.beyond_starts(frame, 0.0, 0.0);
+};
+
 /// The definition of a modification: its numbers as members (all 0: nothing is removed), its class, a row for each
 /// number and its removal.
 template <class M>

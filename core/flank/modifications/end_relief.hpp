@@ -39,6 +39,11 @@ struct EndReliefs {
         : ramp(m.end_relief.amount, m.end_relief.length, ReliefShape::Linear), start(0.5 * frame.face_width - m.end_relief.length) {}
     void add(double, double z, Jet& d) const { ramp.add(std::abs(z) - start, z < 0.0 ? -1.0 : 1.0, d.value, d.v, d.vv); }
   };
+  /// Where the slope of the removal jumps.
+  std::array<double, 2> beyond_starts(const FlankFrame& frame, double, double z) const {
+    const double start = 0.5 * frame.face_width - end_relief.length;
+    return {beyond_start(end_relief.amount, ReliefShape::Linear, z - start), beyond_start(end_relief.amount, ReliefShape::Linear, -z - start)};
+  }
   bool operator==(const EndReliefs&) const = default;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "core/base/jet.hpp"
 
 namespace flankwright {
@@ -43,6 +45,11 @@ class ReliefRamp {
  private:
   double linear_{0.0}, quadratic_{0.0};  ///< [mm/mm], [mm/mm^2]
 };
+
+/// Distance beyond the start of a relief whose slope jumps there [mm]; minus infinity where it does not: nothing is removed, or the relief is parabolic.
+inline double beyond_start(double amount, ReliefShape shape, double beyond) {
+  return amount != 0.0 && shape == ReliefShape::Linear ? beyond : -std::numeric_limits<double>::infinity();
+}
 
 /// Derivative of a relief by its extent h, one-sided at its start: t = 1 - d/h with d the distance from the end of the relief, so dt/dh = (1 - t)/h.
 inline double slope_by_extent(double amount, double extent, ReliefShape shape, double beyond) {

@@ -43,6 +43,10 @@ struct RootRelief {
         : ramp(m.root_relief.amount, m.root_relief.height, m.root_relief.shape), start(frame.active_root_radius + m.root_relief.height) {}
     void add(double r, double, Jet& d) const { ramp.add(start - r, -1.0, d.value, d.u, d.uu); }
   };
+  /// Where the slope of the removal jumps.
+  std::array<double, 1> beyond_starts(const FlankFrame& frame, double r, double) const {
+    return {beyond_start(root_relief.amount, root_relief.shape, frame.active_root_radius + root_relief.height - r)};
+  }
   bool operator==(const RootRelief&) const = default;
 };
 

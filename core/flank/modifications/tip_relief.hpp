@@ -42,6 +42,10 @@ struct TipRelief {
         : ramp(m.tip_relief.amount, m.tip_relief.height, m.tip_relief.shape), start(frame.tip_radius - m.tip_relief.height) {}
     void add(double r, double, Jet& d) const { ramp.add(r - start, 1.0, d.value, d.u, d.uu); }
   };
+  /// Where the slope of the removal jumps.
+  std::array<double, 1> beyond_starts(const FlankFrame& frame, double r, double) const {
+    return {beyond_start(tip_relief.amount, tip_relief.shape, r - (frame.tip_radius - tip_relief.height))};
+  }
   bool operator==(const TipRelief&) const = default;
 };
 

@@ -1,7 +1,11 @@
 #include "core/load/cycle/contact_stress.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <span>
+#include <utility>
+
+#include "core/base/smooth_interpolation.hpp"
+#include "core/contact/gap/flank_touch_search.hpp"
 
 namespace flankwright {
 
@@ -32,20 +36,28 @@ StripContact::Peaks contact_stress(const MeshModel& model, const ContactPoint& p
   return {{stress, stress / (2.0 * line_load), 0.0}, {}, {}};
 }
 
-Eigen::RowVectorXd StressPlace::derivative(const Eigen::MatrixXd& load, const Eigen::MatrixXd& edge) const {
-  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(load.cols());
+Eigen::RowVectorXd PlaceValue::derivative(const PlaceSlopes& slopes) const {
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(slopes.load.cols());
   for (std::size_t k = 0; k < count; ++k) {
-    sum += points[k].by_load * load.row(points[k].index);
-    if (edge.size() > 0) sum += points[k].by_edge * edge.row(points[k].index);
+    const auto& [index, by_load, by_edge] = points[k];
+    sum += by_load * slopes.load.row(index);
+    if (by_edge != 0.0 && slopes.edge.size() > 0) sum += by_edge * slopes.edge.row(index);
   }
+  if (crest >= 0) sum += by_crest * slopes.crests.deflection.row(crest);
   return sum;
 }
 
 namespace {
 
+PlaceValue at_point(const StripContact::Peak& peak, Eigen::Index point) {
+  PlaceValue place{peak.pressure};
+  place.add({point, peak.slope, peak.by_edge});
+  return place;
+}
+
 /// Raises the stress of point i to that between it and a neighbour on its line.
 void climb(const MeshModel& model, const MeshPosition& at, const RoundedEdge& edge, const Eigen::VectorXd& line_load, Eigen::Index i,
-           Eigen::Index neighbour, PointStress& stress) {
+           Eigen::Index neighbour, PointPeaks& peaks) {
   const ContactPoint &here = at.points[static_cast<std::size_t>(i)], &there = at.points[static_cast<std::size_t>(neighbour)];
   if (there.tooth != here.tooth || there.tip_edge.gear != here.tip_edge.gear || !(there.tip_edge.radius > 0.0)) return;
   const double further = there.tip_edge.distance - here.tip_edge.distance;
@@ -54,28 +66,26 @@ void climb(const MeshModel& model, const MeshPosition& at, const RoundedEdge& ed
     const double radius = (1.0 - share) * here.relative_radius + share * there.relative_radius;
     const StripContact strip({edge.radius, edge.distance + share * further}, radius, model.contact_modulus, load);
     const StripContact::Peak crest = strip.crest();
-    if (!(crest.pressure > stress.on_edge.pressure)) return;  // it falls that way
-    stress.on_edge = {{crest.pressure, (1.0 - share) * crest.slope, crest.by_edge}, i};
-    stress.on_edge.add({neighbour, share * crest.slope, 0.0});
-    if (crest.pressure > stress.highest.pressure) stress.highest = stress.on_edge;
+    if (!(crest.pressure > peaks.on_edge.value)) return;  // it falls that way
+    peaks.on_edge = at_point({crest.pressure, (1.0 - share) * crest.slope, crest.by_edge}, i);
+    peaks.on_edge.add({neighbour, share * crest.slope});
+    if (crest.pressure > peaks.stress.value) peaks.stress = peaks.on_edge;
   }
 }
 
-/// Weights that continue values at `count` places z to another place: by the parabola through three, the straight line through two.
-std::array<double, 3> continued(const std::array<double, 3>& z, std::size_t count, double there) {
-  std::array<double, 3> weights{};
-  for (std::size_t k = 0; k < count; ++k) {
-    weights[k] = 1.0;
-    for (std::size_t m = 0; m < count; ++m) {
-      if (m != k) weights[k] *= (there - z[m]) / (z[k] - z[m]);
-    }
+/// A value that follows from the deflection at a place: multiplies the derivatives of that deflection.
+PlaceValue following(PlaceValue deflection, double value, double by_deflection) {
+  deflection.value = value;
+  for (std::size_t k = 0; k < deflection.count; ++k) {
+    deflection.points[k].by_load *= by_deflection;
+    deflection.points[k].by_edge *= by_deflection;
   }
-  return weights;
+  return deflection;
 }
 
-/// Raises the stress of the last point of a line to that at its end on a face.
+/// Raises stress and load of the last point of a line to those at its end on a face.
 void rise_to_face_end(const MeshModel& model, const MeshPosition& at, const FaceEndOfLine& end, const std::vector<ContactLaw>& laws,
-                      const Eigen::VectorXd& line_load, PointStress& stress) {
+                      const Eigen::VectorXd& line_load, PointPeaks& peaks) {
   const Eigen::Index last = end.point;
   if (!(line_load[last] > line_load[last + end.inwards] && line_load[last + end.inwards] > 0.0)) return;
   std::array<double, 3> z{};
@@ -85,61 +95,72 @@ void rise_to_face_end(const MeshModel& model, const MeshPosition& at, const Face
     if (!on_line || !(line_load[i] > 0.0)) break;
     z[count++] = at.points[static_cast<std::size_t>(i)].z;
   }
-  const std::array<double, 3> weights = continued(z, count, end.place.z);
-  double deflection = 0.0;
-  StressPlace place;
+  const std::array<double, 3> weights = continued(std::span(z).first(count), end.place.z);
+  PlaceValue deflection;
   for (std::size_t k = 0; k < count; ++k) {
     const Eigen::Index i = last + static_cast<Eigen::Index>(k) * end.inwards;
     const ContactLaw& law = laws[static_cast<std::size_t>(i)];
     const ContactLaw::Response response = law.evaluate(line_load[i]);
-    deflection += weights[k] * response.deflection;
-    place.add({i, weights[k] * response.slope, weights[k] * law.edge_slope(line_load[i])});
+    deflection.value += weights[k] * response.deflection;
+    deflection.add({i, weights[k] * response.slope, weights[k] * law.edge_slope(line_load[i])});
   }
   const auto k = static_cast<std::size_t>(last);
   const double moved = laws[k].edge() && at.laws[k].edge() ? laws[k].edge()->distance - at.laws[k].edge()->distance : 0.0;
   const ContactLaw law = end.law.with_edge_moved(moved);
-  const double load = law.line_load(deflection);
-  const StripContact::Peak peak = contact_stress(model, end.place, &law, load).highest;
-  if (!(peak.pressure > stress.highest.pressure)) return;
+  const double load = law.line_load(deflection.value);
   // dw = (du - dc at w held)/c', u the deflection that is continued
-  const double by_deflection = peak.slope / law.slope(load);
-  place.pressure = peak.pressure;
-  for (std::size_t j = 0; j < count; ++j) {
-    place.points[j].by_load *= by_deflection;
-    place.points[j].by_edge *= by_deflection;
+  const double by_deflection = 1.0 / law.slope(load), by_edge = -by_deflection * law.edge_slope(load);
+  if (load > peaks.load.value) {
+    peaks.load = following(deflection, load, by_deflection);
+    peaks.load.points[0].by_edge += by_edge;
   }
-  place.points[0].by_edge += peak.by_edge - by_deflection * law.edge_slope(load);
-  stress.highest = place;
+  const StripContact::Peak peak = contact_stress(model, end.place, &law, load).highest;
+  if (!(peak.pressure > peaks.stress.value)) return;
+  peaks.stress = following(deflection, peak.pressure, peak.slope * by_deflection);
+  peaks.stress.points[0].by_edge += peak.by_edge + peak.slope * by_edge;
+}
+
+/// Raises stress and load of the higher of both points beside a crest to those on it.
+void rise_to_crest(const std::vector<ContactLaw>& laws, const std::vector<LineCrest>& crests, std::size_t number, const Eigen::VectorXd& line_load,
+                   std::vector<PointPeaks>& peaks) {
+  const LineCrest& crest = crests[number];
+  const CrestLoad found = load_on_crest(laws, crest);
+  const Eigen::Index higher = line_load[crest.before] >= line_load[crest.before + 1] ? crest.before : crest.before + 1;
+  PointPeaks& of = peaks[static_cast<std::size_t>(higher)];
+  const auto place = static_cast<Eigen::Index>(number);
+  if (found.line_load > of.load.value) of.load = {.value = found.line_load, .crest = place, .by_crest = found.load_by_deflection};
+  if (found.pressure > of.stress.value) of.stress = {.value = found.pressure, .crest = place, .by_crest = found.by_deflection};
 }
 
 }  // namespace
 
-std::vector<PointStress> contact_stresses(const MeshModel& model, const MeshPosition& at, const std::vector<ContactLaw>& laws,
-                                          const Eigen::VectorXd& line_load) {
+std::vector<PointPeaks> point_peaks(const MeshModel& model, const MeshPosition& at, const std::vector<ContactLaw>& laws,
+                                    const Eigen::VectorXd& line_load, const std::vector<LineCrest>& crests) {
   const std::size_t n = at.points.size();
-  std::vector<PointStress> stresses(n);
+  std::vector<PointPeaks> peaks(n);
   std::vector<std::size_t> reached;
   for (std::size_t i = 0; i < n; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
-    const StripContact::Peaks peaks = contact_stress(model, at.points[i], laws.empty() ? nullptr : &laws[i], line_load[row]);
-    stresses[i] = {{peaks.highest, row}, {peaks.on_edge, row}, peaks.edge_load};
-    if (peaks.on_edge.pressure > 0.0) reached.push_back(i);
+    const StripContact::Peaks own = contact_stress(model, at.points[i], laws.empty() ? nullptr : &laws[i], line_load[row]);
+    peaks[i] = {at_point(own.highest, row), at_point(own.on_edge, row), at_point({line_load[row], 1.0, 0.0}, row), own.edge_load};
+    if (own.on_edge.pressure > 0.0) reached.push_back(i);
   }
-  const std::vector<PointStress> of_points = reached.empty() ? std::vector<PointStress>() : stresses;
-  const auto own = [&](std::size_t i) { return of_points[i].on_edge.pressure; };
+  std::vector<double> on_edge(n);
+  for (std::size_t i = 0; i < n; ++i) on_edge[i] = peaks[i].on_edge.value;
   for (const std::size_t i : reached) {
     const auto less = [&](std::size_t neighbour) {
-      return neighbour >= n || at.points[neighbour].tooth != at.points[i].tooth || own(neighbour) <= own(i);
+      return neighbour >= n || at.points[neighbour].tooth != at.points[i].tooth || on_edge[neighbour] <= on_edge[i];
     };
     if (!less(i - 1) || !less(i + 1)) continue;
     for (const std::size_t neighbour : {i - 1, i + 1}) {
       if (neighbour >= n) continue;
-      climb(model, at, *laws[i].edge(), line_load, static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(neighbour), stresses[i]);
+      climb(model, at, *laws[i].edge(), line_load, static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(neighbour), peaks[i]);
     }
   }
-  if (laws.empty()) return stresses;
-  for (const FaceEndOfLine& end : at.face_ends) rise_to_face_end(model, at, end, laws, line_load, stresses[static_cast<std::size_t>(end.point)]);
-  return stresses;
+  if (laws.empty()) return peaks;
+  for (const FaceEndOfLine& end : at.face_ends) rise_to_face_end(model, at, end, laws, line_load, peaks[static_cast<std::size_t>(end.point)]);
+  for (std::size_t k = 0; k < crests.size(); ++k) rise_to_crest(laws, crests, k, line_load, peaks);
+  return peaks;
 }
 
 }  // namespace flankwright

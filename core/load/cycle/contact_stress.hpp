@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/contact/gap/gap.hpp"
+#include "core/load/cycle/line_crest.hpp"
 #include "core/load/cycle/mesh_model.hpp"
 
 namespace flankwright {
@@ -23,34 +24,37 @@ std::optional<ContactLaw> contact_law_in(const MeshModel& model, const ContactPo
 /// @param law  null: Hertzian contact is left out, and with it any edge
 StripContact::Peaks contact_stress(const MeshModel& model, const ContactPoint& point, const ContactLaw* law, double line_load);
 
-/// A largest pressure on the part of a line that belongs to a point, and the points that it follows from.
-struct StressPlace {
-  struct Point {
-    Eigen::Index index{-1};
-    double by_load{0.0};  ///< derivative of the pressure by its line load [1/mm]
-    double by_edge{0.0};  ///< and by the distance of its edge [MPa/mm]
-  };
-  double pressure{0.0};  ///< [MPa]
-  std::array<Point, 3> points{};
-  std::size_t count{0};  ///< of these
-
-  StressPlace() = default;
-  /// At a point itself.
-  StressPlace(const StripContact::Peak& peak, Eigen::Index point)
-      : pressure(peak.pressure), points{Point{point, peak.slope, peak.by_edge}}, count(1) {}
-  void add(const Point& point) { points[count++] = point; }
-  /// @param load  derivatives of the points' line loads, a row each
-  /// @param edge  of the distances of their edges; no rows: no edge is reached
-  Eigen::RowVectorXd derivative(const Eigen::MatrixXd& load, const Eigen::MatrixXd& edge) const;
+/// Derivatives by parameters of what a position's contact follows from.
+struct PlaceSlopes {
+  const Eigen::MatrixXd& load;  ///< of the points' line loads, a row each
+  const Eigen::MatrixXd& edge;  ///< of the distances of their edges; no rows: no edge is reached
+  const CrestSlopes& crests;
 };
 
-/// Contact stress of one point.
-struct PointStress {
-  StressPlace highest, on_edge;
+/// A largest value on the part of a line that belongs to a point, and the points that it follows from.
+struct PlaceValue {
+  struct Point {
+    Eigen::Index index{-1};
+    double by_load{0.0};  ///< derivative of the value by its line load
+    double by_edge{0.0};  ///< and by the distance of its edge
+  };
+  double value{0.0};
+  std::array<Point, 3> points{};
+  std::size_t count{0};    ///< of these
+  Eigen::Index crest{-1};  ///< on this crest of the position; -1: on none
+  double by_crest{0.0};    ///< by f_t - g - s there
+
+  void add(const Point& point) { points[count++] = point; }
+  Eigen::RowVectorXd derivative(const PlaceSlopes& slopes) const;
+};
+
+/// The largest contact stress of a point, that on its edge [MPa], and the largest line load [N/mm].
+struct PointPeaks {
+  PlaceValue stress, on_edge, load;
   StripContact::EdgeLoad edge_load{};
 };
 
-/// Contact stress of every point of a position.
+/// Contact stress and line load of every point of a position.
 ///
 /// Where a line runs onto a tip edge its pressure has a crest that is shorter than the distance of the points. Around a point that has more than
 /// its neighbours the strip is therefore solved at a quarter and half of the way to both neighbours as well, with load, relative radius and the edge's distance in
@@ -59,8 +63,11 @@ struct PointStress {
 /// Where the line load rises towards a face end it goes on rising beyond the last point, most where the mate's flank overhangs and holds up the
 /// load's end. The contact deflection, what gap and structure leave of the approach, is smooth: it is continued to the end by a parabola through
 /// the last three points in contact (a straight line through two), and the contact law at the end gives the load there.
-/// @param laws  of the points, moved by a condition; empty: Hertzian contact is left out
-std::vector<PointStress> contact_stresses(const MeshModel& model, const MeshPosition& at, const std::vector<ContactLaw>& laws,
-                                          const Eigen::VectorXd& line_load);
+///
+/// Between points a line has crests, see line_crests().
+/// @param laws    of the points, moved by a condition; empty: Hertzian contact is left out
+/// @param crests  of the position in that condition
+std::vector<PointPeaks> point_peaks(const MeshModel& model, const MeshPosition& at, const std::vector<ContactLaw>& laws,
+                                    const Eigen::VectorXd& line_load, const std::vector<LineCrest>& crests);
 
 }  // namespace flankwright

@@ -73,7 +73,7 @@ SampledCycle::SampledCycle(const MeshModel& model, const LoadedCycle& cycle) : f
     peak_stress_.push_back(0.0);
     if (!position.load.usable()) continue;
     approach_ += position.load.transmission_error - position.gap.total.minCoeff();
-    peak_load_.back() = position.load.line_load.maxCoeff();
+    peak_load_.back() = position.peak_load.maxCoeff();
     peak_stress_.back() = position.contact_stress.maxCoeff();
     for (const ContactPoint& point : model.positions[i].points) line_length_ += point.clearance == 0.0 ? point.weight : 0.0;
   }

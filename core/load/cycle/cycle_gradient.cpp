@@ -78,7 +78,7 @@ TeHarmonic te_harmonic(const LoadedCycle& cycle, int order) {
 Eigen::RowVectorXd load_factor_derivative(const MeshModel& model, const LoadedCycle& cycle, int position, Eigen::Index point) {
   const LoadedPosition& here = cycle.positions[static_cast<std::size_t>(position)];
   const Eigen::RowVectorXd mean_change = cycle.force_derivative / cycle.force - cycle.line_length_change;
-  return (here.line_load_derivative.row(point) - here.load.line_load[point] * mean_change) / model.mean_line_load(cycle.force);
+  return (here.peak_load_derivative.row(point) - here.peak_load[point] * mean_change) / model.mean_line_load(cycle.force);
 }
 
 Eigen::RowVectorXd stiffness_derivative(const LoadedCycle& cycle, const LoadedPosition& position) {
@@ -117,8 +117,8 @@ CycleGradient summary_gradient(const MeshModel& model, const LoadedCycle& cycle,
   }
 
   const PeakLocation load = location_of_peak(
-      cycle, [](const LoadedPosition& p) -> const auto& { return p.load.line_load; });
-  gradient.peak_line_load = at(cycle, load).line_load_derivative.row(load.index);
+      cycle, [](const LoadedPosition& p) -> const auto& { return p.peak_load; });
+  gradient.peak_line_load = at(cycle, load).peak_load_derivative.row(load.index);
   gradient.load_factor = load_factor_derivative(model, cycle, load.position, load.index);
   const PeakLocation stress = location_of_peak(
       cycle, [](const LoadedPosition& p) -> const auto& { return p.contact_stress; });

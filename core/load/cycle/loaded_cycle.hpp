@@ -14,6 +14,7 @@ struct LoadedPosition {
   LoadDistribution load;
   Gap gap;                         ///< before load
   Eigen::VectorXd contact_stress;  ///< sigma_H per point, on edges included [MPa]
+  Eigen::VectorXd peak_load;       ///< the largest line load of the part of a line that belongs to a point, see PointPeaks [N/mm]
   Eigen::VectorXd edge_stress;     ///< the largest pressure on a tip edge's rounding, 0 where contact does not reach it [MPa]; empty: not computed
   /// Part of the force that tip roundings carry, the integral of the pressure over them [-], 0 .. 1; NaN: not computed, as edge_stress.
   double tip_edge_share{not_given};
@@ -25,6 +26,7 @@ struct LoadedPosition {
   Eigen::MatrixXd gap_derivative;                    ///< d(gap.total)/dp, n x m
   Eigen::MatrixXd line_load_derivative;              ///< dw/dp, n x m
   Eigen::MatrixXd contact_stress_derivative;         ///< dsigma_H/dp, n x m
+  Eigen::MatrixXd peak_load_derivative;              ///< of peak_load, n x m
   Eigen::MatrixXd edge_stress_derivative;            ///< of edge_stress, n x m
   Eigen::RowVectorXd tip_edge_share_derivative;      ///< of tip_edge_share, 1 x m; empty: not computed
   Eigen::RowVectorXd transmission_error_derivative;  ///< df_t/dp, 1 x m

@@ -11,6 +11,7 @@
 #include "core/contact/unloaded/transmission_error.hpp"
 #include "core/load/solve/load_solver.hpp"
 #include "core/load/cycle/contact_stress.hpp"
+#include "core/load/cycle/line_crest.hpp"
 #include "core/load/cycle/load_start.hpp"
 #include "core/load/cycle/mesh_motion.hpp"
 
@@ -20,38 +21,45 @@ namespace {
 
 constexpr double micrometre = units::um, unlimited = std::numeric_limits<double>::infinity();
 
-/// The contact laws of a position, and how parameters move the edges that strips reach; no rows: they reach none.
-struct Local {
-  const std::vector<ContactLaw>& laws;
-  const Eigen::MatrixXd& edge;
-};
-
-/// Stresses and, by load and edge, their derivatives.
-void fill_stress(const MeshModel& model, const MeshPosition& at, const Local& local, double force, const Eigen::RowVectorXd& force_derivative,
-                 LoadedPosition& position) {
+/// Stresses and the largest loads with their derivatives.
+/// @param edge_slopes  ParameterSlopes::edge
+void fill_peaks(const LoadedLines& lines, const Eigen::MatrixXd& edge_slopes, const ConditionSlopes& condition,
+                const Eigen::RowVectorXd& force_derivative, LoadedPosition& position) {
   const Eigen::VectorXd& w = position.load.line_load;
+  const bool with_slopes = !condition.parameters().empty();
   const Eigen::MatrixXd& by_load = position.line_load_derivative;
-  const bool edges = std::ranges::any_of(local.laws, [](const ContactLaw& law) { return law.edge().has_value(); });
+  const bool edges = std::ranges::any_of(lines.laws, [](const ContactLaw& law) { return law.edge().has_value(); });
   position.contact_stress = Eigen::VectorXd::Zero(w.size());
   position.contact_stress_derivative = Eigen::MatrixXd::Zero(w.size(), by_load.cols());
+  position.peak_load = w;
+  position.peak_load_derivative = by_load;
   if (edges) position.edge_stress = position.contact_stress;
   if (edges) position.edge_stress_derivative = position.contact_stress_derivative;
-  const std::vector<PointStress> stresses = contact_stresses(model, at, local.laws, w);
+  const std::vector<LineCrest> crests = line_crests(lines);
+  CrestSlopes crest_slope;
+  if (with_slopes && !crests.empty()) crest_slope = crest_slopes(lines, crests, {by_load, position.transmission_error_derivative}, condition);
+  const PlaceSlopes by{by_load, edge_slopes, crest_slope};
+  const std::vector<PointPeaks> peaks = point_peaks(lines.model, lines.at, lines.laws, w, crests);
   double on_edges = 0.0;
   Eigen::RowVectorXd on_edges_derivative = Eigen::RowVectorXd::Zero(by_load.cols());
   for (Eigen::Index i = 0; i < w.size(); ++i) {
     if (w[i] <= 0.0) continue;
-    const auto& [highest, on_edge, edge_load] = stresses[static_cast<std::size_t>(i)];
-    position.contact_stress[i] = highest.pressure;
-    position.contact_stress_derivative.row(i) = highest.derivative(by_load, local.edge);
-    if (!edges || on_edge.pressure == 0.0) continue;
-    position.edge_stress[i] = on_edge.pressure;
-    position.edge_stress_derivative.row(i) = on_edge.derivative(by_load, local.edge);
-    on_edges += at.weight[i] * edge_load.load;
-    on_edges_derivative += at.weight[i] * edge_load.slope * by_load.row(i);
-    if (local.edge.size() > 0) on_edges_derivative += at.weight[i] * edge_load.by_edge * local.edge.row(i);
+    const auto& [stress, on_edge, load, edge_load] = peaks[static_cast<std::size_t>(i)];
+    position.contact_stress[i] = stress.value;
+    position.contact_stress_derivative.row(i) = stress.derivative(by);
+    if (stress.crest >= 0 && with_slopes) position.contact_stress_derivative.row(i) += crest_slope.pressure.row(stress.crest);
+    position.peak_load[i] = load.value;
+    if (load.value > w[i]) position.peak_load_derivative.row(i) = load.derivative(by);
+    if (load.crest >= 0 && with_slopes) position.peak_load_derivative.row(i) += crest_slope.load.row(load.crest);
+    if (!edges || on_edge.value == 0.0) continue;
+    position.edge_stress[i] = on_edge.value;
+    position.edge_stress_derivative.row(i) = on_edge.derivative(by);
+    on_edges += lines.at.weight[i] * edge_load.load;
+    on_edges_derivative += lines.at.weight[i] * edge_load.slope * by_load.row(i);
+    if (by.edge.size() > 0) on_edges_derivative += lines.at.weight[i] * edge_load.by_edge * by.edge.row(i);
   }
   if (!edges) return;
+  const double force = lines.force;
   position.tip_edge_share = force > 0.0 ? on_edges / force : 0.0;
   position.tip_edge_share_derivative = on_edges_derivative;
   if (force > 0.0) position.tip_edge_share_derivative = (on_edges_derivative - position.tip_edge_share * force_derivative) / force;
@@ -124,6 +132,7 @@ void add_moved_places(const std::vector<MovedMesh>& moved, double force, LoadedP
   position.root_influence_derivative = Eigen::MatrixXd::Zero(moved.front().slope.root_components.size(), position.line_load_derivative.cols());
   for (const auto& [p, slope] : moved) {
     position.contact_stress_derivative.col(p) += slope.contact_stress;
+    position.peak_load_derivative.col(p) += slope.peak_load;
     if (position.edge_stress.size() > 0) {
       position.edge_stress_derivative.col(p) += slope.edge_stress;
       if (force > 0.0) position.tip_edge_share_derivative[p] += slope.edge_force / force;
@@ -141,6 +150,8 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
   cycle.positions.resize(model.positions.size());
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
   const ConditionGap gaps(model.pair, model.placement.gap, condition);
+  const PairReliefStarts starts = relief_starts(model.pair, condition);
+  const ConditionSlopes condition_slopes(model, gaps, parameters);
   const std::vector<Eigen::Index> moving = moving_among(model.placement.gap, parameters);
   std::deque<MeshSlopes> slopes_of;  // of each of them
   cycle.face_width_change = cycle.line_length_change = Eigen::RowVectorXd::Zero(std::ssize(parameters));
@@ -176,13 +187,16 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
       continue;
     }
     const std::vector<Eigen::Index> on_edges = reaching_edges(laws, position.load.line_load);
-    ParameterSlopes slopes = parameter_slopes(model, at, gaps, position.gap, parameters, on_edges);
+    ParameterSlopes slopes = condition_slopes.at(at, position.gap, on_edges);
     cycle.force_derivative = slopes.force;
     std::vector<MovedMesh> moved;
-    for (std::size_t k = 0; k < moving.size(); ++k) moved.push_back({moving[k], slopes_of[k].at(i, position.load, position.gap)});
-    const Eigen::MatrixXd edge = slopes.edge;
+    for (std::size_t k = 0; k < moving.size(); ++k) moved.push_back({moving[k], slopes_of[k].at(i, position.load)});
+    const Eigen::MatrixXd edge_slopes = slopes.edge;
     fill_derivatives(problem, solver, moved, on_edges, std::move(slopes), position);
-    fill_stress(model, at, {laws, edge}, cycle.force, cycle.force_derivative, position);
+    const LoadDistribution& load = position.load;
+    const LoadedLines lines{
+        model, at, gaps, starts, position.gap, cycle.force, laws, load.line_load, load.structural_deflection, load.transmission_error};
+    fill_peaks(lines, edge_slopes, condition_slopes, cycle.force_derivative, position);
     if (!moved.empty()) add_moved_places(moved, cycle.force, position);
     const double approach = position.load.transmission_error - position.gap.total.minCoeff();
     likely_approach = 2.0 * approach;
@@ -264,7 +278,7 @@ CycleSummary summarise(const MeshModel& model, const LoadedCycle& cycle) {
   double mean_approach = 0.0;
   for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
     const LoadedPosition& position = cycle.positions[i];
-    summary.peak_line_load = std::max(summary.peak_line_load, position.load.line_load.maxCoeff());
+    summary.peak_line_load = std::max(summary.peak_line_load, position.peak_load.maxCoeff());
     summary.peak_contact_stress = std::max(summary.peak_contact_stress, position.contact_stress.maxCoeff());
     if (position.edge_stress.size() > 0) summary.edge_stress = std::fmax(summary.edge_stress, position.edge_stress.maxCoeff());
     summary.tip_edge_share = std::fmax(summary.tip_edge_share, position.tip_edge_share);

@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/compliance/local/hertz_line.hpp"
+#include "core/contact/gap/condition_gap.hpp"
 
 namespace flankwright {
 
@@ -130,6 +131,7 @@ MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, c
   model.axial_offset = axial_offset;
   model.face_width = face_end - face_start;
   model.half_space = structure.half_space_corrections();
+  model.couples_points = structure.couples_points();
   const std::shared_ptr<const PairCompliance> linearised =
       shafts != nullptr && shafts->depends_on_load() ? shafts->linearised_at(placement.torque) : nullptr;
   const MeshParts parts{pair, model.material, placement, &structure, linearised ? linearised.get() : shafts, root_stress, model.half_space};

@@ -5,13 +5,16 @@
 #include <optional>
 #include <vector>
 
-#include "core/contact/gap/condition_gap.hpp"
+#include "core/contact/gap/mesh_placement.hpp"
 #include "core/contact/gap/misalignment_gap.hpp"
 #include "core/contact/path/path_of_contact.hpp"
 #include "core/effects/mesh_effects.hpp"
 #include "core/gear/gear_pair.hpp"
 
 namespace flankwright {
+
+class ConditionGap;
+struct Gap;
 
 /// The resolution of a mesh cycle.
 struct MeshResolution {
@@ -72,6 +75,7 @@ struct MeshModel {
   double calibration{not_given};      ///< kappa of the thin slice
   IsoStiffness iso;
   HalfSpaceCorrections half_space{};  ///< of the structure
+  bool couples_points{true};          ///< of the structure, PairCompliance::couples_points()
   std::vector<MeshPosition> positions;
   std::vector<PerturbedMeshes> perturbed{};  ///< for each parameter of the derivatives that moves the mesh
 

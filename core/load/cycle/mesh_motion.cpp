@@ -7,6 +7,7 @@
 
 #include "core/base/error.hpp"
 #include "core/load/cycle/contact_stress.hpp"
+#include "core/load/cycle/line_crest.hpp"
 
 namespace flankwright {
 
@@ -14,24 +15,35 @@ namespace {
 
 /// The values whose slope is MeshSlope, for the points of a position in a perturbed mesh.
 struct HeldLoads {
-  Eigen::VectorXd gap, deflection, contact_stress, edge_stress, root_components;
+  Eigen::VectorXd gap, deflection, contact_stress, peak_load, edge_stress, root_components;
   double force, edge_force{0.0};
 };
 
+/// What is held.
+struct Held {
+  double force, transmission_error;  ///< of the mesh
+};
+
 /// @param load  of all points
-HeldLoads held_loads(const MeshModel& model, const MeshPosition& at, const Gap& gap, const Eigen::VectorXd& load) {
+HeldLoads held_loads(const MeshModel& model, const MeshPosition& at, const ConditionGap& gaps, const Held& of_mesh, const Eigen::VectorXd& load) {
+  const auto& [force, transmission_error] = of_mesh;
+  const Gap gap = gap_under(at, gaps, force);
+  const PairReliefStarts starts = relief_starts(model.pair, gaps.condition());
   const Eigen::VectorXd forces = at.weight.cwiseProduct(load);
-  HeldLoads held{gap.total, at.influence * forces, Eigen::VectorXd(load.size()), Eigen::VectorXd(load.size()), {}, forces.sum()};
+  const Eigen::VectorXd structural = at.influence * forces;
+  HeldLoads held{gap.total, structural, Eigen::VectorXd(load.size()), load, Eigen::VectorXd(load.size()), {}, forces.sum()};
   if (!at.root_stress.stations.empty()) held.root_components = at.root_stress.components(forces);
   const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(at, gap, load);
   const std::vector<ContactLaw>& laws = moved_edges.empty() ? at.laws : moved_edges;
-  const std::vector<PointStress> stresses = contact_stresses(model, at, laws, load);
+  const std::vector<PointPeaks> peaks =
+      point_peaks(model, at, laws, load, line_crests({model, at, gaps, starts, gap, force, laws, load, structural, transmission_error}));
   for (Eigen::Index i = 0; i < load.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!laws.empty()) held.deflection[i] += laws[k].deflection(load[i]);
-    held.contact_stress[i] = stresses[k].highest.pressure;
-    held.edge_stress[i] = stresses[k].on_edge.pressure;
-    held.edge_force += at.weight[i] * stresses[k].edge_load.load;
+    held.contact_stress[i] = peaks[k].stress.value;
+    held.peak_load[i] = peaks[k].load.value;
+    held.edge_stress[i] = peaks[k].on_edge.value;
+    held.edge_force += at.weight[i] * peaks[k].edge_load.load;
   }
   return held;
 }
@@ -117,6 +129,7 @@ MeshSlopes::Perturbed::Perturbed(const MeshModel& mesh, MisalignmentParameter pa
 
 MeshSlopes::MeshSlopes(const MeshModel& model, const FlankCondition& condition, MisalignmentParameter parameter)
     : model_(model),
+      gaps_(model.pair, model.placement.gap, condition),
       perturbed_(perturbed_meshes(model, parameter)),
       one_(perturbed_.meshes[0], parameter, condition),
       two_(perturbed_.meshes[1], parameter, condition) {}
@@ -131,17 +144,18 @@ MeshSlopes::Same MeshSlopes::same(std::size_t position) const {
   return both;
 }
 
-MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load, const Gap& gap) const {
+MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load) const {
   const Same same_as = same(position);
   const Eigen::VectorXd loads = load.line_load.cwiseProduct(same_as.known);
-  const double force = model_.positions[position].weight.dot(load.line_load);
+  const Held of_mesh{model_.positions[position].weight.dot(load.line_load), load.transmission_error};
   const auto perturbed = [&](const Perturbed& mesh, const std::vector<Eigen::Index>& same) {
     const MeshPosition& there = mesh.model.positions[position];
-    HeldLoads held = held_loads(mesh.model, there, gap_under(there, mesh.gaps, force), as_perturbed(same, loads, there.weight.size()));
-    for (Eigen::VectorXd* values : {&held.gap, &held.deflection, &held.contact_stress, &held.edge_stress}) *values = as_at(same, *values);
+    HeldLoads held = held_loads(mesh.model, there, mesh.gaps, of_mesh, as_perturbed(same, loads, there.weight.size()));
+    for (Eigen::VectorXd* values : {&held.gap, &held.deflection, &held.contact_stress, &held.peak_load, &held.edge_stress})
+      *values = as_at(same, *values);
     return held;
   };
-  const HeldLoads here = held_loads(model_, model_.positions[position], gap, loads);
+  const HeldLoads here = held_loads(model_, model_.positions[position], gaps_, of_mesh, loads);
   const HeldLoads one = perturbed(one_, same_as.one), two = perturbed(two_, same_as.two);
   const auto slope = [&](Eigen::VectorXd HeldLoads::*what) -> Eigen::VectorXd {
     return forward_difference(here.*what, one.*what, two.*what, perturbed_.step).cwiseProduct(same_as.known);
@@ -150,6 +164,7 @@ MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load, con
                slope(&HeldLoads::deflection),
                forward_difference(here.force, one.force, two.force, perturbed_.step),
                slope(&HeldLoads::contact_stress),
+               slope(&HeldLoads::peak_load),
                slope(&HeldLoads::edge_stress),
                forward_difference(here.edge_force, one.edge_force, two.edge_force, perturbed_.step),
                {}};

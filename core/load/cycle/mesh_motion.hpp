@@ -42,6 +42,7 @@ struct MeshSlope {
   Eigen::VectorXd deflection;       ///< K a w + c(w) [mm per unit]
   double carried_force{0.0};        ///< a'w [N per unit]
   Eigen::VectorXd contact_stress;   ///< sigma_H [MPa per unit]
+  Eigen::VectorXd peak_load;        ///< LoadedPosition::peak_load [N/mm per unit]
   Eigen::VectorXd edge_stress;      ///< on tip edges [MPa per unit]
   double edge_force{0.0};           ///< that tip roundings carry [N per unit]
   Eigen::VectorXd root_components;  ///< RootStressInfluence::components a w [MPa per unit]; empty without
@@ -63,7 +64,7 @@ class MeshSlopes {
   MeshSlopes(const MeshSlopes&) = delete;  // its gaps have its condition
 
   /// @param position  index into MeshModel::positions
-  MeshSlope at(std::size_t position, const LoadDistribution& load, const Gap& gap) const;
+  MeshSlope at(std::size_t position, const LoadDistribution& load) const;
   /// Of MeshModel::face_width, by the axial offset -1, 0, or 1 where it is negative and shrinks [mm per unit].
   double face_width() const;
   /// Of the length of all contact lines between A and E, over all positions, relative [1 per unit]; NaN where there are none.
@@ -86,6 +87,7 @@ class MeshSlopes {
   Same same(std::size_t position) const;
 
   const MeshModel& model_;
+  ConditionGap gaps_;
   const PerturbedMeshes& perturbed_;
   Perturbed one_, two_;
 };

@@ -1,10 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <variant>
 #include <vector>
 
-#include "core/contact/gap/condition_gap.hpp"
+#include "core/contact/gap/flank_touch_search.hpp"
 #include "core/load/cycle/mesh_model.hpp"
 
 namespace flankwright {
@@ -27,10 +28,24 @@ struct ParameterSlopes {
   Eigen::MatrixXd edge;      ///< d(distance of the tip edge)/dp likewise, see edge_moved_by(); of the points asked for, else 0; empty: of none
   Eigen::RowVectorXd force;  ///< dF/dp
 };
-/// @param gap  as gaps has it at this position
-/// @param on_edges  the points whose edge matters
-ParameterSlopes parameter_slopes(const MeshModel& model, const MeshPosition& at, const ConditionGap& gaps, const Gap& gap,
-                                 const std::vector<MeshParameter>& parameters, const std::vector<Eigen::Index>& on_edges = {});
+
+/// The slopes of a condition at one position after another.
+class ConditionSlopes {
+ public:
+  /// What is constant over the positions is computed once.
+  /// @param model, gaps, parameters  must outlive this
+  ConditionSlopes(const MeshModel& model, const ConditionGap& gaps, const std::vector<MeshParameter>& parameters);
+  /// @param gap       as gaps has it at this position
+  /// @param on_edges  the points whose edge matters
+  ParameterSlopes at(const MeshPosition& at, const Gap& gap, const std::vector<Eigen::Index>& on_edges = {}) const;
+  const std::vector<MeshParameter>& parameters() const { return parameters_; }
+
+ private:
+  const MeshModel& model_;
+  const ConditionGap& gaps_;
+  const std::vector<MeshParameter>& parameters_;
+  std::vector<std::optional<TouchDerivative>> touches_;  ///< of gear parameters
+};
 
 /// Whether a parameter changes more than gap and force: it moves the mesh, see MeshPlacement.
 bool moves_mesh(GapModel gap, const MeshParameter& parameter);

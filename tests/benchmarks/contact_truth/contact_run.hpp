@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "core/contact/gap/gap.hpp"
+#include "core/contact/assembly/flank_condition.hpp"
 #include "tests/benchmarks/contact_truth/contact_mesh.hpp"
 
 namespace flankwright::contact_truth {

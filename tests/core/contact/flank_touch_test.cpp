@@ -1,9 +1,9 @@
-#include "core/contact/gap/flank_touch.hpp"
+#include "core/contact/gap/flank_touch_search.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/contact/gap/gap.hpp"
+#include "core/contact/gap/plane_of_action_gap.hpp"
 #include "core/contact/gap/surface_gap.hpp"
 #include "tests/core/contact/contact_cases.hpp"
 

@@ -1,4 +1,4 @@
-#include "core/contact/gap/gap.hpp"
+#include "core/contact/gap/plane_of_action_gap.hpp"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -209,7 +209,7 @@ TEST_CASE("The gap's derivative for every parameter agrees with central differen
     set(side(up), p.parameter, value + kStep);
     set(side(down), p.parameter, value - kStep);
     const Eigen::VectorXd difference = (plane_of_action_gap(pair, points, up).total - plane_of_action_gap(pair, points, down).total) / (2 * kStep);
-    const Eigen::VectorXd exact = gap_derivative(pair, points, plane_of_action_gap(pair, points, condition), condition, member, p.parameter);
+    const Eigen::VectorXd exact = gap_derivative(points, plane_of_action_gap(pair, points, condition), {pair, condition, member, p.parameter});
     CAPTURE(std::string(p.key));
     CHECK((exact - difference).lpNorm<Eigen::Infinity>() <= kDiscretisation);
     CHECK(exact.lpNorm<Eigen::Infinity>() > 0.0);

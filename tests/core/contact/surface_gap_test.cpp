@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/contact/gap/plane_of_action_gap.hpp"
 #include "tests/core/contact/wild_cases.hpp"
 #include "tests/reference/nasa_tm_107451.hpp"
 #include "core/gear/gear_pair.hpp"

@@ -1,3 +1,4 @@
+#include "core/contact/gap/condition_gap.hpp"
 #include "core/load/cycle/cycle_gradient.hpp"
 
 #include <catch2/catch.hpp>
@@ -174,9 +175,10 @@ TEST_CASE("Every output's derivative by modification, misalignment and torque is
       const auto column = static_cast<Eigen::Index>(p);
       // A step that moves the gap by about 2 nm, or the torque by 1e-4 of itself.
       double change = 0.0;
+      const std::vector<MeshParameter> one{parameters[p]};
       for (const MeshPosition& at : model.positions) {
         const Gap gap = gaps.at(at.points, at.phase);
-        change = std::max(change, parameter_slopes(model, at, gaps, gap, {parameters[p]}).gap.cwiseAbs().maxCoeff());
+        change = std::max(change, ConditionSlopes(model, gaps, one).at(at, gap).gap.cwiseAbs().maxCoeff());
       }
       const double step = change > 0.0 ? 2e-6 / change : 1e-4 * scene.torque;
       const auto values = [&](double by) {

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "core/compliance/local/hertz_line.hpp"
+#include "core/contact/gap/plane_of_action_gap.hpp"
 #include "core/load/cycle/mesh_cycle.hpp"
 #include "tests/core/contact/contact_cases.hpp"
 #include "tests/core/load/mesh_cases.hpp"

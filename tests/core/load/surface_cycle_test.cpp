@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "core/contact/gap/gap.hpp"
+#include "core/contact/gap/plane_of_action_gap.hpp"
 #include "core/contact/unloaded/tooth_contact.hpp"
 #include "core/rating/line_ends.hpp"
 #include "core/load/cycle/mesh_motion.hpp"

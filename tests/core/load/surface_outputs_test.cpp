@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/contact/gap/plane_of_action_gap.hpp"
 #include "core/rating/line_ends.hpp"
 #include "core/rating/load_factors.hpp"
 #include "core/load/solve/load_solver.hpp"

@@ -93,11 +93,11 @@ TEST_CASE("Peaks without spikes count long lines away from the tip edges, cut ex
   const MeshPosition& at = model.positions[0];
   for (int tooth = 0; tooth < 4; ++tooth) {
     CAPTURE(tooth);
-    loaded.load.line_load = loaded.contact_stress = Eigen::VectorXd::Zero(at.weight.size());
+    loaded.peak_load = loaded.contact_stress = Eigen::VectorXd::Zero(at.weight.size());
     for (Eigen::Index i = 0; i < at.weight.size(); ++i) {
       const ContactPoint& point = at.points[static_cast<std::size_t>(i)];
       if (point.tooth != tooth) continue;
-      loaded.load.line_load[i] = 200 + point.z;
+      loaded.peak_load[i] = 200 + point.z;
       loaded.contact_stress[i] = std::sqrt(200 + point.z);
     }
     const ContactPeaks peaks = peaks_at(model, at, loaded, rule);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "core/contact/gap/plane_of_action_gap.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;

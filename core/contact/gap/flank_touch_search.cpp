@@ -1,4 +1,4 @@
-#include "core/contact/gap/flank_touch.hpp"
+#include "core/contact/gap/flank_touch_search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -217,42 +217,45 @@ FlankTouchSearch::FlankTouchSearch(const GearPair& pair, const FlankCondition& c
       lags_{parabola_alone(pair, Member::Pinion, condition), parabola_alone(pair, Member::Wheel, condition)},
       has_lag_(condition.modification.pinion.parabolic_te != 0.0 || condition.modification.wheel.parabolic_te != 0.0) {}
 
+FlankTouchSearch::OnTooth::OnTooth(const FlankTouchSearch& search, int tooth)
+    : search_(search), deviations_{{search.flanks_.pinion, tooth}, {search.flanks_.wheel, tooth}} {
+  if (search.has_lag_) lags_.emplace(Teeth{{search.lags_.pinion, tooth}, {search.lags_.wheel, tooth}});
+}
+
+FlankTouch FlankTouchSearch::OnTooth::at(const ContactPoint& point) const {
+  const GearPair& pair = search_.pair_;
+  const double cos_base_helix = std::cos(pair.base_helix_angle);
+  const double pinion_z = own_z(point, Member::Pinion, search_.misalignment_), wheel_z = own_z(point, Member::Wheel, search_.misalignment_);
+  const auto along = [&](const Teeth& of, double pinion_radius, double wheel_radius) {
+    const AlongProfile p = of.pinion.at(pinion_radius, pinion_z), w = of.wheel.at(wheel_radius, wheel_z);
+    return AlongProfile{cos_base_helix * (p.value + w.value), cos_base_helix * (w.slope - p.slope), cos_base_helix * (p.curvature + w.curvature)};
+  };
+  if (!std::isgreater(point.relative_radius, 0.0)) {
+    double h = along(deviations_, point.pinion_radius, point.wheel_radius).value;
+    if (lags_) h += along(*lags_, point.pinion_radius, point.wheel_radius).value;
+    return {.gap = point.clearance + h, .sides = {FlankTouch::Side{{point.pinion_radius, point.wheel_radius}, 1.0}}};
+  }
+  const WheelDisplacement& displaced = search_.displaced_;
+  const Section section(pair, point, search_.path_.roll_at(point.phase) < pair.path_start,
+                        {displaced.along_profile(point.z), displaced.along_action(point.z)});
+  FlankTouch touch = touch_in(section, point.relative_radius, [&](double x) {
+    const double pinion_radius = section.radius(Member::Pinion, x), wheel_radius = section.radius(Member::Wheel, x);
+    Deviation d{along(deviations_, pinion_radius, wheel_radius)};
+    if (lags_) d.add_lag(along(*lags_, pinion_radius, wheel_radius), point.relative_radius);
+    return d;
+  });
+  touch.gap += section.opened();
+  touch.slid = section.slid();
+  return touch;
+}
+
 std::vector<FlankTouch> FlankTouchSearch::at(const std::vector<ContactPoint>& points) const {
-  const double cos_base_helix = std::cos(pair_.base_helix_angle);
   std::vector<FlankTouch> touches;
   touches.reserve(points.size());
-  struct Teeth {
-    ToothDeviation pinion, wheel;
-  };
-  std::optional<Teeth> deviations, lags;
+  std::optional<OnTooth> search;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const ContactPoint& point = points[i];
-    if (i == 0 || point.tooth != points[i - 1].tooth) {
-      deviations.emplace(Teeth{{flanks_.pinion, point.tooth}, {flanks_.wheel, point.tooth}});
-      if (has_lag_) lags.emplace(Teeth{{lags_.pinion, point.tooth}, {lags_.wheel, point.tooth}});
-    }
-    const double pinion_z = own_z(point, Member::Pinion, misalignment_), wheel_z = own_z(point, Member::Wheel, misalignment_);
-    const auto along = [&](const Teeth& of, double pinion_radius, double wheel_radius) {
-      const AlongProfile p = of.pinion.at(pinion_radius, pinion_z), w = of.wheel.at(wheel_radius, wheel_z);
-      return AlongProfile{cos_base_helix * (p.value + w.value), cos_base_helix * (w.slope - p.slope), cos_base_helix * (p.curvature + w.curvature)};
-    };
-    if (!std::isgreater(point.relative_radius, 0.0)) {
-      double h = along(*deviations, point.pinion_radius, point.wheel_radius).value;
-      if (has_lag_) h += along(*lags, point.pinion_radius, point.wheel_radius).value;
-      touches.push_back({.gap = point.clearance + h, .sides = {FlankTouch::Side{{point.pinion_radius, point.wheel_radius}, 1.0}}});
-      continue;
-    }
-    const Section section(pair_, point, path_.roll_at(point.phase) < pair_.path_start,
-                          {displaced_.along_profile(point.z), displaced_.along_action(point.z)});
-    FlankTouch touch = touch_in(section, point.relative_radius, [&](double x) {
-      const double pinion_radius = section.radius(Member::Pinion, x), wheel_radius = section.radius(Member::Wheel, x);
-      Deviation d{along(*deviations, pinion_radius, wheel_radius)};
-      if (has_lag_) d.add_lag(along(*lags, pinion_radius, wheel_radius), point.relative_radius);
-      return d;
-    });
-    touch.gap += section.opened();
-    touch.slid = section.slid();
-    touches.push_back(touch);
+    if (i == 0 || points[i].tooth != points[i - 1].tooth) search.emplace(*this, points[i].tooth);
+    touches.push_back(search->at(points[i]));
   }
   return touches;
 }
@@ -293,10 +296,6 @@ double TouchDerivative::of_gap(const ContactPoint& point, const FlankTouch& touc
 double TouchDerivative::of_edge(const ContactPoint& point, const FlankTouch& touch) const {
   const double towards_edge = towards_own_tip(point.tip_edge.gear);
   return touch.along_by_slope == 0.0 ? 0.0 : -towards_edge * touch.along_by_slope * slopes(point, touch.sides[0]).slope;
-}
-
-double edge_moved_by(const ContactPoint& point, const FlankTouch& touch) {
-  return -towards_own_tip(point.tip_edge.gear) * (touch.along + touch.slid[point.tip_edge.gear]);
 }
 
 }  // namespace flankwright

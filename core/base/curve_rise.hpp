@@ -1,0 +1,70 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+namespace flankwright {
+
+/// A sample of a curve.
+struct CurveSample {
+  double x, y;
+};
+
+/// The height to which a curve may rise, and where.
+struct CurveRise {
+  double height{-std::numeric_limits<double>::infinity()}, x{std::numeric_limits<double>::quiet_NaN()};
+};
+
+namespace detail {
+
+/// Slope into the interval behind `near`, from the last secant or extrapolated from the last two, whichever is steeper.
+inline double slope_into(const CurveSample& far, const CurveSample& middle, const CurveSample& near) {
+  const double before = (middle.y - far.y) / std::abs(middle.x - far.x), last = (near.y - middle.y) / std::abs(near.x - middle.x);
+  return std::max(last, last + (last - before) * (near.x - middle.x) / (near.x - far.x));
+}
+
+/// The top of the parabola through three samples; nothing above them where it opens upwards.
+inline CurveRise vertex(const CurveSample& a, const CurveSample& b, const CurveSample& c) {
+  const double before = (b.y - a.y) / (b.x - a.x), after = (c.y - b.y) / (c.x - b.x);
+  const double curvature = 2.0 * (after - before) / (c.x - a.x);
+  if (!(curvature < 0.0)) return {};
+  const double slope = before + 0.5 * curvature * (b.x - a.x), step = -slope / curvature;  // at b
+  return {b.y + 0.5 * slope * step, b.x + step};
+}
+
+}  // namespace detail
+
+/// How high a curve may rise between two neighbouring samples. It consists of smooth pieces with kinks: both sides are continued straight until they
+/// meet, by the last secant or by the slope extrapolated from the last two, whichever is steeper, because curves grow steeper towards a kink. On a smooth
+/// top the parabola through three neighbours is taken. Without neighbours on a side nothing rises from there.
+/// @param curve  by rising x
+/// @param left   the interval's first sample, left + 1 < curve.size()
+inline CurveRise rise_between(std::span<const CurveSample> curve, std::size_t left) {
+  const std::size_t right = left + 1, n = curve.size();
+  const CurveSample a = curve[left], b = curve[right];
+  const double length = b.x - a.x;
+  const bool has_left = left >= 1, has_right = right + 1 < n;
+  const double from_left = has_left ? detail::slope_into(curve[left >= 2 ? left - 2 : left - 1], curve[left - 1], a) : 0.0;
+  const double from_right = has_right ? detail::slope_into(curve[right + 2 < n ? right + 2 : right + 1], curve[right + 1], b) : 0.0;
+  double t = 0.5, height = std::max(a.y, b.y);
+  if (from_left > 0.0 && from_right > 0.0) {
+    t = std::clamp((b.y + from_right * length - a.y) / ((from_left + from_right) * length), 0.0, 1.0);
+    height = std::min(a.y + from_left * t * length, b.y + from_right * (1.0 - t) * length);
+  } else if (from_left > 0.0 && b.y < a.y) {
+    height = a.y + from_left * length;
+  } else if (from_right > 0.0 && a.y < b.y) {
+    height = b.y + from_right * length;
+  }
+  CurveRise rise{height, a.x + t * length};
+  const auto take = [&](const CurveRise& top) {
+    if (top.height > rise.height && top.x > a.x && top.x < b.x) rise = top;
+  };
+  if (has_left) take(detail::vertex(curve[left - 1], a, b));
+  if (has_right) take(detail::vertex(a, b, curve[right + 1]));
+  return rise;
+}
+
+}  // namespace flankwright

@@ -1,0 +1,247 @@
+#include "core/load/cycle/line_crest.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "core/base/root.hpp"
+#include "core/base/smooth_interpolation.hpp"
+#include "core/contact/path/path_of_contact.hpp"
+
+namespace flankwright {
+
+namespace {
+
+/// The place of a start is enclosed to this part of the distance between two points.
+constexpr double enclosed = 1e-13;
+/// Derivatives along the line are one-sided differences over this part of it, on the side without relief.
+constexpr double along = 1e-3;
+/// Derivatives of distances by extents are central differences over this length [mm]: distances are linear in them.
+constexpr double extent_step = 1e-3;
+
+/// A position's lines, with the flanks' starts on them.
+class Lines {
+ public:
+  explicit Lines(const LoadedLines& lines) : lines_(lines), path_(lines.model.pair) {
+    if (!lines.at.outside.empty()) lines.at.outside.add_to(outside_ = Eigen::VectorXd::Zero(lines.line_load.size()), lines.force);
+  }
+
+  /// A line's points.
+  struct Line {
+    std::size_t begin, end;
+    std::vector<double> z;
+  };
+  Line line_from(std::size_t begin) const {
+    Line line{begin, begin, {}};
+    for (const std::vector<ContactPoint>& points = lines_.at.points; line.end < points.size() && points[line.end].tooth == points[begin].tooth;
+         ++line.end) {
+      line.z.push_back(points[line.end].z);
+    }
+    return line;
+  }
+  Line line_of(std::size_t point) const {
+    while (point > 0 && lines_.at.points[point - 1].tooth == lines_.at.points[point].tooth) --point;
+    return line_from(point);
+  }
+
+  /// Distances beyond the starts of a gear between a point and the next, at this part of the way.
+  std::array<double, ReliefStarts::count> beyond(Member gear, const ReliefStarts& starts, std::size_t point, double way) const {
+    const Gear& of = lines_.model.pair[gear];
+    const double along_profile = gear == Member::Wheel ? 1.0 : -1.0;
+    const auto roll_square = [&](std::size_t i) {
+      const double radius = radius_of(i, gear), slid = lines_.gap.touches[i].slid[gear];
+      return std::max(0.0, (radius - of.base_radius) * (radius + of.base_radius) + 2.0 * along_profile * of.base_radius * slid);
+    };
+    const auto between = [way](double a, double b) { return a + way * (b - a); };
+    const double roll = between(std::sqrt(roll_square(point)), std::sqrt(roll_square(point + 1)));
+    const double z = between(lines_.at.points[point].z, lines_.at.points[point + 1].z);
+    return starts.beyond(std::hypot(of.base_radius, roll), gear == Member::Wheel ? z - lines_.model.placement.misalignment.axial_offset : z);
+  }
+
+  /// The crest at a place of a line between a point and the next, but for its start; nothing where no contact can be.
+  std::optional<LineCrest> crest(const Line& line, const ToothGap& gap, std::size_t point, double way) const {
+    const std::size_t k = point - line.begin;
+    const double z = line.z[k] + way * (line.z[k + 1] - line.z[k]);
+    const auto place = contact_point(lines_.model.pair, path_, lines_.at.phase, lines_.at.points[point].tooth, z, true);
+    if (!place) return std::nullopt;
+    const InterpolationWeights weights = smooth_interpolation(line.z, k, z);
+    LineCrest crest{.place = *place, .before = static_cast<Eigen::Index>(point), .way = way, .count = weights.count};
+    double smooth = 0.0;
+    for (std::size_t j = 0; j < weights.count; ++j) {
+      const auto i = static_cast<Eigen::Index>(line.begin + weights.first + j);
+      crest.from[j] = {i, weights.weight[j]};
+      smooth += weights.weight[j] * (lines_.structural[i] + (outside_.size() > 0 ? outside_[i] : 0.0));
+      crest.seen_load += weights.weight[j] * lines_.line_load[i];
+    }
+    crest.deflection = lines_.transmission_error - smooth - gap.at(*place);
+    crest.compliance = compliance_between(line, k);
+    return crest;
+  }
+
+ private:
+  double radius_of(std::size_t i, Member gear) const {
+    const ContactPoint& point = lines_.at.points[i];
+    return gear == Member::Pinion ? point.pinion_radius : point.wheel_radius;
+  }
+
+  /// kappa between point k of a line and the next.
+  double compliance_between(const Line& line, std::size_t k) const {
+    const auto influence = [&](std::size_t i, std::size_t j) {
+      return lines_.at.influence(static_cast<Eigen::Index>(line.begin + i), static_cast<Eigen::Index>(line.begin + j));
+    };
+    const double own = 0.5 * (influence(k, k) + influence(k + 1, k + 1));
+    if (!lines_.model.couples_points) return own * 0.5 * lines_.at.weight.segment<2>(static_cast<Eigen::Index>(line.begin + k)).sum();
+    const std::size_t n = line.z.size();
+    const double before = k > 0 ? influence(k - 1, k + 1) : 0.0, after = k + 2 < n ? influence(k, k + 2) : 0.0;
+    const double next = k == 0 ? after : k + 2 == n ? before : 0.5 * (before + after);
+    return 0.5 * std::max(0.0, own - next) * (line.z[k + 1] - line.z[k]) / std::cos(lines_.model.pair.base_helix_angle);
+  }
+
+  const LoadedLines& lines_;
+  PathOfContact path_;
+  Eigen::VectorXd outside_;  ///< what other forces open; empty: nothing
+};
+
+struct LawLoad {
+  double load, by_deflection;
+};
+
+/// c(w) + kappa (w - w_s) = deflection
+LawLoad load_of(const ContactLaw& law, const LineCrest& crest) {
+  const double budget = crest.deflection + crest.compliance * crest.seen_load;
+  if (!(budget > 0.0)) return {0.0, 0.0};
+  // Newton's steps: the left side rises with w and is concave.
+  constexpr double last_change = 1e-14;
+  constexpr int most_steps = 100;
+  double w = crest.seen_load > 0.0 ? crest.seen_load : 1.0;
+  for (int step = 0; step < most_steps; ++step) {
+    const ContactLaw::Response here = law.evaluate(w);
+    const double change = (budget - here.deflection - crest.compliance * w) / (here.slope + crest.compliance);
+    w = std::max(w + change, 0.5 * w);
+    if (std::abs(change) <= last_change * w) break;
+  }
+  return {w, 1.0 / (law.slope(w) + crest.compliance)};
+}
+
+bool has_starts(const PairReliefStarts& starts) {
+  const auto any = [](const ReliefStarts& of) { return std::ranges::any_of(of.beyond(1.0, 0.0), [](double d) { return std::isfinite(d); }); };
+  return any(starts.pinion) || any(starts.wheel);
+}
+
+}  // namespace
+
+PairReliefStarts relief_starts(const GearPair& pair, const FlankCondition& condition) {
+  return {{pair, Member::Pinion, condition.modification.pinion}, {pair, Member::Wheel, condition.modification.wheel}};
+}
+
+std::vector<LineCrest> line_crests(const LoadedLines& lines) {
+  std::vector<LineCrest> crests;
+  if (lines.laws.empty() || !has_starts(lines.starts)) return crests;
+  const Lines all(lines);
+  const auto load = [&](std::size_t i) { return lines.line_load[static_cast<Eigen::Index>(i)]; };
+  const auto reaches_edge = [&](std::size_t i) { return lines.laws[i].reaches_edge(load(i)); };
+  for (std::size_t begin = 0; begin < lines.at.points.size();) {
+    const Lines::Line line = all.line_from(begin);
+    begin = line.end;
+    std::optional<ToothGap> gap;
+    for (const Member gear : {Member::Pinion, Member::Wheel}) {
+      const ReliefStarts& starts = lines.starts[gear];
+      auto here = line.end > line.begin + 1 ? all.beyond(gear, starts, line.begin, 0.0) : std::array<double, ReliefStarts::count>{};
+      for (std::size_t i = line.begin; i + 1 < line.end; ++i) {
+        const auto next = all.beyond(gear, starts, i, 1.0);
+        const bool is_loaded = (load(i) > 0.0 || load(i + 1) > 0.0) && !reaches_edge(i) && !reaches_edge(i + 1);
+        for (std::size_t s = 0; s < ReliefStarts::count && is_loaded; ++s) {
+          if (!std::isfinite(here[s]) || (here[s] < 0.0) == (next[s] < 0.0)) continue;
+          const auto distance = [&](double way) { return all.beyond(gear, starts, i, way)[s]; };
+          const double way = bracketed_root(distance, 0.0, here[s], 1.0, next[s], enclosed).x;
+          if (!gap) gap.emplace(lines.gaps, lines.at.points[line.begin].tooth, lines.at.phase);
+          auto crest = all.crest(line, *gap, i, way);
+          if (!crest) continue;
+          crest->gear = gear;
+          crest->start = s;
+          crest->rises = next[s] > here[s];
+          crests.push_back(std::move(*crest));
+        }
+        here = next;
+      }
+    }
+  }
+  return crests;
+}
+
+CrestLoad load_on_crest(const std::vector<ContactLaw>& laws, const LineCrest& crest) {
+  CrestLoad found;
+  for (const auto& [point, share] : {std::pair{crest.before, 1.0 - crest.way}, std::pair{crest.before + 1, crest.way}}) {
+    const ContactLaw& law = laws[static_cast<std::size_t>(point)];
+    const auto [load, by_deflection] = load_of(law, crest);
+    const StripContact::Peak peak = law.peak_pressure(load).highest;
+    found.line_load += share * load;
+    found.load_by_deflection += share * by_deflection;
+    found.pressure += share * peak.pressure;
+    found.by_deflection += share * peak.slope * by_deflection;
+  }
+  return found;
+}
+
+namespace {
+
+/// d(way)/dp where the parameter moves the start along the line; 0 where it does not.
+double way_slope(const Lines& all, const LoadedLines& lines, const LineCrest& crest, const MeshParameter& parameter) {
+  const auto* of_gear = std::get_if<GearParameter>(&parameter);
+  if (of_gear == nullptr || of_gear->member != crest.gear || describe(of_gear->parameter).kind != ParameterKind::Extent) return 0.0;
+  const auto point = static_cast<std::size_t>(crest.before);
+  const auto distance = [&](double by_extent, double way) {
+    Modification moved = lines.gaps.condition().modification[crest.gear];
+    set(moved, of_gear->parameter, get(moved, of_gear->parameter) + by_extent);
+    return all.beyond(crest.gear, {lines.model.pair, crest.gear, moved}, point, way)[crest.start];
+  };
+  const double by_extent = (distance(extent_step, crest.way) - distance(-extent_step, crest.way)) / (2.0 * extent_step);
+  const double by_way = (distance(0.0, crest.way + along) - distance(0.0, crest.way - along)) / (2.0 * along);
+  return -by_extent / by_way;
+}
+
+}  // namespace
+
+CrestSlopes crest_slopes(const LoadedLines& lines, const std::vector<LineCrest>& crests, const LoadSlopes& slopes, const ConditionSlopes& condition) {
+  MeshPosition places;
+  places.phase = lines.at.phase;
+  const Eigen::VectorXd& opened = lines.at.outside.by_force;
+  if (opened.size() > 0) places.outside.by_force = Eigen::VectorXd::Zero(std::ssize(crests));
+  for (const LineCrest& crest : crests) {
+    for (std::size_t k = 0; k < crest.count && opened.size() > 0; ++k) {
+      places.outside.by_force[std::ssize(places.points)] += crest.from[k].weight * opened[crest.from[k].index];
+    }
+    places.points.push_back(crest.place);
+  }
+  const Gap gap = lines.gaps.at(places.points, lines.at.phase);
+  const Eigen::MatrixXd gap_slopes = condition.at(places, gap).gap;
+  const Eigen::MatrixXd forces = lines.at.weight.asDiagonal() * slopes.line_load;
+  const Eigen::Index n = std::ssize(crests), m = gap_slopes.cols();
+  CrestSlopes by{Eigen::MatrixXd(n, m), Eigen::MatrixXd::Zero(n, m), Eigen::MatrixXd::Zero(n, m)};
+  const Lines all(lines);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const LineCrest& crest = crests[static_cast<std::size_t>(i)];
+    Eigen::RowVectorXd influence = Eigen::RowVectorXd::Zero(forces.rows()), seen = Eigen::RowVectorXd::Zero(m);
+    for (std::size_t k = 0; k < crest.count; ++k) {
+      influence += crest.from[k].weight * lines.at.influence.row(crest.from[k].index);
+      seen += crest.from[k].weight * slopes.line_load.row(crest.from[k].index);
+    }
+    by.deflection.row(i) = slopes.transmission_error - influence * forces + crest.compliance * seen - gap_slopes.row(i);
+    Eigen::RowVectorXd ways(m);
+    for (Eigen::Index p = 0; p < m; ++p) ways[p] = way_slope(all, lines, crest, condition.parameters()[static_cast<std::size_t>(p)]);
+    if (ways.isZero(0.0)) continue;
+    const auto point = static_cast<std::size_t>(crest.before);
+    const Lines::Line line = all.line_of(point);
+    const ToothGap tooth_gap(lines.gaps, lines.at.points[point].tooth, lines.at.phase);
+    const double step = crest.rises ? -along : along;
+    const auto one = all.crest(line, tooth_gap, point, crest.way + step), two = all.crest(line, tooth_gap, point, crest.way + 2.0 * step);
+    if (!one || !two) continue;
+    const CrestLoad here = load_on_crest(lines.laws, crest), near = load_on_crest(lines.laws, *one), far = load_on_crest(lines.laws, *two);
+    const auto along_line = [step](double at, double first, double second) { return (4.0 * (first - at) - (second - at)) / (2.0 * step); };
+    by.load.row(i) = along_line(here.line_load, near.line_load, far.line_load) * ways;
+    by.pressure.row(i) = along_line(here.pressure, near.pressure, far.pressure) * ways;
+  }
+  return by;
+}
+
+}  // namespace flankwright
