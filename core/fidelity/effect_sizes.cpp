@@ -169,8 +169,7 @@ EstimatedSize estimate(const Cases& cases, const EffectDecisions& decisions, con
     }
     double highest = 0.0;
     const Eigen::VectorXd structural = at.influence * at.weight.cwiseProduct(found->line_load);
-    const std::vector<LineCrest> crests =
-        line_crests({*other.model, at, gaps, starts, gap, cycle.force, problem.laws, found->line_load, structural, found->transmission_error});
+    const std::vector<LineCrest> crests = line_crests({*other.model, at, gaps, starts, gap, cycle.force, problem.laws, found->line_load, structural});
     for (const PointPeaks& peaks : point_peaks(*other.model, at, problem.laws, found->line_load, crests)) {
       highest = std::max(highest, peaks.stress.value);
     }

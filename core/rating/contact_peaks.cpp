@@ -4,11 +4,9 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <set>
 #include <string>
 
-#include "core/base/curve_rise.hpp"
 #include "core/rating/line_region.hpp"
 
 namespace flankwright {
@@ -113,54 +111,52 @@ class Samples {
   std::map<double, ContactPeaks> by_phase_;
 };
 
-/// A maximum of one of the four: a sample that is no lower than both its neighbours.
-struct Maximum {
+/// A maximum of one of the four between two phases.
+struct Bracket {
   std::size_t which;
-  double phase;
-  auto operator<=>(const Maximum&) const = default;
+  double low, top, high;
+
+  double width() const { return high - low; }
+  /// How much of the top it has at one end or the other: about as much as it may still rise.
+  double fall(const Samples& samples) const {
+    const double at_top = samples.value(which, top);
+    return std::max(at_top - samples.value(which, low), at_top - samples.value(which, high));
+  }
+  /// Enclosed, as high as it gets, or no match for the highest any more.
+  bool is_done(const Samples& samples, const PeakSearch& search) const {
+    constexpr double doubt = 2.0;  // a kink may rise by more than the side ends fall: by the golden ratio, if both are straight
+    const double at_top = samples.value(which, top), rise = doubt * fall(samples);
+    return width() <= 2.0 * search.phase_tolerance || rise <= search.value_tolerance * at_top || at_top + rise < samples.best(which);
+  }
+  /// Golden section of the wider side.
+  double probe() const {
+    constexpr double golden = 0.3819660112501051;  // 2 - golden ratio
+    return high - top > top - low ? top + golden * (high - top) : top - golden * (top - low);
+  }
+  void take(const Samples& samples, double x) {
+    const bool higher = samples.value(which, x) > samples.value(which, top);
+    if (higher) {
+      (x > top ? low : high) = top;
+      top = x;
+    } else {
+      (x > top ? high : low) = x;
+    }
+  }
 };
 
-/// Maxima among the samples that are worth the while.
-std::vector<Maximum> maxima(const Samples& samples, double worth) {
+/// Brackets around the samples that are no lower than both neighbours and worth the while.
+std::vector<Bracket> brackets(const Samples& samples, double worth) {
   const std::vector<double> phases = samples.phases();
-  std::vector<Maximum> found;
+  std::vector<Bracket> found;
   for (std::size_t which = 0; which < sought.size(); ++which) {
     const double best = samples.best(which);
     for (std::size_t i = 1; i + 1 < phases.size(); ++i) {
       const double here = samples.value(which, phases[i]);
       const bool lower = here < samples.value(which, phases[i - 1]) || here < samples.value(which, phases[i + 1]);
-      if (here >= worth * best && !lower) found.push_back({which, phases[i]});
+      if (here >= worth * best && !lower) found.push_back({which, phases[i - 1], phases[i], phases[i + 1]});
     }
   }
   return found;
-}
-
-/// Follows a maximum uphill to where it now is, and gives the phase to look at next: that of the higher promise beside it. Nothing where it cannot be the
-/// highest any more, rises no further, or is enclosed.
-std::optional<double> next_probe(const Samples& samples, Maximum& maximum, const PeakSearch& search) {
-  const std::vector<double> phases = samples.phases();
-  auto top = static_cast<std::size_t>(std::ranges::lower_bound(phases, maximum.phase) - phases.begin());
-  const auto value = [&](std::size_t i) { return samples.value(maximum.which, phases[i]); };
-  while (top > 0 && value(top - 1) > value(top)) --top;
-  while (top + 1 < phases.size() && value(top + 1) > value(top)) ++top;
-  maximum.phase = phases[top];
-  constexpr std::size_t reach = 3;
-  const std::size_t first = top >= reach ? top - reach : 0, last = std::min(phases.size() - 1, top + reach);
-  std::vector<CurveSample> curve;
-  for (std::size_t i = first; i <= last; ++i) curve.push_back({phases[i], value(i)});
-  CurveRise promise;
-  double from = 0.0, length = 0.0;
-  for (std::size_t i = top == 0 ? 0 : top - 1; i <= std::min(top, phases.size() - 2); ++i) {
-    if (phases[i + 1] - phases[i] <= search.phase_tolerance) continue;
-    const CurveRise rise = rise_between(curve, i - first);
-    if (!(rise.height > promise.height)) continue;
-    promise = rise;
-    from = phases[i];
-    length = phases[i + 1] - phases[i];
-  }
-  if (!(promise.height > (1.0 + search.value_tolerance) * value(top)) || promise.height < samples.best(maximum.which)) return std::nullopt;
-  constexpr double margin = 1.0 / 8;  // from the ends of the interval
-  return std::clamp(promise.x, from + margin * length, from + (1.0 - margin) * length);
 }
 
 void check(const PeakSearch& search) {
@@ -248,18 +244,14 @@ ContactPeaks locate_peaks(const MeshAt& mesh_at, const FlankCondition& condition
   phases.insert(phases.begin(), before);
   Samples samples(mesh_at, condition, pinion_torque, search.spikes);
   samples.add(phases);
-  std::vector<Maximum> open = maxima(samples, search.worth);
-  while (!open.empty()) {
+  std::vector<Bracket> open = brackets(samples, search.worth);
+  while (true) {
+    std::erase_if(open, [&](const Bracket& b) { return b.is_done(samples, search); });
+    if (open.empty()) break;
     std::set<double> probes;
-    std::erase_if(open, [&](Maximum& maximum) {
-      const std::optional<double> probe = next_probe(samples, maximum, search);
-      if (probe) probes.insert(*probe);
-      return !probe;
-    });
-    std::ranges::sort(open);
-    const auto met = std::ranges::unique(open);
-    open.erase(met.begin(), met.end());
+    for (const Bracket& b : open) probes.insert(b.probe());
     samples.add({probes.begin(), probes.end()});
+    for (Bracket& b : open) b.take(samples, b.probe());
   }
   ContactPeaks peaks = samples.over_all();
   peaks.search_step = search.step;

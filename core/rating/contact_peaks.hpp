@@ -58,17 +58,16 @@ struct PeakSearch {
   /// First positions are at most this far apart, in addition to all at which a line begins or ends at A0, A, E or B0 or passes the
   /// length of the spike rule [base pitches], > 0.
   double step{1.0 / 32};
-  /// A maximum is sought until the positions beside it are at most this far apart [base pitches], > 0,
+  /// A maximum is enclosed until neighbouring positions are at most this far apart [base pitches], > 0,
   double phase_tolerance{2e-4};
-  /// or promise to rise by no more than this share of it [-], >= 0.
+  /// or the peak falls so little to them that it rises by no more than this share of it [-], >= 0.
   double value_tolerance{1e-5};
-  /// Maxima of the first positions are sought where they reach this share of the highest one [-], 0 .. 1: one that
-  /// lies lower would have to rise by the rest within one step. One that promises less than the highest is given up.
+  /// Maxima of the first positions are enclosed where they reach this share of the highest one [-], 0 .. 1: one that
+  /// lies lower would have to rise by the rest within one step. One that can no longer be the highest is given up.
   double worth{0.95};
 };
 
-/// Peaks over one whole mesh cycle, located in continuous phase, each where the curves on both sides promise to rise most (rise_between()), and so not a
-/// matter of the phase step. Lines begin
+/// Peaks over one whole mesh cycle, located in continuous phase by golden section and so not a matter of the phase step. Lines begin
 /// and end at exact phases, which are looked at for themselves: there the peaks have kinks or jumps.
 /// @param pinion_torque  [N mm], > 0
 /// @throws InvalidInput where a search parameter is out of range

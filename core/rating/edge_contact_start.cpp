@@ -20,6 +20,7 @@ MeshModel at_position(const MeshModel& model, std::size_t position) {
           .contact_modulus = model.contact_modulus,
           .calibration = model.calibration,
           .iso = model.iso,
+          .couples_points = model.couples_points,
           .positions = {{.phase = at.phase, .points = at.points, .weight = at.weight, .influence = at.influence, .laws = at.laws}}};
 }
 

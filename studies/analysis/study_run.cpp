@@ -270,9 +270,11 @@ void StudyRun::find_edge_contact() {
   const Stopwatch clock;
   tbb::parallel_for(std::size_t{0}, results_.loaded.size(), [&](std::size_t i) {
     LoadedResult& loaded = results_.loaded[i];
-    // Quiet where the effect is off and the stress is NaN.
-    if (std::isgreater(loaded.summary.edge_stress, 0.0))
-      loaded.edge_contact = edge_contact_start(results_.models[loaded.model], loaded.condition, loaded.torque);
+    if (!std::isgreater(loaded.summary.edge_stress, 0.0)) return;  // quiet where the effect is off and the stress is NaN
+    // To two digits half the points and positions do, unless no edge is reached with them.
+    const auto coarse = coarse_models_.find(placement_of(loaded.condition.misalignment, loaded.torque));
+    if (coarse != coarse_models_.end()) loaded.edge_contact = edge_contact_start(coarse->second, loaded.condition, loaded.torque);
+    if (!loaded.edge_contact) loaded.edge_contact = edge_contact_start(results_.models[loaded.model], loaded.condition, loaded.torque);
   });
   if (std::ranges::none_of(results_.loaded, [](const LoadedResult& loaded) { return loaded.edge_contact.has_value(); })) return;
   results_.steps.push_back({"edge_contact", "the torques at which tip edges touch", clock.seconds()});

@@ -6,6 +6,7 @@
 
 #include "core/base/root.hpp"
 #include "core/base/smooth_interpolation.hpp"
+#include "core/contact/gap/flank_touch_search.hpp"
 #include "core/contact/path/path_of_contact.hpp"
 
 namespace flankwright {
@@ -18,6 +19,8 @@ constexpr double enclosed = 1e-13;
 constexpr double along = 1e-3;
 /// Derivatives of distances by extents are central differences over this length [mm]: distances are linear in them.
 constexpr double extent_step = 1e-3;
+/// Likewise by numbers of a misalignment [mm or rad]: places slide in proportion to them.
+constexpr double misalignment_step = 1e-4;
 
 /// A position's lines, with the flanks' starts on them.
 class Lines {
@@ -44,16 +47,23 @@ class Lines {
     return line_from(point);
   }
 
+  /// How far a gear's places are slid at a point and the next, see FlankTouch::slid.
+  using Slid = std::array<double, 2>;
+  Slid slid(Member gear, std::size_t point) const { return {lines_.gap.touches[point].slid[gear], lines_.gap.touches[point + 1].slid[gear]}; }
+
   /// Distances beyond the starts of a gear between a point and the next, at this part of the way.
   std::array<double, ReliefStarts::count> beyond(Member gear, const ReliefStarts& starts, std::size_t point, double way) const {
+    return beyond(gear, starts, point, way, slid(gear, point));
+  }
+  std::array<double, ReliefStarts::count> beyond(Member gear, const ReliefStarts& starts, std::size_t point, double way, const Slid& slid) const {
     const Gear& of = lines_.model.pair[gear];
     const double along_profile = gear == Member::Wheel ? 1.0 : -1.0;
-    const auto roll_square = [&](std::size_t i) {
-      const double radius = radius_of(i, gear), slid = lines_.gap.touches[i].slid[gear];
-      return std::max(0.0, (radius - of.base_radius) * (radius + of.base_radius) + 2.0 * along_profile * of.base_radius * slid);
+    const auto roll_at = [&](std::size_t i) {
+      const double radius = radius_of(point + i, gear);
+      return std::sqrt(std::max(0.0, (radius - of.base_radius) * (radius + of.base_radius) + 2.0 * along_profile * of.base_radius * slid[i]));
     };
     const auto between = [way](double a, double b) { return a + way * (b - a); };
-    const double roll = between(std::sqrt(roll_square(point)), std::sqrt(roll_square(point + 1)));
+    const double roll = between(roll_at(0), roll_at(1));
     const double z = between(lines_.at.points[point].z, lines_.at.points[point + 1].z);
     return starts.beyond(std::hypot(of.base_radius, roll), gear == Member::Wheel ? z - lines_.model.placement.misalignment.axial_offset : z);
   }
@@ -73,12 +83,24 @@ class Lines {
       smooth += weights.weight[j] * (lines_.structural[i] + (outside_.size() > 0 ? outside_[i] : 0.0));
       crest.seen_load += weights.weight[j] * lines_.line_load[i];
     }
-    crest.deflection = lines_.transmission_error - smooth - gap.at(*place);
+    const double other = way * loaded(point + 1), one = (1.0 - way) * loaded(point), sum = one + other;
+    crest.approach_shares[0] = sum > 0.0 ? one / sum : loaded(point);
+    crest.approach_shares[1] = 1.0 - crest.approach_shares[0];
+    crest.deflection = -smooth - gap.at(*place);
+    for (std::size_t j = 0; j < 2; ++j) {
+      if (crest.approach_shares[j] > 0.0) crest.deflection += crest.approach_shares[j] * approach(point + j);
+    }
     crest.compliance = compliance_between(line, k);
     return crest;
   }
 
  private:
+  double loaded(std::size_t i) const { return lines_.line_load[static_cast<Eigen::Index>(i)] > 0.0 ? 1.0 : 0.0; }
+  /// c + s + g of a loaded point
+  double approach(std::size_t i) const {
+    const auto row = static_cast<Eigen::Index>(i);
+    return lines_.laws[i].deflection(lines_.line_load[row]) + lines_.structural[row] + lines_.gap.total[row];
+  }
   double radius_of(std::size_t i, Member gear) const {
     const ContactPoint& point = lines_.at.points[i];
     return gear == Member::Pinion ? point.pinion_radius : point.wheel_radius;
@@ -187,22 +209,41 @@ namespace {
 
 /// d(way)/dp where the parameter moves the start along the line; 0 where it does not.
 double way_slope(const Lines& all, const LoadedLines& lines, const LineCrest& crest, const MeshParameter& parameter) {
-  const auto* of_gear = std::get_if<GearParameter>(&parameter);
-  if (of_gear == nullptr || of_gear->member != crest.gear || describe(of_gear->parameter).kind != ParameterKind::Extent) return 0.0;
   const auto point = static_cast<std::size_t>(crest.before);
-  const auto distance = [&](double by_extent, double way) {
-    Modification moved = lines.gaps.condition().modification[crest.gear];
-    set(moved, of_gear->parameter, get(moved, of_gear->parameter) + by_extent);
-    return all.beyond(crest.gear, {lines.model.pair, crest.gear, moved}, point, way)[crest.start];
+  const FlankCondition& condition = lines.gaps.condition();
+  const Lines::Slid slid = all.slid(crest.gear, point);
+  const auto distance = [&](const Modification& modification, double way, const Lines::Slid& moved) {
+    return all.beyond(crest.gear, {lines.model.pair, crest.gear, modification}, point, way, moved)[crest.start];
   };
-  const double by_extent = (distance(extent_step, crest.way) - distance(-extent_step, crest.way)) / (2.0 * extent_step);
-  const double by_way = (distance(0.0, crest.way + along) - distance(0.0, crest.way - along)) / (2.0 * along);
-  return -by_extent / by_way;
+  const Modification& own = condition.modification[crest.gear];
+  double change = 0.0;  // of the distance by the parameter
+  if (const auto* of_gear = std::get_if<GearParameter>(&parameter)) {
+    if (of_gear->member != crest.gear || describe(of_gear->parameter).kind != ParameterKind::Extent) return 0.0;
+    const auto with = [&](double by) {
+      Modification moved = own;
+      set(moved, of_gear->parameter, get(moved, of_gear->parameter) + by);
+      return distance(moved, crest.way, slid);
+    };
+    change = (with(extent_step) - with(-extent_step)) / (2.0 * extent_step);
+  } else if (const auto* misalignment = std::get_if<MisalignmentParameter>(&parameter)) {
+    if (moves_mesh(lines.gaps.model(), parameter)) return 0.0;
+    const std::vector<ContactPoint> points{lines.at.points[point], lines.at.points[point + 1]};
+    const auto with = [&](double by) {
+      FlankCondition moved = condition;
+      moved.misalignment.*(*misalignment) += by;
+      const std::vector<FlankTouch> touches = FlankTouchSearch(lines.model.pair, moved).at(points);
+      return distance(own, crest.way, {touches[0].slid[crest.gear], touches[1].slid[crest.gear]});
+    };
+    change = (with(misalignment_step) - with(-misalignment_step)) / (2.0 * misalignment_step);
+  }
+  if (change == 0.0) return 0.0;
+  return -change * 2.0 * along / (distance(own, crest.way + along, slid) - distance(own, crest.way - along, slid));
 }
 
 }  // namespace
 
-CrestSlopes crest_slopes(const LoadedLines& lines, const std::vector<LineCrest>& crests, const LoadSlopes& slopes, const ConditionSlopes& condition) {
+CrestSlopes crest_slopes(const LoadedLines& lines, const std::vector<LineCrest>& crests, const PointSlopes& slopes,
+                         const ConditionSlopes& condition) {
   MeshPosition places;
   places.phase = lines.at.phase;
   const Eigen::VectorXd& opened = lines.at.outside.by_force;
@@ -226,7 +267,16 @@ CrestSlopes crest_slopes(const LoadedLines& lines, const std::vector<LineCrest>&
       influence += crest.from[k].weight * lines.at.influence.row(crest.from[k].index);
       seen += crest.from[k].weight * slopes.line_load.row(crest.from[k].index);
     }
-    by.deflection.row(i) = slopes.transmission_error - influence * forces + crest.compliance * seen - gap_slopes.row(i);
+    by.deflection.row(i) = crest.compliance * seen - gap_slopes.row(i);
+    for (Eigen::Index j = 0; j < 2; ++j) {
+      const double share = crest.approach_shares[static_cast<std::size_t>(j)];
+      if (share == 0.0) continue;
+      const Eigen::Index k = crest.before + j;
+      influence -= share * lines.at.influence.row(k);
+      by.deflection.row(i) +=
+          share * (lines.laws[static_cast<std::size_t>(k)].slope(lines.line_load[k]) * slopes.line_load.row(k) + slopes.gap.row(k));
+    }
+    by.deflection.row(i) -= influence * forces;
     Eigen::RowVectorXd ways(m);
     for (Eigen::Index p = 0; p < m; ++p) ways[p] = way_slope(all, lines, crest, condition.parameters()[static_cast<std::size_t>(p)]);
     if (ways.isZero(0.0)) continue;

@@ -20,14 +20,15 @@ struct LineCrest {
   };
 
   Member gear{Member::Pinion};
-  std::size_t start{0};     ///< of its ReliefStarts
-  bool rises{false};        ///< the relief lies towards rising z
-  ContactPoint place{};     ///< without a weight
-  Eigen::Index before{-1};  ///< it lies between this point and the next,
-  double way{0.0};          ///< at this part of the way to that, 0 .. 1
-  double deflection{0.0};   ///< f_t - g - s [mm]
-  double seen_load{0.0};    ///< w_s, what the points see there of the load [N/mm]
-  double compliance{0.0};   ///< kappa, of the structure to what they do not see [mm^2/N]
+  std::size_t start{0};                     ///< of its ReliefStarts
+  bool rises{false};                        ///< the relief lies towards rising z
+  ContactPoint place{};                     ///< without a weight
+  Eigen::Index before{-1};                  ///< it lies between this point and the next,
+  double way{0.0};                          ///< at this part of the way to that, 0 .. 1
+  std::array<double, 2> approach_shares{};  ///< in f_t there of what these two points approach by: they add up to 1
+  double deflection{0.0};                   ///< f_t - g - s [mm]
+  double seen_load{0.0};                    ///< w_s, what the points see there of the load [N/mm]
+  double compliance{0.0};                   ///< kappa, of the structure to what they do not see [mm^2/N]
   std::array<Point, 4> from{};
   std::size_t count{0};  ///< of these
 };
@@ -53,7 +54,6 @@ struct LoadedLines {
   const std::vector<ContactLaw>& laws;  ///< of the points, moved by the condition
   const Eigen::VectorXd& line_load;     ///< [N/mm]
   const Eigen::VectorXd& structural;    ///< K a w [mm]
-  double transmission_error;            ///< f_t [mm]
 };
 
 /// The crests of a position's lines.
@@ -63,7 +63,8 @@ struct LoadedLines {
 ///     c(w) + kappa (w - w_s) = f_t - g - s,
 ///
 /// c the contact law, g the gap of the flanks there. What the structure yields, s, is smooth and is laid through the points of the line by
-/// smooth_interpolation(), and so is the load w_s that they see. What they do not see is a triangle between two points. It moves the structure by more than
+/// smooth_interpolation(), and so is the load w_s that they see; f_t is c + s + g of the loaded points on either side, so that loads which are held while
+/// the mesh moves have a crest as well. What they do not see is a triangle between two points. It moves the structure by more than
 /// its force spread out does: by as much as the points' own influence exceeds that on the next interval,
 ///
 ///     kappa = (K_own - K_next) (distance of the points along the line)/2.
@@ -77,10 +78,10 @@ std::vector<LineCrest> line_crests(const LoadedLines& lines);
 /// The contact law is between those of the points on either side.
 CrestLoad load_on_crest(const std::vector<ContactLaw>& laws, const LineCrest& crest);
 
-/// Derivatives of a position's load, one column for each parameter.
-struct LoadSlopes {
+/// Derivatives at a position's points, one column for each parameter.
+struct PointSlopes {
   const Eigen::MatrixXd& line_load;
-  const Eigen::RowVectorXd& transmission_error;
+  const Eigen::MatrixXd& gap;  ///< ParameterSlopes::gap
 };
 
 /// Derivatives of LineCrest by parameters, a row for each crest.
@@ -88,8 +89,8 @@ struct CrestSlopes {
   Eigen::MatrixXd deflection;      ///< of f_t - g - s + kappa w_s with the place held; of what moves the mesh without its motion, see MeshSlope
   Eigen::MatrixXd load, pressure;  ///< what the motion of the place adds to those of CrestLoad
 };
-/// Extents move the place, and a gear's displacement along the profile: the former is in the derivative, the latter is left out.
+/// Extents of reliefs and what moves the wheel along the profile take the place along.
 /// @param condition  of the lines
-CrestSlopes crest_slopes(const LoadedLines& lines, const std::vector<LineCrest>& crests, const LoadSlopes& slopes, const ConditionSlopes& condition);
+CrestSlopes crest_slopes(const LoadedLines& lines, const std::vector<LineCrest>& crests, const PointSlopes& slopes, const ConditionSlopes& condition);
 
 }  // namespace flankwright

@@ -22,9 +22,9 @@ namespace {
 constexpr double micrometre = units::um, unlimited = std::numeric_limits<double>::infinity();
 
 /// Stresses and the largest loads with their derivatives.
-/// @param edge_slopes  ParameterSlopes::edge
-void fill_peaks(const LoadedLines& lines, const Eigen::MatrixXd& edge_slopes, const ConditionSlopes& condition,
-                const Eigen::RowVectorXd& force_derivative, LoadedPosition& position) {
+/// @param slopes  of the condition at the position
+void fill_peaks(const LoadedLines& lines, const ParameterSlopes& slopes, const ConditionSlopes& condition, const Eigen::RowVectorXd& force_derivative,
+                LoadedPosition& position) {
   const Eigen::VectorXd& w = position.load.line_load;
   const bool with_slopes = !condition.parameters().empty();
   const Eigen::MatrixXd& by_load = position.line_load_derivative;
@@ -37,8 +37,8 @@ void fill_peaks(const LoadedLines& lines, const Eigen::MatrixXd& edge_slopes, co
   if (edges) position.edge_stress_derivative = position.contact_stress_derivative;
   const std::vector<LineCrest> crests = line_crests(lines);
   CrestSlopes crest_slope;
-  if (with_slopes && !crests.empty()) crest_slope = crest_slopes(lines, crests, {by_load, position.transmission_error_derivative}, condition);
-  const PlaceSlopes by{by_load, edge_slopes, crest_slope};
+  if (with_slopes && !crests.empty()) crest_slope = crest_slopes(lines, crests, {by_load, slopes.gap}, condition);
+  const PlaceSlopes by{by_load, slopes.edge, crest_slope};
   const std::vector<PointPeaks> peaks = point_peaks(lines.model, lines.at, lines.laws, w, crests);
   double on_edges = 0.0;
   Eigen::RowVectorXd on_edges_derivative = Eigen::RowVectorXd::Zero(by_load.cols());
@@ -187,16 +187,14 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
       continue;
     }
     const std::vector<Eigen::Index> on_edges = reaching_edges(laws, position.load.line_load);
-    ParameterSlopes slopes = condition_slopes.at(at, position.gap, on_edges);
+    const ParameterSlopes slopes = condition_slopes.at(at, position.gap, on_edges);
     cycle.force_derivative = slopes.force;
     std::vector<MovedMesh> moved;
     for (std::size_t k = 0; k < moving.size(); ++k) moved.push_back({moving[k], slopes_of[k].at(i, position.load)});
-    const Eigen::MatrixXd edge_slopes = slopes.edge;
-    fill_derivatives(problem, solver, moved, on_edges, std::move(slopes), position);
+    fill_derivatives(problem, solver, moved, on_edges, slopes, position);
     const LoadDistribution& load = position.load;
-    const LoadedLines lines{
-        model, at, gaps, starts, position.gap, cycle.force, laws, load.line_load, load.structural_deflection, load.transmission_error};
-    fill_peaks(lines, edge_slopes, condition_slopes, cycle.force_derivative, position);
+    const LoadedLines lines{model, at, gaps, starts, position.gap, cycle.force, laws, load.line_load, load.structural_deflection};
+    fill_peaks(lines, slopes, condition_slopes, cycle.force_derivative, position);
     if (!moved.empty()) add_moved_places(moved, cycle.force, position);
     const double approach = position.load.transmission_error - position.gap.total.minCoeff();
     likely_approach = 2.0 * approach;

@@ -19,14 +19,9 @@ struct HeldLoads {
   double force, edge_force{0.0};
 };
 
-/// What is held.
-struct Held {
-  double force, transmission_error;  ///< of the mesh
-};
-
+/// @param force  of the mesh, under which the gap is
 /// @param load  of all points
-HeldLoads held_loads(const MeshModel& model, const MeshPosition& at, const ConditionGap& gaps, const Held& of_mesh, const Eigen::VectorXd& load) {
-  const auto& [force, transmission_error] = of_mesh;
+HeldLoads held_loads(const MeshModel& model, const MeshPosition& at, const ConditionGap& gaps, double force, const Eigen::VectorXd& load) {
   const Gap gap = gap_under(at, gaps, force);
   const PairReliefStarts starts = relief_starts(model.pair, gaps.condition());
   const Eigen::VectorXd forces = at.weight.cwiseProduct(load);
@@ -36,7 +31,7 @@ HeldLoads held_loads(const MeshModel& model, const MeshPosition& at, const Condi
   const std::vector<ContactLaw> moved_edges = laws_with_moved_edges(at, gap, load);
   const std::vector<ContactLaw>& laws = moved_edges.empty() ? at.laws : moved_edges;
   const std::vector<PointPeaks> peaks =
-      point_peaks(model, at, laws, load, line_crests({model, at, gaps, starts, gap, force, laws, load, structural, transmission_error}));
+      point_peaks(model, at, laws, load, line_crests({model, at, gaps, starts, gap, force, laws, load, structural}));
   for (Eigen::Index i = 0; i < load.size(); ++i) {
     const auto k = static_cast<std::size_t>(i);
     if (!laws.empty()) held.deflection[i] += laws[k].deflection(load[i]);
@@ -147,15 +142,15 @@ MeshSlopes::Same MeshSlopes::same(std::size_t position) const {
 MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load) const {
   const Same same_as = same(position);
   const Eigen::VectorXd loads = load.line_load.cwiseProduct(same_as.known);
-  const Held of_mesh{model_.positions[position].weight.dot(load.line_load), load.transmission_error};
+  const double force = model_.positions[position].weight.dot(load.line_load);
   const auto perturbed = [&](const Perturbed& mesh, const std::vector<Eigen::Index>& same) {
     const MeshPosition& there = mesh.model.positions[position];
-    HeldLoads held = held_loads(mesh.model, there, mesh.gaps, of_mesh, as_perturbed(same, loads, there.weight.size()));
+    HeldLoads held = held_loads(mesh.model, there, mesh.gaps, force, as_perturbed(same, loads, there.weight.size()));
     for (Eigen::VectorXd* values : {&held.gap, &held.deflection, &held.contact_stress, &held.peak_load, &held.edge_stress})
       *values = as_at(same, *values);
     return held;
   };
-  const HeldLoads here = held_loads(model_, model_.positions[position], gaps_, of_mesh, loads);
+  const HeldLoads here = held_loads(model_, model_.positions[position], gaps_, force, loads);
   const HeldLoads one = perturbed(one_, same_as.one), two = perturbed(two_, same_as.two);
   const auto slope = [&](Eigen::VectorXd HeldLoads::*what) -> Eigen::VectorXd {
     return forward_difference(here.*what, one.*what, two.*what, perturbed_.step).cwiseProduct(same_as.known);

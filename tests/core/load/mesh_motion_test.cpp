@@ -278,7 +278,7 @@ TEST_CASE("Located peaks and K_Hbeta follow what moves the mesh to where they ar
     const auto mesh = [&](const std::vector<double>& phases) {
       return of.alone(MeshPlacement::of(of.gap, condition.misalignment), resolved(phases));
     };
-    return locate_peaks(mesh, condition, torque, {.phase_tolerance = phase_tolerance});
+    return locate_peaks(mesh, condition, torque, {.phase_tolerance = phase_tolerance, .value_tolerance = 0.0});
   };
   const ContactPeaks here = peaks(of.at(value)), up = peaks(of.at(value + step)), down = peaks(of.at(value - step));
   const MeshAt mesh_at = [&](const std::vector<double>& phases) { return of.mesh(value, resolved(phases)); };

@@ -6,6 +6,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/edge_contact_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/edge_cost_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/face_end_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/line_crest_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/haddad_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/load_cases.cpp
      ${CMAKE_CURRENT_LIST_DIR}/load_problem_test.cpp

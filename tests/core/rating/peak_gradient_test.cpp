@@ -39,7 +39,8 @@ std::vector<Moved> movable() {
 RatedPeaks rated(const GearPair& gears, const FlankCondition& condition, ConditionPart part, const std::vector<MeshParameter>& parameters) {
   const double torque = torque_for(gears, kTorque);
   const MeshAt mesh = mesh_of(gears, {QuadratureRule::Graded, 3});
-  const ContactPeaks peaks = locate_peaks(mesh, part(condition), torque, {.step = 1.0 / 12, .phase_tolerance = kFineSearch, .worth = 0.995});
+  const ContactPeaks peaks =
+      locate_peaks(mesh, part(condition), torque, {.step = 1.0 / 12, .phase_tolerance = kFineSearch, .value_tolerance = 0.0, .worth = 0.995});
   return {peaks, peak_gradients_of_part(mesh, condition, part, torque, peaks, parameters)};
 }
 
@@ -124,7 +125,7 @@ TEST_CASE("A peak at which another point just gains contact follows every parame
   for (const Moved& m : moved) parameters.push_back(m.parameter);
   parameters.push_back(PinionTorque{});
   const auto peaks = [&](const FlankCondition& c, double by_torque) {
-    return locate_peaks(mesh, c, by_torque, {.step = 1.0 / 12, .phase_tolerance = kFineSearch, .worth = 0.995});
+    return locate_peaks(mesh, c, by_torque, {.step = 1.0 / 12, .phase_tolerance = kFineSearch, .value_tolerance = 0.0, .worth = 0.995});
   };
   const ContactPeaks here = peaks(condition, torque);
   const PeakGradients gradients = peak_gradients(mesh, condition, torque, here, parameters);
