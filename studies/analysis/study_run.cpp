@@ -302,7 +302,6 @@ std::vector<MeshParameter> StudyRun::gradient_parameters() const {
 void StudyRun::analyse() {
   const Study& study = results_.study;
   const bool is_rigid = study.fidelity.compliance == ComplianceModel::Rigid;
-  double loaded_seconds = 0.0;
   if (!is_rigid && has_torque(study)) structures();  // its time is its own
   for (const Scene& scene : study.scenes) {
     if (!is_rigid && std::ranges::find(scene.torques, 0.0) == scene.torques.end()) continue;
@@ -320,9 +319,8 @@ void StudyRun::analyse() {
     forget_loaded();
     analyse_loaded(scenes);
   }
+  results_.steps.push_back({"load_distribution", "some torque is above 0: all loaded effects together", clock.seconds()});
   rate();
-  loaded_seconds += clock.seconds();
-  results_.steps.push_back({"load_distribution", "some torque is above 0: all loaded effects together", loaded_seconds});
 }
 
 void StudyRun::analyse_loaded(const std::vector<DesignScene>& scenes) {

@@ -1,7 +1,7 @@
 // The cost of a run: analyses, seconds, time of the first run of a pair alone, and the resolutions.
 
 const STEP_WORDS = {
-  load_distribution: "loaded contact", edge_contact: "contact on tip edges", proof_of_the_optimum: "assessment", effect_sizes: "sizes of effects", finite_elements: "finite elements",
+  load_distribution: "loaded contact", edge_contact: "tip edges", proof_of_the_optimum: "assessment", effect_sizes: "sizes of effects", finite_elements: "finite elements",
   fit_of_pinion: "fit of the pinion", fit_of_wheel: "fit of the wheel", accuracy_ladder: "all fidelity levels", samples: "samples",
 };
 /** Steps whose result is kept: a second run of the same pair does not repeat them. */
