@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "core/base/curve_rise.hpp"
+#include "core/fidelity/curve_rise.hpp"
 
 namespace flankwright {
 
@@ -77,7 +77,7 @@ class Search {
 
   /// Over all intervals, the cycle closed; at the division of its interval that is nearest.
   CurveRise highest_promise(std::size_t c) const {
-    std::vector<CurveSample> once, curve;  // three neighbours beyond either end
+    std::vector<CurveSample> once, curve;
     for (const auto& [phase, values] : known_) once.push_back({phase, values[c]});
     const std::size_t n = once.size();
     for (std::size_t i = 0; i < n + 5; ++i) curve.push_back({once[i % n].x + static_cast<double>(i / n), once[i % n].y});

@@ -43,7 +43,7 @@ Eigen::RowVectorXd PlaceValue::derivative(const PlaceSlopes& slopes) const {
     sum += by_load * slopes.load.row(index);
     if (by_edge != 0.0 && slopes.edge.size() > 0) sum += by_edge * slopes.edge.row(index);
   }
-  if (crest >= 0) sum += by_crest * slopes.crests.deflection.row(crest);
+  if (crest.index >= 0) sum += crest.by_deflection * slopes.crests.deflection.row(crest.index) + (slopes.crests.*crest.motion).row(crest.index);
   return sum;
 }
 
@@ -128,8 +128,8 @@ void rise_to_crest(const std::vector<ContactLaw>& laws, const std::vector<LineCr
   const Eigen::Index higher = line_load[crest.before] >= line_load[crest.before + 1] ? crest.before : crest.before + 1;
   PointPeaks& of = peaks[static_cast<std::size_t>(higher)];
   const auto place = static_cast<Eigen::Index>(number);
-  if (found.line_load > of.load.value) of.load = {.value = found.line_load, .crest = place, .by_crest = found.load_by_deflection};
-  if (found.pressure > of.stress.value) of.stress = {.value = found.pressure, .crest = place, .by_crest = found.by_deflection};
+  if (found.line_load > of.load.value) of.load = {.value = found.line_load, .crest = {place, found.load_by_deflection, &CrestSlopes::load}};
+  if (found.pressure > of.stress.value) of.stress = {.value = found.pressure, .crest = {place, found.by_deflection, &CrestSlopes::pressure}};
 }
 
 }  // namespace

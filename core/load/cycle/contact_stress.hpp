@@ -28,7 +28,7 @@ StripContact::Peaks contact_stress(const MeshModel& model, const ContactPoint& p
 struct PlaceSlopes {
   const Eigen::MatrixXd& load;  ///< of the points' line loads, a row each
   const Eigen::MatrixXd& edge;  ///< of the distances of their edges; no rows: no edge is reached
-  const CrestSlopes& crests;
+  const CrestSlopes& crests;    ///< of all crests of the position
 };
 
 /// A largest value on the part of a line that belongs to a point, and the points that it follows from.
@@ -38,11 +38,16 @@ struct PlaceValue {
     double by_load{0.0};  ///< derivative of the value by its line load
     double by_edge{0.0};  ///< and by the distance of its edge
   };
+  /// A value on a crest of the position follows from the deflection there, and from where the crest is.
+  struct Crest {
+    Eigen::Index index{-1};  ///< -1: on none
+    double by_deflection{0.0};
+    Eigen::MatrixXd CrestSlopes::*motion{nullptr};  ///< what the motion of the place adds to the value
+  };
   double value{0.0};
   std::array<Point, 3> points{};
-  std::size_t count{0};    ///< of these
-  Eigen::Index crest{-1};  ///< on this crest of the position; -1: on none
-  double by_crest{0.0};    ///< by f_t - g - s there
+  std::size_t count{0};  ///< of these
+  Crest crest{};
 
   void add(const Point& point) { points[count++] = point; }
   Eigen::RowVectorXd derivative(const PlaceSlopes& slopes) const;

@@ -244,6 +244,9 @@ double way_slope(const Lines& all, const LoadedLines& lines, const LineCrest& cr
 
 CrestSlopes crest_slopes(const LoadedLines& lines, const std::vector<LineCrest>& crests, const PointSlopes& slopes,
                          const ConditionSlopes& condition) {
+  const Eigen::Index n = std::ssize(crests), m = slopes.line_load.cols();
+  CrestSlopes by{Eigen::MatrixXd(n, m), Eigen::MatrixXd::Zero(n, m), Eigen::MatrixXd::Zero(n, m)};
+  if (n == 0 || m == 0) return by;
   MeshPosition places;
   places.phase = lines.at.phase;
   const Eigen::VectorXd& opened = lines.at.outside.by_force;
@@ -257,8 +260,6 @@ CrestSlopes crest_slopes(const LoadedLines& lines, const std::vector<LineCrest>&
   const Gap gap = lines.gaps.at(places.points, lines.at.phase);
   const Eigen::MatrixXd gap_slopes = condition.at(places, gap).gap;
   const Eigen::MatrixXd forces = lines.at.weight.asDiagonal() * slopes.line_load;
-  const Eigen::Index n = std::ssize(crests), m = gap_slopes.cols();
-  CrestSlopes by{Eigen::MatrixXd(n, m), Eigen::MatrixXd::Zero(n, m), Eigen::MatrixXd::Zero(n, m)};
   const Lines all(lines);
   for (Eigen::Index i = 0; i < n; ++i) {
     const LineCrest& crest = crests[static_cast<std::size_t>(i)];

@@ -26,7 +26,6 @@ constexpr double micrometre = units::um, unlimited = std::numeric_limits<double>
 void fill_peaks(const LoadedLines& lines, const ParameterSlopes& slopes, const ConditionSlopes& condition, const Eigen::RowVectorXd& force_derivative,
                 LoadedPosition& position) {
   const Eigen::VectorXd& w = position.load.line_load;
-  const bool with_slopes = !condition.parameters().empty();
   const Eigen::MatrixXd& by_load = position.line_load_derivative;
   const bool edges = std::ranges::any_of(lines.laws, [](const ContactLaw& law) { return law.edge().has_value(); });
   position.contact_stress = Eigen::VectorXd::Zero(w.size());
@@ -36,9 +35,8 @@ void fill_peaks(const LoadedLines& lines, const ParameterSlopes& slopes, const C
   if (edges) position.edge_stress = position.contact_stress;
   if (edges) position.edge_stress_derivative = position.contact_stress_derivative;
   const std::vector<LineCrest> crests = line_crests(lines);
-  CrestSlopes crest_slope;
-  if (with_slopes && !crests.empty()) crest_slope = crest_slopes(lines, crests, {by_load, slopes.gap}, condition);
-  const PlaceSlopes by{by_load, slopes.edge, crest_slope};
+  const CrestSlopes by_crest = crest_slopes(lines, crests, {by_load, slopes.gap}, condition);
+  const PlaceSlopes by{by_load, slopes.edge, by_crest};
   const std::vector<PointPeaks> peaks = point_peaks(lines.model, lines.at, lines.laws, w, crests);
   double on_edges = 0.0;
   Eigen::RowVectorXd on_edges_derivative = Eigen::RowVectorXd::Zero(by_load.cols());
@@ -47,10 +45,8 @@ void fill_peaks(const LoadedLines& lines, const ParameterSlopes& slopes, const C
     const auto& [stress, on_edge, load, edge_load] = peaks[static_cast<std::size_t>(i)];
     position.contact_stress[i] = stress.value;
     position.contact_stress_derivative.row(i) = stress.derivative(by);
-    if (stress.crest >= 0 && with_slopes) position.contact_stress_derivative.row(i) += crest_slope.pressure.row(stress.crest);
     position.peak_load[i] = load.value;
     if (load.value > w[i]) position.peak_load_derivative.row(i) = load.derivative(by);
-    if (load.crest >= 0 && with_slopes) position.peak_load_derivative.row(i) += crest_slope.load.row(load.crest);
     if (!edges || on_edge.value == 0.0) continue;
     position.edge_stress[i] = on_edge.value;
     position.edge_stress_derivative.row(i) = on_edge.derivative(by);

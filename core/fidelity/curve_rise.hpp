@@ -39,16 +39,14 @@ inline CurveRise vertex(const CurveSample& a, const CurveSample& b, const CurveS
 
 /// How high a curve may rise between two neighbouring samples. It consists of smooth pieces with kinks: both sides are continued straight until they
 /// meet, by the last secant or by the slope extrapolated from the last two, whichever is steeper, because curves grow steeper towards a kink. On a smooth
-/// top the parabola through three neighbours is taken. Without neighbours on a side nothing rises from there.
+/// top the parabola through three neighbours is taken.
 /// @param curve  by rising x
-/// @param left   the interval's first sample, left + 1 < curve.size()
+/// @param left   the interval's first sample; two more lie beyond either end
 inline CurveRise rise_between(std::span<const CurveSample> curve, std::size_t left) {
-  const std::size_t right = left + 1, n = curve.size();
-  const CurveSample a = curve[left], b = curve[right];
+  const CurveSample a = curve[left], b = curve[left + 1];
   const double length = b.x - a.x;
-  const bool has_left = left >= 1, has_right = right + 1 < n;
-  const double from_left = has_left ? detail::slope_into(curve[left >= 2 ? left - 2 : left - 1], curve[left - 1], a) : 0.0;
-  const double from_right = has_right ? detail::slope_into(curve[right + 2 < n ? right + 2 : right + 1], curve[right + 1], b) : 0.0;
+  const double from_left = detail::slope_into(curve[left - 2], curve[left - 1], a),
+               from_right = detail::slope_into(curve[left + 3], curve[left + 2], b);
   double t = 0.5, height = std::max(a.y, b.y);
   if (from_left > 0.0 && from_right > 0.0) {
     t = std::clamp((b.y + from_right * length - a.y) / ((from_left + from_right) * length), 0.0, 1.0);
@@ -59,11 +57,9 @@ inline CurveRise rise_between(std::span<const CurveSample> curve, std::size_t le
     height = b.y + from_right * length;
   }
   CurveRise rise{height, a.x + t * length};
-  const auto take = [&](const CurveRise& top) {
+  for (const CurveRise& top : {detail::vertex(curve[left - 1], a, b), detail::vertex(a, b, curve[left + 2])}) {
     if (top.height > rise.height && top.x > a.x && top.x < b.x) rise = top;
-  };
-  if (has_left) take(detail::vertex(curve[left - 1], a, b));
-  if (has_right) take(detail::vertex(a, b, curve[right + 1]));
+  }
   return rise;
 }
 
