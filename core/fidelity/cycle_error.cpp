@@ -11,7 +11,7 @@ namespace flankwright {
 namespace {
 
 // Shares of a difference that are called an error, see estimate_errors().
-constexpr double of_mean = 1.0 / 2.0, of_shape = 1.0 / 2.0, of_peaks = 1.0, of_positions = 1.0 / 3.0;
+constexpr double of_mean = 1.0 / 2.0, of_shape = 1.0 / 3.0, of_peaks = 1.0, of_root_stress = 1.0 / 2.0, of_positions = 1.0 / 3.0;
 /// Positions whose peak is within this fraction of the cycle's count for the error of the peak.
 constexpr double near_peak = 0.1;
 /// The neighbourhood of a position reaches this part of the cycle to either side, one position at least.
@@ -78,7 +78,7 @@ CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, con
   errors.peak_line_load = of_peaks * peak_difference(some(load_of), curve(coarse, load_of));
   errors.load_factor = errors.peak_line_load * summary.load_factor / summary.peak_line_load;
   if (!std::isnan(summary.peak_root_stress) && coarse.positions.front().root_stress.size() > 0) {
-    errors.peak_root_stress = of_shape * peak_difference(some(root_of), curve(coarse, root_of));
+    errors.peak_root_stress = of_root_stress * peak_difference(some(root_of), curve(coarse, root_of));
   }
   errors.mean_stiffness = errors.te_mean / mean_of(curve(fine, approach_of)) * summary.mean_stiffness;
   return errors;

@@ -46,8 +46,9 @@ struct ContactPeaks {
   SpikeRule spikes{};                 ///< used
 };
 
-/// At one mesh position. Where the rule's cut falls between two points of a line, the cut counts too: w and sigma_H^2 are taken as
-/// linear in between, so that the peak is a continuous function of the phase.
+/// At one mesh position. A point has what is highest on its part of the line, crests and ends between points included, see
+/// LoadedPosition::peak_load. Where the rule's cut falls between two points, the cut counts too: w and sigma_H^2 of the points are taken as linear
+/// in between, so that the peak is a continuous function of the phase.
 ContactPeaks peaks_at(const MeshModel& model, const MeshPosition& at, const LoadedPosition& loaded, const SpikeRule& rule = {});
 
 /// The same mesh at any phases [base pitches].

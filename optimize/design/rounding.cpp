@@ -1,8 +1,14 @@
 #include "optimize/design/rounding.hpp"
 
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <span>
+#include <utility>
 
 #include "optimize/design/design_log.hpp"
 
@@ -12,9 +18,12 @@ namespace {
 
 /// Number of scenes that a design must pass one by one before all are analysed in parallel.
 constexpr std::size_t scenes_tried_first = 4;
+/// Number of designs whose first scenes are analysed in parallel. It does not depend on the threads, so that nothing else does.
+constexpr std::size_t tried_together = 16;
 
 /// A search over whole numbers of steps; variables without a step keep their values. A worst case is no better where one scene
-/// already reaches the best so far: the scenes that governed last are tried first, and most designs go no further.
+/// already reaches the best so far: the scenes that governed last are tried first, and most designs go no further. Loads start from those of the best
+/// design.
 class StepSearch {
  public:
   StepSearch(DesignProblem& problem, const Eigen::VectorXd& x, int most_analyses) : problem_(problem), most_(most_analyses), exact_(x), x_(x) {
@@ -26,10 +35,9 @@ class StepSearch {
       stepped_.push_back(i);
       place(x_, i, std::round(problem.unscaled(x, i) / v.step));
     }
-    best_ = judge(x_);
     first_.resize(static_cast<std::size_t>(problem.scenes()));
     std::iota(first_.begin(), first_.end(), 0);
-    if (is_feasible(best_)) put_worst_first();
+    take(judge(x_));
   }
 
   RoundedDesign run() {
@@ -59,6 +67,7 @@ class StepSearch {
     return x;
   }
 
+  /// The design analysed last.
   RoundedDesign judge(const Eigen::VectorXd& x) {
     ++analyses_;
     RoundedDesign design{x};
@@ -76,43 +85,65 @@ class StepSearch {
 
   bool is_feasible(const RoundedDesign& design) const { return design.constraint_violation <= DesignLog::tolerance; }
 
-  /// Whether one of the scenes tried first is as bad as the best design's worst; that one is tried first from then on.
-  bool fails_early(const Eigen::VectorXd& x) {
-    if (!(problem_.task().over == Aggregate::Worst) || !is_feasible(best_) || problem_.task().combined_objective().over_spectrum()) return false;
+  /// Whether a scene that is as bad as the best design's worst rules a design out.
+  bool scenes_rule_out() const {
+    return problem_.task().over == Aggregate::Worst && is_feasible(best_) && !problem_.task().combined_objective().over_spectrum();
+  }
+  /// The first such scene of those tried first.
+  std::optional<int> failed_scene(const Eigen::VectorXd& x) const {
     const PerGear<Modification> modification = problem_.modification(x);
     for (std::size_t k = 0; k < std::min(scenes_tried_first, first_.size()); ++k) {
       const int scene = first_[k];
-      const LoadedCycle cycle = problem_.analyse_scene(scene, modification);
-      if (cycle.usable() && problem_.scene_measure(problem_.task().combined_objective(), cycle, scene) < best_.objective) continue;
-      std::rotate(first_.begin(), first_.begin() + static_cast<std::ptrdiff_t>(k), first_.begin() + static_cast<std::ptrdiff_t>(k) + 1);
-      return true;
+      const LoadedCycle cycle = problem_.analyse_scene(scene, modification, {}, &best_cycles_[static_cast<std::size_t>(scene)]);
+      if (!cycle.usable() || !(problem_.scene_measure(problem_.task().combined_objective(), cycle, scene) < best_.objective)) return scene;
     }
-    return false;
+    return std::nullopt;
   }
 
-  /// The worst scenes of the best design are tried first. It is the design analysed last.
-  void put_worst_first() {
-    const std::vector<double> measures = problem_.scene_measures(problem_.task().combined_objective(), problem_.analyse(best_.x, false));
+  /// Makes the design analysed last the best one; its worst scenes are tried first.
+  void take(const RoundedDesign& design) {
+    best_ = design;
+    const DesignAnalysis& analysis = problem_.analyse(best_.x, false);
+    best_cycles_ = analysis.cycles;
+    if (!is_feasible(best_)) return;
+    const std::vector<double> measures = problem_.scene_measures(problem_.task().combined_objective(), analysis);
     std::ranges::stable_sort(first_, std::ranges::greater{}, [&](int scene) { return measures[static_cast<std::size_t>(scene)]; });
   }
 
-  bool try_design(const Eigen::VectorXd& x) {
-    if (analyses_ >= most_ || x == best_.x) return false;
-    if (fails_early(x)) {
-      best_.analyses = ++analyses_;
-      return false;
+  bool is_better(const RoundedDesign& design) const {
+    const bool feasible = is_feasible(design);
+    if (feasible != is_feasible(best_)) return feasible;
+    return feasible ? design.objective < best_.objective : design.constraint_violation < best_.constraint_violation;
+  }
+
+  /// Takes the first of these designs that is better than the best, and tells which.
+  std::optional<std::size_t> first_better(std::span<const Eigen::VectorXd> designs) {
+    for (std::size_t begin = 0; begin < designs.size(); begin += tried_together) {
+      const std::span<const Eigen::VectorXd> some = designs.subspan(begin, std::min(tried_together, designs.size() - begin));
+      std::vector<std::optional<int>> failed(some.size());
+      if (scenes_rule_out()) {
+        tbb::this_task_arena::isolate([&] {
+          tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t k) {
+            if (some[k] != best_.x) failed[k] = failed_scene(some[k]);
+          });
+        });
+      }
+      for (std::size_t k = 0; k < some.size(); ++k) {
+        if (analyses_ >= most_ || some[k] == best_.x) continue;
+        if (failed[k]) {
+          best_.analyses = ++analyses_;
+          const auto scene = std::ranges::find(first_, *failed[k]);
+          std::rotate(first_.begin(), scene, scene + 1);
+          continue;
+        }
+        const RoundedDesign design = judge(some[k]);
+        best_.analyses = analyses_;
+        if (!is_better(design)) continue;
+        take(design);
+        return begin + k;
+      }
     }
-    const RoundedDesign design = judge(x);
-    best_.analyses = analyses_;
-    const bool feasible = is_feasible(design), was = is_feasible(best_);
-    const bool better = feasible != was ? feasible
-                        : feasible      ? design.objective < best_.objective
-                                        : design.constraint_violation < best_.constraint_violation;
-    if (better) {
-      best_ = design;
-      if (is_feasible(best_)) put_worst_first();
-    }
-    return better;
+    return std::nullopt;
   }
 
   bool is_dear() const { return !is_feasible(best_) || best_.objective > (1.0 + dear_rounding) * exact_objective_; }
@@ -124,34 +155,47 @@ class StepSearch {
     std::vector<int> between = stepped_;
     std::ranges::stable_sort(between, std::ranges::greater{}, [&](int i) { return std::abs(steps(i) - std::round(steps(i))); });
     between.resize(std::min(between.size(), most_variables));
+    std::vector<Eigen::VectorXd> corners;
     for (unsigned corner = 0; corner < 1U << between.size(); ++corner) {
-      Eigen::VectorXd x = x_;
-      for (std::size_t k = 0; k < between.size(); ++k) place(x, between[k], std::floor(steps(between[k])) + (corner >> k & 1U));
-      try_design(x);
+      corners.push_back(x_);
+      for (std::size_t k = 0; k < between.size(); ++k) place(corners.back(), between[k], std::floor(steps(between[k])) + (corner >> k & 1U));
+    }
+    for (std::size_t next = 0; next < corners.size();) {
+      const std::optional<std::size_t> better = first_better(std::span(corners).subspan(next));
+      if (!better) return;
+      next += *better + 1;
     }
   }
 
   bool improve_singly(int reach) {
+    std::vector<std::pair<int, int>> moves;
+    for (int i : stepped_) moves.insert(moves.end(), {{i, -reach}, {i, reach}});
     bool improved = false;
-    for (int i : stepped_) {
-      for (int by : {-reach, reach}) improved = try_design(moved(best_.x, i, by)) || improved;
+    for (std::size_t next = 0; next < moves.size();) {
+      std::vector<Eigen::VectorXd> designs;
+      for (std::size_t k = next; k < moves.size(); ++k) designs.push_back(moved(best_.x, moves[k].first, moves[k].second));
+      const std::optional<std::size_t> better = first_better(designs);
+      if (!better) break;
+      improved = true;
+      next += *better + 1;
     }
     return improved;
   }
 
   /// Two variables at once, one of them by as many steps as the reach.
   bool improve_in_pairs(int reach) {
+    std::vector<Eigen::VectorXd> designs;
     for (std::size_t a = 0; a < stepped_.size(); ++a) {
       for (std::size_t b = a + 1; b < stepped_.size(); ++b) {
         for (int by = -reach; by <= reach; ++by) {
           for (int with = -reach; with <= reach; ++with) {
             if (by == 0 || with == 0 || std::max(std::abs(by), std::abs(with)) < reach) continue;
-            if (try_design(moved(moved(best_.x, stepped_[a], by), stepped_[b], with))) return true;
+            designs.push_back(moved(moved(best_.x, stepped_[a], by), stepped_[b], with));
           }
         }
       }
     }
-    return false;
+    return first_better(designs).has_value();
   }
 
   DesignProblem& problem_;
@@ -162,6 +206,7 @@ class StepSearch {
   std::vector<int> stepped_, first_;  ///< variables with a step; scenes in the order they are tried
   int analyses_{0};
   RoundedDesign best_;
+  std::vector<LoadedCycle> best_cycles_;  ///< of it, one per scene
 };
 
 }  // namespace

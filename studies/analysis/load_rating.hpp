@@ -9,6 +9,7 @@ namespace flankwright::studies {
 
 /// Refined peaks of one load case, and what load distribution factors compare them with.
 struct LoadRating {
+  Quadrature quadrature{};  ///< of the lines
   SpikeRule spikes;
   ContactPeaks perfect, lead, profile, combined;  ///< of the parts of the condition, see load_factors.hpp
   LoadFactors factors;

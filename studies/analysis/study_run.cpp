@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/base/stopwatch.hpp"
+#include "core/fidelity/resolved_analysis.hpp"
 #include "core/load/cycle/mesh_motion.hpp"
 #include "studies/analysis/refine_resolution.hpp"
 #include "studies/analysis/requirements.hpp"
@@ -62,17 +63,14 @@ MeshPlacement StudyRun::placement_of(const Misalignment& misalignment, double to
   return flankwright::placement_of(gap_model(results_.effects), misalignment, results_.shafts.get(), torque);
 }
 
-MeshAt StudyRun::mesh_at(const Misalignment& misalignment, double torque, const std::vector<MeshParameter>& parameters) {
-  return [this, placement = placement_of(misalignment, torque), parameters](const std::vector<double>& phases) {
-    return mesh(placement, {results_.study.fidelity.quadrature, phases}, nullptr, parameters);
+MeshAt StudyRun::mesh_at(const Misalignment& misalignment, double torque, const std::vector<MeshParameter>& parameters, Quadrature quadrature) {
+  const MeshPlacement placement = placement_of(misalignment, torque);
+  MeshAt made = [this, placement, parameters, quadrature](const std::vector<double>& phases) {
+    return mesh(placement, {quadrature, phases}, nullptr, parameters);
   };
-}
-
-MeshAt StudyRun::remembered_mesh_at(const Misalignment& misalignment, double torque, const std::vector<MeshParameter>& parameters) {
-  MeshAt made = mesh_at(misalignment, torque, parameters);
   if (!parameters.empty()) return made;
   const std::lock_guard lock(memories_mutex_);
-  return memories_[placement_of(misalignment, torque)].remembering(std::move(made));
+  return memories_[{placement, quadrature.intervals}].remembering(std::move(made));
 }
 
 std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) const {
@@ -155,7 +153,7 @@ std::vector<ResolvedCycle> StudyRun::resolved(const std::vector<SolvedCase>& cas
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
     const auto& [scene, model, cycle] = cases[i];
     const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>& parameters) {
-      return remembered_mesh_at(scene.condition.misalignment, scene.torque, parameters)(phases);
+      return mesh_at(scene.condition.misalignment, scene.torque, parameters, results_.study.fidelity.quadrature)(phases);
     };
     std::optional<LoadedCycle> coarse_cycle;
     if (coarse[i] != nullptr) coarse_cycle = analyse_cycle(*coarse[i], scene.condition, scene.torque);
@@ -226,11 +224,23 @@ void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::str
   }
 }
 
+namespace {
+
+/// Ratios of peaks are known better than the peaks: the intervals that an analysis begins with do, where the study gives none.
+Quadrature rating_quadrature(const Fidelity& fidelity) {
+  Quadrature quadrature = fidelity.quadrature;
+  if (fidelity.automatic_intervals) quadrature.intervals = std::min(quadrature.intervals, AutomaticResolution{}.intervals);
+  return quadrature;
+}
+
+}  // namespace
+
 void StudyRun::rate() {
   if (!locates_peaks(results_.study)) return;
   const Stopwatch clock;
-  const auto mesh_for = [this](double torque) {
-    return [this, torque](const Misalignment& m, const std::vector<MeshParameter>& by) { return remembered_mesh_at(m, torque, by); };
+  const Quadrature quadrature = rating_quadrature(results_.study.fidelity);
+  const auto mesh_for = [this, quadrature](double torque) {
+    return [=, this](const Misalignment& m, const std::vector<MeshParameter>& by) { return mesh_at(m, torque, by, quadrature); };
   };
   std::vector<LoadRater::Case> cases;
   for (const LoadedResult& loaded : results_.loaded) {
@@ -238,7 +248,9 @@ void StudyRun::rate() {
   }
   rater_.seek(cases);
   for (LoadedResult& loaded : results_.loaded) {
-    if (loaded.cycle.usable()) loaded.rating = rater_.rate(mesh_for(loaded.torque), loaded.condition, loaded.torque, gradient_parameters());
+    if (!loaded.cycle.usable()) continue;
+    loaded.rating = rater_.rate(mesh_for(loaded.torque), loaded.condition, loaded.torque, gradient_parameters());
+    loaded.rating->quadrature = quadrature;
   }
   results_.steps.push_back({"load_factors", "peaks between the positions, of the perfect pair and of parts of the conditions", clock.seconds()});
 }
@@ -271,7 +283,7 @@ void StudyRun::find_edge_contact() {
   tbb::parallel_for(std::size_t{0}, results_.loaded.size(), [&](std::size_t i) {
     LoadedResult& loaded = results_.loaded[i];
     if (!std::isgreater(loaded.summary.edge_stress, 0.0)) return;  // quiet where the effect is off and the stress is NaN
-    // To two digits half the points and positions do, unless no edge is reached with them.
+    // Half the points and positions do, unless no edge is reached with them.
     const auto coarse = coarse_models_.find(placement_of(loaded.condition.misalignment, loaded.torque));
     if (coarse != coarse_models_.end()) loaded.edge_contact = edge_contact_start(coarse->second, loaded.condition, loaded.torque);
     if (!loaded.edge_contact) loaded.edge_contact = edge_contact_start(results_.models[loaded.model], loaded.condition, loaded.torque);

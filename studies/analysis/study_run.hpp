@@ -4,6 +4,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "studies/analysis/fidelity_level.hpp"
@@ -64,9 +65,8 @@ class StudyRun {
                  const std::vector<MeshParameter>& parameters);
   std::vector<MeshModel> meshes(const std::vector<MeshPlacement>& placements, const MeshResolution& resolution,
                                 const std::vector<MeshParameter>& parameters);
-  MeshAt mesh_at(const Misalignment& misalignment, double torque, const std::vector<MeshParameter>& parameters = {});
-  /// The same, positions that are known already not made again where there are no parameters. May be called by several threads at a time.
-  MeshAt remembered_mesh_at(const Misalignment& misalignment, double torque, const std::vector<MeshParameter>& parameters);
+  /// Positions that are known already are not made again where there are no parameters. May be called by several threads at a time.
+  MeshAt mesh_at(const Misalignment& misalignment, double torque, const std::vector<MeshParameter>& parameters, Quadrature quadrature);
   MeshPlacement placement_of(const Misalignment& misalignment, double torque) const;
   std::vector<std::size_t> models_for(const std::vector<DesignScene>& scenes);
   std::vector<const MeshModel*> coarse_meshes_for(const std::vector<MeshPlacement>& placements);
@@ -83,7 +83,8 @@ class StudyRun {
   StudyResults results_;
   std::map<MeshPlacement, std::size_t> model_index_;
   std::map<MeshPlacement, MeshModel> coarse_models_;  ///< half the intervals, every second position
-  std::map<MeshPlacement, PositionMemory> memories_;  ///< scenes and the parts of a condition are looked at in the same phases to begin with
+  /// By placement and intervals: scenes and the parts of a condition are looked at in the same phases to begin with.
+  std::map<std::pair<MeshPlacement, int>, PositionMemory> memories_;
   std::mutex memories_mutex_;
   double unloaded_seconds_{0.0};
   LoadRater rater_;

@@ -28,6 +28,7 @@ Json peaks_json(const LoadRating& rating, const MeshModel& model) {
           {"with_spikes", pair_json(rating.combined.with_spikes)},
           {"perfect_pair", {{"without_spikes", pair_json(rating.perfect.without_spikes)}, {"with_spikes", pair_json(rating.perfect.with_spikes)}}},
           {"spike_rule", {{"line_share", rating.spikes.line_share}, {"end_distance_mm", rating.spikes.end_distance * model.pair.data.normal_module}}},
+          {"intervals", rating.quadrature.intervals},
           {"positions", rating.combined.positions},
           {"phase_tolerance", rating.combined.phase_tolerance}};
 }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "core/base/vector_registers.hpp"
+
 namespace flankwright {
 
 namespace {
@@ -22,7 +24,7 @@ double Cholesky::pivot(double left, Eigen::Index column) {
   return held_pivot;
 }
 
-void Cholesky::factorise() {
+FLANKWRIGHT_WIDE_REGISTERS void Cholesky::factorise() {
   const Eigen::Index n = size(), rows = rows_.rows();
   diagonal_ = rows_.diagonal();
   singular_ = 0;

@@ -52,6 +52,7 @@ bool has_no_derivative(const std::string& key) {
                                           "kkt_residual",
                                           "condition",
                                           "iterations",
+                                          "intervals",
                                           "worst_kkt_residual",
                                           "worst_condition",
                                           "positions",
