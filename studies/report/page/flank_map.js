@@ -68,7 +68,8 @@ function flank_maps(plot, { maps, area, scale, unit, r_title, height = MAP_HEIGH
   const row = el("div", { class: "maps" });
   const read_out = el("p", { class: "read-out", "aria-live": "off" }, "\u00a0");
   plot.append(row, read_out);
-  const bar_width = 76, gap = 10, available = plot.clientWidth || 900;
+  // A row wider than its room by a fraction of a pixel wraps, and clientWidth is rounded.
+  const bar_width = 76, gap = 10, available = (plot.clientWidth || 901) - 1;
   const stacked = maps.length > 1 && available < 640;
   const width = Math.max(220, stacked ? available - bar_width - gap
     : Math.min(620, (available - bar_width) / maps.length - gap));
