@@ -118,8 +118,9 @@ class StepSearch {
 
   /// Takes the first of these designs that is better than the best, and tells which.
   std::optional<std::size_t> first_better(std::span<const Eigen::VectorXd> designs) {
-    for (std::size_t begin = 0; begin < designs.size(); begin += tried_together) {
-      const std::span<const Eigen::VectorXd> some = designs.subspan(begin, std::min(tried_together, designs.size() - begin));
+    std::span<const Eigen::VectorXd> some;
+    for (std::size_t begin = 0; begin < designs.size() && analyses_ < most_; begin += some.size()) {
+      some = designs.subspan(begin, std::min({tried_together, static_cast<std::size_t>(most_ - analyses_), designs.size() - begin}));
       std::vector<std::optional<int>> failed(some.size());
       if (scenes_rule_out()) {
         tbb::this_task_arena::isolate([&] {
@@ -129,7 +130,7 @@ class StepSearch {
         });
       }
       for (std::size_t k = 0; k < some.size(); ++k) {
-        if (analyses_ >= most_ || some[k] == best_.x) continue;
+        if (some[k] == best_.x) continue;
         if (failed[k]) {
           best_.analyses = ++analyses_;
           const auto scene = std::ranges::find(first_, *failed[k]);
