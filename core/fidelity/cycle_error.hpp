@@ -29,11 +29,12 @@ std::vector<double> coarse_phases(const std::vector<double>& phases);
 /// How far a cycle's figures are from those of infinitely many points and positions, by an embedded comparison: the same contact
 /// problem with half the intervals at every second position.
 ///
-/// - Points: with d the difference of f_t at a position, fine less coarse, the mean is off by |mean d|/2. What is left of the shape
-///   is kinks of the load between points. As such a kink wanders from point to point its error runs from none to J h^2/8 (J the change of slope, h the
-///   distance of the points), so that d covers four times the range that the fine curve is off by. A third, because some of the error converges
-///   more slowly: the peak to peak is off by (max d - min d)/3 and harmonic k by (|DFT_k d| + rms(d - mean d))/3, for a single order may be small by
-///   chance. Peaks of root stress are off by half of what changes. Peaks of stress and load, which lie at the ends of lines more often than not,
+/// - Points: with d the difference of f_t at a position, fine less coarse, the mean is off by |mean d|/2. The error that remains in the shape
+///   comes from kinks of the load between points. As a kink wanders from point to point its error runs from none to J h^2/8 (J the change of
+///   slope, h the distance of the points), so that d covers four times the range by which the fine curve is off. A third is taken, because some of the
+///   error converges more slowly: the peak to peak is off by (max d - min d)/3. Harmonic k is off by (|DFT_k d| + rms(d - mean d))/3, because a single
+///   order may be small by chance. Peaks of root stress are off by half of what changes. Peaks of stress and load, which lie at the ends of lines more
+///   often than not,
 ///   converge with order one at least: they are off by the largest difference of both peaks around any position that comes within a tenth
 ///   of the peak, a sixteenth of the cycle to either side. Position by position they would differ by more: kinks of a linear relief wander between points.
 /// - Positions: amplitudes of a curve with kinks converge with order two: a third of what leaving out every second
