@@ -135,6 +135,28 @@ CycleErrorParts estimate_errors(const LoadedCycle& fine, const CycleSummary& sum
   return {point_errors(fine, coarse, summary), position_errors(fine, summary, extremes)};
 }
 
+CycleErrors point_errors_beside_finer(const CycleErrors& stated, const LoadedCycle& cycle, const CycleSummary& summary, const LoadedCycle& finer,
+                                      const CycleSummary& finer_summary) {
+  if (!cycle.usable() || !finer.usable() || cycle.positions.empty() || !(cycle.force > 0.0)) return stated;
+  const CycleErrors of_finer = point_errors(finer, cycle, finer_summary);
+  const auto narrower = [&](auto error, auto figure) {
+    return std::fmin(stated.*error, of_finer.*error + std::abs(summary.*figure - finer_summary.*figure));  // the one that is a number
+  };
+  CycleErrors errors;
+  errors.te_mean = narrower(&CycleErrors::te_mean, &CycleSummary::te_mean);
+  errors.te_peak_to_peak = narrower(&CycleErrors::te_peak_to_peak, &CycleSummary::te_peak_to_peak);
+  for (std::size_t k = 0; k < stated.te_harmonics.size(); ++k) {
+    const double change = std::abs(summary.te_harmonics[k] - finer_summary.te_harmonics[k]);
+    errors.te_harmonics.push_back(std::fmin(stated.te_harmonics[k], of_finer.te_harmonics[k] + change));
+  }
+  errors.peak_line_load = narrower(&CycleErrors::peak_line_load, &CycleSummary::peak_line_load);
+  errors.peak_contact_stress = narrower(&CycleErrors::peak_contact_stress, &CycleSummary::peak_contact_stress);
+  errors.peak_root_stress = narrower(&CycleErrors::peak_root_stress, &CycleSummary::peak_root_stress);
+  errors.load_factor = narrower(&CycleErrors::load_factor, &CycleSummary::load_factor);
+  errors.mean_stiffness = narrower(&CycleErrors::mean_stiffness, &CycleSummary::mean_stiffness);
+  return errors;
+}
+
 double headline_error(const CycleErrors& errors, const CycleSummary& summary, const LoadedCycle& cycle) {
   if (!cycle.usable() || cycle.positions.empty() || std::isnan(errors.te_peak_to_peak)) return not_given;
   const double variation = std::max(summary.te_peak_to_peak, quiet_share * mean_of(curve(cycle, approach_of)));

@@ -46,6 +46,13 @@ std::vector<double> coarse_phases(const std::vector<double>& phases);
 CycleErrorParts estimate_errors(const LoadedCycle& fine, const CycleSummary& summary, const LoadedCycle& coarse,
                                 const CycleExtremes* extremes = nullptr);
 
+/// The errors by points of a cycle that is held against a finer one, with more intervals at the same positions: each is what the two differ by, and the finer
+/// one's own error, which estimate_errors() takes from the same difference. Half the intervals may meet a tip edge that neither of the two meets, so
+/// that these are often far narrower. A figure that the finer cycle does not have keeps what is `stated`, and so does one that is stated narrower.
+/// @param summary, finer_summary  of the positions alone
+CycleErrors point_errors_beside_finer(const CycleErrors& stated, const LoadedCycle& cycle, const CycleSummary& summary, const LoadedCycle& finer,
+                                      const CycleSummary& finer_summary);
+
 /// The largest error of what a study is judged by, as figure_errors() counts it: peak to peak and harmonics 1 to 5 in units of the peak to
 /// peak, at least quiet_share of the mean deflection; contact stress in units of itself. NaN where it was not estimated.
 double headline_error(const CycleErrors& errors, const CycleSummary& summary, const LoadedCycle& cycle);

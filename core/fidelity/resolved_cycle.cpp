@@ -60,6 +60,13 @@ ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, co
   return resolved;
 }
 
+void hold_against_finer(const MeshModel& model, const LoadedCycle& cycle, const MeshModel& finer_model, const LoadedCycle& finer,
+                        ResolvedCycle& resolved) {
+  CycleErrors& points = resolved.error_parts.points;
+  points = point_errors_beside_finer(points, cycle, summarise(model, cycle), finer, summarise(finer_model, finer));
+  resolved.errors = resolved.error_parts.sum();
+}
+
 CycleGradient resolved_gradient(const MeshModel& model, const LoadedCycle& cycle, const ResolvedCycle& resolved) {
   CycleGradient gradient = summary_gradient(model, cycle, summarise(model, cycle));
   if (!resolved.extreme_mesh) return gradient;

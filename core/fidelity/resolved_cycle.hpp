@@ -32,6 +32,11 @@ struct CycleResolving {
 ResolvedCycle resolve_cycle(const MeshModel& model, const LoadedCycle& cycle, const MeshWithParameters& mesh_at, const FlankCondition& condition,
                             double pinion_torque, const CycleResolving& resolving, const std::vector<MeshParameter>& parameters = {});
 
+/// Narrows the errors by points with a finer cycle, see point_errors_beside_finer().
+/// @param model  of `cycle`, at the phases of `finer_model`
+void hold_against_finer(const MeshModel& model, const LoadedCycle& cycle, const MeshModel& finer_model, const LoadedCycle& finer,
+                        ResolvedCycle& resolved);
+
 /// Derivatives of ResolvedCycle::summary: as summary_gradient(), of the position that has the extreme, with its phase
 /// held. On a smooth curve that is exact, for at its extreme the phase does not matter; where a kink moves with the
 /// parameter, the effect of its motion is left out.

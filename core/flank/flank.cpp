@@ -21,10 +21,8 @@ ToothDeviation::AlongProfile ToothDeviation::at(double radius, double z) const {
     along.curvature += (f.uu - f.u / u) * by_arc * by_arc;
   };
   add(formula_.at(radius, z), radius);
-  if (flank_.fields.empty() && measured_ == nullptr) return along;
   const double roll = flank_.roll_at(radius);
-  for (const auto& field : flank_.fields) add(field->at(roll, z), roll);
-  if (measured_ != nullptr) add(measured_->at(roll, z), roll);
+  each_field([&](const DeviationField& field) { add(field.at(roll, z), roll); });
   return along;
 }
 

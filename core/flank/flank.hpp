@@ -46,20 +46,12 @@ struct Flank {
   double highest_roll() const { return roll_at(tip_radius); }
   double roll_at(double radius) const { return std::sqrt(std::max(0.0, (radius - base_radius) * (radius + base_radius))); }
 
-  /// D of tooth `tooth` at roll length rho and axial position z [mm].
+  /// D of tooth `tooth` at roll length rho and axial position z [mm]. A ToothDeviation is faster for many points.
   template <class Scalar>
-  Scalar deviation(const Scalar& rho, const Scalar& z, int tooth) const {
-    using std::sqrt;
-    const Scalar r = sqrt(rho * rho + base_radius * base_radius);
-    Scalar d =
-        chain(DeviationFormula(modification, tooth_error(error, tooth), frame).at(value_of(r), value_of(z)), r, z) - pitch_deviation(error, tooth);
-    for (const auto& field : fields) d += evaluate(*field, rho, z);
-    if (const DeviationField* measured = tooth_topography(error, tooth)) d += evaluate(*measured, rho, z);
-    return d;
-  }
+  Scalar deviation(const Scalar& rho, const Scalar& z, int tooth) const;
 };
 
-/// How the deviation of one tooth's flank runs along its profile; what is constant over the flank is computed once.
+/// The deviation of one tooth's flank; what is constant over the flank is computed once.
 class ToothDeviation {
  public:
   /// @param flank  must outlive this
@@ -69,6 +61,16 @@ class ToothDeviation {
         measured_(tooth_topography(flank.error, tooth)),
         pitch_(pitch_deviation(flank.error, tooth)) {}
 
+  /// D at roll length rho and axial position z [mm].
+  template <class Scalar>
+  Scalar value(const Scalar& rho, const Scalar& z) const {
+    using std::sqrt;
+    const Scalar r = sqrt(rho * rho + flank_.base_radius * flank_.base_radius);
+    Scalar d = chain(formula_.at(value_of(r), value_of(z)), r, z) - pitch_;
+    each_field([&](const DeviationField& field) { d += evaluate(field, rho, z); });
+    return d;
+  }
+
   /// D with its first and second derivative by the arc length of the involute, towards the tip [mm, -, 1/mm].
   struct AlongProfile {
     double value{0.0}, slope{0.0}, curvature{0.0};
@@ -77,11 +79,22 @@ class ToothDeviation {
   AlongProfile at(double radius, double z) const;
 
  private:
+  template <class Visit>
+  void each_field(const Visit& visit) const {
+    for (const auto& field : flank_.fields) visit(*field);
+    if (measured_ != nullptr) visit(*measured_);
+  }
+
   const Flank& flank_;
   DeviationFormula formula_;
   const DeviationField* measured_;
   double pitch_;
 };
+
+template <class Scalar>
+Scalar Flank::deviation(const Scalar& rho, const Scalar& z, int tooth) const {
+  return ToothDeviation(*this, tooth).value(rho, z);
+}
 
 /// A point of a flank or in space, Scalar double, Dual<N> or Jet [mm].
 template <class Scalar>

@@ -38,10 +38,11 @@ struct LoadedResult {
   double torque{not_given};     ///< on the pinion [N mm]
   std::string design{"given"};  ///< "given", or "before" / "after" an optimisation
   LoadedCycle cycle;
-  ResolvedCycle resolved;    ///< with extremes between the positions, and errors
-  CycleSummary summary;      ///< of `resolved`
-  std::size_t model{0};      ///< index into StudyResults::models
-  FlankCondition condition;  ///< that it was solved for
+  ResolvedCycle resolved;     ///< with extremes between the positions, and errors
+  int compared_intervals{0};  ///< of the cycle that the errors by points come from; 0: none was estimated
+  CycleSummary summary;       ///< of `resolved`
+  std::size_t model{0};       ///< index into StudyResults::models
+  FlankCondition condition;   ///< that it was solved for
   IsoLoadFactors iso;
   std::optional<EdgeContactStart> edge_contact{};  ///< none where contact reaches no tip edge
   std::optional<LoadRating> rating{};              ///< none where peaks are sampled, or phases were given

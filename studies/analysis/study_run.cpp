@@ -219,9 +219,32 @@ void StudyRun::add_loaded(const std::vector<DesignScene>& scenes, const std::str
     const CycleSummary summary = shown[i].summary;
     results_.loaded.push_back(
         {scene.name, scene.torque, design, std::move(cycles[i]), std::move(shown[i]), summary, models[i], scene.condition, iso});
+    if (!std::isnan(results_.loaded.back().resolved.errors.te_mean))
+      results_.loaded.back().compared_intervals = results_.study.fidelity.quadrature.intervals / 2;
     results_.loaded.back().operation = scene.operation;
     results_.loaded.back().bin = scene.bin;
   }
+}
+
+void StudyRun::hold_against_finer(std::size_t first) {
+  if (!results_.study.fidelity.automatic_intervals) return;
+  std::map<MeshPlacement, std::vector<LoadedResult*>> wide;
+  for (std::size_t i = first; i < results_.loaded.size(); ++i) {
+    LoadedResult& loaded = results_.loaded[i];
+    const double error = headline_error(loaded.resolved.error_parts.points, loaded.summary, loaded.cycle);
+    if (std::isgreater(error, AutomaticResolution{}.accuracy)) wide[placement_of(loaded.condition.misalignment, loaded.torque)].push_back(&loaded);
+  }
+  Quadrature quadrature = results_.study.fidelity.quadrature;
+  quadrature.intervals *= 2;
+  const std::vector<std::pair<MeshPlacement, std::vector<LoadedResult*>>> placed(wide.begin(), wide.end());
+  tbb::parallel_for(std::size_t{0}, placed.size(), [&](std::size_t i) {  // one mesh a thread: they are large
+    const MeshModel finer = mesh(placed[i].first, {quadrature, results_.phases}, nullptr, {});
+    for (LoadedResult* loaded : placed[i].second) {
+      const LoadedCycle cycle = analyse_cycle(finer, loaded->condition, loaded->torque);
+      flankwright::hold_against_finer(results_.models[loaded->model], loaded->cycle, finer, cycle, loaded->resolved);
+      loaded->compared_intervals = quadrature.intervals;
+    }
+  });
 }
 
 namespace {

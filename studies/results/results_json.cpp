@@ -184,6 +184,7 @@ Json quantities_json(const LoadedResult& loaded, bool full_cycle) {
     if (quantity.errors != nullptr) errors[std::string(quantity.key) + "_error"] = shown(quantity.errors(loaded.resolved.errors));
   }
   json.update(errors);
+  json["errors_from_intervals"] = loaded.compared_intervals > 0 ? Json(loaded.compared_intervals) : Json();
   return json;
 }
 

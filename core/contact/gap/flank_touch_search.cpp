@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "core/base/peak.hpp"
+#include "core/contact/path/passed_edge.hpp"
 
 namespace flankwright {
 
@@ -68,8 +69,7 @@ class Section {
 
   Section(const GearPair& pair, const ContactPoint& point, bool before_path, const Displacement& displacement) : pair_(pair), point_(point) {
     const double sharp = point.clearance + point.tip_edge.rounded_off;
-    // The clearance that two parabolas have at an edge that lies so far from where the involutes would touch.
-    if (sharp > 0.0) place_ = (before_path ? -1.0 : 1.0) * std::sqrt(2.0 * point.relative_radius * sharp);
+    if (sharp > 0.0) place_ = (before_path ? -1.0 : 1.0) * PassedEdge::beyond(sharp, point.relative_radius);
     if (displacement.along_profile != 0.0 || displacement.along_action != 0.0) {
       const double rho_1 = curvature_radius(point, Member::Pinion, pair.pinion.base_radius);
       const double rho_2 = curvature_radius(point, Member::Wheel, pair.wheel.base_radius);
@@ -147,14 +147,15 @@ FlankTouch::Side side_at(const Section& section, double x, double share) {
 /// Straight on beyond the edge, where the rounding keeps off.
 FlankTouch touch_beyond(const Section& section, const Sample& top) {
   const Section::End& edge = top.slope() > 0.0 ? section.upper() : section.lower();
-  const double R = top.relative_radius, vertex = -R * top.h.slope, beyond = vertex - edge.x, both = R + edge.rounding;
+  const double R = top.relative_radius, vertex = -R * top.h.slope, beyond = vertex - edge.x;
+  const PassedEdge passed = PassedEdge::at(beyond, R, edge.rounding);
   FlankTouch touch;
   touch.sides[0] = side_at(section, top.x, 1.0);
-  touch.gap = top.h.value + top.h.slope * beyond + 0.5 * vertex * vertex / R + 0.5 * beyond * beyond / both;
+  touch.gap = top.h.value + top.h.slope * beyond + 0.5 * vertex * vertex / R + passed.rounded();
   touch.along = vertex;
   touch.along_by_slope = -R;
-  touch.on_rounding = beyond * edge.rounding / both;
-  touch.rounded_off = 0.5 * beyond * touch.on_rounding / R;
+  touch.on_rounding = beyond * edge.rounding / (R + edge.rounding);
+  touch.rounded_off = passed.rounded_off;
   touch.by_lag = top.by_lag;
   return touch;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/contact/gap/flank_touch_search.hpp"
+#include "core/contact/path/passed_edge.hpp"
 
 namespace flankwright {
 
@@ -107,10 +108,7 @@ std::vector<ContactPoint> SurfaceGap::place(const std::vector<ContactPoint>& poi
   FlankCondition unmodified;
   unmodified.misalignment = condition_.misalignment;
   const std::vector<FlankTouch> displaced = FlankTouchSearch(pair_, unmodified).at(points);
-  const auto parabola = [](const TipEdge& edge, double radius) {
-    const double beyond = std::min(0.0, edge.distance);
-    return 0.5 * beyond * beyond / radius;
-  };
+  const auto passed = [](const TipEdge& edge, double radius) { return PassedEdge::at(std::min(0.0, edge.distance), radius, edge.radius); };
   std::vector<ContactPoint> placed;
   placed.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -122,11 +120,12 @@ std::vector<ContactPoint> SurfaceGap::place(const std::vector<ContactPoint>& poi
     point.tip_edge = points[i].tip_edge;
     if (const double moved = edge_moved_by(points[i], displaced[i]); moved != 0.0 && point.tip_edge.radius > 0.0) {
       TipEdge& edge = point.tip_edge;
-      const double rho = edge.radius, R = points[i].relative_radius;
-      point.clearance -= parabola(edge, R + rho);
+      const double R = points[i].relative_radius;
+      const double before = passed(edge, R).rounded();
       edge.distance += moved;
-      edge.rounded_off = parabola(edge, R) * rho / (R + rho);
-      point.clearance = std::max(0.0, point.clearance + parabola(edge, R + rho));
+      const PassedEdge after = passed(edge, R);
+      edge.rounded_off = after.rounded_off;
+      point.clearance = std::max(0.0, point.clearance - before + after.rounded());
     }
     placed.push_back(point);
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/base/root.hpp"
+#include "core/contact/path/passed_edge.hpp"
 #include "core/gear/involute.hpp"
 
 namespace flankwright {
@@ -160,11 +161,12 @@ TipEdge nearest_tip_edge(const GearPair& pair, double pinion_roll, double wheel_
   return of_pinion.radius == 0.0 || of_wheel.distance < of_pinion.distance ? of_wheel : of_pinion;
 }
 
-/// Outside A .. E an edge lies where two parabolas have the clearance of the sharp form circle, c = e^2/(2 R).
+/// Outside A .. E an edge lies where two parabolas have the clearance of the sharp form circle.
 void set_passed_edge(const GearPair& pair, Member gear, ContactPoint& point) {
   const double rho = pair[gear].tip_edge_radius, radius = point.relative_radius;
   if (rho == 0.0 || !(radius > 0.0)) return;
-  point.tip_edge = {gear, rho, -std::sqrt(2.0 * radius * std::max(0.0, point.clearance)), point.clearance * rho / (radius + rho)};
+  const double beyond = PassedEdge::beyond(point.clearance, radius);
+  point.tip_edge = {gear, rho, -beyond, PassedEdge::at(beyond, radius, rho).rounded_off};
   point.clearance -= point.tip_edge.rounded_off;
 }
 

@@ -185,6 +185,7 @@ class OptimiseRun {
     for (int s = 0; s < problem.scenes(); ++s) scenes.push_back(scene_of(report.analysis, s));
     const std::size_t first = results_.loaded.size();
     run_.add_loaded(scenes, name, report.analysis.cycles);
+    run_.hold_against_finer(first);
     std::vector<ResolvedCycle> cycles;
     for (std::size_t i = first; i < results_.loaded.size(); ++i) cycles.push_back(results_.loaded[i].resolved);
     return resolve_report(problem, cycles, report);
