@@ -32,6 +32,12 @@ bool Objective::over_spectrum() const {
   return std::ranges::any_of(terms, [](const ObjectiveTerm& term) { return design_output(term.output).over_spectrum; });
 }
 
+double Objective::growth() const {
+  double largest = 1.0;
+  for (const ObjectiveTerm& term : terms) largest = std::max(largest, design_output(term.output).growth);
+  return largest;
+}
+
 std::string Objective::name() const {
   std::string name;
   for (const ObjectiveTerm& term : terms) name += (name.empty() ? "" : " + ") + term.name;

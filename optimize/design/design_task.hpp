@@ -83,6 +83,8 @@ struct Objective {
 
   /// Whether its outputs are sums over a load spectrum; all of them are, or none.
   bool over_spectrum() const;
+  /// The largest DesignOutput::growth of its outputs.
+  double growth() const;
   std::string name() const;  ///< "te_harmonic_1 + te_harmonic_2"
   const char* unit() const;  ///< of its values outside; "weighted sum" of several terms
 };

@@ -1,6 +1,7 @@
 #include "optimize/design/direct_program.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flankwright {
 
@@ -56,8 +57,12 @@ ProgramValues DirectProgram::evaluate(const Eigen::VectorXd& x, bool with_gradie
   log_.record(problem_, x, analysis);
   const DesignTask& task = problem_.task();
   ProgramValues values;
-  values.objective = problem_.objective(analysis);
-  if (with_gradients) values.objective_gradient = objective_gradient(analysis);
+  const double objective = problem_.objective(analysis), growth = task.scalarisation.empty() ? task.combined_objective().growth() : 1.0;
+  values.objective = std::pow(objective, 1.0 / growth);
+  if (with_gradients) {
+    const double by_objective = objective > 0.0 ? values.objective / (growth * objective) : 1.0;
+    values.objective_gradient = by_objective * objective_gradient(analysis);
+  }
   values.constraints.resize(constraints());
   values.constraint_jacobian = Eigen::MatrixXd::Zero(with_gradients ? constraints() : 0, with_gradients ? variables() : 0);
   int row = 0;

@@ -82,11 +82,7 @@ EpigraphProgram::EpigraphProgram(DesignProblem& problem, DesignLog& log) : probl
   for (const ScalarisedObjective& scalarised : task.scalarisation) add_block(scalarised.objective, scalarised.range);
   if (!is_scalarised()) add_block(task.combined_objective(), 0.0);
   for (const ObjectiveBound& bound : task.objective_bounds) add_block(bound.objective, bound.limit);
-  if (is_scalarised()) {
-    ++variables_;  // tau, the last
-  } else {
-    objective_scale_ = blocks_.front().scale();
-  }
+  if (is_scalarised()) ++variables_;  // tau, the last
   add_candidates(x);
   restart_from(x);
 }
@@ -154,7 +150,7 @@ void EpigraphProgram::restart_from(const Eigen::VectorXd& x) {
       for (int k = 0; k < static_cast<int>(block.objective().terms.size()); ++k) {
         const double peak = output_value(block.objective().terms[static_cast<std::size_t>(k)], problem_.scene(analysis, block.scene(s)));
         double& slot = start_[block.bound(s, k)];
-        slot = std::max(slot, peak / block.peak(k));
+        slot = std::max(slot, block.bound_for(peak, k).value);
       }
     }
     block.complete(start_);
@@ -209,27 +205,19 @@ bool EpigraphProgram::is_majorant() const {
   });
 }
 
-double EpigraphProgram::by_output(const EpigraphRow& row) const {
-  if (row.kind == Kind::OutputBound) {
-    const OutputConstraint& bound = problem_.task().constraints[static_cast<std::size_t>(row.index)];
-    return (bound.is_least() ? -1.0 : 1.0) / std::abs(bound.limit());
-  }
-  if (row.kind != Kind::Floor && row.kind != Kind::Ceiling) return 0.0;
-  return (row.kind == Kind::Floor ? 1.0 : -1.0) / blocks_[static_cast<std::size_t>(row.objective)].peak(row.index);
-}
-
 void EpigraphProgram::write_objective(int at, const ObjectiveBlock& block, const Eigen::VectorXd& y, double factor, double shift,
                                       ProgramValues& values) const {
   const SmoothValue value = block.value(y);
-  values.constraints[at] = factor * value.value * block.scale() - shift;
-  values.constraint_jacobian.row(at) = factor * block.scale() * value.gradient;
+  const Slope objective = block.objective_of(value.value);
+  values.constraints[at] = factor * objective.value - shift;
+  values.constraint_jacobian.row(at) = factor * objective.by * value.gradient;
 }
 
-void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::VectorXd& y, const DesignAnalysis& analysis,
-                                ProgramValues& values) const {
+void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::VectorXd& y, const DesignAnalysis& analysis, ProgramValues& values) {
   const DesignTask& task = problem_.task();
   const int n = problem_.variables();
   auto jacobian = values.constraint_jacobian.row(at);
+  double& by_output = by_output_[static_cast<std::size_t>(at)];
   switch (row.kind) {
     case Kind::Floor:
     case Kind::Ceiling: {
@@ -237,8 +225,10 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
       const SmoothValue value = candidate_value(term_of(row), row.candidate, problem_.scene(analysis, row.scene));
       const double sign = row.kind == Kind::Floor ? 1.0 : -1.0;
       const int u = block.bound(block.scene_of(row.scene), row.index);
-      values.constraints[at] = sign * (value.value / block.peak(row.index) - y[u]);
-      jacobian.head(n) = by_output(row) * problem_.scaled(value.gradient);
+      const Slope least = block.bound_for(value.value, row.index);
+      values.constraints[at] = sign * (least.value - y[u]);
+      by_output = sign * least.by;
+      jacobian.head(n) = by_output * problem_.scaled(value.gradient);
       jacobian[u] = -sign;
       return;
     }
@@ -246,7 +236,8 @@ void EpigraphProgram::write_row(const EpigraphRow& row, int at, const Eigen::Vec
       const OutputConstraint& bound = task.constraints[static_cast<std::size_t>(row.index)];
       const SmoothValue value = candidate_value(bound.output, row.candidate, problem_.scene(analysis, row.scene));
       values.constraints[at] = bound.excess(value.value);
-      jacobian.head(n) = by_output(row) * problem_.scaled(value.gradient);
+      by_output = (bound.is_least() ? -1.0 : 1.0) / std::abs(bound.limit());
+      jacobian.head(n) = by_output * problem_.scaled(value.gradient);
       return;
     }
     case Kind::ObjectiveBound:
@@ -279,6 +270,7 @@ ProgramValues EpigraphProgram::evaluate(const Eigen::VectorXd& y, bool with_grad
   ProgramValues values;
   values.constraints = Eigen::VectorXd::Zero(constraints());
   values.constraint_jacobian = Eigen::MatrixXd::Zero(constraints(), variables());
+  by_output_.assign(rows_.size(), 0.0);
   for (int at = 0; at < constraints(); ++at) {
     const EpigraphRow& row = rows_[static_cast<std::size_t>(at)];
     if (row.kind == Kind::ObjectiveHelper) {

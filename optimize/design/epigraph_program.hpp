@@ -52,14 +52,15 @@ class EpigraphProgram : public NonlinearProgram {
   /// Designs start here from now on, with every u at its peak.
   void restart_from(const Eigen::VectorXd& x);
   Eigen::VectorXd design(const Eigen::VectorXd& y) const { return y.head(problem_.variables()); }
-  /// The task's objective in outside units is the programme's times this.
-  double objective_scale() const { return objective_scale_; }
+  /// The task's objective in outside units, as the programme's objective sees it, and back: see ObjectiveBlock.
+  double seen(double objective) const { return is_scalarised() ? objective : blocks_.front().seen(objective); }
+  Slope objective_of(double seen) const { return is_scalarised() ? Slope{seen, 1.0} : blocks_.front().objective_of(seen); }
   /// Whether rows hold that bound from above by a leading candidate: the programme is then no better than the task elsewhere.
   bool is_majorant() const;
   /// What each constraint of the programme is, in their order.
   const std::vector<EpigraphRow>& rows() const { return rows_; }
-  /// Change of a Floor, Ceiling or OutputBound by its output [1/inside unit]; 0 of other rows.
-  double by_output(const EpigraphRow& row) const;
+  /// Change of each row at the last evaluation by its output, of Floor, Ceiling and OutputBound [1/inside unit]; 0 of other rows.
+  const std::vector<double>& by_output() const { return by_output_; }
 
   int variables() const override { return variables_; }
   int constraints() const override { return static_cast<int>(rows_.size()); }
@@ -72,7 +73,7 @@ class EpigraphProgram : public NonlinearProgram {
   bool is_scalarised() const { return !problem_.task().scalarisation.empty(); }
   int objectives_minimised() const { return is_scalarised() ? static_cast<int>(problem_.task().scalarisation.size()) : 1; }
   const ObjectiveTerm& term_of(const EpigraphRow& row) const;
-  void write_row(const EpigraphRow& row, int at, const Eigen::VectorXd& y, const DesignAnalysis& analysis, ProgramValues& values) const;
+  void write_row(const EpigraphRow& row, int at, const Eigen::VectorXd& y, const DesignAnalysis& analysis, ProgramValues& values);
   void write_objective(int at, const ObjectiveBlock& block, const Eigen::VectorXd& y, double factor, double shift, ProgramValues& values) const;
   void choose_rows(const DesignAnalysis& analysis);
 
@@ -81,8 +82,8 @@ class EpigraphProgram : public NonlinearProgram {
   std::vector<ObjectiveBlock> blocks_;  ///< what is minimised, then what is bounded
   std::set<EpigraphRow> candidates_;    ///< floors and upper output bounds met so far
   std::vector<EpigraphRow> rows_;
+  std::vector<double> by_output_;
   int variables_{0};
-  double objective_scale_{1.0};
   Eigen::VectorXd start_;
 };
 

@@ -20,14 +20,14 @@ constexpr double round_tolerance = 1e-6;  // see run_local()
 constexpr int stall_analyses = 80;
 constexpr double stall_gain = 1e-5;
 
-/// Says so, judged by the true objective.
-std::function<std::string()> when_stalled(const DesignLog& log) {
-  return [&log, at = std::size_t{0}, best = not_given]() mutable -> std::string {
+/// Says so, judged by the true objective as the programme sees it.
+std::function<std::string()> when_stalled(const EpigraphProgram& program, const DesignLog& log) {
+  return [&program, &log, at = std::size_t{0}, best = not_given]() mutable -> std::string {
     if (log.best() == nullptr) return {};
-    const double gain = stall_gain * std::abs(log.entries().front().objective);
-    const bool gained = !(log.best()->objective >= best - gain) || log.best()->constraint_violation > DesignLog::tolerance;
+    const double gain = stall_gain * std::abs(program.seen(log.entries().front().objective)), now = program.seen(log.best()->objective);
+    const bool gained = !(now >= best - gain) || log.best()->constraint_violation > DesignLog::tolerance;
     if (gained) {
-      best = log.best()->objective;
+      best = now;
       at = log.entries().size();
     }
     return log.entries().size() < at + stall_analyses ? "" : "no gain of 1e-5 of the first objective in 80 analyses: a kink";
@@ -54,7 +54,7 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
   for (run.rounds = 1; run.rounds <= most_rounds; ++run.rounds) {
     SolverOptions round = remaining(options, problem.analyses() - analyses_before, clock.seconds());
     round.name = solver;
-    round.stop_when = when_stalled(log);
+    round.stop_when = when_stalled(program, log);
     const SolverResult solved = solve(program, round);
     run.status = solved.status;
     run.message = run.finished_by.empty() ? solved.message : solved.message + " (after " + options.name + " stalled on a kink: " + solver + ")";
@@ -65,12 +65,12 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
     log.record(problem, x, analysis);
     const bool stalled = solved.status == SolverStatus::Stalled;
     // Done when the true peaks are what the candidates promised, or a stalled round has gained nothing.
-    const double excess = log.entries().back().objective - solved.objective * program.objective_scale();
-    const bool holds = excess <= round_tolerance * program.objective_scale() && log.entries().back().constraint_violation <= DesignLog::tolerance;
-    const double gain = (last - log.best()->objective) / program.objective_scale();
+    const double excess = program.seen(log.entries().back().objective) - solved.objective;
+    const bool holds = excess <= round_tolerance && log.entries().back().constraint_violation <= DesignLog::tolerance;
+    const double best = program.seen(log.best()->objective), gain = last - best;
     // A majorant has a next one, as long as rounds descend.
     const bool settled = !program.is_majorant() || gain <= round_tolerance;
-    last = log.best()->objective;
+    last = best;
     const bool is_done = ((program.add_candidates(x) == 0 || holds) && settled) || (stalled && gain <= stall_gain);
     if (stalled && has_finisher && run.finished_by.empty()) {
       run.finished_by = solver = options.finisher;

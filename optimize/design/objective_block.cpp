@@ -18,10 +18,18 @@ Spread spread_of(const Eigen::VectorXd& measures, const Eigen::VectorXd& shares)
   return {mean, std::sqrt(shares.dot((measures.array() - mean).square().matrix()) + epsilon * epsilon)};
 }
 
+/// x^(1/g). What grows with a power is never below 0, and is constant where it is 0.
+Slope root(double x, double growth) {
+  if (growth == 1.0) return {x, 1.0};
+  if (!(x > 0.0)) return {0.0, 0.0};
+  const double value = std::pow(x, 1.0 / growth);
+  return {value, value / (growth * x)};
+}
+
 }  // namespace
 
 ObjectiveBlock::ObjectiveBlock(Objective objective, const std::vector<double>& weights, std::vector<double> peaks, int first, std::vector<int> scenes)
-    : objective_(std::move(objective)), peaks_(std::move(peaks)), first_(first), numbers_(std::move(scenes)) {
+    : objective_(std::move(objective)), peaks_(std::move(peaks)), growth_(objective_.growth()), first_(first), numbers_(std::move(scenes)) {
   shares_ = Eigen::Map<const Eigen::VectorXd>(weights.data(), objective_.over == Aggregate::Nominal ? 1 : static_cast<Eigen::Index>(weights.size()));
   shares_ /= shares_.sum();
   for (std::size_t k = 0; k < objective_.terms.size(); ++k) {
@@ -49,9 +57,20 @@ int ObjectiveBlock::bound(int scene, int term) const {
 
 double ObjectiveBlock::measure(const Eigen::VectorXd& y, int scene) const {
   double sum = 0.0;
-  for (std::size_t k = 0; k < term_weights_.size(); ++k) sum += term_weights_[k] * y[bound(scene, static_cast<int>(k))];
+  for (std::size_t k = 0; k < term_weights_.size(); ++k) sum += term_weights_[k] * std::pow(y[bound(scene, static_cast<int>(k))], growth_);
   return sum;
 }
+
+double ObjectiveBlock::measure_slope(const Eigen::VectorXd& y, int scene, std::size_t term) const {
+  return term_weights_[term] * growth_ * std::pow(y[bound(scene, static_cast<int>(term))], growth_ - 1.0);
+}
+
+Slope ObjectiveBlock::bound_for(double output, int term) const {
+  const Slope found = root(output / peak(term), growth_);
+  return {found.value, found.by / peak(term)};
+}
+
+Slope ObjectiveBlock::objective_of(double seen) const { return {scale_ * std::pow(seen, growth_), scale_ * growth_ * std::pow(seen, growth_ - 1.0)}; }
 
 Eigen::VectorXd ObjectiveBlock::measures(const Eigen::VectorXd& y) const {
   Eigen::VectorXd m(scenes());
@@ -61,20 +80,25 @@ Eigen::VectorXd ObjectiveBlock::measures(const Eigen::VectorXd& y) const {
 
 SmoothValue ObjectiveBlock::value(const Eigen::VectorXd& y) const {
   SmoothValue result{0.0, Eigen::VectorXd::Zero(y.size())};
-  if (shares_one_bound()) {
-    result.value = y[first_];
-    result.gradient[first_] = 1.0;
+  if (is_largest()) {
+    const int largest = shares_one_bound() ? first_ : level();
+    result.value = y[largest];
+    result.gradient[largest] = 1.0;
     return result;
   }
-  if (has_rows()) {
+  const auto root_of = [this](SmoothValue all) {
+    const Slope seen = root(all.value, growth_);
+    return SmoothValue{seen.value, seen.by * all.gradient};
+  };
+  if (objective_.over == Aggregate::Cvar) {
     result.value = y[level()];
     result.gradient[level()] = 1.0;
-    for (int s = 0; objective_.over == Aggregate::Cvar && s < scenes(); ++s) {
+    for (int s = 0; s < scenes(); ++s) {
       const double slope = shares_[s] / (1.0 - objective_.over.level);
       result.value += slope * y[level() + 1 + s];
       result.gradient[level() + 1 + s] = slope;
     }
-    return result;
+    return root_of(std::move(result));
   }
   const Eigen::VectorXd m = measures(y);
   Eigen::VectorXd slope = shares_;
@@ -85,9 +109,9 @@ SmoothValue ObjectiveBlock::value(const Eigen::VectorXd& y) const {
     slope.array() *= 1.0 + objective_.over.sigmas * (m.array() - mean) / sigma;
   }
   for (int s = 0; s < scenes(); ++s) {
-    for (std::size_t k = 0; k < term_weights_.size(); ++k) result.gradient[bound(s, static_cast<int>(k))] = slope[s] * term_weights_[k];
+    for (std::size_t k = 0; k < term_weights_.size(); ++k) result.gradient[bound(s, static_cast<int>(k))] = slope[s] * measure_slope(y, s, k);
   }
-  return result;
+  return root_of(std::move(result));
 }
 
 bool ObjectiveBlock::falls_with(const Eigen::VectorXd& y, int scene) const {
@@ -103,10 +127,11 @@ void ObjectiveBlock::complete(Eigen::VectorXd& y) const {
   if (!has_rows()) return;
   const Eigen::VectorXd m = measures(y);
   if (is_largest()) {
-    y[level()] = -INFINITY;
+    double largest = 0.0;
     for (int s = 0; s < scenes(); ++s) {
-      if (!leaves_out(s)) y[level()] = std::max(y[level()], m[s]);
+      if (!leaves_out(s)) largest = std::max(largest, m[s]);
     }
+    y[level()] = root(largest, growth_).value;
     return;
   }
   // The level of the tail: of the sorted measures the first beyond which no more than 1 - level of the weight lies.
@@ -129,10 +154,15 @@ void ObjectiveBlock::write_rows(const Eigen::VectorXd& y, int row, ProgramValues
       values.constraints[row] = -1.0;  // nothing is asked of it
       continue;
     }
-    for (std::size_t k = 0; k < term_weights_.size(); ++k) jacobian[bound(s, static_cast<int>(k))] = term_weights_[k];
+    const bool is_tail = objective_.over == Aggregate::Cvar;
+    const double m = measure(y, s);
+    const Slope asked = is_tail ? Slope{m, 1.0} : root(m, growth_);
+    values.constraints[row] = asked.value - y[level()];
+    for (std::size_t k = 0; k < term_weights_.size(); ++k) jacobian[bound(s, static_cast<int>(k))] = asked.by * measure_slope(y, s, k);
     jacobian[level()] = -1.0;
-    if (objective_.over == Aggregate::Cvar) jacobian[level() + 1 + s] = -1.0;
-    values.constraints[row] = jacobian.dot(y);
+    if (!is_tail) continue;
+    values.constraints[row] -= y[level() + 1 + s];
+    jacobian[level() + 1 + s] = -1.0;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "optimize/solvers/nonlinear_program.hpp"
@@ -10,15 +11,23 @@
 
 namespace flankwright {
 
+/// A number and its derivative.
+struct Slope {
+  double value, by;
+};
+
 /// One objective as a smooth function of upper bounds u_sk on its outputs k in the scenes s, in units of their peaks.
-/// With m_s = sum_k w_k u_sk and the weights p_s of the scenes, of sum 1,
+/// With m_s = sum_k w_k u_sk and the weights p_s of the scenes, of sum 1, the objective is
 ///
-///     nominal          m_0
-///     worst            t                                   subject to  m_s <= t
-///     mean             sum p_s m_s
-///     mean + k sigma   mean + k sqrt(sum p_s (m_s - mean)^2 + epsilon^2),    epsilon = 1e-5
-///     cvar             t + sum p_s v_s / (1 - level)       subject to  m_s - t <= v_s,  v_s >= 0
-///     quantile         t                                   subject to  m_s <= t  of all scenes but those left out
+///     nominal          F = m_0
+///     worst            F = t                               subject to  m_s <= t
+///     mean             F = sum p_s m_s
+///     mean + k sigma   F = mean + k sqrt(sum p_s (m_s - mean)^2 + epsilon^2),    epsilon = 1e-5
+///     cvar             F = t + sum p_s v_s / (1 - level)   subject to  m_s - t <= v_s,  v_s >= 0
+///     quantile         F = t                               subject to  m_s <= t  of all scenes but those left out
+///
+/// Outputs that grow with a power g of the stress, Objective::growth(), span many decades, and linear models of them hold for a fraction of a per cent of
+/// the stress alone. The variables of the programme are therefore the roots u^(1/g) and t^(1/g), and value() is F^(1/g); g = 1 changes nothing.
 ///
 /// A quantile leaves out the scenes beyond it at some design, see leave_out(). The largest of the others is the quantile there and never below
 /// it elsewhere: a majorant. Worst and quantile of a single output need one u for all scenes. epsilon, in units of the start's value, smooths the spread
@@ -40,14 +49,17 @@ class ObjectiveBlock {
   int scene(int s) const { return numbers_.empty() ? s : numbers_[static_cast<std::size_t>(s)]; }
   /// The block's scene of the task's number.
   int scene_of(int number) const;
-  /// Index of u_sk.
+  /// Index of u_sk^(1/g).
   int bound(int scene, int term) const;
   double peak(int term) const { return peaks_[static_cast<std::size_t>(term)]; }
-  /// The objective's value in outside units is value() times this.
-  double scale() const { return scale_; }
+  /// What a variable must be at least for an output of this inside value, and its derivative by the output.
+  Slope bound_for(double output, int term) const;
 
-  /// Value with its gradient over all of y.
+  /// F^(1/g) with its gradient over all of y.
   SmoothValue value(const Eigen::VectorXd& y) const;
+  /// F^(1/g) of the objective in outside units, and back.
+  double seen(double objective) const { return std::pow(objective / scale_, 1.0 / growth_); }
+  Slope objective_of(double seen) const;
   /// Whether the value falls where the measure of a scene rises, as mean + k sigma does in scenes well below the mean.
   bool falls_with(const Eigen::VectorXd& y, int scene) const;
   /// Of a quantile: leaves out the scenes beyond it by these measures. Nothing else to do.
@@ -65,6 +77,8 @@ class ObjectiveBlock {
   bool has_rows() const { return objective_.over == Aggregate::Cvar || (is_largest() && !shares_one_bound()); }
   int level() const { return first_ + scenes() * static_cast<int>(objective_.terms.size()); }  ///< index of t
   double measure(const Eigen::VectorXd& y, int scene) const;
+  /// dm_s by the variable of one of its outputs.
+  double measure_slope(const Eigen::VectorXd& y, int scene, std::size_t term) const;
   Eigen::VectorXd measures(const Eigen::VectorXd& y) const;
 
   Objective objective_;
@@ -72,7 +86,8 @@ class ObjectiveBlock {
   std::vector<double> peaks_;
   std::vector<double> term_weights_;  ///< w_k, sum 1
   std::vector<bool> left_out_;        ///< per scene, of a quantile; empty: none
-  double scale_{0.0};
+  double scale_{0.0};                 ///< of F, outside unit
+  double growth_;                     ///< g
   int first_;
   std::vector<int> numbers_;
 };

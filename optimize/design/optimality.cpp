@@ -31,7 +31,7 @@ std::vector<Near> near_rows(const EpigraphProgram& program, const ProgramValues&
     ActiveBound bound{program.rows()[static_cast<std::size_t>(r)]};
     const bool is_peak = bound.row.kind == EpigraphRow::Kind::Floor || bound.row.kind == EpigraphRow::Kind::Ceiling;
     if (values.constraints[r] < -(is_peak ? below_peak : Optimality::reach)) continue;
-    bound.by_output = program.by_output(bound.row);
+    bound.by_output = program.by_output()[static_cast<std::size_t>(r)];
     near.push_back({bound, r, values.constraints[r], values.constraint_jacobian.row(r)});
   }
   const Eigen::VectorXd lower = program.lower(), upper = program.upper();
@@ -126,7 +126,7 @@ Optimality first_order_optimality(DesignProblem& problem, const Eigen::VectorXd&
     add_neighbours(program, y, problem.variables(), near);
     if (Optimality on_kink = balance(near, values.objective_gradient, problem.variables()); on_kink.satisfied()) result = std::move(on_kink);
   }
-  result.objective_scale = program.objective_scale();
+  result.objective_scale = program.objective_of(values.objective).by;
   return result;
 }
 

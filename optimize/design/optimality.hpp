@@ -25,7 +25,7 @@ struct ActiveBound {
 ///     minimise over lambda >= 0   |grad f + J' lambda|^2 + |c lambda|^2
 ///
 /// over all rows and bounds within `reach` of being active, peaks within that of the objective as it is; variables' bounds only where more than 1e-4 remains without
-/// them, so that a bound has no multiplier where multipliers are not unique. f is the objective in units of its start,
+/// them, so that a bound has no multiplier where multipliers are not unique. f is the objective in units of its start or the root of that, see ObjectiveBlock,
 /// variables are scaled to their ranges.
 ///
 /// Rows bend where a contact point is about to lose or take up load, or the start of a relief passes one; optima like
@@ -38,7 +38,7 @@ struct Optimality {
   double complementarity{not_given};  ///< largest |c lambda| [-]
   std::vector<ActiveBound> active;    ///< multipliers above `felt`, largest first
   Eigen::VectorXd steepest;           ///< of each design variable: largest entry of the gradients of active rows [-]
-  double objective_scale{not_given};  ///< the objective of the start that f is counted in, outside units
+  double objective_scale{not_given};  ///< change of the objective with f, outside units: the objective of the start, unless f is a root of it
   static constexpr double reach = 0.02;
   static constexpr double felt = 1e-6;
   static constexpr double holds = 1e-4;          ///< satisfied where residual and complementarity are at most this

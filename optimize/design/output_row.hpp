@@ -98,6 +98,8 @@ struct DesignOutput {
   using Candidate = SmoothValue (*)(const ObjectiveTerm&, const PeakCandidate&, const LoadedScene&);
   Candidates candidates{nullptr};
   Candidate candidate{nullptr};
+  /// The power of a stress or load that it grows with, in rough terms, >= 1: searches see the root, since a power spans many decades.
+  double growth{1.0};
   bool over_spectrum{false};  ///< a sum over all load cases of the spectrum, the same in each of them
   bool is_least{false};       ///< the least of the smooth functions instead of the largest; can be bounded, not minimised
   AtPoints at_points{nullptr};

@@ -5,9 +5,12 @@
 
 #include "core/base/error.hpp"
 #include "optimize/design/design_optimiser.hpp"
+#include "optimize/design/direct_program.hpp"
+#include "optimize/design/epigraph_program.hpp"
 #include "optimize/design/scene_outputs.hpp"
 #include "tests/optimize/design_tasks.hpp"
 #include "tests/optimize/output_gradients.hpp"
+#include "tests/optimize/program_gradients.hpp"
 
 using namespace flankwright;
 using namespace flankwright::design_tasks;
@@ -115,6 +118,48 @@ TEST_CASE("A design optimised for damage has less of it than one optimised for t
   CHECK(found.after.objective < found.before.objective);
   CHECK(found.after.objective <= damage_of_other * (1.0 + 1e-3));
   CHECK(for_stress.objective(found.after.analysis) >= other.after.objective * (1.0 - 1e-3));
+}
+
+TEST_CASE("Programmes see the root of damage, with its gradients, and tell the damage from it", "[optimize][design][life][gradient]") {
+  const Aggregation over =
+      GENERATE(Aggregation(Aggregate::Nominal), Aggregation(Aggregate::Worst), Aggregation(Aggregate::Mean),
+               Aggregation(Aggregate::MeanPlusSigmas, 2.0), Aggregation(Aggregate::Cvar, 2.0, 0.5), Aggregation(Aggregate::Quantile, 2.0, 0.5));
+  const bool of_roots_too = GENERATE(true, false);
+  CAPTURE(to_string(over), of_roots_too);
+  DesignTask task = task_under_spectrum();
+  task.over = over;
+  task.constraints.clear();
+  if (of_roots_too) task.objective.push_back(term(Output::RootDamage));
+  DesignProblem problem(task);
+  DesignLog log(nullptr);
+  EpigraphProgram epigraph(problem, log);
+  std::mt19937 generator(12);
+  Eigen::VectorXd y = epigraph.start();
+  const double damage = problem.objective(problem.analyse(problem.start(), false));
+  CHECK(epigraph.objective_of(epigraph.evaluate(y, false).objective).value == Approx(damage).epsilon(1e-4));  // mean + k sigma is smoothed
+  y.head(problem.variables()) = random_design(problem.variables(), generator);
+  check_gradients(epigraph, y);
+  DirectProgram direct(problem, log);
+  check_gradients(direct, random_design(problem.variables(), generator));
+}
+
+TEST_CASE("Under a single load the least damage is that of the least stress, from whichever start", "[optimize][design][life]") {
+  DesignTask task = task_under_spectrum();
+  std::erase_if(task.scenes, [](const DesignScene& scene) { return scene.bin > 0; });
+  task.constraints.clear();
+  DesignTask stress_task = task;
+  stress_task.objective = {term(Output::PeakContactStress)};
+  DesignProblem for_stress(stress_task);
+  const DesignResult least_stress = optimise_design(for_stress, DesignOptions{});
+  DesignProblem for_damage(task);
+  std::mt19937 generator(13);
+  for (int start = 0; start < 3; ++start) {
+    if (start > 0) for_damage.set_start(random_design(for_damage.variables(), generator));
+    const DesignResult least_damage = optimise_design(for_damage, DesignOptions{});
+    CAPTURE(start, least_damage.before.objective, least_damage.after.objective, least_damage.message);
+    // Of the searches, which stop on kinks.
+    CHECK(for_stress.objective(least_damage.after.analysis) == Approx(least_stress.after.objective).epsilon(2e-3));
+  }
 }
 
 TEST_CASE("A bound on the least film is kept at every point under load", "[optimize][design][life]") {

@@ -9,20 +9,26 @@ using namespace flankwright;
 
 namespace {
 
-/// A cycle with `intervals`, compared with half of them.
+/// A cycle with `intervals`, compared with half of them, or with twice as many after that.
 struct Judged {
   ResolvedCycle resolved;
   CycleFigures figures;
 };
+enum class BesideFiner { No, Yes };
 
-Judged judge(const GearPair& gears, const FlankCondition& condition, double torque, int intervals, int positions) {
+Judged judge(const GearPair& gears, const FlankCondition& condition, double torque, int intervals, int positions,
+             BesideFiner beside_finer = BesideFiner::No) {
   const std::vector<double> phases = equally_spaced_phases(positions);
   const auto mesh = [&](int n, const std::vector<double>& at) { return mesh_cases::model(gears, {{QuadratureRule::Graded, n}, at}); };
   const MeshModel model = mesh(intervals, phases);
   const LoadedCycle cycle = analyse_cycle(model, condition, torque),
                     coarse = analyse_cycle(mesh(intervals / 2, coarse_phases(phases)), condition, torque);
   const MeshWithParameters at = [&](const std::vector<double>& some, const std::vector<MeshParameter>&) { return mesh(intervals, some); };
-  const ResolvedCycle resolved = resolve_cycle(model, cycle, at, condition, torque, {.coarse = &coarse});
+  ResolvedCycle resolved = resolve_cycle(model, cycle, at, condition, torque, {.coarse = &coarse});
+  if (beside_finer == BesideFiner::Yes) {
+    const MeshModel finer = mesh(2 * intervals, phases);
+    hold_against_finer(model, cycle, finer, analyse_cycle(finer, condition, torque), resolved);
+  }
   return {resolved, figures_of(model, cycle, resolved.summary)};
 }
 
@@ -46,6 +52,26 @@ TEST_CASE("The stated error of a figure holds beside a cycle four times finer bo
   }
   // What four times finer leaves is less than what is stated coarsely.
   CHECK(largest(error_shares(fine.resolved.errors, fine.figures)) < largest(stated));
+}
+
+TEST_CASE("Held against a finer cycle, the errors by points are narrower and still hold", "[core][load][cycle-error]") {
+  const GearPair gears = GENERATE(mesh_cases::pair(25, 50, 0, 3, 30), mesh_cases::pair(18, 54, 30, 10, 120), mesh_cases::pair(23, 67, 12, 2, 40));
+  const double line_load = GENERATE(40.0, 200.0);
+  const FlankCondition condition = mesh_cases::worked_condition();
+  const double torque = mesh_cases::torque_for(gears, line_load);
+  const Judged half = judge(gears, condition, torque, 8, 32), twice = judge(gears, condition, torque, 8, 32, BesideFiner::Yes),
+               fine = judge(gears, condition, torque, 32, 128);
+  const PerFigure by_half = error_shares(half.resolved.errors, half.figures), stated = error_shares(twice.resolved.errors, twice.figures),
+                  found = figure_errors(half.figures, fine.figures);
+  CHECK(twice.resolved.errors.te_peak_to_peak == twice.resolved.error_parts.sum().te_peak_to_peak);
+  CHECK(twice.resolved.error_parts.positions.te_peak_to_peak == half.resolved.error_parts.positions.te_peak_to_peak);
+  for (const Figure figure : {Figure::TeMean, Figure::TePeakToPeak, Figure::TeHarmonic1, Figure::PeakContactStress}) {
+    const auto i = static_cast<std::size_t>(figure);
+    CAPTURE(gears.pinion.data.teeth, line_load, name_of(figure), by_half[i], stated[i], found[i]);
+    CHECK(found[i] <= stated[i]);
+    CHECK(stated[i] <= by_half[i]);
+  }
+  CHECK(largest(stated) < largest(by_half));
 }
 
 TEST_CASE("Errors are those of points and of positions together, and not known without a coarser cycle", "[core][load][cycle-error]") {
