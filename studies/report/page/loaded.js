@@ -182,6 +182,7 @@ function load_factor_table(body, rows) {
   const peak = (entry, key) => record(record(summary_of(entry).peaks)[key]).contact_stress_MPa;
   const rated = rows.filter((row) => summary_of(row.load_case.designs[row.design]).load_factors);
   if (rated.length === 0) return;
+  const intervals = record(summary_of(rated[0].load_case.designs[rated[0].design]).peaks).intervals;
   const lines = ({ load_case, design }) => {
     const entry = load_case.designs[design], iso = record(summary_of(entry).iso6336);
     const calculated = [["without spikes", "without_spikes"], ["with spikes", "with_spikes"]].map(([label, key]) => {
@@ -195,8 +196,8 @@ function load_factor_table(body, rows) {
     title: "Load distribution factors",
     note: "Squared ratios of the peak contact stress to that of the perfect pair. K_Hβ has only deviations along the face, K_Hα only those along the "
       + "profile and from tooth to tooth, K_H all of them; K_H is not the product of the two. Peaks are sought between the "
-      + "positions too. Values without spikes leave out short contact lines and line ends on tip edges. ISO 6336 values follow method C "
-      + "with the stiffness of the standard.",
+      + `positions too, with ${fmt(intervals)} intervals along a contact line. Values without spikes leave out short contact lines and `
+      + "line ends on tip edges. ISO 6336 values follow method C with the stiffness of the standard.",
     columns: [...case_columns, { label: "By" },
       { label: "K_Hβ" }, { label: "K_Hα" }, { label: "K_Hβ·K_Hα" }, { label: "K_H" }, { label: "Peak stress", unit: "MPa" }],
     rows: rated.flatMap(lines),
