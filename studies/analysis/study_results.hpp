@@ -38,16 +38,16 @@ struct LoadedResult {
   double torque{not_given};     ///< on the pinion [N mm]
   std::string design{"given"};  ///< "given", or "before" / "after" an optimisation
   LoadedCycle cycle;
-  ResolvedCycle resolved;     ///< with extremes between the positions, and errors
-  int compared_intervals{0};  ///< of the cycle that the errors by points come from; 0: none was estimated
-  CycleSummary summary;       ///< of `resolved`
-  std::size_t model{0};       ///< index into StudyResults::models
-  FlankCondition condition;   ///< that it was solved for
+  ResolvedCycle resolved;    ///< with extremes between the positions, and errors
+  CycleSummary summary;      ///< of `resolved`
+  std::size_t model{0};      ///< index into StudyResults::models
+  FlankCondition condition;  ///< that it was solved for
   IsoLoadFactors iso;
   std::optional<EdgeContactStart> edge_contact{};  ///< none where contact reaches no tip edge
   std::optional<LoadRating> rating{};              ///< none where peaks are sampled, or phases were given
   Operation operation{};                           ///< under this torque
   int bin{-1};                                     ///< index into Study::spectrum; -1: none
+  int compared_intervals{0};                       ///< of the cycle that the errors by points come from; 0: none was estimated
 };
 
 /// A step of the run that is no effect of the mesh, and its time.
