@@ -66,10 +66,10 @@ void check_life_outputs(StudyReading& reading) {
       reading.refuse_key(key, term.name + " is better where it is large: allowed is { min = ... } in optimise.constraints");
     if (row.over_spectrum && study.spectrum.empty()) reading.refuse_key(key, term.name + " needs load.spectrum");
     if (term.output == Output::ContactDamage && !has_curve(&FatigueStrength::contact)) {
-      reading.refuse_key(key, term.name + " needs material.contact_endurance_limit");
+      reading.refuse_key(key, term.name + " needs material.strength or material.contact_endurance_limit");
     }
     if (term.output == Output::RootDamage && !has_curve(&FatigueStrength::root))
-      reading.refuse_key(key, term.name + " needs material.root_endurance_limit");
+      reading.refuse_key(key, term.name + " needs material.strength or material.root_endurance_limit");
     if (term.output != Output::SpecificFilmThickness) continue;
     if (!study.life.has_lubricant) reading.refuse_key(key, term.name + " needs a table [lubricant]");
     const auto no_speed = [](const auto& of) { return std::isnan(of.speed); };
