@@ -111,7 +111,9 @@ void check_grade(StudyReading& reading, Member member) {
   std::optional<MaterialGrade>& grade = reading.builder.study.life.grade[member];
   if (!grade) return;
   const auto refuse = [&](const std::string& key, const std::string& allowed) {
-    reading.refuse_key(material_path(reading, member, "strength." + key), "allowed is " + allowed);
+    const std::string path = material_path(reading, member, "strength." + key);
+    const auto said = [&](const StudyProblem& problem) { return problem.key == path; };  // of the other gear
+    if (std::ranges::none_of(reading.problems, said)) reading.refuse_key(path, "allowed is " + allowed);
     grade.reset();
   };
   if (reading.find(material_path(reading, member, "strength.kind")) == nullptr) return refuse("kind", "a kind of material, with hardness");

@@ -90,7 +90,7 @@ function flank_life(grid, controls, life, selection) {
     }));
   }
   redraws.push(case_figure(grid, selection, { title: "Safety of the flank in the load case", wide: paired,
-    caption: "Stress that is borne for the load cycles of the case, over the contact stress at each point. " + `${end}Grey areas are never loaded.` }, (plot) => {
+    caption: "Stress that is borne for the load cycles of the case, the endurance limit where they are not given, over the contact stress at each point. " + `${end}Grey areas are never loaded.` }, (plot) => {
     said(plot);
     draw_safety_map(plot, life, selection, gear);
   }));

@@ -58,7 +58,7 @@ const point_labels = (labels) => ({
     for (const { x, y, text, above } of points) {
       const width = pen.measureText(text).width;
       const right = x + 12, left = x - 12 - width;
-      const places = [...(above ? [[x - 0.5 * width, y - 18]] : []), [right, y + 18], [left, y + 18], [right, y], [left, y], [right, y - 18], [left, y - 18]];
+      const places = [...(above ? [[Math.max(area.left + 4, x - 0.5 * width), y - 18]] : []), [right, y + 18], [left, y + 18], [right, y], [left, y], [right, y - 18], [left, y - 18]];
       const box = ([at, middle]) => ({ left: at - 3, right: at + width + 3, top: middle - 7, bottom: middle + 7 });
       const free = places.find((place) => {
         const own = box(place);

@@ -59,7 +59,11 @@ void check_life_outputs(StudyReading& reading) {
   check_sums(reading, "optimise.objective", study.optimise.objective);
   for (const Objective& objective : study.optimise.later_objectives) check_sums(reading, "optimise.objective", objective.terms);
   const std::shared_ptr<const LifeModel> life = life_model(study);
-  const auto has_curve = [&](auto FatigueStrength::*kind) { return life && (life->strength.pinion.*kind || life->strength.wheel.*kind); };
+  const auto named = [&](const char* table) { return reading.find(std::string(table) + "material.strength.kind") != nullptr; };
+  const bool is_named = named("") || named("pinion.") || named("wheel.");  // and has curves, or was refused already
+  const auto has_curve = [&](auto FatigueStrength::*kind) {
+    return is_named || (life && (life->strength.pinion.*kind || life->strength.wheel.*kind));
+  };
   for (const auto& [key, term] : all_terms(study.optimise)) {
     const DesignOutput& row = design_output(term.output);
     if (row.is_least && !key.starts_with("optimise.constraints."))
