@@ -111,13 +111,12 @@ void append_grade(std::vector<SchemaKey>& rows, const std::string& table) {
                   .store = [](StudyBuilder& d, Member m, const Value& v) {
                     change_grades<of_both>(d, m, [&](MaterialGrade& g) { g.quality = static_cast<MaterialQuality>(v.integer); });
                   }});
-  rows.push_back({.path = name + "hardness",
-                  .range = above_zero(1200.0),
-                  .fallback = none,
-                  .meaning = "of the surface, HBW of normalised steel and cast iron, else HV; the table has a range for each kind and quality",
-                  .store = [](StudyBuilder& d, Member m, const Value& v) {
-                    change_grades<of_both>(d, m, [&](MaterialGrade& g) { g.hardness = v.number; });
-                  }});
+  rows.push_back(
+      {.path = name + "hardness",
+       .range = above_zero(1200.0),
+       .fallback = none,
+       .meaning = "of the surface, HBW of normalised steel and cast iron, else HV; the table has a range for each kind and quality",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { change_grades<of_both>(d, m, [&](MaterialGrade& g) { g.hardness = v.number; }); }});
   rows.push_back({.path = name + "core_hardness",
                   .range = {.low = 25.0, .high = 60.0},
                   .fallback = of_both ? "(25)" : none,
