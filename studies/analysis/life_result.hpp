@@ -41,7 +41,9 @@ struct DamagedPoint {
 
 /// The damage at one point of the flanks.
 struct FlankDamage {
-  double z, pinion_radius;                       ///< [mm]
+  double z, pinion_radius, wheel_radius;         ///< [mm]
+  double phase;                                  ///< of the mesh position
+  int tooth;                                     ///< pair that touches there
   PerGear<double> damage{not_given, not_given};  ///< [-]
 };
 

@@ -113,7 +113,7 @@ class SpectrumRating {
       const Eigen::VectorXd damage = contact_damage(model_, loads_, m, curve, i);
       for (Eigen::Index j = 0; j < damage.size(); ++j, ++entry) {
         const ContactPoint& point = model_.positions[i].points[static_cast<std::size_t>(j)];
-        if (is_new) spectrum_.map.push_back({point.z, point.pinion_radius});
+        if (is_new) spectrum_.map.push_back({point.z, point.pinion_radius, point.wheel_radius, model_.positions[i].phase, point.tooth});
         spectrum_.map[entry].damage[m] = damage[j];
         if (!(damage[j] > worst.damage)) continue;
         worst.damage = damage[j];

@@ -62,6 +62,8 @@ constexpr Section sections[] = {
     {"tolerances", "Scatter in the search",
      [](const Json& r) { return optimised(r) && r.at("optimise").is_object() && has(r.at("optimise"), "scatter"); }},
     {"flank-load", "Load on the flank", has_loaded},
+    {"life", "Load spectrum and life",
+     [](const Json& r) { return has_loaded(r) && has(r, "life") && r.at("life").is_object() && has(r.at("life"), "cases"); }},
     {"transmission-error", "Transmission error under load", has_loaded},
     {"stiffness", "Load sharing and mesh stiffness", has_loaded},
     {"modifications", "Flank modifications", [](const Json& r) { return has(r, "modifications") && !optimised(r); }},

@@ -55,11 +55,12 @@ Json drawn_list(const Json& list, const Draw& draw_entry) {
   return copy;
 }
 
-/// List of points -> object of columns; those of tip edges only where a point of the list has them.
-Json columns_of(const Json& points) {
+/// List of points -> object of columns; those of tip edges only where a point of the list has them, the radius of the wheel only where life is drawn on it.
+Json columns_of(const Json& points, bool has_life) {
   if (!points.is_array()) return drawn(points);
   const auto has_any = [&](const char* key) { return std::ranges::any_of(points, [&](const Json& point) { return point.contains(key); }); };
   std::vector<const char*> keys{"z_mm", "pinion_radius_mm", "load_N_per_mm", "contact_stress_MPa", "gap_um"};
+  if (has_life) keys.push_back("wheel_radius_mm");
   if (has_any("tip_edge")) keys.insert(keys.end(), {"edge_stress_MPa", "tip_edge"});
   Json columns = Json::object();
   for (const char* key : keys) {
@@ -73,19 +74,21 @@ Json columns_of(const Json& points) {
 }
 
 /// Without the ends of lines, which no picture draws.
-Json drawn_tooth(const Json& tooth) {
-  Json copy = drawn_with(tooth, "points", columns_of);
+Json drawn_tooth(const Json& tooth, bool has_life) {
+  Json copy = drawn_with(tooth, "points", [&](const Json& points) { return columns_of(points, has_life); });
   if (copy.is_object()) copy.erase("line_ends");
   return copy;
 }
 
-Json drawn_position(const Json& position) {
-  return drawn_with(position, "teeth", [](const Json& teeth) { return drawn_list(teeth, drawn_tooth); });
+Json drawn_position(const Json& position, bool has_life) {
+  const auto tooth = [&](const Json& entry) { return drawn_tooth(entry, has_life); };
+  return drawn_with(position, "teeth", [&](const Json& teeth) { return drawn_list(teeth, tooth); });
 }
 
 /// Of the gradients the page has those of the summary.
-Json drawn_case(const Json& entry) {
-  Json copy = drawn_with(entry, "cycle", [](const Json& cycle) { return drawn_list(cycle, drawn_position); });
+Json drawn_case(const Json& entry, bool has_life) {
+  const auto position = [&](const Json& at) { return drawn_position(at, has_life); };
+  Json copy = drawn_with(entry, "cycle", [&](const Json& cycle) { return drawn_list(cycle, position); });
   if (copy.is_object() && copy.contains("gradients") && copy["gradients"].is_object()) {
     for (const char* part : {"cycle", "shafts"}) copy["gradients"].erase(part);
   }
@@ -97,11 +100,12 @@ Json drawn_case(const Json& entry) {
 Json report_view(const Json& results) {
   if (!results.is_object()) return drawn(results);
   Json view = Json::object();
+  const auto load_case = [has_life = results.contains("life")](const Json& entry) { return drawn_case(entry, has_life); };
   for (const auto& [key, section] : results.items()) {
     if (key == "given" || key == "used") {
       view[key] = section;
     } else {
-      view[key] = key == "loaded" ? drawn_list(section, drawn_case) : drawn(section);
+      view[key] = key == "loaded" ? drawn_list(section, load_case) : drawn(section);
     }
   }
   Json& names = view["names"] = Json::array();  // in the order in which tables list them

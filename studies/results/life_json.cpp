@@ -18,6 +18,21 @@ Json sn_curve_json(const std::optional<SnCurve>& curve) {
           {"static_limit_MPa", std::isfinite(curve->static_limit) ? Json(curve->static_limit) : Json()}};
 }
 
+/// A named material with the numbers of its table, and where the S-N curves have theirs from.
+Json grade_json(const LifeTable& life, Member m) {
+  const MaterialGrade& grade = *life.grade[m];
+  const auto source = [](const GivenSnCurve& given) { return std::isnan(given.limit) ? "ISO 6336-5" : "endurance limit of the study"; };
+  return {{"kind", to_string(grade.kind)},
+          {"quality", to_string(grade.quality)},
+          {"hardness", grade.hardness},
+          {"hardness_scale", hardness_scale(grade.kind)},
+          {"core_hardness_HRC", grade.core_hardness},
+          {"sigma_Hlim_MPa", contact_stress_number(grade)},
+          {"sigma_Flim_MPa", root_stress_number(grade)},
+          {"contact_limit_from", source(life.contact[m])},
+          {"root_limit_from", source(life.root[m])}};
+}
+
 Json gear_case_json(const CaseLife& of, Member m) {
   return {{"contact_safety", of.contact_safety[m]},
           {"root_safety", of.root_safety[m]},
@@ -78,8 +93,11 @@ Json spectrum_json(const SpectrumLife& spectrum) {
     json[name_of(m)] = {{"contact", damaged_point_json(spectrum.contact[m])}, {"root", damaged_point_json(spectrum.root[m])}};
   if (spectrum.map.empty()) return json;
   const auto column = [&](const auto& of) { return list(spectrum.map, of); };
-  json["map"] = {{"z_mm", column([](const FlankDamage& p) { return p.z; })},
+  json["map"] = {{"phase", column([](const FlankDamage& p) { return p.phase; })},
+                 {"tooth", column([](const FlankDamage& p) { return p.tooth; })},
+                 {"z_mm", column([](const FlankDamage& p) { return p.z; })},
                  {"pinion_radius_mm", column([](const FlankDamage& p) { return p.pinion_radius; })},
+                 {"wheel_radius_mm", column([](const FlankDamage& p) { return p.wheel_radius; })},
                  {"pinion_damage", column([](const FlankDamage& p) { return p.damage.pinion; })},
                  {"wheel_damage", column([](const FlankDamage& p) { return p.damage.wheel; })}};
   return json;
@@ -93,6 +111,7 @@ Json life_json(const StudyResults& results) {
   for (const Member m : both_gears) {
     json[name_of(m)] = {{"contact_sn_curve", sn_curve_json(results.life_model->strength[m].contact)},
                         {"root_sn_curve", sn_curve_json(results.life_model->strength[m].root)}};
+    if (results.study.life.grade[m]) json[name_of(m)]["strength"] = grade_json(results.study.life, m);
   }
   json["cases"] = list(life.cases, [&](const CaseLife& of) { return life_case_json(results, of); });
   json["spectra"] = list(life.spectra, spectrum_json);

@@ -53,6 +53,19 @@ std::string sum_line(const SpectrumLife& spectrum, std::size_t width) {
   return out;
 }
 
+/// "pinion of case_hardened MQ, 700 HV: sigma_Hlim 1400 MPa of the study (ISO 6336-5: 1500), sigma_Flim 425 MPa of ISO 6336-5"
+std::string grade_line(const LifeTable& life, Member m) {
+  if (!life.grade[m]) return {};
+  const MaterialGrade& grade = *life.grade[m];
+  const auto limit = [](const GivenSnCurve& given, double of_table) {
+    return std::isnan(given.limit) ? fmt::format("{:.5g} MPa of ISO 6336-5", of_table)
+                                   : fmt::format("{:.5g} MPa of the study (ISO 6336-5: {:.5g})", given.limit, of_table);
+  };
+  return fmt::format("{} of {} {}, {:g} {}: sigma_Hlim {}, sigma_Flim {}\n", name_of(m), to_string(grade.kind), to_string(grade.quality),
+                     grade.hardness, hardness_scale(grade.kind), limit(life.contact[m], contact_stress_number(grade)),
+                     limit(life.root[m], root_stress_number(grade)));
+}
+
 }  // namespace
 
 std::string life_table(const StudyResults& results, std::size_t width) {
@@ -81,6 +94,7 @@ std::string life_table(const StudyResults& results, std::size_t width) {
   }
   if (life.cases.size() > most_cases) out += fmt::format("... {} load cases more in life.csv\n", life.cases.size() - most_cases);
   for (const SpectrumLife& spectrum : life.spectra) out += sum_line(spectrum, width);
+  for (const Member m : each_gear) out += grade_line(results.study.life, m);
   return out;
 }
 

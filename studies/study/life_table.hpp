@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/rating/life_model.hpp"
+#include "core/rating/material_strength.hpp"
 
 namespace flankwright::studies {
 
@@ -20,13 +21,14 @@ struct SpectrumBin {
 
 /// An S-N curve as given: an endurance limit and either life factors of ISO 6336 or numbers of one's own.
 struct GivenSnCurve {
-  double limit{not_given};                         ///< sigma_Hlim or sigma_Flim [MPa]; NaN: none
-  LifeFactors factors{LifeFactors::CaseHardened};  ///< where no exponent is given
+  double limit{not_given};             ///< sigma_Hlim or sigma_Flim [MPa]; NaN: that of the named material, or none
+  std::optional<LifeFactors> factors;  ///< where no exponent is given; empty: those of the named material, or of case-hardened steel
   double exponent{not_given}, knee{not_given}, exponent_beyond{not_given};
 };
 
 /// Materials as far as life goes, and [lubricant].
 struct LifeTable {
+  PerGear<std::optional<MaterialGrade>> grade;  ///< a material named by ISO 6336-5
   PerGear<GivenSnCurve> contact, root;
   bool has_lubricant{false};
   Lubricant lubricant;

@@ -30,6 +30,17 @@ void change_curves(StudyBuilder& builder, Member m, const Change& change) {
   }
 }
 
+/// Changes the named material of both gears, or of one.
+template <bool of_both, class Change>
+void change_grades(StudyBuilder& builder, Member m, const Change& change) {
+  for (const Member member : {Member::Pinion, Member::Wheel}) {
+    if (!of_both && member != m) continue;
+    std::optional<MaterialGrade>& grade = life(builder).grade[member];
+    if (!grade) grade.emplace();
+    change(*grade);
+  }
+}
+
 /// The keys of one kind of S-N curve, of both gears or of one.
 template <Curves curves, bool of_both>
 void append_curve(std::vector<SchemaKey>& rows, const std::string& table, const char* kind, const char* limit_meaning) {
@@ -37,7 +48,7 @@ void append_curve(std::vector<SchemaKey>& rows, const std::string& table, const 
   rows.push_back({.path = name + "_endurance_limit",
                   .quantity = Quantity::Stress,
                   .range = strength_range,
-                  .fallback = none,
+                  .fallback = of_both ? "(that of strength, else none)" : none,
                   .meaning = limit_meaning,
                   .store = [](StudyBuilder& d, Member m, const Value& v) {
                     change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c.limit = v.number; });
@@ -46,7 +57,7 @@ void append_curve(std::vector<SchemaKey>& rows, const std::string& table, const 
                   .kind = WordOrTable,
                   .words = {"through_hardened", "case_hardened", "nitrided", "nitrocarburised"},  // as LifeFactors
 
-                  .fallback = of_both ? "(case_hardened)" : "(as [material])",
+                  .fallback = of_both ? "(that of strength.kind, else case_hardened)" : "(as [material])",
                   .meaning = "life factors of ISO 6336 for a heat treatment, or a curve of one's own",
                   .store = [](StudyBuilder& d, Member m, const Value& v) {
                     if (!v.text.empty())
@@ -72,6 +83,46 @@ void append_curve(std::vector<SchemaKey>& rows, const std::string& table, const 
                   .meaning = "p below the endurance limit, at least exponent",
                   .store = [](StudyBuilder& d, Member m, const Value& v) {
                     change_curves<curves, of_both>(d, m, [&](GivenSnCurve& c) { c.exponent_beyond = v.number; });
+                  }});
+}
+
+/// The keys of a material named by ISO 6336-5, of both gears or of one.
+template <bool of_both>
+void append_grade(std::vector<SchemaKey>& rows, const std::string& table) {
+  const std::string name = table + "material.strength.", none = of_both ? "(none)" : "(as [material])";
+  const auto words_of = [](int count, auto first) {
+    std::vector<std::string> words;
+    for (int i = 0; i < count; ++i) words.emplace_back(to_string(static_cast<decltype(first)>(i)));
+    return words;
+  };
+  rows.push_back({.path = name + "kind",
+                  .kind = Word,
+                  .words = words_of(material_kind_count, MaterialKind{}),
+                  .fallback = none,
+                  .meaning = "material and heat treatment by ISO 6336-5, whose table gives the endurance limits that are not given; needs hardness",
+                  .store = [](StudyBuilder& d, Member m, const Value& v) {
+                    change_grades<of_both>(d, m, [&](MaterialGrade& g) { g.kind = static_cast<MaterialKind>(v.integer); });
+                  }});
+  rows.push_back({.path = name + "quality",
+                  .kind = Word,
+                  .words = words_of(3, MaterialQuality{}),
+                  .fallback = of_both ? "(MQ)" : none,
+                  .meaning = "of material and heat treatment, ISO 6336-5",
+                  .store = [](StudyBuilder& d, Member m, const Value& v) {
+                    change_grades<of_both>(d, m, [&](MaterialGrade& g) { g.quality = static_cast<MaterialQuality>(v.integer); });
+                  }});
+  rows.push_back(
+      {.path = name + "hardness",
+       .range = above_zero(1200.0),
+       .fallback = none,
+       .meaning = "of the surface, HBW of normalised steel and cast iron, else HV; the table has a range for each kind and quality",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { change_grades<of_both>(d, m, [&](MaterialGrade& g) { g.hardness = v.number; }); }});
+  rows.push_back({.path = name + "core_hardness",
+                  .range = {.low = 25.0, .high = 60.0},
+                  .fallback = of_both ? "(25)" : none,
+                  .meaning = "HRC, of case_hardened MQ alone: from 30 on its sigma_Flim is 500 MPa, below 425 MPa",
+                  .store = [](StudyBuilder& d, Member m, const Value& v) {
+                    change_grades<of_both>(d, m, [&](MaterialGrade& g) { g.core_hardness = v.number; });
                   }});
 }
 
@@ -111,8 +162,10 @@ std::vector<SchemaKey> life_rows() {
   };
   constexpr auto contact_meaning = "sigma_Hlim that the flank bears for the cycles at the knee, with the factors of lubricant, speed, roughness, hardness and size in it";
   constexpr auto root_meaning = "nominal sigma_Flim, with the relative factors of notch, surface and size in it; a fillet's own stress may reach twice that, Y_ST = 2";
+  append_grade<true>(rows, "");
   append_curve<&LifeTable::contact, true>(rows, "", "contact", contact_meaning);
   append_curve<&LifeTable::root, true>(rows, "", "root", root_meaning);
+  append_grade<false>(rows, "gear.");
   append_curve<&LifeTable::contact, false>(rows, "gear.", "contact", contact_meaning);
   append_curve<&LifeTable::root, false>(rows, "gear.", "root", root_meaning);
   const std::vector<SchemaKey> oil{

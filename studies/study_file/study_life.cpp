@@ -83,10 +83,15 @@ void check_bin(StudyReading& reading, SpectrumBin& bin, int index) {
   bin.cycles = bin.hours * bin.speed / (2.0 * units::pi);
 }
 
-std::optional<SnCurve> sn_curve(const GivenSnCurve& given, bool is_root) {
-  if (std::isnan(given.limit)) return std::nullopt;
-  const double limit = is_root ? notch_of_test_gear * given.limit : given.limit;
-  if (std::isnan(given.exponent)) return is_root ? root_sn_curve(given.factors, limit) : contact_sn_curve(given.factors, limit);
+std::optional<SnCurve> sn_curve(const std::optional<MaterialGrade>& grade, const GivenSnCurve& given, bool is_root) {
+  double limit = given.limit;
+  if (std::isnan(limit) && grade) limit = is_root ? root_stress_number(*grade) : contact_stress_number(*grade);
+  if (std::isnan(limit)) return std::nullopt;
+  if (is_root) limit *= notch_of_test_gear;
+  if (std::isnan(given.exponent)) {
+    const LifeFactors factors = given.factors.value_or(grade ? life_factors(grade->kind) : LifeFactors::CaseHardened);
+    return is_root ? root_sn_curve(factors, limit) : contact_sn_curve(factors, limit);
+  }
   SnCurve curve;
   curve.limit = limit;
   curve.knee = given.knee;
@@ -95,11 +100,34 @@ std::optional<SnCurve> sn_curve(const GivenSnCurve& given, bool is_root) {
   return curve;
 }
 
-void check_curve(StudyReading& reading, const GivenSnCurve& curve, Member member, const std::string& kind) {
-  const auto path_of = [&](const std::string& key) {
-    const std::string own = std::string(name_of(member)) + ".material." + kind + key;
-    return reading.find(own) != nullptr ? own : "material." + kind + key;
+/// Where a key of a gear's material is given: its own, else that of both gears.
+std::string material_path(const StudyReading& reading, Member member, const std::string& key) {
+  const std::string own = std::string(name_of(member)) + ".material." + key;
+  return reading.find(own) != nullptr ? own : "material." + key;
+}
+
+/// A named material is complete and in the range of its table; one that is not is forgotten.
+void check_grade(StudyReading& reading, Member member) {
+  std::optional<MaterialGrade>& grade = reading.builder.study.life.grade[member];
+  if (!grade) return;
+  const auto refuse = [&](const std::string& key, const std::string& allowed) {
+    const std::string path = material_path(reading, member, "strength." + key);
+    const auto said = [&](const StudyProblem& problem) { return problem.key == path; };  // of the other gear
+    if (std::ranges::none_of(reading.problems, said)) reading.refuse_key(path, "allowed is " + allowed);
+    grade.reset();
   };
+  if (reading.find(material_path(reading, member, "strength.kind")) == nullptr) return refuse("kind", "a kind of material, with hardness");
+  if (std::isnan(grade->hardness)) return refuse("hardness", "a number: a named material needs it");
+  try {
+    contact_stress_number(*grade);
+    root_stress_number(*grade);
+  } catch (const InvalidInput& problem) {
+    refuse(problem.field(), problem.allowed());
+  }
+}
+
+void check_curve(StudyReading& reading, const GivenSnCurve& curve, Member member, const std::string& kind) {
+  const auto path_of = [&](const std::string& key) { return material_path(reading, member, kind + key); };
   const auto given = [&](const std::string& key) { return reading.find(path_of(key)) != nullptr; };
   if (std::isnan(curve.exponent) != std::isnan(curve.knee)) {
     const std::string missing = std::isnan(curve.exponent) ? "_sn_curve.exponent" : "_sn_curve.knee";
@@ -109,8 +137,8 @@ void check_curve(StudyReading& reading, const GivenSnCurve& curve, Member member
   if (!std::isnan(curve.exponent_beyond) && !(curve.exponent_beyond >= curve.exponent)) {
     reading.refuse_key(path_of("_sn_curve.exponent_beyond"), "allowed is a number of at least exponent, with exponent and knee");
   }
-  if (given("_sn_curve") && !given("_endurance_limit")) {
-    reading.refuse_key(path_of("_sn_curve"), "has a meaning with " + path_of("_endurance_limit") + " only");
+  if (given("_sn_curve") && !given("_endurance_limit") && !reading.builder.study.life.grade[member]) {
+    reading.refuse_key(path_of("_sn_curve"), "has a meaning with " + path_of("_endurance_limit") + " or material.strength only");
   }
 }
 
@@ -154,6 +182,7 @@ void read_spectrum(StudyReading& reading) {
 void check_life(StudyReading& reading) {
   const Study& study = reading.builder.study;
   for (const Member m : both_gears) {
+    check_grade(reading, m);
     check_curve(reading, study.life.contact[m], m, "contact");
     check_curve(reading, study.life.root[m], m, "root");
   }
@@ -173,7 +202,9 @@ void check_life(StudyReading& reading) {
 std::shared_ptr<const LifeModel> life_model(const Study& study) {
   if (!asks_for_life(study)) return nullptr;
   auto model = std::make_shared<LifeModel>();
-  for (const Member m : both_gears) model->strength[m] = {sn_curve(study.life.contact[m], false), sn_curve(study.life.root[m], true)};
+  const LifeTable& life = study.life;
+  for (const Member m : both_gears)
+    model->strength[m] = {sn_curve(life.grade[m], life.contact[m], false), sn_curve(life.grade[m], life.root[m], true)};
   if (study.life.has_lubricant) model->lubricant = study.life.lubricant;
   model->roughness = study.life.roughness / units::um;
   model->bulk_temperature = study.life.bulk_temperature;
@@ -182,7 +213,9 @@ std::shared_ptr<const LifeModel> life_model(const Study& study) {
 }
 
 bool asks_for_life(const Study& study) {
-  const auto has_strength = [&](Member m) { return !std::isnan(study.life.contact[m].limit) || !std::isnan(study.life.root[m].limit); };
+  const auto has_strength = [&](Member m) {
+    return study.life.grade[m] || !std::isnan(study.life.contact[m].limit) || !std::isnan(study.life.root[m].limit);
+  };
   const auto has_speed = [](const Scene& scene) { return !std::isnan(scene.speed); };
   return !study.spectrum.empty() || study.life.has_lubricant || std::ranges::any_of(both_gears, has_strength) ||
          std::ranges::any_of(study.scenes, has_speed);

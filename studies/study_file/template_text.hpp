@@ -66,6 +66,8 @@ tip_relief = { amount = 10, height = 1.5 }
 [material]
 youngs_modulus = 206000              # MPa; "206 GPa" is understood as well, as everywhere
 poissons_ratio = 0.3
+# strength = { kind = "case_hardened", quality = "MQ", hardness = 700 }          # by ISO 6336-5: safeties and damage; core_hardness = 32 (HRC)
+# contact_endurance_limit = 1450     # MPa, instead of the table's; likewise root_endurance_limit
 )";
 
 }  // namespace flankwright::studies

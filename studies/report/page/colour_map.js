@@ -37,7 +37,7 @@ function sharp_canvas(width, height, label) {
   return { canvas, pen };
 }
 
-/** Vertical colour bar of `scale` {low, high} with its unit on top, as high as the maps beside it. */
+/** Vertical colour bar of `scale` {low, high, ticks?: [{at, text}]} with its unit on top, as high as the maps beside it. */
 function colour_bar(scale, unit, height) {
   const width = 76, top = 26, bottom = 40;
   const { canvas, pen } = sharp_canvas(width, height,
@@ -51,10 +51,10 @@ function colour_bar(scale, unit, height) {
   pen.fillStyle = css_colour("muted");
   pen.textBaseline = "middle";
   pen.fillText(unit, 6, 10);
-  for (const tick of round_ticks(scale.low, scale.high, 5)) {
-    const y = top + span * (1 - (tick - scale.low) / (scale.high - scale.low || 1));
+  for (const { at, text } of scale.ticks ?? round_ticks(scale.low, scale.high, 5).map((tick) => ({ at: tick, text: fmt(tick) }))) {
+    const y = top + span * (1 - (at - scale.low) / (scale.high - scale.low || 1));
     pen.fillRect(20, y - 0.5, 4, 1);
-    pen.fillText(fmt(tick), 28, y);
+    pen.fillText(text, 28, y);
   }
   return canvas;
 }

@@ -31,7 +31,7 @@ function fmt(x, digits = 4) {
   const size = Math.abs(x);
   let text = String(Number(x.toPrecision(digits)));
   if (size >= 10 ** digits && size < 1e7) text = String(Math.round(x));
-  if (size < 1e-4) {
+  if (size < 1e-4 || size >= 1e7) {
     const [mantissa, power] = x.toExponential(1).split("e");
     text = `${mantissa}·10${[...power].map((c) => (c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c])).join("")}`;
   }

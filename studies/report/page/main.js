@@ -12,6 +12,7 @@ const BUILDERS = {
   governing: build_governing,
   sensitivity: build_sensitivity,
   "flank-load": build_flank_load,
+  life: build_life,
   modifications: build_modifications,
   stiffness: build_stiffness,
   gradients: build_gradients,

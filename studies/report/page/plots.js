@@ -40,7 +40,7 @@ const legend = (show, of_lines = false) => ({
   },
 });
 
-/** Plugin that writes texts beside points where they cover neither another such point nor another text; texts without room are left out. */
+/** Plugin that writes texts beside points where they cover neither another such point nor another text; texts without room are left out. Those with `above` are tried over the middle of their point first. */
 const point_labels = (labels) => ({
   id: "point_labels",
   afterDatasetsDraw: ({ ctx: pen, scales, chartArea: area }) => {
@@ -53,12 +53,12 @@ const point_labels = (labels) => ({
     pen.strokeStyle = css_colour("surface");
     pen.fillStyle = css_colour("ink");
     const inside = ({ x, y }) => x >= area.left && x <= area.right && y >= area.top && y <= area.bottom;
-    const points = labels.map(({ x, y, text }) => ({ x: scales.x.getPixelForValue(x), y: scales.y.getPixelForValue(y), text })).filter(inside);
+    const points = labels.map(({ x, y, text, above }) => ({ x: scales.x.getPixelForValue(x), y: scales.y.getPixelForValue(y), text, above })).filter(inside);
     const taken = points.map(({ x, y }) => ({ left: x - 9, right: x + 9, top: y - 9, bottom: y + 9 }));
-    for (const { x, y, text } of points) {
+    for (const { x, y, text, above } of points) {
       const width = pen.measureText(text).width;
       const right = x + 12, left = x - 12 - width;
-      const places = [[right, y + 18], [left, y + 18], [right, y], [left, y], [right, y - 18], [left, y - 18]];
+      const places = [...(above ? [[Math.max(area.left + 4, x - 0.5 * width), y - 18]] : []), [right, y + 18], [left, y + 18], [right, y], [left, y], [right, y - 18], [left, y - 18]];
       const box = ([at, middle]) => ({ left: at - 3, right: at + width + 3, top: middle - 7, bottom: middle + 7 });
       const free = places.find((place) => {
         const own = box(place);
@@ -84,7 +84,7 @@ function make_chart(plot, config, height) {
  * Curves or points over a linear axis.
  * @param curves  [{label, points: [{x, y}], colour, width?, quiet?, dashed?, scatter?, style?, order?}];
  *                a quiet curve is background: no legend entry, no read-out
- * @param labels  [{x, y, text}] written beside their points
+ * @param labels  [{x, y, text, above?}] written beside their points
  */
 function xy_chart(plot, options) {
   const { label, curves, x, y, x_range = {}, y_range = {}, read_x, read_y, nearest = "x", height = 290, labels = [] } = options;
@@ -154,8 +154,8 @@ const error_whiskers = {
   },
 };
 
-/** Bars side by side, one group a label. @param series  [{label, values, errors?, colour}] */
-function bar_chart(plot, { label, labels, series, x, y, unit, height = 290 }) {
+/** Bars side by side, one group a label. @param series  [{label, values, errors?, colour}] @param y_range  options of the y axis */
+function bar_chart(plot, { label, labels, series, x, y, unit, y_range = {}, height = 290 }) {
   const drowned = (s, i) => list(s.errors)[i] >= Math.abs(s.values[i]);
   const highest = maximum(series.flatMap((s) => s.values.map((value, i) => value + (list(s.errors)[i] ?? 0))));
   make_chart(plot, {
@@ -174,7 +174,7 @@ function bar_chart(plot, { label, labels, series, x, y, unit, height = 290 }) {
       interaction: { mode: "index", intersect: false },
       scales: {
         x: axis(x, { grid: { display: false }, ticks: { callback: (_, i) => labels[i] } }),
-        y: axis(y, { beginAtZero: true, ...(is_number(highest) ? { suggestedMax: highest } : {}) }),
+        y: axis(y, { beginAtZero: true, ...(is_number(highest) ? { suggestedMax: highest } : {}), ...y_range }),
       },
       plugins: {
         legend: { ...legend(series.length > 1), labels: { boxWidth: 12, boxHeight: 12,

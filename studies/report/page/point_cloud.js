@@ -3,14 +3,15 @@
 /**
  * All contact points of a mesh cycle: [{z, r, value, phase, tooth, tip_edge, edge_stress}]; tip_edge is the gear whose tip edge contact reaches, or null.
  * @param values_of  (position, columns of one tooth's points) -> values of a quantity; points without a number are left out
+ * @param radius  column of the radius: that of the pinion's flank or of the wheel's
  */
-function contact_points(entry, values_of) {
+function contact_points(entry, values_of, radius = "pinion_radius_mm") {
   const points = [];
   for (const position of list(record(entry).cycle).map(record)) {
     for (const tooth of list(position.teeth).map(record)) {
       const columns = record(tooth.points);
       values_of(position, columns).forEach((value, i) => {
-        const z = list(columns.z_mm)[i], r = list(columns.pinion_radius_mm)[i];
+        const z = list(columns.z_mm)[i], r = list(columns[radius])[i];
         if (is_number(value) && is_number(z) && is_number(r)) {
           points.push({ z, r, value, phase: position.phase, tooth: tooth.tooth, tip_edge: list(columns.tip_edge)[i] ?? null,
             edge_stress: list(columns.edge_stress_MPa)[i] ?? null });

@@ -59,17 +59,21 @@ void check_life_outputs(StudyReading& reading) {
   check_sums(reading, "optimise.objective", study.optimise.objective);
   for (const Objective& objective : study.optimise.later_objectives) check_sums(reading, "optimise.objective", objective.terms);
   const std::shared_ptr<const LifeModel> life = life_model(study);
-  const auto has_curve = [&](auto FatigueStrength::*kind) { return life && (life->strength.pinion.*kind || life->strength.wheel.*kind); };
+  const auto named = [&](const char* table) { return reading.find(std::string(table) + "material.strength.kind") != nullptr; };
+  const bool is_named = named("") || named("pinion.") || named("wheel.");  // and has curves, or was refused already
+  const auto has_curve = [&](auto FatigueStrength::*kind) {
+    return is_named || (life && (life->strength.pinion.*kind || life->strength.wheel.*kind));
+  };
   for (const auto& [key, term] : all_terms(study.optimise)) {
     const DesignOutput& row = design_output(term.output);
     if (row.is_least && !key.starts_with("optimise.constraints."))
       reading.refuse_key(key, term.name + " is better where it is large: allowed is { min = ... } in optimise.constraints");
     if (row.over_spectrum && study.spectrum.empty()) reading.refuse_key(key, term.name + " needs load.spectrum");
     if (term.output == Output::ContactDamage && !has_curve(&FatigueStrength::contact)) {
-      reading.refuse_key(key, term.name + " needs material.contact_endurance_limit");
+      reading.refuse_key(key, term.name + " needs material.strength or material.contact_endurance_limit");
     }
     if (term.output == Output::RootDamage && !has_curve(&FatigueStrength::root))
-      reading.refuse_key(key, term.name + " needs material.root_endurance_limit");
+      reading.refuse_key(key, term.name + " needs material.strength or material.root_endurance_limit");
     if (term.output != Output::SpecificFilmThickness) continue;
     if (!study.life.has_lubricant) reading.refuse_key(key, term.name + " needs a table [lubricant]");
     const auto no_speed = [](const auto& of) { return std::isnan(of.speed); };

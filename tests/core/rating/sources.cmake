@@ -7,6 +7,7 @@ list(APPEND FLANKWRIGHT_TEST_SOURCES
      ${CMAKE_CURRENT_LIST_DIR}/line_ends_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/load_factors_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/load_sharing_test.cpp
+     ${CMAKE_CURRENT_LIST_DIR}/material_strength_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/peak_gradient_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/sliding_loss_test.cpp
      ${CMAKE_CURRENT_LIST_DIR}/sn_curve_test.cpp)

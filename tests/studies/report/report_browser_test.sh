@@ -32,6 +32,7 @@ look() {
 
 look helical-18-54 flank-load modifications scenes governing comparison convergence
 look parabola-18-54 flank-load search
+look spectrum-19-62 life flank-load scenes
 look ete-27-43 flank-load modifications stiffness
 look nasa-30-100 unloaded gear-pair
 look sweep-18-54 scatter indices response-maps

@@ -61,6 +61,21 @@
     }
   }
 
+  // Damage of load cases adds up to that of the spectrum; bars below a millionth are not drawn.
+  for (const canvas of document.querySelectorAll('#life canvas[aria-label$="damage of each load case"]')) {
+    for (const { label, data } of Chart.getChart(canvas).data.datasets) {
+      const sum = data.slice(0, -1).reduce((a, b) => a + (b ?? 0), 0), whole = data[data.length - 1];
+      check(Math.abs(sum - whole) <= 1e-5 * whole + 1e-6 * data.length, `the damage of "${label}" is ${whole}, and its load cases have ${sum}`);
+    }
+  }
+  const flank = [...document.querySelectorAll("#life select")].pop();
+  if (flank) {
+    const shown = document.getElementById("life").textContent, other = [...flank.options].find((option) => option.value !== flank.value);
+    flank.value = other.value;
+    flank.dispatchEvent(new Event("change"));
+    check(document.getElementById("life").textContent !== shown, "the choice of the flank changes nothing");
+  }
+
   let moved = 0;
   for (const input of document.querySelectorAll("input[type=range]")) {
     const section = input.closest("section"), before = picture(section), text = section.textContent;

@@ -234,6 +234,26 @@ TEST_CASE("The page has derivatives where some were asked for, those of the summ
   CHECK_FALSE(seen.contains("shafts"));
 }
 
+TEST_CASE("The page has the life of a study that asks for it, and the wheel's radii to draw it on", "[studies][report][life]") {
+  Json results = sample::loaded_results(1);
+  const auto sections_of = [&] { return section_ids(render_report(results)); };
+  const auto first_tooth = [](const Json& of) -> const Json& { return of.at("loaded")[0].at("cycle")[0].at("teeth")[0]; };
+  const auto without = sections_of();
+  CHECK(std::ranges::find(without, "life") == without.end());
+  CHECK_FALSE(first_tooth(report_view(results)).at("points").contains("wheel_radius_mm"));
+  for (Json& point : results["loaded"][0]["cycle"][0]["teeth"][0]["points"]) point["wheel_radius_mm"] = 300.0;
+  results["life"] = {{"cases", {{{"scene", "nominal"}, {"design", "given"}, {"torque_Nm", 320.0}}}}, {"spectra", Json::array()}};
+  const auto ids = sections_of();
+  const auto life = std::ranges::find(ids, "life");
+  REQUIRE(life != ids.end());
+  CHECK(*std::prev(life) == "flank-load");
+  CHECK(*std::next(life) == "transmission-error");
+  const Json view = report_view(results);
+  CHECK(first_tooth(view).at("points").at("wheel_radius_mm") == Json(Json::array_t(first_tooth(results).at("points").size(), 300.0)));
+  results["life"]["cases"] = Json::array();
+  CHECK(sections_of() == without);
+}
+
 TEST_CASE("The page sees a small transmission error on top of a large backlash", "[studies][report]") {
   Json results = sample::unloaded_results();
   results["unloaded"]["mesh"]["te_arcsec"] = {-1167.23456, -1167.23321};

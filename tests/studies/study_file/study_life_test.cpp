@@ -133,6 +133,56 @@ TEST_CASE("What is wrong with strength or lubricant is told by its key", "[studi
   CHECK(with("[lubricant]\nviscosity_40 = 100\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\n").empty());
 }
 
+TEST_CASE("A named material has the limits and life factors of ISO 6336, below what the study gives itself", "[studies][life]") {
+  const Study study = life_study(life_pair + two_bins + R"(
+[material]
+strength = { kind = "case_hardened", quality = "MQ", hardness = 700 }
+root_endurance_limit = 461
+[wheel.material]
+strength = { kind = "nitrided_nitriding_steel", hardness = 750 }
+contact_sn_curve = "nitrocarburised"
+)");
+  const auto life = life_model(study);
+  REQUIRE(life);
+  CHECK(life->strength.pinion.contact->limit == 1500.0);
+  CHECK(life->strength.pinion.contact->knee == 5e7);
+  CHECK(life->strength.pinion.root->limit == 922.0);  // Y_ST = 2
+  CHECK(life->strength.wheel.contact->limit == 1250.0);
+  CHECK(life->strength.wheel.contact->exponent == contact_sn_curve(LifeFactors::Nitrocarburised, 1250.0).exponent);
+  CHECK(life->strength.wheel.root->exponent == root_sn_curve(LifeFactors::Nitrided, 922.0).exponent);
+
+  const Json json = results_document(run_study(study)).at("life");
+  const Json &pinion = json.at("pinion").at("strength"), &wheel = json.at("wheel").at("strength");
+  CHECK(pinion.at("kind") == "case_hardened");
+  CHECK(pinion.at("hardness_scale") == "HV");
+  CHECK(pinion.at("sigma_Hlim_MPa") == 1500.0);
+  CHECK(pinion.at("contact_limit_from") == "ISO 6336-5");
+  CHECK(wheel.at("sigma_Flim_MPa") == 420.0);  // of the table; used is the study's own
+  CHECK(wheel.at("root_limit_from") == "endurance limit of the study");
+  CHECK(json.at("wheel").at("root_sn_curve").at("limit_MPa") == 922.0);
+}
+
+TEST_CASE("What is wrong with a named material is told by its key", "[studies][life]") {
+  const auto with = [](const std::string& strength) { return life_problem(life_pair + two_bins + "[material]\nstrength = { " + strength + " }\n"); };
+  CHECK(with("kind = \"case_hardened\", hardness = 700").key.empty());
+  CHECK(with("kind = \"case_hardened\"").key == "material.strength.hardness");
+  CHECK(with("hardness = 700").key == "material.strength.kind");
+  CHECK(with("kind = \"hardened\", hardness = 700").key == "material.strength.kind");
+  CHECK(with("kind = \"case_hardened\", quality = \"MX\", hardness = 700").key == "material.strength.quality");
+  const StudyProblem soft = with("kind = \"case_hardened\", hardness = 580");
+  CHECK(soft.key == "material.strength.hardness");
+  CHECK(soft.value == "580");
+  CHECK(soft.allowed == "allowed is 660 .. 800 HV for sigma_Hlim of case_hardened MQ");
+  CHECK(with("kind = \"induction_hardened\", hardness = 550, core_hardness = 30").key == "material.strength.core_hardness");
+  const StudyProblem of_wheel = life_problem(life_pair + two_bins + R"(
+[material]
+strength = { kind = "case_hardened", hardness = 700 }
+[wheel.material]
+strength.hardness = 900
+)");
+  CHECK(of_wheel.key == "wheel.material.strength.hardness");
+}
+
 TEST_CASE("An optimisation says what damage and film need", "[studies][life]") {
   const std::string optimise = "task = \"optimise\"\n" + life_pair;
   const std::string variables = "[optimise.variables]\n\"pinion.modification.lead_crowning\" = [0, 20]\n";
