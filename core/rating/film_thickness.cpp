@@ -2,14 +2,14 @@
 
 #include <cmath>
 
+#include "core/rating/contact_temperature.hpp"
 #include "core/rating/sliding_loss.hpp"
 
 namespace flankwright {
 
 namespace {
 
-constexpr double metre = 1e3;                                     // in mm
-const double thermal_contact = std::sqrt(45.0 * 7800.0 * 440.0);  // of steel [N/(m s^0.5 K)]
+constexpr double metre = 1e3;  // in mm
 
 double mean_friction(const GearPair& pair, double face_width, double force, const Lubricant& lubricant, const FilmCondition& condition) {
   const double v_sum = 2.0 * condition.speed * pair.pitch_point / metre, rho = pitch_point_radius(pair);
@@ -32,16 +32,19 @@ FilmCondition film_condition(const GearPair& pair, double face_width, double for
   return given;
 }
 
+RollingSpeeds rolling_speeds(const GearPair& pair, const ContactPoint& point, double speed) {
+  return {speed * pair.pinion.roll_length_at(point.pinion_radius) / metre,
+          speed / pair.gear_ratio() * pair.wheel.roll_length_at(point.wheel_radius) / metre};
+}
+
 LocalFilm local_film(const GearPair& pair, double contact_modulus, const ContactPoint& point, double line_load, const Lubricant& lubricant,
                      const FilmCondition& condition) {
   LocalFilm film;
-  const double v_1 = condition.speed * pair.pinion.roll_length_at(point.pinion_radius) / metre;
-  const double v_2 = condition.speed / pair.gear_ratio() * pair.wheel.roll_length_at(point.wheel_radius) / metre;
+  const auto [v_1, v_2] = rolling_speeds(pair, point, condition.speed);
   if (!(line_load > 0.0) || !(v_1 + v_2 > 0.0)) return film;
   const double E_r = 2.0 * contact_modulus, rho = point.relative_radius;
   const double p = std::sqrt(line_load * contact_modulus / (units::pi * rho));
-  film.flash_temperature = std::sqrt(units::pi) / 2.0 * condition.friction * 1e6 * p * std::abs(v_1 - v_2) /
-                           (thermal_contact * (std::sqrt(v_1) + std::sqrt(v_2))) * std::sqrt(8.0 * rho * p / (1000.0 * E_r));
+  film.flash_temperature = flash_temperature(pair, contact_modulus, point, line_load, condition, HeatSource::Uniform);
   const double theta_B = condition.bulk_temperature + film.flash_temperature;
   const Lubricant::Property alpha = lubricant.pressure_viscosity(condition.bulk_temperature), alpha_B = lubricant.pressure_viscosity(theta_B);
   const Lubricant::Property eta = lubricant.dynamic_viscosity(condition.bulk_temperature), eta_B = lubricant.dynamic_viscosity(theta_B);

@@ -30,12 +30,21 @@ struct FilmCondition {
 /// @param given  speed, oil_temperature and roughness; a bulk_temperature that is given is kept
 FilmCondition film_condition(const GearPair& pair, double face_width, double force, const Lubricant& lubricant, FilmCondition given);
 
+/// Speeds of the flanks at a contact point, along the profile in the transverse section [m/s].
+struct RollingSpeeds {
+  double pinion, wheel;
+};
+
+/// omega rho_t of both flanks.
+/// @param speed  of the pinion [rad/s]
+RollingSpeeds rolling_speeds(const GearPair& pair, const ContactPoint& point, double speed);
+
 /// A local number and its derivative by the line load.
 struct LocalFilm {
   double ratio{not_given};              ///< lambda_GF, film thickness over Ra [-]; NaN without load or at a standstill
   double slope{not_given};              ///< by the line load [mm/N]
   double thickness{not_given};          ///< h [um]
-  double flash_temperature{not_given};  ///< theta_fl [K]
+  double flash_temperature{not_given};  ///< theta_fl of the uniform source [K]
 };
 
 /// Specific lubricant film thickness of one point under a line load [ISO/TR 15144-1:2014, now ISO/TS 6336-22, method A],
@@ -47,7 +56,7 @@ struct LocalFilm {
 ///
 /// p is Hertz's pressure of the line load on the flank: that on a tip edge, whose radius is another, is no part of it. v_r = omega rho_t of either flank, v_g their
 /// difference, v_Sigma their sum [m/s]. B_M = sqrt(45 * 7800 * 440) N/(m s^0.5 K) of steel. h is Dowson's and Higginson's line contact with the sliding factor S, and
-/// theta_fl Blok's uniform source over Hertz's width.
+/// theta_fl Blok's uniform source over Hertz's width, 1.6 % above the flash temperature of scuffing: see flash_temperature().
 LocalFilm local_film(const GearPair& pair, double contact_modulus, const ContactPoint& point, double line_load, const Lubricant& lubricant,
                      const FilmCondition& condition);
 

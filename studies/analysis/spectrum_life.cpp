@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/rating/film_thickness.hpp"
+#include "core/rating/contact_temperature.hpp"
 #include "core/rating/sliding_loss.hpp"
 #include "studies/study_file/study_life.hpp"
 
@@ -40,6 +40,7 @@ void add_loss(const MeshModel& model, const LifeModel& life, const LoadedResult&
   of.loss_power = of.friction * of.loss_factor * of.power;
 }
 
+/// Film and temperatures of all points.
 void add_film(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, CaseLife& of) {
   const std::optional<Oil> oil = oil_of(life, loaded);
   if (!oil || !(loaded.operation.speed > 0.0)) return;
@@ -49,12 +50,23 @@ void add_film(const MeshModel& model, const LifeModel& life, const LoadedResult&
   of.bulk_temperature = condition.bulk_temperature;
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const Eigen::VectorXd& load = loaded.cycle.positions[i].load.line_load;
+    Eigen::VectorXd& flash = of.flash.emplace_back(load.size());
     for (Eigen::Index j = 0; j < load.size(); ++j) {
       const ContactPoint& point = model.positions[i].points[static_cast<std::size_t>(j)];
       of.film = std::fmin(of.film, local_film(model.pair, model.contact_modulus, point, load[j], *oil->lubricant, condition).ratio);
+      const LocalTemperature local = local_temperature(model.pair, model.contact_modulus, point, load[j], condition);
+      flash[j] = local.flash;
+      if (std::islessequal(local.flash, of.flash_temperature)) continue;
+      of.flash_temperature = local.flash;
+      of.contact_temperature = local.contact;
+      of.hottest_z = point.z;
+      of.hottest_pinion_radius = point.pinion_radius;
     }
   }
   of.micropitting_safety = of.film / life.permissible_film;
+  if (of.contact_temperature > oil->temperature) {
+    of.scuffing_safety = scuffing_safety(life.scuffing_temperature, of.contact_temperature, oil->temperature);
+  }
 }
 
 /// What a curve allows in a load case over a stress.
@@ -71,7 +83,7 @@ void add_safety(const MeshModel& model, const LifeModel& life, const LoadedResul
   of.K_F = of.K_H / K_Hbeta * root_face_load_factor(model.pair, model.face_width, K_Hbeta);
   for (const Member m : both_gears) {
     const FatigueStrength& strength = life.strength[m];
-    const double cycles = load_cycles(model.pair, m, loaded.operation.revolutions);
+    const double cycles = load_cycles(model.pair, m, loaded.operation.revolutions, loaded.operation.same_teeth);
     of.iso_contact[m] = of.iso.contact_stress(m, of.K_H);
     of.iso_root[m] = of.iso.root_stress(m, of.K_F);
     of.contact_safety[m] = stress_safety(strength.contact, cycles, loaded.summary.peak_contact_stress);
@@ -87,7 +99,8 @@ class SpectrumRating {
  public:
   SpectrumRating(const StudyResults& results, const LifeModel& life, std::vector<CaseLife>& cases, SpectrumLife& spectrum)
       : results_(results), life_(life), cases_(cases), spectrum_(spectrum), model_(results.models[loaded(0).model]) {
-    for (std::size_t k = 0; k < spectrum.cases.size(); ++k) loads_.push_back({&loaded(k).cycle, loaded(k).operation.revolutions});
+    for (std::size_t k = 0; k < spectrum.cases.size(); ++k)
+      loads_.push_back({&loaded(k).cycle, loaded(k).operation.revolutions, loaded(k).operation.same_teeth});
   }
 
   void rate() {
