@@ -41,6 +41,7 @@ struct CaseLife {
 /// The point of a gear that a spectrum damages most.
 struct DamagedPoint {
   double damage{0.0};                      ///< sum over the spectrum [-]
+  double damage_error{not_given};          ///< estimated discretisation error [-]; NaN: not estimated
   double z{not_given}, radius{not_given};  ///< of a flank: on this gear [mm]
   double along{not_given};                 ///< of a fillet: as RootStation::along [-]
   bool exceeds_static_limit{false};        ///< a load case exceeds the static limit somewhere on the gear

@@ -94,6 +94,24 @@ void add_safety(const MeshModel& model, const LifeModel& life, const LoadedResul
   }
 }
 
+/// How far the largest contact stress of the mesh positions, which damage is made of, may be below that of the whole cycle and its error [-].
+double contact_stress_error(const LoadedResult& loaded) {
+  double of_positions = 0.0;
+  for (const LoadedPosition& position : loaded.cycle.positions) of_positions = std::max(of_positions, position.contact_stress.maxCoeff());
+  return (loaded.summary.peak_contact_stress + loaded.resolved.errors.peak_contact_stress) / of_positions - 1.0;
+}
+
+double root_stress_error(const LoadedResult& loaded) { return loaded.resolved.errors.peak_root_stress / loaded.summary.peak_root_stress; }
+
+/// Of one point of the fillet, over the cycle [MPa].
+double largest_root_stress(const LoadedCycle& cycle, const FilletPoints& points, Eigen::Index point) {
+  double largest = 0.0;
+  for (const FilletPoints::Pass& pass : points.passes) {
+    largest = std::max(largest, cycle.positions[pass.position].root_stress[pass.begin + point]);
+  }
+  return largest;
+}
+
 /// One spectrum of the results while its damage is found.
 class SpectrumRating {
  public:
@@ -117,6 +135,13 @@ class SpectrumRating {
     return std::ranges::all_of(loads_, [](const SpectrumCase& c) { return c.cycle->positions.front().root_stress.size() > 0; });
   }
 
+  /// Damage of one load case at a stress that is larger by its relative error, less that at the stress.
+  double added_damage(Member m, std::size_t k, const SnCurve& curve, double stress, double relative_error) const {
+    if (std::isnan(relative_error)) return not_given;
+    const double cycles = load_cycles(model_.pair, m, loads_[k].revolutions, loads_[k].same_teeth);
+    return cycles * (curve.damage(stress * (1.0 + relative_error)).value - curve.damage(stress).value);
+  }
+
   void rate_flank(Member m, const SnCurve& curve) {
     DamagedPoint worst;
     std::size_t at_position = 0, entry = 0;
@@ -136,8 +161,11 @@ class SpectrumRating {
         at_point = j;
       }
     }
+    worst.damage_error = 0.0;
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       cases_[spectrum_.cases[k]].contact_damage[m] = contact_damage_at(model_, {loads_[k]}, m, curve, at_position, at_point).value;
+      const double stress = loads_[k].cycle->positions[at_position].contact_stress[at_point];
+      worst.damage_error += added_damage(m, k, curve, stress, contact_stress_error(loaded(k)));
       worst.exceeds_static_limit = worst.exceeds_static_limit || loaded(k).summary.peak_contact_stress > curve.static_limit;
     }
     spectrum_.contact[m] = worst;
@@ -154,9 +182,11 @@ class SpectrumRating {
     const RootStation& station = model_.positions[pass.position].root_stress.stations[static_cast<std::size_t>(pass.begin + at)];
     worst.z = station.z;
     worst.along = station.along;
+    worst.damage_error = 0.0;
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       cases_[spectrum_.cases[k]].root_damage[m] = root_damage(model_, {loads_[k]}, m, curve, points)[at];
       const CycleSummary& summary = loaded(k).summary;
+      worst.damage_error += added_damage(m, k, curve, largest_root_stress(*loads_[k].cycle, points, at), root_stress_error(loaded(k)));
       const RootStressPeak& root = m == Member::Pinion ? summary.pinion_root_stress : summary.wheel_root_stress;
       worst.exceeds_static_limit = worst.exceeds_static_limit || root.stress > curve.static_limit;
     }

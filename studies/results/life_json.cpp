@@ -71,7 +71,8 @@ Json life_case_json(const StudyResults& results, const CaseLife& of) {
 
 Json damaged_point_json(const std::optional<DamagedPoint>& point) {
   if (!point) return nullptr;
-  Json json{{"damage", point->damage}, {"z_mm", point->z}, {"exceeds_static_limit", point->exceeds_static_limit}};
+  Json json{
+      {"damage", point->damage}, {"damage_error", point->damage_error}, {"z_mm", point->z}, {"exceeds_static_limit", point->exceeds_static_limit}};
   if (!std::isnan(point->radius)) json["radius_mm"] = point->radius;
   if (!std::isnan(point->along)) json["along_fillet"] = point->along;
   return json;

@@ -48,8 +48,9 @@ std::string sum_line(const SpectrumLife& spectrum, std::size_t width) {
       if (!point) continue;
       const std::string where =
           std::isnan(point->radius) ? fmt::format("z {:.2f} mm", point->z) : fmt::format("z {:.2f} mm, radius {:.3f} mm", point->z, point->radius);
-      out += fmt::format("{:<{}}  {} of the {}: {:.4g} over the spectrum, largest at {}{}\n", spectrum.scene + " " + spectrum.design, width, name,
-                         name_of(m), point->damage, where, point->exceeds_static_limit ? "; a load case exceeds the static limit" : "");
+      const std::string error = std::isnan(point->damage_error) ? std::string() : fmt::format(" + {:.2g}", point->damage_error);
+      out += fmt::format("{:<{}}  {} of the {}: {:.4g}{} over the spectrum, largest at {}{}\n", spectrum.scene + " " + spectrum.design, width, name,
+                         name_of(m), point->damage, error, where, point->exceeds_static_limit ? "; a load case exceeds the static limit" : "");
     }
   }
   return out;

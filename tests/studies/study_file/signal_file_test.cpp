@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 #include <string>
 
 #include "core/base/thread_stopwatch.hpp"
@@ -104,6 +105,29 @@ TEST_CASE("A malformed signal is refused with line and column", "[studies][life]
   CHECK(place("time,torque_mm\n0,1\n1,2\n") == Place{1, 6});
   CHECK(place("time,torque,time_s\n0,1,0\n1,2,1\n") == Place{1, 13});
   CHECK(signal_problem("time,torque\n0,1\n1,2\n1,3\n").value == "1");
+}
+
+TEST_CASE("Whatever a signal's file holds, it is read or refused", "[studies][life]") {
+  std::mt19937 generator(8);
+  const std::string letters = "0123456789.-+eE,;\t \n#\"[]naif_torquetimespeed";
+  std::uniform_int_distribution<std::size_t> letter(0, letters.size() - 1), change(0, 3);
+  int refused = 0, read = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    std::string text = triangle;
+    for (std::size_t k = change(generator); k > 0; --k) {
+      const std::size_t at = std::uniform_int_distribution<std::size_t>(0, text.size() - 1)(generator);
+      text[at] = letters[letter(generator)];
+    }
+    try {
+      const LoadSignal signal = parse_signal(text, "torque.csv");
+      CHECK_NOTHROW(signal.validate());
+      ++read;
+    } catch (const StudyErrors&) {
+      ++refused;
+    }
+  }
+  CHECK(refused > 100);
+  CHECK(read > 100);
 }
 
 TEST_CASE("A signal is read in a time that grows as its length", "[studies][life]") {
