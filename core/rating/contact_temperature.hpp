@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/rating/film_thickness.hpp"
+#include "core/rating/film_condition.hpp"
 
 namespace flankwright {
 

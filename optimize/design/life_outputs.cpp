@@ -5,6 +5,7 @@
 
 #include "core/base/error.hpp"
 #include "core/rating/contact_temperature.hpp"
+#include "core/rating/film_thickness.hpp"
 #include "core/rating/sliding_loss.hpp"
 
 namespace flankwright {

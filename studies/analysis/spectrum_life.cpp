@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "core/rating/contact_temperature.hpp"
+#include "core/rating/film_thickness.hpp"
 #include "core/rating/sliding_loss.hpp"
 #include "studies/study_file/study_life.hpp"
 

@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "core/rating/film_thickness.hpp"
 #include "tests/core/load/mesh_cases.hpp"
 
 using namespace flankwright;
