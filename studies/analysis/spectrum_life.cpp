@@ -233,7 +233,7 @@ std::optional<StudyLife> study_life(const StudyResults& results) {
   StudyLife found;
   found.ohlendorf = ohlendorf_loss_factor(results.pair);
   for (std::size_t i = 0; i < results.loaded.size(); ++i) {
-    if (results.loaded[i].cycle.usable()) found.cases.push_back({.loaded = i});
+    if (results.loaded[i].cycle.usable()) found.cases.emplace_back().loaded = i;
   }
   tbb::parallel_for(std::size_t{0}, found.cases.size(), [&](std::size_t c) {
     CaseLife& of = found.cases[c];
