@@ -20,6 +20,7 @@ struct FatigueStrength {
 struct SpectrumCase {
   const LoadedCycle* cycle{nullptr};  ///< usable()
   double revolutions{0.0};            ///< of the pinion, >= 0 [-]
+  bool same_teeth{false};             ///< as Operation::same_teeth
 };
 using LoadSpectrum = std::vector<SpectrumCase>;
 

@@ -11,9 +11,10 @@ namespace flankwright {
 struct LifeModel {
   PerGear<FatigueStrength> strength;
   std::optional<Lubricant> lubricant;
-  double roughness{not_given};         ///< Ra, mean of both flanks [um], > 0
-  double bulk_temperature{not_given};  ///< of the teeth [deg C]; NaN: by film_condition()
-  double permissible_film{not_given};  ///< lambda_GFP that micropitting safety refers to [-]; NaN: none
+  double roughness{not_given};             ///< Ra, mean of both flanks [um], > 0
+  double bulk_temperature{not_given};      ///< of the teeth [deg C]; NaN: by film_condition()
+  double permissible_film{not_given};      ///< lambda_GFP that micropitting safety refers to [-]; NaN: none
+  double scuffing_temperature{not_given};  ///< theta_S that scuffing safety refers to [deg C]; NaN: none
 };
 
 }  // namespace flankwright

@@ -182,7 +182,20 @@ constexpr std::array rows{
                  .unit = "1",
                  .candidates = film_ratios,
                  .candidate = film_ratio_of,
+                 .needs_oil = true,
                  .is_least = true},
+    DesignOutput{.output = Output::FlashTemperature,
+                 .name = "flash_temperature",
+                 .unit = "K",
+                 .candidates = flash_temperatures,
+                 .candidate = flash_temperature_of,
+                 .needs_oil = true},
+    DesignOutput{.output = Output::ContactTemperature,
+                 .name = "contact_temperature",
+                 .unit = "degC",
+                 .candidates = contact_temperatures,
+                 .candidate = contact_temperature_of,
+                 .needs_oil = true},
 };
 
 constexpr bool in_order() {

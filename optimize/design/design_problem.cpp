@@ -159,7 +159,8 @@ LoadedScene DesignProblem::scene(const DesignAnalysis& analysis, int scene) cons
   const int spectrum = task_.scenes[at].spectrum;
   if (spectrum < 0) return found;
   for (std::size_t s = 0; s < task_.scenes.size(); ++s) {
-    if (task_.scenes[s].spectrum == spectrum) found.spectrum.push_back({&analysis.cycles[s], task_.scenes[s].operation.revolutions});
+    const DesignScene& of = task_.scenes[s];
+    if (of.spectrum == spectrum) found.spectrum.push_back({&analysis.cycles[s], of.operation.revolutions, of.operation.same_teeth});
   }
   return found;
 }

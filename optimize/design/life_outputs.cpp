@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/base/error.hpp"
+#include "core/rating/contact_temperature.hpp"
 #include "core/rating/film_thickness.hpp"
 #include "core/rating/sliding_loss.hpp"
 
@@ -68,6 +69,32 @@ Film film_of(const ObjectiveTerm& term, const LoadedScene& scene) {
   condition.roughness = life.roughness;
   const MeshModel& model = scene.model;
   return {*life.lubricant, film_condition(model.pair, model.face_width, scene.cycle.force, *life.lubricant, condition)};
+}
+
+LocalTemperature temperature_at(const Film& film, const LoadedScene& scene, std::size_t position, Eigen::Index point) {
+  return local_temperature(scene.model.pair, scene.model.contact_modulus, scene.model.positions[position].points[static_cast<std::size_t>(point)],
+                           scene.cycle.positions[position].load.line_load[point], film.condition);
+}
+
+/// One temperature of all points.
+CandidateValues temperatures(const ObjectiveTerm& term, const LoadedScene& scene, double LocalTemperature::*which) {
+  const Film film = film_of(term, scene);
+  CandidateValues values;
+  for (std::size_t i = 0; i < scene.model.positions.size(); ++i) {
+    const Eigen::Index points = scene.cycle.positions[i].load.line_load.size();
+    for (Eigen::Index j = 0; j < points; ++j) {
+      values.push_back({{static_cast<int>(i), static_cast<int>(j)}, temperature_at(film, scene, i, j).*which});
+    }
+  }
+  return values;
+}
+
+SmoothValue temperature_of(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene, double LocalTemperature::*which) {
+  const auto i = static_cast<std::size_t>(candidate.position);
+  const LocalTemperature local = temperature_at(film_of(term, scene), scene, i, candidate.other);
+  const LoadedPosition& position = scene.cycle.positions[i];
+  if (position.line_load_derivative.cols() == 0) return {local.*which, {}};
+  return smooth(local.*which, local.slope * position.line_load_derivative.row(candidate.other));
 }
 
 }  // namespace
@@ -143,6 +170,22 @@ SmoothValue film_ratio_of(const ObjectiveTerm& term, const PeakCandidate& candid
   const LocalFilm local = local_film(scene.model.pair, scene.model.contact_modulus, point, load, film.lubricant, film.condition);
   if (position.line_load_derivative.cols() == 0) return {local.ratio, {}};
   return smooth(local.ratio, local.slope * position.line_load_derivative.row(candidate.other));
+}
+
+CandidateValues flash_temperatures(const ObjectiveTerm& term, const LoadedScene& scene) {
+  return temperatures(term, scene, &LocalTemperature::flash);
+}
+
+SmoothValue flash_temperature_of(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene) {
+  return temperature_of(term, candidate, scene, &LocalTemperature::flash);
+}
+
+CandidateValues contact_temperatures(const ObjectiveTerm& term, const LoadedScene& scene) {
+  return temperatures(term, scene, &LocalTemperature::contact);
+}
+
+SmoothValue contact_temperature_of(const ObjectiveTerm& term, const PeakCandidate& candidate, const LoadedScene& scene) {
+  return temperature_of(term, candidate, scene, &LocalTemperature::contact);
 }
 
 }  // namespace flankwright

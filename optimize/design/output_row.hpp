@@ -30,6 +30,8 @@ enum class Output {
   RootDamage,             ///< largest root_damage() of both gears' fillets over it; needs DesignTask::root_stress [-]
   LossFactor,             ///< local_loss_factor() H_VL [-]
   SpecificFilmThickness,  ///< least local_film() ratio lambda_GF of the points under load [-]
+  FlashTemperature,       ///< largest local_temperature() theta_fl [K]
+  ContactTemperature,     ///< largest local_temperature() theta_B [deg C]
 };
 
 /// One output with its weight in an objective.
@@ -101,6 +103,7 @@ struct DesignOutput {
   /// The power of a stress or load that it grows with, in rough terms, >= 1: searches see the root, since a power spans many decades.
   double growth{1.0};
   bool over_spectrum{false};  ///< a sum over all load cases of the spectrum, the same in each of them
+  bool needs_oil{false};      ///< a lubricant and a speed
   bool is_least{false};       ///< the least of the smooth functions instead of the largest; can be bounded, not minimised
   AtPoints at_points{nullptr};
   PointDerivative point_derivative{nullptr};

@@ -36,7 +36,7 @@ std::vector<Ranked> rank(const ObjectiveTerm& term, const LoadedScene& scene, do
   const DesignOutput& row = design_output(term.output);
   if (row.smooth != nullptr) return {{value, whole_output}};
   const int positions = static_cast<int>(cycle.positions.size());
-  const double sign = row.is_least ? -1.0 : 1.0, least = sign * (1.0 - sign * margin) * value;
+  const double sign = row.is_least ? -1.0 : 1.0, least = sign * (1.0 - std::copysign(margin, sign * value)) * value;
   std::vector<Ranked> ranked;
   const auto add = [&](double candidate_value, const PeakCandidate& candidate) {
     if (!(sign * candidate_value < least)) ranked.push_back({candidate_value, candidate});

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,14 +13,19 @@ namespace flankwright::studies {
 
 /// Loss, film, safety and damage of one load case. NaN: not asked for, or what it needs was not given.
 struct CaseLife {
-  std::size_t loaded{0};                  ///< index into StudyResults::loaded
-  double loss_factor{not_given};          ///< H_VL from the local loads [-]
-  double friction{not_given};             ///< mu_mz by Schlenk [-]
-  double power{not_given};                ///< transmitted [W]
-  double loss_power{not_given};           ///< [W]
-  double bulk_temperature{not_given};     ///< of the teeth, of the film [deg C]
-  double film{not_given};                 ///< least lambda_GF [-]
-  double micropitting_safety{not_given};  ///< film over the permissible one [-]
+  std::size_t loaded{0};                                          ///< index into StudyResults::loaded
+  double loss_factor{not_given};                                  ///< H_VL from the local loads [-]
+  double friction{not_given};                                     ///< mu_mz by Schlenk [-]
+  double power{not_given};                                        ///< transmitted [W]
+  double loss_power{not_given};                                   ///< [W]
+  double bulk_temperature{not_given};                             ///< of the teeth, of the film [deg C]
+  double film{not_given};                                         ///< least lambda_GF [-]
+  double micropitting_safety{not_given};                          ///< film over the permissible one [-]
+  double flash_temperature{not_given};                            ///< largest theta_fl [K]
+  double contact_temperature{not_given};                          ///< theta_Bmax [deg C]
+  double hottest_z{not_given}, hottest_pinion_radius{not_given};  ///< where that is [mm]
+  double scuffing_safety{not_given};                              ///< S_B [-]
+  std::vector<Eigen::VectorXd> flash;                             ///< theta_fl at the points of each mesh position [K]; empty: not known
   PerGear<double> contact_safety{not_given,
                                  not_given};  ///< stress that is borne for the case's load cycles, or for ever, over the peak contact stress [-]
   PerGear<double> root_safety{not_given, not_given};  ///< likewise of the largest root stress [-]
@@ -34,6 +41,7 @@ struct CaseLife {
 /// The point of a gear that a spectrum damages most.
 struct DamagedPoint {
   double damage{0.0};                      ///< sum over the spectrum [-]
+  double damage_error{not_given};          ///< estimated discretisation error [-]; NaN: not estimated
   double z{not_given}, radius{not_given};  ///< of a flank: on this gear [mm]
   double along{not_given};                 ///< of a fillet: as RootStation::along [-]
   bool exceeds_static_limit{false};        ///< a load case exceeds the static limit somewhere on the gear
@@ -59,6 +67,12 @@ struct StudyLife {
   double ohlendorf{not_given};  ///< H_V [-]
   std::vector<CaseLife> cases;  ///< one for each of the results' loaded entries that is usable
   std::vector<SpectrumLife> spectra;
+
+  /// Of an entry of StudyResults::loaded; null where it has none.
+  const CaseLife* find(std::size_t loaded) const {
+    const auto found = std::ranges::find(cases, loaded, &CaseLife::loaded);
+    return found == cases.end() ? nullptr : &*found;
+  }
 };
 
 }  // namespace flankwright::studies

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/rating/contact_temperature.hpp"
 #include "core/rating/film_thickness.hpp"
 #include "core/rating/sliding_loss.hpp"
 #include "studies/study_file/study_life.hpp"
@@ -40,6 +41,7 @@ void add_loss(const MeshModel& model, const LifeModel& life, const LoadedResult&
   of.loss_power = of.friction * of.loss_factor * of.power;
 }
 
+/// Film and temperatures of all points.
 void add_film(const MeshModel& model, const LifeModel& life, const LoadedResult& loaded, CaseLife& of) {
   const std::optional<Oil> oil = oil_of(life, loaded);
   if (!oil || !(loaded.operation.speed > 0.0)) return;
@@ -49,12 +51,23 @@ void add_film(const MeshModel& model, const LifeModel& life, const LoadedResult&
   of.bulk_temperature = condition.bulk_temperature;
   for (std::size_t i = 0; i < model.positions.size(); ++i) {
     const Eigen::VectorXd& load = loaded.cycle.positions[i].load.line_load;
+    Eigen::VectorXd& flash = of.flash.emplace_back(load.size());
     for (Eigen::Index j = 0; j < load.size(); ++j) {
       const ContactPoint& point = model.positions[i].points[static_cast<std::size_t>(j)];
       of.film = std::fmin(of.film, local_film(model.pair, model.contact_modulus, point, load[j], *oil->lubricant, condition).ratio);
+      const LocalTemperature local = local_temperature(model.pair, model.contact_modulus, point, load[j], condition);
+      flash[j] = local.flash;
+      if (std::islessequal(local.flash, of.flash_temperature)) continue;
+      of.flash_temperature = local.flash;
+      of.contact_temperature = local.contact;
+      of.hottest_z = point.z;
+      of.hottest_pinion_radius = point.pinion_radius;
     }
   }
   of.micropitting_safety = of.film / life.permissible_film;
+  if (of.contact_temperature > oil->temperature) {
+    of.scuffing_safety = scuffing_safety(life.scuffing_temperature, of.contact_temperature, oil->temperature);
+  }
 }
 
 /// What a curve allows in a load case over a stress.
@@ -71,7 +84,7 @@ void add_safety(const MeshModel& model, const LifeModel& life, const LoadedResul
   of.K_F = of.K_H / K_Hbeta * root_face_load_factor(model.pair, model.face_width, K_Hbeta);
   for (const Member m : both_gears) {
     const FatigueStrength& strength = life.strength[m];
-    const double cycles = load_cycles(model.pair, m, loaded.operation.revolutions);
+    const double cycles = load_cycles(model.pair, m, loaded.operation.revolutions, loaded.operation.same_teeth);
     of.iso_contact[m] = of.iso.contact_stress(m, of.K_H);
     of.iso_root[m] = of.iso.root_stress(m, of.K_F);
     of.contact_safety[m] = stress_safety(strength.contact, cycles, loaded.summary.peak_contact_stress);
@@ -82,12 +95,31 @@ void add_safety(const MeshModel& model, const LifeModel& life, const LoadedResul
   }
 }
 
+/// How far the largest contact stress of the mesh positions, which damage is made of, may be below that of the whole cycle and its error [-].
+double contact_stress_error(const LoadedResult& loaded) {
+  double of_positions = 0.0;
+  for (const LoadedPosition& position : loaded.cycle.positions) of_positions = std::max(of_positions, position.contact_stress.maxCoeff());
+  return (loaded.summary.peak_contact_stress + loaded.resolved.errors.peak_contact_stress) / of_positions - 1.0;
+}
+
+double root_stress_error(const LoadedResult& loaded) { return loaded.resolved.errors.peak_root_stress / loaded.summary.peak_root_stress; }
+
+/// Of one point of the fillet, over the cycle [MPa].
+double largest_root_stress(const LoadedCycle& cycle, const FilletPoints& points, Eigen::Index point) {
+  double largest = 0.0;
+  for (const FilletPoints::Pass& pass : points.passes) {
+    largest = std::max(largest, cycle.positions[pass.position].root_stress[pass.begin + point]);
+  }
+  return largest;
+}
+
 /// One spectrum of the results while its damage is found.
 class SpectrumRating {
  public:
   SpectrumRating(const StudyResults& results, const LifeModel& life, std::vector<CaseLife>& cases, SpectrumLife& spectrum)
       : results_(results), life_(life), cases_(cases), spectrum_(spectrum), model_(results.models[loaded(0).model]) {
-    for (std::size_t k = 0; k < spectrum.cases.size(); ++k) loads_.push_back({&loaded(k).cycle, loaded(k).operation.revolutions});
+    for (std::size_t k = 0; k < spectrum.cases.size(); ++k)
+      loads_.push_back({&loaded(k).cycle, loaded(k).operation.revolutions, loaded(k).operation.same_teeth});
   }
 
   void rate() {
@@ -102,6 +134,13 @@ class SpectrumRating {
 
   bool has_root_stress() const {
     return std::ranges::all_of(loads_, [](const SpectrumCase& c) { return c.cycle->positions.front().root_stress.size() > 0; });
+  }
+
+  /// Damage of one load case at a stress that is larger by its relative error, less that at the stress.
+  double added_damage(Member m, std::size_t k, const SnCurve& curve, double stress, double relative_error) const {
+    if (std::isnan(relative_error)) return not_given;
+    const double cycles = load_cycles(model_.pair, m, loads_[k].revolutions, loads_[k].same_teeth);
+    return cycles * (curve.damage(stress * (1.0 + relative_error)).value - curve.damage(stress).value);
   }
 
   void rate_flank(Member m, const SnCurve& curve) {
@@ -123,8 +162,11 @@ class SpectrumRating {
         at_point = j;
       }
     }
+    worst.damage_error = 0.0;
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       cases_[spectrum_.cases[k]].contact_damage[m] = contact_damage_at(model_, {loads_[k]}, m, curve, at_position, at_point).value;
+      const double stress = loads_[k].cycle->positions[at_position].contact_stress[at_point];
+      worst.damage_error += added_damage(m, k, curve, stress, contact_stress_error(loaded(k)));
       worst.exceeds_static_limit = worst.exceeds_static_limit || loaded(k).summary.peak_contact_stress > curve.static_limit;
     }
     spectrum_.contact[m] = worst;
@@ -141,9 +183,11 @@ class SpectrumRating {
     const RootStation& station = model_.positions[pass.position].root_stress.stations[static_cast<std::size_t>(pass.begin + at)];
     worst.z = station.z;
     worst.along = station.along;
+    worst.damage_error = 0.0;
     for (std::size_t k = 0; k < loads_.size(); ++k) {
       cases_[spectrum_.cases[k]].root_damage[m] = root_damage(model_, {loads_[k]}, m, curve, points)[at];
       const CycleSummary& summary = loaded(k).summary;
+      worst.damage_error += added_damage(m, k, curve, largest_root_stress(*loads_[k].cycle, points, at), root_stress_error(loaded(k)));
       const RootStressPeak& root = m == Member::Pinion ? summary.pinion_root_stress : summary.wheel_root_stress;
       worst.exceeds_static_limit = worst.exceeds_static_limit || root.stress > curve.static_limit;
     }
@@ -189,7 +233,7 @@ std::optional<StudyLife> study_life(const StudyResults& results) {
   StudyLife found;
   found.ohlendorf = ohlendorf_loss_factor(results.pair);
   for (std::size_t i = 0; i < results.loaded.size(); ++i) {
-    if (results.loaded[i].cycle.usable()) found.cases.push_back({.loaded = i});
+    if (results.loaded[i].cycle.usable()) found.cases.emplace_back().loaded = i;
   }
   tbb::parallel_for(std::size_t{0}, found.cases.size(), [&](std::size_t c) {
     CaseLife& of = found.cases[c];

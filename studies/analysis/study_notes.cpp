@@ -71,6 +71,28 @@ void note_unused_process_data(const Study& study, Member m, std::vector<std::str
   note("grinding_wheel_diameter", kind == GrindingKind::FormGrinding);
 }
 
+/// What of a signal loads no tooth of this flank.
+void note_signal(const Study& study, std::vector<std::string>& notes) {
+  if (!study.signal) return;
+  const CountedSignal& signal = *study.signal;
+  const auto percent = [&](double duration) { return 100.0 * duration / signal.duration; };
+  if (signal.counting == LoadCounting::Rainflow) {
+    notes.push_back("rainflow counts the swings of the torque, as load cycles of teeth that stay in mesh with each other; revolutions do not count");
+    if (signal.least_torque < 0.0) notes.push_back(fmt::format("{}: torque below 0 loads the other flank and counts as 0 here", signal.file));
+    return;
+  }
+  if (signal.count.reversed_duration > 0.0) {
+    notes.push_back(fmt::format(
+        "{}: for {:.3g} % of the time the torque is below 0 and loads the other flank, which counts as time without load here; torque_factor "
+        "of the other sign and the other working_flank rate that one",
+        signal.file, percent(signal.count.reversed_duration)));
+  }
+  if (signal.count.standing_duration > 0.0) {
+    notes.push_back(fmt::format("{}: for {:.3g} % of the time the pinion is loaded at a standstill, which brings no load cycles", signal.file,
+                                percent(signal.count.standing_duration)));
+  }
+}
+
 }  // namespace
 
 double normal_backlash(const GearPair& pair) {
@@ -109,6 +131,7 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
     if (!study.task->single_gears) note_natural_twist(study, pair, m, notes);
     note_unused_process_data(study, m, notes);
   }
+  note_signal(study, notes);
   if (pair.transverse_contact_ratio < 1.0) {
     notes.push_back(fmt::format(
         "the transverse contact ratio is {:.3g}: in each section no teeth touch for a while, the overlap ratio of {:.3g} alone carries the mesh on",

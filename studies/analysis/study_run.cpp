@@ -88,7 +88,7 @@ std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) co
       loaded.deviations = scene.deviations;
       if (bins.empty()) continue;
       const SpectrumBin& bin = bins[k];
-      loaded.operation = {bin.cycles, bin.speed, bin.hours, bin.temperature};
+      loaded.operation = {bin.cycles, bin.speed, bin.hours, bin.temperature, bin.same_teeth};
       loaded.weight *= bin.cycles / revolutions;
       loaded.spectrum = static_cast<int>(number);
       loaded.bin = static_cast<int>(k);

@@ -43,6 +43,8 @@ constexpr std::array outputs{
     Row{"root_damage", "root damage"},
     Row{"loss_factor", "gear loss factor", "H_VL"},
     Row{"specific_film_thickness", "specific film thickness", "λ_GF"},
+    Row{"flash_temperature", "flash temperature", "θ_fl"},
+    Row{"contact_temperature", "contact temperature", "θ_B"},
     Row{"peak_to_peak_arcsec", "unloaded peak-to-peak TE"},
     Row{"peak_to_peak_um", "unloaded peak-to-peak TE"},
     Row{"iso6336_K_Hbeta", "K_Hβ by ISO 6336"},

@@ -89,6 +89,7 @@ constexpr std::array known_units{
     Unit{"1/rad", Dimension::InverseAngle, 1.0},
     Unit{"/rad", Dimension::InverseAngle, 1.0},
     Unit{"s", Dimension::Time, 1.0},
+    Unit{"ms", Dimension::Time, 1e-3},
     Unit{"min", Dimension::Time, 60.0},
     Unit{"h", Dimension::Time, 3600.0},
     Unit{"rpm", Dimension::RotationalSpeed, 2.0 * units::pi / 60.0},

@@ -65,6 +65,11 @@ Json life_case_json(const StudyResults& results, const CaseLife& of) {
           {"bulk_temperature_degC", of.bulk_temperature},
           {"specific_film_thickness", of.film},
           {"micropitting_safety", of.micropitting_safety},
+          {"flash_temperature_K", of.flash_temperature},
+          {"contact_temperature_degC", of.contact_temperature},
+          {"hottest_z_mm", of.hottest_z},
+          {"hottest_pinion_radius_mm", of.hottest_pinion_radius},
+          {"scuffing_safety", of.scuffing_safety},
           {"iso6336",
            {{"K_from", of.K_from_contact ? "loaded contact" : "ISO 6336-1, method C"},
             {"K_H", of.K_H},
@@ -81,7 +86,8 @@ Json life_case_json(const StudyResults& results, const CaseLife& of) {
 
 Json damaged_point_json(const std::optional<DamagedPoint>& point) {
   if (!point) return nullptr;
-  Json json{{"damage", point->damage}, {"z_mm", point->z}, {"exceeds_static_limit", point->exceeds_static_limit}};
+  Json json{
+      {"damage", point->damage}, {"damage_error", point->damage_error}, {"z_mm", point->z}, {"exceeds_static_limit", point->exceeds_static_limit}};
   if (!std::isnan(point->radius)) json["radius_mm"] = point->radius;
   if (!std::isnan(point->along)) json["along_fillet"] = point->along;
   return json;
@@ -103,6 +109,27 @@ Json spectrum_json(const SpectrumLife& spectrum) {
   return json;
 }
 
+/// Hours and load cycles are those of all repetitions.
+Json signal_json(const CountedSignal& signal) {
+  constexpr double hour = 3600.0;
+  const bool is_rainflow = signal.counting == LoadCounting::Rainflow;
+  const auto hours = [&](double of_once) { return is_rainflow ? not_given : signal.repeats * of_once / hour; };
+  double cycles = 0.0;
+  for (const LoadLevel& level : signal.count.levels) cycles += signal.repeats * level.cycles;
+  return {{"file", signal.file},
+          {"counting", is_rainflow ? "rainflow" : "time_at_level"},
+          {"samples", signal.samples},
+          {"signal_seconds", signal.duration},
+          {"repeats", signal.repeats},
+          {"hours", signal.repeats * signal.duration / hour},
+          {"idle_hours", hours(signal.count.idle_duration)},
+          {"reversed_hours", hours(signal.count.reversed_duration)},
+          {"standing_hours", hours(signal.count.standing_duration)},
+          {"least_torque_Nm", in_Nm(signal.least_torque)},
+          {"largest_torque_Nm", in_Nm(signal.largest_torque)},
+          {"cycles", cycles}};
+}
+
 }  // namespace
 
 Json life_json(const StudyResults& results) {
@@ -113,6 +140,7 @@ Json life_json(const StudyResults& results) {
                         {"root_sn_curve", sn_curve_json(results.life_model->strength[m].root)}};
     if (results.study.life.grade[m]) json[name_of(m)]["strength"] = grade_json(results.study.life, m);
   }
+  if (results.study.signal) json["signal"] = signal_json(*results.study.signal);
   json["cases"] = list(life.cases, [&](const CaseLife& of) { return life_case_json(results, of); });
   json["spectra"] = list(life.spectra, spectrum_json);
   return json;

@@ -26,7 +26,7 @@ struct LifeColumn {
   double (*value)(const CaseLife&, const LoadedResult&);
 };
 
-constexpr std::array<LifeColumn, 9> life_columns{{
+constexpr std::array<LifeColumn, 11> life_columns{{
     {"cycles", "pinion", "{:.3g}", [](const CaseLife&, const LoadedResult& l) { return l.operation.revolutions; }},
     {"contact", "damage", "{:.3g}", [](const CaseLife& c, const LoadedResult&) { return worst_damage(c.contact_damage); }},
     {"root", "damage", "{:.3g}", [](const CaseLife& c, const LoadedResult&) { return worst_damage(c.root_damage); }},
@@ -36,6 +36,8 @@ constexpr std::array<LifeColumn, 9> life_columns{{
     {"H_VL", "-", "{:.4f}", [](const CaseLife& c, const LoadedResult&) { return c.loss_factor; }},
     {"loss", "W", "{:.4g}", [](const CaseLife& c, const LoadedResult&) { return c.loss_power; }},
     {"film", "lambda", "{:.3f}", [](const CaseLife& c, const LoadedResult&) { return c.film; }},
+    {"contact", "degC", "{:.1f}", [](const CaseLife& c, const LoadedResult&) { return c.contact_temperature; }},
+    {"scuffing", "safety", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return c.scuffing_safety; }},
 }};
 
 std::string sum_line(const SpectrumLife& spectrum, std::size_t width) {
@@ -46,8 +48,9 @@ std::string sum_line(const SpectrumLife& spectrum, std::size_t width) {
       if (!point) continue;
       const std::string where =
           std::isnan(point->radius) ? fmt::format("z {:.2f} mm", point->z) : fmt::format("z {:.2f} mm, radius {:.3f} mm", point->z, point->radius);
-      out += fmt::format("{:<{}}  {} of the {}: {:.4g} over the spectrum, largest at {}{}\n", spectrum.scene + " " + spectrum.design, width, name,
-                         name_of(m), point->damage, where, point->exceeds_static_limit ? "; a load case exceeds the static limit" : "");
+      const std::string error = std::isnan(point->damage_error) ? std::string() : fmt::format(" + {:.2g}", point->damage_error);
+      out += fmt::format("{:<{}}  {} of the {}: {:.4g}{} over the spectrum, largest at {}{}\n", spectrum.scene + " " + spectrum.design, width, name,
+                         name_of(m), point->damage, error, where, point->exceeds_static_limit ? "; a load case exceeds the static limit" : "");
     }
   }
   return out;
@@ -101,7 +104,7 @@ std::string life_table(const StudyResults& results, std::size_t width) {
 std::string life_csv(const StudyResults& results) {
   std::string csv =
       "scene,torque_Nm,design,bin,cycles,gear,contact_damage,root_damage,contact_safety,root_safety,sigma_H_MPa,sigma_F_MPa,S_H,S_F,"
-      "loss_factor,loss_power_W,specific_film_thickness,micropitting_safety\n";
+      "loss_factor,loss_power_W,specific_film_thickness,micropitting_safety,flash_temperature_K,contact_temperature_degC,scuffing_safety\n";
   const auto field = [](double value) { return std::isnan(value) ? std::string() : fmt::format("{}", value); };
   for (const CaseLife& of : results.life->cases) {
     const LoadedResult& loaded = results.loaded[of.loaded];
@@ -109,7 +112,8 @@ std::string life_csv(const StudyResults& results) {
       csv += fmt::format("{},{},{},{},{},{}", csv_field(loaded.scene), in_Nm(loaded.torque), loaded.design,
                          loaded.bin < 0 ? std::string() : std::to_string(loaded.bin), field(loaded.operation.revolutions), name_of(m));
       for (const double value : {of.contact_damage[m], of.root_damage[m], of.contact_safety[m], of.root_safety[m], of.iso_contact[m], of.iso_root[m],
-                                 of.iso_contact_safety[m], of.iso_root_safety[m], of.loss_factor, of.loss_power, of.film, of.micropitting_safety}) {
+                                 of.iso_contact_safety[m], of.iso_root_safety[m], of.loss_factor, of.loss_power, of.film, of.micropitting_safety,
+                                 of.flash_temperature, of.contact_temperature, of.scuffing_safety}) {
         csv += fmt::format(",{}", field(value));
       }
       csv += "\n";

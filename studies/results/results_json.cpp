@@ -125,7 +125,9 @@ double root_stress_of_tooth(const MeshPosition& at, const LoadedPosition& positi
   return highest < 0 ? not_given : position.root_stress[highest];
 }
 
-Json position_json(const MeshModel& model, const MeshPosition& at, const LoadedPosition& position, const FlankCondition& condition) {
+/// @param flash  temperatures at the points; null: not known
+Json position_json(const MeshModel& model, const MeshPosition& at, const LoadedPosition& position, const FlankCondition& condition,
+                   const Eigen::VectorXd* flash) {
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
   const LoadDistribution& load = position.load;
   Json json{{"phase", position.phase},
@@ -141,6 +143,7 @@ Json position_json(const MeshModel& model, const MeshPosition& at, const LoadedP
     for (std::size_t i = 0; i < at.points.size(); ++i) {
       Json& points = teeth.try_emplace(at.points[i].tooth, Json::array()).first->second;
       points.push_back(point_json(at.points[i], position, static_cast<Eigen::Index>(i)));
+      if (flash != nullptr) points.back()["flash_temperature_K"] = (*flash)[static_cast<Eigen::Index>(i)];
     }
   }
   const std::map<int, double> shares = shares_by_tooth(at, position);
@@ -223,9 +226,11 @@ Json extremes_json(const LoadedResult& loaded) {
 
 Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
   const MeshModel& model = results.models[loaded.model];
+  const CaseLife* life = results.life ? results.life->find(static_cast<std::size_t>(&loaded - results.loaded.data())) : nullptr;
   Json cycle = Json::array();
   for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
-    cycle.push_back(position_json(model, model.positions[i], loaded.cycle.positions[i], loaded.condition));
+    const Eigen::VectorXd* flash = life == nullptr || life->flash.empty() ? nullptr : &life->flash[i];
+    cycle.push_back(position_json(model, model.positions[i], loaded.cycle.positions[i], loaded.condition, flash));
   }
   Json json{{"scene", loaded.scene},
             {"torque_Nm", in_Nm(loaded.torque)},

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/rating/life_model.hpp"
+#include "core/rating/load_signal.hpp"
 #include "core/rating/material_strength.hpp"
 
 namespace flankwright::studies {
@@ -17,6 +18,32 @@ struct SpectrumBin {
   double cycles{not_given};       ///< revolutions of the pinion, > 0; NaN: from hours and speed
   double temperature{not_given};  ///< of the oil [deg C]; NaN: that of the lubricant
   double mesh_misalignment{0.0};  ///< added to that of the scene [mm]
+  bool same_teeth{false};         ///< as Operation::same_teeth: `cycles` are those of the torque
+};
+
+/// How a torque over time becomes load cycles.
+enum class LoadCounting { TimeAtLevel, Rainflow };
+
+/// [load] spectrum as a table that names a file.
+struct SpectrumSource {
+  std::string file;    ///< of bins
+  std::string signal;  ///< of a torque over time
+  LoadCounting counting{LoadCounting::TimeAtLevel};
+  int bins{20};
+  double torque_factor{1.0};
+  double hours{not_given};    ///< that the signal is repeated for [s]
+  double repeats{not_given};  ///< NaN with hours NaN too: once
+};
+
+/// A signal as it was counted.
+struct CountedSignal {
+  std::string file;  ///< as found from the study
+  LoadCounting counting{LoadCounting::TimeAtLevel};
+  std::size_t samples{0};
+  double duration{not_given};                                 ///< of the signal once [s]
+  double repeats{1.0};                                        ///< [-]
+  double least_torque{not_given}, largest_torque{not_given};  ///< on the pinion [N mm]
+  LoadCount count{};                                          ///< of the signal once
 };
 
 /// An S-N curve as given: an endurance limit and either life factors of ISO 6336 or numbers of one's own.
@@ -32,9 +59,10 @@ struct LifeTable {
   PerGear<GivenSnCurve> contact, root;
   bool has_lubricant{false};
   Lubricant lubricant;
-  double roughness{not_given};         ///< Ra, mean of both flanks [mm]
-  double bulk_temperature{not_given};  ///< [deg C]
-  double permissible_film{not_given};  ///< lambda_GFP [-]
+  double roughness{not_given};             ///< Ra, mean of both flanks [mm]
+  double bulk_temperature{not_given};      ///< [deg C]
+  double permissible_film{not_given};      ///< lambda_GFP [-]
+  double scuffing_temperature{not_given};  ///< theta_S [deg C]
 };
 
 }  // namespace flankwright::studies

@@ -147,6 +147,8 @@ struct Study {
   UnitData unit;                            ///< around the pair's shafts
   std::vector<double> torques;              ///< base [load] torque list [N mm]; {0} where [load] is absent
   std::vector<SpectrumBin> spectrum;        ///< empty: none; else every scene's torques are those of its bins, in their order
+  SpectrumSource spectrum_source;           ///< of its bins, where a file has them
+  std::optional<CountedSignal> signal;      ///< that its bins were counted from
   LifeTable life;
   double marking_thickness{6.35e-3};  ///< of the compound that shows the bearing pattern [mm], > 0
   Cycle cycle;

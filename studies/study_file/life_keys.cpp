@@ -8,6 +8,8 @@ using enum ValueKind;
 
 SpectrumBin& bin(StudyBuilder& builder) { return builder.study.spectrum.back(); }
 
+SpectrumSource& source(StudyBuilder& builder) { return builder.study.spectrum_source; }
+
 LifeTable& life(StudyBuilder& builder) { return builder.study.life; }
 
 Lubricant& lubricant(StudyBuilder& builder) {
@@ -137,7 +139,7 @@ std::vector<SchemaKey> life_rows() {
        .meaning = "of the pinion; loss power and lubricant film need it",
        .store = [](Scene& s, Member, const Value& v) { s.speed = v.number; }},
       {.path = "load.spectrum", .kind = TableListOrFile, .fallback = "(none)",
-       .meaning = "loads that follow each other, instead of torque: each is a load case of every scene, and their damage is added up; { file = \"x.csv\" } reads them from columns of these names",
+       .meaning = "loads that follow each other, instead of torque: each is a load case of every scene, and their damage is added up; { file = \"x.csv\" } reads them from columns of these names, { signal = \"x.csv\" } counts them from a torque over time",
        .hint = "",
        .store = [](StudyBuilder& d, Member, const Value&) { d.study.spectrum.emplace_back(); }},
       {.path = "load.spectrum[].torque", .quantity = Quantity::Torque, .range = from_zero(1e9), .fallback = "(required)",
@@ -160,6 +162,30 @@ std::vector<SchemaKey> life_rows() {
        .meaning = "F_beta_y that this load adds to the scene's; + opens at +z",
        .store = [](StudyBuilder& d, Member, const Value& v) { bin(d).mesh_misalignment = v.number; }},
   };
+  const std::vector<SchemaKey> files{
+      {.path = "load.spectrum.file", .kind = Text, .fallback = "(none)",
+       .meaning = "CSV file of the loads, its path from the folder of the study file",
+       .store = [](StudyBuilder& d, Member, const Value& v) { source(d).file = v.text; }},
+      {.path = "load.spectrum.signal", .kind = Text, .fallback = "(none)",
+       .meaning = "CSV file of the pinion's torque over time: columns time (s), torque (N·m; + loads the working flank, - the other one) and speed (rpm; without it load.speed)",
+       .store = [](StudyBuilder& d, Member, const Value& v) { source(d).signal = v.text; }},
+      {.path = "load.spectrum.counting", .kind = Word, .words = {"time_at_level", "rainflow"}, .fallback = "(time_at_level)",
+       .meaning = "of a signal: revolutions under each torque, or swings of the torque, which load teeth only where the same teeth stay in mesh",
+       .store = [](StudyBuilder& d, Member, const Value& v) { source(d).counting = static_cast<LoadCounting>(v.integer); }},
+      {.path = "load.spectrum.bins", .kind = Integer, .range = {.low = 1, .high = 200}, .fallback = "(20)",
+       .meaning = "equal ranges of torque that a signal is counted in; each is a load case of every scene, with the largest torque that occurs in it",
+       .store = [](StudyBuilder& d, Member, const Value& v) { source(d).bins = static_cast<int>(v.integer); }},
+      {.path = "load.spectrum.hours", .quantity = Quantity::Duration, .range = above_zero(1e7), .fallback = "(that of the signal)",
+       .meaning = "life that the signal is repeated for",
+       .store = [](StudyBuilder& d, Member, const Value& v) { source(d).hours = v.number; }},
+      {.path = "load.spectrum.repeats", .range = above_zero(1e12), .fallback = "(1)",
+       .meaning = "how often the signal occurs, instead of hours",
+       .store = [](StudyBuilder& d, Member, const Value& v) { source(d).repeats = v.number; }},
+      {.path = "load.spectrum.torque_factor", .range = within(1e6), .fallback = "(1)",
+       .meaning = "pinion torque over that of the signal; -1 with working_flank = \"left\" rates the other flank under the same signal",
+       .store = [](StudyBuilder& d, Member, const Value& v) { source(d).torque_factor = v.number; }},
+  };
+  rows.insert(rows.end(), files.begin(), files.end());
   constexpr auto contact_meaning = "sigma_Hlim that the flank bears for the cycles at the knee, with the factors of lubricant, speed, roughness, hardness and size in it";
   constexpr auto root_meaning = "nominal sigma_Flim, with the relative factors of notch, surface and size in it; a fillet's own stress may reach twice that, Y_ST = 2";
   append_grade<true>(rows, "");
@@ -193,6 +219,9 @@ std::vector<SchemaKey> life_rows() {
       {.path = "lubricant.permissible_film", .range = above_zero(100.0), .fallback = "(none)",
        .meaning = "lambda_GFP from a test of this oil: micropitting safety is the least specific film thickness over it",
        .store = [](StudyBuilder& d, Member, const Value& v) { lubricant(d); life(d).permissible_film = v.number; }},
+      {.path = "lubricant.scuffing_temperature", .quantity = Quantity::Temperature, .range = {.low = -50.0, .high = 2000.0}, .fallback = "(none)",
+       .meaning = "theta_S of ISO/TS 6336-20 from a test of this oil: scuffing safety is its distance from the oil's temperature over that of the largest contact temperature",
+       .store = [](StudyBuilder& d, Member, const Value& v) { lubricant(d); life(d).scuffing_temperature = v.number; }},
   };
   rows.insert(rows.end(), oil.begin(), oil.end());
   return rows;

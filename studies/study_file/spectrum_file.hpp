@@ -4,15 +4,8 @@
 #include <string_view>
 #include <vector>
 
-/// A load spectrum as a table (CSV):
-///
-///     # fleet, 2000 h
-///     torque_Nm, speed_rpm, hours
-///     320, 1500, 12
-///
-/// The first line names the columns: torque, speed, hours, cycles, temperature and mesh_misalignment in any order, each with its unit behind it (torque_Nm,
-/// "torque [N·m]") or without one in that of a bare number in a study file. Comma, semicolon or tab separates cells, the first of tab and semicolon that the header has.
-/// Numbers have a decimal point. # starts a comment; blank lines are skipped; an empty cell is not given.
+/// A load spectrum as a table of its bins, see column_table.hpp. The columns are torque, speed, hours, cycles, temperature and mesh_misalignment; without a unit a
+/// column is in that of a bare number in a study file; an empty cell is not given.
 namespace flankwright::studies {
 
 /// A cell as text that a study file's value may be: a number, or a number and its unit.

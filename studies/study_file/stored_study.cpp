@@ -31,7 +31,8 @@ std::string study_text(const Json& given) {
     const std::string key = entry.at("key"), value = entry.at("value");
     if (!starts_with_one_of(key, kept) || starts_with_one_of(key, left_out)) continue;
     constexpr std::string_view spectrum = "load.spectrum.";
-    if (key.starts_with(spectrum) && key != "load.spectrum.file") {  // "load.spectrum.1.torque"
+    const bool is_bin = key.starts_with(spectrum) && key.find_first_of("0123456789") == spectrum.size();
+    if (is_bin) {  // "load.spectrum.1.torque"
       const auto [bin, name] = scene_key(key.substr(spectrum.find('.') + 1));
       bins[bin] += (bins[bin].empty() ? "" : ", ") + name + " = " + value;
     } else if (!key.starts_with("scenes.")) {

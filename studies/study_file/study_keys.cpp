@@ -176,8 +176,11 @@ const std::vector<SchemaKey>& study_schema() {
 
 const std::vector<ExclusiveKeys>& exclusive_keys() {
   static const std::vector<ExclusiveKeys> pairs = [] {
-    std::vector<ExclusiveKeys> made{
-        {"pair.normal_module", "pair.normal_diametral_pitch"}, {"cycle.positions", "cycle.phases"}, {"load.torque", "load.spectrum"}};
+    std::vector<ExclusiveKeys> made{{"pair.normal_module", "pair.normal_diametral_pitch"},
+                                    {"cycle.positions", "cycle.phases"},
+                                    {"load.torque", "load.spectrum"},
+                                    {"load.spectrum.file", "load.spectrum.signal"},
+                                    {"load.spectrum.hours", "load.spectrum.repeats"}};
     for (const std::string gear : {"pinion.modification.", "wheel.modification."}) {
       for (const ModificationDescriptor& d : modification_parameters) {
         for (const std::string_view half : {d.half, d.other_half}) {

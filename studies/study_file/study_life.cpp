@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "studies/study_file/spectrum_file.hpp"
+#include "studies/study_file/study_signal.hpp"
 
 namespace flankwright::studies {
 
@@ -45,17 +46,25 @@ void read_row(StudyReading& reading, const std::string& file, const SpectrumRow&
   }
 }
 
-/// { file = "x.csv" }.
-void read_file(StudyReading& reading, const Match& match) {
-  const toml::table& table = *match.node->as_table();
-  const auto* name = table.get("file") == nullptr ? nullptr : table.get("file")->as_string();
-  if (name == nullptr || table.size() != 1) {
-    return reading.refuse(match.position, match.path, match.node, "allowed is a list of tables, or { file = \"x.csv\" }");
+/// Bins from the file or the signal that a table names.
+void read_source(StudyReading& reading, const Match& match) {
+  const SpectrumSource& source = reading.builder.study.spectrum_source;
+  const bool has_file = reading.find("load.spectrum.file") != nullptr, has_signal = reading.find("load.spectrum.signal") != nullptr;
+  if (!has_file && !has_signal) {
+    return reading.refuse(match.position, match.path, match.node, "allowed is a list of tables, { file = \"x.csv\" } or { signal = \"x.csv\" }");
   }
+  for (const char* key : {"counting", "bins", "hours", "repeats", "torque_factor"}) {
+    const std::string path = std::string("load.spectrum.") + key;
+    if (!has_signal && reading.find(path) != nullptr) reading.refuse_key(path, "has a meaning with load.spectrum.signal only");
+  }
+  const std::string& name = has_signal ? source.signal : source.file;
+  const bool is_text = reading.find(has_signal ? "load.spectrum.signal" : "load.spectrum.file")->node->is_string();
+  if ((has_file && has_signal) || !is_text) return;  // refused elsewhere
   // Relative to the study; on the command line, too, a study means the same wherever it is run from.
-  const std::string path = (std::filesystem::path(reading.document.name()).parent_path() / name->get()).string();
+  const std::string path = (std::filesystem::path(reading.document.name()).parent_path() / name).string();
   try {
     int index = 0;
+    if (has_signal) return read_signal(reading, path);
     for (const SpectrumRow& row : read_spectrum_file(path)) read_row(reading, path, row, index++);
   } catch (const StudyErrors& errors) {
     for (const StudyProblem& problem : errors.problems()) {
@@ -166,14 +175,14 @@ void read_spectrum(StudyReading& reading) {
   const Match* match = reading.find("load.spectrum");
   if (match == nullptr) return;
   const std::size_t problems = reading.problems.size();
-  if (match->node->is_table()) read_file(reading, *match);
+  if (match->node->is_table()) read_source(reading, *match);
   std::vector<SpectrumBin>& bins = reading.builder.study.spectrum;
   if (reading.problems.size() > problems) return;
   std::vector<double>& torques = reading.builder.base.torques;
   torques.clear();
   for (std::size_t k = 0; k < bins.size(); ++k) {
     if (std::isnan(bins[k].torque)) continue;  // refused where it is read
-    check_bin(reading, bins[k], static_cast<int>(k));
+    if (!reading.builder.study.signal) check_bin(reading, bins[k], static_cast<int>(k));
     torques.push_back(bins[k].torque);
   }
   if (torques.empty()) torques = {0.0};
@@ -209,6 +218,7 @@ std::shared_ptr<const LifeModel> life_model(const Study& study) {
   model->roughness = study.life.roughness / units::um;
   model->bulk_temperature = study.life.bulk_temperature;
   model->permissible_film = study.life.permissible_film;
+  model->scuffing_temperature = study.life.scuffing_temperature;
   return model;
 }
 

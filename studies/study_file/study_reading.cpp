@@ -129,7 +129,8 @@ std::map<std::string, Match> match_keys(StudyReading& reading, const toml::table
       if (const auto known = keys.find(path); known != keys.end()) {
         const bool is_first = matches.emplace(path, Match{known->second, &node, position, prefix + path}).second;
         if (!is_first) reading.refuse(position, prefix + path, &node, "the key is given twice");
-        if (known->second->kind == ValueKind::WordOrTable && node.is_table()) self(self, *node.as_table(), path + ".");
+        const bool is_either = known->second->kind == ValueKind::WordOrTable || known->second->kind == ValueKind::TableListOrFile;
+        if (is_either && node.is_table()) self(self, *node.as_table(), path + ".");
       } else if (is_table(keys, path)) {
         if (const toml::table* inner = node.as_table()) {
           self(self, *inner, path + ".");
@@ -248,7 +249,7 @@ void read_table_list(StudyReading& reading, const Match& match, Scene& scene) {
 
 void read_into(StudyReading& reading, const Match& match, Scene& scene) {
   const bool is_list = match.key->kind == ValueKind::TableList || match.key->kind == ValueKind::TableListOrFile;
-  if (match.key->kind == ValueKind::TableListOrFile && match.node->is_table()) return;  // its file is read when all keys are
+  if (match.key->kind == ValueKind::TableListOrFile && match.node->is_table()) return;  // its file is read when all keys are known
   if (is_list) return read_table_list(reading, match, scene);
   try {
     store(*match.key, read_value(*match.key, *match.node), reading.builder, scene);

@@ -180,7 +180,7 @@ std::string allowed_values(const SchemaKey& key) {
     case ValueKind::TableList:
       return "a list of tables of the keys below it, at least one";
     case ValueKind::TableListOrFile:
-      return "a list of tables of the keys below it, at least one, or { file = \"x.csv\" }";
+      return "a list of tables of the keys below it, at least one, { file = \"x.csv\" } or { signal = \"x.csv\" }";
     case ValueKind::Scenes:
       return "[[scenes]] tables";
     case ValueKind::Objective:
@@ -211,6 +211,7 @@ namespace {
 Quantity quantity_of_unit(std::string_view unit) {
   if (unit == "um") return Quantity::Deviation;
   if (unit == "MPa") return Quantity::Stress;
+  if (unit == "degC") return Quantity::Temperature;
   return unit == "N/mm" ? Quantity::LineLoad : Quantity::Number;
 }
 

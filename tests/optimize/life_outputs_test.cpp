@@ -44,11 +44,12 @@ DesignTask task_under_spectrum(double hours = 1.0) {
   return task;
 }
 
-const std::vector<Output> life_terms{Output::ContactDamage, Output::RootDamage, Output::LossFactor, Output::SpecificFilmThickness};
+const std::vector<Output> life_terms{Output::ContactDamage,         Output::RootDamage,       Output::LossFactor,
+                                     Output::SpecificFilmThickness, Output::FlashTemperature, Output::ContactTemperature};
 
 }  // namespace
 
-TEST_CASE("Gradients of damage, loss and film are what central differences say", "[optimize][design][life][gradient]") {
+TEST_CASE("Gradients of damage, loss, film and temperature are what central differences say", "[optimize][design][life][gradient]") {
   DesignProblem problem(task_under_spectrum());
   std::vector<ObjectiveTerm> terms;
   for (const Output output : life_terms) terms.push_back(term(output));
@@ -57,7 +58,7 @@ TEST_CASE("Gradients of damage, loss and film are what central differences say",
     const Eigen::VectorXd x = random_design(problem.variables(), generator);
     CAPTURE(trial);
     // As the other outputs' gradients: some 0.001 um; the exponent 13 of the S-N curve magnifies curvature.
-    CHECK(check_output_gradients(problem, x, terms, 1e-5, 1e-6) > 20);
+    CHECK(check_output_gradients(problem, x, terms, 1e-5, 1e-6) > 50);
   }
 }
 
@@ -177,6 +178,50 @@ TEST_CASE("A bound on the least film is kept at every point under load", "[optim
   CHECK(problem.violation(problem.analyse(problem.start(), false)) > 0.0);
   const DesignResult found = optimise_design(problem, DesignOptions{});
   CHECK(found.after.constraint_values[0] >= 1.02 * least * (1.0 - 1e-5));
+}
+
+TEST_CASE("A bound on the contact temperature is kept by every load case, and sliding under less load is cooler", "[optimize][design][life]") {
+  DesignTask task = task_under_spectrum();
+  const ObjectiveTerm contact = term(Output::ContactTemperature), flash = term(Output::FlashTemperature);
+  DesignProblem start(task);
+  const DesignAnalysis& analysis = start.analyse(start.start(), false);
+  double hottest = 0.0;
+  for (int s = 0; s < start.scenes(); ++s) {
+    const double theta_B = output_value(contact, start.scene(analysis, s));
+    hottest = std::max(hottest, theta_B);
+    // The bulk of all teeth is as warm, above the oil of 80 deg C.
+    CHECK(theta_B - output_value(flash, start.scene(analysis, s)) > 80.0);
+  }
+  // Bins of a spectrum by falling torque.
+  for (const int s : {1, 2, 4, 5}) {
+    CHECK(output_value(flash, start.scene(analysis, s)) < output_value(flash, start.scene(analysis, s - 1)));
+  }
+  task.objective = {term(Output::TeHarmonic, 1)};
+  task.constraints = {{.output = contact, .maximum = hottest - 2.0}};
+  DesignProblem problem(task);
+  CHECK(problem.violation(problem.analyse(problem.start(), false)) > 0.0);
+  const DesignResult found = optimise_design(problem, DesignOptions{});
+  CHECK(found.after.constraint_values[0] <= (hottest - 2.0) * (1.0 + 1e-5));
+  task.objective = {flash};
+  task.constraints.clear();
+  DesignProblem coolest(task);
+  const DesignResult cooled = optimise_design(coolest, DesignOptions{});
+  CHECK(cooled.after.objective < 0.9 * cooled.before.objective);
+}
+
+TEST_CASE("A temperature below 0 deg C has candidates like any other", "[optimize][design][life]") {
+  DesignTask task = task_under_spectrum();
+  LifeModel life = *task.life;
+  life.bulk_temperature = -200.0;  // so that the largest is below 0
+  task.life = std::make_shared<const LifeModel>(life);
+  DesignProblem problem(task);
+  const DesignAnalysis& analysis = problem.analyse(problem.start(), false);
+  const ObjectiveTerm contact = term(Output::ContactTemperature);
+  const LoadedScene scene = problem.scene(analysis, 0);
+  REQUIRE(output_value(contact, scene) < 0.0);
+  const auto leading = leading_candidates(contact, scene, 0.01, 3);
+  REQUIRE_FALSE(leading.empty());
+  CHECK(candidate_value(contact, leading.front(), scene).value == output_value(contact, scene));
 }
 
 TEST_CASE("What damage and film need is asked for by name", "[optimize][design][life]") {

@@ -74,7 +74,7 @@ void check_life_outputs(StudyReading& reading) {
     }
     if (term.output == Output::RootDamage && !has_curve(&FatigueStrength::root))
       reading.refuse_key(key, term.name + " needs material.strength or material.root_endurance_limit");
-    if (term.output != Output::SpecificFilmThickness) continue;
+    if (!row.needs_oil) continue;
     if (!study.life.has_lubricant) reading.refuse_key(key, term.name + " needs a table [lubricant]");
     const auto no_speed = [](const auto& of) { return std::isnan(of.speed); };
     if (study.spectrum.empty() ? std::ranges::any_of(study.scenes, no_speed) : std::ranges::any_of(study.spectrum, no_speed)) {

@@ -81,6 +81,16 @@ def test_dict_and_file_are_the_same_study(path):
     assert fw.check(path) and fw.check(fw.Study(given, file=str(path)))
 
 
+def test_a_signal_is_named_and_comes_back(pair, tmp_path):
+    (tmp_path / "torque.csv").write_text("time,torque\n0,100\n10,250\n20,-30\n")
+    pair["load"] = {"speed": 1500, "spectrum": {"signal": str(tmp_path / "torque.csv"), "bins": 3, "hours": 1000.1, "counting": "time_at_level"}}
+    study = fw.Study(pair)
+    assert study.to_dict() == pair
+    assert fw.Study(study.to_dict()) == study
+    study.save(tmp_path / "small.toml")
+    assert fw.Study.load(tmp_path / "small.toml").to_dict() == pair
+
+
 def test_a_saved_study_is_the_same(pair, tmp_path):
     study = fw.Study(pair)
     study.save(tmp_path / "small.toml")

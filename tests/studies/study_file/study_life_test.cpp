@@ -108,7 +108,8 @@ TEST_CASE("What is wrong with a spectrum is told with place, key, value and what
   CHECK(with("[{ torque = 100, cycles = 3, hour = 1 }]").key == "load.spectrum.0.hour");
   CHECK(with("[]").key == "load.spectrum");
   CHECK(with("3").key == "load.spectrum");
-  CHECK(with("{ files = \"x.csv\" }").key == "load.spectrum");
+  CHECK(with("{ files = \"x.csv\" }").key == "load.spectrum.files");
+  CHECK(with("{ files = \"x.csv\" }").allowed.find("did you mean file?") != std::string::npos);
   const StudyProblem missing = with("{ file = \"no such file.csv\" }");
   CHECK(missing.key == "load.spectrum");
   CHECK(missing.allowed.find("cannot be read") != std::string::npos);
@@ -195,6 +196,12 @@ TEST_CASE("An optimisation says what damage and film need", "[studies][life]") {
   CHECK(with(two_bins + life_strength, "\"specific_film_thickness\"") == "optimise.objective");
   CHECK(with(two_bins + life_strength, "\"contact_damage\"", "[optimise.constraints]\nspecific_film_thickness = { min = 0.5 }\n") ==
         "optimise.constraints.specific_film_thickness");
+  for (const std::string temperature : {"contact_temperature", "flash_temperature"}) {
+    CHECK(with("[load]\ntorque = 100\nspeed = 1000\n", "\"" + temperature + "\"") == "optimise.objective");
+    const std::string oil = "[lubricant]\nviscosity_40 = 100\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\n";
+    CHECK(with("[load]\ntorque = 100\n", "\"" + temperature + "\"", oil) == "optimise.objective");
+    CHECK(with("[load]\ntorque = 100\nspeed = 1000\n", "\"" + temperature + "\"", oil).empty());
+  }
   CHECK(with(two_bins + life_strength, "[\"contact_damage\", \"te_harmonic_1\"]").empty());
 }
 
@@ -223,10 +230,12 @@ TEST_CASE("A spectrum is read from columns of any order, each with its unit", "[
 }
 
 TEST_CASE("Results have the damage of each load case and its sum, by hand", "[studies][life]") {
-  const std::string lubricant = "[lubricant]\nviscosity_40 = 100\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\n";
+  const std::string lubricant =
+      "[lubricant]\nviscosity_40 = 100\nviscosity_100 = 11\ntemperature = 80\nroughness = 0.5\nscuffing_temperature = 250\n";
   const std::string bins = "[load]\nspectrum = [{ torque = 300, speed = 1000, hours = 10 }, { torque = 150, speed = 1500, hours = 2000 }]\n";
   const StudyResults results = run_study(life_study(life_pair + bins + life_strength + lubricant));
-  const Json life = results_document(results).at("life");
+  const Json document = results_document(results);
+  const Json& life = document.at("life");
   REQUIRE(life.at("cases").size() == 2);
   REQUIRE(life.at("spectra").size() == 1);
   const Json& spectrum = life.at("spectra")[0];
@@ -248,6 +257,20 @@ TEST_CASE("Results have the damage of each load case and its sum, by hand", "[st
               .epsilon(round_off));
     CHECK(loss < 1.5 * life.at("ohlendorf_loss_factor").get<double>());
     CHECK(of.at("specific_film_thickness").get<double>() > 0.0);
+    const double hottest = of.at("contact_temperature_degC");
+    CHECK(hottest == Approx(of.at("bulk_temperature_degC").get<double>() + of.at("flash_temperature_K").get<double>()).epsilon(round_off));
+    CHECK(of.at("scuffing_safety").get<double>() == Approx((250.0 - 80.0) / (hottest - 80.0)).epsilon(round_off));
+  }
+  // The largest flash temperature is that of a point of the cycle.
+  for (std::size_t k = 0; k < 2; ++k) {
+    double largest = 0.0;
+    for (const Json& position : document.at("loaded")[k].at("cycle")) {
+      for (const Json& tooth : position.at("teeth")) {
+        for (const Json& point : tooth.at("points")) largest = std::max(largest, point.at("flash_temperature_K").get<double>());
+      }
+    }
+    CHECK(largest == life.at("cases")[k].at("flash_temperature_K").get<double>());
+    CHECK(largest > 0.0);
   }
   double largest = 0.0;
   for (const Json& value : spectrum.at("map").at("pinion_damage")) largest = std::max(largest, value.get<double>());

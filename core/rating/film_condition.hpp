@@ -1,0 +1,40 @@
+#pragma once
+
+#include "core/load/cycle/mesh_cycle.hpp"
+#include "core/rating/lubricant.hpp"
+
+namespace flankwright {
+
+/// What the lubricant film of a load case depends on beside its line loads.
+struct FilmCondition {
+  double speed{not_given};             ///< of the pinion [rad/s], > 0
+  double oil_temperature{not_given};   ///< [deg C]
+  double bulk_temperature{not_given};  ///< theta_M of the teeth [deg C]
+  double friction{not_given};          ///< mu_m, mean coefficient of the mesh [-]
+  double roughness{not_given};         ///< Ra, mean of both flanks [um], > 0
+};
+
+/// Bulk temperature of the teeth [ISO/TR 15144-1:2014, method B],
+///
+///     theta_M = theta_oil + 7400 (P mu_m H_v / (a b))^0.72 X_S/(1.2 X_Ca)
+///
+/// with P in kW, a and b in mm; X_Ca = 1, as without tip relief, which gives the highest temperature, and X_S = 1.2 of injected oil. H_v is Ohlendorf's. Mean friction
+///
+///     mu_m = 0.045 (F_bt / (b v_SigmaC rho_nC))^0.2 (1000 eta_oil)^-0.05 X_L 2.2 (Ra/rho_nC)^0.25
+///
+/// with all load factors 1, since local pressures have the load's distribution, and X_L = 1 of mineral oils, 0.8 of polyalphaolefins, 0.75 (6/v_SigmaC)^0.2 of
+/// polyglycols.
+/// @param force  normal to the flanks [N], > 0
+/// @param given  speed, oil_temperature and roughness; a bulk_temperature that is given is kept
+FilmCondition film_condition(const GearPair& pair, double face_width, double force, const Lubricant& lubricant, FilmCondition given);
+
+/// Speeds of the flanks at a contact point, along the profile in the transverse section [m/s].
+struct RollingSpeeds {
+  double pinion, wheel;
+};
+
+/// omega rho_t of both flanks.
+/// @param speed  of the pinion [rad/s]
+RollingSpeeds rolling_speeds(const GearPair& pair, const ContactPoint& point, double speed);
+
+}  // namespace flankwright

@@ -1,0 +1,69 @@
+#include "studies/study_file/study_signal.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "studies/study_file/signal_file.hpp"
+
+namespace flankwright::studies {
+
+namespace {
+
+constexpr const char* signal_path = "load.spectrum.signal";
+
+/// A bin of time at level; without revolutions it has no speed.
+SpectrumBin turning_bin(double torque, double duration, double revolutions, double repeats) {
+  SpectrumBin bin;
+  bin.torque = torque;
+  bin.speed = revolutions > 0.0 ? 2.0 * units::pi * revolutions / duration : not_given;
+  bin.hours = repeats * duration;
+  bin.cycles = repeats * revolutions;
+  return bin;
+}
+
+std::vector<SpectrumBin> bins_of(const CountedSignal& counted) {
+  const LoadCount& count = counted.count;
+  std::vector<SpectrumBin> bins;
+  if (count.idle_duration > 0.0) bins.push_back(turning_bin(0.0, count.idle_duration, count.idle_revolutions, counted.repeats));
+  for (const LoadLevel& level : count.levels) {
+    if (counted.counting == LoadCounting::TimeAtLevel) {
+      bins.push_back(turning_bin(level.torque, level.duration, level.cycles, counted.repeats));
+    } else {
+      bins.push_back({.torque = level.torque, .cycles = counted.repeats * level.cycles, .same_teeth = true});
+    }
+  }
+  return bins;
+}
+
+double repeats_of(const SpectrumSource& source, double duration) {
+  if (!std::isnan(source.hours)) return source.hours / duration;
+  return std::isnan(source.repeats) ? 1.0 : source.repeats;
+}
+
+}  // namespace
+
+void read_signal(StudyReading& reading, const std::string& path) {
+  Study& study = reading.builder.study;
+  const SpectrumSource& source = study.spectrum_source;
+  LoadSignal signal = read_signal_file(path);
+  if (signal.speed.empty() && source.counting == LoadCounting::TimeAtLevel) {
+    const double speed = reading.builder.base.speed;
+    if (!(speed > 0.0)) return reading.refuse_key(signal_path, path + " has no column speed: allowed is one, or load.speed");
+    signal.speed.assign(signal.time.size(), speed);
+  }
+  for (double& torque : signal.torque) torque *= source.torque_factor;
+  const auto [least, largest] = std::ranges::minmax(signal.torque);
+  CountedSignal counted{.file = path, .counting = source.counting, .samples = signal.time.size(), .duration = signal.duration()};
+  counted.repeats = repeats_of(source, counted.duration);
+  counted.least_torque = least;
+  counted.largest_torque = largest;
+  try {
+    counted.count = source.counting == LoadCounting::TimeAtLevel ? count_time_at_level(signal, source.bins) : count_rainflow(signal, source.bins);
+  } catch (const InvalidInput& problem) {
+    return reading.refuse_key(signal_path, path + ": " + problem.field() + " is " + problem.value() + ", allowed is " + problem.allowed());
+  }
+  study.spectrum = bins_of(counted);
+  study.signal = std::move(counted);
+}
+
+}  // namespace flankwright::studies
