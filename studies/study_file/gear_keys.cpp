@@ -71,6 +71,11 @@ std::vector<SchemaKey> geometry_rows() {
       {.path = "gear.profile_shift", .range = within(2.0), .fallback = "0",
        .meaning = "x, in normal modules; + outwards",
        .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).profile_shift = v.number; }},
+      {.path = "gear.tooth_thickness_allowance", .quantity = Quantity::Deviation, .range = {.low = -10000.0, .high = 0.0}, .fallback = "0",
+       .meaning = "E_sn: normal tooth thickness at the reference cylinder less that of the profile shift; the rack stands deeper, tip diameter and "
+                  "default centre distance stay",
+       .hint = "a thicker tooth is one of larger profile shift",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).tooth_thickness_allowance = v.number; }},
       {.path = "gear.tip_diameter", .quantity = Quantity::Length, .range = any_length,
        .fallback = "(from rack and profile shift)", .meaning = "d_a",
        .store = [](StudyBuilder& d, Member m, const Value& v) { gear(d, m).tip_diameter = v.number; }},
