@@ -124,8 +124,8 @@ std::string heading_anchor(const std::string& heading) {
   for (std::size_t i = 0; i < heading.size(); ++i) {
     const auto c = static_cast<unsigned char>(heading[i]);
     if (c == ' ' || c == '-') anchor += '-';
-    // Of other alphabets letters stay; the signs of Latin-1 and general punctuation go.
-    else if (c == 0xC2)
+    // Of other alphabets letters stay; the signs of Latin-1, but for the micro sign, and general punctuation go.
+    else if (c == 0xC2 && i + 1 < heading.size() && heading[i + 1] != '\xB5')
       ++i;
     else if (c == 0xE2 && i + 2 < heading.size() && (static_cast<unsigned char>(heading[i + 1]) & 0xFEU) == 0x80U)
       i += 2;

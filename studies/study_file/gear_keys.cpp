@@ -116,7 +116,7 @@ std::vector<SchemaKey> geometry_rows() {
        .store = [](StudyBuilder& d, Member m, const Value& v) { process(d, m).kind = static_cast<GrindingKind>(v.integer); }},
       {.path = "gear.twist_compensation", .range = from_zero(1.0), .fallback = "0",
        .meaning = "part of the natural twist that the machine takes out, by diagonal feed or a modified worm; 1 leaves none",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { process(d, m).twist_compensation = v.number; }},
+       .store = [](Modification& flanks, double v) { flanks.process.twist_compensation = v; }},
       {.path = "gear.grinding_wheel_diameter", .quantity = Quantity::Length, .range = {.low = 1.0, .high = 2000.0}, .fallback = "300",
        .meaning = "of the wheel of form_grinding; a larger one twists more",
        .store = [](StudyBuilder& d, Member m, const Value& v) { process(d, m).wheel_diameter = v.number; }},
