@@ -42,7 +42,19 @@ add_custom_command(
   DEPENDS flankwright
   COMMENT "Writing the manual page and the completions"
   VERBATIM)
-add_custom_target(flankwright_docs ALL DEPENDS ${docs}/flankwright.1 ${docs}/flankwright ${docs}/_flankwright)
+# The pages in HTML, with what they lead to. The program finds them from where it lies.
+file(GLOB_RECURSE pages CONFIGURE_DEPENDS *.md)
+list(FILTER pages EXCLUDE REGEX "${PROJECT_SOURCE_DIR}/(build|results)/")
+add_custom_command(
+  OUTPUT ${docs}/html/README.html
+  COMMAND flankwright_pages ${PROJECT_SOURCE_DIR} ${docs}/html
+  DEPENDS flankwright_pages ${pages}
+  COMMENT "Writing the pages in HTML"
+  VERBATIM)
+file(RELATIVE_PATH pages_from_program ${CMAKE_INSTALL_FULL_BINDIR} ${CMAKE_INSTALL_FULL_DOCDIR}/html)
+target_compile_definitions(flankwright PRIVATE FLANKWRIGHT_PAGES="${pages_from_program}")
+install(DIRECTORY ${docs}/html DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+add_custom_target(flankwright_docs ALL DEPENDS ${docs}/flankwright.1 ${docs}/flankwright ${docs}/_flankwright ${docs}/html/README.html)
 install(FILES ${docs}/flankwright.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 install(FILES ${docs}/flankwright DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
 install(FILES ${docs}/_flankwright DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)

@@ -20,6 +20,7 @@
 #include "studies/command_line/command_docs.hpp"
 #include "studies/command_line/commands.hpp"
 #include "studies/command_line/compare_command.hpp"
+#include "studies/command_line/docs_command.hpp"
 #include "studies/command_line/exchange_commands.hpp"
 #include "studies/command_line/library_command.hpp"
 #include "studies/command_line/many_runs.hpp"
@@ -164,6 +165,16 @@ int dispatch(int argc, char** argv) {
   exporting->add_flag("--dynamics", to.dynamics,
                       "dynamics.json, dynamics-*.csv: transmission error and mesh stiffness with their harmonics; analyses once more");
   exporting->add_flag("--given", to.given, "flanks as the study gave them, not as an optimisation left them");
+  std::string page;
+  bool open_page = false;
+  CLI::App* documentation = app.add_subcommand("docs", "name the pages of the documentation, which are HTML and need no network, or open one");
+  documentation->footer(
+      "Examples:\n"
+      "  flankwright docs                                            all pages with their files\n"
+      "  flankwright docs tutorial --open                            in the browser\n"
+      "  w3m \"$(flankwright docs keys)\"                             in the terminal");
+  documentation->add_option("page", page, "name of a page, as listed without one");
+  documentation->add_flag("--open", open_page, "open it in the browser (xdg-open)");
   std::string docs;
   CLI::App* completion = app.add_subcommand("completion", "print what a shell needs to complete commands, or the manual page");
   completion->footer(
@@ -203,6 +214,7 @@ int dispatch(int argc, char** argv) {
   if (report->parsed()) return report_command(folder);
   if (comparing->parsed()) return compare_command(comparison);
   if (library->parsed()) return library_command(study);
+  if (documentation->parsed()) return docs_command(page, open_page);
   if (completion->parsed()) {
     print(docs == "bash" ? bash_completion(app) : docs == "zsh" ? zsh_completion(app) : man_page(app, version()));
     return 0;

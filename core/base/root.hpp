@@ -57,4 +57,14 @@ Root bracketed_root(const Function& f, double a, double fa, double b, double fb,
   return {std::abs(fa) < std::abs(fb) ? a : b, std::min(a, b), std::max(a, b)};
 }
 
+/// The last accepted number between one that is accepted and one that is not, to round-off.
+template <class Predicate>
+double limit_between(double accepted, double refused, const Predicate& is_accepted) {
+  for (;;) {
+    const double middle = 0.5 * (accepted + refused);
+    if (middle == accepted || middle == refused) return accepted;
+    (is_accepted(middle) ? accepted : refused) = middle;
+  }
+}
+
 }  // namespace flankwright

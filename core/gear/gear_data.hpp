@@ -49,9 +49,12 @@ struct EdgeChamfer {
 
 /// The data of one gear of a pair, besides the common rack angles.
 struct GearData {
-  int teeth{0};                    ///< z, >= 5
-  double face_width{0.0};          ///< b [mm], > 0
-  double profile_shift{0.0};       ///< x, coefficient of the normal module [-]
+  int teeth{0};               ///< z, >= 5
+  double face_width{0.0};     ///< b [mm], > 0
+  double profile_shift{0.0};  ///< x, coefficient of the normal module [-]
+  /// E_sn: normal tooth thickness at the reference cylinder less that of the profile shift, (pi/2 + 2 x tan(alpha_n)) m_n [mm, ISO 21771], <= 0. Tip
+  /// diameter and the centre distance that is not given are those of the profile shift.
+  double tooth_thickness_allowance{0.0};
   double tip_diameter{not_given};  ///< d_a [mm]; not given: from rack and profile shift
   RackProfile rack;
   double tip_rounding{0.0};  ///< radius of the edge between flank and tip cylinder, section across the edge [mm], >= 0; 0: sharp
@@ -71,7 +74,7 @@ struct PairData {
   double normal_module{0.0};               ///< m_n [mm], > 0
   double pressure_angle{20 * units::deg};  ///< alpha_n, normal section [rad], 10 .. 35 deg
   double helix_angle{0.0};                 ///< |beta| at the reference cylinder [rad], 0 .. 45 deg
-  double centre_distance{not_given};       ///< a [mm]; not given: free of backlash
+  double centre_distance{not_given};       ///< a [mm]; not given: free of backlash but for the tooth thickness allowances
   Hand pinion_hand{Hand::Right};           ///< of the pinion, the wheel's is the opposite
   Member driver{Member::Pinion};           ///< which gear drives
   WorkingFlank working_flank{WorkingFlank::Right};

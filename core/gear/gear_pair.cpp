@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/base/root.hpp"
 #include "core/gear/edges.hpp"
 #include "core/gear/generation_check.hpp"
 #include "core/gear/involute.hpp"
@@ -62,7 +63,8 @@ Gear single_gear(Member m, const PairData& pair) {
   // ISO 6336-1: z_n = z / (cos^2(beta_b) cos(beta)).
   gear.virtual_teeth = gear.data.teeth * (1.0 + tan_base_helix * tan_base_helix) / cos_beta;
   set_tip_edge(gear);
-  gear.tooth_thickness = pair.normal_module * (0.5 * units::pi + 2.0 * gear.data.profile_shift * std::tan(pair.pressure_angle)) / cos_beta;
+  gear.generating_profile_shift = generating_profile_shift(gear.data, pair.normal_module, pair.pressure_angle);
+  gear.tooth_thickness = pair.normal_module * (0.5 * units::pi + 2.0 * gear.generating_profile_shift * std::tan(pair.pressure_angle)) / cos_beta;
   return gear;
 }
 
@@ -90,6 +92,15 @@ void check_gear(Member m, const PairData& pair, Findings& findings) {
   }
 }
 
+/// The transverse pressure angle at which teeth of these profile shifts have no backlash [ISO 21771]:
+///
+///     inv(alpha_wt) = inv(alpha_t) + 2 tan(alpha_n) (x1 + x2) / (z1 + z2).
+double backlash_free_angle(const PairData& data, double shift_sum) {
+  const double alpha_t = std::atan(std::tan(data.pressure_angle) / std::cos(data.helix_angle));
+  if (shift_sum == 0.0) return alpha_t;
+  return inverse_involute(involute(alpha_t) + 2.0 * std::tan(data.pressure_angle) * shift_sum / (data.pinion.teeth + data.wheel.teeth));
+}
+
 /// Fills what depends on both gears; pinion and wheel hold their own geometry already.
 void mesh(GearPair& pair) {
   const PairData& data = pair.data;
@@ -100,16 +111,16 @@ void mesh(GearPair& pair) {
   pair.base_helix_angle = std::atan(std::tan(data.helix_angle) * std::cos(pair.transverse_pressure_angle));
   const double teeth = data.pinion.teeth + data.wheel.teeth;
   const double reference_distance = g1.reference_radius + g2.reference_radius;
-  const double shift_sum = data.pinion.profile_shift + data.wheel.profile_shift;
-  // ISO 21771: inv(alpha_wt) = inv(alpha_t) + 2 tan(alpha_n) (x1 + x2) / (z1 + z2) where the flanks have no backlash.
-  const double backlash_free_angle =
-      shift_sum == 0.0 ? pair.transverse_pressure_angle
-                       : inverse_involute(involute(pair.transverse_pressure_angle) + 2.0 * std::tan(data.pressure_angle) * shift_sum / teeth);
-  pair.backlash_free_centre_distance =
-      shift_sum == 0.0 ? reference_distance : reference_distance * std::cos(pair.transverse_pressure_angle) / std::cos(backlash_free_angle);
-  pair.centre_distance = std::isnan(data.centre_distance) ? pair.backlash_free_centre_distance : data.centre_distance;
-  pair.working_transverse_pressure_angle =
-      std::isnan(data.centre_distance) ? backlash_free_angle : std::acos((g1.base_radius + g2.base_radius) / pair.centre_distance);
+  const auto distance_at = [&](double angle) {
+    return angle == pair.transverse_pressure_angle ? reference_distance
+                                                   : reference_distance * std::cos(pair.transverse_pressure_angle) / std::cos(angle);
+  };
+  // Nominal teeth have no backlash where the centre distance is not given; the allowances make it.
+  const bool given = !std::isnan(data.centre_distance);
+  const double nominal_angle = backlash_free_angle(data, data.pinion.profile_shift + data.wheel.profile_shift);
+  pair.backlash_free_centre_distance = distance_at(backlash_free_angle(data, g1.generating_profile_shift + g2.generating_profile_shift));
+  pair.centre_distance = given ? data.centre_distance : distance_at(nominal_angle);
+  pair.working_transverse_pressure_angle = given ? std::acos((g1.base_radius + g2.base_radius) / pair.centre_distance) : nominal_angle;
   const double alpha_wt = pair.working_transverse_pressure_angle;
   for (Gear* gear : {&g1, &g2}) {
     gear->working_pitch_radius = pair.centre_distance * gear->data.teeth / teeth;
@@ -121,11 +132,11 @@ void mesh(GearPair& pair) {
   }
   pair.working_helix_angle = std::atan(std::tan(data.helix_angle) * g1.working_pitch_radius / g1.reference_radius);
   pair.transverse_base_pitch = 2.0 * units::pi * g1.base_radius / data.pinion.teeth;
-  const double pitch = 2.0 * units::pi * g1.working_pitch_radius / data.pinion.teeth;
-  // Without a given centre distance the pair is free of backlash by construction, not just to round-off.
-  pair.backlash = std::isnan(data.centre_distance)
-                      ? 0.0
-                      : pitch - g1.tooth_thickness_at(g1.working_pitch_radius) - g2.tooth_thickness_at(g2.working_pitch_radius);
+  // Without a given centre distance the nominal teeth fill the pitch circle by construction, not just to round-off.
+  const auto added = [&](const Gear& gear) {
+    return gear.data.tooth_thickness_allowance / cos_beta * gear.working_pitch_radius / gear.reference_radius;
+  };
+  pair.backlash = given ? pair.backlash_at(pair.centre_distance) : 0.0 - added(g1) - added(g2);
   pair.face_width = std::min(data.pinion.face_width, data.wheel.face_width);
 
   pair.path_length = pair.centre_distance * std::sin(alpha_wt);
@@ -211,7 +222,10 @@ std::optional<double> edge_radius_for(Member m, const PairData& pair, double tip
   return radius;
 }
 
-std::vector<InvalidInput> find_problems(const PairData& data) {
+namespace {
+
+/// find_problems(), whatever is to blame.
+std::vector<InvalidInput> problems_of(const PairData& data) {
   Findings findings;
   findings.require(data.normal_module > 0.0 && std::isfinite(data.normal_module), "pair.normal_module", data.normal_module, "above 0 mm");
   findings.require(data.pressure_angle >= 10 * units::deg && data.pressure_angle <= 35 * units::deg, "pair.pressure_angle",
@@ -225,6 +239,8 @@ std::vector<InvalidInput> find_problems(const PairData& data) {
     findings.require(std::abs(gear.profile_shift) <= 2.0, name + ".profile_shift", gear.profile_shift, "-2 .. 2");
     findings.require(std::isnan(gear.tip_diameter) || (gear.tip_diameter > 0.0 && std::isfinite(gear.tip_diameter)), name + ".tip_diameter",
                      gear.tip_diameter, "above 0 mm");
+    findings.require(gear.tooth_thickness_allowance <= 0.0 && std::isfinite(gear.tooth_thickness_allowance), name + ".tooth_thickness_allowance",
+                     gear.tooth_thickness_allowance / units::um, "0 um or less: a thicker tooth is one of larger profile shift");
     check_rack(gear, name, data, findings);
     findings.add(find_tool_problems(data, m));
   }
@@ -237,12 +253,42 @@ std::vector<InvalidInput> find_problems(const PairData& data) {
                      "above the sum of the base radii, " + in_words(base_radii) + " mm");
   }
   const double alpha_t = std::atan(std::tan(data.pressure_angle) / std::cos(data.helix_angle));
-  const double shift_sum = data.pinion.profile_shift + data.wheel.profile_shift;
+  const auto shift = [&](Member m) { return generating_profile_shift(data[m], data.normal_module, data.pressure_angle); };
+  const double shift_sum = shift(Member::Pinion) + shift(Member::Wheel);
   const double working_involute = involute(alpha_t) + 2.0 * std::tan(data.pressure_angle) * shift_sum / (data.pinion.teeth + data.wheel.teeth);
   findings.require(working_involute > 0.0, "pinion.profile_shift", data.pinion.profile_shift,
                    "a sum of profile shifts that leaves a positive working pressure angle");
   if (findings.empty()) check_mesh(data, findings);
   return findings.take();
+}
+
+}  // namespace
+
+std::vector<InvalidInput> find_problems(const PairData& data) {
+  std::vector<InvalidInput> problems = problems_of(data);
+  PairData sound = data;  // the allowances that are not to blame are left in it
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    if (std::isless(data[m].tooth_thickness_allowance, 0.0)) sound[m].tooth_thickness_allowance = 0.0;
+  }
+  if (problems.empty() || !problems_of(sound).empty()) return problems;
+  std::vector<InvalidInput> of_allowances;
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    const auto problems_with = [&](double allowance) {
+      PairData with = sound;
+      with[m].tooth_thickness_allowance = allowance;
+      return problems_of(with);
+    };
+    const double allowance = data[m].tooth_thickness_allowance;
+    if (const std::vector<InvalidInput> caused = problems_with(allowance); caused.empty()) {
+      sound[m].tooth_thickness_allowance = allowance;
+    } else {
+      const double least = limit_between(0.0, allowance, [&](double tried) { return problems_with(tried).empty(); });
+      of_allowances.emplace_back(
+          name_of(m) + std::string(".tooth_thickness_allowance"), in_words(allowance / units::um),
+          in_words(least / units::um) + " .. 0 um (else " + caused.front().field() + ": allowed is " + caused.front().allowed() + ")");
+    }
+  }
+  return of_allowances;
 }
 
 GearPair make_gear_pair(const PairData& data) {

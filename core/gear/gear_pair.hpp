@@ -9,7 +9,8 @@
 namespace flankwright {
 
 /// Everything in the data that cannot be built, all at once; empty where make_gear_pair() will succeed. Fields carry the
-/// names of the study file ("pinion.teeth", "pair.centre_distance").
+/// names of the study file ("pinion.teeth", "pair.centre_distance"). Where a pair could be built but for its tooth thickness allowances, it is
+/// these that are named, with the range that they may have.
 std::vector<InvalidInput> find_problems(const PairData& data);
 
 /// Whether a chamfer leaves part of the tip, and turns from the flank towards it; one condition of find_problems(), for data that are not whole yet.

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/base/error.hpp"
+#include "core/base/root.hpp"
 #include "core/gear/rack_envelope.hpp"
 
 namespace flankwright {
@@ -15,16 +16,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 std::string field_of(Member member, const char* key) {
   std::string field(name_of(member));
   return field.append(".generation.").append(key);
-}
-
-/// The last accepted number between one that is accepted and one that is not, to round-off.
-template <class Predicate>
-double limit_between(double accepted, double refused, const Predicate& is_accepted) {
-  for (;;) {
-    const double middle = 0.5 * (accepted + refused);
-    if (middle == accepted || middle == refused) return accepted;
-    (is_accepted(middle) ? accepted : refused) = middle;
-  }
 }
 
 /// The least number that is accepted, above one that is not; infinite where none is.

@@ -16,6 +16,12 @@ double Gear::tooth_thickness_at(double radius) const {
   return 2.0 * radius * (0.5 * tooth_thickness / reference_radius + involute(alpha_t) - involute(pressure_angle_at(radius)));
 }
 
+double GearPair::backlash_at(double distance) const {
+  const double per_tooth = distance / (data.pinion.teeth + data.wheel.teeth);  // half the module of the pitch circles
+  return 2.0 * units::pi * per_tooth - pinion.tooth_thickness_at(data.pinion.teeth * per_tooth) -
+         wheel.tooth_thickness_at(data.wheel.teeth * per_tooth);
+}
+
 int GearPair::contact_line_sense() const {
   if (data.helix_angle == 0.0) return 0;
   const int hand = data.pinion_hand == Hand::Right ? 1 : -1;

@@ -1,5 +1,7 @@
 #include "core/gear/tool_section.hpp"
 
+#include "core/gear/tooth_form.hpp"
+
 namespace flankwright {
 
 ParabolicSection::ParabolicSection(const ParabolicRack& tool, const PairData& pair) {
@@ -15,7 +17,8 @@ ParabolicSection::ParabolicSection(const ParabolicRack& tool, const PairData& pa
 RevolutionSection::RevolutionSection(const RevolutionTool& tool, const PairData& pair, const GearData& gear)
     : sin_(std::sin(tool.half_apex)),
       cos_(std::cos(tool.half_apex)),
-      apex_distance_(tool.distance / cos_ - (gear.rack.dedendum - gear.profile_shift) * pair.normal_module / std::cos(pair.pressure_angle)),
+      apex_distance_(tool.distance / cos_ - (gear.rack.dedendum - generating_profile_shift(gear, pair.normal_module, pair.pressure_angle)) *
+                                                pair.normal_module / std::cos(pair.pressure_angle)),
       curvature_(1.0 / tool.arc_radius) {}
 
 }  // namespace flankwright

@@ -48,7 +48,7 @@ class ParabolicSection {
 /// with xi_0 = rho sin(beta) and d_0 = rho (1 - cos(beta)) on the generatrix itself. NaN where |z| > R.
 ///
 /// The apex lies beyond the gear's tip, a_1 from the rolling line along the generatrix. The paper gives only a_1 + a_2 =
-/// d / cos(alpha); here the rim reaches as deep as the tip of the gear's rack, a_2 = (h_fP - x m_n) / cos(alpha_n).
+/// d / cos(alpha); here the rim reaches as deep as the tip of the gear's rack, a_2 = (h_fP - x_E m_n) / cos(alpha_n).
 class RevolutionSection {
  public:
   RevolutionSection(const RevolutionTool& tool, const PairData& pair, const GearData& gear);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "core/base/error.hpp"
 #include "core/base/root.hpp"
@@ -33,6 +34,17 @@ double full_tip_rounding(double dedendum, double pressure_angle) {
   return (pi / 4 - dedendum * std::tan(pressure_angle)) * std::cos(pressure_angle) / (1 - std::sin(pressure_angle));
 }
 
+double generating_profile_shift(const GearData& gear, double normal_module, double pressure_angle) {
+  return gear.profile_shift + gear.tooth_thickness_allowance / (2 * normal_module * std::tan(pressure_angle));
+}
+
+GearData as_generated(GearData gear, double normal_module, double pressure_angle) {
+  const double nominal = std::exchange(gear.profile_shift, generating_profile_shift(gear, normal_module, pressure_angle));
+  gear.tooth_thickness_allowance = 0;
+  gear.rack.addendum += nominal - gear.profile_shift;
+  return gear;
+}
+
 ToothForm::ToothForm(NoTip, const GearData& gear, double normal_module, double pressure_angle, double helix_angle) : helix_angle_(helix_angle) {
   if (gear.teeth < 5) reject("teeth", gear.teeth, "an integer of at least 5");
   if (!(normal_module > 0) || !std::isfinite(normal_module)) reject("normal_module", normal_module, "more than 0 mm");
@@ -43,6 +55,7 @@ ToothForm::ToothForm(NoTip, const GearData& gear, double normal_module, double p
     reject("helix_angle", helix_angle / units::deg, "at least 0 and less than 60 deg");
   }
   if (!std::isfinite(gear.profile_shift)) reject("profile_shift", gear.profile_shift, "a finite number");
+  if (!std::isfinite(gear.tooth_thickness_allowance)) reject("tooth_thickness_allowance", gear.tooth_thickness_allowance, "a finite number");
 
   const double h = gear.rack.dedendum;
   const double rho = gear.rack.root_radius;
@@ -61,9 +74,10 @@ ToothForm::ToothForm(NoTip, const GearData& gear, double normal_module, double p
   reference_radius_ = gear.teeth * normal_module / (2 * cos_beta);
   base_radius_ = reference_radius_ * std::cos(transverse_pressure_angle_);
   const double tan_alpha_t = std::tan(transverse_pressure_angle_);
-  base_half_angle_ = (pi / 2 + 2 * gear.profile_shift * std::tan(pressure_angle)) / gear.teeth + tan_alpha_t - transverse_pressure_angle_;
+  const double shift = generating_profile_shift(gear, normal_module, pressure_angle);
+  base_half_angle_ = (pi / 2 + 2 * shift * std::tan(pressure_angle)) / gear.teeth + tan_alpha_t - transverse_pressure_angle_;
   rounding_ = rho * normal_module;
-  tool_depth_ = (h - gear.profile_shift) * normal_module;
+  tool_depth_ = (h - shift) * normal_module;
   rounding_centre_ =
       (pi / 4 + h * std::tan(pressure_angle) + rho * (1 - std::sin(pressure_angle)) / std::cos(pressure_angle)) * normal_module / cos_beta;
   root_radius_ = reference_radius_ - tool_depth_;

@@ -23,9 +23,15 @@ struct GeneratedProfile {
 /// @param pressure_angle  alpha_n [rad], 0 < alpha_n < pi/2
 double full_tip_rounding(double dedendum, double pressure_angle);
 
+/// Profile shift of the rack that leaves a gear its tooth thickness allowance, x_E = x + E_sn / (2 m_n tan(alpha_n)) [-, ISO 21771].
+double generating_profile_shift(const GearData& gear, double normal_module, double pressure_angle);
+
+/// The same teeth stated by their generating profile shift, without an allowance: the rack's addendum makes up for what the tip does not follow.
+GearData as_generated(GearData gear, double normal_module, double pressure_angle);
+
 /// Form radius, root radius and undercut of a gear cut by its rack.
 ///
-/// @param gear            teeth, profile shift and rack are used
+/// @param gear            teeth, profile shift, tooth thickness allowance and rack are used
 /// @param normal_module   m_n [mm], > 0
 /// @param pressure_angle  alpha_n, normal section [rad], 0 < alpha_n < 45 deg
 /// @param helix_angle     |beta| at the reference cylinder [rad], 0 <= beta < 60 deg
@@ -47,7 +53,7 @@ struct ProfilePoint {
 ///
 /// The fillet's parameter lambda is the angle of the tool's normal against the rolling line: alpha_t where the tip
 /// rounding joins the tool's flank, pi/2 at its tip. In the paper's eqs 1A.10-1A.13, with d the depth of the tool's
-/// point below the rolling line, r the reference radius and theta = phi_1 + phi,
+/// point below the rolling line, r the reference radius, x the generating profile shift and theta = phi_1 + phi,
 ///
 ///     d = (h - x - rho (1 - sin lambda_n)) m_n,       tan lambda_n = tan lambda cos beta,
 ///     theta r = e + d / tan lambda - rho m_n cos lambda_n / cos beta,

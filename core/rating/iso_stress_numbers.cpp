@@ -37,7 +37,7 @@ struct RootFactors {
 RootFactors root_factors(const GearPair& pair, Member member) {
   const Gear& gear = pair[member];
   const RackProfile& rack = gear.data.rack;
-  const double alpha_n = pair.data.pressure_angle, beta = pair.data.helix_angle, x = gear.data.profile_shift, m_n = pair.data.normal_module;
+  const double alpha_n = pair.data.pressure_angle, beta = pair.data.helix_angle, x = gear.generating_profile_shift, m_n = pair.data.normal_module;
   const double z = gear.data.teeth, cos_beta_b = std::cos(pair.base_helix_angle), z_n = z / (cos_beta_b * cos_beta_b * std::cos(beta));
   const double h_fP = rack.dedendum, rho_fP = rack.root_radius;
   const double E = units::pi / 4.0 - h_fP * std::tan(alpha_n) - (1.0 - std::sin(alpha_n)) * rho_fP / std::cos(alpha_n);

@@ -93,17 +93,31 @@ void note_signal(const Study& study, std::vector<std::string>& notes) {
   }
 }
 
-}  // namespace
-
-double normal_backlash(const GearPair& pair) {
-  return pair.backlash * std::cos(pair.working_transverse_pressure_angle) * std::cos(pair.base_helix_angle);
+/// Scenes whose axes are so close that nothing is left of the backlash.
+void note_closed_backlash(const Study& study, const GearPair& pair, std::vector<std::string>& notes) {
+  for (const Scene& scene : study.scenes) {
+    const double closer = -scene.misalignment.centre_distance, left = pair.backlash_at(pair.centre_distance - closer);
+    if (left >= -units::um) continue;
+    notes.push_back(
+        fmt::format("in the scene \"{}\" the axes are closer by {:.4g} mm: the teeth overlap by {:.4g} um and would jam; only the working "
+                    "flanks are analysed",
+                    scene.name, closer, -left / units::um));
+  }
 }
 
+}  // namespace
+
 std::string backlash_in_words(const GearPair& pair) {
-  if (std::isnan(pair.data.centre_distance)) return {};
+  const double of_pinion = pair.data.pinion.tooth_thickness_allowance / units::um, of_wheel = pair.data.wheel.tooth_thickness_allowance / units::um;
+  const bool has_allowance = of_pinion != 0.0 || of_wheel != 0.0;
+  if (std::isnan(pair.data.centre_distance) && !has_allowance) return {};
+  const std::string allowances =
+      has_allowance ? fmt::format(", with tooth thickness allowances of {:.4g} um on the pinion and {:.4g} um on the wheel", of_pinion, of_wheel)
+                    : "";
   return fmt::format(
-      "backlash {:.4g} um on the working pitch circle, {:.4g} um normal to the flanks, at the centre distance of {:.6g} mm (none at {:.6g} mm)",
-      pair.backlash / units::um, normal_backlash(pair) / units::um, pair.centre_distance, pair.backlash_free_centre_distance);
+      "backlash {:.4g} um on the working pitch circle (j_wt), {:.4g} um normal to the flanks (j_bn), at the centre distance of {:.6g} mm (none at "
+      "{:.6g} mm){}",
+      pair.backlash / units::um, pair.normal_backlash() / units::um, pair.centre_distance, pair.backlash_free_centre_distance, allowances);
 }
 
 std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
@@ -143,6 +157,7 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
                     "working flanks are analysed",
                     -pair.backlash / units::um, pair.centre_distance, pair.backlash_free_centre_distance));
   }
+  if (pair.backlash > 0.0) note_closed_backlash(study, pair, notes);
   return notes;
 }
 

@@ -8,11 +8,8 @@
 
 namespace flankwright::studies {
 
-/// Normal backlash j_bn = j_wt cos(alpha_wt) cos(beta_b) [mm, ISO 21771]; below 0 the teeth overlap.
-double normal_backlash(const GearPair& pair);
-
-/// What a given centre distance leaves: "backlash 112 um on the working pitch circle, 105 um normal to the flanks ..."; empty where the
-/// centre distance follows from the profile shifts.
+/// What a given centre distance and tooth thickness allowances leave: "backlash 112 um on the working pitch circle (j_wt), 105 um normal to the
+/// flanks (j_bn) ..."; empty where the centre distance follows from the profile shifts and there are no allowances.
 std::string backlash_in_words(const GearPair& pair);
 
 /// Warnings about a study before any result, one line each: settings that the compliance does not use, undercut, cut-off

@@ -39,11 +39,13 @@ Json web_key(const WebbedBody& body) {
 
 Json gear_key(const GearToMesh& gear) {
   const auto& [data, module, pressure_angle, helix_angle, body] = gear;
-  const auto& [teeth, face_width, profile_shift, tip_diameter, rack, tip_rounding, tip_chamfer, end_rounding, end_chamfer, generation] = data;
+  const auto& [teeth, face_width, profile_shift, tooth_thickness_allowance, tip_diameter, rack, tip_rounding, tip_chamfer, end_rounding, end_chamfer,
+               generation] = data;
   const auto& [addendum, dedendum, root_radius] = rack;
   const auto& [shaft_diameter, bore_diameter, shaft_overhang, torque_end, rigid, hold, web] = body;
-  static_cast<void>(module);        // 1
-  static_cast<void>(tip_rounding);  // the mesh has sharp edges
+  static_cast<void>(module);                     // 1
+  static_cast<void>(tooth_thickness_allowance);  // part of the profile shift in modules
+  static_cast<void>(tip_rounding);               // the mesh has sharp edges
   static_cast<void>(tip_chamfer);
   static_cast<void>(end_rounding);
   static_cast<void>(end_chamfer);

@@ -56,6 +56,7 @@ Json macro_json(const StudyResults& results, Member member) {
   Json macro{{"teeth", gear.data.teeth},
              {"face_width_mm", gear.data.face_width},
              {"profile_shift", gear.data.profile_shift},
+             {"tooth_thickness_allowance_um", in_um(gear.data.tooth_thickness_allowance)},
              {"tip_diameter_mm", 2.0 * gear.tip_radius},
              {"usable_face_width_mm", gear.face.width()},
              {"tip_form_diameter_mm", 2.0 * gear.tip_form_radius},

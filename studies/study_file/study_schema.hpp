@@ -75,8 +75,9 @@ struct StudyBuilder {
 
 using StoreInStudy = void (*)(StudyBuilder&, Member, const Value&);
 using StoreInScene = void (*)(Scene&, Member, const Value&);  ///< such a key may be overridden by a scene
+using StoreInFlank = void (*)(Modification&, double);         ///< a number of one gear's flanks that a sweep may vary and no search
 /// A key that holds a ModificationParameter may be a design variable.
-using Store = std::variant<std::monostate, StoreInStudy, StoreInScene, ModificationParameter, const ModificationChoice*>;
+using Store = std::variant<std::monostate, StoreInStudy, StoreInScene, StoreInFlank, ModificationParameter, const ModificationChoice*>;
 
 struct SchemaKey {
   std::string path{};  ///< dotted; "scenes[].name" is a key of each scene

@@ -8,7 +8,7 @@
 
 namespace flankwright::studies {
 
-/// True for keys that a sweep may vary: the numbers of a working condition (misalignment, torque, errors) and of a modification. All
+/// True for keys that a sweep may vary: the numbers of a working condition (misalignment, torque, errors), of a modification and of the grinding's twist compensation. All
 /// else changes the gears or how they are analysed.
 bool is_sweepable(const SchemaKey& key);
 

@@ -10,7 +10,7 @@ inline constexpr std::string_view template_pair = R"(
 normal_module = 4                    # mm; or, instead of it, normal_diametral_pitch in 1/in
 pressure_angle = 20                  # deg, normal section
 helix_angle = 15                     # deg, 0 is a spur gear
-# centre_distance = 125              # mm; without it the pair has no backlash
+# centre_distance = 125              # mm; by default that of the profile shifts, where backlash comes from tooth_thickness_allowance alone
 # driver = "wheel"                   # the pinion, unless said
 # working_flank = "left"             # of the pinion: left is the coast side
 
@@ -19,6 +19,7 @@ teeth = 20
 face_width = 40                      # mm
 # hand = "left"                      # of the helix: right, unless said; the wheel has the other
 profile_shift = 0.2                  # in normal modules, + outwards
+# tooth_thickness_allowance = -60    # um, E_sn of the normal tooth thickness; here and on the wheel it makes the backlash
 # tip_diameter = 92                  # mm; by default from rack and profile shift
 # edges = { tip_rounding = 0.2, end_rounding = 0.2 }   # mm; by default 0.05 normal modules
 # process = "generating_grinding"    # or "form_grinding": either twists the lead modification of helical teeth; "topological" does not

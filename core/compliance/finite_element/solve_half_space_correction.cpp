@@ -180,7 +180,7 @@ class FaceFunctional {
 
 /// The gear's tooth in the section across the contact line, m_n = 1.
 GearData equivalent_spur_gear(const Gear& gear, const GearPair& pair) {
-  GearData spur = gear.data;
+  GearData spur = as_generated(gear.data, pair.data.normal_module, pair.data.pressure_angle);
   spur.face_width = gear.data.face_width / pair.data.normal_module;
   spur.teeth = static_cast<int>(std::lround(gear.virtual_teeth));
   spur.tip_diameter = spur.teeth + 2 * (gear.tip_radius - gear.reference_radius) / pair.data.normal_module;

@@ -31,6 +31,7 @@ std::vector<FlankPoint> flank_points(const GearMesh& mesh, const StationGrid& gr
 InfluenceTableTask in_modules(InfluenceTableTask task) {
   GearToMesh& gear = task.gear;
   const double module = gear.normal_module;
+  gear.gear = as_generated(gear.gear, module, gear.pressure_angle);
   for (double* length : {&gear.gear.face_width, &gear.gear.tip_diameter, &gear.normal_module}) *length /= module;
   gear.body = in_units(gear.body, module);
   return task;

@@ -12,7 +12,11 @@ InfluenceTableTask influence_table_task(const ComplianceTask& task, Member membe
   const bool pinion = member == Member::Pinion;
   const GearPair& pair = task.pair;
   const Gear& gear = pair[member];
-  InfluenceTableTask run{.gear = {gear.data, pair.data.normal_module, pair.data.pressure_angle, pair.data.helix_angle, {}},
+  InfluenceTableTask run{.gear = {as_generated(gear.data, pair.data.normal_module, pair.data.pressure_angle),
+                                  pair.data.normal_module,
+                                  pair.data.pressure_angle,
+                                  pair.data.helix_angle,
+                                  {}},
                          .poissons_ratio = (pinion ? task.material.pinion : task.material.wheel).poissons_ratio,
                          .teeth_apart = std::max(2, teeth_apart_in_contact(pair)),
                          .grid = station_grid(gear.data.face_width / pair.data.normal_module),

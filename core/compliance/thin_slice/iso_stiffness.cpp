@@ -30,7 +30,7 @@ IsoStiffness iso_stiffness(const GearPair& pair, const Material& pinion, const M
   const PairData& data = pair.data;
   const double cos_beta = std::cos(data.helix_angle);
   const double cos_base = std::cos(pair.base_helix_angle);
-  const double x1 = data.pinion.profile_shift, x2 = data.wheel.profile_shift;
+  const double x1 = pair.pinion.generating_profile_shift, x2 = pair.wheel.generating_profile_shift;
 
   IsoStiffness iso;
   iso.virtual_teeth_pinion = data.pinion.teeth / (cos_base * cos_base * cos_beta);

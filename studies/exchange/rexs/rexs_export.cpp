@@ -135,7 +135,7 @@ class Export {
       const std::string settings_type = "cylindrical_gear_manufacturing_settings";
       for (const int flank : {left, right}) {
         const int settings = add(settings_type);
-        number("generated_addendum_modification_coefficient", pair_[m].data.profile_shift);
+        number("generated_addendum_modification_coefficient", pair_[m].generating_profile_shift);
         length("machining_allowance", 0.0);
         relate("manufacturing_step",
                {{flank, "workpiece", type}, {tool, "tool", "rack_shaped_tool"}, {settings, "manufacturing_settings", settings_type}}, 1);
@@ -311,6 +311,8 @@ class Export {
   void add_notes() {
     result_.notes.push_back("modifications are those of the working flanks; the flanks at the back are exported without");
     if (before("1.3")) result_.notes.push_back("modifications are part of the format since 1.3; older readers pass over them");
+    const bool has_allowance = pair_.pinion.data.tooth_thickness_allowance != 0.0 || pair_.wheel.data.tooth_thickness_allowance != 0.0;
+    if (before("1.3") && has_allowance) result_.notes.push_back("tooth thickness allowances are part of the format since 1.3: left out");
     result_.notes.push_back("misalignment, shafts and errors of teeth are not exported");
   }
 

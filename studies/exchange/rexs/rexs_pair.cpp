@@ -117,6 +117,7 @@ class PairReading {
     data(m).face_width = width.value;
     remark(prefix(m) + "face_width", width.source);
     read_profile_shift(m);
+    read_tooth_thickness_allowance(m);
     read_tip_diameter(m);
     read_rack(m);
     read_tip_chamfer(m);
@@ -138,6 +139,24 @@ class PairReading {
       remark(key, length->source + " in modules");
     } else {
       remark(key, "not in the file");
+    }
+  }
+
+  /// The format has the profile shift that the tool of the last step leaves.
+  void read_tooth_thickness_allowance(Member m) {
+    const auto generating = number(parts_[m].settings, "generated_addendum_modification_coefficient");
+    if (!generating || agree(generating->value, data(m).profile_shift)) return;
+    const auto stock = number(parts_[m].settings, "machining_allowance", Dimension::Length);
+    if (stock && stock->value != 0.0) {
+      reading_.warn(fmt::format("{} leaves a machining allowance: not taken for the finished tooth", generating->source));
+      return;
+    }
+    const double allowance = (generating->value - data(m).profile_shift) * 2.0 * pair_.data.normal_module * std::tan(pair_.data.pressure_angle);
+    if (allowance < 0.0) {
+      data(m).tooth_thickness_allowance = allowance;
+      remark(prefix(m) + "tooth_thickness_allowance", "from " + generating->source);
+    } else {
+      reading_.warn(fmt::format("{} = {} is more than the profile shift: not taken", generating->source, number_text(generating->value)));
     }
   }
 
@@ -271,7 +290,8 @@ class PairReading {
     const auto root = number(&gear(m), "root_diameter", Dimension::Length);
     if (!root) return;
     const double reference = data(m).teeth * pair_.data.normal_module / std::cos(pair_.data.helix_angle);
-    const double dedendum = data(m).profile_shift + (reference - root->value) / (2.0 * pair_.data.normal_module);
+    const double dedendum = generating_profile_shift(data(m), pair_.data.normal_module, pair_.data.pressure_angle) +
+                            (reference - root->value) / (2.0 * pair_.data.normal_module);
     if (dedendum > 0.5 && dedendum < 2.5) {
       rack.dedendum = std::round(dedendum * 1e9) * 1e-9;
       remark(key, "from " + root->source);
@@ -297,6 +317,9 @@ void write_gear(const ImportedPair& pair, Member m, StudyText& text) {
   text.key("face_width", number_text(gear.face_width), remark("face_width"));
   if (m == Member::Pinion) text.key("hand", pair.data.pinion_hand == Hand::Right ? "\"right\"" : "\"left\"", remark("hand"));
   text.key("profile_shift", number_text(gear.profile_shift), remark("profile_shift"));
+  if (gear.tooth_thickness_allowance != 0.0) {
+    text.key("tooth_thickness_allowance", number_text(gear.tooth_thickness_allowance / units::um), remark("tooth_thickness_allowance"));
+  }
   if (!std::isnan(gear.tip_diameter)) text.key("tip_diameter", number_text(gear.tip_diameter), remark("tip_diameter"));
   if (!remark("edges.tip_rounding").empty()) text.key("edges.tip_rounding", number_text(gear.tip_rounding), remark("edges.tip_rounding"));
   for (const auto& [key, chamfer] : {std::pair{"edges.tip_chamfer", gear.tip_chamfer}, std::pair{"edges.end_chamfer", gear.end_chamfer}}) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "studies/exchange/rexs/rexs_errors.hpp"
@@ -99,6 +100,13 @@ void find_rest(Reading& reading, GearParts& parts) {
     if (of == nullptr || parts.tool != nullptr) continue;
     const auto tools = reading.related(*of, {"rack_shaped_tool"});
     if (!tools.empty()) parts.tool = tools.front();
+  }
+  int last = std::numeric_limits<int>::min();
+  for (const Relation& step : reading.model().relations) {
+    if (parts.flank == nullptr || step.type != "manufacturing_step" || step.role("workpiece") != parts.flank->id) continue;
+    if (!step.role("manufacturing_settings") || step.order.value_or(0) < last) continue;
+    last = step.order.value_or(0);
+    parts.settings = &reading.in_role(step, "manufacturing_settings");
   }
   const auto shafts = reading.related(*parts.gear, {"shaft"});
   if (!shafts.empty()) parts.shaft = shafts.front();

@@ -16,6 +16,7 @@ struct GearParts {
   const Component* flank{nullptr};        ///< the working one; null where the file has none
   const Component* other_flank{nullptr};  ///< the one at the back
   const Component* tool{nullptr};         ///< rack that generates it; null where none is named
+  const Component* settings{nullptr};     ///< of the last manufacturing step; null where there is none
   const Component* material{nullptr};
   const Component* shaft{nullptr};
   /// The datum face is the end of lowest z, seen from where left and right are named; z runs along the pinion's u axis.

@@ -82,13 +82,15 @@ function draw_teeth(plot, geometry) {
 const GEAR_ROWS = [
   ["Teeth", "teeth", ""], ["Hand of helix", "hand", ""], ["Reference diameter", "reference_diameter_mm", "mm"],
   ["Base diameter", "base_diameter_mm", "mm"], ["Tip diameter", "tip_diameter_mm", "mm"],
+  ["Tooth thickness allowance E_sn", "tooth_thickness_allowance_um", "µm"], ["Generating profile shift x_E", "generating_profile_shift", ""],
   ["Root diameter", "root_diameter_mm", "mm"], ["Root form diameter", "form_diameter_mm", "mm"],
   ["Active root diameter", "active_root_diameter_mm", "mm"], ["Tip thickness", "tip_thickness_mm", "mm"],
   ["Undercut", "undercut", ""],
 ];
 
 const PAIR_ROWS = [
-  ["Centre distance", "centre_distance_mm", "mm"], ["Backlash", "backlash_um", "µm"],
+  ["Centre distance", "centre_distance_mm", "mm"], ["Circumferential backlash j_wt", "backlash_um", "µm"],
+  ["Normal backlash j_bn", "normal_backlash_um", "µm"], ["Radial backlash j_r", "radial_backlash_um", "µm"],
   ["Working transverse pressure angle", "working_transverse_pressure_angle_deg", "deg"],
   ["Base helix angle", "base_helix_angle_deg", "deg"], ["Transverse base pitch", "transverse_base_pitch_mm", "mm"],
   ["Transverse contact ratio ε_α", "transverse_contact_ratio", ""], ["Overlap ratio ε_β", "overlap_ratio", ""],

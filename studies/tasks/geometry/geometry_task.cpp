@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "core/base/units.hpp"
-#include "studies/analysis/study_notes.hpp"
 #include "studies/analysis/study_run.hpp"
 #include "studies/study_file/template_text.hpp"
 
@@ -20,6 +19,8 @@ struct GearSize {
 constexpr GearSize gear_sizes[] = {
     {"number of teeth", "z", "", [](const Gear& g) { return static_cast<double>(g.data.teeth); }},
     {"profile shift coefficient", "x", "", [](const Gear& g) { return g.data.profile_shift; }},
+    {"tooth thickness allowance", "E_sn", "um", [](const Gear& g) { return g.data.tooth_thickness_allowance / units::um; }},
+    {"generating profile shift coefficient", "x_E", "", [](const Gear& g) { return g.generating_profile_shift; }},
     {"reference diameter", "d", "mm", [](const Gear& g) { return 2.0 * g.reference_radius; }},
     {"base diameter", "d_b", "mm", [](const Gear& g) { return 2.0 * g.base_radius; }},
     {"tip diameter", "d_a", "mm", [](const Gear& g) { return 2.0 * g.tip_radius; }},
@@ -43,7 +44,8 @@ struct MeshSize {
 constexpr MeshSize mesh_sizes[] = {
     {"centre distance", "a_w", "mm", [](const GearPair& p) { return p.centre_distance; }},
     {"circumferential backlash", "j_wt", "um", [](const GearPair& p) { return p.backlash / units::um; }},
-    {"normal backlash", "j_bn", "um", [](const GearPair& p) { return normal_backlash(p) / units::um; }},
+    {"normal backlash", "j_bn", "um", [](const GearPair& p) { return p.normal_backlash() / units::um; }},
+    {"radial backlash", "j_r", "um", [](const GearPair& p) { return p.radial_backlash() / units::um; }},
     {"working pressure angle", "alpha_wt", "deg", [](const GearPair& p) { return p.working_transverse_pressure_angle / units::deg; }},
     {"base helix angle", "beta_b", "deg", [](const GearPair& p) { return p.base_helix_angle / units::deg; }},
     {"transverse base pitch", "p_et", "mm", [](const GearPair& p) { return p.transverse_base_pitch; }},

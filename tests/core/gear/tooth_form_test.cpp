@@ -27,7 +27,8 @@ GearData gear_of(int teeth, double profile_shift = 0, double root_radius = 0.38,
 /// the tooth keeps the smallest half angle that any point of the rack's outline reaches at that radius. Uses no
 /// envelope condition.
 double swept_half_angle(const GearData& gear, double m, double alpha, double beta, double radius) {
-  const double h = gear.rack.dedendum * m, rho = gear.rack.root_radius * m, shift = gear.profile_shift * m;
+  const double h = gear.rack.dedendum * m, rho = gear.rack.root_radius * m;
+  const double shift = gear.profile_shift * m + gear.tooth_thickness_allowance / (2 * std::tan(alpha));  // both flanks of the rack move in
   const double r = gear.teeth * m / (2 * std::cos(beta));
   double smallest = pi;
   // A point of the outline at depth d below the rolling line and distance e from the tooth's centre line.
@@ -69,13 +70,14 @@ TEST_CASE("The involute starts where Haddad's finite-element gears start theirs"
 TEST_CASE("The profile is the boundary of what a rolling rack sweeps", "[core][gear][tooth-form]") {
   struct Case {
     int teeth;
-    double shift, beta, rounding, dedendum;
+    double shift, beta, rounding, dedendum, allowance{0};
   };
   const Case c = GENERATE(Case{18, 0, 30, 0.39, 1.25}, Case{40, -0.4, 15, 0.25, 1.4}, Case{9, 0, 0, 0.38, 1.25}, Case{6, 0.1, 30, 0.2, 1.2},
-                          Case{25, 1.5, 0, 0.3, 1.25}, Case{100, 0, 20, 0, 1.25});
-  CAPTURE(c.teeth, c.shift, c.beta, c.rounding);
+                          Case{25, 1.5, 0, 0.3, 1.25}, Case{100, 0, 20, 0, 1.25}, Case{19, 0.3, 25, 0.38, 1.25, -0.2});
+  CAPTURE(c.teeth, c.shift, c.beta, c.rounding, c.allowance);
   const double module = 4, alpha = 20 * deg, beta = c.beta * deg;
-  const GearData gear = gear_of(c.teeth, c.shift, c.rounding, c.dedendum);
+  GearData gear = gear_of(c.teeth, c.shift, c.rounding, c.dedendum);
+  gear.tooth_thickness_allowance = c.allowance;
   const ToothForm form(gear, module, alpha, beta);
   for (int i = 1; i <= 12; ++i) {
     // Off the reference radius itself, where the sweep's samples approach the generating point as a square root.

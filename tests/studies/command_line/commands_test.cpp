@@ -72,6 +72,9 @@ TEST_CASE("A check says the backlash that a given centre distance leaves", "[stu
   // Of a spur pair: j_wt = 2 tan(alpha_wt) (a - a_0) to first order, j_bn = j_wt cos(alpha_wt) cos(beta_b).
   const Ending ending = run(folder, {"check", "small.toml", "--set", "pair.helix_angle=0", "--set", "pair.centre_distance=360.1"});
   CHECK(ending.exit_code == 0);
+  const Ending thinner =
+      run(folder, {"check", "small.toml", "--set", "pinion.tooth_thickness_allowance=-50", "--set", "wheel.tooth_thickness_allowance=-70"});
+  CHECK_THAT(thinner.out, Contains("112.8 um normal to the flanks (j_bn)") && Contains("allowances of -50 um on the pinion and -70 um on the wheel"));
   CHECK_THAT(ending.out, Contains("backlash 72.") && Contains("at the centre distance of 360.1 mm (none at 360 mm)"));
   const Ending jam = run(folder, {"check", "small.toml", "--set", "pair.helix_angle=0", "--set", "pair.centre_distance=359.9"});
   CHECK(jam.exit_code == 0);

@@ -33,7 +33,7 @@ std::string random_study(unsigned seed) {
                      number(501, 900) + "]\n";
   for (const std::string gear : {"pinion", "wheel"}) {
     text += "[" + gear + "]\nteeth = " + (gear == "pinion" ? "20" : "43") + "\nface_width = " + number(30, 60) +
-            "\nprofile_shift = " + number(-0.1, 0.3) +
+            "\nprofile_shift = " + number(-0.1, 0.3) + "\ntooth_thickness_allowance = " + number(-200, -10) +
             (gear == "pinion" ? std::string("\nhand = ") + (random() % 2 == 0U ? "\"right\"" : "\"left\"") : "") +
             "\nrack = { dedendum = " + number(1.2, 1.3) + ", root_radius = " + number(0.1, 0.2) + " }\n[" + gear +
             ".material]\nyoungs_modulus = " + number(1e5, 2e5) + "\n[" + gear + ".modification]\nlead_crowning = " + number(-10, 20) +
@@ -96,6 +96,9 @@ TEST_CASE("A study survives the way to REXS and back to its last digit", "[studi
   CHECK(study.pair.driver == back.pair.driver);
   check_same(study.pair.pinion, back.pair.pinion);
   check_same(study.pair.wheel, back.pair.wheel);
+  for (const Member m : {Member::Pinion, Member::Wheel}) {  // the format has it since 1.3, as a profile shift
+    check_same_length(version < "1.3" ? 0.0 : study.pair[m].tooth_thickness_allowance, back.pair[m].tooth_thickness_allowance);
+  }
   check_same(make_gear_pair(study.pair).centre_distance, make_gear_pair(back.pair).centre_distance);
   check_same(make_gear_pair(study.pair).pinion.tip_radius, make_gear_pair(back.pair).pinion.tip_radius);
   check_same(study.modification.pinion, back.modification.pinion);

@@ -31,7 +31,11 @@ std::vector<StoredSample> samples_of(const Study& study, Shard shard = {}) {
 
 TEST_CASE("A sample of a sweep is the analysis of its own study, bit for bit", "[studies][sweep]") {
   // Everything that is zero in the study itself: its effect must be on for the samples all the same.
-  const Study study = sweep_study("samples = 24", "\"wheel.error\" = { iso_1328_class = 7 }\n\"misalignment.axial_offset\" = { uniform = [0, 3] }\n");
+  const bool is_ground = GENERATE(false, true);  // or what the machine takes out of the twist that it grinds
+  const std::string errors = "\"wheel.error\" = { iso_1328_class = 7 }\n\"misalignment.axial_offset\" = { uniform = [0, 3] }\n";
+  const std::string twist = "\"pinion.twist_compensation\" = { uniform = [0, 1] }\n";
+  const std::vector<Override> grinding{{"pinion.process", "generating_grinding"}};
+  const Study study = sweep_study("samples = 24", is_ground ? twist : errors, is_ground ? grinding : std::vector<Override>{});
   const std::vector<StoredSample> samples = samples_of(study);
   REQUIRE(samples.size() == 24);
   const StudyResults nominal = run_study(study);
