@@ -29,7 +29,7 @@ constexpr std::size_t material_kind_count = 14;
 /// "normalised_steel", "case_hardened" ...
 std::string_view to_string(MaterialKind kind);
 
-/// Demands on material and heat treatment: low, those of experienced makers at moderate cost, high [ISO 6336-5:2016, 4.2].
+/// Demands on material and heat treatment: low, those of experienced makers at moderate cost, high [ISO 6336-5:2016].
 enum class MaterialQuality { ML, MQ, ME };
 
 /// "ML", "MQ", "ME".
@@ -45,7 +45,7 @@ struct MaterialGrade {
 /// "HBW" for normalised steels and cast irons, else "HV".
 std::string_view hardness_scale(MaterialKind kind);
 
-/// Nominal stress numbers [ISO 6336-5:2016, eq. (1) and table 1],
+/// Nominal stress numbers [ISO 6336-5:2016, 5.5 and table 1],
 ///
 ///     sigma_Hlim, sigma_Flim = A x + B     [MPa],     x = hardness of the surface
 ///

@@ -77,16 +77,16 @@ function draw_life_bars(plot, life, scene, designs, { value_of, gears = LIFE_GEA
   bar_chart(plot, { label, labels, series, x: "pinion torque [N·m]", y, unit: "", height: 250, y_range: in_decades ? decades(LEAST_DAMAGE, Math.max(1, highest)) : {} });
 }
 
-const DAMAGE_CAPTION = "Part of each load case in the damage of the point that the spectrum damages most, by Palmgren and Miner; 1 is failure. Pale bars are the wheel's.";
+const DAMAGE_CAPTION = "Part of each load case in the damage of the point that the spectrum damages most, by Palmgren and Miner; 1 is failure. Fainter bars are the wheel's.";
 
 /** What each figure of bars shows, where the results have it. */
 const LIFE_BARS = [
   { key: "contact_damage", title: "Contact damage of each load case", y: "damage [-]", in_decades: true, caption: DAMAGE_CAPTION, part: "contact" },
   { key: "root_damage", title: "Root damage of each load case", y: "damage [-]", in_decades: true, caption: DAMAGE_CAPTION, part: "root" },
   { key: "contact_safety", title: "Contact safety", y: "safety [-]",
-    caption: "Stress that is borne for the load cycles of the case, the endurance limit where they are not given, over the largest contact stress. Pale bars are the wheel's." },
+    caption: "Stress that is borne for the load cycles of the case, the endurance limit where they are not given, over the largest contact stress. Fainter bars are the wheel's." },
   { key: "root_safety", title: "Root safety", y: "safety [-]",
-    caption: "Stress that is borne for the load cycles of the case, the endurance limit where they are not given, over the largest stress of the fillet. Pale bars are the wheel's." },
+    caption: "Stress that is borne for the load cycles of the case, the endurance limit where they are not given, over the largest stress of the fillet. Fainter bars are the wheel's." },
   { key: "specific_film_thickness", title: "Film thickness", y: "λ_GF [-]", of_pair: true,
     caption: "Least film thickness over the roughness anywhere on the flank, ISO/TS 6336-22, method A." },
   { key: "micropitting_safety", title: "Safety against micropitting", y: "safety [-]", of_pair: true, caption: "Least film thickness over the permissible one." },

@@ -27,7 +27,7 @@ std::string refused_field(const StressNumber& stress_number, const MaterialGrade
 }  // namespace
 
 TEST_CASE("Case-hardened steel has the stress numbers that every gear book prints", "[core][rating][life]") {
-  // ISO 6336-5, figures 9 and 10.
+  // ISO 6336-5, table 1.
   const auto contact = [](MaterialQuality quality) { return contact_stress_number({.quality = quality, .hardness = 720}); };
   const auto root = [](MaterialQuality quality, double core = not_given) {
     return root_stress_number({.quality = quality, .hardness = 720, .core_hardness = core});
