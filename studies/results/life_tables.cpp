@@ -36,8 +36,8 @@ constexpr std::array<LifeColumn, 11> life_columns{{
     {"H_VL", "-", "{:.4f}", [](const CaseLife& c, const LoadedResult&) { return c.loss_factor; }},
     {"loss", "W", "{:.4g}", [](const CaseLife& c, const LoadedResult&) { return c.loss_power; }},
     {"film", "lambda", "{:.3f}", [](const CaseLife& c, const LoadedResult&) { return c.film; }},
-    {"contact", "degC", "{:.1f}", [](const CaseLife& c, const LoadedResult&) { return c.contact_temperature; }},
-    {"scuffing", "safety", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return c.scuffing_safety; }},
+    {"theta_B", "degC", "{:.1f}", [](const CaseLife& c, const LoadedResult&) { return c.contact_temperature; }},
+    {"S_B", "scuffing", "{:.2f}", [](const CaseLife& c, const LoadedResult&) { return c.scuffing_safety; }},
 }};
 
 std::string sum_line(const SpectrumLife& spectrum, std::size_t width) {
