@@ -16,7 +16,7 @@ set(FLOW core/base core/gear core/flank
     studies/base studies/study studies/compliance studies/study_file studies/analysis studies/results
     studies/tasks/analyse studies/tasks/optimise studies/tasks/sweep studies/tasks/accuracy studies/tasks/fit studies/tasks/geometry
     studies/tasks
-    studies/report studies/comparison studies/exchange studies/command_line studies/python studies)
+    studies/report studies/comparison studies/exchange studies/pages studies/command_line studies/python studies)
 
 # The place in FLOW of the folder that `path` (from the root) lies in, -1 where it lies in none.
 function(find_layer path result)

@@ -13,8 +13,10 @@ namespace {
 
 std::vector<std::string> examples() {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::directory_iterator(FLANKWRIGHT_SOURCE_DIR "/studies/examples")) {
-    if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+  for (const char* folder : {"/studies/examples", "/studies/examples/tutorial"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(std::string(FLANKWRIGHT_SOURCE_DIR) + folder)) {
+      if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
+    }
   }
   std::sort(files.begin(), files.end());
   return files;

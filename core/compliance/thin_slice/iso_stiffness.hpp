@@ -36,8 +36,8 @@ double iso_flexibility(double virtual_teeth_pinion, double virtual_teeth_wheel, 
 /// c' = C_M C_R C_B cos(beta) (E/E_steel) / q' and c_gamma_alpha = c' (0.75 eps_alpha + 0.25) [ISO 6336-1, method B],
 /// with C_B = (1 + 0.5 (1.2 - h_fP/m_n)) (1 - 0.02 (20 deg - alpha_n)).
 ///
-/// ISO's gear 1 is the smaller gear, whichever a pair calls its pinion; of equal ones that with the larger profile shift. Valid for solid
-/// blanks and specific loads of 100 N/mm and more; the standard's allowance for lighter loads is not applied.
+/// ISO's gear 1 is the smaller gear, whichever a pair calls its pinion; of equal ones that with the larger (generating) profile shift. Valid
+/// for solid blanks and specific loads of 100 N/mm and more; the standard's allowance for lighter loads is not applied.
 /// @throws InvalidInput where a material is out of range
 IsoStiffness iso_stiffness(const GearPair& pair, const Material& pinion, const Material& wheel);
 

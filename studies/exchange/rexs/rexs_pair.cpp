@@ -153,7 +153,7 @@ class PairReading {
     }
     const double allowance = (generating->value - data(m).profile_shift) * 2.0 * pair_.data.normal_module * std::tan(pair_.data.pressure_angle);
     if (allowance < 0.0) {
-      data(m).tooth_thickness_allowance = allowance;
+      data(m).tooth_thickness_allowance = std::round(allowance * 1e9) * 1e-9;  // a difference of coefficients
       remark(prefix(m) + "tooth_thickness_allowance", "from " + generating->source);
     } else {
       reading_.warn(fmt::format("{} = {} is more than the profile shift: not taken", generating->source, number_text(generating->value)));

@@ -20,7 +20,7 @@ constexpr GearSize gear_sizes[] = {
     {"number of teeth", "z", "", [](const Gear& g) { return static_cast<double>(g.data.teeth); }},
     {"profile shift coefficient", "x", "", [](const Gear& g) { return g.data.profile_shift; }},
     {"tooth thickness allowance", "E_sn", "um", [](const Gear& g) { return g.data.tooth_thickness_allowance / units::um; }},
-    {"generating profile shift coefficient", "x_E", "", [](const Gear& g) { return g.generating_profile_shift; }},
+    {"generating profile shift", "x_E", "", [](const Gear& g) { return g.generating_profile_shift; }},
     {"reference diameter", "d", "mm", [](const Gear& g) { return 2.0 * g.reference_radius; }},
     {"base diameter", "d_b", "mm", [](const Gear& g) { return 2.0 * g.base_radius; }},
     {"tip diameter", "d_a", "mm", [](const Gear& g) { return 2.0 * g.tip_radius; }},

@@ -21,8 +21,13 @@ PairData thinned(double beta, double pinion_allowance, double wheel_allowance) {
   PairData data;
   data.normal_module = 3.0;
   data.helix_angle = beta;
-  data.pinion = {.teeth = 19, .face_width = 30.0, .profile_shift = 0.3, .tooth_thickness_allowance = pinion_allowance};
-  data.wheel = {.teeth = 45, .face_width = 28.0, .profile_shift = 0.1, .tooth_thickness_allowance = wheel_allowance};
+  data.pinion.teeth = 19;
+  data.wheel.teeth = 45;
+  data.pinion.face_width = data.wheel.face_width = 30.0;
+  data.pinion.profile_shift = 0.3;
+  data.wheel.profile_shift = 0.1;
+  data.pinion.tooth_thickness_allowance = pinion_allowance;
+  data.wheel.tooth_thickness_allowance = wheel_allowance;
   return data;
 }
 
