@@ -65,13 +65,16 @@ TEST_CASE("Held against a finer cycle, the errors by points are narrower and sti
                   found = figure_errors(half.figures, fine.figures);
   CHECK(twice.resolved.errors.te_peak_to_peak == twice.resolved.error_parts.sum().te_peak_to_peak);
   CHECK(twice.resolved.error_parts.positions.te_peak_to_peak == half.resolved.error_parts.positions.te_peak_to_peak);
+  double sum_by_half = 0.0, sum = 0.0;
   for (const Figure figure : {Figure::TeMean, Figure::TePeakToPeak, Figure::TeHarmonic1, Figure::PeakContactStress}) {
     const auto i = static_cast<std::size_t>(figure);
     CAPTURE(gears.pinion.data.teeth, line_load, name_of(figure), by_half[i], stated[i], found[i]);
     CHECK(found[i] <= stated[i]);
     CHECK(stated[i] <= by_half[i]);
+    sum_by_half += by_half[i];
+    sum += stated[i];
   }
-  CHECK(largest(stated) < largest(by_half));
+  CHECK(sum < sum_by_half);
 }
 
 TEST_CASE("Errors are those of points and of positions together, and not known without a coarser cycle", "[core][load][cycle-error]") {
