@@ -12,6 +12,8 @@ namespace {
 
 // Shares of a difference that are called an error, see estimate_errors().
 constexpr double of_mean = 1.0 / 2.0, of_shape = 1.0 / 3.0, of_peaks = 1.0, of_root_stress = 1.0 / 2.0, of_positions = 1.0 / 3.0;
+/// Share of the estimated error of the finer cycle that is added to a change, see point_errors_beside_finer().
+constexpr double of_order_one = 2.0;
 /// Positions whose peak is within this fraction of the cycle's count for the error of the peak.
 constexpr double near_peak = 0.1;
 /// The neighbourhood of a position reaches this part of the cycle to either side, one position at least.
@@ -138,7 +140,10 @@ CycleErrorParts estimate_errors(const LoadedCycle& fine, const CycleSummary& sum
 CycleErrors point_errors_beside_finer(const CycleErrors& stated, const LoadedCycle& cycle, const CycleSummary& summary, const LoadedCycle& finer,
                                       const CycleSummary& finer_summary) {
   if (!cycle.usable() || !finer.usable() || cycle.positions.empty() || !(cycle.force > 0.0)) return stated;
-  const CycleErrors of_finer = point_errors(finer, cycle, finer_summary);
+  CycleErrors of_finer = point_errors(finer, cycle, finer_summary);
+  of_finer.te_mean *= of_order_one;
+  of_finer.te_peak_to_peak *= of_order_one;
+  for (double& harmonic : of_finer.te_harmonics) harmonic *= of_order_one;
   const auto narrower = [&](auto error, auto figure) {
     return std::fmin(stated.*error, of_finer.*error + std::abs(summary.*figure - finer_summary.*figure));  // the one that is a number
   };
