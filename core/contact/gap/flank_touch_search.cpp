@@ -151,7 +151,7 @@ FlankTouch touch_beyond(const Section& section, const Sample& top) {
   const PassedEdge passed = PassedEdge::at(beyond, R, edge.rounding);
   FlankTouch touch;
   touch.sides[0] = side_at(section, top.x, 1.0);
-  touch.gap = top.h.value + top.h.slope * beyond + 0.5 * vertex * vertex / R + passed.rounded();
+  touch.gap = top.h.value + top.h.slope * beyond + 0.5 * vertex * vertex / R + passed.rounded;
   touch.along = vertex;
   touch.along_by_slope = -R;
   touch.on_rounding = beyond * edge.rounding / (R + edge.rounding);

@@ -121,11 +121,11 @@ std::vector<ContactPoint> SurfaceGap::place(const std::vector<ContactPoint>& poi
     if (const double moved = edge_moved_by(points[i], displaced[i]); moved != 0.0 && point.tip_edge.radius > 0.0) {
       TipEdge& edge = point.tip_edge;
       const double R = points[i].relative_radius;
-      const double before = passed(edge, R).rounded();
+      const double before = passed(edge, R).rounded;
       edge.distance += moved;
       const PassedEdge after = passed(edge, R);
       edge.rounded_off = after.rounded_off;
-      point.clearance = std::max(0.0, point.clearance - before + after.rounded());
+      point.clearance = std::max(0.0, point.clearance - before + after.rounded);
     }
     placed.push_back(point);
   }

@@ -40,13 +40,14 @@ double largest_difference(const Json& a, const Json& b) {
 
 TEST_CASE("An allowance leaves contact path and unloaded transmission error and yields more", "[studies][thickness]") {
   const Json nominal = results_of(small::analysis()), thin = results_of(small::analysis(), thinner);
-  CHECK(thin["unloaded"] == nominal["unloaded"]);
+  // The root circle is another, and with it where the search for contact begins: Newton's last step.
+  CHECK(largest_difference(thin["unloaded"]["mesh"]["transfers"], nominal["unloaded"]["mesh"]["transfers"]) < 1e-7);
   CHECK(thin["geometry"]["path_of_contact_mm"] == nominal["geometry"]["path_of_contact_mm"]);
   CHECK(thin["geometry"]["centre_distance_mm"] == nominal["geometry"]["centre_distance_mm"]);
   // j_bn = -(E_sn1 + E_sn2) cos(alpha_n)
   CHECK(thin["geometry"]["normal_backlash_um"].get<double>() == Approx(300 * std::cos(20 * units::deg)).epsilon(1e-12));
   CHECK(nominal["geometry"]["backlash_um"] == 0.0);
-  for (const std::size_t scene : {1U, 3U}) {
+  for (std::size_t scene = 0; scene < nominal["loaded"].size(); ++scene) {
     const Json &before = nominal["loaded"][scene], &after = thin["loaded"][scene];
     const Json &where = before["cycle"][0]["teeth"][0]["points"], &there = after["cycle"][0]["teeth"][0]["points"];
     REQUIRE(where.size() == there.size());

@@ -60,7 +60,8 @@ bool has_no_derivative(const std::string& key) {
                                           "harmonic_change_um",
                                           "peak_to_peak_change_um",
                                           "line_share",
-                                          "end_distance_mm",  // how finely
+                                          "end_distance_mm",
+                                          "errors_from_intervals",  // how finely
                                           "c_prime",
                                           "c_gamma",
                                           "K_Halpha_limit",
