@@ -26,8 +26,8 @@ struct Slope {
 ///     cvar             F = t + sum p_s v_s / (1 - level)   subject to  m_s - t <= v_s,  v_s >= 0
 ///     quantile         F = t                               subject to  m_s <= t  of all scenes but those left out
 ///
-/// Outputs that grow with a power g of the stress, Objective::growth(), span many decades, and linear models of them hold for a fraction of a per cent of
-/// the stress alone. The variables of the programme are therefore the roots u^(1/g) and t^(1/g), and value() is F^(1/g); g = 1 changes nothing.
+/// Outputs that grow with a power g of the stress, Objective::growth(), span many decades, and a linear model of them holds for a fraction of a per
+/// cent of the stress alone. The variables of the programme are therefore the roots u^(1/g) and t^(1/g), and value() is F^(1/g); g = 1 changes nothing.
 ///
 /// A quantile leaves out the scenes beyond it at some design, see leave_out(). The largest of the others is the quantile there and never below
 /// it elsewhere: a majorant. Worst and quantile of a single output need one u for all scenes. epsilon, in units of the start's value, smooths the spread

@@ -1,6 +1,6 @@
 // The load spectrum and what it does to the life of the pair: torque over time, damage and safety of each load case, film, and all of it in numbers.
 
-/** Damage below this is no matter: a millionth of what is borne. */
+/** Damage below this does not count: a millionth of what is borne. */
 const LEAST_DAMAGE = 1e-6;
 const MOST_LIFE_ROWS = 60;
 
@@ -98,7 +98,7 @@ function life_bars(body, grid, life, selection) {
     const values = list(life.cases).map(record).flatMap((of) => numbers(LIFE_GEARS.map((gear) => value_of(of, gear))));
     if (values.length === 0) continue;
     if (in_decades && maximum(values) < LEAST_DAMAGE) {
-      body.append(el("p", { class: "remark" }, `${title.split(" of ")[0]} is below ${power_of_ten(-6)} in every load case and scene: no matter for life.`));
+      body.append(el("p", { class: "remark" }, `${title.split(" of ")[0]} is below ${power_of_ten(-6)} in every load case and scene. It does not limit the life.`));
       continue;
     }
     const sums = part ? (design, gear, scene) => record(record(record(spectrum_of(life, scene, design))[gear])[part]).damage : null;
@@ -139,8 +139,11 @@ function strength_table(body, life) {
 
 /** Every load case in numbers, without the columns that nothing is known of. */
 function life_table(body, life) {
-  const least = (key) => (of) => (numbers(LIFE_GEARS.map((gear) => record(of[gear])[key])).length ? minimum(LIFE_GEARS.map((gear) => record(of[gear])[key])) : null);
-  const most = (key) => (of) => (numbers(LIFE_GEARS.map((gear) => record(of[gear])[key])).length ? maximum(LIFE_GEARS.map((gear) => record(of[gear])[key])) : null);
+  const of_both = (key, pick) => (of) => {
+    const values = numbers(LIFE_GEARS.map((gear) => record(of[gear])[key]));
+    return values.length > 0 ? pick(values) : null;
+  };
+  const least = (key) => of_both(key, minimum), most = (key) => of_both(key, maximum);
   const quantities = [["Revolutions", "", (of) => of.cycles, 3], ["Contact damage", "", most("contact_damage"), 3], ["Root damage", "", most("root_damage"), 3],
     ["Contact safety", "", least("contact_safety"), 3], ["Root safety", "", least("root_safety"), 3], ["S_H", "", least("S_H"), 3], ["S_F", "", least("S_F"), 3],
     ["Loss factor", "", (of) => of.loss_factor, 3], ["Loss", "W", (of) => of.loss_power_W, 3], ["Film λ_GF", "", (of) => of.specific_film_thickness, 3],

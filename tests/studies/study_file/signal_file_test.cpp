@@ -13,30 +13,12 @@
 #include "studies/study_file/stored_study.hpp"
 #include "studies/study_file/study_file.hpp"
 #include "tests/studies/command_line.hpp"
+#include "tests/studies/study_file/life_texts.hpp"
 
 namespace flankwright::studies {
 namespace {
 
-const std::string signal_pair = R"(
-[pair]
-normal_module = 4
-[pinion]
-teeth = 20
-face_width = 30
-[wheel]
-teeth = 40
-face_width = 30
-[cycle]
-positions = 8
-peaks = "sampled"
-[fidelity]
-compliance = "thin_slice"
-effect_sizes = "off"
-[fidelity.quadrature]
-intervals = 6
-[material]
-contact_endurance_limit = 900
-)";
+const std::string signal_pair = life_pair + life_strength;
 
 /// A triangle from 0 to 400 N·m and back in 20 s, then 5 s at -100 N·m.
 const std::string triangle = "time,torque,speed\n0,0,1200\n10,400,1200\n20,0,1200\n20.001,-100,1200\n25,-100,1200\n";

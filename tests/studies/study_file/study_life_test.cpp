@@ -10,33 +10,10 @@
 #include "studies/results/results_json.hpp"
 #include "studies/study_file/spectrum_file.hpp"
 #include "studies/study_file/study_file.hpp"
+#include "tests/studies/study_file/life_texts.hpp"
 
 namespace flankwright::studies {
 namespace {
-
-const std::string life_pair = R"(
-[pair]
-normal_module = 4
-[pinion]
-teeth = 20
-face_width = 30
-[wheel]
-teeth = 40
-face_width = 30
-[cycle]
-positions = 8
-peaks = "sampled"
-[fidelity]
-compliance = "thin_slice"
-effect_sizes = "off"
-[fidelity.quadrature]
-intervals = 6
-)";
-
-const std::string life_strength = R"(
-[material]
-contact_endurance_limit = 900
-)";
 
 const std::string two_bins = "[load]\nspectrum = [{ torque = 300, speed = 1000, hours = 10 }, { torque = 150, cycles = 3e8 }]\n";
 
