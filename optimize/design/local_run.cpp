@@ -13,24 +13,34 @@ namespace flankwright {
 namespace {
 
 constexpr int most_rounds = 20;
+/// An end of a search is accepted no more sharply than its solver's tolerance asks, and never more sharply than this.
 constexpr double round_tolerance = 1e-6;  // see run_local()
+constexpr double stall_gain = 1e-5;       // share of the objective at the start
 
-/// A solver that gains less than stall_gain of the objective at the start in stall_analyses has met a kink that it cannot follow: a
-/// contact point that comes and goes, or the start of a relief that passes one.
-constexpr int stall_analyses = 80;
-constexpr double stall_gain = 1e-5;
+double round_tolerance_of(const SolverOptions& options) { return std::max(round_tolerance, options.tolerance); }
+double stall_gain_of(const SolverOptions& options) { return std::max(stall_gain, options.tolerance); }
 
-/// Says so, judged by the true objective as the programme sees it.
-std::function<std::string()> when_stalled(const EpigraphProgram& program, const DesignLog& log) {
-  return [&program, &log, at = std::size_t{0}, best = not_given]() mutable -> std::string {
+/// A solver that gains less than stall_gain_of() in so many analyses has met a kink that it cannot follow: a contact point that comes and
+/// goes, a peak that the programme has no candidate of yet, or the start of a relief that passes a point. An active-set method steps to the
+/// corner of its linearised constraints at once, so that a few steps without gain tell; the others come near it in many small ones.
+int stall_analyses_of(const std::string& solver) { return solver == "nlopt:slsqp" ? 8 : 80; }
+
+/// Says so, judged by the true objective as the programme sees it, or by how far the constraints are violated as long as they are.
+std::function<std::string()> when_stalled(const EpigraphProgram& program, const DesignLog& log, const SolverOptions& options) {
+  const auto window = static_cast<std::size_t>(stall_analyses_of(options.name));
+  const double least_gain = stall_gain_of(options);
+  return [&program, &log, window, least_gain, at = std::size_t{0}, was_feasible = false, best = not_given]() mutable -> std::string {
     if (log.best() == nullptr) return {};
-    const double gain = stall_gain * std::abs(program.seen(log.entries().front().objective)), now = program.seen(log.best()->objective);
-    const bool gained = !(now >= best - gain) || log.best()->constraint_violation > DesignLog::tolerance;
-    if (gained) {
+    const bool feasible = log.best()->constraint_violation <= DesignLog::tolerance;
+    const double now = feasible ? program.seen(log.best()->objective) : log.best()->constraint_violation;
+    const double gain = feasible ? least_gain * std::abs(program.seen(log.entries().front().objective)) : least_gain;
+    if (feasible != was_feasible || !(now >= best - gain)) {
       best = now;
+      was_feasible = feasible;
       at = log.entries().size();
     }
-    return log.entries().size() < at + stall_analyses ? "" : "no gain of 1e-5 of the first objective in 80 analyses: a kink";
+    if (log.entries().size() < at + window) return {};
+    return "no gain worth mentioning in " + std::to_string(window) + " analyses: a kink";
   };
 }
 
@@ -54,7 +64,7 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
   for (run.rounds = 1; run.rounds <= most_rounds; ++run.rounds) {
     SolverOptions round = remaining(options, problem.analyses() - analyses_before, clock.seconds());
     round.name = solver;
-    round.stop_when = when_stalled(program, log);
+    round.stop_when = when_stalled(program, log, round);
     const SolverResult solved = solve(program, round);
     run.status = solved.status;
     run.message = run.finished_by.empty() ? solved.message : solved.message + " (after " + options.name + " stalled on a kink: " + solver + ")";
@@ -66,12 +76,12 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
     const bool stalled = solved.status == SolverStatus::Stalled;
     // Done when the true peaks are what the candidates promised, or a stalled round has gained nothing.
     const double excess = program.seen(log.entries().back().objective) - solved.objective;
-    const bool holds = excess <= round_tolerance && log.entries().back().constraint_violation <= DesignLog::tolerance;
+    const bool holds = excess <= round_tolerance_of(options) && log.entries().back().constraint_violation <= DesignLog::tolerance;
     const double best = program.seen(log.best()->objective), gain = last - best;
     // A majorant has a next one, as long as rounds descend.
-    const bool settled = !program.is_majorant() || gain <= round_tolerance;
+    const bool settled = !program.is_majorant() || gain <= round_tolerance_of(options);
     last = best;
-    const bool is_done = ((program.add_candidates(x) == 0 || holds) && settled) || (stalled && gain <= stall_gain);
+    const bool is_done = ((program.add_candidates(x) == 0 || holds) && settled) || (stalled && gain <= stall_gain_of(options));
     if (stalled && has_finisher && run.finished_by.empty()) {
       run.finished_by = solver = options.finisher;
     } else if (is_done) {

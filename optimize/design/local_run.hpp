@@ -24,8 +24,9 @@ struct LocalRun {
 /// Searches from problem.start().
 ///
 /// Solvers with gradients that take constraints get the epigraph form, re-solved from its own optimum until no peak
-/// outside its candidates exceeds them by 1e-6 of the objective at the start, or 20 rounds are done. Where the solver
-/// no longer gains on a kink, options.finisher continues from its best design; `finished_by` and `message` then say so.
+/// outside its candidates exceeds them by 1e-6 of the objective at the start (by the solver's tolerance where that is
+/// larger), or 20 rounds are done. A round ends early where the solver no longer gains. On such a kink
+/// options.finisher continues from its best design; `finished_by` and `message` then say so.
 /// Other solvers get the direct form. The best design met under the true outputs is returned, wherever the solver
 /// stopped.
 LocalRun run_local(DesignProblem& problem, const SolverOptions& options);

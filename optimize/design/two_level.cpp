@@ -12,6 +12,8 @@ namespace {
 
 /// The finisher needs some five to fifteen analyses from a neighbouring optimum; a kink may hold it up for longer than it is worth.
 constexpr int most_fine_analyses = 40;
+/// SolverOptions::tolerance of the coarse search is no less: its optimum is a start, and differs from the fine one by more.
+constexpr double coarse_tolerance = 1e-4;
 
 /// The best of the coarse optima, judged by the fine problem: feasible before infeasible, then by the objective.
 Eigen::VectorXd best_start(DesignProblem& fine, const DesignResult& coarse, const Eigen::VectorXd& coarse_best) {
@@ -94,7 +96,9 @@ TwoLevelDesign optimise_by_two_levels(DesignProblem& problem, const DesignOption
     return result;
   }
   DesignProblem coarse_problem(coarser(problem.task()));
-  const DesignResult coarse = optimise_design(coarse_problem, options);
+  DesignOptions search = options;
+  search.solver.tolerance = std::max(options.solver.tolerance, coarse_tolerance);
+  const DesignResult coarse = optimise_design(coarse_problem, search);
   result.search = {coarse_problem.task().resolution, coarse.evaluations, clock.seconds()};
   result.objective_seen_by_search = coarse.after.objective;
 

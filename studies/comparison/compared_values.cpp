@@ -116,14 +116,37 @@ void add_design(const Json& results, std::size_t run, Rows& rows) {
   }
 }
 
+/// Of every quantity that the run's own table shows, the worst of the final load cases, where there are several.
+void add_worst(const std::vector<const Json*>& cases, std::size_t run, Rows& rows) {
+  if (cases.size() < 2) return;
+  for (const Json* loaded : cases) {
+    visit(member(*loaded, "summary"), "", [&](const std::string& name, double value) {
+      const CycleQuantity* quantity = shown_quantity(name);
+      if (quantity == nullptr) return;
+      ComparedValue& row = rows.row("worst of the load cases", name);
+      double& worst = row.values[run];
+      worst = quantity->smaller_is_worse ? std::fmin(worst, value) : std::fmax(worst, value);
+      row.headline = true;
+      row.words = CycleEntry{quantity, quantity->is_list ? 1 : 0}.words();
+    });
+  }
+}
+
 void add_loaded(const Json& results, std::size_t run, Rows& rows) {
+  constexpr std::size_t most_headline_cases = 4;  // of more the worst stands for all
+  std::vector<const Json*> final_cases;
+  for (const Json& loaded : member(results, "loaded")) {
+    if (member(loaded, "design") != "before") final_cases.push_back(&loaded);
+  }
+  add_worst(final_cases, run, rows);
   for (const Json& loaded : member(results, "loaded")) {
     const std::string section = load_case_name(loaded);
+    const bool in_short = member(loaded, "design") != "before" && final_cases.size() <= most_headline_cases;
     visit(member(loaded, "summary"), "", [&](const std::string& name, double value) {
       ComparedValue& row = rows.row(section, name);
       row.values[run] = value;
       if (const CycleQuantity* quantity = shown_quantity(name)) {
-        row.headline = true;
+        row.headline = row.headline || in_short;
         row.words = CycleEntry{quantity, quantity->is_list ? 1 : 0}.words();
       }
     });

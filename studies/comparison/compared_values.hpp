@@ -43,8 +43,8 @@ struct ComparedRuns {
   std::vector<ComparedValue> values;  ///< in the order of results.json
 };
 
-/// The numbers of several runs side by side: the geometry of gears and pair, what an optimisation has found, the summaries of all load cases,
-/// unloaded contact and the statistics of a sweep. A load case is found again by scene and torque; the designs "given" and "after" are the same
+/// The numbers of several runs side by side: the geometry of gears and pair, what an optimisation has found, the summaries of all load cases and
+/// the worst of them, unloaded contact and the statistics of a sweep. A load case is found again by scene and torque; the designs "given" and "after" are the same
 /// one, the final design of a run, and "before" is another. Places of extremes, estimated errors, numerical diagnostics and times are no results
 /// in this sense and are left out.
 ///

@@ -53,9 +53,9 @@ std::string comparison_page(const std::vector<ComparedRun>& runs, const Compared
   });
   std::string title = "Comparison of";
   for (std::size_t run = 0; run < runs.size(); ++run) title += (run == 0 ? " " : run + 1 == runs.size() ? " and " : ", ") + runs[run].name;
-  const std::vector<PageSection> sections{{"keys", "What differs in the studies"},     {"headlines", "Headline quantities"},
-                                          {"curves", "Transmission error under load"}, {"topographies", "Flank modifications"},
-                                          {"stresses", "Contact stress on the flank"}, {"all", "All quantities"}};
+  const std::vector<PageSection> sections{{"headlines", "Headline quantities"},        {"topographies", "Flank modifications"},
+                                          {"curves", "Transmission error under load"}, {"stresses", "Contact stress on the flank"},
+                                          {"keys", "What differs in the studies"},     {"all", "All quantities"}};
   return render_page(title, sections, data, std::string(assets::page_script) + std::string(assets::comparison_script));
 }
 

@@ -2,8 +2,8 @@
 
 const run_names = (data) => list(data.runs).map((run) => `${record(run).name}`);
 
-/** "+1.2 %"; nothing where neither run has the quantity. No change is good or bad by itself: that depends on what was asked for. */
-const change_cell = (change) => (change === "" ? null : !is_number(change) ? { text: "only one has it" }
+/** "+1.2 %"; nothing where a run does not have the quantity. No change is good or bad by itself: that depends on what was asked for. */
+const change_cell = (change) => (!is_number(change) ? null
   : { value: change, text: change === 0 ? "0" : `${change > 0 ? "+" : "−"}${fmt(Math.abs(change), 3)} %` });
 
 const change_columns = (data) => run_names(data).slice(1).map((name) => ({ label: `Change, ${name}` }));
@@ -13,18 +13,21 @@ function build_compared_keys(data, body) {
     body.append(el("p", { class: "remark" }, "The studies have the same keys and values."));
     return;
   }
-  table(body, {
-    title: "Keys that are not the same in all studies",
+  const is_requirement = ({ key }) => key.startsWith("expect.");
+  const show = (title, keys) => keys.length > 0 && table(body, {
+    title,
     columns: [{ label: "Key" }, ...run_names(data).map((label) => ({ label }))],
-    rows: data.keys.map(({ key, values }) => [words(key), ...values.map((value) => (value === "" ? "not given" : value))]),
+    rows: keys.map(({ key, values }) => [words(key), ...values.map((value) => (value === "" ? "not given" : value))]),
   });
+  show("Keys that are not the same in all studies", data.keys.filter((key) => !is_requirement(key)));
+  show("Requirements that are not the same", data.keys.filter(is_requirement));
 }
 
 function compared_table(data, body, title, values, note) {
   table(body, {
     title, note,
     columns: [{ label: "Quantity" }, { label: "Unit" }, ...run_names(data).map((label) => ({ label, digits: 5 })), ...change_columns(data)],
-    rows: values.map((value) => [value.words ? capital(value.words) : value.name, pretty_unit(value.unit), ...value.values, ...value.changes.map(change_cell)]),
+    rows: values.map((value) => [capital(value.words || words(value.name)), pretty_unit(value.unit), ...value.values, ...value.changes.map(change_cell)]),
   });
 }
 

@@ -69,6 +69,29 @@ TEST_CASE("Final designs meet each other whatever they are called; a design befo
   CHECK(find(runs, "hot, 250 N·m, before", "te_mean_um")->values[2] == 8.0);
 }
 
+TEST_CASE("Of several load cases the worst stands in the short table; of many it stands for all", "[studies][compare]") {
+  const auto several = [](int cases, double largest) {
+    Json results{{"loaded", Json::array()}};
+    for (int i = 0; i < cases; ++i) {
+      Json loaded = one_case(10.0, i == 1 ? largest : 0.5 * largest, 0.1).at("loaded").front();
+      loaded["scene"] = "case " + std::to_string(i);
+      results["loaded"].push_back(loaded);
+    }
+    return results;
+  };
+  for (const int cases : {2, 5}) {
+    const ComparedRuns runs = compare_runs({{"a", several(cases, 1.0)}, {"b", several(cases, 3.0)}});
+    const ComparedValue* worst = find(runs, "worst of the load cases", "te_harmonics_um.0");
+    REQUIRE(worst != nullptr);
+    CHECK(worst->headline);
+    CHECK(worst->values == std::vector<double>{1.0, 3.0});
+    const ComparedValue* of_one = find(runs, "case 1, 250 N·m", "te_harmonics_um.0");
+    REQUIRE(of_one != nullptr);
+    CHECK(of_one->headline == (cases == 2));
+  }
+  CHECK(find(compare_runs({{"a", several(1, 1.0)}, {"b", several(1, 3.0)}}), "worst of the load cases", "te_harmonics_um.0") == nullptr);
+}
+
 TEST_CASE("Round-off is no difference, the next digit is one", "[studies][compare]") {
   const ComparedRuns same = compare_runs({{"a", one_case(10.0, 1.0, 0.1)}, {"b", one_case(10.0 * (1.0 + 1e-15), 1.0, 0.1)}});
   CHECK(differing_lines({{"a", {}}, {"b", {}}}, same, 0.0).empty());
