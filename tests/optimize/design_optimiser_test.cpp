@@ -218,6 +218,27 @@ TEST_CASE("An optimum has its root stress where the search did not need it; root
   CHECK(for_root.objective(for_root.analyse(x, false)) == Approx(problem.value(root, problem.analyse(x, false))).epsilon(1e-11));
 }
 
+TEST_CASE("A search finds and costs the same from starts that differ in the ninth digit", "[optimize][design]") {
+  DesignProblem problem(helical());
+  const Eigen::VectorXd start = problem.start();
+  SolverOptions options;
+  options.name = "nlopt:slsqp";
+  int least = options.max_evaluations, most = 0;
+  double best = INFINITY, worst = 0.0;
+  for (int k = 0; k < 6; ++k) {
+    problem.set_start((start.array() + 1e-9 * k).matrix().cwiseMin(1.0));
+    const DesignResult found = optimise_design(problem, options);
+    CAPTURE(k, found.message);
+    CHECK(found.status == SolverStatus::Converged);
+    least = std::min(least, found.evaluations);
+    most = std::max(most, found.evaluations);
+    best = std::min(best, found.after.objective);
+    worst = std::max(worst, found.after.objective);
+  }
+  CHECK(worst <= (1.0 + 1e-4) * best);  // the first-order conditions hold to that
+  CHECK(most <= 2 * least);             // a round that ends without gain costs eight analyses
+}
+
 TEST_CASE("A budget is kept, and the best design met so far comes back", "[optimize][design]") {
   const std::string solver = GENERATE("ipopt", "nlopt:slsqp", "nlopt:crs2_lm", "nlopt:sbplx");
   for (int budget : {1, 2, 4}) {
