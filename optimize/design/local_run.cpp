@@ -22,13 +22,14 @@ double stall_gain_of(const SolverOptions& options) { return std::max(stall_gain,
 
 /// A solver that gains less than stall_gain_of() in so many analyses has met a kink that it cannot follow: a contact point that comes and
 /// goes, a peak that the programme has no candidate of yet, or the start of a relief that passes a point. An active-set method steps to the
-/// corner of its linearised constraints at once, so that a few steps without gain tell; the others come near it in many small ones.
-int stall_analyses_of(const std::string& solver) { return solver == "nlopt:slsqp" ? 8 : 80; }
+/// corner of its linearised constraints at once, so that a few steps without gain are enough to begin a new round from the best design, with
+/// the candidates met meanwhile. Only where that round gains nothing either it is given the patience of the others.
+constexpr std::size_t patient = 80, impatient = 8;
+
+std::size_t patience_of(const std::string& solver) { return solver == "nlopt:slsqp" ? impatient : patient; }
 
 /// Says so, judged by the true objective as the programme sees it, or by how far the constraints are violated as long as they are.
-std::function<std::string()> when_stalled(const EpigraphProgram& program, const DesignLog& log, const SolverOptions& options) {
-  const auto window = static_cast<std::size_t>(stall_analyses_of(options.name));
-  const double least_gain = stall_gain_of(options);
+std::function<std::string()> when_stalled(const EpigraphProgram& program, const DesignLog& log, double least_gain, std::size_t window) {
   return [&program, &log, window, least_gain, at = std::size_t{0}, was_feasible = false, best = not_given]() mutable -> std::string {
     if (log.best() == nullptr) return {};
     const bool feasible = log.best()->constraint_violation <= DesignLog::tolerance;
@@ -60,11 +61,12 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
   EpigraphProgram program(problem, log);
   double last = std::numeric_limits<double>::infinity();
   std::string solver = options.name;
+  std::size_t patience = patience_of(solver);
   const bool has_finisher = options.finisher != "none" && options.finisher != options.name;
   for (run.rounds = 1; run.rounds <= most_rounds; ++run.rounds) {
     SolverOptions round = remaining(options, problem.analyses() - analyses_before, clock.seconds());
     round.name = solver;
-    round.stop_when = when_stalled(program, log, round);
+    round.stop_when = when_stalled(program, log, stall_gain_of(options), patience);
     const SolverResult solved = solve(program, round);
     run.status = solved.status;
     run.message = run.finished_by.empty() ? solved.message : solved.message + " (after " + options.name + " stalled on a kink: " + solver + ")";
@@ -81,11 +83,15 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
     // A majorant has a next one, as long as rounds descend.
     const bool settled = !program.is_majorant() || gain <= round_tolerance_of(options);
     last = best;
-    const bool is_done = ((program.add_candidates(x) == 0 || holds) && settled) || (stalled && gain <= stall_gain_of(options));
+    const bool all_known = program.add_candidates(x) == 0, gained = gain > stall_gain_of(options);
+    const bool is_done = ((all_known || holds) && settled && !stalled) || (stalled && !gained && patience == patient);
     if (stalled && has_finisher && run.finished_by.empty()) {
       run.finished_by = solver = options.finisher;
+      patience = patience_of(solver);
     } else if (is_done) {
       break;
+    } else if (stalled && !gained) {
+      patience = patient;
     }
     program.restart_from(log.best()->x);
   }
