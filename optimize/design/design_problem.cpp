@@ -290,6 +290,16 @@ DesignAnalysis DesignProblem::run(const PerGear<Modification>& modification, boo
   return analysis;
 }
 
+DesignAnalysis DesignProblem::analyse_some(const Eigen::VectorXd& x, const std::vector<int>& scenes, bool with_derivatives) const {
+  DesignAnalysis analysis{modification(x), std::vector<LoadedCycle>(task_.scenes.size())};
+  const std::vector<MeshParameter> none;
+  const auto analyse = [&](std::size_t i) {
+    analysis.cycles[static_cast<std::size_t>(scenes[i])] = analyse_scene(scenes[i], analysis.modification, with_derivatives ? parameters_ : none);
+  };
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, scenes.size(), analyse); });
+  return analysis;
+}
+
 const DesignAnalysis& DesignProblem::analyse(const Eigen::VectorXd& x, bool with_derivatives) {
   const bool known = last_x_.size() == x.size() && last_x_ == x && (last_has_derivatives_ || !with_derivatives);
   if (known) return last_;

@@ -73,6 +73,9 @@ class DesignProblem {
   DesignAnalysis analyse_given() const;
   /// Analyses any modifications; neither remembered nor counted.
   DesignAnalysis analyse_design(const PerGear<Modification>& modification) const { return run(modification, false); }
+  /// Some scenes of a scaled design, those of others have no cycle. Neither remembered nor counted, and started from no other loads: the same design gives
+  /// the same bits whatever was analysed before.
+  DesignAnalysis analyse_some(const Eigen::VectorXd& x, const std::vector<int>& scenes, bool with_derivatives) const;
   /// One scene of that, with derivatives by any parameters; those that move the mesh (moves_mesh()) need two perturbed
   /// meshes each, which are not kept.
   /// @param earlier  the scene's cycle for a design that differs by little, see analyse_cycle(); null: none

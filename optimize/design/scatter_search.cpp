@@ -1,201 +1,354 @@
 #include "optimize/design/scatter_search.hpp"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numeric>
+#include <optional>
 #include <set>
+#include <stdexcept>
 
 #include "core/base/stopwatch.hpp"
-#include "optimize/design/direct_program.hpp"
-#include "optimize/design/local_run.hpp"
+#include "optimize/design/design_log.hpp"
+#include "optimize/design/model_step.hpp"
 #include "optimize/design/rounding.hpp"
+#include "optimize/design/screening.hpp"
 #include "optimize/design/two_level.hpp"
-#include "optimize/solvers/solver.hpp"
 
 namespace flankwright {
 
 namespace {
 
-constexpr int most_turns = 8;           // searches over some of the draws on one level
-constexpr double settled = 1e-4;        // a turn that lowers the statistic by no more than this share of it is the last
-constexpr double tail_width = 3.0;      // draws searched over, in units of the share beyond the level
-constexpr std::size_t least_tail = 8;   // of them at least
-constexpr double leading_share = 0.15;  // DesignTask::leading_share of a search that begins near its optimum
-constexpr int most_mean_analyses = 60;  // of the statistic of all draws, per level
-constexpr int most_rounding_cycles = 6000;
-
-/// Only the worst draws decide.
-bool is_of_tail(const Aggregation& over) { return over == Aggregate::Cvar || over == Aggregate::Quantile || over == Aggregate::Worst; }
-
-std::vector<double> measures_of(const DesignProblem& problem, const Objective& objective, const DesignAnalysis& analysis) {
-  std::vector<double> measures;
-  for (int s = 0; s < problem.scenes(); ++s) measures.push_back(problem.scene_measure(objective, analysis, s));
-  return measures;
-}
+constexpr int first_draws = 64, growth_of_draws = 8;
+/// A level ends where the model promises to lower the statistic by no more than this share of it, a tenth of what thousands of draws tell apart.
+constexpr double settled = 1e-3;
+/// Half widths of the box, in ranges of the variables: at first, at least when a level begins, at most, and below which a level ends.
+constexpr double first_radius = 0.2, level_radius = 0.05, largest_radius = 0.5, least_radius = 1e-3;
+constexpr double poor_share = 0.25, good_share = 0.75;  // of the promised gain, see search_over_draws()
+constexpr std::size_t chunk = 64;                       // draws whose cycles are held at the same time
+constexpr int most_rounding_cycles = 1500, most_rounding_turns = 4;
+constexpr int all_draws = std::numeric_limits<int>::max();
 
 class DrawSearch {
  public:
-  DrawSearch(const SolverOptions& options, ScatterDesign& books) : options_(options), books_(books) {}
+  DrawSearch(const DesignProblem& full, const DesignProblem& screening, const SolverOptions& options, ScatterDesign& books)
+      : full_(full), screening_(screening), options_(options), books_(books), model_(full) {
+    models_.push_back(&model_.objective);
+    for (StatisticModel& bounded : model_.bounded) models_.push_back(&bounded);
+    of_spectrum_ = std::ranges::any_of(models_, [](const StatisticModel* m) { return m->objective().over_spectrum(); });
+  }
 
-  /// The best design on one level, from x on; over the draws it was searched over last.
-  Eigen::VectorXd search(DesignProblem& full, Eigen::VectorXd x) {
-    draws_.clear();
-    double value = judge(full, x), violation = full.violation(full.analyse(x, false));
-    grow(full, x);
-    for (int turn = 0; turn < most_turns && !is_spent(); ++turn) {
-      ++books_.turns;
-      DesignProblem part = reduced(full);
-      part.set_start(x);
-      const Eigen::VectorXd next = is_of_tail(full.task().over) ? by_epigraph(part) : by_gradient(part);
-      books_.cycles += std::int64_t{part.analyses()} * part.scenes();
-      used_ += part.analyses();
-      const double new_value = judge(full, next), new_violation = full.violation(full.analyse(next, false));
-      const bool rises = grow(full, next);
-      const double gain = value - new_value;
-      const bool keeps = new_violation <= DesignLog::tolerance, kept = violation <= DesignLog::tolerance;
-      const bool better = keeps == kept ? (keeps ? gain > 0.0 : new_violation < violation) : keeps;
-      if (better) {
-        x = next;
-        value = new_value;
-        violation = new_violation;
-      }
-      if (!rises && gain <= settled * std::abs(value)) break;
+  /// Whether the first n draws are the same ones for all statistics.
+  bool can_begin_with_few() const { return !of_spectrum_; }
+
+  /// A design and its figures over some draws.
+  struct Judged {
+    Eigen::VectorXd x;
+    double value{not_given}, violation{not_given};
+
+    bool keeps() const { return violation <= DesignLog::tolerance; }
+    /// What a step lowers, relative: the statistic, or the excess where limits are not kept.
+    double gain_to(const Judged& next) const {
+      if (keeps()) return next.keeps() ? 1.0 - next.value / value : -INFINITY;
+      return violation - std::max(0.0, next.violation);
     }
-    return x;
+  };
+
+  /// The best design on one level by a statistic of the first draws, from x on.
+  Judged descend(const DesignProblem& problem, const Eigen::VectorXd& x, int draws, const Aggregation& over) {
+    model_.objective.combine(over);
+    model_.objective.smooth(std::min(draws, model_.objective.draws()));
+    radius_ = std::max(radius_, level_radius);
+    Judged best = judge(problem, x, draws);
+    remember(true);
+    books_.status = SolverStatus::Converged;
+    books_.message = "no step promises to gain a thousandth";
+    while (!is_spent()) {
+      const ModelStep step = least_of_model(model_, best.x, radius_, draws);
+      if (step.gain <= settled) break;
+      const double length = (step.x - best.x).lpNorm<Eigen::Infinity>();
+      ++books_.steps;
+      double gain = -INFINITY;
+      try {
+        Judged next = judge(problem, step.x, draws);
+        if (best.gain_to(next) > 0.0) next = judge_all(problem, step.x, draws);
+        gain = best.gain_to(next);
+        remember(gain > 0.0);
+        if (gain > 0.0) best = next;
+      } catch (const std::runtime_error&) {  // such a design cannot be analysed: a shorter step
+        last_ = {};
+      }
+      if (options_.progress) options_.progress(books_.steps, best.value);
+      if (gain < poor_share * step.gain) radius_ = 0.5 * length;
+      if (gain > good_share * step.gain) radius_ = std::min(2.0 * radius_, largest_radius);
+      if (radius_ >= least_radius) continue;
+      books_.message = "no step longer than a thousandth of the ranges gains";
+      break;
+    }
+    return best;
   }
 
-  /// The task over the draws searched over, with levels that leave the statistic what it is.
-  DesignProblem reduced(const DesignProblem& full) const {
-    if (draws_.size() == static_cast<std::size_t>(full.scenes())) return full;
-    const std::vector<int> some(draws_.begin(), draws_.end());
-    const std::vector<double> weights = full.scene_weights();
-    double share = 0.0;
-    for (const int s : some) share += weights[static_cast<std::size_t>(s)];
-    share /= std::accumulate(weights.begin(), weights.end(), 0.0);
-    const auto narrowed = [&](Objective objective) {
-      if (!(objective.over == Aggregate::Worst)) objective.over.level = std::max(0.0, 1.0 - (1.0 - objective.over.level) / share);
-      return objective;
-    };
-    std::vector<ObjectiveBound> bounds = full.task().objective_bounds;
-    for (ObjectiveBound& bound : bounds) bound.objective = narrowed(bound.objective);
-    return full.over_scenes(some).judged_by(narrowed(full.task().combined_objective()), std::move(bounds));
+  const std::vector<double>& measures() const { return measures_; }
+  const std::vector<double>& bounds() const { return bounds_; }
+  std::vector<double> weights() const { return models_.front()->statistic_weights(measures_); }
+  /// Scenes analysed by the last judge().
+  std::vector<int> deciding(const DesignProblem& problem) const {
+    std::vector<int> scenes;
+    for (int s = 0; s < problem.scenes(); ++s) {
+      if (last_.units.contains(scene_unit(problem, s))) scenes.push_back(s);
+    }
+    return scenes;
   }
 
-  std::size_t searched() const { return draws_.size(); }
-  bool is_spent() const { return used_ >= options_.max_evaluations || clock_.seconds() >= options_.max_seconds; }
+  /// A design by the draws that decide there once all are screened.
+  Judged judge_all(const DesignProblem& problem, const Eigen::VectorXd& x, int draws) {
+    judge(problem, x, draws);
+    screen_others(x, draws);
+    return judge(problem, x, draws);
+  }
+
+  /// The statistics themselves at the last design that was accepted.
+  Judged report(const DesignProblem& problem, const Eigen::VectorXd& x) {
+    model_.objective.combine(full_.task().over);
+    model_.objective.exact();
+    return judge(problem, x, all_draws);
+  }
+
+  /// The same of a design that was not: on the steps of the variables.
+  Judged report_all(const DesignProblem& problem, const Eigen::VectorXd& x) {
+    const Judged judged = judge_all(problem, x, all_draws);
+    remember(true);
+    return judged;
+  }
 
  private:
-  double judge(DesignProblem& full, const Eigen::VectorXd& x) {
-    const int before = full.analyses();
-    const double value = full.objective(full.analyse(x, false));
-    books_.cycles += std::int64_t{full.analyses() - before} * full.scenes();
-    used_ += full.analyses() - before;
-    return value;
+  /// Screens the draws that the last judge() did not analyse: contact that reaches an edge there is not foreseen by the gradients of a draw without it.
+  void screen_others(const Eigen::VectorXd& x, int draws) {
+    const std::set<int> analysed = last_.units;
+    const auto of_analysed = last_.linear;
+    last_.linear.clear();
+    for (const StatisticModel* model : models_) {
+      std::vector<int> others;
+      for (int i = 0; i < model->draws(draws); ++i) {
+        if (!last_.units.contains(scene_unit(screening_, model->scene(i)))) others.push_back(i);
+      }
+      analyse(screening_, x, *model, others, false);
+    }
+    screened_.clear();
+    for (const auto& [key, linear] : last_.linear) {
+      const StatisticModel& model = *models_[key.first];
+      screened_[key] = model.unseen(model.seen(linear, x).value);
+    }
+    screened_x_ = x;
+    last_.linear = of_analysed;
+    last_.units = analysed;
   }
 
-  /// Adds the draws that decide at x; whether there were new ones among those the statistics hang on.
-  bool grow(DesignProblem& full, const Eigen::VectorXd& x) {
-    const DesignAnalysis& analysis = full.analyse(x, false);
-    std::vector<Objective> objectives{full.task().combined_objective()};
-    for (const ObjectiveBound& bound : full.task().objective_bounds) objectives.push_back(bound.objective);
-    bool rises = false;
-    for (const Objective& objective : objectives) {
-      const std::vector<double> measures = measures_of(full, objective, analysis);
-      const auto count = is_of_tail(objective.over) ? tail(objective.over, measures.size()) : measures.size();
-      std::vector<int> order(measures.size());
-      std::iota(order.begin(), order.end(), 0);
-      std::ranges::stable_sort(order, [&](int a, int b) { return measures[static_cast<std::size_t>(a)] > measures[static_cast<std::size_t>(b)]; });
-      const std::vector<double> weights = aggregate_weights(objective.over, measures, full.scene_weights());
-      // Draws beyond a quantile have no weight, yet belong to those that the search has to know.
-      std::size_t deciding = 0;
-      for (std::size_t i = 0; i < order.size(); ++i) {
-        if (weights[static_cast<std::size_t>(order[i])] != 0.0) deciding = i + 1;
+  /// A design by the draws that decide there, as far as is known of the others.
+  Judged judge(const DesignProblem& problem, const Eigen::VectorXd& x, int draws) {
+    Judged judged{x, not_given, 0.0};
+    if (!last_.is_of(problem, x)) last_ = accepted_.is_of(problem, x) ? accepted_ : Analysed{&problem, x, {}, {}};
+    bounds_.clear();
+    for (std::size_t m = 0; m < models_.size(); ++m) {
+      StatisticModel& model = *models_[m];
+      std::vector<double> guess = model.measures(x, draws);
+      if (screened_x_.size() == x.size() && screened_x_ == x) {
+        for (const auto& [key, measure] : screened_) {
+          if (key.first == m) guess[static_cast<std::size_t>(key.second)] = measure;
+        }
       }
-      for (std::size_t i = 0; i < std::max(count, deciding); ++i) {
-        const bool is_new = draws_.insert(order[i]).second;
-        rises = rises || (is_new && i < deciding);
+      screen(
+          guess, model.first(guess.size()), [&model](const std::vector<double>& measures) { return model.statistic_weights(measures); },
+          [&](const std::vector<int>& some) { return analyse(problem, x, model, some, true); });
+      const double value = model.statistic(guess);
+      if (m == 0) {
+        judged.value = value;
+        measures_ = std::move(guess);
+      } else {
+        bounds_.push_back(value);
+        judged.violation = std::max(judged.violation, value / model_.limits[m - 1] - 1.0);
       }
     }
-    return rises;
+    for (Eigen::Index r = 0; r < model_.slopes.rows(); ++r) {
+      judged.violation = std::max(judged.violation, model_.slopes.row(r).dot(x) - model_.most[r]);
+    }
+    return judged;
   }
 
-  static std::size_t tail(const Aggregation& over, std::size_t draws) {
-    if (over == Aggregate::Worst) return std::min(draws, least_tail);
-    const double wanted = std::ceil(tail_width * (1.0 - over.level) * static_cast<double>(draws));
-    return std::min(draws, std::max(least_tail, static_cast<std::size_t>(wanted)));
+  /// Draws analysed at one design.
+  struct Analysed {
+    const DesignProblem* problem{nullptr};
+    Eigen::VectorXd x;
+    std::map<std::pair<std::size_t, int>, LinearDraw> linear;  ///< by model and draw
+    std::set<int> units;
+
+    bool is_of(const DesignProblem& of, const Eigen::VectorXd& at) const { return problem == &of && x.size() == at.size() && x == at; }
+  };
+
+  /// Keeps the analyses of the last judge(): for a design that was accepted instead of all that was known, else beside it.
+  void remember(bool accepted) {
+    for (const auto& [key, linear] : last_.linear) {
+      if (accepted) {
+        models_[key.first]->set(key.second, linear);
+      } else {
+        models_[key.first]->add(key.second, linear);
+      }
+    }
+    if (!accepted) return;
+    accepted_ = last_;
+    if (!(screened_x_.size() == last_.x.size() && screened_x_ == last_.x)) return;
+    for (const auto& [key, measure] : screened_) {
+      if (!last_.linear.contains(key)) models_[key.first]->set(key.second, models_[key.first]->moved(key.second, last_.x, measure));
+    }
   }
 
-  SolverOptions left() const {
-    SolverOptions options = options_;
-    options.max_evaluations = std::max(1, options.max_evaluations - used_);
-    options.max_seconds = std::max(1e-3, options.max_seconds - clock_.seconds());
-    options.progress = nullptr;
-    return options;
+  bool is_spent() {
+    if (books_.steps >= options_.max_evaluations) books_.status = SolverStatus::EvaluationLimit;
+    if (clock_.seconds() >= options_.max_seconds) books_.status = SolverStatus::TimeLimit;
+    if (books_.status == SolverStatus::Converged) return false;
+    books_.message = "the best design met so far";
+    return true;
   }
 
-  Eigen::VectorXd by_epigraph(DesignProblem& part) {
-    const LocalRun run = run_local(part, left());
-    take(run.status, run.message);
-    return run.x;
+  /// Scenes that are analysed together have the same number: the load cases of a spectrum, else each on its own.
+  int scene_unit(const DesignProblem& problem, int scene) const {
+    const int spectrum = problem.task().scenes[static_cast<std::size_t>(scene)].spectrum;
+    return of_spectrum_ && spectrum >= 0 ? spectrum : scene;
   }
 
-  Eigen::VectorXd by_gradient(DesignProblem& part) {
-    DesignLog log(nullptr);
-    DirectProgram program(part, log);
-    SolverOptions options = left();
-    options.name = "nlopt:slsqp";
-    options.max_evaluations = std::min(options.max_evaluations, most_mean_analyses);
-    options.tolerance = settled;
-    const SolverResult solved = solve(program, options);
-    // The limit of one turn is no early end: turns go on as long as they gain.
-    const bool turn_ended = solved.status == SolverStatus::EvaluationLimit && options.max_evaluations == most_mean_analyses;
-    take(turn_ended ? SolverStatus::Stalled : solved.status, solved.message);
-    return log.best() == nullptr ? part.start() : log.best()->x;
+  /// Analyses draws that the last judge() has not analysed yet; measures of all these.
+  std::vector<double> analyse(const DesignProblem& problem, const Eigen::VectorXd& x, const StatisticModel& of, const std::vector<int>& draws,
+                              bool with_derivatives) {
+    std::set<int> units;
+    for (const int draw : draws) units.insert(scene_unit(problem, of.scene(draw)));
+    std::erase_if(units, [this](int unit) { return last_.units.contains(unit); });
+    std::vector<int> scenes;
+    for (int s = 0; s < problem.scenes(); ++s) {
+      if (units.contains(scene_unit(problem, s))) scenes.push_back(s);
+    }
+    for (std::size_t from = 0; from < scenes.size();) {
+      std::size_t to = std::min(from + chunk, scenes.size());
+      while (to < scenes.size() && scene_unit(problem, scenes[to]) == scene_unit(problem, scenes[to - 1])) ++to;
+      linearise(problem, x, {scenes.begin() + static_cast<std::ptrdiff_t>(from), scenes.begin() + static_cast<std::ptrdiff_t>(to)}, with_derivatives);
+      from = to;
+    }
+    last_.units.merge(units);
+    books_.cycles += std::ssize(scenes);
+    if (&problem != &full_) books_.screening_cycles += std::ssize(scenes);
+    std::vector<double> measures;
+    const auto number = static_cast<std::size_t>(std::ranges::find(models_, &of) - models_.begin());
+    for (const int draw : draws) measures.push_back(of.unseen(of.seen(last_.linear.at({number, draw}), x).value));
+    return measures;
   }
 
-  void take(SolverStatus status, const std::string& message) {
-    books_.status = status;
-    books_.message = message;
+  void linearise(const DesignProblem& problem, const Eigen::VectorXd& x, const std::vector<int>& scenes, bool with_derivatives) {
+    const DesignAnalysis analysis = problem.analyse_some(x, scenes, with_derivatives);
+    struct Asked {
+      std::size_t model;
+      int draw;
+      LinearDraw linear;
+    };
+    std::vector<Asked> asked;
+    const std::set<int> some(scenes.begin(), scenes.end());
+    for (std::size_t m = 0; m < models_.size(); ++m) {
+      for (int i = 0; i < models_[m]->draws(); ++i) {
+        if (some.contains(models_[m]->scene(i))) asked.push_back({m, i, {}});
+      }
+    }
+    tbb::parallel_for(std::size_t{0}, asked.size(),
+                      [&](std::size_t i) { asked[i].linear = models_[asked[i].model]->linear(problem, analysis, asked[i].draw, x); });
+    for (Asked& a : asked) last_.linear[{a.model, a.draw}] = std::move(a.linear);
   }
 
+  const DesignProblem &full_, &screening_;
   const SolverOptions& options_;
   ScatterDesign& books_;
   const Stopwatch clock_;
-  std::set<int> draws_;
-  int used_{0};
+  ScatterModel model_;
+  std::vector<StatisticModel*> models_;  ///< the objective's, then those of the bounds
+  bool of_spectrum_{false};
+  double radius_{first_radius};
+  Analysed last_, accepted_;                                ///< of the last judge(), and of the last design accepted
+  std::map<std::pair<std::size_t, int>, double> screened_;  ///< measures of the others where a step was to be accepted
+  Eigen::VectorXd screened_x_;
+  std::vector<double> measures_, bounds_;
 };
+
+/// The task over the draws that decide, with levels that leave the statistic what it is: a share of the weight.
+DesignProblem reduced(const DesignProblem& full, const std::vector<int>& some) {
+  const std::vector<double> weights = full.scene_weights();
+  double share = 0.0;
+  for (const int s : some) share += weights[static_cast<std::size_t>(s)];
+  share /= std::accumulate(weights.begin(), weights.end(), 0.0);
+  const auto narrowed = [&](Objective objective) {
+    if (!(objective.over == Aggregate::Worst)) objective.over.level = std::max(0.0, 1.0 - (1.0 - objective.over.level) / share);
+    return objective;
+  };
+  std::vector<ObjectiveBound> bounds = full.task().objective_bounds;
+  for (ObjectiveBound& bound : bounds) bound.objective = narrowed(bound.objective);
+  return full.over_scenes(some).judged_by(narrowed(full.task().combined_objective()), std::move(bounds));
+}
+
+/// Rounds over the draws that decide; where others decide at the rounded design, over these as well.
+DrawSearch::Judged round(DrawSearch& search, const DesignProblem& full, ScatterDesign& design) {
+  const Eigen::VectorXd exact = design.x;
+  DrawSearch::Judged found;
+  std::set<int> deciding;
+  for (int turn = 0; turn < most_rounding_turns; ++turn) {
+    for (const int scene : search.deciding(full)) deciding.insert(scene);
+    DesignProblem part = reduced(full, {deciding.begin(), deciding.end()});
+    const RoundedDesign rounded = round_design(part, exact, std::max(1, most_rounding_cycles / part.scenes()));
+    design.cycles += std::int64_t{rounded.analyses} * part.scenes();
+    const bool settles = turn > 0 && rounded.x == design.x;
+    if (settles) break;
+    const DrawSearch::Judged next = search.report_all(full, rounded.x);
+    design.x = rounded.x;
+    found = next;
+  }
+  return found;
+}
 
 }  // namespace
 
 ScatterDesign search_over_draws(const DesignTask& task, const std::vector<double>& start, const SolverOptions& options) {
   const Stopwatch clock;
   ScatterDesign design;
-  DrawSearch search(options, design);
-  DesignTask near = task;
-  near.leading_share = leading_share;
-  DesignProblem full(near);
+  const DesignProblem full(task);
+  const std::optional<DesignProblem> coarse = can_be_coarser(task) ? std::optional<DesignProblem>(screening_task(task)) : std::nullopt;
+  const DesignProblem& screening = coarse ? *coarse : full;
+  DrawSearch search(full, screening, options, design);
   design.x = full.scaled_design(start).cwiseMax(0.0).cwiseMin(1.0);
-  design.start_value = full.objective(full.analyse(design.x, false));
-  if (can_be_coarser(task)) {
-    DesignProblem coarse(coarser(near));
-    design.x = search.search(coarse, design.x);
+  try {
+    const bool is_quantile = task.over == Aggregate::Quantile;
+    const Aggregation approach = is_quantile ? Aggregation{Aggregate::Cvar, 2.0, task.over.level} : task.over;
+    const int all = full.scenes(), few = search.can_begin_with_few() ? std::min(first_draws, all) : all;
+    for (int draws = few; draws < all; draws = std::min(draws * growth_of_draws, all)) {
+      design.x = search.descend(screening, design.x, draws, approach).x;
+    }
+    if (is_quantile && few == all) design.x = search.descend(screening, design.x, all, approach).x;
+    design.x = search.descend(screening, design.x, all, task.over).x;
+    if (coarse) design.x = search.descend(full, design.x, all, task.over).x;
+    DrawSearch::Judged found = search.report(full, design.x);
+    if (has_steps(task)) {
+      design.exact_value = found.value;
+      found = round(search, full, design);
+    }
+    design.value = found.value;
+    design.violation = found.violation;
+    design.measures = search.measures();
+    design.weights = search.weights();
+    design.bounds = search.bounds();
+    design.decided_by = search.deciding(full).size();
+  } catch (const InvalidInput&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    design.status = SolverStatus::Failed;
+    design.message = std::string("the start cannot be analysed: ") + error.what();
   }
-  design.x = search.search(full, design.x);
-  design.searched = search.searched();
-  if (has_steps(task)) {
-    design.exact_value = full.objective(full.analyse(design.x, false));
-    DesignProblem part = search.reduced(full);
-    const RoundedDesign rounded = round_design(part, design.x, std::max(1, most_rounding_cycles / part.scenes()));
-    design.cycles += std::int64_t{rounded.analyses} * part.scenes();
-    design.x = rounded.x;
-  }
-  const DesignAnalysis& analysis = full.analyse(design.x, false);
-  design.modification = analysis.modification;
-  design.value = full.objective(analysis);
-  design.violation = full.violation(analysis);
-  design.measures = measures_of(full, full.task().combined_objective(), analysis);
-  design.weights = aggregate_weights(task.over, design.measures, full.scene_weights());
-  for (const ObjectiveBound& bound : task.objective_bounds) design.bounds.push_back(full.value(bound.objective, analysis));
+  design.modification = full.modification(design.x);
   if (design.violation > DesignLog::tolerance && design.status != SolverStatus::Failed) {
     design.status = SolverStatus::Infeasible;
     design.message = "no design that keeps the constraints over the draws was found";

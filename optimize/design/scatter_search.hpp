@@ -15,33 +15,37 @@ struct ScatterDesign {
   std::string message{"search_over_draws() was not called"};
   Eigen::VectorXd x;  ///< scaled; on the variables' steps where they have any
   PerGear<Modification> modification;
-  double start_value{not_given};  ///< statistic of the start over the draws, outside units
-  double exact_value{not_given};  ///< of the best design before it was rounded; NaN without steps
-  double value{not_given};        ///< of `x`
-  double violation{not_given};    ///< DesignProblem::violation() of `x` over all draws [-]
-  std::vector<double> measures;   ///< per draw, of `x`, outside units
+  double exact_value{not_given};  ///< statistic of the best design before it was rounded, outside units; NaN without steps
+  double value{not_given};        ///< of `x`, over the draws
+  double violation{not_given};    ///< largest excess over a bound of `x` over all draws [-]
+  std::vector<double> measures;   ///< per draw, of `x`, outside units; of draws that do not decide those of the screening
   std::vector<double> weights;    ///< d(value)/d(measure): which draws the statistic hangs on
   std::vector<double> bounds;     ///< value of every objective bound, outside units
-  int turns{0};                   ///< searches over some of the draws, each followed by an analysis of all
-  std::size_t searched{0};        ///< draws in the last of them
-  std::int64_t cycles{0};         ///< mesh cycles analysed
+  int steps{0};                   ///< designs tried
+  std::size_t decided_by{0};      ///< draws analysed at the task's own resolution at `x`; the others lie below, as the screening says
+  std::int64_t cycles{0};         ///< mesh cycles analysed, screening included
+  std::int64_t screening_cycles{0};
   double seconds{not_given};
 };
 
 /// Chooses the design whose statistic over drawn scenes is least, with the same draws for every design (common random numbers): the objective is
 /// then an ordinary function of the design with exact gradients, and the same draws give the same design.
 ///
-/// - quantile, cvar: only the worst draws count. The search is the epigraph over the worst three times 1 - level of the weight, with a level that makes
-///   the statistic the same as long as no other draw rises among them. All draws are analysed at its optimum; those that have risen join, until none
-///   matters.
-/// - mean, mean + k sigma: all draws count. The statistic of the true peaks, with the gradient of each draw's leading candidate, is one function of the
-///   variables: kinks of single draws have 1/n of the weight.
+/// A sequence of linear programmes in a trust region. At each step the candidates of every draw are continued along their gradients (StatisticModel); the
+/// least statistic of that model in a box about the best design (least_of_model()) is the next design. It is judged by analyses of the draws that decide
+/// there (screen()); where the statistic falls all others are screened as well, since contact that reaches an edge is not foreseen by the gradients of a
+/// draw without it. The design is accepted where the statistic then still falls. The box halves where it falls by less than a quarter of what the model
+/// had promised, and doubles where by three quarters.
 ///
-/// Searched with few points first, then with the task's own (coarser()), then rounded to the steps.
+/// The search goes from cheap to dear: over the first 64 draws, then eight times as many, up to all, each by the screening resolution (screening_task()),
+/// and then over all by the task's own. Draws must therefore be in an order of which every beginning is a sample, as those of a Sobol sequence are. Over
+/// fewer draws than all a quantile is approached by the CVaR of its level, which leaves no draw out: from there on the draws left out are those that are
+/// hard for every design, not those that happened to be bad at the start. Over all draws the quantile is smoothed, StatisticModel::smooth(); `value` is the
+/// quantile itself. Last the design is rounded to the steps.
 ///
 /// @param task     scenes are the draws; constraints on outputs are objective bounds with the statistic, and task.constraints is empty
 /// @param start    a design to begin with, such as the optimum without scatter, in the order of the variables [mm; parabolic_te 1/rad]
-/// @param options  max_evaluations counts analyses, of however many draws
+/// @param options  max_evaluations counts designs tried
 /// @throws InvalidInput as DesignProblem
 ScatterDesign search_over_draws(const DesignTask& task, const std::vector<double>& start, const SolverOptions& options);
 

@@ -1,0 +1,197 @@
+#include "optimize/design/statistic_model.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "optimize/design/screening.hpp"
+
+namespace flankwright {
+
+namespace {
+
+constexpr std::size_t most_linear = 3;  // analyses of a draw that are kept beside each other
+
+/// Candidates of one output and draw: within this share of its peak, and at most so many.
+constexpr double peak_margin = 0.6;
+constexpr std::size_t most_peaks = 40;
+
+double model_growth(const Objective& objective) {
+  const bool is_contact_stress = objective.terms.size() == 1 && objective.terms.front().output == Output::PeakContactStress;
+  return is_contact_stress ? 0.5 : objective.growth();
+}
+
+std::vector<PeakCandidate> candidates_of(const ObjectiveTerm& term, const LoadedScene& scene) {
+  if (design_output(term.output).is_least) return leading_candidates(term, scene, 0.0, 1);
+  std::vector<PeakCandidate> candidates = leading_candidates(term, scene, peak_margin, most_peaks);
+  if (term.output == Output::TeHarmonic) candidates.push_back(whole_output);
+  return candidates;
+}
+
+}  // namespace
+
+StatisticModel::StatisticModel(const DesignProblem& problem, Objective objective)
+    : objective_(std::move(objective)), growth_(model_growth(objective_)), scenes_(problem.judged_scenes(objective_.terms.front())) {
+  const std::vector<double> all = problem.scene_weights();
+  for (const int s : scenes_) weights_.push_back(all[static_cast<std::size_t>(s)]);
+  known_.resize(scenes_.size());
+}
+
+LinearDraw StatisticModel::linear(const DesignProblem& problem, const DesignAnalysis& analysis, int draw, const Eigen::VectorXd& x) const {
+  const LoadedScene scene = problem.scene(analysis, this->scene(draw));
+  LinearDraw linear{x, {}};
+  for (const ObjectiveTerm& term : objective_.terms) {
+    const std::vector<PeakCandidate> candidates = candidates_of(term, scene);
+    const auto rows = static_cast<Eigen::Index>(candidates.size());
+    LinearDraw::Peak peak{Eigen::VectorXd(rows), Eigen::MatrixXd(rows, x.size())};
+    for (Eigen::Index j = 0; j < rows; ++j) {
+      const SmoothValue value = candidate_value(term, candidates[static_cast<std::size_t>(j)], scene);
+      const double root = value.value > 0.0 ? std::pow(value.value, 1.0 / growth_) : 0.0;
+      peak.values[j] = root;
+      peak.slopes.row(j).setZero();
+      if (value.value > 0.0 && value.gradient.size() > 0) {
+        peak.slopes.row(j) = root / (growth_ * value.value) * problem.scaled(value.gradient).transpose();
+      }
+    }
+    linear.terms.push_back(std::move(peak));
+  }
+  return linear;
+}
+
+void StatisticModel::set(int draw, LinearDraw linear) {
+  std::vector<LinearDraw>& known = known_[static_cast<std::size_t>(draw)];
+  known.clear();
+  known.push_back(std::move(linear));
+}
+
+void StatisticModel::add(int draw, LinearDraw linear) {
+  std::vector<LinearDraw>& known = known_[static_cast<std::size_t>(draw)];
+  if (known.size() == most_linear) known.erase(known.begin() + 1);
+  known.push_back(std::move(linear));
+}
+
+LinearDraw StatisticModel::moved(int draw, const Eigen::VectorXd& x, double measure) const {
+  LinearDraw linear = known_[static_cast<std::size_t>(draw)].front();
+  const double expected = unseen(seen(linear, x).value);
+  for (LinearDraw::Peak& peak : linear.terms) {
+    peak.values += peak.slopes * (x - linear.x);
+    // All outputs are off by the same share.
+    if (expected > 0.0) peak.values *= seen(measure) / seen(expected);
+  }
+  linear.x = x;
+  return linear;
+}
+
+SmoothValue StatisticModel::seen(const LinearDraw& linear, const Eigen::VectorXd& x) const {
+  const Eigen::VectorXd step = x - linear.x;
+  SmoothValue measure{0.0, Eigen::VectorXd::Zero(x.size())};
+  for (std::size_t k = 0; k < linear.terms.size(); ++k) {
+    const LinearDraw::Peak& peak = linear.terms[k];
+    Eigen::Index leader = 0;
+    const double root = std::max(0.0, (peak.values + peak.slopes * step).maxCoeff(&leader));
+    const double weight = objective_.terms[k].weight * objective_.terms[k].outside_factor();
+    measure.value += weight * std::pow(root, growth_);
+    if (root > 0.0) measure.gradient += weight * growth_ * std::pow(root, growth_ - 1.0) * peak.slopes.row(leader).transpose();
+  }
+  if (growth_ == 1.0) return measure;
+  if (!(measure.value > 0.0)) return {0.0, Eigen::VectorXd::Zero(x.size())};
+  const double value = seen(measure.value);
+  return {value, value / (growth_ * measure.value) * measure.gradient};
+}
+
+SmoothValue StatisticModel::seen(int draw, const Eigen::VectorXd& x) const {
+  SmoothValue largest;
+  for (const LinearDraw& linear : known_[static_cast<std::size_t>(draw)]) {
+    SmoothValue value = seen(linear, x);
+    if (largest.gradient.size() == 0 || value.value > largest.value) largest = std::move(value);
+  }
+  return largest;
+}
+
+std::vector<double> StatisticModel::measures(const Eigen::VectorXd& x, int first) const {
+  std::vector<double> measures;
+  for (int i = 0; i < draws(first); ++i) measures.push_back(knows(i) ? unseen(seen(i, x).value) : INFINITY);
+  return measures;
+}
+
+double StatisticModel::seen(double value) const { return value > 0.0 ? std::pow(value, 1.0 / growth_) : 0.0; }
+
+double StatisticModel::unseen(double seen) const { return seen > 0.0 ? std::pow(seen, growth_) : 0.0; }
+
+std::vector<double> StatisticModel::weights(std::size_t draws) const {
+  return {weights_.begin(), weights_.begin() + static_cast<std::ptrdiff_t>(draws)};
+}
+
+double StatisticModel::statistic(const std::vector<double>& measures) const {
+  if (!is_band()) return aggregate(objective_.over, measures, weights(measures.size()));
+  const std::vector<double> by = statistic_weights(measures);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < by.size(); ++i) sum += by[i] != 0.0 ? by[i] * measures[i] : 0.0;
+  return sum;
+}
+
+std::vector<double> StatisticModel::statistic_weights(const std::vector<double>& measures) const {
+  if (!is_band()) return aggregate_weights(objective_.over, measures, weights(measures.size()));
+  const std::vector<bool> left_out = beyond(measures);
+  std::vector<double> of_others, by(measures.size(), 0.0), others;
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    if (left_out[i]) continue;
+    others.push_back(measures[i]);
+    of_others.push_back(weights_[i]);
+  }
+  const std::vector<double> rest = aggregate_weights(of_rest(), others, of_others);
+  for (std::size_t i = 0, k = 0; i < measures.size(); ++i) {
+    if (!left_out[i]) by[i] = rest[k++];
+  }
+  return by;
+}
+
+void StatisticModel::smooth(int draws) {
+  const double level = objective_.over.level;
+  band_ = objective_.over == Aggregate::Quantile ? std::min(std::sqrt(level * (1.0 - level) / draws), 0.5 * (1.0 - level)) : 0.0;
+}
+
+std::size_t StatisticModel::first(std::size_t draws) const {
+  if (objective_.over == Aggregate::Worst) return 1;
+  if (!is_of_tail(objective_.over)) return draws;
+  return static_cast<std::size_t>(std::ceil((1.0 - objective_.over.level + band_) * static_cast<double>(draws)));
+}
+
+std::vector<bool> StatisticModel::beyond(const std::vector<double>& measures) const {
+  if (!(objective_.over == Aggregate::Quantile)) return std::vector<bool>(measures.size(), false);
+  return beyond_quantile(objective_.over.level + band_, measures, weights(measures.size()));
+}
+
+StatisticModel::Tangents StatisticModel::tangents(const Eigen::VectorXd& x, const std::vector<bool>& left_out, int first, double level) const {
+  Tangents found;
+  const bool is_largest = !is_band() && (objective_.over == Aggregate::Worst || objective_.over == Aggregate::Quantile);
+  std::vector<double> all, of_all;
+  std::vector<SmoothValue> values;
+  found.value = -INFINITY;
+  for (int i = 0; i < draws(first); ++i) {
+    if (left_out[static_cast<std::size_t>(i)]) continue;
+    SmoothValue value = seen(i, x);
+    if (!is_largest) {
+      all.push_back(unseen(value.value));
+      of_all.push_back(weights_[static_cast<std::size_t>(i)]);
+    }
+    found.value = std::max(found.value, value.value);
+    if (!is_largest || value.value >= level) values.push_back(std::move(value));
+  }
+  if (is_largest) {
+    found.touching = std::move(values);
+    return found;
+  }
+  const Aggregation over = is_band() ? of_rest() : objective_.over;
+  const std::vector<double> by = aggregate_weights(over, all, of_all);
+  SmoothValue value{aggregate(over, all, of_all), Eigen::VectorXd::Zero(x.size())};
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (by[i] != 0.0 && values[i].value > 0.0) value.gradient += by[i] * growth_ * all[i] / values[i].value * values[i].gradient;
+  }
+  found.value = seen(value.value);
+  if (value.value > 0.0) value.gradient *= found.value / (growth_ * value.value);
+  value.value = found.value;
+  found.touching = {std::move(value)};
+  return found;
+}
+
+}  // namespace flankwright
