@@ -47,6 +47,7 @@ class ScatterRun {
     result.draws = draw(study_, tolerances, asked_.draws, asked_.seed, load_cases_);
     const DesignTask over = over_draws(task_, result.draws, asked_.statistic);
     result.design = search_over_draws(over, (found.exact ? *found.exact : found.after).variables, options());
+    predict(result);
     result.without_value = statistic_over(over, found.after.analysis.modification, over.combined_objective());
     try_afresh(found, result);
     price_classes(found, result);
@@ -71,6 +72,13 @@ class ScatterRun {
   static double statistic_over(const DesignTask& task, const PerGear<Modification>& modification, const Objective& objective) {
     const DesignProblem problem(task);
     return problem.value(objective, problem.analyse_design(modification));
+  }
+
+  void predict(ScatterResult& result) const {
+    if (asked_.predicted_from == 0 || result.design.status == SolverStatus::Failed) return;
+    report("predicting from " + std::to_string(asked_.predicted_from) + " further draws");
+    const auto scenes = draw(study_, study_.optimise.assessment.tolerances, asked_.predicted_from, asked_.predicted_seed, load_cases_);
+    result.predicted = predict_statistic(over_draws(task_, scenes, asked_.statistic), asked_.predicted_from, result.design.modification);
   }
 
   void try_afresh(const DesignResult& found, ScatterResult& result) const {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "optimize/assessment/predicted_statistic.hpp"
 #include "optimize/assessment/validation.hpp"
 #include "optimize/design/design_optimiser.hpp"
 #include "optimize/design/scatter_search.hpp"
@@ -35,12 +36,15 @@ struct ScatterResult {
   std::vector<double> without;       ///< variables of the design without scatter [mm; parabolic_te 1/rad]
   double without_value{not_given};   ///< its statistic over the draws
   std::vector<DesignScene> draws;
+  PredictedStatistic predicted;    ///< of `design`, from draws that its search has not seen; NaN where none were asked for
   std::vector<FreshDesign> fresh;  ///< "before", "without scatter", "after"; empty: not asked for
   std::vector<ClassDesign> classes;
   double fresh_seconds{not_given}, classes_seconds{not_given};
 
-  /// Statistic of `after` over the fresh draws beside that of the search, relative [-]; NaN without fresh draws.
-  double prediction_error() const { return fresh.empty() ? not_given : design.value / fresh.back().statistic - 1.0; }
+  /// What was predicted of `after` beside its statistic over the fresh draws, and what it is over the draws searched beside it, relative [-]; NaN without
+  /// fresh draws.
+  double prediction_error() const { return fresh.empty() ? not_given : predicted.value / fresh.back().statistic - 1.0; }
+  double search_error() const { return fresh.empty() ? not_given : design.value / fresh.back().statistic - 1.0; }
 };
 
 /// Load cases of drawn scenes, as StudyRun::loaded().

@@ -28,10 +28,10 @@ Json search_json(const ScatterDesign& design, const DesignTask& task) {
             {"message", design.message},
             {"variables", variables_of(unscaled(design, task), task)},
             {"value", design.value},
-            {"start_value", design.start_value},
-            {"turns", design.turns},
-            {"draws_searched", design.searched},
+            {"steps", design.steps},
+            {"draws_deciding", design.decided_by},
             {"cycles", design.cycles},
+            {"screening_cycles", design.screening_cycles},
             {"seconds", design.seconds}};
   if (!std::isnan(design.exact_value)) json["exact_value"] = design.exact_value;
   return json;
@@ -82,6 +82,19 @@ Json scatter_json(const ScatterResult& result, const DesignTask& task, const Stu
   if (asked.iso_1328_class) json["iso_1328_class"] = *asked.iso_1328_class;
   json.update(search_json(result.design, task));
   json["without_scatter"] = {{"variables", variables_of(result.without, task)}, {"value", result.without_value}, {"seconds", result.search_seconds}};
+  if (!std::isnan(result.predicted.value)) {
+    const PredictedStatistic& predicted = result.predicted;
+    json["predicted"] = {{"draws", asked.predicted_from},
+                         {"seed", asked.predicted_seed},
+                         {"value", predicted.value},
+                         {"confidence", PredictedStatistic::confidence},
+                         {"low", predicted.low},
+                         {"high", predicted.high},
+                         {"failed", predicted.failed},
+                         {"cycles", predicted.cycles},
+                         {"screening_cycles", predicted.screening_cycles},
+                         {"seconds", predicted.seconds}};
+  }
   json["deciding"] = deciding_json(result);
   json["constraints"] = Json::array();
   for (std::size_t c = 0; c < result.design.bounds.size(); ++c) {
@@ -94,9 +107,10 @@ Json scatter_json(const ScatterResult& result, const DesignTask& task, const Stu
   if (!result.fresh.empty()) {
     json["fresh"] = {{"draws", asked.fresh},
                      {"seed", asked.fresh_seed},
-                     {"prediction_error_percent", percent * result.prediction_error()},
+                     {"search_error_percent", percent * result.search_error()},
                      {"seconds", result.fresh_seconds},
                      {"designs", list(result.fresh, fresh_json)}};
+    if (!std::isnan(result.prediction_error())) json["fresh"]["prediction_error_percent"] = percent * result.prediction_error();
   }
   if (!result.classes.empty()) {
     json["classes"] = list(result.classes, [&](const ClassDesign& c) -> Json {
@@ -146,10 +160,18 @@ std::string scatter_summary(const ScatterResult& result, const DesignTask& task,
   std::string out = fmt::format("\n{} over {} draws: {:.5g} {} without scatter in the search, {:.5g} {} with it ({:+.1f} %); {} in {:.1f} s\n",
                                 statistic, asked.draws, result.without_value, unit, result.design.value, unit,
                                 percent * (result.design.value / result.without_value - 1.0), to_string(result.design.status), result.design.seconds);
+  const PredictedStatistic& predicted = result.predicted;
+  if (!std::isnan(predicted.value)) {
+    const bool has_both = !std::isnan(predicted.low) && !std::isnan(predicted.high);
+    out += fmt::format("predicted from {} draws that the search has not seen: {:.5g} {}{}\n", asked.predicted_from, predicted.value, unit,
+                       has_both ? fmt::format(", between {:.5g} and {:.5g} with {:g} % confidence", predicted.low, predicted.high,
+                                              percent * PredictedStatistic::confidence)
+                                : "");
+  }
   if (!result.fresh.empty()) {
+    const double error = std::isnan(predicted.value) ? result.search_error() : result.prediction_error();
     out += fmt::format("over {} fresh draws: {:.5g} {} before, {:.5g} without scatter, {:.5g} after; predicted within {:.1f} %\n", asked.fresh,
-                       result.fresh[0].statistic, unit, result.fresh[1].statistic, result.fresh[2].statistic,
-                       percent * std::abs(result.prediction_error()));
+                       result.fresh[0].statistic, unit, result.fresh[1].statistic, result.fresh[2].statistic, percent * std::abs(error));
   }
   for (const ClassDesign& c : result.classes) {
     out += fmt::format("class {:>2}: {:.5g} {}, peak contact stress {:.5g} MPa, transmission error {:.3g} um\n", c.tolerance_class, c.design.value,

@@ -8,7 +8,6 @@
 
 #include "core/gear/flank_tolerances.hpp"
 #include "optimize/sampling/sobol_sequence.hpp"
-#include "optimize/solvers/solver.hpp"
 
 namespace flankwright::studies {
 
@@ -44,9 +43,9 @@ void check_task(StudyReading& reading) {
   if (std::ranges::any_of(optimise.constraints, &OutputConstraint::is_least)) {
     refuse("optimise.constraints", "with optimise.scatter a constraint on an output bounds the statistic: allowed is { max = ... }");
   }
-  if (!uses_gradients(optimise.solver) || !accepts_constraints(optimise.solver)) {
-    refuse("optimise.solver",
-           "optimise.scatter needs gradients and constraints: allowed is \"ipopt\", \"nlopt:slsqp\", \"nlopt:mma\" or \"nlopt:ccsaq\"");
+  const ScatterTable& asked = optimise.scatter;
+  if (asked.predicted_from > 0 && (asked.predicted_seed == asked.seed || (asked.fresh > 0 && asked.predicted_seed == asked.fresh_seed))) {
+    refuse("optimise.scatter.predicted_seed", "makes the same draws as another seed: allowed is another than optimise.scatter.seed and fresh_seed");
   }
   if (optimise.scatter.fresh > 0 && optimise.scatter.fresh_seed == optimise.scatter.seed) {
     refuse("optimise.scatter.fresh_seed", "that of the search makes the same draws: allowed is another than optimise.scatter.seed");

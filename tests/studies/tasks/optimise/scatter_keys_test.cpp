@@ -58,6 +58,8 @@ TEST_CASE("What scatter has no meaning with is refused", "[studies][scatter]") {
   CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\niso_1328_class = 6\nstatistic = { cvar = 0.9, quantile = 0.9 }\n").allowed,
              Contains("another statistic"));
   CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\niso_1328_class = 6\nfresh = 10\nfresh_seed = 1\n").allowed, Contains("same draws"));
+  CHECK_THAT(problem_of("[optimise.scatter]\ndraws = 8\niso_1328_class = 6\npredicted_seed = 1\n").allowed,
+             Contains("another than optimise.scatter.seed"));
 }
 
 TEST_CASE("Limits of the grinding become named constraints", "[studies][grinding]") {
