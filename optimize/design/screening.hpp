@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "optimize/design/statistic_model.hpp"
+#include "optimize/design/design_task.hpp"
 
 namespace flankwright {
 
