@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "core/base/stopwatch.hpp"
 #include "optimize/design/design_log.hpp"
@@ -23,8 +24,8 @@ namespace flankwright {
 namespace {
 
 constexpr int first_draws = 64, growth_of_draws = 8;
-/// A level ends where the model promises to lower the statistic by no more than this share of it, a tenth of what thousands of draws tell apart.
-constexpr double settled = 1e-3;
+/// A level ends where the model promises to lower the statistic by no more than this share of it: a part of the 1 % that thousands of draws do not tell apart.
+constexpr double settled = 2.5e-3;
 /// Half widths of the box, in ranges of the variables: at first, at least when a level begins, at most, and below which a level ends.
 constexpr double first_radius = 0.2, level_radius = 0.05, largest_radius = 0.5, least_radius = 1e-3;
 constexpr double poor_share = 0.25, good_share = 0.75;  // of the promised gain, see search_over_draws()
@@ -65,7 +66,7 @@ class DrawSearch {
     Judged best = judge(problem, x, draws);
     remember(true);
     books_.status = SolverStatus::Converged;
-    books_.message = "no step promises to gain a thousandth";
+    books_.message = "no step promises to gain a quarter of a per cent";
     while (!is_spent()) {
       const ModelStep step = least_of_model(model_, best.x, radius_, draws);
       if (step.gain <= settled) break;
@@ -74,7 +75,7 @@ class DrawSearch {
       double gain = -INFINITY;
       try {
         Judged next = judge(problem, step.x, draws);
-        if (best.gain_to(next) > 0.0) next = judge_all(problem, step.x, draws);
+        if (best.gain_to(next) > 0.0) next = judge_all(problem, step.x, draws, &best);
         gain = best.gain_to(next);
         remember(gain > 0.0);
         if (gain > 0.0) best = next;
@@ -104,10 +105,19 @@ class DrawSearch {
   }
 
   /// A design by the draws that decide there once all are screened.
-  Judged judge_all(const DesignProblem& problem, const Eigen::VectorXd& x, int draws) {
-    judge(problem, x, draws);
-    screen_others(x, draws);
-    return judge(problem, x, draws);
+  /// @param beaten  the screening ends where it is known to be no better than this; null: never
+  Judged judge_all(const DesignProblem& problem, const Eigen::VectorXd& x, int draws, const Judged* beaten = nullptr) {
+    Judged judged = judge(problem, x, draws);
+    screened_.clear();
+    screened_x_ = x;
+    const std::vector<int> others = others_worst_first(x, draws);
+    for (std::size_t from = 0; from < others.size(); from += chunk) {
+      const std::size_t to = std::min(from + chunk, others.size());
+      screen_others(x, {others.begin() + static_cast<std::ptrdiff_t>(from), others.begin() + static_cast<std::ptrdiff_t>(to)});
+      if (beaten != nullptr || to == others.size()) judged = judge(problem, x, draws);
+      if (beaten != nullptr && !(beaten->gain_to(judged) > 0.0)) break;
+    }
+    return judged;
   }
 
   /// The statistics themselves at the last design that was accepted.
@@ -125,26 +135,25 @@ class DrawSearch {
   }
 
  private:
-  /// Screens the draws that the last judge() did not analyse: contact that reaches an edge there is not foreseen by the gradients of a draw without it.
-  void screen_others(const Eigen::VectorXd& x, int draws) {
-    const std::set<int> analysed = last_.units;
-    const auto of_analysed = last_.linear;
-    last_.linear.clear();
-    for (const StatisticModel* model : models_) {
-      std::vector<int> others;
-      for (int i = 0; i < model->draws(draws); ++i) {
-        if (!last_.units.contains(scene_unit(screening_, model->scene(i)))) others.push_back(i);
-      }
-      analyse(screening_, x, *model, others, false);
-    }
-    screened_.clear();
+  /// Scenes of the first draws that the last judge() did not analyse, those first of which the model expects the most.
+  std::vector<int> others_worst_first(const Eigen::VectorXd& x, int draws) const {
+    const std::vector<double> guess = models_.front()->measures(x, draws);
+    std::vector<int> order(guess.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, [&](int a, int b) { return guess[static_cast<std::size_t>(a)] > guess[static_cast<std::size_t>(b)]; });
+    std::erase_if(order, [&](int draw) { return last_.units.contains(scene_unit(screening_, models_.front()->scene(draw))); });
+    return order;
+  }
+
+  /// Screens draws of the objective: contact that reaches an edge there is not foreseen by the gradients of a draw without it.
+  void screen_others(const Eigen::VectorXd& x, const std::vector<int>& others) {
+    const Analysed analysed = std::exchange(last_, {&screening_, x, {}, {}});
+    analyse(screening_, x, *models_.front(), others, false);
     for (const auto& [key, linear] : last_.linear) {
       const StatisticModel& model = *models_[key.first];
       screened_[key] = model.unseen(model.seen(linear, x).value);
     }
-    screened_x_ = x;
-    last_.linear = of_analysed;
-    last_.units = analysed;
+    last_ = analysed;
   }
 
   /// A design by the draws that decide there, as far as is known of the others.

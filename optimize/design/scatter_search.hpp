@@ -33,7 +33,7 @@ struct ScatterDesign {
 ///
 /// A sequence of linear programmes in a trust region. At each step the candidates of every draw are continued along their gradients (StatisticModel); the
 /// least statistic of that model in a box about the best design (least_of_model()) is the next design. It is judged by analyses of the draws that decide
-/// there (screen()); where the statistic falls all others are screened as well, since contact that reaches an edge is not foreseen by the gradients of a
+/// there (screen()); where the statistic falls the others are screened as well, since contact that reaches an edge is not foreseen by the gradients of a
 /// draw without it. The design is accepted where the statistic then still falls. The box halves where it falls by less than a quarter of what the model
 /// had promised, and doubles where by three quarters.
 ///
