@@ -307,7 +307,9 @@ DrawSearch::Judged round(DrawSearch& search, const DesignProblem& full, ScatterD
   DrawSearch::Judged found;
   std::set<int> deciding;
   for (int turn = 0; turn < most_rounding_turns; ++turn) {
+    const std::size_t known = deciding.size();
     for (const int scene : search.deciding(full)) deciding.insert(scene);
+    if (turn > 0 && deciding.size() == known) break;  // the draws that decide there were rounded over
     DesignProblem part = reduced(full, {deciding.begin(), deciding.end()});
     const RoundedDesign rounded = round_design(part, exact, std::max(1, most_rounding_cycles / part.scenes()));
     design.cycles += std::int64_t{rounded.analyses} * part.scenes();
