@@ -24,7 +24,7 @@ double lead_slope_um(const DesignReport& report) { return report.variables[1] / 
 
 }  // namespace
 
-TEST_CASE("Solvers with gradients and without agree, those with need a tenth of the analyses", "[optimize][design]") {
+TEST_CASE("Solvers with gradients and without agree, those with need a tenth of the analyses", "[optimize][design][slow]") {
   std::map<std::string, DesignResult> results;
   results["ipopt"] = optimise(helical());
   results["nlopt:slsqp"] = optimise(helical(), "nlopt:slsqp");

@@ -69,7 +69,7 @@ double largest_difference(const GearPair& pair, Member m, const Modification& a,
 
 }  // namespace
 
-TEST_CASE("A flank that a fed tool leaves is the lead modification where the tool touches", "[core][flank][grinding]") {
+TEST_CASE("A flank that a fed tool leaves is the lead modification where the tool touches", "[core][flank][grinding][slow]") {
   const Hand hand = GENERATE(Hand::Right, Hand::Left);
   const Member member = GENERATE(Member::Pinion, Member::Wheel);
   const GrindingKind kind = GENERATE(GrindingKind::GeneratingGrinding, GrindingKind::FormGrinding);

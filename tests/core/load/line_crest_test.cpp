@@ -43,7 +43,7 @@ std::vector<std::vector<LineCrest>> crests_of(const MeshModel& model, const Flan
 
 }  // namespace
 
-TEST_CASE("A crest has the load that only many more points come near", "[core][load][crest]") {
+TEST_CASE("A crest has the load that only many more points come near", "[core][load][crest][slow]") {
   const GearPair gears = relieved_pair();
   const MeshModel model = by_graded(gears, 6), fine = by_graded(gears, 192);
   const FlankCondition condition = with_reliefs();

@@ -130,7 +130,7 @@ TEST_CASE("Thin slices say that they do not know of a body", "[studies][body]") 
   CHECK(std::ranges::any_of(notes, [](const std::string& note) { return note.find("a gear's body is given") == 0; }));
 }
 
-TEST_CASE("A web's tilt acts in the loaded contact and is in the results, its run is kept by its measures", "[studies][body][fe]") {
+TEST_CASE("A web's tilt acts in the loaded contact and is in the results, its run is kept by its measures", "[studies][body][fe][slow]") {
   const BodyCache cache;
   const json offset = run_bodies(body_pair + web_text);
   const json again = run_bodies(body_pair + web_text);

@@ -99,7 +99,7 @@ TEST_CASE("A mesh on a web fills rim, web, hub and shaft and nothing between the
   CHECK(volume == Approx(ring(root, root - 3, 8) + ring(root - 3, 8.5, 2) + hub_and_shaft).epsilon(3e-3));
 }
 
-TEST_CASE("Where parts of a body of different widths meet an even stress stays even (patch test)", "[core][compliance][fe][body]") {
+TEST_CASE("Where parts of a body of different widths meet an even stress stays even (patch test)", "[core][compliance][fe][body][slow]") {
   GearToMesh gear = webbed(25, GENERATE(0.0, 1.5));
   gear.body.web->rim_thickness = GENERATE(1.2, 3.0);  // teeth right above the web, or rings between
   gear.body.web->hub_width = 9;

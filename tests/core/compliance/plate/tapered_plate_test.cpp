@@ -52,7 +52,7 @@ TEST_CASE("Without Poisson's ratio a plate under a line load is Timoshenko's bea
   CHECK(under_line_load(plate, 5, load, 2.4, y) == Approx(beam + shear + edge).epsilon(4e-3));
 }
 
-TEST_CASE("A load on the top edge of a tapered plate strip bends it as a slice in plane strain", "[core][compliance][plate][closed-form]") {
+TEST_CASE("A load on the top edge of a tapered plate strip bends it as a slice in plane strain", "[core][compliance][plate][closed-form][slow]") {
   const auto thickness = [](double y) { return 1.9 - 0.5 * y; };
   PlateShape shape = uniform(1, 2.2, 30, 0.3);
   shape.thickness = thickness;
@@ -64,7 +64,7 @@ TEST_CASE("A load on the top edge of a tapered plate strip bends it as a slice i
   CHECK(under_line_load(TaperedPlate(shape, 40, 8), 30, 2.2, 0, 2.2) < 0.98 * middle);
 }
 
-TEST_CASE("A thin plate is Kirchhoff's: the long cantilever plate under a point load at its edge", "[core][compliance][plate][closed-form]") {
+TEST_CASE("A thin plate is Kirchhoff's: the long cantilever plate under a point load at its edge", "[core][compliance][plate][closed-form][slow]") {
   // Independent route: Fourier's integral over the strip's trace. W = a (k y cosh - sinh) + b k y sinh satisfies the
   // plate equation and the clamped foot; no moment and a shear of -1 at the edge y = 1 give a and b.
   const double nu = 0.3;
