@@ -84,7 +84,8 @@ function build_compared_curves(data, body) {
       const cycle = list(record(case_of(run, name)).cycle).filter((position) => is_number(position.te_um));
       const mean = cycle.reduce((sum, position) => sum + position.te_um, 0) / (cycle.length || 1);
       return { label: `${run.name} (mean ${fmt(mean, 4)} µm)`, colour: sequence_colour(i), dashed: i > 0,
-        points: cycle.map((position) => ({ x: position.phase, y: position.te_um - mean })) };
+        points: [...cycle, ...cycle.slice(0, 1).map((first) => ({ ...first, phase: first.phase + 1 }))]  // the next pitch begins as this one did
+          .map((position) => ({ x: position.phase, y: position.te_um - mean })) };
     }).filter((curve) => curve.points.length > 0);
     xy_chart(plot, { label: "Loaded transmission error of all runs", curves, x: "phase [base pitches]", y: "transmission error less its mean [µm]" });
   });

@@ -9,7 +9,7 @@ function build_tolerances(results, body) {
     title: `${capital(`${scatter.statistic_in_words}`)} over the draws`,
     note: `${fmt(scatter.draws, 5)} draws, the same for every design; the search took ${fmt(scatter.seconds, 2)} s, that without scatter before it ${fmt(without.seconds, 2)} s. Over the draws of the search its own design is the best of many, and so a little better than others will be.`
       + (is_number(predicted.value) ? ` The prediction is from ${fmt(predicted.draws, 5)} draws that the search has not seen.${interval}` : "")
-      + (is_number(fresh.prediction_error_percent) ? ` Of ${fmt(fresh.draws, 5)} fresh draws it is ${fmt(Math.abs(fresh.prediction_error_percent), 2)} % off.` : ""),
+      + (is_number(fresh.prediction_error_percent) ? ` Beside ${fmt(fresh.draws, 5)} fresh draws it is ${fmt(Math.abs(fresh.prediction_error_percent), 2)} % off.` : ""),
     columns: [{ label: "Design" }, { label: "Draws of the search" }, { label: "Predicted" }, { label: "Fresh draws" }, { label: "Unit" }],
     rows: [["without scatter", without.value, null, "without scatter"], ["with scatter", scatter.value, predicted.value, "after"]].map(([label, value, expected, name]) =>
       [label, value ?? null, expected ?? null, list(fresh.designs).map(record).find((design) => design.name === name)?.statistic ?? null, unit]),
