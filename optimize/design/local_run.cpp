@@ -13,7 +13,7 @@ namespace flankwright {
 namespace {
 
 constexpr int most_rounds = 20;
-/// An end of a search is accepted no more sharply than its solver's tolerance asks, and never more sharply than this.
+/// A search ends by these shares, or by its solver's tolerance where that is larger.
 constexpr double round_tolerance = 1e-6;  // see run_local()
 constexpr double stall_gain = 1e-5;       // share of the objective at the start
 
@@ -76,7 +76,7 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
     const DesignAnalysis& analysis = problem.analyse(x, true);
     log.record(problem, x, analysis);
     const bool stalled = solved.status == SolverStatus::Stalled;
-    // Done when the true peaks are what the candidates promised, or a stalled round has gained nothing.
+    // Done when the true peaks are what the candidates promised, or a stalled round has gained nothing with patience.
     const double excess = program.seen(log.entries().back().objective) - solved.objective;
     const bool holds = excess <= round_tolerance_of(options) && log.entries().back().constraint_violation <= DesignLog::tolerance;
     const double best = program.seen(log.best()->objective), gain = last - best;

@@ -25,7 +25,8 @@ struct LocalRun {
 ///
 /// Solvers with gradients that take constraints get the epigraph form, re-solved from its own optimum until no peak
 /// outside its candidates exceeds them by 1e-6 of the objective at the start (by the solver's tolerance where that is
-/// larger), or 20 rounds are done. A round ends early where the solver no longer gains. On such a kink
+/// larger), or 20 rounds are done. A round ends early where the solver no longer gains, and one that
+/// gained nothing is repeated once with more patience. On a kink
 /// options.finisher continues from its best design; `finished_by` and `message` then say so.
 /// Other solvers get the direct form. The best design met under the true outputs is returned, wherever the solver
 /// stopped.
