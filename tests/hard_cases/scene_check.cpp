@@ -38,11 +38,16 @@ class Findings {
 };
 
 /// How far modifications and errors may move a gear's flank anywhere [mm]: each formula is at most twice its amount within the active
-/// profile, and up to four times that on the way down to the form circle.
-double largest_deviation(const GearPair& pair, const Modification& m, const ManufacturingError& e, double turned) {
-  double amounts = std::abs(m.lead_crowning) + std::abs(m.lead_slope) + std::abs(m.addendum_crowning) + std::abs(m.dedendum_crowning) +
-                   std::abs(m.profile_slope) + std::abs(m.twist) + std::abs(m.tip_relief.amount) + std::abs(m.root_relief.amount) +
-                   std::abs(m.end_relief.amount) + std::abs(e.helix_slope) + std::abs(e.profile_slope) + std::abs(e.twist);
+/// profile, and up to four times that on the way down to the form circle. Dedendum crowning is an exception: its parabola has its amount
+/// at the start of active profile, which may be close to the pitch point, and goes on to the form circle.
+double largest_deviation(const GearPair& pair, Member member, const Modification& m, const ManufacturingError& e, double turned) {
+  const Gear& gear = pair[member];
+  const double dedendum = gear.working_pitch_radius - gear.active_root_radius;
+  const double extents = dedendum > 0.0 ? std::max(1.0, (gear.working_pitch_radius - gear.form_radius) / dedendum) : 1.0;
+  double amounts = std::abs(m.lead_crowning) + std::abs(m.lead_slope) + std::abs(m.addendum_crowning) +
+                   std::abs(m.dedendum_crowning) * extents * extents + std::abs(m.profile_slope) + std::abs(m.twist) + std::abs(m.tip_relief.amount) +
+                   std::abs(m.root_relief.amount) + std::abs(m.end_relief.amount) + std::abs(e.helix_slope) + std::abs(e.profile_slope) +
+                   std::abs(e.twist);
   for (const double coefficient : m.shapes) amounts += std::abs(coefficient);
   const double pitches = turned / (2.0 * units::pi / pair.data.pinion.teeth) + 2.0;
   return 8.0 * amounts + std::abs(e.pitch_step) * pitches + pair.wheel.base_radius * m.parabolic_te * turned * turned * 8.0;
@@ -62,8 +67,9 @@ void check_unloaded(const Study& study, const GearPair& pair, const FlankConditi
   if (mesh.missing > 0) return;
   // The pair's way through the mesh, and as much again for tips that touch early and late.
   const double turned = 2.0 * units::pi / pair.data.pinion.teeth * (pair.total_contact_ratio() + 2.0);
-  const double largest = largest_deviation(pair, c.modification.pinion, c.error.pinion, turned) +
-                         largest_deviation(pair, c.modification.wheel, c.error.wheel, turned) + largest_displacement(pair, c.misalignment);
+  const double largest = largest_deviation(pair, Member::Pinion, c.modification.pinion, c.error.pinion, turned) +
+                         largest_deviation(pair, Member::Wheel, c.modification.wheel, c.error.wheel, turned) +
+                         largest_displacement(pair, c.misalignment);
   // A tip that reaches below its mate's form circle may push the mate's flank away with nothing moved at all.
   const bool interferes = pair.pinion.fillet_interference || pair.wheel.fillet_interference;
   for (const double te : mesh.transmission_error) {
