@@ -1,6 +1,9 @@
 #include "optimize/design/local_run.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
 #include <stdexcept>
 
 #include "core/base/error.hpp"
@@ -28,20 +31,33 @@ constexpr std::size_t patient = 80, impatient = 8;
 
 std::size_t patience_of(const std::string& solver) { return solver == "nlopt:slsqp" ? impatient : patient; }
 
-/// Says so, judged by the true objective as the programme sees it, or by how far the constraints are violated as long as they are.
+/// How good the best design is: its true objective as the programme sees it, or how far it violates the constraints as long as it does.
+struct Standing {
+  bool feasible{false};
+  double value{std::numeric_limits<double>::infinity()};  ///< [-]
+
+  static Standing of(const EpigraphProgram& program, const DesignLog& log) {
+    const DesignLog::Entry& best = *log.best();
+    const bool feasible = best.constraint_violation <= DesignLog::tolerance;
+    return {feasible, feasible ? program.seen(best.objective) : best.constraint_violation};
+  }
+  /// Better than before by more than a share of the objective at the start, or of the bounds that are violated.
+  bool gains_on(const Standing& before, double share) const { return feasible != before.feasible || !(value >= before.value - share); }
+};
+
+/// Says that a search has stalled. `log` may still be empty when it is asked.
 std::function<std::string()> when_stalled(const EpigraphProgram& program, const DesignLog& log, double least_gain, std::size_t window) {
-  return [&program, &log, window, least_gain, at = std::size_t{0}, was_feasible = false, best = not_given]() mutable -> std::string {
+  return [&program, &log, window, least_gain, at = std::size_t{0}, best = Standing{}]() mutable -> std::string {
     if (log.best() == nullptr) return {};
-    const bool feasible = log.best()->constraint_violation <= DesignLog::tolerance;
-    const double now = feasible ? program.seen(log.best()->objective) : log.best()->constraint_violation;
-    const double gain = feasible ? least_gain * std::abs(program.seen(log.entries().front().objective)) : least_gain;
-    if (feasible != was_feasible || !(now >= best - gain)) {
+    const Standing now = Standing::of(program, log);
+    if (now.gains_on(best, now.feasible ? least_gain * std::abs(program.seen(log.entries().front().objective)) : least_gain)) {
       best = now;
-      was_feasible = feasible;
       at = log.entries().size();
     }
     if (log.entries().size() < at + window) return {};
-    return "no gain worth mentioning in " + std::to_string(window) + " analyses: a kink";
+    char share[16];
+    std::snprintf(share, sizeof share, "%.2g", 100.0 * least_gain);
+    return "gained less than " + std::string(share) + " % in " + std::to_string(window) + " analyses: a kink";
   };
 }
 
@@ -59,7 +75,7 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
   const Stopwatch clock;
   const int analyses_before = problem.analyses();
   EpigraphProgram program(problem, log);
-  double last = std::numeric_limits<double>::infinity();
+  Standing last;
   std::string solver = options.name;
   std::size_t patience = patience_of(solver);
   const bool has_finisher = options.finisher != "none" && options.finisher != options.name;
@@ -79,11 +95,11 @@ void run_epigraph(DesignProblem& problem, DesignLog& log, const SolverOptions& o
     // Done when the true peaks are what the candidates promised, or a stalled round has gained nothing with patience.
     const double excess = program.seen(log.entries().back().objective) - solved.objective;
     const bool holds = excess <= round_tolerance_of(options) && log.entries().back().constraint_violation <= DesignLog::tolerance;
-    const double best = program.seen(log.best()->objective), gain = last - best;
+    const Standing best = Standing::of(program, log);
     // A majorant has a next one, as long as rounds descend.
-    const bool settled = !program.is_majorant() || gain <= round_tolerance_of(options);
+    const bool settled = !program.is_majorant() || !best.gains_on(last, round_tolerance_of(options));
+    const bool all_known = program.add_candidates(x) == 0, gained = best.gains_on(last, stall_gain_of(options));
     last = best;
-    const bool all_known = program.add_candidates(x) == 0, gained = gain > stall_gain_of(options);
     const bool is_done = ((all_known || holds) && settled && !stalled) || (stalled && !gained && patience == patient);
     if (stalled && has_finisher && run.finished_by.empty()) {
       run.finished_by = solver = options.finisher;
