@@ -35,7 +35,7 @@ class Cases {
   /// @param left_out  name of what the decisions leave out; empty: nothing
   Case with(const EffectDecisions& decisions, const std::string& left_out = {}) const {
     FlankCondition condition = apply_effects(decisions, scene_.condition);
-    const MeshPlacement placement = placement_of(gap_model(decisions), condition.misalignment, scene_.shafts, scene_.pinion_torque);
+    const MeshPlacement placement = placement_of(gap_model(decisions), condition, scene_.shafts, scene_.pinion_torque);
     const PairCompliance& structure = scene_.structure != nullptr ? *scene_.structure : slices_;
     const auto make = [&] {
       return mesh_with_effects(gears_, scene_.resolution, mesh_effects(decisions), placement, structure, nullptr, scene_.shafts);

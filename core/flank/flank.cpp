@@ -63,8 +63,9 @@ Flank make_flank(const GearPair& pair, Member member, const Modification& modifi
   return flank;
 }
 
-RemovalDerivative ground_derivative(const GearPair& pair, Member member, const Modification& modification, ModificationParameter parameter) {
-  return {modification, pair.flank_frame(member), parameter, ContactShift::of(pair, member, modification.process)};
+RemovalDerivative ground_derivative(const GearPair& pair, Member member, const Modification& modification, ModificationParameter parameter,
+                                    bool opposite) {
+  return {modification, pair.flank_frame(member), parameter, ContactShift::of(pair, member, modification.process), opposite};
 }
 
 }  // namespace flankwright

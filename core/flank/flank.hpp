@@ -164,6 +164,8 @@ FlankThroughPoint<Scalar> rotation_through(const Flank& flank, const Point3<Scal
 Flank make_flank(const GearPair& pair, Member member, const Modification& modification, const ManufacturingError& error);
 
 /// Derivative of the deviation of a flank of make_flank() by one modification parameter, with what its process makes of it.
-RemovalDerivative ground_derivative(const GearPair& pair, Member member, const Modification& modification, ModificationParameter parameter);
+/// @param opposite  by the parameter as the opposite flank has it, see on_opposite_flank()
+RemovalDerivative ground_derivative(const GearPair& pair, Member member, const Modification& modification, ModificationParameter parameter,
+                                    bool opposite = false);
 
 }  // namespace flankwright

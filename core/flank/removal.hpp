@@ -95,15 +95,15 @@ Scalar removal(const Modifications& m, const FlankFrame& frame, const Scalar& r,
   return chain(DeviationFormula(m, {}, frame).at(value_of(r), value_of(z)), r, z);
 }
 
-/// A unit amount of one parameter with the extents of a modification: nothing else removes anything.
+/// An amount of one parameter, by default a unit, with the extents of a modification: nothing else removes anything.
 template <class List>
-List unit_amount(const List& m, const DescriptorOf<List>& parameter) {
+List unit_amount(const List& m, const DescriptorOf<List>& parameter, double amount = 1.0) {
   static constexpr auto all = descriptors_of(std::type_identity<List>());
   List unit = m;
   for (const DescriptorOf<List>& d : all) {
     if (d.slope == nullptr) d.set(unit, 0.0);
   }
-  if (parameter.slope == nullptr) parameter.set(unit, 1.0);
+  if (parameter.slope == nullptr) parameter.set(unit, amount);
   return unit;
 }
 
@@ -113,8 +113,13 @@ List unit_amount(const List& m, const DescriptorOf<List>& parameter) {
 template <class List>
 class RemovalDerivativeOf {
  public:
-  RemovalDerivativeOf(const List& m, const FlankFrame& frame, const DescriptorOf<List>& parameter, const std::optional<ContactShift>& shift = {})
-      : m_(m), frame_(frame), slope_(parameter.slope), unit_(unit_amount(m, parameter), {}, frame) {
+  /// @param opposite  m is that of the opposite flank, see on_opposite_flank(), of which the parameter is asked for as its own flank has it
+  RemovalDerivativeOf(const List& m, const FlankFrame& frame, const DescriptorOf<List>& parameter, const std::optional<ContactShift>& shift = {},
+                      bool opposite = false)
+      : m_(m),
+        frame_(frame),
+        slope_(parameter.slope),
+        unit_(unit_amount(m, parameter, opposite && parameter.odd_along_face ? -1.0 : 1.0), {}, frame) {
     if (parameter.flank_class == ModificationClass::Lead) shift_ = shift;
     as_drawn_ = slope_ == nullptr && !shift_;
   }
@@ -139,8 +144,9 @@ class RemovalDerivativeOf {
 
 class RemovalDerivative : public RemovalDerivativeOf<Modifications> {
  public:
-  RemovalDerivative(const Modifications& m, const FlankFrame& frame, ModificationParameter parameter, const std::optional<ContactShift>& shift = {})
-      : RemovalDerivativeOf(m, frame, describe(parameter), shift) {}
+  RemovalDerivative(const Modifications& m, const FlankFrame& frame, ModificationParameter parameter, const std::optional<ContactShift>& shift = {},
+                    bool opposite = false)
+      : RemovalDerivativeOf(m, frame, describe(parameter), shift, opposite) {}
 
   struct WithSlope {
     double value, slope;

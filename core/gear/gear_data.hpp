@@ -30,6 +30,8 @@ struct PerGear {
 
 /// Flank of the pinion that carries load: right is the drive side, left the coast side.
 enum class WorkingFlank { Right, Left };
+constexpr const char* name_of(WorkingFlank flank) { return flank == WorkingFlank::Right ? "right" : "left"; }
+constexpr WorkingFlank opposite(WorkingFlank flank) { return flank == WorkingFlank::Right ? WorkingFlank::Left : WorkingFlank::Right; }
 
 /// Basic rack in normal modules [ISO 53]; defaults are Haddad's BS 436 rack.
 struct RackProfile {

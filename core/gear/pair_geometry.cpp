@@ -22,6 +22,12 @@ double GearPair::backlash_at(double distance) const {
          wheel.tooth_thickness_at(data.wheel.teeth * per_tooth);
 }
 
+GearPair GearPair::on_other_flanks() const {
+  GearPair other = *this;
+  other.data.working_flank = opposite(data.working_flank);
+  return other;
+}
+
 int GearPair::contact_line_sense() const {
   if (data.helix_angle == 0.0) return 0;
   const int hand = data.pinion_hand == Hand::Right ? 1 : -1;

@@ -63,6 +63,8 @@ struct GearPair {
   double pitch_point{not_given};                        ///< rho_1 at C
 
   double total_contact_ratio() const { return transverse_contact_ratio + overlap_ratio; }
+  /// The same gears where they touch with their other flanks: the coast side of a pair that is given for its drive side.
+  GearPair on_other_flanks() const;
   /// j_wt with the axes at another distance [mm], above the sum of the base radii.
   double backlash_at(double distance) const;
   /// j_bn = j_wt cos(alpha_wt) cos(beta_b): least distance of the flanks at the back [mm, ISO 21771; j_n of DIN 3960].

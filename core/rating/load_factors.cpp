@@ -31,6 +31,7 @@ double squared_ratio(const ContactPeaks& peaks, const ContactPeaks& perfect, Con
 FlankCondition perfect_part(const FlankCondition& condition) {
   FlankCondition part;
   part.misalignment.axial_offset = condition.misalignment.axial_offset;
+  part.other_flanks = condition.other_flanks;
   return part;
 }
 

@@ -83,7 +83,7 @@ RuleBasis rule_basis(const DesignProblem& problem) {
     const DesignScene& scene = task.scenes[static_cast<std::size_t>(s)];
     FlankCondition condition = scene.condition;
     condition.modification.pinion = condition.modification.wheel = {};
-    const double misalignment = iso_deviations(task.pair, condition).misalignment;
+    const double misalignment = iso_deviations(problem.model(s).pair, condition).misalignment;
     basis.misalignment = std::max(basis.misalignment, misalignment);
     if (scene.torque == basis.torque && misalignment < least) {
       least = misalignment;

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <stdexcept>
 
+#include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "optimize/design/design_log.hpp"
 #include "optimize/design/rounding.hpp"
@@ -35,6 +38,18 @@ class ProgramBetweenPositions : public NonlinearProgram {
     return x;
   }
 
+  /// The objective where the constraints are kept; nothing where they are not, or the design cannot be analysed.
+  std::optional<double> feasible_objective(const Eigen::VectorXd& y) {
+    try {
+      const ProgramValues values = evaluate(y, false);
+      if (values.constraints[0] <= 0.0) return values.objective;
+    } catch (const InvalidInput&) {
+      throw;
+    } catch (const std::runtime_error&) {  // a load distribution that was not found
+    }
+    return std::nullopt;
+  }
+
   ProgramValues evaluate(const Eigen::VectorXd& y, bool) override {
     const DesignTask& task = problem_.task();
     DesignReport report;
@@ -65,8 +80,8 @@ std::vector<int> that_matter(DesignProblem& problem, const DesignResolver& resol
     ProgramBetweenPositions program(problem, resolve, x, {i});
     const auto gains = [&](double step) {
       const double moved = std::clamp(x[i] + step, 0.0, 1.0);
-      const ProgramValues values = program.evaluate(Eigen::VectorXd::Constant(1, moved), false);
-      return values.constraints[0] <= 0.0 && values.objective < objective * (1.0 - least_gain);
+      const std::optional<double> found = program.feasible_objective(Eigen::VectorXd::Constant(1, moved));
+      return found && *found < objective * (1.0 - least_gain);
     };
     if (gains(-probe) || gains(probe)) matter.push_back(i);
   }

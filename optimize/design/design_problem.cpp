@@ -77,7 +77,7 @@ void check_spectra(const DesignTask& task) {
   std::map<int, MeshPlacement> placements;
   for (const DesignScene& scene : task.scenes) {
     if (scene.spectrum < 0) throw InvalidInput("load.spectrum", "none", "one for a sum over it");
-    const MeshPlacement placement = MeshPlacement::of(task.gap, scene.condition.misalignment);
+    const MeshPlacement placement = placement_of(task.gap, scene.condition, nullptr, scene.torque);
     if (!(placements.try_emplace(scene.spectrum, placement).first->second <=> placement == 0)) {
       throw InvalidInput("load.spectrum", "a misalignment of its own in a bin",
                          "none with the gap \"whole_surface\": its points move with the misalignment");
@@ -113,12 +113,12 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_str
   std::map<MeshPlacement, std::shared_ptr<const MeshModel>> models;
   for (const DesignScene& scene : task_.scenes) {
     if (!(scene.torque > 0.0)) throw InvalidInput("load.torque", std::to_string(scene.torque), "above 0 to optimise");
-    models.try_emplace(placement_of(task_.gap, scene.condition.misalignment, task_.shafts.get(), scene.torque));
+    models.try_emplace(placement_of(task_.gap, scene.condition, task_.shafts.get(), scene.torque));
   }
   tbb::this_task_arena::isolate(
       [&] { tbb::parallel_for_each(models, [this](auto& known) { known.second = std::make_shared<const MeshModel>(mesh(known.first)); }); });
   for (const DesignScene& scene : task_.scenes) {
-    models_.push_back(models.at(placement_of(task_.gap, scene.condition.misalignment, task_.shafts.get(), scene.torque)));
+    models_.push_back(models.at(placement_of(task_.gap, scene.condition, task_.shafts.get(), scene.torque)));
   }
   find_fillets();
   for (const ModificationConstraint& c : task_.modification_constraints) {
@@ -262,7 +262,7 @@ LoadedCycle DesignProblem::analyse_scene(int scene, const PerGear<Modification>&
                                          const LoadedCycle* earlier) const {
   const DesignScene& of_task = task_.scenes[static_cast<std::size_t>(scene)];
   FlankCondition condition = of_task.condition;
-  condition.modification = modification;
+  condition.set_design(modification);
   for (const ModificationDeviation& d : of_task.deviations) d.add_to(condition.modification);
   const auto analyse = [&](const MeshModel& mesh_model) {
     return analyse_cycle(mesh_model, condition, of_task.torque, parameters, {}, root_stresses_, earlier);

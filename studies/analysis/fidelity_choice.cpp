@@ -117,7 +117,7 @@ void choose_resolution(LevelRunner& runner, FidelityChoice& choice, const Progre
   std::map<MeshPlacement, int> placements;  // load cases of one placement share their meshes
   std::vector<ResolutionCase> cases;
   for (const DesignScene& scene : scenes) {
-    const MeshPlacement placement = placement_of(level.gap, scene.condition.misalignment, runner.subject().shafts.get(), scene.torque);
+    const MeshPlacement placement = placement_of(level.gap, scene.condition, runner.subject().shafts.get(), scene.torque);
     const int number = placements.try_emplace(placement, static_cast<int>(placements.size())).first->second;
     cases.push_back({runner.mesh(level, scene), scene.condition, scene.torque, number});
   }

@@ -71,7 +71,7 @@ MeshEffects LevelRunner::effects(const FidelityLevel& level) const {
 }
 
 MeshOfResolution LevelRunner::mesh(const FidelityLevel& level, const DesignScene& scene) {
-  const MeshPlacement placement = placement_of(level.gap, scene.condition.misalignment, subject_.shafts.get(), scene.torque);
+  const MeshPlacement placement = placement_of(level.gap, scene.condition, subject_.shafts.get(), scene.torque);
   return [this, on = effects(level), placement, structure = structures(level.compliance).pair](const MeshResolution& resolution) {
     const Study& study = subject_.study;
     return make_mesh_model(subject_.pair, study.material, resolution, on, placement, structure.get(), nullptr, subject_.shafts.get());
@@ -83,7 +83,7 @@ std::vector<CycleFigures> LevelRunner::figures(const FidelityLevel& level) {
   std::map<MeshPlacement, MeshModel> models;  // as a study's run shares them
   for (const DesignScene& scene : subject_.scenes) {
     const MeshOfResolution mesh_for = mesh(level, scene);
-    const MeshPlacement placement = placement_of(level.gap, scene.condition.misalignment, subject_.shafts.get(), scene.torque);
+    const MeshPlacement placement = placement_of(level.gap, scene.condition, subject_.shafts.get(), scene.torque);
     auto known = models.find(placement);
     if (known == models.end()) {
       known = models.emplace(placement, mesh_for({level.quadrature, equally_spaced_phases(level.positions)})).first;

@@ -10,7 +10,7 @@ namespace flankwright::studies {
 const ContactPeaks& LoadRater::peaks_of(const MeshFor& mesh_for, const FlankCondition& condition, double pinion_torque) {
   const auto found = std::ranges::find_if(known_, [&](const Known& k) { return k.torque == pinion_torque && k.condition == condition; });
   if (found != known_.end()) return found->peaks;
-  known_.push_back({condition, pinion_torque, locate_peaks(mesh_for(condition.misalignment, {}), condition, pinion_torque)});
+  known_.push_back({condition, pinion_torque, locate_peaks(mesh_for(condition, {}), condition, pinion_torque)});
   return known_.back().peaks;
 }
 
@@ -28,7 +28,7 @@ void LoadRater::seek(const std::vector<Case>& cases) {
   }
   tbb::parallel_for(std::size_t{0}, of.size(), [&](std::size_t i) {
     Known& known = known_[first + i];
-    known.peaks = locate_peaks(of[i]->mesh_for(known.condition.misalignment, {}), known.condition, known.torque);
+    known.peaks = locate_peaks(of[i]->mesh_for(known.condition, {}), known.condition, known.torque);
   });
 }
 
@@ -44,7 +44,7 @@ LoadRating LoadRater::rate(const MeshFor& mesh_for, const FlankCondition& condit
   const auto rated = [&](const ContactPeaks& peaks, ConditionPart part) {
     std::vector<MeshParameter> acting;
     std::ranges::copy_if(parameters, std::back_inserter(acting), [&](const MeshParameter& p) { return acts(p, part); });
-    const MeshAt mesh = mesh_for(part(condition).misalignment, acting);
+    const MeshAt mesh = mesh_for(part(condition), acting);
     return RatedPeaks{peaks, peak_gradients_of_part(mesh, condition, part, pinion_torque, peaks, parameters)};
   };
   const RatedPeaks combined = rated(rating.combined, whole_condition);

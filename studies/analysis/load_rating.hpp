@@ -17,8 +17,8 @@ struct LoadRating {
   LoadFactorGradients factor_gradients;             ///< empty rows where no derivatives were asked for
 };
 
-/// The mesh for a misalignment, see MeshPlacement, with what derivatives by these parameters need, see with_perturbed_meshes().
-using MeshFor = std::function<MeshAt(const Misalignment& misalignment, const std::vector<MeshParameter>& parameters)>;
+/// The mesh for a condition, see MeshPlacement, with what derivatives by these parameters need, see with_perturbed_meshes().
+using MeshFor = std::function<MeshAt(const FlankCondition& condition, const std::vector<MeshParameter>& parameters)>;
 
 /// Rates load cases of one pair. Peaks of a condition are sought once: the perfect pair's serve every scene at the same torque.
 class LoadRater {

@@ -93,7 +93,7 @@ std::vector<CycleFigures> figures_with(const StudyResults& results, const std::v
   std::map<MeshPlacement, MeshModel> models;
   std::vector<const MeshModel*> of_scene;
   for (const DesignScene& scene : scenes) {
-    const MeshPlacement placement = placement_of(gap_model(decisions), scene.condition.misalignment, results.shafts.get(), scene.torque);
+    const MeshPlacement placement = placement_of(gap_model(decisions), scene.condition, results.shafts.get(), scene.torque);
     auto known = models.find(placement);
     if (known == models.end()) {
       const MeshResolution resolution{study.fidelity.quadrature, results.phases};

@@ -4,7 +4,11 @@
 
 namespace flankwright::studies {
 
-FlankCondition condition_of(const Study& study, const Scene& scene) { return {study.modification, scene.error, scene.misalignment}; }
+FlankCondition condition_of(const Study& study, const Scene& scene) {
+  FlankCondition condition{{}, scene.error, scene.misalignment, loads_other_flanks(study, scene)};
+  condition.set_design(study.modification);
+  return condition;
+}
 
 std::vector<FlankCondition> conditions_of(const Study& study) {
   std::vector<FlankCondition> conditions;

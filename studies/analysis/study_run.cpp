@@ -59,12 +59,12 @@ MeshModel StudyRun::mesh(const MeshPlacement& placement, const MeshResolution& r
   return with_perturbed_meshes(placed(placement), placed, parameters);
 }
 
-MeshPlacement StudyRun::placement_of(const Misalignment& misalignment, double torque) const {
-  return flankwright::placement_of(gap_model(results_.effects), misalignment, results_.shafts.get(), torque);
+MeshPlacement StudyRun::placement_of(const FlankCondition& condition, double torque) const {
+  return flankwright::placement_of(gap_model(results_.effects), condition, results_.shafts.get(), torque);
 }
 
-MeshAt StudyRun::mesh_at(const Misalignment& misalignment, double torque, const std::vector<MeshParameter>& parameters, Quadrature quadrature) {
-  const MeshPlacement placement = placement_of(misalignment, torque);
+MeshAt StudyRun::mesh_at(const FlankCondition& condition, double torque, const std::vector<MeshParameter>& parameters, Quadrature quadrature) {
+  const MeshPlacement placement = placement_of(condition, torque);
   MeshAt made = [this, placement, parameters, quadrature](const std::vector<double>& phases) {
     return mesh(placement, {quadrature, phases}, nullptr, parameters);
   };
@@ -110,7 +110,7 @@ std::vector<std::size_t> StudyRun::models_for(const std::vector<DesignScene>& sc
   std::vector<std::size_t> models;
   std::vector<MeshPlacement> unknown;
   for (const DesignScene& scene : scenes) {
-    const MeshPlacement placement = placement_of(scene.condition.misalignment, scene.torque);
+    const MeshPlacement placement = placement_of(scene.condition, scene.torque);
     const auto [it, is_new] = model_index_.try_emplace(placement, results_.models.size() + unknown.size());
     if (is_new) unknown.push_back(placement);
     models.push_back(it->second);
@@ -147,13 +147,13 @@ std::vector<const MeshModel*> StudyRun::coarse_meshes_for(const std::vector<Mesh
 
 std::vector<ResolvedCycle> StudyRun::resolved(const std::vector<SolvedCase>& cases, bool with_errors) {
   std::vector<MeshPlacement> placements;
-  for (const SolvedCase& of : cases) placements.push_back(placement_of(of.scene.condition.misalignment, of.scene.torque));
+  for (const SolvedCase& of : cases) placements.push_back(placement_of(of.scene.condition, of.scene.torque));
   const std::vector<const MeshModel*> coarse = with_errors ? coarse_meshes_for(placements) : std::vector<const MeshModel*>(cases.size(), nullptr);
   std::vector<ResolvedCycle> all(cases.size());
   tbb::parallel_for(std::size_t{0}, cases.size(), [&](std::size_t i) {
     const auto& [scene, model, cycle] = cases[i];
     const MeshWithParameters at = [&](const std::vector<double>& phases, const std::vector<MeshParameter>& parameters) {
-      return mesh_at(scene.condition.misalignment, scene.torque, parameters, results_.study.fidelity.quadrature)(phases);
+      return mesh_at(scene.condition, scene.torque, parameters, results_.study.fidelity.quadrature)(phases);
     };
     std::optional<LoadedCycle> coarse_cycle;
     if (coarse[i] != nullptr) coarse_cycle = analyse_cycle(*coarse[i], scene.condition, scene.torque);
@@ -232,7 +232,7 @@ void StudyRun::hold_against_finer(std::size_t first) {
   for (std::size_t i = first; i < results_.loaded.size(); ++i) {
     LoadedResult& loaded = results_.loaded[i];
     const double error = headline_error(loaded.resolved.error_parts.points, loaded.summary, loaded.cycle);
-    if (std::isgreater(error, AutomaticResolution{}.accuracy)) wide[placement_of(loaded.condition.misalignment, loaded.torque)].push_back(&loaded);
+    if (std::isgreater(error, AutomaticResolution{}.accuracy)) wide[placement_of(loaded.condition, loaded.torque)].push_back(&loaded);
   }
   Quadrature quadrature = results_.study.fidelity.quadrature;
   quadrature.intervals *= 2;
@@ -263,7 +263,7 @@ void StudyRun::rate() {
   const Stopwatch clock;
   const Quadrature quadrature = rating_quadrature(results_.study.fidelity);
   const auto mesh_for = [this, quadrature](double torque) {
-    return [=, this](const Misalignment& m, const std::vector<MeshParameter>& by) { return mesh_at(m, torque, by, quadrature); };
+    return [=, this](const FlankCondition& condition, const std::vector<MeshParameter>& by) { return mesh_at(condition, torque, by, quadrature); };
   };
   std::vector<LoadRater::Case> cases;
   for (const LoadedResult& loaded : results_.loaded) {
@@ -307,7 +307,7 @@ void StudyRun::find_edge_contact() {
     LoadedResult& loaded = results_.loaded[i];
     if (!std::isgreater(loaded.summary.edge_stress, 0.0)) return;  // quiet where the effect is off and the stress is NaN
     // Half the points and positions do, unless no edge is reached with them.
-    const auto coarse = coarse_models_.find(placement_of(loaded.condition.misalignment, loaded.torque));
+    const auto coarse = coarse_models_.find(placement_of(loaded.condition, loaded.torque));
     if (coarse != coarse_models_.end()) loaded.edge_contact = edge_contact_start(coarse->second, loaded.condition, loaded.torque);
     if (!loaded.edge_contact) loaded.edge_contact = edge_contact_start(results_.models[loaded.model], loaded.condition, loaded.torque);
   });

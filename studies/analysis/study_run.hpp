@@ -70,8 +70,8 @@ class StudyRun {
   std::vector<MeshModel> meshes(const std::vector<MeshPlacement>& placements, const MeshResolution& resolution,
                                 const std::vector<MeshParameter>& parameters);
   /// Positions that are known already are not made again where there are no parameters. May be called by several threads at a time.
-  MeshAt mesh_at(const Misalignment& misalignment, double torque, const std::vector<MeshParameter>& parameters, Quadrature quadrature);
-  MeshPlacement placement_of(const Misalignment& misalignment, double torque) const;
+  MeshAt mesh_at(const FlankCondition& condition, double torque, const std::vector<MeshParameter>& parameters, Quadrature quadrature);
+  MeshPlacement placement_of(const FlankCondition& condition, double torque) const;
   std::vector<std::size_t> models_for(const std::vector<DesignScene>& scenes);
   std::vector<const MeshModel*> coarse_meshes_for(const std::vector<MeshPlacement>& placements);
   std::vector<MeshParameter> gradient_parameters() const;

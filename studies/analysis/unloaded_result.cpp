@@ -68,8 +68,9 @@ void append_kind(std::string& sequence, std::string& last, const ToothContact& c
 
 }  // namespace
 
-UnloadedResult analyse_unloaded(const GearPair& pair, const std::string& scene, const FlankCondition& condition, int positions,
+UnloadedResult analyse_unloaded(const GearPair& of_study, const std::string& scene, const FlankCondition& condition, int positions,
                                 double marking_thickness) {
+  const GearPair pair = condition.other_flanks ? of_study.on_other_flanks() : of_study;
   const FlankAssembly placed = assemble_flanks(pair, condition);
   UnloadedResult result;
   result.scene = scene;

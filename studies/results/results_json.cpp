@@ -242,6 +242,7 @@ Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
             {"summary", summary_json(loaded, model, results.study.cycle.phases.empty())},
             {"cycle", nullptr},
             {"extremes", extremes_json(loaded)}};
+  if (loaded.condition.other_flanks) json["working_flank"] = name_of(model.pair.data.working_flank);
   if (loaded.bin >= 0) json["bin"] = loaded.bin;
   if (results.shafts) add_shaft_motion(loaded, results, json);
   if (results.structures.rim_motion) add_rim_motion(loaded, results, json);

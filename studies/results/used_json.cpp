@@ -105,7 +105,7 @@ Json used_json(const StudyResults& results) {
               {"helix_angle_deg", in_deg(data.helix_angle)},
               {"centre_distance_mm", results.pair.centre_distance},
               {"driver", name_of(data.driver)},
-              {"working_flank", data.working_flank == WorkingFlank::Right ? "right" : "left"},
+              {"working_flank", name_of(data.working_flank)},
               {"pinion", used_gear_json(results, Member::Pinion)},
               {"wheel", used_gear_json(results, Member::Wheel)}}},
             {"unloaded", {{"marking_thickness_um", in_um(study.marking_thickness)}}},

@@ -54,6 +54,7 @@ struct Scene {
   PerGear<ManufacturingError> error;
   double speed{not_given};                          ///< of the pinion [rad/s]; NaN: not given, or that of each bin of a spectrum
   std::vector<ModificationDeviation> deviations{};  ///< of drawn gears from their design
+  std::optional<WorkingFlank> working_flank{};      ///< of the pinion, that this scene loads; nothing: the pair's
 };
 
 /// A measured or topological flank: the file that the study names and what was read from it.
@@ -164,6 +165,11 @@ struct Study {
   std::vector<GivenValue> given;
   std::string text;  ///< all of it as TOML, with what the command line set
 };
+
+/// Whether a scene loads the flanks that are not the pair's own.
+inline bool loads_other_flanks(const Study& study, const Scene& scene) {
+  return scene.working_flank.has_value() && *scene.working_flank != study.pair.working_flank;
+}
 
 /// Whether any scene has a torque.
 inline bool has_torque(const Study& study) {

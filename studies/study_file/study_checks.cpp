@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <string>
 
 #include "core/flank/conjugate_field.hpp"
 #include "core/flank/contact_shift.hpp"
@@ -166,6 +168,37 @@ void check_pair(StudyReading& reading) {
   }
 }
 
+namespace {
+
+/// What belongs to one flank, or is known for the pair's own flanks alone.
+std::optional<std::string> bound_to_own_flanks(const StudyReading& reading) {
+  const Study& study = reading.builder.study;
+  if (!study.unit.empty()) return "a gear unit, whose power flow decides the flanks";
+  for (const Member m : members) {
+    const std::string name = name_of(m);
+    if (study.shaft[m]) return name + ".shaft, which bends another way under the other flank";
+    if (study.body[m].web) return name + ".body with a web";
+    for (const char* grid : {".modification.grid", ".error.grids"}) {
+      if (reading.find(name + grid) != nullptr) return name + grid + ", measured on one flank";
+    }
+  }
+  return std::nullopt;
+}
+
+void check_other_flanks(StudyReading& reading) {
+  const Study& study = reading.builder.study;
+  for (std::size_t i = 0; i < study.scenes.size(); ++i) {
+    if (!loads_other_flanks(study, study.scenes[i])) continue;
+    const std::optional<std::string> bound = bound_to_own_flanks(reading);
+    if (!bound) return;
+    reading.refuse_key("scenes." + std::to_string(i) + ".working_flank", std::string("allowed is pair.working_flank, \"") +
+                                                                             name_of(study.pair.working_flank) + "\", with " + *bound +
+                                                                             ": analyse the other flank in a study of its own");
+  }
+}
+
+}  // namespace
+
 void check_flanks(StudyReading& reading) {
   for (const Member m : members) {
     for (const ModificationDescriptor& amount : modification_parameters) {
@@ -175,6 +208,7 @@ void check_flanks(StudyReading& reading) {
     check_process(reading, m);
     check_finite_elements(reading, m);
   }
+  check_other_flanks(reading);
 }
 
 }  // namespace flankwright::studies

@@ -130,6 +130,9 @@ std::vector<SchemaKey> scene_rows() {
       {.path = "scenes[].weight", .range = above_zero(1e9), .fallback = "1",
        .meaning = "its share in mean and mean+2sigma",
        .store = [](Scene& s, Member, const Value& v) { s.weight = v.number; }},
+      {.path = "scenes[].working_flank", .kind = Word, .words = {"right", "left"}, .fallback = "(pair.working_flank)",
+       .meaning = "flank of the pinion that this scene loads; the one that is not pair.working_flank has the modifications that the same tool leaves there",
+       .store = [](Scene& s, Member, const Value& v) { s.working_flank = static_cast<WorkingFlank>(v.integer); }},
 
       {.path = "expect", .kind = Expectations, .fallback = "(none)",
        .meaning = "\"loaded.summary.te_peak_to_peak_um\" = { max = 3 }: what results.json must say"},

@@ -18,11 +18,16 @@ bool is_in_range(const SchemaKey& key, double value);
 /// What a study says of a swept key, and where the sample puts its own value.
 struct SweptCondition {
   Scene scene;
-  PerGear<Modification> modification;
+  PerGear<Modification> modification;  ///< the study's, of the pair's own flanks
+  bool other_flanks{false};            ///< as FlankCondition has it
 
   /// Of the study itself, the nominal sample.
-  static SweptCondition of(const Study& study) { return {study.scenes.front(), study.modification}; }
-  FlankCondition flanks() const { return {modification, scene.error, scene.misalignment}; }
+  static SweptCondition of(const Study& study) { return {study.scenes.front(), study.modification, loads_other_flanks(study, study.scenes.front())}; }
+  FlankCondition flanks() const {
+    FlankCondition condition{{}, scene.error, scene.misalignment, other_flanks};
+    condition.set_design(modification);
+    return condition;
+  }
 };
 
 /// What a sweep's parameters do at the low and at the high end of their distributions, one by one; what is out of range there is left out. For

@@ -62,6 +62,9 @@ class PairCompliance {
   /// What contact yields beside such a structure beyond a half space; none: the structure is calibrated to be right as a whole.
   virtual HalfSpaceCorrections half_space_corrections() const { return {}; }
 
+  /// The same gears where they touch with their other flanks, GearPair::on_other_flanks(); null: it knows its own flanks alone.
+  virtual std::shared_ptr<const PairCompliance> on_other_flanks() const { return nullptr; }
+
  protected:
   PairCompliance() = default;
   PairCompliance(const PairCompliance&) = default;
@@ -74,6 +77,8 @@ class ThinSlicePair final : public PairCompliance {
   explicit ThinSlicePair(ThinSlice slice) : slice_(std::move(slice)) {}
   Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
   bool couples_points() const override { return false; }
+  /// A slice is the same on either flank.
+  std::shared_ptr<const PairCompliance> on_other_flanks() const override { return std::make_shared<const ThinSlicePair>(*this); }
   const ThinSlice& slice() const { return slice_; }
 
  private:
@@ -99,6 +104,11 @@ class StructuralPair final : public PairCompliance {
   Eigen::MatrixXd influence_on_rigid_bodies(const std::vector<ContactPoint>& points, double axial_offset) const override;
 
   HalfSpaceCorrections half_space_corrections() const override { return {pinion_.half_space, wheel_.half_space}; }
+
+  /// Turned over a gear is itself where both ends of its body are alike, as those of a solid one are; needs such bodies.
+  std::shared_ptr<const PairCompliance> on_other_flanks() const override {
+    return std::make_shared<const StructuralPair>(pair_.on_other_flanks(), pinion_, wheel_);
+  }
 
   const GearStructure& operator[](Member m) const { return m == Member::Pinion ? pinion_ : wheel_; }
 

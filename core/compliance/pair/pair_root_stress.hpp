@@ -69,6 +69,9 @@ class PairRootStress {
   /// @throws InvalidInput where a point is outside the model
   virtual RootStressInfluence influence(const std::vector<ContactPoint>& points, double axial_offset) const = 0;
 
+  /// As PairCompliance::on_other_flanks().
+  virtual std::shared_ptr<const PairRootStress> on_other_flanks() const { return nullptr; }
+
  protected:
   PairRootStress() = default;
   PairRootStress(const PairRootStress&) = default;
@@ -81,6 +84,11 @@ class TabulatedRootStress final : public PairRootStress {
   TabulatedRootStress(const GearPair& pair, std::shared_ptr<const RootStressTable> pinion, std::shared_ptr<const RootStressTable> wheel)
       : pair_(pair), pinion_(std::move(pinion)), wheel_(std::move(wheel)) {}
   RootStressInfluence influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
+
+  /// Needs bodies as StructuralPair::on_other_flanks().
+  std::shared_ptr<const PairRootStress> on_other_flanks() const override {
+    return std::make_shared<const TabulatedRootStress>(pair_.on_other_flanks(), pinion_, wheel_);
+  }
 
   const RootStressTable& operator[](Member m) const { return m == Member::Pinion ? *pinion_ : *wheel_; }
 

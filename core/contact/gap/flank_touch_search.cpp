@@ -266,7 +266,7 @@ TouchDerivative::TouchDerivative(const GearPair& pair, const FlankCondition& con
       misalignment_(condition.misalignment),
       member_(member),
       of_lag_(parameter == parameter_of("parabolic_te")),
-      removed_(ground_derivative(pair, member, condition.modification[member], parameter)) {}
+      removed_(ground_derivative(pair, member, condition.modification[member], parameter, condition.other_flanks)) {}
 
 /// dh/dp and d(dh/dx)/dp on one side of a touch, less what a lag adds.
 TouchDerivative::Slopes TouchDerivative::slopes(const ContactPoint& point, const FlankTouch::Side& side) const {

@@ -12,6 +12,7 @@ struct MeshPlacement {
   Misalignment misalignment{};  ///< PlaneOfAction: the axial offset, which shortens the common face; WholeSurface: all of it
   /// On the pinion, at which shafts with clearances are linearised [N mm]; 0: they do not depend on the load.
   double torque{0.0};
+  bool other_flanks{false};  ///< as FlankCondition has it
 
   static MeshPlacement of(GapModel gap, const Misalignment& misalignment, double torque = 0.0);
   auto operator<=>(const MeshPlacement&) const = default;

@@ -38,6 +38,7 @@ struct ParameterText {
   ParameterKind kind{ParameterKind::Amount};
   std::string_view extent{};              ///< key of the extent over which this amount is spread; empty: it needs none
   std::string_view half{}, other_half{};  ///< keys of the two parameters that this one sets at once; empty: it is an independent number
+  bool odd_along_face{false};             ///< its removal changes its sign with z
 };
 
 /// One number of modification M, which a study may set, a designer vary and a sweep draw.

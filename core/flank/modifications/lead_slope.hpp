@@ -14,7 +14,8 @@ struct LeadSlope {
                                                               .name = "lead slope",
                                                               .symbol = "C_Hβ",
                                                               .sense = "+ removes at z = +b/2",
-                                                              .meaning = "C_Hbeta over the face width; + removes at z = +b/2, zero at mid face"})};
+                                                              .meaning = "C_Hbeta over the face width; + removes at z = +b/2, zero at mid face",
+                                                              .odd_along_face = true})};
   }
   void add_to(PolynomialAmounts& sum) const { sum.lead_slope += lead_slope; }
   bool operator==(const LeadSlope&) const = default;

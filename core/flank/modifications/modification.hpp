@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <memory>
 
 #include "core/flank/grinding_process.hpp"
@@ -74,6 +75,18 @@ inline double get(const Modifications& m, ModificationParameter parameter) { ret
 
 /// Sets one parameter [mm; parabolic_te 1/rad]. profile_crowning sets both halves.
 inline void set(Modifications& m, ModificationParameter parameter, double value) { describe(parameter).set(m, value); }
+
+/// What a tool that is dressed alike for both flanks leaves on the opposite one in the same setting: the flank that works when the gear is turned over,
+/// end for end. Removal at z there is that at -z here, so that numbers that are odd along the face change their signs: a lead slope is one of the helix
+/// angle, for both flanks. A process twists each flank as ContactShift has it.
+/// Needs a modification without a grid, which belongs to one flank.
+inline Modification on_opposite_flank(Modification m) {
+  assert(!m.topography);
+  for (const ModificationDescriptor& d : modification_parameters) {
+    if (d.odd_along_face) d.set(m, -d.get(m));
+  }
+  return m;
+}
 
 /// Whether something is removed that depends on z alone.
 inline bool has_lead_modification(const Modifications& m) {

@@ -50,7 +50,8 @@ struct TopographyShapes {
       return std::array{ParameterRow<TopographyShapes>{{.key = topography_shapes[K].key,
                                                         .name = topography_shapes[K].name,
                                                         .sense = topography_shapes[K].sense,
-                                                        .meaning = topography_shapes[K].meaning},
+                                                        .meaning = topography_shapes[K].meaning,
+                                                        .odd_along_face = topography_shapes[K].face % 2 == 1},
                                                        [](const TopographyShapes& m) { return m.shapes[K]; },
                                                        [](TopographyShapes& m, double value) { m.shapes[K] = value; }}...};
     }

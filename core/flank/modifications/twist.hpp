@@ -14,7 +14,8 @@ struct Twist {
                                                  .name = "twist",
                                                  .symbol = "S_α",
                                                  .sense = "+ removes at the tip at z = +b/2",
-                                                 .meaning = "removed twist * (y / h_active) * (z / b); + removes at the tip at z = +b/2"})};
+                                                 .meaning = "removed twist * (y / h_active) * (z / b); + removes at the tip at z = +b/2",
+                                                 .odd_along_face = true})};
   }
   void add_to(PolynomialAmounts& sum) const { sum.twist += twist; }
   bool operator==(const Twist&) const = default;

@@ -89,9 +89,33 @@ double MeshModel::mean_line_load(double force) const {
   return length > 0.0 ? force * static_cast<double>(positions.size()) / length : not_given;
 }
 
-MeshPlacement placement_of(GapModel gap, const Misalignment& misalignment, const PairCompliance* shafts, double pinion_torque) {
-  return MeshPlacement::of(gap, misalignment, shafts != nullptr && shafts->depends_on_load() ? pinion_torque : 0.0);
+MeshPlacement placement_of(GapModel gap, const FlankCondition& condition, const PairCompliance* shafts, double pinion_torque) {
+  MeshPlacement placement = MeshPlacement::of(gap, condition.misalignment, shafts != nullptr && shafts->depends_on_load() ? pinion_torque : 0.0);
+  placement.other_flanks = condition.other_flanks;
+  return placement;
 }
+
+namespace {
+
+/// A model of the pair as it acts on the flanks that touch. Of null it is null.
+template <class PairModel>
+class OnTouchingFlanks {
+ public:
+  /// @param model  must outlive this
+  OnTouchingFlanks(const PairModel* model, bool other_flanks, const char* what) : model_(model) {
+    if (!other_flanks || model == nullptr) return;
+    other_ = model->on_other_flanks();
+    if (!other_) throw InvalidInput("working_flank", "the other flanks", std::string("the pair's own with ") + what);
+    model_ = other_.get();
+  }
+  const PairModel* get() const { return model_; }
+
+ private:
+  std::shared_ptr<const PairModel> other_;
+  const PairModel* model_;
+};
+
+}  // namespace
 
 Gap gap_under(const MeshPosition& at, const ConditionGap& gaps, double force) {
   Gap gap = gaps.at(at.points, at.phase);
@@ -119,6 +143,10 @@ MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, c
   if (resolution.quadrature.intervals < 1) {
     throw InvalidInput("fidelity.quadrature.intervals", std::to_string(resolution.quadrature.intervals), "at least 1");
   }
+  if (placement.other_flanks != model.placement.other_flanks) model.pair = model.pair.on_other_flanks();
+  const OnTouchingFlanks own_structure(&structure, placement.other_flanks, "this structure");
+  const OnTouchingFlanks own_root_stress(root_stress, placement.other_flanks, "this model of root stress");
+  const OnTouchingFlanks own_shafts(shafts, placement.other_flanks, "shafts");
   const GearPair& pair = model.pair;
   const double axial_offset = placement.misalignment.axial_offset;
   const double face_start = std::max(pair.pinion.face.begin, axial_offset + pair.wheel.face.begin);
@@ -133,8 +161,14 @@ MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, c
   model.half_space = structure.half_space_corrections();
   model.couples_points = structure.couples_points();
   const std::shared_ptr<const PairCompliance> linearised =
-      shafts != nullptr && shafts->depends_on_load() ? shafts->linearised_at(placement.torque) : nullptr;
-  const MeshParts parts{pair, model.material, placement, &structure, linearised ? linearised.get() : shafts, root_stress, model.half_space};
+      shafts != nullptr && shafts->depends_on_load() ? own_shafts.get()->linearised_at(placement.torque) : nullptr;
+  const MeshParts parts{pair,
+                        model.material,
+                        placement,
+                        own_structure.get(),
+                        linearised ? linearised.get() : own_shafts.get(),
+                        own_root_stress.get(),
+                        model.half_space};
   const PathOfContact path(pair);
   model.positions.clear();
   model.positions.reserve(resolution.phases.size());

@@ -65,7 +65,7 @@ struct PerturbedMeshes {
 };
 
 struct MeshModel {
-  GearPair pair;
+  GearPair pair;  ///< on the flanks that touch
   PerGear<Material> material;
   MeshEffects effects;
   MeshPlacement placement;
@@ -95,7 +95,7 @@ struct MeshModel {
 /// The placement of a load case's mesh. The torque is part of it where the shafts depend on the load.
 /// @param shafts         null: rigid
 /// @param pinion_torque  [N mm]
-MeshPlacement placement_of(GapModel gap, const Misalignment& misalignment, const PairCompliance* shafts, double pinion_torque);
+MeshPlacement placement_of(GapModel gap, const FlankCondition& condition, const PairCompliance* shafts, double pinion_torque);
 
 /// The gap of a position's points in a condition, with what other forces than the mesh's own open, in proportion to the force.
 /// @param force  normal force of the mesh [N]
@@ -107,8 +107,8 @@ Gap gap_under(const MeshPosition& at, const ConditionGap& gaps, double force);
 /// @param structure    structural compliance; null: thin slices
 /// @param root_stress  null: none
 /// @param shafts       added to it, coupling all points; null: rigid shafts; linearised at the placement's torque where they depend on the load
-/// @throws InvalidInput where no effect makes the points compliant, no phase is given, or the gears do not overlap
-///                       axially
+/// @throws InvalidInput where no effect makes the points compliant, no phase is given, the gears do not overlap
+///                       axially, or structure, root stress or shafts do not know the other flanks that the placement asks for
 MeshModel make_mesh_model(const GearPair& pair, const PerGear<Material>& material, const MeshResolution& resolution, const MeshEffects& effects = {},
                           const MeshPlacement& placement = {}, const PairCompliance* structure = nullptr, const PairRootStress* root_stress = nullptr,
                           const PairCompliance* shafts = nullptr);

@@ -253,7 +253,10 @@ void LoadSolver::step() {
   // The whole step where it at least halves the slope, else to the minimum along it.
   if (slope_end > overshoot * std::abs(slope_start) && slope_start < 0.0) {
     const double t = bracketed_root([&](double s) { return slope_along(s); }, 0.0, slope_start, 1.0, slope_end, 1e-3).x;
-    next_.loads = (at_.loads + t * (next_.loads - at_.loads)).cwiseMax(0.0);
+    // A load that the whole step takes away goes where it is less than round-off of the others: what is left of it a step would never end.
+    const double nothing = std::numeric_limits<double>::epsilon() * next_.loads.maxCoeff();
+    const Eigen::VectorXd between = (at_.loads + t * (next_.loads - at_.loads)).cwiseMax(0.0);
+    next_.loads = (next_.loads.array() == 0.0 && between.array() < nothing).select(0.0, between);
     evaluate(next_);
     has_factor_ = false;
   }

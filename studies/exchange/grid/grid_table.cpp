@@ -46,8 +46,8 @@ std::string grid_table(const GearPair& pair, Member member, const Modification& 
       "# Start of active profile at diameter {:.6f} mm, tip at {:.6f} mm, face width {:.6f} mm; z from mid face.\n"
       "# Design against the involute, normal to the flank, + = metal added; manufacturing errors are not in it.\n"
       "radius_mm,z_mm,deviation_um\n",
-      name, name_of(member), pair.data.working_flank == WorkingFlank::Right ? "right" : "left", gear.data.teeth, layout.profile_points,
-      layout.face_points, 2.0 * gear.active_root_radius, 2.0 * gear.tip_form_radius, gear.data.face_width);
+      name, name_of(member), name_of(pair.data.working_flank), gear.data.teeth, layout.profile_points, layout.face_points,
+      2.0 * gear.active_root_radius, 2.0 * gear.tip_form_radius, gear.data.face_width);
   for (int i = 0; i < layout.profile_points; ++i) {
     const double radius = at(i, layout.profile_points, gear.active_root_radius, gear.tip_form_radius);
     for (int j = 0; j < layout.face_points; ++j) {

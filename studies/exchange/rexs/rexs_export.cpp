@@ -103,7 +103,7 @@ class Export {
     const std::string type = before("1.3") ? "stage_gear_data" : "cylindrical_stage_gear_data";
     const int id = add(type);
     flag("is_driving_gear", study_.pair.driver == m);
-    word("loaded_tooth_flank", study_.pair.working_flank == WorkingFlank::Right ? "right" : "left");
+    word("loaded_tooth_flank", name_of(study_.pair.working_flank));
     length("active_root_diameter", 2.0 * pair_[m].active_root_radius);
     length("active_tip_diameter", 2.0 * pair_[m].tip_form_radius);
     const double ratio = m == Member::Pinion ? 1.0 : pair_.gear_ratio();

@@ -167,7 +167,7 @@ class OptimiseRun {
   /// A scene with the modifications of a design.
   DesignScene scene_of(const DesignAnalysis& analysis, int s) const {
     DesignScene scene = results_.design_task->scenes[static_cast<std::size_t>(s)];
-    scene.condition.modification = analysis.modification;
+    scene.condition.set_design(analysis.modification);
     return scene;
   }
 

@@ -63,7 +63,7 @@ SampleResult SampleAnalysis::analyse(const std::vector<double>& values) const {
 std::vector<double> SampleAnalysis::loaded_outputs(const FlankCondition& condition, double torque) const {
   if (!(torque > 0.0)) throw SampleFailure{"load.torque is 0: without load there are no loaded outputs"};
   const Study& study = nominal_.study;
-  const MeshPlacement placement = placement_of(gap_model(nominal_.effects), condition.misalignment, nominal_.shafts.get(), torque);
+  const MeshPlacement placement = placement_of(gap_model(nominal_.effects), condition, nominal_.shafts.get(), torque);
   const MeshModel* model = &nominal_.models.front();
   std::optional<MeshModel> own;
   if (placement != model->placement) {

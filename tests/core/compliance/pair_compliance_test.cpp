@@ -96,3 +96,34 @@ TEST_CASE("The influence of thin slices is diagonal, and depends on the length o
     }
   }
 }
+
+namespace {
+
+/// Says at which stations it is asked: K_ij = the product of a function of either.
+class StationReader final : public FlankCompliance {
+ public:
+  Eigen::MatrixXd evaluate(std::span<const FlankStation> stations) const override {
+    Eigen::VectorXd at(std::ssize(stations));
+    for (Eigen::Index i = 0; i < at.size(); ++i) {
+      const FlankStation& s = stations[static_cast<std::size_t>(i)];
+      at[i] = 1.0 + 0.1 * s.tooth + 0.3 * s.u + 0.7 * s.zeta;
+    }
+    return at * at.transpose();
+  }
+};
+
+}  // namespace
+
+TEST_CASE("The structure of a pair on its other flanks is that of the pair turned over end for end", "[core][compliance]") {
+  const GearPair own = pair_of(Hand::Right, WorkingFlank::Right);
+  const double axial_offset = 5;
+  const GearStructure gear{.compliance = std::make_shared<const StationReader>(), .youngs_modulus = 2e5};
+  const StructuralPair structure(own, gear, gear);
+  const std::vector<ContactPoint> points =
+      contact_points(own, PathOfContact(own), {QuadratureRule::Gauss2, 4}, 0.7, false, -0.5 * kWidth, 0.5 * kWidth);
+  std::vector<ContactPoint> turned = points;
+  for (ContactPoint& p : turned) p.z = -p.z;
+  const Eigen::MatrixXd there = structure.influence(points, axial_offset), here = structure.on_other_flanks()->influence(turned, -axial_offset);
+  CHECK((here - there).cwiseAbs().maxCoeff() <= 1e-13 * there.cwiseAbs().maxCoeff());  // round-off
+  CHECK((structure.influence(turned, -axial_offset) - there).cwiseAbs().maxCoeff() > 1e-3 * there.cwiseAbs().maxCoeff());
+}

@@ -85,7 +85,7 @@ TEST_CASE("Crests lie where reliefs begin: on their circles or at their distance
   const double end_start = 0.5 * gears.flank_frame(Member::Wheel).face_width - 4.0;
   std::array<int, 3> found{};
   MeshModel model = make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, {{QuadratureRule::Graded, 8}, equally_spaced_phases(16)}, {},
-                                    placement_of(GapModel::PlaneOfAction, condition.misalignment, nullptr, crest_torque));
+                                    placement_of(GapModel::PlaneOfAction, condition, nullptr, crest_torque));
   for (const std::vector<LineCrest>& at_position : crests_of(model, condition)) {
     for (const LineCrest& crest : at_position) {
       const double z = crest.place.z - (crest.gear == Member::Wheel ? 0.5 : 0.0);

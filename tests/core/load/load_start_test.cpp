@@ -72,3 +72,32 @@ TEST_CASE("A cycle that starts from an earlier one's loads ends at the same, soo
   if (change <= 0.1) CHECK(mean_iterations(after) < mean_iterations(alone));
   CHECK(mean_iterations(alone) <= 4.0);
 }
+
+TEST_CASE("A load far below round-off is taken from a point that should have none, whatever the others do", "[core][load]") {
+  const GearPair gears = mesh_cases::pair(18, 54, 30.0, 10.0, 120.0);
+  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 6}, equally_spaced_phases(8)});
+  FlankCondition condition;
+  condition.modification.pinion.lead_slope = 30 * units::um;
+  const LoadedCycle cycle = analyse_cycle(model, condition, mesh_cases::torque_for(gears, 60.0));
+  int left_over = 0;
+  for (std::size_t i = 0; i < model.positions.size(); ++i) {
+    const MeshPosition& at = model.positions[i];
+    const LoadProblemView problem{at.influence, at.weight, cycle.positions[i].gap.total, at.laws, cycle.force};
+    // To the last digit, so that the slope along a step is round-off alone.
+    Eigen::VectorXd answer = cycle.positions[i].load.line_load;
+    for (int again = 0; again < 4; ++again) answer = solve_load_distribution(problem, {}, answer).line_load;
+    for (Eigen::Index k = 0; k < answer.size(); ++k) {
+      if (answer[k] > 0.0) continue;
+      for (const double load : {1e-24, 1e-27, 1e-30, 1e-33}) {
+        Eigen::VectorXd start = answer;
+        start[k] = load;
+        const LoadDistribution found = solve_load_distribution(problem, {}, start);
+        CAPTURE(i, k, load);
+        REQUIRE(found.status == LoadStatus::Converged);
+        CHECK(((found.line_load.array() > 0.0) == (answer.array() > 0.0)).all());
+        ++left_over;
+      }
+    }
+  }
+  CHECK(left_over > 100);
+}

@@ -31,7 +31,58 @@ FlankCondition mirrored(FlankCondition c) {
   return c;
 }
 
+/// The same on the other flanks, seen after half a turn about the line of centres: what the gears are ground to is given, the working condition turns.
+FlankCondition turned_over(FlankCondition c) {
+  c.other_flanks = true;
+  c.set_design(FlankCondition(c).modification);
+  for (ManufacturingError* e : {&c.error.pinion, &c.error.wheel}) {
+    e->helix_slope = -e->helix_slope;
+    e->twist = -e->twist;
+  }
+  // A rotation about the line of centres is the same afterwards.
+  c.misalignment.intersecting = -c.misalignment.intersecting;
+  c.misalignment.axial_offset = -c.misalignment.axial_offset;
+  c.misalignment.mesh_misalignment = -c.misalignment.mesh_misalignment;
+  return c;
+}
+
 }  // namespace
+
+TEST_CASE("On its other flanks a pair is itself turned over end for end, with all derivatives by the design", "[core][load]") {
+  constexpr double round_off = 1e-9;  // tolerance of the solver times the condition
+  const double helix = GENERATE(0.0, 30.0);
+  const GapModel gap = GENERATE(GapModel::PlaneOfAction, GapModel::WholeSurface);
+  const GearPair gears = mesh_cases::pair(18, 54, helix, 10, 120);
+  FlankCondition own = worked_condition();
+  own.misalignment.axial_offset = 2.0;
+  own.modification.pinion.shapes[2] = 3 * units::um;  // odd along the face
+  own.modification.pinion.process.kind = GrindingKind::GeneratingGrinding;
+  own.modification.wheel.process.kind = GrindingKind::FormGrinding;
+  own.modification.wheel.lead_slope = 5 * units::um;
+  const FlankCondition other = turned_over(own);
+  const MeshResolution resolution{{QuadratureRule::Gauss2, 8}, {0.1, 0.45, 0.8}};
+  const auto model_of = [&](const FlankCondition& condition) {
+    return make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, resolution, {}, placement_of(gap, condition, nullptr, 1.0));
+  };
+  const MeshModel own_model = model_of(own), other_model = model_of(other);
+  CHECK(other_model.pair.data.working_flank == WorkingFlank::Left);
+  std::vector<MeshParameter> parameters;
+  for (const char* key : {"lead_slope", "lead_crowning", "twist", "tip_relief.amount", "tip_relief.height", "topography.face_3"}) {
+    parameters.push_back(GearParameter{Member::Pinion, find_parameter(key)->parameter});
+    parameters.push_back(GearParameter{Member::Wheel, find_parameter(key)->parameter});
+  }
+  const double torque = torque_for(gears, 100.0);
+  const LoadedCycle there = analyse_cycle(own_model, own, torque, parameters), here = analyse_cycle(other_model, other, torque, parameters);
+  for (std::size_t i = 0; i < resolution.phases.size(); ++i) {
+    CAPTURE(helix, gap == GapModel::WholeSurface, i);
+    const LoadedPosition &a = there.positions[i], &b = here.positions[i];
+    CHECK(b.load.transmission_error == Approx(a.load.transmission_error).epsilon(round_off));
+    CHECK(b.contact_stress.maxCoeff() == Approx(a.contact_stress.maxCoeff()).epsilon(1e-7));
+    CHECK(largest_difference(loads_by_point(own_model.positions[i], a), loads_by_point(other_model.positions[i], b, -1)) <= round_off * 100.0);
+    CHECK((b.transmission_error_derivative - a.transmission_error_derivative).cwiseAbs().maxCoeff() <= 1e-7);
+    CHECK(a.transmission_error_derivative.cwiseAbs().maxCoeff() > 0.01);
+  }
+}
 
 TEST_CASE("A mirrored spur pair carries mirrored loads", "[core][load]") {
   constexpr double kRoundOff = 1e-9;  // tolerance of the solver times the condition
