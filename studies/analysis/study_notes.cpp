@@ -93,6 +93,20 @@ void note_signal(const Study& study, std::vector<std::string>& notes) {
   }
 }
 
+/// What the flank behind the study's own is taken to be.
+void note_other_flanks(const Study& study, std::vector<std::string>& notes) {
+  std::vector<std::string> names;
+  for (const Scene& scene : study.scenes) {
+    if (loads_other_flanks(study, scene)) names.push_back("\"" + scene.name + "\"");
+  }
+  if (names.empty()) return;
+  notes.push_back(fmt::format(
+      "{} {} load{} the {} flank: it is taken as ground by the tool and in the setting of the {} one, with the same crowning and reliefs and the "
+      "same change of the helix angle (lead slope and twist have the other sign along z there)",
+      names.size() == 1 ? "scene" : "scenes", fmt::join(names, ", "), names.size() == 1 ? "s" : "", name_of(opposite(study.pair.working_flank)),
+      name_of(study.pair.working_flank)));
+}
+
 /// Scenes whose axes are so close that nothing is left of the backlash.
 void note_closed_backlash(const Study& study, const GearPair& pair, std::vector<std::string>& notes) {
   for (const Scene& scene : study.scenes) {
@@ -158,6 +172,7 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
                     -pair.backlash / units::um, pair.centre_distance, pair.backlash_free_centre_distance));
   }
   if (pair.backlash > 0.0) note_closed_backlash(study, pair, notes);
+  if (pair.backlash > 0.0) note_other_flanks(study, notes);
   return notes;
 }
 

@@ -13,6 +13,9 @@ function scene_labels(scenes) {
   };
 }
 
+/** Of an entry of `loaded` that loads another flank than the pair's own. */
+const flank_of = (entry) => (entry.working_flank ? `, ${entry.working_flank} flank` : "");
+
 /** [{key, scene, torque, label, designs: {before?, given?, after?}}] in the order of the results. */
 function load_cases(results) {
   const cases = new Map();
@@ -22,7 +25,7 @@ function load_cases(results) {
     const scene = typeof entry.scene === "string" && entry.scene !== "" ? entry.scene : "nominal";
     const key = JSON.stringify([scene, entry.torque_Nm ?? null, entry.bin ?? null]);
     if (!cases.has(key)) {
-      cases.set(key, { key, scene, torque: entry.torque_Nm, label: label_of({ name: scene, torque_Nm: entry.torque_Nm }), designs: {} });
+      cases.set(key, { key, scene, torque: entry.torque_Nm, label: label_of({ name: scene, torque_Nm: entry.torque_Nm }) + flank_of(entry), designs: {} });
     }
     cases.get(key).designs[DESIGN_LABEL[entry.design] ? entry.design : "given"] = entry;
   }
