@@ -25,6 +25,7 @@ double GearPair::backlash_at(double distance) const {
 GearPair GearPair::on_other_flanks() const {
   GearPair other = *this;
   other.data.working_flank = opposite(data.working_flank);
+  for (Gear* gear : {&other.pinion, &other.wheel}) gear->face = {-gear->face.end, -gear->face.begin};  // broken edges take more at the acute end
   return other;
 }
 

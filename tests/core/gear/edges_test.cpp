@@ -74,6 +74,10 @@ TEST_CASE("Usable faces are mirrored by the hand of the helix and the working fl
   CHECK(left.end == -right.begin);
   CHECK(coast.begin == right.begin);
   CHECK(coast.end == right.end);
+  data.working_flank = WorkingFlank::Right;
+  const GearPair behind = make_gear_pair(data).on_other_flanks();
+  CHECK(behind.pinion.face.begin == coast.begin);
+  CHECK(behind.pinion.face.end == coast.end);
 }
 
 TEST_CASE("Loaded and unloaded contact end where the end rounding begins", "[core][load][contact][edge]") {

@@ -52,7 +52,11 @@ TEST_CASE("On its other flanks a pair is itself turned over end for end, with al
   constexpr double round_off = 1e-9;  // tolerance of the solver times the condition
   const double helix = GENERATE(0.0, 30.0);
   const GapModel gap = GENERATE(GapModel::PlaneOfAction, GapModel::WholeSurface);
-  const GearPair gears = mesh_cases::pair(18, 54, helix, 10, 120);
+  PairData data = mesh_cases::pair_data(18, 54, helix, 10, 120);
+  data.wheel.face_width = 110;
+  data.pinion.end_rounding = data.wheel.end_rounding = 0.5;
+  data.wheel.tip_rounding = 0.5;
+  const GearPair gears = make_gear_pair(data);
   FlankCondition own = worked_condition();
   own.misalignment.axial_offset = 2.0;
   own.modification.pinion.shapes[2] = 3 * units::um;  // odd along the face
