@@ -21,36 +21,44 @@ class IndustrialPairs {
  public:
   explicit IndustrialPairs(unsigned seed) : random_(seed) {}
 
+  struct Gears {
+    std::string text;
+    double module{not_given};        ///< [mm]
+    double torque_per_k{not_given};  ///< torque by the K factor [N·m/MPa]
+  };
+
   /// Draws the gears without what is ground.
-  void draw_gears() {
-    module_ = std::exp(uniform(0.0, std::log(12.0)));
+  Gears draw_gears() {
+    Gears gears;
+    gears.module = std::exp(uniform(0.0, std::log(12.0)));
     const int teeth = static_cast<int>(uniform(14, 45)), wheel_teeth = std::min(120, static_cast<int>(teeth * uniform(1.0, 4.5)));
-    const double helix = one_in(5) ? 0.0 : uniform(5.0, 34.0), width = module_ * uniform(6.0, 20.0);
+    const double helix = one_in(5) ? 0.0 : uniform(5.0, 34.0), width = gears.module * uniform(6.0, 20.0);
     const double height = one_in(3) ? uniform(0.0, 1.0) : 0.0;  // between the two racks [-]
-    const double reference = teeth * module_ / std::cos(helix * units::deg), ratio = static_cast<double>(wheel_teeth) / teeth;
-    torque_per_k_ = width * reference * reference / 2 * ratio / (ratio + 1) * 1e-3;
+    const double reference = teeth * gears.module / std::cos(helix * units::deg), ratio = static_cast<double>(wheel_teeth) / teeth;
+    gears.torque_per_k = width * reference * reference / 2 * ratio / (ratio + 1) * 1e-3;
     const std::string rack = fmt::format("rack = {{ addendum = {}, dedendum = {}, root_radius = {} }}\n", 1.0 + 0.4 * height, 1.25 + 0.35 * height,
                                          height > 0.0 ? 0.2 : 0.38);
-    gears_ = fmt::format("task = \"analyse\"\n[pair]\nnormal_module = {}\npressure_angle = 20\nhelix_angle = {}\n", module_, helix);
-    gears_ += fmt::format("[pinion]\nteeth = {}\nface_width = {}\nprofile_shift = {}\n{}", teeth, width, uniform(0.0, 0.4), rack);
-    gears_ += fmt::format("[wheel]\nteeth = {}\nface_width = {}\nprofile_shift = {}\n{}", wheel_teeth, width, uniform(-0.2, 0.2), rack);
+    gears.text = fmt::format("task = \"analyse\"\n[pair]\nnormal_module = {}\npressure_angle = 20\nhelix_angle = {}\n", gears.module, helix);
+    gears.text += fmt::format("[pinion]\nteeth = {}\nface_width = {}\nprofile_shift = {}\n{}", teeth, width, uniform(0.0, 0.4), rack);
+    gears.text += fmt::format("[wheel]\nteeth = {}\nface_width = {}\nprofile_shift = {}\n{}", wheel_teeth, width, uniform(-0.2, 0.2), rack);
+    return gears;
   }
 
   /// A study of these gears: draws what is ground, the misalignment and the load.
-  std::string study(const std::string& compliance) {
-    const double size = 1.0 + 0.25 * module_;                                 // what is ground grows with the gear [-]
+  std::string study(const Gears& gears, const std::string& compliance) {
+    const double size = 1.0 + 0.25 * gears.module;                            // what is ground grows with the gear [-]
     const double k_factor = std::exp(uniform(std::log(0.8), std::log(9.0)));  // F/(b d) (u + 1)/u [MPa]
-    std::string text = gears_;
+    std::string text = gears.text;
     for (const char* gear : {"pinion", "wheel"}) {
       text += fmt::format("[{}.modification]\n", gear);
       if (one_in(2)) text += fmt::format("lead_crowning = {}\n", uniform(2.0, 6.0 * size));
       if (one_in(3)) text += fmt::format("profile_crowning = {}\n", uniform(1.0, 4.0 * size));
       if (one_in(2)) {
-        text += fmt::format("tip_relief = {{ amount = {}, height = {}, shape = \"{}\" }}\n", uniform(3.0, 10.0 * size), module_ * uniform(0.2, 0.6),
-                            one_in(2) ? "linear" : "parabolic");
+        text += fmt::format("tip_relief = {{ amount = {}, height = {}, shape = \"{}\" }}\n", uniform(3.0, 10.0 * size),
+                            gears.module * uniform(0.2, 0.6), one_in(2) ? "linear" : "parabolic");
       }
     }
-    text += fmt::format("[misalignment]\nmesh_misalignment = {}\n[load]\ntorque = {}\n", uniform(-8.0, 8.0) * size, k_factor * torque_per_k_);
+    text += fmt::format("[misalignment]\nmesh_misalignment = {}\n[load]\ntorque = {}\n", uniform(-8.0, 8.0) * size, k_factor * gears.torque_per_k);
     return text + fmt::format("[cycle]\npeaks = \"refined\"\n[fidelity]\ncompliance = \"{}\"\neffect_sizes = \"off\"\n", compliance);
   }
 
@@ -59,9 +67,6 @@ class IndustrialPairs {
   bool one_in(int n) { return uniform(0.0, n) < 1.0; }
 
   std::mt19937 random_;
-  std::string gears_;
-  double module_{not_given};        ///< [mm]
-  double torque_per_k_{not_given};  ///< torque by the K factor [N·m/MPa]
 };
 
 struct Shown {
@@ -127,15 +132,17 @@ Statistics statistics_of(const std::vector<Errors>& pairs) {
   return statistics;
 }
 
-/// Each pair is written to stderr as it comes, so that the figures of a soak that is broken off are known.
+/// Each pair is written to stderr as it comes, and all gears have had their first study before any has its second, so that a soak that is broken
+/// off says what it can.
 Statistics draw(unsigned seed, int gears, int studies_of_each, const std::string& compliance, int finer) {
   IndustrialPairs pairs(seed);
+  std::vector<IndustrialPairs::Gears> all;
+  for (int g = 0; g < gears; ++g) all.push_back(pairs.draw_gears());
   std::vector<Errors> drawn;
-  for (int g = 0; g < gears; ++g) {
-    pairs.draw_gears();
-    for (int k = 0; k < studies_of_each; ++k) {
+  for (int k = 0; k < studies_of_each; ++k) {
+    for (int g = 0; g < gears; ++g) {
       const Stopwatch clock;
-      const std::string text = pairs.study(compliance);
+      const std::string text = pairs.study(all[static_cast<std::size_t>(g)], compliance);
       const Errors errors = compare(text, finer);
       drawn.push_back(errors);
       std::string line = fmt::format("gears {}, study {}:", g, k);
