@@ -107,6 +107,19 @@ inline std::vector<ContactCase> contact_cases() {
   return cases;
 }
 
+/// A pair over a mesh cycle at one torque.
+struct CycleCase {
+  std::string name;
+  PairData pair;
+  double torque{not_given};  ///< on the pinion [N mm]
+  int positions{0};          ///< evenly spaced over a base pitch
+};
+
+/// As the positions of contact_cases(); the spur pair's torque is that of 45 um with one tooth pair.
+inline std::vector<CycleCase> cycle_cases() {
+  return {{"cycle, spur", pair_data(0, 40), 2357e3, 12}, {"cycle, helical", pair_data(30, 40), 3177e3, 8}};
+}
+
 /// A mesh for edge_task(): elements around the edge of a third of the half width that 20 N/mm press into the rounding, times the growth of a few elements.
 /// @param flank, across  elements, ContactMeshOptions
 inline ContactSettings edge_settings(const ContactTask& task, int flank = 24, int across = 8) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <sstream>
@@ -103,16 +104,46 @@ void compare_edges(const ContactCase& c, const ContactSettings& settings, const 
   std::fflush(stdout);
 }
 
+/// Transmission error over a cycle at one torque. CalculiX is asked at our approach; by how much its torque differs, our own stiffness takes into account,
+/// with an error of second order.
+void compare_cycle(const CycleCase& c, const ContactSettings& settings, const std::string& folder) {
+  const auto held = held_structure(contact_task(c.pair, 0.0, 0.0));
+  double least = INFINITY, most = -INFINITY, own_least = INFINITY, own_most = -INFINITY;
+  std::printf("\n%s, %.1f N·m\n\n| phase | transmission error um: CalculiX, fe held | torque of CalculiX there N·m |\n|---|---|---|\n",
+              c.name.c_str(), c.torque * 1e-3);
+  for (int i = 0; i < c.positions; ++i) {
+    ContactTask task = contact_task(c.pair, static_cast<double>(i) / c.positions, 0.0);
+    const double own = task.approach = own_answer(task, c.torque, held.get()).loaded.load.transmission_error;
+    const ContactAnswer outside = run_calculix(task, settings, folder + "/" + std::to_string(i));
+    if (!outside.converged) {
+      std::printf("| %.4f | CalculiX did not converge | |\n", task.phase);
+      return;
+    }
+    const double te = 2.0 * own - own_answer(task, outside.pinion_torque, held.get()).loaded.load.transmission_error;
+    std::printf("| %.4f | %.3f, %.3f | %.1f |\n", task.phase, te / units::um, own / units::um, outside.pinion_torque * 1e-3);
+    std::fflush(stdout);
+    least = std::min(least, te);
+    most = std::max(most, te);
+    own_least = std::min(own_least, own);
+    own_most = std::max(own_most, own);
+  }
+  std::printf("\npeak to peak %.3f and %.3f um: ours over CalculiX' %.4f\n", (most - least) / units::um, (own_most - own_least) / units::um,
+              (own_most - own_least) / (most - least));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::string mesh = argc > 2 ? argv[2] : "medium";
   ContactSettings settings;
   settings.mesh = contact_mesh_options(mesh);
-  return run_cases(argc, argv, "", contact_cases(), [&](const ContactCase& c, const std::string& folder) {
+  const int exit_code = run_cases(argc, argv, "", contact_cases(), [&](const ContactCase& c, const std::string& folder) {
     if (c.task.pair.pinion.tip_rounding > 0)
       compare_edges(c, mesh == "fine" ? edge_settings(c.task, 36, 10) : edge_settings(c.task), folder);
     else
       compare(c, settings, folder);
   });
+  if (exit_code != 0) return exit_code;
+  return run_cases(argc, argv, "", cycle_cases(),
+                   [&](const CycleCase& c, const std::string& folder) { compare_cycle(c, settings, folder + "_cycle"); });
 }
