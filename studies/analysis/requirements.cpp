@@ -1,4 +1,5 @@
 #include "studies/analysis/requirements.hpp"
+#include "studies/base/plain_names.hpp"
 
 #include <fmt/format.h>
 
@@ -38,8 +39,8 @@ std::vector<std::string> violated_constraints(const DesignProblem& problem, cons
     const double value = design.constraint_values[c];
     if (!(constraint.excess(value) > DesignLog::tolerance)) continue;
     const double factor = constraint.output.outside_factor();
-    unmet.push_back(fmt::format("the constraint {} {} {:.4g} is violated: {:.4g} {}", constraint.output.name,
-                                constraint.is_least() ? ">=" : "<=", constraint.limit() * factor, value * factor, constraint.output.unit()));
+    unmet.push_back(fmt::format("the constraint {} {} {:.4g} is violated: {:.4g}{}", constraint.output.name, constraint.is_least() ? ">=" : "<=",
+                                constraint.limit() * factor, value * factor, behind_number(constraint.output.unit())));
   }
   for (std::size_t c = 0; c < asked.modification_constraints.size(); ++c) {
     const ModificationConstraint& constraint = asked.modification_constraints[c];

@@ -23,4 +23,7 @@ const std::vector<PlainName>& plain_names();
 /// a name of its own is written without dots and underscores, and numbers and signs stay.
 std::string plain_name(std::string_view text);
 
+/// What follows a number: a space and its unit; nothing where the unit is that of a plain number, "1".
+inline std::string behind_number(std::string_view unit) { return unit.empty() || unit == "1" ? std::string() : " " + std::string(unit); }
+
 }  // namespace flankwright::studies

@@ -59,7 +59,7 @@ function rule_fact(optimise) {
   const none = record(optimise.comparison).no_rule;
   if (typeof none === "string") return ["Best rule of thumb", el("span", { title: none }, "none keeps the constraints"), null];
   if (!is_number(best.objective) || !is_number(after)) return null;
-  const value = `${fmt(best.objective, 3)} ${pretty_unit(optimise.objective_unit)}`;
+  const value = `${fmt(best.objective, 3)} ${pretty_unit(optimise.objective_unit)}`.trim();
   if (optimise.scatter) return ["Best rule of thumb", el("span", { title: best.name }, `${value} over the listed scenes`)];
   const times = best.objective / after, percent = 100 * (times - 1);
   const beside = times > 3 ? `${fmt(times, 2)} times as much` : `${fmt(Math.abs(percent), 2)} % ${percent < 0 ? "less" : "more"}`;

@@ -70,7 +70,7 @@ function gain_panel(plot, results) {
   const shown = scenes.slice(0, MOST_SCENES - Math.min(3, constraint_rows(optimise).length));
   plot.append(el("p", { class: "key" },
     el("span", { class: "dot", style: `background:${design_colour("before")}` }), " before   ",
-    el("span", { class: "dot", style: `background:${design_colour("after")}` }), ` after   [${unit}]${shown.some((s) => s.governs) ? "   bold: governs" : ""}`));
+    el("span", { class: "dot", style: `background:${design_colour("after")}` }), ` after${unit ? `   [${unit}]` : ""}${shown.some((s) => s.governs) ? "   bold: governs" : ""}`));
   if (shown.length > 0) draw_pairs(plot, shown.map((scene) => ({ ...scene, label: label(scene), strong: scene.governs !== 0 })), unit);
   const rest = scenes.length - shown.length;
   const sentence = [scenes_sentence(scenes, label), rest > 0 ? `${rest} more below.` : null].filter(Boolean).join(" ");

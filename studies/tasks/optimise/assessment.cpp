@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "core/base/stopwatch.hpp"
 #include "studies/base/plain_names.hpp"
+#include "studies/tasks/optimise/listed_scenes.hpp"
 
 namespace flankwright::studies {
 
@@ -36,16 +36,16 @@ Validation validate(const Study& study, const DesignProblem& problem, const Desi
   return validation;
 }
 
-std::string scene_in_words(const Optimum::Scene& scene, const DesignTask& task, bool several_torques) {
+std::string scene_in_words(const Optimum::Scene& scene, const DesignTask& task, bool names_torque) {
   const DesignScene& of_task = task.scenes[static_cast<std::size_t>(scene.scene)];
-  const std::string torque = several_torques ? fmt::format(", {:.5g} N·m,", of_task.torque / units::newton_metre) : "";
+  const std::string torque = names_torque ? fmt::format(", {:.5g} N·m,", of_task.torque / units::newton_metre) : "";
   return fmt::format("The scene \"{}\"{} governs with weight {:.2f}.", of_task.name, torque, scene.weight);
 }
 
 /// By how much moving a limit would reduce the objective, where that is more than the optimum is known to.
 std::string gain_in_words(double gain, const std::string& move, const Optimum& optimum, const DesignTask& task) {
   if (!(std::abs(gain) > optimum.resolution)) return move + " would not reduce the objective.";
-  return fmt::format("{} would reduce the objective by {:.2g} {}.", move, -gain, task.objective_unit());
+  return fmt::format("{} would reduce the objective by {:.2g}{}.", move, -gain, behind_number(task.objective_unit()));
 }
 
 std::string bound_in_words(const Optimum::Bound& bound, const Optimum& optimum, const DesignTask& task) {
@@ -59,9 +59,9 @@ std::string bound_in_words(const Optimum::Bound& bound, const Optimum& optimum, 
 
 std::string constraint_in_words(const Optimum::Constraint& constraint, const Optimum& optimum, const DesignTask& task) {
   const OutputConstraint& c = task.constraints[static_cast<std::size_t>(constraint.constraint)];
-  const std::string move =
-      fmt::format("The constraint {} {} {:.4g} {} is active: a limit one per cent {}", plain_name(c.output.name),
-                  c.is_least() ? ">=" : "<=", c.limit() * c.output.outside_factor(), c.output.unit(), c.is_least() ? "lower" : "higher");
+  const std::string move = fmt::format("The constraint {} {} {:.4g}{} is active: a limit one per cent {}", plain_name(c.output.name),
+                                       c.is_least() ? ">=" : "<=", c.limit() * c.output.outside_factor(), behind_number(c.output.unit()),
+                                       c.is_least() ? "lower" : "higher");
   return gain_in_words(constraint.gain, move, optimum, task);
 }
 
@@ -75,8 +75,8 @@ std::string sum_in_words(const Optimum::Sum& sum, const Optimum& optimum, const 
 
 std::string objective_in_words(const Optimum::Objective& objective, const Optimum& optimum, const DesignTask& task) {
   const ObjectiveBound& bound = task.objective_bounds[static_cast<std::size_t>(objective.bound)];
-  const std::string move = fmt::format("The objective before it, {}, is at the {:.4g} {} that it keeps: one per cent more",
-                                       plain_name(bound.objective.name()), bound.limit, bound.objective.unit());
+  const std::string move = fmt::format("The objective before it, {}, is at the {:.4g}{} that it keeps: one per cent more",
+                                       plain_name(bound.objective.name()), bound.limit, behind_number(bound.objective.unit()));
   return gain_in_words(objective.gain, move, optimum, task);
 }
 
@@ -84,10 +84,10 @@ std::string objective_in_words(const Optimum::Objective& objective, const Optimu
 std::string limit_in_words(const Relaxation::Limit& limit, const DesignTask& task) {
   if (limit.constraint >= 0) {
     const OutputConstraint& c = task.constraints[static_cast<std::size_t>(limit.constraint)];
-    return fmt::format("{} <= {:.4g} {}", plain_name(c.output.name), c.limit() * c.output.outside_factor(), c.output.unit());
+    return fmt::format("{} <= {:.4g}{}", plain_name(c.output.name), c.limit() * c.output.outside_factor(), behind_number(c.output.unit()));
   }
   const ObjectiveBound& bound = task.objective_bounds[static_cast<std::size_t>(limit.objective_bound)];
-  return fmt::format("{} <= {:.4g} {}", plain_name(bound.objective.name()), bound.limit, bound.objective.unit());
+  return fmt::format("{} <= {:.4g}{}", plain_name(bound.objective.name()), bound.limit, behind_number(bound.objective.unit()));
 }
 
 std::string move_in_words(const Relaxation::Move& move, const DesignTask& task) {
@@ -149,8 +149,8 @@ std::string usual_signs_in_words(const UsualSigns& usual, const DesignTask& task
     const DesignVariable& v = task.variables[i];
     amounts.push_back(fmt::format("{} {:.3g} {}", plain_name(v.path), usual.design->variables[i] * v.outside_factor(), v.unit()));
   }
-  return words + fmt::format("The best design without it reaches {:.5g} {} ({:+.1f} %): {}.", usual.design->objective, task.objective_unit(),
-                             100.0 * usual.price, fmt::join(amounts, ", "));
+  return words + fmt::format("The best design without it reaches {:.5g}{} ({:+.1f} %): {}.", usual.design->objective,
+                             behind_number(task.objective_unit()), 100.0 * usual.price, fmt::join(amounts, ", "));
 }
 
 std::vector<std::string> relaxation_in_words(const Relaxation& relaxation, const DesignTask& task) {
@@ -185,26 +185,25 @@ std::string validation_in_words(const Validation& validation, const DesignTask& 
   const double better = share_below(validation.designs[1].measures, validation.designs[0].measures);
   std::string words = fmt::format(
       "Over {} scenes drawn afresh (seed {}) the design is better than before in {:.1f} %; mean {:.5g} -> {:.5g}, 95 % below {:.5g} -> {:.5g}, "
-      "largest {:.5g} -> {:.5g} {}.",
+      "largest {:.5g} -> {:.5g}{}.",
       validation.scenes.size(), validation.seed, 100.0 * better, before.mean, after.mean, before.quantiles.back(), after.quantiles.back(),
-      before.greatest, after.greatest, task.objective_unit());
+      before.greatest, after.greatest, behind_number(task.objective_unit()));
   if (validation.designs.size() > 2) {
     const ValidatedDesign& rule = validation.designs[2];
-    words +=
-        fmt::format(" It is better than the best rule of thumb ({}) in {:.1f} %, whose largest is {:.5g} {}.", rule.name,
-                    100.0 * share_below(validation.designs[1].measures, rule.measures), spread_of(rule.measures).greatest, task.objective_unit());
+    words += fmt::format(" It is better than the best rule of thumb ({}) in {:.1f} %, whose largest is {:.5g}{}.", rule.name,
+                         100.0 * share_below(validation.designs[1].measures, rule.measures), spread_of(rule.measures).greatest,
+                         behind_number(task.objective_unit()));
   }
   if (before.failed + after.failed > 0) words += fmt::format(" {} analyses did not converge.", before.failed + after.failed);
   return words;
 }
 
 std::vector<std::string> optimum_in_words(const Optimum& optimum, const DesignTask& task) {
-  std::set<double> torques;
-  for (const DesignScene& scene : task.scenes) torques.insert(scene.torque);
+  const bool names_torque = ListedScenes(task).names_torque();
   std::vector<std::string> words;
   constexpr double said = 0.005;  // less would be a weight of 0.00
   for (const Optimum::Scene& scene : optimum.scenes) {
-    if (std::abs(scene.weight) >= said) words.push_back(scene_in_words(scene, task, torques.size() > 1));
+    if (std::abs(scene.weight) >= said) words.push_back(scene_in_words(scene, task, names_torque));
   }
   for (const Optimum::Bound& bound : optimum.bounds) words.push_back(bound_in_words(bound, optimum, task));
   for (const Optimum::Constraint& constraint : optimum.constraints) words.push_back(constraint_in_words(constraint, optimum, task));

@@ -1,4 +1,5 @@
 #include "studies/tasks/optimise/assessment_json.hpp"
+#include "studies/tasks/optimise/listed_scenes.hpp"
 
 #include <algorithm>
 
@@ -77,7 +78,7 @@ Json governing_json(const Optimum& optimum, const DesignTask& task) {
           {"scenes", list(optimum.scenes,
                           [&](const Optimum::Scene& s) -> Json {
                             const DesignScene& scene = task.scenes[static_cast<std::size_t>(s.scene)];
-                            return {{"name", scene.name}, {"torque_Nm", in_Nm(scene.torque)}, {"weight", s.weight}};
+                            return {{"name", scene.name}, {"torque_Nm", ListedScenes(task).torque_json(scene)}, {"weight", s.weight}};
                           })},
           {"bounds", list(optimum.bounds,
                           [&](const Optimum::Bound& b) -> Json {

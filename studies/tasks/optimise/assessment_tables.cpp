@@ -1,5 +1,6 @@
 #include "studies/base/csv.hpp"
 #include "studies/tasks/optimise/assessment_tables.hpp"
+#include "studies/base/plain_names.hpp"
 
 #include <fmt/format.h>
 
@@ -54,7 +55,7 @@ std::string assessment_summary(const Assessment& assessment, const DesignTask& t
   std::string out;
   const auto beside = [&](const std::string& what, double value) {
     const double times = value / optimum;
-    out += fmt::format("{}: {:.5g} {} ({})\n", what, value, task.objective_unit(),
+    out += fmt::format("{}: {:.5g}{} ({})\n", what, value, behind_number(task.objective_unit()),
                        times < 10.0 ? fmt::format("{:+.1f} %", 100.0 * (times - 1.0)) : fmt::format("{:.3g} times the optimum", times));
   };
   if (const ComparedDesign* best = best_of(assessment.rules)) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "studies/results/used_json.hpp"
+#include "studies/tasks/optimise/listed_scenes.hpp"
 
 namespace flankwright::studies {
 
@@ -206,9 +207,10 @@ Json optimise_json(const StudyResults& results) {
   for (const ObjectiveTerm& term : task.objective) {
     terms.push_back({{"output", term.name}, {"weight", term.weight}, {"unit", term.unit()}});
   }
-  for (std::size_t s = 0; s < task.scenes.size(); ++s) {
+  const ListedScenes listed(task);
+  for (const std::size_t s : listed.indices()) {
     scenes.push_back({{"name", task.scenes[s].name},
-                      {"torque_Nm", in_Nm(task.scenes[s].torque)},
+                      {"torque_Nm", listed.torque_json(task.scenes[s])},
                       {"weight", task.scenes[s].weight},
                       {"before", design.before.scene_measures[s]},
                       {"after", design.after.scene_measures[s]},

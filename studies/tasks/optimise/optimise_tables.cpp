@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "studies/base/csv.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/base/plain_names.hpp"
+#include "studies/tasks/optimise/listed_scenes.hpp"
 #include "studies/results/life_tables.hpp"
 #include "studies/results/tables.hpp"
 #include "studies/tasks/optimise/assessment_tables.hpp"
@@ -69,10 +69,9 @@ std::string optimise_summary(const StudyResults& results) {
   const DesignResult& design = *results.design;
   std::vector<std::string> names;
   for (const DesignVariable& v : task.variables) names.push_back(plain_name(v.path));
-  std::set<double> torques;
-  for (const DesignScene& s : task.scenes) torques.insert(s.torque);
-  const auto label = [&](const DesignScene& s) { return torques.size() > 1 ? fmt::format("{}, {:.5g} N·m", s.name, in_Nm(s.torque)) : s.name; };
-  for (const DesignScene& s : task.scenes) names.push_back(label(s));
+  const ListedScenes listed(task);
+  const auto label = [&](const DesignScene& s) { return listed.names_torque() ? fmt::format("{}, {:.5g} N·m", s.name, in_Nm(s.torque)) : s.name; };
+  for (const std::size_t s : listed.indices()) names.push_back(label(task.scenes[s]));
   const std::size_t width = widest(names, 24);
 
   std::string out = fmt::format("{:<{}}  {:>12}  {:>12}  {:>9}\n", "", width, "before", "after", "change");
@@ -82,7 +81,7 @@ std::string optimise_summary(const StudyResults& results) {
                        design.after.variables[i] * v.outside_factor(), v.unit());
   }
   out += fmt::format("\n{} [{}]\n", plain_name(task.objective_name()), task.objective_unit());
-  for (std::size_t s = 0; s < task.scenes.size(); ++s) {
+  for (const std::size_t s : listed.indices()) {
     const double before = design.before.scene_measures[s], after = design.after.scene_measures[s];
     out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n", label(task.scenes[s]), width, before, after, change(before, after));
   }
@@ -93,8 +92,8 @@ std::string optimise_summary(const StudyResults& results) {
     const ObjectiveTerm& output = task.constraints[c].output;
     const OutputConstraint& bound = task.constraints[c];
     out += fmt::format("{:<{}}  {:>12.5g}  {:>12.5g}  {:>9}\n",
-                       fmt::format("{} {} {:.5g} {}", plain_name(output.name),
-                                   bound.is_least() ? ">=" : "<=", bound.limit() * output.outside_factor(), output.unit()),
+                       fmt::format("{} {} {:.5g}{}", plain_name(output.name), bound.is_least() ? ">=" : "<=", bound.limit() * output.outside_factor(),
+                                   behind_number(output.unit())),
                        width, design.before.constraint_values[c] * output.outside_factor(),
                        design.after.constraint_values[c] * output.outside_factor(), "");
     if (c < results.after_errors.constraint_values.size()) {
@@ -105,8 +104,8 @@ std::string optimise_summary(const StudyResults& results) {
   out += fmt::format("\n{}: {} after {} analyses of {} scenes in {:.1f} s\n", design.solver, to_string(design.status), design.evaluations,
                      task.scenes.size(), design.seconds);
   if (design.exact) {
-    out += fmt::format("rounding to the steps changes the objective by {:+.1f} %, from {:.5g} to {:.5g} {}\n", 100.0 * design.rounding_loss(),
-                       design.exact->objective, design.after.objective, task.objective_unit());
+    out += fmt::format("rounding to the steps changes the objective by {:+.1f} %, from {:.5g} to {:.5g}{}\n", 100.0 * design.rounding_loss(),
+                       design.exact->objective, design.after.objective, behind_number(task.objective_unit()));
   }
   if (results.search_work) {
     const SearchWork& work = *results.search_work;

@@ -8,6 +8,7 @@
 #include "studies/study_file/study_file.hpp"
 #include "studies/results/tables.hpp"
 #include "tests/studies/small_studies.hpp"
+#include "tests/studies/study_file/life_texts.hpp"
 #include "tests/studies/study_texts.hpp"
 
 namespace flankwright::studies {
@@ -114,6 +115,36 @@ TEST_CASE("Where no rule of thumb keeps the constraints the summary says so", "[
   const json comparison = json::parse(results_json(results))["optimise"]["comparison"];
   CHECK_FALSE(comparison.contains("best_rule"));
   CHECK_THAT(comparison["no_rule"].get<std::string>(), Catch::StartsWith(said));
+}
+
+TEST_CASE("Damage over a load spectrum is listed by scene, and without a unit", "[studies][assessment][life]") {
+  const StudyResults results = run_study(parse_study("task = \"optimise\"\n" + life_pair + life_strength + R"(
+[load]
+speed = 1500
+spectrum = [{ torque = 300, hours = 10 }, { torque = 200, hours = 1000 }]
+[[scenes]]
+name = "one way"
+misalignment.mesh_misalignment = 8
+[[scenes]]
+name = "other way"
+misalignment.mesh_misalignment = -8
+[optimise]
+objective = "contact_damage"
+[optimise.variables]
+"pinion.modification.lead_crowning" = [0, 20]
+"pinion.modification.tip_relief.amount" = [0, 5]
+[pinion.modification]
+tip_relief = { amount = 0, height = 1.5 }
+)",
+                                                     "small.toml"));
+  REQUIRE(results.design_task->scenes.size() == 4);
+  const json optimise = json::parse(results_json(results))["optimise"];
+  REQUIRE(optimise["scenes"].size() == 2);
+  for (const json& scene : optimise["scenes"]) CHECK(scene["torque_Nm"].is_null());
+  for (const json& scene : optimise["governing"]["scenes"]) CHECK(scene["torque_Nm"].is_null());
+  const std::string summary = summary_table(results);
+  CHECK_THAT(summary, Catch::Contains("The scene \"one way\" governs"));
+  CHECK(summary.find(" 1 (") == std::string::npos);  // of "2.94 1 (25.6 times the optimum)"
 }
 
 TEST_CASE("Without rules there is nothing to compare with and no section for it", "[studies][assessment]") {
