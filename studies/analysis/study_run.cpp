@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "core/base/stopwatch.hpp"
@@ -104,6 +105,12 @@ std::vector<DesignScene> StudyRun::loaded(const std::vector<Scene>& of_study) co
 void StudyRun::set_phases() {
   const Cycle& cycle = results_.study.cycle;
   results_.phases = cycle.phases.empty() ? equally_spaced_phases(cycle.positions) : cycle.phases;
+}
+
+void StudyRun::set_positions(int positions) {
+  assert(results_.loaded.empty());
+  results_.study.cycle.positions = positions;
+  forget_loaded();
 }
 
 std::vector<std::size_t> StudyRun::models_for(const std::vector<DesignScene>& scenes) {

@@ -38,6 +38,9 @@ class StudyRun {
   /// Phases of the loaded mesh positions: as given, or evenly spaced.
   void set_phases();
 
+  /// The study goes on with so many evenly spaced positions; nothing loaded may be among the results yet.
+  void set_positions(int positions);
+
   /// Structure and root stress of both gears, made when first needed.
   const GearStructures& structures();
 

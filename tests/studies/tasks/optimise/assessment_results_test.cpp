@@ -147,6 +147,48 @@ tip_relief = { amount = 0, height = 1.5 }
   CHECK(summary.find(" 1 (") == std::string::npos);  // of "2.94 1 (25.6 times the optimum)"
 }
 
+TEST_CASE("A search goes on at more positions where a peak between them says that there is more to gain",
+          "[studies][assessment][between-positions]") {
+  const std::string text = R"(
+task = "optimise"
+[pair]
+normal_module = 4
+helix_angle = 13
+[pinion]
+teeth = 18
+face_width = 27
+profile_shift = 0.2
+[wheel]
+teeth = 34
+face_width = 27
+[pinion.modification]
+tip_relief = { amount = 0, height = 2 }
+[wheel.modification]
+tip_relief = { amount = 0, height = 2 }
+[load]
+torque = 475
+[fidelity]
+compliance = "thin_slice"
+effect_sizes = "off"
+[optimise]
+comparison.rules = "off"
+[optimise.variables]
+"pinion.modification.lead_crowning" = [0, 20]
+"pinion.modification.lead_slope" = [-30, 30]
+"pinion.modification.profile_crowning" = [0, 20]
+"pinion.modification.tip_relief.amount" = [0, 60]
+"wheel.modification.tip_relief.amount" = [0, 60]
+)";
+  const StudyResults few = run_study(parse_study(text, "small.toml", {{"cycle.positions", "32"}})), more = run_study(parse_study(text, "small.toml"));
+  CHECK(few.study.cycle.positions == 32);
+  CHECK(more.study.cycle.positions > 32);
+  CHECK(more.phases.size() == static_cast<std::size_t>(more.study.cycle.positions));
+  // Of 32 positions an edge that hardly touches lies between two, and the design shown is worse than what the search saw. Both are judged with peaks
+  // sought between the positions.
+  CHECK(few.design->after.objective > 1.01 * few.design->optima.front().objective);
+  CHECK(more.design->after.objective < 1.005 * few.design->optima.front().objective);
+}
+
 TEST_CASE("Without rules there is nothing to compare with and no section for it", "[studies][assessment]") {
   const StudyResults results = run_study(parse_study(small::optimisation(), "small.toml", {{"optimise.comparison.rules", "off"}}));
   const json optimise = json::parse(results_json(results))["optimise"];
