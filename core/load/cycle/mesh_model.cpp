@@ -144,9 +144,9 @@ MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, c
     throw InvalidInput("fidelity.quadrature.intervals", std::to_string(resolution.quadrature.intervals), "at least 1");
   }
   if (placement.other_flanks != model.placement.other_flanks) model.pair = model.pair.on_other_flanks();
-  const OnTouchingFlanks own_structure(&structure, placement.other_flanks, "this structure");
-  const OnTouchingFlanks own_root_stress(root_stress, placement.other_flanks, "this model of root stress");
-  const OnTouchingFlanks own_shafts(shafts, placement.other_flanks, "shafts");
+  const OnTouchingFlanks touching_structure(&structure, placement.other_flanks, "this structure");
+  const OnTouchingFlanks touching_root_stress(root_stress, placement.other_flanks, "this model of root stress");
+  const OnTouchingFlanks touching_shafts(shafts, placement.other_flanks, "shafts");
   const GearPair& pair = model.pair;
   const double axial_offset = placement.misalignment.axial_offset;
   const double face_start = std::max(pair.pinion.face.begin, axial_offset + pair.wheel.face.begin);
@@ -161,13 +161,13 @@ MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, c
   model.half_space = structure.half_space_corrections();
   model.couples_points = structure.couples_points();
   const std::shared_ptr<const PairCompliance> linearised =
-      shafts != nullptr && shafts->depends_on_load() ? own_shafts.get()->linearised_at(placement.torque) : nullptr;
+      shafts != nullptr && shafts->depends_on_load() ? touching_shafts.get()->linearised_at(placement.torque) : nullptr;
   const MeshParts parts{pair,
                         model.material,
                         placement,
-                        own_structure.get(),
-                        linearised ? linearised.get() : own_shafts.get(),
-                        own_root_stress.get(),
+                        touching_structure.get(),
+                        linearised ? linearised.get() : touching_shafts.get(),
+                        touching_root_stress.get(),
                         model.half_space};
   const PathOfContact path(pair);
   model.positions.clear();

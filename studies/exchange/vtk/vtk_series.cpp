@@ -118,8 +118,10 @@ struct MeshFrame {
   std::array<double, 2> base, root, tip;  ///< radii of pinion and wheel [mm]
   std::array<double, 2> half_face;        ///< [mm]
   double mirror;                          ///< -1: the left flank of the pinion works
+  bool turned;                            ///< it is not the pair's own: what is removed from that at z is removed at -z
 
-  explicit MeshFrame(const Json& json) {
+  /// @param loaded  the load case
+  MeshFrame(const Json& json, const Json& loaded) {
     const Json& geometry = json.at("geometry");
     const Json& used = json.at("used").at("pair");
     pressure_angle = geometry.at("working_transverse_pressure_angle_deg").get<double>() * units::deg;
@@ -127,7 +129,10 @@ struct MeshFrame {
     path = geometry.at("path_of_contact_mm").at("T1_T2");
     base_pitch = geometry.at("transverse_base_pitch_mm");
     centre_distance = geometry.at("centre_distance_mm");
-    mirror = used.at("working_flank") == "right" ? 1.0 : -1.0;
+    const Json& own_flank = used.at("working_flank");
+    const Json flank = loaded.value("working_flank", own_flank);
+    mirror = flank == "right" ? 1.0 : -1.0;
+    turned = flank != own_flank;
     const double hand = geometry.at("pinion").at("hand") == "right" ? 1.0 : -1.0;
     lead = mirror * hand * std::tan(geometry.at("base_helix_angle_deg").get<double>() * units::deg);
     for (const std::size_t g : {0U, 1U}) {
@@ -219,10 +224,8 @@ PolyData flanks(const MeshFrame& frame, const Json& position, std::size_t gear, 
         const double z = std::lerp(-frame.half_face[gear], frame.half_face[gear], static_cast<double>(j) / (surface_points - 1));
         const double of_pinion = at_mid + tooth.at("tooth").get<int>() * frame.base_pitch + frame.lead * z;
         const auto [x, y] = frame.place(gear, frame.roll(gear, radius), gear == 0U ? of_pinion : frame.path - of_pinion);
-        const double removed =
-            removal == nullptr
-                ? 0.0
-                : number(removal->at("removal_um").at(static_cast<std::size_t>(i * surface_step)).at(static_cast<std::size_t>(j * surface_step)));
+        const auto along = static_cast<std::size_t>((frame.turned ? surface_points - 1 - j : j) * surface_step);
+        const double removed = removal == nullptr ? 0.0 : number(removal->at("removal_um").at(static_cast<std::size_t>(i * surface_step)).at(along));
         row.push_back(data.add_point(x, y, z, {removed, radius}));
       }
       for (std::size_t j = 0; i > 0 && j + 1 < row.size(); ++j) data.add_cell({before[j], before[j + 1], row[j + 1], row[j]}, tooth.at("tooth"));
@@ -232,8 +235,9 @@ PolyData flanks(const MeshFrame& frame, const Json& position, std::size_t gear, 
   return data;
 }
 
-void add_case(const Json& json, const MeshFrame& frame, std::size_t index, std::vector<ExportedFile>& files) {
+void add_case(const Json& json, std::size_t index, std::vector<ExportedFile>& files) {
   const Json& loaded = json.at("loaded").at(index);
+  const MeshFrame frame(json, loaded);
   const std::string name = fmt::format("contact-{}", index + 1), design = loaded.at("design");
   const std::string comment = fmt::format("{}, {} N m, {}", loaded.at("scene").get<std::string>(), loaded.at("torque_Nm").get<double>(), design);
   std::string collection = "<?xml version=\"1.0\"?>\n<!-- " + escaped(comment) +
@@ -261,8 +265,7 @@ std::vector<ExportedFile> vtk_series(const std::string& results, const std::stri
   try {
     const Json json = Json::parse(results);
     if (json.at("loaded").empty()) throw InvalidInput(file, "no loaded contact", "results of a study with a torque");
-    const MeshFrame frame(json);
-    for (std::size_t i = 0; i < json["loaded"].size(); ++i) add_case(json, frame, i, files);
+    for (std::size_t i = 0; i < json["loaded"].size(); ++i) add_case(json, i, files);
   } catch (const Json::exception& error) {
     throw InvalidInput(file, error.what(), "results.json of a study that has run");
   }

@@ -132,6 +132,26 @@ TEST_CASE("A VTK series is valid, complete and lies on the plane of action and t
   }
 }
 
+TEST_CASE("A scene on the other flank is drawn on that flank, with what the tool removes there", "[studies][vtk][other-flank]") {
+  const auto pieces = [](const std::vector<Override>& overrides) {
+    std::vector<Override> all{{"cycle.positions", "2"}, {"cycle.peaks", "sampled"}};
+    all.insert(all.end(), overrides.begin(), overrides.end());
+    const StudyResults results = run_study(parse_study(small::analysis(), "a", all));
+    std::map<std::string, std::string> files;
+    for (const ExportedFile& file : vtk_series(results_json(results), "a")) files[file.name] = file.text;
+    return std::pair{read_piece(files.at("contact-2/lines-0000.vtp"), "Lines"), read_piece(files.at("contact-2/pinion-0000.vtp"), "Polys")};
+  };
+  const auto [lines, flank] = pieces({{"scenes.1.working_flank", "left"}, {"pinion.modification.lead_slope", "6"}});
+  const auto [lines_alone, flank_alone] = pieces({{"pair.working_flank", "left"}, {"pinion.modification.lead_slope", "-6"}});
+  constexpr double round_off = 1e-6;  // of the search for a touch
+  REQUIRE(lines.points.size() == lines_alone.points.size());
+  for (std::size_t i = 0; i < lines.points.size(); ++i) CHECK(lines.points[i] == Approx(lines_alone.points[i]).margin(round_off));
+  REQUIRE(flank.points.size() == flank_alone.points.size());
+  for (std::size_t i = 0; i < flank.points.size(); ++i) CHECK(flank.points[i] == Approx(flank_alone.points[i]).margin(round_off));
+  const std::vector<double>&removed = flank.fields.at("removal_um"), &removed_alone = flank_alone.fields.at("removal_um");
+  for (std::size_t i = 0; i < removed.size(); ++i) CHECK(removed[i] == Approx(removed_alone[i]).margin(round_off));
+}
+
 TEST_CASE("The drawn flanks are the involutes through their contact lines", "[studies][vtk]") {
   const std::string flank = GENERATE("right", "left");
   const StudyResults results =
