@@ -191,9 +191,11 @@ void check_other_flanks(StudyReading& reading) {
     if (!loads_other_flanks(study, study.scenes[i])) continue;
     const std::optional<std::string> bound = bound_to_own_flanks(reading);
     if (!bound) return;
-    reading.refuse_key("scenes." + std::to_string(i) + ".working_flank", std::string("allowed is pair.working_flank, \"") +
-                                                                             name_of(study.pair.working_flank) + "\", with " + *bound +
-                                                                             ": analyse the other flank in a study of its own");
+    const std::string path = "scenes." + std::to_string(i) + ".working_flank", own = name_of(study.pair.working_flank);
+    const Position at = reading.where(path);
+    reading.problems.push_back(
+        {at.file, at.line, at.column, path, std::string("\"") + name_of(opposite(study.pair.working_flank)) + "\"",
+         "allowed is pair.working_flank, \"" + own + "\", with " + *bound + ": analyse the other flank in a study of its own"});
   }
 }
 

@@ -76,6 +76,7 @@ TEST_CASE("What is known of one flank alone keeps scenes to that flank", "[studi
   const std::string text = small::analysis() + "working_flank = \"left\"\n";
   const StudyProblem webbed = refused(text, {{"pinion.body.rim_thickness", "30"}, {"pinion.body.web_thickness", "30"}});
   CHECK(webbed.key == "scenes.1.working_flank");
+  CHECK(webbed.value == "\"left\"");
   CHECK_THAT(webbed.allowed, Catch::Contains("pinion.body with a web"));
   CHECK_THAT(refused(text, {{"wheel.shaft.sections", "[{ length = 300, outer_diameter = 100 }]"},
                             {"wheel.shaft.bearings", "[{ position = 20 }, { position = 280 }]"},
