@@ -172,7 +172,7 @@ std::vector<std::string> study_notes(const Study& study, const GearPair& pair) {
                     -pair.backlash / units::um, pair.centre_distance, pair.backlash_free_centre_distance));
   }
   if (pair.backlash > 0.0) note_closed_backlash(study, pair, notes);
-  if (pair.backlash > 0.0) note_other_flanks(study, notes);
+  note_other_flanks(study, notes);
   return notes;
 }
 

@@ -13,16 +13,21 @@ using mesh_cases::worked_condition;
 /// Pairs that are mirror images of each other, or the same run backwards, carry the same loads in other places.
 namespace {
 
+/// What changes its sign with z.
+void flip(PerGear<ManufacturingError>& error) {
+  for (ManufacturingError* e : {&error.pinion, &error.wheel}) {
+    e->helix_slope = -e->helix_slope;
+    e->twist = -e->twist;
+  }
+}
+
 /// The same seen in a mirror at the mid-face plane.
 FlankCondition mirrored(FlankCondition c) {
   for (Modification* m : {&c.modification.pinion, &c.modification.wheel}) {
     m->lead_slope = -m->lead_slope;
     m->twist = -m->twist;
   }
-  for (ManufacturingError* e : {&c.error.pinion, &c.error.wheel}) {
-    e->helix_slope = -e->helix_slope;
-    e->twist = -e->twist;
-  }
+  flip(c.error);
   // An axis of rotation in the mirror's plane turns the other way round.
   c.misalignment.crossing = -c.misalignment.crossing;
   c.misalignment.intersecting = -c.misalignment.intersecting;
@@ -35,10 +40,7 @@ FlankCondition mirrored(FlankCondition c) {
 FlankCondition turned_over(FlankCondition c) {
   c.other_flanks = true;
   c.set_design(FlankCondition(c).modification);
-  for (ManufacturingError* e : {&c.error.pinion, &c.error.wheel}) {
-    e->helix_slope = -e->helix_slope;
-    e->twist = -e->twist;
-  }
+  flip(c.error);
   // A rotation about the line of centres is the same afterwards.
   c.misalignment.intersecting = -c.misalignment.intersecting;
   c.misalignment.axial_offset = -c.misalignment.axial_offset;
