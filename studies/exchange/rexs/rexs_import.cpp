@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/base/units.hpp"
+#include "studies/exchange/rexs/modification_text.hpp"
 #include "studies/exchange/rexs/rexs_load.hpp"
 #include "studies/exchange/rexs/rexs_shaft.hpp"
 #include "studies/exchange/rexs/rexs_unit.hpp"

@@ -28,8 +28,4 @@ struct ImportedModification {
 /// @throws StudyErrors where an attribute is no number or of a wrong unit
 ImportedModification read_modification(Reading& reading, const GearParts& parts, const GearPair& pair, Member member, SlopeEnd slope_end);
 
-/// [pinion.modification] or [wheel.modification] of a study.
-/// @param grid_file  name under which the grid will be stored; not used where there is none
-void write_modification(const ImportedModification& modification, Member member, const std::string& grid_file, StudyText& text);
-
 }  // namespace flankwright::studies::rexs
