@@ -80,20 +80,24 @@ void add_neighbours(EpigraphProgram& program, const Eigen::VectorXd& y, int desi
 Optimality balance(const std::vector<Near>& near, const Eigen::VectorXd& objective_gradient, int design_variables) {
   const Eigen::Index n = objective_gradient.size();
   const auto m = static_cast<Eigen::Index>(near.size());
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n + m, m), free = A;  // free: without the bounds of the variables
+  // Least squares of what is left of the gradient and of each multiplier times its slack.
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(n, m), free = A;  // free: without the bounds of the variables
+  Eigen::VectorXd slack(m), free_slack = Eigen::VectorXd::Zero(m);
   for (Eigen::Index j = 0; j < m; ++j) {
-    A.col(j).head(n) = near[static_cast<std::size_t>(j)].gradient;
-    A(n + j, j) = near[static_cast<std::size_t>(j)].slack;
-    if (near[static_cast<std::size_t>(j)].bound.variable < 0) free.col(j) = A.col(j);
+    A.col(j) = near[static_cast<std::size_t>(j)].gradient;
+    slack[j] = near[static_cast<std::size_t>(j)].slack;
+    if (near[static_cast<std::size_t>(j)].bound.variable >= 0) continue;
+    free.col(j) = A.col(j);
+    free_slack[j] = slack[j];
   }
-  Eigen::VectorXd b = Eigen::VectorXd::Zero(n + m);
-  b.head(n) = -objective_gradient;
-  Eigen::VectorXd lambda = nonnegative_least_squares(free, b);
-  if ((free * lambda - b).lpNorm<Eigen::Infinity>() > Optimality::holds) lambda = nonnegative_least_squares(A, b);
-  const Eigen::VectorXd left = (A * lambda - b).cwiseAbs();
+  const Eigen::VectorXd b = -objective_gradient;
+  const auto left = [&](const Eigen::VectorXd& lambda) { return (A * lambda - b).lpNorm<Eigen::Infinity>(); };
+  const auto beside = [&](const Eigen::VectorXd& lambda) { return m == 0 ? 0.0 : slack.cwiseProduct(lambda).lpNorm<Eigen::Infinity>(); };
+  Eigen::VectorXd lambda = nonnegative_least_squares(free, b, free_slack);
+  if (std::max(left(lambda), beside(lambda)) > Optimality::holds) lambda = nonnegative_least_squares(A, b, slack);
   Optimality result;
-  result.residual = left.head(n).maxCoeff();
-  result.complementarity = m == 0 ? 0.0 : left.tail(m).maxCoeff();
+  result.residual = left(lambda);
+  result.complementarity = beside(lambda);
   result.steepest = Eigen::VectorXd::Zero(design_variables);
   std::map<int, std::size_t> place;  // of a programme's row in `active`
   for (Eigen::Index j = 0; j < m; ++j) {

@@ -12,4 +12,8 @@ namespace flankwright {
 /// @param b  m
 Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b);
 
+/// The same with |pull y|^2 added, element by element: that of A with a diagonal of these below, which is not formed.
+/// @param pull  n, finite
+Eigen::VectorXd nonnegative_least_squares(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const Eigen::VectorXd& pull);
+
 }  // namespace flankwright

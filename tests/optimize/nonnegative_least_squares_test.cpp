@@ -23,3 +23,23 @@ TEST_CASE("Non-negative least squares satisfies its optimality conditions", "[op
     CHECK((y.array() * slope.array()).abs().maxCoeff() <= round_off);
   }
 }
+
+TEST_CASE("A pull is a diagonal below the matrix", "[optimize]") {
+  std::mt19937 generator(6);
+  std::normal_distribution<double> normal;
+  for (int run = 0; run < 50; ++run) {
+    const Eigen::Index m = 1 + run % 4, n = 2 + run % 11;
+    Eigen::MatrixXd A(m, n);
+    Eigen::VectorXd b(m), pull(n);
+    for (double& a : A.reshaped()) a = normal(generator);
+    for (double& v : b) v = normal(generator);
+    for (double& s : pull) s = std::abs(normal(generator)) + 0.1;  // with each above 0 the minimiser is unique
+    Eigen::MatrixXd below = Eigen::MatrixXd::Zero(m + n, n);
+    below.topRows(m) = A;
+    below.bottomRows(n).diagonal() = pull;
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(m + n);
+    right.head(m) = b;
+    constexpr double round_off = 1e-9;
+    CHECK((nonnegative_least_squares(A, b, pull) - nonnegative_least_squares(below, right)).lpNorm<Eigen::Infinity>() <= round_off);
+  }
+}
