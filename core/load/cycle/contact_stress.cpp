@@ -141,6 +141,7 @@ std::vector<PointPeaks> point_peaks(const MeshModel& model, const MeshPosition& 
   std::vector<std::size_t> reached;
   for (std::size_t i = 0; i < n; ++i) {
     const auto row = static_cast<Eigen::Index>(i);
+    if (!(line_load[row] > 0.0)) continue;
     const StripContact::Peaks own = contact_stress(model, at.points[i], laws.empty() ? nullptr : &laws[i], line_load[row]);
     peaks[i] = {at_point(own.highest, row), at_point(own.on_edge, row), at_point({line_load[row], 1.0, 0.0}, row), own.edge_load};
     if (own.on_edge.pressure > 0.0) reached.push_back(i);

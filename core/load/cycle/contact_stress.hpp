@@ -59,7 +59,7 @@ struct PointPeaks {
   StripContact::EdgeLoad edge_load{};
 };
 
-/// Contact stress and line load of every point of a position.
+/// Contact stress and line load of every point of a position; 0 without load.
 ///
 /// Where a line runs onto a tip edge its pressure has a crest that is shorter than the distance of the points. Around a point that has more than
 /// its neighbours the strip is therefore solved at a quarter and half of the way to both neighbours as well, with load, relative radius and the edge's distance in

@@ -56,16 +56,13 @@ class Lines {
     return beyond(gear, starts, point, way, slid(gear, point));
   }
   std::array<double, ReliefStarts::count> beyond(Member gear, const ReliefStarts& starts, std::size_t point, double way, const Slid& slid) const {
-    const Gear& of = lines_.model.pair[gear];
-    const double along_profile = gear == Member::Wheel ? 1.0 : -1.0;
-    const auto roll_at = [&](std::size_t i) {
-      const double radius = radius_of(point + i, gear);
-      return std::sqrt(std::max(0.0, (radius - of.base_radius) * (radius + of.base_radius) + 2.0 * along_profile * of.base_radius * slid[i]));
-    };
     const auto between = [way](double a, double b) { return a + way * (b - a); };
-    const double roll = between(roll_at(0), roll_at(1));
-    const double z = between(lines_.at.points[point].z, lines_.at.points[point + 1].z);
-    return starts.beyond(std::hypot(of.base_radius, roll), gear == Member::Wheel ? z - lines_.model.placement.misalignment.axial_offset : z);
+    const double roll = between(roll_at(gear, point, slid[0]), roll_at(gear, point + 1, slid[1]));
+    return beyond_at(gear, starts, roll, between(lines_.at.points[point].z, lines_.at.points[point + 1].z));
+  }
+  /// The same at a point.
+  std::array<double, ReliefStarts::count> beyond(Member gear, const ReliefStarts& starts, std::size_t point) const {
+    return beyond_at(gear, starts, roll_at(gear, point, lines_.gap.touches[point].slid[gear]), lines_.at.points[point].z);
   }
 
   /// The crest at a place of a line between a point and the next, but for its start; nothing where no contact can be.
@@ -104,6 +101,15 @@ class Lines {
   double radius_of(std::size_t i, Member gear) const {
     const ContactPoint& point = lines_.at.points[i];
     return gear == Member::Pinion ? point.pinion_radius : point.wheel_radius;
+  }
+  /// Roll length of a point's place on a gear, slid along the profile.
+  double roll_at(Member gear, std::size_t i, double slid) const {
+    const double base = lines_.model.pair[gear].base_radius, radius = radius_of(i, gear), along_profile = gear == Member::Wheel ? 1.0 : -1.0;
+    return std::sqrt(std::max(0.0, (radius - base) * (radius + base) + 2.0 * along_profile * base * slid));
+  }
+  std::array<double, ReliefStarts::count> beyond_at(Member gear, const ReliefStarts& starts, double roll, double z) const {
+    const double base = lines_.model.pair[gear].base_radius;
+    return starts.beyond(std::sqrt(base * base + roll * roll), gear == Member::Wheel ? z - lines_.model.placement.misalignment.axial_offset : z);
   }
 
   /// kappa between point k of a line and the next.
@@ -168,11 +174,15 @@ std::vector<LineCrest> line_crests(const LoadedLines& lines) {
     std::optional<ToothGap> gap;
     for (const Member gear : {Member::Pinion, Member::Wheel}) {
       const ReliefStarts& starts = lines.starts[gear];
-      auto here = line.end > line.begin + 1 ? all.beyond(gear, starts, line.begin, 0.0) : std::array<double, ReliefStarts::count>{};
+      std::optional<std::array<double, ReliefStarts::count>> last;  // of point i, where it is known
       for (std::size_t i = line.begin; i + 1 < line.end; ++i) {
-        const auto next = all.beyond(gear, starts, i, 1.0);
         const bool is_loaded = (load(i) > 0.0 || load(i + 1) > 0.0) && !reaches_edge(i) && !reaches_edge(i + 1);
-        for (std::size_t s = 0; s < ReliefStarts::count && is_loaded; ++s) {
+        if (!is_loaded) {
+          last.reset();
+          continue;
+        }
+        const auto here = last ? *last : all.beyond(gear, starts, i), next = all.beyond(gear, starts, i + 1);
+        for (std::size_t s = 0; s < ReliefStarts::count; ++s) {
           if (!std::isfinite(here[s]) || (here[s] < 0.0) == (next[s] < 0.0)) continue;
           const auto distance = [&](double way) { return all.beyond(gear, starts, i, way)[s]; };
           const double way = bracketed_root(distance, 0.0, here[s], 1.0, next[s], enclosed).x;
@@ -184,7 +194,7 @@ std::vector<LineCrest> line_crests(const LoadedLines& lines) {
           crest->rises = next[s] > here[s];
           crests.push_back(std::move(*crest));
         }
-        here = next;
+        last = next;
       }
     }
   }
