@@ -10,6 +10,7 @@
 #include <set>
 
 #include "core/load/cycle/mesh_motion.hpp"
+#include "optimize/design/for_each_in_parallel.hpp"
 
 namespace flankwright {
 
@@ -128,7 +129,7 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_str
 
 MeshModel DesignProblem::mesh(const MeshPlacement& placement) const {
   return make_mesh_model(task_.pair, task_.material, task_.resolution, task_.effects, placement, task_.structure.get(), task_.root_stress.get(),
-                         task_.shafts.get());
+                         task_.shafts.get(), for_each_in_parallel);
 }
 
 void DesignProblem::find_fillets() {
@@ -258,14 +259,26 @@ PerGear<Modification> DesignProblem::modification(const Eigen::VectorXd& x) cons
   return modification;
 }
 
-LoadedCycle DesignProblem::analyse_scene(int scene, const PerGear<Modification>& modification, const std::vector<MeshParameter>& parameters,
-                                         const LoadedCycle* earlier) const {
+FlankCondition DesignProblem::condition(int scene, const PerGear<Modification>& modification) const {
   const DesignScene& of_task = task_.scenes[static_cast<std::size_t>(scene)];
   FlankCondition condition = of_task.condition;
   condition.set_design(modification);
   for (const ModificationDeviation& d : of_task.deviations) d.add_to(condition.modification);
+  return condition;
+}
+
+LoadedCycle DesignProblem::analyse_positions(int scene, std::span<const std::size_t> positions, const PerGear<Modification>& modification,
+                                             const LoadedCycle* earlier) const {
+  const double torque = task_.scenes[static_cast<std::size_t>(scene)].torque;
+  return flankwright::analyse_positions(model(scene), positions, condition(scene, modification), torque, root_stresses_, earlier);
+}
+
+LoadedCycle DesignProblem::analyse_scene(int scene, const PerGear<Modification>& modification, const std::vector<MeshParameter>& parameters,
+                                         const LoadedCycle* earlier) const {
+  const double torque = task_.scenes[static_cast<std::size_t>(scene)].torque;
+  const FlankCondition of_scene = condition(scene, modification);
   const auto analyse = [&](const MeshModel& mesh_model) {
-    return analyse_cycle(mesh_model, condition, of_task.torque, parameters, {}, root_stresses_, earlier);
+    return analyse_cycle(mesh_model, of_scene, torque, parameters, {}, root_stresses_, earlier);
   };
   if (moving_among(task_.gap, parameters).empty()) return analyse(model(scene));
   const MeshPlaced placed = [this](const MeshPlacement& placement) { return mesh(placement); };

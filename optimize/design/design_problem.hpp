@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "optimize/design/design_task.hpp"
@@ -81,6 +82,9 @@ class DesignProblem {
   /// @param earlier  the scene's cycle for a design that differs by little, see analyse_cycle(); null: none
   LoadedCycle analyse_scene(int scene, const PerGear<Modification>& modification, const std::vector<MeshParameter>& parameters = {},
                             const LoadedCycle* earlier = nullptr) const;
+  /// Some mesh positions of one scene, rising; the others have no loads. What holds at these holds for the scene.
+  LoadedCycle analyse_positions(int scene, std::span<const std::size_t> positions, const PerGear<Modification>& modification,
+                                const LoadedCycle* earlier = nullptr) const;
   /// Root stress is analysed where the task minimises or bounds it; this adds it where not, to be shown.
   void add_root_stress(DesignAnalysis& analysis) const;
 
@@ -114,6 +118,7 @@ class DesignProblem {
 
  private:
   MeshModel mesh(const MeshPlacement& placement) const;
+  FlankCondition condition(int scene, const PerGear<Modification>& modification) const;
   void find_fillets();
   /// @param earlier  one that loads start from; without cycles: none
   DesignAnalysis run(const PerGear<Modification>& modification, bool with_derivatives, const DesignAnalysis& earlier = {}) const;

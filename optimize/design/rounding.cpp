@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "optimize/design/deciding_positions.hpp"
 #include "optimize/design/design_log.hpp"
 
 namespace flankwright {
@@ -22,8 +23,8 @@ constexpr std::size_t scenes_tried_first = 4;
 constexpr std::size_t tried_together = 16;
 
 /// A search over whole numbers of steps; variables without a step keep their values. A worst case is no better where one scene
-/// already reaches the best so far: the scenes that governed last are tried first, and most designs go no further. Loads start from those of the best
-/// design.
+/// already reaches the best so far, or one position of it: the scenes that governed last are tried first, of each the positions that decided, and most
+/// designs go no further. Loads start from those of the best design.
 class StepSearch {
  public:
   StepSearch(DesignProblem& problem, const Eigen::VectorXd& x, int most_analyses) : problem_(problem), most_(most_analyses), exact_(x), x_(x) {
@@ -92,10 +93,17 @@ class StepSearch {
   /// The first such scene of those tried first.
   std::optional<int> failed_scene(const Eigen::VectorXd& x) const {
     const PerGear<Modification> modification = problem_.modification(x);
-    for (std::size_t k = 0; k < std::min(scenes_tried_first, first_.size()); ++k) {
-      const int scene = first_[k];
+    const Objective objective = problem_.task().combined_objective();
+    const std::span<const int> tried(first_.data(), std::min(scenes_tried_first, first_.size()));
+    for (const int scene : tried) {
+      const auto at = static_cast<std::size_t>(scene);
+      if (deciding_[at].empty()) continue;
+      const LoadedCycle some = problem_.analyse_positions(scene, deciding_[at], modification, &best_cycles_[at]);
+      if (!some.usable() || !(least_measure(objective, problem_.scene_of(some, scene), deciding_[at]) < best_.objective)) return scene;
+    }
+    for (const int scene : tried) {
       const LoadedCycle cycle = problem_.analyse_scene(scene, modification, {}, &best_cycles_[static_cast<std::size_t>(scene)]);
-      if (!cycle.usable() || !(problem_.scene_measure(problem_.task().combined_objective(), cycle, scene) < best_.objective)) return scene;
+      if (!cycle.usable() || !(problem_.scene_measure(objective, cycle, scene) < best_.objective)) return scene;
     }
     return std::nullopt;
   }
@@ -106,7 +114,15 @@ class StepSearch {
     const DesignAnalysis& analysis = problem_.analyse(best_.x, false);
     best_cycles_ = analysis.cycles;
     if (!is_feasible(best_)) return;
-    const std::vector<double> measures = problem_.scene_measures(problem_.task().combined_objective(), analysis);
+    const Objective objective = problem_.task().combined_objective();
+    deciding_.assign(best_cycles_.size(), {});
+    if (scenes_rule_out()) {
+      for (int scene = 0; scene < problem_.scenes(); ++scene) {
+        deciding_[static_cast<std::size_t>(scene)] =
+            deciding_positions(objective, problem_.scene_of(best_cycles_[static_cast<std::size_t>(scene)], scene));
+      }
+    }
+    const std::vector<double> measures = problem_.scene_measures(objective, analysis);
     std::ranges::stable_sort(first_, std::ranges::greater{}, [&](int scene) { return measures[static_cast<std::size_t>(scene)]; });
   }
 
@@ -207,7 +223,8 @@ class StepSearch {
   std::vector<int> stepped_, first_;  ///< variables with a step; scenes in the order they are tried
   int analyses_{0};
   RoundedDesign best_;
-  std::vector<LoadedCycle> best_cycles_;  ///< of it, one per scene
+  std::vector<LoadedCycle> best_cycles_;            ///< of it, one per scene
+  std::vector<std::vector<std::size_t>> deciding_;  ///< its deciding positions in each scene
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <limits>
+#include <numeric>
 #include <optional>
 
 #include "core/contact/gap/condition_gap.hpp"
@@ -137,10 +138,10 @@ void add_moved_places(const std::vector<MovedMesh>& moved, double force, LoadedP
   }
 }
 
-}  // namespace
-
-LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque, const std::vector<MeshParameter>& parameters,
-                          const LoadOptions& options, RootStresses root_stresses, const LoadedCycle* earlier) {
+/// Without root stress.
+/// @param which  positions, rising; the others stay as they begin
+LoadedCycle analyse(const MeshModel& model, std::span<const std::size_t> which, const FlankCondition& condition, double pinion_torque,
+                    const std::vector<MeshParameter>& parameters, const LoadOptions& options, const LoadedCycle* earlier) {
   LoadedCycle cycle;
   cycle.force = model.normal_force(pinion_torque);
   cycle.positions.resize(model.positions.size());
@@ -159,7 +160,7 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
   // Twice the approach of the position before: points further apart are taken to carry nothing until they are found to.
   double likely_approach = unlimited;
   LoadSolver solver;
-  for (std::size_t i = 0; i < model.positions.size(); ++i) {
+  for (const std::size_t i : which) {
     const MeshPosition& at = model.positions[i];
     LoadedPosition& position = cycle.positions[i];
     position.phase = at.phase;
@@ -196,6 +197,24 @@ LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& conditio
     likely_approach = 2.0 * approach;
     position.stiffness = cycle.force / model.face_width * cos_base_helix * cos_base_helix / (approach / micrometre);
   }
+  return cycle;
+}
+
+}  // namespace
+
+LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque, const std::vector<MeshParameter>& parameters,
+                          const LoadOptions& options, RootStresses root_stresses, const LoadedCycle* earlier) {
+  std::vector<std::size_t> all(model.positions.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  LoadedCycle cycle = analyse(model, all, condition, pinion_torque, parameters, options, earlier);
+  if (root_stresses == RootStresses::WithLoads) add_root_stress(model, cycle);
+  return cycle;
+}
+
+LoadedCycle analyse_positions(const MeshModel& model, std::span<const std::size_t> positions, const FlankCondition& condition, double pinion_torque,
+                              RootStresses root_stresses, const LoadedCycle* earlier) {
+  assert(std::ranges::is_sorted(positions) && (positions.empty() || positions.back() < model.positions.size()));
+  LoadedCycle cycle = analyse(model, positions, condition, pinion_torque, {}, {}, earlier);
   if (root_stresses == RootStresses::WithLoads) add_root_stress(model, cycle);
   return cycle;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/load/solve/load_problem.hpp"
@@ -29,6 +30,12 @@ enum class RootStresses { WithLoads, Later };
 LoadedCycle analyse_cycle(const MeshModel& model, const FlankCondition& condition, double pinion_torque,
                           const std::vector<MeshParameter>& parameters = {}, const LoadOptions& options = {},
                           RootStresses root_stresses = RootStresses::WithLoads, const LoadedCycle* earlier = nullptr);
+
+/// Some positions of the same, without derivatives; the others stay as they begin, with no loads. What holds at these holds in the whole cycle to the
+/// tolerance.
+/// @param positions  indices of the model's positions, rising
+LoadedCycle analyse_positions(const MeshModel& model, std::span<const std::size_t> positions, const FlankCondition& condition, double pinion_torque,
+                              RootStresses root_stresses = RootStresses::WithLoads, const LoadedCycle* earlier = nullptr);
 
 /// The largest principal stress at every point of MeshPosition::root_stress [MPa].
 Eigen::VectorXd root_stresses(const MeshPosition& at, const LoadDistribution& load);

@@ -279,3 +279,28 @@ TEST_CASE("A position without contact points is reported instead of inventing a 
   }
   CHECK(std::isnan(summarise(model, cycle).peak_contact_stress));
 }
+
+TEST_CASE("Positions analysed by themselves are those of the cycle", "[core][load]") {
+  constexpr double solver = 1e-8;  // of the largest load: the tolerance of either solution
+  const GearPair gears = make_gear_pair(named_pair(GENERATE(0, 1)).data);
+  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 6}, equally_spaced_phases(12)});
+  FlankCondition condition = worked_condition(), other = condition;
+  other.modification.pinion.lead_crowning += units::um;
+  const double torque = torque_for(gears, 250.0);
+  const LoadedCycle whole = analyse_cycle(model, condition, torque), near = analyse_cycle(model, other, torque);
+  const std::vector<std::size_t> some{0, 5, 6};
+  for (const LoadedCycle* earlier : {static_cast<const LoadedCycle*>(nullptr), &near}) {
+    const LoadedCycle cycle = analyse_positions(model, some, condition, torque, RootStresses::Later, earlier);
+    REQUIRE(cycle.positions.size() == whole.positions.size());
+    CHECK(cycle.usable());
+    for (std::size_t i = 0; i < whole.positions.size(); ++i) {
+      if (std::ranges::find(some, i) == some.end()) {
+        CHECK_FALSE(cycle.positions[i].load.usable());
+        continue;
+      }
+      const Eigen::VectorXd &alone = cycle.positions[i].load.line_load, &together = whole.positions[i].load.line_load;
+      CHECK((alone - together).lpNorm<Eigen::Infinity>() <= solver * together.maxCoeff());
+      CHECK(cycle.positions[i].contact_stress.maxCoeff() == Approx(whole.positions[i].contact_stress.maxCoeff()).epsilon(solver));
+    }
+  }
+}
