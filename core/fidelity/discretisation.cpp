@@ -85,11 +85,6 @@ class DiscretisationRun {
     return &levels_[chosen_.governing].back();
   }
 
-  void for_each(std::size_t count, const std::function<void(std::size_t)>& work) const {
-    if (search_.for_each) return search_.for_each(count, work);
-    for (std::size_t i = 0; i < count; ++i) work(i);
-  }
-
   struct Meshes {
     std::optional<MeshModel> fine, coarse;
   };
@@ -100,7 +95,7 @@ class DiscretisationRun {
     for (const std::size_t i : open_) first_case.try_emplace(cases_[i].placement, i);
     const std::vector<std::pair<int, std::size_t>> placements(first_case.begin(), first_case.end());
     std::vector<Meshes> made(placements.size());
-    for_each(2 * placements.size(), [&](std::size_t job) {
+    run_for_each(search_.for_each, 2 * placements.size(), [&](std::size_t job) {
       const MeshOfResolution& mesh_for = cases_[placements[job / 2].second].mesh_for;
       if (job % 2 == 0) {
         made[job / 2].fine = mesh_for({{rule_, intervals}, phases});
@@ -112,7 +107,7 @@ class DiscretisationRun {
       const auto found = std::ranges::find(placements, cases_[i].placement, [](const auto& p) { return p.first; });
       return made[static_cast<std::size_t>(found - placements.begin())];
     };
-    for_each(open_.size(), [&](std::size_t j) {
+    run_for_each(search_.for_each, open_.size(), [&](std::size_t j) {
       const std::size_t i = open_[j];
       solve(i, intervals, positions, *meshes_of(i).fine, *meshes_of(i).coarse);
     });

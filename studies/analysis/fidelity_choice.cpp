@@ -1,7 +1,6 @@
 #include "studies/analysis/fidelity_choice.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +8,7 @@
 #include <map>
 
 #include "core/base/stopwatch.hpp"
+#include "optimize/design/for_each_in_parallel.hpp"
 #include "studies/analysis/fit_error.hpp"
 
 namespace flankwright::studies {
@@ -112,7 +112,7 @@ void choose_resolution(LevelRunner& runner, FidelityChoice& choice, const Progre
   search.seek_extremes = seeks_extremes(seeking);
   if (choice.quadrature_given) search.fewest_intervals = choice.fidelity.quadrature.intervals;
   if (choice.positions_given) search.fewest_positions = choice.positions;
-  search.for_each = [](std::size_t count, const std::function<void(std::size_t)>& work) { tbb::parallel_for(std::size_t{0}, count, work); };
+  search.for_each = for_each_in_parallel;
   const FidelityLevel level = coarse_level(choice.fidelity);
   std::map<MeshPlacement, int> placements;  // load cases of one placement share their meshes
   std::vector<ResolutionCase> cases;

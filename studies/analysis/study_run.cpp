@@ -10,6 +10,7 @@
 #include "core/base/stopwatch.hpp"
 #include "core/fidelity/resolved_analysis.hpp"
 #include "core/load/cycle/mesh_motion.hpp"
+#include "optimize/design/for_each_in_parallel.hpp"
 #include "studies/analysis/refine_resolution.hpp"
 #include "studies/analysis/requirements.hpp"
 #include "studies/analysis/study_effect_sizes.hpp"
@@ -55,7 +56,7 @@ MeshModel StudyRun::mesh(const MeshPlacement& placement, const MeshResolution& r
   const MeshPlaced placed = [&](const MeshPlacement& at) {
     const Study& study = results_.study;
     return make_mesh_model(results_.pair, study.material, resolution, results_.mesh_effects, at, structures().pair.get(), root_stress,
-                           results_.shafts.get());
+                           results_.shafts.get(), for_each_in_parallel);
   };
   return with_perturbed_meshes(placed(placement), placed, parameters);
 }
@@ -175,7 +176,7 @@ const GearStructures& StudyRun::structures() {
     results_.structures = gear_structures(results_.study, results_.pair, progress_);
     const Study& study = results_.study;
     results_.deflections = gear_deflections(results_.pair, study.material.pinion, study.material.wheel, results_.structures.pair.get(),
-                                            study.fidelity.compliance == ComplianceModel::Fe ? "finite elements" : "fitted");
+                                            study.fidelity.compliance == ComplianceModel::Fe ? "finite elements" : "fitted", for_each_in_parallel);
     has_structure_ = true;
     if (const auto& runs = results_.structures.finite_elements) {
       const bool is_structural = couples_teeth(results_.study.fidelity.compliance);

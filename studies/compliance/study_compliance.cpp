@@ -1,12 +1,12 @@
 #include "studies/compliance/study_compliance.hpp"
 
 #include <spdlog/spdlog.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <unistd.h>
 
 #include <algorithm>
 
+#include "optimize/design/for_each_in_parallel.hpp"
 #include "studies/compliance/disk_store.hpp"
 
 namespace flankwright::studies {
@@ -61,7 +61,7 @@ GearStructures gear_structures(const Study& study, const GearPair& pair, const P
   const ComplianceTask task = compliance_task(study, pair);
   DiskStore store;
   ComplianceBuild build{.store = &store, .memory_limit = share_of_memory * machine_memory(), .abreast = tbb::this_task_arena::max_concurrency()};
-  build.for_each = [](std::size_t count, const std::function<void(std::size_t)>& work) { tbb::parallel_for(std::size_t{0}, count, work); };
+  build.for_each = for_each_in_parallel;
   build.progress = [&, announced = false](const std::string& label, int done, int total, const std::string& remark) mutable {
     if (!announced) {
       for (const std::string& note : library_notes(task)) spdlog::info("{}", note);

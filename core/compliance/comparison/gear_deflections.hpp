@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/for_each_index.hpp"
 #include "core/compliance/comparison/deflection_curves.hpp"
 #include "core/compliance/pair/pair_compliance.hpp"
 
@@ -19,7 +20,8 @@ struct GearDeflections {
 /// thin slices.
 /// @param structure  of the pair; the result is empty where it is none of single gears, or null
 /// @param name       of its model in the curves
+/// @param for_each   goes through both gears; nothing: one after the other
 std::vector<GearDeflections> gear_deflections(const GearPair& pair, const Material& pinion, const Material& wheel, const PairCompliance* structure,
-                                              const std::string& name);
+                                              const std::string& name, const ForEachIndex& for_each = {});
 
 }  // namespace flankwright

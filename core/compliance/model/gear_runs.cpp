@@ -144,11 +144,7 @@ void solve_side_by_side(const std::vector<Job*>& jobs, ComplianceModel model, co
                               [&] { return solve_influence_table(job.task, limit, [&](int done, int total) { progress.at(i, done, total); }); });
     job.seconds = clock.seconds();
   };
-  if (build.for_each) {
-    build.for_each(jobs.size(), solve);
-  } else {
-    for (std::size_t i = 0; i < jobs.size(); ++i) solve(i);
-  }
+  run_for_each(build.for_each, jobs.size(), solve);
 }
 
 void refuse_unsolved(const Job& job, ComplianceModel model, double memory_limit) {

@@ -13,11 +13,7 @@ HalfSpaceCorrections half_space_corrections(const ComplianceTask& task, const Co
         std::make_shared<const HalfSpaceCorrection>(solve_half_space_correction(task.pair[member], task.pair, task.material[member].poissons_ratio));
   };
   const auto solve_gear = [&](std::size_t i) { solve(i == 0 ? Member::Pinion : Member::Wheel); };
-  if (build.for_each) {
-    build.for_each(2, solve_gear);
-  } else {
-    for (std::size_t i = 0; i < 2; ++i) solve_gear(i);
-  }
+  run_for_each(build.for_each, 2, solve_gear);
   return corrections;
 }
 

@@ -125,7 +125,7 @@ Gap gap_under(const MeshPosition& at, const ConditionGap& gaps, double force) {
 
 MeshModel make_mesh_model(const GearPair& pair, const PerGear<Material>& material, const MeshResolution& resolution, const MeshEffects& effects,
                           const MeshPlacement& placement, const PairCompliance* structure, const PairRootStress* root_stress,
-                          const PairCompliance* shafts) {
+                          const PairCompliance* shafts, const ForEachIndex& for_each) {
   const ThinSlicePair slices(ThinSlice(pair, material.pinion, material.wheel));
   MeshModel model;
   model.pair = pair;
@@ -133,11 +133,13 @@ MeshModel make_mesh_model(const GearPair& pair, const PerGear<Material>& materia
   model.contact_modulus = contact_modulus(material.pinion, material.wheel);
   model.calibration = slices.slice().calibration();
   model.iso = slices.slice().iso();
-  return mesh_with_effects(std::move(model), resolution, effects, placement, structure != nullptr ? *structure : slices, root_stress, shafts);
+  return mesh_with_effects(std::move(model), resolution, effects, placement, structure != nullptr ? *structure : slices, root_stress, shafts,
+                           for_each);
 }
 
 MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, const MeshEffects& effects, const MeshPlacement& placement,
-                            const PairCompliance& structure, const PairRootStress* root_stress, const PairCompliance* shafts) {
+                            const PairCompliance& structure, const PairRootStress* root_stress, const PairCompliance* shafts,
+                            const ForEachIndex& for_each) {
   if (!effects.make_compliant()) throw InvalidInput("fidelity.effects", "neither bending nor hertzian_contact", "at least one of them under load");
   if (resolution.phases.empty()) throw InvalidInput("cycle.phases", "none", "at least one phase");
   if (resolution.quadrature.intervals < 1) {
@@ -170,11 +172,12 @@ MeshModel mesh_with_effects(MeshModel model, const MeshResolution& resolution, c
                         touching_root_stress.get(),
                         model.half_space};
   const PathOfContact path(pair);
-  model.positions.clear();
-  model.positions.reserve(resolution.phases.size());
-  for (double phase : resolution.phases) {
-    model.positions.push_back(make_position(model, parts, path, resolution.quadrature, phase, {face_start, face_end}));
-  }
+  std::vector<MeshPosition> positions(resolution.phases.size());
+  const auto make = [&](std::size_t i) {
+    positions[i] = make_position(model, parts, path, resolution.quadrature, resolution.phases[i], {face_start, face_end});
+  };
+  run_for_each(for_each, positions.size(), make);
+  model.positions = std::move(positions);
   return model;
 }
 

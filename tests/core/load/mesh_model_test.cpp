@@ -103,3 +103,21 @@ TEST_CASE("A mesh model that cannot be built is refused", "[core][load][input]")
   CHECK_THROWS_AS(make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, {{}, {0.5}}, {}, apart), InvalidInput);
   CHECK_THROWS_AS(make_mesh_model(gears, {{-1.0, 0.3}, mesh_cases::steel}, {{}, {0.5}}), InvalidInput);
 }
+
+TEST_CASE("Positions made in another order are the same to the bit", "[core][load][determinism]") {
+  const GearPair gears = mesh_cases::pair(18, 54, 30, 10, 120);
+  const MeshResolution resolution{{QuadratureRule::Graded, 6}, equally_spaced_phases(7)};
+  std::size_t made = 0;
+  const ForEachIndex backwards = [&](std::size_t count, const std::function<void(std::size_t)>& work) {
+    for (std::size_t i = count; i > 0; --i, ++made) work(i - 1);
+  };
+  const MeshModel one = mesh_cases::model(gears, resolution);
+  const MeshModel other = make_mesh_model(gears, {mesh_cases::steel, mesh_cases::steel}, resolution, {}, {}, nullptr, nullptr, nullptr, backwards);
+  REQUIRE(made == resolution.phases.size());
+  REQUIRE(other.positions.size() == one.positions.size());
+  for (std::size_t i = 0; i < one.positions.size(); ++i) {
+    CHECK(other.positions[i].phase == resolution.phases[i]);
+    CHECK(other.positions[i].weight == one.positions[i].weight);
+    CHECK(other.positions[i].influence == one.positions[i].influence);
+  }
+}
