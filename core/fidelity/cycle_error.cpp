@@ -69,12 +69,13 @@ CycleErrors point_errors(const LoadedCycle& fine, const LoadedCycle& coarse, con
   const std::vector<double> te = curve(coarse, te_of);
   for (std::size_t i = 0; i < d.size(); ++i) d[i] -= te[i];
   const auto [low, high] = std::ranges::minmax(d);
-  errors.te_mean = of_mean * std::abs(mean_of(d));
-  errors.te_peak_to_peak = of_shape * (high - low);
   double square = 0.0;
   for (const double value : d) square += (value - mean_of(d)) * (value - mean_of(d)) / static_cast<double>(d.size());
+  const double scatter = of_shape * std::sqrt(square);
+  errors.te_mean = of_mean * std::abs(mean_of(d)) + scatter;
+  errors.te_peak_to_peak = of_shape * (high - low);
   for (std::size_t k = 1; k <= summary.te_harmonics.size(); ++k) {
-    errors.te_harmonics.push_back(of_shape * (std::abs(harmonic_phasor(d, static_cast<int>(k))) + std::sqrt(square)));
+    errors.te_harmonics.push_back(of_shape * std::abs(harmonic_phasor(d, static_cast<int>(k))) + scatter);
   }
   errors.peak_contact_stress = of_peaks * peak_difference(some(stress_of), curve(coarse, stress_of));
   errors.peak_line_load = of_peaks * peak_difference(some(load_of), curve(coarse, load_of));
@@ -91,7 +92,9 @@ CycleErrors position_errors(const LoadedCycle& fine, const CycleSummary& summary
   const std::vector<double> te = curve(fine, te_of);
   const bool halved = te.size() % 2 == 0 && te.size() >= 8;
   const std::vector<double> half = halved ? every(te, 2) : te;
-  errors.te_mean = of_positions * std::abs(mean_of(te) - mean_of(half));
+  const int highest_order = static_cast<int>(te.size() - 1) / 2;
+  const double highest = highest_order > 0 ? std::abs(harmonic_phasor(te, highest_order)) : 0.0;
+  errors.te_mean = of_positions * std::max(std::abs(mean_of(te) - mean_of(half)), highest);
   for (std::size_t k = 1; k <= summary.te_harmonics.size(); ++k) {
     // Beyond what half the positions resolve, the aliases of the orders that are.
     const bool resolved = 2 * k < half.size();

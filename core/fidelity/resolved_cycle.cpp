@@ -77,7 +77,7 @@ CycleGradient resolved_gradient(const MeshModel& model, const LoadedCycle& cycle
   const LoadedPosition& loaded = position_of_largest(cycle, extremes, [](const LoadedPosition& p) { return p.peak_load.maxCoeff(); });
   const Eigen::Index point = largest_entry(loaded.peak_load);
   gradient.peak_line_load = loaded.peak_load_derivative.row(point);
-  const Eigen::RowVectorXd mean_change = cycle.force_derivative / cycle.force - cycle.line_length_change;
+  const Eigen::RowVectorXd mean_change = cycle.force_derivative / cycle.force - cycle.face_width_change;
   gradient.load_factor = (gradient.peak_line_load - loaded.peak_load[point] * mean_change) / model.mean_line_load(cycle.force);
   const LoadedPosition& stressed = position_of_largest(cycle, extremes, [](const LoadedPosition& p) { return p.contact_stress.maxCoeff(); });
   gradient.peak_contact_stress = stressed.contact_stress_derivative.row(largest_entry(stressed.contact_stress));

@@ -50,7 +50,6 @@ void scale_derivatives(LoadedCycle& cycle, const Eigen::VectorXd& by) {
     scale(position.root_influence_derivative);
   }
   scale(cycle.face_width_change);
-  scale(cycle.line_length_change);
 }
 
 /// The output that a row with a candidate is about: of what is minimised, of a bounded objective, or of a bounded output.

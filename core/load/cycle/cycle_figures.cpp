@@ -65,9 +65,9 @@ double unseen_rise(const std::vector<double>& samples) {
   return highest - seen;
 }
 
-SampledCycle::SampledCycle(const MeshModel& model, const LoadedCycle& cycle) : force_(cycle.force), failures_(cycle.failures) {
-  for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
-    const LoadedPosition& position = cycle.positions[i];
+SampledCycle::SampledCycle(const MeshModel& model, const LoadedCycle& cycle)
+    : mean_line_load_(model.mean_line_load(cycle.force)), failures_(cycle.failures) {
+  for (const LoadedPosition& position : cycle.positions) {
     te_.push_back(position.load.transmission_error);
     peak_load_.push_back(0.0);
     peak_stress_.push_back(0.0);
@@ -75,7 +75,6 @@ SampledCycle::SampledCycle(const MeshModel& model, const LoadedCycle& cycle) : f
     approach_ += position.load.transmission_error - position.gap.total.minCoeff();
     peak_load_.back() = position.peak_load.maxCoeff();
     peak_stress_.back() = position.contact_stress.maxCoeff();
-    for (const ContactPoint& point : model.positions[i].points) line_length_ += point.clearance == 0.0 ? point.weight : 0.0;
   }
 }
 
@@ -93,7 +92,6 @@ SampledCycle SampledCycle::joined(const SampledCycle& between) const {
   interleave(both.peak_stress_, peak_stress_, between.peak_stress_);
   interleave(both.peak_load_, peak_load_, between.peak_load_);
   both.approach_ += between.approach_;
-  both.line_length_ += between.line_length_;
   both.failures_ += between.failures_;
   return both;
 }
@@ -113,7 +111,7 @@ CycleFigures SampledCycle::figures() const {
   }
   figures[Figure::PeakContactStress] = *std::ranges::max_element(peak_stress_);
   figures[Figure::PeakLineLoad] = *std::ranges::max_element(peak_load_);
-  figures[Figure::LoadFactor] = figures[Figure::PeakLineLoad] * line_length_ / n / force_;
+  figures[Figure::LoadFactor] = figures[Figure::PeakLineLoad] / mean_line_load_;
   figures.mean_approach = approach_ / n;
   return figures;
 }
@@ -126,7 +124,7 @@ PerFigure SampledCycle::unseen() const {
   of(Figure::TePeakToPeak) = unseen_rise(te_) + unseen_rise(mirrored);
   of(Figure::PeakContactStress) = unseen_rise(peak_stress_);
   of(Figure::PeakLineLoad) = unseen_rise(peak_load_);
-  of(Figure::LoadFactor) = of(Figure::PeakLineLoad) * line_length_ / static_cast<double>(te_.size()) / force_;
+  of(Figure::LoadFactor) = of(Figure::PeakLineLoad) / mean_line_load_;
   return rise;
 }
 

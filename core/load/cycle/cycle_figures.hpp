@@ -83,8 +83,7 @@ class SampledCycle {
   std::vector<double> te_;                       ///< f_t [mm]
   std::vector<double> peak_stress_, peak_load_;  ///< of each position [MPa], [N/mm]
   double approach_{0.0};                         ///< sum over the positions [mm]
-  double line_length_{0.0};                      ///< on the theoretical path, sum over the positions [mm]
-  double force_{not_given};                      ///< [N]
+  double mean_line_load_{not_given};             ///< MeshModel::mean_line_load() [N/mm]
   int failures_{0};
 };
 

@@ -77,7 +77,7 @@ TeHarmonic te_harmonic(const LoadedCycle& cycle, int order) {
 
 Eigen::RowVectorXd load_factor_derivative(const MeshModel& model, const LoadedCycle& cycle, int position, Eigen::Index point) {
   const LoadedPosition& here = cycle.positions[static_cast<std::size_t>(position)];
-  const Eigen::RowVectorXd mean_change = cycle.force_derivative / cycle.force - cycle.line_length_change;
+  const Eigen::RowVectorXd mean_change = cycle.force_derivative / cycle.force - cycle.face_width_change;
   return (here.peak_load_derivative.row(point) - here.peak_load[point] * mean_change) / model.mean_line_load(cycle.force);
 }
 

@@ -38,11 +38,10 @@ struct LoadedPosition {
 /// Loaded contact over the positions of a MeshModel.
 struct LoadedCycle {
   std::vector<LoadedPosition> positions;
-  double force{not_given};              ///< normal force [N]
-  Eigen::RowVectorXd force_derivative;  ///< dF/dp, 1 x m
-  /// Relative derivatives of MeshModel::face_width and of the length of contact lines that mean_line_load() takes, 1 x m.
-  Eigen::RowVectorXd face_width_change, line_length_change;
-  int failures{0};  ///< positions without a usable load distribution
+  double force{not_given};               ///< normal force [N]
+  Eigen::RowVectorXd force_derivative;   ///< dF/dp, 1 x m
+  Eigen::RowVectorXd face_width_change;  ///< relative derivative of MeshModel::face_width, 1 x m
+  int failures{0};                       ///< positions without a usable load distribution
 
   /// f_t of every position [mm]; NaN where a position failed.
   Eigen::VectorXd transmission_error() const;

@@ -151,11 +151,10 @@ LoadedCycle analyse(const MeshModel& model, std::span<const std::size_t> which, 
   const ConditionSlopes condition_slopes(model, gaps, parameters);
   const std::vector<Eigen::Index> moving = moving_among(model.placement.gap, parameters);
   std::deque<MeshSlopes> slopes_of;  // of each of them
-  cycle.face_width_change = cycle.line_length_change = Eigen::RowVectorXd::Zero(std::ssize(parameters));
+  cycle.face_width_change = Eigen::RowVectorXd::Zero(std::ssize(parameters));
   for (const Eigen::Index p : moving) {
     const MeshSlopes& by = slopes_of.emplace_back(model, condition, std::get<MisalignmentParameter>(parameters[static_cast<std::size_t>(p)]));
     cycle.face_width_change[p] = by.face_width() / model.face_width;
-    cycle.line_length_change[p] = by.relative_line_length();
   }
   // Twice the approach of the position before: points further apart are taken to carry nothing until they are found to.
   double likely_approach = unlimited;

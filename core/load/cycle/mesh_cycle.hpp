@@ -78,7 +78,7 @@ struct CycleSummary {
   double mean_stiffness{not_given};       ///< Haddad eq. 2.17b [N/(mm um)]
   double least_stiffness{not_given}, largest_stiffness{not_given};                                       ///< eq. 2.16b over the positions [N/(mm um)]
   double stiffness_variation() const { return (largest_stiffness - least_stiffness) / mean_stiffness; }  ///< [-]
-  /// Peak line load over the mean line load F / (mean length of the contact lines on the theoretical path) [-].
+  /// Peak line load over MeshModel::mean_line_load() [-].
   double load_factor{not_given};
   double worst_kkt_residual{not_given};
   double worst_condition{not_given};                     ///< largest LoadDistribution::condition [-]

@@ -82,11 +82,7 @@ std::optional<ContactLaw> MeshModel::contact_law(const ContactPoint& point) cons
 double MeshModel::normal_force(double pinion_torque) const { return pinion_torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)); }
 
 double MeshModel::mean_line_load(double force) const {
-  double length = 0.0;
-  for (const MeshPosition& position : positions) {
-    for (const ContactPoint& point : position.points) length += point.clearance == 0.0 ? point.weight : 0.0;
-  }
-  return length > 0.0 ? force * static_cast<double>(positions.size()) / length : not_given;
+  return force * std::cos(pair.base_helix_angle) / (pair.transverse_contact_ratio * face_width);
 }
 
 MeshPlacement placement_of(GapModel gap, const FlankCondition& condition, const PairCompliance* shafts, double pinion_torque) {

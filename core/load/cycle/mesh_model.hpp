@@ -82,7 +82,7 @@ struct MeshModel {
 
   /// Force normal to the flanks for a torque on the pinion [N]; torque in N mm.
   double normal_force(double pinion_torque) const;
-  /// Force over the mean length of the contact lines on the theoretical path [N/mm]; NaN where no point lies on it.
+  /// Force over the mean length of the contact lines between A and E over a base pitch, eps_alpha b / cos(beta_b) [N/mm].
   double mean_line_load(double force) const;
   /// A point of tooth pair `tooth`'s line, where the effects put it; nothing where no contact can be.
   std::optional<ContactPoint> place(const PathOfContact& path, double phase, int tooth, double z) const;

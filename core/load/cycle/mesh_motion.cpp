@@ -172,20 +172,4 @@ MeshSlope MeshSlopes::at(std::size_t position, const LoadDistribution& load) con
 
 double MeshSlopes::face_width() const { return forward_difference(model_.face_width, one_.model.face_width, two_.model.face_width, perturbed_.step); }
 
-double MeshSlopes::relative_line_length() const {
-  double length = 0.0, slope = 0.0;
-  for (std::size_t p = 0; p < model_.positions.size(); ++p) {
-    const MeshPosition& here = model_.positions[p];
-    const Same same_as = same(p);
-    const Eigen::VectorXd by = forward_difference(here.weight, as_at(same_as.one, one_.model.positions[p].weight),
-                                                  as_at(same_as.two, two_.model.positions[p].weight), perturbed_.step);
-    for (Eigen::Index i = 0; i < here.weight.size(); ++i) {
-      if (here.points[static_cast<std::size_t>(i)].clearance != 0.0) continue;
-      length += here.weight[i];
-      slope += same_as.known[i] * by[i];
-    }
-  }
-  return length > 0.0 ? slope / length : not_given;
-}
-
 }  // namespace flankwright

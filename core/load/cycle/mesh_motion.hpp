@@ -67,8 +67,6 @@ class MeshSlopes {
   MeshSlope at(std::size_t position, const LoadDistribution& load) const;
   /// Of MeshModel::face_width, by the axial offset -1, 0, or 1 where it is negative and shrinks [mm per unit].
   double face_width() const;
-  /// Of the length of all contact lines between A and E, over all positions, relative [1 per unit]; NaN where there are none.
-  double relative_line_length() const;
 
  private:
   /// A perturbed mesh, in its own condition.

@@ -259,7 +259,7 @@ TEST_CASE("A summary reads the worst of the cycle", "[core][load]") {
   CHECK(summary.worst_kkt_residual <= 1e-12);
   // The mean length of the contact lines of a spur pair is eps_alpha b.
   const double mean_load = cycle.force / (gears.transverse_contact_ratio * gears.face_width);
-  CHECK(summary.load_factor == Approx(load / mean_load).epsilon(0.05));  // discretisation: 16 positions count 1/16 pitch
+  CHECK(summary.load_factor == Approx(load / mean_load).epsilon(kRoundOff));
 }
 
 TEST_CASE("A position without contact points is reported instead of inventing a load", "[core][load]") {

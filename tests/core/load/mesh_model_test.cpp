@@ -56,6 +56,18 @@ TEST_CASE("The normal force is that of the torque at the base circle and the bas
   CHECK(model.normal_force(torque) == Approx(by_reference).epsilon(kRoundOff));
 }
 
+TEST_CASE("The mean line load is that over the lines of many positions", "[core][load]") {
+  const double helix = GENERATE(0.0, 30.0);
+  const GearPair gears = mesh_cases::pair(18, 54, helix, 10, 120);
+  const MeshModel model = mesh_cases::model(gears, {{QuadratureRule::Graded, 8}, equally_spaced_phases(200)});
+  double length = 0.0;
+  for (const MeshPosition& at : model.positions) {
+    for (const ContactPoint& point : at.points) length += point.clearance == 0.0 ? point.weight : 0.0;
+  }
+  length /= static_cast<double>(model.positions.size());
+  CHECK(model.mean_line_load(1000.0) == Approx(1000.0 / length).epsilon(0.005));  // discretisation: a line ends within a position
+}
+
 TEST_CASE("An axial offset leaves the common face only", "[core][load]") {
   constexpr double kRoundOff = 1e-14;
   PairData data = mesh_cases::pair_data(20, 40, 0, 4, 30);
