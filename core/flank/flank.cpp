@@ -4,7 +4,6 @@
 
 #include "core/flank/conjugate_field.hpp"
 #include "core/flank/generated_field.hpp"
-#include "core/flank/natural_twist.hpp"
 #include "core/gear/involute.hpp"
 
 namespace flankwright {
@@ -63,9 +62,11 @@ Flank make_flank(const GearPair& pair, Member member, const Modification& modifi
   return flank;
 }
 
-RemovalDerivative ground_derivative(const GearPair& pair, Member member, const Modification& modification, ModificationParameter parameter,
-                                    bool opposite) {
-  return {modification, pair.flank_frame(member), parameter, ContactShift::of(pair, member, modification.process), opposite};
+GroundDerivative ground_derivative(const GearPair& pair, Member member, const Modification& modification, ModificationParameter parameter,
+                                   bool opposite) {
+  if (parameter == parameter_of("twist_compensation")) return GroundDerivative(CompensationDerivative(pair, member, modification));
+  return GroundDerivative(
+      RemovalDerivative(modification, pair.flank_frame(member), parameter, ContactShift::of(pair, member, modification.process), opposite));
 }
 
 }  // namespace flankwright

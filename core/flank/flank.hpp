@@ -3,10 +3,13 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <memory>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/base/dual.hpp"
 #include "core/base/jet.hpp"
+#include "core/flank/natural_twist.hpp"
 #include "core/flank/removal.hpp"
 #include "core/gear/gear_pair.hpp"
 
@@ -163,9 +166,32 @@ FlankThroughPoint<Scalar> rotation_through(const Flank& flank, const Point3<Scal
 /// @throws InvalidInput "parabolic_te" where no flank has that parabola; "grinding_wheel_diameter" for a form wheel that does not fit
 Flank make_flank(const GearPair& pair, Member member, const Modification& modification, const ManufacturingError& error);
 
-/// Derivative of the deviation of a flank of make_flank() by one modification parameter, with what its process makes of it.
-/// @param opposite  by the parameter as the opposite flank has it, see on_opposite_flank()
-RemovalDerivative ground_derivative(const GearPair& pair, Member member, const Modification& modification, ModificationParameter parameter,
-                                    bool opposite = false);
+/// Derivative of the deviation of a flank of make_flank() by one parameter, of what is removed or of its process, with what the process makes of it.
+class GroundDerivative {
+ public:
+  using Kind = std::variant<RemovalDerivative, CompensationDerivative>;
+  explicit GroundDerivative(Kind kind) : kind_(std::move(kind)) {}
+
+  /// At radius r and axial position z [mm/mm; parabolic_te mm rad; twist_compensation mm].
+  double at(double r, double z) const {
+    return std::visit([&](const auto& derivative) { return derivative.at(r, z); }, kind_);
+  }
+  /// at() with its derivative by the radius, see RemovalDerivative and CompensationDerivative.
+  RemovalDerivative::WithSlope with_slope(double r, double z) const {
+    return std::visit([&](const auto& derivative) { return derivative.with_slope(r, z); }, kind_);
+  }
+  /// Whether it depends on the roll length at r.
+  bool is_shifted() const {
+    return std::visit([](const auto& derivative) { return derivative.is_shifted(); }, kind_);
+  }
+
+ private:
+  Kind kind_;
+};
+
+/// @param opposite  by the parameter as the opposite flank has it, see on_opposite_flank(); a compensation is the same number on both
+/// @throws InvalidInput "grinding_wheel_diameter" for a form wheel that does not fit
+GroundDerivative ground_derivative(const GearPair& pair, Member member, const Modification& modification, ModificationParameter parameter,
+                                   bool opposite = false);
 
 }  // namespace flankwright

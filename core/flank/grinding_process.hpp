@@ -25,10 +25,12 @@ struct GrindingProcess {
   /// Diameter of the wheel of FormGrinding [mm], > 0. The default is that of a new wheel on a machine for gears of middle size.
   double wheel_diameter{300.0};
 
+  /// Whether the process has a natural twist, which twist_compensation may take out.
+  constexpr bool has_natural_twist() const { return kind == GrindingKind::GeneratingGrinding || kind == GrindingKind::FormGrinding; }
   /// Whether it moves the lead modification of a helical gear.
-  constexpr bool twists() const {
-    return (kind == GrindingKind::GeneratingGrinding || kind == GrindingKind::FormGrinding) && twist_compensation != 1.0;
-  }
+  constexpr bool twists() const { return has_natural_twist() && twist_compensation != 1.0; }
+  /// The same without compensation.
+  constexpr GrindingProcess uncompensated() const { return {kind, 0.0, wheel_diameter}; }
   bool operator==(const GrindingProcess&) const = default;
 };
 

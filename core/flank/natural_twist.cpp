@@ -1,6 +1,7 @@
 #include "core/flank/natural_twist.hpp"
 
-#include "core/flank/removal.hpp"
+#include <algorithm>
+#include <cmath>
 
 namespace flankwright {
 
@@ -43,6 +44,22 @@ std::shared_ptr<const DeviationField> make_natural_twist_field(const GearPair& p
   if (!shift) return nullptr;
   return std::make_shared<NaturalTwistField>(only(static_cast<const Modifications&>(modification), ModificationClass::Lead), pair.flank_frame(member),
                                              *shift);
+}
+
+CompensationDerivative::CompensationDerivative(const GearPair& pair, Member member, const Modification& modification)
+    : lead_(only(modification, ModificationClass::Lead), {}, pair.flank_frame(member)),
+      base_radius_(pair[member].base_radius),
+      pitch_radius_(pair.flank_frame(member).pitch_radius),
+      left_(1.0 - modification.process.twist_compensation) {
+  if (has_lead_modification(modification)) shift_ = ContactShift::of(pair, member, modification.process.uncompensated());
+}
+
+RemovalDerivative::WithSlope CompensationDerivative::with_slope(double r, double z) const {
+  if (!shift_) return {0.0, 0.0};
+  const double rho = std::sqrt(std::max(0.0, (r - base_radius_) * (r + base_radius_)));
+  const Jet h = shift_->at(Jet::variable_u(rho)), f = lead_.at(pitch_radius_, z - left_ * h.value);
+  const double by_roll = (f.v - f.vv * left_ * h.value) * h.u;
+  return {f.v * h.value, rho > 0.0 ? by_roll * r / rho : 0.0};
 }
 
 double natural_twist(const GearPair& pair, Member member, const Modification& modification) {

@@ -144,9 +144,10 @@ class RemovalDerivativeOf {
 
 class RemovalDerivative : public RemovalDerivativeOf<Modifications> {
  public:
+  /// @param parameter  of what is removed; CompensationDerivative is that by the process'
   RemovalDerivative(const Modifications& m, const FlankFrame& frame, ModificationParameter parameter, const std::optional<ContactShift>& shift = {},
                     bool opposite = false)
-      : RemovalDerivativeOf(m, frame, describe(parameter), shift, opposite) {}
+      : RemovalDerivativeOf(m, frame, modification_parameters[static_cast<std::size_t>(parameter)], shift, opposite) {}
 
   struct WithSlope {
     double value, slope;

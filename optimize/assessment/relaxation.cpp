@@ -15,11 +15,7 @@ using Kind = EpigraphRow::Kind;
 
 /// Whether a task varies a parameter, a half of it, or one that it is a half of.
 bool is_varied(const DesignTask& task, Member member, const ModificationDescriptor& parameter) {
-  const auto touches = [&](const DesignVariable& v) {
-    const ModificationDescriptor& own = describe(v.parameter);
-    return v.member == member && (own.key == parameter.key || own.key == parameter.half || own.key == parameter.other_half ||
-                                  own.half == parameter.key || own.other_half == parameter.key);
-  };
+  const auto touches = [&](const DesignVariable& v) { return v.touches(member, parameter.parameter); };
   return std::ranges::any_of(task.variables, touches) || std::ranges::any_of(task.links, touches, &LinkingConstraint::linked);
 }
 

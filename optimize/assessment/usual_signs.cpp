@@ -26,10 +26,10 @@ constexpr std::array<RaisedBorder, 4> borders{{{"lead_slope", 1.0, {"lead_crowni
                                                {"profile_slope", 1.0, {"dedendum_crowning", "root_relief.amount"}}}};
 
 /// The parameter by which the task varies or links that of a key: itself, or the one that sets both halves; null where it does not.
-const ModificationDescriptor* varied(const DesignTask& task, Member member, std::string_view key) {
-  const ModificationDescriptor* found = nullptr;
+const ParameterDescription* varied(const DesignTask& task, Member member, std::string_view key) {
+  const ParameterDescription* found = nullptr;
   const auto look_at = [&](const DesignVariable& v) {
-    const ModificationDescriptor& of_variable = describe(v.parameter);
+    const ParameterDescription& of_variable = describe(v.parameter);
     if (v.member == member && (of_variable.key == key || of_variable.half == key || of_variable.other_half == key)) found = &of_variable;
   };
   for (const DesignVariable& v : task.variables) look_at(v);
@@ -37,7 +37,7 @@ const ModificationDescriptor* varied(const DesignTask& task, Member member, std:
   return found;
 }
 
-std::string name_in_words(Member member, const ModificationDescriptor& parameter) {
+std::string name_in_words(Member member, const ParameterDescription& parameter) {
   return std::string(name_of(member)) + " " + std::string(parameter.name);
 }
 
@@ -46,9 +46,9 @@ std::string name_in_words(Member member, const ModificationDescriptor& parameter
 std::vector<ModificationConstraint> usual_sign_limits(const DesignTask& task) {
   std::vector<ModificationConstraint> limits;
   for (const Member member : {Member::Pinion, Member::Wheel}) {
-    const ModificationDescriptor* last = nullptr;
+    const ParameterDescription* last = nullptr;
     for (const std::string_view key : never_negative) {
-      const ModificationDescriptor* parameter = varied(task, member, key);
+      const ParameterDescription* parameter = varied(task, member, key);
       if (parameter == nullptr || parameter == last) continue;  // both halves at once
       ModificationConstraint limit{"a negative " + name_in_words(member, *parameter), {{member, parameter->parameter, 1.0}}};
       limit.minimum = 0.0;
@@ -56,13 +56,13 @@ std::vector<ModificationConstraint> usual_sign_limits(const DesignTask& task) {
       last = parameter;
     }
     for (const RaisedBorder& border : borders) {
-      const ModificationDescriptor* slope = varied(task, member, border.slope);
+      const ParameterDescription* slope = varied(task, member, border.slope);
       const bool has_other = std::ranges::any_of(border.lowered_by, [&](std::string_view key) { return varied(task, member, key) != nullptr; });
       if (slope == nullptr || !has_other) continue;
       ModificationConstraint limit{"a " + name_in_words(member, *slope) + " of more than twice the crowning and relief that it stands out from",
                                    {{member, slope->parameter, 0.5 * border.sense}}};
       for (const std::string_view key : border.lowered_by) {
-        const ModificationDescriptor* parameter = varied(task, member, key);
+        const ParameterDescription* parameter = varied(task, member, key);
         limit.terms.push_back({member, parameter != nullptr ? parameter->parameter : find_parameter(key)->parameter, -1.0});
       }
       limit.maximum = 0.0;
@@ -84,6 +84,7 @@ std::optional<UsualSigns> find_usual_signs(const DesignProblem& problem, const D
   DesignTask task = problem.task();
   task.modification_constraints.insert(task.modification_constraints.end(), limits.begin(), limits.end());
   for (DesignVariable& variable : task.variables) variable.step = 0.0;
+  task.grindable = {};
   DesignProblem limited(std::move(task));
   limited.set_start(limited.scaled_design(best.variables).cwiseMax(0.0).cwiseMin(1.0));
   DesignResult result = optimise_design(limited, SolverOptions{});

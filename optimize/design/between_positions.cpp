@@ -8,7 +8,7 @@
 #include "core/base/error.hpp"
 #include "core/base/stopwatch.hpp"
 #include "optimize/design/design_log.hpp"
-#include "optimize/design/rounding.hpp"
+#include "optimize/design/grindable_design.hpp"
 #include "optimize/solvers/solver.hpp"
 
 namespace flankwright {
@@ -120,10 +120,15 @@ void search_between_positions(DesignProblem& problem, const DesignResolver& reso
     if (solved.x.size() > 0 && solved.constraint_violation <= 0.0 && solved.objective < objective * (1.0 - least_gain)) {
       const Eigen::VectorXd better = program.design(solved.x);
       design.after = report_design(problem, problem.analyse(better, false));
-      if (design.exact) {
+      DesignToGrind to_grind = design_to_grind(problem, better, options);
+      design.exact.reset();
+      if (to_grind.is_changed) {
         design.exact = design.after;
-        design.after = report_design(problem, problem.analyse(round_design(problem, better, options.max_evaluations).x, false));
+        design.after = report_design(problem, problem.analyse(to_grind.x, false));
       }
+      design.choices = std::move(to_grind.choices);
+      design.evaluations += to_grind.choice_analyses;  // of copies of the problem
+      design.failures += to_grind.failures;
       design.message += "; then between the positions along " + std::to_string(free.size()) + (free.size() == 1 ? " variable" : " variables") +
                         " that no peak at a position felt";
     }

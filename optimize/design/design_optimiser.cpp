@@ -11,9 +11,6 @@ namespace flankwright {
 
 namespace {
 
-/// Steps of one unit and of pairs around an optimum end before this many analyses where there are up to ten variables.
-constexpr int most_rounding_analyses = 1000;
-
 std::string in_percent(double share) {
   std::ostringstream text;
   text << std::setprecision(3) << 100.0 * share << " %";
@@ -45,7 +42,7 @@ class DesignRun {
     judge_stall();
     result_.gradient_evaluations = uses_gradients(options_.solver.name) ? result_.evaluations : 0;
     result_.after = report_design(problem_, problem_.analyse(x_, false));
-    if (has_steps(problem_.task())) round(last);
+    to_grind(last);
     result_.seconds = clock_.seconds();
     return std::move(result_);
   }
@@ -157,12 +154,14 @@ class DesignRun {
     return stage;
   }
 
-  void round(DesignProblem& last) {
+  void to_grind(DesignProblem& last) {
+    DesignToGrind found = design_to_grind(last, x_, left());
+    result_.evaluations += found.analyses;
+    result_.failures += found.failures;
+    if (!found.is_changed) return;
     result_.exact = result_.after;
-    const int budget = std::clamp(options_.solver.max_evaluations - result_.evaluations, 1, most_rounding_analyses);
-    const RoundedDesign rounded = round_design(last, x_, budget);
-    result_.evaluations += rounded.analyses;
-    result_.after = report_design(problem_, problem_.analyse(rounded.x, false));
+    result_.choices = std::move(found.choices);
+    result_.after = report_design(problem_, problem_.analyse(found.x, false));
   }
 
   DesignProblem& problem_;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "optimize/design/design_problem.hpp"
+#include "optimize/design/grindable_design.hpp"
 #include "optimize/design/local_run.hpp"
 #include "optimize/design/multi_start.hpp"
 #include "optimize/design/optimality.hpp"
@@ -40,8 +41,9 @@ struct DesignResult {
   std::string formulation;                 ///< "epigraph" (smooth, exact gradients) or "direct" (values of the true peaks)
   DesignReport before;                     ///< the task's own modifications as given
   DesignReport after;                      ///< what is to be ground: the best design met, on the variables' steps where they have any
-  std::optional<DesignReport> exact;       ///< the best design before it was rounded
-  Optimality optimality;                   ///< of the best design before it was rounded, by the last objective
+  std::optional<DesignReport> exact;       ///< the best design before choices and steps
+  std::vector<GrindingChoice> choices;     ///< what of it could not be ground, and what was done
+  Optimality optimality;                   ///< of the best design before choices and steps, by the last objective
   std::vector<LexicographicStage> stages;  ///< of a list of objectives; empty for one
   std::vector<LocalRun> runs;              ///< one a start, of the first objective
   std::vector<LocalOptimum> optima;        ///< the different ones among them, best first
@@ -55,7 +57,7 @@ struct DesignResult {
   /// Two optima of which the better is lower by more than this share are different [-].
   static constexpr double same_objective = 1e-3;
   bool is_multimodal() const { return optima.size() > 1; }
-  /// Relative increase of the objective by rounding [-]; NaN without steps.
+  /// Relative increase of the objective by choices and steps [-]; NaN without either.
   double rounding_loss() const { return exact ? after.objective / exact->objective - 1.0 : not_given; }
 };
 
@@ -69,7 +71,7 @@ struct DesignOptions {
 
 /// Chooses the modifications of a task: from all starts (run_from_starts()), or, where none meets a design that keeps the constraints, the one that
 /// exceeds them by least (DesignProblem::judged_by_excess()); then the later objectives of a list from the best
-/// design on, each under limits on those before it, then rounding.
+/// design on, each under limits on those before it, then what can be ground of it (design_to_grind()).
 /// @throws InvalidInput for an unknown solver or one that cannot take the task's constraints
 DesignResult optimise_design(DesignProblem& problem, const DesignOptions& options);
 inline DesignResult optimise_design(DesignProblem& problem, const SolverOptions& options) { return optimise_design(problem, DesignOptions{options}); }

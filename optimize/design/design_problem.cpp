@@ -111,6 +111,7 @@ DesignProblem::DesignProblem(DesignTask task) : task_(std::move(task)), root_str
     if (link.as >= task_.variables.size()) throw InvalidInput("optimise.ties." + link.linked.path, "no variable", "the index of a variable");
     parameters_.push_back(GearParameter{link.linked.member, link.linked.parameter});
   }
+  set_box(Eigen::VectorXd::Zero(variables()), Eigen::VectorXd::Ones(variables()));
   std::map<MeshPlacement, std::shared_ptr<const MeshModel>> models;
   for (const DesignScene& scene : task_.scenes) {
     if (!(scene.torque > 0.0)) throw InvalidInput("load.torque", std::to_string(scene.torque), "above 0 to optimise");
@@ -226,12 +227,12 @@ DesignProblem DesignProblem::judged_by_excess() const {
 }
 
 Eigen::VectorXd DesignProblem::start() const {
-  if (start_.size() > 0) return start_;
+  if (start_.size() > 0) return start_.cwiseMax(lower_).cwiseMin(upper_);
   Eigen::VectorXd x(variables());
   for (int i = 0; i < variables(); ++i) {
     const DesignVariable& v = task_.variables[static_cast<std::size_t>(i)];
     const Modification& given = task_.modification[v.member];
-    x[i] = std::clamp(v.scaled(get(given, v.parameter)), 0.0, 1.0);
+    x[i] = std::clamp(v.scaled(get(given, v.parameter)), lower_[i], upper_[i]);
   }
   return x;
 }

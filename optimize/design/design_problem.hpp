@@ -53,10 +53,16 @@ class DesignProblem {
   /// has_upper_bounds().
   DesignProblem judged_by_excess() const;
 
-  /// Start of a search: set_start(), or the scaled design of the task's own modifications, moved into the bounds where
-  /// it lies outside.
+  /// Start of a search: set_start(), or the scaled design of the task's own modifications, moved into set_box() where it lies outside.
   Eigen::VectorXd start() const;
   void set_start(const Eigen::VectorXd& x) { start_ = x; }
+  /// The part of 0 .. 1 that searches and rounding keep to, all of it by default; a variable with lower = upper is held.
+  void set_box(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+    lower_ = lower;
+    upper_ = upper;
+  }
+  const Eigen::VectorXd& lower() const { return lower_; }
+  const Eigen::VectorXd& upper() const { return upper_; }
   /// The scaled design of a value for each variable [mm; parabolic_te 1/rad], such as DesignReport::variables; outside 0 .. 1 where a value is out
   /// of bounds.
   Eigen::VectorXd scaled_design(const std::vector<double>& values) const;
@@ -129,6 +135,7 @@ class DesignProblem {
   std::vector<std::shared_ptr<const PerGear<FilletPoints>>> fillets_;  ///< per scene likewise; empty where no root damage is asked for
   std::vector<MeshParameter> parameters_;                              ///< variables, then linked modifications
   Eigen::VectorXd start_;                                              ///< empty: the task's own
+  Eigen::VectorXd lower_, upper_;                                      ///< set_box()
   Eigen::VectorXd last_x_;
   bool last_has_derivatives_{false};
   DesignAnalysis last_;

@@ -6,12 +6,17 @@ namespace flankwright {
 
 void ModificationDeviation::add_to(PerGear<Modification>& modification) const {
   Modification& m = modification[member];
-  const ModificationDescriptor& row = describe(parameter);
-  if (row.half.empty()) return row.set(m, row.get(m) + value);
+  const ParameterDescription& row = describe(parameter);
+  if (row.half.empty()) return set(m, parameter, get(m, parameter) + value);
   for (const std::string_view key : {row.half, row.other_half}) {
     const ModificationDescriptor& half = *find_parameter(key);
     half.set(m, half.get(m) + value);
   }
+}
+
+bool DesignVariable::touches(Member of, ModificationParameter other) const {
+  const ParameterDescription &own = describe(parameter), &row = describe(other);
+  return member == of && (own.key == row.key || own.key == row.half || own.key == row.other_half || own.half == row.key || own.other_half == row.key);
 }
 
 double DesignVariable::outside_factor() const { return flankwright::outside_factor(describe(parameter).kind); }

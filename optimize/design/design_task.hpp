@@ -15,17 +15,19 @@
 
 namespace flankwright {
 
-/// A modification parameter that the optimiser may choose.
+/// A parameter of a modification or of its process that the optimiser may choose.
 struct DesignVariable {
   std::string path;  ///< as the study names it: "pinion.modification.lead_crowning"
   Member member{Member::Pinion};
   ModificationParameter parameter{};
-  double lower{0.0}, upper{0.0};  ///< [mm; parabolic_te 1/rad], lower < upper
+  double lower{0.0}, upper{0.0};  ///< [mm; parabolic_te 1/rad; twist_compensation -], lower < upper
   double step{0.0};               ///< the grinder can set multiples of this, unit as the bounds; 0: any value
 
   /// Value scaled to the range: 0 at the lower bound, 1 at the upper [-].
   double scaled(double value) const { return (value - lower) / (upper - lower); }
   double unscaled(double x) const { return lower + x * (upper - lower); }
+  /// Whether it is this parameter of this gear, a half of it, or the whole that it is a half of.
+  bool touches(Member of, ModificationParameter other) const;
   /// Factor from the inside unit to that of reports: um, but mm for the extent of a relief, arcsec/deg^2 for parabolic_te.
   double outside_factor() const;
   const char* unit() const;
@@ -74,6 +76,20 @@ struct ModificationConstraint {
   /// As DesignVariable has them, of the first term.
   double outside_factor() const;
   const char* unit() const;
+};
+
+/// Two modifications of one gear that a process cannot grind at once.
+struct ExcludedPair {
+  Member member{Member::Pinion};
+  ModificationParameter one{}, other{};
+};
+
+/// What cannot be ground whatever its value: designs that no search over continuous values can avoid. See design_to_grind().
+struct GrindableAmounts {
+  double smallest{0.0};  ///< every varied amount, and every one tied to it, is 0 or at least this either way [mm], >= 0; 0: no limit
+  std::vector<ExcludedPair> not_together;
+
+  bool any() const { return smallest > 0.0 || !not_together.empty(); }
 };
 
 /// One number that a design is judged by: outputs weighted and summed in each scene, aggregated over the scenes.
@@ -144,6 +160,7 @@ struct DesignTask {
   std::vector<OutputConstraint> constraints;
   std::vector<LinkingConstraint> links;
   std::vector<ModificationConstraint> modification_constraints;
+  GrindableAmounts grindable;  ///< of the design to grind, chosen after the search
   std::vector<ObjectiveBound> objective_bounds;
   std::vector<ScalarisedObjective> scalarisation;  ///< minimised instead of the objective where not empty
   /// Minimised after the objective in lexicographic order, each while those before it stay within

@@ -12,8 +12,8 @@ class DirectProgram : public NonlinearProgram {
   DirectProgram(DesignProblem& problem, DesignLog& log) : problem_(problem), log_(log) {}
   int variables() const override { return problem_.variables(); }
   int constraints() const override;
-  Eigen::VectorXd lower() const override { return Eigen::VectorXd::Zero(variables()); }
-  Eigen::VectorXd upper() const override { return Eigen::VectorXd::Ones(variables()); }
+  Eigen::VectorXd lower() const override { return problem_.lower(); }
+  Eigen::VectorXd upper() const override { return problem_.upper(); }
   Eigen::VectorXd start() const override { return problem_.start(); }
   ProgramValues evaluate(const Eigen::VectorXd& x, bool with_gradients) override;
 

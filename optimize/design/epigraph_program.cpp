@@ -94,13 +94,14 @@ const ObjectiveTerm& EpigraphProgram::term_of(const EpigraphRow& row) const {
 
 Eigen::VectorXd EpigraphProgram::lower() const {
   Eigen::VectorXd bound = Eigen::VectorXd::Zero(variables());
+  bound.head(problem_.variables()) = problem_.lower();
   if (is_scalarised()) bound[variables() - 1] = -auxiliary_limit;
   return bound;
 }
 
 Eigen::VectorXd EpigraphProgram::upper() const {
   Eigen::VectorXd bound = (2.0 * start_).cwiseMax(auxiliary_limit);  // a restart may lie beyond it
-  bound.head(problem_.variables()).setOnes();
+  bound.head(problem_.variables()) = problem_.upper();
   return bound;
 }
 

@@ -54,12 +54,13 @@ class StepSearch {
  private:
   const DesignVariable& variable(int i) const { return problem_.task().variables[static_cast<std::size_t>(i)]; }
 
-  /// Sets variable i to a number of steps, the nearest within its bounds.
+  /// Sets variable i to a number of steps, the nearest within DesignProblem::set_box().
   void place(Eigen::VectorXd& x, int i, double steps) const {
     const DesignVariable& v = variable(i);
     constexpr double round_off = 1e-9;  // of a step: a bound that is a multiple of it counts as one
-    const double least = std::ceil(v.lower / v.step - round_off), most = std::floor(v.upper / v.step + round_off);
-    x[i] = std::clamp(v.scaled(std::clamp(steps, least, std::max(least, most)) * v.step), 0.0, 1.0);
+    const double least = std::ceil(problem_.unscaled(problem_.lower(), i) / v.step - round_off);
+    const double most = std::floor(problem_.unscaled(problem_.upper(), i) / v.step + round_off);
+    x[i] = std::clamp(v.scaled(std::clamp(steps, least, std::max(least, most)) * v.step), problem_.lower()[i], problem_.upper()[i]);
   }
 
   Eigen::VectorXd moved(const Eigen::VectorXd& from, int i, int by) const {

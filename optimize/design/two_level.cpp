@@ -80,6 +80,7 @@ DesignTask coarser(DesignTask task) {
   if (positions > most_search_positions && phases == equally_spaced_phases(positions)) phases = equally_spaced_phases(most_search_positions);
   if (task.search_structure) task.structure = task.search_structure;
   for (DesignVariable& variable : task.variables) variable.step = 0.0;
+  task.grindable = {};
   return task;
 }
 

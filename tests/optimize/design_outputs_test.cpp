@@ -121,6 +121,22 @@ TEST_CASE("Gradients of every output are what central differences say", "[optimi
   }
 }
 
+TEST_CASE("Gradients by a twist compensation are what central differences say", "[optimize][design][outputs][gradient]") {
+  DesignTask task = helical();
+  task.modification.wheel.lead_crowning = 6 * units::um;
+  task.modification.pinion.process.kind = GENERATE(GrindingKind::GeneratingGrinding, GrindingKind::FormGrinding);
+  task.modification.wheel.process.kind = GrindingKind::GeneratingGrinding;
+  task.variables.push_back({"pinion.twist_compensation", Member::Pinion, parameter_of("twist_compensation"), 0.0, 1.0});
+  task.variables.push_back({"wheel.twist_compensation", Member::Wheel, parameter_of("twist_compensation"), 0.0, 0.8});
+  DesignProblem problem(task);
+  std::mt19937 generator(13);  // designs at which no point gains or loses contact within the step
+  for (int trial = 0; trial < 2; ++trial) {
+    const Eigen::VectorXd x = random_design(problem.variables(), generator);
+    CAPTURE(trial);
+    CHECK(check_output_gradients(problem, x, all_outputs(), 2e-5, 1e-6) > 0);  // as above
+  }
+}
+
 TEST_CASE("Without derivatives in the cycle a candidate has a value and no gradient", "[optimize][design][outputs]") {
   DesignProblem problem(helical({0.0}));
   const DesignAnalysis& analysis = problem.analyse(problem.start(), false);

@@ -88,7 +88,7 @@ class TouchDerivative {
   Misalignment misalignment_;
   Member member_;
   bool of_lag_;
-  RemovalDerivative removed_;
+  GroundDerivative removed_;
 };
 
 }  // namespace flankwright

@@ -81,7 +81,7 @@ Eigen::VectorXd SurfaceGap::derivative(const std::vector<ContactPoint>& points, 
   const Flank& flank = assembly_[member];
   const bool of_parabola = parameter == parameter_of("parabolic_te");  // a field of the roll length, see Flank
   const auto& parabola = parabola_[static_cast<std::size_t>(member)];
-  const RemovalDerivative removed = ground_derivative(pair_, member, condition_.modification[member], parameter, condition_.other_flanks);
+  const GroundDerivative removed = ground_derivative(pair_, member, condition_.modification[member], parameter, condition_.other_flanks);
   const bool of_roll = of_parabola || removed.is_shifted();
   const auto by_parameter = [&](double radius, double z) {
     const double roll = flank.roll_at(radius);

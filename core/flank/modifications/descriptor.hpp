@@ -10,22 +10,34 @@
 namespace flankwright {
 
 /// Direction of the flank along which a modification changes: a lead modification depends on z alone, a profile modification on the radius alone.
-enum class ModificationClass { Lead, Profile, Topography };
+/// A parameter of the process removes nothing of its own, it changes what becomes of the lead modifications.
+enum class ModificationClass { Lead, Profile, Topography, Process };
 
-/// What a parameter of a modification measures. Units inside the program: mm, and 1/rad for TeParabola.
+/// What a parameter of a modification or of its process measures. Units inside the program: mm, 1/rad for TeParabola, none for Fraction.
 enum class ParameterKind {
-  Amount,     ///< material removed; enters the removal linearly
-  Extent,     ///< height or length over which an amount is spread, > 0 where the amount is not 0
-  TeParabola  ///< a of a transmission error -a phi1^2; enters linearly
+  Amount,      ///< material removed; enters the removal linearly
+  Extent,      ///< height or length over which an amount is spread, > 0 where the amount is not 0
+  TeParabola,  ///< a of a transmission error -a phi1^2; enters linearly
+  Fraction     ///< of the natural twist, 0 .. 1 [-]
 };
 
-/// Unit in study files and reports.
+/// Unit in study files and reports; "1" of a plain number.
 constexpr const char* unit_of(ParameterKind kind) {
-  return kind == ParameterKind::Amount ? "um" : kind == ParameterKind::Extent ? "mm" : "arcsec/deg^2";
+  switch (kind) {
+    case ParameterKind::Amount:
+      return "um";
+    case ParameterKind::Extent:
+      return "mm";
+    case ParameterKind::TeParabola:
+      return "arcsec/deg^2";
+    case ParameterKind::Fraction:
+      break;
+  }
+  return "1";
 }
 /// Factor from the unit inside to that of study files and reports.
 constexpr double outside_factor(ParameterKind kind) {
-  return kind == ParameterKind::Amount ? 1.0 / units::um : kind == ParameterKind::Extent ? 1.0 : 1.0 / units::arcsec_per_square_deg;
+  return kind == ParameterKind::Amount ? 1.0 / units::um : kind == ParameterKind::TeParabola ? 1.0 / units::arcsec_per_square_deg : 1.0;
 }
 
 /// The texts about one number of a modification, for all pages and messages.

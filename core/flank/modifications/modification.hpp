@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <memory>
 
@@ -37,11 +38,28 @@ struct Modification : Modifications {
 using ModificationDescriptor = DescriptorOf<Modifications>;
 using ModificationChoice = ChoiceOf<Modifications>;
 
-/// All numbers of a Modification that a designer may vary, in the order of Modifications.
+/// All numbers of what is removed that a designer may vary, in the order of Modifications.
 inline constexpr auto modification_parameters = descriptors_of(std::type_identity<Modifications>());
 static_assert(are_complete(modification_parameters));
 
-/// All its words.
+/// A number of the process that a designer may vary beside them.
+struct ProcessDescriptor : ParameterDescription {
+  double (*get)(const GrindingProcess&){nullptr};
+  void (*set)(GrindingProcess&, double){nullptr};
+};
+
+/// All of them. Their indices follow those of modification_parameters, so that one ModificationParameter names either.
+inline constexpr std::array process_parameters{
+    ProcessDescriptor{{{.key = "twist_compensation",
+                        .name = "twist compensation",
+                        .meaning = "part of the natural twist that the machine takes out, by diagonal feed or a modified worm; 1 leaves none",
+                        .kind = ParameterKind::Fraction},
+                       ModificationParameter{modification_parameters.size()},
+                       ModificationClass::Process},
+                      [](const GrindingProcess& process) { return process.twist_compensation; },
+                      [](GrindingProcess& process, double value) { process.twist_compensation = value; }}};
+
+/// All words of a Modification.
 inline constexpr auto modification_choices = choices_of(std::type_identity<Modifications>());
 
 /// f(row) for every parameter and every choice, the choices of a modification behind its parameters.
@@ -55,11 +73,18 @@ void for_each_modification_key(F&& f) {
   }
 }
 
-constexpr const ModificationDescriptor& describe(ModificationParameter parameter) {
+/// The row of a parameter of the process; null for one of what is removed.
+constexpr const ProcessDescriptor* of_process(ModificationParameter parameter) {
+  const auto index = static_cast<std::size_t>(parameter);
+  return index < modification_parameters.size() ? nullptr : &process_parameters[index - modification_parameters.size()];
+}
+
+constexpr const ParameterDescription& describe(ModificationParameter parameter) {
+  if (const ProcessDescriptor* process = of_process(parameter)) return *process;
   return modification_parameters[static_cast<std::size_t>(parameter)];
 }
 
-/// The row of a key; null where there is none.
+/// The row of what is removed of a key; null where there is none.
 constexpr const ModificationDescriptor* find_parameter(std::string_view key) {
   for (const ModificationDescriptor& d : modification_parameters) {
     if (d.key == key) return &d;
@@ -67,14 +92,25 @@ constexpr const ModificationDescriptor* find_parameter(std::string_view key) {
   return nullptr;
 }
 
-/// The parameter of a key; a key that does not exist does not compile.
-consteval ModificationParameter parameter_of(std::string_view key) { return find_parameter(key)->parameter; }
+/// The parameter of a key, of what is removed or of the process; a key that does not exist does not compile.
+consteval ModificationParameter parameter_of(std::string_view key) {
+  for (const ProcessDescriptor& d : process_parameters) {
+    if (d.key == key) return d.parameter;
+  }
+  return find_parameter(key)->parameter;
+}
 
-/// Value of one parameter [mm; parabolic_te 1/rad]. profile_crowning reads the mean of addendum and dedendum crowning.
-inline double get(const Modifications& m, ModificationParameter parameter) { return describe(parameter).get(m); }
+/// Value of one parameter [mm; parabolic_te 1/rad; twist_compensation -]. profile_crowning reads the mean of addendum and dedendum crowning.
+inline double get(const Modification& m, ModificationParameter parameter) {
+  if (const ProcessDescriptor* process = of_process(parameter)) return process->get(m.process);
+  return modification_parameters[static_cast<std::size_t>(parameter)].get(m);
+}
 
-/// Sets one parameter [mm; parabolic_te 1/rad]. profile_crowning sets both halves.
-inline void set(Modifications& m, ModificationParameter parameter, double value) { describe(parameter).set(m, value); }
+/// Sets one parameter [mm; parabolic_te 1/rad; twist_compensation -]. profile_crowning sets both halves.
+inline void set(Modification& m, ModificationParameter parameter, double value) {
+  if (const ProcessDescriptor* process = of_process(parameter)) return process->set(m.process, value);
+  modification_parameters[static_cast<std::size_t>(parameter)].set(m, value);
+}
 
 /// What a tool that is dressed alike for both flanks leaves on the opposite one in the same setting: the flank that works when the gear is turned over,
 /// end for end. Removal at z there is that at -z here, so that numbers that are odd along the face change their signs: a lead slope is one of the helix

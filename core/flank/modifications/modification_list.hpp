@@ -9,8 +9,14 @@
 
 namespace flankwright {
 
-/// A parameter of a modification: its index among the rows of all registered ones.
+/// A parameter of a modification or of its process: its index among the rows of all registered ones.
 enum class ModificationParameter : std::size_t {};
+
+/// What pages, messages and tables need to know of a parameter.
+struct ParameterDescription : ParameterText {
+  ModificationParameter parameter{};
+  ModificationClass flank_class{};
+};
 
 /// All modifications of a list, their numbers as members.
 template <DescribedModification... M>
@@ -20,9 +26,7 @@ struct ModificationList : M... {
 
 /// A row of one modification, for the whole list.
 template <class List>
-struct DescriptorOf : ParameterText {
-  ModificationParameter parameter{};
-  ModificationClass flank_class{};
+struct DescriptorOf : ParameterDescription {
   double (*get)(const List&){nullptr};
   void (*set)(List&, double){nullptr};
   double (*slope)(const List&, const FlankFrame&, double r, double z){nullptr};  ///< null: enters linearly
@@ -50,9 +54,7 @@ constexpr std::size_t choice_count = [] {
 template <class List, class M, std::size_t I>
 constexpr DescriptorOf<List> describe() {
   constexpr ParameterRow<M> row = M::parameters()[I];
-  DescriptorOf<List> described{row.text,
-                               {},
-                               M::flank_class,
+  DescriptorOf<List> described{{row.text, {}, M::flank_class},
                                [](const List& m) {
                                  constexpr auto of = M::parameters()[I].get;
                                  return of(m);

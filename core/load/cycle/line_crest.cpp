@@ -17,7 +17,9 @@ namespace {
 constexpr double enclosed = 1e-13;
 /// Derivatives along the line are one-sided differences over this part of it, on the side without relief.
 constexpr double along = 1e-3;
-/// Derivatives of distances by extents are central differences over this length [mm]: distances are linear in them.
+/// How far beside a start the gap's slopes are taken, on the side without relief, as a part of the distance between two points.
+constexpr double beside_start = 1e-6;
+/// Derivatives of distances by extents and by a twist compensation are central differences over this [mm; -]: distances are linear in them.
 constexpr double extent_step = 1e-3;
 /// Likewise by numbers of a misalignment [mm or rad]: places slide in proportion to them.
 constexpr double misalignment_step = 1e-4;
@@ -63,6 +65,14 @@ class Lines {
   /// The same at a point.
   std::array<double, ReliefStarts::count> beyond(Member gear, const ReliefStarts& starts, std::size_t point) const {
     return beyond_at(gear, starts, roll_at(gear, point, lines_.gap.touches[point].slid[gear]), lines_.at.points[point].z);
+  }
+
+  /// A crest's place, a little on the side without relief: what moves the start opens the gap on the other side alone.
+  ContactPoint beside(const LineCrest& crest) const {
+    const auto point = static_cast<std::size_t>(crest.before);
+    const std::vector<ContactPoint>& points = lines_.at.points;
+    const double z = std::lerp(points[point].z, points[point + 1].z, crest.way + (crest.rises ? -beside_start : beside_start));
+    return contact_point(lines_.model.pair, path_, lines_.at.phase, points[point].tooth, z, true).value_or(crest.place);
   }
 
   /// The crest at a place of a line between a point and the next, but for its start; nothing where no contact can be.
@@ -217,6 +227,12 @@ CrestLoad load_on_crest(const std::vector<ContactLaw>& laws, const LineCrest& cr
 
 namespace {
 
+/// Whether a parameter of a gear moves the starts of its reliefs over the flank: an extent, or what the process leaves of its shift.
+bool moves_starts(ModificationParameter parameter) {
+  const ParameterKind kind = describe(parameter).kind;
+  return kind == ParameterKind::Extent || kind == ParameterKind::Fraction;
+}
+
 /// d(way)/dp where the parameter moves the start along the line; 0 where it does not.
 double way_slope(const Lines& all, const LoadedLines& lines, const LineCrest& crest, const MeshParameter& parameter) {
   const auto point = static_cast<std::size_t>(crest.before);
@@ -228,7 +244,7 @@ double way_slope(const Lines& all, const LoadedLines& lines, const LineCrest& cr
   const Modification& own = condition.modification[crest.gear];
   double change = 0.0;  // of the distance by the parameter
   if (const auto* of_gear = std::get_if<GearParameter>(&parameter)) {
-    if (of_gear->member != crest.gear || describe(of_gear->parameter).kind != ParameterKind::Extent) return 0.0;
+    if (of_gear->member != crest.gear || !moves_starts(of_gear->parameter)) return 0.0;
     const auto with = [&](double by) {
       Modification moved = own;
       set(moved, of_gear->parameter, get(moved, of_gear->parameter) + by);
@@ -257,6 +273,7 @@ CrestSlopes crest_slopes(const LoadedLines& lines, const std::vector<LineCrest>&
   const Eigen::Index n = std::ssize(crests), m = slopes.line_load.cols();
   CrestSlopes by{Eigen::MatrixXd(n, m), Eigen::MatrixXd::Zero(n, m), Eigen::MatrixXd::Zero(n, m)};
   if (n == 0 || m == 0) return by;
+  const Lines all(lines);
   MeshPosition places;
   places.phase = lines.at.phase;
   const Eigen::VectorXd& opened = lines.at.outside.by_force;
@@ -265,12 +282,11 @@ CrestSlopes crest_slopes(const LoadedLines& lines, const std::vector<LineCrest>&
     for (std::size_t k = 0; k < crest.count && opened.size() > 0; ++k) {
       places.outside.by_force[std::ssize(places.points)] += crest.from[k].weight * opened[crest.from[k].index];
     }
-    places.points.push_back(crest.place);
+    places.points.push_back(all.beside(crest));
   }
   const Gap gap = lines.gaps.at(places.points, lines.at.phase);
   const Eigen::MatrixXd gap_slopes = condition.at(places, gap).gap;
   const Eigen::MatrixXd forces = lines.at.weight.asDiagonal() * slopes.line_load;
-  const Lines all(lines);
   for (Eigen::Index i = 0; i < n; ++i) {
     const LineCrest& crest = crests[static_cast<std::size_t>(i)];
     Eigen::RowVectorXd influence = Eigen::RowVectorXd::Zero(forces.rows()), seen = Eigen::RowVectorXd::Zero(m);

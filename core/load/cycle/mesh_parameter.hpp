@@ -10,7 +10,7 @@
 
 namespace flankwright {
 
-/// A modification parameter of one gear [mm; parabolic_te 1/rad].
+/// A parameter of the modification of one gear, or of its process [mm; parabolic_te 1/rad; twist_compensation -].
 struct GearParameter {
   Member member{Member::Pinion};
   ModificationParameter parameter{};

@@ -295,7 +295,7 @@ TEST_CASE("A process that twists nothing costs no instruction of a flank and its
   REQUIRE(counter.possible());
   const auto instructions = [&](const Modification& m) {
     const Flank flank = make_flank(pair, Member::Pinion, m, {});
-    const RemovalDerivative derivative = ground_derivative(pair, Member::Pinion, m, parameter_of("lead_crowning"));
+    const GroundDerivative derivative = ground_derivative(pair, Member::Pinion, m, parameter_of("lead_crowning"));
     double sum = 0.0;
     const auto evaluate_all = [&] {
       for (int i = 0; i < 1000; ++i) sum += flank.deviation(40.0, 0.05 * i, 0) + derivative.at(100.0, 0.05 * i);

@@ -54,8 +54,9 @@ void shift(Scene& scene, const MeshParameter& parameter, double by) {
 
 std::vector<MeshParameter> all_kinds() {
   std::vector<MeshParameter> parameters{
-      GearParameter{Member::Pinion, parameter_of("lead_crowning")}, GearParameter{Member::Pinion, parameter_of("tip_relief.amount")},
-      GearParameter{Member::Wheel, parameter_of("profile_crowning")}, GearParameter{Member::Wheel, parameter_of("twist")}};
+      GearParameter{Member::Pinion, parameter_of("lead_crowning")},      GearParameter{Member::Pinion, parameter_of("tip_relief.amount")},
+      GearParameter{Member::Wheel, parameter_of("profile_crowning")},    GearParameter{Member::Wheel, parameter_of("twist")},
+      GearParameter{Member::Pinion, parameter_of("twist_compensation")}, GearParameter{Member::Wheel, parameter_of("twist_compensation")}};
   for (const NamedMisalignmentParameter& p : misalignment_parameters) {
     if (p.parameter != &Misalignment::axial_offset) parameters.push_back(p.parameter);  // moves the mesh: axial_offset_test.cpp
   }
@@ -168,7 +169,10 @@ TEST_CASE("Every output's derivative by modification, misalignment and torque is
   for (int trial = 0; trial < 3; ++trial) {
     Scene scene = random_scene(gears, random);
     if (trial == 1) scene.condition.modification.pinion.process.kind = GrindingKind::GeneratingGrinding;
-    if (trial == 2) scene.condition.modification.pinion.process.kind = GrindingKind::FormGrinding;
+    if (trial == 2) {
+      scene.condition.modification.pinion.process.kind = GrindingKind::FormGrinding;
+      scene.condition.modification.wheel.process = {GrindingKind::GeneratingGrinding, 0.3};
+    }
     const ConditionGap gaps(model.pair, model.placement.gap, scene.condition);
     const Outputs here = outputs(model, scene, parameters);
     for (std::size_t p = 0; p < parameters.size(); ++p) {

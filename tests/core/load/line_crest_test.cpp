@@ -132,19 +132,17 @@ TEST_CASE("The load on a crest is continuous where the relief's start passes a p
   CHECK(load_at(-kClose) == Approx(here).epsilon(1e-3));
 }
 
-TEST_CASE("Loads and stresses on crests have the slopes of differences, by what moves the start too", "[core][load][crest][gradient]") {
+namespace {
+
+/// Compares slopes on crests with central differences, and tells how many.
+int check_slopes_on_crests(const FlankCondition& condition, const std::vector<GearParameter>& parameters) {
   const GearPair gears = relieved_pair();
   const MeshModel model = by_graded(gears, 6);
-  const FlankCondition condition = with_reliefs();
-  const std::vector<GearParameter> parameters{{Member::Pinion, parameter_of("tip_relief.amount")},
-                                              {Member::Pinion, parameter_of("tip_relief.height")},
-                                              {Member::Wheel, parameter_of("tip_relief.height")},
-                                              {Member::Pinion, parameter_of("lead_crowning")}};
   const LoadedCycle cycle = analyse_cycle(model, condition, crest_torque, {parameters.begin(), parameters.end()});
   int on_crests = 0;
   for (std::size_t p = 0; p < parameters.size(); ++p) {
-    const bool is_extent = describe(parameters[p].parameter).kind == ParameterKind::Extent;
-    const double step = is_extent ? 1e-5 : 1e-7;  // mm
+    const ParameterKind kind = describe(parameters[p].parameter).kind;
+    const double step = kind == ParameterKind::Amount ? 1e-7 : 1e-5;  // mm, of a compensation a fraction
     const LoadedCycle up = analyse_cycle(model, mesh_cases::moved(condition, parameters[p], step), crest_torque);
     const LoadedCycle down = analyse_cycle(model, mesh_cases::moved(condition, parameters[p], -step), crest_torque);
     const auto column = static_cast<Eigen::Index>(p);
@@ -166,5 +164,23 @@ TEST_CASE("Loads and stresses on crests have the slopes of differences, by what 
       }
     }
   }
-  CHECK(on_crests > 20);
+  return on_crests;
+}
+
+}  // namespace
+
+TEST_CASE("Loads and stresses on crests have the slopes of differences, by what moves the start too", "[core][load][crest][gradient]") {
+  CHECK(check_slopes_on_crests(with_reliefs(), {{Member::Pinion, parameter_of("tip_relief.amount")},
+                                                {Member::Pinion, parameter_of("tip_relief.height")},
+                                                {Member::Wheel, parameter_of("tip_relief.height")},
+                                                {Member::Pinion, parameter_of("lead_crowning")}}) > 20);
+}
+
+TEST_CASE("A crest of an end relief goes where the compensation of its twist moves it", "[core][load][crest][gradient]") {
+  FlankCondition condition;
+  condition.modification.wheel.end_relief = {6 * units::um, 8.0};
+  condition.modification.wheel.process = {GrindingKind::GeneratingGrinding, GENERATE(0.0, 0.4)};
+  condition.modification.pinion.lead_crowning = 8 * units::um;
+  CHECK(check_slopes_on_crests(condition, {{Member::Wheel, parameter_of("twist_compensation")}, {Member::Wheel, parameter_of("end_relief.length")}}) >
+        10);
 }

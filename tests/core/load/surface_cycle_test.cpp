@@ -158,6 +158,7 @@ TEST_CASE("Gradients over the whole surface agree with central differences", "[c
   FlankCondition condition = surface_condition();
   condition.modification.pinion.parabolic_te = 2e-4;
   condition.modification.pinion.process.kind = GENERATE(GrindingKind::None, GrindingKind::GeneratingGrinding, GrindingKind::FormGrinding);
+  condition.modification.pinion.process.twist_compensation = 0.25;
   const MeshPlaced placed = [&](const MeshPlacement& at) {
     return surface_model(gears, {{QuadratureRule::Gauss2, 5}, {0.15, 0.48, 0.83}}, at.misalignment);
   };
@@ -166,6 +167,7 @@ TEST_CASE("Gradients over the whole surface agree with central differences", "[c
                                               GearParameter{Member::Pinion, parameter_of("tip_relief.amount")},
                                               GearParameter{Member::Pinion, parameter_of("tip_relief.height")},
                                               GearParameter{Member::Pinion, parameter_of("parabolic_te")},
+                                              GearParameter{Member::Pinion, parameter_of("twist_compensation")},
                                               GearParameter{Member::Wheel, parameter_of("addendum_crowning")},
                                               GearParameter{Member::Wheel, parameter_of("profile_slope")},
                                               &Misalignment::crossing,
@@ -187,7 +189,7 @@ TEST_CASE("Gradients over the whole surface agree with central differences", "[c
       }
       return analyse_cycle(mesh(c), c, torque);
     };
-    const double step = 2e-6;  // mm, rad or 1/rad
+    const double step = 2e-6;  // mm, rad, 1/rad, or a fraction
     const LoadedCycle up = shifted(step), down = shifted(-step);
     for (std::size_t i = 0; i < cycle.positions.size(); ++i) {
       const double by_differences = (up.positions[i].load.transmission_error - down.positions[i].load.transmission_error) / (2 * step);
