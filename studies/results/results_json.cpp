@@ -18,6 +18,7 @@
 #include "studies/results/compliance_json.hpp"
 #include "studies/results/effects_json.hpp"
 #include "studies/study_file/given_units.hpp"
+#include "studies/results/governing_cases.hpp"
 #include "studies/results/gradients_json.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/base/version.hpp"
@@ -129,8 +130,9 @@ double root_stress_of_tooth(const MeshPosition& at, const LoadedPosition& positi
 }
 
 /// @param flash  temperatures at the points; null: not known
+/// @param with_points  whether the contact points are listed, see cases_with_points()
 Json position_json(const MeshModel& model, const MeshPosition& at, const LoadedPosition& position, const FlankCondition& condition,
-                   const Eigen::VectorXd* flash) {
+                   const Eigen::VectorXd* flash, bool with_points) {
   const double cos_base_helix = std::cos(model.pair.base_helix_angle);
   const LoadDistribution& load = position.load;
   Json json{{"phase", position.phase},
@@ -145,6 +147,7 @@ Json position_json(const MeshModel& model, const MeshPosition& at, const LoadedP
   if (load.usable()) {
     for (std::size_t i = 0; i < at.points.size(); ++i) {
       Json& points = teeth.try_emplace(at.points[i].tooth, Json::array()).first->second;
+      if (!with_points) continue;
       points.push_back(point_json(at.points[i], position, static_cast<Eigen::Index>(i)));
       if (flash != nullptr) points.back()["flash_temperature_K"] = (*flash)[static_cast<Eigen::Index>(i)];
     }
@@ -227,13 +230,13 @@ Json extremes_json(const LoadedResult& loaded) {
   });
 }
 
-Json loaded_json(const LoadedResult& loaded, const StudyResults& results) {
+Json loaded_json(const LoadedResult& loaded, const StudyResults& results, bool with_points) {
   const MeshModel& model = results.models[loaded.model];
   const CaseLife* life = results.life ? results.life->find(static_cast<std::size_t>(&loaded - results.loaded.data())) : nullptr;
   Json cycle = Json::array();
   for (std::size_t i = 0; i < loaded.cycle.positions.size(); ++i) {
     const Eigen::VectorXd* flash = life == nullptr || life->flash.empty() ? nullptr : &life->flash[i];
-    cycle.push_back(position_json(model, model.positions[i], loaded.cycle.positions[i], loaded.condition, flash));
+    cycle.push_back(position_json(model, model.positions[i], loaded.cycle.positions[i], loaded.condition, flash, with_points));
   }
   Json json{{"scene", loaded.scene},
             {"torque_Nm", in_Nm(loaded.torque)},
@@ -346,7 +349,8 @@ Json results_document(const StudyResults& results) {
   put_null_for_nan(json);
   json["loaded"] = Json(Json::array_t(results.loaded.size()));
   auto& loaded = json["loaded"].get_ref<Json::array_t&>();
-  tbb::parallel_for(std::size_t{0}, loaded.size(), [&](std::size_t i) { loaded[i] = loaded_json(results.loaded[i], results); });
+  const std::vector<bool> with_points = cases_with_points(results);
+  tbb::parallel_for(std::size_t{0}, loaded.size(), [&](std::size_t i) { loaded[i] = loaded_json(results.loaded[i], results, with_points[i]); });
   return json;
 }
 

@@ -10,6 +10,20 @@ constexpr double newton_per_micrometre = 1000.0;  // N/mm
 
 Json stiffness_json(double stiffness, double unit) { return std::isinf(stiffness) ? Json("rigid") : Json(stiffness / unit); }
 
+/// What the radial stiffness follows from where it depends on the load.
+void add_law(const BearingLawData& law, Json& json) {
+  json["radial_stiffness_N_per_um"] = law.has_table() ? "force_table" : name_of(law.type);
+  if (law.has_table()) {
+    json["force_table_N"] = law.table_force;
+    json["deflection_table_um"] = list(law.table_deflection, in_um);
+    return;
+  }
+  json["elements"] = law.elements;
+  if (!std::isnan(law.element_diameter)) json["element_diameter_mm"] = law.element_diameter;
+  if (!std::isnan(law.element_length)) json["element_length_mm"] = law.element_length;
+  json["contact_angle_deg"] = std::isnan(law.contact_angle) ? 0.0 : in_deg(law.contact_angle);
+}
+
 }  // namespace
 
 Json bearing_json(const ShaftBearing& bearing) {
@@ -17,6 +31,7 @@ Json bearing_json(const ShaftBearing& bearing) {
             {"radial_stiffness_N_per_um", stiffness_json(bearing.radial_stiffness, newton_per_micrometre)},
             {"axial_stiffness_N_per_um", stiffness_json(bearing.axial_stiffness, newton_per_micrometre)},
             {"tilting_stiffness_Nm_per_rad", bearing.tilting_stiffness / units::newton_metre}};
+  if (bearing.law.given()) add_law(bearing.law, json);
   if (!bearing.name.empty()) json["name"] = bearing.name;
   if (bearing.radial_clearance > 0.0) json["radial_clearance_um"] = in_um(bearing.radial_clearance);
   return json;

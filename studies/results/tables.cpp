@@ -11,6 +11,7 @@
 #include "studies/results/fidelity_choice_json.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/results/bodies_json.hpp"
+#include "studies/results/governing_cases.hpp"
 #include "studies/results/life_tables.hpp"
 #include "studies/results/load_rating_tables.hpp"
 #include "studies/results/unloaded_tables.hpp"
@@ -44,9 +45,11 @@ std::string points_csv(const StudyResults& results) {
   std::string csv =
       "scene,torque_Nm,design,phase,tooth,z_mm,pinion_radius_mm,wheel_radius_mm,load_N_per_mm,contact_stress_MPa,"
       "contact_deflection_um,structural_deflection_um,gap_um,error_um\n";
-  for (const LoadedResult& loaded : results.loaded) {
+  const std::vector<bool> with_points = cases_with_points(results);
+  for (std::size_t l = 0; l < results.loaded.size(); ++l) {
+    const LoadedResult& loaded = results.loaded[l];
     const MeshModel& model = results.models[loaded.model];
-    for (std::size_t k = 0; k < loaded.cycle.positions.size(); ++k) {
+    for (std::size_t k = 0; k < loaded.cycle.positions.size() && with_points[l]; ++k) {
       const LoadedPosition& p = loaded.cycle.positions[k];
       if (!p.load.usable()) continue;
       for (std::size_t j = 0; j < model.positions[k].points.size(); ++j) {

@@ -59,6 +59,19 @@ Json mesh_state_json(const MeshState& mesh) {
           {"driver", mesh.driver < 0 ? Json() : Json(mesh.shafts[static_cast<std::size_t>(mesh.driver)])}};
 }
 
+/// What was given and what the loaded contact has.
+Json law_state_json(const BearingLawState& law) {
+  constexpr double N_per_um = 1000.0;  // N/mm
+  const auto stiffness = [](double value) { return value / N_per_um; };
+  Json json{{"given", law.type == BearingType::NotGiven ? "force_table" : name_of(law.type)},
+            {"deflection_um", in_um(law.deflection)},
+            {"secant_N_per_um", stiffness(law.secant)},
+            {"used_N_per_um", stiffness(law.tangent)},
+            {"used_across_N_per_um", stiffness(law.across)}};
+  if (law.type == BearingType::NotGiven) json["beyond_table"] = law.beyond_table;
+  return json;
+}
+
 Json bearing_state_json(const BearingState& bearing) {
   Json json{{"name", bearing.name},
             {"shaft", bearing.shaft},
@@ -73,6 +86,7 @@ Json bearing_state_json(const BearingState& bearing) {
     json["radial_clearance_um"] = in_um(bearing.radial_clearance);
     json["shift_um"] = vector_json(bearing.shift, units::um);
   }
+  if (bearing.law) json["radial_stiffness"] = law_state_json(*bearing.law);
   return json;
 }
 
@@ -137,7 +151,9 @@ Json unit_state_json(const UnitState& state) {
             {"bearings", list(state.bearings, bearing_state_json)},
             {"shafts", list(state.shafts, shaft_state_json)}};
   if (!state.linear) {
-    json["clearances"] = {{"converged", state.converged}, {"residual", state.clearance_residual}, {"iterations", state.iterations}};
+    const bool by_load = std::ranges::any_of(state.bearings, [](const BearingState& bearing) { return bearing.law.has_value(); });
+    json[by_load ? "equilibrium" : "clearances"] = {
+        {"converged", state.converged}, {"residual", state.clearance_residual}, {"iterations", state.iterations}};
   }
   return json;
 }

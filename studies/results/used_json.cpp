@@ -116,6 +116,7 @@ Json used_json(const StudyResults& results) {
               {"quadrature", quadrature_json(study.fidelity.quadrature)},
               {"accuracy", study.fidelity.accuracy ? Json(*study.fidelity.accuracy) : Json()},
               {"effects", study.fidelity.automatic_effects ? "auto" : "listed"}}}};
+  if (!study.points_of_all_cases) used["output"] = {{"points", "governing"}};
   if (!study.unit.empty()) used["unit"] = unit_json(study.unit);
   if (study.misalignment.pinion_lead_angle != 0.0) {
     used["misalignment"] = {

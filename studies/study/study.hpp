@@ -159,6 +159,7 @@ struct Study {
   OptimiseTable optimise;                    ///< of the task "optimise"
   SweepTable sweep;                          ///< of the task "sweep"
   AccuracyTable accuracy;                    ///< of the task "accuracy"
+  bool points_of_all_cases{true};            ///< contact points of every load case in the results; false: of those that govern
   std::optional<int> drawing_class;          ///< of the drawing of the flanks; none: that of optimise.scatter
   FitChoice fit;                             ///< of the task "fit"
   std::vector<Expectation> expect;

@@ -45,6 +45,7 @@ std::vector<Section> sections_in_order() {
       {"unloaded", "`[unloaded]`", "Contact without load."},
       {"cycle", "`[cycle]`", "The mesh positions at which the contact is solved."},
       {"fidelity", "`[fidelity]`", "Models and resolution. The defaults aim at accuracy: [models and accuracy](README.md#models-and-accuracy)."},
+      {"output", "`[output]`", "What the results contain."},
       {"scenes", "`[[scenes]]`", "`scenes[].name` stands for the `name` of each `[[scenes]]` table: [scenes](README.md#scenes)."},
       {"expect", "`[expect]`", "A study as its own test: [expectations](README.md#expectations)."},
   };

@@ -1,3 +1,6 @@
+#include <algorithm>
+
+#include "studies/study_file/bearing_keys.hpp"
 #include "studies/study_file/key_rows.hpp"
 
 namespace flankwright::studies {
@@ -11,6 +14,8 @@ ShaftData& shaft(StudyBuilder& builder, Member m) {
   return *of_gear;
 }
 
+ShaftBearing& bearing(StudyBuilder& builder, Member m) { return shaft(builder, m).bearings.back(); }
+
 constexpr Range on_shaft = from_zero(10000.0);  // mm
 
 using enum ValueKind;
@@ -21,7 +26,7 @@ using enum ValueKind;
 // clang-format off
 
 std::vector<SchemaKey> shaft_rows() {
-  return {
+  std::vector<SchemaKey> rows{
       {.path = "gear.shaft.sections", .kind = TableList, .fallback = "(none: a rigid shaft)",
        .meaning = "lengths of the shaft that carries this gear, from its end of lowest z on; with a shaft, its bending, shear and torsion enter",
        .store = [](StudyBuilder& d, Member m, const Value&) { shaft(d, m).sections.emplace_back(); }},
@@ -39,22 +44,22 @@ std::vector<SchemaKey> shaft_rows() {
        .store = [](StudyBuilder& d, Member m, const Value&) { shaft(d, m).bearings.emplace_back(); }},
       {.path = "gear.shaft.bearings[].position", .quantity = Quantity::Length, .range = on_shaft, .fallback = "(required)",
        .meaning = "from the shaft's end of lowest z",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).bearings.back().position = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).position = v.number; }},
       {.path = "gear.shaft.bearings[].radial_stiffness", .quantity = Quantity::Stiffness, .range = above_zero(1e9),
        .fallback = "(rigid)", .meaning = "the same in every direction",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).bearings.back().radial_stiffness = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).radial_stiffness = v.number; }},
       {.path = "gear.shaft.bearings[].axial_stiffness", .quantity = Quantity::Stiffness, .range = from_zero(1e9),
        .fallback = "(0: slides; where none is given, the first bearing is rigid)", .meaning = "along the shaft",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).bearings.back().axial_stiffness = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).axial_stiffness = v.number; }},
       {.path = "gear.shaft.bearings[].tilting_stiffness", .quantity = Quantity::Torque, .range = from_zero(1e12),
        .fallback = "(0: swivels)", .meaning = "moment per rad",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).bearings.back().tilting_stiffness = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).tilting_stiffness = v.number; }},
       {.path = "gear.shaft.bearings[].radial_clearance", .quantity = Quantity::Deviation, .range = from_zero(10000.0), .fallback = "(0)",
        .meaning = "as catalogues have it: from one side to the other; the bearing is then linearised at each load case's equilibrium",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).bearings.back().radial_clearance = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).radial_clearance = v.number; }},
       {.path = "gear.shaft.bearings[].name", .kind = Text, .fallback = "(the shaft and a number: \"pinion 1\")",
        .meaning = "for results, and for unit.housing.seats",
-       .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).bearings.back().name = v.text; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).name = v.text; }},
       {.path = "gear.shaft.gear_position", .quantity = Quantity::Length, .range = on_shaft, .fallback = "(none; a shaft needs it)",
        .meaning = "of the gear's mid face, from the shaft's end of lowest z",
        .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).gear_position = v.number; }},
@@ -71,6 +76,9 @@ std::vector<SchemaKey> shaft_rows() {
        .fallback = "(as the gear's)", .meaning = "nu of the shaft",
        .store = [](StudyBuilder& d, Member m, const Value& v) { shaft(d, m).material.poissons_ratio = v.number; }},
   };
+  const std::vector<SchemaKey> by_load = bearing_law_rows<bearing>("gear.shaft.bearings[]");
+  rows.insert(std::ranges::find(rows, "gear.shaft.gear_position", &SchemaKey::path), by_load.begin(), by_load.end());
+  return rows;
 }
 
 // clang-format on

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "studies/study_file/bearing_keys.hpp"
 #include "studies/study_file/key_rows.hpp"
 
 namespace flankwright::studies {
@@ -19,30 +20,33 @@ constexpr Range any_force = within(1e9), any_torque = within(1e9);
 using enum ValueKind;
 
 /// What bearings on the housing and between shafts have in common.
-template <ShaftBearing& (*bearing)(StudyBuilder&)>
+template <ShaftBearing& (*bearing)(StudyBuilder&, Member)>
 std::vector<SchemaKey> bearing_rows(const std::string& list) {
   // clang-format off
-  return {
+  std::vector<SchemaKey> rows{
       {.path = list + ".radial_stiffness", .quantity = Quantity::Stiffness, .range = above_zero(1e9), .fallback = "(rigid)",
        .meaning = "the same in every direction",
-       .store = [](StudyBuilder& d, Member, const Value& v) { bearing(d).radial_stiffness = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).radial_stiffness = v.number; }},
       {.path = list + ".axial_stiffness", .quantity = Quantity::Stiffness, .range = from_zero(1e9), .fallback = "(0: slides)",
        .meaning = "along the shaft",
-       .store = [](StudyBuilder& d, Member, const Value& v) { bearing(d).axial_stiffness = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).axial_stiffness = v.number; }},
       {.path = list + ".tilting_stiffness", .quantity = Quantity::Torque, .range = from_zero(1e12), .fallback = "(0: swivels)",
        .meaning = "moment per rad",
-       .store = [](StudyBuilder& d, Member, const Value& v) { bearing(d).tilting_stiffness = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).tilting_stiffness = v.number; }},
       {.path = list + ".radial_clearance", .quantity = Quantity::Deviation, .range = from_zero(10000.0), .fallback = "(0)",
        .meaning = "from one side to the other",
-       .store = [](StudyBuilder& d, Member, const Value& v) { bearing(d).radial_clearance = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).radial_clearance = v.number; }},
       {.path = list + ".name", .kind = Text, .fallback = "(its shaft and a number)", .meaning = "for results, and for unit.housing.seats",
-       .store = [](StudyBuilder& d, Member, const Value& v) { bearing(d).name = v.text; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).name = v.text; }},
   };
   // clang-format on
+  const std::vector<SchemaKey> by_load = bearing_law_rows<bearing>(list);
+  rows.insert(rows.end(), by_load.begin(), by_load.end());
+  return rows;
 }
 
-ShaftBearing& of_shaft(StudyBuilder& builder) { return shaft(builder).bearings.back(); }
-ShaftBearing& of_joint(StudyBuilder& builder) { return joint(builder).bearing; }
+ShaftBearing& of_shaft(StudyBuilder& builder, Member /*member*/) { return shaft(builder).bearings.back(); }
+ShaftBearing& of_joint(StudyBuilder& builder, Member /*member*/) { return joint(builder).bearing; }
 
 }  // namespace
 
@@ -71,7 +75,7 @@ std::vector<SchemaKey> unit_rows() {
        .store = [](StudyBuilder& d, Member, const Value&) { shaft(d).bearings.emplace_back(); }},
       {.path = "unit.shafts[].bearings[].position", .quantity = Quantity::Length, .range = on_shaft, .fallback = "(required)",
        .meaning = "from the shaft's end of lowest z",
-       .store = [](StudyBuilder& d, Member, const Value& v) { of_shaft(d).position = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { of_shaft(d, m).position = v.number; }},
       {.path = "unit.shafts[].torque_position", .quantity = Quantity::Length, .range = on_shaft, .fallback = "(none: no coupling)",
        .meaning = "of the coupling, where the torque that the gears leave over enters or leaves",
        .store = [](StudyBuilder& d, Member, const Value& v) { shaft(d).torque_position = v.number; }},
@@ -142,7 +146,7 @@ std::vector<SchemaKey> unit_rows() {
       {.path = "unit.joints[].shaft", .kind = Text, .fallback = "(required)", .meaning = "the inner one",
        .store = [](StudyBuilder& d, Member, const Value& v) { joint(d).shaft = v.text; }},
       {.path = "unit.joints[].position", .quantity = Quantity::Length, .range = on_shaft, .fallback = "(required)", .meaning = "on the inner shaft",
-       .store = [](StudyBuilder& d, Member, const Value& v) { of_joint(d).position = v.number; }},
+       .store = [](StudyBuilder& d, Member m, const Value& v) { of_joint(d, m).position = v.number; }},
       {.path = "unit.joints[].outer_shaft", .kind = Text, .fallback = "(required)", .meaning = "in which the inner one runs",
        .store = [](StudyBuilder& d, Member, const Value& v) { joint(d).outer_shaft = v.text; }},
       {.path = "unit.joints[].outer_position", .quantity = Quantity::Length, .range = on_shaft, .fallback = "(required)", .meaning = "on the outer shaft",

@@ -51,6 +51,8 @@ void check_bearings(const ShaftData& shaft, bool alone, Findings& findings) {
     findings.require(bearing.tilting_stiffness >= 0.0, name + "tilting_stiffness", bearing.tilting_stiffness, "0 or more");
     findings.require(bearing.radial_clearance >= 0.0 && std::isfinite(bearing.radial_clearance), name + "radial_clearance", bearing.radial_clearance,
                      "0 mm or more");
+    for (const InvalidInput& problem : find_law_problems(bearing))
+      findings.require(false, name + problem.field(), problem.value(), problem.allowed());
     positions.push_back(bearing.position);
     holds_axially = holds_axially || bearing.axial_stiffness > 0.0;
     holds_tilt = holds_tilt || bearing.tilting_stiffness > 0.0;
@@ -62,6 +64,15 @@ void check_bearings(const ShaftData& shaft, bool alone, Findings& findings) {
 }
 
 }  // namespace
+
+std::vector<InvalidInput> find_law_problems(const ShaftBearing& bearing) {
+  std::vector<InvalidInput> problems = find_problems(bearing.law);
+  if (bearing.law.given() && std::isfinite(bearing.radial_stiffness)) {
+    problems.emplace_back("radial_stiffness", in_words(bearing.radial_stiffness) + " N/mm",
+                          "none beside a table or a type, which say how the bearing yields");
+  }
+  return problems;
+}
 
 double ShaftData::length() const {
   double sum = 0.0;

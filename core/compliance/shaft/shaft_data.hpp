@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/error.hpp"
+#include "core/compliance/shaft/bearing_law.hpp"
 #include "core/gear/gear_data.hpp"
 
 namespace flankwright {
@@ -17,7 +18,7 @@ struct ShaftSection {
   double inner_diameter{0.0};        ///< [mm], 0 .. below outer_diameter
 };
 
-/// The stiffness of a bearing at one position of the axis. Infinite is rigid.
+/// The stiffness of a bearing at one position of the axis. Infinite is rigid. Its radial stiffness is constant or, with a law, that of its load.
 struct ShaftBearing {
   double position{not_given};                                        ///< from the shaft's first end [mm]
   double radial_stiffness{std::numeric_limits<double>::infinity()};  ///< in every direction across the axis [N/mm], > 0
@@ -25,7 +26,14 @@ struct ShaftBearing {
   double tilting_stiffness{0.0};                                     ///< [N mm/rad], >= 0; 0: swivels
   double radial_clearance{0.0};  ///< of the diameters: how far the shaft can be moved across, all the way [mm], >= 0
   std::string name{};            ///< for results; empty: its shaft and number
+  BearingLawData law{};          ///< beside it radial_stiffness is infinite
+
+  /// Its force is not in proportion to the shaft's displacement in it.
+  bool depends_on_load() const { return radial_clearance > 0.0 || law.given(); }
 };
+
+/// What cannot be in how a bearing yields radially: its law, and a radial_stiffness beside it.
+std::vector<InvalidInput> find_law_problems(const ShaftBearing& bearing);
 
 /// A shaft, one that carries a gear of the pair or another one of its gear unit. Positions run along the pair's z from the
 /// shaft's first end, the one of lowest z.

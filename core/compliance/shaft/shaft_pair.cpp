@@ -99,7 +99,10 @@ ShaftPair::ShaftPair(const GearPair& pair, ShaftsOfPair shafts, PerGear<GearBody
     outside_ = outside_loads(shafts_, torques_);
   }
   for (std::size_t i = 0; i < supports_.bearings.size(); ++i) {
-    if (supports_.bearings[i].data.radial_clearance > 0.0) clearances_.push_back(static_cast<int>(i));
+    const ShaftBearing& bearing = supports_.bearings[i].data;
+    if (!bearing.depends_on_load()) continue;
+    nonlinear_.push_back(static_cast<int>(i));
+    nonlinear_bearings_.push_back({0.5 * bearing.radial_clearance, bearing.law.given() ? std::optional<RadialLaw>(bearing.law) : std::nullopt});
   }
 }
 

@@ -6,7 +6,7 @@
 
 #include "core/compliance/pair/pair_compliance.hpp"
 #include "core/compliance/shaft/beam_system.hpp"
-#include "core/compliance/shaft/bearing_clearance.hpp"
+#include "core/compliance/shaft/bearing_equilibrium.hpp"
 #include "core/compliance/shaft/shaft_data.hpp"
 #include "core/compliance/shaft/unit_data.hpp"
 #include "core/compliance/shaft/unit_state.hpp"
@@ -66,9 +66,10 @@ struct ShaftMotion {
 ///
 ///     g(p) = t_p' S^-1 f T - s_p'v         [outside_motion()],
 ///
-/// where v are the shifts of shafts across the clearances of their bearings and s_p the supports' forces under t_p. With clearances S is that at the
-/// equilibrium under mean forces, the pair's by one normal force at the pitch point at mid face: a bearing whose shaft is pressed against the
-/// border, shifted by c in the direction e of its force F, yields by (c/|F|) (1 - e e') beyond its spring, and one that carries nothing is not there.
+/// where v are displacements of shafts in their bearings that are forced on them, and s_p the supports' forces under t_p. With clearances, and with bearings
+/// whose stiffness depends on the load, S is that at the equilibrium under mean forces, the pair's by one normal force at the pitch point at mid face: a bearing
+/// whose shaft is pressed against the border, shifted by c in the direction e of its force F, yields by (c/|F|) (1 - e e') beyond its spring, one with a law
+/// by its tangent, see tangent_of(), and one that carries nothing is not there.
 /// linearised_at() makes these shafts; they are exact at that load and tangent to the truth around it.
 ///
 /// Departures from app. 2C, which has the whole load at mid face, the translation of the axis alone (the section's
@@ -87,8 +88,8 @@ class ShaftPair final : public PairCompliance {
   /// K of all shafts together [mm/N].
   Eigen::MatrixXd influence(const std::vector<ContactPoint>& points, double axial_offset) const override;
   OutsideMotion outside_motion(const std::vector<ContactPoint>& points, double axial_offset) const override;
-  bool depends_on_load() const override { return !clearances_.empty(); }
-  /// @throws InvalidInput  where the clearances' equilibrium is not found, or leaves a shaft loose
+  bool depends_on_load() const override { return !nonlinear_.empty(); }
+  /// @throws InvalidInput  where the equilibrium in the bearings is not found, or leaves a shaft loose
   std::shared_ptr<const PairCompliance> linearised_at(double pinion_torque) const override;
   /// The same as what it is; this one where nothing depends on the load.
   ShaftPair at_torque(double pinion_torque) const;
@@ -123,7 +124,12 @@ class ShaftPair final : public PairCompliance {
   ShaftMotion moved(Member member, const std::vector<ContactPoint>& points, const Eigen::VectorXd& forces, double axial_offset, double fixed) const;
   /// Forces of the supports under mean forces [N or N mm].
   Eigen::VectorXd mean_reactions(double pinion_torque, double axial_offset) const;
-  ClearanceState clearance_state(double pinion_torque) const;
+  /// Where the shafts lie in the bearings that depend on the load.
+  ClearanceState bearing_equilibrium(double pinion_torque) const;
+  /// The same equilibrium by the forces that the tangents there leave the bearings: one step of Newton's method by forces, without the round-off of displacements.
+  ClearanceState refined(ClearanceState found, const ShaftPair& tangent, double pinion_torque) const;
+  /// These shafts with each such bearing replaced by its tangent.
+  ShaftPair with_tangents(const ClearanceState& found, double pinion_torque) const;
   void find_drivers(UnitState& state) const;
   void add_bearings(double pinion_torque, double axial_offset, UnitState& state) const;
   void add_shafts(double pinion_torque, double axial_offset, UnitState& state) const;
@@ -137,10 +143,11 @@ class ShaftPair final : public PairCompliance {
   std::vector<std::vector<BeamPiece>> pieces_;
   std::optional<BeamSystem> system_;  ///< nothing: all are rigid
   UnitTorques torques_;
-  std::vector<BeamLoad> outside_;   ///< per torque on the pinion
-  std::vector<int> clearances_;     ///< indices of bearings that have one, of shafts that are not linearised
-  Eigen::VectorXd prestrain_;       ///< of linearised shafts: shifts forced on the supports of system_ [mm]; empty: none
-  std::optional<UnitState> state_;  ///< that linearised shafts are made for
+  std::vector<BeamLoad> outside_;                     ///< per torque on the pinion
+  std::vector<int> nonlinear_;                        ///< indices of bearings that depend on the load, of shafts that are not linearised
+  std::vector<NonlinearBearing> nonlinear_bearings_;  ///< these, in the same order
+  Eigen::VectorXd prestrain_;                         ///< of linearised shafts: displacements forced on the supports of system_ [mm]; empty: none
+  std::optional<UnitState> state_;                    ///< that linearised shafts are made for
 };
 
 }  // namespace flankwright

@@ -8,6 +8,21 @@
 
 namespace flankwright {
 
+namespace {
+
+BearingLawState law_state(const NonlinearBearing& bearing, BearingType type, double force) {
+  BearingLawState state;
+  state.type = type;
+  state.deflection = bearing.law->deflection(force);
+  state.tangent = bearing.law->stiffness(state.deflection);
+  state.secant = force > 0.0 ? force / state.deflection : state.tangent;
+  state.across = force > 0.0 ? force / (bearing.clearance + state.deflection) : bearing.clearance > 0.0 ? 0.0 : state.tangent;
+  state.beyond_table = bearing.law->is_beyond_table(force);
+  return state;
+}
+
+}  // namespace
+
 std::vector<BeamLoad> ShaftPair::mean_loads(double axial_offset) const {
   std::vector<BeamLoad> all = outside_;
   for (const BeamLoad& load : loads({pitch_point(axial_offset)}, axial_offset)) all.push_back(load.times(force_per_torque()));
@@ -21,46 +36,33 @@ Eigen::VectorXd ShaftPair::mean_reactions(double pinion_torque, double axial_off
   return forces;
 }
 
-ClearanceState ShaftPair::clearance_state(double pinion_torque) const {
+ClearanceState ShaftPair::bearing_equilibrium(double pinion_torque) const {
   const Eigen::VectorXd closed = -mean_reactions(pinion_torque, 0.0);
   const Eigen::MatrixXd stiffness = system_->prestrain_stiffness();
   std::vector<Eigen::Index> across;
-  Eigen::VectorXd clearance(std::ssize(clearances_));
-  for (std::size_t i = 0; i < clearances_.size(); ++i) {
-    const UnitBearing& bearing = supports_.bearings[static_cast<std::size_t>(clearances_[i])];
+  for (const int index : nonlinear_) {
+    const UnitBearing& bearing = supports_.bearings[static_cast<std::size_t>(index)];
     across.insert(across.end(), {bearing.supports[0], bearing.supports[1]});
-    clearance[static_cast<Eigen::Index>(i)] = 0.5 * bearing.data.radial_clearance;
   }
-  return solve_clearances(closed(across), stiffness(across, across), clearance);
+  return solve_bearings(closed(across), stiffness(across, across), nonlinear_bearings_);
 }
 
-ShaftPair ShaftPair::at_torque(double pinion_torque) const {
-  if (clearances_.empty()) return *this;
-  assert(pinion_torque > 0.0);
-  const ClearanceState found = clearance_state(pinion_torque);
-  if (!found.converged) {
-    throw InvalidInput("load.torque", in_words(pinion_torque / units::newton_metre),
-                       "one at which the equilibrium of shafts in their clearances is found; its residual is " + in_words(found.residual));
-  }
+ShaftPair ShaftPair::with_tangents(const ClearanceState& found, double pinion_torque) const {
   ShaftPair tangent = *this;
   const auto n = static_cast<Eigen::Index>(supports_.supports.size());
   Eigen::MatrixXd further = supports_.housing.size() > 0 ? supports_.housing : Eigen::MatrixXd(Eigen::MatrixXd::Zero(n, n));
-  Eigen::VectorXd shift = Eigen::VectorXd::Zero(n);
+  Eigen::VectorXd prestrain = Eigen::VectorXd::Zero(n);
   std::vector<bool> kept(supports_.supports.size(), true);
-  for (std::size_t i = 0; i < clearances_.size(); ++i) {
-    const UnitBearing& bearing = supports_.bearings[static_cast<std::size_t>(clearances_[i])];
-    const std::array<int, 2> across{bearing.supports[0], bearing.supports[1]};
+  for (std::size_t i = 0; i < nonlinear_.size(); ++i) {
+    const std::array<int, 5>& supports = supports_.bearings[static_cast<std::size_t>(nonlinear_[i])].supports;
     const auto at = static_cast<Eigen::Index>(2 * i);
-    if (!found.carries[i]) {
-      for (const int support : across) kept[static_cast<std::size_t>(support)] = false;
-      continue;
-    }
-    const Eigen::Vector2d force = found.force.segment<2>(at), outwards = force.normalized();
-    const Eigen::Matrix2d rolling =
-        0.5 * bearing.data.radial_clearance / force.norm() * (Eigen::Matrix2d::Identity() - outwards * outwards.transpose());
+    const BearingTangent small = tangent_of(nonlinear_bearings_[i], found.force.segment<2>(at), found.shift.segment<2>(at), found.carries[i]);
     for (Eigen::Index r = 0; r < 2; ++r) {
-      shift[across[static_cast<std::size_t>(r)]] = found.shift[at + r];
-      for (Eigen::Index c = 0; c < 2; ++c) further(across[static_cast<std::size_t>(r)], across[static_cast<std::size_t>(c)]) += rolling(r, c);
+      const int row = supports[static_cast<std::size_t>(r)];
+      kept[static_cast<std::size_t>(row)] = small.carries;
+      if (!small.carries) continue;
+      prestrain[row] = small.prestrain[r];
+      for (Eigen::Index c = 0; c < 2; ++c) further(row, supports[static_cast<std::size_t>(c)]) += small.compliance(r, c);
     }
   }
   // What carries nothing is not there.
@@ -78,8 +80,9 @@ ShaftPair ShaftPair::at_torque(double pinion_torque) const {
   }
   for (int& support : tangent.supports_.turning) support = support < 0 ? -1 : index[static_cast<std::size_t>(support)];
   tangent.supports_.housing = further(left, left);
-  tangent.prestrain_ = shift(left);
-  tangent.clearances_.clear();
+  tangent.prestrain_ = prestrain(left);
+  tangent.nonlinear_.clear();
+  tangent.nonlinear_bearings_.clear();
   std::vector<double> lengths;
   for (const ShaftData* shaft : shafts_.all()) lengths.push_back(shaft->length());
   if (const auto loose = find_loose_motion(lengths, tangent.supports_.supports)) {
@@ -88,24 +91,63 @@ ShaftPair ShaftPair::at_torque(double pinion_torque) const {
                            "\" against its bearings: it lies loose within their clearances");
   }
   tangent.system_.emplace(pieces_, tangent.supports_.supports, tangent.supports_.housing);
+  return tangent;
+}
+
+ClearanceState ShaftPair::refined(ClearanceState found, const ShaftPair& tangent, double pinion_torque) const {
+  const Eigen::VectorXd forces = tangent.mean_reactions(pinion_torque, 0.0);
+  for (std::size_t i = 0; i < nonlinear_.size(); ++i) {
+    if (!found.carries[i]) continue;
+    const std::array<int, 5>& supports = tangent.supports_.bearings[static_cast<std::size_t>(nonlinear_[i])].supports;
+    const NonlinearBearing& bearing = nonlinear_bearings_[i];
+    const auto at = static_cast<Eigen::Index>(2 * i);
+    const Eigen::Vector2d force(-forces[supports[0]], -forces[supports[1]]);
+    if (!(force.norm() > 0.0)) continue;
+    found.force.segment<2>(at) = force;
+    found.shift.segment<2>(at) = (bearing.clearance + (bearing.law ? bearing.law->deflection(force.norm()) : 0.0)) * force.normalized();
+  }
+  return found;
+}
+
+ShaftPair ShaftPair::at_torque(double pinion_torque) const {
+  if (nonlinear_.empty()) return *this;
+  assert(pinion_torque > 0.0);
+  ClearanceState found = bearing_equilibrium(pinion_torque);
+  if (!found.converged) {
+    throw InvalidInput("load.torque", in_words(pinion_torque / units::newton_metre),
+                       "one at which the equilibrium of shafts in their bearings is found; its residual is " + in_words(found.residual));
+  }
+  ShaftPair tangent = with_tangents(found, pinion_torque);
+  const auto has_law = [](const NonlinearBearing& bearing) { return bearing.law.has_value(); };
+  if (std::ranges::any_of(nonlinear_bearings_, has_law)) {
+    found = refined(std::move(found), tangent, pinion_torque);
+    tangent = with_tangents(found, pinion_torque);
+  }
   UnitState state = tangent.state(pinion_torque);
   state.linear = false;
   state.converged = found.converged;
   state.clearance_residual = found.residual;
   state.iterations = found.iterations;
   const double mirror = pair_.data.working_flank == WorkingFlank::Left ? -1.0 : 1.0;
-  for (std::size_t i = 0; i < clearances_.size(); ++i) {
-    BearingState& bearing = state.bearings[static_cast<std::size_t>(clearances_[i])];
+  for (std::size_t i = 0; i < nonlinear_.size(); ++i) {
+    BearingState& bearing = state.bearings[static_cast<std::size_t>(nonlinear_[i])];
+    const NonlinearBearing& given = nonlinear_bearings_[i];
+    const Eigen::Vector2d force = found.force.segment<2>(static_cast<Eigen::Index>(2 * i));
     bearing.shift = found.shift.segment<2>(static_cast<Eigen::Index>(2 * i));
-    bearing.shift.y() *= mirror;
     bearing.carries = found.carries[i];
+    if (given.law) {
+      bearing.law = law_state(given, supports_.bearings[static_cast<std::size_t>(nonlinear_[i])].data.law.type, force.norm());
+      // The part of it that is the clearance; where the shaft lies within that, all of it.
+      if (force.norm() > 0.0) bearing.shift = given.clearance * force.normalized();
+    }
+    bearing.shift.y() *= mirror;
   }
   tangent.state_ = std::move(state);
   return tangent;
 }
 
 std::shared_ptr<const PairCompliance> ShaftPair::linearised_at(double pinion_torque) const {
-  if (clearances_.empty()) return nullptr;
+  if (nonlinear_.empty()) return nullptr;
   return std::make_shared<const ShaftPair>(at_torque(pinion_torque));
 }
 
@@ -213,7 +255,7 @@ void ShaftPair::find_drivers(UnitState& state) const {
 
 UnitState ShaftPair::state(double pinion_torque, double axial_offset) const {
   if (state_) return *state_;
-  if (!clearances_.empty()) return at_torque(pinion_torque).state(pinion_torque, axial_offset);
+  if (!nonlinear_.empty()) return at_torque(pinion_torque).state(pinion_torque, axial_offset);
   UnitState state;
   state.pinion_torque = pinion_torque;
   const double alpha = pair_.working_transverse_pressure_angle, beta = pair_.base_helix_angle, own = force_per_torque() * pinion_torque;

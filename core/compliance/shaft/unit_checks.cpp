@@ -121,6 +121,8 @@ class Checking {
       require(places.emplace(joint.outer_shaft, joint.outer_position).second, table + "outer_position", joint.outer_position,
               "a position of its own");
       require(joint.bearing.radial_stiffness > 0.0, table + "radial_stiffness", joint.bearing.radial_stiffness, "above 0");
+      for (const InvalidInput& problem : find_law_problems(joint.bearing))
+        require(false, table + problem.field(), problem.value(), problem.allowed());
     }
   }
 

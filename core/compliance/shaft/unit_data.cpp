@@ -38,9 +38,8 @@ std::string ShaftsOfPair::table(int index) const {
 }
 
 bool ShaftsOfPair::depends_on_load() const {
-  const auto is_loose = [](const ShaftBearing& bearing) { return bearing.radial_clearance > 0.0; };
-  return std::ranges::any_of(all(), [&](const ShaftData* data) { return std::ranges::any_of(data->bearings, is_loose); }) ||
-         std::ranges::any_of(unit.joints, [&](const ShaftJoint& joint) { return is_loose(joint.bearing); });
+  return std::ranges::any_of(all(), [](const ShaftData* data) { return std::ranges::any_of(data->bearings, &ShaftBearing::depends_on_load); }) ||
+         std::ranges::any_of(unit.joints, [](const ShaftJoint& joint) { return joint.bearing.depends_on_load(); });
 }
 
 std::vector<Eigen::Vector2d> axes_of(const ShaftsOfPair& shafts, const GearPair& pair) {

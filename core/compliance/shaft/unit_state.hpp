@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "core/compliance/shaft/bearing_law.hpp"
 #include "core/gear/gear_data.hpp"
 
 namespace flankwright {
@@ -21,6 +23,16 @@ struct MeshState {
   int driver{-1};
 };
 
+/// How a bearing whose stiffness depends on its load yields under its radial force F.
+struct BearingLawState {
+  BearingType type{BearingType::NotGiven};  ///< by whose formula; not given: by its table
+  double deflection{not_given};             ///< delta(F), beyond the clearance [mm]
+  double secant{not_given};                 ///< F / delta [N/mm]
+  /// What the loaded contact has: d F/d delta along the force, and F / (clearance + delta) across it [N/mm].
+  double tangent{not_given}, across{not_given};
+  bool beyond_table{false};  ///< the force is beyond the end of the table, which goes on along its last piece
+};
+
 /// A bearing under mean forces. What has a direction is in the axes of the pair, x, y, z.
 struct BearingState {
   std::string name, shaft, outer_shaft;                          ///< outer_shaft empty: on the housing
@@ -30,6 +42,7 @@ struct BearingState {
   double radial_clearance{0.0};                                  ///< as given [mm]
   Eigen::Vector2d shift{Eigen::Vector2d::Zero()};                ///< of the shaft within it [mm]
   bool carries{true};                                            ///< false: the shaft lies within the clearance
+  std::optional<BearingLawState> law{};                          ///< nothing: its stiffness is constant
 };
 
 /// A shaft under mean forces, at stations along it.
@@ -53,8 +66,8 @@ struct UnitState {
   double mesh_misalignment{not_given};  ///< of the pair under study by all shafts: as ShaftMotion::misalignment of both gears [mm]
   /// The part of it that the other forces make [mm].
   double outside_misalignment{not_given};
-  bool linear{true};               ///< no bearing has a clearance
-  bool converged{true};            ///< clearances: whether their equilibrium was found
+  bool linear{true};               ///< no bearing has a clearance, or a stiffness that depends on its load
+  bool converged{true};            ///< of these: whether their equilibrium was found
   double clearance_residual{0.0};  ///< ClearanceState::residual [-]
   int iterations{0};
 };

@@ -96,8 +96,8 @@ function build_unit(results, body) {
   const word = (text) => ({ text: text ?? "–", class: "word" });
   const tables = el("div", { class: "tables" });
   table(tables, { title: "Misalignment by the unit",
-    note: "F_βy of the pair by shafts, bearings and housing under mean forces, + opens the mesh at +z; and the part that other forces than the pair's make. Bearings with clearance "
-      + "are linearised where all mean forces are in equilibrium.",
+    note: "F_βy of the pair by shafts, bearings and housing under mean forces, + opens the mesh at +z; and the part that other forces than the pair's make. Bearings with clearance, "
+      + "or with a stiffness that depends on the load, are linearised where all mean forces are in equilibrium.",
     columns: [{ label: "Load case" }, { label: "Misalignment", unit: "µm" }, { label: "By other forces", unit: "µm" }, { label: "Bearings" }],
     rows: cases.map((entry) => [label(entry), entry.unit.mesh_misalignment_um, entry.unit.misalignment_by_other_forces_um, word(entry.unit.bearings_are)]) });
   table(tables, { title: "Meshes", note: "Torques on both gears by their shafts, about z.",
@@ -108,6 +108,17 @@ function build_unit(results, body) {
     columns: [{ label: "Load case" }, { label: "Bearing" }, { label: "Shaft" }, { label: "F_x", unit: "N" }, { label: "F_y", unit: "N" }, { label: "F_z", unit: "N" },
       { label: "Radial", unit: "N" }, { label: "Carries" }],
     rows: rows("bearings", (bearing) => [word(bearing.name), word(bearing.shaft), ...list(bearing.force_N), bearing.radial_force_N, bearing.carries]) });
+  const by_load = rows("bearings", (bearing) => [bearing, word(bearing.name), bearing.radial_force_N]).filter(([, bearing]) => bearing.radial_stiffness !== undefined);
+  if (by_load.length > 0) {
+    table(tables, { title: "Bearings whose stiffness depends on the load",
+      note: "Radial stiffness at the equilibrium under mean forces: the secant is force over deflection, the tangent is what the loaded contact has along the force.",
+      columns: [{ label: "Load case" }, { label: "Bearing" }, { label: "Radial", unit: "N" }, { label: "By" }, { label: "Deflection", unit: "µm" }, { label: "Secant", unit: "N/µm" },
+        { label: "Tangent", unit: "N/µm" }],
+      rows: by_load.map(([load_case, bearing, name, force]) => {
+        const { given, deflection_um, secant_N_per_um, used_N_per_um, beyond_table } = bearing.radial_stiffness;
+        return [load_case, name, force, word(`${given}${beyond_table ? ", beyond its end" : ""}`), deflection_um, secant_N_per_um, used_N_per_um];
+      }) });
+  }
   table(tables, { title: "Shafts", columns: [{ label: "Load case" }, { label: "Shaft" }, { label: "Largest deflection", unit: "µm" }, { label: "Coupling torque", unit: "N·m" }],
     rows: rows("shafts", (shaft) => [word(shaft.name), shaft.largest_deflection_um, shaft.coupling_torque_Nm]) });
   const most = cases.reduce((a, b) => (b.torque_Nm > a.torque_Nm ? b : a));

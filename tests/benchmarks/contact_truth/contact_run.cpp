@@ -1,5 +1,6 @@
 #include "tests/benchmarks/contact_truth/contact_run.hpp"
 #include "core/gear/gear_pair.hpp"
+#include "tests/benchmarks/calculix.hpp"
 
 #include <sys/resource.h>
 
@@ -306,7 +307,7 @@ double ContactAnswer::peak_compression(int tooth) const {
   return peak;
 }
 
-bool calculix_is_installed() { return std::system("command -v ccx > /dev/null 2>&1") == 0; }
+bool calculix_is_installed() { return calculix::is_installed(); }
 
 ContactAnswer run_calculix(const ContactTask& task, const ContactSettings& settings, const std::filesystem::path& folder) {
   const ContactModel model(task, settings.mesh);
@@ -327,7 +328,7 @@ ContactAnswer run_calculix(const ContactTask& task, const ContactSettings& setti
   ContactAnswer answer;
   answer.unknowns = model.meshes[0].solid.nodes.size() + model.meshes[1].solid.nodes.size();
   const double before = seconds(usage());
-  const int code = std::system(("cd '" + folder.string() + "' && OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 ccx pair > ccx.log 2>&1").c_str());
+  const int code = calculix::run(folder, "pair");
   answer.processor_seconds = seconds(usage()) - before;
   answer.peak_bytes = 1024.0 * static_cast<double>(usage().ru_maxrss);  // of the largest run so far
   if (code != 0) return answer;

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "studies/study_file/key_rows.hpp"
+
+namespace flankwright::studies {
+
+/// Keys of a bearing's radial stiffness where it depends on the load: a table, or the bearing's type and its rolling elements.
+/// @param list  "unit.joints[]", the table that the keys belong to
+template <ShaftBearing& (*bearing)(StudyBuilder&, Member)>
+std::vector<SchemaKey> bearing_law_rows(const std::string& list) {
+  using enum ValueKind;
+  // A row is read as a row:
+  // clang-format off
+  return {
+      {.path = list + ".force_table", .kind = NumberList, .quantity = Quantity::Force, .range = from_zero(1e9), .fallback = "(none: a constant stiffness)",
+       .meaning = "radial forces, increasing, of which deflection_table has the deflections; linear between the points, from the origin on and beyond the last; instead of radial_stiffness",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).law.table_force = v.numbers; }},
+      {.path = list + ".deflection_table", .kind = NumberList, .quantity = Quantity::Deviation, .range = from_zero(1e5), .fallback = "(none)",
+       .meaning = "radial deflections under the forces of force_table, increasing; without the clearance",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).law.table_deflection = v.numbers; }},
+      {.path = list + ".type", .kind = Word, .words = {"deep_groove_ball", "angular_contact_ball", "cylindrical_roller", "tapered_roller"},
+       .fallback = "(none: a constant stiffness)", .meaning = "the bearing yields radially as Palmgren's formula for this type has it; instead of radial_stiffness",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).law.type = static_cast<BearingType>(v.integer + 1); }},
+      {.path = list + ".elements", .kind = Integer, .range = {.low = 3, .high = 1000}, .fallback = "(none; a type needs it)", .meaning = "Z, balls or rollers of all rows",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).law.elements = static_cast<int>(v.integer); }},
+      {.path = list + ".element_diameter", .quantity = Quantity::Length, .range = any_length, .fallback = "(none; a type of ball bearing needs it)", .meaning = "D, of the balls",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).law.element_diameter = v.number; }},
+      {.path = list + ".element_length", .quantity = Quantity::Length, .range = any_length, .fallback = "(none; a type of roller bearing needs it)",
+       .meaning = "l, of the rollers, effective",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).law.element_length = v.number; }},
+      {.path = list + ".contact_angle", .quantity = Quantity::Angle, .range = from_zero(60.0),
+       .fallback = "(0 of deep_groove_ball and cylindrical_roller; the other types need it)", .meaning = "alpha, against the plane across the shaft",
+       .store = [](StudyBuilder& d, Member m, const Value& v) { bearing(d, m).law.contact_angle = v.number; }},
+  };
+  // clang-format on
+}
+
+}  // namespace flankwright::studies

@@ -1,0 +1,93 @@
+#include "studies/results/governing_cases.hpp"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "studies/analysis/run_study.hpp"
+#include "studies/base/json_format.hpp"
+#include "studies/base/results_folder.hpp"
+#include "studies/report/report.hpp"
+#include "studies/results/results_json.hpp"
+#include "studies/results/tables.hpp"
+#include "studies/study_file/study_file.hpp"
+
+namespace flankwright::studies {
+namespace {
+
+const std::string three_torques = R"([pair]
+normal_module = 4
+helix_angle = 15
+[pinion]
+teeth = 21
+face_width = 40
+[wheel]
+teeth = 40
+face_width = 40
+[load]
+torque = [100, 300, 200]
+[cycle]
+positions = 4
+[fidelity]
+compliance = "thin_slice"
+quadrature = { rule = "graded", intervals = 8 }
+)";
+
+StudyResults run_three_torques(const std::string& more = "") { return run_study(parse_study(three_torques + more, "three.toml")); }
+
+std::size_t listed_points(const Json& loaded) {
+  std::size_t count = 0;
+  for (const Json& position : loaded.at("cycle")) {
+    for (const Json& tooth : position.at("teeth")) count += tooth.at("points").size();
+  }
+  return count;
+}
+
+std::size_t lines_of(const std::string& text) { return static_cast<std::size_t>(std::ranges::count(text, '\n')); }
+
+std::string points_table(const StudyResults& results) {
+  for (const NamedText& table : csv_tables(results)) {
+    if (table.name == "points.csv") return table.text;
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("All load cases have their points unless the study asks for those that govern", "[studies][results]") {
+  const StudyResults all = run_three_torques(), governing = run_three_torques("[output]\npoints = \"governing\"\n");
+  CHECK(cases_with_points(all) == std::vector<bool>{true, true, true});
+  // The largest torque has the largest stress; transmission error may be the largest elsewhere, so that a case more may govern.
+  const std::vector<bool> shown = cases_with_points(governing);
+  REQUIRE(shown.size() == 3);
+  CHECK(shown[1]);
+  CHECK_FALSE(shown[0]);
+  CHECK_FALSE(shown[2]);
+  const Json whole = results_document(all), small = results_document(governing);
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Json &full = whole.at("loaded").at(i), &here = small.at("loaded").at(i);
+    CHECK(here.at("summary") == full.at("summary"));
+    CHECK(here.at("extremes") == full.at("extremes"));
+    REQUIRE(here.at("cycle").size() == full.at("cycle").size());
+    for (std::size_t k = 0; k < full.at("cycle").size(); ++k) {
+      CHECK(here.at("cycle").at(k).at("te_um") == full.at("cycle").at(k).at("te_um"));
+      const Json &teeth = here.at("cycle").at(k).at("teeth"), &full_teeth = full.at("cycle").at(k).at("teeth");
+      REQUIRE(teeth.size() == full_teeth.size());
+      for (std::size_t t = 0; t < teeth.size(); ++t) CHECK(teeth.at(t).at("share") == full_teeth.at(t).at("share"));
+    }
+    CHECK(listed_points(full) > 0);
+    CHECK(listed_points(here) == (shown[i] ? listed_points(full) : 0));
+    points += listed_points(here);
+  }
+  CHECK(small.at("used").at("output").at("points") == "governing");
+  CHECK_FALSE(whole.at("used").contains("output"));
+  CHECK(lines_of(points_table(governing)) == points + 1);
+  CHECK(render_report(small).size() < render_report(whole).size());
+}
+
+TEST_CASE("A choice of load cases that does not exist is refused", "[studies][results]") {
+  using Catch::Contains;
+  CHECK_THROWS_WITH(run_three_torques("[output]\npoints = \"some\"\n"), Contains("output.points") && Contains("governing"));
+}
+
+}  // namespace flankwright::studies
