@@ -107,6 +107,15 @@ inline std::vector<ContactCase> contact_cases() {
   return cases;
 }
 
+/// Where root stress is compared.
+inline std::vector<ContactCase> root_cases() {
+  const PairData spur = pair_data(0, 40);
+  return {{"root, spur, one pair", contact_task(spur, 1.15, 45)},
+          {"root, spur, two pairs", contact_task(spur, 0.65, 45)},
+          {"root, spur, one pair, 20 um of lead crowning", contact_task(spur, 1.15, 60, 20)},
+          {"root, helical, 1.00", contact_task(pair_data(30, 40), 1.00, 45)}};
+}
+
 /// A pair over a mesh cycle at one torque.
 struct CycleCase {
   std::string name;
@@ -133,7 +142,7 @@ inline ContactSettings edge_settings(const ContactTask& task, int flank = 24, in
 }
 
 /// Meshes by name: coarse, medium (the default), fine; "ends" has thin layers at the face ends, "pressure" elements
-/// narrow enough for the stress at the contact, "layers" thinner ones still at the ends, for unequal faces.
+/// narrow enough for the stress at the contact, "layers" thinner ones still at the ends, for unequal faces; "roots" and "fine roots" resolve the fillets.
 inline ContactMeshOptions contact_mesh_options(std::string_view name) {
   if (name == "coarse") {
     return {.flank = 10, .fillet = 2, .across = 3, .into_depth = 2.6, .end_layer = 2, .layer_growth = 1.8, .largest_layer = 8};
@@ -150,6 +159,25 @@ inline ContactMeshOptions contact_mesh_options(std::string_view name) {
   }
   if (name == "layers") {
     return {.flank = 10, .across = 3, .finest = 0.4, .end_layer = 0.2, .layer_growth = 1.8, .largest_layer = 3};
+  }
+  if (name == "roots") {
+    ContactMeshOptions options = contact_mesh_options("coarse");
+    options.fillet = 6;
+    options.far_fillet = 2;
+    options.across = 4;
+    options.into_depth = 2.2;
+    options.gap_depth = 1.8;
+    return options;
+  }
+  if (name == "fine roots") {
+    ContactMeshOptions options = contact_mesh_options("roots");
+    options.fillet = 10;
+    options.across = 5;
+    options.into_depth = 2;
+    options.end_layer = 1.5;
+    options.layer_growth = 1.6;
+    options.largest_layer = 6;
+    return options;
   }
   if (name == "pressure") return {.flank = 24, .across = 5, .finest = 0.15};  // for the narrow pair
   return {};

@@ -45,6 +45,7 @@ class Section {
     int face;                   ///< CalculiX' number of that face; 0: it does not touch one
     double half_width, middle;  ///< along z, of the part that it belongs to [mm]
     bool in_rim;                ///< below the root circle, above the underside of a rim on a web
+    bool in_fillet;             ///< that face lies below the loaded flank
   };
   const std::vector<Quad>& quads() const { return quads_; }
   std::size_t size() const { return places_.size(); }
@@ -91,8 +92,10 @@ class Section {
   }
   int pair_of(int tooth) const { return pinion() ? tooth : -tooth; }
   int flank_elements(int tooth) const { return loaded(tooth) ? options_.flank : options_.far_flank; }
-  int steps(int tooth) const { return flank_elements(tooth) + options_.fillet; }
-  int corner(int tooth) const { return steps(tooth) - 1; }  ///< where the inner line turns from the centre line to the rim
+  int fillet_elements(int tooth) const { return loaded(tooth) || options_.far_fillet == 0 ? options_.fillet : options_.far_fillet; }
+  int steps(int tooth) const { return flank_elements(tooth) + fillet_elements(tooth); }
+  /// Where the inner line turns from the centre line to the rim.
+  int corner(int tooth) const { return steps(tooth) - std::max(1, fillet_elements(tooth) / 2); }
   double turn() const {
     const double phi1 = path_.pinion_angle_at(gear_.line_phase, *gear_.pair);
     const double rotation = pinion() ? phi1 : -phi1 / gear_.pair->gear_ratio();
@@ -153,7 +156,7 @@ class Section {
   /// The surface, angles from the centre line.
   Polar profile(int tooth, int side, int i, double z) const {
     const int end = 2 * flank_elements(tooth);
-    if (i > end) return root_.at((i - end) / (2.0 * options_.fillet));
+    if (i > end) return root_.at((i - end) / (2.0 * fillet_elements(tooth)));
     const double s = arc(tooth, side, i, z);
     if (side > 0 && capped(tooth) && s > involute_arc(tip_->flank_end())) return beyond_flank(s - involute_arc(tip_->flank_end()));
     const double rho = std::sqrt(2 * form_.base_radius() * s), radius = std::hypot(rho, form_.base_radius());
@@ -186,16 +189,19 @@ class Section {
     return {top(tooth) + (foot - top(tooth)) * i / flank, 0};
   }
 
-  /// Share of the way from the inside to the surface at half level j: fine below the loaded flank, even in the gap's
-  /// middle.
+  /// Share of the way from the inside to the surface at half level j where elements shrink by a ratio q towards it.
+  double graded(double q, int j) const {
+    if (j % 2 != 0) return (graded(q, j - 1) + graded(q, j + 1)) / 2;
+    return q == 1 ? j / (2.0 * options_.across) : (1 - std::pow(q, -j / 2.0)) / (1 - std::pow(q, -options_.across));
+  }
+
+  /// The same on a tooth: fine below the loaded flank, as in the gap's middle elsewhere.
   double level(int tooth, int side, int i, int j) const {
-    if (j % 2 != 0) return (level(tooth, side, i, j - 1) + level(tooth, side, i, j + 1)) / 2;
-    const double even = j / (2.0 * options_.across);
-    if (side < 0 || !loaded(tooth)) return even;
-    const double q = options_.into_depth;
-    const double fine = (1 - std::pow(q, -j / 2.0)) / (1 - std::pow(q, -options_.across));
+    const double gap = graded(options_.gap_depth, j);
+    if (side < 0 || !loaded(tooth)) return gap;
+    const double fine = graded(options_.into_depth, j);
     const int end = 2 * flank_elements(tooth);
-    return i <= end ? fine : fine + (even - fine) * (i - end) / (2.0 * options_.fillet);
+    return i <= end ? fine : fine + (gap - fine) * (i - end) / (2.0 * fillet_elements(tooth));
   }
 
   Polar tooth_polar(int tooth, int side, int i, int j, double z) const {
@@ -233,10 +239,10 @@ class Section {
       case Tooth:
         return tooth_polar(p.tooth, p.side, p.i, p.j, z);
       case Gap:
-        return {rim_ + (form_.root_radius() - rim_) * p.j / (2.0 * options_.across), middle + pitch_ / 2};
+        return {rim_ + (form_.root_radius() - rim_) * graded(options_.gap_depth, p.j), middle + pitch_ / 2};
       case Plain: {
         const double start = (last_ + 0.5) * pitch_, end = (first_ - 0.5) * pitch_ + 2 * pi;
-        return {rim_ + (form_.root_radius() - rim_) * p.j / (2.0 * options_.across), start + (end - start) * plain(p.i)};
+        return {rim_ + (form_.root_radius() - rim_) * graded(options_.gap_depth, p.j), start + (end - start) * plain(p.i)};
       }
       case Ring: {
         Polar at = polar(places_[static_cast<std::size_t>(around_[static_cast<std::size_t>(p.i)])], z);
@@ -270,20 +276,21 @@ class Section {
     return found->second;
   }
 
-  /// @param flipped  where growing i and j turn clockwise
+  /// @param flipped          where growing i and j turn clockwise
+  /// @param surface_columns  on a loaded flank, the others being below it; 0: none of them is
   template <class At>
   void grid(int columns, int rows, bool flipped, int tooth, int surface_columns, At&& at) {
     for (int i = 0; i < 2 * columns; i += 2) {
       for (int j = 0; j < 2 * rows; j += 2) {
         const std::array<int, 8> n{at(i, j),     at(i + 2, j),     at(i + 2, j + 2), at(i, j + 2),
                                    at(i + 1, j), at(i + 2, j + 1), at(i + 1, j + 2), at(i, j + 1)};
-        const bool surface = i < 2 * surface_columns && j == 2 * rows - 2;
+        const bool surface = surface_columns > 0 && j == 2 * rows - 2, fillet = surface && i >= 2 * surface_columns;
         const int face = !surface ? 0 : flipped ? 4 : 5;
         const double half = (*gear_.pair)[gear_.member].data.face_width / 2;
         if (flipped)
-          quads_.push_back({{n[0], n[3], n[2], n[1], n[7], n[6], n[5], n[4]}, pair_of(tooth), face, half, 0, is_below_root(n)});
+          quads_.push_back({{n[0], n[3], n[2], n[1], n[7], n[6], n[5], n[4]}, pair_of(tooth), face, half, 0, is_below_root(n), fillet});
         else
-          quads_.push_back({n, pair_of(tooth), face, half, 0, is_below_root(n)});
+          quads_.push_back({n, pair_of(tooth), face, half, 0, is_below_root(n), fillet});
       }
     }
   }
@@ -348,6 +355,7 @@ ContactMesh contact_mesh(const ContactGear& gear, const ContactMeshOptions& opti
   ContactMesh mesh;
   mesh.planes = layer_planes(gear, options);
   mesh.flanks.resize(static_cast<std::size_t>(gear.last - gear.first + 1));
+  mesh.fillets.resize(mesh.flanks.size());
 
   std::map<std::pair<int, int>, int> numbers;  // of (level, node of the section)
   std::vector<Eigen::Vector3d> points;
@@ -378,7 +386,8 @@ ContactMesh contact_mesh(const ContactGear& gear, const ContactMeshOptions& opti
         brick[i + 16] = node(2 * layer + 1, quad.nodes[i]);
       }
       if (quad.face != 0) {
-        mesh.flanks[static_cast<std::size_t>(quad.pair - gear.first)].push_back({static_cast<int>(bricks.size()), quad.face});
+        (quad.in_fillet ? mesh.fillets : mesh.flanks)[static_cast<std::size_t>(quad.pair - gear.first)].push_back(
+            {static_cast<int>(bricks.size()), quad.face});
       }
       bricks.push_back(brick);
     }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "core/compliance/finite_element/gear_body.hpp"
@@ -15,9 +16,11 @@ struct ContactMeshOptions {
   int flank{12};              ///< elements from tip to start of fillet, loaded teeth
   int far_flank{2};           ///< the same, other detailed teeth
   int fillet{3};              ///< from there to the middle of the gap, >= 2
+  int far_fillet{0};          ///< the same, teeth that are not loaded; 0: as many
   int across{4};              ///< centre surface to flank
   double finest{0.4};         ///< delta of the spacing along the flank: s = s_c + delta sinh(...)
   double into_depth{2.2};     ///< size ratio of neighbouring elements below the loaded flank
+  double gap_depth{1};        ///< the same below the root in the middle of the gap and where nothing meshes; 1: even
   double end_layer{1.5};      ///< axial size at the ends of the common face, also beyond them on a wider gear
   double layer_growth{1.6};   ///< of neighbouring layers
   double largest_layer{6.0};  ///< axial size at mid face
@@ -46,14 +49,19 @@ struct ElementFace {
   int face;   ///< 1 .. 6
 };
 
+/// Corners, then sides' middles, of CalculiX' face 4 among the nodes of a brick, as face_shape() has them; the first local axis of a fillet's face runs down, the second
+/// along +z.
+inline constexpr std::array<int, 8> nodes_of_face_4{1, 2, 6, 5, 9, 18, 13, 17};
+
 /// 20-node bricks of a gear with all of its body, in the frame of Flank.
 struct ContactMesh {
   SolidMesh solid;
-  std::vector<int> bore;                         ///< nodes
-  std::vector<int> mid_face;                     ///< nodes at z = 0 where only half of the face is meshed
-  std::vector<std::vector<ElementFace>> flanks;  ///< of pairs first .. last, with their roundings
-  std::vector<double> planes;                    ///< z of the layers' ends [mm]
-  std::vector<int> rim;                          ///< bricks between root circle and underside of a rim on a web
+  std::vector<int> bore;                          ///< nodes
+  std::vector<int> mid_face;                      ///< nodes at z = 0 where only half of the face is meshed
+  std::vector<std::vector<ElementFace>> flanks;   ///< of pairs first .. last, with their roundings
+  std::vector<std::vector<ElementFace>> fillets;  ///< below these flanks, to the middle of the gap: face 4, layer by layer and downwards
+  std::vector<double> planes;                     ///< z of the layers' ends [mm]
+  std::vector<int> rim;                           ///< bricks between root circle and underside of a rim on a web
 };
 
 /// Loaded teeth follow the true flank surface; other flanks and fillets are those of ToothForm, and where nothing

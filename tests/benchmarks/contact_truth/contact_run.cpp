@@ -69,6 +69,30 @@ struct ContactModel {
     }
     return {nodes.begin(), nodes.end()};
   }
+  std::vector<int> fillet_nodes(std::size_t gear) const {
+    std::set<int> nodes;
+    for (const auto& fillet : meshes[gear].fillets) {
+      for (const ElementFace& f : fillet) {
+        for (const int i : nodes_of_face_4) nodes.insert(meshes[gear].solid.bricks(i, f.brick));
+      }
+    }
+    return {nodes.begin(), nodes.end()};
+  }
+  /// See ContactAnswer::fillets.
+  std::vector<FilletFace> fillet_faces(std::size_t gear, const std::map<Eigen::Index, Eigen::Vector3d>& displacements) const {
+    std::vector<FilletFace> faces;
+    for (int k = first; k <= last; ++k) {
+      for (const ElementFace& f : meshes[gear].fillets[static_cast<std::size_t>(k - first)]) {
+        FilletFace& face = faces.emplace_back(FilletFace{k, {}, {}});
+        for (int i = 0; i < 8; ++i) {
+          const int node = meshes[gear].solid.bricks(nodes_of_face_4[static_cast<std::size_t>(i)], f.brick);
+          face.nodes.col(i) = place(gear, node);
+          face.displacements.col(i) = displacements.at(node);
+        }
+      }
+    }
+    return faces;
+  }
   /// See ContactAnswer::rim.
   Eigen::Vector<double, 6> rim_motion(std::size_t gear, const std::map<Eigen::Index, Eigen::Vector3d>& displacements) const {
     const ContactMesh& mesh = meshes[gear];
@@ -154,6 +178,7 @@ void write_deck(std::ostream& out, const ContactModel& model, const ContactTask&
   }
   for (std::size_t g : {0U, 1U}) {
     if (!model.meshes[g].rim.empty()) node_set(numbered("RIM", g), g, model.rim_nodes(g));
+    if (settings.fillets) node_set(numbered("FILLET", g), g, model.fillet_nodes(g));
   }
   out << "*ELSET, ELSET=SKIN\n";
   for (const auto& flank : model.meshes[0].flanks) {
@@ -184,6 +209,7 @@ void write_deck(std::ostream& out, const ContactModel& model, const ContactTask&
   out << "*NODE PRINT, NSET=BORE0\nRF\n*NODE PRINT, NSET=BORE1\nRF\n";
   for (std::size_t g : {0U, 1U}) {
     if (!model.meshes[g].rim.empty()) out << "*NODE PRINT, NSET=" << numbered("RIM", g) << "\nU\n";
+    if (settings.fillets) out << "*NODE PRINT, NSET=" << numbered("FILLET", g) << "\nU\n";
   }
   for (int k = model.first; k <= model.last; ++k) {
     for (std::size_t layer = 0; layer < model.layers(); ++layer) {
@@ -204,7 +230,7 @@ std::vector<double> next_numbers(std::istream& in) {
   return {};
 }
 
-void read_answer(std::istream& in, const ContactModel& model, bool half_face, ContactAnswer& answer) {
+void read_answer(std::istream& in, const ContactModel& model, const ContactSettings& settings, bool half_face, ContactAnswer& answer) {
   std::map<Eigen::Index, std::pair<int, std::size_t>> layer_of;  // of an element, from 1
   std::map<std::pair<int, std::size_t>, double> compression;
   for (int k = model.first; k <= model.last; ++k) {
@@ -212,8 +238,8 @@ void read_answer(std::istream& in, const ContactModel& model, bool half_face, Co
       for (const ElementFace& f : model.layer_faces(0, k, layer)) layer_of[f.brick + 1] = {k, layer};
     }
   }
-  enum { Nothing, Bore0, Bore1, Stress, Rim0, Rim1 } block = Nothing;
-  std::map<Eigen::Index, Eigen::Vector3d> rims[2];
+  enum { Nothing, Bore0, Bore1, Stress, Moved0, Moved1 } block = Nothing;
+  std::map<Eigen::Index, Eigen::Vector3d> displacements[2];
   double moments[2] = {0, 0};
   bool complete = false;
   for (std::string line; std::getline(in, line);) {
@@ -226,10 +252,10 @@ void read_answer(std::istream& in, const ContactModel& model, bool half_face, Co
       block = Bore0;
     } else if (line.find("set BORE1") != line.npos)
       block = Bore1;
-    else if (line.find("set RIM0") != line.npos)
-      block = Rim0;
-    else if (line.find("set RIM1") != line.npos)
-      block = Rim1;
+    else if (line.find("set RIM0") != line.npos || line.find("set FILLET0") != line.npos)
+      block = Moved0;
+    else if (line.find("set RIM1") != line.npos || line.find("set FILLET1") != line.npos)
+      block = Moved1;
     else if (line.find("stresses (elem") != line.npos)
       block = Stress;
     else if (line.find("total surface force") != line.npos) {
@@ -252,10 +278,10 @@ void read_answer(std::istream& in, const ContactModel& model, bool half_face, Co
         stress << xx, xy, xz, xy, yy, yz, xz, yz, zz;
         const double lowest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly).eigenvalues()[0];
         compression[layer_of[number]] = std::max(compression[layer_of[number]], -lowest);
-      } else if (block == Rim0 || block == Rim1) {
-        const std::size_t g = block == Rim0 ? 0 : 1;
+      } else if (block == Moved0 || block == Moved1) {
+        const std::size_t g = block == Moved0 ? 0 : 1;
         Eigen::Vector3d u;
-        if (words >> u.x() >> u.y() >> u.z()) rims[g][number - 1 - model.first_node[g]] = u;
+        if (words >> u.x() >> u.y() >> u.z()) displacements[g][number - 1 - model.first_node[g]] = u;
       } else {
         const std::size_t g = block == Bore0 ? 0 : 1;
         Eigen::Vector3d force;
@@ -272,7 +298,8 @@ void read_answer(std::istream& in, const ContactModel& model, bool half_face, Co
   if (complete) {
     for (const Member m : {Member::Pinion, Member::Wheel}) {
       const std::size_t g = m == Member::Pinion ? 0 : 1;
-      if (!model.meshes[g].rim.empty()) answer.rim[m] = model.rim_motion(g, rims[g]);
+      if (!model.meshes[g].rim.empty()) answer.rim[m] = model.rim_motion(g, displacements[g]);
+      if (settings.fillets) answer.fillets[m] = model.fillet_faces(g, displacements[g]);
     }
   }
   // Both bores hold against the drive: the pinion's moment drives, and the wheel's hinders its clockwise turn.
@@ -333,7 +360,7 @@ ContactAnswer run_calculix(const ContactTask& task, const ContactSettings& setti
   answer.peak_bytes = 1024.0 * static_cast<double>(usage().ru_maxrss);  // of the largest run so far
   if (code != 0) return answer;
   std::ifstream in(folder / "pair.dat");
-  read_answer(in, model, task.half_face, answer);
+  read_answer(in, model, settings, task.half_face, answer);
   return answer;
 }
 

@@ -29,6 +29,7 @@ struct ContactSettings {
   ContactMeshOptions mesh{};
   double penalty{2e7};             ///< pressure over penetration [MPa/mm]; 1500 MPa sink in by 0.08 um
   bool reduced_integration{true};  ///< C3D20R in place of C3D20
+  bool fillets{false};             ///< whether displacements of the fillets are printed
 };
 
 /// What one layer of a tooth pair carries.
@@ -37,6 +38,14 @@ struct LayerLoad {
   double begin, end;        ///< z [mm]
   double force;             ///< [N]
   double peak_compression;  ///< largest pressure along a principal direction in the pinion's outermost elements [MPa]
+};
+
+/// An element's face on the fillet below a loaded flank, or on the half of the root land next to it.
+struct FilletFace {
+  int tooth;  ///< tooth pair
+  /// In the housing's frame [mm]: four corners, then the sides' middles, as face_shape() counts them; the first local axis runs down the fillet, the second
+  /// along +z.
+  Eigen::Matrix<double, 3, 8> nodes, displacements;
 };
 
 struct ContactAnswer {
@@ -48,6 +57,8 @@ struct ContactAnswer {
   /// Translation and rotation about the gear's own axis at mid face, in the housing's frame, of the rigid motion that fits a rim on a web best over its
   /// volume [mm, rad]; NaN: a solid disc.
   PerGear<Eigen::Vector<double, 6>> rim{Eigen::Vector<double, 6>::Constant(not_given), Eigen::Vector<double, 6>::Constant(not_given)};
+
+  PerGear<std::vector<FilletFace>> fillets;  ///< by tooth pair, layer by layer of rising z, downwards; empty unless ContactSettings::fillets
 
   double force() const;             ///< of all layers [N]
   double share(int tooth) const;    ///< of the force [-]

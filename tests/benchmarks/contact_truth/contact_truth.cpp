@@ -11,14 +11,15 @@
 #include "tests/benchmarks/contact_truth/benchmark_cases.hpp"
 #include "tests/benchmarks/contact_truth/contact_cases.hpp"
 #include "tests/benchmarks/contact_truth/held_structure.hpp"
+#include "tests/benchmarks/contact_truth/outside_fillet.hpp"
 #include "tests/benchmarks/contact_truth/own_answer.hpp"
 
 // A gear pair in full three-dimensional contact by CalculiX, beside the program's own models at the torque that came
 // out:
 //
-//     flankwright_contact_truth FOLDER [MESH] [PART_OF_A_CASE'S_NAME]
+//     flankwright_contact_truth FOLDER [MESH] [PART_OF_A_CASE'S_NAME] [FIRST_POSITION]
 //
-// MESH is coarse, medium, fine, ends, layers or pressure; cases of edges have their own, and take "fine" for a finer one. FOLDER receives decks and CalculiX' output. Times are processor
+// MESH is coarse, medium, fine, ends, layers or pressure, for root stress "roots" or "fine roots"; cases of edges have their own, and take "fine" for a finer one. Cycles begin at their FIRST_POSITION, counted from 0. FOLDER receives decks and CalculiX' output. Times are processor
 // seconds, of the program's own models wall seconds.
 
 using namespace flankwright;
@@ -106,12 +107,13 @@ void compare_edges(const ContactCase& c, const ContactSettings& settings, const 
 
 /// Transmission error over a cycle at one torque. CalculiX is asked at our approach; by how much its torque differs, our own stiffness takes into account,
 /// with an error of second order.
-void compare_cycle(const CycleCase& c, const ContactSettings& settings, const std::string& folder) {
+/// @param first  position, from 0: those before it were run earlier
+void compare_cycle(const CycleCase& c, const ContactSettings& settings, const std::string& folder, int first) {
   const auto held = held_structure(contact_task(c.pair, 0.0, 0.0));
   double least = INFINITY, most = -INFINITY, own_least = INFINITY, own_most = -INFINITY;
   std::printf("\n%s, %.1f N·m\n\n| phase | transmission error um: CalculiX, fe held | torque of CalculiX there N·m |\n|---|---|---|\n",
               c.name.c_str(), c.torque * 1e-3);
-  for (int i = 0; i < c.positions; ++i) {
+  for (int i = first; i < c.positions; ++i) {
     ContactTask task = contact_task(c.pair, static_cast<double>(i) / c.positions, 0.0);
     const double own = task.approach = own_answer(task, c.torque, held.get()).loaded.load.transmission_error;
     const ContactAnswer outside = run_calculix(task, settings, folder + "/" + std::to_string(i));
@@ -127,8 +129,53 @@ void compare_cycle(const CycleCase& c, const ContactSettings& settings, const st
     own_least = std::min(own_least, own);
     own_most = std::max(own_most, own);
   }
-  std::printf("\npeak to peak %.3f and %.3f um: ours over CalculiX' %.4f\n", (most - least) / units::um, (own_most - own_least) / units::um,
+  std::printf("\npeak to peak of these %.3f and %.3f um: ours over CalculiX' %.4f\n", (most - least) / units::um, (own_most - own_least) / units::um,
               (own_most - own_least) / (most - least));
+}
+
+/// The largest principal stress below the loaded flanks, tooth by tooth.
+void compare_roots(const ContactCase& c, ContactSettings settings, const std::string& folder) {
+  settings.fillets = true;
+  const ContactAnswer outside = run_calculix(c.task, settings, folder);
+  if (!outside.converged) {
+    std::printf("%s: CalculiX did not converge, see %s/ccx.log\n", c.name.c_str(), folder.c_str());
+    return;
+  }
+  const GearPair pair = make_gear_pair(c.task.pair);
+  const auto own = [&](const GearStructures& s) { return own_answer(c.task, outside.pinion_torque, s.pair.get(), s.root_stress.get()); };
+  const OwnAnswer held = own(rigid_bore_structures(c.task)),
+                  shaft = own(studies::gear_structures(study_of(c.task, outside.pinion_torque, "fe"), pair, {}));
+  std::printf("\n%s: %.4f N·m; CalculiX %ld unknowns, %.1f s; approach %.2f um, ours held %.2f\n\n", c.name.c_str(), outside.pinion_torque * 1e-3,
+              static_cast<long>(outside.unknowns), outside.processor_seconds, c.task.approach / units::um,
+              held.loaded.load.transmission_error / units::um);
+  std::printf(
+      "| gear, tooth pair (share: CalculiX, held, default) | 30 deg tangent MPa: CalculiX, held, default | largest MPa (along, z): CalculiX, held, default "
+      "|\n|---|---|---|\n");
+  for (const Member member : {Member::Pinion, Member::Wheel}) {
+    for (int tooth = outside.layers.front().tooth; tooth <= outside.layers.back().tooth; ++tooth) {
+      if (outside.share(tooth) < 0.05) continue;
+      const OutsideFillet fillet(c.task, member, tooth, outside);
+      const auto at_tangent = fillet.peak(fillet.tangent(), fillet.tangent()), peak = fillet.peak(0, 1);
+      const auto largest = [&](const OwnAnswer& answer) {
+        const auto& at = answer.model.positions.front();
+        const Eigen::Index i = highest_root_stress(at, answer.loaded, {.member = member, .tooth = tooth});
+        const RootStation& s = at.root_stress.stations[static_cast<std::size_t>(i)];
+        std::printf(", %.2f (%.3f, %.2f)", answer.loaded.root_stress[i], s.along, s.z);
+      };
+      std::printf("| %s, %d (%.4f, %.4f, %.4f) | %.2f, %.2f, %.2f | %.2f (%.3f, %.2f)", name_of(member), tooth, outside.share(tooth),
+                  held.share(tooth), shaft.share(tooth), at_tangent.stress, held.tangent_stress(member, tooth), shaft.tangent_stress(member, tooth),
+                  peak.stress, peak.along, peak.z);
+      largest(held);
+      largest(shaft);
+      std::printf(" |\n");
+      for (const double z : held.root_places(member, tooth)) {
+        if (c.task.half_face && z > 0) continue;
+        std::printf("    z %7.2f tangent %.3f: %.2f %.2f %.2f\n", z, fillet.tangent(), fillet.stress(fillet.tangent(), z),
+                    held.tangent_stress(member, tooth, z), shaft.tangent_stress(member, tooth, z));
+      }
+    }
+  }
+  std::fflush(stdout);
 }
 
 }  // namespace
@@ -137,13 +184,16 @@ int main(int argc, char** argv) {
   const std::string mesh = argc > 2 ? argv[2] : "medium";
   ContactSettings settings;
   settings.mesh = contact_mesh_options(mesh);
-  const int exit_code = run_cases(argc, argv, "", contact_cases(), [&](const ContactCase& c, const std::string& folder) {
+  if (mesh.ends_with("roots"))
+    return run_cases(argc, argv, "", root_cases(), [&](const ContactCase& c, const std::string& folder) { compare_roots(c, settings, folder); });
+  const int exit_code = run_cases(argc, argv, " [FIRST_POSITION]", contact_cases(), [&](const ContactCase& c, const std::string& folder) {
     if (c.task.pair.pinion.tip_rounding > 0)
       compare_edges(c, mesh == "fine" ? edge_settings(c.task, 36, 10) : edge_settings(c.task), folder);
     else
       compare(c, settings, folder);
   });
   if (exit_code != 0) return exit_code;
+  const int first = argc > 4 ? std::stoi(argv[4]) : 0;
   return run_cases(argc, argv, "", cycle_cases(),
-                   [&](const CycleCase& c, const std::string& folder) { compare_cycle(c, settings, folder + "_cycle"); });
+                   [&](const CycleCase& c, const std::string& folder) { compare_cycle(c, settings, folder + "_cycle", first); });
 }

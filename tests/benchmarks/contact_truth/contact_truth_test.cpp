@@ -6,10 +6,12 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/compliance/finite_element/fillet_stress.hpp"
 #include "core/compliance/fitted/correction_fit.hpp"
 #include "tests/benchmarks/contact_truth/contact_cases.hpp"
 #include "tests/benchmarks/contact_truth/contact_figures.hpp"
 #include "tests/benchmarks/contact_truth/held_structure.hpp"
+#include "tests/benchmarks/contact_truth/outside_fillet.hpp"
 #include "tests/benchmarks/contact_truth/own_answer.hpp"
 #include "tests/benchmarks/contact_truth/rounded_tip.hpp"
 #include "core/gear/gear_pair.hpp"
@@ -128,6 +130,43 @@ TEST_CASE("The outside model's loaded flanks are the true ones", "[contact-truth
         }
       }
     }
+  }
+}
+
+TEST_CASE("Stress along the outside model's fillets is that of a uniform strain", "[contact-truth]") {
+  const ContactCase c = root_cases()[static_cast<std::size_t>(GENERATE(0, 3))];
+  CAPTURE(c.name);
+  const GearPair pair = make_gear_pair(c.task.pair);
+  const FlankAssembly scene = assemble_flanks(pair, {});
+  const double strain = 1e-3, E = c.task.material.youngs_modulus, nu = c.task.material.poissons_ratio;
+  Eigen::Matrix3d turn;  // small, as the pinion's
+  turn << 0, -2e-3, 0, 2e-3, 0, 0, 0, 0, 0;
+  for (const Member m : {Member::Pinion, Member::Wheel}) {
+    const ContactMesh mesh = contact_mesh(
+        {&pair, &scene[m], m, c.task.phase, c.task.bore_radius[m == Member::Pinion ? 0 : 1], 0, 1, c.task.half_face}, contact_mesh_options("roots"));
+    CHECK(mesh.solid.quality() > 0.05);  // no element is folded
+    const auto fillet_under = [&](const Eigen::Matrix3d& gradient) {
+      ContactAnswer answer;
+      for (const ElementFace& f : mesh.fillets[0]) {
+        FilletFace face{0, {}, {}};
+        for (std::size_t i = 0; i < 8; ++i) {
+          face.nodes.col(static_cast<Eigen::Index>(i)) = mesh.solid.nodes.col(mesh.solid.bricks(nodes_of_face_4[i], f.brick));
+        }
+        face.displacements = (gradient + turn) * face.nodes;
+        answer.fillets[m].push_back(face);
+      }
+      return OutsideFillet(c.task, m, 0, answer);
+    };
+    const OutsideFillet even = fillet_under(strain * Eigen::Matrix3d::Identity());
+    const auto middle = even.peak(0, 1);
+    CHECK(middle.stress == Approx(E * strain / (1 - nu)).epsilon(1e-10));  // round-off
+    // Of strain along the axis alone, what is in the surface: all of it on a spur gear.
+    const OutsideFillet axial = fillet_under(strain * Eigen::Vector3d::UnitZ() * Eigen::RowVector3d::UnitZ());
+    if (c.task.half_face) CHECK(axial.stress(0.4, 0) == Approx(E * strain / (1 - nu * nu)).epsilon(1e-10));
+    // Where the 30 deg tangent is, by the program's own mesh of the fillet. Discretisation of its arc.
+    const GearMesh own = gear_mesh({pair[m].data, c.task.pair.normal_module, pair.data.pressure_angle, pair.data.helix_angle, {}});
+    const ToothForm form = tooth_form(pair, m);
+    CHECK(even.tangent() == Approx(FilletStress(own, c.task.material).along(form.root_tangent_point(30 * units::deg))).margin(2e-3));
   }
 }
 

@@ -68,4 +68,12 @@ std::shared_ptr<const PairCompliance> held_structure(const ContactTask& task, co
   return std::make_shared<const StructuralPair>(pair, gear(Member::Pinion, task.bore_radius[0]), gear(Member::Wheel, task.bore_radius[1]));
 }
 
+GearStructures rigid_bore_structures(const ContactTask& task) {
+  ComplianceTask own{
+      .pair = make_gear_pair(task.pair), .model = ComplianceModel::Fe, .material = {task.material, task.material}, .root_stress = true};
+  own.body.pinion = {.bore_diameter = 2 * task.bore_radius[0], .hold = BodyHold::RigidBore};
+  own.body.wheel = {.bore_diameter = 2 * task.bore_radius[1], .hold = BodyHold::RigidBore};
+  return build_compliance(own);
+}
+
 }  // namespace flankwright::contact_truth

@@ -4,6 +4,7 @@
 
 #include "core/compliance/finite_element/gear_mesh.hpp"
 #include "core/compliance/finite_element/influence_table.hpp"
+#include "core/compliance/model/gear_structures.hpp"
 #include "core/compliance/pair/pair_compliance.hpp"
 #include "tests/benchmarks/contact_truth/contact_run.hpp"
 
@@ -18,5 +19,8 @@ InfluenceTable held_at_bore(const GearPair& pair, Member member, double bore_rad
 
 /// Both gears of a task.
 std::shared_ptr<const PairCompliance> held_structure(const ContactTask& task, const GearMeshOptions& mesh = {});
+
+/// Structure and root stress of both gears by finite elements as a study has them whose bores are rigid, BodyHold::RigidBore, and as wide as the task's.
+GearStructures rigid_bore_structures(const ContactTask& task);
 
 }  // namespace flankwright::contact_truth

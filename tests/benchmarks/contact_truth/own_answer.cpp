@@ -40,6 +40,25 @@ double OwnAnswer::mean_face_load(int tooth, double begin, double end) const {
   return sum / samples;
 }
 
+double OwnAnswer::tangent_stress(Member member, int tooth, double z) const {
+  const auto& stations = model.positions.front().root_stress.stations;
+  double peak = 0;
+  for (std::size_t i = 0; i < stations.size(); ++i) {
+    const RootStation& s = stations[i];
+    if (s.member != member || s.tooth != tooth || !s.tangent || (!std::isnan(z) && s.z != z)) continue;
+    peak = std::max(peak, loaded.root_stress[static_cast<Eigen::Index>(i)]);
+  }
+  return peak;
+}
+
+std::vector<double> OwnAnswer::root_places(Member member, int tooth) const {
+  std::vector<double> places;
+  for (const RootStation& s : model.positions.front().root_stress.stations) {
+    if (s.member == member && s.tooth == tooth && s.tangent) places.push_back(s.z);
+  }
+  return places;
+}
+
 double OwnAnswer::peak_stress() const { return loaded.contact_stress.maxCoeff(); }
 
 double OwnAnswer::peak_stress(int tooth) const {
@@ -51,11 +70,11 @@ double OwnAnswer::peak_stress(int tooth) const {
   return peak;
 }
 
-OwnAnswer own_answer(const ContactTask& task, double torque, const PairCompliance* structure) {
+OwnAnswer own_answer(const ContactTask& task, double torque, const PairCompliance* structure, const PairRootStress* root_stress) {
   constexpr int intervals = 12;  // of a line; another eight move the transmission error by less than 0.1 %
   OwnAnswer answer{make_mesh_model(make_gear_pair(task.pair), {task.material, task.material}, {{QuadratureRule::Graded, intervals}, {task.phase}},
                                    task.plane_strain ? MeshEffects::all_but({"free_ends"}) : MeshEffects{},
-                                   MeshPlacement::of(GapModel::PlaneOfAction, task.condition.misalignment), structure),
+                                   MeshPlacement::of(GapModel::PlaneOfAction, task.condition.misalignment), structure, root_stress),
                    {}};
   answer.loaded = analyse_cycle(answer.model, task.condition, torque).positions.front();
   return answer;

@@ -15,13 +15,18 @@ struct OwnAnswer {
   /// [N/mm]; 0 where the pair has none.
   double face_load(int tooth, double z) const;
   double mean_face_load(int tooth, double begin, double end) const;  ///< its mean over a layer [N/mm]
-  double peak_stress() const;                                        ///< on flanks and edges [MPa]
-  double peak_stress(int tooth) const;                               ///< of a tooth pair [MPa]
+  /// Largest root stress at the 30 deg tangent of a tooth at a station's z, or the largest over all z where that is NaN [MPa]; needs root stress.
+  double tangent_stress(Member member, int tooth, double z = not_given) const;
+  /// Places along the face where there is root stress [mm].
+  std::vector<double> root_places(Member member, int tooth) const;
+  double peak_stress() const;           ///< on flanks and edges [MPa]
+  double peak_stress(int tooth) const;  ///< of a tooth pair [MPa]
 };
 
 /// @param torque     on the pinion [N mm]
-/// @param structure  null: thin slices
-OwnAnswer own_answer(const ContactTask& task, double torque, const PairCompliance* structure);
+/// @param structure    null: thin slices
+/// @param root_stress  null: none
+OwnAnswer own_answer(const ContactTask& task, double torque, const PairCompliance* structure, const PairRootStress* root_stress = nullptr);
 
 /// Hertzian stress of what a layer carries, in the curvature of the undisturbed contact at its middle [MPa].
 double hertzian_stress(const ContactTask& task, const LayerLoad& layer);

@@ -24,6 +24,7 @@ class RootCurve {
       const ProfilePoint p = form.fillet_point(form.fillet_start() + (units::pi / 2 - form.fillet_start()) * i / samples);
       add({std::hypot(p.x, p.y), std::atan2(p.x, p.y)});
     }
+    fillet_ = length_.back();
     const double start = points_.back().angle;
     for (int i = 1; i <= 20; ++i) add({form.root_radius(), start + (gap - start) * i / 20});
   }
@@ -34,6 +35,16 @@ class RootCurve {
     return blend(points_[i - 1], points_[i], (s - length_[i - 1]) / (length_[i] - length_[i - 1]));
   }
 
+  /// Where the fillet ends, of the whole 0 .. 1.
+  double fillet_share() const { return fillet_ / length_.back(); }
+  /// Where the fillet, whose radius falls all along, has a radius, of the fillet alone 0 .. 1.
+  double along_fillet(double radius) const {
+    std::size_t i = 1;
+    while (i + 1 < points_.size() && length_[i] < fillet_ && points_[i].radius > radius) ++i;
+    const double t = (points_[i - 1].radius - radius) / (points_[i - 1].radius - points_[i].radius);
+    return (length_[i - 1] + std::clamp(t, 0.0, 1.0) * (length_[i] - length_[i - 1])) / fillet_;
+  }
+
  private:
   void add(const Polar& p) {
     const double step = points_.empty() ? 0 : std::hypot(p.radius - points_.back().radius, p.radius * (p.angle - points_.back().angle));
@@ -42,6 +53,7 @@ class RootCurve {
   }
   std::vector<Polar> points_;
   std::vector<double> length_;
+  double fillet_{0};  ///< [mm]
 };
 
 }  // namespace flankwright::contact_truth
