@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/base/error.hpp"
 #include "studies/base/csv.hpp"
 #include "studies/base/json_format.hpp"
 #include "studies/base/printable.hpp"
