@@ -158,8 +158,8 @@ class DesignRun {
     DesignToGrind found = design_to_grind(last, x_, left());
     result_.evaluations += found.analyses;
     result_.failures += found.failures;
-    if (!found.is_changed) return;
-    result_.exact = result_.after;
+    if (found.x == x_ && !found.is_changed) return;
+    if (found.is_changed) result_.exact = result_.after;  // else only a trace of an amount became nothing
     result_.choices = std::move(found.choices);
     result_.after = report_design(problem_, problem_.analyse(found.x, false));
   }

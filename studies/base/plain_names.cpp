@@ -73,6 +73,9 @@ std::vector<PlainName> make_names() {
       }();
       add(gear + ".modification." + std::string(row.key), gear + " " + std::string(row.name), row);
     });
+    for (const ProcessDescriptor& d : process_parameters) {
+      add(gear + "." + std::string(d.key), gear + " " + std::string(d.name), {d.key, d.name, d.symbol, d.sense});
+    }
     for (const Row& row : errors) add(gear + "." + std::string(row.key), gear + " " + std::string(row.name), row);
   }
   for (const Row& row : of_pair) add(std::string(row.key), std::string(row.name), row);

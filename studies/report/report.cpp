@@ -48,6 +48,13 @@ bool searched(const Json& r) {
 
 bool optimised(const Json& r) { return has(r, "optimise"); }
 
+bool says_what_to_draw(const Json& r) {
+  if (has(r, "drawing")) return true;
+  if (!optimised(r) || !r.at("optimise").is_object()) return false;
+  const Json& optimise = r.at("optimise");
+  return has(optimise, "grinding_limits") || has(optimise, "grinding_choices");
+}
+
 /// In the order of interest for a gear engineer: the modifications to grind and their gain, the contact, the assurance, the search,
 /// and all numbers. The flanks of an analysis are given, so they follow its contact.
 constexpr Section sections[] = {
@@ -56,8 +63,7 @@ constexpr Section sections[] = {
     {"indices", "Causes of the scatter", [](const Json& r) { return has_sweep(r) && r.at("sweep").value("index_blocks", 0) > 1; }},
     {"response-maps", "Response maps", [](const Json& r) { return has_sweep(r) && has(r.at("sweep"), "response_maps"); }},
     {"modifications", "Flank modifications", optimised},
-    {"drawing", "What to write on the drawing",
-     [](const Json& r) { return has(r, "drawing") || (optimised(r) && r.at("optimise").is_object() && has(r.at("optimise"), "grinding_limits")); }},
+    {"drawing", "What to write on the drawing", says_what_to_draw},
     {"scenes", "Scenes", optimised},
     {"tolerances", "Scatter in the search",
      [](const Json& r) { return optimised(r) && r.at("optimise").is_object() && has(r.at("optimise"), "scatter"); }},

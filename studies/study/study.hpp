@@ -87,6 +87,7 @@ struct OptimiseTable {
   unsigned long seed{1};
   AssessmentTable assessment;
   ScatterTable scatter;
+  GrindableAmounts grindable;
   std::optional<double> largest_amount;   ///< that can be ground [mm]
   std::optional<double> steepest_relief;  ///< that can be ground [um/mm]
 };

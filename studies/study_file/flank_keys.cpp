@@ -35,6 +35,9 @@ SchemaKey row_of(const ModificationDescriptor& d) {
       key.quantity = Quantity::ParabolicTe;
       key.range = from_zero(1000.0);
       break;
+    case ParameterKind::Fraction:
+      key.range = from_zero(1.0);
+      break;
   }
   return key;
 }

@@ -204,6 +204,7 @@ Value read_value(const SchemaKey& key, const toml::node& node) {
     case ValueKind::Objectives:
     case ValueKind::Variables:
     case ValueKind::Ties:
+    case ValueKind::KeyPairs:
     case ValueKind::Distributions:
     case ValueKind::Parameters:
     case ValueKind::Constraints:
@@ -219,7 +220,6 @@ void store(const SchemaKey& key, const Value& value, StudyBuilder& builder, Scen
   if (const auto* in_study = std::get_if<StoreInStudy>(&key.store)) (*in_study)(builder, key.member, value);
   if (const auto* in_scene = std::get_if<StoreInScene>(&key.store)) (*in_scene)(scene, key.member, value);
   Modification& modification = builder.study.modification[key.member];
-  if (const auto* in_flank = std::get_if<StoreInFlank>(&key.store)) (*in_flank)(modification, value.number);
   if (const auto* parameter = std::get_if<ModificationParameter>(&key.store)) set(modification, *parameter, value.number);
   if (const auto* choice = std::get_if<const ModificationChoice*>(&key.store)) (*choice)->set(modification, static_cast<std::size_t>(value.integer));
 }

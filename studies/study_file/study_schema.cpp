@@ -188,15 +188,18 @@ std::string allowed_values(const SchemaKey& key) {
     case ValueKind::Objectives:
       return "a list of two or three outputs, or tables of them";
     case ValueKind::Variables:
-      return "a table of keys below pinion.modification or wheel.modification, each with [low, high] or { range = [low, high], step = ... }";
+      return "a table of keys below pinion.modification or wheel.modification, or twist_compensation of either, each with [low, high] or { range = "
+             "[low, high], step = ... }";
     case ValueKind::Ties:
-      return "a table of keys below pinion.modification or wheel.modification, each with { as = a variable } and factor, offset";
+      return "a table of keys that may be variables, each with { as = a variable } and factor, offset";
+    case ValueKind::KeyPairs:
+      return "a list of pairs of keys below pinion.modification or below wheel.modification, each of one gear";
     case ValueKind::Distributions:
       return "a table of keys below misalignment, load, modification or error, each with { normal = [mean, deviation] }, "
              "{ truncated_normal = [mean, deviation, low, high] }, { uniform = [low, high] }, { grid = [low, high, levels] }, "
              "{ values = [...] } or { iso_1328_class = 1 .. 11 }";
     case ValueKind::Parameters:
-      return "a list of keys below pinion.modification, wheel.modification or misalignment, and load.torque";
+      return "a list of keys below pinion.modification, wheel.modification or misalignment, twist_compensation of either gear, and load.torque";
     case ValueKind::Constraints:
       return "a table of outputs, or sums of keys below pinion.modification and wheel.modification, each with { max = ... }, { min = ... } or both";
     case ValueKind::Expectations:

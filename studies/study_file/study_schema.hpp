@@ -43,6 +43,7 @@ enum class ValueKind {
   Objectives,       ///< a list of outputs or tables of them
   Variables,        ///< table: modification key = [low, high] or { range = [low, high], step = ... }
   Ties,             ///< table: modification key = { as = a variable, factor, offset }
+  KeyPairs,         ///< list of pairs of modification keys of one gear
   Distributions,    ///< table: key = distribution
   Parameters,       ///< list of keys that derivatives are taken by
   Constraints,      ///< table: output, or a sum of modifications = { max = ... , min = ... }
@@ -75,9 +76,8 @@ struct StudyBuilder {
 
 using StoreInStudy = void (*)(StudyBuilder&, Member, const Value&);
 using StoreInScene = void (*)(Scene&, Member, const Value&);  ///< such a key may be overridden by a scene
-using StoreInFlank = void (*)(Modification&, double);         ///< a number of one gear's flanks that a sweep may vary and no search
 /// A key that holds a ModificationParameter may be a design variable.
-using Store = std::variant<std::monostate, StoreInStudy, StoreInScene, StoreInFlank, ModificationParameter, const ModificationChoice*>;
+using Store = std::variant<std::monostate, StoreInStudy, StoreInScene, ModificationParameter, const ModificationChoice*>;
 
 struct SchemaKey {
   std::string path{};  ///< dotted; "scenes[].name" is a key of each scene

@@ -18,8 +18,7 @@ bool is_extent(const SchemaKey& key) {
 
 bool is_sweepable(const SchemaKey& key) {
   const bool is_number = key.kind == ValueKind::Number || key.kind == ValueKind::NumberOrList;
-  return is_number && (std::holds_alternative<StoreInScene>(key.store) || std::holds_alternative<StoreInFlank>(key.store) ||
-                       std::holds_alternative<ModificationParameter>(key.store));
+  return is_number && (std::holds_alternative<StoreInScene>(key.store) || std::holds_alternative<ModificationParameter>(key.store));
 }
 
 bool is_in_range(const SchemaKey& key, double value) {
@@ -51,8 +50,6 @@ void set_swept(SweptCondition& condition, const SchemaKey& key, double value) {
     stored.number = inside;
     stored.numbers = {inside};
     (*in_scene)(condition.scene, key.member, stored);
-  } else if (const auto* in_flank = std::get_if<StoreInFlank>(&key.store)) {
-    (*in_flank)(condition.modification[key.member], inside);
   } else {
     set(condition.modification[key.member], std::get<ModificationParameter>(key.store), inside);
   }

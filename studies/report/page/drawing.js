@@ -9,6 +9,21 @@ function build_drawing(results, body) {
       rows: limits.map((limit) => [capital(`${limit.name}`), limit.value, limit.limit, pretty_unit(limit.unit), `${limit.state}`]),
     });
   }
+  const choices = list(record(results.optimise).grinding_choices).map(record);
+  if (choices.length > 0) {
+    const unit = pretty_unit(record(results.optimise).objective_unit);
+    table(body, {
+      title: "What of the optimum could not be ground",
+      columns: [{ label: "Modification" }, { label: "At the optimum" }, { label: "Tried" }, { label: `Gives${unit ? ` [${unit}]` : ""}` }, { label: "Taken" }],
+      rows: choices.flatMap((choice) => list(choice.tried).map(record).map((tried, i) => [
+        i === 0 ? capital(list(choice.amounts).map((amount) => words(amount.key)).join(" beside ")) : "",
+        i === 0 ? list(choice.amounts).map((amount) => `${fmt(amount.found, 3)} ${pretty_unit(amount.unit)}`).join(", ") : "",
+        choice.rule === "not_together" ? `without ${words(tried.key)}`
+          : tried.held === "at zero" ? "none" : `${tried.held} ${fmt(tried.limit, 4)} ${pretty_unit(list(choice.amounts)[0].unit)}`,
+        tried.objective ?? null, tried.taken ? "yes" : "no"])),
+      note: "Each way is the best design found with that modification held, the others free.",
+    });
+  }
   const grid = figure_grid(body);
   for (const entry of list(results.drawing).map(record)) {
     figure(grid, {

@@ -84,11 +84,11 @@ function build_search(results, body) {
   if (optimise.rounded) {
     const exact = record(record(optimise.exact).variables), ground = record(record(optimise.rounded).variables);
     table(body, {
-      title: "Rounded to the grinder's steps",
+      title: list(optimise.grinding_choices).length > 0 ? "Made grindable" : "Rounded to the grinder's steps",
       columns: [{ label: "Modification" }, { label: "Optimum" }, { label: "To grind", digits: 6 }],
       rows: [...Object.keys(ground).map((path) => [`${words(path)} [${pretty_unit(units[path])}]`, settled(exact[path], units[path]), ground[path]]),
         [`${words(optimise.objective_name)} [${unit}]`, record(optimise.exact).objective, record(optimise.rounded).objective]],
-      note: `Rounding costs ${fmt(record(optimise.rounded).loss_percent)} % of the objective.`,
+      note: `${list(optimise.grinding_choices).length > 0 ? "What cannot be ground" : "Rounding"} costs ${fmt(record(optimise.rounded).loss_percent)} % of the objective.`,
     });
   }
   starts_tables(body, optimise, units);

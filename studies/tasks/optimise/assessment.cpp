@@ -53,8 +53,8 @@ std::string bound_in_words(const Optimum::Bound& bound, const Optimum& optimum, 
   const double limit = (bound.upper ? v.upper : v.lower) * v.outside_factor();
   const double step = assessment_step(v.unit());
   const std::string stands =
-      fmt::format("The {} is at its {} bound, {:.4g} {}", plain_name(v.path), bound.upper ? "upper" : "lower", limit, v.unit());
-  return gain_in_words(bound.gain, fmt::format("{}: a further {:.2g} {}", stands, step, v.unit()), optimum, task);
+      fmt::format("The {} is at its {} bound, {:.4g}{}", plain_name(v.path), bound.upper ? "upper" : "lower", limit, behind_number(v.unit()));
+  return gain_in_words(bound.gain, fmt::format("{}: a further {:.2g}{}", stands, step, behind_number(v.unit())), optimum, task);
 }
 
 std::string constraint_in_words(const Optimum::Constraint& constraint, const Optimum& optimum, const DesignTask& task) {
@@ -96,8 +96,8 @@ std::string move_in_words(const Relaxation::Move& move, const DesignTask& task) 
   if (move.moves_bound()) {
     const DesignVariable& v = task.variables[static_cast<std::size_t>(of.variable)];
     const bool upper = move.steps > 0.0;
-    return fmt::format("The {} is at its {} bound, {:.4g} {}: a further {:.2g} {} {}.", plain_name(v.path), upper ? "upper" : "lower",
-                       (upper ? v.upper : v.lower) * v.outside_factor(), v.unit(), of.step, of.unit, gain);
+    return fmt::format("The {} is at its {} bound, {:.4g}{}: a further {:.2g}{} {}.", plain_name(v.path), upper ? "upper" : "lower",
+                       (upper ? v.upper : v.lower) * v.outside_factor(), behind_number(v.unit()), of.step, behind_number(of.unit), gain);
   }
   const std::string extent = std::isnan(move.extent) ? "" : fmt::format(" over {:.3g} mm", move.extent);
   return fmt::format("The {} is not a variable: {:+.2g} {}{} {}.", plain_name(of.name), move.steps * of.step, of.unit, extent, gain);
@@ -147,7 +147,7 @@ std::string usual_signs_in_words(const UsualSigns& usual, const DesignTask& task
   std::vector<std::string> amounts;
   for (std::size_t i = 0; i < task.variables.size(); ++i) {
     const DesignVariable& v = task.variables[i];
-    amounts.push_back(fmt::format("{} {:.3g} {}", plain_name(v.path), usual.design->variables[i] * v.outside_factor(), v.unit()));
+    amounts.push_back(fmt::format("{} {:.3g}{}", plain_name(v.path), usual.design->variables[i] * v.outside_factor(), behind_number(v.unit())));
   }
   return words + fmt::format("The best design without it reaches {:.5g}{} ({:+.1f} %): {}.", usual.design->objective,
                              behind_number(task.objective_unit()), 100.0 * usual.price, fmt::join(amounts, ", "));

@@ -1,5 +1,7 @@
 #include "studies/tasks/optimise/optimise_reading.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -74,13 +76,35 @@ void read_objective(StudyReading& reading, const SchemaKey& key, const toml::nod
   optimise.later_objectives.assign(objectives.begin() + 1, objectives.end());
 }
 
-/// A key below pinion.modification or wheel.modification that is a number; null where a name is none, which becomes a problem.
+/// Why there is no natural twist that a gear's compensation could take out; empty where there is one.
+std::string no_twist_in_words(const Study& study, Member member) {
+  const GrindingProcess& process = study.modification[member].process;
+  if (!process.has_natural_twist()) {
+    return fmt::format("{}.process is \"{}\", which has no natural twist: allowed is \"generating_grinding\" or \"form_grinding\"", name_of(member),
+                       to_string(process.kind));
+  }
+  if (study.pair.helix_angle == 0.0) return "a spur gear has no natural twist: allowed is a pair.helix_angle above 0";
+  const Fidelity& fidelity = study.fidelity;
+  const bool is_off = !fidelity.automatic_effects && std::ranges::find(fidelity.effects, "natural_twist") == fidelity.effects.end();
+  return is_off ? "fidelity.effects leaves the natural twist out: allowed is \"auto\" or a list with \"natural_twist\"" : "";
+}
+
+/// A key that may be a variable: a number below pinion.modification or wheel.modification, or a twist_compensation; null where a name is none, which
+/// becomes a problem.
 const SchemaKey* modification_key(StudyReading& reading, const std::string& name, const Position& at, const std::string& shown,
                                   const toml::node* node) {
   const auto known = study_keys().find(name);
-  if (known != study_keys().end() && std::holds_alternative<ModificationParameter>(known->second->store)) return known->second;
+  const auto* parameter = known == study_keys().end() ? nullptr : std::get_if<ModificationParameter>(&known->second->store);
+  if (parameter != nullptr) {
+    const std::string reason = of_process(*parameter) == nullptr ? "" : no_twist_in_words(reading.builder.study, known->second->member);
+    if (reason.empty()) return known->second;
+    reading.refuse(at, shown, node, reason);
+    return nullptr;
+  }
   const std::string hint = known == study_keys().end() ? nearest_key_hint(study_keys(), name) : "";
-  reading.refuse(at, shown, node, "allowed are the amounts, heights and lengths below pinion.modification and wheel.modification" + hint);
+  reading.refuse(
+      at, shown, node,
+      "allowed are the amounts, heights and lengths below pinion.modification and wheel.modification, and twist_compensation of either gear" + hint);
   return nullptr;
 }
 

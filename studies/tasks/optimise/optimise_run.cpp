@@ -121,6 +121,7 @@ class OptimiseRun {
     task.constraints = study.optimise.constraints;
     task.links = study.optimise.links;
     task.modification_constraints = study.optimise.modification_constraints;
+    task.grindable = study.optimise.grindable;
     task.later_objectives = study.optimise.later_objectives;
     task.lexicographic_tolerance = study.optimise.lexicographic_tolerance;
     if (asks_for_root_stress(study)) task.root_stress = run_.structures().root_stress;

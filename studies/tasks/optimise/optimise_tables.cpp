@@ -12,6 +12,7 @@
 #include "studies/results/life_tables.hpp"
 #include "studies/results/tables.hpp"
 #include "studies/tasks/optimise/assessment_tables.hpp"
+#include "studies/tasks/optimise/grinding_choices.hpp"
 #include "studies/tasks/optimise/scatter_json.hpp"
 
 namespace flankwright::studies {
@@ -78,7 +79,7 @@ std::string optimise_summary(const StudyResults& results) {
   for (std::size_t i = 0; i < task.variables.size(); ++i) {
     const DesignVariable& v = task.variables[i];
     out += fmt::format("{:<{}}  {:>12.2f}  {:>12.2f}  {:>9}\n", plain_name(v.path), width, design.before.variables[i] * v.outside_factor(),
-                       design.after.variables[i] * v.outside_factor(), v.unit());
+                       design.after.variables[i] * v.outside_factor(), describe(v.parameter).kind == ParameterKind::Fraction ? "of 1" : v.unit());
   }
   out += fmt::format("\n{} [{}]\n", plain_name(task.objective_name()), task.objective_unit());
   for (const std::size_t s : listed.indices()) {
@@ -103,8 +104,10 @@ std::string optimise_summary(const StudyResults& results) {
   }
   out += fmt::format("\n{}: {} after {} analyses of {} scenes in {:.1f} s\n", design.solver, to_string(design.status), design.evaluations,
                      task.scenes.size(), design.seconds);
+  for (const std::string& sentence : grinding_choices_in_words(design, task)) out += sentence + "\n";
   if (design.exact) {
-    out += fmt::format("rounding to the steps changes the objective by {:+.1f} %, from {:.5g} to {:.5g}{}\n", 100.0 * design.rounding_loss(),
+    const char* what = design.choices.empty() ? "rounding to the steps" : has_steps(task) ? "this and rounding to the steps" : "this";
+    out += fmt::format("{} changes the objective by {:+.1f} %, from {:.5g} to {:.5g}{}\n", what, 100.0 * design.rounding_loss(),
                        design.exact->objective, design.after.objective, behind_number(task.objective_unit()));
   }
   if (results.search_work) {

@@ -12,6 +12,7 @@
 #include "studies/tasks/optimise/assessment_json.hpp"
 #include "studies/tasks/optimise/assessment_keys.hpp"
 #include "studies/tasks/optimise/assessment_reading.hpp"
+#include "studies/tasks/optimise/grinding_choices.hpp"
 #include "studies/tasks/optimise/grinding_limits.hpp"
 #include "studies/tasks/optimise/scatter_json.hpp"
 #include "studies/tasks/optimise/scatter_keys.hpp"
@@ -32,18 +33,20 @@ std::vector<SchemaKey> all_optimise_keys() {
 void read_optimise_tables(StudyReading& reading) {
   read_optimise(reading);
   read_grinding_limits(reading);
+  read_grinding_choices(reading);
   check_variables(reading);
   read_assessment(reading);
   read_scatter(reading);
 }
 
-/// Variables count as modifications from the start, even where their first value is 0. What scatters counts as well: four scenes are enough
+/// Variables count as modifications from the start, even where their first value is 0; of a compensation the least counts, which leaves most twist. What scatters counts as well: four scenes are enough
 /// to see a value other than 0.
 std::vector<FlankCondition> optimise_conditions(const Study& study) {
   std::vector<FlankCondition> all = conditions_of(study);
   for (FlankCondition& condition : all) {
     for (const DesignVariable& v : study.optimise.variables) {
-      set(condition.modification[v.member], v.parameter, v.upper != 0.0 ? v.upper : v.lower);
+      const bool least = of_process(v.parameter) != nullptr || v.upper == 0.0;
+      set(condition.modification[v.member], v.parameter, least ? v.lower : v.upper);
     }
   }
   for (const Scene& scene : draw_scenes(study, {.samples = study.optimise.assessment.tolerances.empty() ? 0 : 4}))
@@ -55,6 +58,7 @@ void add_optimise_json(const StudyResults& results, Json& json) {
   json["optimise"] = optimise_json(results);
   const bool has_limits = results.study.optimise.largest_amount || results.study.optimise.steepest_relief;
   if (has_limits) json["optimise"]["grinding_limits"] = grinding_limits_json(*results.design_task, results.design->after);
+  if (results.design_task->grindable.any()) json["optimise"]["grinding_choices"] = grinding_choices_json(*results.design, *results.design_task);
   if (results.scatter) json["optimise"]["scatter"] = scatter_json(*results.scatter, *results.design_task, results.study);
   if (results.assessment) add_assessment(*results.assessment, *results.design_task, results.study.optimise.assessment, json["optimise"]);
 }

@@ -40,6 +40,8 @@ void check_task(StudyReading& reading) {
   const auto refuse = [&](const std::string& path, const char* allowed) { reading.refuse_key(path, allowed); };
   if (!optimise.later_objectives.empty()) refuse("optimise.objective", "one objective with optimise.scatter, no list");
   if (!optimise.pareto_objectives.empty()) refuse("optimise.pareto.objectives", "none with optimise.scatter");
+  if (optimise.grindable.smallest > 0.0) refuse("optimise.grinding.smallest_amount", "none with optimise.scatter");
+  if (!optimise.grindable.not_together.empty()) refuse("optimise.grinding.not_together", "none with optimise.scatter");
   if (std::ranges::any_of(optimise.constraints, &OutputConstraint::is_least)) {
     refuse("optimise.constraints", "with optimise.scatter a constraint on an output bounds the statistic: allowed is { max = ... }");
   }
