@@ -11,8 +11,12 @@ namespace {
 
 constexpr double law_round_off = 1e-13;  // powers and their inverses
 
-BearingLawData ball_bearing() { return {.type = BearingType::DeepGrooveBall, .elements = 10, .element_diameter = 12.7}; }
-BearingLawData roller_bearing() { return {.type = BearingType::CylindricalRoller, .elements = 14, .element_length = 11}; }
+BearingLawData ball_bearing() {
+  return {.table_force = {}, .table_deflection = {}, .type = BearingType::DeepGrooveBall, .elements = 10, .element_diameter = 12.7};
+}
+BearingLawData roller_bearing() {
+  return {.table_force = {}, .table_deflection = {}, .type = BearingType::CylindricalRoller, .elements = 14, .element_length = 11};
+}
 BearingLawData table_of(std::vector<double> forces, std::vector<double> deflections) {
   return {.table_force = std::move(forces), .table_deflection = std::move(deflections)};
 }

@@ -24,8 +24,12 @@ GearPair helical_pair(WorkingFlank flank = WorkingFlank::Left) {
   return make_gear_pair(data);
 }
 
-BearingLawData balls() { return {.type = BearingType::DeepGrooveBall, .elements = 10, .element_diameter = 12.7}; }
-BearingLawData rollers() { return {.type = BearingType::CylindricalRoller, .elements = 16, .element_length = 12}; }
+BearingLawData balls() {
+  return {.table_force = {}, .table_deflection = {}, .type = BearingType::DeepGrooveBall, .elements = 10, .element_diameter = 12.7};
+}
+BearingLawData rollers() {
+  return {.table_force = {}, .table_deflection = {}, .type = BearingType::CylindricalRoller, .elements = 16, .element_length = 12};
+}
 BearingLawData table() { return {.table_force = {2000, 9000, 30000}, .table_deflection = {0.012, 0.03, 0.06}}; }
 
 /// Input, intermediate and output shaft; the second stage is the pair. The intermediate shaft's bearings are these.
